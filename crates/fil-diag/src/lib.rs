@@ -1,0 +1,159 @@
+//! Errors and warnings as plain data, shared by every crate of filpost.
+//!
+//! A crate declares its codes once with [`codes!`]; the table made there is
+//! what `filpost explain` prints, what `docs/errors/` is checked against and
+//! what a [`Diag`] points to. Rendering is the command's business alone.
+
+mod place;
+
+pub use place::{LineIndex, Place};
+
+/// How bad a diagnostic is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Severity {
+    /// The run goes on; the NC program is written.
+    Warning,
+    /// Nothing is written under the output name.
+    Error,
+}
+
+/// One row of a code table: everything about a code that does not depend on
+/// the place where it was raised.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Code {
+    /// The number after the letter, unique over all crates.
+    pub number: u16,
+    /// Error or warning.
+    pub severity: Severity,
+    /// What happened, in a few words.
+    pub title: &'static str,
+    /// Why it is refused or warned about.
+    pub reason: &'static str,
+    /// What the user can do.
+    pub hint: &'static str,
+}
+
+impl Code {
+    /// The printed name, `E0123` or `W0123`.
+    pub fn name(&self) -> String {
+        let letter = match self.severity {
+            Severity::Error => 'E',
+            Severity::Warning => 'W',
+        };
+        format!("{letter}{:04}", self.number)
+    }
+}
+
+/// A diagnostic: a code, a sentence about this very case, and where it is.
+#[derive(Clone, Debug)]
+pub struct Diag {
+    /// The row of the code table.
+    pub code: &'static Code,
+    /// What is wrong here, with the names and numbers of this case.
+    pub message: String,
+    /// Where; the first place is the primary one.
+    pub places: Vec<Place>,
+    /// A hint made for this case; the code's own hint stands in when `None`.
+    pub hint: Option<String>,
+    /// Further lines: the FIL stack, the CL record with its numbered words.
+    pub notes: Vec<String>,
+}
+
+impl Diag {
+    /// A diagnostic without a place yet.
+    pub fn new(code: impl Into<&'static Code>, message: impl Into<String>) -> Self {
+        Diag {
+            code: code.into(),
+            message: message.into(),
+            places: Vec::new(),
+            hint: None,
+            notes: Vec::new(),
+        }
+    }
+
+    /// Adds a place; the first one added is the primary one.
+    pub fn at(mut self, place: Place) -> Self {
+        self.places.push(place);
+        self
+    }
+
+    /// Sets a hint made for this case.
+    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+        self.hint = Some(hint.into());
+        self
+    }
+
+    /// Adds a further line.
+    pub fn note(mut self, note: impl Into<String>) -> Self {
+        self.notes.push(note.into());
+        self
+    }
+
+    /// Error or warning.
+    pub fn severity(&self) -> Severity {
+        self.code.severity
+    }
+
+    /// True when the run must not write its output.
+    pub fn is_error(&self) -> bool {
+        self.code.severity == Severity::Error
+    }
+}
+
+impl std::fmt::Display for Diag {
+    /// One line: `E0123 file:line:column: message`.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}", self.code.name())?;
+        if let Some(place) = self.places.first() {
+            write!(f, " {place}")?;
+        }
+        write!(f, ": {}", self.message)
+    }
+}
+
+impl std::error::Error for Diag {}
+
+/// Declares a crate's codes: an enum whose variants turn into `&'static Code`
+/// and a table `ALL` of them.
+///
+/// ```
+/// fil_diag::codes! {
+///     /// Codes of this example.
+///     pub enum ExampleCode {
+///         /// A word nobody knows.
+///         UnknownWord = 9901, Warning, "unknown word",
+///             "The word is in no vocabulary.", "Check its spelling.";
+///     }
+/// }
+/// let code: &fil_diag::Code = ExampleCode::UnknownWord.into();
+/// assert_eq!(code.name(), "W9901");
+/// assert_eq!(ExampleCode::ALL.len(), 1);
+/// ```
+#[macro_export]
+macro_rules! codes {
+    ($(#[$meta:meta])* pub enum $name:ident {
+        $($(#[$vmeta:meta])* $variant:ident = $number:literal, $severity:ident,
+            $title:literal, $reason:literal, $hint:literal;)*
+    }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum $name { $($(#[$vmeta])* $variant,)* }
+
+        impl $name {
+            /// The whole table, in the order of declaration.
+            pub const ALL: &'static [$crate::Code] = &[$($crate::Code {
+                number: $number,
+                severity: $crate::Severity::$severity,
+                title: $title,
+                reason: $reason,
+                hint: $hint,
+            },)*];
+        }
+
+        impl From<$name> for &'static $crate::Code {
+            fn from(code: $name) -> Self {
+                &$name::ALL[code as usize]
+            }
+        }
+    };
+}

@@ -1,0 +1,1 @@
+//! The generalized post: CL records to NC blocks.

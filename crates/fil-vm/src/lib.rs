@@ -1,0 +1,1 @@
+//! FIL compiler and virtual machine.

@@ -1,0 +1,2 @@
+//! The filpost command.
+fn main() {}

@@ -1,0 +1,1 @@
+//! The embeddable FIL runtime and post-processor.

@@ -1,0 +1,1 @@
+//! Support for the test runners of this member.
