@@ -9,6 +9,7 @@ use super::Reader;
 use super::number::{fixed_point, number};
 use super::statement::{decoded, is_blank};
 use crate::errors::ClCode;
+use crate::layout::{UNCOMPUTED, is_uncomputed};
 use crate::record::{Record, Word};
 use crate::vocabulary::{Vocabulary, WordId};
 use crate::words;
@@ -123,7 +124,10 @@ impl<R: Read> Reader<R> {
         }
         if !has_blank {
             let id = self.intern(vocab, first);
-            if first.len() == name.len() || vocab.is_known(id) {
+            if is_uncomputed(id) {
+                return Err(self.diag(ClCode::UncomputedMotion, UNCOMPUTED, range));
+            }
+            if first.len() == name.len() {
                 return Ok(id);
             }
             return Err(self.diag(ClCode::BadWord, "a comma before the slash", range));
@@ -151,11 +155,7 @@ impl<R: Read> Reader<R> {
         if numeric && let Some(value) = number(item) {
             return Ok(Word::Number(value));
         }
-        let is_name = item.len() <= MAX_NAME
-            && item.iter().all(|byte| is_name_byte(*byte))
-            && (starts_name(first)
-                || first.is_ascii_digit() && (rules.free_names || self.is_known(vocab, item)));
-        if is_name {
+        if is_name(vocab, item, rules.free_names) {
             return Ok(Word::Minor(self.intern(vocab, item)));
         }
         if rules.lenient {
@@ -173,12 +173,27 @@ impl<R: Read> Reader<R> {
         }
         vocab.intern(&decoded(name, self.options.decode))
     }
+}
 
-    /// True for a word of the vocabulary that begins with a digit, as 1STPECK.
-    fn is_known(&self, vocab: &Vocabulary, name: &[u8]) -> bool {
-        let id = std::str::from_utf8(name).ok().and_then(|name| vocab.find(name));
+/// True when an item is read as a text where texts are allowed.
+pub(crate) fn reads_as_text(vocab: &Vocabulary, item: &str) -> bool {
+    let breaks = |c: char| matches!(c, ',' | '$') || c.is_control();
+    let is_whole = !item.is_empty() && item.trim() == item && !item.contains(breaks);
+    is_whole && number(item.as_bytes()).is_none() && !is_name(vocab, item.as_bytes(), false)
+}
+
+/// True for an item that is a name. One that begins with a digit, as 1STPECK,
+/// must be known, unless `free` allows any.
+fn is_name(vocab: &Vocabulary, item: &[u8], free: bool) -> bool {
+    let is_known = || {
+        let id = std::str::from_utf8(item).ok().and_then(|name| vocab.find(name));
         id.is_some_and(|id| vocab.is_known(id))
-    }
+    };
+    item.len() <= MAX_NAME
+        && item.iter().all(|byte| is_name_byte(*byte))
+        && item.first().is_some_and(|first| {
+            starts_name(*first) || first.is_ascii_digit() && (free || is_known())
+        })
 }
 
 fn starts_name(byte: u8) -> bool {
