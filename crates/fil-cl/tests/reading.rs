@@ -156,7 +156,8 @@ fn a_text_that_is_not_utf8_goes_through_the_hook() {
 
 #[test]
 fn layout_and_case_mean_nothing() {
-    let creo = read("\u{feff}FEDRAT / 400.000000,  MMPM\r\nGOTO / 1.0, 2.0, 3.0\r\nRAPID \r\n").0;
+    let creo =
+        read("\u{feff}FEDRAT / 400.000000,  MMPM\r\nGOTO / 1.0, 2.0, 3.0\r\nRAPID \r\n\x1a").0;
     let bare = read("fedrat/4.E+2,mmpm $$ slow\n\n \t\ngo to /1.D0,+2,3.\nrapid/").0;
     let strip = |records: Vec<Record>| -> Vec<Record> {
         records.into_iter().map(|record| Record { line: 0, ..record }).collect()
@@ -234,6 +235,25 @@ fn unknown_statements_pass_through() {
     assert_eq!((vocab.name(id), vocab.is_public(id)), ("EMBOSL", false));
     assert_eq!(records[2].data_word(6), Some(Word::Empty));
     assert!(matches!(records[3].data_word(4), Some(Word::Minor(_))));
+}
+
+#[test]
+fn any_pseudo_comment_is_read() {
+    let (records, vocab) =
+        read("$$-> see the drawing\n$$-> NURBS / 1, a=b\n$$->\n$$-> GO TO / 5\n");
+    let keys: Vec<_> = records.iter().map(|record| vocab.name(record.major)).collect();
+    assert_eq!(keys, ["SEE THE DRAWING", "NURBS", "GOTO"]);
+    assert!(records.iter().all(|record| record.kind == kind::PSEUDO));
+}
+
+#[test]
+fn the_family_is_told_by_the_first_line_that_tells() {
+    let family = |text: &str| Dialect::detect(text.as_bytes());
+    assert_eq!(family("$$*   Pro/CLfile  Version 8.0\nTLDATA/MILL\n"), Dialect::Creo);
+    assert_eq!(family("$$ x\r\nTOOL PATH/A,TOOL,B\r\n"), Dialect::Nx);
+    assert_eq!(family("PARTNO/1\nUNIT/MM\nCSI_SET_FLUTE_LENGTH/2.\n"), Dialect::SolidWorksCam);
+    assert_eq!(family("REMARK a.as 27-APR-2021 NCLCAM 2020.00\n"), Dialect::Ncl);
+    assert_eq!(family("GOTO/1,2,3\n"), Dialect::Creo);
 }
 
 #[test]
