@@ -87,5 +87,13 @@ fil_diag::codes! {
         OptionFile = 606, Error, "option file can't be read",
             "An option file is a list of pairs, location and value, under INTCOM, RELCOM and DBLCOM.",
             "Check that the file is an option file (.pNN) and whole.";
+        /// A setting nobody reads.
+        UnusedSetting = 651, Warning, "setting without effect",
+            "The location is known, but this post does not act on it.",
+            "Remove the setting, or do its work in a FIL section.";
+        /// Import of a value we can't be sure of.
+        DoubtfulImport = 652, Warning, "imported value of uncertain meaning",
+            "The numbers of this choice are not published; ours may differ from the vendor's.",
+            "Compare the output with a program the machine has run, and set the key by name.";
     }
 }
