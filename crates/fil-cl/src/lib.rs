@@ -1,7 +1,16 @@
 //! CL records: vocabulary, streaming reader, writer.
 
+pub mod errors;
+pub mod layout;
+pub mod reader;
 pub mod record;
 pub mod vocabulary;
+pub mod words;
+pub mod writer;
 
-pub use record::{Record, Word};
-pub use vocabulary::WordId;
+pub use errors::ClCode;
+pub use layout::ShapeError;
+pub use reader::{Dialect, Options, Reader};
+pub use record::{Circle, Record, Word, WordView};
+pub use vocabulary::{Vocabulary, WordId};
+pub use writer::Writer;

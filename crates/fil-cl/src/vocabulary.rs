@@ -1,5 +1,10 @@
 //! The vocabulary: words, their identities and their integer codes.
 
+use std::borrow::Cow;
+use std::collections::HashMap;
+
+pub use crate::words;
+
 /// Identity of a vocabulary word within a run. Two words are the same word
 /// exactly when their ids are equal; codes may be shared by two words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -9,5 +14,325 @@ impl WordId {
     /// The id as an index, for tables kept beside the vocabulary.
     pub fn index(self) -> usize {
         self.0 as usize
+    }
+}
+
+/// Class bit: the word opens a statement.
+pub(crate) const MAJOR: u8 = 1;
+/// Class bit: the word stands inside a statement.
+pub(crate) const MINOR: u8 = 2;
+
+/// Codes of our own start here, above every published code.
+const OWN_CODES: u64 = 1_000_000;
+
+/// The published codes; its header names the columns.
+const PUBLISHED: &str = include_str!("../data/vocabulary.tsv");
+
+/// Slots of the name table at the start: room for the published words.
+const FIRST_SLOTS: usize = 4096;
+
+/// A slot that holds no word.
+const FREE: u32 = u32::MAX;
+
+#[derive(Clone, Debug)]
+struct Entry {
+    /// Upper case.
+    name: Cow<'static, str>,
+    hash: u32,
+    class: u8,
+    public: bool,
+    code: f64,
+}
+
+/// The words known to a run: those of the published tables and those the CL
+/// file or the FIL script brought along.
+#[derive(Clone, Debug)]
+pub struct Vocabulary {
+    entries: Vec<Entry>,
+    /// Open addressing over the hash of the name; never more than half full.
+    slots: Vec<u32>,
+    /// Codes of our own, to find a free one and to get back to the word.
+    own_codes: HashMap<u64, WordId>,
+}
+
+impl Default for Vocabulary {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Vocabulary {
+    /// The words of [`words`], with the ids given there, and the published table.
+    pub fn new() -> Self {
+        let mut vocabulary = Vocabulary {
+            entries: Vec::with_capacity(FIRST_SLOTS / 2),
+            slots: vec![FREE; FIRST_SLOTS],
+            own_codes: HashMap::new(),
+        };
+        for (name, class) in words::NAMES_AND_CLASSES {
+            vocabulary.insert(Cow::Borrowed(name), hash(name.as_bytes()), *class);
+        }
+        for line in PUBLISHED.lines().filter(|line| !line.starts_with('#')) {
+            vocabulary.publish(line);
+        }
+        for index in 0..words::NAMES_AND_CLASSES.len() {
+            if !vocabulary.entries[index].public {
+                vocabulary.give_own_code(WordId(index as u32));
+            }
+        }
+        vocabulary
+    }
+
+    /// The id of a word, case-insensitive; a new word gets a code of our own.
+    pub fn intern(&mut self, name: &str) -> WordId {
+        if name.is_ascii() {
+            return self.intern_bytes(name.as_bytes());
+        }
+        let upper = name.to_uppercase();
+        self.intern_upper(upper.as_bytes())
+    }
+
+    /// The same for the bytes of a name; those of a name that is not ASCII are
+    /// read as UTF-8, with U+FFFD for what is none.
+    pub fn intern_bytes(&mut self, name: &[u8]) -> WordId {
+        if name.is_ascii() {
+            return self.intern_upper(name);
+        }
+        let upper = String::from_utf8_lossy(name).to_uppercase();
+        self.intern_upper(upper.as_bytes())
+    }
+
+    /// The id of a word that is already known.
+    pub fn find(&self, name: &str) -> Option<WordId> {
+        if name.is_ascii() {
+            return self.lookup(name.as_bytes(), hash(name.as_bytes()));
+        }
+        let upper = name.to_uppercase();
+        self.lookup(upper.as_bytes(), hash(upper.as_bytes()))
+    }
+
+    /// The name, in upper case.
+    ///
+    /// # Panics
+    /// When the id comes from another vocabulary that holds more words.
+    pub fn name(&self, id: WordId) -> &str {
+        &self.entries[id.index()].name
+    }
+
+    /// The integer code. Of the published ones the first of: gpost, PostWorks,
+    /// APT-AC, APT360, NCL.
+    pub fn code(&self, id: WordId) -> f64 {
+        self.entries[id.index()].code
+    }
+
+    /// False when the code is our own and means nothing outside filpost.
+    pub fn is_public(&self, id: WordId) -> bool {
+        self.entries[id.index()].public
+    }
+
+    /// True for a word known to open statements (it may be a minor word as well).
+    pub fn is_major(&self, id: WordId) -> bool {
+        self.entries[id.index()].class & MAJOR != 0
+    }
+
+    /// True for a word this crate or a published table knows, whatever its code.
+    pub fn is_known(&self, id: WordId) -> bool {
+        self.entries[id.index()].class != 0
+    }
+
+    /// The word a code stands for where a minor word is due. Of several words
+    /// with the code a minor word is taken before a major one, and a word of
+    /// [`words`] before another.
+    pub fn minor_with_code(&self, code: f64) -> Option<WordId> {
+        if code >= OWN_CODES as f64 {
+            if code.fract() != 0.0 {
+                return None;
+            }
+            return self.own_codes.get(&(code as u64)).copied();
+        }
+        let with_class = |class: u8| {
+            self.entries.iter().position(|e| e.public && e.code == code && e.class & class != 0)
+        };
+        with_class(MINOR).or_else(|| with_class(MAJOR)).map(|index| WordId(index as u32))
+    }
+
+    /// Number of words.
+    pub fn len(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// Never true: the published words are always there.
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
+    /// Interns a name in which only ASCII letters may be lower case.
+    fn intern_upper(&mut self, name: &[u8]) -> WordId {
+        let hash = hash(name);
+        if let Some(id) = self.lookup(name, hash) {
+            return id;
+        }
+        let upper = String::from_utf8_lossy(name).to_ascii_uppercase();
+        let id = self.insert(Cow::Owned(upper), hash, 0);
+        self.give_own_code(id);
+        id
+    }
+
+    fn lookup(&self, name: &[u8], hash: u32) -> Option<WordId> {
+        let mask = self.slots.len() - 1;
+        let mut slot = hash as usize & mask;
+        loop {
+            let id = self.slots[slot];
+            let entry = self.entries.get(id as usize)?;
+            if entry.hash == hash && entry.name.as_bytes().eq_ignore_ascii_case(name) {
+                return Some(WordId(id));
+            }
+            slot = (slot + 1) & mask;
+        }
+    }
+
+    fn insert(&mut self, name: Cow<'static, str>, hash: u32, class: u8) -> WordId {
+        let id = WordId(self.entries.len() as u32);
+        self.entries.push(Entry { name, hash, class, public: false, code: 0.0 });
+        if self.entries.len() * 2 > self.slots.len() {
+            self.grow();
+        } else {
+            self.occupy(id);
+        }
+        id
+    }
+
+    fn occupy(&mut self, id: WordId) {
+        let mask = self.slots.len() - 1;
+        let mut slot = self.entries[id.index()].hash as usize & mask;
+        while self.slots[slot] != FREE {
+            slot = (slot + 1) & mask;
+        }
+        self.slots[slot] = id.0;
+    }
+
+    fn grow(&mut self) {
+        self.slots = vec![FREE; self.slots.len() * 2];
+        for index in 0..self.entries.len() {
+            self.occupy(WordId(index as u32));
+        }
+    }
+
+    /// A code that depends on the name alone, so that it is the same in every
+    /// run; two names with one hash value share no code, the later one moves on.
+    fn give_own_code(&mut self, id: WordId) {
+        let mut code = OWN_CODES + u64::from(self.entries[id.index()].hash);
+        while self.own_codes.contains_key(&code) {
+            code += 1;
+        }
+        self.own_codes.insert(code, id);
+        self.entries[id.index()].code = code as f64;
+    }
+
+    /// Takes one line of the published table.
+    fn publish(&mut self, line: &'static str) {
+        let mut columns = line.split('\t');
+        let (Some(name), Some(class)) = (columns.next(), columns.next()) else { return };
+        let mut next = || columns.next().and_then(|column| column.trim().parse::<u32>().ok());
+        let (apt360, aptac, postworks, ncl, gpost) = (next(), next(), next(), next(), next());
+        let Some(code) = gpost.or(postworks).or(aptac).or(apt360).or(ncl) else { return };
+        let hash = hash(name.as_bytes());
+        let id = match self.lookup(name.as_bytes(), hash) {
+            Some(id) => id,
+            None => self.insert(Cow::Borrowed(name), hash, 0),
+        };
+        let entry = &mut self.entries[id.index()];
+        entry.class |= match class {
+            "major" => MAJOR,
+            "minor" => MINOR,
+            _ => MAJOR | MINOR,
+        };
+        entry.public = true;
+        entry.code = f64::from(code);
+    }
+}
+
+/// 32-bit FNV-1a of the name in upper case (ASCII letters).
+fn hash(name: &[u8]) -> u32 {
+    name.iter().fold(0x811c_9dc5, |hash, byte| {
+        (hash ^ u32::from(byte.to_ascii_uppercase())).wrapping_mul(0x0100_0193)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn constants_have_their_names() {
+        let vocabulary = Vocabulary::new();
+        assert_eq!(vocabulary.name(words::GOTO), "GOTO");
+        assert_eq!(vocabulary.name(words::FIRST_PECK), "1STPECK");
+        assert_eq!(vocabulary.name(words::SPEED), "SPEED");
+        for (index, (name, _)) in words::NAMES_AND_CLASSES.iter().enumerate() {
+            assert_eq!(vocabulary.find(name), Some(WordId(index as u32)), "{name} is there twice");
+        }
+    }
+
+    #[test]
+    fn published_codes() {
+        let vocabulary = Vocabulary::new();
+        let code = |name| vocabulary.code(vocabulary.find(name).unwrap());
+        assert_eq!(code("spindl"), 1031.0);
+        assert_eq!(code("THREAD"), 1036.0);
+        assert_eq!(code("MMPM"), 315.0, "PostWorks comes first");
+        assert_eq!(code("DEFSUB"), 1140.0, "only in APT-AC");
+        assert_eq!(code("RETURN"), 322.0, "only in NCL");
+        assert!(vocabulary.is_public(words::DEEP) && !vocabulary.is_public(words::CLEAR));
+        assert!(vocabulary.is_major(words::SPINDL) && !vocabulary.is_major(words::CLW));
+    }
+
+    #[test]
+    fn codes_of_our_own_depend_on_the_name_alone() {
+        let (mut one, mut two) = (Vocabulary::new(), Vocabulary::new());
+        let first = one.intern("Embosl");
+        two.intern("SOMETHING");
+        let second = two.intern("EMBOSL");
+        assert_eq!(one.code(first), two.code(second));
+        assert_eq!(one.name(first), "EMBOSL");
+        assert_eq!(one.intern("EMBOSL"), first);
+        assert!(one.code(first) >= 1e6);
+        assert_eq!(one.minor_with_code(one.code(first)), Some(first));
+        assert_eq!(one.minor_with_code(0.5), None);
+    }
+
+    #[test]
+    fn names_with_one_hash_value_keep_apart() {
+        let mut vocabulary = Vocabulary::new();
+        let mut seen: HashMap<u32, String> = HashMap::new();
+        let pair = (0..400_000u32).find_map(|n| {
+            let name = format!("W{n}");
+            seen.insert(hash(name.as_bytes()), name.clone()).map(|other| (other, name))
+        });
+        let (one, other) = pair.expect("two of 400000 names share a 32-bit hash");
+        let (one, other) = (vocabulary.intern(&one), vocabulary.intern(&other));
+        assert_ne!(one, other);
+        assert_eq!(vocabulary.code(other), vocabulary.code(one) + 1.0);
+        assert_eq!(vocabulary.minor_with_code(vocabulary.code(other)), Some(other));
+    }
+
+    #[test]
+    fn many_words_and_letters_beyond_ascii() {
+        let mut vocabulary = Vocabulary::new();
+        let ids: Vec<_> = (0..10_000).map(|n| vocabulary.intern(&format!("USER{n}"))).collect();
+        assert_eq!(vocabulary.find("user9999"), Some(ids[9999]));
+        assert_eq!(vocabulary.find("SPINDL"), Some(words::SPINDL));
+        let id = vocabulary.intern("станок");
+        assert_eq!(vocabulary.name(id), "СТАНОК");
+        assert_eq!(vocabulary.intern_bytes("Станок".as_bytes()), id);
+    }
+
+    #[test]
+    fn a_code_prefers_a_minor_word() {
+        let vocabulary = Vocabulary::new();
+        assert_eq!(vocabulary.minor_with_code(8.0), Some(words::LEFT));
+        assert_eq!(vocabulary.minor_with_code(153.0), Some(words::DEEP));
+        assert_eq!(vocabulary.minor_with_code(1031.0), Some(words::SPINDL));
+        assert_eq!(vocabulary.minor_with_code(-3.0), None);
     }
 }

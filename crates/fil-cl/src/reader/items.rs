@@ -1,0 +1,199 @@
+//! The items of a statement.
+
+use std::io::Read;
+use std::ops::Range;
+
+use fil_diag::Diag;
+
+use super::Reader;
+use super::number::{fixed_point, number};
+use super::statement::{decoded, is_blank};
+use crate::errors::ClCode;
+use crate::record::{Record, Word};
+use crate::vocabulary::{Vocabulary, WordId};
+use crate::words;
+
+/// More words than this are no vocabulary any more.
+const MAX_VOCABULARY: usize = 50_000;
+
+/// A name is not longer than this; in bytes.
+const MAX_NAME: usize = 64;
+
+/// The values of a `GOTO` that fills one line, with the length of the line
+/// including its line end; `None` when anything about it is unusual.
+#[inline]
+pub(super) fn plain_goto(text: &[u8]) -> Option<([f64; 6], usize, usize)> {
+    let mut at = skip_blanks(text, text.starts_with(b"GOTO").then_some(4)?);
+    if *text.get(at)? != b'/' {
+        return None;
+    }
+    let mut values = [0.0; 6];
+    let mut count = 0;
+    loop {
+        at = skip_blanks(text, at + 1);
+        let (value, length) = fixed_point(&text[at..])?;
+        *values.get_mut(count)? = value;
+        count += 1;
+        at = skip_blanks(text, at + length);
+        match *text.get(at)? {
+            b',' => {}
+            b'\n' => break,
+            b'\r' if *text.get(at + 1)? == b'\n' => {
+                at += 1;
+                break;
+            }
+            _ => return None,
+        }
+    }
+    matches!(count, 3 | 6).then_some((values, count, at + 1))
+}
+
+#[inline]
+fn skip_blanks(text: &[u8], mut at: usize) -> usize {
+    while text.get(at).copied().is_some_and(is_blank) {
+        at += 1;
+    }
+    at
+}
+
+/// How strictly the items of a statement are read.
+#[derive(Clone, Copy)]
+struct Rules {
+    /// What is neither number nor name is kept as a text: in pseudo-comments
+    /// and in statements nobody knows.
+    lenient: bool,
+    /// Names of machines may begin with a digit; elsewhere only known words do,
+    /// so that a mistyped number is not taken for a word.
+    free_names: bool,
+}
+
+impl<R: Read> Reader<R> {
+    /// Sets the major word and the items of the gathered statement.
+    pub(super) fn parse_items(
+        &mut self,
+        vocab: &mut Vocabulary,
+        record: &mut Record,
+        pseudo: bool,
+    ) -> Result<(), Box<Diag>> {
+        self.check_bytes()?;
+        let slash = memchr::memchr(b'/', &self.statement.joined);
+        let length = self.statement.joined.len();
+        record.major =
+            self.parse_major(vocab, trim(&self.statement.joined, 0..slash.unwrap_or(length)))?;
+        let known = vocab.is_known(record.major);
+        let rules = Rules { lenient: pseudo || !known, free_names: record.major == words::MACHIN };
+        self.item_ranges.clear();
+        let Some(slash) = slash else { return Ok(()) };
+        if trim(&self.statement.joined, slash + 1..length).is_empty() {
+            return Ok(());
+        }
+        let mut start = slash + 1;
+        while start <= length {
+            let rest = &self.statement.joined[start..];
+            let end = memchr::memchr(b',', rest).map_or(length, |comma| start + comma);
+            let item = trim(&self.statement.joined, start..end);
+            self.item_ranges.push(item.clone());
+            let word = self.parse_item(vocab, record, item, rules)?;
+            record.data.push(word);
+            start = end + 1;
+        }
+        if vocab.len() > MAX_VOCABULARY {
+            let message = format!("more than {MAX_VOCABULARY} words");
+            return Err(self.diag(ClCode::TooManyWords, &message, 0..length));
+        }
+        Ok(())
+    }
+
+    /// The major word. Blanks within it mean nothing where the word is known
+    /// without them; `TLON,GOFWD` counts as the first of its words.
+    fn parse_major(
+        &self,
+        vocab: &mut Vocabulary,
+        range: Range<usize>,
+    ) -> Result<WordId, Box<Diag>> {
+        let name = &self.statement.joined[range.clone()];
+        let first = name.split(|byte| *byte == b',').next().unwrap_or(name).trim_ascii_end();
+        let is_name = first.first().is_some_and(|byte| starts_name(*byte))
+            && first.len() <= MAX_NAME
+            && first.iter().all(|byte| is_name_byte(*byte) || is_blank(*byte));
+        let has_blank = first.iter().any(|byte| is_blank(*byte));
+        let bare = range.end == self.statement.joined.len();
+        if !is_name {
+            return Err(self.diag(ClCode::BadWord, "no major word", range));
+        }
+        if !has_blank {
+            let id = self.intern(vocab, first);
+            if first.len() == name.len() || vocab.is_known(id) {
+                return Ok(id);
+            }
+            return Err(self.diag(ClCode::BadWord, "a comma before the slash", range));
+        }
+        let compact: Vec<u8> = first.iter().copied().filter(|byte| !is_blank(*byte)).collect();
+        if let Some(id) = std::str::from_utf8(&compact).ok().and_then(|name| vocab.find(name)) {
+            return Ok(id);
+        }
+        if bare || first.len() < name.len() {
+            return Err(self.diag(ClCode::BadWord, "no statement", range));
+        }
+        Ok(self.intern(vocab, first))
+    }
+
+    fn parse_item(
+        &self,
+        vocab: &mut Vocabulary,
+        record: &mut Record,
+        range: Range<usize>,
+        rules: Rules,
+    ) -> Result<Word, Box<Diag>> {
+        let item = &self.statement.joined[range.clone()];
+        let Some(first) = item.first().copied() else { return Ok(Word::Empty) };
+        let numeric = first.is_ascii_digit() || matches!(first, b'+' | b'-' | b'.');
+        if numeric && let Some(value) = number(item) {
+            return Ok(Word::Number(value));
+        }
+        let is_name = item.len() <= MAX_NAME
+            && item.iter().all(|byte| is_name_byte(*byte))
+            && (starts_name(first)
+                || first.is_ascii_digit() && (rules.free_names || self.is_known(vocab, item)));
+        if is_name {
+            return Ok(Word::Minor(self.intern(vocab, item)));
+        }
+        if rules.lenient {
+            return Ok(record.store_text(&decoded(item, self.options.decode)));
+        }
+        let shown = decoded(item, self.options.decode);
+        let code = if numeric { ClCode::BadNumber } else { ClCode::BadWord };
+        let what = if numeric { "a number" } else { "a number or a name" };
+        Err(self.diag(code, &format!("'{shown}' is not {what}"), range))
+    }
+
+    fn intern(&self, vocab: &mut Vocabulary, name: &[u8]) -> WordId {
+        if name.is_ascii() {
+            return vocab.intern_bytes(name);
+        }
+        vocab.intern(&decoded(name, self.options.decode))
+    }
+
+    /// True for a word of the vocabulary that begins with a digit, as 1STPECK.
+    fn is_known(&self, vocab: &Vocabulary, name: &[u8]) -> bool {
+        let id = std::str::from_utf8(name).ok().and_then(|name| vocab.find(name));
+        id.is_some_and(|id| vocab.is_known(id))
+    }
+}
+
+fn starts_name(byte: u8) -> bool {
+    byte.is_ascii_alphabetic() || byte == b'_' || !byte.is_ascii()
+}
+
+/// Bytes of a name: letters, digits, and what file and machine names have.
+fn is_name_byte(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || b"_-.#@&:+".contains(&byte) || !byte.is_ascii()
+}
+
+/// A range without the blanks at its ends.
+fn trim(text: &[u8], range: Range<usize>) -> Range<usize> {
+    let part = &text[range.clone()];
+    let start = part.iter().position(|byte| !is_blank(*byte)).unwrap_or(part.len());
+    let end = part.iter().rposition(|byte| !is_blank(*byte)).map_or(start, |at| at + 1);
+    range.start + start..range.start + end
+}

@@ -1,0 +1,158 @@
+//! Lines out of a chunk buffer, without a copy for each line.
+
+use std::io::{self, Read};
+use std::ops::Range;
+
+/// Bytes asked for at once.
+const CHUNK: usize = 256 * 1024;
+
+/// Why there is no next line.
+pub(super) enum LineError {
+    /// The input failed.
+    Io(io::Error),
+    /// The statement is longer than the limit.
+    TooLong,
+}
+
+/// The lines of an input. The bytes from the last [`Lines::begin`] on stay in
+/// the buffer, so that a statement can be shown whole when it is wrong.
+pub(super) struct Lines<R> {
+    pub(super) input: R,
+    buffer: Vec<u8>,
+    /// End of what is read into the buffer.
+    end: usize,
+    /// Start of the statement under way.
+    mark: usize,
+    /// Start of the next line.
+    next: usize,
+    /// Offset in the input of the first byte of the buffer.
+    base: u64,
+    /// Number of the next line, 1-based.
+    line: u32,
+    at_end: bool,
+    limit: usize,
+}
+
+impl<R: Read> Lines<R> {
+    pub(super) fn new(input: R, limit: usize) -> Self {
+        Lines {
+            input,
+            buffer: Vec::new(),
+            end: 0,
+            mark: 0,
+            next: 0,
+            base: 0,
+            line: 1,
+            at_end: false,
+            limit,
+        }
+    }
+
+    /// The first bytes of the input, up to `size`; to be called before any line.
+    pub(super) fn peek(&mut self, size: usize) -> io::Result<&[u8]> {
+        while self.end < size && !self.at_end {
+            self.fill()?;
+        }
+        if self.base == 0 && self.next == 0 && self.unread().starts_with(b"\xEF\xBB\xBF") {
+            self.next = 3;
+        }
+        Ok(&self.buffer[self.next..self.end.min(size).max(self.next)])
+    }
+
+    /// What is in the buffer and not yet given out.
+    #[inline]
+    pub(super) fn unread(&self) -> &[u8] {
+        &self.buffer[self.next..self.end]
+    }
+
+    /// Takes one whole line of `length` bytes, line end included, out of [`Self::unread`].
+    #[inline]
+    pub(super) fn take_line(&mut self, length: usize) {
+        self.next += length;
+        self.line = self.line.saturating_add(1);
+    }
+
+    /// Starts a statement at the next line.
+    pub(super) fn begin(&mut self) {
+        self.mark = self.next;
+    }
+
+    /// The next line, as a range for [`Self::bytes`], without its line end.
+    pub(super) fn next_line(&mut self) -> Result<Option<Range<usize>>, LineError> {
+        let mut searched = self.next - self.mark;
+        loop {
+            let from = self.mark + searched;
+            if let Some(at) = memchr::memchr(b'\n', &self.buffer[from..self.end]) {
+                return Ok(Some(self.give(from + at, 1)));
+            }
+            searched = self.end - self.mark;
+            if searched > self.limit {
+                return Err(LineError::TooLong);
+            }
+            if self.at_end {
+                let is_empty = self.next == self.end;
+                return Ok(if is_empty { None } else { Some(self.give(self.end, 0)) });
+            }
+            self.fill().map_err(LineError::Io)?;
+        }
+    }
+
+    fn give(&mut self, end: usize, line_end: usize) -> Range<usize> {
+        let line = self.next - self.mark..end - self.mark;
+        self.next = end + line_end;
+        self.line = self.line.saturating_add(1);
+        line
+    }
+
+    /// The bytes of a line of the statement under way.
+    pub(super) fn bytes(&self, line: Range<usize>) -> &[u8] {
+        &self.buffer[self.mark + line.start..self.mark + line.end]
+    }
+
+    /// Everything of the statement under way that is in the buffer.
+    pub(super) fn statement(&self) -> &[u8] {
+        &self.buffer[self.mark..self.end]
+    }
+
+    /// Number of the next line.
+    pub(super) fn line(&self) -> u32 {
+        self.line
+    }
+
+    /// Offset of the next line in the input.
+    pub(super) fn offset(&self) -> u64 {
+        self.base + self.next as u64
+    }
+
+    /// Forgets the buffer; the input now stands at `offset`, in line `line`.
+    pub(super) fn restart(&mut self, offset: u64, line: u32) {
+        (self.end, self.mark, self.next) = (0, 0, 0);
+        (self.base, self.line, self.at_end) = (offset, line, false);
+    }
+
+    /// Reads on, moving what is still needed to the front or growing the buffer.
+    fn fill(&mut self) -> io::Result<()> {
+        if self.end == self.buffer.len() {
+            let start = self.mark.min(self.next);
+            self.buffer.copy_within(start..self.end, 0);
+            self.base += start as u64;
+            self.mark -= start;
+            self.next -= start;
+            self.end -= start;
+            if self.buffer.len() - self.end < CHUNK / 2 {
+                self.buffer.resize(self.buffer.len() + CHUNK, 0);
+            }
+        }
+        loop {
+            match self.input.read(&mut self.buffer[self.end..]) {
+                Ok(count) => {
+                    self.end += count;
+                    self.at_end = count == 0;
+                    return Ok(());
+                }
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! Going back in a file, with sparse checkpoints.
+
+use std::io::{Read, Result as IoResult, Seek, SeekFrom};
+
+use fil_diag::{Diag, Place};
+
+use super::{Modal, Options, Reader};
+use crate::errors::ClCode;
+
+/// Records between two checkpoints.
+const SPACING: u32 = 4096;
+
+/// The state of the reader between two statements.
+#[derive(Clone, Copy, Debug)]
+struct Checkpoint {
+    /// Number of the last record before it.
+    number: u32,
+    offset: u64,
+    line: u32,
+    modal: Modal,
+}
+
+/// What a reader needs to go back.
+pub(super) struct Seeking<R> {
+    /// Moves the input to an offset; `None` for a stream.
+    go: Option<fn(&mut R, u64) -> IoResult<u64>>,
+    checkpoints: Vec<Checkpoint>,
+    /// Number of the record to read on to; 0 when it is the next one.
+    pub(super) wanted: u32,
+}
+
+impl<R> Seeking<R> {
+    pub(super) fn none() -> Self {
+        Seeking { go: None, checkpoints: Vec::new(), wanted: 0 }
+    }
+
+    /// Keeps a checkpoint if the last one is far enough behind.
+    #[inline]
+    pub(super) fn note(&mut self, number: u32, offset: u64, line: u32, modal: Modal) {
+        let due = match self.checkpoints.last() {
+            Some(last) => number >= last.number.saturating_add(SPACING),
+            None => true,
+        };
+        if due && self.go.is_some() {
+            self.checkpoints.push(Checkpoint { number, offset, line, modal });
+        }
+    }
+}
+
+impl<R: Read + Seek> Reader<R> {
+    /// A reader of a file, which can go back. The input must stand at its start.
+    pub fn seekable(input: R, file_name: &str, options: Options) -> Self {
+        let mut reader = Reader::new(input, file_name, options);
+        reader.seeking.go = Some(|input, offset| input.seek(SeekFrom::Start(offset)));
+        reader
+    }
+}
+
+impl<R: Read> Reader<R> {
+    /// Makes record `n` (from 1) the next one to be read. A record past the end
+    /// shows as an error of the next [`Reader::read`].
+    ///
+    /// # Errors
+    /// The input is a stream, `n` is 0, or the input cannot be moved.
+    pub fn seek_record(&mut self, n: u32) -> Result<(), Box<Diag>> {
+        let here = Place::line(&self.file, self.statement.line.max(1), "");
+        let Some(go) = self.seeking.go else {
+            let message = format!("record {n} is asked for after record {}", self.number);
+            return Err(Box::new(Diag::new(ClCode::NotSeekable, message).at(here)));
+        };
+        if n == 0 {
+            return Err(Box::new(Diag::new(ClCode::NoSuchRecord, "record 0").at(here)));
+        }
+        self.seeking.wanted = n;
+        let before = self.seeking.checkpoints.partition_point(|point| point.number < n);
+        let Some(point) = before.checked_sub(1).map(|at| self.seeking.checkpoints[at]) else {
+            return Ok(());
+        };
+        if self.failed.is_none() && (point.number..n).contains(&self.number) {
+            return Ok(());
+        }
+        if let Err(error) = go(&mut self.lines.input, point.offset) {
+            return Err(self.read_failed(&error));
+        }
+        self.lines.restart(point.offset, point.line);
+        self.pending.values.clear();
+        self.pending.next = 0;
+        self.modal = point.modal;
+        self.number = point.number;
+        self.failed = None;
+        Ok(())
+    }
+}

@@ -1,0 +1,142 @@
+//! Records to CL text, in the layout of Creo's `.ncl` files.
+
+use std::fmt::Write as _;
+use std::io::Write;
+
+use fil_diag::Diag;
+
+use crate::errors::ClCode;
+use crate::layout::takes_text;
+use crate::record::{Record, Word, kind};
+use crate::vocabulary::Vocabulary;
+use crate::words;
+
+/// Columns Creo fills before it continues a statement in the next line.
+const WIDTH: usize = 71;
+
+/// Writes records so that the reader makes the same records of them again.
+pub struct Writer<W> {
+    output: W,
+    line: String,
+    item: String,
+}
+
+impl<W: Write> Writer<W> {
+    /// A writer onto an output.
+    pub fn new(output: W) -> Self {
+        Writer { output, line: String::new(), item: String::new() }
+    }
+
+    /// Writes one record as a statement.
+    ///
+    /// # Errors
+    /// The record has no text form (a number that is not finite, a text with a
+    /// comma among other items, a single empty slot), or the output fails.
+    pub fn write(&mut self, record: &Record, vocab: &Vocabulary) -> Result<(), Box<Diag>> {
+        self.line.clear();
+        if record.kind == kind::PSEUDO {
+            self.line.push_str("$$-> ");
+        }
+        self.line.push_str(vocab.name(record.major));
+        if record.kind == kind::POST && takes_text(record.major) {
+            self.free_text(record)?;
+        } else {
+            self.items(record, vocab)?;
+        }
+        self.line.push('\n');
+        self.output
+            .write_all(self.line.as_bytes())
+            .map_err(|error| Box::new(Diag::new(ClCode::WriteFailed, error.to_string())))
+    }
+
+    /// Gives the output back.
+    pub fn into_inner(self) -> W {
+        self.output
+    }
+
+    fn free_text(&mut self, record: &Record) -> Result<(), Box<Diag>> {
+        let [word @ Word::Text { .. }] = record.data[..] else {
+            return Err(unwritable("a text statement with other words than one text"));
+        };
+        let text = record.text_of(word);
+        let open = text.ends_with('$') && !text.ends_with("$$");
+        if open || text.contains(char::is_control) || text.ends_with([' ', '\t']) {
+            return Err(unwritable("a text that a line cannot hold"));
+        }
+        self.line.push_str(" / ");
+        self.line.push_str(text);
+        Ok(())
+    }
+
+    fn items(&mut self, record: &Record, vocab: &Vocabulary) -> Result<(), Box<Diag>> {
+        let data = written_items(record);
+        if data.is_empty() {
+            self.line.push_str(if is_bare(record) { " " } else { " / " });
+            return Ok(());
+        }
+        if matches!(data, [Word::Empty]) {
+            return Err(unwritable("a single empty slot"));
+        }
+        self.line.push_str(" /");
+        let mut start = 0;
+        for (index, word) in data.iter().enumerate() {
+            self.item.clear();
+            self.format(record, *word, vocab)?;
+            if index > 0 {
+                self.line.push(',');
+            }
+            let width = self.line.len() - start + 1 + self.item.len();
+            if index > 0 && width + ",  $".len() > WIDTH {
+                self.line.push_str("  $\n");
+                start = self.line.len();
+            } else {
+                self.line.push(' ');
+            }
+            self.line.push_str(&self.item);
+        }
+        Ok(())
+    }
+
+    fn format(&mut self, record: &Record, word: Word, vocab: &Vocabulary) -> Result<(), Box<Diag>> {
+        match word {
+            Word::Number(value) if !value.is_finite() => {
+                return Err(unwritable("a number that is not finite"));
+            }
+            // Debug prints the shortest digits that read back exactly, with a point.
+            Word::Number(value) => write!(self.item, "{value:?}").unwrap_or_default(),
+            Word::Minor(id) => self.item.push_str(vocab.name(id)),
+            Word::Text { .. } => {
+                let text = record.text_of(word);
+                let breaks = |c: char| c == ',' || c == '$' || c.is_control();
+                if text.contains(breaks) || text.trim() != text || text.is_empty() {
+                    return Err(unwritable("a text that an item cannot hold"));
+                }
+                self.item.push_str(text);
+            }
+            Word::Empty => {}
+        }
+        Ok(())
+    }
+}
+
+/// The items of the statement behind the words of a record.
+fn written_items(record: &Record) -> &[Word] {
+    match record.kind {
+        kind::MOTION => record.data.get(2..).unwrap_or_default(),
+        kind::SURFACE => match record.data.get(5..).unwrap_or_default() {
+            // A radius that is not known is left out.
+            [rest @ .., Word::Empty] if rest.len() == 6 => rest,
+            items => items,
+        },
+        _ => &record.data,
+    }
+}
+
+/// True for the statements Creo writes without a slash when they have no items.
+fn is_bare(record: &Record) -> bool {
+    record.kind != kind::PSEUDO && matches!(record.major, words::RAPID | words::FINI)
+}
+
+fn unwritable(what: &str) -> Box<Diag> {
+    Box::new(Diag::new(ClCode::Unwritable, what))
+}
