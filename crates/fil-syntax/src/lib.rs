@@ -1,6 +1,30 @@
 //! FIL text to tree: lexer (logos), grammar (lalrpop), diagnostics as plain data.
 //!
 //! [`parse`] never fails: it returns a tree of what could be read and a list of
-//! diagnostics.
+//! diagnostics. [`decode`] makes text of a file's bytes, [`print`](print::print)
+//! writes a tree back as FIL text.
 
+mod adapter;
+mod encoding;
+mod errors;
+mod expr;
+mod flat;
+mod frame;
+mod free_text;
+mod message;
+mod parse;
+pub mod print;
+mod reader;
+mod shapes;
+mod structure;
+mod token;
 pub mod tree;
+
+lalrpop_util::lalrpop_mod!(
+    #[allow(clippy::all, missing_docs, unused, rustdoc::all)]
+    grammar
+);
+
+pub use encoding::decode;
+pub use errors::SyntaxCode;
+pub use parse::{Parsed, parse};

@@ -79,10 +79,6 @@ fil_diag::codes! {
         Extension = 219, Error, "extension of filpost",
             "The function is not part of FIL; --strict keeps scripts portable.",
             "Write it with POSTF, or run without --strict.";
-        /// An item of a post word that makes no record.
-        BadPostWord = 220, Error, "post word can't be made into a record",
-            "The items of this word do not fit the layout of its CL record.",
-            "Compare the statement with the documented form of the word.";
     }
 }
 

@@ -1,7 +1,7 @@
 //! The door between the machine and everything outside of it.
 
 use fil_cl::Record;
-use fil_cl::vocabulary::Vocabulary;
+use fil_cl::Vocabulary;
 use fil_diag::Diag;
 
 /// One of the three commons.

@@ -1,6 +1,6 @@
 //! From a CL record to its section.
 
-use fil_cl::vocabulary::Vocabulary;
+use fil_cl::Vocabulary;
 use fil_cl::{Record, Word, WordId};
 
 use crate::module::SectionId;

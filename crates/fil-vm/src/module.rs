@@ -3,20 +3,20 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use fil_cl::WordId;
+use fil_cl::{Record, Vocabulary, WordId};
 use fil_diag::{LineIndex, Place};
 use fil_syntax::tree::Span;
 
 use crate::matcher::Matcher;
 use crate::ops::{Op, Reg};
-use crate::postf::{Compat, PostfOp};
+use crate::postf::Compat;
 
 /// Number of a chunk in [`Module::chunks`].
-pub type ChunkId = u16;
+pub(crate) type ChunkId = u16;
 
 /// A section of a module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct SectionId(pub u16);
+pub struct SectionId(pub(crate) u16);
 
 /// A FIL file with its text.
 #[derive(Clone, Debug)]
@@ -41,7 +41,7 @@ impl File {
 
 /// Where a statement stands and which names it uses.
 #[derive(Clone, Debug)]
-pub struct Statement {
+pub(crate) struct Statement {
     /// Index of the file.
     pub file: u16,
     /// Line, 1-based.
@@ -54,7 +54,7 @@ pub struct Statement {
 
 /// Code that runs from its first operation to `Return`.
 #[derive(Clone, Debug, Default)]
-pub struct Chunk {
+pub(crate) struct Chunk {
     /// What it is: `section CYCLE`, `macro DEEPHL`, `global area of a.fil`.
     pub title: String,
     /// The operations.
@@ -65,7 +65,7 @@ pub struct Chunk {
 
 /// A CIMFIL section.
 #[derive(Clone, Debug)]
-pub struct Section {
+pub(crate) struct Section {
     /// Its key as written: `CYCLE,DEEP` or `5000,5`.
     pub key: String,
     /// Its code.
@@ -78,27 +78,21 @@ pub struct Section {
 
 /// One item of a post word's template.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Item {
+pub(crate) enum Item {
     /// The value of a register: number or text.
     Value(Reg),
     /// A vocabulary word.
     Minor(WordId),
-    /// A slot that holds nothing.
-    Empty,
 }
 
 /// How a post word in FIL becomes a CL record.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Template {
+pub(crate) struct Template {
     /// The major word.
     pub major: WordId,
     /// Its name.
     pub name: String,
-    /// Record type, word 2.
-    pub kind: u32,
-    /// Record subtype, word 3.
-    pub sub: u32,
-    /// Words 4 and up.
+    /// Its items in order.
     pub items: Vec<Item>,
     /// The values are joined to the record's text (PPRINT, INSERT, …).
     pub is_text: bool,
@@ -106,7 +100,7 @@ pub struct Template {
 
 /// Constants and texts that a machine loads into its registers before it runs.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Constant {
+pub(crate) enum Constant {
     /// A number.
     Number(f64),
     /// A text.
@@ -119,38 +113,38 @@ pub struct Module {
     /// The files, in the order they were read.
     pub files: Vec<File>,
     /// All code.
-    pub chunks: Vec<Chunk>,
+    pub(crate) chunks: Vec<Chunk>,
     /// Chunks of the global areas, in the order they run.
-    pub globals: Vec<ChunkId>,
+    pub(crate) globals: Vec<ChunkId>,
     /// The sections.
-    pub sections: Vec<Section>,
+    pub(crate) sections: Vec<Section>,
     /// Chunk of each macro.
-    pub macros: Vec<ChunkId>,
+    pub(crate) macros: Vec<ChunkId>,
     /// Statements, for places and notes of messages.
-    pub statements: Vec<Statement>,
+    pub(crate) statements: Vec<Statement>,
     /// Constant registers.
-    pub constants: Vec<(Reg, Constant)>,
+    pub(crate) constants: Vec<(Reg, Constant)>,
     /// Registers in use: 0 to this, exclusive.
-    pub registers: u32,
+    pub(crate) registers: u32,
     /// Names of registers that are variables.
-    pub names: HashMap<Reg, String>,
+    pub(crate) names: HashMap<Reg, String>,
     /// First element and length of each array in the array store.
-    pub arrays: Vec<ArrayShape>,
+    pub(crate) arrays: Vec<ArrayShape>,
     /// Post words.
-    pub templates: Vec<Template>,
+    pub(crate) templates: Vec<Template>,
     /// Vocabulary words that operations name.
-    pub words: Vec<WordId>,
+    pub(crate) words: Vec<WordId>,
     /// Which section takes which record.
-    pub matcher: Matcher,
+    pub(crate) matcher: Matcher,
     /// Numbers of POSTF and the behaviour of sections.
     pub compat: Compat,
     /// Numbers of arguments of the embedding program's functions.
-    pub host_arity: Vec<u16>,
+    pub(crate) host_arity: Vec<u16>,
 }
 
 /// An array in the array store.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ArrayShape {
+pub(crate) struct ArrayShape {
     /// Its name.
     pub name: String,
     /// First element.
@@ -160,26 +154,36 @@ pub struct ArrayShape {
 }
 
 impl Module {
+    /// The section that takes a record.
+    #[inline]
+    pub fn find(&self, record: &Record, vocab: &Vocabulary) -> Option<SectionId> {
+        self.matcher.find(record, vocab)
+    }
+
+    /// The key of a section as FIL writes it: `CYCLE,DEEP` or `5000,5`.
+    pub fn section_key(&self, section: SectionId) -> &str {
+        &self.sections[usize::from(section.0)].key
+    }
+
+    /// Where a section stands.
+    pub fn section_place(&self, section: SectionId) -> Place {
+        let section = &self.sections[usize::from(section.0)];
+        self.files[usize::from(section.file)].place(section.span)
+    }
+
+    /// True when FIL has no section, so that no record needs the machine.
+    pub fn has_no_section(&self) -> bool {
+        self.sections.is_empty()
+    }
+
     /// The statement of an operation.
-    pub fn statement(&self, chunk: ChunkId, pc: usize) -> &Statement {
-        let index = self.chunks[chunk as usize].statements[pc];
+    pub(crate) fn statement(&self, chunk: ChunkId, pc: usize) -> &Statement {
+        let index = self.chunks[usize::from(chunk)].statements[pc];
         &self.statements[index as usize]
     }
 
     /// The place of a statement.
-    pub fn place(&self, statement: &Statement) -> Place {
-        self.files[statement.file as usize].place(statement.span)
-    }
-
-    /// Uses of POSTF operations in the code, with the statement of each.
-    pub fn postf_uses(&self) -> impl Iterator<Item = (PostfOp, &Statement)> {
-        self.chunks.iter().flat_map(|chunk| {
-            chunk.code.iter().zip(&chunk.statements).filter_map(|(op, statement)| match op {
-                Op::RecordWord { .. } => Some((PostfOp::Word, *statement)),
-                Op::Postf { op, .. } => PostfOp::from_index(*op).map(|op| (op, *statement)),
-                _ => None,
-            })
-        })
-        .map(|(op, statement)| (op, &self.statements[statement as usize]))
+    pub(crate) fn place(&self, statement: &Statement) -> Place {
+        self.files[usize::from(statement.file)].place(statement.span)
     }
 }

@@ -58,6 +58,8 @@ impl<'a> Includes<'a> {
     }
 
     fn parse(&mut self, name: &str, text: &str) -> usize {
+        // Spans count from behind a byte order mark.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let parsed = fil_syntax::parse(name, text);
         self.diags.extend(parsed.diags);
         let unit = self.units.len();

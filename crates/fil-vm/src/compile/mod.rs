@@ -15,7 +15,7 @@ mod posts;
 mod sections;
 mod statements;
 
-use fil_cl::vocabulary::Vocabulary;
+use fil_cl::Vocabulary;
 use fil_diag::Diag;
 use fil_syntax::tree::{Item, Program, Span};
 
@@ -70,15 +70,37 @@ pub struct Loaded {
 pub fn load(
     files: &[FilFile<'_>],
     vocab: &mut Vocabulary,
-    mut options: LoadOptions<'_>,
+    options: LoadOptions<'_>,
 ) -> Result<Loaded, Vec<Diag>> {
-    let mut includes = Includes::new(options.loader.take());
+    let LoadOptions { compat, limits, strict, functions, loader } = options;
+    let mut includes = Includes::new(loader);
     for file in files {
         includes.read(file.name, file.text);
     }
     let (units, found, diags) = includes.finish();
-    let mut compiler = Compiler::new(&units, &found, diags, vocab, &options);
-    compiler.run(files.len());
+    let module = Module {
+        files: units.iter().map(|unit| unit.file.clone()).collect(),
+        compat,
+        host_arity: functions.map_or_else(Vec::new, Functions::arities),
+        ..Module::default()
+    };
+    let mut compiler = Compiler {
+        units: &units,
+        found: &found,
+        vocab,
+        strict,
+        limits,
+        functions,
+        module,
+        names: Names::default(),
+        diags,
+        unit: 0,
+        chunk: ChunkBuilder::default(),
+        calls: Vec::new(),
+        inside: None,
+        noted: Vec::new(),
+    };
+    compiler.run();
     compiler.finish()
 }
 
@@ -104,44 +126,12 @@ struct Compiler<'t> {
 }
 
 impl<'t> Compiler<'t> {
-    fn new(
-        units: &'t [Unit],
-        found: &'t files::Found,
-        diags: Vec<Diag>,
-        vocab: &'t mut Vocabulary,
-        options: &LoadOptions<'t>,
-    ) -> Self {
-        let module = Module {
-            files: units.iter().map(|unit| unit.file.clone()).collect(),
-            compat: options.compat.clone(),
-            host_arity: options.functions.map_or_else(Vec::new, Functions::arities),
-            ..Module::default()
-        };
-        Compiler {
-            units,
-            found,
-            vocab,
-            strict: options.strict,
-            limits: options.limits,
-            functions: options.functions,
-            module,
-            names: Names::default(),
-            diags,
-            unit: 0,
-            chunk: ChunkBuilder::default(),
-            calls: Vec::new(),
-            inside: None,
-            noted: Vec::new(),
-        }
-    }
-
-    fn run(&mut self, roots: usize) {
+    fn run(&mut self) {
         self.collect_names();
-        let roots: Vec<usize> = self.found.roots.iter().copied().take(roots).collect();
-        for unit in &roots {
+        for unit in &self.found.roots {
             self.global_area(*unit);
         }
-        for unit in &roots {
+        for unit in &self.found.roots {
             self.sections_and_macros(*unit);
         }
         self.refuse_recursion();

@@ -9,7 +9,6 @@ use crate::errors::CompileCode;
 use crate::machine::FIRST_TEMPORARY;
 use crate::module::{ArrayShape, Constant};
 use crate::ops::Reg;
-use crate::value::EMPTY;
 
 /// Names in the note of a message; a line rarely uses more.
 const MOST_NAMES_NOTED: usize = 12;
@@ -200,11 +199,6 @@ impl<'t> Compiler<'t> {
         self.names.texts.insert(text.to_string(), reg);
         self.module.constants.push((reg, Constant::Text(text.to_string())));
         reg
-    }
-
-    /// A register to go on with after an error.
-    pub(super) fn nothing(&mut self, span: Span) -> Reg {
-        self.number(EMPTY, span)
     }
 }
 

@@ -47,7 +47,7 @@ impl Compiler<'_> {
         match &stmt.kind {
             StmtKind::Assign { target, value } => self.assign(target, value),
             StmtKind::Text { target, args } => self.assign_text(target, args, stmt.span),
-            StmtKind::Post { word, args } => self.post(word, args, stmt.span),
+            StmtKind::Post { word, args } => self.post(word, args),
             StmtKind::PostText { word, text } => self.post_text(word, text),
             StmtKind::If { arms, otherwise } => self.if_block(arms, otherwise.as_deref()),
             StmtKind::IfOne { condition, then } => self.if_one(condition, then),

@@ -9,7 +9,7 @@ mod slow;
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use fil_cl::vocabulary::Vocabulary;
+use fil_cl::Vocabulary;
 use fil_cl::{Record, Word};
 use fil_diag::Diag;
 

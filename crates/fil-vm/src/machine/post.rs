@@ -16,78 +16,75 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     pub(super) fn post(&mut self, registers: &Registers, template: u16) -> Result<(), Box<Diag>> {
         let module = self.module;
         let template = &module.templates[usize::from(template)];
-        let (mut data, mut text) = std::mem::take(&mut self.state.scratch);
-        data.clear();
-        text.clear();
-        let mut record = Record {
-            number: self.record.as_deref().map_or(0, |record| record.number),
-            kind: template.kind,
-            sub: template.sub,
-            major: template.major,
-            data,
-            text,
-            line: 0,
-        };
-        let filled = if template.is_text {
-            self.fill_text(registers, template, &mut record)
+        let (data, text) = if template.is_text {
+            self.text_item(registers, template)?
         } else {
-            self.fill_words(registers, template, &mut record)
+            self.items(registers, template)?
         };
-        let result = filled.and_then(|()| {
-            self.update_site();
-            self.outcome.commands += 1;
-            self.host.command(&record, self.vocab, &self.state.site)
-        });
+        let mut record = Record::statement(template.major, data, text)
+            .map_err(|error| Box::new(Diag::new(error.code, error.message)))?;
+        record.number = self.record.as_deref().map_or(0, |record| record.number);
+        self.update_site();
+        self.outcome.commands += 1;
+        let result = self.host.command(&record, self.vocab, &self.state.site);
         // The next post word uses the same memory.
         self.state.scratch = (record.data, record.text);
         result
     }
 
-    fn fill_words(
+    fn items(
         &mut self,
         registers: &Registers,
         template: &Template,
-        record: &mut Record,
-    ) -> Result<(), Box<Diag>> {
+    ) -> Result<(Vec<Word>, String), Box<Diag>> {
+        let (mut data, mut text) = std::mem::take(&mut self.state.scratch);
+        data.clear();
+        text.clear();
         for item in &template.items {
             let word = match item {
                 Item::Minor(id) => Word::Minor(*id),
-                Item::Empty => Word::Empty,
                 Item::Value(reg) => match self.read(registers, *reg)? {
                     Number(EMPTY) | Unset => Word::Empty,
                     Number(number) => Word::Number(number),
-                    Text(id) => record.store_text(self.state.texts.get(id)),
+                    Text(id) => push_text(&mut text, self.state.texts.get(id)),
                 },
             };
-            record.data.push(word);
+            data.push(word);
         }
-        Ok(())
+        Ok((data, text))
     }
 
-    fn fill_text(
+    /// The items of a text word, one after the other in one text.
+    fn text_item(
         &mut self,
         registers: &Registers,
         template: &Template,
-        record: &mut Record,
-    ) -> Result<(), Box<Diag>> {
+    ) -> Result<(Vec<Word>, String), Box<Diag>> {
+        let mut text = String::new();
         for item in &template.items {
             match item {
-                Item::Minor(id) => record.text.push_str(self.vocab.name(*id)),
-                Item::Empty => {}
+                Item::Minor(id) => text.push_str(self.vocab.name(*id)),
                 Item::Value(reg) => match self.read(registers, *reg)? {
-                    Text(id) => record.text.push_str(self.state.texts.get(id)),
+                    Text(id) => text.push_str(self.state.texts.get(id)),
                     Number(EMPTY) | Unset => {
-                        let message = format!("EMPTY can't be written in the text of {}", template.name);
+                        let message = format!("EMPTY stands in the text of {}", template.name);
                         return Err(fault(RunCode::WrongType, message));
                     }
-                    Number(number) => record.text.push_str(&Shown(number).to_string()),
+                    Number(number) => text.push_str(&Shown(number).to_string()),
                 },
             }
-            if record.text.len() > self.limits.text_bytes {
+            if text.len() > self.limits.text_bytes {
                 let message = format!("the text of {} passes the limit", template.name);
                 return Err(fault(RunCode::TextLimit, message));
             }
         }
-        Ok(())
+        let word = Word::Text { start: 0, len: text.len() as u32 };
+        Ok((vec![word], text))
     }
+}
+
+fn push_text(texts: &mut String, text: &str) -> Word {
+    let start = texts.len() as u32;
+    texts.push_str(text);
+    Word::Text { start, len: text.len() as u32 }
 }

@@ -1,6 +1,6 @@
 //! Messages of the machine: place, calls, record and values.
 
-use fil_cl::vocabulary::Vocabulary;
+use fil_cl::Vocabulary;
 use fil_cl::{Record, Word};
 use fil_diag::Diag;
 

@@ -3,6 +3,7 @@
 
 use fil_diag::Diag;
 
+use super::report::fault;
 use super::{Registers, Spot, Vm};
 use crate::builtins::{BUILTINS, Kind};
 use crate::errors::RunCode;
@@ -68,6 +69,15 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             };
         }
 
+        macro_rules! burn {
+            () => {
+                if self.fuel == 0 {
+                    slow!(self.burn());
+                }
+                self.fuel -= 1;
+            };
+        }
+
         loop {
             match code[pc] {
                 Op::Move { dst, src } => {
@@ -95,7 +105,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
                     continue;
                 }
                 Op::JumpBack { to } => {
-                    slow!(self.burn());
+                    burn!();
                     pc = usize::from(to);
                     continue;
                 }
@@ -109,7 +119,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
                     jump_if!(!slow!(self.enter_loop(registers, var, base)), exit);
                 }
                 Op::DoNext { var, base, body } => {
-                    slow!(self.burn());
+                    burn!();
                     let step = at!(registers[base.wrapping_add(1)]);
                     let (Number(last), Number(step)) = (at!(registers[base]), step) else {
                         unreachable!("DoEnter has set both to numbers")
@@ -122,10 +132,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
                     let more = if step > 0.0 { value <= last } else { value >= last };
                     jump_if!(more, body);
                     if !value.is_finite() {
-                        slow!(Err(super::report::fault(
-                            RunCode::Domain,
-                            "the loop variable grows past all numbers",
-                        )));
+                        slow!(Err(fault(RunCode::Domain, "the loop variable passes all numbers")));
                     }
                 }
                 Op::Load { dst, array, index } => {

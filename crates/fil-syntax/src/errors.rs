@@ -1,0 +1,115 @@
+//! Codes of this crate, 0101 and up.
+
+fil_diag::codes! {
+    /// What can be wrong with a FIL text.
+    pub enum SyntaxCode {
+        /// A statement that does not follow the grammar.
+        Unexpected = 101, Error, "statement not understood",
+            "The statement does not have any of the forms FIL knows.",
+            "Compare the statement with its form in the FIL reference.";
+        /// A character without use.
+        BadCharacter = 102, Error, "character without meaning",
+            "Outside of comments and texts a FIL file holds Latin letters, digits and a few signs only.",
+            "Look for a letter of another alphabet that looks like a Latin one, or put the text between apostrophes.";
+        /// A text that does not end.
+        UnclosedText = 103, Error, "text is not closed",
+            "A text ends with an apostrophe on the line it starts on.",
+            "Add the closing apostrophe; an apostrophe inside a text is written twice.";
+        /// `.XX.` that is no operator.
+        UnknownOperator = 104, Error, "unknown operator",
+            "Operators between points are .EQ. .NE. .LT. .LE. .GT. .GE. .AND. .OR. and .NOT.",
+            "Use one of these.";
+        /// A number out of range.
+        NumberTooLarge = 105, Error, "number too large",
+            "A number must be less than about 1.8E308.",
+            "Write a smaller number.";
+        /// Brackets, operations or blocks too deep.
+        TooDeep = 106, Error, "nested too deep",
+            "Brackets, operations and blocks inside each other are limited, so that no file can exhaust memory.",
+            "Split the expression with a variable, or move the inner blocks to a macro.";
+        /// A line or statement too long.
+        TooLong = 107, Error, "line or statement too long",
+            "A line is limited to 16384 bytes and a statement with its continuations to 10000 words and signs.",
+            "Check that this is a FIL file; break the line with $ or split the statement.";
+        /// A file too large.
+        FileTooLarge = 108, Error, "file too large",
+            "A FIL file is limited to 64 MiB.",
+            "Check that this is a FIL file.";
+        /// Reading was given up.
+        TooManyErrors = 109, Error, "too many errors",
+            "Reading stops after 100 messages; the rest of the file was not looked at.",
+            "Correct the first errors, they may be the cause of the others.";
+        /// A section that does not say which records it takes.
+        WrongSection = 110, Error, "section not understood",
+            "A section opens with CIMFIL/ON, and a major word with minor words or a record type with its subtype, and ends with CIMFIL/OFF.",
+            "Write CIMFIL/ON,CYCLE or CIMFIL/ON,5000,5.";
+        /// Arguments of a statement that are not what it takes.
+        WrongArguments = 111, Error, "wrong arguments",
+            "The statement takes other arguments than these.",
+            "Compare the statement with its form in the FIL reference.";
+        /// A block without its end.
+        UnclosedBlock = 112, Error, "block is not closed",
+            "IF ends with ENDIF, CASE with ENDCAS, DO with the statement that bears its label.",
+            "Add the missing end.";
+        /// The end or a part of a block that is not open.
+        StrayWord = 113, Error, "nothing is open here",
+            "The word belongs to a block, section or macro, and none is open at this place.",
+            "Add the missing opening line or remove this one.";
+        /// A section or macro without its end.
+        UnclosedArea = 114, Error, "section or macro is not closed",
+            "A section ends with CIMFIL/OFF, a macro with TERMAC.",
+            "Add the missing end.";
+        /// A section or macro inside another.
+        NestedArea = 115, Error, "section or macro inside another",
+            "Sections and macros stand one after the other.",
+            "Close the first one before the second.";
+        /// A statement of a CASE before its first WHEN.
+        BeforeWhen = 116, Error, "statement before the first WHEN",
+            "No value leads to a statement between CASE and the first WHEN, so it would never run.",
+            "Move the statement before CASE or into a WHEN part.";
+        /// A part after the one that takes all that is left.
+        AfterLast = 117, Error, "part after the last one",
+            "ELSE and WHEN/OTHER take all that is left; nothing can follow them.",
+            "Move this part before ELSE or WHEN/OTHER.";
+        /// A DO whose label is in a wrong place.
+        WrongDoEnd = 118, Error, "DO ends in a wrong place",
+            "A DO ends at a simple statement with its label, in the block the DO stands in, and no two open DO share a label.",
+            "End each DO with a labelled CONTIN of its own.";
+        /// A label on a word that cannot have one.
+        WrongLabel = 119, Error, "label not possible here",
+            "A jump to this line would lead into the middle of a block or out of the file's parts.",
+            "Put the label on the next statement.";
+        /// A code page nobody knows.
+        UnknownEncoding = 120, Error, "unknown encoding",
+            "The name is not one of the encodings of texts.",
+            "Use utf-8, windows-1251, windows-1252 or koi8-r, or leave the encoding out.";
+        /// Bytes that are not text in the encoding asked for.
+        WrongEncoding = 121, Error, "text is not in this encoding",
+            "Some bytes mean nothing in the encoding that was asked for.",
+            "Name another encoding, or leave it out to have it guessed.";
+        /// CIMFIL/OFF closes an open block.
+        ClosedBySection = 150, Warning, "block closed by CIMFIL/OFF",
+            "The block was still open at the end of its section and is taken to end there.",
+            "Add the missing ENDIF, ENDCAS or labelled statement.";
+        /// SIMFIL for CIMFIL.
+        Misspelled = 151, Warning, "SIMFIL read as CIMFIL",
+            "SIMFIL is a known misprint of CIMFIL.",
+            "Write CIMFIL.";
+        /// No FINI.
+        MissingFini = 152, Warning, "FINI is missing",
+            "A FIL file ends with FINI; without it the file may have been cut off.",
+            "Add FINI as the last statement.";
+        /// Text after FINI.
+        AfterFini = 153, Warning, "text after FINI",
+            "FINI ends the file; what follows is not read.",
+            "Remove what follows, or move FINI to the end.";
+        /// `-A**B`
+        SignBeforePower = 154, Warning, "sign before a power",
+            "In FIL a sign binds closer than **, other than in most languages.",
+            "Write (-A)**B or -(A**B) to say which is meant.";
+        /// `;` within free text.
+        SemicolonInText = 155, Warning, "semicolon is part of the text",
+            "The text after this word runs to the end of the line, so the semicolon does not end the statement.",
+            "Put a statement that follows on a line of its own, or the text between apostrophes.";
+    }
+}
