@@ -1,1 +1,28 @@
 //! FIL compiler and virtual machine.
+//!
+//! [`load`] reads FIL files into a [`Module`]: register bytecode with every
+//! name resolved. A [`Machine`] runs its global area once and then a section
+//! for each CL record that has one. It does no I/O: everything outside goes
+//! through [`Host`].
+
+pub mod builtins;
+mod compile;
+mod disassemble;
+pub mod errors;
+mod functions;
+mod host;
+mod machine;
+mod matcher;
+mod module;
+mod ops;
+pub mod postf;
+mod value;
+
+pub use compile::{FilFile, LoadOptions, Loaded, Loader, load};
+pub use disassemble::disassemble;
+pub use functions::{Argument, Functions};
+pub use host::{CommonKind, Host, Site};
+pub use machine::{Limits, Machine, Outcome};
+pub use module::{File, Module, SectionId};
+pub use postf::{Compat, PostfOp, SectionMode};
+pub use value::{EMPTY, Value};

@@ -1,0 +1,211 @@
+//! Jumps, IF, DO and CASE.
+
+use fil_syntax::tree::{Expr, Name, Span, Stmt, StmtKind, Target, When};
+
+use super::Compiler;
+use super::chunk::{Label, NamedLabel};
+use super::names::inner_bodies;
+use crate::errors::CompileCode;
+use crate::ops::Op;
+
+impl Compiler<'_> {
+    /// Finds the labels of a chunk before its code is made: jumps go forward too.
+    pub(super) fn collect_labels(&mut self, body: &[Stmt], loops: &mut Vec<(usize, u32)>) {
+        for stmt in body {
+            if let Some(name) = &stmt.label {
+                let label = self.chunk.label();
+                let known = NamedLabel { label, loops: loops.clone() };
+                if self.chunk.named.insert(name.text.clone(), known).is_some() {
+                    let message = format!("the label {} stands here already", name.text);
+                    self.report(CompileCode::LabelTwice, name.span, message);
+                }
+            }
+            let is_loop = matches!(stmt.kind, StmtKind::Do { .. });
+            if is_loop {
+                loops.push((self.unit, stmt.span.start));
+            }
+            inner_bodies(stmt, &mut |inner| self.collect_labels(inner, loops));
+            if is_loop {
+                loops.pop();
+            }
+            if let Some(unit) = self.included(stmt) {
+                let program = self.program(unit);
+                self.within(unit, |this| {
+                    for item in &program.items {
+                        if let fil_syntax::tree::Item::Stmt(stmt) = item {
+                            this.collect_labels(std::slice::from_ref(stmt), loops);
+                        }
+                    }
+                });
+            }
+        }
+    }
+
+    /// The label a jump from here may go to; `None` after an error.
+    fn destination(&mut self, name: &Name) -> Option<Label> {
+        let Some(named) = self.chunk.named.get(&name.text) else {
+            let message = format!("there is no label {} here", name.text);
+            self.report(CompileCode::UnknownLabel, name.span, message);
+            return None;
+        };
+        let label = named.label;
+        if !self.chunk.loops.starts_with(&named.loops) {
+            let message = format!("{} lies inside a DO that this jump is outside of", name.text);
+            self.report(CompileCode::JumpIntoLoop, name.span, message);
+        }
+        Some(label)
+    }
+
+    pub(super) fn jump(&mut self, name: &Name) {
+        if let Some(label) = self.destination(name) {
+            self.chunk.jump(label);
+        }
+    }
+
+    pub(super) fn if_block(&mut self, arms: &[(Expr, Vec<Stmt>)], otherwise: Option<&[Stmt]>) {
+        let end = self.chunk.label();
+        let opening = self.chunk.statement;
+        for (index, (condition, body)) in arms.iter().enumerate() {
+            if index > 0 {
+                self.begin_statement(condition.span);
+            }
+            let next = self.chunk.label();
+            self.branch(condition, false, next);
+            self.statements(body);
+            if index + 1 < arms.len() || otherwise.is_some() {
+                self.chunk.statement = opening;
+                self.chunk.jump(end);
+            }
+            self.chunk.place(next);
+        }
+        self.statements(otherwise.unwrap_or_default());
+        self.chunk.place(end);
+    }
+
+    /// `IF(c) statement`; a forward jump becomes part of the condition.
+    pub(super) fn if_one(&mut self, condition: &Expr, then: &Stmt) {
+        if let StmtKind::Jump { label } = &then.kind {
+            match self.destination(label) {
+                Some(to) if !self.chunk.is_placed(to) => {
+                    self.branch(condition, true, to);
+                    return;
+                }
+                None => return,
+                _ => {}
+            }
+        }
+        let skip = self.chunk.label();
+        self.branch(condition, false, skip);
+        self.statements(std::slice::from_ref(then));
+        self.chunk.place(skip);
+    }
+
+    /// Arithmetic IF.
+    pub(super) fn if_sign(&mut self, value: &Expr, labels: &[Name; 3]) {
+        let mark = self.mark();
+        let a = self.expression(value);
+        let zero = self.number(0.0, value.span);
+        let (negative, null) = (self.chunk.label(), self.chunk.label());
+        self.chunk.emit_to(negative, |to| Op::JumpLt { a, b: zero, to });
+        self.chunk.emit_to(null, |to| Op::JumpEq { a, b: zero, to });
+        self.release(mark);
+        self.jump(&labels[2]);
+        self.chunk.place(negative);
+        self.jump(&labels[0]);
+        self.chunk.place(null);
+        self.jump(&labels[1]);
+    }
+
+    pub(super) fn do_loop(
+        &mut self,
+        stmt: &Stmt,
+        variable: &Target,
+        [from, to]: [&Expr; 2],
+        step: Option<&Expr>,
+        body: &[Stmt],
+    ) {
+        if variable.index.is_some() {
+            let message = format!("the loop variable {} is an array element", variable.name.text);
+            self.report(CompileCode::ArrayMisuse, variable.name.span, message);
+            return;
+        }
+        let opening = self.chunk.statement;
+        let var = self.variable(&variable.name.text, variable.name.span);
+        // Last value and step are settled before the loop and kept beside each other.
+        let base = self.reserve(2, stmt.span);
+        self.expression_into(to, base);
+        match step {
+            Some(step) => self.expression_into(step, base + 1),
+            None => {
+                let src = self.number(1.0, stmt.span);
+                self.chunk.emit(Op::Move { dst: base + 1, src });
+            }
+        }
+        self.expression_into(from, var);
+        let (exit, again) = (self.chunk.label(), self.chunk.label());
+        self.chunk.emit_to(exit, |exit| Op::DoEnter { var, base, exit });
+        self.chunk.place(again);
+        self.chunk.loops.push((self.unit, stmt.span.start));
+        self.statements(body);
+        self.chunk.loops.pop();
+        self.chunk.statement = opening;
+        self.chunk.emit_to(again, |body| Op::DoNext { var, base, body });
+        self.chunk.place(exit);
+    }
+
+    pub(super) fn case(&mut self, subject: &Expr, whens: &[When], other: Option<&[Stmt]>) {
+        let opening = self.chunk.statement;
+        let mark = self.mark();
+        let a = self.expression(subject);
+        let bodies: Vec<Label> = whens.iter().map(|_| self.chunk.label()).collect();
+        for (when, body) in whens.iter().zip(&bodies) {
+            self.begin_statement(when.span);
+            for value in &when.values {
+                let inner = self.mark();
+                let b = self.expression(value);
+                self.chunk.emit_to(*body, |to| Op::JumpEq { a, b, to });
+                self.release(inner);
+            }
+        }
+        self.release(mark);
+        let end = self.chunk.label();
+        self.chunk.statement = opening;
+        self.statements(other.unwrap_or_default());
+        for (when, body) in whens.iter().zip(&bodies) {
+            self.chunk.statement = opening;
+            self.chunk.jump(end);
+            self.chunk.place(*body);
+            self.statements(&when.body);
+        }
+        self.chunk.place(end);
+    }
+
+    /// The unit that an INCLUD statement stands for.
+    pub(super) fn included(&self, stmt: &Stmt) -> Option<usize> {
+        match stmt.kind {
+            StmtKind::Includ { .. } => {
+                self.found.included.get(&(self.unit, stmt.span.start)).copied()
+            }
+            _ => None,
+        }
+    }
+
+    /// Statements of an included file in the place of its INCLUD.
+    pub(super) fn include(&mut self, unit: usize, span: Span, sections_allowed: bool) {
+        let program = self.program(unit);
+        let only_statements =
+            program.items.iter().all(|item| matches!(item, fil_syntax::tree::Item::Stmt(_)));
+        if !only_statements && !sections_allowed {
+            let message = "the file holds sections or macros and is included inside of one";
+            self.report(CompileCode::IncludeFailed, span, message);
+            return;
+        }
+        self.within(unit, |this| {
+            for item in &program.items {
+                if let fil_syntax::tree::Item::Stmt(stmt) = item {
+                    this.statement(stmt);
+                }
+            }
+        });
+    }
+}

@@ -1,0 +1,152 @@
+//! Built-in functions and POSTF.
+
+use fil_syntax::tree::{Expr, ExprKind, Span};
+
+use super::Compiler;
+use crate::builtins::{BUILTINS, Builtin, Kind};
+use crate::errors::CompileCode;
+use crate::ops::{Op, Reg};
+use crate::postf::{Grade, PostfOp};
+use crate::value::Shown;
+
+/// Words that NEXTF and PREVF take, in the order of the host's coordinates.
+const COORDINATES: [&str; 6] = ["X", "Y", "Z", "I", "J", "K"];
+
+impl Compiler<'_> {
+    pub(super) fn builtin(&mut self, function: usize, args: &[Expr], span: Span, dst: Reg) {
+        let builtin = &BUILTINS[function];
+        if builtin.extension && self.strict {
+            let message = format!("{} is an extension", builtin.name);
+            self.report(CompileCode::Extension, span, message);
+            return;
+        }
+        let function = function as u16;
+        match (builtin.kind, args) {
+            (Kind::Numbers(arity, _), args) if usize::from(arity) == args.len() => {
+                let base = self.arguments(args, span);
+                self.chunk.emit(Op::Function { dst, function, base });
+            }
+            (Kind::Fold(_), [first, rest @ ..]) if !rest.is_empty() => {
+                let base = self.temporaries(2, span);
+                self.expression_into(first, base);
+                for (index, arg) in rest.iter().enumerate() {
+                    self.expression_into(arg, base + 1);
+                    let dst = if index + 1 == rest.len() { dst } else { base };
+                    self.chunk.emit(Op::Function { dst, function, base });
+                }
+            }
+            (Kind::TextLength, [text]) => {
+                let src = self.expression(text);
+                self.chunk.emit(Op::TextLength { dst, src });
+            }
+            (Kind::Postf, [number, args @ ..]) => self.postf(number, args, span, dst),
+            (Kind::LastWritten, [letter]) => {
+                let letter = self.expression(letter);
+                self.chunk.emit(Op::LastWritten { dst, letter });
+            }
+            (Kind::NamedCommon, [name]) => {
+                let name = self.expression(name);
+                self.chunk.emit(Op::NamedCommon { dst, name });
+            }
+            (Kind::Couplet, [word, default @ ..]) if default.len() <= 1 => {
+                let Some(word) = self.word(builtin, word) else { return };
+                let op = match default.first() {
+                    Some(default) => {
+                        let default = self.expression(default);
+                        Op::Couplet { dst, word, default }
+                    }
+                    None => Op::CoupletOrFail { dst, word },
+                };
+                self.chunk.emit(op);
+            }
+            (Kind::HasWord, [word]) => {
+                if let Some(word) = self.word(builtin, word) {
+                    self.chunk.emit(Op::HasWord { dst, word });
+                }
+            }
+            (kind @ (Kind::NextMotion | Kind::PreviousMotion), [word]) => {
+                let coordinate = match &word.kind {
+                    ExprKind::Name(name) => COORDINATES.iter().position(|known| known == name),
+                    _ => None,
+                };
+                match coordinate {
+                    Some(word) if matches!(kind, Kind::NextMotion) => {
+                        self.chunk.emit(Op::NextMotion { dst, word: word as u16 });
+                    }
+                    Some(word) => self.chunk.emit(Op::PreviousMotion { dst, word: word as u16 }),
+                    None => {
+                        let message = format!("{} takes one of X Y Z I J K", builtin.name);
+                        self.report(CompileCode::WordExpected, span, message);
+                    }
+                }
+            }
+            // A constant unless its argument is no word.
+            (Kind::WordCode, [_]) => {
+                self.report(CompileCode::WordExpected, span, "ICODEF takes a word as it is written");
+            }
+            _ => self.wrong_count(builtin.name, &format!("({})", builtin.arguments), args.len(), span),
+        }
+    }
+
+    /// The index of a word that a function names.
+    fn word(&mut self, builtin: &Builtin, arg: &Expr) -> Option<u16> {
+        let ExprKind::Name(name) = &arg.kind else {
+            let message = format!("{} takes a word as it is written", builtin.name);
+            self.report(CompileCode::WordExpected, arg.span, message);
+            return None;
+        };
+        let id = self.vocab.intern(name);
+        let known = self.module.words.iter().position(|word| *word == id);
+        let index = known.unwrap_or_else(|| {
+            self.module.words.push(id);
+            self.module.words.len() - 1
+        });
+        Some(self.index(index, arg.span, "words"))
+    }
+
+    fn postf(&mut self, number: &Expr, args: &[Expr], span: Span, dst: Reg) {
+        let Some(constant) = self.constant(number) else {
+            let count = args.len() as u16 + 1;
+            let base = self.temporaries(count, span);
+            for (offset, arg) in std::iter::once(number).chain(args).enumerate() {
+                self.expression_into(arg, base.wrapping_add(offset as u16));
+            }
+            self.chunk.emit(Op::PostfDynamic { dst, base, count });
+            return;
+        };
+        let Some(op) = self.module.compat.operation(constant) else {
+            let message = format!("what POSTF({}) does is not known", Shown(constant));
+            self.report(CompileCode::UnknownPostf, number.span, message);
+            return;
+        };
+        let wanted = op.info().arguments;
+        if wanted.len() != args.len() {
+            let name = format!("POSTF({})", Shown(constant));
+            let shape = format!("({},{})", Shown(constant), wanted.join(","));
+            self.wrong_count(&name, shape.trim_end_matches(",)"), args.len() + 1, span);
+            return;
+        }
+        self.note_own_reading(op, constant as u16, span);
+        if op == PostfOp::Word
+            && let Some(n) = self.constant(&args[0])
+            && f64::from(n as u16) == n
+        {
+            self.chunk.emit(Op::RecordWord { dst, n: n as u16 });
+            return;
+        }
+        let base = self.arguments(args, span);
+        self.chunk.emit(Op::Postf { dst, op: op as u16, base });
+    }
+
+    /// Notes the first use of a number whose operation is our own choice; one
+    /// that a site has assigned itself is not.
+    fn note_own_reading(&mut self, op: PostfOp, number: u16, span: Span) {
+        let info = op.info();
+        let own = info.grade == Grade::Own && info.number == number;
+        if own && !self.noted.contains(&number) {
+            self.noted.push(number);
+            let message = format!("POSTF({number}): {}", info.doc);
+            self.report(CompileCode::OwnReading, span, message);
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! From trees to a [`Module`].
+//!
+//! All files share one name space, so the names of all of them are collected
+//! first; then each section, macro and global area becomes a chunk of code.
+
+mod chunk;
+mod conditions;
+mod control;
+mod expressions;
+mod files;
+mod functions;
+mod macros;
+mod names;
+mod posts;
+mod sections;
+mod statements;
+
+use fil_cl::Vocabulary;
+use fil_diag::Diag;
+use fil_syntax::tree::{Item, Program, Span};
+
+use crate::errors::CompileCode;
+use crate::functions::Functions;
+use crate::machine::Limits;
+use crate::module::Module;
+use crate::postf::Compat;
+use chunk::ChunkBuilder;
+use files::{Includes, Unit};
+use names::Names;
+
+/// A FIL file to load.
+#[derive(Clone, Copy, Debug)]
+pub struct FilFile<'a> {
+    /// Name for messages.
+    pub name: &'a str,
+    /// Its text.
+    pub text: &'a str,
+}
+
+/// Gives the text of a file that INCLUD names, or the reason why it can't.
+pub type Loader<'a> = &'a mut dyn FnMut(&str) -> Result<String, String>;
+
+/// How FIL files are to be read.
+#[derive(Default)]
+pub struct LoadOptions<'a> {
+    /// Numbers of POSTF and the behaviour of sections.
+    pub compat: Compat,
+    /// Limits; the compiler checks the sizes of arrays.
+    pub limits: Limits,
+    /// Refuse extensions of filpost.
+    pub strict: bool,
+    /// Functions of the embedding program.
+    pub functions: Option<&'a Functions>,
+    /// Where INCLUD gets its files; without it INCLUD is refused.
+    pub loader: Option<Loader<'a>>,
+}
+
+/// A module and the warnings of its making.
+#[derive(Debug)]
+pub struct Loaded {
+    /// The compiled files.
+    pub module: Module,
+    /// Warnings, in the order of the files.
+    pub warnings: Vec<Diag>,
+}
+
+/// Reads and compiles FIL files, in this order, into one name space.
+///
+/// With an error anywhere there is no module; all diagnostics come back.
+pub fn load(
+    files: &[FilFile<'_>],
+    vocab: &mut Vocabulary,
+    options: LoadOptions<'_>,
+) -> Result<Loaded, Vec<Diag>> {
+    let LoadOptions { compat, limits, strict, functions, loader } = options;
+    let mut includes = Includes::new(loader);
+    for file in files {
+        includes.read(file.name, file.text);
+    }
+    let (units, found, diags) = includes.finish();
+    let module = Module {
+        files: units.iter().map(|unit| unit.file.clone()).collect(),
+        compat,
+        host_arity: functions.map_or_else(Vec::new, Functions::arities),
+        ..Module::default()
+    };
+    let mut compiler = Compiler {
+        units: &units,
+        found: &found,
+        vocab,
+        strict,
+        limits,
+        functions,
+        module,
+        names: Names::default(),
+        diags,
+        unit: 0,
+        chunk: ChunkBuilder::default(),
+        calls: Vec::new(),
+        inside: None,
+        noted: Vec::new(),
+    };
+    compiler.run();
+    compiler.finish()
+}
+
+struct Compiler<'t> {
+    units: &'t [Unit],
+    found: &'t files::Found,
+    vocab: &'t mut Vocabulary,
+    strict: bool,
+    limits: Limits,
+    functions: Option<&'t Functions>,
+    module: Module,
+    names: Names<'t>,
+    diags: Vec<Diag>,
+    /// The unit that is being compiled; also the index of its file.
+    unit: usize,
+    chunk: ChunkBuilder,
+    /// Macros called by each macro, with unit and span of the call.
+    calls: Vec<Vec<(u16, usize, Span)>>,
+    /// The macro that is being compiled.
+    inside: Option<u16>,
+    /// POSTF numbers of our own reading that were noted.
+    noted: Vec<u16>,
+}
+
+impl<'t> Compiler<'t> {
+    fn run(&mut self) {
+        self.collect_names();
+        for unit in &self.found.roots {
+            self.global_area(*unit);
+        }
+        for unit in &self.found.roots {
+            self.sections_and_macros(*unit);
+        }
+        self.refuse_recursion();
+    }
+
+    fn finish(self) -> Result<Loaded, Vec<Diag>> {
+        if self.diags.iter().any(Diag::is_error) {
+            return Err(self.diags);
+        }
+        Ok(Loaded { module: self.module, warnings: self.diags })
+    }
+
+    fn report(&mut self, code: CompileCode, span: Span, message: impl Into<String>) {
+        let place = self.units[self.unit].file.place(span);
+        self.diags.push(Diag::new(code, message).at(place));
+    }
+
+    /// An index that must fit a `u16` field of an operation.
+    fn index(&mut self, index: usize, span: Span, what: &str) -> u16 {
+        u16::try_from(index).unwrap_or_else(|_| {
+            self.report(CompileCode::TooLarge, span, format!("more than 65536 {what}"));
+            0
+        })
+    }
+
+    /// Items of a unit.
+    fn program(&self, unit: usize) -> &'t Program {
+        let units: &'t [Unit] = self.units;
+        &units[unit].program
+    }
+
+    /// Runs `body` as part of another file.
+    fn within<R>(&mut self, unit: usize, body: impl FnOnce(&mut Self) -> R) -> R {
+        let outer = std::mem::replace(&mut self.unit, unit);
+        let result = body(self);
+        self.unit = outer;
+        result
+    }
+
+    /// Sections and macros of a file and of those it includes.
+    fn sections_and_macros(&mut self, unit: usize) {
+        let program = self.program(unit);
+        self.within(unit, |this| {
+            for item in &program.items {
+                match item {
+                    Item::Section(section) => this.section(section),
+                    Item::Macro(definition) => this.macro_definition(definition),
+                    Item::Stmt(statement) => {
+                        if let Some(included) = this.included(statement) {
+                            this.sections_and_macros(included);
+                        }
+                    }
+                }
+            }
+        });
+    }
+}

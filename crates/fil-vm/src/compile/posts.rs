@@ -1,0 +1,48 @@
+//! Post words: how a statement becomes a template of a CL record.
+
+use fil_cl::layout::takes_text;
+use fil_syntax::tree::{Expr, ExprKind, Name};
+
+use super::Compiler;
+use crate::module::{Item, Template};
+use crate::ops::Op;
+
+impl Compiler<'_> {
+    /// `WORD/args`
+    pub(super) fn post(&mut self, word: &Name, args: &[Expr]) {
+        let items = args.iter().map(|arg| self.item(arg)).collect();
+        self.template(word, items);
+    }
+
+    /// `PPRINT text`: a text as written, or the value of the one variable it names.
+    pub(super) fn post_text(&mut self, word: &Name, text: &str) {
+        let name = text.trim().to_ascii_uppercase();
+        let register = if self.is_assigned(&name) {
+            self.variable(&name, word.span)
+        } else {
+            self.text(text, word.span)
+        };
+        self.template(word, vec![Item::Value(register)]);
+    }
+
+    fn template(&mut self, word: &Name, items: Vec<Item>) {
+        let major = self.vocab.intern(&word.text);
+        let template = Template {
+            major,
+            name: word.text.clone(),
+            items,
+            is_text: takes_text(major),
+        };
+        self.module.templates.push(template);
+        let template = self.index(self.module.templates.len() - 1, word.span, "post words");
+        self.chunk.emit(Op::Post { template });
+    }
+
+    /// A bare name is a variable where one of that name is set, else a word.
+    fn item(&mut self, arg: &Expr) -> Item {
+        match &arg.kind {
+            ExprKind::Name(name) if !self.is_variable(name) => Item::Minor(self.vocab.intern(name)),
+            _ => Item::Value(self.expression(arg)),
+        }
+    }
+}

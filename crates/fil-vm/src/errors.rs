@@ -1,0 +1,172 @@
+//! Codes of the compiler (02xx) and of the machine (03xx).
+
+fil_diag::codes! {
+    /// What can be wrong with FIL before it runs.
+    pub enum CompileCode {
+        /// JUMPTO to a label that is not there.
+        UnknownLabel = 201, Error, "unknown label",
+            "A jump leads to a label of the same section, macro or global area; there is none of this name.",
+            "Put the label before a statement as `NAME)`, in the same section.";
+        /// Two statements with one label.
+        LabelTwice = 202, Error, "label given twice",
+            "A jump could not tell which of the two statements is meant.",
+            "Rename one of the labels.";
+        /// Jump from outside into a DO.
+        JumpIntoLoop = 203, Error, "jump into a loop",
+            "A loop entered from outside has no last value and no step.",
+            "Jump to the DO statement, or put the label outside of the loop.";
+        /// `NAME(...)` that is neither function nor array.
+        UnknownFunction = 204, Error, "unknown function or array",
+            "The name is no built-in function, no array of RESERV and no function of the embedding program.",
+            "Check its spelling, or reserve the array with RESERV/name,size.";
+        /// Wrong number of arguments.
+        WrongArguments = 205, Error, "wrong number of arguments",
+            "The function, array, macro or POSTF number takes another number of arguments.",
+            "Compare the call with its description.";
+        /// POSTF number without a reading.
+        UnknownPostf = 206, Error, "unknown POSTF number",
+            "What this POSTF number does is not known, so running on would guess.",
+            "Give the number an operation in a file for --compat if your manual says what it does.";
+        /// CALL of a macro that is not there.
+        UnknownMacro = 207, Error, "unknown macro",
+            "No FIL file defines a macro of this name.",
+            "Check its spelling, or load the file that holds NAME=MACRO/….";
+        /// A macro that calls itself.
+        RecursiveMacro = 208, Error, "macro calls itself",
+            "Parameters of a macro have one place each, so a macro must not run inside itself.",
+            "Turn the recursion into a loop.";
+        /// Macro, array or parameter defined twice.
+        DefinedTwice = 209, Error, "name defined twice",
+            "A macro, array or parameter of this name exists already.",
+            "Rename one of the two.";
+        /// Two sections with the same key.
+        SectionTwice = 210, Error, "two sections for the same records",
+            "Only one of the two could ever run.",
+            "Put the statements of both into one section.";
+        /// RESERV with a size that is no constant or too large.
+        BadArraySize = 211, Error, "bad size of an array",
+            "The size must be a constant, at least 1 and within the limit.",
+            "Write the size as a number.";
+        /// An array without subscript, or a subscript on a plain name.
+        ArrayMisuse = 212, Error, "array used as a plain name",
+            "The name belongs to an array, a macro or a loop and is used as something else.",
+            "Give the array a subscript, or use another name.";
+        /// Form that the machine does not have yet.
+        NotYet = 213, Error, "form not supported yet",
+            "The meaning of this form is not settled, so it is refused and not guessed.",
+            "Rewrite the statement with the documented forms.";
+        /// A FIL file that can't be included.
+        IncludeFailed = 214, Error, "file can't be included",
+            "INCLUD needs a file the host can give, and no file may include itself.",
+            "Check the name and the folders the run may read.";
+        /// Something too large for the bytecode.
+        TooLarge = 215, Error, "program too large",
+            "A section, macro or global area has more operations, names or nesting than the machine can hold.",
+            "Split it into smaller sections or macros.";
+        /// ICODEF or an extension without a word.
+        WordExpected = 216, Error, "word expected",
+            "This function takes a vocabulary word or a text as it is written, not a value.",
+            "Write the word itself, as in ICODEF(MILL).";
+        /// Assignment to one of the letters A to Z.
+        LetterRedefined = 217, Warning, "letter variable set",
+            "A to Z stand for the addresses 1 to 26 in POSTN and REPEAT; from here on this one means something else.",
+            "Use a name of two or more letters.";
+        /// Our own POSTF reading is used.
+        OwnReading = 218, Warning, "POSTF number read in our own way",
+            "No public source says what this number does; the operation is our own choice.",
+            "Compare it with your manual and correct it in a file for --compat.";
+        /// Extension of filpost under --strict.
+        Extension = 219, Error, "extension of filpost",
+            "The function is not part of FIL; --strict keeps scripts portable.",
+            "Write it with POSTF, or run without --strict.";
+    }
+}
+
+fil_diag::codes! {
+    /// What can go wrong while FIL runs.
+    pub enum RunCode {
+        /// SQRTF(-1), 1/0 and so on.
+        Domain = 301, Error, "no result",
+            "The operation has no finite result for these values.",
+            "Test the values before this statement.";
+        /// A text where a number is needed, or the other way round.
+        WrongType = 302, Error, "text and number mixed",
+            "This operation needs the other kind of value.",
+            "Check which names of the line hold texts.";
+        /// Subscript outside of its array.
+        Subscript = 303, Error, "subscript out of range",
+            "Subscripts are whole numbers from 1 to the size given in RESERV.",
+            "Check the subscript or reserve a larger array.";
+        /// Fuel is used up.
+        OutOfFuel = 304, Error, "section runs too long",
+            "The limit of loop passes, calls and record reads is used up; this is most likely an endless loop.",
+            "Check the condition that ends the loop, or raise the limit.";
+        /// Calls too deep.
+        CallDepth = 305, Error, "calls nested too deep",
+            "The limit of macro calls within macro calls is reached.",
+            "Call macros less deep, or raise the limit.";
+        /// Too much text.
+        TextLimit = 306, Error, "too much text",
+            "The limit of text held at a time is reached.",
+            "Make shorter texts, or raise the limit.";
+        /// A DO step of 0.
+        ZeroStep = 307, Error, "step of 0",
+            "A loop with step 0 never ends.",
+            "Give a step other than 0.";
+        /// A condition that is neither 0 nor 1.
+        NotLogical = 308, Error, "condition is not logical",
+            "A condition is a comparison, or a value that is 1 for true and 0 for false.",
+            "Compare the value: IF(X.NE.0)THEN.";
+        /// A name that was never set.
+        NeverSet = 309, Warning, "name was never set",
+            "The name has no value yet and is read as EMPTY (999999).",
+            "Set it before, in the global area for example.";
+        /// POSTF(7,n) past the end.
+        PastEnd = 310, Warning, "word past the end of the record",
+            "The record is shorter; the word is read as EMPTY (999999).",
+            "Test POSTF(5), or look for the couplet with POSTF(9,…).";
+        /// POSTF(8,...) and so on with a bad word number.
+        BadWordNumber = 311, Error, "bad word number",
+            "Words count from 1; words that can be changed count from 4 to the length of the record.",
+            "Check the word number against `filpost cl --words`.";
+        /// Reading on after the end.
+        PastLastRecord = 312, Error, "read past the last record",
+            "The section reads on although the CL file is at its end.",
+            "Test the status of POSTF(14): it is 1 at the end.";
+        /// POSTF of a record where there is none.
+        NoRecord = 313, Error, "no current record",
+            "The global area runs before the first record is read.",
+            "Move the statement into a section.";
+        /// POSTF(21) without POSTF(20).
+        NothingSaved = 314, Error, "no saved record",
+            "POSTF(21) restores what POSTF(20) saved; nothing was saved.",
+            "Call POSTF(20) first.";
+        /// Unknown number, arity or argument of POSTF at run time.
+        BadPostf = 315, Error, "bad POSTF call",
+            "The number or an argument of POSTF has no known meaning.",
+            "Compare the call with the table of POSTF numbers.";
+        /// A word an extension looked for is not there.
+        Missing = 316, Error, "nothing found",
+            "What this function looks for is not there, and no default is given.",
+            "Give a default, or test with HASF first.";
+        /// A function of the embedding program failed.
+        HostFunction = 317, Error, "function failed",
+            "A function that the embedding program added to FIL refused the call.",
+            "See the sentence it gave.";
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CompileCode, RunCode};
+
+    #[test]
+    fn numbers_stay_in_their_range_and_are_unique() {
+        for (codes, range) in [(CompileCode::ALL, 201..300), (RunCode::ALL, 301..400)] {
+            for pair in codes.windows(2) {
+                assert!(pair[0].number < pair[1].number);
+            }
+            assert!(codes.iter().all(|code| range.contains(&code.number)));
+        }
+    }
+}

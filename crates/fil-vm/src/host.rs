@@ -1,0 +1,109 @@
+//! The door between the machine and everything outside of it.
+
+use fil_cl::Record;
+use fil_cl::Vocabulary;
+use fil_diag::Diag;
+
+/// One of the three commons.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum CommonKind {
+    /// INTCOM, integers; type 1 in POSTF.
+    Int,
+    /// RELCOM, reals; type 2.
+    Rel,
+    /// DBLCOM, doubles; type 3.
+    Dbl,
+}
+
+impl CommonKind {
+    /// The kind of POSTF's type argument.
+    pub fn from_type(number: f64) -> Option<CommonKind> {
+        match number {
+            1.0 => Some(CommonKind::Int),
+            2.0 => Some(CommonKind::Rel),
+            3.0 => Some(CommonKind::Dbl),
+            _ => None,
+        }
+    }
+}
+
+/// The FIL statement that acts, with the calls that led to it.
+///
+/// Without a macro call it owns no memory.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Site {
+    /// Index of the file in [`Module::files`](crate::Module::files).
+    pub file: u16,
+    /// Line, 1-based.
+    pub line: u32,
+    /// File and line of the calls, innermost first.
+    pub callers: Vec<(u16, u32)>,
+}
+
+impl Site {
+    /// File and line of the statement and of the calls, innermost first.
+    pub fn stack(&self) -> impl Iterator<Item = (u16, u32)> + '_ {
+        std::iter::once((self.file, self.line)).chain(self.callers.iter().copied())
+    }
+}
+
+/// What a machine asks of the program that runs it.
+///
+/// An error made here needs no FIL place: the machine adds the statement, the
+/// calls and the record to it.
+pub trait Host {
+    /// Value of a common location; 999999 where it is EMPTY.
+    fn common(&mut self, kind: CommonKind, location: u32) -> Result<f64, Box<Diag>>;
+
+    /// Stores in a common location. EMPTY comes as [`Host::clear_common`].
+    fn set_common(&mut self, kind: CommonKind, location: u32, value: f64)
+    -> Result<(), Box<Diag>>;
+
+    /// Makes a common location EMPTY.
+    fn clear_common(&mut self, kind: CommonKind, location: u32) -> Result<(), Box<Diag>>;
+
+    /// Acts on a record: a post word in FIL, or the current record on POSTF(13).
+    fn command(
+        &mut self,
+        record: &Record,
+        vocab: &mut Vocabulary,
+        site: &Site,
+    ) -> Result<(), Box<Diag>>;
+
+    /// Puts the next CL record into `record`; false at the end, with `record` left alone.
+    fn next_record(
+        &mut self,
+        record: &mut Record,
+        vocab: &mut Vocabulary,
+    ) -> Result<bool, Box<Diag>>;
+
+    /// Goes to the record of that number; false when there is none, with `record` left alone.
+    fn seek_record(
+        &mut self,
+        number: u32,
+        record: &mut Record,
+        vocab: &mut Vocabulary,
+    ) -> Result<bool, Box<Diag>>;
+
+    /// Takes a warning.
+    fn warn(&mut self, diag: Diag);
+
+    /// Turns the development listing on or off.
+    fn trace(&mut self, on: bool);
+
+    /// Value of a common location by its name; `None` where there is no such name.
+    fn named_common(&mut self, _name: &str) -> Option<Result<f64, Box<Diag>>> {
+        None
+    }
+
+    /// Coordinate 0 to 5 (X Y Z I J K) of the next or previous motion, without
+    /// consuming anything; `None` where there is none.
+    fn neighbour(
+        &mut self,
+        _next: bool,
+        _coordinate: usize,
+        _vocab: &mut Vocabulary,
+    ) -> Result<Option<f64>, Box<Diag>> {
+        Ok(None)
+    }
+}

@@ -1,0 +1,217 @@
+//! The machine: runs the global area once, then sections for records.
+
+mod post;
+mod postf;
+mod report;
+mod run;
+mod slow;
+
+use std::collections::HashSet;
+use std::sync::Arc;
+
+use fil_cl::Vocabulary;
+use fil_cl::{Record, Word};
+use fil_diag::Diag;
+
+use crate::functions::Functions;
+use crate::host::{Host, Site};
+use crate::module::{ChunkId, Constant, Module, SectionId};
+use crate::value::{Texts, Value};
+
+/// The register file: indexed by `u16`, so no access is out of bounds.
+pub(crate) type Registers = [Value; 1 << 16];
+
+/// First register of the temporaries of expressions.
+pub(crate) const FIRST_TEMPORARY: u16 = 0xF000;
+
+/// What a script may use up before it is stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Loop passes, backward jumps, macro calls and record reads of one run of
+    /// a section or global area.
+    pub fuel: u64,
+    /// Macro calls within macro calls.
+    pub call_depth: usize,
+    /// Elements of all arrays together (RESERV).
+    pub array_elements: usize,
+    /// Bytes of text held at a time.
+    pub text_bytes: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Limits {
+            fuel: 100_000_000,
+            call_depth: 64,
+            array_elements: 1_000_000,
+            text_bytes: 16 << 20,
+        }
+    }
+}
+
+/// What a section did with its record.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Outcome {
+    /// POSTF(13) was called for the record that is current at the end.
+    pub processed: bool,
+    /// Another record was read or restored in place of the section's own.
+    pub replaced: bool,
+    /// Words of the record were changed.
+    pub edited: bool,
+    /// Records sent to the post, those of POSTF(13) with them.
+    pub commands: u32,
+}
+
+impl Outcome {
+    /// True when the section had no effect on the post: its record is swallowed.
+    pub fn swallowed(&self) -> bool {
+        self.commands == 0
+    }
+}
+
+/// Where the machine is: a chunk and an operation in it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+struct Spot {
+    chunk: ChunkId,
+    pc: usize,
+}
+
+/// What a machine keeps from run to run, apart from the registers.
+#[derive(Debug, Default)]
+struct State {
+    texts: Texts,
+    arrays: Vec<Value>,
+    saved: Option<Record>,
+    warned: HashSet<(Spot, u16)>,
+    frames: Vec<Spot>,
+    site: Site,
+    scratch: (Vec<Word>, String),
+}
+
+/// Runs a [`Module`]. The values of its names last from run to run.
+#[derive(Debug)]
+pub struct Machine {
+    module: Arc<Module>,
+    registers: Box<Registers>,
+    state: State,
+    limits: Limits,
+    functions: Functions,
+}
+
+/// One run: everything but the registers, which the loop holds on its own.
+struct Vm<'a, H: Host + ?Sized> {
+    module: &'a Module,
+    state: &'a mut State,
+    limits: &'a Limits,
+    functions: &'a mut Functions,
+    record: Option<&'a mut Record>,
+    vocab: &'a mut Vocabulary,
+    host: &'a mut H,
+    fuel: u64,
+    spot: Spot,
+    outcome: Outcome,
+    /// POSTF(14) has given 1 in this run.
+    at_end: bool,
+}
+
+impl Machine {
+    /// A machine for a module compiled with the same functions.
+    pub fn new(module: Arc<Module>, limits: Limits, functions: Functions) -> Self {
+        let registers = vec![Value::Unset; 1 << 16].into_boxed_slice();
+        let Ok(mut registers) = <Box<Registers>>::try_from(registers) else {
+            unreachable!("the slice has the length of the array")
+        };
+        let mut state = State::default();
+        let elements = module.arrays.last().map_or(0, |array| array.start + array.len);
+        state.arrays.resize(elements, Value::Unset);
+        for (register, constant) in &module.constants {
+            registers[usize::from(*register)] = match constant {
+                Constant::Number(number) => Value::Number(*number),
+                // Texts of the program itself are not counted against the limit.
+                Constant::Text(text) => match state.texts.add(text, usize::MAX) {
+                    Ok(id) => Value::Text(id),
+                    Err(_) => Value::Unset,
+                },
+            };
+        }
+        Machine { module, registers, state, limits, functions }
+    }
+
+    /// The module it runs.
+    pub fn module(&self) -> &Arc<Module> {
+        &self.module
+    }
+
+    /// Runs the global areas of all files; once, before the first record.
+    pub fn run_globals<H: Host + ?Sized>(
+        &mut self,
+        vocab: &mut Vocabulary,
+        host: &mut H,
+    ) -> Result<(), Box<Diag>> {
+        let module = Arc::clone(&self.module);
+        for chunk in &module.globals {
+            self.run(*chunk, None, vocab, host)?;
+        }
+        Ok(())
+    }
+
+    /// Runs a section for a record. Afterwards `record` is what the section made of it.
+    pub fn run_section<H: Host + ?Sized>(
+        &mut self,
+        section: SectionId,
+        record: &mut Record,
+        vocab: &mut Vocabulary,
+        host: &mut H,
+    ) -> Result<Outcome, Box<Diag>> {
+        let chunk = self.module.sections[usize::from(section.0)].chunk;
+        self.run(chunk, Some(record), vocab, host)
+    }
+
+    /// The value of a name; `None` where no script uses it or it was never set.
+    pub fn number(&self, name: &str) -> Option<f64> {
+        match self.value(name)? {
+            Value::Number(number) => Some(number),
+            _ => None,
+        }
+    }
+
+    /// The text of a name; `None` where it holds none.
+    pub fn text(&self, name: &str) -> Option<&str> {
+        match self.value(name)? {
+            Value::Text(id) => Some(self.state.texts.get(id)),
+            _ => None,
+        }
+    }
+
+    fn value(&self, name: &str) -> Option<Value> {
+        let named = self.module.names.iter().find(|(_, known)| known.as_str() == name);
+        named.map(|(register, _)| self.registers[usize::from(*register)])
+    }
+
+    fn run<H: Host + ?Sized>(
+        &mut self,
+        chunk: ChunkId,
+        record: Option<&mut Record>,
+        vocab: &mut Vocabulary,
+        host: &mut H,
+    ) -> Result<Outcome, Box<Diag>> {
+        self.state.frames.clear();
+        let mut vm = Vm {
+            module: &self.module,
+            state: &mut self.state,
+            limits: &self.limits,
+            functions: &mut self.functions,
+            record,
+            vocab,
+            host,
+            fuel: self.limits.fuel,
+            spot: Spot { chunk, pc: 0 },
+            outcome: Outcome::default(),
+            at_end: false,
+        };
+        match vm.execute(&mut self.registers, chunk) {
+            Ok(()) => Ok(vm.outcome),
+            Err(diag) => Err(vm.locate(&self.registers, diag)),
+        }
+    }
+}

@@ -1,0 +1,362 @@
+//! What the loop does not do itself: names never set, texts, limits, functions.
+
+use fil_diag::Diag;
+
+use super::report::fault;
+use super::{Registers, Vm};
+use crate::builtins::BUILTINS;
+use crate::errors::RunCode;
+use crate::functions::Argument;
+use crate::host::{CommonKind, Host};
+use crate::ops::Reg;
+use crate::value::Value::{self, Number, Text, Unset};
+use crate::value::{EMPTY, Shown};
+
+/// Most arguments a built-in function of numbers takes.
+const MOST_ARGUMENTS: usize = 6;
+
+impl<H: Host + ?Sized> Vm<'_, H> {
+    /// A register's value; EMPTY with a warning where it was never set.
+    pub(super) fn read(&mut self, registers: &Registers, reg: Reg) -> Result<Value, Box<Diag>> {
+        match registers[usize::from(reg)] {
+            Unset => {
+                let name = self.module.names.get(&reg).map_or("a value", String::as_str);
+                let message = format!("{name} was never set; read as EMPTY");
+                self.warn_once(RunCode::NeverSet, message);
+                Ok(Number(EMPTY))
+            }
+            value => Ok(value),
+        }
+    }
+
+    /// A register's number.
+    pub(super) fn number(&mut self, registers: &Registers, reg: Reg) -> Result<f64, Box<Diag>> {
+        match self.read(registers, reg)? {
+            Number(number) => Ok(number),
+            _ => Err(self.not_a_number(registers, reg)),
+        }
+    }
+
+    #[cold]
+    fn not_a_number(&self, registers: &Registers, reg: Reg) -> Box<Diag> {
+        let text = match registers[usize::from(reg)] {
+            Text(id) => self.state.texts.get(id),
+            _ => "",
+        };
+        fault(RunCode::WrongType, format!("'{text}' is a text; a number is needed here"))
+    }
+
+    pub(super) fn arithmetic(
+        &mut self,
+        registers: &Registers,
+        a: Reg,
+        b: Reg,
+        sign: &str,
+        operation: fn(f64, f64) -> f64,
+    ) -> Result<Value, Box<Diag>> {
+        let (x, y) = (self.number(registers, a)?, self.number(registers, b)?);
+        let result = operation(x, y);
+        if result.is_finite() {
+            return Ok(Number(result));
+        }
+        let message = format!("{} {sign} {} has no finite result", Shown(x), Shown(y));
+        Err(fault(RunCode::Domain, message))
+    }
+
+    pub(super) fn equal(
+        &mut self,
+        registers: &Registers,
+        a: Reg,
+        b: Reg,
+    ) -> Result<bool, Box<Diag>> {
+        match (self.read(registers, a)?, self.read(registers, b)?) {
+            (Number(x), Number(y)) => Ok(x == y),
+            (Text(x), Text(y)) => Ok(self.state.texts.get(x) == self.state.texts.get(y)),
+            // EMPTY means "nothing here", which a text never is.
+            (Number(EMPTY), Text(_)) | (Text(_), Number(EMPTY)) => Ok(false),
+            (Number(_), _) => Err(self.not_a_number(registers, b)),
+            _ => Err(self.not_a_number(registers, a)),
+        }
+    }
+
+    pub(super) fn differ(
+        &mut self,
+        registers: &Registers,
+        a: Reg,
+        b: Reg,
+    ) -> Result<bool, Box<Diag>> {
+        self.equal(registers, a, b).map(|equal| !equal)
+    }
+
+    pub(super) fn less(
+        &mut self,
+        registers: &Registers,
+        a: Reg,
+        b: Reg,
+    ) -> Result<bool, Box<Diag>> {
+        self.order(registers, a, b).map(std::cmp::Ordering::is_lt)
+    }
+
+    pub(super) fn less_or_equal(
+        &mut self,
+        registers: &Registers,
+        a: Reg,
+        b: Reg,
+    ) -> Result<bool, Box<Diag>> {
+        self.order(registers, a, b).map(std::cmp::Ordering::is_le)
+    }
+
+    fn order(
+        &mut self,
+        registers: &Registers,
+        a: Reg,
+        b: Reg,
+    ) -> Result<std::cmp::Ordering, Box<Diag>> {
+        match (self.read(registers, a)?, self.read(registers, b)?) {
+            (Text(x), Text(y)) => Ok(self.state.texts.get(x).cmp(self.state.texts.get(y))),
+            _ => {
+                let (x, y) = (self.number(registers, a)?, self.number(registers, b)?);
+                // Numbers in registers are finite; adding 0 makes -0 equal to 0.
+                Ok((x + 0.0).total_cmp(&(y + 0.0)))
+            }
+        }
+    }
+
+    /// A value used as a condition.
+    pub(super) fn truth(&mut self, registers: &Registers, reg: Reg) -> Result<bool, Box<Diag>> {
+        let number = self.number(registers, reg)?;
+        if number == 1.0 || number == 0.0 {
+            return Ok(number == 1.0);
+        }
+        Err(fault(RunCode::NotLogical, format!("the condition is {}", Shown(number))))
+    }
+
+    /// Takes one unit of fuel.
+    #[inline]
+    pub(super) fn burn(&mut self) -> Result<(), Box<Diag>> {
+        if self.fuel == 0 {
+            return Err(self.out_of_fuel());
+        }
+        self.fuel -= 1;
+        Ok(())
+    }
+
+    #[cold]
+    fn out_of_fuel(&self) -> Box<Diag> {
+        let limit = self.limits.fuel;
+        fault(RunCode::OutOfFuel, format!("the limit of {limit} passes, calls and reads is used up"))
+    }
+
+    pub(super) fn enter_macro(&mut self) -> Result<(), Box<Diag>> {
+        self.burn()?;
+        if self.state.frames.len() >= self.limits.call_depth {
+            let limit = self.limits.call_depth;
+            return Err(fault(RunCode::CallDepth, format!("more than {limit} calls are open")));
+        }
+        self.state.frames.push(self.spot);
+        Ok(())
+    }
+
+    /// Settles last value and step of a DO; true when there is a first pass.
+    pub(super) fn enter_loop(
+        &mut self,
+        registers: &mut Registers,
+        var: Reg,
+        base: Reg,
+    ) -> Result<bool, Box<Diag>> {
+        let step_at = base.wrapping_add(1);
+        let (last, step) = (self.number(registers, base)?, self.number(registers, step_at)?);
+        let first = self.number(registers, var)?;
+        if step == 0.0 {
+            return Err(fault(RunCode::ZeroStep, "the step of the loop is 0"));
+        }
+        registers[usize::from(base)] = Number(last);
+        registers[usize::from(step_at)] = Number(step);
+        Ok(if step > 0.0 { first <= last } else { first >= last })
+    }
+
+    /// Position of an array element in the array store.
+    #[inline]
+    pub(super) fn element(
+        &mut self,
+        registers: &Registers,
+        array: u16,
+        index: Reg,
+    ) -> Result<usize, Box<Diag>> {
+        let module = self.module;
+        let shape = &module.arrays[usize::from(array)];
+        let number = match registers[usize::from(index)] {
+            Number(number) => number,
+            _ => self.number(registers, index)?,
+        };
+        let whole = number as usize;
+        if whole >= 1 && whole <= shape.len && whole as f64 == number {
+            return Ok(shape.start + whole - 1);
+        }
+        let message =
+            format!("{}({}) is outside of 1 to {}", shape.name, Shown(number), shape.len);
+        Err(fault(RunCode::Subscript, message))
+    }
+
+    pub(super) fn unset_element(&mut self, array: u16) -> Result<Value, Box<Diag>> {
+        let name = &self.module.arrays[usize::from(array)].name;
+        let message = format!("an element of {name} was never set; read as EMPTY");
+        self.warn_once(RunCode::NeverSet, message);
+        Ok(Number(EMPTY))
+    }
+
+    pub(super) fn function(
+        &mut self,
+        registers: &Registers,
+        function: u16,
+        base: Reg,
+        arity: u16,
+        body: fn(&[f64]) -> Option<f64>,
+    ) -> Result<Value, Box<Diag>> {
+        let mut arguments = [0.0; MOST_ARGUMENTS];
+        let arguments = &mut arguments[..usize::from(arity)];
+        for (offset, argument) in arguments.iter_mut().enumerate() {
+            *argument = self.number(registers, base.wrapping_add(offset as u16))?;
+        }
+        match body(arguments) {
+            Some(result) if result.is_finite() => Ok(Number(result)),
+            _ => {
+                let shown: Vec<String> = arguments.iter().map(|x| Shown(*x).to_string()).collect();
+                let name = BUILTINS[usize::from(function)].name;
+                let message = format!("{name}({}) has no finite result", shown.join(","));
+                Err(fault(RunCode::Domain, message))
+            }
+        }
+    }
+
+    pub(super) fn host_function(
+        &mut self,
+        registers: &Registers,
+        function: u16,
+        base: Reg,
+    ) -> Result<Value, Box<Diag>> {
+        let index = usize::from(function);
+        let count = self.module.host_arity.get(index).copied().unwrap_or(0);
+        let mut values = Vec::with_capacity(usize::from(count));
+        for offset in 0..count {
+            values.push(self.read(registers, base.wrapping_add(offset))?);
+        }
+        let texts = &self.state.texts;
+        let arguments: Vec<Argument<'_>> = values
+            .iter()
+            .map(|value| match value {
+                Number(number) => Argument::Number(*number),
+                Text(id) => Argument::Text(texts.get(*id)),
+                Unset => Argument::Number(EMPTY),
+            })
+            .collect();
+        let name = self.functions.name(index).to_string();
+        match self.functions.call(index, &arguments) {
+            Ok(result) if result.is_finite() => Ok(Number(result)),
+            Ok(result) => Err(fault(RunCode::HostFunction, format!("{name} gives {result}"))),
+            Err(sentence) => Err(fault(RunCode::HostFunction, format!("{name}: {sentence}"))),
+        }
+    }
+
+    pub(super) fn text_length(
+        &mut self,
+        registers: &Registers,
+        src: Reg,
+    ) -> Result<Value, Box<Diag>> {
+        match self.read(registers, src)? {
+            Text(id) => Ok(Number(self.state.texts.get(id).chars().count() as f64)),
+            Number(number) => {
+                let message = format!("{} is a number; a text is needed here", Shown(number));
+                Err(fault(RunCode::WrongType, message))
+            }
+            Unset => Ok(Number(0.0)),
+        }
+    }
+
+    /// Texts and numbers of consecutive registers, one after the other.
+    pub(super) fn join(
+        &mut self,
+        registers: &mut Registers,
+        base: Reg,
+        count: u16,
+    ) -> Result<Value, Box<Diag>> {
+        let mut joined = String::new();
+        for offset in 0..count {
+            match self.read(registers, base.wrapping_add(offset))? {
+                Text(id) => joined.push_str(self.state.texts.get(id)),
+                Number(number) => joined.push_str(&Shown(number).to_string()),
+                Unset => {}
+            }
+            if joined.len() > self.limits.text_bytes {
+                return Err(self.too_much_text());
+            }
+        }
+        self.new_text(registers, &joined)
+    }
+
+    /// Adds a text to the arena, cleaning it up first where it is full.
+    pub(super) fn new_text(
+        &mut self,
+        registers: &mut Registers,
+        text: &str,
+    ) -> Result<Value, Box<Diag>> {
+        let limit = self.limits.text_bytes;
+        if let Ok(id) = self.state.texts.add(text, limit) {
+            return Ok(Text(id));
+        }
+        // Cleaning up looks at every register; the fuel keeps a script that
+        // sits at the limit from making each text cost that much.
+        for _ in 0..1000 {
+            self.burn()?;
+        }
+        let state = &mut *self.state;
+        state.texts.keep(registers.iter_mut().chain(&mut state.arrays));
+        match state.texts.add(text, limit) {
+            Ok(id) => Ok(Text(id)),
+            Err(_) => Err(self.too_much_text()),
+        }
+    }
+
+    fn too_much_text(&self) -> Box<Diag> {
+        let limit = self.limits.text_bytes;
+        fault(RunCode::TextLimit, format!("texts would take more than {limit} bytes"))
+    }
+
+    /// Last value written for a letter: DBLCOM 355+n.
+    pub(super) fn last_written(
+        &mut self,
+        registers: &Registers,
+        letter: Reg,
+    ) -> Result<Value, Box<Diag>> {
+        let number = self.number(registers, letter)?;
+        let whole = number as u32;
+        if !(1..=26).contains(&whole) || f64::from(whole) != number {
+            let message = format!("{} is no letter; letters are 1 to 26", Shown(number));
+            return Err(fault(RunCode::Missing, message));
+        }
+        self.host.common(CommonKind::Dbl, 355 + whole).map(Number)
+    }
+
+    pub(super) fn named_common(
+        &mut self,
+        registers: &Registers,
+        name: Reg,
+    ) -> Result<Value, Box<Diag>> {
+        let Text(id) = self.read(registers, name)? else {
+            return Err(fault(RunCode::WrongType, "COMF needs the name as a text"));
+        };
+        let name = self.state.texts.get(id);
+        match self.host.named_common(name) {
+            Some(value) => value.map(Number),
+            None => Err(fault(RunCode::Missing, format!("no common is named '{name}'"))),
+        }
+    }
+
+    pub(super) fn neighbour(&mut self, next: bool, word: u16) -> Result<Value, Box<Diag>> {
+        let side = if next { "next" } else { "previous" };
+        match self.host.neighbour(next, usize::from(word), self.vocab)? {
+            Some(value) => Ok(Number(value)),
+            None => Err(fault(RunCode::Missing, format!("there is no {side} motion"))),
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! From a CL record to its section.
+
+use fil_cl::Vocabulary;
+use fil_cl::{Record, Word, WordId};
+
+use crate::module::SectionId;
+
+/// Finds the section of a record. A record without one costs one array look-up.
+#[derive(Clone, Debug, Default)]
+pub struct Matcher {
+    /// By index of the major word: one past the position in `lists`, 0 for none.
+    by_major: Vec<u16>,
+    /// Sections of one major word, those with the most minor words first.
+    lists: Vec<Vec<(Vec<WordId>, SectionId)>>,
+    /// Sections by type, those with a subtype first.
+    types: Vec<(u32, Option<u32>, SectionId)>,
+}
+
+impl Matcher {
+    /// Adds a section for a major word and the minor words right after it;
+    /// gives the section that has this key already.
+    pub(crate) fn add_words(
+        &mut self,
+        major: WordId,
+        minors: Vec<WordId>,
+        section: SectionId,
+    ) -> Option<SectionId> {
+        if self.by_major.len() <= major.index() {
+            self.by_major.resize(major.index() + 1, 0);
+        }
+        let entry = &mut self.by_major[major.index()];
+        if *entry == 0 {
+            self.lists.push(Vec::new());
+            *entry = self.lists.len() as u16;
+        }
+        let list = &mut self.lists[usize::from(*entry) - 1];
+        if let Some((_, other)) = list.iter().find(|(known, _)| *known == minors) {
+            return Some(*other);
+        }
+        let position = list.partition_point(|(known, _)| known.len() >= minors.len());
+        list.insert(position, (minors, section));
+        None
+    }
+
+    /// Adds a section for a type and subtype; gives the section that has this key already.
+    pub(crate) fn add_types(
+        &mut self,
+        kind: u32,
+        sub: Option<u32>,
+        section: SectionId,
+    ) -> Option<SectionId> {
+        let same = |(k, s, _): &&(u32, Option<u32>, SectionId)| (*k, *s) == (kind, sub);
+        if let Some((_, _, other)) = self.types.iter().find(same) {
+            return Some(*other);
+        }
+        let position = if sub.is_some() { 0 } else { self.types.len() };
+        self.types.insert(position, (kind, sub, section));
+        None
+    }
+
+    /// The section of a record. A key of words beats a key of types, more minor
+    /// words beat fewer, a subtype beats none.
+    #[inline]
+    pub fn find(&self, record: &Record, vocab: &Vocabulary) -> Option<SectionId> {
+        match self.by_major.get(record.major.index()) {
+            Some(&entry) if entry != 0 => {
+                let list = &self.lists[usize::from(entry) - 1];
+                let fits = |minors: &[WordId]| {
+                    record.data.len() >= minors.len()
+                        && minors.iter().zip(&record.data).all(|(m, w)| *w == Word::Minor(*m))
+                };
+                let found = list.iter().find(|(minors, _)| fits(minors));
+                found.map(|(_, section)| *section).or_else(|| self.find_type(record, vocab))
+            }
+            _ if self.types.is_empty() => None,
+            _ => self.find_type(record, vocab),
+        }
+    }
+
+    fn find_type(&self, record: &Record, vocab: &Vocabulary) -> Option<SectionId> {
+        let fits = |sub: Option<u32>| {
+            sub.is_none_or(|sub| record.value(3, vocab) == Some(f64::from(sub)))
+        };
+        let found = self.types.iter().find(|(kind, sub, _)| *kind == record.kind && fits(*sub));
+        found.map(|(_, _, section)| *section)
+    }
+}
