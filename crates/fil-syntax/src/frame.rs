@@ -16,9 +16,22 @@ pub(crate) struct Frame {
 /// What kind of block is open, and the parts of it that are complete.
 pub(crate) enum FrameKind {
     /// `condition` is that of the open part, `None` in ELSE.
-    If { arms: Vec<(Expr, Vec<Stmt>)>, condition: Option<Expr> },
-    Do { label: Name, variable: Target, from: Expr, to: Expr, step: Option<Expr> },
-    Case { subject: Expr, whens: Vec<When>, part: CasePart },
+    If {
+        arms: Vec<(Expr, Vec<Stmt>)>,
+        condition: Option<Expr>,
+    },
+    Do {
+        label: Name,
+        variable: Target,
+        from: Expr,
+        to: Expr,
+        step: Option<Expr>,
+    },
+    Case {
+        subject: Expr,
+        whens: Vec<When>,
+        part: CasePart,
+    },
 }
 
 /// The part of a CASE that is open.
@@ -118,9 +131,7 @@ impl Frame {
                 arms.push((condition, body));
                 StmtKind::If { arms, otherwise: None }
             }
-            FrameKind::If { arms, condition: None } => {
-                StmtKind::If { arms, otherwise: Some(body) }
-            }
+            FrameKind::If { arms, condition: None } => StmtKind::If { arms, otherwise: Some(body) },
             FrameKind::Do { label, variable, from, to, step } => {
                 StmtKind::Do { label, variable, from, to, step, body }
             }

@@ -144,7 +144,10 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     #[cold]
     fn out_of_fuel(&self) -> Box<Diag> {
         let limit = self.limits.fuel;
-        fault(RunCode::OutOfFuel, format!("the limit of {limit} passes, calls and reads is used up"))
+        fault(
+            RunCode::OutOfFuel,
+            format!("the limit of {limit} passes, calls and reads is used up"),
+        )
     }
 
     pub(super) fn enter_macro(&mut self) -> Result<(), Box<Diag>> {
@@ -193,8 +196,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         if whole >= 1 && whole <= shape.len && whole as f64 == number {
             return Ok(shape.start + whole - 1);
         }
-        let message =
-            format!("{}({}) is outside of 1 to {}", shape.name, Shown(number), shape.len);
+        let message = format!("{}({}) is outside of 1 to {}", shape.name, Shown(number), shape.len);
         Err(fault(RunCode::Subscript, message))
     }
 
