@@ -1,0 +1,12 @@
+//! FIL programs run on a host that writes down what it is asked.
+
+mod bench;
+mod bytecode;
+mod codes;
+mod control;
+mod macros;
+mod papers;
+mod postf;
+mod posts;
+mod sections;
+mod values;
