@@ -34,8 +34,11 @@ pub fn takes_text(major: WordId) -> bool {
     )
 }
 
+/// What is said of motion that is given by geometry.
+pub(crate) const UNCOMPUTED: &str = "this motion is given by geometry, not by points";
+
 /// True for motion that is given by geometry, so that its points are unknown.
-fn is_uncomputed(major: WordId) -> bool {
+pub(crate) fn is_uncomputed(major: WordId) -> bool {
     matches!(
         major,
         words::INDIRV
@@ -124,7 +127,7 @@ impl Record {
             words::MULTAX => (kind::MODE, mode::MULTAX),
             words::FINI => (kind::FINI, 0),
             major if is_uncomputed(major) => {
-                let message = "this motion is given by geometry, not by points".to_string();
+                let message = UNCOMPUTED.to_string();
                 return Err(ShapeError { code: ClCode::UncomputedMotion, message, item: 0 });
             }
             _ => (kind::POST, 0),

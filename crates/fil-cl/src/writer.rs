@@ -7,6 +7,7 @@ use fil_diag::Diag;
 
 use crate::errors::ClCode;
 use crate::layout::takes_text;
+use crate::reader::reads_as_text;
 use crate::record::{Record, Word, kind};
 use crate::vocabulary::Vocabulary;
 use crate::words;
@@ -30,8 +31,8 @@ impl<W: Write> Writer<W> {
     /// Writes one record as a statement.
     ///
     /// # Errors
-    /// The record has no text form (a number that is not finite, a text with a
-    /// comma among other items, a single empty slot), or the output fails.
+    /// The record has no text form (a number that is not finite, a text that would
+    /// read as something else, a single empty slot), or the output fails.
     pub fn write(&mut self, record: &Record, vocab: &Vocabulary) -> Result<(), Box<Diag>> {
         self.line.clear();
         if record.kind == kind::PSEUDO {
@@ -86,7 +87,8 @@ impl<W: Write> Writer<W> {
                 self.line.push(',');
             }
             let width = self.line.len() - start + 1 + self.item.len();
-            if index > 0 && width + ",  $".len() > WIDTH {
+            // A line of its own cannot say an empty item.
+            if index > 0 && !self.item.is_empty() && width + ",  $".len() > WIDTH {
                 self.line.push_str("  $\n");
                 start = self.line.len();
             } else {
@@ -107,8 +109,8 @@ impl<W: Write> Writer<W> {
             Word::Minor(id) => self.item.push_str(vocab.name(id)),
             Word::Text { .. } => {
                 let text = record.text_of(word);
-                let breaks = |c: char| c == ',' || c == '$' || c.is_control();
-                if text.contains(breaks) || text.trim() != text || text.is_empty() {
+                let lenient = record.kind == kind::PSEUDO || !vocab.is_known(record.major);
+                if !lenient || !reads_as_text(vocab, text) {
                     return Err(unwritable("a text that an item cannot hold"));
                 }
                 self.item.push_str(text);

@@ -1,1 +1,27 @@
 //! The generalized post: CL records to NC blocks.
+//!
+//! [`Post`] takes records one after the other and writes finished blocks to its
+//! [`tape::Tape`]. All its settings live in the [`commons::Commons`]; the table
+//! of [`locations`] names them. What each post word does is in [`words`], one
+//! file a word.
+
+pub mod address;
+pub mod axes;
+pub mod block;
+pub mod commons;
+pub mod errors;
+pub mod kinematics;
+pub mod letters;
+pub mod locations;
+pub mod motion;
+pub mod number;
+pub mod post;
+pub mod program;
+pub mod settings;
+pub mod state;
+pub mod tape;
+pub mod words;
+
+pub use commons::{Commons, Kind};
+pub use post::Post;
+pub use tape::{BlockInfo, FilLine, Origin};

@@ -59,7 +59,7 @@ fn of_line(line: &[u8]) -> Option<Dialect> {
     if line.starts_with(b"$$*") && contains(line, b"Pro/CLfile") {
         return Some(Dialect::Creo);
     }
-    if contains(line, b"NCLCAM") {
+    if line.starts_with(b"REMARK") && contains(line, b"NCLCAM") {
         return Some(Dialect::Ncl);
     }
     let opening = OPENINGS.iter().find(|(opening, _)| line.starts_with(opening));

@@ -9,6 +9,7 @@ use super::Reader;
 use super::number::{fixed_point, number};
 use super::statement::{decoded, is_blank};
 use crate::errors::ClCode;
+use crate::layout::{UNCOMPUTED, is_uncomputed, takes_text};
 use crate::record::{Record, Word};
 use crate::vocabulary::{Vocabulary, WordId};
 use crate::words;
@@ -78,8 +79,8 @@ impl<R: Read> Reader<R> {
         self.check_bytes()?;
         let slash = memchr::memchr(b'/', &self.statement.joined);
         let length = self.statement.joined.len();
-        record.major =
-            self.parse_major(vocab, trim(&self.statement.joined, 0..slash.unwrap_or(length)))?;
+        let major = trim(&self.statement.joined, 0..slash.unwrap_or(length));
+        record.major = self.parse_major(vocab, major, pseudo)?;
         let known = vocab.is_known(record.major);
         let rules = Rules { lenient: pseudo || !known, free_names: record.major == words::MACHIN };
         self.item_ranges.clear();
@@ -105,37 +106,36 @@ impl<R: Read> Reader<R> {
     }
 
     /// The major word. Blanks within it mean nothing where the word is known
-    /// without them; `TLON,GOFWD` counts as the first of its words.
+    /// without them; of `TLON,GOFWD` the first word tells.
     fn parse_major(
         &self,
         vocab: &mut Vocabulary,
         range: Range<usize>,
+        pseudo: bool,
     ) -> Result<WordId, Box<Diag>> {
-        let name = &self.statement.joined[range.clone()];
-        let first = name.split(|byte| *byte == b',').next().unwrap_or(name).trim_ascii_end();
-        let is_name = first.first().is_some_and(|byte| starts_name(*byte))
-            && first.len() <= MAX_NAME
-            && first.iter().all(|byte| is_name_byte(*byte) || is_blank(*byte));
-        let has_blank = first.iter().any(|byte| is_blank(*byte));
-        let bare = range.end == self.statement.joined.len();
-        if !is_name {
-            return Err(self.diag(ClCode::BadWord, "no major word", range));
+        let text = &self.statement.joined[range.clone()];
+        let name = text.split(|byte| *byte == b',').next().unwrap_or(text).trim_ascii_end();
+        let is_whole = range.end == self.statement.joined.len();
+        let refuse = |code, message| Err(self.diag(code, message, range));
+        if !is_major(name) {
+            return refuse(ClCode::BadWord, "no major word");
         }
-        if !has_blank {
-            let id = self.intern(vocab, first);
-            if first.len() == name.len() || vocab.is_known(id) {
-                return Ok(id);
+        let has_blank = name.iter().any(|byte| is_blank(*byte));
+        let known = if has_blank { without_blanks(vocab, name) } else { None };
+        let id = match known {
+            Some(id) => id,
+            _ if has_blank && is_whole && !pseudo => {
+                return refuse(ClCode::BadWord, "several words and no slash");
             }
-            return Err(self.diag(ClCode::BadWord, "a comma before the slash", range));
+            _ => self.intern(vocab, name),
+        };
+        if is_uncomputed(id) && !pseudo {
+            return refuse(ClCode::UncomputedMotion, UNCOMPUTED);
         }
-        let compact: Vec<u8> = first.iter().copied().filter(|byte| !is_blank(*byte)).collect();
-        if let Some(id) = std::str::from_utf8(&compact).ok().and_then(|name| vocab.find(name)) {
-            return Ok(id);
+        if name.len() < text.len() {
+            return refuse(ClCode::BadWord, "a comma before the slash");
         }
-        if bare || first.len() < name.len() {
-            return Err(self.diag(ClCode::BadWord, "no statement", range));
-        }
-        Ok(self.intern(vocab, first))
+        Ok(id)
     }
 
     fn parse_item(
@@ -151,11 +151,7 @@ impl<R: Read> Reader<R> {
         if numeric && let Some(value) = number(item) {
             return Ok(Word::Number(value));
         }
-        let is_name = item.len() <= MAX_NAME
-            && item.iter().all(|byte| is_name_byte(*byte))
-            && (starts_name(first)
-                || first.is_ascii_digit() && (rules.free_names || self.is_known(vocab, item)));
-        if is_name {
+        if is_name(vocab, item, rules.free_names) {
             return Ok(Word::Minor(self.intern(vocab, item)));
         }
         if rules.lenient {
@@ -173,12 +169,42 @@ impl<R: Read> Reader<R> {
         }
         vocab.intern(&decoded(name, self.options.decode))
     }
+}
 
-    /// True for a word of the vocabulary that begins with a digit, as 1STPECK.
-    fn is_known(&self, vocab: &Vocabulary, name: &[u8]) -> bool {
-        let id = std::str::from_utf8(name).ok().and_then(|name| vocab.find(name));
+/// True when an item is read as a text where texts are allowed.
+pub(crate) fn reads_as_text(vocab: &Vocabulary, item: &str) -> bool {
+    let breaks = |c: char| matches!(c, ',' | '$') || c.is_control();
+    let is_whole = !item.is_empty() && item.trim() == item && !item.contains(breaks);
+    is_whole && number(item.as_bytes()).is_none() && !is_name(vocab, item.as_bytes(), false)
+}
+
+/// True for an item that is a name. One that begins with a digit, as 1STPECK,
+/// must be known, unless `free` allows any.
+fn is_name(vocab: &Vocabulary, item: &[u8], free: bool) -> bool {
+    let is_known = || {
+        let id = std::str::from_utf8(item).ok().and_then(|name| vocab.find(name));
         id.is_some_and(|id| vocab.is_known(id))
-    }
+    };
+    item.len() <= MAX_NAME
+        && item.iter().all(|byte| is_name_byte(*byte))
+        && item.first().is_some_and(|first| {
+            starts_name(*first) || first.is_ascii_digit() && (free || is_known())
+        })
+}
+
+/// True for what can stand before the slash; blanks may be in it.
+fn is_major(name: &[u8]) -> bool {
+    name.len() <= MAX_NAME
+        && name.first().is_some_and(|byte| starts_name(*byte))
+        && name.iter().all(|byte| is_name_byte(*byte) || is_blank(*byte))
+}
+
+/// The known word that a name is without its blanks. The text words are no
+/// such words: whether blanks belong to their text cannot be told.
+fn without_blanks(vocab: &Vocabulary, name: &[u8]) -> Option<WordId> {
+    let compact: Vec<u8> = name.iter().copied().filter(|byte| !is_blank(*byte)).collect();
+    let id = vocab.find(std::str::from_utf8(&compact).ok()?)?;
+    (vocab.is_known(id) && !takes_text(id)).then_some(id)
 }
 
 fn starts_name(byte: u8) -> bool {

@@ -21,6 +21,7 @@ use crate::vocabulary::Vocabulary;
 use crate::words;
 
 pub use dialect::Dialect;
+pub(crate) use items::reads_as_text;
 use lines::{LineError, Lines};
 use seek::Seeking;
 use statement::{Form, GatherError, Statement};

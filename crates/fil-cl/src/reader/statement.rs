@@ -227,8 +227,8 @@ pub(super) fn is_blank(byte: u8) -> bool {
     byte == b' ' || byte == b'\t'
 }
 
-/// Without trailing blanks and carriage return.
+/// Without trailing blanks, carriage return and the end-of-file sign of DOS.
 pub(super) fn trim_end(line: &[u8]) -> &[u8] {
-    let end = line.iter().rposition(|byte| !is_blank(*byte) && *byte != b'\r');
+    let end = line.iter().rposition(|byte| !matches!(byte, b' ' | b'\t' | b'\r' | 0x1A));
     &line[..end.map_or(0, |at| at + 1)]
 }

@@ -1,0 +1,149 @@
+//! Properties over generated input.
+
+use std::io::Cursor;
+
+use fil_cl::{Circle, Options, Reader, Record, Vocabulary, Word, WordId, Writer, words};
+use proptest::prelude::*;
+
+fn read_all(text: &[u8], vocab: &mut Vocabulary) -> Result<Vec<Record>, String> {
+    let mut reader = Reader::new(text, "p", Options::default());
+    let (mut records, mut record) = (Vec::new(), Record::default());
+    while reader.read(vocab, &mut record).map_err(|diag| diag.to_string())? {
+        records.push(Record { number: 0, line: 0, ..record.clone() });
+    }
+    Ok(records)
+}
+
+fn number() -> impl Strategy<Value = f64> {
+    let finite = any::<f64>().prop_filter("finite", |value| value.is_finite());
+    prop_oneof![finite, (-1e6..1e6f64), (-10_000i32..10_000).prop_map(f64::from)]
+        .prop_map(|value| value + 0.0)
+}
+
+fn point() -> impl Strategy<Value = [f64; 3]> {
+    [number(), number(), number()]
+}
+
+fn axis() -> impl Strategy<Value = [f64; 3]> {
+    (0.0..360.0f64, -90.0..90.0f64).prop_map(|(turn, lift)| {
+        let (turn, lift) = (turn.to_radians(), lift.to_radians());
+        [turn.cos() * lift.cos(), turn.sin() * lift.cos(), lift.sin()].map(|part| part + 0.0)
+    })
+}
+
+const MAJORS: [WordId; 6] =
+    [words::CYCLE, words::SPINDL, words::FEDRAT, words::LOADTL, words::OP, words::CUTTER];
+const MINORS: [WordId; 5] =
+    [words::DEEP, words::DEPTH, words::CLEAR, words::FIRST_PECK, words::MMPM];
+
+fn item() -> impl Strategy<Value = Word> {
+    prop_oneof![
+        4 => number().prop_map(Word::Number),
+        3 => prop::sample::select(&MINORS[..]).prop_map(Word::Minor),
+        1 => Just(Word::Empty),
+    ]
+}
+
+fn command() -> impl Strategy<Value = Record> {
+    (prop::sample::select(&MAJORS[..]), prop::collection::vec(item(), 0..20))
+        .prop_filter("one empty slot has no text form", |(_, items)| items[..] != [Word::Empty])
+        .prop_map(|(major, items)| Record::statement(major, items, String::new()).unwrap())
+}
+
+fn circle() -> impl Strategy<Value = Record> {
+    (point(), axis(), prop::option::of(0.1..1e4f64))
+        .prop_map(|(center, axis, radius)| Record::arc(Circle { center, axis, radius }))
+}
+
+fn text() -> impl Strategy<Value = Record> {
+    let texts = "[ -~а-яÄ]{0,60}"
+        .prop_filter("a line must hold it", |text| text.trim_end() == text && !text.ends_with('$'));
+    (prop::sample::select(&[words::PPRINT, words::PARTNO, words::INSERT][..]), texts)
+        .prop_map(|(major, text)| Record::text_command(major, &text))
+}
+
+/// A pseudo-comment; it may hold texts where a post command may not.
+fn pseudo() -> impl Strategy<Value = Record> {
+    let text = "[(=][ -#%-+.-~а-я]{0,20}[)=]";
+    (command(), prop::option::of(text)).prop_map(|(mut record, text)| {
+        if let Some(text) = text {
+            let word = record.store_text(&text);
+            record.data.push(word);
+        }
+        Record { kind: fil_cl::record::kind::PSEUDO, sub: 0, ..record }
+    })
+}
+
+fn records() -> impl Strategy<Value = Vec<Record>> {
+    let record = prop_oneof![
+        3 => (point(), prop::option::of(axis())).prop_map(|(p, a)| Record::goto(p, a)),
+        2 => command(),
+        1 => circle(),
+        1 => text(),
+        1 => pseudo(),
+    ];
+    prop::collection::vec(record, 1..30)
+}
+
+proptest! {
+    #[test]
+    fn written_records_read_back_the_same(records in records()) {
+        let mut vocab = Vocabulary::new();
+        let mut writer = Writer::new(Vec::new());
+        for record in &records {
+            writer.write(record, &vocab).unwrap();
+        }
+        let output = writer.into_inner();
+        let text = String::from_utf8(output.clone()).unwrap();
+        let again = read_all(&output, &mut vocab);
+        prop_assert_eq!(again, Ok(records), "{}", text);
+    }
+
+    #[test]
+    fn any_bytes_are_read_or_refused(bytes in prop::collection::vec(any::<u8>(), 0..2000)) {
+        let _ = read_all(&bytes, &mut Vocabulary::new());
+    }
+
+    #[test]
+    fn any_text_of_cl_pieces_is_read_or_refused(
+        pieces in prop::collection::vec(prop::sample::select(&[
+            "GOTO", "CIRCLE", "MULTAX", "PPRINT", "TOOL PATH", "$$-> ", "$$", "$", "/", ",", " ",
+            "\n", "\r\n", "1", "-2.5", "1e5", ".", "ON", "12.3.4", "\u{444}", "=", "(", "1STPECK",
+        ][..]), 0..60)
+    ) {
+        let _ = read_all(pieces.concat().as_bytes(), &mut Vocabulary::new());
+    }
+
+    /// The short way for GOTO and the long way make the same records.
+    #[test]
+    fn both_ways_agree(values in prop::collection::vec("-?[0-9]{1,6}\\.[0-9]{0,10}", 1..8)) {
+        let plain = format!("MULTAX/ON\nGOTO / {}\n", values.join(", "));
+        let continued = format!("MULTAX/ON\nGOTO / $\n{}\n", values.join(", "));
+        let read = |text: &str| read_all(text.as_bytes(), &mut Vocabulary::new());
+        prop_assert_eq!(read(&plain).ok(), read(&continued).ok());
+    }
+
+    #[test]
+    fn seeking_gives_the_record_of_a_straight_run(
+        kinds in prop::collection::vec(0..5usize, 12_000..14_000),
+        wanted in prop::collection::vec(1..12_000u32, 1..8),
+    ) {
+        // Six values are two points or a point and an axis, as MULTAX is off or on.
+        let statements =
+            ["GOTO/1,2,3,4,5,6\n", "RAPID\n", "MULTAX/ON\n", "GOTO/1,2,3\n", "MULTAX/OFF\n"];
+        let text: String = kinds.into_iter().map(|kind| statements[kind]).collect();
+        let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
+        let mut straight = Vec::new();
+        let mut reader = Reader::new(text.as_bytes(), "s", Options::default());
+        while reader.read(&mut vocab, &mut record).unwrap() {
+            straight.push(record.clone());
+        }
+        let mut reader = Reader::seekable(Cursor::new(text), "s", Options::default());
+        for number in wanted {
+            reader.seek_record(number).unwrap();
+            prop_assert!(reader.read(&mut vocab, &mut record).unwrap());
+            prop_assert_eq!(&record, &straight[number as usize - 1]);
+            prop_assert_eq!(reader.record_number(), number);
+        }
+    }
+}

@@ -1,0 +1,212 @@
+//! Every code of the crate, with the place it points to.
+
+use std::io::{self, Cursor, Read};
+use std::time::{Duration, Instant};
+
+use fil_cl::{ClCode, Options, Reader, Record, Vocabulary, Word, Writer, words};
+use fil_diag::{Code, Diag};
+
+/// Reads to the first error.
+fn refuse(input: &[u8]) -> Diag {
+    let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
+    let mut reader = Reader::new(input, "bad.ncl", Options::default());
+    loop {
+        match reader.read(&mut vocab, &mut record) {
+            Ok(true) => {}
+            Ok(false) => panic!("nothing was refused"),
+            Err(diag) => {
+                let again = reader.read(&mut vocab, &mut record).expect_err("an error stays");
+                assert_eq!(again.message, diag.message);
+                return *diag;
+            }
+        }
+    }
+}
+
+/// Checks code, line, column and the text marked.
+fn check(input: &str, code: ClCode, line: u32, column: usize, marked: &str) {
+    let diag = refuse(input.as_bytes());
+    let code: &Code = code.into();
+    assert_eq!(diag.code, code, "{input:?}: {diag}");
+    let place = &diag.places[0];
+    assert_eq!((place.line, place.column()), (line, column), "{input:?}: {diag}");
+    assert_eq!(&place.excerpt[place.span.clone()], marked, "{input:?}");
+}
+
+#[test]
+fn bad_numbers() {
+    check("RAPID\nGOTO / 1.0, 12.3.4, 3.0\n", ClCode::BadNumber, 2, 13, "12.3.4");
+    check("GOTO/1.0X,2,3\n", ClCode::BadNumber, 1, 6, "1.0X");
+    check("SPINDL / RPM, 10O0, CLW\n", ClCode::BadNumber, 1, 15, "10O0");
+    check("FEDRAT/1e999,MMPM\n", ClCode::BadNumber, 1, 8, "1e999");
+    check("FEDRAT/- 5,MMPM\n", ClCode::BadNumber, 1, 8, "- 5");
+    check("CYCLE/DEEP,  $\n   STEP, 1..5\n", ClCode::BadNumber, 2, 10, "1..5");
+}
+
+#[test]
+fn bad_words() {
+    check("SPINDL / (RPM), 5\n", ClCode::BadWord, 1, 10, "(RPM)");
+    check("CYCLE/DEEP STEP,5\n", ClCode::BadWord, 1, 7, "DEEP STEP");
+    check("12 / 5\n", ClCode::BadWord, 1, 1, "12");
+    check("this is prose\n", ClCode::BadWord, 1, 1, "this is prose");
+    check("PTE   =PT/TE\n", ClCode::BadWord, 1, 1, "PTE   =PT");
+    check("/ 1, 2\n", ClCode::BadWord, 1, 1, "");
+    check("PPRINT,X/5\n", ClCode::BadWord, 1, 1, "PPRINT,X");
+}
+
+#[test]
+fn bad_points() {
+    check("GOTO / 1.0, 2.0\n", ClCode::BadPoint, 1, 13, "2.0");
+    check("GOTO / 1.0,, 3.0\n", ClCode::BadPoint, 1, 12, "");
+    check("GOTO / 1.0, NAN, 3.0\n", ClCode::BadPoint, 1, 13, "NAN");
+    check("GOTO/\n", ClCode::BadPoint, 1, 1, "GOTO/");
+    check("MULTAX/ON\nGOTO/1,2,3,4,5,6,7,8,9\n", ClCode::BadPoint, 2, 22, "9");
+    check("FROM/1,2,3,4\n", ClCode::BadPoint, 1, 12, "4");
+    check("CIRCLE/1,2,3,0,1\n", ClCode::BadPoint, 1, 16, "1");
+}
+
+#[test]
+fn motion_without_points() {
+    check("INDIRV/1,0,0\n", ClCode::UncomputedMotion, 1, 1, "INDIRV");
+    let arc = "TLON,GOFWD/ (CIRCLE/ 0,0,0,$\n 5),ON,(LINE/ 0,0,0,$\n 1,1,1)\n";
+    check(arc, ClCode::UncomputedMotion, 1, 1, "TLON,GOFWD");
+    check("NURBS/\nKNOT/0,0\n", ClCode::UncomputedMotion, 1, 1, "NURBS");
+}
+
+#[test]
+fn cut_off_statements() {
+    check("RAPID\nGOTO / 1.0, 2.0,  $\n", ClCode::OpenContinuation, 2, 19, "$");
+    check("GOTO / 1.0, 2.0,$", ClCode::OpenContinuation, 1, 17, "$");
+    check("GOTO / 1.0,$\n$$-> END / \n", ClCode::OpenContinuation, 1, 12, "$");
+    check("PPRINT / HELLO $\n", ClCode::OpenContinuation, 1, 16, "$");
+}
+
+#[test]
+fn binary_data() {
+    check("RAPID\nGOTO / 1.0, 2\0, 3\n", ClCode::BinaryData, 2, 14, "\0");
+    check("PPRINT / A\x07\n", ClCode::BinaryData, 1, 11, "\x07");
+    let wide: Vec<u8> = "GOTO/1,2,3\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    assert_eq!(refuse(&wide).code.number, 402);
+    assert_eq!(refuse(&vec![0; 3 << 20]).code.number, 402);
+}
+
+#[test]
+fn long_statements() {
+    let line = format!("RAPID\nPPRINT / {}", "x".repeat(2 << 20));
+    let diag = refuse(line.as_bytes());
+    assert_eq!((diag.code.number, diag.places[0].line), (403, 2));
+    assert!(diag.places[0].excerpt.len() < 1000);
+    let continued = "CYCLE / $\n".repeat(200_000);
+    assert_eq!(refuse(continued.as_bytes()).code.number, 403);
+}
+
+#[test]
+fn too_many_words() {
+    let text: String = (0..60_000).map(|n| format!("W{n}/1\n")).collect();
+    let diag = refuse(text.as_bytes());
+    assert_eq!(diag.code.number, 411);
+    assert!(diag.places[0].line > 40_000);
+}
+
+#[test]
+fn ten_megabytes_of_noise_are_refused_at_once() {
+    let mut state = 0x9E37_79B9_7F4A_7C15_u64;
+    let mut noise = |mask: u8| -> Vec<u8> {
+        let next = || {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 32) as u8 & mask
+        };
+        std::iter::repeat_with(next).take(10 << 20).collect()
+    };
+    for input in [noise(0xFF), noise(0x7F), vec![b'$'; 10 << 20], vec![b'\n'; 10 << 20]] {
+        let start = Instant::now();
+        let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
+        let mut reader = Reader::new(&input[..], "noise", Options::default());
+        while let Ok(true) = reader.read(&mut vocab, &mut record) {}
+        assert!(start.elapsed() < Duration::from_secs(2));
+    }
+}
+
+#[test]
+fn an_input_that_fails() {
+    struct Failing;
+    impl Read for Failing {
+        fn read(&mut self, _: &mut [u8]) -> io::Result<usize> {
+            Err(io::Error::other("disk on fire"))
+        }
+    }
+    let input = io::Cursor::new("RAPID\n".repeat(4000)).chain(Failing);
+    let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
+    let mut reader = Reader::new(input, "x.ncl", Options::default());
+    let error = loop {
+        match reader.read(&mut vocab, &mut record) {
+            Ok(more) => assert!(more, "the end was taken for good"),
+            Err(error) => break error,
+        }
+    };
+    assert_eq!((error.code.number, error.message.as_str()), (401, "disk on fire"));
+    assert_eq!((reader.record_number(), error.places[0].line), (4000, 4001));
+}
+
+#[test]
+fn a_stream_does_not_go_back() {
+    let mut reader = Reader::new(&b"RAPID\nRAPID\n"[..], "x.ncl", Options::default());
+    let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
+    reader.read(&mut vocab, &mut record).unwrap();
+    reader.read(&mut vocab, &mut record).unwrap();
+    let diag = reader.seek_record(1).unwrap_err();
+    assert_eq!((diag.code.number, diag.places[0].line), (409, 2));
+}
+
+#[test]
+fn records_that_are_not_there() {
+    let mut reader = Reader::seekable(Cursor::new("RAPID\nRAPID\n"), "x.ncl", Options::default());
+    assert_eq!(reader.seek_record(0).unwrap_err().code.number, 410);
+    let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
+    reader.seek_record(3).unwrap();
+    let diag = reader.read(&mut vocab, &mut record).unwrap_err();
+    assert_eq!((diag.code.number, diag.message.as_str()), (410, "record 3 of 2 records"));
+    reader.seek_record(2).unwrap();
+    assert!(reader.read(&mut vocab, &mut record).unwrap());
+    assert_eq!((record.number, record.line), (2, 2));
+}
+
+#[test]
+fn records_without_a_text_form() {
+    let vocab = Vocabulary::new();
+    let refused = |record: Record| {
+        let diag = Writer::new(Vec::new()).write(&record, &vocab).unwrap_err();
+        assert_eq!(diag.code.number, 412);
+    };
+    let mut record = Record::command(words::CYCLE);
+    record.data = vec![Word::Number(f64::NAN)];
+    refused(record.clone());
+    record.data = vec![Word::Empty];
+    refused(record.clone());
+    for text in ["(a,b)", "NAME", "1.5", "", " (x)"] {
+        let mut record = Record { kind: fil_cl::record::kind::PSEUDO, ..record.clone() };
+        record.data = vec![record.store_text(text)];
+        refused(record);
+    }
+    record.data = vec![record.store_text("(a b)")];
+    refused(record);
+    refused(Record::text_command(words::PPRINT, "two\nlines"));
+    refused(Record::text_command(words::PPRINT, "open $"));
+    refused(Record::command(words::PPRINT));
+}
+
+#[test]
+fn an_output_that_fails() {
+    let mut short = [0u8; 4];
+    let mut writer = Writer::new(&mut short[..]);
+    let diag = writer.write(&Record::command(words::RAPID), &Vocabulary::new()).unwrap_err();
+    assert_eq!(diag.code.number, 413);
+}
+
+#[test]
+fn numbers_of_the_codes_are_in_order() {
+    let numbers: Vec<_> = ClCode::ALL.iter().map(|code| code.number).collect();
+    assert_eq!(numbers, (401..=413).collect::<Vec<u16>>());
+}

@@ -1,0 +1,224 @@
+//! Number output: one function writes every number of the tape.
+//!
+//! A value becomes a scaled integer (rounded half away from zero) and is
+//! written by the rules of its address: format (digits before and after the
+//! point), specification (sign, leading and trailing zeros, point) and the
+//! decimal rule of the tape.
+
+use fil_diag::Diag;
+
+use crate::errors::PostCode;
+
+const POWERS: [f64; 10] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
+
+/// What to do with the decimal point of a whole number (INTCOM 4593).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DecimalRule {
+    /// `X83.`
+    Always,
+    /// `X83`
+    WhenNeeded,
+    /// `X83.0`
+    OneZero,
+}
+
+/// How an address writes its numbers.
+///
+/// The specification is read as four decimal digits `p l t d`: `p` plus sign
+/// printed, `l` leading zeros (padded to the format when there is no point,
+/// one zero before the point otherwise), `t` trailing zeros (0 dropped after
+/// the point, 1 kept, 2 dropped in whole numbers too), `d` decimal point.
+/// The digits are our reading of the values 0, 1 and 100 seen in real files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NumberFormat {
+    /// Digits before the point.
+    pub whole: u8,
+    /// Digits after the point.
+    pub decimals: u8,
+    /// Print `+`.
+    pub plus: bool,
+    /// Leading zeros.
+    pub leading: bool,
+    /// Keep trailing zeros after the point.
+    pub trailing: bool,
+    /// Drop trailing zeros of whole numbers as well (N10 is N1).
+    pub drop_whole_zeros: bool,
+    /// Print the decimal point.
+    pub point: bool,
+    /// The tape's decimal rule.
+    pub rule: DecimalRule,
+}
+
+impl NumberFormat {
+    /// Reads a format number (`abcd`: inch a.b, metric c.d) and a specification.
+    pub fn from_commons(format: i32, spec: i32, metric: bool, rule: DecimalRule) -> Self {
+        let format = format.clamp(0, 9999);
+        let spec = spec.clamp(0, 9999);
+        let digit = |value: i32, place: i32| ((value / place) % 10) as u8;
+        let (whole, decimals) = if metric {
+            (digit(format, 10), digit(format, 1))
+        } else {
+            (digit(format, 1000), digit(format, 100))
+        };
+        NumberFormat {
+            whole,
+            decimals,
+            plus: digit(spec, 1000) == 1,
+            leading: digit(spec, 100) == 1,
+            trailing: digit(spec, 10) == 1,
+            drop_whole_zeros: digit(spec, 10) == 2,
+            point: digit(spec, 1) == 1,
+            rule,
+        }
+    }
+
+    /// The value as a scaled integer: rounded half away from zero to the
+    /// last digit of the format.
+    ///
+    /// # Errors
+    /// A value that is not finite or has more digits than the format.
+    pub fn scale(&self, value: f64) -> Result<i64, Box<Diag>> {
+        let scaled = (value * POWERS[self.decimals as usize]).round();
+        let limit = POWERS[self.decimals as usize] * 10f64.powi(i32::from(self.whole));
+        if scaled.abs() < limit {
+            return Ok(scaled as i64);
+        }
+        Err(Box::new(Diag::new(
+            PostCode::Overflow,
+            format!("{value} does not fit {}.{} digits", self.whole, self.decimals),
+        )))
+    }
+
+    /// The value a scaled integer stands for.
+    pub fn unscale(&self, scaled: i64) -> f64 {
+        scaled as f64 / POWERS[self.decimals as usize]
+    }
+
+    /// Appends a scaled integer by the rules of the address.
+    pub fn write(&self, scaled: i64, out: &mut Vec<u8>) {
+        if scaled < 0 {
+            out.push(b'-');
+        } else if self.plus {
+            out.push(b'+');
+        }
+        let mut digits = itoa::Buffer::new();
+        let digits = digits.format(scaled.unsigned_abs()).as_bytes();
+        if self.point {
+            self.write_with_point(digits, out);
+        } else {
+            self.write_plain(digits, out);
+        }
+    }
+
+    fn write_with_point(&self, digits: &[u8], out: &mut Vec<u8>) {
+        let decimals = self.decimals as usize;
+        let zero = digits == b"0";
+        let whole = digits.len().saturating_sub(decimals);
+        if whole == 0 || zero {
+            if self.leading || zero {
+                out.push(b'0');
+            }
+        } else {
+            out.extend_from_slice(&digits[..whole]);
+        }
+        let mut fraction = [b'0'; 10];
+        if !zero {
+            let tail = &digits[whole..];
+            fraction[decimals - tail.len()..decimals].copy_from_slice(tail);
+        }
+        let kept = if self.trailing { decimals } else { significant(&fraction[..decimals]) };
+        let kept = match self.rule {
+            DecimalRule::OneZero if kept == 0 => 1,
+            DecimalRule::WhenNeeded if kept == 0 => return,
+            _ => kept,
+        };
+        out.push(b'.');
+        out.extend_from_slice(&fraction[..kept]);
+    }
+
+    fn write_plain(&self, digits: &[u8], out: &mut Vec<u8>) {
+        let width = (self.whole + self.decimals) as usize;
+        if self.leading {
+            out.extend(std::iter::repeat_n(b'0', width.saturating_sub(digits.len())));
+        }
+        let kept = if self.drop_whole_zeros { significant(digits).max(1) } else { digits.len() };
+        out.extend_from_slice(&digits[..kept]);
+    }
+}
+
+/// Length without trailing zeros.
+fn significant(digits: &[u8]) -> usize {
+    digits.iter().rposition(|digit| *digit != b'0').map_or(0, |last| last + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(format: i32, spec: i32, rule: DecimalRule, value: f64) -> String {
+        let format = NumberFormat::from_commons(format, spec, true, rule);
+        let mut out = Vec::new();
+        format.write(format.scale(value).unwrap(), &mut out);
+        String::from_utf8(out).unwrap()
+    }
+
+    #[test]
+    fn decimal_numbers_by_rule() {
+        let always = |spec, value| text(3443, spec, DecimalRule::Always, value);
+        assert_eq!(always(1, 83.0), "83.");
+        assert_eq!(always(1, -0.7857), "-.786");
+        assert_eq!(always(1, 0.0), "0.");
+        assert_eq!(always(1, -0.0001), "0.");
+        assert_eq!(always(101, 0.05), "0.05");
+        assert_eq!(always(11, 1.5), "1.500");
+        assert_eq!(always(1001, 1.5), "+1.5");
+        assert_eq!(text(3443, 1, DecimalRule::OneZero, 83.0), "83.0");
+        assert_eq!(text(3443, 1, DecimalRule::OneZero, 0.0), "0.0");
+        assert_eq!(text(3443, 101, DecimalRule::WhenNeeded, 83.0), "83");
+        assert_eq!(text(3443, 101, DecimalRule::WhenNeeded, 0.25), "0.25");
+    }
+
+    #[test]
+    fn whole_numbers_by_rule() {
+        let whole = |format, spec, value| text(format, spec, DecimalRule::Always, value);
+        assert_eq!(whole(2020, 100, 0.0), "00");
+        assert_eq!(whole(2020, 100, 43.0), "43");
+        assert_eq!(whole(4040, 0, 250.0), "250");
+        assert_eq!(whole(4040, 20, 10.0), "1");
+        assert_eq!(whole(4040, 20, 0.0), "0");
+        assert_eq!(whole(4040, 100, 10.0), "0010");
+    }
+
+    #[test]
+    fn inch_uses_the_first_half_of_the_format() {
+        let format = NumberFormat::from_commons(3443, 1, false, DecimalRule::Always);
+        assert_eq!((format.whole, format.decimals), (3, 4));
+        assert_eq!(format.scale(0.12345).unwrap(), 1235);
+    }
+
+    #[test]
+    fn what_does_not_fit_is_refused() {
+        let format = NumberFormat::from_commons(3443, 1, true, DecimalRule::Always);
+        assert_eq!(format.scale(9999.9994).unwrap(), 9_999_999);
+        for value in [9999.9996, -10_000.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(format.scale(value).unwrap_err().code.name(), "E0501", "{value}");
+        }
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn output_reads_back_to_the_rounded_value(
+            value in -9999.0f64..9999.0, leading: bool, trailing: bool, plus: bool, rule in 0..3
+        ) {
+            let rule = [DecimalRule::Always, DecimalRule::WhenNeeded, DecimalRule::OneZero][rule as usize];
+            let spec = 1 + 10 * i32::from(trailing) + 100 * i32::from(leading) + 1000 * i32::from(plus);
+            let format = NumberFormat::from_commons(3443, spec, true, rule);
+            let scaled = format.scale(value).unwrap();
+            let mut out = Vec::new();
+            format.write(scaled, &mut out);
+            let read: f64 = std::str::from_utf8(&out).unwrap().parse().unwrap();
+            proptest::prop_assert_eq!(read, format.unscale(scaled));
+            proptest::prop_assert!((read - value).abs() <= 0.000_500_001);
+        }
+    }
+}

@@ -1,0 +1,205 @@
+//! The post: takes CL records one after the other and writes blocks.
+
+use std::collections::HashSet;
+
+use fil_cl::vocabulary::Vocabulary;
+use fil_cl::{Record, WordId, record::kind};
+use fil_diag::{Code, Diag};
+
+use crate::axes::Machine;
+use crate::block::Block;
+use crate::commons::{Commons, EMPTY, Int};
+use crate::errors::PostCode;
+use crate::state::{Placement, State};
+use crate::tape::Tape;
+use crate::words::{self, Handler};
+
+/// The generalized post of one run.
+///
+/// Finished blocks lie in [`Post::tape`]; whoever drives the post takes them
+/// away from time to time, so that memory does not grow with the CL file.
+pub struct Post {
+    /// The settings.
+    pub commons: Commons,
+    /// The output.
+    pub tape: Tape,
+    /// Warnings not yet taken away.
+    pub warnings: Vec<Diag>,
+    pub(crate) state: State,
+    pub(crate) machine: Machine,
+    pub(crate) block: Block,
+    handlers: Vec<Option<Handler>>,
+    warned: HashSet<(u16, String)>,
+}
+
+impl Post {
+    /// A post for a machine.
+    ///
+    /// # Errors
+    /// Settings that make no machine.
+    pub fn new(commons: Commons) -> Result<Self, Box<Diag>> {
+        let mut machine = Machine::default();
+        machine.refresh(&commons, true)?;
+        let mut handlers = Vec::new();
+        for (word, handler) in words::HANDLERS {
+            if handlers.len() <= word.index() {
+                handlers.resize(word.index() + 1, None);
+            }
+            handlers[word.index()] = Some(*handler);
+        }
+        Ok(Post {
+            commons,
+            tape: Tape::default(),
+            warnings: Vec::new(),
+            state: State::default(),
+            machine,
+            block: Block::default(),
+            handlers,
+            warned: HashSet::new(),
+        })
+    }
+
+    /// Carries out one record.
+    ///
+    /// # Errors
+    /// Whatever the record's post word refuses; nothing of the run may be
+    /// used after an error.
+    pub fn process(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
+        self.machine.refresh(&self.commons, self.state.metric)?;
+        if record.kind == kind::PSEUDO {
+            return words::pseudo::handle(self, record, vocabulary);
+        }
+        match self.handlers.get(record.major.index()).copied().flatten() {
+            Some(handler) => handler(self, record, vocabulary),
+            None => {
+                self.warn_unknown_word(record.major, vocabulary);
+                Ok(())
+            }
+        }
+    }
+
+    /// Ends the program if no FINI did.
+    ///
+    /// # Errors
+    /// A record that waits for its continuation (a CIRCLE without end point).
+    pub fn finish(&mut self) -> Result<(), Box<Diag>> {
+        words::fini::finish(self)
+    }
+
+    /// Extents and counts for the summary are the tape's; this is the last CL
+    /// point, in CL units.
+    pub fn point(&self) -> Option<[f64; 3]> {
+        self.state.point.map(|p| [p.x, p.y, p.z])
+    }
+
+    /// Diameter of the cutter as the CL file names it, in CL units.
+    pub fn cutter_diameter(&self) -> Option<f64> {
+        self.state.cutter
+    }
+
+    /// Warns once per code and subject.
+    pub(crate) fn warn(&mut self, code: PostCode, message: String) {
+        let code: &'static Code = code.into();
+        if self.warned.insert((code.number, message.clone())) {
+            self.warnings.push(Diag::new(code, message));
+        }
+    }
+
+    fn warn_unknown_word(&mut self, word: WordId, vocabulary: &Vocabulary) {
+        self.warn(PostCode::UnknownWord, format!("no handler for {}", vocabulary.name(word)));
+    }
+
+    /// Warns that the machine has no code for something it may do by other means.
+    pub(crate) fn warn_no_code(&mut self, what: &str) {
+        let message = format!("the machine has no code for {what}; nothing is written");
+        self.warn(PostCode::IgnoredPart, message);
+    }
+
+    /// An integer code of the machine.
+    ///
+    /// # Errors
+    /// The code is absent.
+    pub(crate) fn code(&self, location: Int, what: &str) -> Result<i32, Box<Diag>> {
+        self.commons.int_opt(location).ok_or_else(|| {
+            Box::new(Diag::new(
+                PostCode::NoCode,
+                format!("the machine has no code for {what} (INTCOM {})", location.0),
+            ))
+        })
+    }
+
+    /// Writes the block under construction and empties it.
+    ///
+    /// # Errors
+    /// As [`Tape::block`]; and what the start of the program refuses.
+    pub(crate) fn write_block(&mut self) -> Result<(), Box<Diag>> {
+        if !self.state.started && !self.block.is_empty() {
+            let block = std::mem::take(&mut self.block);
+            crate::program::start(self)?;
+            self.block = block;
+        }
+        let result = self.tape.block(&self.block, &self.machine.addresses, &mut self.commons);
+        self.block.clear();
+        result
+    }
+
+    /// Writes a text as a block.
+    ///
+    /// # Errors
+    /// As [`Post::write_block`].
+    pub(crate) fn write_line(&mut self, text: &str, numbered: bool) -> Result<(), Box<Diag>> {
+        crate::program::start(self)?;
+        self.tape.line(text, numbered, &self.machine.addresses, &mut self.commons)
+    }
+
+    /// Writes the block under construction at once, or keeps its words for a
+    /// motion to come.
+    ///
+    /// # Errors
+    /// As [`Post::write_block`].
+    pub(crate) fn place_block(&mut self, placement: Placement) -> Result<(), Box<Diag>> {
+        if placement == Placement::OwnBlock {
+            return self.write_block();
+        }
+        let block = std::mem::take(&mut self.block);
+        self.state.pending.push((placement, block));
+        Ok(())
+    }
+
+    /// Writes the words that still wait for a motion, each in a block of its own.
+    ///
+    /// # Errors
+    /// As [`Post::write_block`].
+    pub(crate) fn flush_pending(&mut self) -> Result<(), Box<Diag>> {
+        for (_, words) in std::mem::take(&mut self.state.pending) {
+            self.block = words;
+            self.write_block()?;
+        }
+        Ok(())
+    }
+
+    /// Adds a word to the block under construction.
+    ///
+    /// # Errors
+    /// As [`Block::word`].
+    pub(crate) fn word(&mut self, letter: u8, value: f64) -> Result<(), Box<Diag>> {
+        self.block.word(letter, value, &self.machine.addresses)
+    }
+
+    /// Adds a plane selection unless the control stands at it.
+    pub(crate) fn plane_code(&mut self, code: i32) {
+        self.check_forgotten();
+        if self.state.plane != Some(code) {
+            self.block.g(code);
+            self.state.plane = Some(code);
+        }
+    }
+
+    /// Forgets the modal G codes when FIL has emptied the last output of G.
+    pub(crate) fn check_forgotten(&mut self) {
+        if self.commons.last_output(crate::address::letter(b'G')) == EMPTY {
+            self.state.motion = None;
+            self.state.plane = None;
+        }
+    }
+}

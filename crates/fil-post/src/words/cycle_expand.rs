@@ -1,0 +1,91 @@
+//! Canned cycles as single moves, for machines that have no code for them.
+
+use fil_cl::vocabulary::words as w;
+use fil_diag::Diag;
+
+use super::cycle::{Cycle, HoleLevels, with_feed};
+use super::delay;
+use crate::commons::EMPTY;
+use crate::errors::PostCode;
+use crate::locations as loc;
+use crate::motion::Position;
+use crate::post::Post;
+
+/// Distance above the last depth at which a peck starts to feed, and by which
+/// BRKCHP lifts, mm.
+const PECK_GAP: f64 = 0.2;
+
+/// Drills one hole: rapid to it and to the R level, feed to the bottom (in
+/// pecks), dwell, retract.
+///
+/// # Errors
+/// TAP, which needs a control that couples spindle and feed.
+pub fn hole(
+    post: &mut Post,
+    cycle: &Cycle,
+    at: &Position,
+    levels: HoleLevels,
+) -> Result<(), Box<Diag>> {
+    if cycle.word == w::TAP {
+        return Err(Box::new(Diag::new(
+            PostCode::NoCode,
+            "the machine has no tapping cycle, and a tap can't be written as single moves",
+        )));
+    }
+    post.rapid_to(at, &[0, 1, 3, 4])?;
+    rapid_z(post, levels.clear)?;
+    match cycle.step {
+        Some(step) => pecks(post, cycle, levels, step)?,
+        None => feed_z(post, cycle, levels.bottom)?,
+    }
+    if cycle.dwell > 0.0 {
+        dwell(post, cycle.dwell)?;
+    }
+    if matches!(cycle.word, w::BORE | w::REAM) {
+        feed_z(post, cycle, levels.clear)?;
+    }
+    let rest = if levels.to_initial { cycle.initial.unwrap_or(levels.clear) } else { levels.clear };
+    rapid_z(post, rest)
+}
+
+/// DEEP comes out to the R level after each peck, BRKCHP only lifts.
+fn pecks(post: &mut Post, cycle: &Cycle, levels: HoleLevels, step: f64) -> Result<(), Box<Diag>> {
+    let gap = if post.state.metric { PECK_GAP } else { PECK_GAP / 25.4 };
+    let mut reached = levels.clear;
+    while reached - step > levels.bottom + 1e-9 {
+        reached -= step;
+        feed_z(post, cycle, reached)?;
+        if cycle.word == w::DEEP {
+            rapid_z(post, levels.clear)?;
+            rapid_z(post, (reached + gap).min(levels.clear))?;
+        } else {
+            rapid_z(post, reached + gap)?;
+        }
+    }
+    feed_z(post, cycle, levels.bottom)
+}
+
+fn rapid_z(post: &mut Post, z: f64) -> Result<(), Box<Diag>> {
+    let mut position = Position::default();
+    position[2] = z;
+    post.rapid_to(&position, &[2])
+}
+
+fn feed_z(post: &mut Post, cycle: &Cycle, z: f64) -> Result<(), Box<Diag>> {
+    with_feed(post, cycle.feed, |post| {
+        let mut position = Position::default();
+        position[2] = z;
+        post.feed_to(&position, &[2])
+    })
+}
+
+fn dwell(post: &mut Post, seconds: f64) -> Result<(), Box<Diag>> {
+    let letter = delay::letter_of(post)?;
+    let code = post.code(loc::DWELL_CODE, "a dwell")?;
+    let factor = post.commons.dbl_opt(loc::DWELL_UPM_FACTOR).unwrap_or(1.0);
+    post.block.g(code);
+    post.word(letter, seconds * factor)?;
+    post.write_block()?;
+    post.commons.set_last_output(letter, EMPTY);
+    Ok(())
+}

@@ -1,0 +1,133 @@
+//! Reading the items of a record: numbers, flags and couplets in any order.
+//!
+//! Each item taken is crossed off; what is left over at the end is reported,
+//! so that no part of a record is ignored without a word.
+
+use fil_cl::vocabulary::Vocabulary;
+use fil_cl::{Record, Word, WordId};
+use fil_diag::Diag;
+
+use crate::errors::PostCode;
+use crate::post::Post;
+
+/// The items of a record that are not yet taken.
+pub struct Form<'a> {
+    record: &'a Record,
+    vocabulary: &'a Vocabulary,
+    taken: Vec<bool>,
+}
+
+impl<'a> Form<'a> {
+    /// All items of a record.
+    pub fn new(record: &'a Record, vocabulary: &'a Vocabulary) -> Self {
+        Form { record, vocabulary, taken: vec![false; record.data.len()] }
+    }
+
+    /// Takes a minor word wherever it stands.
+    pub fn flag(&mut self, word: WordId) -> bool {
+        match self.find(word) {
+            Some(at) => {
+                self.taken[at] = true;
+                true
+            }
+            None => false,
+        }
+    }
+
+    /// Takes the first of these minor words that is there.
+    pub fn any_of(&mut self, words: &[WordId]) -> Option<WordId> {
+        words.iter().copied().find(|word| self.flag(*word))
+    }
+
+    /// Takes a couplet: a minor word and the number after it. `None` when the
+    /// word is absent.
+    ///
+    /// # Errors
+    /// The word is there without a number after it.
+    pub fn couplet(&mut self, word: WordId) -> Result<Option<f64>, Box<Diag>> {
+        let Some(at) = self.find(word) else { return Ok(None) };
+        match self.record.data.get(at + 1) {
+            Some(Word::Number(value)) if !self.taken[at + 1] => {
+                self.taken[at] = true;
+                self.taken[at + 1] = true;
+                Ok(Some(*value))
+            }
+            _ => Err(self.error(format!("{} needs a number after it", self.name(word)))),
+        }
+    }
+
+    /// Takes the first number that is left.
+    pub fn number(&mut self) -> Option<f64> {
+        let number = |word: &Word| match word {
+            Word::Number(value) => Some(*value),
+            _ => None,
+        };
+        let at = (0..self.taken.len())
+            .find(|at| !self.taken[*at] && number(&self.record.data[*at]).is_some())?;
+        self.taken[at] = true;
+        number(&self.record.data[at])
+    }
+
+    /// Takes the number that must be there.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn required(&mut self, what: &str) -> Result<f64, Box<Diag>> {
+        self.number().ok_or_else(|| self.error(format!("{what} is missing")))
+    }
+
+    /// Takes all numbers that are left.
+    pub fn numbers(&mut self) -> Vec<f64> {
+        std::iter::from_fn(|| self.number()).collect()
+    }
+
+    /// Takes the first minor word that is left.
+    pub fn minor(&mut self) -> Option<WordId> {
+        let at = (0..self.taken.len())
+            .find(|at| !self.taken[*at] && matches!(self.record.data[*at], Word::Minor(_)))?;
+        self.taken[at] = true;
+        match self.record.data[at] {
+            Word::Minor(word) => Some(word),
+            _ => None,
+        }
+    }
+
+    /// Warns of what is left.
+    pub fn finish(self, post: &mut Post) {
+        let left: Vec<String> = self
+            .taken
+            .iter()
+            .zip(&self.record.data)
+            .filter(|(taken, _)| !**taken)
+            .filter_map(|(_, word)| match word {
+                Word::Number(value) => Some(value.to_string()),
+                Word::Minor(word) => Some(self.name(*word).to_string()),
+                Word::Text { start, len } => self
+                    .record
+                    .text
+                    .get(*start as usize..(*start + *len) as usize)
+                    .map(|text| format!("'{text}'")),
+                Word::Empty => None,
+            })
+            .collect();
+        if !left.is_empty() {
+            let major = self.name(self.record.major);
+            post.warn(PostCode::IgnoredPart, format!("{major}: no effect of {}", left.join(", ")));
+        }
+    }
+
+    /// An error about the form of this record.
+    pub fn error(&self, message: impl std::fmt::Display) -> Box<Diag> {
+        let major = self.name(self.record.major);
+        Box::new(Diag::new(PostCode::WordForm, format!("{major}: {message}")))
+    }
+
+    fn find(&self, word: WordId) -> Option<usize> {
+        (0..self.taken.len())
+            .find(|at| !self.taken[*at] && self.record.data[*at] == Word::Minor(word))
+    }
+
+    fn name(&self, word: WordId) -> &str {
+        self.vocabulary.name(word)
+    }
+}

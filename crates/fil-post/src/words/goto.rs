@@ -1,0 +1,39 @@
+//! GOTO/x,y,z[,i,j,k] (and GOHOME): the next point of the path.
+
+use fil_cl::Record;
+use fil_cl::vocabulary::Vocabulary;
+use fil_diag::Diag;
+
+use nalgebra::{Point3, Vector3};
+
+use super::form::Form;
+use super::{circle, cycle};
+use crate::motion::Target;
+use crate::post::Post;
+
+/// Moves to the point; ends an arc or drills a hole when CIRCLE or CYCLE ask for it.
+///
+/// # Errors
+/// A record without a point, and all that the motion refuses.
+pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
+    let target = target(post, record, vocabulary)?;
+    if let Some(arc) = post.state.arc.take() {
+        circle::finish(post, &arc, target)
+    } else if post.state.cycle.is_some() && !post.state.rapid {
+        cycle::hole(post, target)
+    } else {
+        post.move_to(target)
+    }
+}
+
+/// The point of a motion record; without an axis of its own it keeps the last one.
+///
+/// # Errors
+/// A record without a point.
+pub fn target(post: &Post, record: &Record, vocabulary: &Vocabulary) -> Result<Target, Box<Diag>> {
+    let point = record
+        .point()
+        .ok_or_else(|| Form::new(record, vocabulary).error("a point x, y, z is missing"))?;
+    let axis = record.axis().map_or(post.state.axis, Vector3::from);
+    Ok(Target { point: Point3::from(point), axis })
+}

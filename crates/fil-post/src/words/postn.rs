@@ -1,0 +1,52 @@
+//! POSTN/OUT,letter,value,…: one block of exactly these words.
+
+use fil_cl::Record;
+use fil_cl::vocabulary::{Vocabulary, words as w};
+use fil_diag::Diag;
+
+use fil_cl::Word;
+
+use super::form::Form;
+use crate::letters::G;
+use crate::post::Post;
+
+/// Writes the block: every word in any case, its value as given, in the
+/// address's format; the last output values follow.
+///
+/// # Errors
+/// A form other than OUT, a letter that is none, a value that does not fit.
+pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
+    let mut form = Form::new(record, vocabulary);
+    if !form.flag(w::OUT) || record.data.first() != Some(&Word::Minor(w::OUT)) {
+        return Err(form.error("only POSTN/OUT is known"));
+    }
+    let numbers = form.numbers();
+    form.finish(post);
+    let form = Form::new(record, vocabulary);
+    if numbers.is_empty() || numbers.len() % 2 != 0 || numbers.len() + 1 != record.data.len() {
+        return Err(form.error("pairs of a letter and a value are needed"));
+    }
+    let mut motion = None;
+    for pair in numbers.chunks(2) {
+        let letter = letter_number(pair[0])
+            .ok_or_else(|| form.error(format!("{} is no letter, A is 1 and Z is 26", pair[0])))?;
+        if letter != G && post.block.has(letter, &post.machine.addresses) {
+            let name = char::from(b'A' + letter - 1);
+            return Err(form.error(format!("address {name} stands twice")));
+        }
+        post.word(letter, pair[1])?;
+        if letter == G {
+            motion = Some(pair[1] as i32);
+        }
+    }
+    post.write_block()?;
+    if let Some(code) = motion {
+        post.note_g(code);
+    }
+    Ok(())
+}
+
+/// A letter number, 1 to 26.
+pub fn letter_number(value: f64) -> Option<u8> {
+    (value.fract() == 0.0 && (1.0..=26.0).contains(&value)).then_some(value as u8)
+}

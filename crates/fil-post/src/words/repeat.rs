@@ -1,0 +1,34 @@
+//! REPEAT/letter,value,… and REPEAT/OFF: words added to each motion block.
+
+use fil_cl::Record;
+use fil_cl::vocabulary::{Vocabulary, words as w};
+use fil_diag::Diag;
+
+use super::form::Form;
+use super::postn::letter_number;
+use crate::post::Post;
+
+/// Sets or clears the words; a motion block that has a word of that letter is
+/// left as it is.
+///
+/// # Errors
+/// Any other form.
+pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
+    let mut form = Form::new(record, vocabulary);
+    if form.flag(w::OFF) {
+        post.state.repeat = [None; 27];
+        form.finish(post);
+        return Ok(());
+    }
+    let numbers = form.numbers();
+    if numbers.is_empty() || numbers.len() % 2 != 0 {
+        return Err(form.error("pairs of a letter and a value, or OFF, are needed"));
+    }
+    for pair in numbers.chunks(2) {
+        let letter = letter_number(pair[0])
+            .ok_or_else(|| form.error(format!("{} is no letter, A is 1 and Z is 26", pair[0])))?;
+        post.state.repeat[letter as usize] = Some(pair[1]);
+    }
+    form.finish(post);
+    Ok(())
+}
