@@ -77,6 +77,26 @@ impl Host for Mock {
     fn trace(&mut self, on: bool) {
         self.tracing = on;
     }
+
+    fn named_common(&mut self, name: &str) -> Option<Result<f64, Box<Diag>>> {
+        (name == "output_scale_x").then(|| self.common(CommonKind::Dbl, 486))
+    }
+
+    fn neighbour(
+        &mut self,
+        next: bool,
+        coordinate: usize,
+        _: &mut Vocabulary,
+    ) -> Result<Option<f64>, Box<Diag>> {
+        let is_motion = |record: &&Record| record.kind == fil_cl::record::kind::MOTION;
+        let (before, after) = self.records.split_at(self.next);
+        let found = if next {
+            after.iter().find(is_motion)
+        } else {
+            before.iter().rev().skip(1).find(is_motion)
+        };
+        Ok(found.and_then(|record| record.value(6 + coordinate, &Vocabulary::new())))
+    }
 }
 
 /// A record as `MAJOR item item`, numbers in shortest form.

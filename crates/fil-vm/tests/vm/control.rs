@@ -93,7 +93,8 @@ fn and_and_or_leave_the_rest_out_when_it_is_settled() {
 
 #[test]
 fn every_comparison_agrees_with_arithmetic() {
-    let operators: [(&str, fn(i32, i32) -> bool); 6] = [
+    type Holds = fn(i32, i32) -> bool;
+    let operators: [(&str, Holds); 6] = [
         ("EQ", |x, y| x == y),
         ("NE", |x, y| x != y),
         ("LT", |x, y| x < y),

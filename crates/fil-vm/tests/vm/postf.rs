@@ -148,6 +148,25 @@ fn couplets_have_functions_of_our_own() {
 }
 
 #[test]
+fn neighbours_are_seen_without_reading_on() {
+    let fil = "CIMFIL/ON,CYCLE\nV1=NEXTF(X);V2=NEXTF(Z);N1=POSTF(17)\nCIMFIL/OFF\n\
+               CIMFIL/ON,FINI\nV3=PREVF(Y)\nCIMFIL/OFF";
+    let bench = run(fil, CL);
+    assert_eq!(["V1", "V2", "V3", "N1"].map(|name| bench.number(name)), [1.0, 3.0, 5.0, 1.0]);
+    assert_eq!(bench.host.log.len(), 2, "both motions are still there");
+    assert_eq!(fails("CIMFIL/ON,FINI\nXX=NEXTF(X)\nCIMFIL/OFF", CL).code.number, 316);
+}
+
+#[test]
+fn commons_have_names_and_letters_their_last_value() {
+    let bench =
+        globals("D=POSTF(2,3,486,2);D=POSTF(2,3,379,7.5)\nV1=COMF('output_scale_x');V2=LASTF(X)");
+    assert_eq!((bench.number("V1"), bench.number("V2")), (2.0, 7.5));
+    assert_eq!(fails("XX=COMF('nothing')", "").code.number, 316);
+    assert_eq!(fails("XX=LASTF(27)", "").code.number, 316);
+}
+
+#[test]
 fn an_error_shows_the_record_and_the_values() {
     let diag = fails(&cycle("DEP=COUPLF(DEPTH)\nVV=SQRTF(5-DEP)"), CL);
     assert_eq!(diag.code.number, 301);

@@ -102,3 +102,23 @@ fn includ_refuses_cycles_and_files_that_are_not_there() {
     assert_eq!(include("INCLUD/one.fil\nFINI\n", &[one, two]), Err(vec![214]));
     assert_eq!(include("INCLUD/none.fil\nFINI\n", &[]), Err(vec![214]));
 }
+
+#[test]
+fn only_a_section_with_a_silent_way_is_warned_of() {
+    let body = |text: &str| {
+        let fil = format!(
+            "MS=MACRO\nRAPID\nTERMAC\nMQ=MACRO\nXX=1\nTERMAC\nCIMFIL/ON,CYCLE\n{text}\nCIMFIL/OFF\nFINI\n"
+        );
+        let options = LoadOptions { lint: true, ..LoadOptions::default() };
+        let files = [FilFile { name: "a.fil", text: &fil }];
+        let loaded = load(&files, &mut Vocabulary::new(), options).unwrap();
+        loaded.warnings.iter().any(|diag| diag.code.number == 220)
+    };
+    assert!(body("XX=1"));
+    assert!(!body("DMY=POSTF(13)"));
+    assert!(!body("IF(POSTF(7,4).EQ.1)THEN\nRAPID\nELSE\nDMY=POSTF(13)\nENDIF"));
+    assert!(body("CASE/POSTF(7,4)\nWHEN/1\nRAPID\nENDCAS"));
+    assert!(!body("CALL/MS"));
+    assert!(body("CALL/MQ"));
+    assert!(body("DO/LA,II=1,POSTF(7,4)\nRAPID\nLA) CONTIN"), "the loop may have no pass");
+}
