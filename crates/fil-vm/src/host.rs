@@ -69,7 +69,8 @@ pub trait Host {
         site: &Site,
     ) -> Result<(), Box<Diag>>;
 
-    /// Puts the next CL record into `record`; false at the end, with `record` left alone.
+    /// Puts the next CL record that is no pseudo-comment into `record`; false at
+    /// the end, with `record` left alone.
     fn next_record(
         &mut self,
         record: &mut Record,

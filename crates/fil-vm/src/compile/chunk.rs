@@ -165,7 +165,7 @@ impl Compiler<'_> {
         too_deep: R,
         body: impl FnOnce(&mut Self) -> R,
     ) -> R {
-        const DEEPEST: u32 = 250;
+        const DEEPEST: u32 = 400;
         if self.chunk.depth >= DEEPEST {
             self.report(
                 CompileCode::TooLarge,

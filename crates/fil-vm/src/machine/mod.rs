@@ -189,8 +189,8 @@ impl Machine {
     }
 
     fn value(&self, name: &str) -> Option<Value> {
-        let named = self.module.names.iter().find(|(_, known)| known.as_str() == name);
-        named.map(|(register, _)| self.registers[usize::from(*register)])
+        let register = self.module.variables.get(name)?;
+        Some(self.registers[usize::from(*register)])
     }
 
     fn run<H: Host + ?Sized>(
