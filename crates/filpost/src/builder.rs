@@ -156,6 +156,7 @@ impl Builder {
                 compat: self.compat,
                 limits: self.limits,
                 strict: self.strict,
+                lint: false,
                 functions: Some(&self.functions),
                 loader: includes
                     .as_mut()
