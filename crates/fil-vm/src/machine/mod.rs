@@ -142,6 +142,11 @@ impl Machine {
         &self.module
     }
 
+    /// The embedding program's functions, for the machine of the next run.
+    pub fn into_functions(self) -> Functions {
+        self.functions
+    }
+
     /// Runs the global areas of all files; once, before the first record.
     pub fn run_globals<H: Host + ?Sized>(
         &mut self,
