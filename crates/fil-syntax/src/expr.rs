@@ -73,8 +73,7 @@ pub(crate) fn binary(reader: &mut Reader<'_>, op: BinaryOp, left: Deep, right: D
         );
     }
     let depth = 1 + left.depth.max(right.depth);
-    let kind =
-        ExprKind::Binary { op, left: Box::new(left.expr), right: Box::new(right.expr) };
+    let kind = ExprKind::Binary { op, left: Box::new(left.expr), right: Box::new(right.expr) };
     Deep::node(reader, kind, span, depth)
 }
 

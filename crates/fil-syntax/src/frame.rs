@@ -11,14 +11,29 @@ pub(crate) struct Frame {
     pub(crate) span: Span,
     /// Statements of the part that is open.
     pub(crate) body: Vec<Stmt>,
+    /// Its wrong or missing end has been reported.
+    pub(crate) reported: bool,
 }
 
 /// What kind of block is open, and the parts of it that are complete.
 pub(crate) enum FrameKind {
     /// `condition` is that of the open part, `None` in ELSE.
-    If { arms: Vec<(Expr, Vec<Stmt>)>, condition: Option<Expr> },
-    Do { label: Name, variable: Target, from: Expr, to: Expr, step: Option<Expr> },
-    Case { subject: Expr, whens: Vec<When>, part: CasePart },
+    If {
+        arms: Vec<(Expr, Vec<Stmt>)>,
+        condition: Option<Expr>,
+    },
+    Do {
+        label: Name,
+        variable: Target,
+        from: Expr,
+        to: Expr,
+        step: Option<Expr>,
+    },
+    Case {
+        subject: Expr,
+        whens: Vec<When>,
+        part: CasePart,
+    },
 }
 
 /// The part of a CASE that is open.
@@ -72,6 +87,11 @@ impl FrameKind {
 }
 
 impl Frame {
+    /// True for a DO that ends at this label and of which nothing wrong is known.
+    pub(crate) fn awaits(&self, label: &Name) -> bool {
+        !self.reported && self.kind.ends_at(label)
+    }
+
     /// True between CASE and its first WHEN.
     pub(crate) fn before_first_when(&self) -> bool {
         matches!(self.kind, FrameKind::Case { part: CasePart::None, .. })
@@ -112,15 +132,13 @@ impl Frame {
 
     /// The statement of a block that is complete.
     pub(crate) fn close(self) -> Stmt {
-        let Frame { kind, label, span, body } = self;
+        let Frame { kind, label, span, body, .. } = self;
         let kind = match kind {
             FrameKind::If { mut arms, condition: Some(condition) } => {
                 arms.push((condition, body));
                 StmtKind::If { arms, otherwise: None }
             }
-            FrameKind::If { arms, condition: None } => {
-                StmtKind::If { arms, otherwise: Some(body) }
-            }
+            FrameKind::If { arms, condition: None } => StmtKind::If { arms, otherwise: Some(body) },
             FrameKind::Do { label, variable, from, to, step } => {
                 StmtKind::Do { label, variable, from, to, step, body }
             }

@@ -8,11 +8,7 @@ use crate::token::{Bad, Token};
 const MAX_QUOTE: usize = 40;
 
 /// Code and sentence for a token the grammar could not take.
-pub(crate) fn refusal(
-    token: Token<'_>,
-    text: &str,
-    expected: &[String],
-) -> (SyntaxCode, String) {
+pub(crate) fn refusal(token: Token<'_>, text: &str, expected: &[String]) -> (SyntaxCode, String) {
     let bad = match token {
         Token::Bad(bad) => bad,
         _ => return (SyntaxCode::Unexpected, unexpected(token, text, expected)),
@@ -26,9 +22,7 @@ pub(crate) fn refusal(
             (SyntaxCode::UnclosedText, "this text has no closing apostrophe".to_string())
         }
         Bad::Operator => (SyntaxCode::UnknownOperator, format!("{text} is not an operator")),
-        Bad::Number => {
-            (SyntaxCode::NumberTooLarge, format!("the number {text} is too large"))
-        }
+        Bad::Number => (SyntaxCode::NumberTooLarge, format!("the number {text} is too large")),
         Bad::Depth => (
             SyntaxCode::TooDeep,
             format!("more than {MAX_NESTING} brackets, signs and powers inside each other"),

@@ -60,9 +60,11 @@ fn report_rest(reader: &mut Reader<'_>, span: Span) {
 fn beyond_limits(file: &str, source: &str) -> Option<Diag> {
     if source.len() > MAX_FILE {
         let message = format!("the file has {} bytes", source.len());
-        return Some(
-            Diag::new(SyntaxCode::FileTooLarge, message).at(Place::line(file, 1, String::new())),
-        );
+        return Some(Diag::new(SyntaxCode::FileTooLarge, message).at(Place::line(
+            file,
+            1,
+            String::new(),
+        )));
     }
     let (index, line) = source.split('\n').enumerate().find(|(_, line)| line.len() > MAX_LINE)?;
     let head: String = line.chars().take(MAX_EXCERPT).collect();

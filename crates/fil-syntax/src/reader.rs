@@ -73,7 +73,8 @@ impl<'a> Reader<'a> {
             self.diags.push(diag);
         } else if !self.shared.stop.replace(true) {
             let message = format!("more than {MAX_DIAGS} messages, reading stopped here");
-            let place = diag.places.into_iter().next().unwrap_or_else(|| self.place(self.end_span()));
+            let place =
+                diag.places.into_iter().next().unwrap_or_else(|| self.place(self.end_span()));
             self.diags.push(Diag::new(SyntaxCode::TooManyErrors, message).at(place));
         }
     }

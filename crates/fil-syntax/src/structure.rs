@@ -72,9 +72,10 @@ impl Nester<'_, '_> {
             FlatKind::Refused => self.add(Stmt { label, kind: StmtKind::Contin, span }),
             FlatKind::If(condition) => self.open(FrameKind::if_then(condition), label, span),
             FlatKind::Do { label: end, variable, from, to, step } => {
-                self.check_shared_label(&end);
+                let shared = self.shares_label(&end);
                 let kind = FrameKind::Do { label: end, variable, from, to, step };
                 self.open(kind, label, span);
+                self.frames.iter_mut().for_each(|frame| frame.reported |= shared);
             }
             FlatKind::Case(subject) => self.open(FrameKind::case(subject), label, span),
             FlatKind::ElseIf(_) | FlatKind::Else | FlatKind::When(_) | FlatKind::WhenOther => {
@@ -110,8 +111,9 @@ impl Nester<'_, '_> {
             return;
         };
         if frame.before_first_when() {
-            let message = "this statement stands between CASE and its first WHEN";
-            self.reader.report(SyntaxCode::BeforeWhen, message, stmt.span);
+            let message = "this statement stands between CASE and its first WHEN".to_string();
+            let opened = ("of this CASE".to_string(), frame.span);
+            self.unbalanced(SyntaxCode::BeforeWhen, message, stmt.span, Some(opened));
         } else {
             frame.body.push(stmt);
         }
@@ -119,33 +121,33 @@ impl Nester<'_, '_> {
 
     /// Closes the DO that ends with a statement of this label.
     fn end_do(&mut self, label: &Name) {
-        let Some(at) = self.frames.iter().rposition(|frame| frame.kind.ends_at(label)) else {
-            return;
-        };
-        if at + 1 < self.frames.len() {
-            let inner = self.frames.last().map(|frame| (frame.kind.word(), frame.span));
+        while self.frames.last().is_some_and(|frame| frame.kind.ends_at(label)) {
+            self.close_last();
+        }
+        let inner = self.frames.last().map(|frame| (frame.kind.word(), frame.span));
+        let waiting = self.frames.iter_mut().find(|frame| frame.awaits(label));
+        if let (Some((word, span)), Some(frame)) = (inner, waiting) {
+            frame.reported = true;
             self.unbalanced(
                 SyntaxCode::WrongDoEnd,
                 format!("the label {} of DO stands inside another block", label.text),
                 label.span,
-                inner.map(|(word, span)| (format!("inside this {word}"), span)),
+                Some((format!("inside this {word}"), span)),
             );
-        }
-        while self.frames.len() > at {
-            self.close_last();
         }
     }
 
-    fn check_shared_label(&mut self, label: &Name) {
+    /// Two DO cannot end together; true when that was reported.
+    fn shares_label(&mut self, label: &Name) -> bool {
         let other = self.frames.iter().find(|frame| frame.kind.ends_at(label));
-        if let Some(span) = other.map(|frame| frame.span) {
-            self.unbalanced(
-                SyntaxCode::WrongDoEnd,
-                format!("two open DO share the label {}", label.text),
-                label.span,
-                Some(("the first one".to_string(), span)),
-            );
-        }
+        let Some(span) = other.map(|frame| frame.span) else { return false };
+        self.unbalanced(
+            SyntaxCode::WrongDoEnd,
+            format!("two open DO share the label {}", label.text),
+            label.span,
+            Some(("the first one".to_string(), span)),
+        );
+        true
     }
 
     fn open(&mut self, kind: FrameKind, label: Option<Name>, span: Span) {
@@ -154,13 +156,14 @@ impl Nester<'_, '_> {
             self.reader.report(SyntaxCode::TooDeep, message, span);
         }
         if let Some(label) = &label
-            && self.frames.iter().any(|frame| frame.kind.ends_at(label))
+            && let Some(frame) = self.frames.iter_mut().find(|frame| frame.awaits(label))
         {
+            frame.reported = true;
             let message = format!("DO cannot end at {}, which opens a block", kind.word());
             self.reader.report(SyntaxCode::WrongDoEnd, message, label.span);
             self.end_do(label);
         }
-        self.frames.push(Frame { kind, label, span, body: Vec::new() });
+        self.frames.push(Frame { kind, label, span, body: Vec::new(), reported: false });
     }
 
     /// ELSEIF, ELSE and WHEN: a further part of the innermost IF or CASE.
@@ -177,10 +180,8 @@ impl Nester<'_, '_> {
         let opened = frame.span;
         if !frame.next_part(kind, span) {
             let message = format!("{word} stands after the part that takes all that is left");
-            let place = self.reader.place(span);
-            let opened = self.reader.place(opened).label("of this block");
-            let diag = Diag::new(SyntaxCode::AfterLast, message).at(place).at(opened);
-            self.reader.push(diag);
+            let opened = ("of this block".to_string(), opened);
+            self.unbalanced(SyntaxCode::AfterLast, message, span, Some(opened));
         }
     }
 
@@ -215,7 +216,7 @@ impl Nester<'_, '_> {
     /// they should have been closed before.
     fn close_inside(&mut self, keep: usize, code: SyntaxCode, word: &str, span: Span) {
         while self.frames.len() > keep {
-            if let Some(frame) = self.frames.last() {
+            if let Some(frame) = self.frames.last().filter(|frame| !frame.reported) {
                 let message = format!("{} is not closed", frame.kind.describe());
                 let (opened, other) = (frame.span, format!("still open at {word}"));
                 self.unbalanced(code, message, opened, Some((other, span)));

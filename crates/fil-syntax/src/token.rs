@@ -4,6 +4,7 @@ use logos::Logos;
 
 /// A token as it stands in the text, whatever statement it is part of.
 #[derive(Clone, Copy, Debug, Logos, PartialEq)]
+#[allow(clippy::duplicated_attributes, reason = "each skip has an allow_greedy of its own")]
 #[logos(skip r"[ \t\x0c\x1a]+")]
 #[logos(skip(r"\$\$[^\r\n]*", allow_greedy = true))]
 #[logos(skip(r"\$([ \t]*|[ \t]+\$\$[^\r\n]*)(\r\n|\r|\n)", allow_greedy = true))]

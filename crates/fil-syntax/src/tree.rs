@@ -44,6 +44,7 @@ pub struct Program {
 
 /// A part of a FIL file.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "most items of a file are statements")]
 pub enum Item {
     /// A statement of the global area; it runs once before the first record.
     Stmt(Stmt),

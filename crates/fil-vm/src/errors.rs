@@ -79,6 +79,10 @@ fil_diag::codes! {
         Extension = 219, Error, "extension of filpost",
             "The function is not part of FIL; --strict keeps scripts portable.",
             "Write it with POSTF, or run without --strict.";
+        /// A section with a way that sends nothing; only looked for on request.
+        Swallows = 220, Warning, "section can swallow its record",
+            "A section takes its record: on this way neither a post word nor POSTF(13) stands, so the record has no effect.",
+            "Call POSTF(13) where the post is to act as usual.";
     }
 }
 

@@ -56,8 +56,7 @@ pub trait Host {
     fn common(&mut self, kind: CommonKind, location: u32) -> Result<f64, Box<Diag>>;
 
     /// Stores in a common location. EMPTY comes as [`Host::clear_common`].
-    fn set_common(&mut self, kind: CommonKind, location: u32, value: f64)
-    -> Result<(), Box<Diag>>;
+    fn set_common(&mut self, kind: CommonKind, location: u32, value: f64) -> Result<(), Box<Diag>>;
 
     /// Makes a common location EMPTY.
     fn clear_common(&mut self, kind: CommonKind, location: u32) -> Result<(), Box<Diag>>;
@@ -70,7 +69,8 @@ pub trait Host {
         site: &Site,
     ) -> Result<(), Box<Diag>>;
 
-    /// Puts the next CL record into `record`; false at the end, with `record` left alone.
+    /// Puts the next CL record that is no pseudo-comment into `record`; false at
+    /// the end, with `record` left alone.
     fn next_record(
         &mut self,
         record: &mut Record,

@@ -16,6 +16,7 @@ mod matcher;
 mod module;
 mod ops;
 pub mod postf;
+mod swallow;
 mod value;
 
 pub use compile::{FilFile, LoadOptions, Loaded, Loader, load};

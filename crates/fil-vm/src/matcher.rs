@@ -78,9 +78,8 @@ impl Matcher {
     }
 
     fn find_type(&self, record: &Record, vocab: &Vocabulary) -> Option<SectionId> {
-        let fits = |sub: Option<u32>| {
-            sub.is_none_or(|sub| record.value(3, vocab) == Some(f64::from(sub)))
-        };
+        let fits =
+            |sub: Option<u32>| sub.is_none_or(|sub| record.value(3, vocab) == Some(f64::from(sub)));
         let found = self.types.iter().find(|(kind, sub, _)| *kind == record.kind && fits(*sub));
         found.map(|(_, _, section)| *section)
     }

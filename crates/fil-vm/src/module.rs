@@ -126,7 +126,9 @@ pub struct Module {
     pub(crate) constants: Vec<(Reg, Constant)>,
     /// Registers in use: 0 to this, exclusive.
     pub(crate) registers: u32,
-    /// Names of registers that are variables.
+    /// Registers of the variables all files share.
+    pub(crate) variables: HashMap<String, Reg>,
+    /// Names of registers that are variables or parameters.
     pub(crate) names: HashMap<Reg, String>,
     /// First element and length of each array in the array store.
     pub(crate) arrays: Vec<ArrayShape>,

@@ -100,7 +100,8 @@ mod tests {
         let first = texts.add("first", 100).unwrap();
         texts.add("garbage", 100).unwrap();
         let third = texts.add("third", 100).unwrap();
-        let mut values = [Value::Text(third), Value::Number(1.0), Value::Text(first), Value::Text(third)];
+        let mut values =
+            [Value::Text(third), Value::Number(1.0), Value::Text(first), Value::Text(third)];
         texts.keep(values.iter_mut());
         assert_eq!(texts.size(), "firstthird".len() + 8);
         assert_eq!(values[0], values[3]);

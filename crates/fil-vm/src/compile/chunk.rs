@@ -137,7 +137,11 @@ impl Compiler<'_> {
         let first = self.chunk.temporaries;
         let room = u16::MAX - FIRST_TEMPORARY;
         if count > room || first > room - count {
-            self.report(CompileCode::TooLarge, span, "the expression needs too many values at once");
+            self.report(
+                CompileCode::TooLarge,
+                span,
+                "the expression needs too many values at once",
+            );
             return FIRST_TEMPORARY;
         }
         self.chunk.temporaries += count;
@@ -161,9 +165,13 @@ impl Compiler<'_> {
         too_deep: R,
         body: impl FnOnce(&mut Self) -> R,
     ) -> R {
-        const DEEPEST: u32 = 250;
+        const DEEPEST: u32 = 400;
         if self.chunk.depth >= DEEPEST {
-            self.report(CompileCode::TooLarge, span, format!("nested deeper than {DEEPEST} levels"));
+            self.report(
+                CompileCode::TooLarge,
+                span,
+                format!("nested deeper than {DEEPEST} levels"),
+            );
             return too_deep;
         }
         self.chunk.depth += 1;

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use fil_diag::Diag;
+use fil_syntax::SyntaxCode;
 use fil_syntax::tree::{Item, Program, Span, Stmt, StmtKind};
 
 use super::Loader;
@@ -61,7 +62,11 @@ impl<'a> Includes<'a> {
         // Spans count from behind a byte order mark.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let parsed = fil_syntax::parse(name, text);
-        self.diags.extend(parsed.diags);
+        // An included file goes on where the including one does: it needs no FINI.
+        let included = !self.open.is_empty();
+        let missing_fini = <&fil_diag::Code>::from(SyntaxCode::MissingFini);
+        let needless = |diag: &Diag| included && diag.code == missing_fini;
+        self.diags.extend(parsed.diags.into_iter().filter(|diag| !needless(diag)));
         let unit = self.units.len();
         let file = File::new(name, text);
         self.units.push(Unit { file, program: Program::default() });

@@ -82,9 +82,18 @@ impl Compiler<'_> {
             }
             // A constant unless its argument is no word.
             (Kind::WordCode, [_]) => {
-                self.report(CompileCode::WordExpected, span, "ICODEF takes a word as it is written");
+                self.report(
+                    CompileCode::WordExpected,
+                    span,
+                    "ICODEF takes a word as it is written",
+                );
             }
-            _ => self.wrong_count(builtin.name, &format!("({})", builtin.arguments), args.len(), span),
+            _ => self.wrong_count(
+                builtin.name,
+                &format!("({})", builtin.arguments),
+                args.len(),
+                span,
+            ),
         }
     }
 

@@ -24,6 +24,7 @@ use crate::functions::Functions;
 use crate::machine::Limits;
 use crate::module::Module;
 use crate::postf::Compat;
+use crate::swallow;
 use chunk::ChunkBuilder;
 use files::{Includes, Unit};
 use names::Names;
@@ -49,6 +50,8 @@ pub struct LoadOptions<'a> {
     pub limits: Limits,
     /// Refuse extensions of filpost.
     pub strict: bool,
+    /// Warn of sections that can swallow their record.
+    pub lint: bool,
     /// Functions of the embedding program.
     pub functions: Option<&'a Functions>,
     /// Where INCLUD gets its files; without it INCLUD is refused.
@@ -72,7 +75,7 @@ pub fn load(
     vocab: &mut Vocabulary,
     options: LoadOptions<'_>,
 ) -> Result<Loaded, Vec<Diag>> {
-    let LoadOptions { compat, limits, strict, functions, loader } = options;
+    let LoadOptions { compat, limits, strict, lint, functions, loader } = options;
     let mut includes = Includes::new(loader);
     for file in files {
         includes.read(file.name, file.text);
@@ -101,7 +104,7 @@ pub fn load(
         noted: Vec::new(),
     };
     compiler.run();
-    compiler.finish()
+    compiler.finish(lint)
 }
 
 struct Compiler<'t> {
@@ -137,9 +140,12 @@ impl<'t> Compiler<'t> {
         self.refuse_recursion();
     }
 
-    fn finish(self) -> Result<Loaded, Vec<Diag>> {
+    fn finish(mut self, lint: bool) -> Result<Loaded, Vec<Diag>> {
         if self.diags.iter().any(Diag::is_error) {
             return Err(self.diags);
+        }
+        if lint {
+            self.diags.extend(swallow::warnings(&self.module));
         }
         Ok(Loaded { module: self.module, warnings: self.diags })
     }

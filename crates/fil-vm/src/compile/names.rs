@@ -25,7 +25,6 @@ pub(super) struct MacroInfo<'t> {
 pub(super) struct Names<'t> {
     /// Names that some statement sets.
     assigned: HashSet<&'t str>,
-    variables: HashMap<String, Reg>,
     /// Parameters of the macro that is being compiled.
     pub params: HashMap<&'t str, Reg>,
     pub arrays: HashMap<&'t str, u16>,
@@ -144,7 +143,7 @@ impl<'t> Compiler<'t> {
             let message = format!("{name} is an array or macro");
             self.report(CompileCode::ArrayMisuse, span, message);
         }
-        let known = self.names.params.get(name).or_else(|| self.names.variables.get(name));
+        let known = self.names.params.get(name).or_else(|| self.module.variables.get(name));
         let reg = match known {
             Some(reg) => *reg,
             None => self.new_variable(name, span),
@@ -158,7 +157,7 @@ impl<'t> Compiler<'t> {
 
     fn new_variable(&mut self, name: &str, span: Span) -> Reg {
         let reg = self.reserve(1, span);
-        self.names.variables.insert(name.to_string(), reg);
+        self.module.variables.insert(name.to_string(), reg);
         self.module.names.insert(reg, name.to_string());
         if let Some(number) = letter(name) {
             self.module.constants.push((reg, Constant::Number(number)));

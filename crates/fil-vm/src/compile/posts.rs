@@ -27,12 +27,8 @@ impl Compiler<'_> {
 
     fn template(&mut self, word: &Name, items: Vec<Item>) {
         let major = self.vocab.intern(&word.text);
-        let template = Template {
-            major,
-            name: word.text.clone(),
-            items,
-            is_text: takes_text(major),
-        };
+        let template =
+            Template { major, name: word.text.clone(), items, is_text: takes_text(major) };
         self.module.templates.push(template);
         let template = self.index(self.module.templates.len() - 1, word.span, "post words");
         self.chunk.emit(Op::Post { template });

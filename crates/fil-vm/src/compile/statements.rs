@@ -62,7 +62,9 @@ impl Compiler<'_> {
             StmtKind::Call { name, args } => self.call_macro(name, args, stmt.span),
             StmtKind::Includ { .. } => {
                 if let Some(unit) = self.included(stmt) {
-                    self.include(unit, stmt.span, self.in_global_area());
+                    // Sections of the file are only looked for at the outermost level.
+                    let outermost = self.in_global_area() && self.chunk.depth == 0;
+                    self.include(unit, stmt.span, outermost);
                 }
             }
             StmtKind::Fini if !self.in_global_area() => {

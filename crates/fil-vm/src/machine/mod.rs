@@ -142,6 +142,11 @@ impl Machine {
         &self.module
     }
 
+    /// The embedding program's functions, for the machine of the next run.
+    pub fn into_functions(self) -> Functions {
+        self.functions
+    }
+
     /// Runs the global areas of all files; once, before the first record.
     pub fn run_globals<H: Host + ?Sized>(
         &mut self,
@@ -184,8 +189,8 @@ impl Machine {
     }
 
     fn value(&self, name: &str) -> Option<Value> {
-        let named = self.module.names.iter().find(|(_, known)| known.as_str() == name);
-        named.map(|(register, _)| self.registers[usize::from(*register)])
+        let register = self.module.variables.get(name)?;
+        Some(self.registers[usize::from(*register)])
     }
 
     fn run<H: Host + ?Sized>(

@@ -151,7 +151,8 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             Some(_) => Ok(Number(EMPTY)),
             None => {
                 let last = record.len();
-                let message = format!("the record ends with word {last}; word {at} is read as EMPTY");
+                let message =
+                    format!("the record ends with word {last}; word {at} is read as EMPTY");
                 self.warn_once(RunCode::PastEnd, message);
                 Ok(Number(EMPTY))
             }
@@ -191,8 +192,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         let kind = self.number(registers, base)?;
         let location = self.number(registers, base.wrapping_add(1))?;
         let Some(kind) = CommonKind::from_type(kind) else {
-            let message =
-                format!("type {} is none of 1 INTCOM, 2 RELCOM, 3 DBLCOM", Shown(kind));
+            let message = format!("type {} is none of 1 INTCOM, 2 RELCOM, 3 DBLCOM", Shown(kind));
             return Err(fault(RunCode::BadPostf, message));
         };
         let whole = location as u32;
@@ -216,9 +216,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
 
     fn find_code(&self, from: usize, code: f64) -> Result<Value, Box<Diag>> {
         let record = self.current()?;
-        let is_it = |n: &usize| {
-            matches!(record.data_word(*n), Some(Word::Minor(id)) if self.vocab.code(id) == code)
-        };
+        let is_it = |n: &usize| matches!(record.data_word(*n), Some(Word::Minor(id)) if self.vocab.code(id) == code);
         let found = (from.max(4)..=record.len()).find(is_it);
         Ok(Number(found.unwrap_or(0) as f64))
     }
@@ -244,7 +242,8 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             }
         };
         let record = self.current_mut()?;
-        let done = if op == PostfOp::SetWord { record.set(n, word) } else { record.insert(n, word) };
+        let done =
+            if op == PostfOp::SetWord { record.set(n, word) } else { record.insert(n, word) };
         self.changed(done, n)
     }
 

@@ -16,6 +16,7 @@ use crate::value::{EMPTY, Shown};
 const MOST_ARGUMENTS: usize = 6;
 
 impl<H: Host + ?Sized> Vm<'_, H> {
+    #[inline(never)]
     /// A register's value; EMPTY with a warning where it was never set.
     pub(super) fn read(&mut self, registers: &Registers, reg: Reg) -> Result<Value, Box<Diag>> {
         match registers[usize::from(reg)] {
@@ -29,6 +30,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         }
     }
 
+    #[inline(never)]
     /// A register's number.
     pub(super) fn number(&mut self, registers: &Registers, reg: Reg) -> Result<f64, Box<Diag>> {
         match self.read(registers, reg)? {
@@ -46,6 +48,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         fault(RunCode::WrongType, format!("'{text}' is a text; a number is needed here"))
     }
 
+    #[inline(never)]
     pub(super) fn arithmetic(
         &mut self,
         registers: &Registers,
@@ -63,6 +66,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         Err(fault(RunCode::Domain, message))
     }
 
+    #[inline(never)]
     pub(super) fn equal(
         &mut self,
         registers: &Registers,
@@ -79,6 +83,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         }
     }
 
+    #[inline(never)]
     pub(super) fn differ(
         &mut self,
         registers: &Registers,
@@ -88,6 +93,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         self.equal(registers, a, b).map(|equal| !equal)
     }
 
+    #[inline(never)]
     pub(super) fn less(
         &mut self,
         registers: &Registers,
@@ -97,6 +103,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         self.order(registers, a, b).map(std::cmp::Ordering::is_lt)
     }
 
+    #[inline(never)]
     pub(super) fn less_or_equal(
         &mut self,
         registers: &Registers,
@@ -123,6 +130,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     }
 
     /// A value used as a condition.
+    #[inline(never)]
     pub(super) fn truth(&mut self, registers: &Registers, reg: Reg) -> Result<bool, Box<Diag>> {
         let number = self.number(registers, reg)?;
         if number == 1.0 || number == 0.0 {
@@ -144,7 +152,10 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     #[cold]
     fn out_of_fuel(&self) -> Box<Diag> {
         let limit = self.limits.fuel;
-        fault(RunCode::OutOfFuel, format!("the limit of {limit} passes, calls and reads is used up"))
+        fault(
+            RunCode::OutOfFuel,
+            format!("the limit of {limit} passes, calls and reads is used up"),
+        )
     }
 
     pub(super) fn enter_macro(&mut self) -> Result<(), Box<Diag>> {
@@ -158,6 +169,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     }
 
     /// Settles last value and step of a DO; true when there is a first pass.
+    #[inline(never)]
     pub(super) fn enter_loop(
         &mut self,
         registers: &mut Registers,
@@ -193,8 +205,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         if whole >= 1 && whole <= shape.len && whole as f64 == number {
             return Ok(shape.start + whole - 1);
         }
-        let message =
-            format!("{}({}) is outside of 1 to {}", shape.name, Shown(number), shape.len);
+        let message = format!("{}({}) is outside of 1 to {}", shape.name, Shown(number), shape.len);
         Err(fault(RunCode::Subscript, message))
     }
 
@@ -205,6 +216,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         Ok(Number(EMPTY))
     }
 
+    #[inline(never)]
     pub(super) fn function(
         &mut self,
         registers: &Registers,
@@ -229,6 +241,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         }
     }
 
+    #[inline(never)]
     pub(super) fn host_function(
         &mut self,
         registers: &Registers,
@@ -258,6 +271,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         }
     }
 
+    #[inline(never)]
     pub(super) fn text_length(
         &mut self,
         registers: &Registers,
@@ -274,6 +288,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     }
 
     /// Texts and numbers of consecutive registers, one after the other.
+    #[inline(never)]
     pub(super) fn join(
         &mut self,
         registers: &mut Registers,
@@ -323,6 +338,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     }
 
     /// Last value written for a letter: DBLCOM 355+n.
+    #[inline(never)]
     pub(super) fn last_written(
         &mut self,
         registers: &Registers,
@@ -337,6 +353,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         self.host.common(CommonKind::Dbl, 355 + whole).map(Number)
     }
 
+    #[inline(never)]
     pub(super) fn named_common(
         &mut self,
         registers: &Registers,
@@ -352,6 +369,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         }
     }
 
+    #[inline(never)]
     pub(super) fn neighbour(&mut self, next: bool, word: u16) -> Result<Value, Box<Diag>> {
         let side = if next { "next" } else { "previous" };
         match self.host.neighbour(next, usize::from(word), self.vocab)? {

@@ -1,0 +1,175 @@
+//! One case for each code of the compiler and of the machine.
+
+use fil_vm::errors::{CompileCode, RunCode};
+use fil_vm::{Compat, FilFile, Functions, Limits, LoadOptions, load};
+
+use crate::bench::{Bench, Mock, compile};
+
+fn code(code: impl Into<&'static fil_diag::Code>) -> u16 {
+    code.into().number
+}
+
+/// A program the compiler refuses or warns of, and the line it names.
+fn compile_case(number: u16) -> Option<(String, u32)> {
+    let case = match number {
+        201 => ("JUMPTO/NOLAB", 1),
+        202 => ("LA) CONTIN\nLA) CONTIN", 2),
+        203 => ("JUMPTO/LB\nDO/LA,II=1,2\nLB) CONTIN\nLA) CONTIN", 1),
+        204 => ("VV=1\nXX=NOSUCH(VV)", 2),
+        205 => ("XX=SQRTF(1,2)", 1),
+        206 => ("XX=1\nXX=POSTF(18)", 2),
+        207 => ("CALL/NOSUCH", 1),
+        208 => ("MA=MACRO\nCALL/MB\nTERMAC\nMB=MACRO\nCALL/MA\nTERMAC", 5),
+        209 => ("RESERV/AR,3\nRESERV/AR,4", 2),
+        210 => ("CIMFIL/ON,CYCLE\nCIMFIL/OFF\nCIMFIL/ON,CYCLE\nCIMFIL/OFF", 3),
+        211 => ("NN=3\nRESERV/AR,NN", 2),
+        212 => ("RESERV/AR,3\nAR=1", 2),
+        213 => ("T1=TEXT/CLW,'A'", 1),
+        214 => ("INCLUD/other.fil", 1),
+        215 => return Some(("XX=1\n".repeat(66_000), 1)),
+        216 => ("XX=ICODEF(1+1)", 1),
+        217 => ("A=7", 1),
+        218 => ("CIMFIL/ON,CYCLE\nXX=POSTF(5)\nCIMFIL/OFF", 2),
+        220 => ("CIMFIL/ON,CYCLE\nIF(POSTF(7,4).EQ.1)DMY=POSTF(13)\nCIMFIL/OFF", 1),
+        219 => ("CIMFIL/ON,CYCLE\nXX=HASF(DEPTH)\nCIMFIL/OFF", 2),
+        _ => return None,
+    };
+    Some((case.0.to_string(), case.1))
+}
+
+#[test]
+fn every_code_of_the_compiler_has_a_case() {
+    for row in CompileCode::ALL {
+        let (text, line) =
+            compile_case(row.number).unwrap_or_else(|| panic!("no case for {}", row.name()));
+        let text = format!("{text}\nFINI\n");
+        let options = LoadOptions {
+            strict: row.number == code(CompileCode::Extension),
+            lint: row.number == code(CompileCode::Swallows),
+            ..LoadOptions::default()
+        };
+        let files = [FilFile { name: "case.fil", text: &text }];
+        let diags = match load(&files, &mut fil_cl::Vocabulary::new(), options) {
+            Ok(loaded) => loaded.warnings,
+            Err(diags) => diags,
+        };
+        let found: Vec<_> = diags.iter().map(|d| (d.code.number, d.places[0].line)).collect();
+        assert_eq!(found, [(row.number, line)], "{}: {diags:?}", row.name());
+    }
+}
+
+/// A program that stops or warns at run time, and the line it names.
+fn run_case(number: u16) -> Option<(&'static str, u32)> {
+    let case = match number {
+        301 => ("ZZ=0\nXX=1/ZZ", 2),
+        302 => ("T1='A'\nXX=T1+1", 2),
+        303 => ("RESERV/AR,3\nII=4\nAR(II)=1", 3),
+        304 => ("LA) XX=1\nJUMPTO/LA", 2),
+        305 => ("MA=MACRO\nXX=1\nTERMAC\nMB=MACRO\nCALL/MA\nTERMAC\nCALL/MB", 5),
+        306 => ("T1='0123456789'\nDO/LA,II=1,20\nT1=TEXT/T1,T1\nLA) CONTIN", 3),
+        307 => ("ST=0\nDO/LA,II=1,2,ST\nLA) CONTIN", 2),
+        308 => ("VV=2\nIF(VV)XX=1", 2),
+        309 => ("XX=NEVER", 1),
+        310 => ("CIMFIL/ON,CYCLE\nXX=POSTF(7,20)\nCIMFIL/OFF", 2),
+        311 => ("CIMFIL/ON,CYCLE\nXX=POSTF(8,3,1)\nCIMFIL/OFF", 2),
+        312 => ("CIMFIL/ON,CYCLE\nXX=POSTF(14)\nXX=POSTF(14)\nCIMFIL/OFF", 3),
+        313 => ("XX=POSTF(7,4)", 1),
+        314 => ("CIMFIL/ON,CYCLE\nXX=POSTF(21)\nCIMFIL/OFF", 2),
+        315 => ("XX=POSTF(1,4,1)", 1),
+        316 => ("CIMFIL/ON,CYCLE\nXX=COUPLF(CLEAR)\nCIMFIL/OFF", 2),
+        317 => ("XX=FAILF(1)", 1),
+        _ => return None,
+    };
+    Some(case)
+}
+
+#[test]
+fn every_code_of_the_machine_has_a_case() {
+    for row in RunCode::ALL {
+        let (text, line) =
+            run_case(row.number).unwrap_or_else(|| panic!("no case for {}", row.name()));
+        let mut functions = Functions::new();
+        functions.add("FAILF", 1, |_| Err("not today".to_string()));
+        let limits = Limits { fuel: 10_000, call_depth: 1, text_bytes: 1000, ..Limits::default() };
+        let mut bench = Bench::with(text, limits, Compat::default(), functions);
+        let result = bench.globals().and_then(|()| bench.records("CYCLE / DRILL, 1\n"));
+        let diags: Vec<_> = match result {
+            Ok(_) => std::mem::take(&mut bench.host.warnings),
+            Err(diag) => vec![*diag],
+        };
+        let found: Vec<_> = diags.iter().map(|d| (d.code.number, d.places[0].line)).collect();
+        assert_eq!(found, [(row.number, line)], "{}: {diags:?}", row.name());
+    }
+}
+
+#[test]
+fn the_size_of_all_arrays_together_is_limited() {
+    let fil = "RESERV/AR,600000,BR,600000\nFINI\n";
+    let diags = compile(fil).unwrap_err();
+    assert_eq!(diags[0].code.number, code(CompileCode::BadArraySize));
+    assert_eq!(diags[0].message, "BR passes the limit; 400000 elements are left");
+}
+
+#[test]
+fn an_error_of_the_host_gets_the_fil_place() {
+    struct Strict(Mock);
+    impl fil_vm::Host for Strict {
+        fn common(
+            &mut self,
+            _: fil_vm::CommonKind,
+            location: u32,
+        ) -> Result<f64, Box<fil_diag::Diag>> {
+            let message = format!("no location {location}");
+            Err(Box::new(fil_diag::Diag::new(RunCode::BadPostf, message)))
+        }
+        fn set_common(
+            &mut self,
+            kind: fil_vm::CommonKind,
+            at: u32,
+            value: f64,
+        ) -> Result<(), Box<fil_diag::Diag>> {
+            self.0.set_common(kind, at, value)
+        }
+        fn clear_common(
+            &mut self,
+            kind: fil_vm::CommonKind,
+            at: u32,
+        ) -> Result<(), Box<fil_diag::Diag>> {
+            self.0.clear_common(kind, at)
+        }
+        fn command(
+            &mut self,
+            record: &fil_cl::Record,
+            vocab: &mut fil_cl::Vocabulary,
+            site: &fil_vm::Site,
+        ) -> Result<(), Box<fil_diag::Diag>> {
+            self.0.command(record, vocab, site)
+        }
+        fn next_record(
+            &mut self,
+            record: &mut fil_cl::Record,
+            vocab: &mut fil_cl::Vocabulary,
+        ) -> Result<bool, Box<fil_diag::Diag>> {
+            self.0.next_record(record, vocab)
+        }
+        fn seek_record(
+            &mut self,
+            number: u32,
+            record: &mut fil_cl::Record,
+            vocab: &mut fil_cl::Vocabulary,
+        ) -> Result<bool, Box<fil_diag::Diag>> {
+            self.0.seek_record(number, record, vocab)
+        }
+        fn warn(&mut self, diag: fil_diag::Diag) {
+            self.0.warn(diag);
+        }
+        fn trace(&mut self, on: bool) {
+            self.0.trace(on);
+        }
+    }
+    let mut bench = Bench::new("XX=1\nXX=POSTF(1,3,5000)");
+    let mut host = Strict(Mock::default());
+    let diag = bench.machine.run_globals(&mut bench.vocab, &mut host).unwrap_err();
+    assert_eq!(diag.to_string(), "E0315 test.fil:2:1: no location 5000");
+    assert_eq!(diag.notes, ["in global area of test.fil", "XX = 1"]);
+}

@@ -1,0 +1,13 @@
+//! FIL programs run on a host that writes down what it is asked.
+
+mod bench;
+mod bytecode;
+mod codes;
+mod control;
+mod macros;
+mod noise;
+mod papers;
+mod postf;
+mod posts;
+mod sections;
+mod values;

@@ -1,0 +1,117 @@
+//! Numbers, texts, EMPTY, letters, arrays, functions.
+
+use fil_vm::{Argument, Compat, Functions, Limits};
+
+use crate::bench::{Bench, globals};
+
+#[test]
+fn arithmetic_has_the_usual_precedence() {
+    let bench = globals("V1=2+3*4**2;V2=-2*3;V3=(2+3)*4;V4=7/2/2;V5=2-3-4;V6=(355+7)");
+    let wanted =
+        [("V1", 50.0), ("V2", -6.0), ("V3", 20.0), ("V4", 1.75), ("V5", -5.0), ("V6", 362.0)];
+    for (name, value) in wanted {
+        assert_eq!(bench.number(name), value, "{name}");
+    }
+}
+
+#[test]
+fn letters_are_their_numbers_until_they_are_set() {
+    let bench = globals("V1=A;V2=X;V3=Z\nA=5\nV4=A");
+    let values = ["V1", "V2", "V3", "V4"].map(|name| bench.number(name));
+    assert_eq!(values, [1.0, 24.0, 26.0, 5.0]);
+    assert_eq!(bench.warnings.iter().map(|diag| diag.code.number).collect::<Vec<_>>(), [217]);
+    assert!(globals("A=1;Z=26").warnings.is_empty(), "as the default FIL file does");
+}
+
+#[test]
+fn a_name_never_set_is_empty_with_one_warning_for_each_place() {
+    let bench = globals("DO/LA,II=1,3\nIF(NIX.EQ.999999)RR=1\nLA) CONTIN\nVV=NIX");
+    assert_eq!(bench.number("RR"), 1.0);
+    assert_eq!(bench.number("VV"), 999_999.0);
+    assert_eq!(bench.warned(), [309, 309]);
+    assert_eq!(bench.host.warnings[0].places[0].line, 2);
+    let bench = globals("VV=999999\nIF(VV.EQ.999999)RR=1");
+    assert!(bench.warned().is_empty(), "set to EMPTY on purpose");
+}
+
+#[test]
+fn texts_compare_as_texts_and_never_equal_empty() {
+    let bench = globals(
+        "T1='AB';T2='ABC';RR=0\nIF(T1.LT.T2)RR=RR+1\nIF(T1.EQ.'AB')RR=RR+2\nIF(T1.NE.T2)RR=RR+4\nIF(T1.EQ.999999)RR=RR+8",
+    );
+    assert_eq!(bench.number("RR"), 7.0);
+}
+
+#[test]
+fn text_joins_texts_and_numbers() {
+    let bench = globals("T1='IT''S';VV=2.5\nT2=TEXT/T1,' ',VV,' MM'\nNN=LNTHF(T2)");
+    assert_eq!(bench.machine.text("T2"), Some("IT'S 2.5 MM"));
+    assert_eq!(bench.number("NN"), 11.0);
+}
+
+#[test]
+fn texts_nobody_holds_are_given_back() {
+    let limits = Limits { text_bytes: 4096, ..Limits::default() };
+    let program = "DO/LA,II=1,10000\nT1=TEXT/'NUMBER ',II\nLA) CONTIN";
+    let mut bench = Bench::with(program, limits, Compat::default(), Functions::new());
+    bench.globals().unwrap();
+    assert_eq!(bench.machine.text("T1"), Some("NUMBER 10000"));
+}
+
+#[test]
+fn arrays_hold_numbers_and_texts() {
+    let bench = globals(
+        "RESERV/AR,10,BR,2\nDO/LA,II=1,10\nAR(II)=II*II\nLA) CONTIN\nBR(1)='ONE'\nVV=AR(AR(3)-2)\nT1=BR(1)",
+    );
+    assert_eq!(bench.number("VV"), 49.0);
+    assert_eq!(bench.machine.text("T1"), Some("ONE"));
+}
+
+#[test]
+fn functions_take_what_their_table_says() {
+    let bench = globals(
+        "V1=ABSF(-2);V2=SQRTF(9);V3=SINF(30);V4=ATANF(1);V5=ATAN2F(1,-1);V6=MAXF(3,9,4,1);V7=MINF(3,9,4,1)\n\
+         V8=DISTF(0,0,0,2,3,6);V9=DOTF(1,2,3,4,5,6);W1=INTF(-2.7);W2=NINTF(2.5);W3=MODF(7,3);W4=SIGNF(3,-1);W5=LOG10F(1000);W6=COSF(60)",
+    );
+    let wanted = [
+        ("V1", 2.0),
+        ("V2", 3.0),
+        ("V3", 0.5),
+        ("V4", 45.0),
+        ("V5", 135.0),
+        ("V6", 9.0),
+        ("V7", 1.0),
+        ("V8", 7.0),
+        ("V9", 32.0),
+        ("W1", -2.0),
+        ("W2", 3.0),
+        ("W3", 1.0),
+        ("W4", -3.0),
+        ("W5", 3.0),
+        ("W6", 0.5),
+    ];
+    for (name, value) in wanted {
+        assert_eq!(bench.number(name), value, "{name}");
+    }
+}
+
+#[test]
+fn icodef_is_a_constant_and_knows_user_words() {
+    let bench = globals("V1=ICODEF(MILL);V2=ICODEF(EMBOSL);V3=ICODEF(EMBOSL);V4=ICODEF(EMBOSR)");
+    assert_eq!(bench.number("V1"), 151.0);
+    assert_eq!(bench.number("V2"), bench.number("V3"));
+    assert_ne!(bench.number("V2"), bench.number("V4"));
+}
+
+#[test]
+fn the_embedding_program_adds_functions() {
+    let mut functions = Functions::new();
+    functions.add("weighf", 2, |args| match args {
+        [Argument::Text(name), Argument::Number(factor)] => Ok(name.len() as f64 * factor),
+        _ => Err("a text and a number".to_string()),
+    });
+    let mut bench =
+        Bench::with("VV=WEIGHF('ABC',10)", Limits::default(), Compat::default(), functions);
+    bench.globals().unwrap();
+    assert_eq!(bench.number("VV"), 30.0);
+}

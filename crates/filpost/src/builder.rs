@@ -1,0 +1,291 @@
+//! Building a post: machine, FIL files, limits, functions, observers.
+
+use std::io::{Read, Seek, Write};
+use std::sync::Arc;
+
+use fil_cl::{Vocabulary, reader};
+use fil_diag::Diag;
+use fil_post::{Commons, settings};
+use fil_vm::{Argument, Compat, FilFile, Functions, Limits, LoadOptions, Module};
+
+use crate::blocks::Blocks;
+use crate::engine::Engine;
+use crate::error::{Error, RunCode};
+use crate::observe::{Observer, WhatHappened};
+use crate::ready;
+use crate::report::Report;
+
+/// Where the settings of the machine come from.
+enum Machine {
+    Ready(String),
+    Toml { name: String, text: String },
+    OptionFile { name: String, text: String },
+    Commons(Box<Commons>),
+}
+
+/// Collects what a post is made of; see [`Post::builder`].
+pub struct Builder {
+    machine: Option<Machine>,
+    settings: Vec<String>,
+    fil: Vec<(String, String)>,
+    limits: Limits,
+    compat: Compat,
+    strict: bool,
+    functions: Functions,
+    observers: Vec<Observer>,
+    cl_name: String,
+    options: reader::Options,
+    includes: Option<Includes>,
+}
+
+/// Gives the text of a file that INCLUD names.
+type Includes = Box<dyn FnMut(&str) -> Result<String, String> + Send>;
+
+impl Builder {
+    /// A post inside the crate, by its name in [`ready::READY`].
+    pub fn ready(mut self, name: &str) -> Self {
+        self.machine = Some(Machine::Ready(name.into()));
+        self
+    }
+
+    /// The text of a `machine.toml`; `name` is what messages show.
+    pub fn machine(mut self, name: &str, text: &str) -> Self {
+        self.machine = Some(Machine::Toml { name: name.into(), text: text.into() });
+        self
+    }
+
+    /// The text of an option file (UNCX01.Pnn).
+    pub fn option_file(mut self, name: &str, text: &str) -> Self {
+        self.machine = Some(Machine::OptionFile { name: name.into(), text: text.into() });
+        self
+    }
+
+    /// Settings made in the program itself.
+    pub fn commons(mut self, commons: Commons) -> Self {
+        self.machine = Some(Machine::Commons(Box::new(commons)));
+        self
+    }
+
+    /// One more setting on top, `key=value` with a key of `machine.toml`.
+    pub fn set(mut self, setting: &str) -> Self {
+        self.settings.push(setting.into());
+        self
+    }
+
+    /// A FIL file; several are read in this order into one name space.
+    pub fn fil(mut self, name: &str, text: &str) -> Self {
+        self.fil.push((name.into(), text.into()));
+        self
+    }
+
+    /// What a script may use up before it is stopped.
+    pub fn limits(mut self, limits: Limits) -> Self {
+        self.limits = limits;
+        self
+    }
+
+    /// Corrected readings of POSTF numbers and sections.
+    pub fn compat(mut self, compat: Compat) -> Self {
+        self.compat = compat;
+        self
+    }
+
+    /// Refuses extensions of filpost, so that scripts stay portable.
+    pub fn strict(mut self, strict: bool) -> Self {
+        self.strict = strict;
+        self
+    }
+
+    /// Adds a FIL function of this program. An `Err` stops the run with that
+    /// sentence and the FIL line.
+    pub fn function(
+        mut self,
+        name: &str,
+        arity: u16,
+        body: impl FnMut(&[Argument<'_>]) -> Result<f64, String> + Send + 'static,
+    ) -> Self {
+        self.functions.add(name, arity, body);
+        self
+    }
+
+    /// Adds an observer of records, sections and blocks.
+    pub fn observe(mut self, observer: impl FnMut(WhatHappened<'_>) + Send + 'static) -> Self {
+        self.observers.push(Box::new(observer));
+        self
+    }
+
+    /// Gives the text of files that INCLUD names; without it INCLUD is refused.
+    pub fn includes(
+        mut self,
+        loader: impl FnMut(&str) -> Result<String, String> + Send + 'static,
+    ) -> Self {
+        self.includes = Some(Box::new(loader));
+        self
+    }
+
+    /// The name of the CL file in messages.
+    pub fn cl_name(mut self, name: &str) -> Self {
+        self.cl_name = name.into();
+        self
+    }
+
+    /// How CL text is read: dialect, encoding of texts, longest statement.
+    pub fn cl_options(mut self, options: reader::Options) -> Self {
+        self.options = options;
+        self
+    }
+
+    /// Builds the post; the machine is the generic mill when none was given.
+    ///
+    /// # Errors
+    /// All that is wrong with the machine, or with the FIL files.
+    pub fn build(self) -> Result<Post, Error> {
+        let (mut commons, mut warnings) = commons_of(self.machine)?;
+        for setting in &self.settings {
+            settings::apply_setting(&mut commons, setting).map_err(Error::setup)?;
+        }
+        fil_post::Post::new(commons.clone()).map_err(Error::setup)?;
+        let mut vocabulary = Vocabulary::new();
+        let files: Vec<FilFile<'_>> =
+            self.fil.iter().map(|(name, text)| FilFile { name, text }).collect();
+        let mut includes = self.includes;
+        let loaded = fil_vm::load(
+            &files,
+            &mut vocabulary,
+            LoadOptions {
+                compat: self.compat,
+                limits: self.limits,
+                strict: self.strict,
+                lint: false,
+                functions: Some(&self.functions),
+                loader: includes
+                    .as_mut()
+                    .map(|loader| loader as &mut dyn FnMut(&str) -> Result<String, String>),
+            },
+        )
+        .map_err(Error::Setup)?;
+        warnings.extend(loaded.warnings);
+        Ok(Post {
+            commons,
+            module: Arc::new(loaded.module),
+            vocabulary,
+            functions: self.functions,
+            limits: self.limits,
+            observers: self.observers,
+            cl_name: self.cl_name,
+            options: self.options,
+            warnings,
+        })
+    }
+}
+
+fn commons_of(machine: Option<Machine>) -> Result<(Commons, Vec<Diag>), Error> {
+    let machine = machine.unwrap_or(Machine::Ready(ready::GENERIC_MILL.into()));
+    match machine {
+        Machine::Commons(commons) => Ok((*commons, Vec::new())),
+        Machine::Toml { name, text } => settings::read_toml(&name, &text).map_err(Error::setup),
+        Machine::OptionFile { name, text } => settings::read_option_file(&name, &text)
+            .map(|file| (file.commons, file.warnings))
+            .map_err(Error::setup),
+        Machine::Ready(name) => {
+            let post = ready::find(&name).ok_or_else(|| {
+                let names: Vec<&str> = ready::READY.iter().map(|post| post.name).collect();
+                let diag = Diag::new(RunCode::NoReadyPost, format!("no ready post `{name}`"))
+                    .hint(format!("there are {}", names.join(", ")));
+                Error::setup(diag)
+            })?;
+            settings::read_toml(post.name, post.machine).map_err(Error::setup)
+        }
+    }
+}
+
+/// A machine with its FIL, ready to post any number of CL files. Each run
+/// starts from the same state.
+pub struct Post {
+    pub(crate) commons: Commons,
+    pub(crate) module: Arc<Module>,
+    pub(crate) vocabulary: Vocabulary,
+    pub(crate) functions: Functions,
+    pub(crate) limits: Limits,
+    pub(crate) observers: Vec<Observer>,
+    pub(crate) cl_name: String,
+    pub(crate) options: reader::Options,
+    pub(crate) warnings: Vec<Diag>,
+}
+
+impl Post {
+    /// Starts building a post.
+    pub fn builder() -> Builder {
+        Builder {
+            machine: None,
+            settings: Vec::new(),
+            fil: Vec::new(),
+            limits: Limits::default(),
+            compat: Compat::default(),
+            strict: false,
+            functions: Functions::new(),
+            observers: Vec::new(),
+            cl_name: "CL".into(),
+            options: reader::Options::default(),
+            includes: None,
+        }
+    }
+
+    /// Warnings of building: settings without effect, forgiven FIL.
+    pub fn warnings(&self) -> &[Diag] {
+        &self.warnings
+    }
+
+    /// The settings.
+    pub fn commons(&self) -> &Commons {
+        &self.commons
+    }
+
+    /// Sets the name of the CL file in messages.
+    pub fn name_cl(&mut self, name: &str) {
+        self.cl_name = name.into();
+    }
+
+    /// Names of the FIL files, by the numbers in [`crate::FilLine::file`].
+    pub fn fil_files(&self) -> Vec<String> {
+        self.module.files.iter().map(|file| file.name.clone()).collect()
+    }
+
+    /// Posts a CL stream. The stream can't go back, so POSTF(15) and (16) are
+    /// refused.
+    ///
+    /// # Errors
+    /// The first thing that is wrong; what was written until then is not a
+    /// program. The writer's own errors come as E0702.
+    pub fn run(&mut self, cl: impl Read, nc: impl Write) -> Result<Report, Error> {
+        let reader = reader::Reader::new(cl, &self.cl_name, self.options);
+        self.drive(reader, nc)
+    }
+
+    /// Posts a CL file that can go back.
+    ///
+    /// # Errors
+    /// As [`Post::run`].
+    pub fn run_seekable(&mut self, cl: impl Read + Seek, nc: impl Write) -> Result<Report, Error> {
+        let reader = reader::Reader::seekable(cl, &self.cl_name, self.options);
+        self.drive(reader, nc)
+    }
+
+    /// The blocks of a CL stream, one by one, each with what made it.
+    pub fn records<R: Read>(&mut self, cl: R) -> Blocks<'_, R> {
+        let reader = reader::Reader::new(cl, &self.cl_name, self.options);
+        Blocks::new(Engine::new(self, reader, true))
+    }
+
+    fn drive<R: Read>(
+        &mut self,
+        reader: reader::Reader<R>,
+        mut nc: impl Write,
+    ) -> Result<Report, Error> {
+        let observed = !self.observers.is_empty();
+        let mut engine = Engine::new(self, reader, observed);
+        let result = engine.run(&mut nc);
+        engine.finish();
+        result
+    }
+}

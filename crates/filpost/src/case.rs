@@ -1,0 +1,204 @@
+//! Regression cases: a folder with `case.toml`, a CL file, a post and the NC
+//! program it must give.
+//!
+//! `case.toml`: `cl`; `ready`, `machine` (machine.toml) or `option_file`; `fil` (a file or a
+//! list); `set` (list of `key=value`); `compat`; `strict`; `expect` (NC file) or
+//! `expect_error` (code); `origin` and `repairs` for people.
+
+use std::path::{Path, PathBuf};
+
+use fil_diag::Diag;
+use serde::Deserialize;
+use similar::TextDiff;
+
+use crate::builder::Post;
+use crate::error::{Error, RunCode};
+use crate::files;
+
+/// The text of a `case.toml`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CaseFile {
+    /// The CL file.
+    pub cl: String,
+    /// A ready post.
+    pub ready: Option<String>,
+    /// A `machine.toml`.
+    pub machine: Option<String>,
+    /// An option file.
+    pub option_file: Option<String>,
+    /// FIL files, in order.
+    #[serde(default)]
+    pub fil: Vec<String>,
+    /// Settings on top.
+    #[serde(default)]
+    pub set: Vec<String>,
+    /// A compat file.
+    pub compat: Option<String>,
+    /// Refuse extensions.
+    #[serde(default)]
+    pub strict: bool,
+    /// The expected NC program.
+    pub expect: Option<String>,
+    /// Codes that must come, in order; `E…` for a refusal, `W…` for warnings.
+    pub expect_error: Option<String>,
+    /// Codes of the warnings that must come.
+    #[serde(default)]
+    pub expect_warnings: Vec<String>,
+    /// Most loop passes, calls and reads of a section.
+    pub fuel: Option<u64>,
+    /// Who published it, and where each part comes from.
+    pub origin: String,
+    /// What was repaired against the print.
+    #[serde(default)]
+    pub repairs: Vec<String>,
+}
+
+/// A case folder.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// The folder.
+    pub folder: PathBuf,
+    /// Its file.
+    pub file: CaseFile,
+}
+
+/// How a case ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// As expected.
+    Passed,
+    /// Not as expected; the text says how.
+    Failed(String),
+    /// The expected file was written anew; the text is what changed.
+    Updated(String),
+}
+
+/// All case folders below a folder, sorted.
+///
+/// # Errors
+/// A `case.toml` that can't be read.
+pub fn find(folder: &Path) -> Result<Vec<Case>, Error> {
+    let mut cases = Vec::new();
+    let mut folders = vec![folder.to_path_buf()];
+    while let Some(folder) = folders.pop() {
+        if folder.join("case.toml").is_file() {
+            cases.push(Case::load(&folder)?);
+        }
+        let Ok(entries) = std::fs::read_dir(&folder) else { continue };
+        folders.extend(entries.flatten().map(|entry| entry.path()).filter(|path| path.is_dir()));
+    }
+    cases.sort_by(|a, b| a.folder.cmp(&b.folder));
+    Ok(cases)
+}
+
+impl Case {
+    /// Reads a case folder.
+    ///
+    /// # Errors
+    /// E0705 for a `case.toml` that is missing or wrong.
+    pub fn load(folder: &Path) -> Result<Case, Error> {
+        let path = folder.join("case.toml");
+        let text = files::read_text(&path, None)?;
+        let file = toml::from_str(&text).map_err(|error| {
+            let index = fil_diag::LineIndex::new(&text);
+            let range = error.span().unwrap_or(0..0);
+            let place = index.place(&path.display().to_string(), &text, range);
+            Error::setup(Diag::new(RunCode::CaseFile, error.message().to_string()).at(place))
+        })?;
+        Ok(Case { folder: folder.to_path_buf(), file })
+    }
+
+    /// The post of the case.
+    ///
+    /// # Errors
+    /// As [`crate::Builder::build`]; files that can't be read.
+    pub fn post(&self) -> Result<Post, Error> {
+        let text = |name: &str| files::read_text(&self.folder.join(name), None);
+        let mut builder = Post::builder().strict(self.file.strict);
+        if let Some(name) = &self.file.ready {
+            builder = builder.ready(name);
+        }
+        if let Some(name) = &self.file.machine {
+            builder = builder.machine(name, &text(name)?);
+        }
+        if let Some(name) = &self.file.option_file {
+            builder = builder.option_file(name, &text(name)?);
+        }
+        for name in &self.file.fil {
+            builder = builder.fil(name, &text(name)?);
+        }
+        for setting in &self.file.set {
+            builder = builder.set(setting);
+        }
+        if let Some(name) = &self.file.compat {
+            let compat = crate::read_compat(name, &text(name)?).map_err(Error::setup)?;
+            builder = builder.compat(compat);
+        }
+        if let Some(fuel) = self.file.fuel {
+            builder = builder.limits(crate::Limits { fuel, ..crate::Limits::default() });
+        }
+        builder.cl_name(&self.file.cl).build()
+    }
+
+    /// Posts the case's CL file. The second part are the codes of all warnings.
+    ///
+    /// # Errors
+    /// As [`Case::post`] and [`Post::run`].
+    pub fn run(&self) -> Result<(Vec<u8>, Vec<Diag>), Error> {
+        let mut post = self.post()?;
+        let cl = files::read(&self.folder.join(&self.file.cl))?;
+        let mut nc = Vec::new();
+        let report = post.run_seekable(std::io::Cursor::new(cl), &mut nc)?;
+        let warnings = post.warnings().iter().cloned().chain(report.warnings).collect();
+        Ok((nc, warnings))
+    }
+
+    /// Runs the case and compares; with `update` the expected file is written anew.
+    pub fn check(&self, update: bool) -> Verdict {
+        match (self.run(), &self.file.expect_error) {
+            (Err(error), Some(code)) => {
+                let found: Vec<String> =
+                    error.diags().iter().map(|diag| diag.code.name()).collect();
+                if found.contains(code) {
+                    Verdict::Passed
+                } else {
+                    Verdict::Failed(format!("expected {code}, got:\n{error}"))
+                }
+            }
+            (Err(error), None) => Verdict::Failed(error.to_string()),
+            (Ok(_), Some(code)) => Verdict::Failed(format!("expected {code}, but it was posted")),
+            (Ok((nc, warnings)), None) => self.compare(&nc, &warnings, update),
+        }
+    }
+
+    fn compare(&self, nc: &[u8], warnings: &[Diag], update: bool) -> Verdict {
+        for code in &self.file.expect_warnings {
+            if !warnings.iter().any(|diag| &diag.code.name() == code) {
+                return Verdict::Failed(format!("expected the warning {code}"));
+            }
+        }
+        let Some(expect) = &self.file.expect else { return Verdict::Passed };
+        let path = self.folder.join(expect);
+        let found = String::from_utf8_lossy(nc);
+        let wanted = match files::read_text(&path, None) {
+            Ok(text) => text.replace("\r\n", "\n"),
+            Err(_) if update => String::new(),
+            Err(error) => return Verdict::Failed(error.to_string()),
+        };
+        if wanted == found {
+            return Verdict::Passed;
+        }
+        let changes = TextDiff::from_lines(wanted.as_str(), &found)
+            .unified_diff()
+            .header(expect, "this run")
+            .to_string();
+        if !update {
+            return Verdict::Failed(changes);
+        }
+        match std::fs::write(&path, nc) {
+            Ok(()) => Verdict::Updated(changes),
+            Err(error) => Verdict::Failed(format!("{}: {error}", path.display())),
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! What can go wrong in a run, beyond what the other crates name.
+
+use fil_diag::{Code, Diag};
+
+fil_diag::codes! {
+    /// Codes of a run and of the files around it.
+    pub enum RunCode {
+        /// A file can't be read.
+        CantRead = 701, Error, "file can't be read",
+            "The file does not exist, or reading it failed.",
+            "Check the name and the rights of the file.";
+        /// A file can't be written.
+        CantWrite = 702, Error, "file can't be written",
+            "The folder is read-only, the disk is full, or the output was closed.",
+            "Nothing was left under the output name; make room or choose another folder.";
+        /// No ready post of that name.
+        NoReadyPost = 703, Error, "no ready post of that name",
+            "The name is none of the posts inside filpost.",
+            "Use one of the names listed, or give a machine.toml.";
+        /// A compat file.
+        CompatFile = 704, Error, "compat file can't be used",
+            "The file that corrects POSTF numbers must be TOML with known operations.",
+            "See the list of operations in docs/compat.md.";
+        /// A case folder.
+        CaseFile = 705, Error, "regression case can't be run",
+            "A case is a folder with a case.toml that names its CL file and its expected output.",
+            "Correct the line shown.";
+        /// Statements after the end.
+        AfterFini = 751, Warning, "records after FINI",
+            "FINI ends the program; what comes after it is not posted.",
+            "Remove the statements, or the FINI before them.";
+        /// No FINI.
+        NoFini = 752, Warning, "CL file without FINI",
+            "The file may have been cut off; the program ends where the file ends.",
+            "Make the CL file again if its end is missing.";
+        /// Nothing posted.
+        NoMotion = 753, Warning, "CL file without records",
+            "There is nothing to post.",
+            "Check that this is the CL file you meant.";
+    }
+}
+
+/// Why a post could not be built or a run was given up. Nothing that was
+/// written before the error may be used.
+#[derive(Clone, Debug)]
+pub enum Error {
+    /// The machine or the FIL files are not right; all that is wrong with them.
+    Setup(Vec<Diag>),
+    /// A record was refused.
+    Run(Box<Diag>),
+}
+
+impl Error {
+    /// The diagnostics, in the order of their places.
+    pub fn diags(&self) -> &[Diag] {
+        match self {
+            Error::Setup(diags) => diags,
+            Error::Run(diag) => std::slice::from_ref(diag),
+        }
+    }
+
+    /// An error of building with one diagnostic.
+    pub(crate) fn setup(diag: impl Into<Box<Diag>>) -> Self {
+        Error::Setup(vec![*diag.into()])
+    }
+}
+
+impl std::fmt::Display for Error {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        for (index, diag) in self.diags().iter().enumerate() {
+            let separator = if index == 0 { "" } else { "\n" };
+            write!(f, "{separator}{diag}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Error {}
+
+/// The tables of all codes, by number.
+pub fn all_codes() -> Vec<&'static Code> {
+    let tables: [&'static [Code]; 6] = [
+        fil_syntax::SyntaxCode::ALL,
+        fil_vm::errors::CompileCode::ALL,
+        fil_vm::errors::RunCode::ALL,
+        fil_cl::errors::ClCode::ALL,
+        fil_post::errors::PostCode::ALL,
+        RunCode::ALL,
+    ];
+    let mut codes: Vec<_> = tables.into_iter().flatten().collect();
+    codes.sort_by_key(|code| code.number);
+    codes
+}

@@ -1,0 +1,36 @@
+//! The posts inside the crate: folders of `fil-scripts/posts/`.
+
+/// A ready post: the files of its folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ReadyPost {
+    /// Name of the folder.
+    pub name: &'static str,
+    /// Text of `machine.toml`.
+    pub machine: &'static str,
+    /// Text of `README.md`.
+    pub readme: &'static str,
+}
+
+macro_rules! ready {
+    ($($name:literal),* $(,)?) => {
+        &[$(ReadyPost {
+            name: $name,
+            machine: include_str!(concat!("../../../fil-scripts/posts/", $name, "/machine.toml")),
+            readme: include_str!(concat!("../../../fil-scripts/posts/", $name, "/README.md")),
+        },)*]
+    };
+}
+
+/// All ready posts.
+pub const READY: &[ReadyPost] = ready!["fanuc-lathe", "fanuc-mill", "grbl", "linuxcnc-mill"];
+
+/// The post for a CL file that names none and is for a mill.
+pub const GENERIC_MILL: &str = "fanuc-mill";
+
+/// The post for a CL file that names none and is for a lathe.
+pub const GENERIC_LATHE: &str = "fanuc-lathe";
+
+/// The ready post of a name; letters in any case.
+pub fn find(name: &str) -> Option<&'static ReadyPost> {
+    READY.iter().find(|post| post.name.eq_ignore_ascii_case(name))
+}

@@ -1,0 +1,42 @@
+//! What a run has to tell at its end.
+
+use std::collections::BTreeMap;
+
+use fil_diag::Diag;
+
+/// Smallest box around the CL points of a run, in CL units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extents {
+    /// Smallest x, y, z.
+    pub min: [f64; 3],
+    /// Largest x, y, z.
+    pub max: [f64; 3],
+}
+
+impl Extents {
+    /// Widens the box to a point.
+    pub(crate) fn add(extents: &mut Option<Extents>, point: [f64; 3]) {
+        let found = extents.get_or_insert(Extents { min: point, max: point });
+        for axis in 0..3 {
+            found.min[axis] = found.min[axis].min(point[axis]);
+            found.max[axis] = found.max[axis].max(point[axis]);
+        }
+    }
+}
+
+/// Counts, warnings and extents of a run.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    /// CL records read.
+    pub records: u64,
+    /// Blocks written.
+    pub blocks: u64,
+    /// Bytes written.
+    pub bytes: u64,
+    /// Warnings, in the order they were found.
+    pub warnings: Vec<Diag>,
+    /// The box around the path.
+    pub extents: Option<Extents>,
+    /// Records that a section took without any effect on the post, by section.
+    pub swallowed: BTreeMap<String, u64>,
+}
