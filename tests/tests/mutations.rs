@@ -117,7 +117,7 @@ fn changed_words_are_named() {
         ("N14 X24.\n", "", "no hole at X24.0000 Y42.0000"),
         ("N15 X36. Y48.\n", "", "no hole at X36.0000 Y48.0000"),
         ("Z-6. R1.5 Q2.5", "Z-60. R1.5 Q2.5", "hole down to Z-60.0000"),
-        ("N8 X30. F300.\n", "", "no feed to X30.0000"),
+        ("N8 X30. F300.\n", "", "Radius to end of arc"),
         ("G21", "G20", "hole at"),
         ("G90", "G91", ""),
         ("G17", "G18", ""),

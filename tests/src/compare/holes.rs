@@ -100,7 +100,10 @@ impl Walk<'_> {
         }
         if !self.near(drilled.deepest, hole.bottom) {
             let (found, wanted) = (drilled.deepest, hole.bottom);
-            self.report_at(drilled.step, format!("hole down to Z{found:.4}, should be Z{wanted:.4}"));
+            self.report_at(
+                drilled.step,
+                format!("hole down to Z{found:.4}, should be Z{wanted:.4}"),
+            );
         }
         if self.below(self.position[2], hole.clearance) {
             let z = self.position[2];
