@@ -1,4 +1,4 @@
-//! Real Creo CL files through the ready LinuxCNC post, judged by LinuxCNC's own
+//! CL files in Creo's form (our own, and real ones where they are at hand) through the ready LinuxCNC post, judged by LinuxCNC's own
 //! interpreter: what it does must be what the CL file asks for.
 
 use std::fs::{self, File};
@@ -11,18 +11,25 @@ use filpost_tests::nc_path::nc_path;
 use filpost_tests::path::{Action, ToolPath};
 use filpost_tests::rs274;
 
-/// The Creo CL files; none, with the reason printed, where they are absent.
-fn creo_files() -> Vec<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let data = env::var_os("FILPOST_DATA").map_or(root.join("../shared/data"), PathBuf::from);
-    let folder = data.join("cl/creo");
-    let Ok(entries) = fs::read_dir(&folder) else {
-        println!("skipped: no folder {}", folder.display());
-        return Vec::new();
-    };
-    let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
-    files.sort();
+/// The files of `tests/cl` and the real ones; where these are absent, the reason is printed.
+fn cl_files() -> Vec<PathBuf> {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let data = env::var_os("FILPOST_DATA").map_or(here.join("../../shared/data"), PathBuf::from);
+    let mut files = files_in(&here.join("cl")).unwrap();
+    let real = data.join("cl/creo");
+    match files_in(&real) {
+        Ok(more) => files.extend(more),
+        Err(error) => println!("skipped: {}: {error}", real.display()),
+    }
     files
+}
+
+fn files_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let entries = fs::read_dir(folder)?;
+    let mut files: Vec<PathBuf> =
+        entries.map(|entry| Ok(entry?.path())).collect::<io::Result<_>>()?;
+    files.sort();
+    Ok(files)
 }
 
 /// The NC program a ready post makes of a CL file.
@@ -43,9 +50,9 @@ fn count(path: &ToolPath, wanted: fn(&Action) -> bool) -> usize {
 }
 
 #[test]
-fn creo_files_become_the_same_path() {
+fn cl_files_become_the_same_path() {
     let Some(program) = rs274::program() else { return };
-    for cl in creo_files() {
+    for cl in cl_files() {
         let nc = String::from_utf8(post_with("linuxcnc-mill", &cl)).unwrap();
         let name = cl.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let calls = rs274::run(&program, &nc).unwrap_or_else(|said| panic!("{name}: {said}"));
@@ -67,7 +74,7 @@ fn creo_files_become_the_same_path() {
 #[test]
 fn each_turned_arc_is_noticed() {
     let Some(program) = rs274::program() else { return };
-    for cl in creo_files() {
+    for cl in cl_files() {
         let nc = String::from_utf8(post_with("linuxcnc-mill", &cl)).unwrap();
         let wanted = expected(&cl);
         for (own, other) in [("G2 ", "G3 "), ("G3 ", "G2 ")] {
