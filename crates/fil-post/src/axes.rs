@@ -143,7 +143,7 @@ impl Axis {
 
     fn outside(&self, position: f64) -> Box<Diag> {
         let name = char::from(b'A' + self.letter - 1);
-        let message = format!("{name}{position:.4} lies outside {} to {}", self.min, self.max);
+        let message = format!("{name}{position} lies outside {} to {}", self.min, self.max);
         Box::new(Diag::new(PostCode::AxisLimit, message))
     }
 

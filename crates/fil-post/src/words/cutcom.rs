@@ -33,6 +33,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
             _ => loc::CIRCLE_PLANE_XY,
         };
         let code = post.code(location, "this plane")?;
+        post.begin()?;
         post.plane_code(code);
         post.write_block()?;
     }
