@@ -10,6 +10,7 @@ use crate::axes::Machine;
 use crate::block::Block;
 use crate::commons::{Commons, EMPTY, Int};
 use crate::errors::PostCode;
+use crate::letters::G;
 use crate::state::{Placement, State};
 use crate::tape::Tape;
 use crate::words::{self, Handler};
@@ -201,18 +202,16 @@ impl Post {
 
     /// Adds a plane selection unless the control stands at it.
     pub(crate) fn plane_code(&mut self, code: i32) {
-        self.check_forgotten();
         if self.state.plane != Some(code) {
             self.block.g(code);
             self.state.plane = Some(code);
         }
     }
 
-    /// Forgets the modal G codes when FIL has emptied the last output of G.
+    /// Forgets the motion code when FIL has emptied the last output of G.
     pub(crate) fn check_forgotten(&mut self) {
-        if self.commons.last_output(crate::address::letter(b'G')) == EMPTY {
+        if self.commons.last_output(G) == EMPTY {
             self.state.motion = None;
-            self.state.plane = None;
         }
     }
 }
