@@ -1,0 +1,90 @@
+//! CL files in Creo's form (our own, and real ones where they are at hand) through the ready LinuxCNC post, judged by LinuxCNC's own
+//! interpreter: what it does must be what the CL file asks for.
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::{env, io};
+
+use filpost_tests::cl_path::cl_path;
+use filpost_tests::compare::compare;
+use filpost_tests::nc_path::nc_path;
+use filpost_tests::path::{Action, ToolPath};
+use filpost_tests::rs274;
+
+/// The files of `tests/cl` and the real ones; where these are absent, the reason is printed.
+fn cl_files() -> Vec<PathBuf> {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let data = env::var_os("FILPOST_DATA").map_or(here.join("../../shared/data"), PathBuf::from);
+    let mut files = files_in(&here.join("cl")).unwrap();
+    let real = data.join("cl/creo");
+    match files_in(&real) {
+        Ok(more) => files.extend(more),
+        Err(error) => println!("skipped: {}: {error}", real.display()),
+    }
+    files
+}
+
+fn files_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let entries = fs::read_dir(folder)?;
+    let mut files: Vec<PathBuf> =
+        entries.map(|entry| Ok(entry?.path())).collect::<io::Result<_>>()?;
+    files.sort();
+    Ok(files)
+}
+
+/// The NC program a ready post makes of a CL file.
+fn post_with(ready: &str, cl: &Path) -> Vec<u8> {
+    let mut post = filpost::Post::builder().ready(ready).build().unwrap();
+    let mut nc = Vec::new();
+    let input = io::BufReader::new(File::open(cl).unwrap());
+    post.run(input, &mut nc).unwrap_or_else(|error| panic!("{}: {error}", cl.display()));
+    nc
+}
+
+fn expected(cl: &Path) -> ToolPath {
+    cl_path(File::open(cl).unwrap(), &cl.to_string_lossy()).unwrap()
+}
+
+fn count(path: &ToolPath, wanted: fn(&Action) -> bool) -> usize {
+    path.steps.iter().filter(|step| wanted(&step.action)).count()
+}
+
+#[test]
+fn cl_files_become_the_same_path() {
+    let Some(program) = rs274::program() else { return };
+    for cl in cl_files() {
+        let nc = String::from_utf8(post_with("linuxcnc-mill", &cl)).unwrap();
+        let name = cl.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let calls = rs274::run(&program, &nc).unwrap_or_else(|said| panic!("{name}: {said}"));
+        let (wanted, found) = (expected(&cl), nc_path(&calls, &nc).unwrap());
+        let differences = compare(&wanted, &found);
+        let list: String = differences.iter().map(|one| format!("\n  {one}")).collect();
+        assert!(differences.is_empty(), "{name}:{list}\n{nc}");
+        println!(
+            "{name}: {} motions, {} arcs, {} holes, {} tools agree",
+            count(&wanted, |action| matches!(action, Action::Rapid(_) | Action::Feed(..))),
+            count(&wanted, |action| matches!(action, Action::Arc(..))),
+            count(&wanted, |action| matches!(action, Action::Hole(..))),
+            count(&wanted, |action| matches!(action, Action::Tool(_))),
+        );
+    }
+}
+
+/// Each arc turned round in a program of the post must be noticed.
+#[test]
+fn each_turned_arc_is_noticed() {
+    let Some(program) = rs274::program() else { return };
+    for cl in cl_files() {
+        let nc = String::from_utf8(post_with("linuxcnc-mill", &cl)).unwrap();
+        let wanted = expected(&cl);
+        for (own, other) in [("G2 ", "G3 "), ("G3 ", "G2 ")] {
+            for (at, _) in nc.match_indices(own) {
+                let mut changed = nc.clone();
+                changed.replace_range(at..at + own.len(), other);
+                let found = rs274::run(&program, &changed).and_then(|calls| nc_path(&calls, &nc));
+                let noticed = found.map_or(true, |path| !compare(&wanted, &path).is_empty());
+                assert!(noticed, "{}: arc at byte {at}", cl.display());
+            }
+        }
+    }
+}
