@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use crate::address::{Addresses, letter};
-use crate::block::Block;
+use crate::address::{Addresses, Output, letter};
+use crate::block::{Block, no_address};
 use crate::commons::Commons;
 use crate::locations as loc;
 use fil_diag::Diag;
@@ -80,6 +80,42 @@ impl Tape {
         }
         let start = self.begin(true, addresses, commons)?;
         block.write(addresses, commons, &mut self.text);
+        self.end(start);
+        Ok(())
+    }
+
+    /// Writes words in the order given, whatever the tape order; all of them,
+    /// whether or not their values have changed.
+    ///
+    /// # Errors
+    /// The machine has no such address, or a value does not fit it.
+    pub fn words(
+        &mut self,
+        words: &[(u8, f64)],
+        addresses: &Addresses,
+        commons: &mut Commons,
+    ) -> Result<(), Box<Diag>> {
+        let mut line = Vec::new();
+        for &(letter, value) in words {
+            let position = match addresses.output(letter) {
+                Output::At(position) => position,
+                Output::Off => continue,
+                Output::Unknown => return Err(no_address(letter)),
+            };
+            let slot = addresses.slot(position);
+            let scaled = slot.format.scale(value)?;
+            if addresses.blank && !line.is_empty() {
+                line.push(b' ');
+            }
+            line.push(slot.character);
+            slot.format.write(scaled, &mut line);
+            commons.set_last_output(letter, slot.format.unscale(scaled));
+        }
+        if line.is_empty() {
+            return Ok(());
+        }
+        let start = self.begin(true, addresses, commons)?;
+        self.text.extend_from_slice(&line);
         self.end(start);
         Ok(())
     }

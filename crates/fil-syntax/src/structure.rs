@@ -20,9 +20,13 @@ pub(crate) fn nest(reader: &mut Reader<'_>, statements: Vec<Flat>) -> Program {
         body: Vec::new(),
         frames: Vec::new(),
         finished: false,
+        too_deep: false,
     };
     for statement in statements {
         nester.take(statement);
+        if nester.too_deep {
+            break;
+        }
     }
     nester.finish();
     Program { items: nester.items }
@@ -61,6 +65,9 @@ struct Nester<'r, 'a> {
     /// Open blocks, the innermost last.
     frames: Vec<Frame>,
     finished: bool,
+    /// Blocks got too deep and nesting was given up, which also bounds the time
+    /// it takes to look through the open ones.
+    too_deep: bool,
 }
 
 impl Nester<'_, '_> {
@@ -75,7 +82,9 @@ impl Nester<'_, '_> {
                 let shared = self.shares_label(&end);
                 let kind = FrameKind::Do { label: end, variable, from, to, step };
                 self.open(kind, label, span);
-                self.frames.iter_mut().for_each(|frame| frame.reported |= shared);
+                if let Some(frame) = self.frames.last_mut() {
+                    frame.reported |= shared;
+                }
             }
             FlatKind::Case(subject) => self.open(FrameKind::case(subject), label, span),
             FlatKind::ElseIf(_) | FlatKind::Else | FlatKind::When(_) | FlatKind::WhenOther => {
@@ -154,6 +163,8 @@ impl Nester<'_, '_> {
         if self.frames.len() == MAX_BLOCKS {
             let message = format!("more than {MAX_BLOCKS} blocks inside each other");
             self.reader.report(SyntaxCode::TooDeep, message, span);
+            self.too_deep = true;
+            return;
         }
         if let Some(label) = &label
             && let Some(frame) = self.frames.iter_mut().find(|frame| frame.awaits(label))
@@ -225,13 +236,11 @@ impl Nester<'_, '_> {
         }
     }
 
-    /// Closes the innermost block. One that is too deep has been reported and
-    /// leaves nothing behind, so that the tree never gets deeper than it may.
+    /// Closes the innermost block.
     fn close_last(&mut self) {
-        let Some(frame) = self.frames.pop() else { return };
-        let stmt = frame.close();
-        let kind = if self.frames.len() >= MAX_BLOCKS { StmtKind::Contin } else { stmt.kind };
-        self.add_inside(Stmt { kind, ..stmt });
+        if let Some(frame) = self.frames.pop() {
+            self.add_inside(frame.close());
+        }
     }
 
     fn open_area(&mut self, area: Area, label: Option<Name>, span: Span) {
@@ -305,7 +314,7 @@ impl Nester<'_, '_> {
     fn finish(&mut self) {
         let end = self.reader.end_span();
         self.close_everything("the end of the file", end);
-        if !self.finished && !self.reader.stopped() {
+        if !self.finished && !self.too_deep && !self.reader.stopped() {
             let message = "the file does not end with FINI";
             self.reader.report(SyntaxCode::MissingFini, message, end);
         }
@@ -328,7 +337,7 @@ impl Nester<'_, '_> {
         span: Span,
         other: Option<(String, Span)>,
     ) {
-        if self.reader.unreadable || self.reader.stopped() {
+        if self.too_deep || self.reader.unreadable || self.reader.stopped() {
             return;
         }
         let mut diag = Diag::new(code, message).at(self.reader.place(span));

@@ -29,7 +29,7 @@ fn time_of(source: &str) -> Duration {
 fn ten_megabytes_of_noise_are_read_in_a_moment() {
     let size = 10 << 20;
     let deep_then_long = format!("A={}{}\n", "(1+2*3.LT.".repeat(99), ") ".repeat(2000));
-    let pieces: [&str; 14] = [
+    let pieces = [
         "(",
         "-",
         "A",
@@ -42,8 +42,11 @@ fn ten_megabytes_of_noise_are_read_in_a_moment() {
         "IF(A)THEN\n",
         "A=(\n",
         "DO/L,I=1,2\n",
+        "L) A\n",
+        "ELSE\n",
+        "PPRINT ;\n",
         "A=1,$\n",
-        &deep_then_long,
+        deep_then_long.as_str(),
     ];
     for piece in pieces {
         let source = piece.repeat(size / piece.len());

@@ -1,4 +1,5 @@
-//! Times two loops of ten million passes: `cargo run --release -p fil-vm --example loop`.
+//! Times two loops of ten million passes and a short section:
+//! `cargo run --release -p fil-vm --example loop`.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -63,7 +64,58 @@ IF(II.LE.10000000)JUMPTO/LA
 FINI
 ";
 
+/// About twenty operations, as a section for motions has them.
+const SECTION: &str = "
+MAXX=0
+CIMFIL/ON,GOTO
+XX=POSTF(7,6)
+YY=POSTF(7,7)
+ZZ=POSTF(7,8)
+RR=XX*XX+YY*YY
+IF(RR.GT.MAXX)MAXX=RR
+IF(ZZ.LT.0)THEN
+DD=-ZZ*2+1
+ELSE
+DD=ZZ*2+1
+ENDIF
+CASE/DD
+WHEN/1,2
+EE=1
+WHEN/3
+EE=2
+WHEN/OTHER
+EE=XX+YY+ZZ
+ENDCAS
+CIMFIL/OFF
+FINI
+";
+
+fn time_section() {
+    const RUNS: u32 = 5_000_000;
+    let mut vocab = Vocabulary::new();
+    let files = [FilFile { name: "section", text: SECTION }];
+    let Ok(loaded) = load(&files, &mut vocab, LoadOptions::default()) else {
+        unreachable!("the section is right")
+    };
+    let mut machine = Machine::new(Arc::new(loaded.module), Limits::default(), Functions::new());
+    if let Err(diag) = machine.run_globals(&mut vocab, &mut NoHost) {
+        eprintln!("{diag}");
+    }
+    let mut record = Record::goto([1.0, 2.0, 3.0], None);
+    let start = Instant::now();
+    for _ in 0..RUNS {
+        let found = machine.module().find(&record, &vocab);
+        let run = found.map(|id| machine.run_section(id, &mut record, &mut vocab, &mut NoHost));
+        if let Some(Err(diag)) = run {
+            eprintln!("{diag}");
+        }
+    }
+    let each = start.elapsed().as_secs_f64() / f64::from(RUNS);
+    println!("section: {:.1} ns a record", each * 1e9);
+}
+
 fn main() {
+    time_section();
     for (name, text) in [("DO", DO_LOOP), ("JUMPTO", JUMP_LOOP)] {
         let mut vocab = Vocabulary::new();
         let files = [FilFile { name, text }];

@@ -83,6 +83,10 @@ fil_diag::codes! {
         Swallows = 220, Warning, "section can swallow its record",
             "A section takes its record: on this way neither a post word nor POSTF(13) stands, so the record has no effect.",
             "Call POSTF(13) where the post is to act as usual.";
+        /// A name that no statement sets; only looked for on request.
+        NeverAssigned = 221, Warning, "name is set nowhere",
+            "No statement of the loaded files gives this name a value, so it is EMPTY wherever it is read.",
+            "Check its spelling; a vocabulary word is compared as ICODEF(word).";
     }
 }
 

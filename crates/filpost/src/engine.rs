@@ -135,10 +135,9 @@ impl<'p, R: Read> Engine<'p, R> {
     }
 
     fn advance(&mut self) -> Result<bool, Box<Diag>> {
-        if !std::mem::replace(&mut self.started, true) {
-            if let Some(machine) = &mut self.machine {
-                machine.run_globals(&mut self.vocabulary, &mut self.outside)?;
-            }
+        let first = !std::mem::replace(&mut self.started, true);
+        if let Some(machine) = self.machine.as_mut().filter(|_| first) {
+            machine.run_globals(&mut self.vocabulary, &mut self.outside)?;
         }
         if !self.outside.read(&mut self.record, &mut self.vocabulary)? {
             self.outside.end_of_file()?;
@@ -208,10 +207,8 @@ impl<R: Read> Outside<'_, R> {
             }
             result.map_err(|diag| Box::new(diag.at(place)))?;
         }
-        if record.kind == kind::MOTION {
-            if let Some(point) = self.post.point() {
-                Extents::add(&mut self.report.extents, point);
-            }
+        if let (kind::MOTION, Some(point)) = (record.kind, self.post.point()) {
+            Extents::add(&mut self.report.extents, point);
         }
         self.ended |= record.kind == kind::FINI;
         Ok(())

@@ -7,11 +7,12 @@ use fil_diag::Diag;
 use fil_cl::Word;
 
 use super::form::Form;
-use crate::letters::G;
+use crate::letters::{G, M};
 use crate::post::Post;
+use crate::program;
 
-/// Writes the block: every word in any case, its value as given, in the
-/// address's format; the last output values follow.
+/// Writes the block: every word in the order given and in any case, its value
+/// as given, in the address's format; the last output values follow.
 ///
 /// # Errors
 /// A form other than OUT, a letter that is none, a value that does not fit.
@@ -23,25 +24,26 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     let numbers = form.numbers();
     form.finish(post);
     let form = Form::new(record, vocabulary);
-    if numbers.is_empty() || numbers.len() % 2 != 0 || numbers.len() + 1 != record.data.len() {
+    if numbers.is_empty()
+        || !numbers.len().is_multiple_of(2)
+        || numbers.len() + 1 != record.data.len()
+    {
         return Err(form.error("pairs of a letter and a value are needed"));
     }
-    let mut motion = None;
+    let mut words: Vec<(u8, f64)> = Vec::new();
     for pair in numbers.chunks(2) {
         let letter = letter_number(pair[0])
             .ok_or_else(|| form.error(format!("{} is no letter, A is 1 and Z is 26", pair[0])))?;
-        if letter != G && post.block.has(letter, &post.machine.addresses) {
+        if letter != G && letter != M && words.iter().any(|(known, _)| *known == letter) {
             let name = char::from(b'A' + letter - 1);
             return Err(form.error(format!("address {name} stands twice")));
         }
-        post.word(letter, pair[1])?;
-        if letter == G {
-            motion = Some(pair[1] as i32);
-        }
+        words.push((letter, pair[1]));
     }
-    post.write_block()?;
-    if let Some(code) = motion {
-        post.note_g(code);
+    program::start(post)?;
+    post.tape.words(&words, &post.machine.addresses, &mut post.commons)?;
+    if let Some((_, code)) = words.iter().rfind(|(letter, _)| *letter == G) {
+        post.note_g(*code as i32);
     }
     Ok(())
 }

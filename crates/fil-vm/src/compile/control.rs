@@ -129,6 +129,7 @@ impl Compiler<'_> {
             self.report(CompileCode::ArrayMisuse, variable.name.span, message);
             return;
         }
+        self.warn_of_letter(variable, None);
         let opening = self.chunk.statement;
         let var = self.variable(&variable.name.text, variable.name.span);
         // Last value and step are settled before the loop and kept beside each other.

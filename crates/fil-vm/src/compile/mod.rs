@@ -50,7 +50,7 @@ pub struct LoadOptions<'a> {
     pub limits: Limits,
     /// Refuse extensions of filpost.
     pub strict: bool,
-    /// Warn of sections that can swallow their record.
+    /// Warn of sections that can swallow their record and of names set nowhere.
     pub lint: bool,
     /// Functions of the embedding program.
     pub functions: Option<&'a Functions>,
@@ -69,7 +69,8 @@ pub struct Loaded {
 
 /// Reads and compiles FIL files, in this order, into one name space.
 ///
-/// With an error anywhere there is no module; all diagnostics come back.
+/// The module names words by their ids, so it must run with `vocab` or a clone
+/// of it. With an error anywhere there is no module; all diagnostics come back.
 pub fn load(
     files: &[FilFile<'_>],
     vocab: &mut Vocabulary,
@@ -92,6 +93,7 @@ pub fn load(
         found: &found,
         vocab,
         strict,
+        lint,
         limits,
         functions,
         module,
@@ -104,7 +106,7 @@ pub fn load(
         noted: Vec::new(),
     };
     compiler.run();
-    compiler.finish(lint)
+    compiler.finish()
 }
 
 struct Compiler<'t> {
@@ -112,6 +114,7 @@ struct Compiler<'t> {
     found: &'t files::Found,
     vocab: &'t mut Vocabulary,
     strict: bool,
+    lint: bool,
     limits: Limits,
     functions: Option<&'t Functions>,
     module: Module,
@@ -140,11 +143,11 @@ impl<'t> Compiler<'t> {
         self.refuse_recursion();
     }
 
-    fn finish(mut self, lint: bool) -> Result<Loaded, Vec<Diag>> {
+    fn finish(mut self) -> Result<Loaded, Vec<Diag>> {
         if self.diags.iter().any(Diag::is_error) {
             return Err(self.diags);
         }
-        if lint {
+        if self.lint {
             self.diags.extend(swallow::warnings(&self.module));
         }
         Ok(Loaded { module: self.module, warnings: self.diags })

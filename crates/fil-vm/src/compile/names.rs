@@ -159,8 +159,13 @@ impl<'t> Compiler<'t> {
         let reg = self.reserve(1, span);
         self.module.variables.insert(name.to_string(), reg);
         self.module.names.insert(reg, name.to_string());
-        if let Some(number) = letter(name) {
-            self.module.constants.push((reg, Constant::Number(number)));
+        match letter(name) {
+            Some(number) => self.module.constants.push((reg, Constant::Number(number))),
+            None if self.lint && !self.is_assigned(name) => {
+                let message = format!("no statement sets {name}");
+                self.report(CompileCode::NeverAssigned, span, message);
+            }
+            None => {}
         }
         reg
     }

@@ -123,7 +123,7 @@ impl Compiler<'_> {
     }
 
     /// A letter that gets another value than its number no longer names its address.
-    fn warn_of_letter(&mut self, target: &Target, value: Option<&Expr>) {
+    pub(super) fn warn_of_letter(&mut self, target: &Target, value: Option<&Expr>) {
         let name = &target.name.text;
         if self.names.params.contains_key(name.as_str()) {
             return;

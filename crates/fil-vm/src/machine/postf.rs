@@ -151,9 +151,9 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             Some(_) => Ok(Number(EMPTY)),
             None => {
                 let last = record.len();
-                let message =
-                    format!("the record ends with word {last}; word {at} is read as EMPTY");
-                self.warn_once(RunCode::PastEnd, message);
+                self.warn_once(RunCode::PastEnd, || {
+                    format!("the record ends with word {last}; word {at} is read as EMPTY")
+                });
                 Ok(Number(EMPTY))
             }
         }

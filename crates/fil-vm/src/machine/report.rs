@@ -33,10 +33,10 @@ impl<H: Host + ?Sized> Vm<'_, H> {
 
     /// Warns of something once for each place.
     #[cold]
-    pub(super) fn warn_once(&mut self, code: RunCode, message: String) {
+    pub(super) fn warn_once(&mut self, code: RunCode, message: impl FnOnce() -> String) {
         let number = <&fil_diag::Code>::from(code).number;
         if self.state.warned.insert((self.spot, number)) {
-            let mut diag = Diag::new(code, message).at(self.place(self.spot));
+            let mut diag = Diag::new(code, message()).at(self.place(self.spot));
             self.add_calls(&mut diag);
             self.add_record(&mut diag);
             self.host.warn(diag);

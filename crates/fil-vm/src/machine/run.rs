@@ -34,7 +34,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         /// Notes the place, then evaluates.
         macro_rules! slow {
             ($e:expr) => {{
-                self.spot = Spot { chunk, pc };
+                self.spot = Spot { chunk, pc: pc - 1 };
                 $e?
             }};
         }
@@ -79,7 +79,9 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         }
 
         loop {
-            match code[pc] {
+            let op = code[pc];
+            pc += 1;
+            match op {
                 Op::Move { dst, src } => {
                     at!(registers[dst]) = match at!(registers[src]) {
                         Value::Unset => slow!(self.read(registers, src)),
@@ -125,12 +127,11 @@ impl<H: Host + ?Sized> Vm<'_, H> {
                         unreachable!("DoEnter has set both to numbers")
                     };
                     let value = match at!(registers[var]) {
-                        Number(value) => value,
-                        _ => slow!(self.number(registers, var)),
-                    } + step;
+                        Number(value) => value + step,
+                        _ => slow!(self.number(registers, var)) + step,
+                    };
                     at!(registers[var]) = Number(value);
-                    let more = if step > 0.0 { value <= last } else { value >= last };
-                    jump_if!(more, body);
+                    jump_if!(if step > 0.0 { value <= last } else { value >= last }, body);
                     if !value.is_finite() {
                         slow!(Err(fault(RunCode::Domain, "the loop variable passes all numbers")));
                     }
@@ -154,7 +155,6 @@ impl<H: Host + ?Sized> Vm<'_, H> {
                         };
                         let value = slow!(self.function(registers, function, base, 2, body));
                         at!(registers[dst]) = value;
-                        pc += 1;
                         continue;
                     };
                     let value = slow!(self.function(registers, function, base, arity, body));
@@ -218,10 +218,9 @@ impl<H: Host + ?Sized> Vm<'_, H> {
                     let Some(caller) = self.state.frames.pop() else { return Ok(()) };
                     chunk = caller.chunk;
                     code = &module.chunks[usize::from(chunk)].code;
-                    pc = caller.pc;
+                    pc = caller.pc + 1;
                 }
             }
-            pc += 1;
         }
     }
 }

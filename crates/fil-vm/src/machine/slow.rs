@@ -21,9 +21,11 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     pub(super) fn read(&mut self, registers: &Registers, reg: Reg) -> Result<Value, Box<Diag>> {
         match registers[usize::from(reg)] {
             Unset => {
-                let name = self.module.names.get(&reg).map_or("a value", String::as_str);
-                let message = format!("{name} was never set; read as EMPTY");
-                self.warn_once(RunCode::NeverSet, message);
+                let module = self.module;
+                self.warn_once(RunCode::NeverSet, || {
+                    let name = module.names.get(&reg).map_or("a value", String::as_str);
+                    format!("{name} was never set; read as EMPTY")
+                });
                 Ok(Number(EMPTY))
             }
             value => Ok(value),
@@ -211,8 +213,9 @@ impl<H: Host + ?Sized> Vm<'_, H> {
 
     pub(super) fn unset_element(&mut self, array: u16) -> Result<Value, Box<Diag>> {
         let name = &self.module.arrays[usize::from(array)].name;
-        let message = format!("an element of {name} was never set; read as EMPTY");
-        self.warn_once(RunCode::NeverSet, message);
+        self.warn_once(RunCode::NeverSet, || {
+            format!("an element of {name} was never set; read as EMPTY")
+        });
         Ok(Number(EMPTY))
     }
 

@@ -20,6 +20,7 @@ fn letters_are_their_numbers_until_they_are_set() {
     let values = ["V1", "V2", "V3", "V4"].map(|name| bench.number(name));
     assert_eq!(values, [1.0, 24.0, 26.0, 5.0]);
     assert_eq!(bench.warnings.iter().map(|diag| diag.code.number).collect::<Vec<_>>(), [217]);
+    assert_eq!(globals("DO/LA,I=1,2\nLA) CONTIN").warnings[0].code.number, 217);
     assert!(globals("A=1;Z=26").warnings.is_empty(), "as the default FIL file does");
 }
 
@@ -114,4 +115,14 @@ fn the_embedding_program_adds_functions() {
         Bench::with("VV=WEIGHF('ABC',10)", Limits::default(), Compat::default(), functions);
     bench.globals().unwrap();
     assert_eq!(bench.number("VV"), 30.0);
+}
+
+#[test]
+fn a_machine_moves_between_threads() {
+    let mut bench = Bench::new("VV=1");
+    let machine = std::thread::spawn(move || {
+        bench.globals().unwrap();
+        bench.machine
+    });
+    assert_eq!(machine.join().unwrap().number("VV"), Some(1.0));
 }
