@@ -13,7 +13,7 @@ use crate::post::Post;
 /// the next motion says its G code, plane and feed again.
 ///
 /// # Errors
-/// As [`Post::write_line`].
+/// As `Post::write_line`.
 pub fn handle(post: &mut Post, record: &Record, _: &Vocabulary) -> Result<(), Box<Diag>> {
     let numbered = matches!(post.commons.int(loc::SEQNO_ON_TEXT), 1 | 3);
     post.write_line(record.text.trim(), numbered)?;
