@@ -23,6 +23,12 @@ const DIAMETER: f64 = 2.0;
 const SCALE: [Dbl; 6] =
     [loc::SCALE_X, loc::SCALE_Y, loc::SCALE_Z, loc::SCALE_A, loc::SCALE_B, loc::SCALE_C];
 
+const LIMITS: [(Dbl, Dbl); 3] = [
+    (loc::LIMITS_X_MIN, loc::LIMITS_X_MAX),
+    (loc::LIMITS_Y_MIN, loc::LIMITS_Y_MAX),
+    (loc::LIMITS_Z_MIN, loc::LIMITS_Z_MAX),
+];
+
 const TRANSLATE: [Dbl; 6] = [
     loc::OUTPUT_TRANSLATE_X,
     loc::OUTPUT_TRANSLATE_Y,
@@ -41,6 +47,8 @@ pub struct Axis {
     format: NumberFormat,
     scale: f64,
     translate: f64,
+    min: f64,
+    max: f64,
 }
 
 impl Axis {
@@ -56,6 +64,8 @@ impl Axis {
             format: addresses.slot(position).format,
             scale: commons.dbl_opt(SCALE[common]).unwrap_or(1.0),
             translate: commons.dbl_opt(TRANSLATE[common]).unwrap_or(0.0),
+            min: f64::NEG_INFINITY,
+            max: f64::INFINITY,
         }
     }
 
@@ -93,8 +103,8 @@ impl Axis {
     /// Says whether a word was added.
     ///
     /// # Errors
-    /// As [`Axis::scaled`]; or the machine has no such address and the axis
-    /// would have to move.
+    /// As [`Axis::scaled`]; the machine has no such address; the position lies
+    /// outside the axis's travel.
     pub fn write(
         &self,
         position: f64,
@@ -107,6 +117,9 @@ impl Axis {
             Output::Off => return Ok(false),
             Output::Unknown => return Err(no_address(self.letter)),
         };
+        if !(self.min..=self.max).contains(&position) {
+            return Err(self.outside(position));
+        }
         let scaled = self.scaled(position)?;
         let changed = self.format.unscale(scaled) != commons.last_output(self.letter);
         if changed || always {
@@ -126,6 +139,12 @@ impl Axis {
     /// Position before scale and translation that a tape value stands for.
     pub fn position(&self, value: f64) -> f64 {
         (value - self.translate) / self.scale
+    }
+
+    fn outside(&self, position: f64) -> Box<Diag> {
+        let name = char::from(b'A' + self.letter - 1);
+        let message = format!("{name}{position} lies outside {} to {}", self.min, self.max);
+        Box::new(Diag::new(PostCode::AxisLimit, message))
     }
 
     fn named(&self, mut diag: Box<Diag>) -> Box<Diag> {
@@ -171,6 +190,12 @@ impl Machine {
         }
         if commons.flag(loc::LATHE_DIAMETER) {
             self.write_diameters()?;
+        }
+        if commons.flag(loc::LIMITS_CHECK) {
+            for (axis, (min, max)) in self.axes.iter_mut().zip(LIMITS) {
+                axis.min = commons.dbl_opt(min).unwrap_or(f64::NEG_INFINITY);
+                axis.max = commons.dbl_opt(max).unwrap_or(f64::INFINITY);
+            }
         }
         self.kinematics = Some(kinematics);
         self.generation = Some((commons.generation(), metric));

@@ -73,6 +73,9 @@ impl Post {
     /// # Errors
     /// An unreachable tool axis, no feed, a value that does not fit, a missing code.
     pub(crate) fn move_to(&mut self, target: Target) -> Result<(), Box<Diag>> {
+        if self.state.cycle.is_some() {
+            crate::words::cycle::cancel(self)?;
+        }
         let position = self.position_of(target)?;
         self.state.point = Some(target.point);
         self.state.axis = target.axis;

@@ -133,14 +133,27 @@ impl Post {
     /// # Errors
     /// As [`Tape::block`]; and what the start of the program refuses.
     pub(crate) fn write_block(&mut self) -> Result<(), Box<Diag>> {
-        if !self.state.started && !self.block.is_empty() {
-            let block = std::mem::take(&mut self.block);
-            crate::program::start(self)?;
-            self.block = block;
+        if !self.block.is_empty() {
+            self.begin()?;
         }
         let result = self.tape.block(&self.block, &self.machine.addresses, &mut self.commons);
         self.block.clear();
         result
+    }
+
+    /// Writes the start of the program if it is still due. Whoever asks for the
+    /// modes the control stands at calls it first.
+    ///
+    /// # Errors
+    /// As [`program::start`](crate::program::start).
+    pub(crate) fn begin(&mut self) -> Result<(), Box<Diag>> {
+        if self.state.started {
+            return Ok(());
+        }
+        let block = std::mem::take(&mut self.block);
+        crate::program::start(self)?;
+        self.block = block;
+        Ok(())
     }
 
     /// Writes a text as a block.

@@ -79,15 +79,6 @@ impl Placement {
     }
 }
 
-/// The spindle's state.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Spindle {
-    /// Revolutions a minute, or surface speed when `surface`.
-    pub speed: f64,
-    /// Constant surface speed.
-    pub surface: bool,
-}
-
 /// Modal state of the post.
 #[derive(Clone, Debug)]
 pub struct State {
@@ -133,16 +124,12 @@ pub struct State {
     pub length_offset: Option<i64>,
     /// Diameter of the cutter, mm or inch.
     pub cutter: Option<f64>,
-    /// The spindle; `None` when it stands.
-    pub spindle: Option<Spindle>,
-    /// Cutter compensation is on.
-    pub compensation: bool,
+    /// Last spindle speed, revolutions a minute or surface speed.
+    pub spindle: Option<f64>,
     /// Words REPEAT adds to each motion block, by letter.
     pub repeat: [Option<f64>; 27],
     /// TRANS.
     pub transformation: Option<Transformation>,
-    /// Axis words are increments.
-    pub incremental: bool,
     /// A thread is cut by each feed motion: pitch in mm or inch.
     pub thread: Option<f64>,
 }
@@ -172,10 +159,8 @@ impl Default for State {
             length_offset: None,
             cutter: None,
             spindle: None,
-            compensation: false,
             repeat: [None; 27],
             transformation: None,
-            incremental: false,
             thread: None,
         }
     }

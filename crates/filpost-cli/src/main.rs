@@ -1,2 +1,87 @@
-//! The filpost command.
-fn main() {}
+//! The filpost command: CL file and FIL macros in, NC program out.
+//!
+//! Exit status: 0 done, 1 errors in the input or the post, 2 wrong usage,
+//! 3 internal fault.
+
+mod args;
+mod check;
+mod cl;
+mod errors;
+mod explain;
+mod json;
+mod machine;
+mod output;
+mod post;
+mod render;
+mod setup;
+mod summary;
+mod test;
+
+use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind};
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser};
+use filpost::Error;
+
+use args::{Args, Command};
+
+/// How a command ended that was not stopped by an error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Status {
+    /// Done.
+    Done = 0,
+    /// What was looked at is wrong; it has been reported.
+    Failed = 1,
+    /// The command was not used as it is meant; it has been reported.
+    Usage = 2,
+}
+
+/// Exit status of an internal fault.
+const FAULT: u8 = 3;
+
+fn main() -> ExitCode {
+    std::panic::set_hook(Box::new(report_fault));
+    let status = match catch_unwind(AssertUnwindSafe(|| run(&Args::parse().command))) {
+        Ok(Ok(status)) => status as u8,
+        Ok(Err(error)) => {
+            for diag in error.diags() {
+                render::to_stderr(diag);
+            }
+            Status::Failed as u8
+        }
+        Err(_) => FAULT,
+    };
+    ExitCode::from(status)
+}
+
+fn run(command: &Command) -> Result<Status, Error> {
+    match command {
+        Command::Post(args) => post::run(args),
+        Command::Check(args) => check::run(args),
+        Command::Cl(args) => cl::run(args),
+        Command::Test(args) => test::run(args),
+        Command::Explain(args) => explain::run(&args.subject),
+        Command::Machine(args) => machine::run(args),
+        Command::Completions { shell } => {
+            let mut text = Vec::new();
+            clap_complete::generate(*shell, &mut Args::command(), "filpost", &mut text);
+            output::print(&text)?;
+            Ok(Status::Done)
+        }
+    }
+}
+
+/// One line about a fault of filpost itself.
+fn report_fault(fault: &PanicHookInfo<'_>) {
+    let payload = fault.payload();
+    let message = payload
+        .downcast_ref::<&str>()
+        .copied()
+        .or_else(|| payload.downcast_ref::<String>().map(String::as_str))
+        .unwrap_or("no message");
+    let place = fault.location().map(ToString::to_string).unwrap_or_default();
+    output::say(&format!(
+        "internal fault of filpost at {place}: {message}\n\
+         No NC program was written. Please report this with the files that lead to it."
+    ));
+}

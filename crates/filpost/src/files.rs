@@ -95,10 +95,12 @@ fn new_file_rights() -> std::fs::Permissions {
     std::fs::metadata(here).expect("the folder of temporary files exists").permissions()
 }
 
-fn cant_read(path: &Path, error: &io::Error) -> Error {
+/// E0701 for a file and the reason.
+pub fn cant_read(path: &Path, error: &io::Error) -> Error {
     Error::setup(Diag::new(RunCode::CantRead, format!("{}: {error}", path.display())))
 }
 
-fn cant_write(path: &Path, error: &io::Error) -> Error {
+/// E0702 for a file and the reason.
+pub fn cant_write(path: &Path, error: &io::Error) -> Error {
     Error::setup(Diag::new(RunCode::CantWrite, format!("{}: {error}", path.display())))
 }

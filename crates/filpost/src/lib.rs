@@ -20,6 +20,7 @@
 mod blocks;
 mod builder;
 pub mod case;
+pub mod check;
 mod compat;
 mod engine;
 mod error;
@@ -33,7 +34,7 @@ mod statement;
 
 pub use blocks::{Block, Blocks};
 pub use builder::{Builder, Post};
-pub use compat::read_compat;
+pub use compat::{operation_name, read_compat};
 pub use error::{Error, RunCode, all_codes};
 pub use observe::{SectionEvent, WhatHappened};
 pub use report::{Extents, Report};
@@ -41,7 +42,8 @@ pub use statement::statement_text;
 
 pub use fil_cl as cl;
 pub use fil_diag::{Code, Diag, Place, Severity};
-pub use fil_post::{Commons, FilLine, Origin, locations, settings};
+pub use fil_post::{Commons, FilLine, Kind, Origin, commons, locations, settings};
+pub use fil_post::{address, words as post_words};
 pub use fil_syntax as syntax;
 pub use fil_vm::{Argument, Compat, Limits, SectionMode};
 pub use fil_vm::{builtins, postf};

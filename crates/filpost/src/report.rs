@@ -17,9 +17,9 @@ impl Extents {
     /// Widens the box to a point.
     pub(crate) fn add(extents: &mut Option<Extents>, point: [f64; 3]) {
         let found = extents.get_or_insert(Extents { min: point, max: point });
-        for axis in 0..3 {
-            found.min[axis] = found.min[axis].min(point[axis]);
-            found.max[axis] = found.max[axis].max(point[axis]);
+        for (axis, value) in point.into_iter().enumerate() {
+            found.min[axis] = found.min[axis].min(value);
+            found.max[axis] = found.max[axis].max(value);
         }
     }
 }

@@ -1,11 +1,13 @@
 //! Choosing the post of a CL file from its `MACHIN/name,n`.
 
 use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use fil_cl::{Record, Vocabulary, Word, reader, record::kind, words as w};
 
 use crate::error::Error;
+use crate::files;
 use crate::ready;
 
 /// Records looked at for MACHIN.
@@ -25,38 +27,53 @@ pub enum Choice {
     },
 }
 
-/// The post `MACHIN/name,n` asks for: a ready post of that name; `name.pNN` (and
-/// `name.fNN`) beside the CL file or in one of `folders`; else the generic
-/// lathe for UNCL…, the generic mill for all others.
+/// What a CL file says in `MACHIN/name,n`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Machin {
+    /// The name.
+    pub name: String,
+    /// The number; 1 when there is none.
+    pub number: u32,
+}
+
+/// The post a CL file asks for; see [`for_machin`].
 ///
 /// # Errors
 /// A CL file that can't be read as far as MACHIN.
 pub fn choose(cl: &Path, folders: &[PathBuf]) -> Result<Choice, Error> {
-    let Some((name, number)) = machin(cl)? else {
-        return Ok(Choice::Ready(ready::GENERIC_MILL));
-    };
-    if let Some(post) = ready::find(&name) {
-        return Ok(Choice::Ready(post.name));
-    }
+    let input = File::open(cl).map_err(|error| files::cant_read(cl, &error))?;
+    let machin = machin(input, &cl.display().to_string())?;
     let beside = cl.parent().map(Path::to_path_buf).unwrap_or_default();
-    for folder in std::iter::once(&beside).chain(folders) {
-        if let Some(option_file) = find_file(folder, &name, 'p', number) {
-            let fil = find_file(folder, &name, 'f', number);
-            return Ok(Choice::OptionFile { option_file, fil });
+    let folders: Vec<PathBuf> = std::iter::once(beside).chain(folders.iter().cloned()).collect();
+    Ok(for_machin(machin.as_ref(), &folders))
+}
+
+/// The post that MACHIN asks for: a ready post of that name; `name.pNN` (and
+/// `name.fNN`) in one of `folders`; else the generic lathe for UNCL…, the
+/// generic mill for all others.
+pub fn for_machin(machin: Option<&Machin>, folders: &[PathBuf]) -> Choice {
+    let Some(Machin { name, number }) = machin else {
+        return Choice::Ready(ready::GENERIC_MILL);
+    };
+    if let Some(post) = ready::find(name) {
+        return Choice::Ready(post.name);
+    }
+    for folder in folders {
+        if let Some(option_file) = find_file(folder, name, 'p', *number) {
+            let fil = find_file(folder, name, 'f', *number);
+            return Choice::OptionFile { option_file, fil };
         }
     }
     let lathe = name.to_ascii_uppercase().starts_with("UNCL");
-    Ok(Choice::Ready(if lathe { ready::GENERIC_LATHE } else { ready::GENERIC_MILL }))
+    Choice::Ready(if lathe { ready::GENERIC_LATHE } else { ready::GENERIC_MILL })
 }
 
-/// Name and number of the first MACHIN among the first records.
-fn machin(cl: &Path) -> Result<Option<(String, u32)>, Error> {
-    let input = File::open(cl).map_err(|error| {
-        let message = format!("{}: {error}", cl.display());
-        Error::setup(fil_diag::Diag::new(crate::RunCode::CantRead, message))
-    })?;
-    let name = cl.display().to_string();
-    let mut reader = reader::Reader::new(input, &name, reader::Options::default());
+/// The first MACHIN among the first records; `name` is what messages show.
+///
+/// # Errors
+/// A CL text that can't be read as far as MACHIN.
+pub fn machin(input: impl Read, name: &str) -> Result<Option<Machin>, Error> {
+    let mut reader = reader::Reader::new(input, name, reader::Options::default());
     let (mut vocabulary, mut record) = (Vocabulary::new(), Record::default());
     for _ in 0..LOOK {
         let more = reader.read(&mut vocabulary, &mut record).map_err(Error::Run)?;
@@ -64,7 +81,7 @@ fn machin(cl: &Path) -> Result<Option<(String, u32)>, Error> {
             break;
         }
         if record.kind == kind::POST && record.major == w::MACHIN {
-            let text = match record.data.first() {
+            let name = match record.data.first() {
                 Some(Word::Minor(word)) => vocabulary.name(*word).to_string(),
                 Some(word @ Word::Text { .. }) => record.text_of(*word).trim().to_string(),
                 _ => return Ok(None),
@@ -73,7 +90,7 @@ fn machin(cl: &Path) -> Result<Option<(String, u32)>, Error> {
                 Some(Word::Number(number)) if (0.0..100.0).contains(number) => *number as u32,
                 _ => 1,
             };
-            return Ok(Some((text, number)));
+            return Ok(Some(Machin { name, number }));
         }
     }
     Ok(None)

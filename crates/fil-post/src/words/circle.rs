@@ -92,6 +92,7 @@ pub fn finish(post: &mut Post, arc: &Arc, target: Target) -> Result<(), Box<Diag
         .point
         .ok_or_else(|| Box::new(Diag::new(PostCode::ArcStart, "CIRCLE before any FROM or GOTO")))?;
     check_radii(arc, start, target.point)?;
+    super::cycle::cancel(post)?;
     post.state.rapid = false;
     let sweep = sweep(arc, start, target.point);
     let turns_axis = target.axis != post.state.axis;

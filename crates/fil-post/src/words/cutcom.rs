@@ -33,13 +33,13 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
             _ => loc::CIRCLE_PLANE_XY,
         };
         let code = post.code(location, "this plane")?;
+        post.begin()?;
         post.plane_code(code);
         post.write_block()?;
     }
     let code = post.code(location, "cutter compensation")?;
-    post.state.compensation = side != Some(w::OFF);
     post.block.g(code);
-    if post.state.compensation {
+    if side != Some(w::OFF) {
         let from_tool = post.commons.flag(loc::TOOL_DIAMETER_FROM_TOOL);
         let offset = number.or(post.state.tool.filter(|_| from_tool).map(|tool| tool as f64));
         if let Some(offset) = offset {

@@ -353,8 +353,12 @@ pub fn off(post: &mut Post) -> Result<(), Box<Diag>> {
     Ok(())
 }
 
-/// Writes the code that cancels the control's cycle, if one is in force.
-fn cancel(post: &mut Post) -> Result<(), Box<Diag>> {
+/// Writes the code that cancels the control's cycle, if one is in force; the
+/// next hole says the whole cycle again.
+///
+/// # Errors
+/// As [`off`].
+pub fn cancel(post: &mut Post) -> Result<(), Box<Diag>> {
     let in_force = post.state.cycle.as_mut().and_then(|cycle| {
         let code = cycle.code;
         cycle.in_force.take().and(code)

@@ -51,7 +51,8 @@ pub fn in_output_units(value: f64, unit: Option<WordId>, metric: bool) -> Feed {
     Feed { value: value * factor, mode }
 }
 
-/// Brings a feed per minute within the machine's range (DBLCOM 114, 120), with a warning.
+/// Brings a feed per minute within the machine's range (DBLCOM 114, 120), with
+/// a warning, and into the control's unit (DBLCOM 743).
 pub fn within_limits(post: &mut Post, feed: Feed) -> Feed {
     if feed.mode == FeedMode::PerRevolution {
         return feed;
@@ -63,5 +64,6 @@ pub fn within_limits(post: &mut Post, feed: Feed) -> Feed {
         let message = format!("feed {} became {value}", feed.value);
         post.warn(PostCode::Clamped, message);
     }
-    Feed { value, ..feed }
+    let factor = post.commons.dbl_opt(loc::FEED_UPM_FACTOR).unwrap_or(1.0);
+    Feed { value: value * factor, ..feed }
 }

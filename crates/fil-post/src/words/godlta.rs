@@ -27,5 +27,6 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         _ => return Err(form.error("one or three increments are needed")),
     };
     form.finish(post);
+    post.begin()?;
     post.move_to(Target { point: start + step, axis: post.state.axis })
 }

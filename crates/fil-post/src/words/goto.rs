@@ -16,6 +16,7 @@ use crate::post::Post;
 /// # Errors
 /// A record without a point, and all that the motion refuses.
 pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
+    post.begin()?;
     let target = target(post, record, vocabulary)?;
     if let Some(arc) = post.state.arc.take() {
         circle::finish(post, &arc, target)

@@ -29,6 +29,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         None => tool,
     };
     form.finish(post);
+    super::cycle::cancel(post)?;
     post.flush_pending()?;
     post.state.thread = None;
     if post.commons.flag(loc::TOOL_MODAL) && post.state.tool == Some(tool) {

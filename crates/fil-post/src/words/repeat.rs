@@ -21,7 +21,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         return Ok(());
     }
     let numbers = form.numbers();
-    if numbers.is_empty() || numbers.len() % 2 != 0 {
+    if numbers.is_empty() || !numbers.len().is_multiple_of(2) {
         return Err(form.error("pairs of a letter and a value, or OFF, are needed"));
     }
     for pair in numbers.chunks(2) {

@@ -11,7 +11,7 @@ use crate::errors::PostCode;
 use crate::letters::S;
 use crate::locations as loc;
 use crate::post::Post;
-use crate::state::{Placement, Spindle};
+use crate::state::Placement;
 
 const RANGE_CODES: [Int; 6] = [
     loc::SPINDLE_RANGE1_CODE,
@@ -38,7 +38,6 @@ const RANGE_SPEEDS: [(Rel, Rel); 6] = [
 pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
     let mut form = Form::new(record, vocabulary);
     if form.flag(w::OFF) {
-        post.state.spindle = None;
         form.finish(post);
         return turn(post, loc::SPINDLE_STOP_CODE, "SPINDL/OFF");
     }
@@ -75,7 +74,7 @@ fn speed(post: &mut Post, form: &mut Form) -> Result<(), Box<Diag>> {
     let surface = matches!(unit, Some(w::SFM | w::SMM));
     let Some(asked) = form.number() else {
         return match (unit, post.state.spindle) {
-            (None, Some(spindle)) => post.word(S, spindle.speed),
+            (None, Some(speed)) => post.word(S, speed),
             (None, None) => Ok(()),
             (Some(_), _) => Err(form.error("the speed is missing")),
         };
@@ -92,7 +91,7 @@ fn speed(post: &mut Post, form: &mut Form) -> Result<(), Box<Diag>> {
         post.block.g(code);
     }
     let speed = if surface { surface_speed(post, unit, asked) } else { within_range(post, asked) };
-    post.state.spindle = Some(Spindle { speed, surface });
+    post.state.spindle = Some(speed);
     post.word(S, speed)
 }
 

@@ -5,13 +5,14 @@ use fil_cl::vocabulary::{Vocabulary, words as w};
 use fil_diag::Diag;
 
 use super::form::Form;
+use crate::locations as loc;
 use crate::post::Post;
 use crate::program;
 
 /// Sets the unit; once the program has started, its code is written at once.
 ///
 /// # Errors
-/// Neither MM nor INCHES.
+/// Neither MM nor INCHES, or a unit the machine does not take.
 pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
     let mut form = Form::new(record, vocabulary);
     let metric = match form.any_of(&[w::MM, w::INCHES]) {
@@ -19,6 +20,14 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         Some(_) => false,
         None => return Err(form.error("MM or INCHES is needed")),
     };
+    let only = match post.commons.int(loc::UNITS_MODE) {
+        1 => Some(false),
+        2 => Some(true),
+        _ => None,
+    };
+    if only.is_some_and(|only| only != metric) {
+        return Err(form.error("the machine takes the other unit only (units.mode)"));
+    }
     form.finish(post);
     let changes = metric != post.state.metric;
     post.state.metric = metric;

@@ -69,7 +69,8 @@ pub struct Loaded {
 
 /// Reads and compiles FIL files, in this order, into one name space.
 ///
-/// With an error anywhere there is no module; all diagnostics come back.
+/// The module names words by their ids, so it must run with `vocab` or a clone
+/// of it. With an error anywhere there is no module; all diagnostics come back.
 pub fn load(
     files: &[FilFile<'_>],
     vocab: &mut Vocabulary,

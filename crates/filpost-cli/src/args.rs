@@ -1,0 +1,186 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
+
+/// Posts CL files with FIL macros into NC programs.
+#[derive(Debug, Parser)]
+#[command(name = "filpost", version, max_term_width = 100)]
+pub struct Args {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Post a CL file: CL, FIL and machine in, NC program out
+    Post(PostArgs),
+    /// Check FIL files without a CL file
+    Check(CheckArgs),
+    /// Show the records of a CL file with their numbered words
+    Cl(ClArgs),
+    /// Run regression cases (folders with a case.toml)
+    Test(TestArgs),
+    /// Explain a code, a POSTF number, a location, a setting, a word or a function
+    Explain(ExplainArgs),
+    /// Import and show machine settings
+    Machine(MachineArgs),
+    /// Print completions for a shell
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+}
+
+/// Which post: machine, FIL and how they are read.
+#[derive(Debug, Default, ClapArgs)]
+pub struct Chosen {
+    /// A ready post by name, or a folder with machine.toml and post.fil
+    #[arg(short, long, value_name = "POST", conflicts_with = "machine")]
+    pub post: Option<String>,
+    /// machine.toml, or an option file (uncx01.pNN)
+    #[arg(short, long, value_name = "FILE")]
+    pub machine: Option<PathBuf>,
+    /// One more setting on top (may be given again)
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+}
+
+/// How FIL is read.
+#[derive(Debug, ClapArgs)]
+pub struct Reading {
+    /// Readings of POSTF numbers and sections that differ from ours
+    #[arg(long, value_name = "FILE")]
+    pub compat: Option<PathBuf>,
+    /// Refuse extensions of filpost, so that a script stays portable
+    #[arg(long)]
+    pub strict: bool,
+    /// Encoding of all input texts (utf-8, cp1251, koi8-r, …); guessed when left out
+    #[arg(long, value_name = "LABEL")]
+    pub encoding: Option<String>,
+}
+
+/// `filpost post`
+#[derive(Debug, ClapArgs)]
+pub struct PostArgs {
+    /// The CL file; - reads standard input
+    pub cl: PathBuf,
+    #[command(flatten)]
+    pub chosen: Chosen,
+    /// A FIL file (may be given again; all share one name space)
+    #[arg(short, long, value_name = "FILE")]
+    pub fil: Vec<PathBuf>,
+    #[command(flatten)]
+    pub reading: Reading,
+    /// The NC file; standard output when left out or -
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
+    /// Write a listing: records, sections, and the blocks they made
+    #[arg(long, value_name = "FILE")]
+    pub listing: Option<PathBuf>,
+    /// A folder to look in for the option file that MACHIN names (may be given again)
+    #[arg(long, value_name = "DIR")]
+    pub post_path: Vec<PathBuf>,
+    /// Write nothing when there are warnings, and exit with 1
+    #[arg(long)]
+    pub deny_warnings: bool,
+}
+
+/// `filpost check`
+#[derive(Debug, ClapArgs)]
+pub struct CheckArgs {
+    /// FIL files, each checked by itself
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    /// Check all files as one post: they share one name space
+    #[arg(long)]
+    pub together: bool,
+    /// How findings are written
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub format: Format,
+    #[command(flatten)]
+    pub reading: Reading,
+    /// Exit with 1 when there are warnings
+    #[arg(long)]
+    pub deny_warnings: bool,
+}
+
+/// How `filpost check` writes its findings.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Format {
+    /// For people, to standard error
+    Text,
+    /// One JSON array to standard output
+    Json,
+}
+
+/// `filpost cl`
+#[derive(Debug, ClapArgs)]
+pub struct ClArgs {
+    /// The CL file; - reads standard input
+    pub cl: PathBuf,
+    /// Write JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Show each word with its number, as POSTF(7,n) counts them
+    #[arg(long)]
+    pub words: bool,
+    /// Encoding of the texts (utf-8, cp1251, koi8-r, …); guessed when left out
+    #[arg(long, value_name = "LABEL")]
+    pub encoding: Option<String>,
+}
+
+/// `filpost test`
+#[derive(Debug, ClapArgs)]
+pub struct TestArgs {
+    /// Folder to look for cases in; `corpus` where there is one, else this folder
+    pub dir: Option<PathBuf>,
+    /// Show each difference and write the expected files anew
+    #[arg(long)]
+    pub update: bool,
+}
+
+/// `filpost explain`
+#[derive(Debug, ClapArgs)]
+pub struct ExplainArgs {
+    /// E0123 | POSTF 13 | DBLCOM 486 | rapid.split | CYCLE | SQRTF | fanuc-mill
+    #[arg(required = true)]
+    pub subject: Vec<String>,
+}
+
+/// `filpost machine`
+#[derive(Debug, ClapArgs)]
+pub struct MachineArgs {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: MachineCommand,
+}
+
+/// The commands for machine settings.
+#[derive(Debug, Subcommand)]
+pub enum MachineCommand {
+    /// Turn an option file into a machine.toml
+    Import {
+        /// The option file (uncx01.pNN)
+        file: PathBuf,
+        /// The machine.toml; standard output when left out or -
+        #[arg(short, long, value_name = "OUT")]
+        output: Option<PathBuf>,
+        /// Encoding of the option file; guessed when left out
+        #[arg(long, value_name = "LABEL")]
+        encoding: Option<String>,
+    },
+    /// Show every setting with value, unit, meaning and evidence
+    Show {
+        #[command(flatten)]
+        chosen: Chosen,
+        /// Only settings whose name starts with this
+        #[arg(value_name = "PREFIX")]
+        prefix: Option<String>,
+    },
+    /// Print the JSON schema of machine.toml
+    Schema,
+}

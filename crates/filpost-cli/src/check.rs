@@ -1,0 +1,70 @@
+//! `filpost check`
+
+use std::path::PathBuf;
+
+use filpost::check::{self, Options};
+use filpost::{Compat, Diag, Error, files};
+
+use crate::args::{CheckArgs, Format};
+use crate::{Status, json, output, render, setup, summary};
+
+/// Checks FIL files.
+///
+/// # Errors
+/// Files that can't be read or written.
+pub fn run(args: &CheckArgs) -> Result<Status, Error> {
+    let compat = match &args.reading.compat {
+        None => Compat::default(),
+        Some(path) => {
+            let text = files::read_text(path, args.reading.encoding.as_deref())?;
+            filpost::read_compat(&path.display().to_string(), &text).map_err(Error::Run)?
+        }
+    };
+    let groups =
+        if args.together { args.files.chunks(args.files.len()) } else { args.files.chunks(1) };
+    let mut diags = Vec::new();
+    for group in groups {
+        diags.extend(check_group(args, group, &compat)?);
+    }
+    match args.format {
+        Format::Text => {
+            for diag in &diags {
+                render::to_stderr(diag);
+            }
+            output::say(&count(&diags, args.files.len()));
+        }
+        Format::Json => {
+            output::print(format!("{:#}\n", json::findings(&diags)).as_bytes())?;
+        }
+    }
+    let wrong = diags.iter().any(Diag::is_error) || (args.deny_warnings && !diags.is_empty());
+    Ok(if wrong { Status::Failed } else { Status::Done })
+}
+
+fn check_group(args: &CheckArgs, paths: &[PathBuf], compat: &Compat) -> Result<Vec<Diag>, Error> {
+    let encoding = args.reading.encoding.as_deref();
+    let mut texts = Vec::new();
+    for path in paths {
+        texts.push((path.display().to_string(), files::read_text(path, encoding)?));
+    }
+    let files: Vec<(&str, &str)> =
+        texts.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
+    let mut includes = setup::includes(paths, encoding);
+    let options = Options {
+        compat: compat.clone(),
+        strict: args.reading.strict,
+        includes: Some(&mut includes),
+    };
+    Ok(check::check(&files, options))
+}
+
+fn count(diags: &[Diag], files: usize) -> String {
+    let errors = diags.iter().filter(|diag| diag.is_error()).count();
+    let warnings = diags.len() - errors;
+    format!(
+        "{}: {}, {}",
+        summary::counted(files as u64, "file"),
+        summary::counted(errors as u64, "error"),
+        summary::counted(warnings as u64, "warning")
+    )
+}

@@ -1,0 +1,177 @@
+//! `filpost cl`
+
+use std::collections::BTreeMap;
+use std::io::{self, BufWriter, Write};
+
+use filpost::cl::record::{kind, motion};
+use filpost::cl::{Record, Vocabulary, WordView, reader::Reader};
+use filpost::{Error, Extents, statement_text};
+use serde_json::{Value, json};
+
+use crate::args::ClArgs;
+use crate::{Status, output, setup, summary};
+
+/// Shows the records of a CL file.
+///
+/// # Errors
+/// A CL file that can't be read.
+pub fn run(args: &ClArgs) -> Result<Status, Error> {
+    let input = output::open(&args.cl)?;
+    let options = setup::cl_options(args.encoding.as_deref())?;
+    let mut reader = Reader::new(input, &output::input_name(&args.cl), options);
+    let (mut vocabulary, mut record) = (Vocabulary::new(), Record::default());
+    let mut show = Show {
+        output: BufWriter::new(io::stdout().lock()),
+        words: args.words,
+        json: args.json,
+        totals: Totals::default(),
+    };
+    show.head().map_err(|error| output::stdout_error(&error))?;
+    while reader.read(&mut vocabulary, &mut record).map_err(Error::Run)? {
+        show.record(&record, &vocabulary).map_err(|error| output::stdout_error(&error))?;
+    }
+    show.foot().map_err(|error| output::stdout_error(&error))?;
+    Ok(Status::Done)
+}
+
+/// What is counted over all records.
+#[derive(Default)]
+struct Totals {
+    records: u64,
+    words: BTreeMap<String, u64>,
+    point: Option<[f64; 3]>,
+    extents: Option<Extents>,
+}
+
+impl Totals {
+    fn add(&mut self, record: &Record, vocabulary: &Vocabulary) {
+        self.records += 1;
+        let name = vocabulary.name(record.major);
+        match self.words.get_mut(name) {
+            Some(count) => *count += 1,
+            None => drop(self.words.insert(name.to_string(), 1)),
+        }
+        let Some(mut point) = record.point() else { return };
+        if record.kind == kind::MOTION && record.sub == motion::GODLTA {
+            let Some(last) = self.point else { return };
+            point = [0, 1, 2].map(|axis| last[axis] + point[axis]);
+        }
+        self.point = Some(point);
+        let found = self.extents.get_or_insert(Extents { min: point, max: point });
+        for (axis, value) in point.into_iter().enumerate() {
+            found.min[axis] = found.min[axis].min(value);
+            found.max[axis] = found.max[axis].max(value);
+        }
+    }
+
+    /// Words and their counts, the most frequent first.
+    fn by_count(&self) -> Vec<(&str, u64)> {
+        let mut list: Vec<(&str, u64)> =
+            self.words.iter().map(|(name, count)| (name.as_str(), *count)).collect();
+        list.sort_by_key(|(name, count)| (std::cmp::Reverse(*count), *name));
+        list
+    }
+}
+
+/// Writes records as they come.
+struct Show<W: Write> {
+    output: W,
+    words: bool,
+    json: bool,
+    totals: Totals,
+}
+
+impl<W: Write> Show<W> {
+    fn head(&mut self) -> io::Result<()> {
+        if self.json {
+            write!(self.output, "{{\"records\":[")
+        } else {
+            writeln!(self.output, "   line  record  statement")
+        }
+    }
+
+    fn record(&mut self, record: &Record, vocabulary: &Vocabulary) -> io::Result<()> {
+        let first = self.totals.records == 0;
+        self.totals.add(record, vocabulary);
+        let statement = statement_text(record, vocabulary);
+        if self.json {
+            let mut object = json!({
+                "record": record.number,
+                "line": record.line,
+                "statement": statement,
+            });
+            if self.words {
+                object["words"] = words(record, vocabulary).map(json_word).collect();
+            }
+            let comma = if first { "" } else { "," };
+            return write!(self.output, "{comma}\n{object}");
+        }
+        writeln!(self.output, "{:>7} {:>7}  {statement}", record.line, record.number)?;
+        if self.words {
+            for (index, word) in words(record, vocabulary).enumerate() {
+                writeln!(self.output, "{:>20}  {}", index + 1, word_text(word))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn foot(&mut self) -> io::Result<()> {
+        let counts = self.totals.by_count();
+        if self.json {
+            let counts: Value = counts.iter().map(|(name, count)| json!([name, count])).collect();
+            let extents = self.totals.extents.map(|box_| json!({"min": box_.min, "max": box_.max}));
+            writeln!(
+                self.output,
+                "\n],\n\"counts\":{counts},\n\"extents\":{}}}",
+                extents.unwrap_or(Value::Null)
+            )?;
+            return self.output.flush();
+        }
+        writeln!(self.output, "\n{}", summary::counted(self.totals.records, "record"))?;
+        for (name, count) in counts {
+            writeln!(self.output, "{count:>9}  {name}")?;
+        }
+        if let Some(extents) = &self.totals.extents {
+            for (axis, name) in ["X", "Y", "Z"].iter().enumerate() {
+                let (min, max) = (extents.min[axis], extents.max[axis]);
+                let (min, max) = (summary::length(min), summary::length(max));
+                writeln!(self.output, "{name:>9}  {min} to {max}")?;
+            }
+        }
+        self.output.flush()
+    }
+}
+
+/// The words of a record, word 1 first.
+fn words<'a>(
+    record: &'a Record,
+    vocabulary: &'a Vocabulary,
+) -> impl Iterator<Item = (WordView<'a>, bool)> {
+    let public = |name: &str| vocabulary.find(name).is_some_and(|id| vocabulary.is_public(id));
+    (1..=record.len()).filter_map(move |n| {
+        let word = record.word(n, vocabulary)?;
+        let known = matches!(word, WordView::Word { name, .. } if public(name));
+        Some((word, known))
+    })
+}
+
+/// A word for people; a code that is ours is not shown as a fact.
+fn word_text((word, public): (WordView<'_>, bool)) -> String {
+    match word {
+        WordView::Number(number) => number.to_string(),
+        WordView::Word { name, code } if public => format!("{name}  (code {code})"),
+        WordView::Word { name, .. } => format!("{name}  (no published code)"),
+        WordView::Text(text) => format!("'{text}'"),
+        WordView::Empty => "EMPTY".into(),
+    }
+}
+
+fn json_word((word, public): (WordView<'_>, bool)) -> Value {
+    match word {
+        WordView::Number(number) => json!(number),
+        WordView::Word { name, code } if public => json!({"word": name, "code": code}),
+        WordView::Word { name, .. } => json!({"word": name}),
+        WordView::Text(text) => json!({"text": text}),
+        WordView::Empty => Value::Null,
+    }
+}

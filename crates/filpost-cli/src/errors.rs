@@ -1,0 +1,19 @@
+//! Codes of the command line.
+
+fil_diag::codes! {
+    /// What the command refuses, beyond what the library does.
+    pub enum CommandCode {
+        /// `--deny-warnings`.
+        Denied = 801, Error, "warnings are not allowed here",
+            "The run was started with --deny-warnings and there were warnings.",
+            "Mend what the warnings name, or leave --deny-warnings out.";
+        /// Output over an input.
+        OverInput = 802, Error, "the output would replace an input",
+            "Two files of this run are the same file.",
+            "Choose another name for the output.";
+        /// `filpost test` without cases.
+        NoCases = 803, Error, "no regression cases",
+            "A test run without cases would prove nothing.",
+            "Name a folder that holds folders with a case.toml.";
+    }
+}

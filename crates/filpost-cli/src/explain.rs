@@ -1,0 +1,287 @@
+//! `filpost explain`
+
+use filpost::builtins::BUILTINS;
+use filpost::cl::Vocabulary;
+use filpost::locations::{Location, TABLE};
+use filpost::postf::{Grade, POSTF, PostfInfo};
+use filpost::ready::{self, READY};
+use filpost::{Code, Commons, Error, Kind, Severity, post_words};
+
+use crate::errors::CommandCode;
+use crate::{Status, output};
+
+/// Explains a subject: the words of the command line after `explain`.
+///
+/// # Errors
+/// Standard output that can't be written.
+pub fn run(subject: &[String]) -> Result<Status, Error> {
+    let words: Vec<&str> = subject
+        .iter()
+        .flat_map(|word| word.split([' ', ',', '(', ')']))
+        .filter(|word| !word.is_empty())
+        .collect();
+    let text = match words[..] {
+        [word] => one(word),
+        [table, number] => numbered(table, number),
+        _ => None,
+    };
+    match text {
+        Some(text) => {
+            output::print(format!("{}\n", text.trim_end()).as_bytes())?;
+            Ok(Status::Done)
+        }
+        None => {
+            let subject = words.join(" ");
+            output::say(&format!("nothing is known of `{subject}`"));
+            if let Some(near) = nearest(&subject) {
+                output::say(&format!("did you mean `{near}`?"));
+            }
+            output::say(
+                "Ask for a code (E0501), POSTF 13, INTCOM 1861, a setting, a word or a function.",
+            );
+            Ok(Status::Usage)
+        }
+    }
+}
+
+fn one(word: &str) -> Option<String> {
+    let mut parts: Vec<String> = Vec::new();
+    parts.extend(code(word));
+    parts.extend(Location::named(&word.to_ascii_lowercase()).map(location));
+    parts.extend(function(word));
+    parts.extend(ready::find(word).map(|post| post.readme.to_string()));
+    if parts.is_empty() {
+        parts.extend(vocabulary_word(word));
+    }
+    if parts.is_empty() {
+        parts.extend(group(word));
+    }
+    (!parts.is_empty()).then(|| parts.join("\n\n"))
+}
+
+fn numbered(table: &str, number: &str) -> Option<String> {
+    let number: u32 = number.parse().ok()?;
+    let kind = match table.to_ascii_uppercase().as_str() {
+        "POSTF" => {
+            return Some(match POSTF.iter().find(|row| u32::from(row.number) == number) {
+                Some(row) => postf(row),
+                None => format!(
+                    "POSTF({number},…): its meaning is not published; a script that calls it is refused.\n\
+                     A compat file can give the number an operation."
+                ),
+            });
+        }
+        "INTCOM" | "INT" => Kind::Int,
+        "RELCOM" | "REL" => Kind::Rel,
+        "DBLCOM" | "DBL" => Kind::Dbl,
+        _ => return None,
+    };
+    if number == 0 || number as usize > kind.size() {
+        return Some(format!("{} has the locations 1 to {}.", kind.name(), kind.size()));
+    }
+    let known = Location::numbered(kind, number).map(location);
+    known.or_else(|| Some(unnamed(kind, number)))
+}
+
+/// A location that is no row of the table.
+fn unnamed(kind: Kind, number: u32) -> String {
+    let name = kind.name();
+    let letter = |index: u32| char::from(b'A' - 1 + index as u8);
+    match (kind, number) {
+        (Kind::Int, 1..=26) => format!(
+            "{name} {number}: tape position of the letter {}; 53 when the machine has none.",
+            letter(number)
+        ),
+        (Kind::Int, 53..=105) => {
+            format!("{name} {number}: letter code at tape position {}.", number - 52)
+        }
+        (Kind::Int, 106..=158) => {
+            format!("{name} {number}: number format of tape position {}.", number - 105)
+        }
+        (Kind::Int, 159..=211) => {
+            format!("{name} {number}: zero and point rule of tape position {}.", number - 158)
+        }
+        (Kind::Dbl, 356..=381) => format!(
+            "{name} {number}: last value written with the letter {}; EMPTY writes the next one again.",
+            letter(number - 355)
+        ),
+        _ => format!("{name} {number}: its meaning is not published; the post does not act on it."),
+    }
+}
+
+fn code(name: &str) -> Option<String> {
+    let digits = name.strip_prefix(['E', 'W', 'e', 'w']).unwrap_or(name);
+    let number: u16 = digits.parse().ok().filter(|_| digits.len() >= 3)?;
+    let codes = filpost::all_codes();
+    let code = codes.into_iter().chain(CommandCode::ALL).find(|code| code.number == number)?;
+    Some(code_text(code))
+}
+
+fn code_text(code: &Code) -> String {
+    let kind = match code.severity {
+        Severity::Warning => "Warning",
+        Severity::Error => "Error: nothing is written",
+    };
+    format!(
+        "{}  {}\n\n{kind}.\n{}\n\nWhat to do: {}",
+        code.name(),
+        code.title,
+        code.reason,
+        code.hint
+    )
+}
+
+fn postf(row: &PostfInfo) -> String {
+    let arguments: Vec<String> = row.arguments.iter().map(|name| format!(",{name}")).collect();
+    format!(
+        "POSTF({}{})\n\n{}\n\n{}\nName in a compat file: {}",
+        row.number,
+        arguments.concat(),
+        sentence(row.doc),
+        grade(row.grade),
+        filpost::operation_name(row.op)
+    )
+}
+
+fn function(name: &str) -> Option<String> {
+    if name.eq_ignore_ascii_case("POSTF") {
+        let rows: Vec<String> = POSTF
+            .iter()
+            .map(|row| format!("{:>4}  {}  {}", row.number, row.grade.letter(), row.doc))
+            .collect();
+        let legend = "P published, I inferred from published scripts, O our own reading";
+        return Some(format!("POSTF(n,…): talks to the post.\n\n{}\n\n{legend}", rows.join("\n")));
+    }
+    let row = BUILTINS.iter().find(|row| row.name.eq_ignore_ascii_case(name))?;
+    let extension =
+        if row.extension { "\nAn extension of filpost, refused under --strict." } else { "" };
+    Some(format!(
+        "{}({})\n\n{}\n\n{}{extension}",
+        row.name,
+        row.arguments,
+        sentence(row.doc),
+        grade(row.grade)
+    ))
+}
+
+fn grade(grade: Grade) -> &'static str {
+    match grade {
+        Grade::Published => "Grade: published in a script or listing.",
+        Grade::Inferred => "Grade: inferred from published scripts.",
+        Grade::Own => "Grade: our own reading; not published.",
+    }
+}
+
+fn location(row: &Location) -> String {
+    let mut text = format!(
+        "{}  ({} {})\n\n{}\n\nUnit: {}\nDefault: {}\n",
+        row.name,
+        row.kind.name(),
+        row.number,
+        row.meaning,
+        row.unit,
+        value(row.default_value()),
+    );
+    for (number, meaning) in row.choice_list() {
+        text.push_str(&format!("  {number} = {meaning}\n"));
+    }
+    let used = if row.used { "The post acts on it." } else { "The post does not act on it." };
+    text.push_str(&format!("Evidence: {}\n{used}", row.evidence));
+    text
+}
+
+/// A value of a common as settings show it.
+pub fn value(number: f64) -> String {
+    if number == filpost::commons::EMPTY { "none".into() } else { number.to_string() }
+}
+
+fn vocabulary_word(name: &str) -> Option<String> {
+    let vocabulary = Vocabulary::new();
+    let id = vocabulary.find(name).filter(|id| vocabulary.is_known(*id))?;
+    let class = if vocabulary.is_major(id) { "major word" } else { "minor word" };
+    let code = if vocabulary.is_public(id) {
+        format!("Code {} in the published tables.", vocabulary.code(id))
+    } else {
+        "No published code.".into()
+    };
+    let handled = post_words::HANDLERS.iter().any(|(word, _)| *word == id);
+    let post = match (vocabulary.is_major(id), handled) {
+        (_, true) => "The post carries it out.",
+        (true, false) => "The post does not know it: a FIL section must take it.",
+        (false, false) => "It stands inside statements.",
+    };
+    Some(format!("{}  {class}\n\n{code}\n{post}", vocabulary.name(id)))
+}
+
+/// The settings of a group such as `rapid`.
+fn group(prefix: &str) -> Option<String> {
+    let start = format!("{}.", prefix.to_ascii_lowercase().trim_end_matches('.'));
+    let rows: Vec<String> = TABLE
+        .iter()
+        .filter(|row| row.name.starts_with(&start))
+        .map(|row| format!("{:<28} {}", row.name, row.meaning))
+        .collect();
+    (!rows.is_empty()).then(|| rows.join("\n"))
+}
+
+fn sentence(doc: &str) -> String {
+    let mut characters = doc.chars();
+    let first = characters.next().map(|first| first.to_uppercase().to_string());
+    format!("{}{}.", first.unwrap_or_default(), characters.as_str())
+}
+
+/// The known subject that is written most like this one.
+fn nearest(subject: &str) -> Option<String> {
+    let vocabulary = Vocabulary::new();
+    let mut names: Vec<String> = TABLE.iter().map(|row| row.name.to_string()).collect();
+    names.extend(BUILTINS.iter().map(|row| row.name.to_string()));
+    names.extend(READY.iter().map(|post| post.name.to_string()));
+    names.extend(post_words::HANDLERS.iter().map(|(id, _)| vocabulary.name(*id).to_string()));
+    names.extend(filpost::all_codes().into_iter().map(Code::name));
+    let wanted = subject.to_ascii_uppercase();
+    let most = 1 + wanted.chars().count() / 4;
+    names
+        .into_iter()
+        .map(|name| (distance(&name.to_ascii_uppercase(), &wanted), name))
+        .filter(|(distance, _)| *distance <= most)
+        .min()
+        .map(|(_, name)| name)
+}
+
+/// Number of single-letter changes from one word to the other.
+fn distance(from: &str, to: &str) -> usize {
+    let to: Vec<char> = to.chars().collect();
+    let mut row: Vec<usize> = (0..=to.len()).collect();
+    for (index, letter) in from.chars().enumerate() {
+        let mut corner = row[0];
+        row[0] = index + 1;
+        for (column, other) in to.iter().enumerate() {
+            let change = corner + usize::from(letter != *other);
+            corner = row[column + 1];
+            row[column + 1] = change.min(corner + 1).min(row[column] + 1);
+        }
+    }
+    row[to.len()]
+}
+
+/// The value of a setting with the meaning of its choice.
+pub fn shown_value(row: &Location, commons: &Commons) -> String {
+    let number = commons.get(row.kind, u32::from(row.number)).unwrap_or(filpost::commons::EMPTY);
+    let choice = row.choice_list().into_iter().find(|(choice, _)| *choice == number);
+    match choice {
+        Some((_, meaning)) if number != filpost::commons::EMPTY => format!("{number} ({meaning})"),
+        _ => value(number),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances_are_counted_in_letters() {
+        assert_eq!(distance("CYCEL", "CYCLE"), 2);
+        assert_eq!(distance("", "ABC"), 3);
+        assert_eq!(distance("SPINDL", "SPINDLE"), 1);
+    }
+}

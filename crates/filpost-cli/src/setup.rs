@@ -1,0 +1,225 @@
+//! From the command line to a post: machine, FIL files, readings.
+
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+use filpost::select::{self, Choice, Machin};
+use filpost::{Builder, Error, Post, files, ready};
+
+use crate::args::{Chosen, Reading};
+
+/// A post named by a command line, not yet built.
+pub struct Named {
+    /// The builder with machine and FIL files.
+    pub builder: Builder,
+    /// What the summary calls it.
+    pub title: String,
+    /// Something the user should know about the choice.
+    pub note: Option<String>,
+    /// All files it was read from.
+    pub inputs: Vec<PathBuf>,
+    fil: Vec<PathBuf>,
+}
+
+impl Named {
+    fn new(builder: Builder, title: impl Into<String>) -> Named {
+        Named { builder, title: title.into(), note: None, inputs: Vec::new(), fil: Vec::new() }
+    }
+
+    /// Adds the FIL files and lets INCLUD read files beside them.
+    fn with_fil(mut self, encoding: Option<&str>) -> Result<Named, Error> {
+        for path in &self.fil {
+            let text = files::read_text(path, encoding)?;
+            self.builder = self.builder.fil(&path.display().to_string(), &text);
+        }
+        self.builder = self.builder.includes(includes(&self.fil, encoding));
+        self.inputs.extend(self.fil.iter().cloned());
+        Ok(self)
+    }
+}
+
+/// The post of `-p` or `-m`; `None` when neither is given.
+///
+/// # Errors
+/// Files that can't be read.
+pub fn named(chosen: &Chosen, encoding: Option<&str>) -> Result<Option<Named>, Error> {
+    let named = match (&chosen.post, &chosen.machine) {
+        (Some(post), _) if ready::find(post).is_none() && Path::new(post).is_dir() => {
+            folder(Path::new(post), encoding)?
+        }
+        (Some(post), _) => Named::new(Post::builder().ready(post), post),
+        (None, Some(machine)) => machine_file(machine, encoding)?,
+        (None, None) => return Ok(None),
+    };
+    Ok(Some(with_settings(named, &chosen.set)))
+}
+
+/// The post of `filpost post`: what the command line names, else what MACHIN
+/// in the CL file asks for. `machin` is called only in the second case.
+///
+/// # Errors
+/// Files that can't be read, among them the CL file as far as MACHIN.
+pub fn for_run(
+    chosen: &Chosen,
+    fil: &[PathBuf],
+    reading: &Reading,
+    folders: &[PathBuf],
+    machin: impl FnOnce() -> Result<Option<Machin>, Error>,
+) -> Result<Named, Error> {
+    let encoding = reading.encoding.as_deref();
+    let mut named = match named(chosen, encoding)? {
+        Some(named) => named,
+        None => with_settings(asked_for(machin()?.as_ref(), folders, encoding)?, &chosen.set),
+    };
+    let by_machin = chosen.post.is_none() && chosen.machine.is_none();
+    if by_machin && !fil.is_empty() {
+        named.fil.clear();
+    }
+    named.fil.extend(fil.iter().cloned());
+    if named.fil.is_empty() {
+        named.note = named.note.or_else(|| unused_fil(chosen.machine.as_deref()?));
+    }
+    let mut named = named.with_fil(encoding)?;
+    named.builder = named.builder.strict(reading.strict);
+    if let Some(path) = &reading.compat {
+        let text = files::read_text(path, encoding)?;
+        let compat = filpost::read_compat(&path.display().to_string(), &text)
+            .map_err(|diag| Error::Run(diag))?;
+        named.builder = named.builder.compat(compat);
+        named.inputs.push(path.clone());
+    }
+    Ok(named)
+}
+
+/// A folder with `machine.toml` and, where there is one, `post.fil`.
+fn folder(folder: &Path, encoding: Option<&str>) -> Result<Named, Error> {
+    let mut named = machine_file(&folder.join("machine.toml"), encoding)?;
+    let fil = folder.join("post.fil");
+    if fil.is_file() {
+        named.fil.push(fil);
+    }
+    named.title = folder.display().to_string();
+    Ok(named)
+}
+
+/// A `machine.toml` or an option file, told by its ending or its text.
+fn machine_file(path: &Path, encoding: Option<&str>) -> Result<Named, Error> {
+    let text = files::read_text(path, encoding)?;
+    let name = path.display().to_string();
+    let builder = if is_option_file(path, &text) {
+        Post::builder().option_file(&name, &text)
+    } else {
+        Post::builder().machine(&name, &text)
+    };
+    let mut named = Named::new(builder, name);
+    named.inputs.push(path.to_path_buf());
+    Ok(named)
+}
+
+fn is_option_file(path: &Path, text: &str) -> bool {
+    numbered_ending(path, 'p').is_some()
+        || text.lines().take(10).any(|line| line.trim_start().starts_with("INTCOM:"))
+}
+
+/// The digits of an ending like `.p02`.
+fn numbered_ending(path: &Path, letter: char) -> Option<&str> {
+    let ending = path.extension()?.to_str()?;
+    let digits = ending.strip_prefix([letter, letter.to_ascii_uppercase()])?;
+    let all = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+    all.then_some(digits)
+}
+
+/// A word about the FIL file beside an option file that is given without one.
+fn unused_fil(option_file: &Path) -> Option<String> {
+    let digits = numbered_ending(option_file, 'p')?;
+    let fil = ['f', 'F']
+        .into_iter()
+        .map(|letter| option_file.with_extension(format!("{letter}{digits}")))
+        .find(|path| path.is_file())?;
+    Some(format!("{0} beside it is not used; give it with -f {0}", fil.display()))
+}
+
+/// The post MACHIN asks for.
+fn asked_for(
+    machin: Option<&Machin>,
+    folders: &[PathBuf],
+    encoding: Option<&str>,
+) -> Result<Named, Error> {
+    let asked = machin.map(|machin| format!("MACHIN/{},{}", machin.name, machin.number));
+    match select::for_machin(machin, folders) {
+        Choice::Ready(name) => {
+            let why = match &asked {
+                Some(asked) if machin.is_some_and(|machin| ready::find(&machin.name).is_some()) => {
+                    format!("for {asked}")
+                }
+                Some(asked) => format!("no post found for {asked}"),
+                None => "the CL file has no MACHIN".into(),
+            };
+            Ok(Named::new(Post::builder().ready(name), format!("{name} ({why})")))
+        }
+        Choice::OptionFile { option_file, fil } => {
+            let mut named = machine_file(&option_file, encoding)?;
+            if let Some(fil) = &fil {
+                named.title.push_str(&format!(" with {}", fil.display()));
+            }
+            named.title.push_str(&format!(" (for {})", asked.unwrap_or_default()));
+            named.fil.extend(fil);
+            Ok(named)
+        }
+    }
+}
+
+fn with_settings(mut named: Named, settings: &[String]) -> Named {
+    for setting in settings {
+        named.builder = named.builder.set(setting);
+    }
+    named
+}
+
+/// Gives INCLUD the files that lie beside the FIL files, or below there.
+pub fn includes(
+    fil: &[PathBuf],
+    encoding: Option<&str>,
+) -> impl FnMut(&str) -> Result<String, String> + Send + 'static {
+    let folders: Vec<PathBuf> =
+        fil.iter().filter_map(|path| path.parent()).map(Path::to_path_buf).collect();
+    let encoding = encoding.map(String::from);
+    move |name| {
+        let inside = Path::new(name)
+            .components()
+            .all(|part| matches!(part, std::path::Component::Normal(_)));
+        if !inside {
+            return Err("only files beside the FIL file can be included".into());
+        }
+        let path = folders.iter().map(|folder| folder.join(name)).find(|path| path.is_file());
+        let path = path.ok_or_else(|| "there is no such file beside the FIL file".to_string())?;
+        files::read_text(&path, encoding.as_deref()).map_err(|error| {
+            error.diags().iter().map(|diag| diag.message.clone()).collect::<Vec<_>>().join("; ")
+        })
+    }
+}
+
+/// The encoding `--encoding` names; the reader of CL text takes a plain
+/// function, which can't carry it along.
+static ENCODING: OnceLock<String> = OnceLock::new();
+
+/// How CL text is read under `--encoding`.
+///
+/// # Errors
+/// A label that names no encoding.
+pub fn cl_options(encoding: Option<&str>) -> Result<filpost::cl::reader::Options, Error> {
+    if let Some(label) = encoding {
+        filpost::syntax::decode(b"", Some(label)).map_err(|diag| Error::Run(Box::new(diag)))?;
+        ENCODING.get_or_init(|| label.to_string());
+    }
+    Ok(filpost::cl::reader::Options { decode: decode_cl, ..Default::default() })
+}
+
+/// A text of the CL file that is not UTF-8; bytes that mean nothing in the
+/// named encoding are read as the guess reads them.
+fn decode_cl(bytes: &[u8]) -> String {
+    let label = ENCODING.get().map(String::as_str);
+    filpost::syntax::decode(bytes, label)
+        .or_else(|_| filpost::syntax::decode(bytes, None))
+        .map_or_else(|_| filpost::cl::reader::latin1(bytes), |(text, _)| text.into_owned())
+}

@@ -1,0 +1,87 @@
+//! The last words of a run: warnings, each once, and one line of numbers.
+
+use std::time::Duration;
+
+use filpost::{Diag, Report};
+
+use crate::{output, render};
+
+/// Different warnings that are shown.
+const MOST: usize = 20;
+
+/// Shows warnings on standard error, the same one only once with a count.
+pub fn warnings<'a>(warnings: impl IntoIterator<Item = &'a Diag>) {
+    let groups = grouped(warnings);
+    for (diag, count) in groups.iter().take(MOST) {
+        let mut shown = (*diag).clone();
+        if *count > 1 {
+            shown.notes.push(format!("this warning came {count} times"));
+        }
+        render::to_stderr(&shown);
+    }
+    if groups.len() > MOST {
+        output::say(&format!("and {} more warnings of other kinds", groups.len() - MOST));
+    }
+}
+
+/// Warnings of the same code and words, at their first place, with their number.
+fn grouped<'a>(warnings: impl IntoIterator<Item = &'a Diag>) -> Vec<(&'a Diag, usize)> {
+    let mut groups: Vec<(&Diag, usize)> = Vec::new();
+    let mut known = std::collections::HashMap::new();
+    for diag in warnings {
+        let index = *known.entry((diag.code.number, diag.message.as_str())).or_insert(groups.len());
+        match groups.get_mut(index) {
+            Some((_, count)) => *count += 1,
+            None => groups.push((diag, 1)),
+        }
+    }
+    groups
+}
+
+/// The line at the end of a run: post, blocks, warnings, extents, time.
+pub fn line(post: &str, report: &Report, warnings: usize, time: Duration) -> String {
+    let mut line = format!(
+        "{post}: {}, {}",
+        counted(report.blocks, "block"),
+        counted(warnings as u64, "warning")
+    );
+    if let Some(extents) = &report.extents {
+        for (axis, name) in ["X", "Y", "Z"].iter().enumerate() {
+            let (min, max) = (extents.min[axis], extents.max[axis]);
+            line.push_str(&format!(", {name} {} to {}", length(min), length(max)));
+        }
+    }
+    line.push_str(&format!(", {:.2} s", time.as_secs_f64()));
+    line
+}
+
+/// A number with its noun.
+pub fn counted(count: u64, noun: &str) -> String {
+    if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
+}
+
+/// A length with at most three decimals and no zeros at its end.
+pub fn length(value: f64) -> String {
+    let text = format!("{value:.3}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".into() } else { text.into() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_are_short() {
+        let shown: Vec<String> = [1.0, -0.35, 10.0, -0.0001, 0.12345].map(length).to_vec();
+        assert_eq!(shown, ["1", "-0.35", "10", "0", "0.123"]);
+    }
+
+    #[test]
+    fn the_same_warning_is_one_group() {
+        let warning = |message: &str| Diag::new(filpost::RunCode::NoFini, message);
+        let list = [warning("a"), warning("b"), warning("a")];
+        let counts: Vec<usize> = grouped(&list).iter().map(|(_, count)| *count).collect();
+        assert_eq!(counts, [2, 1]);
+    }
+}

@@ -1,0 +1,143 @@
+//! What somebody writes who needs one translator for one control: straight
+//! moves of a CL file to blocks, and nothing else. The measure for the post.
+//!
+//! It knows four statements, checks nothing, and can say of no block where it
+//! comes from; but it does the same work on each GOTO: read three numbers,
+//! round them, drop what has not changed, write the rest, number the block.
+
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, BufWriter, Write};
+use std::path::Path;
+
+const BUFFER: usize = 256 * 1024;
+
+/// Units in the last of four decimals.
+const SCALE: f64 = 10_000.0;
+
+/// The control counts blocks up to this number.
+const LAST_NUMBER: u32 = 99_999;
+
+/// The state of the translation.
+#[derive(Default)]
+struct Translator {
+    last: [Option<i64>; 3],
+    feed: Option<i64>,
+    last_feed: Option<i64>,
+    cutting: bool,
+    number: u32,
+}
+
+/// Translates a file.
+pub fn translate(cl: &Path, nc: &Path) -> io::Result<()> {
+    let mut input = BufReader::with_capacity(BUFFER, File::open(cl)?);
+    let mut output = BufWriter::with_capacity(BUFFER, File::create(nc)?);
+    let mut translator = Translator::default();
+    let mut line = Vec::with_capacity(256);
+    let mut block = Vec::with_capacity(256);
+    loop {
+        line.clear();
+        if input.read_until(b'\n', &mut line)? == 0 {
+            break;
+        }
+        block.clear();
+        translator.statement(&line, &mut block)?;
+        output.write_all(&block)?;
+    }
+    output.flush()
+}
+
+impl Translator {
+    fn statement(&mut self, line: &[u8], block: &mut Vec<u8>) -> io::Result<()> {
+        let text = std::str::from_utf8(line).map_err(io::Error::other)?;
+        if let Some(items) = text.strip_prefix("GOTO /") {
+            self.goto(items, block)
+        } else if let Some(items) = text.strip_prefix("FEDRAT /") {
+            self.feed = Some(scaled(items.split(',').next().unwrap_or_default())?);
+            Ok(())
+        } else if text.starts_with("FINI") {
+            self.number(block);
+            block.extend_from_slice(b"M30\n");
+            Ok(())
+        } else {
+            Ok(())
+        }
+    }
+
+    fn goto(&mut self, items: &str, block: &mut Vec<u8>) -> io::Result<()> {
+        let mut point = [0; 3];
+        let mut items = items.split(',');
+        for value in &mut point {
+            *value = scaled(items.next().unwrap_or_default())?;
+        }
+        if self.last == point.map(Some) {
+            return Ok(());
+        }
+        self.number(block);
+        if !std::mem::replace(&mut self.cutting, true) {
+            block.extend_from_slice(b"G1 ");
+        }
+        for axis in 0..3 {
+            if self.last[axis] != Some(point[axis]) {
+                word(b"XYZ"[axis], point[axis], block);
+                self.last[axis] = Some(point[axis]);
+            }
+        }
+        if self.feed != self.last_feed {
+            word(b'F', self.feed.unwrap_or_default(), block);
+            self.last_feed = self.feed;
+        }
+        block.pop();
+        block.push(b'\n');
+        Ok(())
+    }
+
+    fn number(&mut self, block: &mut Vec<u8>) {
+        self.number += 10;
+        if self.number > LAST_NUMBER {
+            self.number = 10;
+        }
+        block.push(b'N');
+        digits(u64::from(self.number), block);
+        block.push(b' ');
+    }
+}
+
+/// The number as a count of the last decimal.
+fn scaled(item: &str) -> io::Result<i64> {
+    let value: f64 = item.trim().parse().map_err(io::Error::other)?;
+    Ok((value * SCALE).round() as i64)
+}
+
+/// Appends a word and a blank: up to four decimals, zeros at the end dropped.
+fn word(letter: u8, value: i64, block: &mut Vec<u8>) {
+    block.push(letter);
+    if value < 0 {
+        block.push(b'-');
+    }
+    let size = value.unsigned_abs();
+    digits(size / SCALE as u64, block);
+    block.push(b'.');
+    let mut rest = size % SCALE as u64;
+    let mut place = SCALE as u64 / 10;
+    while rest != 0 {
+        block.push(b'0' + (rest / place) as u8);
+        rest %= place;
+        place /= 10;
+    }
+    block.push(b' ');
+}
+
+/// Appends a whole number.
+fn digits(mut value: u64, block: &mut Vec<u8>) {
+    let mut buffer = [0; 20];
+    let mut at = buffer.len();
+    loop {
+        at -= 1;
+        buffer[at] = b'0' + (value % 10) as u8;
+        value /= 10;
+        if value == 0 {
+            break;
+        }
+    }
+    block.extend_from_slice(&buffer[at..]);
+}
