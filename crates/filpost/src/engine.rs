@@ -1,5 +1,6 @@
 //! One run: records from the reader, through their sections, into the post.
 
+use std::collections::VecDeque;
 use std::io::{Read, Write};
 
 use fil_cl::{Record, Vocabulary, reader::Dialect, reader::Reader, record::kind};
@@ -16,9 +17,22 @@ use crate::statement::statement_text;
 /// Bytes of finished blocks that are kept before they go to the writer.
 const FLUSH: usize = 64 * 1024;
 
+/// Records NEXTF looks through for the next motion.
+const LOOK_AHEAD: usize = 1000;
+
+/// X Y Z I J K of a motion record; without a tool axis of its own I J K are absent.
+type Coordinates = [Option<f64>; 6];
+
 /// What a FIL machine reaches while it runs: reader and post.
 struct Outside<'p, R: Read> {
     reader: Reader<R>,
+    /// Records NEXTF has looked at and nobody has read yet.
+    ahead: VecDeque<Record>,
+    /// The last two motions read, and whether the current record is the last of them.
+    motions: [Option<Coordinates>; 2],
+    on_motion: bool,
+    keeps_motions: bool,
+    module: std::sync::Arc<Module>,
     post: fil_post::Post,
     report: Report,
     observers: &'p mut Vec<Observer>,
@@ -55,8 +69,14 @@ impl<'p, R: Read> Engine<'p, R> {
         };
         let functions = std::mem::take(&mut post.functions);
         let machine = Machine::new(post.module.clone(), post.limits, functions);
+        let has_sections = !post.module.has_no_section();
         let mut outside = Outside {
             reader,
+            ahead: VecDeque::new(),
+            motions: [None; 2],
+            on_motion: false,
+            keeps_motions: has_sections,
+            module: post.module.clone(),
             post: tape,
             report: Report::default(),
             observers: &mut post.observers,
@@ -69,7 +89,7 @@ impl<'p, R: Read> Engine<'p, R> {
             outside,
             vocabulary: post.vocabulary.clone(),
             machine: Some(machine),
-            has_sections: !post.module.has_no_section(),
+            has_sections,
             module: post.module.clone(),
             functions_home: &mut post.functions,
             record: Record::default(),
@@ -184,9 +204,18 @@ impl<R: Read> Outside<'_, R> {
         record: &mut Record,
         vocabulary: &mut Vocabulary,
     ) -> Result<bool, Box<Diag>> {
-        let more = self.reader.read(vocabulary, record)?;
+        let more = match self.ahead.pop_front() {
+            Some(next) => {
+                *record = next;
+                true
+            }
+            None => self.reader.read(vocabulary, record)?,
+        };
         if more {
             self.report.records += 1;
+            if self.keeps_motions {
+                self.remember(record);
+            }
             self.post.tape.origin.record = record.number;
             self.post.tape.origin.line = record.line;
             for observer in self.observers.iter_mut() {
@@ -196,7 +225,38 @@ impl<R: Read> Outside<'_, R> {
         Ok(more)
     }
 
-    /// The post carries out a record; its errors get the place in the CL file.
+    /// Keeps the coordinates of a motion for PREVF.
+    fn remember(&mut self, record: &Record) {
+        self.on_motion = record.kind == kind::MOTION;
+        if self.on_motion {
+            self.motions = [self.motions[1], Some(coordinates(record))];
+        }
+    }
+
+    /// The next motion, read ahead of the current record.
+    fn next_motion(
+        &mut self,
+        vocabulary: &mut Vocabulary,
+    ) -> Result<Option<Coordinates>, Box<Diag>> {
+        for index in 0..LOOK_AHEAD {
+            if index == self.ahead.len() {
+                let mut next = Record::default();
+                if !self.reader.read(vocabulary, &mut next)? {
+                    break;
+                }
+                self.ahead.push_back(next);
+            }
+            match self.ahead[index].kind {
+                kind::MOTION => return Ok(Some(coordinates(&self.ahead[index]))),
+                kind::FINI => break,
+                _ => {}
+            }
+        }
+        Ok(None)
+    }
+
+    /// The post carries out a record; what it says gets the place in the CL file,
+    /// or in FIL for a record that FIL has made.
     fn process(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
         let known = self.post.warnings.len();
         let result = self.post.process(record, vocabulary);
@@ -205,7 +265,9 @@ impl<R: Read> Outside<'_, R> {
             for warning in &mut self.post.warnings[known..] {
                 warning.places.push(place.clone());
             }
-            result.map_err(|diag| Box::new(diag.at(place)))?;
+            // The machine itself adds the FIL line to an error.
+            let made_by_fil = self.fil_line(record).is_some();
+            result.map_err(|diag| if made_by_fil { diag } else { Box::new(diag.at(place)) })?;
         }
         if let (kind::MOTION, Some(point)) = (record.kind, self.post.point()) {
             Extents::add(&mut self.report.extents, point);
@@ -214,7 +276,16 @@ impl<R: Read> Outside<'_, R> {
         Ok(())
     }
 
+    /// The FIL line that made a record.
+    fn fil_line(&self, record: &Record) -> Option<FilLine> {
+        self.post.tape.origin.fil.first().copied().filter(|_| record.line == 0)
+    }
+
     fn place(&self, record: &Record, vocabulary: &Vocabulary) -> Place {
+        if let Some(made) = self.fil_line(record) {
+            let file = &self.module.files[usize::from(made.file)].name;
+            return Place::line(file, made.line, statement_text(record, vocabulary));
+        }
         let line = if record.line == 0 { self.post.tape.origin.line } else { record.line };
         Place::line(self.cl_name, line, statement_text(record, vocabulary))
     }
@@ -308,6 +379,8 @@ impl<R: Read> Host for Outside<'_, R> {
         vocabulary: &mut Vocabulary,
     ) -> Result<bool, Box<Diag>> {
         self.reader.seek_record(number)?;
+        self.ahead.clear();
+        self.motions = [None; 2];
         let mut found = Record::default();
         let there = self.read(&mut found, vocabulary)?;
         if there {
@@ -324,10 +397,35 @@ impl<R: Read> Host for Outside<'_, R> {
         self.trace = on;
     }
 
+    fn neighbour(
+        &mut self,
+        next: bool,
+        coordinate: usize,
+        vocabulary: &mut Vocabulary,
+    ) -> Result<Option<f64>, Box<Diag>> {
+        let found = match (next, self.on_motion) {
+            (true, _) => self.next_motion(vocabulary)?,
+            (false, true) => self.motions[0],
+            (false, false) => self.motions[1],
+        };
+        Ok(found.and_then(|motion| motion[coordinate]))
+    }
+
     fn named_common(&mut self, name: &str) -> Option<Result<f64, Box<Diag>>> {
         let row = fil_post::locations::Location::named(&name.to_ascii_lowercase())?;
         Some(self.post.commons.get(row.kind, u32::from(row.number)))
     }
+}
+
+fn coordinates(record: &Record) -> Coordinates {
+    let mut found = [None; 6];
+    let parts = record.point().into_iter().chain(record.axis());
+    for (place, part) in parts.enumerate() {
+        for (slot, value) in found[place * 3..].iter_mut().zip(part) {
+            *slot = Some(value);
+        }
+    }
+    found
 }
 
 fn common_kind(kind: CommonKind) -> fil_post::Kind {
