@@ -15,10 +15,14 @@ use crate::state::{Placement, State};
 use crate::tape::Tape;
 use crate::words::{self, Handler};
 
+/// Most warnings of one run.
+const MAX_WARNINGS: usize = 1000;
+
 /// The generalized post of one run.
 ///
 /// Finished blocks lie in [`Post::tape`]; whoever drives the post takes them
 /// away from time to time, so that memory does not grow with the CL file.
+#[derive(Clone)]
 pub struct Post {
     /// The settings.
     pub commons: Commons,
@@ -98,11 +102,14 @@ impl Post {
         self.state.cutter
     }
 
-    /// Warns once per code and subject.
+    /// Warns once per code and subject; a run that warns without end stops at
+    /// [`MAX_WARNINGS`], so that memory does not grow with the CL file.
     pub(crate) fn warn(&mut self, code: PostCode, message: String) {
         let code: &'static Code = code.into();
-        if self.warned.insert((code.number, message.clone())) {
-            self.warnings.push(Diag::new(code, message));
+        if self.warned.len() < MAX_WARNINGS && self.warned.insert((code.number, message.clone())) {
+            let last = self.warned.len() == MAX_WARNINGS;
+            let note = if last { "; further warnings are not listed" } else { "" };
+            self.warnings.push(Diag::new(code, message + note));
         }
     }
 
