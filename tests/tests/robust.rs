@@ -12,9 +12,9 @@ fn item() -> impl Strategy<Value = String> {
         Just("999999.0".to_string()),
         prop::sample::select(
             &[
-                "ON", "OFF", "RPM", "CLW", "MMPM", "IPM", "DRILL", "DEEP", "DEPTH", "STEP", "CLEAR",
-                "RETURN", "LEFT", "RIGHT", "OUT", "OPTION", "AUTO", "TPI", "INCR", "MM", "INCHES",
-                "NOMORE", "THREAD", "DWELL", "FLOOD", "TURN", "MILL",
+                "ON", "OFF", "RPM", "CLW", "MMPM", "IPM", "DRILL", "DEEP", "DEPTH", "STEP",
+                "CLEAR", "RETURN", "LEFT", "RIGHT", "OUT", "OPTION", "AUTO", "TPI", "INCR", "MM",
+                "INCHES", "NOMORE", "THREAD", "DWELL", "FLOOD", "TURN", "MILL",
             ][..]
         )
         .prop_map(str::to_string),

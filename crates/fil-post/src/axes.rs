@@ -11,6 +11,7 @@ use crate::commons::{Commons, Dbl};
 use crate::errors::PostCode;
 use crate::kinematics::Kinematics;
 use crate::locations as loc;
+use crate::motion::{AxisSet, XY, Z};
 use crate::number::NumberFormat;
 use fil_diag::Diag;
 
@@ -170,6 +171,7 @@ pub struct Machine {
     pub addresses: Addresses,
     axes: Vec<Axis>,
     kinematics: Option<Kinematics>,
+    present: AxisSet,
     generation: Option<(u32, bool)>,
 }
 
@@ -188,7 +190,9 @@ impl Machine {
         self.axes = linear
             .map(|(common, name)| Axis::new(letter(name), common, &self.addresses, commons))
             .collect();
+        self.present = XY | Z;
         for (index, rotary) in kinematics.rotaries.iter().enumerate() {
+            self.present |= AxisSet::from(rotary.is_some()) << (index + 3);
             let (name, common) = match rotary {
                 Some(rotary) => (rotary.letter, rotary.axis + 3),
                 None => (index as u8 + 1, index + 3),
@@ -254,13 +258,13 @@ impl Machine {
         self.kinematics.as_ref()
     }
 
-    /// True when the axis is there; X, Y and Z always are.
-    pub fn has_axis(&self, number: usize) -> bool {
-        number < 3 || self.has_rotary(number)
+    /// The axes the machine has; X, Y and Z are always there.
+    pub fn present(&self) -> AxisSet {
+        self.present
     }
 
     /// True when axis 3 or 4 is there.
     pub fn has_rotary(&self, number: usize) -> bool {
-        self.kinematics().is_some_and(|k| k.rotaries[number - 3].is_some())
+        self.present & 1 << number != 0
     }
 }

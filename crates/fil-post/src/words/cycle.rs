@@ -16,7 +16,7 @@ use crate::commons::{Dbl, EMPTY, Int};
 use crate::errors::PostCode;
 use crate::letters::R;
 use crate::locations as loc;
-use crate::motion::{Position, Target};
+use crate::motion::{Position, ROTARY, Target, XY, Z};
 use crate::post::Post;
 use crate::state::Feed;
 
@@ -241,7 +241,7 @@ fn raise(post: &mut Post, cycle: &Cycle, z: f64, clear: f64) -> Result<bool, Box
         cancel(post)?;
         let mut position = Position::default();
         position[2] = want;
-        post.rapid_to(&position, &[2])?;
+        post.rapid_to(&position, Z)?;
         here = want;
         if let Some(cycle) = &mut post.state.cycle {
             cycle.initial = Some(want);
@@ -266,7 +266,7 @@ fn block(
     let repeats = post.state.cycle.as_ref().and_then(|now| now.in_force) == Some(levels)
         && post.commons.int(loc::CYCLE_DATA_MODAL) != 1;
     if repeats {
-        if post.axis_words(at, &[0, 1, 3, 4])? {
+        if post.axis_words(at, XY | ROTARY)? {
             return post.write_motion();
         }
         for axis in [0, 1] {

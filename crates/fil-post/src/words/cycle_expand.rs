@@ -6,7 +6,7 @@ use fil_diag::Diag;
 use super::cycle::{Cycle, HoleLevels, with_feed};
 use super::delay;
 use crate::errors::PostCode;
-use crate::motion::Position;
+use crate::motion::{Position, ROTARY, XY, Z};
 use crate::post::Post;
 
 /// Distance above the last depth at which a peck starts to feed, and by which
@@ -30,7 +30,7 @@ pub fn hole(
             "the machine has no tapping cycle, and a tap can't be written as single moves",
         )));
     }
-    post.rapid_to(at, &[0, 1, 3, 4])?;
+    post.rapid_to(at, XY | ROTARY)?;
     rapid_z(post, levels.clear)?;
     match cycle.step {
         Some(step) => pecks(post, cycle, levels, step)?,
@@ -67,13 +67,13 @@ fn pecks(post: &mut Post, cycle: &Cycle, levels: HoleLevels, step: f64) -> Resul
 fn rapid_z(post: &mut Post, z: f64) -> Result<(), Box<Diag>> {
     let mut position = Position::default();
     position[2] = z;
-    post.rapid_to(&position, &[2])
+    post.rapid_to(&position, Z)
 }
 
 fn feed_z(post: &mut Post, cycle: &Cycle, z: f64) -> Result<(), Box<Diag>> {
     with_feed(post, cycle.feed, |post| {
         let mut position = Position::default();
         position[2] = z;
-        post.feed_to(&position, &[2])
+        post.feed_to(&position, Z)
     })
 }
