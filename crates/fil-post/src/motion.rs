@@ -163,7 +163,7 @@ impl Post {
     ///
     /// # Errors
     /// As [`Post::move_to`].
-    pub(crate) fn feed_to(&mut self, position: &Position, axes: &[usize]) -> Result<(), Box<Diag>> {
+    pub(crate) fn feed_to(&mut self, position: &Position, axes: AxisSet) -> Result<(), Box<Diag>> {
         if !self.axis_words(position, axes)? {
             return Ok(());
         }
