@@ -84,7 +84,7 @@ pub fn for_run(
     if let Some(path) = &reading.compat {
         let text = files::read_text(path, encoding)?;
         let compat = filpost::read_compat(&path.display().to_string(), &text)
-            .map_err(|diag| Error::Run(diag))?;
+            .map_err(Error::Run)?;
         named.builder = named.builder.compat(compat);
         named.inputs.push(path.clone());
     }
