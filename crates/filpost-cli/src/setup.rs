@@ -83,8 +83,8 @@ pub fn for_run(
     named.builder = named.builder.strict(reading.strict);
     if let Some(path) = &reading.compat {
         let text = files::read_text(path, encoding)?;
-        let compat = filpost::read_compat(&path.display().to_string(), &text)
-            .map_err(|diag| Error::Run(diag))?;
+        let compat =
+            filpost::read_compat(&path.display().to_string(), &text).map_err(Error::Run)?;
         named.builder = named.builder.compat(compat);
         named.inputs.push(path.clone());
     }
