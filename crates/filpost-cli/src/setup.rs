@@ -117,26 +117,16 @@ fn machine_file(path: &Path, encoding: Option<&str>) -> Result<Named, Error> {
 }
 
 fn is_option_file(path: &Path, text: &str) -> bool {
-    numbered_ending(path, 'p').is_some()
-        || text.lines().take(10).any(|line| line.trim_start().starts_with("INTCOM:"))
-}
-
-/// The digits of an ending like `.p02`.
-fn numbered_ending(path: &Path, letter: char) -> Option<&str> {
-    let ending = path.extension()?.to_str()?;
-    let digits = ending.strip_prefix([letter, letter.to_ascii_uppercase()])?;
-    let all = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
-    all.then_some(digits)
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or("");
+    let digits = ending.strip_prefix(['p', 'P']).unwrap_or("");
+    let numbered = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+    numbered || text.lines().take(10).any(|line| line.trim_start().starts_with("INTCOM:"))
 }
 
 /// A word about the FIL file beside an option file that is given without one.
 fn unused_fil(option_file: &Path) -> Option<String> {
-    let digits = numbered_ending(option_file, 'p')?;
-    let fil = ['f', 'F']
-        .into_iter()
-        .map(|letter| option_file.with_extension(format!("{letter}{digits}")))
-        .find(|path| path.is_file())?;
-    Some(format!("{0} beside it is not used; give it with -f {0}", fil.display()))
+    let fil = select::fil_beside(option_file)?;
+    Some(format!("{0} beside the option file is not used; give it with -f {0}", fil.display()))
 }
 
 /// The post MACHIN asks for.

@@ -2,7 +2,7 @@
 
 use fil_cl::Vocabulary;
 use fil_diag::Diag;
-use fil_vm::{Compat, FilFile, LoadOptions};
+use fil_vm::{Compat, FilFile, LoadOptions, Loader};
 
 /// How FIL files are checked.
 #[derive(Default)]
@@ -12,7 +12,7 @@ pub struct Options<'a> {
     /// Refuse extensions of filpost.
     pub strict: bool,
     /// Gives the text of files that INCLUD names; without it INCLUD is refused.
-    pub includes: Option<&'a mut dyn FnMut(&str) -> Result<String, String>>,
+    pub includes: Option<Loader<'a>>,
 }
 
 /// Everything a run would refuse or warn of when it loads these files, and
