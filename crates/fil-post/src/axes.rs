@@ -112,28 +112,38 @@ impl Axis {
         block: &mut Block,
         commons: &Commons,
     ) -> Result<bool, Box<Diag>> {
-        let at = match self.output {
-            Output::At(at) => at,
-            Output::Off => return Ok(false),
-            Output::Unknown => return Err(no_address(self.letter)),
-        };
-        if !(self.min..=self.max).contains(&position) {
-            return Err(self.outside(position));
-        }
+        let Some(at) = self.place(position)? else { return Ok(false) };
         let scaled = self.scaled(position)?;
-        let changed = self.format.unscale(scaled) != commons.last_output(self.letter);
-        if changed || always {
+        let due = always || self.changes(scaled, commons);
+        if due {
             block.put(at, scaled);
         }
-        Ok(changed || always)
+        Ok(due)
     }
 
-    /// True when the tape does not yet stand at this position.
+    /// The tape position for a word of this axis; `None` when its output is off.
     ///
     /// # Errors
-    /// As [`Axis::scaled`].
-    pub fn changes(&self, position: f64, commons: &Commons) -> Result<bool, Box<Diag>> {
-        Ok(self.output != Output::Off && self.value(position)? != commons.last_output(self.letter))
+    /// The machine has no such address; the position lies outside the travel.
+    pub fn place(&self, position: f64) -> Result<Option<u8>, Box<Diag>> {
+        match self.output {
+            Output::Off => Ok(None),
+            Output::Unknown => Err(no_address(self.letter)),
+            Output::At(_) if !(self.min..=self.max).contains(&position) => {
+                Err(self.outside(position))
+            }
+            Output::At(at) => Ok(Some(at)),
+        }
+    }
+
+    /// True when the tape does not yet stand at this scaled value.
+    pub fn changes(&self, scaled: i64, commons: &Commons) -> bool {
+        self.format.unscale(scaled) != commons.last_output(self.letter)
+    }
+
+    /// True when the settings suppress the words of this axis.
+    pub fn is_off(&self) -> bool {
+        self.output == Output::Off
     }
 
     /// Position before scale and translation that a tape value stands for.
@@ -242,6 +252,11 @@ impl Machine {
     /// The rotary axes.
     pub fn kinematics(&self) -> Option<&Kinematics> {
         self.kinematics.as_ref()
+    }
+
+    /// True when the axis is there; X, Y and Z always are.
+    pub fn has_axis(&self, number: usize) -> bool {
+        number < 3 || self.has_rotary(number)
     }
 
     /// True when axis 3 or 4 is there.

@@ -179,21 +179,26 @@ impl Post {
         position: &Position,
         axes: &[usize],
     ) -> Result<bool, Box<Diag>> {
-        let mut moves = false;
+        let mut scaled = [0; AXES];
+        let mut changed = [false; AXES];
         for &number in axes {
-            if number < 3 || self.machine.has_rotary(number) {
-                moves |= self.machine.axis(number).changes(position[number], &self.commons)?;
+            let axis = self.machine.axis(number);
+            if self.machine.has_axis(number) && !axis.is_off() {
+                scaled[number] = axis.scaled(position[number])?;
+                changed[number] = axis.changes(scaled[number], &self.commons);
             }
         }
-        if moves {
-            let always = !self.commons.flag(loc::MOTION_MODAL);
-            for &number in axes {
-                if number < 3 || self.machine.has_rotary(number) {
-                    self.axis_word(number, position[number], always)?;
-                }
+        if changed == [false; AXES] {
+            return Ok(false);
+        }
+        let always = !self.commons.flag(loc::MOTION_MODAL);
+        for &number in axes.iter().filter(|number| self.machine.has_axis(**number)) {
+            let place = self.machine.axis(number).place(position[number])?;
+            if let Some(place) = place.filter(|_| always || changed[number]) {
+                self.block.put(place, scaled[number]);
             }
         }
-        Ok(moves)
+        Ok(true)
     }
 
     /// Adds one axis word if it has changed or `always`.

@@ -10,14 +10,19 @@ use crate::axes::Machine;
 use crate::block::Block;
 use crate::commons::{Commons, EMPTY, Int};
 use crate::errors::PostCode;
+use crate::letters::G;
 use crate::state::{Placement, State};
 use crate::tape::Tape;
 use crate::words::{self, Handler};
+
+/// Most warnings of one run.
+const MAX_WARNINGS: usize = 1000;
 
 /// The generalized post of one run.
 ///
 /// Finished blocks lie in [`Post::tape`]; whoever drives the post takes them
 /// away from time to time, so that memory does not grow with the CL file.
+#[derive(Clone)]
 pub struct Post {
     /// The settings.
     pub commons: Commons,
@@ -97,11 +102,14 @@ impl Post {
         self.state.cutter
     }
 
-    /// Warns once per code and subject.
+    /// Warns once per code and subject; a run that warns without end stops at
+    /// [`MAX_WARNINGS`], so that memory does not grow with the CL file.
     pub(crate) fn warn(&mut self, code: PostCode, message: String) {
         let code: &'static Code = code.into();
-        if self.warned.insert((code.number, message.clone())) {
-            self.warnings.push(Diag::new(code, message));
+        if self.warned.len() < MAX_WARNINGS && self.warned.insert((code.number, message.clone())) {
+            let last = self.warned.len() == MAX_WARNINGS;
+            let note = if last { "; further warnings are not listed" } else { "" };
+            self.warnings.push(Diag::new(code, message + note));
         }
     }
 
@@ -201,18 +209,16 @@ impl Post {
 
     /// Adds a plane selection unless the control stands at it.
     pub(crate) fn plane_code(&mut self, code: i32) {
-        self.check_forgotten();
         if self.state.plane != Some(code) {
             self.block.g(code);
             self.state.plane = Some(code);
         }
     }
 
-    /// Forgets the modal G codes when FIL has emptied the last output of G.
+    /// Forgets the motion code when FIL has emptied the last output of G.
     pub(crate) fn check_forgotten(&mut self) {
-        if self.commons.last_output(crate::address::letter(b'G')) == EMPTY {
+        if self.commons.last_output(G) == EMPTY {
             self.state.motion = None;
-            self.state.plane = None;
         }
     }
 }

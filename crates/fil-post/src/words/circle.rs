@@ -1,4 +1,4 @@
-//! CIRCLE/x,y,z,i,j,k[,r] and the GOTO after it: an arc or a helix.
+//! CIRCLE/x,y,z,i,j,k\[,r] and the GOTO after it: an arc or a helix.
 //!
 //! The GOTO before is the start. The axis turns by the right-hand rule: seen
 //! against it the arc runs counter-clockwise.

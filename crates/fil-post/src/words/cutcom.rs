@@ -1,4 +1,4 @@
-//! CUTCOM/LEFT|RIGHT[,n][,XYPLAN|YZPLAN|ZXPLAN], CUTCOM/OFF: cutter compensation.
+//! CUTCOM/LEFT|RIGHT\[,n]\[,XYPLAN|YZPLAN|ZXPLAN], CUTCOM/OFF: cutter compensation.
 
 use fil_cl::Record;
 use fil_cl::vocabulary::{Vocabulary, words as w};

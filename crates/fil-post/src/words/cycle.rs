@@ -11,7 +11,7 @@ use fil_cl::{Record, WordId};
 use fil_diag::Diag;
 
 use super::form::Form;
-use super::{cycle_expand, fedrat};
+use super::{cycle_expand, delay, fedrat};
 use crate::commons::{Dbl, EMPTY, Int};
 use crate::errors::PostCode;
 use crate::letters::R;
@@ -322,8 +322,8 @@ fn data_words(post: &mut Post, cycle: &Cycle) -> Result<(), Box<Diag>> {
     }
     if cycle.dwell > 0.0 {
         let letter = post.code(loc::CYCLE_DWELL_ADDRESS, "the dwell of a cycle")?;
-        let factor = post.commons.dbl_opt(loc::DWELL_UPM_FACTOR).unwrap_or(1.0);
-        post.word(letter.clamp(1, 26) as u8, cycle.dwell * factor)?;
+        let value = delay::in_seconds(post, cycle.dwell);
+        post.word(letter.clamp(1, 26) as u8, value)?;
     }
     with_feed(post, cycle.feed, |post| {
         post.state.force_feed = true;

@@ -5,9 +5,7 @@ use fil_diag::Diag;
 
 use super::cycle::{Cycle, HoleLevels, with_feed};
 use super::delay;
-use crate::commons::EMPTY;
 use crate::errors::PostCode;
-use crate::locations as loc;
 use crate::motion::Position;
 use crate::post::Post;
 
@@ -39,7 +37,8 @@ pub fn hole(
         None => feed_z(post, cycle, levels.bottom)?,
     }
     if cycle.dwell > 0.0 {
-        dwell(post, cycle.dwell)?;
+        let value = delay::in_seconds(post, cycle.dwell);
+        delay::write(post, value)?;
     }
     if matches!(cycle.word, w::BORE | w::REAM) {
         feed_z(post, cycle, levels.clear)?;
@@ -77,15 +76,4 @@ fn feed_z(post: &mut Post, cycle: &Cycle, z: f64) -> Result<(), Box<Diag>> {
         position[2] = z;
         post.feed_to(&position, &[2])
     })
-}
-
-fn dwell(post: &mut Post, seconds: f64) -> Result<(), Box<Diag>> {
-    let letter = delay::letter_of(post)?;
-    let code = post.code(loc::DWELL_CODE, "a dwell")?;
-    let factor = post.commons.dbl_opt(loc::DWELL_UPM_FACTOR).unwrap_or(1.0);
-    post.block.g(code);
-    post.word(letter, seconds * factor)?;
-    post.write_block()?;
-    post.commons.set_last_output(letter, EMPTY);
-    Ok(())
 }

@@ -1,4 +1,4 @@
-//! GOTO/x,y,z[,i,j,k] (and GOHOME): the next point of the path.
+//! GOTO/x,y,z\[,i,j,k] (and GOHOME): the next point of the path.
 
 use fil_cl::Record;
 use fil_cl::vocabulary::Vocabulary;

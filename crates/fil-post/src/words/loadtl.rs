@@ -1,4 +1,4 @@
-//! LOADTL/n[,LENGTH,l][,OSETNO,o], LOAD/TOOL,n[,ADJUST,o], TURRET/n: tool change;
+//! LOADTL/n\[,LENGTH,l]\[,OSETNO,o], LOAD/TOOL,n\[,ADJUST,o], TURRET/n: tool change;
 //! SELCTL/n and SELECT/TOOL,n: the next tool.
 
 use fil_cl::Record;

@@ -1,4 +1,4 @@
-//! SPINDL: RPM,s,CLW in any order; OFF; ON; ORIENT[,b]; SFM and SMM for
+//! SPINDL: RPM,s,CLW in any order; OFF; ON; ORIENT\[,b]; SFM and SMM for
 //! constant surface speed; MAXRPM,n; RANGE,n.
 
 use fil_cl::vocabulary::{Vocabulary, words as w};
