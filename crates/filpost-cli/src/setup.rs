@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use filpost::select::{self, Choice, Machin};
-use filpost::{Builder, Error, Post, files, ready};
+use filpost::{Builder, Compat, Error, Post, files, ready};
 
 use crate::args::{Chosen, Reading};
 
@@ -81,14 +81,19 @@ pub fn for_run(
     }
     let mut named = named.with_fil(encoding)?;
     named.builder = named.builder.strict(reading.strict);
-    if let Some(path) = &reading.compat {
-        let text = files::read_text(path, encoding)?;
-        let compat = filpost::read_compat(&path.display().to_string(), &text)
-            .map_err(|diag| Error::Run(diag))?;
-        named.builder = named.builder.compat(compat);
-        named.inputs.push(path.clone());
-    }
+    named.builder = named.builder.compat(compat(reading)?);
+    named.inputs.extend(reading.compat.clone());
     Ok(named)
+}
+
+/// The readings of `--compat`, or the built-in ones.
+///
+/// # Errors
+/// A compat file that can't be read or used.
+pub fn compat(reading: &Reading) -> Result<Compat, Error> {
+    let Some(path) = &reading.compat else { return Ok(Compat::default()) };
+    let text = files::read_text(path, reading.encoding.as_deref())?;
+    filpost::read_compat(&path.display().to_string(), &text).map_err(Error::Run)
 }
 
 /// A folder with `machine.toml` and, where there is one, `post.fil`.
