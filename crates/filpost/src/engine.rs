@@ -77,6 +77,7 @@ impl<'p, R: Read> Engine<'p, R> {
         nc.flush().map_err(write_error)?;
         let mut report = std::mem::take(&mut self.outside.report);
         report.records = self.outside.source.records;
+        report.metric = self.outside.post.is_metric();
         report.blocks = self.outside.post.tape.count;
         report.warnings.append(&mut self.outside.post.warnings);
         Ok(report)
