@@ -101,7 +101,11 @@ fn judge(header: &Header, file: &str, result: Posted) -> Result<(), String> {
             found.sort();
             announced.sort();
             if found != announced {
-                return Err(format!("expected warnings {:?}:\n{}", header.warnings, said(&warnings)));
+                return Err(format!(
+                    "expected warnings {:?}:\n{}",
+                    header.warnings,
+                    said(&warnings)
+                ));
             }
             let wanted: String = header.expect.iter().map(|line| format!("{line}\n")).collect();
             let nothing = header.expect == ["nothing"] && nc.is_empty();

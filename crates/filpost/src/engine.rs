@@ -20,6 +20,10 @@ const FLUSH: usize = 64 * 1024;
 /// Records NEXTF looks through for the next motion.
 const LOOK_AHEAD: usize = 1000;
 
+/// Fuel that a record costs which the run has read before: a section that goes
+/// back each time it runs would never let the run end.
+const FUEL_OF_READING_AGAIN: u64 = 100;
+
 /// X Y Z I J K of a motion record; without a tool axis of its own I J K are absent.
 type Coordinates = [Option<f64>; 6];
 
@@ -50,6 +54,10 @@ pub(crate) struct Engine<'p, R: Read> {
     machine: Option<Machine>,
     module: std::sync::Arc<Module>,
     has_sections: bool,
+    /// The last record of the file that was reached, and fuel left to read it
+    /// and those before it again.
+    furthest: u32,
+    fuel: u64,
     functions_home: &'p mut fil_vm::Functions,
     record: Record,
     started: bool,
@@ -90,6 +98,8 @@ impl<'p, R: Read> Engine<'p, R> {
             vocabulary: post.vocabulary.clone(),
             machine: Some(machine),
             has_sections,
+            furthest: 0,
+            fuel: post.limits.fuel,
             module: post.module.clone(),
             functions_home: &mut post.functions,
             record: Record::default(),
@@ -164,6 +174,7 @@ impl<'p, R: Read> Engine<'p, R> {
             self.outside.end_of_file()?;
             return Ok(false);
         }
+        self.watch_progress()?;
         let section = if self.has_sections && self.record.kind != kind::PSEUDO {
             self.module.find(&self.record, &self.vocabulary)
         } else {
@@ -196,6 +207,23 @@ impl<'p, R: Read> Engine<'p, R> {
             return Ok(false);
         }
         Ok(true)
+    }
+}
+
+impl<R: Read> Engine<'_, R> {
+    /// Refuses a run that reads the same records again and again.
+    fn watch_progress(&mut self) -> Result<(), Box<Diag>> {
+        if self.record.number > self.furthest {
+            self.furthest = self.record.number;
+            return Ok(());
+        }
+        if let Some(left) = self.fuel.checked_sub(FUEL_OF_READING_AGAIN) {
+            self.fuel = left;
+            return Ok(());
+        }
+        let message = format!("record {} is read again and again", self.record.number);
+        let place = self.outside.place(&self.record, &self.vocabulary);
+        Err(Box::new(Diag::new(fil_vm::errors::RunCode::OutOfFuel, message).at(place)))
     }
 }
 

@@ -106,9 +106,8 @@ fn speed(cl: &Path, points: u64, folder: &Path) -> Outcome<()> {
     println!("The three programs agree in all {moves} moves.\n");
     println!("{:<34} {:>8} {:>8} {:>10}", "way", "seconds", "MB/s", "GOTO/s");
     let megabytes = std::fs::metadata(cl)?.len() as f64 / 1e6;
-    for (way, time) in ["written by hand", "filpost", "filpost, 20 operations a GOTO"]
-        .into_iter()
-        .zip(best)
+    for (way, time) in
+        ["written by hand", "filpost", "filpost, 20 operations a GOTO"].into_iter().zip(best)
     {
         let rate = points as f64 / time;
         println!("{way:<34} {time:>8.3} {:>8.0} {rate:>10.0}", megabytes / time);

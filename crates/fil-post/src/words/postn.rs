@@ -24,7 +24,10 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     let numbers = form.numbers();
     form.finish(post);
     let form = Form::new(record, vocabulary);
-    if numbers.is_empty() || !numbers.len().is_multiple_of(2) || numbers.len() + 1 != record.data.len() {
+    if numbers.is_empty()
+        || !numbers.len().is_multiple_of(2)
+        || numbers.len() + 1 != record.data.len()
+    {
         return Err(form.error("pairs of a letter and a value are needed"));
     }
     let mut words: Vec<(u8, f64)> = Vec::new();
