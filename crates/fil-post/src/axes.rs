@@ -11,6 +11,7 @@ use crate::commons::{Commons, Dbl};
 use crate::errors::PostCode;
 use crate::kinematics::Kinematics;
 use crate::locations as loc;
+use crate::motion::{AxisSet, XY, Z};
 use crate::number::NumberFormat;
 use fil_diag::Diag;
 
@@ -112,39 +113,54 @@ impl Axis {
         block: &mut Block,
         commons: &Commons,
     ) -> Result<bool, Box<Diag>> {
-        let at = match self.output {
-            Output::At(at) => at,
-            Output::Off => return Ok(false),
-            Output::Unknown => return Err(no_address(self.letter)),
-        };
-        if !(self.min..=self.max).contains(&position) {
-            return Err(self.outside(position));
-        }
+        self.check(position)?;
+        let Some(at) = self.place()? else { return Ok(false) };
         let scaled = self.scaled(position)?;
-        let changed = self.format.unscale(scaled) != commons.last_output(self.letter);
-        if changed || always {
+        let due = always || self.changes(scaled, commons);
+        if due {
             block.put(at, scaled);
         }
-        Ok(changed || always)
+        Ok(due)
     }
 
-    /// True when the tape does not yet stand at this position.
+    /// The tape position for a word of this axis; `None` when its output is off.
     ///
     /// # Errors
-    /// As [`Axis::scaled`].
-    pub fn changes(&self, position: f64, commons: &Commons) -> Result<bool, Box<Diag>> {
-        Ok(self.output != Output::Off && self.value(position)? != commons.last_output(self.letter))
+    /// The machine has no such address.
+    pub fn place(&self) -> Result<Option<u8>, Box<Diag>> {
+        match self.output {
+            Output::Off => Ok(None),
+            Output::Unknown => Err(no_address(self.letter)),
+            Output::At(at) => Ok(Some(at)),
+        }
+    }
+
+    /// Refuses a position outside the travel, written or not.
+    ///
+    /// # Errors
+    /// The position lies outside.
+    pub fn check(&self, position: f64) -> Result<(), Box<Diag>> {
+        if (self.min..=self.max).contains(&position) {
+            return Ok(());
+        }
+        let name = char::from(b'A' + self.letter - 1);
+        let message = format!("{name}{position} lies outside {} to {}", self.min, self.max);
+        Err(Box::new(Diag::new(PostCode::AxisLimit, message)))
+    }
+
+    /// True when the tape does not yet stand at this scaled value.
+    pub fn changes(&self, scaled: i64, commons: &Commons) -> bool {
+        self.format.unscale(scaled) != commons.last_output(self.letter)
+    }
+
+    /// True when the settings suppress the words of this axis.
+    pub fn is_off(&self) -> bool {
+        self.output == Output::Off
     }
 
     /// Position before scale and translation that a tape value stands for.
     pub fn position(&self, value: f64) -> f64 {
         (value - self.translate) / self.scale
-    }
-
-    fn outside(&self, position: f64) -> Box<Diag> {
-        let name = char::from(b'A' + self.letter - 1);
-        let message = format!("{name}{position} lies outside {} to {}", self.min, self.max);
-        Box::new(Diag::new(PostCode::AxisLimit, message))
     }
 
     fn named(&self, mut diag: Box<Diag>) -> Box<Diag> {
@@ -160,6 +176,7 @@ pub struct Machine {
     pub addresses: Addresses,
     axes: Vec<Axis>,
     kinematics: Option<Kinematics>,
+    present: AxisSet,
     generation: Option<(u32, bool)>,
 }
 
@@ -178,7 +195,9 @@ impl Machine {
         self.axes = linear
             .map(|(common, name)| Axis::new(letter(name), common, &self.addresses, commons))
             .collect();
+        self.present = XY | Z;
         for (index, rotary) in kinematics.rotaries.iter().enumerate() {
+            self.present |= AxisSet::from(rotary.is_some()) << (index + 3);
             let (name, common) = match rotary {
                 Some(rotary) => (rotary.letter, rotary.axis + 3),
                 None => (index as u8 + 1, index + 3),
@@ -244,8 +263,13 @@ impl Machine {
         self.kinematics.as_ref()
     }
 
+    /// The axes the machine has; X, Y and Z are always there.
+    pub fn present(&self) -> AxisSet {
+        self.present
+    }
+
     /// True when axis 3 or 4 is there.
     pub fn has_rotary(&self, number: usize) -> bool {
-        self.kinematics().is_some_and(|k| k.rotaries[number - 3].is_some())
+        self.present & 1 << number != 0
     }
 }

@@ -11,6 +11,20 @@ use crate::errors::PostCode;
 
 const POWERS: [f64; 10] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
 
+/// Most digits of a format, before and after the point.
+const MAX_DIGITS: usize = 18;
+
+/// By number of digits: the least whole number that does not fit.
+const LIMITS: [i64; MAX_DIGITS + 1] = {
+    let mut limits = [1; MAX_DIGITS + 1];
+    let mut digits = 1;
+    while digits <= MAX_DIGITS {
+        limits[digits] = 10 * limits[digits - 1];
+        digits += 1;
+    }
+    limits
+};
+
 /// What to do with the decimal point of a whole number (INTCOM 4593).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DecimalRule {
@@ -77,19 +91,27 @@ impl NumberFormat {
     ///
     /// # Errors
     /// A value that is not finite or has more digits than the format.
+    #[inline]
     pub fn scale(&self, value: f64) -> Result<i64, Box<Diag>> {
-        let scaled = (value * POWERS[self.decimals as usize]).round();
-        let limit = POWERS[self.decimals as usize] * 10f64.powi(i32::from(self.whole));
-        if scaled.abs() < limit {
-            return Ok(scaled as i64);
+        let scaled = value * POWERS[self.decimals as usize];
+        let limit = LIMITS[usize::from(self.whole + self.decimals)];
+        if scaled.abs() < limit as f64 {
+            let rounded = round(scaled);
+            if rounded.abs() < limit {
+                return Ok(rounded);
+            }
         }
-        Err(Box::new(Diag::new(
-            PostCode::Overflow,
-            format!("{value} does not fit {}.{} digits", self.whole, self.decimals),
-        )))
+        Err(self.overflow(value))
+    }
+
+    #[cold]
+    fn overflow(&self, value: f64) -> Box<Diag> {
+        let message = format!("{value} does not fit {}.{} digits", self.whole, self.decimals);
+        Box::new(Diag::new(PostCode::Overflow, message))
     }
 
     /// The value a scaled integer stands for.
+    #[inline]
     pub fn unscale(&self, scaled: i64) -> f64 {
         scaled as f64 / POWERS[self.decimals as usize]
     }
@@ -144,6 +166,15 @@ impl NumberFormat {
         let kept = if self.drop_whole_zeros { significant(digits).max(1) } else { digits.len() };
         out.extend_from_slice(&digits[..kept]);
     }
+}
+
+/// The nearest whole number, half away from zero, of a value below 10^18. The
+/// rest after the cut is exact; `f64::round` would be a call on most builds.
+#[inline]
+fn round(value: f64) -> i64 {
+    let whole = value as i64;
+    let rest = value - whole as f64;
+    whole + i64::from(rest >= 0.5) - i64::from(rest <= -0.5)
 }
 
 /// Length without trailing zeros.
@@ -205,7 +236,22 @@ mod tests {
         }
     }
 
+    #[test]
+    fn a_half_is_rounded_away_from_zero() {
+        for value in [0.49999999999999994, 0.5, 1.5, 2.5, 4503599627370495.5, 9.9e17] {
+            for value in [value, -value] {
+                assert_eq!(round(value), value.round() as i64, "{value}");
+            }
+        }
+    }
+
     proptest::proptest! {
+        #[test]
+        fn rounding_agrees_with_the_standard_library(value in -1e18f64..1e18, scale in 0..20) {
+            let value = value / 10f64.powi(scale);
+            proptest::prop_assert_eq!(round(value), value.round() as i64);
+        }
+
         #[test]
         fn output_reads_back_to_the_rounded_value(
             value in -9999.0f64..9999.0, leading: bool, trailing: bool, plus: bool, rule in 0..3

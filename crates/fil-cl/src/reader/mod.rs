@@ -170,7 +170,9 @@ impl<R: Read> Reader<R> {
             Some(dialect) => dialect,
             None => self.detect()?,
         };
-        self.seeking.note(self.number, self.lines.offset(), self.lines.line(), self.modal);
+        if self.seeking.is_due(self.number) {
+            self.seeking.keep(self.number, self.lines.offset(), self.lines.line(), self.modal);
+        }
         if self.read_plain_goto(dialect, record) {
             return Ok(true);
         }

@@ -7,8 +7,12 @@ use fil_diag::{Diag, Place};
 use super::{Modal, Options, Reader};
 use crate::errors::ClCode;
 
-/// Records between two checkpoints.
+/// Records between two checkpoints at first.
 const SPACING: u32 = 4096;
+
+/// No more checkpoints than this are kept: then every second one goes and the
+/// spacing doubles, so that memory does not grow with the file.
+const MAX_CHECKPOINTS: usize = 1024;
 
 /// The state of the reader between two statements.
 #[derive(Clone, Copy, Debug)]
@@ -25,25 +29,36 @@ pub(super) struct Seeking<R> {
     /// Moves the input to an offset; `None` for a stream.
     go: Option<fn(&mut R, u64) -> IoResult<u64>>,
     checkpoints: Vec<Checkpoint>,
+    /// Number of the first record that is due a checkpoint.
+    due: u32,
+    spacing: u32,
     /// Number of the record to read on to; 0 when it is the next one.
     pub(super) wanted: u32,
 }
 
 impl<R> Seeking<R> {
     pub(super) fn none() -> Self {
-        Seeking { go: None, checkpoints: Vec::new(), wanted: 0 }
+        Seeking { go: None, checkpoints: Vec::new(), due: 0, spacing: SPACING, wanted: 0 }
     }
 
-    /// Keeps a checkpoint if the last one is far enough behind.
+    /// True when the state after record `number` is worth a checkpoint.
     #[inline]
-    pub(super) fn note(&mut self, number: u32, offset: u64, line: u32, modal: Modal) {
-        let due = match self.checkpoints.last() {
-            Some(last) => number >= last.number.saturating_add(SPACING),
-            None => true,
-        };
-        if due && self.go.is_some() {
-            self.checkpoints.push(Checkpoint { number, offset, line, modal });
+    pub(super) fn is_due(&self, number: u32) -> bool {
+        number >= self.due && self.go.is_some()
+    }
+
+    /// Keeps a checkpoint.
+    pub(super) fn keep(&mut self, number: u32, offset: u64, line: u32, modal: Modal) {
+        if self.checkpoints.len() == MAX_CHECKPOINTS {
+            let mut kept = false;
+            self.checkpoints.retain(|_| {
+                kept = !kept;
+                kept
+            });
+            self.spacing = self.spacing.saturating_mul(2);
         }
+        self.checkpoints.push(Checkpoint { number, offset, line, modal });
+        self.due = number.saturating_add(self.spacing);
     }
 }
 
@@ -89,5 +104,26 @@ impl<R: Read> Reader<R> {
         self.number = point.number;
         self.failed = None;
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn checkpoints_stay_few_however_long_the_file() {
+        let mut seeking = Seeking::<std::fs::File>::none();
+        seeking.go = Some(|_, offset| Ok(offset));
+        while seeking.due < u32::MAX {
+            let number = seeking.due;
+            assert!(seeking.is_due(number));
+            seeking.keep(number, u64::from(number), number, Modal::default());
+            assert!(seeking.checkpoints.len() <= MAX_CHECKPOINTS);
+        }
+        let numbers: Vec<u32> = seeking.checkpoints.iter().map(|point| point.number).collect();
+        assert_eq!(numbers[0], 0);
+        assert!(numbers.len() >= MAX_CHECKPOINTS / 2);
+        assert!(numbers.windows(2).all(|pair| pair[1] - pair[0] <= seeking.spacing));
     }
 }
