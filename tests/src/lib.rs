@@ -2,6 +2,13 @@
 
 pub mod cl_path;
 pub mod compare;
+pub mod examples;
+pub mod language;
 pub mod nc_path;
 pub mod path;
 pub mod rs274;
+
+/// The folder of the workspace.
+pub fn root() -> &'static std::path::Path {
+    std::path::Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the workspace")
+}

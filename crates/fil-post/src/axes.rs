@@ -11,6 +11,7 @@ use crate::commons::{Commons, Dbl};
 use crate::errors::PostCode;
 use crate::kinematics::Kinematics;
 use crate::locations as loc;
+use crate::motion::{AxisSet, XY, Z};
 use crate::number::NumberFormat;
 use fil_diag::Diag;
 
@@ -112,7 +113,8 @@ impl Axis {
         block: &mut Block,
         commons: &Commons,
     ) -> Result<bool, Box<Diag>> {
-        let Some(at) = self.place(position)? else { return Ok(false) };
+        self.check(position)?;
+        let Some(at) = self.place()? else { return Ok(false) };
         let scaled = self.scaled(position)?;
         let due = always || self.changes(scaled, commons);
         if due {
@@ -124,16 +126,26 @@ impl Axis {
     /// The tape position for a word of this axis; `None` when its output is off.
     ///
     /// # Errors
-    /// The machine has no such address; the position lies outside the travel.
-    pub fn place(&self, position: f64) -> Result<Option<u8>, Box<Diag>> {
+    /// The machine has no such address.
+    pub fn place(&self) -> Result<Option<u8>, Box<Diag>> {
         match self.output {
             Output::Off => Ok(None),
             Output::Unknown => Err(no_address(self.letter)),
-            Output::At(_) if !(self.min..=self.max).contains(&position) => {
-                Err(self.outside(position))
-            }
             Output::At(at) => Ok(Some(at)),
         }
+    }
+
+    /// Refuses a position outside the travel, written or not.
+    ///
+    /// # Errors
+    /// The position lies outside.
+    pub fn check(&self, position: f64) -> Result<(), Box<Diag>> {
+        if (self.min..=self.max).contains(&position) {
+            return Ok(());
+        }
+        let name = char::from(b'A' + self.letter - 1);
+        let message = format!("{name}{position} lies outside {} to {}", self.min, self.max);
+        Err(Box::new(Diag::new(PostCode::AxisLimit, message)))
     }
 
     /// True when the tape does not yet stand at this scaled value.
@@ -151,12 +163,6 @@ impl Axis {
         (value - self.translate) / self.scale
     }
 
-    fn outside(&self, position: f64) -> Box<Diag> {
-        let name = char::from(b'A' + self.letter - 1);
-        let message = format!("{name}{position} lies outside {} to {}", self.min, self.max);
-        Box::new(Diag::new(PostCode::AxisLimit, message))
-    }
-
     fn named(&self, mut diag: Box<Diag>) -> Box<Diag> {
         diag.message = format!("{}: {}", char::from(b'A' + self.letter - 1), diag.message);
         diag
@@ -170,6 +176,7 @@ pub struct Machine {
     pub addresses: Addresses,
     axes: Vec<Axis>,
     kinematics: Option<Kinematics>,
+    present: AxisSet,
     generation: Option<(u32, bool)>,
 }
 
@@ -188,7 +195,9 @@ impl Machine {
         self.axes = linear
             .map(|(common, name)| Axis::new(letter(name), common, &self.addresses, commons))
             .collect();
+        self.present = XY | Z;
         for (index, rotary) in kinematics.rotaries.iter().enumerate() {
+            self.present |= AxisSet::from(rotary.is_some()) << (index + 3);
             let (name, common) = match rotary {
                 Some(rotary) => (rotary.letter, rotary.axis + 3),
                 None => (index as u8 + 1, index + 3),
@@ -254,13 +263,13 @@ impl Machine {
         self.kinematics.as_ref()
     }
 
-    /// True when the axis is there; X, Y and Z always are.
-    pub fn has_axis(&self, number: usize) -> bool {
-        number < 3 || self.has_rotary(number)
+    /// The axes the machine has; X, Y and Z are always there.
+    pub fn present(&self) -> AxisSet {
+        self.present
     }
 
     /// True when axis 3 or 4 is there.
     pub fn has_rotary(&self, number: usize) -> bool {
-        self.kinematics().is_some_and(|k| k.rotaries[number - 3].is_some())
+        self.present & 1 << number != 0
     }
 }

@@ -33,9 +33,16 @@ impl Block {
         self.m.clear();
     }
 
-    /// True when nothing would be written.
+    /// True when no word was added.
     pub fn is_empty(&self) -> bool {
         self.present == 0 && self.g.is_empty() && self.m.is_empty()
+    }
+
+    /// True when the machine writes at least one of the words.
+    pub fn prints(&self, addresses: &Addresses) -> bool {
+        let written =
+            |letter, codes: &[i32]| !codes.is_empty() && addresses.position(letter).is_some();
+        self.present != 0 || written(G, &self.g) || written(M, &self.m)
     }
 
     /// True when a word of this letter is in the block.

@@ -14,9 +14,17 @@ use fil_diag::Diag;
 /// Positions of the five axes: X Y Z in mm or inch, two rotaries in degrees.
 pub type Position = [f64; AXES];
 
-/// Axis numbers by group, in the order of a rapid approach.
-const GROUPS: [&[usize]; 3] = [&[0, 1], &[3, 4], &[2]];
-const ALL: &[usize] = &[0, 1, 2, 3, 4];
+/// A set of axes: bit n is axis number n.
+pub type AxisSet = u8;
+
+/// X and Y.
+pub const XY: AxisSet = 0b00011;
+/// Z.
+pub const Z: AxisSet = 0b00100;
+/// Both rotary axes.
+pub const ROTARY: AxisSet = 0b11000;
+/// All axes.
+pub const ALL: AxisSet = XY | Z | ROTARY;
 
 /// A CL point with its tool axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,27 +109,23 @@ impl Post {
     ///
     /// # Errors
     /// As [`Post::move_to`].
-    pub(crate) fn rapid_to(
-        &mut self,
-        position: &Position,
-        axes: &[usize],
-    ) -> Result<(), Box<Diag>> {
+    pub(crate) fn rapid_to(&mut self, position: &Position, axes: AxisSet) -> Result<(), Box<Diag>> {
         let modal = self.commons.int(loc::RAPID_MODAL) != 72;
         if self.commons.int(loc::RAPID_SPLIT) == 0 {
             let code = self.code(loc::RAPID_CODE_XY, "rapid motion")?;
             return self.rapid_block(position, axes, code, modal);
         }
-        let codes = [loc::RAPID_CODE_XY, loc::ROTARY_RAPID_CODE, loc::RAPID_CODE_Z];
-        let mut order = [0, 1, 2];
-        if axes.contains(&2) && self.retracts(position[2])? {
-            order.reverse();
-            order[1..].reverse();
-        }
-        for group in order {
-            let code = self.code(codes[group], "rapid motion")?;
-            let moving: Vec<usize> =
-                GROUPS[group].iter().copied().filter(|axis| axes.contains(axis)).collect();
-            self.rapid_block(position, &moving, code, modal)?;
+        let across = (XY, loc::RAPID_CODE_XY);
+        let turning = (ROTARY, loc::ROTARY_RAPID_CODE);
+        let along = (Z, loc::RAPID_CODE_Z);
+        let order = if axes & Z != 0 && self.retracts(position[2])? {
+            [along, across, turning]
+        } else {
+            [across, turning, along]
+        };
+        for (group, code) in order {
+            let code = self.code(code, "rapid motion")?;
+            self.rapid_block(position, axes & group, code, modal)?;
         }
         Ok(())
     }
@@ -129,7 +133,7 @@ impl Post {
     fn rapid_block(
         &mut self,
         position: &Position,
-        axes: &[usize],
+        axes: AxisSet,
         code: i32,
         modal: bool,
     ) -> Result<(), Box<Diag>> {
@@ -159,7 +163,7 @@ impl Post {
     ///
     /// # Errors
     /// As [`Post::move_to`].
-    pub(crate) fn feed_to(&mut self, position: &Position, axes: &[usize]) -> Result<(), Box<Diag>> {
+    pub(crate) fn feed_to(&mut self, position: &Position, axes: AxisSet) -> Result<(), Box<Diag>> {
         if !self.axis_words(position, axes)? {
             return Ok(());
         }
@@ -177,13 +181,16 @@ impl Post {
     pub(crate) fn axis_words(
         &mut self,
         position: &Position,
-        axes: &[usize],
+        axes: AxisSet,
     ) -> Result<bool, Box<Diag>> {
         let mut scaled = [0; AXES];
         let mut changed = [false; AXES];
-        for &number in axes {
+        let present = axes & self.machine.present();
+        let moving = |number: &usize| present & 1 << number != 0;
+        for number in (0..AXES).filter(moving) {
             let axis = self.machine.axis(number);
-            if self.machine.has_axis(number) && !axis.is_off() {
+            axis.check(position[number])?;
+            if !axis.is_off() {
                 scaled[number] = axis.scaled(position[number])?;
                 changed[number] = axis.changes(scaled[number], &self.commons);
             }
@@ -192,8 +199,8 @@ impl Post {
             return Ok(false);
         }
         let always = !self.commons.flag(loc::MOTION_MODAL);
-        for &number in axes.iter().filter(|number| self.machine.has_axis(**number)) {
-            let place = self.machine.axis(number).place(position[number])?;
+        for number in (0..AXES).filter(moving) {
+            let place = self.machine.axis(number).place()?;
             if let Some(place) = place.filter(|_| always || changed[number]) {
                 self.block.put(place, scaled[number]);
             }

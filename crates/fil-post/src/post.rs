@@ -10,14 +10,19 @@ use crate::axes::Machine;
 use crate::block::Block;
 use crate::commons::{Commons, EMPTY, Int};
 use crate::errors::PostCode;
+use crate::letters::G;
 use crate::state::{Placement, State};
 use crate::tape::Tape;
 use crate::words::{self, Handler};
+
+/// Most warnings of one run.
+const MAX_WARNINGS: usize = 1000;
 
 /// The generalized post of one run.
 ///
 /// Finished blocks lie in [`Post::tape`]; whoever drives the post takes them
 /// away from time to time, so that memory does not grow with the CL file.
+#[derive(Clone)]
 pub struct Post {
     /// The settings.
     pub commons: Commons,
@@ -92,16 +97,24 @@ impl Post {
         self.state.point.map(|p| [p.x, p.y, p.z])
     }
 
+    /// True when the CL file is in mm, false when it is in inches.
+    pub fn is_metric(&self) -> bool {
+        self.state.metric
+    }
+
     /// Diameter of the cutter as the CL file names it, in CL units.
     pub fn cutter_diameter(&self) -> Option<f64> {
         self.state.cutter
     }
 
-    /// Warns once per code and subject.
+    /// Warns once per code and subject; a run that warns without end stops at
+    /// [`MAX_WARNINGS`], so that memory does not grow with the CL file.
     pub(crate) fn warn(&mut self, code: PostCode, message: String) {
         let code: &'static Code = code.into();
-        if self.warned.insert((code.number, message.clone())) {
-            self.warnings.push(Diag::new(code, message));
+        if self.warned.len() < MAX_WARNINGS && self.warned.insert((code.number, message.clone())) {
+            let last = self.warned.len() == MAX_WARNINGS;
+            let note = if last { "; further warnings are not listed" } else { "" };
+            self.warnings.push(Diag::new(code, message + note));
         }
     }
 
@@ -162,6 +175,9 @@ impl Post {
     /// As [`Post::write_block`].
     pub(crate) fn write_line(&mut self, text: &str, numbered: bool) -> Result<(), Box<Diag>> {
         crate::program::start(self)?;
+        if !text.is_ascii() {
+            self.warn(PostCode::TapeText, format!("`{text}`"));
+        }
         self.tape.line(text, numbered, &self.machine.addresses, &mut self.commons)
     }
 
@@ -201,18 +217,16 @@ impl Post {
 
     /// Adds a plane selection unless the control stands at it.
     pub(crate) fn plane_code(&mut self, code: i32) {
-        self.check_forgotten();
         if self.state.plane != Some(code) {
             self.block.g(code);
             self.state.plane = Some(code);
         }
     }
 
-    /// Forgets the modal G codes when FIL has emptied the last output of G.
+    /// Forgets the motion code when FIL has emptied the last output of G.
     pub(crate) fn check_forgotten(&mut self) {
-        if self.commons.last_output(crate::address::letter(b'G')) == EMPTY {
+        if self.commons.last_output(G) == EMPTY {
             self.state.motion = None;
-            self.state.plane = None;
         }
     }
 }

@@ -26,7 +26,7 @@ pub fn start(post: &mut Post) -> Result<(), Box<Diag>> {
         return Ok(());
     }
     post.machine.refresh(&post.commons, post.state.metric)?;
-    if let Some(mark) = character(&post.commons, loc::TAPE_START_CHAR) {
+    if let Some(mark) = tape_mark(&post.commons, loc::TAPE_START_CHAR) {
         post.write_line(&mark.to_string(), false)?;
     }
     program_number(post)?;
@@ -56,7 +56,7 @@ pub fn end(post: &mut Post, code: Option<i32>) -> Result<(), Box<Diag>> {
         post.block.m(code);
     }
     post.write_block()?;
-    if let Some(mark) = character(&post.commons, loc::TAPE_END_CHAR) {
+    if let Some(mark) = tape_mark(&post.commons, loc::TAPE_END_CHAR) {
         post.write_line(&mark.to_string(), false)?;
     }
     post.state.ended = true;
@@ -110,7 +110,12 @@ fn program_number(post: &mut Post) -> Result<(), Box<Diag>> {
     post.write_line(&line, false)
 }
 
-fn character(commons: &Commons, location: Int) -> Option<char> {
+/// The character before or after the program; none in a program for direct
+/// transfer (INTCOM 2479).
+fn tape_mark(commons: &Commons, location: Int) -> Option<char> {
+    if commons.flag(loc::TAPE_DNC) {
+        return None;
+    }
     let code = commons.int_opt(location).and_then(|code| u8::try_from(code).ok())?;
     code.is_ascii_graphic().then_some(char::from(code))
 }

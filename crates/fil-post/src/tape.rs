@@ -65,7 +65,8 @@ pub struct Tape {
 }
 
 impl Tape {
-    /// Writes a block with its sequence number; an empty block is left out.
+    /// Writes a block with its sequence number; a block of which the machine
+    /// writes no word is left out.
     ///
     /// # Errors
     /// A sequence number that does not fit its address.
@@ -75,7 +76,7 @@ impl Tape {
         addresses: &Addresses,
         commons: &mut Commons,
     ) -> Result<(), Box<Diag>> {
-        if block.is_empty() {
+        if !block.prints(addresses) {
             return Ok(());
         }
         let start = self.begin(true, addresses, commons)?;

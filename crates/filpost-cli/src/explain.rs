@@ -22,8 +22,10 @@ pub fn run(subject: &[String]) -> Result<Status, Error> {
         .collect();
     let text = match words[..] {
         [word] => one(word),
-        [table, number] => numbered(table, number),
-        _ => None,
+        [table, number] => numbered(table, number).or_else(|| function(table)),
+        [name, number, ..] if name.eq_ignore_ascii_case("POSTF") => numbered(name, number),
+        [name, ..] => function(name),
+        [] => None,
     };
     match text {
         Some(text) => {
@@ -53,9 +55,7 @@ fn one(word: &str) -> Option<String> {
     if parts.is_empty() {
         parts.extend(vocabulary_word(word));
     }
-    if parts.is_empty() {
-        parts.extend(group(word));
-    }
+    parts.extend(group(word));
     (!parts.is_empty()).then(|| parts.join("\n\n"))
 }
 
@@ -221,7 +221,7 @@ fn group(prefix: &str) -> Option<String> {
         .filter(|row| row.name.starts_with(&start))
         .map(|row| format!("{:<28} {}", row.name, row.meaning))
         .collect();
-    (!rows.is_empty()).then(|| rows.join("\n"))
+    (!rows.is_empty()).then(|| format!("Settings:\n{}", rows.join("\n")))
 }
 
 fn sentence(doc: &str) -> String {

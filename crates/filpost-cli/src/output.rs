@@ -149,7 +149,7 @@ pub fn print(bytes: &[u8]) -> Result<(), Error> {
 /// The same through a buffered writer.
 ///
 /// # Errors
-/// As [`print`].
+/// As [`print()`].
 pub fn print_with(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Error> {
     let mut output = BufWriter::new(io::stdout().lock());
     write(&mut output).and_then(|()| output.flush()).map_err(|error| stdout_error(&error))

@@ -31,17 +31,19 @@ fn colours() -> bool {
     !refused && std::io::stderr().is_terminal()
 }
 
-/// A diagnostic as text.
+/// A diagnostic as text: the places in other lines than the first follow, each
+/// with its excerpt, and then the notes.
 pub fn render(diag: &Diag, colours: bool) -> String {
     let theme = if colours { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
     let handler = GraphicalReportHandler::new_themed(theme)
         .with_width(WIDTH)
         .with_links(false)
-        .with_context_lines(0);
+        .with_context_lines(1);
     let mut text = String::new();
-    let shown = Shown::new(diag);
-    if handler.render_report(&mut text, &shown).is_err() {
-        return format!("{diag}\n");
+    for shown in all_shown(diag) {
+        if handler.render_report(&mut text, &shown).is_err() {
+            return format!("{diag}\n");
+        }
     }
     for note in &diag.notes {
         for (index, line) in clean(note).lines().enumerate() {
@@ -54,78 +56,50 @@ pub fn render(diag: &Diag, colours: bool) -> String {
     text
 }
 
-/// A diagnostic as miette shows it. The places in other lines than the first
-/// come as diagnostics of their own, each with its excerpt.
+/// A diagnostic, or a further place of one, as miette shows it.
 #[derive(Debug)]
 struct Shown {
     code: Option<String>,
-    severity: Option<miette::Severity>,
+    severity: miette::Severity,
     message: String,
     hint: Option<String>,
     source: Option<NamedSource<Excerpt>>,
     labels: Vec<LabeledSpan>,
-    others: Vec<Shown>,
+}
+
+/// The diagnostic at its first line, and then its places in other lines.
+fn all_shown(diag: &Diag) -> Vec<Shown> {
+    let first = diag.places.first();
+    let severity = match diag.code.severity {
+        Severity::Warning => miette::Severity::Warning,
+        Severity::Error => miette::Severity::Error,
+    };
+    let mut shown = Shown::new(severity, clean(&diag.message), first);
+    shown.code = Some(format!("{} {}", diag.code.name(), diag.code.title));
+    shown.hint = Some(clean(diag.hint.as_deref().unwrap_or(diag.code.hint)));
+    if let Some((label, first)) = shown.labels.first_mut().zip(first) {
+        label.set_label((!first.label.is_empty()).then(|| clean(&first.label)));
+    }
+    let mut list = vec![shown];
+    for place in diag.places.iter().skip(1) {
+        let message = if place.label.is_empty() { "see here" } else { &place.label };
+        list.push(Shown::new(miette::Severity::Advice, clean(message), Some(place)));
+    }
+    list
 }
 
 impl Shown {
-    fn new(diag: &Diag) -> Shown {
-        let mut places = diag.places.iter();
-        let first = places.next();
-        let mut shown = match first {
-            Some(place) => Shown::of_place(place, clean(&diag.message)),
-            None => Shown::of_message(clean(&diag.message)),
-        };
-        shown.code = Some(format!("{} {}", diag.code.name(), diag.code.title));
-        shown.severity = Some(match diag.code.severity {
-            Severity::Warning => miette::Severity::Warning,
-            Severity::Error => miette::Severity::Error,
-        });
-        shown.hint = Some(clean(diag.hint.as_deref().unwrap_or(diag.code.hint)));
-        for place in places {
-            let same = first.is_some_and(|first| {
-                first.file == place.file
-                    && first.line == place.line
-                    && first.excerpt == place.excerpt
-                    && shown_excerpt(first).0 == first.excerpt
-            });
-            if same {
-                shown.labels.push(label(place, shown_excerpt(place).1));
-            } else {
-                let message = if place.label.is_empty() { "see here" } else { &place.label };
-                let mut other = Shown::of_place(place, clean(message));
-                other.severity = Some(miette::Severity::Advice);
-                shown.others.push(other);
-            }
+    fn new(severity: miette::Severity, message: String, place: Option<&Place>) -> Shown {
+        let (mut source, mut labels) = (None, Vec::new());
+        if let Some(place) = place {
+            let (text, span) = shown_excerpt(place);
+            let line = place.line.saturating_sub(1) as usize;
+            let excerpt = Excerpt { text, line, column: place.column() - 1 };
+            source = Some(NamedSource::new(clean(&place.file), excerpt));
+            labels.push(LabeledSpan::new_with_span(None, SourceSpan::from(span)));
         }
-        shown
+        Shown { code: None, severity, message, hint: None, source, labels }
     }
-
-    fn of_message(message: String) -> Shown {
-        Shown {
-            code: None,
-            severity: None,
-            message,
-            hint: None,
-            source: None,
-            labels: Vec::new(),
-            others: Vec::new(),
-        }
-    }
-
-    fn of_place(place: &Place, message: String) -> Shown {
-        let (text, span) = shown_excerpt(place);
-        let excerpt = Excerpt { text, line: place.line.saturating_sub(1) as usize };
-        Shown {
-            source: Some(NamedSource::new(clean(&place.file), excerpt)),
-            labels: vec![label(place, span)],
-            ..Shown::of_message(message)
-        }
-    }
-}
-
-fn label(place: &Place, span: std::ops::Range<usize>) -> LabeledSpan {
-    let text = (!place.label.is_empty()).then(|| clean(&place.label));
-    LabeledSpan::new_with_span(text, SourceSpan::from(span))
 }
 
 /// The excerpt as it is shown, and the place within it: control characters
@@ -185,7 +159,7 @@ impl Diagnostic for Shown {
     }
 
     fn severity(&self) -> Option<miette::Severity> {
-        self.severity
+        Some(self.severity)
     }
 
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
@@ -199,13 +173,6 @@ impl Diagnostic for Shown {
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
         Some(Box::new(self.labels.iter().cloned()))
     }
-
-    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
-        if self.others.is_empty() {
-            return None;
-        }
-        Some(Box::new(self.others.iter().map(|other| other as &dyn Diagnostic)))
-    }
 }
 
 /// One line of a file, which knows its number; the rest of the file is not needed.
@@ -214,22 +181,22 @@ struct Excerpt {
     text: String,
     /// Line number, 0-based.
     line: usize,
+    /// Column of the place in the line of the file, 0-based.
+    column: usize,
 }
 
 impl SourceCode for Excerpt {
+    /// The whole line, whatever the span. Asked without context, miette wants
+    /// to know where the span starts.
     fn read_span<'a>(
         &'a self,
-        span: &SourceSpan,
+        _: &SourceSpan,
         before: usize,
-        after: usize,
+        _: usize,
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, miette::MietteError> {
-        let inner = self.text.as_str().read_span(span, before, after)?;
-        Ok(Box::new(miette::MietteSpanContents::new(
-            inner.data(),
-            *inner.span(),
-            inner.line() + self.line,
-            inner.column(),
-            inner.line_count(),
-        )))
+        let column = if before == 0 { self.column } else { 0 };
+        let whole = SourceSpan::from(0..self.text.len());
+        let data = self.text.as_bytes();
+        Ok(Box::new(miette::MietteSpanContents::new(data, whole, self.line, column, 1)))
     }
 }

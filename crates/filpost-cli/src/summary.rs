@@ -1,5 +1,6 @@
 //! The last words of a run: warnings, each once, and one line of numbers.
 
+use std::collections::{HashMap, HashSet};
 use std::time::Duration;
 
 use filpost::{Diag, Report};
@@ -9,25 +10,31 @@ use crate::{output, render};
 /// Different warnings that are shown.
 const MOST: usize = 20;
 
-/// Shows warnings on standard error, the same one only once with a count.
+/// Shows warnings on standard error: the first of a code in full, further ones
+/// of that code in a line each, the same one only once with a count.
 pub fn warnings<'a>(warnings: impl IntoIterator<Item = &'a Diag>) {
     let groups = grouped(warnings);
+    let mut codes = HashSet::new();
     for (diag, count) in groups.iter().take(MOST) {
-        let mut shown = (*diag).clone();
-        if *count > 1 {
-            shown.notes.push(format!("this warning came {count} times"));
+        let times = if *count > 1 { format!("this warning came {count} times") } else { "".into() };
+        if codes.insert(diag.code.number) {
+            let mut shown = (*diag).clone();
+            shown.notes.extend((!times.is_empty()).then_some(times));
+            render::to_stderr(&shown);
+        } else {
+            let times = if times.is_empty() { times } else { format!(" ({times})") };
+            output::say(&format!("{diag}{times}"));
         }
-        render::to_stderr(&shown);
     }
     if groups.len() > MOST {
-        output::say(&format!("and {} more warnings of other kinds", groups.len() - MOST));
+        output::say(&format!("and {} more", counted((groups.len() - MOST) as u64, "warning")));
     }
 }
 
 /// Warnings of the same code and words, at their first place, with their number.
 fn grouped<'a>(warnings: impl IntoIterator<Item = &'a Diag>) -> Vec<(&'a Diag, usize)> {
     let mut groups: Vec<(&Diag, usize)> = Vec::new();
-    let mut known = std::collections::HashMap::new();
+    let mut known = HashMap::new();
     for diag in warnings {
         let index = *known.entry((diag.code.number, diag.message.as_str())).or_insert(groups.len());
         match groups.get_mut(index) {
@@ -50,6 +57,7 @@ pub fn line(post: &str, report: &Report, warnings: usize, time: Duration) -> Str
             let (min, max) = (extents.min[axis], extents.max[axis]);
             line.push_str(&format!(", {name} {} to {}", length(min), length(max)));
         }
+        line.push_str(if report.metric { " mm" } else { " inch" });
     }
     line.push_str(&format!(", {:.2} s", time.as_secs_f64()));
     line

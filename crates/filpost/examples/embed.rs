@@ -3,7 +3,8 @@
 
 use filpost::{Argument, Post};
 
-const CL: &str = "UNITS / MM\nLOADTL / 3\nFEDRAT / 300, MMPM\nGOTO / 0, 0, 5\nGOTO / 40, 0, 5\nFINI\n";
+const CL: &str =
+    "UNITS / MM\nLOADTL / 3\nFEDRAT / 300, MMPM\nGOTO / 0, 0, 5\nGOTO / 40, 0, 5\nFINI\n";
 
 const FIL: &str = "
 CIMFIL/ON,LOADTL

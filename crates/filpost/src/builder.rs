@@ -144,7 +144,7 @@ impl Builder {
         for setting in &self.settings {
             settings::apply_setting(&mut commons, setting).map_err(Error::setup)?;
         }
-        fil_post::Post::new(commons.clone()).map_err(Error::setup)?;
+        let prototype = fil_post::Post::new(commons).map_err(Error::setup)?;
         let mut vocabulary = Vocabulary::new();
         let files: Vec<FilFile<'_>> =
             self.fil.iter().map(|(name, text)| FilFile { name, text }).collect();
@@ -166,7 +166,7 @@ impl Builder {
         .map_err(Error::Setup)?;
         warnings.extend(loaded.warnings);
         Ok(Post {
-            commons,
+            prototype,
             module: Arc::new(loaded.module),
             vocabulary,
             functions: self.functions,
@@ -202,7 +202,8 @@ fn commons_of(machine: Option<Machine>) -> Result<(Commons, Vec<Diag>), Error> {
 /// A machine with its FIL, ready to post any number of CL files. Each run
 /// starts from the same state.
 pub struct Post {
-    pub(crate) commons: Commons,
+    /// The post as each run starts with it.
+    pub(crate) prototype: fil_post::Post,
     pub(crate) module: Arc<Module>,
     pub(crate) vocabulary: Vocabulary,
     pub(crate) functions: Functions,
@@ -238,7 +239,7 @@ impl Post {
 
     /// The settings.
     pub fn commons(&self) -> &Commons {
-        &self.commons
+        &self.prototype.commons
     }
 
     /// Sets the name of the CL file in messages.

@@ -3,7 +3,8 @@
 //!
 //! `case.toml`: `cl`; `ready`, `machine` (machine.toml) or `option_file`; `fil` (a file or a
 //! list); `set` (list of `key=value`); `compat`; `strict`; `expect` (NC file) or
-//! `expect_error` (code); `origin` and `repairs` for people.
+//! `expect_error` (code); `expect_warnings`; `expect_at` (`file:line` of the error or of the
+//! first warning expected); `origin` and `repairs` for people.
 
 use std::path::{Path, PathBuf};
 
@@ -40,11 +41,14 @@ pub struct CaseFile {
     pub strict: bool,
     /// The expected NC program.
     pub expect: Option<String>,
-    /// Codes that must come, in order; `E…` for a refusal, `W…` for warnings.
+    /// The code that must come when the input is to be refused.
     pub expect_error: Option<String>,
     /// Codes of the warnings that must come.
     #[serde(default)]
     pub expect_warnings: Vec<String>,
+    /// Where the error, or the first of the warnings expected, must point:
+    /// `file:line`, the file without its folder.
+    pub expect_at: Option<String>,
     /// Most loop passes, calls and reads of a section.
     pub fuel: Option<u64>,
     /// Who published it, and where each part comes from.
@@ -157,25 +161,32 @@ impl Case {
     /// Runs the case and compares; with `update` the expected file is written anew.
     pub fn check(&self, update: bool) -> Verdict {
         match (self.run(), &self.file.expect_error) {
-            (Err(error), Some(code)) => {
-                let found: Vec<String> =
-                    error.diags().iter().map(|diag| diag.code.name()).collect();
-                if found.contains(code) {
-                    Verdict::Passed
-                } else {
-                    Verdict::Failed(format!("expected {code}, got:\n{error}"))
-                }
-            }
+            (Err(error), Some(code)) => self
+                .expect_code(code, error.diags(), true)
+                .map_or(Verdict::Passed, |missing| Verdict::Failed(format!("{missing}\n{error}"))),
             (Err(error), None) => Verdict::Failed(error.to_string()),
             (Ok(_), Some(code)) => Verdict::Failed(format!("expected {code}, but it was posted")),
             (Ok((nc, warnings)), None) => self.compare(&nc, &warnings, update),
         }
     }
 
+    /// What is missing, when none of the diagnostics has this code at the place expected.
+    fn expect_code(&self, code: &str, diags: &[Diag], placed: bool) -> Option<String> {
+        let mut of_code = diags.iter().filter(|diag| diag.code.name() == code).peekable();
+        if of_code.peek().is_none() {
+            return Some(format!("expected {code}, got:"));
+        }
+        let at = self.file.expect_at.as_ref().filter(|_| placed)?;
+        let mut places = of_code.map(place_in_case);
+        (!places.any(|place| place.as_ref() == Some(at)))
+            .then(|| format!("expected {code} at {at}, got:"))
+    }
+
     fn compare(&self, nc: &[u8], warnings: &[Diag], update: bool) -> Verdict {
-        for code in &self.file.expect_warnings {
-            if !warnings.iter().any(|diag| &diag.code.name() == code) {
-                return Verdict::Failed(format!("expected the warning {code}"));
+        for (index, code) in self.file.expect_warnings.iter().enumerate() {
+            if let Some(missing) = self.expect_code(code, warnings, index == 0) {
+                let found: Vec<String> = warnings.iter().map(Diag::to_string).collect();
+                return Verdict::Failed(format!("{missing}\n{}", found.join("\n")));
             }
         }
         let Some(expect) = &self.file.expect else { return Verdict::Passed };
@@ -201,4 +212,11 @@ impl Case {
             Err(error) => Verdict::Failed(format!("{}: {error}", path.display())),
         }
     }
+}
+
+/// The primary place of a diagnostic as `file:line`, the file without its folder.
+fn place_in_case(diag: &Diag) -> Option<String> {
+    let place = diag.places.first()?;
+    let file = Path::new(&place.file).file_name()?.to_string_lossy();
+    Some(format!("{file}:{}", place.line))
 }

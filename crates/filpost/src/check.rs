@@ -4,6 +4,9 @@ use fil_cl::Vocabulary;
 use fil_diag::Diag;
 use fil_vm::{Compat, FilFile, LoadOptions};
 
+/// Gives the text of a file by the name INCLUD has, or why it cannot.
+pub type Includes<'a> = &'a mut dyn FnMut(&str) -> Result<String, String>;
+
 /// How FIL files are checked.
 #[derive(Default)]
 pub struct Options<'a> {
@@ -12,7 +15,7 @@ pub struct Options<'a> {
     /// Refuse extensions of filpost.
     pub strict: bool,
     /// Gives the text of files that INCLUD names; without it INCLUD is refused.
-    pub includes: Option<&'a mut dyn FnMut(&str) -> Result<String, String>>,
+    pub includes: Option<Includes<'a>>,
 }
 
 /// Everything a run would refuse or warn of when it loads these files, and

@@ -2,40 +2,35 @@
 
 use std::io::{Read, Write};
 
-use fil_cl::{Record, Vocabulary, reader::Dialect, reader::Reader, record::kind};
-use fil_diag::{Diag, Place};
-use fil_post::{FilLine, Origin};
-use fil_vm::{CommonKind, Host, Machine, Module, SectionMode, Site};
+use fil_cl::{Record, Vocabulary, reader::Reader, record::kind};
+use fil_diag::Diag;
+use fil_post::Origin;
+use fil_vm::{Machine, SectionMode};
 
 use crate::builder::Post;
 use crate::error::{Error, RunCode};
-use crate::observe::{Observer, SectionEvent, WhatHappened};
-use crate::report::{Extents, Report};
-use crate::statement::statement_text;
+use crate::observe::WhatHappened;
+use crate::outside::Outside;
+use crate::report::Report;
+use crate::source::Source;
 
 /// Bytes of finished blocks that are kept before they go to the writer.
 const FLUSH: usize = 64 * 1024;
 
-/// What a FIL machine reaches while it runs: reader and post.
-struct Outside<'p, R: Read> {
-    reader: Reader<R>,
-    post: fil_post::Post,
-    report: Report,
-    observers: &'p mut Vec<Observer>,
-    cl_name: &'p str,
-    /// The post has carried out FINI.
-    ended: bool,
-    /// FIL has asked for the development listing.
-    trace: bool,
-}
+/// Fuel that a record costs which the run has read before: a section that goes
+/// back each time it runs would never let the run end.
+const FUEL_OF_READING_AGAIN: u64 = 100;
 
 /// A run of a [`Post`].
 pub(crate) struct Engine<'p, R: Read> {
     outside: Outside<'p, R>,
     vocabulary: Vocabulary,
     machine: Option<Machine>,
-    module: std::sync::Arc<Module>,
     has_sections: bool,
+    /// The last record of the file that was reached, and fuel left to read it
+    /// and those before it again.
+    furthest: u32,
+    fuel: u64,
     functions_home: &'p mut fil_vm::Functions,
     record: Record,
     started: bool,
@@ -45,19 +40,13 @@ pub(crate) struct Engine<'p, R: Read> {
 impl<'p, R: Read> Engine<'p, R> {
     /// A run from the start. `observed`: keep the provenance of blocks.
     pub(crate) fn new(post: &'p mut Post, reader: Reader<R>, observed: bool) -> Self {
-        let (tape, failure) = match fil_post::Post::new(post.commons.clone()) {
-            Ok(post) => (post, None),
-            Err(diag) => {
-                let absent = fil_post::locations::default_commons();
-                let spare = fil_post::Post::new(absent).expect("the default machine is a machine");
-                (spare, Some(Error::Run(diag)))
-            }
-        };
         let functions = std::mem::take(&mut post.functions);
         let machine = Machine::new(post.module.clone(), post.limits, functions);
+        let has_sections = !post.module.has_no_section();
         let mut outside = Outside {
-            reader,
-            post: tape,
+            source: Source::new(reader, has_sections),
+            module: post.module.clone(),
+            post: post.prototype.clone(),
             report: Report::default(),
             observers: &mut post.observers,
             cl_name: &post.cl_name,
@@ -69,12 +58,13 @@ impl<'p, R: Read> Engine<'p, R> {
             outside,
             vocabulary: post.vocabulary.clone(),
             machine: Some(machine),
-            has_sections: !post.module.has_no_section(),
-            module: post.module.clone(),
+            has_sections,
+            furthest: 0,
+            fuel: post.limits.fuel,
             functions_home: &mut post.functions,
             record: Record::default(),
             started: false,
-            failure,
+            failure: None,
         }
     }
 
@@ -96,6 +86,8 @@ impl<'p, R: Read> Engine<'p, R> {
         self.flush(nc)?;
         nc.flush().map_err(write_error)?;
         let mut report = std::mem::take(&mut self.outside.report);
+        report.records = self.outside.source.records;
+        report.metric = self.outside.post.is_metric();
         report.blocks = self.outside.post.tape.count;
         report.warnings.append(&mut self.outside.post.warnings);
         Ok(report)
@@ -135,17 +127,17 @@ impl<'p, R: Read> Engine<'p, R> {
     }
 
     fn advance(&mut self) -> Result<bool, Box<Diag>> {
-        if !std::mem::replace(&mut self.started, true) {
-            if let Some(machine) = &mut self.machine {
-                machine.run_globals(&mut self.vocabulary, &mut self.outside)?;
-            }
+        let first = !std::mem::replace(&mut self.started, true);
+        if let Some(machine) = self.machine.as_mut().filter(|_| first) {
+            machine.run_globals(&mut self.vocabulary, &mut self.outside)?;
         }
         if !self.outside.read(&mut self.record, &mut self.vocabulary)? {
             self.outside.end_of_file()?;
             return Ok(false);
         }
+        self.watch_progress()?;
         let section = if self.has_sections && self.record.kind != kind::PSEUDO {
-            self.module.find(&self.record, &self.vocabulary)
+            self.outside.module.find(&self.record, &self.vocabulary)
         } else {
             None
         };
@@ -159,15 +151,14 @@ impl<'p, R: Read> Engine<'p, R> {
                     &mut self.outside,
                 )?;
                 let mut swallowed = outcome.swallowed();
-                if self.module.compat.section == SectionMode::Process
+                if self.outside.module.compat.section == SectionMode::Process
                     && !outcome.processed
                     && !outcome.replaced
                 {
                     swallowed = false;
                     self.outside.process(&self.record, &self.vocabulary)?;
                 }
-                let key = self.module.section_key(section);
-                self.outside.section_done(key, number, swallowed);
+                self.outside.section_done(section, number, swallowed);
             }
             _ => self.outside.process(&self.record, &self.vocabulary)?,
         }
@@ -177,167 +168,20 @@ impl<'p, R: Read> Engine<'p, R> {
         }
         Ok(true)
     }
-}
 
-impl<R: Read> Outside<'_, R> {
-    fn read(
-        &mut self,
-        record: &mut Record,
-        vocabulary: &mut Vocabulary,
-    ) -> Result<bool, Box<Diag>> {
-        let more = self.reader.read(vocabulary, record)?;
-        if more {
-            self.report.records += 1;
-            self.post.tape.origin.record = record.number;
-            self.post.tape.origin.line = record.line;
-            for observer in self.observers.iter_mut() {
-                observer(WhatHappened::Record(record, vocabulary));
-            }
+    /// Refuses a run that reads the same records again and again.
+    fn watch_progress(&mut self) -> Result<(), Box<Diag>> {
+        if self.record.number > self.furthest {
+            self.furthest = self.record.number;
+            return Ok(());
         }
-        Ok(more)
-    }
-
-    /// The post carries out a record; its errors get the place in the CL file.
-    fn process(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
-        let known = self.post.warnings.len();
-        let result = self.post.process(record, vocabulary);
-        if result.is_err() || self.post.warnings.len() > known {
-            let place = self.place(record, vocabulary);
-            for warning in &mut self.post.warnings[known..] {
-                warning.places.push(place.clone());
-            }
-            result.map_err(|diag| Box::new(diag.at(place)))?;
+        if let Some(left) = self.fuel.checked_sub(FUEL_OF_READING_AGAIN) {
+            self.fuel = left;
+            return Ok(());
         }
-        if record.kind == kind::MOTION {
-            if let Some(point) = self.post.point() {
-                Extents::add(&mut self.report.extents, point);
-            }
-        }
-        self.ended |= record.kind == kind::FINI;
-        Ok(())
-    }
-
-    fn place(&self, record: &Record, vocabulary: &Vocabulary) -> Place {
-        let line = if record.line == 0 { self.post.tape.origin.line } else { record.line };
-        Place::line(self.cl_name, line, statement_text(record, vocabulary))
-    }
-
-    fn section_done(&mut self, key: &str, record: u32, swallowed: bool) {
-        if swallowed {
-            *self.report.swallowed.entry(key.to_string()).or_default() += 1;
-        }
-        if !self.observers.is_empty() {
-            let traced = self.trace;
-            let event = SectionEvent { key: key.to_string(), record, swallowed, traced };
-            for observer in self.observers.iter_mut() {
-                observer(WhatHappened::Section(&event));
-            }
-        }
-    }
-
-    /// The CL file ended without FINI.
-    fn end_of_file(&mut self) -> Result<(), Box<Diag>> {
-        if self.report.records == 0 {
-            let diag = Diag::new(RunCode::NoMotion, format!("{} holds no record", self.cl_name));
-            self.report.warnings.push(diag);
-        } else if !matches!(self.reader.dialect(), Some(Dialect::Nx | Dialect::SolidWorksCam)) {
-            let diag = Diag::new(RunCode::NoFini, format!("{} has no FINI", self.cl_name));
-            self.report.warnings.push(diag);
-        }
-        self.post.finish()
-    }
-
-    fn after_fini(
-        &mut self,
-        record: &mut Record,
-        vocabulary: &mut Vocabulary,
-    ) -> Result<(), Box<Diag>> {
-        if self.reader.read(vocabulary, record)? {
-            let place = self.place(record, vocabulary);
-            let diag = Diag::new(RunCode::AfterFini, "what follows is not posted").at(place);
-            self.report.warnings.push(diag);
-        }
-        Ok(())
-    }
-}
-
-impl<R: Read> Host for Outside<'_, R> {
-    fn common(&mut self, kind: CommonKind, location: u32) -> Result<f64, Box<Diag>> {
-        self.post.commons.get(common_kind(kind), location)
-    }
-
-    fn set_common(&mut self, kind: CommonKind, location: u32, value: f64) -> Result<(), Box<Diag>> {
-        self.post.commons.set(common_kind(kind), location, value)
-    }
-
-    fn clear_common(&mut self, kind: CommonKind, location: u32) -> Result<(), Box<Diag>> {
-        self.post.commons.set(common_kind(kind), location, fil_post::commons::EMPTY)
-    }
-
-    fn command(
-        &mut self,
-        record: &Record,
-        vocabulary: &mut Vocabulary,
-        site: &Site,
-    ) -> Result<(), Box<Diag>> {
-        let fil = &mut self.post.tape.origin.fil;
-        fil.clear();
-        fil.extend(site.stack().map(|(file, line)| FilLine { file, line }));
-        let result = self.process(record, vocabulary);
-        self.post.tape.origin.fil.clear();
-        result
-    }
-
-    fn next_record(
-        &mut self,
-        record: &mut Record,
-        vocabulary: &mut Vocabulary,
-    ) -> Result<bool, Box<Diag>> {
-        let mut next = Record::default();
-        while !self.ended && self.read(&mut next, vocabulary)? {
-            if next.kind != kind::PSEUDO {
-                *record = next;
-                return Ok(true);
-            }
-            self.process(&next, vocabulary)?;
-        }
-        Ok(false)
-    }
-
-    fn seek_record(
-        &mut self,
-        number: u32,
-        record: &mut Record,
-        vocabulary: &mut Vocabulary,
-    ) -> Result<bool, Box<Diag>> {
-        self.reader.seek_record(number)?;
-        let mut found = Record::default();
-        let there = self.read(&mut found, vocabulary)?;
-        if there {
-            *record = found;
-        }
-        Ok(there)
-    }
-
-    fn warn(&mut self, diag: Diag) {
-        self.report.warnings.push(diag);
-    }
-
-    fn trace(&mut self, on: bool) {
-        self.trace = on;
-    }
-
-    fn named_common(&mut self, name: &str) -> Option<Result<f64, Box<Diag>>> {
-        let row = fil_post::locations::Location::named(&name.to_ascii_lowercase())?;
-        Some(self.post.commons.get(row.kind, u32::from(row.number)))
-    }
-}
-
-fn common_kind(kind: CommonKind) -> fil_post::Kind {
-    match kind {
-        CommonKind::Int => fil_post::Kind::Int,
-        CommonKind::Rel => fil_post::Kind::Rel,
-        CommonKind::Dbl => fil_post::Kind::Dbl,
+        let message = format!("record {} is read again and again", self.record.number);
+        let place = self.outside.place(&self.record, &self.vocabulary);
+        Err(Box::new(Diag::new(fil_vm::errors::RunCode::OutOfFuel, message).at(place)))
     }
 }
 

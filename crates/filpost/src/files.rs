@@ -63,6 +63,10 @@ pub fn write_whole<T>(
     if std::fs::metadata(path).is_ok_and(|found| found.permissions().readonly()) {
         return Err(cant_write(path, &io::Error::from(io::ErrorKind::PermissionDenied)));
     }
+    if !folder.is_dir() {
+        let reason = format!("there is no folder {}", folder.display());
+        return Err(cant_write(path, &io::Error::other(reason)));
+    }
     let mut beside = NamedTempFile::new_in(folder).map_err(|error| cant_write(path, &error))?;
     let mut output = BufWriter::with_capacity(BUFFER, beside.as_file_mut());
     let result = write(&mut output)?;

@@ -27,9 +27,11 @@ mod error;
 pub mod files;
 pub mod listing;
 mod observe;
+mod outside;
 pub mod ready;
 mod report;
 pub mod select;
+mod source;
 mod statement;
 
 pub use blocks::{Block, Blocks};

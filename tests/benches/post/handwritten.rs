@@ -79,10 +79,10 @@ impl Translator {
         if !std::mem::replace(&mut self.cutting, true) {
             block.extend_from_slice(b"G1 ");
         }
-        for axis in 0..3 {
-            if self.last[axis] != Some(point[axis]) {
-                word(b"XYZ"[axis], point[axis], block);
-                self.last[axis] = Some(point[axis]);
+        for ((letter, value), last) in b"XYZ".iter().zip(point).zip(&mut self.last) {
+            if *last != Some(value) {
+                word(*letter, value, block);
+                *last = Some(value);
             }
         }
         if self.feed != self.last_feed {

@@ -24,8 +24,10 @@ pub struct OptionFile {
 }
 
 /// Values the vendor's post has where the file says nothing, as far as the
-/// report of a real option file shows them.
+/// report of a real option file shows them; and no program number (own
+/// location 9003), because no location for it is known.
 const VENDOR_DEFAULTS: &[(Kind, u32, f64)] = &[
+    (Kind::Int, 9003, EMPTY),
     (Kind::Int, 471, EMPTY),
     (Kind::Int, 480, EMPTY),
     (Kind::Int, 509, EMPTY),

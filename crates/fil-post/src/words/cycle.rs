@@ -7,16 +7,16 @@
 //! without the cycle's code each hole is written as single moves.
 
 use fil_cl::vocabulary::{Vocabulary, words as w};
-use fil_cl::{Record, WordId};
+use fil_cl::{Record, Word, WordId};
 use fil_diag::Diag;
 
 use super::form::Form;
-use super::{cycle_expand, fedrat};
+use super::{cycle_expand, delay, fedrat};
 use crate::commons::{Dbl, EMPTY, Int};
 use crate::errors::PostCode;
 use crate::letters::R;
 use crate::locations as loc;
-use crate::motion::{Position, Target};
+use crate::motion::{Position, ROTARY, Target, XY, Z};
 use crate::post::Post;
 use crate::state::Feed;
 
@@ -103,6 +103,9 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         form.finish(post);
         return off(post);
     }
+    if record.data == [Word::Minor(w::INIT)] {
+        return Ok(());
+    }
     let cycle = read(post, &mut form)?;
     form.finish(post);
     if let Some(old) = post.state.cycle.take() {
@@ -130,7 +133,10 @@ fn read(post: &mut Post, form: &mut Form) -> Result<Cycle, Box<Diag>> {
     form.couplet(w::CLEAR)?;
     let clear = clear.or(post.commons.dbl_opt(loc::CYCLE_AUTO_CLEARANCE)).unwrap_or(0.0);
     let step = optional(form, &[w::STEP, w::SUBPECK, w::INCR])?;
-    form.couplet(w::FIRST_PECK)?;
+    let first_peck = form.couplet(w::FIRST_PECK)?;
+    if first_peck.is_some() && first_peck != step {
+        post.warn(PostCode::IgnoredPart, "CYCLE: the first peck is as deep as the others".into());
+    }
     let retract = optional(form, &[w::RETURN, w::RTRCTO])?;
     let dwell = form.couplet(w::DWELL)?;
     if depth == 0.0 || clear < 0.0 {
@@ -241,7 +247,7 @@ fn raise(post: &mut Post, cycle: &Cycle, z: f64, clear: f64) -> Result<bool, Box
         cancel(post)?;
         let mut position = Position::default();
         position[2] = want;
-        post.rapid_to(&position, &[2])?;
+        post.rapid_to(&position, Z)?;
         here = want;
         if let Some(cycle) = &mut post.state.cycle {
             cycle.initial = Some(want);
@@ -266,7 +272,7 @@ fn block(
     let repeats = post.state.cycle.as_ref().and_then(|now| now.in_force) == Some(levels)
         && post.commons.int(loc::CYCLE_DATA_MODAL) != 1;
     if repeats {
-        if post.axis_words(at, &[0, 1, 3, 4])? {
+        if post.axis_words(at, XY | ROTARY)? {
             return post.write_motion();
         }
         for axis in [0, 1] {
@@ -322,8 +328,8 @@ fn data_words(post: &mut Post, cycle: &Cycle) -> Result<(), Box<Diag>> {
     }
     if cycle.dwell > 0.0 {
         let letter = post.code(loc::CYCLE_DWELL_ADDRESS, "the dwell of a cycle")?;
-        let factor = post.commons.dbl_opt(loc::DWELL_UPM_FACTOR).unwrap_or(1.0);
-        post.word(letter.clamp(1, 26) as u8, cycle.dwell * factor)?;
+        let value = delay::in_seconds(post, cycle.dwell);
+        post.word(letter.clamp(1, 26) as u8, value)?;
     }
     with_feed(post, cycle.feed, |post| {
         post.state.force_feed = true;

@@ -5,10 +5,8 @@ use fil_diag::Diag;
 
 use super::cycle::{Cycle, HoleLevels, with_feed};
 use super::delay;
-use crate::commons::EMPTY;
 use crate::errors::PostCode;
-use crate::locations as loc;
-use crate::motion::Position;
+use crate::motion::{Position, ROTARY, XY, Z};
 use crate::post::Post;
 
 /// Distance above the last depth at which a peck starts to feed, and by which
@@ -32,14 +30,15 @@ pub fn hole(
             "the machine has no tapping cycle, and a tap can't be written as single moves",
         )));
     }
-    post.rapid_to(at, &[0, 1, 3, 4])?;
+    post.rapid_to(at, XY | ROTARY)?;
     rapid_z(post, levels.clear)?;
     match cycle.step {
         Some(step) => pecks(post, cycle, levels, step)?,
         None => feed_z(post, cycle, levels.bottom)?,
     }
     if cycle.dwell > 0.0 {
-        dwell(post, cycle.dwell)?;
+        let value = delay::in_seconds(post, cycle.dwell);
+        delay::write(post, value)?;
     }
     if matches!(cycle.word, w::BORE | w::REAM) {
         feed_z(post, cycle, levels.clear)?;
@@ -68,24 +67,13 @@ fn pecks(post: &mut Post, cycle: &Cycle, levels: HoleLevels, step: f64) -> Resul
 fn rapid_z(post: &mut Post, z: f64) -> Result<(), Box<Diag>> {
     let mut position = Position::default();
     position[2] = z;
-    post.rapid_to(&position, &[2])
+    post.rapid_to(&position, Z)
 }
 
 fn feed_z(post: &mut Post, cycle: &Cycle, z: f64) -> Result<(), Box<Diag>> {
     with_feed(post, cycle.feed, |post| {
         let mut position = Position::default();
         position[2] = z;
-        post.feed_to(&position, &[2])
+        post.feed_to(&position, Z)
     })
-}
-
-fn dwell(post: &mut Post, seconds: f64) -> Result<(), Box<Diag>> {
-    let letter = delay::letter_of(post)?;
-    let code = post.code(loc::DWELL_CODE, "a dwell")?;
-    let factor = post.commons.dbl_opt(loc::DWELL_UPM_FACTOR).unwrap_or(1.0);
-    post.block.g(code);
-    post.word(letter, seconds * factor)?;
-    post.write_block()?;
-    post.commons.set_last_output(letter, EMPTY);
-    Ok(())
 }

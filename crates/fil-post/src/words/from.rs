@@ -1,4 +1,4 @@
-//! FROM/x,y,z[,i,j,k]: where the tool stands at the start. No motion.
+//! FROM/x,y,z\[,i,j,k]: where the tool stands at the start. No motion.
 
 use fil_cl::Record;
 use fil_cl::vocabulary::Vocabulary;

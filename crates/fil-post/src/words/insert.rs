@@ -10,13 +10,15 @@ use crate::locations as loc;
 use crate::post::Post;
 
 /// Writes the text as a block. What it does to the control is unknown, so
-/// the next motion says its G code again.
+/// the next motion says its G code, plane and feed again.
 ///
 /// # Errors
-/// As [`Post::write_line`].
+/// As `Post::write_line`.
 pub fn handle(post: &mut Post, record: &Record, _: &Vocabulary) -> Result<(), Box<Diag>> {
     let numbered = matches!(post.commons.int(loc::SEQNO_ON_TEXT), 1 | 3);
     post.write_line(record.text.trim(), numbered)?;
+    post.state.plane = None;
+    post.state.force_feed = true;
     post.commons.set_last_output(G, EMPTY);
     Ok(())
 }

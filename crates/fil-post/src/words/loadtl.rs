@@ -1,4 +1,4 @@
-//! LOADTL/n[,LENGTH,l][,OSETNO,o], LOAD/TOOL,n[,ADJUST,o], TURRET/n: tool change;
+//! LOADTL/n\[,LENGTH,l]\[,OSETNO,o], LOAD/TOOL,n\[,ADJUST,o], TURRET/n: tool change;
 //! SELCTL/n and SELECT/TOOL,n: the next tool.
 
 use fil_cl::Record;
@@ -9,7 +9,7 @@ use super::form::Form;
 use crate::commons::EMPTY;
 use crate::letters::{G, H, T};
 use crate::locations as loc;
-use crate::motion::Position;
+use crate::motion::{AxisSet, Position};
 use crate::post::Post;
 
 /// Changes the tool and calls its length offset.
@@ -91,15 +91,15 @@ fn change_position(post: &mut Post) -> Result<(), Box<Diag>> {
         _ => return Ok(()),
     };
     let mut position: Position = Default::default();
-    let mut moving = Vec::new();
+    let mut moving: AxisSet = 0;
     for (common, location) in axes.iter().enumerate() {
         let Some(value) = post.commons.dbl_opt(*location) else { continue };
         if let Some(number) = post.machine.axis_of_common(common) {
             position[number] = value;
-            moving.push(number);
+            moving |= 1 << number;
         }
     }
-    post.rapid_to(&position, &moving)
+    post.rapid_to(&position, moving)
 }
 
 /// Writes T and the change code, in one block or two.

@@ -22,9 +22,12 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         return Err(form.error("only POSTN/OUT is known"));
     }
     let numbers = form.numbers();
-    form.finish(post);
+    form.end()?;
     let form = Form::new(record, vocabulary);
-    if numbers.is_empty() || !numbers.len().is_multiple_of(2) || numbers.len() + 1 != record.data.len() {
+    if numbers.is_empty()
+        || !numbers.len().is_multiple_of(2)
+        || numbers.len() + 1 != record.data.len()
+    {
         return Err(form.error("pairs of a letter and a value are needed"));
     }
     let mut words: Vec<(u8, f64)> = Vec::new();

@@ -11,7 +11,7 @@ use crate::post::Post;
 /// at the machine's longest message.
 ///
 /// # Errors
-/// As [`Post::write_line`].
+/// As `Post::write_line`.
 pub fn handle(post: &mut Post, record: &Record, _: &Vocabulary) -> Result<(), Box<Diag>> {
     if !post.commons.flag(loc::MESSAGE_TO_TAPE) {
         return Ok(());
@@ -22,7 +22,7 @@ pub fn handle(post: &mut Post, record: &Record, _: &Vocabulary) -> Result<(), Bo
 /// Writes a message.
 ///
 /// # Errors
-/// As [`Post::write_line`].
+/// As `Post::write_line`.
 pub fn message(post: &mut Post, text: &str) -> Result<(), Box<Diag>> {
     let character = |location, default| {
         let code = post.commons.int_opt(location).and_then(|code| u8::try_from(code).ok());

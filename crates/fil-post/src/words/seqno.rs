@@ -1,4 +1,4 @@
-//! SEQNO/n[,INCR,m], SEQNO/ON, SEQNO/OFF: sequence numbers.
+//! SEQNO/n\[,INCR,m], SEQNO/ON, SEQNO/OFF: sequence numbers.
 
 use fil_cl::Record;
 use fil_cl::vocabulary::{Vocabulary, words as w};
@@ -28,6 +28,6 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
             post.tape.renumber(next, increment);
         }
     }
-    form.finish(post);
+    form.end()?;
     Ok(())
 }

@@ -8,7 +8,7 @@ use super::form::Form;
 use crate::commons::EMPTY;
 use crate::letters::F;
 use crate::locations as loc;
-use crate::motion::Position;
+use crate::motion::{Position, XY, Z};
 use crate::post::Post;
 
 /// THREAD/TPI,pitch: the feed motions that follow are thread passes, as after
@@ -41,7 +41,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
 /// The machine has no thread code; a value that does not fit.
 pub fn cut(post: &mut Post, position: &Position) -> Result<(), Box<Diag>> {
     let Some(pitch) = post.state.thread else { return Ok(()) };
-    if post.axis_words(position, &[0, 1, 2])? {
+    if post.axis_words(position, XY | Z)? {
         let code = post.code(loc::THREAD_CODE, "a thread")?;
         post.motion_code(code, false);
         post.word(F, pitch)?;

@@ -1,0 +1,128 @@
+//! The CL records of a run: read one after the other, with a look at the
+//! motions before and after the current record.
+
+use std::collections::VecDeque;
+use std::io::Read;
+
+use fil_cl::{Record, Vocabulary, reader::Dialect, reader::Reader, record::kind};
+use fil_diag::Diag;
+
+/// Records NEXTF looks through for the next motion.
+const LOOK_AHEAD: usize = 1000;
+
+/// X Y Z I J K of a motion record; without a tool axis of its own I J K are absent.
+pub(crate) type Coordinates = [Option<f64>; 6];
+
+/// The reader with its neighbourhood.
+pub(crate) struct Source<R: Read> {
+    reader: Reader<R>,
+    /// Records that were looked at and nobody has read yet.
+    ahead: VecDeque<Record>,
+    /// The last two motions read, and whether the current record is the last of them.
+    motions: [Option<Coordinates>; 2],
+    on_motion: bool,
+    keeps_motions: bool,
+    /// Records read so far.
+    pub records: u64,
+}
+
+impl<R: Read> Source<R> {
+    /// `keeps_motions`: [`Source::previous`] will be asked for.
+    pub fn new(reader: Reader<R>, keeps_motions: bool) -> Self {
+        Source {
+            reader,
+            ahead: VecDeque::new(),
+            motions: [None; 2],
+            on_motion: false,
+            keeps_motions,
+            records: 0,
+        }
+    }
+
+    /// The family of the CL text, once it is known.
+    pub fn dialect(&self) -> Option<Dialect> {
+        self.reader.dialect()
+    }
+
+    /// Reads the next record; false at the end.
+    ///
+    /// # Errors
+    /// What the reader refuses.
+    pub fn read(
+        &mut self,
+        record: &mut Record,
+        vocabulary: &mut Vocabulary,
+    ) -> Result<bool, Box<Diag>> {
+        let more = match self.ahead.pop_front() {
+            Some(next) => {
+                *record = next;
+                true
+            }
+            None => self.reader.read(vocabulary, record)?,
+        };
+        if more {
+            self.records += 1;
+            if self.keeps_motions {
+                self.remember(record);
+            }
+        }
+        Ok(more)
+    }
+
+    /// Goes to a record, so that the next read gives it.
+    ///
+    /// # Errors
+    /// A stream that can't go back; a number that is none.
+    pub fn seek(&mut self, number: u32) -> Result<(), Box<Diag>> {
+        self.reader.seek_record(number)?;
+        self.ahead.clear();
+        self.motions = [None; 2];
+        self.on_motion = false;
+        Ok(())
+    }
+
+    /// The motion after the current record; nothing is consumed.
+    ///
+    /// # Errors
+    /// What the reader refuses.
+    pub fn next(&mut self, vocabulary: &mut Vocabulary) -> Result<Option<Coordinates>, Box<Diag>> {
+        for index in 0..LOOK_AHEAD {
+            if index == self.ahead.len() {
+                let mut next = Record::default();
+                if !self.reader.read(vocabulary, &mut next)? {
+                    break;
+                }
+                self.ahead.push_back(next);
+            }
+            match self.ahead[index].kind {
+                kind::MOTION => return Ok(Some(coordinates(&self.ahead[index]))),
+                kind::FINI => break,
+                _ => {}
+            }
+        }
+        Ok(None)
+    }
+
+    /// The motion before the current record.
+    pub fn previous(&self) -> Option<Coordinates> {
+        self.motions[usize::from(!self.on_motion)]
+    }
+
+    fn remember(&mut self, record: &Record) {
+        self.on_motion = record.kind == kind::MOTION;
+        if self.on_motion {
+            self.motions = [self.motions[1], Some(coordinates(record))];
+        }
+    }
+}
+
+fn coordinates(record: &Record) -> Coordinates {
+    let mut found = [None; 6];
+    let parts = record.point().into_iter().chain(record.axis());
+    for (place, part) in parts.enumerate() {
+        for (slot, value) in found[place * 3..].iter_mut().zip(part) {
+            *slot = Some(value);
+        }
+    }
+    found
+}

@@ -1,0 +1,128 @@
+//! The language suite: a FIL file whose header comment says what must happen.
+//!
+//! ```text
+//! $$ cl: CYCLE / DRILL, 5     a line of the CL file; FINI is added
+//! $$ expect: X1. Y2.          a line of the NC program, in order
+//! $$ error: E0301 at 5        the refusal, with its line in the FIL file
+//! $$ warning: W0217 at 3      a warning that must come
+//! $$ with: other.fil          a file loaded before this one
+//! $$ set: key=value           a setting on top of the suite's machine.toml
+//! ```
+//!
+//! Without `error:` the whole program is compared and every error or warning
+//! that is not announced is a failure. The machine of the suite writes nothing
+//! of its own accord, so that a test shows only what its FIL does.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use filpost::{Diag, Post, files};
+
+/// What the header of a test says.
+#[derive(Default)]
+struct Header {
+    cl: Vec<String>,
+    expect: Vec<String>,
+    error: Option<String>,
+    warnings: Vec<String>,
+    with: Vec<String>,
+    set: Vec<String>,
+}
+
+fn header(text: &str) -> Result<Header, String> {
+    let mut header = Header::default();
+    for line in text.lines() {
+        let Some((key, value)) = line.strip_prefix("$$ ").and_then(|line| line.split_once(": "))
+        else {
+            continue;
+        };
+        let value = value.trim().to_string();
+        match key {
+            "cl" => header.cl.push(value),
+            "expect" => header.expect.push(value),
+            "error" => header.error = Some(value),
+            "warning" => header.warnings.push(value),
+            "with" => header.with.push(value),
+            "set" => header.set.push(value),
+            _ => {}
+        }
+    }
+    let says_nothing = header.expect.is_empty() && header.error.is_none();
+    if says_nothing { Err("the header expects nothing".into()) } else { Ok(header) }
+}
+
+/// Runs a test of the suite; the text of a failure says what was wrong.
+///
+/// # Errors
+/// Anything that is not as the header says.
+pub fn run(path: &Path) -> Result<(), String> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let read = |path: &Path| files::read_text(path, None).map_err(|error| error.to_string());
+    let text = read(path)?;
+    let header = header(&text)?;
+    let mut builder = Post::builder()
+        .machine("machine.toml", &read(&folder.join("machine.toml"))?)
+        .limits(filpost::Limits { fuel: 100_000, ..filpost::Limits::default() });
+    for name in &header.with {
+        builder = builder.fil(name, &read(&folder.join(name))?);
+    }
+    for setting in &header.set {
+        builder = builder.set(setting);
+    }
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let cl: String = header.cl.iter().map(|line| format!("{line}\n")).collect();
+    let result = post(builder.fil(&name, &text), &format!("{cl}FINI\n"));
+    judge(&header, &name, result)
+}
+
+type Posted = Result<(String, Vec<Diag>), Vec<Diag>>;
+
+fn post(builder: filpost::Builder, cl: &str) -> Posted {
+    let refused = |error: filpost::Error| error.diags().to_vec();
+    let mut post = builder.cl_name("part.ncl").build().map_err(refused)?;
+    let mut nc = Vec::new();
+    let report = post.run_seekable(Cursor::new(cl.as_bytes()), &mut nc).map_err(refused)?;
+    let warnings = post.warnings().iter().cloned().chain(report.warnings).collect();
+    Ok((String::from_utf8_lossy(&nc).into_owned(), warnings))
+}
+
+fn judge(header: &Header, file: &str, result: Posted) -> Result<(), String> {
+    let said = |diags: &[Diag]| diags.iter().map(Diag::to_string).collect::<Vec<_>>().join("\n");
+    match (result, &header.error) {
+        (Err(diags), Some(error)) => match diags.as_slice() {
+            [diag] if at(diag, file) == *error => Ok(()),
+            _ => Err(format!("expected {error}, got:\n{}", said(&diags))),
+        },
+        (Err(diags), None) => Err(format!("refused:\n{}", said(&diags))),
+        (Ok((nc, _)), Some(error)) => Err(format!("expected {error}, but it was posted:\n{nc}")),
+        (Ok((nc, warnings)), None) => {
+            let mut found: Vec<String> = warnings.iter().map(|diag| at(diag, file)).collect();
+            let mut announced = header.warnings.clone();
+            found.sort();
+            announced.sort();
+            if found != announced {
+                return Err(format!(
+                    "expected warnings {:?}:\n{}",
+                    header.warnings,
+                    said(&warnings)
+                ));
+            }
+            let wanted: String = header.expect.iter().map(|line| format!("{line}\n")).collect();
+            let nothing = header.expect == ["nothing"] && nc.is_empty();
+            if nc == wanted || nothing {
+                Ok(())
+            } else {
+                Err(format!("expected:\n{wanted}got:\n{nc}"))
+            }
+        }
+    }
+}
+
+/// `E0301 at 5`; a place in another file keeps that file's name.
+fn at(diag: &Diag, file: &str) -> String {
+    match diag.places.first() {
+        None => diag.code.name(),
+        Some(place) if place.file == file => format!("{} at {}", diag.code.name(), place.line),
+        Some(place) => format!("{} at {}:{}", diag.code.name(), place.file, place.line),
+    }
+}

@@ -1,0 +1,116 @@
+//! A real option file and the list of commons of its report, where they are at hand.
+
+use std::path::PathBuf;
+
+use filpost::locations::{Location, TABLE};
+use filpost::settings::{read_option_file, read_toml, write_toml};
+
+/// Text of a file of the outside data; `None`, saying so, where there is none.
+fn outside(name: &str) -> Option<String> {
+    let here = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    let data =
+        std::env::var_os("FILPOST_DATA").map_or(here.join("../../shared/data"), PathBuf::from);
+    match std::fs::read(data.join(name)) {
+        Ok(bytes) => Some(String::from_utf8_lossy(&bytes).into_owned()),
+        Err(error) => {
+            println!("skipped: {name}: {error}");
+            None
+        }
+    }
+}
+
+fn kind(name: &str) -> filpost::Kind {
+    match name {
+        "I" => filpost::Kind::Int,
+        "R" => filpost::Kind::Rel,
+        _ => filpost::Kind::Dbl,
+    }
+}
+
+#[test]
+fn every_common_of_the_report_has_a_name() {
+    let Some(text) = outside("commons.tsv") else { return };
+    let mut rows = 0;
+    for line in text.lines().skip(1) {
+        let common = line.split('\t').next().unwrap_or_default();
+        let (letter, number) = common.split_at(1);
+        let number: u32 = number.split('-').next().unwrap().parse().unwrap();
+        assert!(Location::numbered(kind(letter), number).is_some(), "{common} has no name");
+        rows += 1;
+    }
+    assert_eq!(rows, 353, "rows of the report; {} locations are named", TABLE.len());
+}
+
+#[test]
+fn the_option_file_reads_as_its_pairs_say() {
+    let Some(text) = outside("option-file/uncx01.p02") else { return };
+    let file = read_option_file("uncx01.p02", &text).unwrap();
+    let mut list = None;
+    let mut pairs = 0;
+    for line in text.lines() {
+        let head = line.trim_start();
+        if let Some(common) =
+            ["INTCOM:", "RELCOM:", "DBLCOM:"].iter().find(|c| head.starts_with(**c))
+        {
+            list = Some(kind(&common[..1]));
+            continue;
+        }
+        let fields: Vec<&str> = line.split_whitespace().collect();
+        let (Some(list), &[location, value]) = (list, fields.as_slice()) else { continue };
+        let (location, value): (u32, f64) = (location.parse().unwrap(), value.parse().unwrap());
+        if location != 0 {
+            let wanted = if value == -32767.0 { 999_999.0 } else { value };
+            assert_eq!(file.commons.get(list, location).unwrap(), wanted, "{list:?} {location}");
+            pairs += 1;
+        }
+    }
+    assert_eq!(pairs, 905 + 15, "905 INTCOM and 15 DBLCOM pairs");
+}
+
+/// The packed texts of start and end blocks are left out: an unused one may be
+/// blank or absent. The posted file of the next test shows the used ones.
+#[test]
+fn the_imported_machine_toml_is_the_same_machine() {
+    let Some(text) = outside("option-file/uncx01.p02") else { return };
+    let imported = read_option_file("uncx01.p02", &text).unwrap().commons;
+    let (again, _) = read_toml("machine.toml", &write_toml(&imported)).unwrap();
+    let is_text = |kind, location: &u32| {
+        kind == filpost::Kind::Int && matches!(location, 3485..=3814 | 3982..=4311)
+    };
+    for kind in [filpost::Kind::Int, filpost::Kind::Rel, filpost::Kind::Dbl] {
+        for location in (1..=kind.size() as u32).filter(|location| !is_text(kind, location)) {
+            let (a, b) = (imported.get(kind, location), again.get(kind, location));
+            assert_eq!(a.unwrap(), b.unwrap(), "{kind:?} {location}");
+        }
+    }
+}
+
+#[test]
+fn the_imported_machine_posts_a_real_file() {
+    let (Some(machine), Some(fil), Some(cl)) = (
+        outside("option-file/uncx01.p02"),
+        outside("option-file/uncx01.f02"),
+        outside("cl/creo/profilfraesen_2.ncl.1"),
+    ) else {
+        return;
+    };
+    let mut post = filpost::Post::builder()
+        .option_file("uncx01.p02", &machine)
+        .fil("uncx01.f02", &fil)
+        .build()
+        .unwrap();
+    let mut nc = Vec::new();
+    post.run(cl.as_bytes(), &mut nc).unwrap();
+    let nc = String::from_utf8(nc).unwrap();
+    let blocks: Vec<&str> = nc.lines().collect();
+    // The user's blocks of the file, no numbers, no M words, rapid and straight
+    // codes in every block, arcs by radius, decimals with at least one zero.
+    assert_eq!(blocks[..2], ["G21", "G90"]);
+    assert!(blocks[2].starts_with("M3 S1000"), "{}", blocks[2]);
+    assert_eq!(
+        blocks[3..8],
+        ["G00 X0.0 Y1.5", "G00 Z2.0", "G01 Z-1.5 F400.0", "G02 X1.5 Y0.0 R1.5", "G01 Y-33.0",]
+    );
+    assert_eq!(blocks[blocks.len() - 2..], ["G1 Z1.0", "M5"]);
+    assert!(!nc.contains('%') && !nc.contains('O') && !nc.contains('N'), "{nc}");
+}
