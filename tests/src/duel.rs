@@ -1,6 +1,6 @@
 //! The machine against the oracle on one program.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use fil_cl::{Options, Reader, Record, Vocabulary};
@@ -34,6 +34,7 @@ struct World {
     next: usize,
     commons: BTreeMap<(u8, u32), f64>,
     events: Vec<String>,
+    warnings: BTreeSet<(u16, u32)>,
 }
 
 fn place(kind: CommonKind, location: u32) -> (u8, u32) {
@@ -91,11 +92,17 @@ impl Host for World {
         Ok(false)
     }
 
-    fn warn(&mut self, _: Diag) {}
+    fn warn(&mut self, diag: Diag) {
+        self.warnings.insert((diag.code.number, line(&diag)));
+    }
 
     fn trace(&mut self, on: bool) {
         self.events.push(format!("trace {on}"));
     }
+}
+
+fn line(diag: &Diag) -> u32 {
+    diag.places.first().map_or(0, |place| place.line)
 }
 
 /// Runs a case on both.
@@ -122,7 +129,7 @@ pub fn fight(case: &Case) -> Result<Agreed, String> {
     let program = fil_syntax::parse("case.fil", &case.fil).program;
     let mut oracle = Oracle::new(&program, &case.fil, own, FUEL);
     let wanted = oracle.run();
-    compare(ran, wanted, &world.events, &oracle, &machine)
+    compare(ran, wanted, &world, &oracle, &machine)
 }
 
 fn read(cl: &str, vocab: &mut Vocabulary) -> Result<Vec<Record>, String> {
@@ -155,12 +162,13 @@ fn drive(machine: &mut Machine, vocab: &mut Vocabulary, world: &mut World) -> Re
 fn compare(
     ran: Result<(), Box<Diag>>,
     wanted: Result<(), Fault>,
-    events: &[String],
+    world: &World,
     oracle: &Oracle<'_>,
     machine: &Machine,
 ) -> Result<Agreed, String> {
+    let events = &world.events;
     let ran = ran.map_err(|diag| {
-        (diag.code.number, diag.places.first().map_or(0, |place| place.line), diag.to_string())
+        (diag.code.number, line(&diag), diag.to_string())
     });
     let long = Class::OutOfFuel as u16;
     let too_long = ran.as_ref().is_err_and(|(number, ..)| *number == long)
@@ -189,6 +197,9 @@ fn compare(
     };
     if events.len() != oracle.events().len() {
         return Err(format!("{} events, oracle {}", events.len(), oracle.events().len()));
+    }
+    if world.warnings != *oracle.warnings() {
+        return Err(format!("warnings\n machine {:?}\n oracle  {:?}", world.warnings, oracle.warnings()));
     }
     values(oracle, machine)?;
     Ok(stopped.map_or(Agreed::Done, Agreed::Stopped))

@@ -77,7 +77,10 @@ impl Oracle<'_> {
             StmtKind::Post { word, args } => self.post(word, args, stmt.span)?,
             StmtKind::PostText { word, text } => {
                 let text = match self.is_variable(text) {
-                    true => self.written([self.read(text)], stmt.span)?,
+                    true => {
+                        let value = self.read(text, stmt.span);
+                        self.written([value], stmt.span)?
+                    },
                     false => text.clone(),
                 };
                 self.post_text(word, &text, stmt.span);
@@ -156,7 +159,7 @@ impl Oracle<'_> {
             return self.fault(Class::ZeroStep, stmt.span);
         }
         loop {
-            let Value::Number(now) = self.read(&variable.name.text) else {
+            let Value::Number(now) = self.read(&variable.name.text, stmt.span) else {
                 return self.fault(Class::WrongType, stmt.span);
             };
             if (step > 0.0 && now > to) || (step < 0.0 && now < to) {
@@ -167,7 +170,7 @@ impl Oracle<'_> {
                 Flow::Next => {}
                 away => return Ok(away),
             }
-            let Value::Number(now) = self.read(&variable.name.text) else {
+            let Value::Number(now) = self.read(&variable.name.text, stmt.span) else {
                 return self.fault(Class::WrongType, stmt.span);
             };
             if !(now + step).is_finite() {

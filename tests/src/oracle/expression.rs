@@ -3,7 +3,7 @@
 use fil_syntax::tree::{BinaryOp, Expr, ExprKind, Span, UnaryOp};
 
 use super::functions;
-use super::value::{Class, EMPTY, Fault, Value};
+use super::value::{Class, EMPTY, Fault, NEVER_SET, Value};
 use super::Oracle;
 
 impl Oracle<'_> {
@@ -12,7 +12,7 @@ impl Oracle<'_> {
         match &expr.kind {
             ExprKind::Number(number) => Ok(Value::Number(*number)),
             ExprKind::Text(text) => Ok(Value::Text(text.clone())),
-            ExprKind::Name(name) => Ok(self.read(name)),
+            ExprKind::Name(name) => Ok(self.read(name, expr.span)),
             ExprKind::Call { name, args } => self.call(&name.text, args, expr.span),
             ExprKind::Unary { op, operand } => match op {
                 UnaryOp::Minus => Ok(Value::Number(-self.number(operand)?)),
@@ -41,9 +41,17 @@ impl Oracle<'_> {
     }
 
     /// What a name holds; EMPTY when it was never set.
-    pub(super) fn read(&self, name: &str) -> Value {
+    pub(super) fn read(&mut self, name: &str, span: Span) -> Value {
         let own = self.frames.last().and_then(|frame| frame.get(name));
-        own.or_else(|| self.variables.get(name)).cloned().unwrap_or(Value::Number(EMPTY))
+        let value = own.or_else(|| self.variables.get(name)).cloned();
+        self.or_empty(value, span)
+    }
+
+    fn or_empty(&mut self, value: Option<Value>, span: Span) -> Value {
+        value.unwrap_or_else(|| {
+            self.warn(NEVER_SET, span);
+            Value::Number(EMPTY)
+        })
     }
 
     /// The place of an element, counted from 0.
@@ -127,7 +135,7 @@ impl Oracle<'_> {
         if self.arrays.contains_key(name) && args.len() == 1 {
             let index = self.element(name, &args[0])?;
             let element = self.arrays[name][index].clone();
-            return Ok(element.unwrap_or(Value::Number(EMPTY)));
+            return Ok(self.or_empty(element, span));
         }
         match (name, args) {
             ("ICODEF", [Expr { kind: ExprKind::Name(word) | ExprKind::Text(word), .. }]) => {

@@ -12,13 +12,13 @@ mod functions;
 mod postf;
 pub mod value;
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use fil_cl::Vocabulary;
 use fil_diag::LineIndex;
 use fil_syntax::tree::{Item, Macro, Program, Section, SectionKey, Span, Stmt};
 
-pub use value::{Class, EMPTY, Fault, Rec, Value, Word, exact};
+pub use value::{Class, EMPTY, Fault, NEVER_SET, PAST_END, Rec, Value, Word, exact};
 
 /// What a section did, as the machine reports it.
 #[derive(Clone, Copy, Debug, Default)]
@@ -53,6 +53,7 @@ pub struct Oracle<'p> {
     fuel: u64,
     done: Done,
     events: Vec<String>,
+    warnings: BTreeSet<(u16, u32)>,
 }
 
 impl<'p> Oracle<'p> {
@@ -78,6 +79,7 @@ impl<'p> Oracle<'p> {
             fuel: limit,
             done: Done::default(),
             events: Vec::new(),
+            warnings: BTreeSet::new(),
         };
         for (index, letter) in ('A'..='Z').enumerate() {
             oracle.variables.insert(letter.to_string(), Value::Number(index as f64 + 1.0));
@@ -115,6 +117,11 @@ impl<'p> Oracle<'p> {
     /// What was done to the outside, in order.
     pub fn events(&self) -> &[String] {
         &self.events
+    }
+
+    /// Code and line of the warnings.
+    pub fn warnings(&self) -> &BTreeSet<(u16, u32)> {
+        &self.warnings
     }
 
     /// The names that statements set, with what they hold at the end.
@@ -190,6 +197,11 @@ impl<'p> Oracle<'p> {
 
     fn line(&self, span: Span) -> u32 {
         self.lines.line(span.start as usize)
+    }
+
+    fn warn(&mut self, code: u16, span: Span) {
+        let line = self.line(span);
+        self.warnings.insert((code, line));
     }
 
     fn fault<T>(&self, class: Class, span: Span) -> Result<T, Fault> {

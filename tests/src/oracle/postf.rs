@@ -2,7 +2,7 @@
 
 use fil_syntax::tree::{Expr, Span};
 
-use super::value::{Class, EMPTY, Fault, Rec, Value, Word, exact};
+use super::value::{Class, EMPTY, Fault, PAST_END, Rec, Value, Word, exact};
 use super::Oracle;
 
 impl Oracle<'_> {
@@ -28,7 +28,7 @@ impl Oracle<'_> {
             [4.0] => Ok(EMPTY),
             [5.0] => self.record().map(|record| record.len() as f64),
             [6.0, n] => self.class_of(*n),
-            [7.0, n] => return self.word(*n).or_else(|class| self.fault(class, span)),
+            [7.0, n] => return self.word(*n, span).or_else(|class| self.fault(class, span)),
             [8.0, n, _] => self.set_word(*n, &values[2]),
             [9.0, from, code] => self.find(*from, *code),
             [13.0] => self.process(span),
@@ -78,15 +78,19 @@ impl Oracle<'_> {
         })
     }
 
-    fn word(&self, n: f64) -> Result<Value, Class> {
-        let record = self.record()?;
+    fn word(&mut self, n: f64, span: Span) -> Result<Value, Class> {
+        let record = self.record()?.clone();
         let n = word_number(n)?;
         let number = match n {
             1 => f64::from(record.number),
             2 => f64::from(record.kind),
-            3 => self.third_word(record),
+            3 => self.third_word(&record),
             _ => match record.data.get(n - 4) {
-                None | Some(Word::Empty) => EMPTY,
+                None => {
+                    self.warn(PAST_END, span);
+                    EMPTY
+                }
+                Some(Word::Empty) => EMPTY,
                 Some(Word::Number(number)) => *number,
                 Some(Word::Minor(name)) => self.code(name),
                 Some(Word::Text(text)) => return Ok(Value::Text(text.clone())),

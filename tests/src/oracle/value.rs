@@ -5,6 +5,11 @@ use fil_cl::{Record, Vocabulary, WordView};
 /// The EMPTY value, as POSTF(4) gives it.
 pub const EMPTY: f64 = 999_999.0;
 
+/// Warning: a name that was never set is read.
+pub const NEVER_SET: u16 = 309;
+/// Warning: a word past the end of the record is read.
+pub const PAST_END: u16 = 310;
+
 /// What a name can hold.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {

@@ -74,6 +74,8 @@ struct Program<'d, 'b> {
     macros: Vec<usize>,
     /// Loop variables in use, innermost last: a body seldom sets them.
     loops: usize,
+    /// Labels further on that a jump may lead to, innermost last.
+    ahead: Vec<String>,
     /// Statements that may still be written.
     left: usize,
 }
@@ -81,7 +83,15 @@ struct Program<'d, 'b> {
 impl<'d, 'b> Program<'d, 'b> {
     fn new(dice: &'d mut Dice<'b>) -> Self {
         let left = 6 + dice.below(60);
-        Program { dice, out: String::new(), labels: 0, macros: Vec::new(), loops: 0, left }
+        Program {
+            dice,
+            out: String::new(),
+            labels: 0,
+            macros: Vec::new(),
+            loops: 0,
+            ahead: Vec::new(),
+            left,
+        }
     }
 
     fn write(mut self) -> String {
@@ -139,7 +149,9 @@ impl<'d, 'b> Program<'d, 'b> {
         }
         self.line(&head);
         self.macros.push(count);
-        self.statements(Scope { in_section: false, in_macro: Some(number), depth: 1 }, 4);
+        // A macro that looks at the record is an error where it is called without one.
+        let in_section = self.dice.once_in(4);
+        self.statements(Scope { in_section, in_macro: Some(number), depth: 1 }, 4);
         self.line("TERMAC");
     }
 

@@ -31,7 +31,7 @@ impl Program<'_, '_> {
         }
         let line = self.plain(scope);
         let line = match self.dice.below(12) {
-            0 => format!("IF({}){line}", self.condition(scope, 1)),
+            0 if !line.starts_with("IF") => format!("IF({}){line}", self.condition(scope, 1)),
             1 => format!("{line};{}", self.plain(scope)),
             _ => line,
         };
@@ -49,7 +49,11 @@ impl Program<'_, '_> {
             5 | 6 => self.postf_action(scope),
             7 if scope.in_section => self.record_action(scope),
             7 | 8 => self.output(scope),
-            9 => self.odd(scope),
+            9 if self.dice.once_in(2) => self.odd(scope),
+            9 if !self.ahead.is_empty() => {
+                let label = self.ahead[self.dice.below(self.ahead.len())].clone();
+                format!("IF({})JUMPTO/{label}", self.condition(scope, 0))
+            }
             _ => format!("{}={}", self.name(scope), self.number(scope, 3)),
         }
     }
@@ -143,6 +147,7 @@ impl Program<'_, '_> {
             5 => format!("DMY=POSTF(2,{},{},1)", self.number(scope, 1), self.number(scope, 1)),
             6 => format!("VC={}", self.condition(scope, 2)),
             7 => "PRINT/OFF,IN".to_string(),
+            9 => format!("AR({})={}", 1 + self.dice.below(5), self.text(1)),
             8 => "CONTIN".to_string(),
             _ => format!("{}={}", self.name(scope), self.name(scope)),
         }
@@ -196,7 +201,9 @@ impl Program<'_, '_> {
             _ => format!("{from},{to}"),
         };
         self.line(&format!("DO/{label},{variable}={head}"));
+        self.ahead.push(label.clone());
         self.statements(scope, 3);
+        self.ahead.pop();
         if self.dice.once_in(5) {
             let condition = self.condition(scope, 0);
             self.line(&format!("IF({condition})JUMPTO/{label}"));
@@ -228,8 +235,25 @@ impl Program<'_, '_> {
         let label = self.label();
         let condition = self.condition(scope, 1);
         self.line(&format!("IF({condition})JUMPTO/{label}"));
+        self.ahead.push(label.clone());
         self.statements(scope, 2);
+        self.ahead.pop();
+        if self.dice.once_in(3) {
+            return self.label_in_block(scope, &label);
+        }
         self.line(&format!("{label}) CONTIN"));
+    }
+
+    /// The label stands inside of an IF, which the jump enters without its test.
+    fn label_in_block(&mut self, scope: Scope, label: &str) {
+        let condition = self.condition(scope, 1);
+        self.line(&format!("IF({condition})THEN"));
+        self.statements(scope, 2);
+        let line = self.plain(scope);
+        self.line(&format!("{label}) {line}"));
+        self.line("ELSE");
+        self.statements(scope, 2);
+        self.line("ENDIF");
     }
 
     fn if_sign(&mut self, scope: Scope) {
