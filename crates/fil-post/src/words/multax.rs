@@ -17,7 +17,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     let mut form = Form::new(record, vocabulary);
     let off = form.flag(w::OFF);
     form.flag(w::ON);
-    form.finish(post);
+    form.end()?;
     post.state.multax = !off;
     if off {
         post.state.axis = Vector3::z();
@@ -34,7 +34,7 @@ pub fn tlaxis(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     let [i, j, k] = form.numbers()[..] else {
         return Err(form.error("three components of the tool axis are needed"));
     };
-    form.finish(post);
+    form.end()?;
     post.state.axis = Vector3::new(i, j, k);
     Ok(())
 }

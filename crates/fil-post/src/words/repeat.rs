@@ -17,7 +17,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     let mut form = Form::new(record, vocabulary);
     if form.flag(w::OFF) {
         post.state.repeat = [None; 27];
-        form.finish(post);
+        form.end()?;
         return Ok(());
     }
     let numbers = form.numbers();
@@ -29,6 +29,6 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
             .ok_or_else(|| form.error(format!("{} is no letter, A is 1 and Z is 26", pair[0])))?;
         post.state.repeat[letter as usize] = Some(pair[1]);
     }
-    form.finish(post);
+    form.end()?;
     Ok(())
 }
