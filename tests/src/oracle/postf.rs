@@ -158,7 +158,6 @@ impl Oracle<'_> {
         self.current = Some(record);
         self.done.replaced = true;
         self.done.processed = false;
-        self.done.edited = false;
         Ok(0.0)
     }
 
@@ -168,7 +167,6 @@ impl Oracle<'_> {
         self.current = Some(saved);
         self.done.replaced = true;
         self.done.processed = false;
-        self.done.edited = false;
         Ok(0.0)
     }
 
