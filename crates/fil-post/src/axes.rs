@@ -74,6 +74,7 @@ impl Axis {
     ///
     /// # Errors
     /// The value does not fit the address's format.
+    #[inline]
     pub fn scaled(&self, position: f64) -> Result<i64, Box<Diag>> {
         let scaled = self.format.scale(position).map_err(|diag| self.named(diag))?;
         if self.scale == 1.0 && self.translate == 0.0 {
@@ -127,6 +128,7 @@ impl Axis {
     ///
     /// # Errors
     /// The machine has no such address.
+    #[inline]
     pub fn place(&self) -> Result<Option<u8>, Box<Diag>> {
         match self.output {
             Output::Off => Ok(None),
@@ -139,6 +141,7 @@ impl Axis {
     ///
     /// # Errors
     /// The position lies outside.
+    #[inline]
     pub fn check(&self, position: f64) -> Result<(), Box<Diag>> {
         if (self.min..=self.max).contains(&position) {
             return Ok(());
@@ -149,6 +152,7 @@ impl Axis {
     }
 
     /// True when the tape does not yet stand at this scaled value.
+    #[inline]
     pub fn changes(&self, scaled: i64, commons: &Commons) -> bool {
         self.format.unscale(scaled) != commons.last_output(self.letter)
     }

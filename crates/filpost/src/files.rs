@@ -12,8 +12,9 @@ use crate::builder::Post;
 use crate::error::{Error, RunCode};
 use crate::report::Report;
 
-/// Buffer between the post and the file.
-const BUFFER: usize = 256 * 1024;
+/// Buffer between the post and the file; blocks that come in pieces of this
+/// size pass it by.
+const BUFFER: usize = 64 * 1024;
 
 /// Reads a whole file.
 ///
