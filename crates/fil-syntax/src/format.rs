@@ -5,6 +5,7 @@
 //! and names; layout decides about blanks, line breaks and indentation only.
 
 mod blocks;
+mod bytes;
 mod collect;
 mod gap;
 mod pieces;
@@ -16,6 +17,7 @@ use crate::parse::parse;
 use crate::print::print;
 use crate::tree::Program;
 use blocks::{Blocks, Place};
+pub use bytes::format_bytes;
 use collect::{Above, Layout, Line, Rest, Statement};
 
 /// Blanks for each block a line stands in.

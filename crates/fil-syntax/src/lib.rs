@@ -28,5 +28,5 @@ lalrpop_util::lalrpop_mod!(
 
 pub use encoding::decode;
 pub use errors::SyntaxCode;
-pub use format::format;
+pub use format::{format, format_bytes};
 pub use parse::{Parsed, parse};
