@@ -5,7 +5,9 @@ use std::sync::Arc;
 
 use fil_cl::{Options, Reader, Record, Vocabulary};
 use fil_diag::Diag;
-use fil_vm::{CommonKind, EMPTY, FilFile, Functions, Host, Limits, LoadOptions, Machine, Site, load};
+use fil_vm::{
+    CommonKind, EMPTY, FilFile, Functions, Host, Limits, LoadOptions, Machine, Site, load,
+};
 
 use crate::oracle::{Class, Fault, Oracle, Rec, Value, exact};
 use crate::programs::Case;
@@ -142,7 +144,11 @@ fn read(cl: &str, vocab: &mut Vocabulary) -> Result<Vec<Record>, String> {
     Ok(records)
 }
 
-fn drive(machine: &mut Machine, vocab: &mut Vocabulary, world: &mut World) -> Result<(), Box<Diag>> {
+fn drive(
+    machine: &mut Machine,
+    vocab: &mut Vocabulary,
+    world: &mut World,
+) -> Result<(), Box<Diag>> {
     machine.run_globals(vocab, world)?;
     let mut record = Record::default();
     while world.next_record(&mut record, vocab)? {
@@ -167,9 +173,7 @@ fn compare(
     machine: &Machine,
 ) -> Result<Agreed, String> {
     let events = &world.events;
-    let ran = ran.map_err(|diag| {
-        (diag.code.number, line(&diag), diag.to_string())
-    });
+    let ran = ran.map_err(|diag| (diag.code.number, line(&diag), diag.to_string()));
     let long = Class::OutOfFuel as u16;
     let too_long = ran.as_ref().is_err_and(|(number, ..)| *number == long)
         || wanted.is_err_and(|fault| fault.class == Class::OutOfFuel);
@@ -199,7 +203,11 @@ fn compare(
         return Err(format!("{} events, oracle {}", events.len(), oracle.events().len()));
     }
     if world.warnings != *oracle.warnings() {
-        return Err(format!("warnings\n machine {:?}\n oracle  {:?}", world.warnings, oracle.warnings()));
+        return Err(format!(
+            "warnings\n machine {:?}\n oracle  {:?}",
+            world.warnings,
+            oracle.warnings()
+        ));
     }
     values(oracle, machine)?;
     Ok(stopped.map_or(Agreed::Done, Agreed::Stopped))

@@ -83,6 +83,21 @@ fn commands_run_as_printed() {
 }
 
 #[test]
+fn programs_shown_are_those_printed() {
+    let mut count = 0;
+    for (name, page) in pages() {
+        for pair in blocks(&page).windows(2) {
+            if pair[0].words == ["sh"] && pair[1].words == ["nc"] {
+                let output = shell(pair[0].text.trim());
+                assert_eq!(String::from_utf8_lossy(&output.stdout), pair[1].text, "{name}");
+                count += 1;
+            }
+        }
+    }
+    assert!(count >= 1, "no page shows a program");
+}
+
+#[test]
 fn the_first_command_prints_the_listing_of_the_paper() {
     let readme = read("README.md");
     let listing = read("corpus/papers/embos-grooves/figure-7.nc");

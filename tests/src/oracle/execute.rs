@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use fil_syntax::tree::{Expr, ExprKind, Name, Span, Stmt, StmtKind, Target};
 
-use super::value::{Class, EMPTY, Fault, Rec, Value, Word};
 use super::Oracle;
+use super::value::{Class, EMPTY, Fault, Rec, Value, Word};
 
 /// Where to go after a statement.
 enum Flow {
@@ -80,7 +80,7 @@ impl Oracle<'_> {
                     true => {
                         let value = self.read(text, stmt.span);
                         self.written([value], stmt.span)?
-                    },
+                    }
                     false => text.clone(),
                 };
                 self.post_text(word, &text, stmt.span);
@@ -192,7 +192,8 @@ impl Oracle<'_> {
         };
         let mut frame = HashMap::new();
         for (index, (parameter, value)) in args.iter().enumerate() {
-            let parameter = parameter.as_ref().or(definition.params.get(index).map(|(name, _)| name));
+            let parameter =
+                parameter.as_ref().or(definition.params.get(index).map(|(name, _)| name));
             let value = self.eval(value)?;
             if let Some(parameter) = parameter {
                 frame.insert(parameter.text.clone(), value);

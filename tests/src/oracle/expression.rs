@@ -2,9 +2,9 @@
 
 use fil_syntax::tree::{BinaryOp, Expr, ExprKind, Span, UnaryOp};
 
+use super::Oracle;
 use super::functions;
 use super::value::{Class, EMPTY, Fault, NEVER_SET, Value};
-use super::Oracle;
 
 impl Oracle<'_> {
     /// The value of an expression.
@@ -111,11 +111,7 @@ impl Oracle<'_> {
             BinaryOp::Div => one / other,
             _ => one.powf(other),
         };
-        if result.is_finite() {
-            Ok(Value::Number(result))
-        } else {
-            self.fault(Class::Domain, span)
-        }
+        if result.is_finite() { Ok(Value::Number(result)) } else { self.fault(Class::Domain, span) }
     }
 
     /// Text and number can't be compared, but EMPTY equals nothing but EMPTY.
