@@ -240,9 +240,8 @@ impl Post {
             Box::new(Diag::new(PostCode::NoFeed, "no FEDRAT came before this motion"))
         })?;
         if self.state.feed_mode != Some(feed.mode) {
-            if let Some(code) = self.commons.int_opt(feed_mode_code(feed.mode)) {
-                self.block.g(code);
-            }
+            let code = self.code(feed_mode_code(feed.mode), "this feed mode")?;
+            self.block.g(code);
             self.state.feed_mode = Some(feed.mode);
             self.state.force_feed = true;
         }

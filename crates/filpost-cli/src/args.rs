@@ -20,6 +20,8 @@ pub enum Command {
     Post(PostArgs),
     /// Check FIL files without a CL file
     Check(CheckArgs),
+    /// Give FIL files their canonical layout
+    Fmt(FmtArgs),
     /// Show the records of a CL file with their numbered words
     Cl(ClArgs),
     /// Run regression cases (folders with a case.toml)
@@ -115,6 +117,20 @@ pub enum Format {
     Text,
     /// One JSON array to standard output
     Json,
+}
+
+/// `filpost fmt`
+#[derive(Debug, ClapArgs)]
+pub struct FmtArgs {
+    /// FIL files, rewritten in place; - reads standard input and writes standard output
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    /// Change nothing: name the files that would change, and exit with 1 when there are any
+    #[arg(long)]
+    pub check: bool,
+    /// Encoding of the files (utf-8, cp1251, koi8-r, …), which they keep; guessed when left out
+    #[arg(long, value_name = "LABEL")]
+    pub encoding: Option<String>,
 }
 
 /// `filpost cl`
