@@ -67,12 +67,15 @@ impl Oracle<'_> {
         }
         match &stmt.kind {
             StmtKind::Assign { target, value } => {
+                // From left to right: the subscript comes before the value.
+                let index = self.index(target)?;
                 let value = self.eval(value)?;
-                self.set(target, value)?;
+                self.set(target, index, value)?;
             }
             StmtKind::Text { target, args } => {
+                let index = self.index(target)?;
                 let text = self.joined(args)?;
-                self.set(target, Value::Text(text))?;
+                self.set(target, index, Value::Text(text))?;
             }
             StmtKind::Post { word, args } => self.post(word, args, stmt.span)?,
             StmtKind::PostText { word, text } => {
@@ -154,7 +157,7 @@ impl Oracle<'_> {
             Some(step) => self.number(step)?,
             None => 1.0,
         };
-        self.set(variable, Value::Number(from))?;
+        self.set(variable, None, Value::Number(from))?;
         if step == 0.0 {
             return self.fault(Class::ZeroStep, stmt.span);
         }
@@ -176,7 +179,7 @@ impl Oracle<'_> {
             if !(now + step).is_finite() {
                 return self.fault(Class::Domain, stmt.span);
             }
-            self.set(variable, Value::Number(now + step))?;
+            self.set(variable, None, Value::Number(now + step))?;
         }
     }
 
@@ -216,10 +219,14 @@ impl Oracle<'_> {
         Ok(())
     }
 
-    fn set(&mut self, target: &Target, value: Value) -> Result<(), Fault> {
+    fn index(&mut self, target: &Target) -> Result<Option<Value>, Fault> {
+        target.index.as_ref().map(|index| self.eval(index)).transpose()
+    }
+
+    fn set(&mut self, target: &Target, index: Option<Value>, value: Value) -> Result<(), Fault> {
         let name = &target.name.text;
-        if let Some(index) = &target.index {
-            let index = self.element(name, index)?;
+        if let Some(index) = index {
+            let index = self.element(name, &index, target.name.span)?;
             if let Some(array) = self.arrays.get_mut(name) {
                 array[index] = Some(value);
             }
