@@ -128,11 +128,12 @@ fn examples_of_fil_and_settings_are_accepted() {
 
 #[test]
 fn links_lead_somewhere() {
-    let folder = root().join("docs/errors");
     let mut all = pages();
-    for entry in std::fs::read_dir(folder).expect("docs/errors is there") {
-        let name = entry.expect("an entry").file_name().to_string_lossy().into_owned();
-        all.push((format!("docs/errors/{name}"), read(&format!("docs/errors/{name}"))));
+    for folder in ["docs/errors", "docs/howto"] {
+        for entry in std::fs::read_dir(root().join(folder)).expect("the folder is there") {
+            let name = entry.expect("an entry").file_name().to_string_lossy().into_owned();
+            all.push((format!("{folder}/{name}"), read(&format!("{folder}/{name}"))));
+        }
     }
     for (name, page) in all {
         let folder = root().join(&name).parent().expect("a folder").to_path_buf();
