@@ -6,20 +6,14 @@ use filpost::check::{self, Options};
 use filpost::{Compat, Diag, Error, files, includes};
 
 use crate::args::{CheckArgs, Format};
-use crate::{Status, json, output, render, summary};
+use crate::{Status, json, output, render, setup, summary};
 
 /// Checks FIL files.
 ///
 /// # Errors
 /// Files that can't be read or written.
 pub fn run(args: &CheckArgs) -> Result<Status, Error> {
-    let compat = match &args.reading.compat {
-        None => Compat::default(),
-        Some(path) => {
-            let text = files::read_text(path, args.reading.encoding.as_deref())?;
-            filpost::read_compat(&path.display().to_string(), &text).map_err(Error::Run)?
-        }
-    };
+    let compat = setup::compat(&args.reading)?;
     let groups =
         if args.together { args.files.chunks(args.files.len()) } else { args.files.chunks(1) };
     let mut diags = Vec::new();

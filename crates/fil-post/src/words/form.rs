@@ -92,8 +92,28 @@ impl<'a> Form<'a> {
         }
     }
 
+    /// Refuses what is left: in a record that commands the machine, an item
+    /// without meaning leaves the rest in doubt too.
+    ///
+    /// # Errors
+    /// Items are left.
+    pub fn end(self) -> Result<(), Box<Diag>> {
+        match self.left() {
+            Some(left) => Err(self.error(format!("no meaning is known for {left}"))),
+            None => Ok(()),
+        }
+    }
+
     /// Warns of what is left.
     pub fn finish(self, post: &mut Post) {
+        if let Some(left) = self.left() {
+            let major = self.name(self.record.major);
+            post.warn(PostCode::IgnoredPart, format!("{major}: no effect of {left}"));
+        }
+    }
+
+    /// The items that nobody took, as text; `None` when there are none.
+    fn left(&self) -> Option<String> {
         let left: Vec<String> = self
             .taken
             .iter()
@@ -110,10 +130,7 @@ impl<'a> Form<'a> {
                 Word::Empty => None,
             })
             .collect();
-        if !left.is_empty() {
-            let major = self.name(self.record.major);
-            post.warn(PostCode::IgnoredPart, format!("{major}: no effect of {}", left.join(", ")));
-        }
+        (!left.is_empty()).then(|| left.join(", "))
     }
 
     /// An error about the form of this record.
