@@ -230,7 +230,10 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         let command = self.text(registers, base)?;
         let command = self.state.texts.get(command);
         match self.host.spawn(command) {
-            None => Err(fault(RunCode::SpawnNotGranted, format!("SPAWNF('{command}')"))),
+            None => {
+                let message = format!("'{command}' is not run");
+                Err(fault(RunCode::SpawnNotGranted, message))
+            }
             Some(Ok(status)) if status.is_finite() => Ok(Number(status)),
             Some(Ok(status)) => Err(fault(RunCode::HostFunction, format!("SPAWNF gives {status}"))),
             Some(Err(sentence)) => {
