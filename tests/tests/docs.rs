@@ -186,8 +186,7 @@ fn grade(grade: Grade) -> &'static str {
 fn compat_has_a_row_for_each_function_with_its_grade() {
     let page = read("docs/compat.md");
     for row in BUILTINS {
-        let start =
-            format!("| `{}({})` | {} | {} |", row.name, row.arguments, row.doc, grade(row.grade));
+        let start = format!("| `{}` | {} | {} |", row.call(), row.doc, grade(row.grade));
         assert!(page.lines().any(|line| line.starts_with(&start)), "no row {start}");
     }
 }
@@ -209,7 +208,7 @@ fn compat_has_a_row_for_each_postf_number_with_its_grade() {
 fn the_language_page_lists_each_function() {
     let page = read("docs/language.md");
     for row in BUILTINS {
-        let start = format!("| `{}({})` | {}", row.name, row.arguments, row.doc);
+        let start = format!("| `{}` | {}", row.call(), row.doc);
         assert!(page.lines().any(|line| line.starts_with(&start)), "no row {start}");
     }
 }
