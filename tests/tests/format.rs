@@ -7,7 +7,7 @@ use fil_vm::{FilFile, LoadOptions};
 use filpost::cl::Vocabulary;
 use filpost::files;
 use filpost::syntax::format;
-use filpost_tests::root;
+use filpost_tests::{examples, root};
 
 /// All FIL files of the workspace.
 fn scripts() -> Vec<PathBuf> {
@@ -93,4 +93,18 @@ fn a_changed_script_is_told_apart() {
     let path = Path::new("t.fil");
     assert_ne!(compiled(path, "A1=1\nFINI\n"), compiled(path, "A1=2\nFINI\n"));
     assert_eq!(compiled(path, "A1=1\nFINI\n"), compiled(path, "\n\nA1 = 1\nFINI\n"));
+}
+
+#[test]
+fn the_examples_of_the_layout_have_it() {
+    let page = std::fs::read_to_string(root().join("docs/fmt.md")).expect("the page");
+    let mut count = 0;
+    for block in examples::blocks(&page) {
+        if !block.text.contains('→') {
+            let formatted = format("docs/fmt.md", &block.text).expect("no errors");
+            assert_eq!(formatted, block.text, "docs/fmt.md:{}", block.line);
+            count += 1;
+        }
+    }
+    assert!(count >= 3, "only {count} examples");
 }

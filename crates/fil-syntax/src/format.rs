@@ -13,7 +13,7 @@ mod wrap;
 
 use fil_diag::Diag;
 
-use crate::parse::parse;
+use crate::parse::{MAX_FILE, parse};
 use crate::print::print;
 use crate::tree::Program;
 use blocks::{Blocks, Place};
@@ -96,6 +96,11 @@ impl Writer {
 
     /// The lines of a statement: the first one indented, the others as they are.
     fn lines(&mut self, indent: usize, lines: Vec<String>) {
+        // Indentation can make a text many times longer: one that is longer than
+        // a file may be is given up anyway.
+        if self.text.len() > MAX_FILE {
+            return;
+        }
         for (index, line) in lines.iter().enumerate() {
             if index == 0 {
                 self.text.extend(std::iter::repeat_n(' ', indent));
@@ -107,18 +112,15 @@ impl Writer {
 
     /// Comments and blank lines above a line.
     fn above(&mut self, above: &[Above<'_>], indent: usize) {
-        for (index, line) in above.iter().enumerate() {
-            match line {
-                Above::Comment { text, .. } => {
-                    let indent = if in_banner(above, index) { 0 } else { indent };
-                    self.lines(indent, vec![(*text).to_string()]);
+        for block in above.chunk_by(|a, b| kind(a) == kind(b)) {
+            let banner = is_banner(block);
+            for line in block {
+                if let Above::Comment { text, .. } = line {
+                    self.lines(if banner { 0 } else { indent }, vec![(*text).to_string()]);
                 }
-                Above::Blank => {
-                    let after_blank = index > 0 && matches!(above[index - 1], Above::Blank);
-                    if !self.text.is_empty() && !after_blank {
-                        self.text.push_str(self.line_end);
-                    }
-                }
+            }
+            if matches!(block, [Above::Blank, ..]) && !self.text.is_empty() {
+                self.text.push_str(self.line_end);
             }
         }
     }
@@ -158,16 +160,21 @@ fn together(statements: &[Statement<'_>], indent: usize) -> Option<String> {
     (statements.len() == 1 || indent + text.chars().count() <= wrap::WIDTH).then_some(text)
 }
 
-/// True for a comment of a banner: comments in the first column, line below
-/// line, with a ruler of signs among them.
-fn in_banner(above: &[Above<'_>], index: usize) -> bool {
-    let in_first = |line: &Above<'_>| matches!(line, Above::Comment { first_column: true, .. });
-    if !in_first(&above[index]) {
-        return false;
+/// Lines of one kind make a block: blank ones, comments in the first column,
+/// other comments.
+fn kind(line: &Above<'_>) -> Option<bool> {
+    match line {
+        Above::Blank => None,
+        Above::Comment { first_column, .. } => Some(*first_column),
     }
-    let start = above[..index].iter().rposition(|line| !in_first(line)).map_or(0, |at| at + 1);
-    let block = above[start..].iter().take_while(|line| in_first(line));
-    block.into_iter().any(|line| matches!(line, Above::Comment { text, .. } if has_ruler(text)))
+}
+
+/// True for a banner: comments in the first column with a ruler of signs among
+/// them.
+fn is_banner(block: &[Above<'_>]) -> bool {
+    block
+        .iter()
+        .any(|line| matches!(line, Above::Comment { text, first_column: true } if has_ruler(text)))
 }
 
 /// True for a comment with three or more of the same sign in a row.

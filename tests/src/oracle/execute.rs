@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use fil_syntax::tree::{Expr, ExprKind, Name, Span, Stmt, StmtKind, Target};
 
-use super::value::{Class, EMPTY, Fault, Rec, Value, Word};
 use super::Oracle;
+use super::value::{Class, EMPTY, Fault, Rec, Value, Word};
 
 /// Where to go after a statement.
 enum Flow {
@@ -67,12 +67,15 @@ impl Oracle<'_> {
         }
         match &stmt.kind {
             StmtKind::Assign { target, value } => {
+                // From left to right: the subscript comes before the value.
+                let index = self.index(target)?;
                 let value = self.eval(value)?;
-                self.set(target, value)?;
+                self.set(target, index, value)?;
             }
             StmtKind::Text { target, args } => {
+                let index = self.index(target)?;
                 let text = self.joined(args)?;
-                self.set(target, Value::Text(text))?;
+                self.set(target, index, Value::Text(text))?;
             }
             StmtKind::Post { word, args } => self.post(word, args, stmt.span)?,
             StmtKind::PostText { word, text } => {
@@ -80,7 +83,7 @@ impl Oracle<'_> {
                     true => {
                         let value = self.read(text, stmt.span);
                         self.written([value], stmt.span)?
-                    },
+                    }
                     false => text.clone(),
                 };
                 self.post_text(word, &text, stmt.span);
@@ -154,7 +157,7 @@ impl Oracle<'_> {
             Some(step) => self.number(step)?,
             None => 1.0,
         };
-        self.set(variable, Value::Number(from))?;
+        self.set(variable, None, Value::Number(from))?;
         if step == 0.0 {
             return self.fault(Class::ZeroStep, stmt.span);
         }
@@ -176,7 +179,7 @@ impl Oracle<'_> {
             if !(now + step).is_finite() {
                 return self.fault(Class::Domain, stmt.span);
             }
-            self.set(variable, Value::Number(now + step))?;
+            self.set(variable, None, Value::Number(now + step))?;
         }
     }
 
@@ -192,7 +195,8 @@ impl Oracle<'_> {
         };
         let mut frame = HashMap::new();
         for (index, (parameter, value)) in args.iter().enumerate() {
-            let parameter = parameter.as_ref().or(definition.params.get(index).map(|(name, _)| name));
+            let parameter =
+                parameter.as_ref().or(definition.params.get(index).map(|(name, _)| name));
             let value = self.eval(value)?;
             if let Some(parameter) = parameter {
                 frame.insert(parameter.text.clone(), value);
@@ -215,10 +219,14 @@ impl Oracle<'_> {
         Ok(())
     }
 
-    fn set(&mut self, target: &Target, value: Value) -> Result<(), Fault> {
+    fn index(&mut self, target: &Target) -> Result<Option<Value>, Fault> {
+        target.index.as_ref().map(|index| self.eval(index)).transpose()
+    }
+
+    fn set(&mut self, target: &Target, index: Option<Value>, value: Value) -> Result<(), Fault> {
         let name = &target.name.text;
-        if let Some(index) = &target.index {
-            let index = self.element(name, index)?;
+        if let Some(index) = index {
+            let index = self.element(name, &index, target.name.span)?;
             if let Some(array) = self.arrays.get_mut(name) {
                 array[index] = Some(value);
             }

@@ -2,9 +2,9 @@
 
 use fil_syntax::tree::{BinaryOp, Expr, ExprKind, Span, UnaryOp};
 
+use super::Oracle;
 use super::functions;
 use super::value::{Class, EMPTY, Fault, NEVER_SET, Value};
-use super::Oracle;
 
 impl Oracle<'_> {
     /// The value of an expression.
@@ -55,11 +55,11 @@ impl Oracle<'_> {
     }
 
     /// The place of an element, counted from 0.
-    pub(super) fn element(&mut self, name: &str, index: &Expr) -> Result<usize, Fault> {
-        let wanted = self.number(index)?;
+    pub(super) fn element(&self, name: &str, index: &Value, span: Span) -> Result<usize, Fault> {
+        let Value::Number(wanted) = *index else { return self.fault(Class::WrongType, span) };
         let size = self.arrays.get(name).map_or(0, Vec::len);
         if wanted.fract() != 0.0 || wanted < 1.0 || wanted > size as f64 {
-            return self.fault(Class::Subscript, index.span);
+            return self.fault(Class::Subscript, span);
         }
         Ok(wanted as usize - 1)
     }
@@ -111,11 +111,7 @@ impl Oracle<'_> {
             BinaryOp::Div => one / other,
             _ => one.powf(other),
         };
-        if result.is_finite() {
-            Ok(Value::Number(result))
-        } else {
-            self.fault(Class::Domain, span)
-        }
+        if result.is_finite() { Ok(Value::Number(result)) } else { self.fault(Class::Domain, span) }
     }
 
     /// Text and number can't be compared, but EMPTY equals nothing but EMPTY.
@@ -133,13 +129,15 @@ impl Oracle<'_> {
     /// A function or an element of an array.
     fn call(&mut self, name: &str, args: &[Expr], span: Span) -> Result<Value, Fault> {
         if self.arrays.contains_key(name) && args.len() == 1 {
-            let index = self.element(name, &args[0])?;
+            let index = self.eval(&args[0])?;
+            let index = self.element(name, &index, span)?;
             let element = self.arrays[name][index].clone();
             return Ok(self.or_empty(element, span));
         }
         match (name, args) {
             ("ICODEF", [Expr { kind: ExprKind::Name(word) | ExprKind::Text(word), .. }]) => {
-                Ok(Value::Number(self.code(&word.to_uppercase())))
+                let id = self.vocab.intern(word);
+                Ok(Value::Number(self.vocab.code(id)))
             }
             ("LNTHF", [text]) => match self.eval(text)? {
                 Value::Text(text) => Ok(Value::Number(text.chars().count() as f64)),

@@ -149,7 +149,8 @@ impl<'p> Oracle<'p> {
             Item::Section(section) => Some(section),
             _ => None,
         });
-        let graded = sections.filter_map(|section| Some((self.fit(&section.key, record)?, section)));
+        let graded =
+            sections.filter_map(|section| Some((self.fit(&section.key, record)?, section)));
         graded.max_by_key(|(grade, _)| *grade).map(|(_, section)| section)
     }
 
@@ -176,11 +177,7 @@ impl<'p> Oracle<'p> {
     }
 
     fn third_word(&self, record: &Rec) -> f64 {
-        if record.opens_with_word() {
-            self.code(&record.major)
-        } else {
-            f64::from(record.sub)
-        }
+        if record.opens_with_word() { self.code(&record.major) } else { f64::from(record.sub) }
     }
 
     /// The code of a word; that of a word nobody knows depends on its name alone.

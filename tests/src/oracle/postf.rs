@@ -2,8 +2,8 @@
 
 use fil_syntax::tree::{Expr, Span};
 
-use super::value::{Class, EMPTY, Fault, PAST_END, Rec, Value, Word, exact};
 use super::Oracle;
+use super::value::{Class, EMPTY, Fault, PAST_END, Rec, Value, Word, exact};
 
 impl Oracle<'_> {
     /// POSTF(n,…). What only acts gives 0.

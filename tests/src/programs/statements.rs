@@ -93,7 +93,8 @@ impl Program<'_, '_> {
         let mut line = format!("CALL/MAC{number}");
         for index in 0..self.macros[number] {
             let value = self.number(scope, 1);
-            line += &if by_name { format!(",P{number}{index}={value}") } else { format!(",{value}") };
+            line +=
+                &if by_name { format!(",P{number}{index}={value}") } else { format!(",{value}") };
         }
         line
     }
@@ -115,7 +116,9 @@ impl Program<'_, '_> {
         match self.dice.below(5) {
             0 => format!("DMY=POSTF(3,{kind},{location})"),
             1 => format!("DMY=POSTF(24,{})", self.dice.below(2)),
-            2 => format!("DMY=POSTF(2,{kind},355+{},{})", self.dice.pick(LETTERS), self.name(scope)),
+            2 => {
+                format!("DMY=POSTF(2,{kind},355+{},{})", self.dice.pick(LETTERS), self.name(scope))
+            }
             _ => format!("DMY=POSTF(2,{kind},{location},{})", self.number(scope, 2)),
         }
     }
@@ -227,7 +230,8 @@ impl Program<'_, '_> {
         self.line(&format!("{counter}=0"));
         self.line(&format!("{label}) {counter}={counter}+1"));
         self.statements(scope, 3);
-        let end = if self.dice.once_in(40) { "0.EQ.0".into() } else { format!("{counter}.LT.{passes}") };
+        let end =
+            if self.dice.once_in(40) { "0.EQ.0".into() } else { format!("{counter}.LT.{passes}") };
         self.line(&format!("IF({end})JUMPTO/{label}"));
     }
 
