@@ -29,13 +29,15 @@ const ARRAYS: &[(&str, usize)] = &[("AR", 5), ("BR", 2)];
 const WORDS: &[&str] =
     &["DRILL", "DEEP", "TAP", "DEPTH", "RPM", "CLW", "CCLW", "ON", "OFF", "MILL", "TURN", "WAVY"];
 /// Keys of sections; a program takes each at most once, and of those in one
-/// row, which name the same records, only one.
+/// row, which name the same records, only one. Those for many records come first.
 const KEYS: &[&[&str]] = &[
     &["GOTO", "5000,5"],
-    &["FROM", "5000,3"],
-    &["FINI", "14000"],
-    &["SPINDL", "2000,1031"],
+    &["2000"],
     &["CYCLE"],
+    &["FINI", "14000"],
+    &["5000"],
+    &["SPINDL", "2000,1031"],
+    &["FROM", "5000,3"],
     &["CYCLE,DEEP"],
     &["CYCLE,DRILL,DEPTH"],
     &["SPINDL,RPM"],
@@ -45,8 +47,6 @@ const KEYS: &[&[&str]] = &[
     &["MODE"],
     &["ENGRAV"],
     &["ENGRAV,WAVY"],
-    &["5000"],
-    &["2000"],
 ];
 
 /// Makes a case.
@@ -106,8 +106,8 @@ impl<'d, 'b> Program<'d, 'b> {
         self.preset();
         self.statements(globals, 8);
         let mut keys = KEYS.to_vec();
-        for _ in 0..1 + self.dice.below(4) {
-            let row = keys.swap_remove(self.dice.below(keys.len()));
+        for _ in 0..2 + self.dice.below(4) {
+            let row = keys.remove(self.dice.below(keys.len()).min(self.dice.below(keys.len())));
             let key = self.dice.pick(row);
             self.line(&format!("CIMFIL/ON,{key}"));
             self.statements(Scope { in_section: true, ..globals }, 10);

@@ -40,8 +40,9 @@ impl Program<'_, '_> {
 
     /// A statement of one line.
     fn plain(&mut self, scope: Scope) -> String {
-        match self.dice.below(20) {
-            0 => self.output(scope),
+        match self.dice.below(22) {
+            0 | 20 => self.output(scope),
+            21 => self.call(scope),
             1 => self.post_word(scope),
             2 => self.call(scope),
             3 => format!("{}={}", self.element(scope, 1), self.number(scope, 2)),
