@@ -82,7 +82,7 @@ struct Program<'d, 'b> {
 
 impl<'d, 'b> Program<'d, 'b> {
     fn new(dice: &'d mut Dice<'b>) -> Self {
-        let left = 6 + dice.below(60);
+        let left = 10 + dice.below(60);
         Program {
             dice,
             out: String::new(),
@@ -105,6 +105,10 @@ impl<'d, 'b> Program<'d, 'b> {
         let globals = Scope { in_section: false, in_macro: None, depth: 0 };
         self.preset();
         self.statements(globals, 8);
+        for _ in 0..self.macros.len() {
+            let line = self.call(globals);
+            self.line(&line);
+        }
         let mut keys = KEYS.to_vec();
         for _ in 0..2 + self.dice.below(4) {
             let row = keys.remove(self.dice.below(keys.len()).min(self.dice.below(keys.len())));
@@ -150,8 +154,11 @@ impl<'d, 'b> Program<'d, 'b> {
         self.line(&head);
         self.macros.push(count);
         // A macro that looks at the record is an error where it is called without one.
-        let in_section = self.dice.once_in(4);
+        let in_section = self.dice.once_in(16);
+        // The macros must not use up what the program may have.
+        let left = std::mem::replace(&mut self.left, 5);
         self.statements(Scope { in_section, in_macro: Some(number), depth: 1 }, 4);
+        self.left = left;
         self.line("TERMAC");
     }
 
