@@ -4,8 +4,8 @@ use fil_cl::Vocabulary;
 use fil_diag::Diag;
 use fil_vm::{Compat, FilFile, LoadOptions};
 
-/// Gives the text of a file by the name INCLUD has, or why it cannot.
-pub type Includes<'a> = &'a mut dyn FnMut(&str) -> Result<String, String>;
+/// Gives a file by the name INCLUD has, or why it cannot.
+pub type Includes<'a> = fil_vm::Loader<'a>;
 
 /// How FIL files are checked.
 #[derive(Default)]
@@ -14,7 +14,7 @@ pub struct Options<'a> {
     pub compat: Compat,
     /// Refuse extensions of filpost.
     pub strict: bool,
-    /// Gives the text of files that INCLUD names; without it INCLUD is refused.
+    /// Gives the files that INCLUD names; without it INCLUD is refused.
     pub includes: Option<Includes<'a>>,
 }
 

@@ -9,7 +9,8 @@ use nalgebra::Vector3;
 use super::form::Form;
 use crate::post::Post;
 
-/// Switches tool axes on or off; off brings the axis back to 0,0,1.
+/// OFF brings the axis back to 0,0,1; ON changes nothing, a GOTO with an axis
+/// of its own is always taken by it.
 ///
 /// # Errors
 /// None.
@@ -18,7 +19,6 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     let off = form.flag(w::OFF);
     form.flag(w::ON);
     form.end()?;
-    post.state.multax = !off;
     if off {
         post.state.axis = Vector3::z();
     }

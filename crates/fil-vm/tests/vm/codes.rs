@@ -24,7 +24,7 @@ fn compile_case(number: u16) -> Option<(String, u32)> {
         210 => ("CIMFIL/ON,CYCLE\nCIMFIL/OFF\nCIMFIL/ON,CYCLE\nCIMFIL/OFF", 3),
         211 => ("NN=3\nRESERV/AR,NN", 2),
         212 => ("RESERV/AR,3\nAR=1", 2),
-        213 => ("T1=TEXT/CLW,'A'", 1),
+        213 => ("T1=TEXT/'A',CLW", 1),
         214 => ("INCLUD/other.fil", 1),
         215 => return Some(("XX=1\n".repeat(66_000), 1)),
         216 => ("XX=ICODEF(1+1)", 1),
@@ -32,6 +32,7 @@ fn compile_case(number: u16) -> Option<(String, u32)> {
         218 => ("CIMFIL/ON,CYCLE\nXX=POSTF(5)\nCIMFIL/OFF", 2),
         220 => ("CIMFIL/ON,CYCLE\nIF(POSTF(7,4).EQ.1)DMY=POSTF(13)\nCIMFIL/OFF", 1),
         221 => ("XX=1\nYY=XX+MISSNG", 2),
+        222 => ("VV=1\nDATA/TAB,1,VV", 2),
         219 => ("CIMFIL/ON,CYCLE\nXX=HASF(DEPTH)\nCIMFIL/OFF", 2),
         _ => return None,
     };
@@ -79,6 +80,13 @@ fn run_case(number: u16) -> Option<(&'static str, u32)> {
         315 => ("XX=POSTF(1,4,1)", 1),
         316 => ("CIMFIL/ON,CYCLE\nXX=COUPLF(CLEAR)\nCIMFIL/OFF", 2),
         317 => ("XX=FAILF(1)", 1),
+        318 => ("T1='ABC'\nT2=TEXT/PART,T1,2,4", 2),
+        319 => ("XX=SCALF('12 MM')", 1),
+        320 => ("XX=1\nT1=TEXT/CONVI,XX+0.5", 2),
+        321 => ("XX=FILEF(1,READ,'TOOLS')", 1),
+        322 => ("T1=DATEF()", 1),
+        323 => ("XX=SPAWNF('DIR')", 1),
+        324 => ("XX=1\nXX=FILEF(1,CLOSE)", 2),
         _ => return None,
     };
     Some(case)
