@@ -13,6 +13,7 @@ mod machine;
 mod output;
 mod post;
 mod render;
+mod sarif;
 mod setup;
 mod summary;
 mod test;

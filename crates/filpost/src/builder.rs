@@ -156,11 +156,11 @@ impl Builder {
                 compat: self.compat,
                 limits: self.limits,
                 strict: self.strict,
-                lint: false,
                 functions: Some(&self.functions),
                 loader: includes
                     .as_mut()
                     .map(|loader| loader as &mut dyn FnMut(&str) -> Result<String, String>),
+                ..LoadOptions::default()
             },
         )
         .map_err(Error::Setup)?;

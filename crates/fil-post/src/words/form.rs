@@ -112,7 +112,10 @@ impl<'a> Form<'a> {
             .collect();
         if !left.is_empty() {
             let major = self.name(self.record.major);
-            post.warn(PostCode::IgnoredPart, format!("{major}: no effect of {}", left.join(", ")));
+            let message = format!("{major}: no effect of {}", left.join(", "));
+            post.warn_with(PostCode::IgnoredPart, message, || {
+                self.minors().find_map(|word| self.vocabulary.perhaps_meant(word))
+            });
         }
     }
 
@@ -120,6 +123,15 @@ impl<'a> Form<'a> {
     pub fn error(&self, message: impl std::fmt::Display) -> Box<Diag> {
         let major = self.name(self.record.major);
         Box::new(Diag::new(PostCode::WordForm, format!("{major}: {message}")))
+    }
+
+    /// Minor words that are left.
+    fn minors(&self) -> impl Iterator<Item = WordId> {
+        let words = self.taken.iter().zip(&self.record.data);
+        words.filter_map(|(taken, word)| match word {
+            Word::Minor(word) if !taken => Some(*word),
+            _ => None,
+        })
     }
 
     fn find(&self, word: WordId) -> Option<usize> {

@@ -46,7 +46,7 @@ fn every_code_of_the_compiler_has_a_case() {
         let text = format!("{text}\nFINI\n");
         let options = LoadOptions {
             strict: row.number == code(CompileCode::Extension),
-            lint: row.number >= code(CompileCode::Swallows),
+            lint: row.number >= code(LintCode::Swallows),
             ..LoadOptions::default()
         };
         let files = [FilFile { name: "case.fil", text: &text }];
