@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use fil_syntax::tree::{BinaryOp, Expr, ExprKind, SectionKey};
+use fil_syntax::tree::{BinaryOp, Expr, ExprKind, SectionKey, Stmt, StmtKind};
 
 use super::context::{Body, Context, Owner};
 use super::flow::{Action, ENTRY};
@@ -39,11 +39,13 @@ const LAYOUTS: &[Layout] = &[
 
 /// Warns of POSTF(7,n) with a constant n behind the couplets of the record.
 pub(super) fn look(context: &mut Context<'_>) {
+    let changing = changing_macros(context);
     let mut found = Vec::new();
     for body in &context.bodies {
         let Some(layout) = layout(body.owner) else { continue };
         let asked = asked_words(context, body);
-        let own = body.graph.reached(ENTRY, |node| !changes_record(context, node.action));
+        let own =
+            body.graph.reached(ENTRY, |node| !changes_record(context, &changing, node.action));
         let nodes = body.graph.nodes.iter().zip(own).filter(|(_, is_own)| *is_own);
         for (node, _) in nodes {
             calls(node.action, &mut |name, args, call| {
@@ -104,9 +106,32 @@ fn asked_words(context: &Context<'_>, body: &Body<'_>) -> HashSet<u16> {
     asked
 }
 
+/// Macros that may change the current record, by themselves or by what they call.
+fn changing_macros<'t>(context: &Context<'t>) -> HashSet<&'t str> {
+    let mut changing = HashSet::new();
+    loop {
+        let before = changing.len();
+        for body in &context.bodies {
+            let Owner::Macro(definition) = body.owner else { continue };
+            let mut nodes = body.graph.nodes.iter();
+            if nodes.any(|node| changes_record(context, &changing, node.action)) {
+                changing.insert(definition.name.text.as_str());
+            }
+        }
+        if changing.len() == before {
+            return changing;
+        }
+    }
+}
+
 /// True for an action behind which another record may be the current one.
-fn changes_record(context: &Context<'_>, action: Action<'_>) -> bool {
-    let mut changes = false;
+fn changes_record(context: &Context<'_>, changing: &HashSet<&str>, action: Action<'_>) -> bool {
+    let mut changes = match action {
+        Action::Plain(Stmt { kind: StmtKind::Call { name, .. }, .. }) => {
+            changing.contains(name.text.as_str())
+        }
+        _ => false,
+    };
     calls(action, &mut |name, args, _| {
         changes |= matches!(
             context.postf(&name.text, args),

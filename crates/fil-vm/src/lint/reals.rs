@@ -44,6 +44,9 @@ pub(super) fn look(context: &mut Context<'_>) {
                     return;
                 };
                 let sides = [left, right];
+                if sides.iter().any(|side| is_rounded(side)) {
+                    return;
+                }
                 let Some(side) = sides.iter().find(|side| exactness(side, &names) == Computed)
                 else {
                     return;
@@ -133,6 +136,11 @@ fn exactness(expr: &Expr, names: &Names<'_>) -> Exactness {
         }
         ExprKind::Call { name, args } => call(&name.text, args, names),
     }
+}
+
+/// INTF and its like: compared with them, a value is tested for being whole.
+fn is_rounded(expr: &Expr) -> bool {
+    matches!(&expr.kind, ExprKind::Call { name, .. } if WHOLE_RESULTS.contains(&name.text.as_str()))
 }
 
 fn binary(op: BinaryOp, left: Exactness, right: Exactness) -> Exactness {
