@@ -111,11 +111,7 @@ fn post(builder: filpost::Builder, cl: &str) -> Vec<Diag> {
     diags
 }
 
-fn check(fil: &str) -> Vec<Diag> {
-    let files = [fil_vm::FilFile { name: "macros.fil", text: fil }];
-    let options = fil_vm::LoadOptions { lint: true, ..fil_vm::LoadOptions::default() };
-    match fil_vm::load(&files, &mut fil_cl::Vocabulary::new(), options) {
-        Ok(loaded) => loaded.warnings,
-        Err(diags) => diags,
-    }
+/// What `filpost check` says of a FIL file.
+pub fn check(fil: &str) -> Vec<Diag> {
+    filpost::check::check(&[("macros.fil", fil)], filpost::check::Options::default())
 }

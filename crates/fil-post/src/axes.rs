@@ -74,6 +74,7 @@ impl Axis {
     ///
     /// # Errors
     /// The value does not fit the address's format.
+    #[inline]
     pub fn scaled(&self, position: f64) -> Result<i64, Box<Diag>> {
         let scaled = self.format.scale(position).map_err(|diag| self.named(diag))?;
         if self.scale == 1.0 && self.translate == 0.0 {
@@ -113,7 +114,8 @@ impl Axis {
         block: &mut Block,
         commons: &Commons,
     ) -> Result<bool, Box<Diag>> {
-        let Some(at) = self.place(position)? else { return Ok(false) };
+        self.check(position)?;
+        let Some(at) = self.place()? else { return Ok(false) };
         let scaled = self.scaled(position)?;
         let due = always || self.changes(scaled, commons);
         if due {
@@ -125,19 +127,32 @@ impl Axis {
     /// The tape position for a word of this axis; `None` when its output is off.
     ///
     /// # Errors
-    /// The machine has no such address; the position lies outside the travel.
-    pub fn place(&self, position: f64) -> Result<Option<u8>, Box<Diag>> {
+    /// The machine has no such address.
+    #[inline]
+    pub fn place(&self) -> Result<Option<u8>, Box<Diag>> {
         match self.output {
             Output::Off => Ok(None),
             Output::Unknown => Err(no_address(self.letter)),
-            Output::At(_) if !(self.min..=self.max).contains(&position) => {
-                Err(self.outside(position))
-            }
             Output::At(at) => Ok(Some(at)),
         }
     }
 
+    /// Refuses a position outside the travel, written or not.
+    ///
+    /// # Errors
+    /// The position lies outside.
+    #[inline]
+    pub fn check(&self, position: f64) -> Result<(), Box<Diag>> {
+        if (self.min..=self.max).contains(&position) {
+            return Ok(());
+        }
+        let name = char::from(b'A' + self.letter - 1);
+        let message = format!("{name}{position} lies outside {} to {}", self.min, self.max);
+        Err(Box::new(Diag::new(PostCode::AxisLimit, message)))
+    }
+
     /// True when the tape does not yet stand at this scaled value.
+    #[inline]
     pub fn changes(&self, scaled: i64, commons: &Commons) -> bool {
         self.format.unscale(scaled) != commons.last_output(self.letter)
     }
@@ -150,12 +165,6 @@ impl Axis {
     /// Position before scale and translation that a tape value stands for.
     pub fn position(&self, value: f64) -> f64 {
         (value - self.translate) / self.scale
-    }
-
-    fn outside(&self, position: f64) -> Box<Diag> {
-        let name = char::from(b'A' + self.letter - 1);
-        let message = format!("{name}{position} lies outside {} to {}", self.min, self.max);
-        Box::new(Diag::new(PostCode::AxisLimit, message))
     }
 
     fn named(&self, mut diag: Box<Diag>) -> Box<Diag> {

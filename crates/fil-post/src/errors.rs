@@ -63,6 +63,10 @@ fil_diag::codes! {
         ArcLines = 554, Warning, "arc written as short lines",
             "The arc lies in no plane of the machine, or its radius is above the maximum.",
             "Nothing to do if the chord tolerance suits; see circle.chord_tolerance.";
+        /// Text outside ASCII.
+        TapeText = 555, Warning, "text on the tape that is not ASCII",
+            "Many controls read ASCII only and stop at other characters.",
+            "Write the message in ASCII if the control is not known to read UTF-8.";
         /// Unknown common location.
         CommonLocation = 601, Error, "no such common location",
             "The commons have a fixed range of locations.",

@@ -189,6 +189,7 @@ impl Post {
         let moving = |number: &usize| present & 1 << number != 0;
         for number in (0..AXES).filter(moving) {
             let axis = self.machine.axis(number);
+            axis.check(position[number])?;
             if !axis.is_off() {
                 scaled[number] = axis.scaled(position[number])?;
                 changed[number] = axis.changes(scaled[number], &self.commons);
@@ -199,7 +200,7 @@ impl Post {
         }
         let always = !self.commons.flag(loc::MOTION_MODAL);
         for number in (0..AXES).filter(moving) {
-            let place = self.machine.axis(number).place(position[number])?;
+            let place = self.machine.axis(number).place()?;
             if let Some(place) = place.filter(|_| always || changed[number]) {
                 self.block.put(place, scaled[number]);
             }
@@ -239,9 +240,8 @@ impl Post {
             Box::new(Diag::new(PostCode::NoFeed, "no FEDRAT came before this motion"))
         })?;
         if self.state.feed_mode != Some(feed.mode) {
-            if let Some(code) = self.commons.int_opt(feed_mode_code(feed.mode)) {
-                self.block.g(code);
-            }
+            let code = self.code(feed_mode_code(feed.mode), "this feed mode")?;
+            self.block.g(code);
             self.state.feed_mode = Some(feed.mode);
             self.state.force_feed = true;
         }

@@ -97,6 +97,11 @@ impl Post {
         self.state.point.map(|p| [p.x, p.y, p.z])
     }
 
+    /// True when the CL file is in mm, false when it is in inches.
+    pub fn is_metric(&self) -> bool {
+        self.state.metric
+    }
+
     /// Diameter of the cutter as the CL file names it, in CL units.
     pub fn cutter_diameter(&self) -> Option<f64> {
         self.state.cutter
@@ -181,6 +186,9 @@ impl Post {
     /// As [`Post::write_block`].
     pub(crate) fn write_line(&mut self, text: &str, numbered: bool) -> Result<(), Box<Diag>> {
         crate::program::start(self)?;
+        if !text.is_ascii() {
+            self.warn(PostCode::TapeText, format!("`{text}`"));
+        }
         self.tape.line(text, numbered, &self.machine.addresses, &mut self.commons)
     }
 

@@ -74,9 +74,12 @@ pub fn units_code(post: &mut Post) {
 /// Adds the mode codes a control must stand at. A machine with start blocks of
 /// its own says them there; those blocks are trusted.
 fn mode_codes(post: &mut Post, own_start: bool) {
-    post.state.feed_mode = match post.commons.int(loc::FEED_MODE) {
-        mode if mode == post.commons.int(loc::FEED_UPR_CODE) => Some(FeedMode::PerRevolution),
-        _ => Some(FeedMode::PerMinute),
+    let starts_with = post.commons.int_opt(loc::FEED_MODE);
+    let per_revolution = post.commons.int_opt(loc::FEED_UPR_CODE);
+    post.state.feed_mode = if starts_with.is_some() && starts_with == per_revolution {
+        Some(FeedMode::PerRevolution)
+    } else {
+        Some(FeedMode::PerMinute)
     };
     post.state.plane = post.commons.int_opt(loc::CIRCLE_PLANE);
     if own_start {

@@ -96,8 +96,6 @@ pub struct State {
     pub point: Option<Point3<f64>>,
     /// Last CL tool axis.
     pub axis: Vector3<f64>,
-    /// Tool axes are accepted in GOTO.
-    pub multax: bool,
     /// Last rotary positions in degrees; `None` before the first motion.
     pub rotary: Option<[f64; 2]>,
     /// RAPID was given: the next motion is rapid.
@@ -144,7 +142,6 @@ impl Default for State {
             part_name: String::new(),
             point: None,
             axis: Vector3::z(),
-            multax: false,
             rotary: None,
             rapid: false,
             motion: None,

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::address::{Addresses, Output, letter};
+use crate::address::{Addresses, letter};
 use crate::block::{Block, no_address};
 use crate::commons::Commons;
 use crate::locations as loc;
@@ -98,11 +98,7 @@ impl Tape {
     ) -> Result<(), Box<Diag>> {
         let mut line = Vec::new();
         for &(letter, value) in words {
-            let position = match addresses.output(letter) {
-                Output::At(position) => position,
-                Output::Off => continue,
-                Output::Unknown => return Err(no_address(letter)),
-            };
+            let position = addresses.position(letter).ok_or_else(|| no_address(letter))?;
             let slot = addresses.slot(position);
             let scaled = slot.format.scale(value)?;
             if addresses.blank && !line.is_empty() {
@@ -111,9 +107,6 @@ impl Tape {
             line.push(slot.character);
             slot.format.write(scaled, &mut line);
             commons.set_last_output(letter, slot.format.unscale(scaled));
-        }
-        if line.is_empty() {
-            return Ok(());
         }
         let start = self.begin(true, addresses, commons)?;
         self.text.extend_from_slice(&line);

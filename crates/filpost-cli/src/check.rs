@@ -13,13 +13,7 @@ use crate::{Status, json, output, render, sarif, setup, summary};
 /// # Errors
 /// Files that can't be read or written.
 pub fn run(args: &CheckArgs) -> Result<Status, Error> {
-    let compat = match &args.reading.compat {
-        None => Compat::default(),
-        Some(path) => {
-            let text = files::read_text(path, args.reading.encoding.as_deref())?;
-            filpost::read_compat(&path.display().to_string(), &text).map_err(Error::Run)?
-        }
-    };
+    let compat = setup::compat(&args.reading)?;
     let machine = match setup::named(&args.chosen, args.reading.encoding.as_deref())? {
         Some(named) => Some(named.builder.build()?.commons().clone()),
         None => None,

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use filpost::select::{self, Choice, Machin};
-use filpost::{Builder, Error, Post, files, ready};
+use filpost::{Builder, Compat, Error, Post, files, ready};
 
 use crate::args::{Chosen, Reading};
 
@@ -81,14 +81,19 @@ pub fn for_run(
     }
     let mut named = named.with_fil(encoding)?;
     named.builder = named.builder.strict(reading.strict);
-    if let Some(path) = &reading.compat {
-        let text = files::read_text(path, encoding)?;
-        let compat =
-            filpost::read_compat(&path.display().to_string(), &text).map_err(Error::Run)?;
-        named.builder = named.builder.compat(compat);
-        named.inputs.push(path.clone());
-    }
+    named.builder = named.builder.compat(compat(reading)?);
+    named.inputs.extend(reading.compat.clone());
     Ok(named)
+}
+
+/// The readings of `--compat`, or the built-in ones.
+///
+/// # Errors
+/// A compat file that can't be read or used.
+pub fn compat(reading: &Reading) -> Result<Compat, Error> {
+    let Some(path) = &reading.compat else { return Ok(Compat::default()) };
+    let text = files::read_text(path, reading.encoding.as_deref())?;
+    filpost::read_compat(&path.display().to_string(), &text).map_err(Error::Run)
 }
 
 /// A folder with `machine.toml` and, where there is one, `post.fil`.
@@ -117,26 +122,16 @@ fn machine_file(path: &Path, encoding: Option<&str>) -> Result<Named, Error> {
 }
 
 fn is_option_file(path: &Path, text: &str) -> bool {
-    numbered_ending(path, 'p').is_some()
-        || text.lines().take(10).any(|line| line.trim_start().starts_with("INTCOM:"))
-}
-
-/// The digits of an ending like `.p02`.
-fn numbered_ending(path: &Path, letter: char) -> Option<&str> {
-    let ending = path.extension()?.to_str()?;
-    let digits = ending.strip_prefix([letter, letter.to_ascii_uppercase()])?;
-    let all = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
-    all.then_some(digits)
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or("");
+    let digits = ending.strip_prefix(['p', 'P']).unwrap_or("");
+    let numbered = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+    numbered || text.lines().take(10).any(|line| line.trim_start().starts_with("INTCOM:"))
 }
 
 /// A word about the FIL file beside an option file that is given without one.
 fn unused_fil(option_file: &Path) -> Option<String> {
-    let digits = numbered_ending(option_file, 'p')?;
-    let fil = ['f', 'F']
-        .into_iter()
-        .map(|letter| option_file.with_extension(format!("{letter}{digits}")))
-        .find(|path| path.is_file())?;
-    Some(format!("{0} beside it is not used; give it with -f {0}", fil.display()))
+    let fil = select::fil_beside(option_file)?;
+    Some(format!("{0} beside the option file is not used; give it with -f {0}", fil.display()))
 }
 
 /// The post MACHIN asks for.

@@ -57,6 +57,7 @@ pub fn line(post: &str, report: &Report, warnings: usize, time: Duration) -> Str
             let (min, max) = (extents.min[axis], extents.max[axis]);
             line.push_str(&format!(", {name} {} to {}", length(min), length(max)));
         }
+        line.push_str(if report.metric { " mm" } else { " inch" });
     }
     line.push_str(&format!(", {:.2} s", time.as_secs_f64()));
     line

@@ -17,12 +17,20 @@ use crate::source::Source;
 /// Bytes of finished blocks that are kept before they go to the writer.
 const FLUSH: usize = 64 * 1024;
 
+/// Fuel that a record costs which the run has read before: a section that goes
+/// back each time it runs would never let the run end.
+const FUEL_OF_READING_AGAIN: u64 = 100;
+
 /// A run of a [`Post`].
 pub(crate) struct Engine<'p, R: Read> {
     outside: Outside<'p, R>,
     vocabulary: Vocabulary,
     machine: Option<Machine>,
     has_sections: bool,
+    /// The last record of the file that was reached, and fuel left to read it
+    /// and those before it again.
+    furthest: u32,
+    fuel: u64,
     functions_home: &'p mut fil_vm::Functions,
     record: Record,
     started: bool,
@@ -51,6 +59,8 @@ impl<'p, R: Read> Engine<'p, R> {
             vocabulary: post.vocabulary.clone(),
             machine: Some(machine),
             has_sections,
+            furthest: 0,
+            fuel: post.limits.fuel,
             functions_home: &mut post.functions,
             record: Record::default(),
             started: false,
@@ -77,6 +87,7 @@ impl<'p, R: Read> Engine<'p, R> {
         nc.flush().map_err(write_error)?;
         let mut report = std::mem::take(&mut self.outside.report);
         report.records = self.outside.source.records;
+        report.metric = self.outside.post.is_metric();
         report.blocks = self.outside.post.tape.count;
         report.warnings.append(&mut self.outside.post.warnings);
         Ok(report)
@@ -124,6 +135,7 @@ impl<'p, R: Read> Engine<'p, R> {
             self.outside.end_of_file()?;
             return Ok(false);
         }
+        self.watch_progress()?;
         let section = if self.has_sections && self.record.kind != kind::PSEUDO {
             self.outside.module.find(&self.record, &self.vocabulary)
         } else {
@@ -155,6 +167,21 @@ impl<'p, R: Read> Engine<'p, R> {
             return Ok(false);
         }
         Ok(true)
+    }
+
+    /// Refuses a run that reads the same records again and again.
+    fn watch_progress(&mut self) -> Result<(), Box<Diag>> {
+        if self.record.number > self.furthest {
+            self.furthest = self.record.number;
+            return Ok(());
+        }
+        if let Some(left) = self.fuel.checked_sub(FUEL_OF_READING_AGAIN) {
+            self.fuel = left;
+            return Ok(());
+        }
+        let message = format!("record {} is read again and again", self.record.number);
+        let place = self.outside.place(&self.record, &self.vocabulary);
+        Err(Box::new(Diag::new(fil_vm::errors::RunCode::OutOfFuel, message).at(place)))
     }
 }
 

@@ -12,8 +12,9 @@ use crate::builder::Post;
 use crate::error::{Error, RunCode};
 use crate::report::Report;
 
-/// Buffer between the post and the file.
-const BUFFER: usize = 256 * 1024;
+/// Buffer between the post and the file; blocks that come in pieces of this
+/// size pass it by.
+const BUFFER: usize = 64 * 1024;
 
 /// Reads a whole file.
 ///
@@ -62,6 +63,10 @@ pub fn write_whole<T>(
     }
     if std::fs::metadata(path).is_ok_and(|found| found.permissions().readonly()) {
         return Err(cant_write(path, &io::Error::from(io::ErrorKind::PermissionDenied)));
+    }
+    if !folder.is_dir() {
+        let reason = format!("there is no folder {}", folder.display());
+        return Err(cant_write(path, &io::Error::other(reason)));
     }
     let mut beside = NamedTempFile::new_in(folder).map_err(|error| cant_write(path, &error))?;
     let mut output = BufWriter::with_capacity(BUFFER, beside.as_file_mut());

@@ -50,3 +50,8 @@ pub use fil_post::{address, words as post_words};
 pub use fil_syntax as syntax;
 pub use fil_vm::{Argument, Compat, Limits, SectionMode};
 pub use fil_vm::{builtins, postf};
+
+/// The example of the README, run with the documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

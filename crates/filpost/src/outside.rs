@@ -78,7 +78,8 @@ impl<R: Read> Outside<'_, R> {
         self.post.tape.origin.fil.first().copied().filter(|_| record.line == 0)
     }
 
-    fn place(&self, record: &Record, vocabulary: &Vocabulary) -> Place {
+    /// Where a record stands: in the CL file, or in FIL for one that FIL has made.
+    pub fn place(&self, record: &Record, vocabulary: &Vocabulary) -> Place {
         if let Some(made) = self.fil_line(record) {
             let file = &self.module.files[usize::from(made.file)].name;
             return Place::line(file, made.line, statement_text(record, vocabulary));

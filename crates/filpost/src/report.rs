@@ -35,6 +35,8 @@ pub struct Report {
     pub bytes: u64,
     /// Warnings, in the order they were found.
     pub warnings: Vec<Diag>,
+    /// The CL file is in mm (else inch).
+    pub metric: bool,
     /// The box around the path.
     pub extents: Option<Extents>,
     /// Records that a section took without any effect on the post, by section.

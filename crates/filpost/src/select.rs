@@ -96,6 +96,14 @@ pub fn machin(input: impl Read, name: &str) -> Result<Option<Machin>, Error> {
     Ok(None)
 }
 
+/// `name.fNN` beside an option file `name.pNN`.
+pub fn fil_beside(option_file: &Path) -> Option<PathBuf> {
+    let name = option_file.file_stem()?.to_str()?;
+    let ending = option_file.extension()?.to_str()?;
+    let number = ending.strip_prefix(['p', 'P'])?.parse().ok()?;
+    find_file(option_file.parent()?, name, 'f', number)
+}
+
 /// `name.pNN` in a folder, letters in any case.
 fn find_file(folder: &Path, name: &str, ending: char, number: u32) -> Option<PathBuf> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };

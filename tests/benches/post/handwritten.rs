@@ -11,8 +11,11 @@ use std::path::Path;
 
 const BUFFER: usize = 256 * 1024;
 
-/// Units in the last of four decimals.
-const SCALE: f64 = 10_000.0;
+/// Decimals of the control.
+const DECIMALS: u32 = 4;
+
+/// Counts of the last decimal in a millimetre.
+const SCALE: u64 = 10u64.pow(DECIMALS);
 
 /// The control counts blocks up to this number.
 const LAST_NUMBER: u32 = 99_999;
@@ -102,10 +105,32 @@ impl Translator {
     }
 }
 
-/// The number as a count of the last decimal.
+/// The number as a count of the last decimal, from its digits: faster than
+/// by way of a float.
 fn scaled(item: &str) -> io::Result<i64> {
-    let value: f64 = item.trim().parse().map_err(io::Error::other)?;
-    Ok((value * SCALE).round() as i64)
+    let item = item.trim();
+    let (negative, size) = match item.strip_prefix('-') {
+        Some(size) => (true, size),
+        None => (false, item),
+    };
+    let (whole, decimals) = size.split_once('.').unwrap_or((size, ""));
+    let mut value = 0;
+    for byte in whole.bytes() {
+        value = value * 10 + digit(byte)?;
+    }
+    let mut decimals = decimals.bytes();
+    for _ in 0..DECIMALS {
+        value = value * 10 + decimals.next().map_or(Ok(0), digit)?;
+    }
+    if decimals.next().is_some_and(|byte| byte >= b'5') {
+        value += 1;
+    }
+    Ok(if negative { -value } else { value })
+}
+
+fn digit(byte: u8) -> io::Result<i64> {
+    let digit = i64::from(byte) - i64::from(b'0');
+    if (0..=9).contains(&digit) { Ok(digit) } else { Err(io::Error::other("no number")) }
 }
 
 /// Appends a word and a blank: up to four decimals, zeros at the end dropped.
@@ -115,10 +140,10 @@ fn word(letter: u8, value: i64, block: &mut Vec<u8>) {
         block.push(b'-');
     }
     let size = value.unsigned_abs();
-    digits(size / SCALE as u64, block);
+    digits(size / SCALE, block);
     block.push(b'.');
-    let mut rest = size % SCALE as u64;
-    let mut place = SCALE as u64 / 10;
+    let mut rest = size % SCALE;
+    let mut place = SCALE / 10;
     while rest != 0 {
         block.push(b'0' + (rest / place) as u8);
         rest %= place;

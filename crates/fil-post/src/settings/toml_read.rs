@@ -28,14 +28,14 @@ const ABOUT: &[&str] = &["name", "description", "origin"];
 /// Text that is not TOML, an unknown key, a value of the wrong kind. The
 /// second part of the result are warnings: settings the post does not act on.
 pub fn read_toml(file: &str, text: &str) -> Result<(Commons, Vec<Diag>), Box<Diag>> {
-    let mut reader = TomlReader { file, text, index: LineIndex::new(text), warnings: Vec::new() };
+    let mut reader = TomlReader { file, text, index: LineIndex::new(text), unused: Vec::new() };
     let table = DeTable::parse(text).map_err(|error| {
         let range = error.span().unwrap_or(0..0);
         reader.at(range, Diag::new(PostCode::MachineSyntax, error.message().to_string()))
     })?;
     let mut commons = default_commons();
     reader.table(&mut commons, table.get_ref(), "")?;
-    Ok((commons, reader.warnings))
+    Ok((commons, reader.unused_settings()))
 }
 
 /// Sets one setting from text, as `--set key=value` gives it.
@@ -48,7 +48,7 @@ pub fn apply_setting(commons: &mut Commons, setting: &str) -> Result<(), Box<Dia
     let mut result = Ok(());
     for source in sources.into_iter().flatten() {
         let index = LineIndex::new(&source);
-        let mut reader = TomlReader { file: "--set", text: &source, index, warnings: Vec::new() };
+        let mut reader = TomlReader { file: "--set", text: &source, index, unused: Vec::new() };
         result = match DeTable::parse(&source) {
             Ok(table) => reader.table(commons, table.get_ref(), ""),
             Err(error) => {
@@ -66,7 +66,8 @@ struct TomlReader<'a> {
     file: &'a str,
     text: &'a str,
     index: LineIndex,
-    warnings: Vec<Diag>,
+    /// Settings the post does not act on: where, and their names.
+    unused: Vec<(usize, Range<usize>, &'static str)>,
 }
 
 impl TomlReader<'_> {
@@ -125,8 +126,7 @@ impl TomlReader<'_> {
         };
         let number = self.value(location, value)?;
         if !location.used && number != location.default_value() {
-            let message = format!("the post does not act on `{name}`");
-            self.warnings.push(*self.at(key, Diag::new(PostCode::UnusedSetting, message)));
+            self.unused.push((key.start, key.clone(), location.name));
         }
         commons
             .set(location.kind, u32::from(location.number), number)
@@ -267,6 +267,15 @@ impl TomlReader<'_> {
             commons.set(Kind::Int, 52 + slot, f64::from(name))?;
         }
         Ok(())
+    }
+
+    /// One warning for all settings the post does not act on.
+    fn unused_settings(mut self) -> Vec<Diag> {
+        self.unused.sort_by_key(|(start, ..)| *start);
+        let Some((_, first, _)) = self.unused.first().cloned() else { return Vec::new() };
+        let names: Vec<&str> = self.unused.iter().map(|(.., name)| *name).collect();
+        let message = format!("the post does not act on {}", names.join(", "));
+        vec![*self.at(first, Diag::new(PostCode::UnusedSetting, message))]
     }
 
     fn at(&self, range: Range<usize>, diag: Diag) -> Box<Diag> {

@@ -4,7 +4,7 @@
 //! against it the arc runs counter-clockwise.
 
 use fil_cl::Record;
-use fil_cl::vocabulary::Vocabulary;
+use fil_cl::vocabulary::{Vocabulary, words as w};
 use fil_diag::Diag;
 use nalgebra::{Point3, Vector3};
 
@@ -26,6 +26,9 @@ const IN_PLANE: f64 = 1e-6;
 
 const FULL: f64 = 360.0;
 
+/// Most full turns of one helix.
+const MAX_TURNS: f64 = 10_000.0;
+
 /// How the tape says where the center is (INTCOM 1924).
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum CenterForm {
@@ -42,6 +45,8 @@ pub struct Arc {
     center: Point3<f64>,
     axis: Vector3<f64>,
     radius: Option<f64>,
+    /// Full turns besides the arc from start to end (TIMES).
+    turns: f64,
 }
 
 /// An arc in machine coordinates and in a plane of the machine.
@@ -55,7 +60,7 @@ struct PlaneArc {
     center: [f64; 2],
     radius: f64,
     start_angle: f64,
-    /// Degrees, above 0, at most 360.
+    /// Degrees, above 0; above 360 for a helix of several turns.
     sweep: f64,
 }
 
@@ -70,6 +75,12 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     let circle = record
         .circle()
         .ok_or_else(|| Form::new(record, vocabulary).error("center and axis are needed"))?;
+    let turns = record.number_after(w::TIMES).unwrap_or(0.0);
+    if turns.fract() != 0.0 || !(0.0..=MAX_TURNS).contains(&turns) {
+        return Err(
+            Form::new(record, vocabulary).error(format!("{turns} turns are no whole turns"))
+        );
+    }
     let axis = Vector3::from(circle.axis);
     if axis.norm() < SAME_POINT {
         return Err(Form::new(record, vocabulary).error("the axis has length zero"));
@@ -78,6 +89,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         center: Point3::from(circle.center),
         axis: axis.normalize(),
         radius: circle.radius,
+        turns,
     });
     Ok(())
 }
@@ -121,14 +133,16 @@ fn flat(arc: &Arc, point: Point3<f64>) -> Vector3<f64> {
     from - arc.axis * arc.axis.dot(&from)
 }
 
-/// Angle from start to end about the axis, degrees, above 0 and at most 360.
+/// Angle from start to end about the axis, degrees: above 0, at most 360 and
+/// the full turns on top. A start above the end is one turn, or TIMES turns.
 fn sweep(arc: &Arc, start: Point3<f64>, end: Point3<f64>) -> f64 {
     let (from, to) = (flat(arc, start), flat(arc, end));
     if (from - to).norm() < SAME_POINT {
-        return FULL;
+        return FULL * arc.turns.max(1.0);
     }
     let angle = arc.axis.dot(&from.cross(&to)).atan2(from.dot(&to)).to_degrees();
-    if angle <= 0.0 { angle + FULL } else { angle }
+    let part = if angle <= 0.0 { angle + FULL } else { angle };
+    part + FULL * arc.turns
 }
 
 /// The arc in machine coordinates; `None` when the tape can't say it as an arc.
@@ -210,19 +224,21 @@ fn write_arc(post: &mut Post, arc: &PlaneArc, target: Target) -> Result<(), Box<
 fn stops(post: &Post, arc: &PlaneArc) -> Vec<f64> {
     let mut stops = Vec::new();
     let limit = f64::from(post.commons.int(loc::CIRCLE_MAX_DEGREES));
-    let whole = arc.sweep > FULL - 1e-9;
-    let radius_form = center_form(post) == CenterForm::Radius;
-    if (1.0..=90.0).contains(&limit) {
+    let halves =
+        center_form(post) == CenterForm::Radius || post.commons.int(loc::CIRCLE_FULL_CIRCLE) == 0;
+    let (mut next, step) = if (1.0..=90.0).contains(&limit) {
         let turned = if arc.counter_clockwise { arc.start_angle } else { -arc.start_angle };
-        let mut next = ((turned / 90.0).floor() + 1.0) * 90.0 - turned;
-        while next < arc.sweep - 1e-6 {
-            if next > 1e-6 {
-                stops.push(next);
-            }
-            next += 90.0;
+        (((turned / 90.0).floor() + 1.0) * 90.0 - turned, 90.0)
+    } else if arc.sweep > FULL - 1e-9 && halves {
+        (FULL / 2.0, FULL / 2.0)
+    } else {
+        (FULL, FULL)
+    };
+    while next < arc.sweep - 1e-6 {
+        if next > 1e-6 {
+            stops.push(next);
         }
-    } else if whole && (radius_form || post.commons.int(loc::CIRCLE_FULL_CIRCLE) == 0) {
-        stops.push(FULL / 2.0);
+        next += step;
     }
     stops.push(arc.sweep);
     stops

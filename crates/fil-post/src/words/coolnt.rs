@@ -28,7 +28,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         (Some(w::THRU), Some(w::LOW)) => loc::COOLANT_THRU_LOW_CODE,
         _ => return Err(form.error("ON, OFF, MIST, FLOOD or THRU, with LOW or HIGH, is needed")),
     };
-    form.finish(post);
+    form.end()?;
     match post.commons.int_opt(location) {
         Some(code) => post.block.m(code),
         None => post.warn_no_code("this coolant"),

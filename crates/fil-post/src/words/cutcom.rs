@@ -25,7 +25,6 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         Some(_) => loc::CUTCOM_OFF_CODE,
         None => return Err(form.error("LEFT, RIGHT or OFF is needed")),
     };
-    form.finish(post);
     if let Some(plane) = plane {
         let location = match plane {
             w::YZPLAN => loc::CIRCLE_PLANE_YZ,
@@ -42,11 +41,15 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     if side != Some(w::OFF) {
         let from_tool = post.commons.flag(loc::TOOL_DIAMETER_FROM_TOOL);
         let offset = number.or(post.state.tool.filter(|_| from_tool).map(|tool| tool as f64));
+        if from_tool && offset.is_none() {
+            return Err(form.error("no offset number, and no tool is loaded"));
+        }
         if let Some(offset) = offset {
             let letter = post.code(loc::CUTCOM_ADDRESS, "the offset's address")?;
             post.word(letter.clamp(1, 26) as u8, offset)?;
         }
     }
+    form.end()?;
     let with_motion = post.commons.flag(loc::CUTCOM_WITH_MOTION);
     post.place_block(if with_motion { Placement::NextXY } else { Placement::OwnBlock })
 }

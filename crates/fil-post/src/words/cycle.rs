@@ -7,7 +7,7 @@
 //! without the cycle's code each hole is written as single moves.
 
 use fil_cl::vocabulary::{Vocabulary, words as w};
-use fil_cl::{Record, WordId};
+use fil_cl::{Record, Word, WordId};
 use fil_diag::Diag;
 
 use super::form::Form;
@@ -103,6 +103,9 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         form.finish(post);
         return off(post);
     }
+    if record.data == [Word::Minor(w::INIT)] {
+        return Ok(());
+    }
     let cycle = read(post, &mut form)?;
     form.finish(post);
     if let Some(old) = post.state.cycle.take() {
@@ -130,7 +133,10 @@ fn read(post: &mut Post, form: &mut Form) -> Result<Cycle, Box<Diag>> {
     form.couplet(w::CLEAR)?;
     let clear = clear.or(post.commons.dbl_opt(loc::CYCLE_AUTO_CLEARANCE)).unwrap_or(0.0);
     let step = optional(form, &[w::STEP, w::SUBPECK, w::INCR])?;
-    form.couplet(w::FIRST_PECK)?;
+    let first_peck = form.couplet(w::FIRST_PECK)?;
+    if first_peck.is_some() && first_peck != step {
+        post.warn(PostCode::IgnoredPart, "CYCLE: the first peck is as deep as the others".into());
+    }
     let retract = optional(form, &[w::RETURN, w::RTRCTO])?;
     let dwell = form.couplet(w::DWELL)?;
     if depth == 0.0 || clear < 0.0 {

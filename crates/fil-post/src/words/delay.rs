@@ -25,7 +25,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
             in_seconds(post, seconds)
         }
     };
-    form.finish(post);
+    form.end()?;
     write(post, value)
 }
 

@@ -29,7 +29,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     if value <= 0.0 {
         return Err(form.error(format!("a feed of {value} is not positive")));
     }
-    form.finish(post);
+    form.end()?;
     let feed = in_output_units(value, unit, post.state.metric);
     post.state.feed = Some(within_limits(post, feed));
     post.state.thread = None;

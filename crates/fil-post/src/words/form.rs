@@ -92,8 +92,33 @@ impl<'a> Form<'a> {
         }
     }
 
+    /// Refuses what is left: in a record that commands the machine, an item
+    /// without meaning leaves the rest in doubt too.
+    ///
+    /// # Errors
+    /// Items are left.
+    pub fn end(self) -> Result<(), Box<Diag>> {
+        match self.left() {
+            Some(left) => {
+                let mut diag = self.error(format!("no meaning is known for {left}"));
+                diag.hint = self.meant();
+                Err(diag)
+            }
+            None => Ok(()),
+        }
+    }
+
     /// Warns of what is left.
     pub fn finish(self, post: &mut Post) {
+        if let Some(left) = self.left() {
+            let major = self.name(self.record.major);
+            let message = format!("{major}: no effect of {left}");
+            post.warn_with(PostCode::IgnoredPart, message, || self.meant());
+        }
+    }
+
+    /// The items that nobody took, as text; `None` when there are none.
+    fn left(&self) -> Option<String> {
         let left: Vec<String> = self
             .taken
             .iter()
@@ -110,13 +135,7 @@ impl<'a> Form<'a> {
                 Word::Empty => None,
             })
             .collect();
-        if !left.is_empty() {
-            let major = self.name(self.record.major);
-            let message = format!("{major}: no effect of {}", left.join(", "));
-            post.warn_with(PostCode::IgnoredPart, message, || {
-                self.minors().find_map(|word| self.vocabulary.perhaps_meant(word))
-            });
-        }
+        (!left.is_empty()).then(|| left.join(", "))
     }
 
     /// An error about the form of this record.
@@ -125,11 +144,11 @@ impl<'a> Form<'a> {
         Box::new(Diag::new(PostCode::WordForm, format!("{major}: {message}")))
     }
 
-    /// Minor words that are left.
-    fn minors(&self) -> impl Iterator<Item = WordId> {
-        let words = self.taken.iter().zip(&self.record.data);
-        words.filter_map(|(taken, word)| match word {
-            Word::Minor(word) if !taken => Some(*word),
+    /// What the first unknown word of those left was perhaps meant to be.
+    fn meant(&self) -> Option<String> {
+        let mut left = self.taken.iter().zip(&self.record.data).filter(|(taken, _)| !**taken);
+        left.find_map(|(_, word)| match word {
+            Word::Minor(word) => self.vocabulary.perhaps_meant(*word),
             _ => None,
         })
     }

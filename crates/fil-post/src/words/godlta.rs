@@ -26,7 +26,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         [distance] => post.state.axis * distance,
         _ => return Err(form.error("one or three increments are needed")),
     };
-    form.finish(post);
+    form.end()?;
     post.begin()?;
     post.move_to(Target { point: start + step, axis: post.state.axis })
 }

@@ -27,6 +27,20 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     }
 }
 
+/// GOHOME/x,y,z: a motion to that point.
+///
+/// # Errors
+/// Other than three numbers, and all that the motion refuses.
+pub fn gohome(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
+    let mut form = Form::new(record, vocabulary);
+    let [x, y, z] = form.numbers()[..] else {
+        return Err(form.error("a point x, y, z is missing"));
+    };
+    form.end()?;
+    post.begin()?;
+    post.move_to(Target { point: Point3::new(x, y, z), axis: post.state.axis })
+}
+
 /// The point of a motion record; without an axis of its own it keeps the last one.
 ///
 /// # Errors

@@ -61,7 +61,7 @@ pub const HANDLERS: &[(WordId, Handler)] = &[
     (w::FINI, fini::handle),
     (w::FROM, from::handle),
     (w::GODLTA, godlta::handle),
-    (w::GOHOME, goto::handle),
+    (w::GOHOME, goto::gohome),
     (w::GOTO, goto::handle),
     (w::INSERT, insert::handle),
     (w::LOAD, loadtl::handle),

@@ -24,7 +24,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         Some(_) => 1.0,
         None => return Err(form.error("MILL or TURN is needed")),
     };
-    form.finish(post);
+    form.end()?;
     let letter = post.machine.axis(0).letter;
     post.commons.set(Kind::Dbl, u32::from(loc::SCALE_X.0), scale)?;
     post.commons.set_last_output(letter, EMPTY);

@@ -9,7 +9,8 @@ use nalgebra::Vector3;
 use super::form::Form;
 use crate::post::Post;
 
-/// Switches tool axes on or off; off brings the axis back to 0,0,1.
+/// OFF brings the axis back to 0,0,1; ON changes nothing, a GOTO with an axis
+/// of its own is always taken by it.
 ///
 /// # Errors
 /// None.
@@ -17,8 +18,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     let mut form = Form::new(record, vocabulary);
     let off = form.flag(w::OFF);
     form.flag(w::ON);
-    form.finish(post);
-    post.state.multax = !off;
+    form.end()?;
     if off {
         post.state.axis = Vector3::z();
     }
@@ -34,7 +34,7 @@ pub fn tlaxis(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     let [i, j, k] = form.numbers()[..] else {
         return Err(form.error("three components of the tool axis are needed"));
     };
-    form.finish(post);
+    form.end()?;
     post.state.axis = Vector3::new(i, j, k);
     Ok(())
 }

@@ -17,6 +17,6 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         Some(word) => word == w::ON,
         None => return Err(form.error("ON or OFF is needed")),
     };
-    form.finish(post);
+    form.end()?;
     Ok(())
 }

@@ -22,7 +22,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         return Err(form.error("only POSTN/OUT is known"));
     }
     let numbers = form.numbers();
-    form.finish(post);
+    form.end()?;
     let form = Form::new(record, vocabulary);
     if numbers.is_empty()
         || !numbers.len().is_multiple_of(2)

@@ -34,7 +34,7 @@ fn write(
 ) -> Result<f64, Box<Diag>> {
     let mut form = Form::new(record, vocabulary);
     let code = form.required("the number of the function")?;
-    form.finish(post);
+    form.end()?;
     post.word(letter, code)?;
     post.write_block()?;
     Ok(code)

@@ -10,11 +10,9 @@ use crate::post::Post;
 /// Marks the next motion.
 ///
 /// # Errors
-/// None.
+/// RAPID with items.
 pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
-    if !record.data.is_empty() {
-        Form::new(record, vocabulary).finish(post);
-    }
+    Form::new(record, vocabulary).end()?;
     post.state.rapid = true;
     Ok(())
 }

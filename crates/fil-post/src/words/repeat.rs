@@ -6,18 +6,19 @@ use fil_diag::Diag;
 
 use super::form::Form;
 use super::postn::letter_number;
+use crate::block::no_address;
 use crate::post::Post;
 
 /// Sets or clears the words; a motion block that has a word of that letter is
 /// left as it is.
 ///
 /// # Errors
-/// Any other form.
+/// Any other form, or a letter the machine does not write.
 pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
     let mut form = Form::new(record, vocabulary);
     if form.flag(w::OFF) {
         post.state.repeat = [None; 27];
-        form.finish(post);
+        form.end()?;
         return Ok(());
     }
     let numbers = form.numbers();
@@ -27,8 +28,11 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     for pair in numbers.chunks(2) {
         let letter = letter_number(pair[0])
             .ok_or_else(|| form.error(format!("{} is no letter, A is 1 and Z is 26", pair[0])))?;
+        if post.machine.addresses.position(letter).is_none() {
+            return Err(no_address(letter));
+        }
         post.state.repeat[letter as usize] = Some(pair[1]);
     }
-    form.finish(post);
+    form.end()?;
     Ok(())
 }

@@ -28,6 +28,6 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
             post.tape.renumber(next, increment);
         }
     }
-    form.finish(post);
+    form.end()?;
     Ok(())
 }

@@ -38,14 +38,14 @@ const RANGE_SPEEDS: [(Rel, Rel); 6] = [
 pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
     let mut form = Form::new(record, vocabulary);
     if form.flag(w::OFF) {
-        form.finish(post);
+        form.end()?;
         return turn(post, loc::SPINDLE_STOP_CODE, "SPINDL/OFF");
     }
     if form.flag(w::ORIENT) {
         if let Some(angle) = form.number() {
             post.word(S, angle)?;
         }
-        form.finish(post);
+        form.end()?;
         return turn(post, loc::SPINDLE_ORIENT_CODE, "SPINDL/ORIENT");
     }
     if let Some(range) = form.couplet(w::RANGE)? {
@@ -64,7 +64,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         None => loc::SPINDLE_DEFAULT_CODE,
     };
     form.flag(w::ON);
-    form.finish(post);
+    form.end()?;
     turn(post, direction, "the spindle")
 }
 

@@ -26,7 +26,7 @@ const POINTS_ONLY: f64 = 10.0;
 pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
     let mut form = Form::new(record, vocabulary);
     if form.any_of(&[w::NOMORE, w::OFF]).is_some() {
-        form.finish(post);
+        form.end()?;
         post.state.transformation = None;
         return translate(post, [0.0; 3]);
     }
@@ -36,13 +36,13 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     }
     let numbers = form.numbers();
     if let [x, y, z] = numbers[..] {
-        form.finish(post);
+        form.end()?;
         return translate(post, [x, y, z]);
     }
     if numbers.len() != 12 {
         return Err(form.error(format!("3 or 12 numbers are needed, not {}", numbers.len())));
     }
-    form.finish(post);
+    form.end()?;
     post.state.transformation = Some(Transformation {
         matrix: Matrix3x4::from_row_slice(&numbers),
         turns_axis: option.is_none(),

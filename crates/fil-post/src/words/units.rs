@@ -28,7 +28,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     if only.is_some_and(|only| only != metric) {
         return Err(form.error("the machine takes the other unit only (units.mode)"));
     }
-    form.finish(post);
+    form.end()?;
     let changes = metric != post.state.metric;
     post.state.metric = metric;
     if changes && post.state.started {

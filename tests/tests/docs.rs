@@ -1,0 +1,287 @@
+//! The documentation holds what it says: its commands run as printed, its
+//! links lead somewhere, and its tables have a row for each thing of the code.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::OnceLock;
+
+use filpost::builtins::BUILTINS;
+use filpost::locations::TABLE;
+use filpost::postf::{Grade, POSTF};
+use filpost::{cl::Vocabulary, operation_name, post_words, ready};
+use filpost_tests::examples::{Block, blocks, run};
+use filpost_tests::root;
+
+/// What the pages write before a command of filpost when it is not installed.
+const BY_CARGO: &str = "cargo run --release -q -p filpost-cli -- ";
+
+fn read(name: &str) -> String {
+    std::fs::read_to_string(root().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+/// README.md and the pages of docs/, without those of the codes.
+fn pages() -> Vec<(String, String)> {
+    let mut pages = vec![("README.md".to_string(), read("README.md"))];
+    for entry in std::fs::read_dir(root().join("docs")).expect("docs/ is there") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_some_and(|ending| ending == "md") {
+            let name = format!("docs/{}", path.file_name().expect("a name").to_string_lossy());
+            pages.push((name.clone(), read(&name)));
+        }
+    }
+    pages.sort();
+    pages
+}
+
+/// The command, built once.
+fn filpost() -> &'static Path {
+    static BINARY: OnceLock<PathBuf> = OnceLock::new();
+    BINARY.get_or_init(|| {
+        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        let built = Command::new(cargo)
+            .args(["build", "-q", "-p", "filpost-cli", "--message-format=json"])
+            .current_dir(root())
+            .output()
+            .expect("cargo runs");
+        assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+        let messages = String::from_utf8_lossy(&built.stdout).into_owned();
+        let marker = "\"executable\":\"";
+        let start = messages.rfind(marker).expect("an executable") + marker.len();
+        let rest = &messages[start..];
+        PathBuf::from(rest[..rest.find('"').expect("its end")].replace("\\\\", "\\"))
+    })
+}
+
+/// Runs a command as it is printed, in the folder of the workspace.
+fn shell(line: &str) -> Output {
+    let arguments = line
+        .strip_prefix(BY_CARGO)
+        .or_else(|| line.strip_prefix("filpost "))
+        .unwrap_or_else(|| panic!("`{line}` is no command of filpost; mark its block as text"));
+    Command::new(filpost())
+        .args(arguments.split_whitespace())
+        .current_dir(root())
+        .output()
+        .expect("the command runs")
+}
+
+#[test]
+fn commands_run_as_printed() {
+    let mut count = 0;
+    for (name, page) in pages() {
+        for block in blocks(&page).into_iter().filter(|block| block.words == ["sh"]) {
+            for line in block.text.lines() {
+                let output = shell(line);
+                let said = String::from_utf8_lossy(&output.stderr);
+                assert!(output.status.success(), "{name}: {line}\n{said}");
+                assert!(!output.stdout.is_empty() || !said.is_empty(), "{name}: {line} is mute");
+                count += 1;
+            }
+        }
+    }
+    assert!(count >= 15, "only {count} commands");
+}
+
+#[test]
+fn the_first_command_prints_the_listing_of_the_paper() {
+    let readme = read("README.md");
+    let listing = read("corpus/papers/embos-grooves/figure-7.nc");
+    let all = blocks(&readme);
+    let command = &all[0];
+    assert_eq!(command.words, ["sh"]);
+    let output = shell(command.text.trim());
+    assert!(output.status.success());
+    assert_eq!(String::from_utf8_lossy(&output.stdout), listing);
+    assert_eq!(all[1].text, listing, "the listing shown is the listing printed");
+}
+
+#[test]
+fn examples_of_fil_and_settings_are_accepted() {
+    let mut count = 0;
+    for (name, page) in pages() {
+        for block in blocks(&page) {
+            let compat = block.words == ["toml"] && block.heading.contains("ompat");
+            let words = if compat { vec!["toml", "compat"] } else { block.words.clone() };
+            let Some(diags) = run(&Block { words, ..block.clone() }) else { continue };
+            let errors: Vec<_> = diags.iter().filter(|diag| diag.is_error()).collect();
+            assert!(errors.is_empty(), "{name}:{}: {errors:?}", block.line);
+            count += 1;
+        }
+    }
+    assert!(count >= 6, "only {count} examples");
+}
+
+#[test]
+fn links_lead_somewhere() {
+    let folder = root().join("docs/errors");
+    let mut all = pages();
+    for entry in std::fs::read_dir(folder).expect("docs/errors is there") {
+        let name = entry.expect("an entry").file_name().to_string_lossy().into_owned();
+        all.push((format!("docs/errors/{name}"), read(&format!("docs/errors/{name}"))));
+    }
+    for (name, page) in all {
+        let folder = root().join(&name).parent().expect("a folder").to_path_buf();
+        for part in page.split("](").skip(1) {
+            let link = &part[..part.find(')').expect("a link ends")];
+            let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
+            if file.starts_with("http") {
+                continue;
+            }
+            let target = if file.is_empty() { root().join(&name) } else { folder.join(file) };
+            assert!(target.is_file(), "{name}: {link}");
+            let text = std::fs::read_to_string(&target).expect("the page");
+            let has = |line: &str| {
+                line.starts_with('#')
+                    && line.trim_start_matches('#').trim().to_lowercase().replace(' ', "-")
+                        == anchor
+            };
+            assert!(anchor.is_empty() || text.lines().any(has), "{name}: {link}");
+        }
+    }
+}
+
+#[test]
+fn the_summary_lists_every_page() {
+    let summary = read("docs/SUMMARY.md");
+    for (name, _) in pages() {
+        let Some(page) = name.strip_prefix("docs/").filter(|page| *page != "SUMMARY.md") else {
+            continue;
+        };
+        assert!(summary.contains(&format!("({page})")), "SUMMARY.md lacks {page}");
+    }
+    for code in filpost::all_codes() {
+        let name = code.name();
+        assert!(
+            summary.contains(&format!("[{name}](errors/{name}.md)")),
+            "SUMMARY.md lacks {name}"
+        );
+    }
+}
+
+fn grade(grade: Grade) -> &'static str {
+    match grade {
+        Grade::Published => "published",
+        Grade::Inferred => "inferred",
+        Grade::Own => "our own",
+    }
+}
+
+#[test]
+fn compat_has_a_row_for_each_function_with_its_grade() {
+    let page = read("docs/compat.md");
+    for row in BUILTINS {
+        let start =
+            format!("| `{}({})` | {} | {} |", row.name, row.arguments, row.doc, grade(row.grade));
+        assert!(page.lines().any(|line| line.starts_with(&start)), "no row {start}");
+    }
+}
+
+#[test]
+fn compat_has_a_row_for_each_postf_number_with_its_grade() {
+    let page = read("docs/compat.md");
+    let language = read("docs/language.md");
+    for row in POSTF {
+        let arguments: String = row.arguments.iter().map(|name| format!(",{name}")).collect();
+        let call = format!("| `POSTF({}{arguments})` | {} |", row.number, row.doc);
+        let start = format!("{call} `{}` | {} |", operation_name(row.op), grade(row.grade));
+        assert!(page.lines().any(|line| line.starts_with(&start)), "no row {start}");
+        assert!(language.lines().any(|line| line == call), "language.md lacks {call}");
+    }
+}
+
+#[test]
+fn the_language_page_lists_each_function() {
+    let page = read("docs/language.md");
+    for row in BUILTINS {
+        let start = format!("| `{}({})` | {}", row.name, row.arguments, row.doc);
+        assert!(page.lines().any(|line| line.starts_with(&start)), "no row {start}");
+    }
+}
+
+#[test]
+fn compat_has_a_row_for_each_post_word_and_no_other() {
+    let page = read("docs/compat.md");
+    let section = page.split("## Post words").nth(1).expect("the section");
+    let section = section.split("\n## ").next().expect("its end");
+    let vocabulary = Vocabulary::new();
+    let mut wanted: Vec<&str> =
+        post_words::HANDLERS.iter().map(|(word, _)| vocabulary.name(*word)).collect();
+    wanted.sort_unstable();
+    let found: Vec<&str> = section
+        .lines()
+        .filter_map(|line| line.strip_prefix("| ")?.split(" |").next())
+        .filter(|word| word.chars().all(|letter| letter.is_ascii_uppercase()))
+        .collect();
+    assert_eq!(found, wanted);
+}
+
+#[test]
+fn compat_counts_the_common_locations() {
+    let page = read("docs/compat.md");
+    let mut groups: Vec<&str> = TABLE.iter().filter_map(|row| row.name.split('.').next()).collect();
+    groups.sort_unstable();
+    groups.dedup();
+    for group in groups {
+        let of_group = || TABLE.iter().filter(move |row| row.name.split('.').next() == Some(group));
+        let count = |evidence: &str| of_group().filter(|row| row.evidence == evidence).count();
+        let used = of_group().filter(|row| row.used).count();
+        let row = format!(
+            "| `{group}` | {} | {} | {} | {used} of {} |",
+            count("report"),
+            count("inferred"),
+            count("own"),
+            of_group().count()
+        );
+        assert!(page.lines().any(|line| line == row), "no row {row}");
+    }
+}
+
+#[test]
+fn every_row_of_compat_has_a_grade() {
+    let page = read("docs/compat.md");
+    let graded = page.split("## Common locations").next().expect("the tables before it");
+    let graded = graded.split("## Statements of FIL").nth(1).expect("the tables");
+    for line in graded.lines().filter(|line| line.starts_with("| ") && !line.contains("| grade |"))
+    {
+        let has = ["| published |", "| inferred |", "| our own |"];
+        assert!(has.iter().any(|grade| line.contains(grade)), "no grade: {line}");
+    }
+}
+
+#[test]
+fn the_pages_name_every_ready_post() {
+    let page = read("docs/machine.md");
+    for post in ready::READY {
+        assert!(page.contains(&format!("| `{}` |", post.name)), "{}", post.name);
+    }
+}
+
+#[test]
+fn files_named_by_the_architecture_are_there() {
+    let page = read("docs/architecture.md");
+    for part in page.split('`').skip(1).step_by(2) {
+        if part.contains('/') && !part.contains([' ', '*']) {
+            assert!(root().join(part).exists(), "{part}");
+        }
+    }
+}
+
+#[test]
+fn pages_of_the_command_s_codes_agree_with_explain() {
+    for number in 801..820 {
+        let name = format!("E{number:04}");
+        let output = shell(&format!("filpost explain {name}"));
+        let page = root().join(format!("docs/errors/{name}.md"));
+        assert_eq!(output.status.success(), page.is_file(), "{name}");
+        if output.status.success() {
+            let text = String::from_utf8_lossy(&output.stdout).into_owned();
+            let title =
+                text.lines().next().and_then(|line| line.split_once("  ")).expect("a title");
+            let first = format!("# {name}: {}", title.1);
+            assert_eq!(
+                read(&format!("docs/errors/{name}.md")).lines().next(),
+                Some(first.as_str())
+            );
+        }
+    }
+}

@@ -1,0 +1,446 @@
+//! The error catalogue: every code has its page in `docs/errors/`, and a case
+//! in `corpus/errors/` or a test in this file. The examples of the pages are
+//! run: what stands under "Wrong" raises the code with the words printed there,
+//! what stands under "Right" does not. `FILPOST_UPDATE=1` writes the words anew.
+
+use std::collections::BTreeMap;
+use std::io::{self, Cursor, Read};
+use std::path::{Path, PathBuf};
+
+use filpost::case::Case;
+use filpost::{Code, Diag, Error, Limits, Post, Severity, all_codes, files};
+use filpost_tests::examples::{self, PART};
+use filpost_tests::root;
+
+/// Codes that no small case folder can raise, with the test of this file that does.
+const TESTED_HERE: &[(&str, &str)] = &[
+    ("E0107", "e0107_line_too_long"),
+    ("E0108", "e0108_file_too_large"),
+    ("E0109", "e0109_too_many_errors"),
+    ("E0120", "e0120_and_e0121_encodings"),
+    ("E0121", "e0120_and_e0121_encodings"),
+    ("E0215", "e0215_program_too_large"),
+    ("W0220", "w0220_and_w0221_findings_of_check"),
+    ("W0221", "w0220_and_w0221_findings_of_check"),
+    ("E0305", "e0305_call_depth"),
+    ("E0317", "e0317_host_function"),
+    ("E0401", "e0401_reading_fails"),
+    ("E0403", "e0403_statement_too_long"),
+    ("E0409", "e0409_stream_goes_back"),
+    ("E0410", "e0410_no_such_record"),
+    ("E0411", "e0411_too_many_words"),
+    ("E0412", "e0412_and_e0413_writing_cl"),
+    ("E0413", "e0412_and_e0413_writing_cl"),
+    ("E0701", "e0701_missing_file"),
+    ("E0702", "e0702_absent_folder"),
+    ("E0705", "e0705_case_file"),
+];
+
+fn pages() -> BTreeMap<String, (PathBuf, String)> {
+    let folder = root().join("docs/errors");
+    let entries = std::fs::read_dir(&folder).expect("docs/errors is there");
+    entries
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.file_name().is_some_and(|name| name != "README.md"))
+        .map(|path| {
+            let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
+            let text = std::fs::read_to_string(&path).expect("a page");
+            (name, (path, text))
+        })
+        .collect()
+}
+
+#[test]
+fn every_code_has_its_page_and_every_page_its_code() {
+    let pages = pages();
+    for code in all_codes() {
+        let (_, page) =
+            pages.get(&code.name()).unwrap_or_else(|| panic!("no page {}", code.name()));
+        let first = page.lines().next().unwrap_or_default();
+        assert_eq!(first, format!("# {}: {}", code.name(), code.title));
+        let flat = page.split_whitespace().collect::<Vec<_>>().join(" ");
+        for text in [code.reason, code.hint] {
+            assert!(flat.contains(text), "{} does not say: {text}", code.name());
+        }
+        for heading in ["## Wrong", "## Right"] {
+            assert!(page.lines().any(|line| line == heading), "{}: no {heading}", code.name());
+        }
+    }
+    let known: Vec<String> = all_codes().iter().map(|code| code.name()).collect();
+    for name in pages.keys().filter(|name| !name[1..].starts_with("08")) {
+        assert!(known.contains(name), "page {name} has no code");
+    }
+}
+
+#[test]
+fn the_index_lists_every_page() {
+    let index = std::fs::read_to_string(root().join("docs/errors/README.md")).expect("the index");
+    for code in all_codes() {
+        let row = format!("| [{0}]({0}.md) | {1} |", code.name(), code.title);
+        assert!(index.contains(&row), "the index lacks {row}");
+    }
+}
+
+#[test]
+fn every_code_has_a_case_or_a_test() {
+    let cases = filpost::case::find(&root().join("corpus/errors")).expect("cases");
+    let expected = |case: &Case| -> Vec<String> {
+        let warnings = case.file.expect_warnings.iter();
+        case.file.expect_error.iter().chain(warnings).cloned().collect()
+    };
+    for case in &cases {
+        let folder = case.folder.file_name().expect("a name").to_string_lossy().into_owned();
+        let codes = expected(case);
+        assert!(codes.contains(&folder[..5].to_string()), "{folder} expects {codes:?}");
+        assert!(
+            case.file.expect_at.is_some() || PLACELESS.contains(&&folder[..5]),
+            "{folder}: where?"
+        );
+    }
+    let source = include_str!("errors.rs");
+    for code in all_codes() {
+        let name = code.name();
+        let in_corpus = cases.iter().any(|case| expected(case).contains(&name));
+        let here = TESTED_HERE.iter().find(|(code, _)| *code == name);
+        assert!(in_corpus != here.is_some(), "{name}: a case or a test, and not both");
+        if let Some((_, test)) = here {
+            assert!(source.contains(&format!("fn {test}()")), "there is no test {test}");
+        }
+    }
+}
+
+/// Codes that name no line of a file.
+const PLACELESS: &[&str] = &["E0703", "W0752", "W0753"];
+
+#[test]
+fn examples_do_what_the_pages_say() {
+    let update = std::env::var_os("FILPOST_UPDATE").is_some_and(|value| value == "1");
+    let mut failures = Vec::new();
+    for code in all_codes() {
+        let name = code.name();
+        let (path, page) = &pages()[&name];
+        let mut fresh = page.clone();
+        let blocks = examples::blocks(page);
+        for (index, block) in blocks.iter().enumerate() {
+            let Some(diags) = examples::run(block) else { continue };
+            match block.heading {
+                "Wrong" => match diags.iter().find(|diag| diag.code == code) {
+                    Some(diag) => {
+                        let said = blocks.get(index + 1).map_or("", |next| &next.text);
+                        if said != format!("{diag}\n") {
+                            failures.push(format!("{name}: it says\n{diag}\nnot\n{said}"));
+                            fresh = fresh.replacen(
+                                &format!("```text\n{said}```"),
+                                &format!("```text\n{diag}\n```"),
+                                1,
+                            );
+                        }
+                    }
+                    None => {
+                        failures.push(format!("{name} line {}: not raised {diags:?}", block.line))
+                    }
+                },
+                "Right" => {
+                    let bad = |diag: &&Diag| diag.code == code || diag.is_error();
+                    if let Some(diag) = diags.iter().find(bad) {
+                        failures.push(format!("{name} line {}: {diag}", block.line));
+                    }
+                }
+                heading => failures.push(format!("{name}: an example under {heading}")),
+            }
+        }
+        if update && fresh != *page {
+            std::fs::write(path, fresh).expect("the page is written");
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn most_pages_have_examples_that_run() {
+    let runs =
+        |page: &str| examples::blocks(page).iter().any(|block| examples::run(block).is_some());
+    let without: Vec<String> = pages()
+        .into_iter()
+        .filter(|(name, (_, page))| !name[1..].starts_with("08") && !runs(page))
+        .map(|(name, _)| name)
+        .filter(|name| !TESTED_HERE.iter().any(|(code, _)| code == name))
+        .collect();
+    assert!(without.is_empty(), "{without:?}");
+}
+
+/// The codes of building a post with this FIL file.
+fn building(fil: &str) -> Vec<String> {
+    names(&Post::builder().fil("t.fil", fil).build().err().expect("refused"))
+}
+
+fn names(error: &Error) -> Vec<String> {
+    error.diags().iter().map(|diag| diag.code.name()).collect()
+}
+
+/// The code of posting this CL text.
+fn posting(cl: &str) -> String {
+    let mut post = Post::builder().build().expect("the generic mill");
+    let error = post.run(cl.as_bytes(), &mut Vec::new()).expect_err("refused");
+    names(&error).remove(0)
+}
+
+#[test]
+fn e0107_line_too_long() {
+    assert_eq!(building(&format!("$$ {}\nFINI\n", "x".repeat(16_384))), ["E0107"]);
+}
+
+#[test]
+fn e0108_file_too_large() {
+    assert_eq!(building(&" \n".repeat((32 << 20) + 1)), ["E0108"]);
+}
+
+#[test]
+fn e0109_too_many_errors() {
+    let codes = building(&"A=(\n".repeat(200));
+    assert_eq!((codes.len(), codes.last().map(String::as_str)), (101, Some("E0109")));
+}
+
+#[test]
+fn e0120_and_e0121_encodings() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("a.fil");
+    std::fs::write(&path, b"$$ \xff\nFINI\n").expect("a file");
+    let refused = |encoding| names(&files::read_text(&path, Some(encoding)).expect_err("refused"));
+    assert_eq!(refused("klingon"), ["E0120"]);
+    assert_eq!(refused("utf-8"), ["E0121"]);
+    assert!(files::read_text(&path, Some("windows-1251")).is_ok());
+}
+
+#[test]
+fn e0215_program_too_large() {
+    assert_eq!(building(&format!("{}FINI\n", "XX=1\n".repeat(66_000))), ["E0215"]);
+}
+
+#[test]
+fn w0220_and_w0221_findings_of_check() {
+    let fil = "CIMFIL/ON,CYCLE\nIF(POSTF(7,4).EQ.MISSNG)DMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
+    let diags = filpost_tests::examples::check(fil);
+    let found: Vec<_> = diags.iter().map(|diag| (diag.code.number, diag.places[0].line)).collect();
+    assert_eq!(found, [(220, 1), (221, 2)]);
+    let build = Post::builder().fil("t.fil", fil).build().expect("a run does not look for them");
+    assert!(build.warnings().is_empty());
+}
+
+#[test]
+fn e0305_call_depth() {
+    let fil = "MA=MACRO\nXX=1\nTERMAC\nMB=MACRO\nCALL/MA\nTERMAC\nCALL/MB\nFINI\n";
+    let limits = Limits { call_depth: 1, ..Limits::default() };
+    let mut post = Post::builder().fil("t.fil", fil).limits(limits).build().expect("a post");
+    let error = post.run(PART.as_bytes(), &mut Vec::new()).expect_err("refused");
+    assert_eq!(names(&error), ["E0305"]);
+    assert_eq!(error.diags()[0].places[0].line, 5);
+}
+
+#[test]
+fn e0317_host_function() {
+    let fil = "XX=LIFEF(3)\nFINI\n";
+    let mut post = Post::builder()
+        .fil("t.fil", fil)
+        .function("LIFEF", 1, |_| Err("the tool table is not there".into()))
+        .build()
+        .expect("a post");
+    let error = post.run(PART.as_bytes(), &mut Vec::new()).expect_err("refused");
+    assert_eq!(names(&error), ["E0317"]);
+    assert!(error.to_string().contains("the tool table is not there"), "{error}");
+}
+
+#[test]
+fn e0401_reading_fails() {
+    struct Failing;
+    impl Read for Failing {
+        fn read(&mut self, _: &mut [u8]) -> io::Result<usize> {
+            Err(io::Error::other("the stick was pulled out"))
+        }
+    }
+    let mut post = Post::builder().build().expect("the generic mill");
+    let input = Cursor::new("RAPID\n").chain(Failing);
+    let error = post.run(input, &mut Vec::new()).expect_err("refused");
+    assert_eq!(names(&error), ["E0401"]);
+}
+
+#[test]
+fn e0403_statement_too_long() {
+    assert_eq!(posting(&format!("PPRINT / {}\n", "x".repeat(2 << 20))), "E0403");
+}
+
+#[test]
+fn e0409_stream_goes_back() {
+    let fil = "NN=0\nCIMFIL/ON,COOLNT\nNN=NN+1\nIF(NN.EQ.1)DMY=POSTF(15)\nCIMFIL/OFF\nFINI\n";
+    let cl = "RAPID\nCOOLNT / ON\nFINI\n";
+    let mut post = Post::builder().fil("t.fil", fil).build().expect("a post");
+    let error = post.run(cl.as_bytes(), &mut Vec::new()).expect_err("refused");
+    assert_eq!(names(&error), ["E0409"]);
+    assert!(post.run_seekable(Cursor::new(cl), &mut Vec::new()).is_ok());
+}
+
+#[test]
+fn a_section_that_always_goes_back_is_stopped() {
+    let fil = "CIMFIL/ON,COOLNT\nDMY=POSTF(15)\nCIMFIL/OFF\nFINI\n";
+    let limits = Limits { fuel: 10_000, ..Limits::default() };
+    let mut post = Post::builder().fil("t.fil", fil).limits(limits).build().expect("a post");
+    let cl = Cursor::new("RAPID\nCOOLNT / ON\nFINI\n");
+    let error = post.run_seekable(cl, &mut Vec::new()).expect_err("refused");
+    assert_eq!(names(&error), ["E0304"]);
+}
+
+#[test]
+fn e0410_no_such_record() {
+    let mut reader =
+        fil_cl::Reader::seekable(Cursor::new("RAPID\n"), "a.ncl", fil_cl::Options::default());
+    let diag = reader.seek_record(0).expect_err("refused");
+    assert_eq!(diag.code.name(), "E0410");
+}
+
+#[test]
+fn e0411_too_many_words() {
+    let cl: String = (0..60_000).map(|number| format!("W{number}/1\n")).collect();
+    assert_eq!(posting(&cl), "E0411");
+}
+
+#[test]
+fn e0412_and_e0413_writing_cl() {
+    let vocabulary = fil_cl::Vocabulary::new();
+    let mut record = fil_cl::Record::command(fil_cl::words::CYCLE);
+    let mut none = [0u8; 2];
+    let diag = fil_cl::Writer::new(&mut none[..]).write(&record, &vocabulary).expect_err("no room");
+    assert_eq!(diag.code.name(), "E0413");
+    record.data = vec![fil_cl::Word::Number(f64::NAN)];
+    let diag = fil_cl::Writer::new(Vec::new()).write(&record, &vocabulary).expect_err("refused");
+    assert_eq!(diag.code.name(), "E0412");
+}
+
+/// A folder with the part, and what the output is when an older program lies there.
+struct Shop {
+    folder: tempfile::TempDir,
+}
+
+const OLDER: &str = "an older program\n";
+
+impl Shop {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::write(folder.path().join("part.ncl"), PART).expect("a part");
+        Shop { folder }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn names(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(self.folder.path()).expect("the folder");
+        let name = |entry: io::Result<std::fs::DirEntry>| {
+            entry.expect("an entry").file_name().to_string_lossy().into_owned()
+        };
+        let mut names: Vec<String> = entries.map(name).collect();
+        names.sort();
+        names
+    }
+}
+
+fn post_file(cl: &Path, nc: &Path) -> Result<filpost::Report, Error> {
+    files::post_file(&mut Post::builder().build().expect("the generic mill"), cl, nc)
+}
+
+#[test]
+fn e0701_missing_file() {
+    let shop = Shop::new();
+    std::fs::write(shop.path("out.nc"), OLDER).expect("an older program");
+    let error = post_file(&shop.path("nothing.ncl"), &shop.path("out.nc")).expect_err("refused");
+    assert_eq!(names(&error), ["E0701"]);
+    assert_eq!(std::fs::read_to_string(shop.path("out.nc")).expect("untouched"), OLDER);
+    let error = post_file(shop.folder.path(), &shop.path("new.nc")).expect_err("a folder");
+    assert_eq!(names(&error), ["E0701"]);
+    assert_eq!(shop.names(), ["out.nc", "part.ncl"]);
+}
+
+#[test]
+fn e0702_absent_folder() {
+    let shop = Shop::new();
+    let error =
+        post_file(&shop.path("part.ncl"), &shop.path("absent/out.nc")).expect_err("refused");
+    assert_eq!(names(&error), ["E0702"]);
+    assert_eq!(shop.names(), ["part.ncl"]);
+}
+
+#[test]
+fn e0702_output_is_a_folder() {
+    let shop = Shop::new();
+    let error = post_file(&shop.path("part.ncl"), shop.folder.path()).expect_err("refused");
+    assert_eq!(names(&error), ["E0702"]);
+    assert_eq!(shop.names(), ["part.ncl"]);
+}
+
+#[test]
+fn e0702_read_only_file() {
+    let shop = Shop::new();
+    let nc = shop.path("out.nc");
+    std::fs::write(&nc, OLDER).expect("an older program");
+    let mut rights = std::fs::metadata(&nc).expect("the file").permissions();
+    rights.set_readonly(true);
+    std::fs::set_permissions(&nc, rights).expect("read-only");
+    let error = post_file(&shop.path("part.ncl"), &nc).expect_err("refused");
+    assert_eq!(names(&error), ["E0702"]);
+    assert_eq!(std::fs::read_to_string(&nc).expect("untouched"), OLDER);
+    assert_eq!(shop.names(), ["out.nc", "part.ncl"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn e0702_full_disk() {
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").expect("/dev/full");
+    let mut post = Post::builder().build().expect("the generic mill");
+    let error = post.run(PART.as_bytes(), full).expect_err("refused");
+    assert_eq!(names(&error), ["E0702"]);
+}
+
+#[test]
+fn e0702_disk_full_under_way() {
+    let shop = Shop::new();
+    let nc = shop.path("out.nc");
+    std::fs::write(&nc, OLDER).expect("an older program");
+    let result = files::write_whole(&nc, |_| {
+        let mut post = Post::builder().build()?;
+        let mut room = [0u8; 100];
+        post.run(PART.as_bytes(), &mut room[..])
+    });
+    assert_eq!(names(&result.expect_err("refused")), ["E0702"]);
+    assert_eq!(std::fs::read_to_string(&nc).expect("untouched"), OLDER);
+    assert_eq!(shop.names(), ["out.nc", "part.ncl"]);
+}
+
+#[test]
+fn a_refused_record_leaves_no_file_and_an_older_one_as_it_was() {
+    let shop = Shop::new();
+    let wrong = PART.replace("GOTO / 10, 0, 0", "GOTO / 100000, 0, 0");
+    std::fs::write(shop.path("part.ncl"), wrong).expect("a part");
+    let error = post_file(&shop.path("part.ncl"), &shop.path("out.nc")).expect_err("refused");
+    assert_eq!(names(&error), ["E0501"]);
+    assert_eq!(shop.names(), ["part.ncl"]);
+    std::fs::write(shop.path("out.nc"), OLDER).expect("an older program");
+    post_file(&shop.path("part.ncl"), &shop.path("out.nc")).expect_err("refused");
+    assert_eq!(std::fs::read_to_string(shop.path("out.nc")).expect("untouched"), OLDER);
+    assert_eq!(shop.names(), ["out.nc", "part.ncl"]);
+}
+
+#[test]
+fn e0705_case_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("case.toml"), "cl = 'a'\norigin = 'x'\nposts = 'y'\n")
+        .expect("a case");
+    let error = Case::load(folder.path()).expect_err("refused");
+    assert_eq!(names(&error), ["E0705"]);
+    assert_eq!(error.diags()[0].places[0].line, 3);
+}
+
+#[test]
+fn severities_and_letters_agree() {
+    let letter = |code: &Code| if code.severity == Severity::Error { 'E' } else { 'W' };
+    assert!(all_codes().iter().all(|code| code.name().starts_with(letter(code))));
+}
