@@ -4,6 +4,7 @@ pub mod cl_path;
 pub mod compare;
 pub mod examples;
 pub mod language;
+pub mod lints;
 pub mod nc_path;
 pub mod path;
 pub mod rs274;
