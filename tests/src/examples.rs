@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use filpost::{Diag, Post};
+use filpost::{Clock, Diag, Moment, Post};
 
 /// The CL file an example of FIL or of machine.toml runs with.
 pub const PART: &str = "\
@@ -64,7 +64,8 @@ pub fn blocks(page: &str) -> Vec<Block<'_>> {
 /// `fil` runs with [`PART`] on the ready post fanuc-mill, `cl` on the same
 /// post, `toml` is a machine.toml that [`PART`] is posted with. Marks:
 /// `strict`, `check` (the warnings of `filpost check`), `fuel=N`, `post=NAME`,
-/// `option-file`, `compat`.
+/// `option-file`, `compat`, `read` (the folder `tests/language/with` is granted),
+/// `clock` (a fixed one).
 pub fn run(block: &Block<'_>) -> Option<Vec<Diag>> {
     let (language, marks) = block.words.split_first()?;
     if marks.contains(&"check") {
@@ -78,6 +79,13 @@ pub fn run(block: &Block<'_>) -> Option<Vec<Diag>> {
     if let Some(fuel) = value("fuel=") {
         let fuel = fuel.parse().expect("fuel is a number");
         builder = builder.limits(filpost::Limits { fuel, ..filpost::Limits::default() });
+    }
+    if marks.contains(&"read") {
+        builder = builder.grant_read(crate::root().join("tests/language/with"));
+    }
+    if marks.contains(&"clock") {
+        let moment = Moment::parse("2026-01-31T12:00:00").expect("a moment");
+        builder = builder.clock(Clock::Fixed(moment));
     }
     let mut cl = PART;
     match *language {

@@ -7,16 +7,23 @@
 //! $$ warning: W0217 at 3      a warning that must come
 //! $$ with: other.fil          a file loaded before this one
 //! $$ set: key=value           a setting on top of the suite's machine.toml
+//! $$ strict: yes              extensions are refused
+//! $$ clock: 2026-01-31T12:00:00    the moment of DATEF and TIMEF
+//! $$ grant: read              scripts may read the folder `with`
+//! $$ grant: write             scripts may read and write an empty folder
+//! $$ file: NAME: LINE         a line of a file there after the run, in order; no
+//!                             other file may be there
 //! ```
 //!
 //! Without `error:` the whole program is compared and every error or warning
 //! that is not announced is a failure. The machine of the suite writes nothing
 //! of its own accord, so that a test shows only what its FIL does.
 
+use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::Path;
 
-use filpost::{Diag, Post, files};
+use filpost::{Diag, Post, files, includes};
 
 /// What the header of a test says.
 #[derive(Default)]
@@ -27,6 +34,10 @@ struct Header {
     warnings: Vec<String>,
     with: Vec<String>,
     set: Vec<String>,
+    strict: bool,
+    clock: Option<String>,
+    grant: Option<String>,
+    files: BTreeMap<String, String>,
 }
 
 fn header(text: &str) -> Result<Header, String> {
@@ -44,6 +55,13 @@ fn header(text: &str) -> Result<Header, String> {
             "warning" => header.warnings.push(value),
             "with" => header.with.push(value),
             "set" => header.set.push(value),
+            "strict" => header.strict = true,
+            "clock" => header.clock = Some(value),
+            "grant" => header.grant = Some(value),
+            "file" => {
+                let (name, line) = value.split_once(": ").ok_or("file: NAME: LINE")?;
+                *header.files.entry(name.into()).or_default() += &format!("{line}\n");
+            }
             _ => {}
         }
     }
@@ -69,10 +87,49 @@ pub fn run(path: &Path) -> Result<(), String> {
     for setting in &header.set {
         builder = builder.set(setting);
     }
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let written = tempfile::tempdir().map_err(|error| error.to_string())?;
+    builder = granted(builder.strict(header.strict), &header, folder, written.path())?;
+    builder = builder.includes(includes::beside(&[path.to_path_buf()], None));
+    let name = path.display().to_string();
     let cl: String = header.cl.iter().map(|line| format!("{line}\n")).collect();
     let result = post(builder.fil(&name, &text), &format!("{cl}FINI\n"));
-    judge(&header, &name, result)
+    judge(&header, &name, result)?;
+    judge_files(&header, written.path())
+}
+
+fn granted(
+    builder: filpost::Builder,
+    header: &Header,
+    folder: &Path,
+    written: &Path,
+) -> Result<filpost::Builder, String> {
+    let mut builder = builder;
+    if let Some(text) = &header.clock {
+        let moment = filpost::Moment::parse(text).ok_or("clock: no moment")?;
+        builder = builder.clock(filpost::Clock::Fixed(moment));
+    }
+    match header.grant.as_deref() {
+        None => Ok(builder),
+        Some("read") => Ok(builder.grant_read(folder.join("with"))),
+        Some("write") => Ok(builder.grant_read(written).grant_write(written)),
+        Some(other) => Err(format!("grant: {other} is not known")),
+    }
+}
+
+/// Compares the files a script wrote.
+fn judge_files(header: &Header, folder: &Path) -> Result<(), String> {
+    for (name, wanted) in &header.files {
+        let found =
+            std::fs::read_to_string(folder.join(name)).map_err(|e| format!("{name}: {e}"))?;
+        if found != *wanted {
+            return Err(format!("{name}: expected:\n{wanted}got:\n{found}"));
+        }
+    }
+    let names = std::fs::read_dir(folder).map_err(|error| error.to_string())?;
+    let beyond = names
+        .filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned()))
+        .find(|name| !header.files.contains_key(name));
+    beyond.map_or(Ok(()), |name| Err(format!("the file {name} is there")))
 }
 
 type Posted = Result<(String, Vec<Diag>), Vec<Diag>>;
@@ -123,6 +180,9 @@ fn at(diag: &Diag, file: &str) -> String {
     match diag.places.first() {
         None => diag.code.name(),
         Some(place) if place.file == file => format!("{} at {}", diag.code.name(), place.line),
-        Some(place) => format!("{} at {}:{}", diag.code.name(), place.file, place.line),
+        Some(place) => {
+            let name = Path::new(&place.file).file_name().unwrap_or_default().to_string_lossy();
+            format!("{} at {name}:{}", diag.code.name(), place.line)
+        }
     }
 }

@@ -2,11 +2,14 @@
 
 pub mod cl_path;
 pub mod compare;
+pub mod duel;
 pub mod examples;
 pub mod language;
 pub mod lints;
 pub mod nc_path;
+pub mod oracle;
 pub mod path;
+pub mod programs;
 pub mod rs274;
 
 /// The folder of the workspace.

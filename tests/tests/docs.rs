@@ -83,6 +83,21 @@ fn commands_run_as_printed() {
 }
 
 #[test]
+fn programs_shown_are_those_printed() {
+    let mut count = 0;
+    for (name, page) in pages() {
+        for pair in blocks(&page).windows(2) {
+            if pair[0].words == ["sh"] && pair[1].words == ["nc"] {
+                let output = shell(pair[0].text.trim());
+                assert_eq!(String::from_utf8_lossy(&output.stdout), pair[1].text, "{name}");
+                count += 1;
+            }
+        }
+    }
+    assert!(count >= 1, "no page shows a program");
+}
+
+#[test]
 fn the_first_command_prints_the_listing_of_the_paper() {
     let readme = read("README.md");
     let listing = read("corpus/papers/embos-grooves/figure-7.nc");
@@ -113,11 +128,12 @@ fn examples_of_fil_and_settings_are_accepted() {
 
 #[test]
 fn links_lead_somewhere() {
-    let folder = root().join("docs/errors");
     let mut all = pages();
-    for entry in std::fs::read_dir(folder).expect("docs/errors is there") {
-        let name = entry.expect("an entry").file_name().to_string_lossy().into_owned();
-        all.push((format!("docs/errors/{name}"), read(&format!("docs/errors/{name}"))));
+    for folder in ["docs/errors", "docs/howto"] {
+        for entry in std::fs::read_dir(root().join(folder)).expect("the folder is there") {
+            let name = entry.expect("an entry").file_name().to_string_lossy().into_owned();
+            all.push((format!("{folder}/{name}"), read(&format!("{folder}/{name}"))));
+        }
     }
     for (name, page) in all {
         let folder = root().join(&name).parent().expect("a folder").to_path_buf();
@@ -170,8 +186,7 @@ fn grade(grade: Grade) -> &'static str {
 fn compat_has_a_row_for_each_function_with_its_grade() {
     let page = read("docs/compat.md");
     for row in BUILTINS {
-        let start =
-            format!("| `{}({})` | {} | {} |", row.name, row.arguments, row.doc, grade(row.grade));
+        let start = format!("| `{}` | {} | {} |", row.call(), row.doc, grade(row.grade));
         assert!(page.lines().any(|line| line.starts_with(&start)), "no row {start}");
     }
 }
@@ -193,7 +208,7 @@ fn compat_has_a_row_for_each_postf_number_with_its_grade() {
 fn the_language_page_lists_each_function() {
     let page = read("docs/language.md");
     for row in BUILTINS {
-        let start = format!("| `{}({})` | {}", row.name, row.arguments, row.doc);
+        let start = format!("| `{}` | {}", row.call(), row.doc);
         assert!(page.lines().any(|line| line.starts_with(&start)), "no row {start}");
     }
 }

@@ -250,7 +250,7 @@ impl<'s> Iterator for Adapter<'s, '_> {
 }
 
 /// The index of the `=` when an assignment to a name or element starts here.
-fn assigned_at(statement: &[Placed<'_>], start: usize) -> Option<usize> {
+pub(crate) fn assigned_at(statement: &[Placed<'_>], start: usize) -> Option<usize> {
     if !matches!(statement.get(start)?.1, Token::Name(_)) {
         return None;
     }
@@ -324,7 +324,7 @@ impl Nesting {
 }
 
 /// True after a token that can be the last of a value.
-fn ends_value(token: Token<'_>) -> bool {
+pub(crate) fn ends_value(token: Token<'_>) -> bool {
     use Token::{Close, Integer, Name, Real, Text};
     matches!(token, Close | Integer(_) | Name(_) | Real(_) | Text(_))
 }

@@ -15,7 +15,7 @@
 
 use std::borrow::Cow;
 
-use encoding_rs::{Encoding, KOI8_R, UTF_8, WINDOWS_1251, WINDOWS_1252};
+use encoding_rs::{Encoding, KOI8_R, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1251, WINDOWS_1252};
 use fil_diag::Diag;
 
 use crate::errors::SyntaxCode;
@@ -46,6 +46,20 @@ pub fn decode<'b>(
         return Err(Diag::new(SyntaxCode::WrongEncoding, message));
     }
     Ok((text, asked.name()))
+}
+
+/// A text as the bytes of an encoding, by the name that [`decode`] gave;
+/// `None` where the encoding lacks a character of the text.
+pub(crate) fn encode<'t>(text: &'t str, encoding: &str) -> Option<Cow<'t, [u8]>> {
+    let encoding = Encoding::for_label(encoding.as_bytes())?;
+    if encoding == UTF_16LE {
+        return Some(text.encode_utf16().flat_map(u16::to_le_bytes).collect());
+    }
+    if encoding == UTF_16BE {
+        return Some(text.encode_utf16().flat_map(u16::to_be_bytes).collect());
+    }
+    let (bytes, _, unmappable) = encoding.encode(text);
+    (!unmappable).then_some(bytes)
 }
 
 /// The encoding of a file without a name for it.

@@ -2,13 +2,14 @@
 //!
 //! [`parse`] never fails: it returns a tree of what could be read and a list of
 //! diagnostics. [`decode`] makes text of a file's bytes, [`print`](print::print)
-//! writes a tree back as FIL text.
+//! writes a tree back as FIL text, [`format()`] gives a text its canonical layout.
 
 mod adapter;
 mod encoding;
 mod errors;
 mod expr;
 mod flat;
+mod format;
 mod frame;
 mod free_text;
 mod message;
@@ -27,4 +28,5 @@ lalrpop_util::lalrpop_mod!(
 
 pub use encoding::decode;
 pub use errors::SyntaxCode;
+pub use format::{format, format_bytes};
 pub use parse::{Parsed, parse};

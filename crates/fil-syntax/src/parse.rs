@@ -10,7 +10,7 @@ use crate::structure;
 use crate::tree::{Program, Span};
 
 /// The largest file, in bytes.
-const MAX_FILE: usize = 64 << 20;
+pub(crate) const MAX_FILE: usize = 64 << 20;
 /// The longest line, in bytes.
 const MAX_LINE: usize = 16_384;
 /// How much of a line that is too long is shown, in characters.

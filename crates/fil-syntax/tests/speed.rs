@@ -1,8 +1,8 @@
-//! Reading takes time in proportion to the text, whatever it is.
+//! Reading and formatting take time in proportion to the text, whatever it is.
 
 use std::time::{Duration, Instant};
 
-use fil_syntax::parse;
+use fil_syntax::{format, parse};
 
 /// A file as people write them, of so many lines.
 fn ordinary(lines: usize) -> String {
@@ -52,6 +52,24 @@ fn ten_megabytes_of_noise_are_read_in_a_moment() {
         let source = piece.repeat(size / piece.len());
         let time = time_of(&source);
         assert!(time < Duration::from_secs(20), "{:.40}: {time:?}", piece);
+    }
+}
+
+#[test]
+fn two_megabytes_are_formatted_in_a_moment() {
+    let size = 2 << 20;
+    let sum = format!("A=1{}\n", "+$\n1".repeat(199));
+    let list = format!("A=MAXF(1{})\n", ",1".repeat(4000));
+    for piece in ["$$\n", "$$==\n", "\n", "A=1;$\n", "A $ $$ b\n\n", &sum, &list] {
+        let body = piece.repeat(size / piece.len());
+        for depth in [0, 99] {
+            let (opened, closed) = ("IF(A)THEN\n".repeat(depth), "ENDIF\n".repeat(depth));
+            let source = format!("{opened}{body}\n{closed}FINI\n");
+            let start = Instant::now();
+            assert!(format("t.fil", &source).is_ok(), "{piece:.40}");
+            let time = start.elapsed();
+            assert!(time < Duration::from_secs(20), "{piece:.40}: {time:?}");
+        }
     }
 }
 

@@ -1,7 +1,10 @@
-//! The built-in functions: name, arguments, meaning, grade and arithmetic in one table.
+//! The built-in functions, the forms of TEXT/ and the statements of our own: name,
+//! arguments, meaning, grade and arithmetic in one table.
 //!
 //! POSTF has a table of its own, [`postf`](crate::postf).
 
+use crate::arithmetic::{arc_tangent, cos_degrees, distance, sin_degrees};
+use crate::library::Library;
 use crate::postf::Grade;
 
 /// What the compiler does with a built-in function.
@@ -11,8 +14,14 @@ pub enum Kind {
     Numbers(u16, fn(&[f64]) -> Option<f64>),
     /// A function of two numbers, applied in turn to two or more.
     Fold(fn(&[f64]) -> Option<f64>),
-    /// LNTHF
-    TextLength,
+    /// Work on texts and the world outside, with the least and most arguments.
+    Library(Library, u16, u16),
+    /// FILEF
+    File,
+    /// SIZEF
+    Size,
+    /// A statement of its own.
+    Statement,
     /// ICODEF
     WordCode,
     /// POSTF
@@ -31,9 +40,9 @@ pub enum Kind {
     NamedCommon,
 }
 
-/// A built-in function.
+/// A built-in function, a form of TEXT/ or a statement.
 pub struct Builtin {
-    /// Its name.
+    /// Its name; `TEXT/` stands before that of a form.
     pub name: &'static str,
     /// Its arguments as a call shows them.
     pub arguments: &'static str,
@@ -45,6 +54,19 @@ pub struct Builtin {
     pub extension: bool,
     /// What the compiler does with it.
     pub kind: Kind,
+}
+
+impl Builtin {
+    /// It as a script writes it: `SQRTF(x)`, `TEXT/UP,t`, `DATA/name,v,…`.
+    pub fn call(&self) -> String {
+        let (name, arguments) = (self.name, self.arguments);
+        match self.kind {
+            Kind::Statement => format!("{name}/{arguments}"),
+            _ if !name.contains('/') => format!("{name}({arguments})"),
+            _ if arguments.is_empty() => name.to_string(),
+            _ => format!("{name},{arguments}"),
+        }
+    }
 }
 
 const fn function(
@@ -69,7 +91,7 @@ const fn extension(
 use Grade::{Inferred, Own, Published};
 use Kind::{Fold, Numbers};
 
-/// All built-in functions. A function of numbers gives `None`, or a result that
+/// All of them. A function of numbers gives `None`, or a result that
 /// is not finite, outside of its domain.
 pub const BUILTINS: &[Builtin] = &[
     function("ABSF", "x", Published, Numbers(1, |a| Some(a[0].abs())), "absolute value"),
@@ -185,7 +207,156 @@ pub const BUILTINS: &[Builtin] = &[
         Numbers(6, |a| Some(a[0] * a[3] + a[1] * a[4] + a[2] * a[5])),
         "scalar product of two vectors",
     ),
-    function("LNTHF", "text", Own, Kind::TextLength, "number of characters of a text"),
+    function(
+        "LNTHF",
+        "t",
+        Own,
+        Kind::Library(Library::Length, 1, 1),
+        "number of characters of a text",
+    ),
+    function(
+        "INDXF",
+        "t,x[,from]",
+        Own,
+        Kind::Library(Library::Position, 2, 3),
+        "position of the first x in t, at or after character `from`; 0 when there is none",
+    ),
+    function(
+        "CMPF",
+        "t1,t2",
+        Own,
+        Kind::Library(Library::Compare, 2, 2),
+        "order of two texts by their character codes: -1, 0 or 1",
+    ),
+    function("CMPRF", "t1,t2", Own, Kind::Library(Library::Compare, 2, 2), "the same as CMPF"),
+    function(
+        "ICHARF",
+        "t[,n]",
+        Own,
+        Kind::Library(Library::CharacterCode, 1, 2),
+        "code of character n of a text (Unicode, so ASCII for the usual letters); n is 1 when left out",
+    ),
+    function(
+        "SCALF",
+        "t",
+        Own,
+        Kind::Library(Library::ToNumber, 1, 1),
+        "the number a text holds, blanks around it allowed; any other text is refused",
+    ),
+    function(
+        "TEXTF",
+        "x[,width[,decimals]][,rules]",
+        Own,
+        Kind::Library(Library::ToText, 1, 3),
+        "a number as text; the same as TEXT/CONVF",
+    ),
+    function(
+        "CONVF",
+        "x[,width[,decimals]][,rules]",
+        Own,
+        Kind::Library(Library::ToText, 1, 3),
+        "a number as text; the same as TEXT/CONVF",
+    ),
+    function(
+        "TEXT/CLW",
+        "",
+        Own,
+        Kind::Library(Library::RecordText, 0, 0),
+        "text of the current record, which must be one of text (PARTNO, PPRINT, INSERT, …)",
+    ),
+    function(
+        "TEXT/PART",
+        "t,from[,to]",
+        Own,
+        Kind::Library(Library::Part, 2, 3),
+        "characters `from` to `to` of a text, to its end when `to` is left out; `to` = `from` - 1 gives the empty text",
+    ),
+    function(
+        "TEXT/RANGE",
+        "t,from[,to]",
+        Own,
+        Kind::Library(Library::Part, 2, 3),
+        "the same as TEXT/PART",
+    ),
+    function(
+        "TEXT/REPEAT",
+        "t,n",
+        Own,
+        Kind::Library(Library::Repeat, 2, 2),
+        "a text n times, one after the other",
+    ),
+    function(
+        "TEXT/LAST",
+        "t,n",
+        Own,
+        Kind::Library(Library::Last, 2, 2),
+        "the last n characters of a text",
+    ),
+    function(
+        "TEXT/OMIT",
+        "t,x",
+        Own,
+        Kind::Library(Library::Omit, 2, 2),
+        "a text without any x in it",
+    ),
+    function(
+        "TEXT/MODIFY",
+        "t,old,new",
+        Own,
+        Kind::Library(Library::Modify, 3, 3),
+        "a text with `new` in the place of each `old`",
+    ),
+    function("TEXT/UP", "t", Own, Kind::Library(Library::Upper, 1, 1), "a text in upper case"),
+    function("TEXT/LOW", "t", Own, Kind::Library(Library::Lower, 1, 1), "a text in lower case"),
+    function(
+        "TEXT/CONVI",
+        "n[,width][,rules]",
+        Own,
+        Kind::Library(Library::WholeToText, 1, 2),
+        "a whole number as text, right in its width; rules: PLUS, ZEROS; too narrow a width is refused",
+    ),
+    function(
+        "TEXT/CONVF",
+        "x[,width[,decimals]][,rules]",
+        Own,
+        Kind::Library(Library::ToText, 1, 3),
+        "a number as text, right in its width (0: as wide as it is), shortest without `decimals`, else rounded half away from zero; rules: PLUS + before positive numbers, ZEROS zeros in place of blanks in front, TRIM no zeros at the end, POINT a point in every number, NOLEAD no zero before the point",
+    ),
+    function(
+        "TEXT/READ",
+        "unit",
+        Own,
+        Kind::Library(Library::ReadLine, 1, 1),
+        "the next line of a file open for reading; needs a folder granted",
+    ),
+    function(
+        "FILEF",
+        "unit,op[,name]",
+        Own,
+        Kind::File,
+        "acts on an outside file; op: READ, WRITE, APPEND (open the file), CLOSE, REWIND, DELETE, END (1 when no line is left to read); 0, or 1 when READ or DELETE finds no such file; units 1 and 2; needs a folder granted",
+    ),
+    function(
+        "SPAWNF",
+        "'command'",
+        Own,
+        Kind::Library(Library::Spawn, 1, 1),
+        "has the embedding program run a command, where it allows that, and gives its status",
+    ),
+    function(
+        "DATEF",
+        "[n]",
+        Own,
+        Kind::Library(Library::Date, 0, 1),
+        "date as text, 2026-01-31, or its year (1), month (2) or day (3); needs a clock granted",
+    ),
+    function(
+        "TIMEF",
+        "[n]",
+        Own,
+        Kind::Library(Library::Time, 0, 1),
+        "time as text, 12:30:00, or its hour (1), minute (2) or second (3); needs a clock granted",
+    ),
     function(
         "ICODEF",
         "word",
@@ -221,40 +392,26 @@ pub const BUILTINS: &[Builtin] = &[
     extension("PREVF", "word", Kind::PreviousMotion, "X, Y, Z, I, J or K of the previous motion"),
     extension("LASTF", "letter", Kind::LastWritten, "last value written for a letter"),
     extension("COMF", "'name'", Kind::NamedCommon, "a common location by its name"),
+    extension("SIZEF", "name", Kind::Size, "number of elements of an array or data table"),
+    extension(
+        "DATA",
+        "name,v1,v2,…",
+        Kind::Statement,
+        "declares a table of numbers and texts that is read as name(i) and can't be changed",
+    ),
+    extension(
+        "WRITE",
+        "unit,v1,v2,…",
+        Kind::Statement,
+        "writes texts and numbers, one after the other, as a line of a file open for writing",
+    ),
 ];
 
-/// The index of a built-in function in [`BUILTINS`].
+/// The index of a built-in function or of a form, `TEXT/UP`, in [`BUILTINS`].
 pub(crate) fn find(name: &str) -> Option<usize> {
-    BUILTINS.iter().position(|builtin| builtin.name == name)
-}
-
-fn arc_tangent(a: &[f64]) -> Option<f64> {
-    (a[0] != 0.0 || a[1] != 0.0).then(|| a[0].atan2(a[1]).to_degrees())
-}
-
-fn distance(a: &[f64]) -> Option<f64> {
-    let (x, y, z) = (a[3] - a[0], a[4] - a[1], a[5] - a[2]);
-    Some(x.hypot(y).hypot(z))
-}
-
-/// Sine of degrees, exact where the sine is 0, 1/2 or 1: an axis position must
-/// not carry a residue of 1e-14 from the conversion to radians.
-fn sin_degrees(x: f64) -> f64 {
-    let turn = x % 360.0;
-    let (sign, angle) = if turn < 0.0 { (-1.0, -turn) } else { (1.0, turn) };
-    let (sign, angle) = if angle >= 180.0 { (-sign, angle - 180.0) } else { (sign, angle) };
-    let angle = if angle > 90.0 { 180.0 - angle } else { angle };
-    let sine = match angle {
-        0.0 => return 0.0,
-        30.0 => 0.5,
-        _ if angle > 45.0 => (90.0 - angle).to_radians().cos(),
-        _ => angle.to_radians().sin(),
-    };
-    sign * sine
-}
-
-fn cos_degrees(x: f64) -> f64 {
-    sin_degrees(90.0 - (x % 360.0).abs())
+    let is_it =
+        |builtin: &Builtin| builtin.name == name && !matches!(builtin.kind, Kind::Statement);
+    BUILTINS.iter().position(is_it)
 }
 
 #[cfg(test)]
@@ -271,7 +428,8 @@ mod tests {
     #[test]
     fn no_name_stands_twice() {
         for (index, builtin) in BUILTINS.iter().enumerate() {
-            assert_eq!(find(builtin.name), Some(index));
+            let first = BUILTINS.iter().position(|other| other.name == builtin.name);
+            assert_eq!(first, Some(index));
         }
     }
 
@@ -296,15 +454,6 @@ mod tests {
         assert_eq!(call("TANF", &[45.0]), Some(1.0));
         assert_eq!(call("ATANF", &[1.0]), Some(45.0));
         assert_eq!(call("ATAN2F", &[1.0, -1.0]), Some(135.0));
-    }
-
-    #[test]
-    fn sine_and_cosine_agree_with_radians() {
-        for step in -1000..1000 {
-            let angle = f64::from(step) * 0.777;
-            assert!((sin_degrees(angle) - angle.to_radians().sin()).abs() < 1e-14, "{angle}");
-            assert!((cos_degrees(angle) - angle.to_radians().cos()).abs() < 1e-14, "{angle}");
-        }
     }
 
     #[test]

@@ -65,7 +65,7 @@ fn show(module: &Module, op: Op) -> String {
         Op::HostFunction { dst, function, base } => {
             format!("{} = host function {function}({}…)", n(dst), n(base))
         }
-        Op::TextLength { dst, src } => format!("{} = length {}", n(dst), n(src)),
+        Op::Library { dst, call } => library(module, n(dst), call),
         Op::TextJoin { dst, base, count } => format!("{} = join {}…{count}", n(dst), n(base)),
         Op::RecordWord { dst, n: word } => format!("{} = word {word}", n(dst)),
         Op::Postf { dst, op, base } => {
@@ -90,6 +90,12 @@ fn show(module: &Module, op: Op) -> String {
         }
         Op::Return => "return".to_string(),
     }
+}
+
+fn library(module: &Module, dst: String, call: u16) -> String {
+    let call = module.calls[usize::from(call)];
+    let base = name(module, call.base);
+    format!("{dst} = {:?}({base}…{})", call.library, call.count)
 }
 
 fn post(module: &Module, template: u16) -> String {

@@ -4,6 +4,8 @@ use fil_cl::Record;
 use fil_cl::Vocabulary;
 use fil_diag::Diag;
 
+use crate::moment::Moment;
+
 /// One of the three commons.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum CommonKind {
@@ -45,6 +47,45 @@ impl Site {
     pub fn stack(&self) -> impl Iterator<Item = (u16, u32)> + '_ {
         std::iter::once((self.file, self.line)).chain(self.callers.iter().copied())
     }
+}
+
+/// What FILEF opens a file for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileMode {
+    /// To read it line by line.
+    Read,
+    /// To write it anew.
+    Write,
+    /// To write at its end.
+    Append,
+}
+
+/// Files of a script, where the host grants them. Units are 0 and 1.
+///
+/// The machine calls only what fits the state of the unit: it opens a unit that
+/// is closed, reads and rewinds one that is open to read, writes to one that is
+/// open to write. One file on both units is for the host to refuse or allow.
+pub trait Files {
+    /// Opens a file; false when it is to be read and there is none of that name.
+    fn open(&mut self, unit: usize, mode: FileMode, name: &str) -> Result<bool, Box<Diag>>;
+
+    /// Closes a file.
+    fn close(&mut self, unit: usize) -> Result<(), Box<Diag>>;
+
+    /// Goes back to the first line.
+    fn rewind(&mut self, unit: usize) -> Result<(), Box<Diag>>;
+
+    /// Deletes a file; false when there is none of that name.
+    fn delete(&mut self, name: &str) -> Result<bool, Box<Diag>>;
+
+    /// True when no line is left to read.
+    fn at_end(&mut self, unit: usize) -> Result<bool, Box<Diag>>;
+
+    /// The next line without its end; `None` when none is left.
+    fn read_line(&mut self, unit: usize) -> Result<Option<String>, Box<Diag>>;
+
+    /// Writes a line.
+    fn write_line(&mut self, unit: usize, line: &str) -> Result<(), Box<Diag>>;
 }
 
 /// What a machine asks of the program that runs it.
@@ -93,6 +134,22 @@ pub trait Host {
 
     /// Value of a common location by its name; `None` where there is no such name.
     fn named_common(&mut self, _name: &str) -> Option<Result<f64, Box<Diag>>> {
+        None
+    }
+
+    /// The files of FILEF, TEXT/READ and WRITE/; `None` refuses them (E0321).
+    fn files(&mut self) -> Option<&mut dyn Files> {
+        None
+    }
+
+    /// The date and time of DATEF and TIMEF; `None` refuses them (E0322).
+    fn now(&mut self) -> Option<Moment> {
+        None
+    }
+
+    /// Runs the command of SPAWNF and gives its status, or a sentence why it
+    /// can't; `None` refuses it (E0323).
+    fn spawn(&mut self, _command: &str) -> Option<Result<f64, String>> {
         None
     }
 

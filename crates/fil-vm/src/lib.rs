@@ -5,26 +5,31 @@
 //! for each CL record that has one. It does no I/O: everything outside goes
 //! through [`Host`].
 
+mod arithmetic;
 pub mod builtins;
 mod compile;
 mod disassemble;
 pub mod errors;
 mod functions;
 mod host;
+pub mod library;
 mod lint;
 mod machine;
 mod matcher;
 mod module;
+mod moment;
 mod ops;
 pub mod postf;
+mod texts;
 mod value;
 
-pub use compile::{FilFile, LoadOptions, Loaded, Loader, load};
+pub use compile::{FilFile, Included, LoadOptions, Loaded, Loader, load};
 pub use disassemble::disassemble;
 pub use functions::{Argument, Functions};
-pub use host::{CommonKind, Host, Site};
+pub use host::{CommonKind, FileMode, Files, Host, Site};
 pub use lint::MachineFacts;
 pub use machine::{Limits, Machine, Outcome};
 pub use module::{File, Module, SectionId};
+pub use moment::Moment;
 pub use postf::{Compat, PostfOp, SectionMode};
 pub use value::{EMPTY, Value};

@@ -7,6 +7,7 @@ use fil_cl::{Record, Vocabulary, WordId};
 use fil_diag::{LineIndex, Place};
 use fil_syntax::tree::Span;
 
+use crate::library::LibraryCall;
 use crate::matcher::Matcher;
 use crate::ops::{Op, Reg};
 use crate::postf::Compat;
@@ -134,6 +135,10 @@ pub struct Module {
     pub(crate) arrays: Vec<ArrayShape>,
     /// Post words.
     pub(crate) templates: Vec<Template>,
+    /// Values of the tables of DATA by their place in the array store.
+    pub(crate) data: Vec<(usize, Constant)>,
+    /// Calls on texts, files and the clock.
+    pub(crate) calls: Vec<LibraryCall>,
     /// Vocabulary words that operations name.
     pub(crate) words: Vec<WordId>,
     /// Which section takes which record.
@@ -153,6 +158,8 @@ pub(crate) struct ArrayShape {
     pub start: usize,
     /// Number of elements; subscripts run from 1 to this.
     pub len: usize,
+    /// A table of DATA, which no statement changes.
+    pub read_only: bool,
 }
 
 impl Module {

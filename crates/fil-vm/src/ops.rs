@@ -53,8 +53,8 @@ pub enum Op {
     Function { dst: Reg, function: u16, base: Reg },
     /// `dst = function(base, base + 1, …)`, a function of the embedding program.
     HostFunction { dst: Reg, function: u16, base: Reg },
-    /// `dst = LNTHF(src)`
-    TextLength { dst: Reg, src: Reg },
+    /// A call on texts, files or the clock, of [`Module::calls`](crate::Module).
+    Library { dst: Reg, call: u16 },
     /// `dst = TEXT/base,…` of `count` values.
     TextJoin { dst: Reg, base: Reg, count: u16 },
     /// `dst = POSTF(7,n)` with a constant `n`.

@@ -81,7 +81,8 @@ pub struct Shown(pub f64);
 
 impl fmt::Display for Shown {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0 == EMPTY { f.write_str("EMPTY") } else { write!(f, "{}", self.0) }
+        // Adding 0 makes a -0 plain.
+        if self.0 == EMPTY { f.write_str("EMPTY") } else { write!(f, "{}", self.0 + 0.0) }
     }
 }
 

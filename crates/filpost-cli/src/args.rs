@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
+use filpost::Moment;
 
 /// Posts CL files with FIL macros into NC programs.
 #[derive(Debug, Parser)]
@@ -20,6 +21,8 @@ pub enum Command {
     Post(PostArgs),
     /// Check FIL files without a CL file
     Check(CheckArgs),
+    /// Give FIL files their canonical layout
+    Fmt(FmtArgs),
     /// Show the records of a CL file with their numbered words
     Cl(ClArgs),
     /// Run regression cases (folders with a case.toml)
@@ -75,6 +78,8 @@ pub struct PostArgs {
     pub fil: Vec<PathBuf>,
     #[command(flatten)]
     pub reading: Reading,
+    #[command(flatten)]
+    pub grants: Grants,
     /// The NC file; standard output when left out or -
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
@@ -87,6 +92,48 @@ pub struct PostArgs {
     /// Write nothing when there are warnings, and exit with 1
     #[arg(long)]
     pub deny_warnings: bool,
+}
+
+/// What FIL scripts may reach outside of the post.
+#[derive(Debug, Default, ClapArgs)]
+pub struct Grants {
+    /// Let FIL read, or write and delete, files of a folder (FILEF)
+    #[arg(long, value_name = "read=DIR,write=DIR", value_delimiter = ',', value_parser = grant)]
+    pub grant: Vec<Grant>,
+    /// The moment DATEF and TIMEF give, as 2026-01-31T12:00:00
+    #[arg(long, value_name = "MOMENT", value_parser = moment, conflicts_with = "clock")]
+    pub set_clock: Option<Moment>,
+    /// Let DATEF and TIMEF read a clock; the program then differs from run to run
+    #[arg(long, value_enum)]
+    pub clock: Option<ClockSource>,
+}
+
+/// A folder granted to scripts.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Grant {
+    /// To read.
+    Read(PathBuf),
+    /// To write and delete.
+    Write(PathBuf),
+}
+
+/// What `--clock` names.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum ClockSource {
+    /// The system's clock, in UTC
+    System,
+}
+
+fn grant(text: &str) -> Result<Grant, String> {
+    match text.split_once('=') {
+        Some(("read", folder)) if !folder.is_empty() => Ok(Grant::Read(folder.into())),
+        Some(("write", folder)) if !folder.is_empty() => Ok(Grant::Write(folder.into())),
+        _ => Err("write read=DIR or write=DIR".to_string()),
+    }
+}
+
+fn moment(text: &str) -> Result<Moment, String> {
+    Moment::parse(text).ok_or_else(|| "write a moment as 2026-01-31T12:00:00".to_string())
 }
 
 /// `filpost check`
@@ -120,6 +167,20 @@ pub enum Format {
     Json,
     /// A SARIF 2.1.0 log to standard output, for code hosts and editors
     Sarif,
+}
+
+/// `filpost fmt`
+#[derive(Debug, ClapArgs)]
+pub struct FmtArgs {
+    /// FIL files, rewritten in place; - reads standard input and writes standard output
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    /// Change nothing: name the files that would change, and exit with 1 when there are any
+    #[arg(long)]
+    pub check: bool,
+    /// Encoding of the files (utf-8, cp1251, koi8-r, …), which they keep; guessed when left out
+    #[arg(long, value_name = "LABEL")]
+    pub encoding: Option<String>,
 }
 
 /// `filpost cl`

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use filpost::check::{self, Options};
-use filpost::{Commons, Compat, Diag, Error, files};
+use filpost::{Commons, Compat, Diag, Error, files, includes};
 
 use crate::args::{CheckArgs, Format};
 use crate::{Status, json, output, render, sarif, setup, summary};
@@ -55,7 +55,7 @@ fn check_group(
     }
     let files: Vec<(&str, &str)> =
         texts.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
-    let mut includes = setup::includes(paths, encoding);
+    let mut includes = includes::beside(paths, encoding);
     let options = Options {
         compat: compat.clone(),
         strict: args.reading.strict,

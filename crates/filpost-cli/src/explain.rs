@@ -155,13 +155,7 @@ fn function(name: &str) -> Option<String> {
     let row = BUILTINS.iter().find(|row| row.name.eq_ignore_ascii_case(name))?;
     let extension =
         if row.extension { "\nAn extension of filpost, refused under --strict." } else { "" };
-    Some(format!(
-        "{}({})\n\n{}\n\n{}{extension}",
-        row.name,
-        row.arguments,
-        sentence(row.doc),
-        grade(row.grade)
-    ))
+    Some(format!("{}\n\n{}\n\n{}{extension}", row.call(), sentence(row.doc), grade(row.grade)))
 }
 
 fn grade(grade: Grade) -> &'static str {

@@ -8,6 +8,7 @@ mod check;
 mod cl;
 mod errors;
 mod explain;
+mod fmt;
 mod json;
 mod machine;
 mod output;
@@ -59,6 +60,7 @@ fn run(command: &Command) -> Result<Status, Error> {
     match command {
         Command::Post(args) => post::run(args),
         Command::Check(args) => check::run(args),
+        Command::Fmt(args) => fmt::run(args),
         Command::Cl(args) => cl::run(args),
         Command::Test(args) => test::run(args),
         Command::Explain(args) => explain::run(&args.subject),

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use filpost::listing::Listing;
-use filpost::{Diag, Error, Post, Report, files, select};
+use filpost::{Diag, Error, HeldFiles, Post, Report, files, select};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::args::PostArgs;
@@ -34,17 +34,22 @@ pub fn run(args: &PostArgs) -> Result<Status, Error> {
         output::say(&format!("note: {note}"));
     }
     let report = target.write(|writer| {
-        let report = drive(&mut post, input, writer)?;
+        let (report, held) = drive(&mut post, input, writer)?;
         if let Some((path, listing)) = listing {
             listing.finish().map_err(|error| files::cant_write(&path, &error))?;
         }
         summary::warnings(post.warnings().iter().chain(&report.warnings));
         deny(args.deny_warnings, post.warnings().len() + report.warnings.len())?;
+        // Last of all: from here on only the program itself can fail to appear.
+        held.keep()?;
         Ok(report)
     })?;
     for (section, count) in &report.swallowed {
         let records = summary::counted(*count, "record");
         output::say(&format!("note: {records} taken by the section {section} had no effect"));
+    }
+    for path in &report.script_files {
+        output::say(&format!("note: FIL has changed {}", path.display()));
     }
     let warnings = post.warnings().len() + report.warnings.len();
     output::say(&summary::line(&title, &report, warnings, start.elapsed()));
@@ -67,7 +72,8 @@ type OpenListing = Option<(PathBuf, Listing<BufWriter<File>>)>;
 
 fn build(args: &PostArgs, named: Named) -> Result<(Post, OpenListing), Error> {
     let options = setup::cl_options(args.reading.encoding.as_deref())?;
-    let mut builder = named.builder.cl_name(&output::input_name(&args.cl)).cl_options(options);
+    let builder = setup::granted(named.builder, &args.grants);
+    let mut builder = builder.cl_name(&output::input_name(&args.cl)).cl_options(options);
     let mut listing = None;
     if let Some(path) = &args.listing {
         let file = File::create(path).map_err(|error| files::cant_write(path, &error))?;
@@ -79,15 +85,19 @@ fn build(args: &PostArgs, named: Named) -> Result<(Post, OpenListing), Error> {
 }
 
 /// Runs the post, with a progress bar for a large file on a terminal.
-fn drive(post: &mut Post, input: File, output: &mut dyn Write) -> Result<Report, Error> {
+fn drive(
+    post: &mut Post,
+    input: File,
+    output: &mut dyn Write,
+) -> Result<(Report, HeldFiles), Error> {
     let length = input.metadata().map_or(0, |found| found.len());
     if length < PROGRESS || !io::stderr().is_terminal() {
-        return post.run_seekable(input, output);
+        return post.run_held(input, output);
     }
     let style = ProgressStyle::with_template("{bar:40} {percent:>3} %  {bytes_per_sec}  {eta}")
         .unwrap_or_else(|_| ProgressStyle::default_bar());
     let bar = ProgressBar::new(length).with_style(style);
-    let result = post.run_seekable(Watched { input, bar: bar.clone() }, output);
+    let result = post.run_held(Watched { input, bar: bar.clone() }, output);
     bar.finish_and_clear();
     result
 }

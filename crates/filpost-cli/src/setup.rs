@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use filpost::select::{self, Choice, Machin};
-use filpost::{Builder, Compat, Error, Post, files, ready};
+use filpost::{Builder, Clock, Compat, Error, Post, files, includes, ready};
 
-use crate::args::{Chosen, Reading};
+use crate::args::{Chosen, ClockSource, Grant, Grants, Reading};
 
 /// A post named by a command line, not yet built.
 pub struct Named {
@@ -32,7 +32,7 @@ impl Named {
             let text = files::read_text(path, encoding)?;
             self.builder = self.builder.fil(&path.display().to_string(), &text);
         }
-        self.builder = self.builder.includes(includes(&self.fil, encoding));
+        self.builder = self.builder.includes(includes::beside(&self.fil, encoding));
         self.inputs.extend(self.fil.iter().cloned());
         Ok(self)
     }
@@ -171,26 +171,18 @@ fn with_settings(mut named: Named, settings: &[String]) -> Named {
     named
 }
 
-/// Gives INCLUD the files that lie beside the FIL files, or below there.
-pub fn includes(
-    fil: &[PathBuf],
-    encoding: Option<&str>,
-) -> impl FnMut(&str) -> Result<String, String> + Send + 'static {
-    let folders: Vec<PathBuf> =
-        fil.iter().filter_map(|path| path.parent()).map(Path::to_path_buf).collect();
-    let encoding = encoding.map(String::from);
-    move |name| {
-        let inside = Path::new(name)
-            .components()
-            .all(|part| matches!(part, std::path::Component::Normal(_)));
-        if !inside {
-            return Err("only files beside the FIL file can be included".into());
-        }
-        let path = folders.iter().map(|folder| folder.join(name)).find(|path| path.is_file());
-        let path = path.ok_or_else(|| "there is no such file beside the FIL file".to_string())?;
-        files::read_text(&path, encoding.as_deref()).map_err(|error| {
-            error.diags().iter().map(|diag| diag.message.clone()).collect::<Vec<_>>().join("; ")
-        })
+/// Grants scripts what the command line says.
+pub fn granted(mut builder: Builder, grants: &Grants) -> Builder {
+    for grant in &grants.grant {
+        builder = match grant {
+            Grant::Read(folder) => builder.grant_read(folder),
+            Grant::Write(folder) => builder.grant_write(folder),
+        };
+    }
+    match (grants.set_clock, grants.clock) {
+        (Some(moment), _) => builder.clock(Clock::Fixed(moment)),
+        (None, Some(ClockSource::System)) => builder.clock(Clock::System),
+        (None, None) => builder,
     }
 }
 

@@ -390,6 +390,77 @@ fn records_are_shown_with_numbered_words() {
 }
 
 #[test]
+fn a_script_reaches_files_and_a_clock_only_when_granted() {
+    let fil = "DMY=FILEF(1,READ,'tools.txt')\nT1=TEXT/READ,1\nDMY=FILEF(1,CLOSE)\n\
+               DMY=FILEF(1,WRITE,'log.txt')\nWRITE/1,T1,' ',DATEF()\nFINI\n";
+    let place = Place::new().with("part.ncl", SMALL).with("log.fil", fil);
+    for folder in ["in", "out"] {
+        std::fs::create_dir(place.0.path().join(folder)).expect("a folder");
+    }
+    let place = place.with("in/tools.txt", "T1;8.5\n");
+    let post = ["post", "part.ncl", "-f", "log.fil", "-o", "part.tap"];
+    let grants = ["--grant", "read=in,write=out"];
+    let clock = ["--set-clock", "2026-01-31T12:00:00"];
+    for (more, code) in [
+        (&[][..], "E0321"),
+        (&["--grant", "read=in"], "E0321"),
+        (&grants, "E0322"),
+        (&["--grant", "read=nowhere"], "E0701"),
+    ] {
+        let ran = place.run(&[&post[..], more].concat());
+        assert!(ran.status == 1 && ran.err.contains(code), "{more:?} {ran:?}");
+        assert_eq!(place.files(), ["in", "log.fil", "out", "part.ncl"], "{more:?}");
+        assert_eq!(place.text("out/log.txt"), None);
+    }
+    let ran = place.run(&[&post[..], &grants, &clock].concat());
+    assert_eq!(ran.status, 0, "{ran:?}");
+    assert_eq!(place.text("out/log.txt").as_deref(), Some("T1;8.5 2026-01-31\n"));
+    assert!(ran.err.contains("FIL has changed"), "{}", ran.err);
+    let ran = place.run(&[&post[..], &grants, &["--clock", "system"]].concat());
+    assert_eq!(ran.status, 0, "{ran:?}");
+    for wrong in [
+        &["--grant", "in"][..],
+        &["--grant", "read="],
+        &["--set-clock", "noon"],
+        &["--clock", "system", "--set-clock", "2026-01-31T12:00:00"],
+    ] {
+        assert_eq!(place.run(&[&post[..], wrong].concat()).status, 2, "{wrong:?}");
+    }
+}
+
+#[test]
+fn denied_warnings_keep_the_files_of_scripts_back() {
+    let fil = "DMY=FILEF(1,WRITE,'log.txt')\nWRITE/1,'DONE'\nFINI\n";
+    let place = Place::new().with("part.ncl", SMALL.replace("FINI\n", "")).with("log.fil", fil);
+    let post = ["post", "part.ncl", "-f", "log.fil", "-o", "part.tap", "--grant", "write=."];
+    let denied = place.run(&[&post[..], &["--deny-warnings"]].concat());
+    assert!(denied.status == 1 && denied.err.contains("E0801"), "{denied:?}");
+    assert_eq!(place.files(), ["log.fil", "part.ncl"]);
+    assert_eq!(place.run(&post).status, 0);
+    assert_eq!(place.files(), ["log.fil", "log.txt", "part.ncl", "part.tap"]);
+}
+
+#[test]
+fn includ_counts_from_the_including_file() {
+    let place = Place::new().with("part.ncl", SMALL);
+    std::fs::create_dir_all(place.0.path().join("post/lib")).expect("folders");
+    let place = place
+        .with("secret.fil", "PPRINT/'SECRET'\n")
+        .with("post/main.fil", "INCLUD/lib/outer.fil\nFINI\n")
+        .with("post/lib/outer.fil", "INCLUD/inner.fil\nINCLUD/'../side.fil'\n")
+        .with("post/lib/inner.fil", "PPRINT/'INNER'\n")
+        .with("post/side.fil", "PPRINT/'SIDE'\n")
+        .with("post/out.fil", "INCLUD/'../secret.fil'\nFINI\n");
+    let ran = place.run(&["post", "part.ncl", "-f", "post/main.fil"]);
+    assert!(ran.out.contains("(INNER)") && ran.out.contains("(SIDE)"), "{ran:?}");
+    assert_eq!(place.run(&["check", "post/main.fil"]).status, 0);
+    for command in [&["post", "part.ncl", "-f", "post/out.fil"][..], &["check", "post/out.fil"]] {
+        let ran = place.run(command);
+        assert!(ran.status == 1 && ran.err.contains("E0214"), "{ran:?}");
+    }
+}
+
+#[test]
 fn cases_are_run_and_brought_up_to_date() {
     let case = "cl = 'part.ncl'\nready = 'fanuc-mill'\nexpect = 'part.tap'\norigin = 'own'\n";
     let place = Place::new().with("part.ncl", SMALL).with("case.toml", case).with("part.tap", NC);

@@ -49,7 +49,14 @@ impl<R: Read> Iterator for Blocks<'_, R> {
     fn next(&mut self) -> Option<Self::Item> {
         while self.ready.is_empty() && !self.over {
             match self.engine.step() {
-                Ok(more) => self.over = !more,
+                Ok(true) => {}
+                Ok(false) => {
+                    self.over = true;
+                    if let Err(error) = self.engine.take_held().keep() {
+                        self.ready.clear();
+                        return Some(Err(error));
+                    }
+                }
                 Err(error) => {
                     self.over = true;
                     self.ready.clear();

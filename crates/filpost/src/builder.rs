@@ -1,19 +1,22 @@
 //! Building a post: machine, FIL files, limits, functions, observers.
 
 use std::io::{Read, Seek, Write};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use fil_cl::{Vocabulary, reader};
 use fil_diag::Diag;
 use fil_post::{Commons, settings};
-use fil_vm::{Argument, Compat, FilFile, Functions, Limits, LoadOptions, Module};
+use fil_vm::{Argument, Compat, FilFile, Functions, Included, Limits, LoadOptions, Loader, Module};
 
 use crate::blocks::Blocks;
 use crate::engine::Engine;
 use crate::error::{Error, RunCode};
+use crate::granted::{Clock, Spawn};
 use crate::observe::{Observer, WhatHappened};
 use crate::ready;
 use crate::report::Report;
+use crate::script_files::{Folders, HeldFiles, real_folder};
 
 /// Where the settings of the machine come from.
 enum Machine {
@@ -36,10 +39,14 @@ pub struct Builder {
     cl_name: String,
     options: reader::Options,
     includes: Option<Includes>,
+    clock: Option<Clock>,
+    spawn: Option<Spawn>,
+    read: Option<PathBuf>,
+    write: Option<PathBuf>,
 }
 
-/// Gives the text of a file that INCLUD names.
-type Includes = Box<dyn FnMut(&str) -> Result<String, String> + Send>;
+/// Gives a file that INCLUD names.
+type Includes = Box<dyn FnMut(&str, &str) -> Result<Included, String> + Send>;
 
 impl Builder {
     /// A post inside the crate, by its name in [`ready::READY`].
@@ -114,12 +121,43 @@ impl Builder {
         self
     }
 
-    /// Gives the text of files that INCLUD names; without it INCLUD is refused.
+    /// Gives the files that INCLUD names, from the name of the including file and
+    /// what INCLUD says; [`crate::includes::beside`] takes them from the disk.
+    /// Without it INCLUD is refused.
     pub fn includes(
         mut self,
-        loader: impl FnMut(&str) -> Result<String, String> + Send + 'static,
+        loader: impl FnMut(&str, &str) -> Result<Included, String> + Send + 'static,
     ) -> Self {
         self.includes = Some(Box::new(loader));
+        self
+    }
+
+    /// Lets scripts read files of a folder and below it.
+    pub fn grant_read(mut self, folder: impl Into<PathBuf>) -> Self {
+        self.read = Some(folder.into());
+        self
+    }
+
+    /// Lets scripts write and delete files of a folder and below it. What they
+    /// write appears only when the run went well.
+    pub fn grant_write(mut self, folder: impl Into<PathBuf>) -> Self {
+        self.write = Some(folder.into());
+        self
+    }
+
+    /// Lets scripts see a date and time.
+    pub fn clock(mut self, clock: Clock) -> Self {
+        self.clock = Some(clock);
+        self
+    }
+
+    /// Runs the commands of SPAWNF and gives their status; an `Err` stops the run
+    /// with that sentence and the FIL line. Without it SPAWNF is refused.
+    pub fn allow_spawn(
+        mut self,
+        run: impl FnMut(&str) -> Result<f64, String> + Send + 'static,
+    ) -> Self {
+        self.spawn = Some(Box::new(run));
         self
     }
 
@@ -138,12 +176,14 @@ impl Builder {
     /// Builds the post; the machine is the generic mill when none was given.
     ///
     /// # Errors
-    /// All that is wrong with the machine, or with the FIL files.
+    /// All that is wrong with the machine, or with the FIL files; E0701 for a
+    /// granted folder that is not there.
     pub fn build(self) -> Result<Post, Error> {
         let (mut commons, mut warnings) = commons_of(self.machine)?;
         for setting in &self.settings {
             settings::apply_setting(&mut commons, setting).map_err(Error::setup)?;
         }
+        let folders = folders(self.read.as_deref(), self.write.as_deref())?;
         let prototype = fil_post::Post::new(commons).map_err(Error::setup)?;
         let mut vocabulary = Vocabulary::new();
         let files: Vec<FilFile<'_>> =
@@ -157,9 +197,7 @@ impl Builder {
                 limits: self.limits,
                 strict: self.strict,
                 functions: Some(&self.functions),
-                loader: includes
-                    .as_mut()
-                    .map(|loader| loader as &mut dyn FnMut(&str) -> Result<String, String>),
+                loader: includes.as_mut().map(|loader| loader as Loader<'_>),
                 ..LoadOptions::default()
             },
         )
@@ -175,8 +213,21 @@ impl Builder {
             cl_name: self.cl_name,
             options: self.options,
             warnings,
+            clock: self.clock,
+            spawn: self.spawn,
+            folders,
         })
     }
+}
+
+/// The granted folders; `None` without any.
+fn folders(read: Option<&Path>, write: Option<&Path>) -> Result<Option<Arc<Folders>>, Error> {
+    let folders = Folders {
+        read: read.map(real_folder).transpose()?,
+        write: write.map(real_folder).transpose()?,
+    };
+    let any = folders.read.is_some() || folders.write.is_some();
+    Ok(any.then(|| Arc::new(folders)))
 }
 
 fn commons_of(machine: Option<Machine>) -> Result<(Commons, Vec<Diag>), Error> {
@@ -212,6 +263,9 @@ pub struct Post {
     pub(crate) cl_name: String,
     pub(crate) options: reader::Options,
     pub(crate) warnings: Vec<Diag>,
+    pub(crate) clock: Option<Clock>,
+    pub(crate) spawn: Option<Spawn>,
+    pub(crate) folders: Option<Arc<Folders>>,
 }
 
 impl Post {
@@ -229,6 +283,10 @@ impl Post {
             cl_name: "CL".into(),
             options: reader::Options::default(),
             includes: None,
+            clock: None,
+            spawn: None,
+            read: None,
+            write: None,
         }
     }
 
@@ -260,7 +318,9 @@ impl Post {
     /// program. The writer's own errors come as E0702.
     pub fn run(&mut self, cl: impl Read, nc: impl Write) -> Result<Report, Error> {
         let reader = reader::Reader::new(cl, &self.cl_name, self.options);
-        self.drive(reader, nc)
+        let (report, held) = self.drive(reader, nc)?;
+        held.keep()?;
+        Ok(report)
     }
 
     /// Posts a CL file that can go back.
@@ -268,6 +328,21 @@ impl Post {
     /// # Errors
     /// As [`Post::run`].
     pub fn run_seekable(&mut self, cl: impl Read + Seek, nc: impl Write) -> Result<Report, Error> {
+        let (report, held) = self.run_held(cl, nc)?;
+        held.keep()?;
+        Ok(report)
+    }
+
+    /// The same, with the files of scripts held back until [`HeldFiles::keep`]: for
+    /// a caller that can still refuse the program.
+    ///
+    /// # Errors
+    /// As [`Post::run`].
+    pub fn run_held(
+        &mut self,
+        cl: impl Read + Seek,
+        nc: impl Write,
+    ) -> Result<(Report, HeldFiles), Error> {
         let reader = reader::Reader::seekable(cl, &self.cl_name, self.options);
         self.drive(reader, nc)
     }
@@ -282,7 +357,7 @@ impl Post {
         &mut self,
         reader: reader::Reader<R>,
         mut nc: impl Write,
-    ) -> Result<Report, Error> {
+    ) -> Result<(Report, HeldFiles), Error> {
         let observed = !self.observers.is_empty();
         let mut engine = Engine::new(self, reader, observed);
         let result = engine.run(&mut nc);

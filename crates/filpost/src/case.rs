@@ -2,19 +2,22 @@
 //! program it must give.
 //!
 //! `case.toml`: `cl`; `ready`, `machine` (machine.toml) or `option_file`; `fil` (a file or a
-//! list); `set` (list of `key=value`); `compat`; `strict`; `expect` (NC file) or
+//! list); `set` (list of `key=value`); `compat`; `strict`; `read` (a folder for scripts); `clock`; `expect` (NC file) or
 //! `expect_error` (code); `expect_warnings`; `expect_at` (`file:line` of the error or of the
 //! first warning expected); `origin` and `repairs` for people.
 
 use std::path::{Path, PathBuf};
 
 use fil_diag::Diag;
+use fil_vm::Moment;
 use serde::Deserialize;
 use similar::TextDiff;
 
 use crate::builder::Post;
 use crate::error::{Error, RunCode};
 use crate::files;
+use crate::granted::Clock;
+use crate::includes;
 
 /// The text of a `case.toml`.
 #[derive(Clone, Debug, Deserialize)]
@@ -36,6 +39,10 @@ pub struct CaseFile {
     pub set: Vec<String>,
     /// A compat file.
     pub compat: Option<String>,
+    /// A folder that scripts may read.
+    pub read: Option<String>,
+    /// The moment of DATEF and TIMEF, as `2026-01-31T12:00:00`.
+    pub clock: Option<String>,
     /// Refuse extensions.
     #[serde(default)]
     pub strict: bool,
@@ -129,8 +136,22 @@ impl Case {
         if let Some(name) = &self.file.option_file {
             builder = builder.option_file(name, &text(name)?);
         }
+        let mut paths = Vec::new();
         for name in &self.file.fil {
-            builder = builder.fil(name, &text(name)?);
+            let path = self.folder.join(name);
+            builder = builder.fil(&path.display().to_string(), &text(name)?);
+            paths.push(path);
+        }
+        builder = builder.includes(includes::beside(&paths, None));
+        if let Some(folder) = &self.file.read {
+            builder = builder.grant_read(self.folder.join(folder));
+        }
+        if let Some(text) = &self.file.clock {
+            let moment = Moment::parse(text).ok_or_else(|| {
+                let message = format!("clock = '{text}' is no moment as 2026-01-31T12:00:00");
+                Error::setup(Diag::new(RunCode::CaseFile, message))
+            })?;
+            builder = builder.clock(Clock::Fixed(moment));
         }
         for setting in &self.file.set {
             builder = builder.set(setting);

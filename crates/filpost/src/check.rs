@@ -9,8 +9,8 @@ use fil_vm::{CommonKind, Compat, FilFile, LoadOptions, MachineFacts};
 
 use crate::outside::common_kind;
 
-/// Gives the text of a file by the name INCLUD has, or why it cannot.
-pub type Includes<'a> = &'a mut dyn FnMut(&str) -> Result<String, String>;
+/// Gives a file by the name INCLUD has, or why it cannot.
+pub type Includes<'a> = fil_vm::Loader<'a>;
 
 /// Letters of the alphabet, and of each set of tape positions.
 const LETTERS: u32 = 26;
@@ -25,7 +25,7 @@ pub struct Options<'a> {
     pub compat: Compat,
     /// Refuse extensions of filpost.
     pub strict: bool,
-    /// Gives the text of files that INCLUD names; without it INCLUD is refused.
+    /// Gives the files that INCLUD names; without it INCLUD is refused.
     pub includes: Option<Includes<'a>>,
     /// The machine; without it what depends on one is not looked at.
     pub machine: Option<&'a Commons>,
@@ -51,9 +51,7 @@ pub fn check(files: &[(&str, &str)], options: Options<'_>) -> Vec<Diag> {
         strict: options.strict,
         lint: true,
         facts,
-        loader: includes
-            .as_mut()
-            .map(|loader| loader as &mut dyn FnMut(&str) -> Result<String, String>),
+        loader: includes.as_mut().map(|loader| loader as Includes<'_>),
         ..LoadOptions::default()
     };
     let mut diags = match fil_vm::load(&files, &mut Vocabulary::new(), load) {

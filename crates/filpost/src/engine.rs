@@ -1,6 +1,7 @@
 //! One run: records from the reader, through their sections, into the post.
 
 use std::io::{Read, Write};
+use std::path::Path;
 
 use fil_cl::{Record, Vocabulary, reader::Reader, record::kind};
 use fil_diag::Diag;
@@ -9,9 +10,11 @@ use fil_vm::{Machine, SectionMode};
 
 use crate::builder::Post;
 use crate::error::{Error, RunCode};
+use crate::granted::Granted;
 use crate::observe::WhatHappened;
 use crate::outside::Outside;
 use crate::report::Report;
+use crate::script_files::{HeldFiles, ScriptFiles};
 use crate::source::Source;
 
 /// Bytes of finished blocks that are kept before they go to the writer.
@@ -52,6 +55,7 @@ impl<'p, R: Read> Engine<'p, R> {
             cl_name: &post.cl_name,
             ended: false,
             trace: false,
+            granted: Granted::new(post.clock, post.spawn.as_mut(), post.folders.clone()),
         };
         outside.post.tape.observe = observed;
         Engine {
@@ -75,8 +79,8 @@ impl<'p, R: Read> Engine<'p, R> {
         }
     }
 
-    /// Runs to the end.
-    pub(crate) fn run(&mut self, nc: &mut impl Write) -> Result<Report, Error> {
+    /// Runs to the end; what the script wrote is not under its names yet.
+    pub(crate) fn run(&mut self, nc: &mut impl Write) -> Result<(Report, HeldFiles), Error> {
         while self.step()? {
             let tape = &self.outside.post.tape;
             if tape.observe || tape.text.len() >= FLUSH {
@@ -90,7 +94,14 @@ impl<'p, R: Read> Engine<'p, R> {
         report.metric = self.outside.post.is_metric();
         report.blocks = self.outside.post.tape.count;
         report.warnings.append(&mut self.outside.post.warnings);
-        Ok(report)
+        let held = self.take_held();
+        report.script_files = held.paths().map(Path::to_path_buf).collect();
+        Ok((report, held))
+    }
+
+    /// What the script wrote, when the program is complete.
+    pub(crate) fn take_held(&mut self) -> HeldFiles {
+        self.outside.granted.files.take().map(ScriptFiles::into_held).unwrap_or_default()
     }
 
     /// Carries out the next record; false when the program is complete.

@@ -25,6 +25,10 @@ fil_diag::codes! {
         CaseFile = 705, Error, "regression case can't be run",
             "A case is a folder with a case.toml that names its CL file and its expected output.",
             "Correct the line shown.";
+        /// A file of a script outside of its folder.
+        OutsideFolder = 706, Error, "file outside of the granted folder",
+            "A script is granted a folder and what is below it; no name, `..` or link leads out of there.",
+            "Name the file relative to the folder, or grant another folder.";
         /// Statements after the end.
         AfterFini = 751, Warning, "records after FINI",
             "FINI ends the program; what comes after it is not posted.",

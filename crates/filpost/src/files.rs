@@ -80,7 +80,7 @@ pub fn write_whole<T>(
 
 /// The new file gets the rights of the old one of that name, or those of any
 /// new file.
-fn keep_rights(path: &Path, file: &File) -> Result<(), Error> {
+pub(crate) fn keep_rights(path: &Path, file: &File) -> Result<(), Error> {
     let rights = match std::fs::metadata(path) {
         Ok(old) => old.permissions(),
         Err(_) => new_file_rights(),

@@ -25,11 +25,14 @@ mod compat;
 mod engine;
 mod error;
 pub mod files;
+mod granted;
+pub mod includes;
 pub mod listing;
 mod observe;
 mod outside;
 pub mod ready;
 mod report;
+mod script_files;
 pub mod select;
 mod source;
 mod statement;
@@ -38,8 +41,10 @@ pub use blocks::{Block, Blocks};
 pub use builder::{Builder, Post};
 pub use compat::{operation_name, read_compat};
 pub use error::{Error, RunCode, all_codes};
+pub use granted::Clock;
 pub use observe::{SectionEvent, WhatHappened};
 pub use report::{Extents, Report};
+pub use script_files::HeldFiles;
 pub use statement::statement_text;
 
 pub use fil_cl as cl;
@@ -48,7 +53,7 @@ pub use fil_diag::{Code, Diag, Place, Severity};
 pub use fil_post::{Commons, FilLine, Kind, Origin, commons, locations, settings};
 pub use fil_post::{address, words as post_words};
 pub use fil_syntax as syntax;
-pub use fil_vm::{Argument, Compat, Limits, SectionMode};
+pub use fil_vm::{Argument, Compat, Included, Limits, Moment, SectionMode};
 pub use fil_vm::{builtins, postf};
 
 /// The example of the README, run with the documentation tests.

@@ -6,9 +6,10 @@ use std::sync::Arc;
 use fil_cl::{Record, Vocabulary, reader::Dialect, record::kind};
 use fil_diag::{Diag, Place};
 use fil_post::FilLine;
-use fil_vm::{CommonKind, Host, Module, SectionId, Site};
+use fil_vm::{CommonKind, Files, Host, Module, Moment, SectionId, Site};
 
 use crate::error::RunCode;
+use crate::granted::Granted;
 use crate::observe::{Observer, SectionEvent, WhatHappened};
 use crate::report::{Extents, Report};
 use crate::source::Source;
@@ -32,6 +33,8 @@ pub(crate) struct Outside<'p, R: Read> {
     pub ended: bool,
     /// FIL has asked for the development listing.
     pub trace: bool,
+    /// Clock, commands and files.
+    pub granted: Granted<'p>,
 }
 
 impl<R: Read> Outside<'_, R> {
@@ -200,6 +203,18 @@ impl<R: Read> Host for Outside<'_, R> {
 
     fn trace(&mut self, on: bool) {
         self.trace = on;
+    }
+
+    fn files(&mut self) -> Option<&mut dyn Files> {
+        self.granted.files.as_mut().map(|files| files as &mut dyn Files)
+    }
+
+    fn now(&mut self) -> Option<Moment> {
+        self.granted.now()
+    }
+
+    fn spawn(&mut self, command: &str) -> Option<Result<f64, String>> {
+        self.granted.spawn(command)
     }
 
     fn neighbour(

@@ -1,6 +1,7 @@
 //! What a run has to tell at its end.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use fil_diag::Diag;
 
@@ -41,4 +42,6 @@ pub struct Report {
     pub extents: Option<Extents>,
     /// Records that a section took without any effect on the post, by section.
     pub swallowed: BTreeMap<String, u64>,
+    /// Files that FIL has written or deleted.
+    pub script_files: Vec<PathBuf>,
 }

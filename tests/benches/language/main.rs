@@ -1,16 +1,18 @@
 //! The FIL machine beside other languages, on one loop of ten million passes:
 //! `cargo bench -p filpost-tests --bench language`.
 //!
-//! The others are started as commands and time the loop themselves, so that
-//! their start-up does not count; one that is not installed is left out.
+//! The others are started as commands, which say when the loop starts and ends,
+//! so that their start-up does not count and one clock times all; a language
+//! that is not installed is left out.
 
-use std::process::Command;
+use std::io::{BufRead, BufReader};
+use std::process::{Command, Stdio};
 use std::time::Instant;
 
 type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 
 /// Each language runs this often, in turn; the best time counts.
-const REPEATS: usize = 5;
+const REPEATS: usize = 10;
 
 const FIL: &str = "
 XX=0
@@ -32,7 +34,8 @@ FINI
 
 /// The loop in a function with local variables, the fast way in Lua.
 const LUA: &str = "
-local start = os.clock()
+print('start')
+io.flush()
 local xx, nn = 0.0, 0.0
 for ii = 1.0, 10000000.0 do
   xx = xx + ii * 2.0
@@ -41,13 +44,10 @@ for ii = 1.0, 10000000.0 do
     nn = nn + 1.0
   end
 end
-print(string.format('%.17g', os.clock() - start))
-print(string.format('%.17g', xx))
-print(string.format('%.17g', nn))
+print(string.format('%.17g %.17g', xx, nn))
 ";
 
 const PYTHON: &str = "
-import time
 def loop():
     xx = nn = 0.0
     for ii in range(1, 10000001):
@@ -56,11 +56,8 @@ def loop():
             xx = xx - 1000000
             nn = nn + 1
     return xx, nn
-start = time.perf_counter()
-xx, nn = loop()
-print(time.perf_counter() - start)
-print(xx)
-print(nn)
+print('start', flush=True)
+print(*loop())
 ";
 
 /// What one run tells: seconds, and the two results.
@@ -142,14 +139,21 @@ fn fil() -> Outcome<Run> {
 /// Runs the loop in another language; `None` where it is not installed.
 fn run_other(other: &Other) -> Outcome<Option<Run>> {
     let mut command = Command::new(other.program);
-    let output = match command.args(other.arguments).arg(other.script).output() {
-        Ok(output) if output.status.success() => output,
-        _ => return Ok(None),
+    command.args(other.arguments).arg(other.script);
+    let Ok(mut child) = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn() else {
+        return Ok(None);
     };
-    let text = String::from_utf8(output.stdout)?;
-    let numbers: Vec<f64> = text.lines().filter_map(|line| line.parse().ok()).collect();
-    match numbers.as_slice() {
-        [time, xx, nn] => Ok(Some([*time, *xx, *nn])),
-        _ => Err(format!("{} printed {text}", other.program).into()),
+    let mut lines = BufReader::new(child.stdout.take().ok_or("no output")?).lines();
+    let started = lines.next().transpose()?;
+    let start = Instant::now();
+    let results = lines.next().transpose()?.unwrap_or_default();
+    let time = start.elapsed().as_secs_f64();
+    if !child.wait()?.success() || started.is_none() {
+        return Ok(None);
+    }
+    let numbers: Result<Vec<f64>, _> = results.split_whitespace().map(str::parse).collect();
+    match numbers?.as_slice() {
+        [xx, nn] => Ok(Some([time, *xx, *nn])),
+        _ => Err(format!("{} printed {results}", other.program).into()),
     }
 }

@@ -9,12 +9,16 @@ mod cl_file;
 mod handwritten;
 
 use std::fmt::Write;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use filpost::files::post_file;
 
 type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
+
+/// Lengths of the CL files, in percent of the longest.
+const PERCENTS: [u64; 4] = [10, 25, 50, 100];
 
 const POST: &str = "linuxcnc-mill";
 
@@ -52,6 +56,19 @@ CIMFIL/OFF
 FINI
 ";
 
+/// A CL file made for the bench.
+struct ClFile {
+    path: PathBuf,
+    points: u64,
+}
+
+impl ClFile {
+    /// Size in megabytes.
+    fn megabytes(&self) -> io::Result<f64> {
+        Ok(std::fs::metadata(&self.path)?.len() as f64 / 1e6)
+    }
+}
+
 fn main() -> Outcome<()> {
     let arguments: Vec<String> = std::env::args().collect();
     if let [_, run, cl, nc] = arguments.as_slice()
@@ -66,14 +83,17 @@ fn main() -> Outcome<()> {
         Ok(text) => text.parse()?,
         Err(_) => 200,
     };
-    let large = folder.path().join("large.ncl");
-    let small = folder.path().join("small.ncl");
-    let points = cl_file::write(&large, megabytes * 1_000_000)?;
-    cl_file::write(&small, megabytes * 100_000)?;
-    println!("CL file of {megabytes} MB, {points} GOTO; best of {REPEATS}\n");
-    speed(&large, points, folder.path())?;
-    growth(&small, folder.path())?;
-    memory(&small, &large, folder.path())?;
+    let mut files = Vec::new();
+    for percent in PERCENTS {
+        let path = folder.path().join(format!("part-{percent}.ncl"));
+        let points = cl_file::write(&path, megabytes * 10_000 * percent)?;
+        files.push(ClFile { path, points });
+    }
+    let (Some(small), Some(large)) = (files.first(), files.last()) else { return Ok(()) };
+    println!("CL file of {megabytes} MB, {} GOTO; best of {REPEATS}\n", large.points);
+    speed(large, folder.path())?;
+    lengths(&files, folder.path())?;
+    sections(small, folder.path())?;
     start_up(folder.path())
 }
 
@@ -90,7 +110,8 @@ fn post(fil: Option<&str>, cl: &Path, nc: &Path) -> Outcome<f64> {
 }
 
 /// The hand-written translator, the post, and the post with a section.
-fn speed(cl: &Path, points: u64, folder: &Path) -> Outcome<()> {
+fn speed(file: &ClFile, folder: &Path) -> Outcome<()> {
+    let cl = &file.path;
     let [by_hand, plain, section]: [PathBuf; 3] =
         ["by_hand.ngc", "plain.ngc", "section.ngc"].map(|name| folder.join(name));
     let mut best = [f64::INFINITY; 3];
@@ -105,11 +126,11 @@ fn speed(cl: &Path, points: u64, folder: &Path) -> Outcome<()> {
     agree::same_moves(&plain, &section)?;
     println!("The three programs agree in all {moves} moves.\n");
     println!("{:<34} {:>8} {:>8} {:>10}", "way", "seconds", "MB/s", "GOTO/s");
-    let megabytes = std::fs::metadata(cl)?.len() as f64 / 1e6;
+    let megabytes = file.megabytes()?;
     for (way, time) in
         ["written by hand", "filpost", "filpost, 20 operations a GOTO"].into_iter().zip(best)
     {
-        let rate = points as f64 / time;
+        let rate = file.points as f64 / time;
         println!("{way:<34} {time:>8.3} {:>8.0} {rate:>10.0}", megabytes / time);
     }
     println!();
@@ -118,17 +139,48 @@ fn speed(cl: &Path, points: u64, folder: &Path) -> Outcome<()> {
     Ok(())
 }
 
-/// Time by the number of operations in the section, for a shorter file.
-fn growth(cl: &Path, folder: &Path) -> Outcome<()> {
-    let nc = folder.join("growth.ngc");
-    println!("\n{:<34} {:>8}", "operations in the section", "seconds");
+/// Best time of posting a file, in seconds.
+fn best_time(fil: Option<&str>, cl: &Path, nc: &Path) -> Outcome<f64> {
+    let mut best = f64::INFINITY;
+    for _ in 0..REPEATS {
+        best = best.min(post(fil, cl, nc)?);
+    }
+    Ok(best)
+}
+
+/// Time and peak memory by the length of the file.
+fn lengths(files: &[ClFile], folder: &Path) -> Outcome<()> {
+    let nc = folder.join("lengths.ngc");
+    let mut most = 0;
+    println!(
+        "\n{:<12} {:>8} {:>12} {:>16}",
+        "CL file, MB", "seconds", "ns a GOTO", "peak memory, MiB"
+    );
+    for file in files {
+        let time = best_time(None, &file.path, &nc)?;
+        let peak = children::peak_memory(&file.path, &nc)?;
+        let each = time * 1e9 / file.points as f64;
+        let (megabytes, memory) = (file.megabytes()?, peak as f64 / 1024.0);
+        println!("{megabytes:<12.0} {time:>8.3} {each:>12.0} {memory:>16.1}");
+        most = most.max(peak);
+    }
+    if most == 0 {
+        println!("peak memory: skipped, this system has no /proc/self/status");
+        return Ok(());
+    }
+    verdict("peak memory in MiB, below 32", most as f64 / 1024.0, most < 32 * 1024);
+    Ok(())
+}
+
+/// Time by the number of operations in the section.
+fn sections(file: &ClFile, folder: &Path) -> Outcome<()> {
+    let nc = folder.join("sections.ngc");
+    let cl = &file.path;
+    println!("\n{:<12} {:>8} {:>12}", "operations", "seconds", "ns a GOTO");
     for operations in [0, 10, 20, 40, 80, 160] {
-        let fil = section_of(operations);
-        let mut best = f64::INFINITY;
-        for _ in 0..REPEATS {
-            best = best.min(post(Some(&fil), cl, &nc)?);
-        }
-        println!("{operations:<34} {best:>8.3}");
+        let time = best_time(Some(&section_of(operations)), cl, &nc)?;
+        let each = time * 1e9 / file.points as f64;
+        println!("{operations:<12} {time:>8.3} {each:>12.0}");
     }
     Ok(())
 }
@@ -140,25 +192,6 @@ fn section_of(operations: usize) -> String {
         let _ = writeln!(fil, "SUM=SUM+{operation}");
     }
     fil + "DMY=POSTF(13)\nCIMFIL/OFF\nFINI\n"
-}
-
-/// Peak memory for a file and one ten times as long.
-fn memory(small: &Path, large: &Path, folder: &Path) -> Outcome<()> {
-    if children::own_peak().is_none() {
-        println!("\npeak memory: skipped, this system has no /proc/self/status");
-        return Ok(());
-    }
-    let nc = folder.join("memory.ngc");
-    let mut most = 0;
-    println!();
-    for cl in [small, large] {
-        let peak = children::peak_memory(cl, &nc)?;
-        let megabytes = std::fs::metadata(cl)?.len() / 1_000_000;
-        println!("peak memory for {megabytes:>5} MB: {:>7.1} MiB", peak as f64 / 1024.0);
-        most = most.max(peak);
-    }
-    verdict("peak memory in MiB, below 32", most as f64 / 1024.0, most < 32 * 1024);
-    Ok(())
 }
 
 /// Start-up of the command.

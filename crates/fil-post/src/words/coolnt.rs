@@ -9,7 +9,7 @@ use crate::locations as loc;
 use crate::post::Post;
 use crate::state::Placement;
 
-/// Writes the coolant code, in a block of its own or with a motion.
+/// Writes the coolant code, in a block of its own or with a motion; OFF at once.
 ///
 /// # Errors
 /// A kind of coolant that is not known.
@@ -32,6 +32,12 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     match post.commons.int_opt(location) {
         Some(code) => post.block.m(code),
         None => post.warn_no_code("this coolant"),
+    }
+    if kind == Some(w::OFF) {
+        let words = std::mem::take(&mut post.block);
+        post.flush_pending()?;
+        post.block = words;
+        return post.write_block();
     }
     post.place_block(Placement::from_setting(post.commons.int(loc::COOLANT_PLACEMENT)))
 }

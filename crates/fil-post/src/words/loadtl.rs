@@ -6,6 +6,7 @@ use fil_cl::vocabulary::{Vocabulary, words as w};
 use fil_diag::Diag;
 
 use super::form::Form;
+use crate::axes::AXES;
 use crate::commons::EMPTY;
 use crate::letters::{G, H, T};
 use crate::locations as loc;
@@ -39,12 +40,25 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     if post.commons.int(loc::TOOL_FORMAT) == 2 {
         post.word(T, (tool * 100 + offset) as f64)?;
         post.write_block()?;
+        restate(post);
     } else {
         change(post, tool)?;
+        restate(post);
         length_offset(post, offset)?;
     }
     post.state.tool = Some(tool);
     Ok(())
+}
+
+/// Forgets where the tape stands: the change may have moved the machine.
+fn restate(post: &mut Post) {
+    if !post.commons.flag(loc::TOOL_RESTATE) {
+        return;
+    }
+    for number in (0..AXES).filter(|number| post.machine.present() & 1 << number != 0) {
+        post.commons.set_last_output(post.machine.axis(number).letter, EMPTY);
+    }
+    post.commons.set_last_output(G, EMPTY);
 }
 
 /// Names the next tool, on a machine that prepares it.

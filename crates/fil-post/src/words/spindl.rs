@@ -39,7 +39,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     let mut form = Form::new(record, vocabulary);
     if form.flag(w::OFF) {
         form.end()?;
-        return turn(post, loc::SPINDLE_STOP_CODE, "SPINDL/OFF");
+        return stop(post);
     }
     if form.flag(w::ORIENT) {
         if let Some(angle) = form.number() {
@@ -66,6 +66,16 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     form.flag(w::ON);
     form.end()?;
     turn(post, direction, "the spindle")
+}
+
+/// Stops the spindle at once, after all that still waits for a motion.
+fn stop(post: &mut Post) -> Result<(), Box<Diag>> {
+    post.flush_pending()?;
+    match post.commons.int_opt(loc::SPINDLE_STOP_CODE) {
+        Some(code) => post.block.m(code),
+        None => post.warn_no_code("SPINDL/OFF"),
+    }
+    post.write_block()
 }
 
 /// Adds S, and on a lathe the code for revolutions or surface speed.

@@ -25,6 +25,7 @@ pub fn opstop(post: &mut Post, _: &Record, _: &Vocabulary) -> Result<(), Box<Dia
 }
 
 fn write(post: &mut Post, code: Int, what: &str) -> Result<(), Box<Diag>> {
+    post.flush_pending()?;
     let code = post.code(code, what)?;
     post.block.m(code);
     post.write_block()

@@ -159,7 +159,10 @@ impl Compiler<'_> {
     pub(super) fn case(&mut self, subject: &Expr, whens: &[When], other: Option<&[Stmt]>) {
         let opening = self.chunk.statement;
         let mark = self.mark();
-        let a = self.expression(subject);
+        // The subject is read here even where no WHEN follows: a name that was
+        // never set is warned of in the line of the CASE.
+        let a = self.temporary(subject.span);
+        self.expression_into(subject, a);
         let bodies: Vec<Label> = whens.iter().map(|_| self.chunk.label()).collect();
         for (when, body) in whens.iter().zip(&bodies) {
             self.begin_statement(when.span);

@@ -110,22 +110,16 @@ impl Compiler<'_> {
         if let [arg] = args {
             return self.expression(arg);
         }
+        self.values(args, span)
+    }
+
+    /// The same in temporaries of their own.
+    pub(super) fn values(&mut self, args: &[Expr], span: Span) -> Reg {
         let base = self.temporaries(args.len() as u16, span);
         for (offset, arg) in args.iter().enumerate() {
             self.expression_into(arg, base.wrapping_add(offset as u16));
         }
         base
-    }
-
-    /// The subscript of an array in an assignment; `None` after an error.
-    pub(super) fn array(&mut self, name: &Name) -> Option<u16> {
-        let array = self.names.arrays.get(name.text.as_str()).copied();
-        if array.is_none() {
-            let message = format!("{} is no array; RESERV reserves one", name.text);
-            let hint = did_you_mean(&name.text, self.names.arrays.keys().copied());
-            self.report_with(CompileCode::UnknownFunction, name.span, message, hint);
-        }
-        array
     }
 
     pub(super) fn wrong_count(&mut self, name: &str, wanted: &str, given: usize, span: Span) {

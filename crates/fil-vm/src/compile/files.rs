@@ -30,7 +30,6 @@ pub(super) struct Includes<'a> {
     loader: Option<Loader<'a>>,
     units: Vec<Unit>,
     found: Found,
-    by_name: HashMap<String, usize>,
     /// Units that are being read, outermost first.
     open: Vec<usize>,
     diags: Vec<Diag>,
@@ -42,7 +41,6 @@ impl<'a> Includes<'a> {
             loader,
             units: Vec::new(),
             found: Found::default(),
-            by_name: HashMap::new(),
             open: Vec::new(),
             diags: Vec::new(),
         }
@@ -90,26 +88,25 @@ impl<'a> Includes<'a> {
     }
 
     fn include(&mut self, from: usize, name: &str, span: Span) -> Option<usize> {
-        if let Some(known) = self.by_name.get(name) {
-            if !self.open.contains(known) {
-                return Some(*known);
-            }
-            self.refuse(from, span, format!("'{name}' includes itself"));
-            return None;
-        }
-        let text = match &mut self.loader {
+        let found = match &mut self.loader {
             None => Err("no files can be included here".to_string()),
-            Some(loader) => loader(name),
+            Some(loader) => loader(&self.units[from].file.name, name),
         };
-        match text {
-            Ok(text) => {
-                self.by_name.insert(name.to_string(), self.units.len());
-                Some(self.parse(name, &text))
-            }
+        let included = match found {
+            Ok(included) => included,
             Err(reason) => {
                 self.refuse(from, span, format!("'{name}': {reason}"));
+                return None;
+            }
+        };
+        let known = self.units.iter().position(|unit| unit.file.name == included.name);
+        match known {
+            Some(known) if self.open.contains(&known) => {
+                self.refuse(from, span, format!("'{name}' includes itself"));
                 None
             }
+            Some(known) => Some(known),
+            None => Some(self.parse(&included.name, &included.text)),
         }
     }
 

@@ -15,9 +15,7 @@ const COORDINATES: [&str; 6] = ["X", "Y", "Z", "I", "J", "K"];
 impl Compiler<'_> {
     pub(super) fn builtin(&mut self, function: usize, args: &[Expr], span: Span, dst: Reg) {
         let builtin = &BUILTINS[function];
-        if builtin.extension && self.strict {
-            let message = format!("{} is an extension", builtin.name);
-            self.report(CompileCode::Extension, span, message);
+        if builtin.extension && self.refuse_extension(builtin.name, span) {
             return;
         }
         let function = function as u16;
@@ -35,10 +33,11 @@ impl Compiler<'_> {
                     self.chunk.emit(Op::Function { dst, function, base });
                 }
             }
-            (Kind::TextLength, [text]) => {
-                let src = self.expression(text);
-                self.chunk.emit(Op::TextLength { dst, src });
+            (Kind::Library(library, least, most), args) => {
+                self.library(builtin, library, (least, most), args, span, dst);
             }
+            (Kind::File, args) => self.file_function(args, span, dst),
+            (Kind::Size, args) => self.array_size(args, span, dst),
             (Kind::Postf, [number, args @ ..]) => self.postf(number, args, span, dst),
             (Kind::LastWritten, [letter]) => {
                 let letter = self.expression(letter);

@@ -3,6 +3,7 @@
 //! All files share one name space, so the names of all of them are collected
 //! first; then each section, macro and global area becomes a chunk of code.
 
+mod arrays;
 mod chunk;
 mod conditions;
 mod control;
@@ -14,6 +15,7 @@ pub(crate) mod names;
 mod posts;
 mod sections;
 mod statements;
+mod texts;
 
 use fil_cl::Vocabulary;
 use fil_diag::Diag;
@@ -38,8 +40,18 @@ pub struct FilFile<'a> {
     pub text: &'a str,
 }
 
-/// Gives the text of a file that INCLUD names, or the reason why it can't.
-pub type Loader<'a> = &'a mut dyn FnMut(&str) -> Result<String, String>;
+/// A file that INCLUD has brought in.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Included {
+    /// Its name for messages, the same whichever file includes it.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+}
+
+/// Gives a file that INCLUD names, or the reason why it can't. The first argument
+/// is the name of the file the INCLUD stands in, the second what it says.
+pub type Loader<'a> = &'a mut dyn FnMut(&str, &str) -> Result<Included, String>;
 
 /// How FIL files are to be read.
 #[derive(Default)]

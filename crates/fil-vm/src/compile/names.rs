@@ -2,12 +2,12 @@
 
 use std::collections::{HashMap, HashSet};
 
-use fil_syntax::tree::{Item, Macro, Name, Program, Span, Stmt, StmtKind};
+use fil_syntax::tree::{Item, Macro, Program, Span, Stmt, StmtKind};
 
 use super::Compiler;
 use crate::errors::CompileCode;
 use crate::machine::FIRST_TEMPORARY;
-use crate::module::{ArrayShape, Constant};
+use crate::module::Constant;
 use crate::ops::Reg;
 
 /// Names in the note of a message; a line rarely uses more.
@@ -73,33 +73,13 @@ impl<'t> Compiler<'t> {
                         self.declare_array(name, size);
                     }
                 }
+                StmtKind::Post { word, args } if word.text == "DATA" => {
+                    self.declare_data(word, args);
+                }
                 _ => {}
             }
             inner_bodies(stmt, &mut |inner| self.collect(inner, params));
         }
-    }
-
-    fn declare_array(&mut self, name: &'t Name, size: &'t fil_syntax::tree::Expr) {
-        let elements = self.module.arrays.last().map_or(0, |array| array.start + array.len);
-        let room = self.limits.array_elements.saturating_sub(elements);
-        let size_given = self.constant(size).filter(|n| *n >= 1.0 && n.fract() == 0.0);
-        let Some(len) = size_given.filter(|n| *n <= room as f64) else {
-            let message = match size_given {
-                None => format!("the size of {} is no constant of 1 or more", name.text),
-                Some(_) => format!("{} passes the limit; {room} elements are left", name.text),
-            };
-            self.report(CompileCode::BadArraySize, size.span, message);
-            return;
-        };
-        if self.names.arrays.contains_key(name.text.as_str()) {
-            let message = format!("the array {} is reserved already", name.text);
-            self.report(CompileCode::DefinedTwice, name.span, message);
-            return;
-        }
-        let id = self.index(self.module.arrays.len(), name.span, "arrays");
-        let shape = ArrayShape { name: name.text.clone(), start: elements, len: len as usize };
-        self.module.arrays.push(shape);
-        self.names.arrays.insert(&name.text, id);
     }
 
     fn declare_macro(&mut self, definition: &'t Macro) {

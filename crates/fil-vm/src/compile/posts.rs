@@ -4,6 +4,8 @@ use fil_cl::layout::takes_text;
 use fil_syntax::tree::{Expr, ExprKind, Name};
 
 use super::Compiler;
+use crate::builtins;
+use crate::errors::CompileCode;
 use crate::module::{Item, Template};
 use crate::ops::Op;
 
@@ -15,8 +17,16 @@ impl Compiler<'_> {
     }
 
     /// `PPRINT text`: a text as written, or the value of the one variable it names.
+    /// An element or a call is refused: `PPRINT/'',TAB(1)` writes its value.
     pub(super) fn post_text(&mut self, word: &Name, text: &str) {
         let name = text.trim().to_ascii_uppercase();
+        if let Some((called, _)) = name.strip_suffix(')').and_then(|call| call.split_once('('))
+            && (self.names.arrays.contains_key(called) || builtins::find(called).is_some())
+        {
+            let message = format!("{name} would be written as it stands, not as its value");
+            self.report(CompileCode::NotYet, word.span, message);
+            return;
+        }
         let register = if self.is_assigned(&name) {
             self.variable(&name, word.span)
         } else {

@@ -1,6 +1,6 @@
 //! Statements: one function that knows them all, and assignments.
 
-use fil_syntax::tree::{Expr, ExprKind, Item, Span, Stmt, StmtKind, Target};
+use fil_syntax::tree::{Expr, Item, Span, Stmt, StmtKind, Target};
 
 use super::Compiler;
 use super::names::letter;
@@ -47,6 +47,9 @@ impl Compiler<'_> {
         match &stmt.kind {
             StmtKind::Assign { target, value } => self.assign(target, value),
             StmtKind::Text { target, args } => self.assign_text(target, args, stmt.span),
+            // The table was declared before anything runs.
+            StmtKind::Post { word, .. } if word.text == "DATA" => {}
+            StmtKind::Post { word, args } if word.text == "WRITE" => self.write_line(word, args),
             StmtKind::Post { word, args } => self.post(word, args),
             StmtKind::PostText { word, text } => self.post_text(word, text),
             StmtKind::If { arms, otherwise } => self.if_block(arms, otherwise.as_deref()),
@@ -84,7 +87,7 @@ impl Compiler<'_> {
 
     fn assign(&mut self, target: &Target, value: &Expr) {
         if let Some(index) = &target.index {
-            let Some(array) = self.array(&target.name) else { return };
+            let Some(array) = self.writable_array(&target.name) else { return };
             let (index, src) = (self.expression(index), self.expression(value));
             self.chunk.emit(Op::Store { array, index, src });
             return;
@@ -92,34 +95,6 @@ impl Compiler<'_> {
         self.warn_of_letter(target, Some(value));
         let dst = self.variable(&target.name.text, target.name.span);
         self.expression_into(value, dst);
-    }
-
-    fn assign_text(&mut self, target: &Target, args: &[Expr], span: Span) {
-        for arg in args {
-            if let ExprKind::Name(name) = &arg.kind
-                && !self.is_variable(name)
-            {
-                let message = format!("TEXT/{name} is a form without a settled meaning");
-                self.report(CompileCode::NotYet, arg.span, message);
-                return;
-            }
-        }
-        let count = args.len() as u16;
-        let base = self.temporaries(count, span);
-        for (offset, arg) in args.iter().enumerate() {
-            self.expression_into(arg, base.wrapping_add(offset as u16));
-        }
-        let Some(index) = &target.index else {
-            self.warn_of_letter(target, None);
-            let dst = self.variable(&target.name.text, target.name.span);
-            self.chunk.emit(Op::TextJoin { dst, base, count });
-            return;
-        };
-        let Some(array) = self.array(&target.name) else { return };
-        let index = self.expression(index);
-        let src = self.temporary(span);
-        self.chunk.emit(Op::TextJoin { dst: src, base, count });
-        self.chunk.emit(Op::Store { array, index, src });
     }
 
     /// A letter that gets another value than its number no longer names its address.

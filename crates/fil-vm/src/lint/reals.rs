@@ -9,6 +9,7 @@ use super::flow::Action;
 use super::walk::{constant, expressions};
 use crate::builtins::{self, BUILTINS, Kind};
 use crate::errors::LintCode;
+use crate::library::Library;
 
 /// How exact a value is, from the most exact on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -162,7 +163,11 @@ fn call(name: &str, args: &[Expr], names: &Names<'_>) -> Exactness {
     }
     let Some(builtin) = builtins::find(name).map(|index| &BUILTINS[index]) else { return Given };
     match builtin.kind {
-        Kind::WordCode | Kind::HasWord | Kind::TextLength => Whole,
+        Kind::WordCode | Kind::HasWord | Kind::Size | Kind::File => Whole,
+        Kind::Library(
+            Library::Length | Library::Position | Library::Compare | Library::CharacterCode,
+            ..,
+        ) => Whole,
         _ if WHOLE_RESULTS.contains(&name) => Whole,
         _ if PASS_ON.contains(&name) => {
             args.iter().map(|arg| exactness(arg, names)).max().unwrap_or_default()

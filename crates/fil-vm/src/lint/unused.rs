@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use fil_syntax::tree::{Expr, Item, Name, Stmt, StmtKind, Target};
+use fil_syntax::tree::{Expr, ExprKind, Item, Name, Stmt, StmtKind, Target};
 
 use super::context::{Context, Owner};
 use super::flow::Action;
@@ -44,8 +44,12 @@ fn uses<'t>(context: &Context<'t>) -> (HashSet<&'t str>, HashSet<&'t str>) {
     let (mut called, mut used) = (HashSet::new(), HashSet::new());
     for body in &context.bodies {
         for node in &body.graph.nodes {
-            calls(node.action, &mut |name, _, _| {
+            calls(node.action, &mut |name, args, _| {
                 used.insert(name.text.as_str());
+                if let [Expr { kind: ExprKind::Name(array), .. }] = args {
+                    // SIZEF names an array without a subscript.
+                    used.insert(array);
+                }
             });
             let (Action::Plain(stmt) | Action::DoEnter(stmt)) = node.action else { continue };
             match &stmt.kind {
@@ -62,7 +66,7 @@ fn uses<'t>(context: &Context<'t>) -> (HashSet<&'t str>, HashSet<&'t str>) {
         let Owner::Macro(definition) = body.owner else { continue };
         for default in definition.params.iter().filter_map(|(_, default)| default.as_ref()) {
             walk::within(default, walk::Use::Value, &mut |expr, _| {
-                if let fil_syntax::tree::ExprKind::Call { name, .. } = &expr.kind {
+                if let ExprKind::Call { name, .. } = &expr.kind {
                     used.insert(name.text.as_str());
                 }
             });

@@ -35,8 +35,11 @@ fn statement<'t>(stmt: &'t Stmt, visit: &mut dyn FnMut(&'t Expr, Use)) {
         }
         StmtKind::Text { target, args } => {
             index(target).into_iter().for_each(&mut value);
-            args.iter().for_each(value);
+            // The first may be a word that says what to do with the others.
+            args.iter().for_each(|arg| within(arg, Use::PostArgument, visit));
         }
+        // A table of constants, known before anything runs.
+        StmtKind::Post { word, .. } if word.text == "DATA" => {}
         StmtKind::Post { args, .. } => {
             args.iter().for_each(|arg| within(arg, Use::PostArgument, visit));
         }
@@ -54,8 +57,12 @@ pub(crate) fn within<'t>(expr: &'t Expr, used: Use, visit: &mut dyn FnMut(&'t Ex
     match &expr.kind {
         ExprKind::Number(_) | ExprKind::Text(_) | ExprKind::Name(_) => {}
         ExprKind::Call { name, args } => {
-            let words = usize::from(takes_word(name)).min(args.len());
-            args[words..].iter().for_each(|arg| within(arg, Use::Value, visit));
+            let word = word_argument(name);
+            for (index, arg) in args.iter().enumerate() {
+                if word != Some(index) {
+                    within(arg, Use::Value, visit);
+                }
+            }
         }
         ExprKind::Unary { operand, .. } => within(operand, Use::Value, visit),
         ExprKind::Binary { left, right, .. } => {
@@ -65,18 +72,18 @@ pub(crate) fn within<'t>(expr: &'t Expr, used: Use, visit: &mut dyn FnMut(&'t Ex
     }
 }
 
-/// True for a function whose first argument is a word as it is written.
-pub(crate) fn takes_word(function: &Name) -> bool {
-    builtins::find(&function.text).is_some_and(|index| {
-        matches!(
-            BUILTINS[index].kind,
-            Kind::WordCode
-                | Kind::Couplet
-                | Kind::HasWord
-                | Kind::NextMotion
-                | Kind::PreviousMotion
-        )
-    })
+/// Which argument of a function is a word or name as it is written.
+pub(crate) fn word_argument(function: &Name) -> Option<usize> {
+    match BUILTINS[builtins::find(&function.text)?].kind {
+        Kind::WordCode
+        | Kind::Couplet
+        | Kind::HasWord
+        | Kind::NextMotion
+        | Kind::PreviousMotion
+        | Kind::Size => Some(0),
+        Kind::File => Some(1),
+        _ => None,
+    }
 }
 
 /// Every function call or array element an action evaluates.

@@ -6,7 +6,7 @@ use fil_syntax::tree::{ExprKind, Name, SectionKey, Span, StmtKind};
 
 use super::context::Context;
 use super::flow::Action;
-use super::walk::{calls, takes_word};
+use super::walk::{calls, word_argument};
 use crate::compile::names::letter;
 use crate::errors::LintCode;
 
@@ -32,6 +32,9 @@ pub(super) fn look(context: &mut Context<'_>) {
         for node in &body.graph.nodes {
             let Action::Plain(stmt) = node.action else { continue };
             let StmtKind::Post { word, args } = &stmt.kind else { continue };
+            if word.text == "DATA" {
+                continue;
+            }
             note(node.unit, &word.text, word.span);
             for arg in args {
                 if let ExprKind::Name(name) = &arg.kind
@@ -53,9 +56,8 @@ fn own_words<'t>(context: &Context<'t>) -> HashSet<&'t str> {
     for body in &context.bodies {
         for node in &body.graph.nodes {
             calls(node.action, &mut |name: &Name, args, _| {
-                if takes_word(name)
-                    && let Some(ExprKind::Name(word)) = args.first().map(|arg| &arg.kind)
-                {
+                let word = word_argument(name).and_then(|index| args.get(index));
+                if let Some(ExprKind::Name(word)) = word.map(|arg| &arg.kind) {
                     words.insert(word.as_str());
                 }
             });

@@ -1,10 +1,13 @@
 //! The machine: runs the global area once, then sections for records.
 
+mod files;
+mod library;
 mod post;
 mod postf;
 mod report;
 mod run;
 mod slow;
+mod texts;
 
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -14,7 +17,7 @@ use fil_cl::{Record, Word};
 use fil_diag::Diag;
 
 use crate::functions::Functions;
-use crate::host::{Host, Site};
+use crate::host::{FileMode, Host, Site};
 use crate::module::{ChunkId, Constant, Module, SectionId};
 use crate::value::{Texts, Value};
 
@@ -86,6 +89,8 @@ struct State {
     frames: Vec<Spot>,
     site: Site,
     scratch: (Vec<Word>, String),
+    /// What the units 1 and 2 of FILEF are open for.
+    units: [Option<FileMode>; 2],
 }
 
 /// Runs a [`Module`]. The values of its names last from run to run.
@@ -125,14 +130,10 @@ impl Machine {
         let elements = module.arrays.last().map_or(0, |array| array.start + array.len);
         state.arrays.resize(elements, Value::Unset);
         for (register, constant) in &module.constants {
-            registers[usize::from(*register)] = match constant {
-                Constant::Number(number) => Value::Number(*number),
-                // Texts of the program itself are not counted against the limit.
-                Constant::Text(text) => match state.texts.add(text, usize::MAX) {
-                    Ok(id) => Value::Text(id),
-                    Err(_) => Value::Unset,
-                },
-            };
+            registers[usize::from(*register)] = loaded(&mut state.texts, constant);
+        }
+        for (element, constant) in &module.data {
+            state.arrays[*element] = loaded(&mut state.texts, constant);
         }
         Machine { module, registers, state, limits, functions }
     }
@@ -218,5 +219,14 @@ impl Machine {
             Ok(()) => Ok(vm.outcome),
             Err(diag) => Err(vm.locate(&self.registers, diag)),
         }
+    }
+}
+
+/// The value of a constant.
+fn loaded(texts: &mut Texts, constant: &Constant) -> Value {
+    match constant {
+        Constant::Number(number) => Value::Number(*number),
+        // Texts of the program itself are not counted against the limit.
+        Constant::Text(text) => texts.add(text, usize::MAX).map_or(Value::Unset, Value::Text),
     }
 }

@@ -176,7 +176,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         Ok(self.current()?.has(id))
     }
 
-    fn current(&self) -> Result<&Record, Box<Diag>> {
+    pub(super) fn current(&self) -> Result<&Record, Box<Diag>> {
         self.record.as_deref().ok_or_else(no_record)
     }
 

@@ -163,8 +163,8 @@ impl<H: Host + ?Sized> Vm<'_, H> {
                 Op::HostFunction { dst, function, base } => {
                     at!(registers[dst]) = slow!(self.host_function(registers, function, base));
                 }
-                Op::TextLength { dst, src } => {
-                    at!(registers[dst]) = slow!(self.text_length(registers, src));
+                Op::Library { dst, call } => {
+                    at!(registers[dst]) = slow!(self.library(registers, call));
                 }
                 Op::TextJoin { dst, base, count } => {
                     at!(registers[dst]) = slow!(self.join(registers, base, count));

@@ -12,6 +12,9 @@ use crate::ops::Reg;
 use crate::value::Value::{self, Number, Text, Unset};
 use crate::value::{EMPTY, Shown};
 
+/// Bytes of text that cost as much as one pass of a loop.
+const BYTES_A_UNIT: usize = 64;
+
 /// Most arguments a built-in function of numbers takes.
 const MOST_ARGUMENTS: usize = 6;
 
@@ -42,7 +45,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     }
 
     #[cold]
-    fn not_a_number(&self, registers: &Registers, reg: Reg) -> Box<Diag> {
+    pub(super) fn not_a_number(&self, registers: &Registers, reg: Reg) -> Box<Diag> {
         let text = match registers[usize::from(reg)] {
             Text(id) => self.state.texts.get(id),
             _ => "",
@@ -148,6 +151,16 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             return Err(self.out_of_fuel());
         }
         self.fuel -= 1;
+        Ok(())
+    }
+
+    /// Takes fuel for work on a text: a script that copies long texts pays for it.
+    pub(super) fn burn_for(&mut self, bytes: usize) -> Result<(), Box<Diag>> {
+        let cost = (bytes / BYTES_A_UNIT) as u64;
+        if self.fuel < cost {
+            return Err(self.out_of_fuel());
+        }
+        self.fuel -= cost;
         Ok(())
     }
 
@@ -272,72 +285,6 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             Ok(result) => Err(fault(RunCode::HostFunction, format!("{name} gives {result}"))),
             Err(sentence) => Err(fault(RunCode::HostFunction, format!("{name}: {sentence}"))),
         }
-    }
-
-    #[inline(never)]
-    pub(super) fn text_length(
-        &mut self,
-        registers: &Registers,
-        src: Reg,
-    ) -> Result<Value, Box<Diag>> {
-        match self.read(registers, src)? {
-            Text(id) => Ok(Number(self.state.texts.get(id).chars().count() as f64)),
-            Number(number) => {
-                let message = format!("{} is a number; a text is needed here", Shown(number));
-                Err(fault(RunCode::WrongType, message))
-            }
-            Unset => Ok(Number(0.0)),
-        }
-    }
-
-    /// Texts and numbers of consecutive registers, one after the other.
-    #[inline(never)]
-    pub(super) fn join(
-        &mut self,
-        registers: &mut Registers,
-        base: Reg,
-        count: u16,
-    ) -> Result<Value, Box<Diag>> {
-        let mut joined = String::new();
-        for offset in 0..count {
-            match self.read(registers, base.wrapping_add(offset))? {
-                Text(id) => joined.push_str(self.state.texts.get(id)),
-                Number(number) => joined.push_str(&Shown(number).to_string()),
-                Unset => {}
-            }
-            if joined.len() > self.limits.text_bytes {
-                return Err(self.too_much_text());
-            }
-        }
-        self.new_text(registers, &joined)
-    }
-
-    /// Adds a text to the arena, cleaning it up first where it is full.
-    pub(super) fn new_text(
-        &mut self,
-        registers: &mut Registers,
-        text: &str,
-    ) -> Result<Value, Box<Diag>> {
-        let limit = self.limits.text_bytes;
-        if let Ok(id) = self.state.texts.add(text, limit) {
-            return Ok(Text(id));
-        }
-        // Cleaning up looks at every register; the fuel keeps a script that
-        // sits at the limit from making each text cost that much.
-        for _ in 0..1000 {
-            self.burn()?;
-        }
-        let state = &mut *self.state;
-        state.texts.keep(registers.iter_mut().chain(&mut state.arrays));
-        match state.texts.add(text, limit) {
-            Ok(id) => Ok(Text(id)),
-            Err(_) => Err(self.too_much_text()),
-        }
-    }
-
-    fn too_much_text(&self) -> Box<Diag> {
-        let limit = self.limits.text_bytes;
-        fault(RunCode::TextLimit, format!("texts would take more than {limit} bytes"))
     }
 
     /// Last value written for a letter: DBLCOM 355+n.

@@ -24,12 +24,13 @@ fn compile_case(number: u16) -> Option<(String, u32)> {
         210 => ("CIMFIL/ON,CYCLE\nCIMFIL/OFF\nCIMFIL/ON,CYCLE\nCIMFIL/OFF", 3),
         211 => ("NN=3\nRESERV/AR,NN", 2),
         212 => ("RESERV/AR,3\nAR=1", 2),
-        213 => ("T1=TEXT/CLW,'A'", 1),
+        213 => ("T1=TEXT/'A',CLW", 1),
         214 => ("INCLUD/other.fil", 1),
         215 => return Some(("XX=1\n".repeat(66_000), 1)),
         216 => ("XX=ICODEF(1+1)", 1),
         217 => ("A=7", 1),
         218 => ("CIMFIL/ON,CYCLE\nXX=POSTF(5)\nCIMFIL/OFF", 2),
+        222 => ("VV=1\nDATA/TAB,1,VV", 2),
         219 => ("CIMFIL/ON,CYCLE\nXX=HASF(DEPTH)\nCIMFIL/OFF", 2),
         _ => return None,
     };
@@ -144,6 +145,13 @@ fn run_case(number: u16) -> Option<(&'static str, u32)> {
         315 => ("XX=POSTF(1,4,1)", 1),
         316 => ("CIMFIL/ON,CYCLE\nXX=COUPLF(CLEAR)\nCIMFIL/OFF", 2),
         317 => ("XX=FAILF(1)", 1),
+        318 => ("T1='ABC'\nT2=TEXT/PART,T1,2,4", 2),
+        319 => ("XX=SCALF('12 MM')", 1),
+        320 => ("XX=1\nT1=TEXT/CONVI,XX+0.5", 2),
+        321 => ("XX=FILEF(1,READ,'TOOLS')", 1),
+        322 => ("T1=DATEF()", 1),
+        323 => ("XX=SPAWNF('DIR')", 1),
+        324 => ("XX=1\nXX=FILEF(1,CLOSE)", 2),
         _ => return None,
     };
     Some(case)

@@ -49,6 +49,17 @@ const STATEMENTS: &[&str] = &[
     "YY=NEXTF(X)",
     "XX=COUPLF(DEPTH,YY)",
     "XX=1E300*1E10",
+    "T1=TEXT/PART,T1,XX,YY",
+    "T1=TEXT/REPEAT,T1,XX",
+    "T1=TEXT/MODIFY,T1,'A','AB'",
+    "T1=TEXT/CONVF,XX,YY,3,ZEROS,TRIM",
+    "XX=INDXF(T1,'B',XX)",
+    "XX=SCALF(T1)",
+    "T1=TEXTF(XX)",
+    "XX=DAT(XX)",
+    "XX=FILEF(XX,READ,T1)",
+    "WRITE/1,T1",
+    "T1=TEXT/CLW",
 ];
 
 /// A body with its labels, and a loop around its middle.
@@ -74,7 +85,7 @@ proptest! {
     ) {
         let inner: String = body(&called).replace("CALL/", "T1=TEXT/'NO CALL HERE',");
         let text = format!(
-            "RESERV/AR,4\nMM=MACRO/PA=2\n{inner}TERMAC\nNN=MACRO\nCALL/MM\nTERMAC\n{}CIMFIL/ON,CYCLE\n{}CIMFIL/OFF\nFINI\n",
+            "DATA/DAT,1,'A'\nRESERV/AR,4\nMM=MACRO/PA=2\n{inner}TERMAC\nNN=MACRO\nCALL/MM\nTERMAC\n{}CIMFIL/ON,CYCLE\n{}CIMFIL/OFF\nFINI\n",
             body(&one), body(&two)
         );
         let mut vocab = Vocabulary::new();

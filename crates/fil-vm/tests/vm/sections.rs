@@ -1,7 +1,7 @@
 //! Which section takes which record, and files that include others.
 
 use fil_cl::Vocabulary;
-use fil_vm::{FilFile, LoadOptions, load};
+use fil_vm::{FilFile, Included, LoadOptions, load};
 
 use crate::bench::{compile, lines, run};
 
@@ -71,9 +71,13 @@ fn several_files_share_their_names() {
 }
 
 fn include(main: &str, others: &[(&str, &str)]) -> Result<Vec<u16>, Vec<u16>> {
-    let mut loader = |name: &str| {
+    let mut loader = |_: &str, name: &str| {
         let found = others.iter().find(|(known, _)| *known == name);
-        found.map(|(_, text)| text.to_string()).ok_or_else(|| "not there".to_string())
+        let included = |(name, text): &(&str, &str)| Included {
+            name: name.to_string(),
+            text: text.to_string(),
+        };
+        found.map(included).ok_or_else(|| "not there".to_string())
     };
     let options = LoadOptions { loader: Some(&mut loader), ..LoadOptions::default() };
     let numbers = |diags: Vec<fil_diag::Diag>| diags.iter().map(|diag| diag.code.number).collect();

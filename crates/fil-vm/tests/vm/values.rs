@@ -51,6 +51,22 @@ fn text_joins_texts_and_numbers() {
 }
 
 #[test]
+fn a_text_never_holds_empty_or_a_negative_zero() {
+    let mut bench = Bench::new("VV=999999\nT1=TEXT/'X',VV");
+    assert_eq!(bench.globals().unwrap_err().code.number, 302);
+    assert_eq!(globals("VV=-0.0\nT1=TEXT/'X',VV").machine.text("T1"), Some("X0"));
+}
+
+#[test]
+fn long_texts_cost_fuel() {
+    let limits = Limits { fuel: 1000, ..Limits::default() };
+    let program = "T1=TEXT/REPEAT,'X',10000\nT2=TEXT/UP,T1\nT2=TEXT/UP,T1\nT2=TEXT/UP,T1";
+    let mut bench = Bench::with(program, limits, Compat::default(), Functions::new());
+    let diag = bench.globals().unwrap_err();
+    assert_eq!((diag.code.number, diag.places[0].line), (304, 4));
+}
+
+#[test]
 fn texts_nobody_holds_are_given_back() {
     let limits = Limits { text_bytes: 4096, ..Limits::default() };
     let program = "DO/LA,II=1,10000\nT1=TEXT/'NUMBER ',II\nLA) CONTIN";

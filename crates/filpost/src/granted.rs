@@ -1,0 +1,60 @@
+//! What a script is granted of the world outside: clock, commands, files.
+
+use std::sync::Arc;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use fil_vm::Moment;
+
+use crate::script_files::{Folders, ScriptFiles};
+
+/// Where DATEF and TIMEF get their moment from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Clock {
+    /// Always the same, so that the same input gives the same bytes.
+    Fixed(Moment),
+    /// The system's clock, in UTC, read once a run.
+    System,
+}
+
+/// Runs the command of SPAWNF and gives its status.
+pub(crate) type Spawn = Box<dyn FnMut(&str) -> Result<f64, String> + Send>;
+
+/// What one run has been granted.
+pub(crate) struct Granted<'p> {
+    clock: Option<Clock>,
+    /// The moment of this run, once it was asked for.
+    now: Option<Moment>,
+    spawn: Option<&'p mut Spawn>,
+    /// The script's files; `None` where no folder is granted.
+    pub files: Option<ScriptFiles>,
+}
+
+impl<'p> Granted<'p> {
+    /// The grants of a run.
+    pub fn new(
+        clock: Option<Clock>,
+        spawn: Option<&'p mut Spawn>,
+        folders: Option<Arc<Folders>>,
+    ) -> Self {
+        Granted { clock, now: None, spawn, files: folders.map(ScriptFiles::new) }
+    }
+
+    /// The moment of the run; `None` without a clock.
+    pub fn now(&mut self) -> Option<Moment> {
+        if self.now.is_none() {
+            self.now = match self.clock? {
+                Clock::Fixed(moment) => Some(moment),
+                Clock::System => {
+                    let since = SystemTime::now().duration_since(UNIX_EPOCH).ok()?;
+                    Moment::from_unix(since.as_secs())
+                }
+            };
+        }
+        self.now
+    }
+
+    /// Runs a command; `None` where commands are not granted.
+    pub fn spawn(&mut self, command: &str) -> Option<Result<f64, String>> {
+        self.spawn.as_mut().map(|run| run(command))
+    }
+}

@@ -1,0 +1,73 @@
+//! INCLUD from files: relative to the including file, and never out of the
+//! folders of the FIL files a post is made of.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use fil_vm::Included;
+
+use crate::files;
+
+/// Gives INCLUD the files that lie in the folder of one of the FIL files, or
+/// below there. A name counts from the folder of the file the INCLUD stands in;
+/// a link or a `..` must not lead out. FIL files are known by their path as
+/// `display` shows it, which is the name they must have in the builder.
+pub fn beside(
+    fil: &[PathBuf],
+    encoding: Option<&str>,
+) -> impl FnMut(&str, &str) -> Result<Included, String> + Send + 'static {
+    let mut known = Known { encoding: encoding.map(String::from), ..Known::default() };
+    for path in fil {
+        known.add_root(path);
+    }
+    move |from, name| known.include(from, name)
+}
+
+/// The files a post has been read from so far.
+#[derive(Default)]
+struct Known {
+    encoding: Option<String>,
+    /// Real folders that may be read.
+    folders: Vec<PathBuf>,
+    /// From the name of a file to its path as given.
+    paths: HashMap<String, PathBuf>,
+    /// From a real path to the name of the file.
+    names: HashMap<PathBuf, String>,
+}
+
+impl Known {
+    fn add_root(&mut self, path: &Path) {
+        let name = path.display().to_string();
+        self.paths.insert(name.clone(), path.to_path_buf());
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        self.folders.extend(folder.unwrap_or(Path::new(".")).canonicalize());
+        if let Ok(real) = path.canonicalize() {
+            self.names.insert(real, name);
+        }
+    }
+
+    fn include(&mut self, from: &str, name: &str) -> Result<Included, String> {
+        let from = self.paths.get(from).ok_or("the file it stands in is not known")?;
+        // FIL files of Windows name their folders with a backslash.
+        let wanted = name.replace('\\', "/");
+        if Path::new(&wanted).has_root() || wanted.contains(':') {
+            return Err("only a name relative to the including file can be included".into());
+        }
+        let path = from.parent().unwrap_or(Path::new("")).join(&wanted);
+        let real = path
+            .canonicalize()
+            .ok()
+            .filter(|real| real.is_file())
+            .ok_or("there is no such file beside the including file")?;
+        if !self.folders.iter().any(|folder| real.starts_with(folder)) {
+            return Err("it lies outside of the folder of the FIL file".into());
+        }
+        let text = files::read_text(&real, self.encoding.as_deref()).map_err(|error| {
+            error.diags().iter().map(|diag| diag.message.clone()).collect::<Vec<_>>().join("; ")
+        })?;
+        let shown = path.display().to_string();
+        let name = self.names.entry(real).or_insert(shown).clone();
+        self.paths.insert(name.clone(), path);
+        Ok(Included { name, text })
+    }
+}

@@ -1,0 +1,205 @@
+//! What a script may reach outside of the post, and what it may not.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use filpost::{Builder, Clock, Error, Moment, Post, includes};
+
+const PART: &str = "UNITS / MM\nRAPID\nGOTO / 1, 2, 3\nFINI\n";
+
+fn with(fil: &str) -> Builder {
+    Post::builder().fil("test.fil", &format!("{fil}\nFINI\n"))
+}
+
+fn post(builder: Builder) -> Result<String, Error> {
+    let mut nc = Vec::new();
+    builder.build()?.run(PART.as_bytes(), &mut nc)?;
+    Ok(String::from_utf8(nc).expect("the program is text"))
+}
+
+fn refused(builder: Builder) -> String {
+    let error = post(builder).expect_err("refused");
+    error.diags()[0].code.name()
+}
+
+/// Names of the files of a folder, sorted.
+fn names(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).expect("the folder");
+    let mut names: Vec<String> = entries
+        .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    names
+}
+
+fn read(path: impl AsRef<Path>) -> String {
+    std::fs::read_to_string(path).expect("a text")
+}
+
+#[test]
+fn commands_run_only_through_the_embedding_program() {
+    let fil = "VV=SPAWNF('measure 7')\nPPRINT/VV";
+    assert_eq!(refused(with(fil)), "E0323");
+    let allowed = with(fil).allow_spawn(|command| {
+        assert_eq!(command, "measure 7");
+        Ok(42.0)
+    });
+    assert!(post(allowed).expect("allowed").contains("(42)"));
+    assert_eq!(refused(with(fil).allow_spawn(|_| Err("no probe".into()))), "E0317");
+    assert_eq!(refused(with(fil).allow_spawn(|_| Ok(f64::NAN))), "E0317");
+}
+
+#[test]
+fn the_clock_is_fixed_or_the_systems() {
+    let fil = "T1=TEXT/DATEF(),'T',TIMEF()\nPPRINT/T1";
+    assert_eq!(refused(with(fil)), "E0322");
+    let moment = Moment::parse("2026-01-31T12:00:00").expect("a moment");
+    let fixed = || post(with(fil).clock(Clock::Fixed(moment))).expect("fixed");
+    assert!(fixed().contains("(2026-01-31T12:00:00)"));
+    assert_eq!(fixed(), fixed());
+    let mut system = with("YY=DATEF(1)\nIF(YY.GE.2024)PPRINT/'NOW'").clock(Clock::System);
+    system = system.set("tape.start_char=none");
+    assert!(post(system).expect("the system has a clock").contains("(NOW)"));
+}
+
+#[test]
+fn a_folder_that_is_not_there_cannot_be_granted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    assert_eq!(refused(with("").grant_read(folder.path().join("absent"))), "E0701");
+    std::fs::write(folder.path().join("plain"), "").expect("a file");
+    assert_eq!(refused(with("").grant_write(folder.path().join("plain"))), "E0701");
+}
+
+#[test]
+fn a_held_file_appears_when_it_is_kept() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("log.txt");
+    std::fs::write(&path, "old\n").expect("a file");
+    let fil = "DMY=FILEF(1,WRITE,'log.txt')\nWRITE/1,'new'";
+    let mut post = with(fil).grant_write(folder.path()).build().expect("a post");
+    let (report, held) = post.run_held(Cursor::new(PART), Vec::new()).expect("a run");
+    assert_eq!(report.script_files, [path.canonicalize().expect("the file")]);
+    assert_eq!(read(&path), "old\n");
+    drop(held);
+    assert_eq!((read(&path).as_str(), names(folder.path()).len()), ("old\n", 1));
+    let (_, held) = post.run_held(Cursor::new(PART), Vec::new()).expect("a run");
+    held.keep().expect("written");
+    assert_eq!((read(&path).as_str(), names(folder.path()).len()), ("new\n", 1));
+}
+
+#[test]
+fn an_error_after_the_last_write_leaves_the_folder_as_it_was() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("old.txt"), "old\n").expect("a file");
+    let fil = "DMY=FILEF(1,APPEND,'old.txt')\nWRITE/1,'new'\nDMY=FILEF(1,CLOSE)\n\
+               DMY=FILEF(1,DELETE,'old.txt')\nDMY=FILEF(1,WRITE,'new.txt')\nZZ=0\nVV=1/ZZ";
+    assert_eq!(refused(with(fil).grant_write(folder.path())), "E0301");
+    assert_eq!(names(folder.path()), ["old.txt"]);
+    assert_eq!(read(folder.path().join("old.txt")), "old\n");
+}
+
+#[test]
+fn files_are_deleted_and_continued_when_the_run_went_well() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("gone.txt"), "old").expect("a file");
+    std::fs::write(folder.path().join("kept.txt"), "old").expect("a file");
+    let fil = "DMY=FILEF(1,DELETE,'gone.txt')\nDMY=FILEF(2,APPEND,'kept.txt')\nWRITE/2,'new'";
+    post(with(fil).grant_write(folder.path())).expect("a run");
+    assert_eq!(names(folder.path()), ["kept.txt"]);
+    assert_eq!(read(folder.path().join("kept.txt")), "old\nnew\n");
+}
+
+#[test]
+fn the_blocks_one_by_one_keep_files_at_their_end() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let fil = "DMY=FILEF(1,WRITE,'a.txt')\nWRITE/1,'new'";
+    let mut post = with(fil).grant_write(folder.path()).build().expect("a post");
+    let blocks = post.records(PART.as_bytes());
+    drop(blocks);
+    assert!(names(folder.path()).is_empty(), "the run was given up");
+    assert!(post.records(PART.as_bytes()).all(|block| block.is_ok()));
+    assert_eq!(names(folder.path()), ["a.txt"]);
+}
+
+#[test]
+fn no_name_leads_out_of_the_folder() {
+    let outer = tempfile::tempdir().expect("a folder");
+    let folder = outer.path().join("granted");
+    std::fs::create_dir(&folder).expect("a folder");
+    std::fs::create_dir(folder.join("sub")).expect("a folder");
+    std::fs::write(outer.path().join("secret.txt"), "secret\n").expect("a file");
+    for name in
+        ["../secret.txt", "..\\secret.txt", "sub/../../secret.txt", "/etc/hostname", "", ".", ".."]
+    {
+        for op in ["READ", "WRITE", "APPEND", "DELETE"] {
+            let fil = format!("DMY=FILEF(1,{op},'{name}')");
+            let builder = with(&fil).grant_read(&folder).grant_write(&folder);
+            assert_eq!(refused(builder), "E0706", "{op} {name}");
+        }
+    }
+    let fil = "DMY=FILEF(1,WRITE,'sub\\a.txt')\nWRITE/1,'A'";
+    post(with(fil).grant_write(&folder)).expect("below the folder");
+    assert_eq!(names(&folder.join("sub")), ["a.txt"]);
+    assert_eq!(read(outer.path().join("secret.txt")), "secret\n");
+}
+
+#[cfg(unix)]
+#[test]
+fn no_link_leads_out_of_the_folder() {
+    use std::os::unix::fs::symlink;
+    let outer = tempfile::tempdir().expect("a folder");
+    let folder = outer.path().join("granted");
+    std::fs::create_dir(&folder).expect("a folder");
+    std::fs::write(outer.path().join("secret.txt"), "secret\n").expect("a file");
+    std::fs::write(folder.join("real.txt"), "real\n").expect("a file");
+    symlink("../secret.txt", folder.join("out.txt")).expect("a link");
+    symlink("../absent.txt", folder.join("dangling.txt")).expect("a link");
+    symlink("..", folder.join("up")).expect("a link");
+    symlink("real.txt", folder.join("in.txt")).expect("a link");
+    for name in ["out.txt", "dangling.txt", "up/secret.txt", "up/new.txt"] {
+        for op in ["READ", "WRITE", "APPEND", "DELETE"] {
+            let fil = format!("DMY=FILEF(1,{op},'{name}')");
+            let builder = with(&fil).grant_read(&folder).grant_write(&folder);
+            assert_eq!(refused(builder), "E0706", "{op} {name}");
+        }
+    }
+    let fil = "DMY=FILEF(1,WRITE,'in.txt')\nWRITE/1,'A'";
+    post(with(fil).grant_write(&folder)).expect("a link that stays inside");
+    assert_eq!(read(folder.join("real.txt")), "A\n");
+    assert!(folder.join("in.txt").is_symlink());
+    assert_eq!(names(outer.path()), ["granted", "secret.txt"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn only_plain_files_are_read() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::create_dir(folder.path().join("sub")).expect("a folder");
+    let fil = "DMY=FILEF(1,READ,'sub')";
+    assert_eq!(refused(with(fil).grant_read(folder.path())), "E0701");
+    let fil = "DMY=FILEF(1,WRITE,'sub')";
+    assert_eq!(refused(with(fil).grant_write(folder.path())), "E0702");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_does_not_lead_includ_out_of_the_folder() {
+    use std::os::unix::fs::symlink;
+    let outer = tempfile::tempdir().expect("a folder");
+    let folder = outer.path().join("post");
+    std::fs::create_dir(&folder).expect("a folder");
+    std::fs::write(outer.path().join("secret.fil"), "PPRINT/'SECRET'\n").expect("a file");
+    std::fs::write(folder.join("lib.fil"), "PPRINT/'LIB'\n").expect("a file");
+    symlink("../secret.fil", folder.join("out.fil")).expect("a link");
+    let main = folder.join("main.fil");
+    let built = |text: &str| {
+        std::fs::write(&main, text).expect("a file");
+        Post::builder()
+            .fil(&main.display().to_string(), text)
+            .includes(includes::beside(std::slice::from_ref(&main), None))
+    };
+    assert!(post(built("INCLUD/lib.fil\nFINI\n")).expect("beside").contains("(LIB)"));
+    for name in ["out.fil", "../secret.fil", "/etc/hostname", "none.fil", "C:\\a.fil"] {
+        assert_eq!(refused(built(&format!("INCLUD/'{name}'\nFINI\n"))), "E0214", "{name}");
+    }
+}

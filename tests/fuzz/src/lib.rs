@@ -1,0 +1,93 @@
+//! What each fuzz target does with its bytes: nothing may panic, and what can
+//! be refused is refused with an error.
+
+#![forbid(unsafe_code)]
+
+use std::sync::LazyLock;
+
+use filpost::{Builder, Commons, Limits, Post};
+use filpost_tests::duel::{fight, reduce};
+use filpost_tests::programs::{Dice, case};
+
+/// Small, so that an input takes milliseconds at most.
+const LIMITS: Limits =
+    Limits { fuel: 2_000, call_depth: 16, array_elements: 10_000, text_bytes: 1 << 20 };
+
+/// Records for any FIL text.
+const RECORDS: &str = "\
+UNITS / MM
+LOADTL / 1
+SPINDL / RPM, 500, CLW
+RAPID
+GOTO / 1, 2, 3
+FEDRAT / 100, MMPM
+GOTO / 4, -5, 6.5, 0, 0, 1
+CYCLE / DEEP, DEPTH, 9, STEP, 2, MMPM, 90, CLEAR, 1
+GOTO / 7, 8, 9
+CYCLE / OFF
+COOLNT / ON
+OP / THREAD, TURN, DEPTH, 1, TPI, 2, MULTRD, 3
+FINI
+";
+
+/// The ready posts, read once.
+static READY: LazyLock<Vec<Commons>> = LazyLock::new(|| {
+    let built = |name: &str| Post::builder().ready(name).build().expect("a ready post is right");
+    filpost::ready::READY.iter().map(|post| built(post.name).commons().clone()).collect()
+});
+
+fn ready(number: u8) -> Builder {
+    let commons = &READY[usize::from(number) % READY.len()];
+    Post::builder().commons(commons.clone()).limits(LIMITS)
+}
+
+/// Posts a CL file; an error is as good as a result.
+fn post(mut post: Post, cl: &[u8]) {
+    let mut nc = Vec::new();
+    if post.run_seekable(std::io::Cursor::new(cl), &mut nc).is_ok() {
+        let mut again = Vec::new();
+        let _ = post.run_seekable(std::io::Cursor::new(cl), &mut again);
+        assert!(nc == again, "the second run differs");
+    }
+}
+
+/// Any bytes as a FIL file: read, compiled, run on a few records.
+pub fn fil_bytes(data: &[u8]) {
+    let Ok((text, _)) = fil_syntax::decode(data, None) else { return };
+    if let Ok(built) = ready(1).fil("fuzz.fil", &text).build() {
+        post(built, RECORDS.as_bytes());
+    }
+}
+
+/// Any bytes as a CL file; the first one chooses the post.
+pub fn cl_bytes(data: &[u8]) {
+    let Some((first, cl)) = data.split_first() else { return };
+    if let Ok(built) = ready(*first).build() {
+        post(built, cl);
+    }
+}
+
+/// Any bytes as machine.toml and as an option file.
+pub fn machine_bytes(data: &[u8]) {
+    let Ok((text, _)) = fil_syntax::decode(data, None) else { return };
+    for builder in [
+        Post::builder().machine("machine.toml", &text),
+        Post::builder().option_file("uncx01.p01", &text),
+    ] {
+        if let Ok(built) = builder.limits(LIMITS).build() {
+            let written = fil_post::settings::write_toml(built.commons());
+            let again = fil_post::settings::read_toml("machine.toml", &written);
+            assert!(again.is_ok(), "what was written can't be read: {again:?}\n{written}");
+            post(built, RECORDS.as_bytes());
+        }
+    }
+}
+
+/// Bytes as the choices of the generator of programs: machine against oracle.
+pub fn programs(data: &[u8]) {
+    let made = case(&mut Dice::from_bytes(data));
+    if fight(&made).is_err() {
+        let (small, told) = reduce(&made);
+        panic!("{told}\n--- FIL\n{}--- CL\n{}", small.fil, small.cl);
+    }
+}

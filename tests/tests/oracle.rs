@@ -1,0 +1,49 @@
+//! The machine agrees with a second reading of FIL on random programs.
+
+use std::collections::BTreeMap;
+
+use filpost_tests::duel::{Agreed, fight, reduce};
+use filpost_tests::programs::{Dice, case};
+
+/// Runs the programs of these seeds and counts how they ended.
+fn tournament(seeds: std::ops::Range<u64>) -> BTreeMap<Agreed, u64> {
+    let mut ends = BTreeMap::new();
+    for seed in seeds {
+        let made = case(&mut Dice::from_seed(seed));
+        match fight(&made) {
+            Ok(agreed) => *ends.entry(agreed).or_insert(0) += 1,
+            Err(_) => {
+                let (small, told) = reduce(&made);
+                panic!("seed {seed}: {told}\n--- FIL\n{}--- CL\n{}", small.fil, small.cl);
+            }
+        }
+    }
+    println!("{ends:?}");
+    ends
+}
+
+/// Most programs must run to their end, or the comparison would say little.
+fn mostly_done(ends: &BTreeMap<Agreed, u64>) {
+    let all: u64 = ends.values().sum();
+    let done = ends.get(&Agreed::Done).copied().unwrap_or(0);
+    let refused: u64 =
+        ends.iter().filter(|(end, _)| matches!(end, Agreed::Refused(_))).map(|(_, n)| n).sum();
+    assert!(done * 2 > all, "{ends:?}");
+    assert!(refused * 50 < all, "{ends:?}");
+}
+
+#[test]
+fn machine_and_oracle_agree() {
+    mostly_done(&tournament(0..2_000));
+}
+
+/// FILPOST_ORACLE=first,count chooses other seeds than the first 100,000.
+#[test]
+#[ignore = "takes minutes"]
+fn machine_and_oracle_agree_for_long() {
+    let chosen = std::env::var("FILPOST_ORACLE").unwrap_or_else(|_| "2000,100000".into());
+    let (first, count) = chosen.split_once(',').expect("FILPOST_ORACLE=first,count");
+    let first: u64 = first.parse().expect("first seed");
+    let count: u64 = count.parse().expect("number of seeds");
+    mostly_done(&tournament(first..first + count));
+}
