@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use fil_vm::{FilFile, LoadOptions};
+use fil_vm::{FilFile, Included, LoadOptions};
 use filpost::cl::Vocabulary;
 use filpost::files;
 use filpost::syntax::format;
@@ -35,9 +35,10 @@ fn find(folder: &Path, found: &mut Vec<PathBuf>) {
 /// or the codes it is refused with.
 fn compiled(path: &Path, text: &str) -> Result<(String, Vec<String>), Vec<String>> {
     let folder = path.parent().unwrap_or(Path::new("."));
-    let mut loader = |name: &str| {
+    let mut loader = |_: &str, name: &str| {
         let text = files::read_text(&folder.join(name), None);
-        text.map_err(|error| error.to_string())
+        let included = |text| Included { name: name.to_string(), text };
+        text.map(included).map_err(|error| error.to_string())
     };
     let file = FilFile { name: "script.fil", text };
     let options = LoadOptions { loader: Some(&mut loader), lint: true, ..LoadOptions::default() };
