@@ -1,6 +1,8 @@
 //! What functions and forms of TEXT/ can be asked of the machine beyond numbers:
 //! texts, outside files, clock and commands.
 
+use fil_syntax::tree::{Expr, ExprKind};
+
 use crate::ops::Reg;
 
 /// What a call of the library does.
@@ -115,6 +117,22 @@ impl NumberRules {
         };
         *rule = true;
         true
+    }
+}
+
+impl Library {
+    /// The values of a call, and the rules that stand behind them as words.
+    pub(crate) fn rules(self, mut args: &[Expr]) -> (&[Expr], NumberRules) {
+        let mut rules = NumberRules::default();
+        if matches!(self, Library::WholeToText | Library::ToText) {
+            while let [before @ .., Expr { kind: ExprKind::Name(word), .. }] = args
+                && !before.is_empty()
+                && rules.take(word)
+            {
+                args = before;
+            }
+        }
+        (args, rules)
     }
 }
 

@@ -61,16 +61,7 @@ impl Compiler<'_> {
         span: Span,
         dst: Reg,
     ) {
-        let mut rules = NumberRules::default();
-        let mut args = args;
-        if matches!(library, Library::WholeToText | Library::ToText) {
-            while let [before @ .., Expr { kind: ExprKind::Name(word), .. }] = args
-                && !before.is_empty()
-                && rules.take(word)
-            {
-                args = before;
-            }
-        }
+        let (args, rules) = library.rules(args);
         if !(usize::from(least)..=usize::from(most)).contains(&args.len()) {
             self.wrong_count(builtin.name, &builtin.call(), args.len(), span);
             return;

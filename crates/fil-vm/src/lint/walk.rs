@@ -58,7 +58,7 @@ pub(crate) fn within<'t>(expr: &'t Expr, used: Use, visit: &mut dyn FnMut(&'t Ex
         ExprKind::Number(_) | ExprKind::Text(_) | ExprKind::Name(_) => {}
         ExprKind::Call { name, args } => {
             let word = word_argument(name);
-            for (index, arg) in args.iter().enumerate() {
+            for (index, arg) in values(name, args).iter().enumerate() {
                 if word != Some(index) {
                     within(arg, Use::Value, visit);
                 }
@@ -69,6 +69,14 @@ pub(crate) fn within<'t>(expr: &'t Expr, used: Use, visit: &mut dyn FnMut(&'t Ex
             within(left, Use::Value, visit);
             within(right, Use::Value, visit);
         }
+    }
+}
+
+/// The arguments of a function without the rules at their end, which are words.
+fn values<'t>(function: &Name, args: &'t [Expr]) -> &'t [Expr] {
+    match builtins::find(&function.text).map(|index| BUILTINS[index].kind) {
+        Some(Kind::Library(library, ..)) => library.rules(args).0,
+        _ => args,
     }
 }
 
