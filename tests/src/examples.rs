@@ -119,7 +119,9 @@ fn post(builder: filpost::Builder, cl: &str) -> Vec<Diag> {
     diags
 }
 
-/// What `filpost check` says of a FIL file.
+/// What `filpost check` says of a FIL file for the ready post fanuc-mill.
 pub fn check(fil: &str) -> Vec<Diag> {
-    filpost::check::check(&[("macros.fil", fil)], filpost::check::Options::default())
+    let post = Post::builder().ready("fanuc-mill").build().expect("the ready post");
+    let options = filpost::check::Options { machine: Some(post.commons()), ..Default::default() };
+    filpost::check::check(&[("macros.fil", fil)], options)
 }

@@ -5,6 +5,7 @@ pub mod compare;
 pub mod duel;
 pub mod examples;
 pub mod language;
+pub mod lints;
 pub mod nc_path;
 pub mod oracle;
 pub mod path;

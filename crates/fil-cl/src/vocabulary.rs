@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 
+use fil_diag::suggest::did_you_mean;
+
 pub use crate::words;
 
 /// Identity of a vocabulary word within a run. Two words are the same word
@@ -117,6 +119,16 @@ impl Vocabulary {
     /// When the id comes from another vocabulary that holds more words.
     pub fn name(&self, id: WordId) -> &str {
         &self.entries[id.index()].name
+    }
+
+    /// The words this crate or a published table knows.
+    fn known_names(&self) -> impl Iterator<Item = &str> {
+        self.entries.iter().filter(|entry| entry.class != 0).map(|entry| entry.name.as_ref())
+    }
+
+    /// A hint with the known word that an unknown one was perhaps meant to be.
+    pub fn perhaps_meant(&self, id: WordId) -> Option<String> {
+        if self.is_known(id) { None } else { did_you_mean(self.name(id), self.known_names()) }
     }
 
     /// The integer code. Of the published ones the first of: gpost, PostWorks,
@@ -285,6 +297,19 @@ mod tests {
         assert_eq!(code("RETURN"), 322.0, "only in NCL");
         assert!(vocabulary.is_public(words::DEEP) && !vocabulary.is_public(words::CLEAR));
         assert!(vocabulary.is_major(words::SPINDL) && !vocabulary.is_major(words::CLW));
+    }
+
+    #[test]
+    fn only_unknown_words_are_perhaps_others() {
+        let mut vocabulary = Vocabulary::new();
+        let mut hint = |word| {
+            let id = vocabulary.intern(word);
+            vocabulary.perhaps_meant(id)
+        };
+        assert_eq!(hint("SPINDEL").as_deref(), Some("did you mean SPINDL?"));
+        assert_eq!(hint("EMBOSL"), None);
+        assert_eq!(hint("EMBOSM"), None, "a word of the user is no known one");
+        assert_eq!(hint("SPINDL"), None);
     }
 
     #[test]

@@ -5,6 +5,7 @@
 //! what a [`Diag`] points to. Rendering is the command's business alone.
 
 mod place;
+pub mod suggest;
 
 pub use place::{LineIndex, Place};
 

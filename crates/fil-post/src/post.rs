@@ -110,16 +110,27 @@ impl Post {
     /// Warns once per code and subject; a run that warns without end stops at
     /// [`MAX_WARNINGS`], so that memory does not grow with the CL file.
     pub(crate) fn warn(&mut self, code: PostCode, message: String) {
+        self.warn_with(code, message, || None);
+    }
+
+    /// The same with a hint made for this case when the warning is a new one.
+    pub(crate) fn warn_with(
+        &mut self,
+        code: PostCode,
+        message: String,
+        hint: impl FnOnce() -> Option<String>,
+    ) {
         let code: &'static Code = code.into();
         if self.warned.len() < MAX_WARNINGS && self.warned.insert((code.number, message.clone())) {
             let last = self.warned.len() == MAX_WARNINGS;
             let note = if last { "; further warnings are not listed" } else { "" };
-            self.warnings.push(Diag::new(code, message + note));
+            self.warnings.push(Diag { hint: hint(), ..Diag::new(code, message + note) });
         }
     }
 
     fn warn_unknown_word(&mut self, word: WordId, vocabulary: &Vocabulary) {
-        self.warn(PostCode::UnknownWord, format!("no handler for {}", vocabulary.name(word)));
+        let message = format!("no handler for {}", vocabulary.name(word));
+        self.warn_with(PostCode::UnknownWord, message, || vocabulary.perhaps_meant(word));
     }
 
     /// Warns that the machine has no code for something it may do by other means.

@@ -1,4 +1,4 @@
-//! Codes of the compiler (02xx) and of the machine (03xx).
+//! Codes of the compiler and its lints (02xx) and of the machine (03xx).
 
 fil_diag::codes! {
     /// What can be wrong with FIL before it runs.
@@ -79,18 +79,76 @@ fil_diag::codes! {
         Extension = 219, Error, "extension of filpost",
             "The function is not part of FIL; --strict keeps scripts portable.",
             "Write it with POSTF, or run without --strict.";
-        /// A section with a way that sends nothing; only looked for on request.
-        Swallows = 220, Warning, "section can swallow its record",
-            "A section takes its record: on this way neither a post word nor POSTF(13) stands, so the record has no effect.",
-            "Call POSTF(13) where the post is to act as usual.";
-        /// A name that no statement sets; only looked for on request.
-        NeverAssigned = 221, Warning, "name is set nowhere",
-            "No statement of the loaded files gives this name a value, so it is EMPTY wherever it is read.",
-            "Check its spelling; a vocabulary word is compared as ICODEF(word).";
         /// DATA with something else than constants.
         NotConstant = 222, Error, "value is no constant",
             "DATA/ declares a table before anything runs, so it holds numbers and texts as they are written.",
             "Write DATA/name,v1,v2,… with constants, or reserve an array with RESERV and set it.";
+    }
+}
+
+fil_diag::codes! {
+    /// What a check finds in FIL that would run; only looked for on request.
+    pub enum LintCode {
+        /// A section with a way that sends nothing.
+        Swallows = 220, Warning, "section can swallow its record",
+            "A section takes its record: on this way neither a post word nor POSTF(13) stands, so the record has no effect.",
+            "Call POSTF(13) where the post is to act as usual.";
+        /// A name that no statement sets.
+        NeverAssigned = 221, Warning, "name is set nowhere",
+            "No statement of the loaded files gives this name a value, so it is EMPTY wherever it is read.",
+            "Check its spelling; a vocabulary word is compared as ICODEF(word).";
+        /// POSTF(7,n) behind the couplets of a record.
+        ShiftingWord = 230, Warning, "word whose number can shift",
+            "The record has optional couplets; one more or one less before this word, and POSTF(7,n) reads another one.",
+            "Look for the couplet by its word: COUPLF(word), or POSTF(9,4,ICODEF(word)) and the word after that.";
+        /// A name that is read before it is set on some way.
+        ReadEarly = 231, Warning, "name read before it is set",
+            "On some way to this statement nothing has given the name a value yet, so it is EMPTY (999999) there.",
+            "Give it a first value in the global area.";
+        /// A statement no way leads to.
+        Unreachable = 232, Warning, "statement never runs",
+            "No way leads to this statement: a jump or a loop without end stands before it.",
+            "Remove it, or put a label before it and a jump to the label where it is needed.";
+        /// Two WHEN parts for one value.
+        SameWhen = 233, Warning, "WHEN for a value that is taken",
+            "An earlier WHEN of the same CASE takes this value, so this part does not run for it.",
+            "Remove the value from one of the two.";
+        /// A label no jump names.
+        UnusedLabel = 234, Warning, "label is not used",
+            "No jump and no DO names this label.",
+            "Remove it, or check the spelling of the jump that was to lead here.";
+        /// A jump into a part of an IF or CASE.
+        JumpIntoBlock = 235, Warning, "jump into a block",
+            "The label lies inside a part of an IF or CASE that the jump is outside of: the condition is not asked.",
+            "Put the label before or after the block.";
+        /// A common location nothing is known of.
+        UnnamedCommon = 236, Warning, "common location without a name",
+            "Nothing is known of this location, so the post neither sets it nor acts on it.",
+            "Check type and number: 1 is INTCOM, 2 RELCOM, 3 DBLCOM.";
+        /// .EQ. or .NE. of computed reals.
+        RealsCompared = 237, Warning, "computed reals compared for equality",
+            "The value comes from arithmetic on reals; rounding can make two values differ that are equal on paper.",
+            "Compare the difference with a tolerance: ABSF(AA-BB).LT.0.0001.";
+        /// A loop without a way out.
+        EndlessLoop = 238, Warning, "loop without end",
+            "No way leads out of this loop; the run stops when the limit of passes is used up.",
+            "Put a jump out of the loop, or a step other than 0.";
+        /// POSTN or REPEAT of a letter the machine lacks.
+        NoAddress = 239, Warning, "the machine does not write this letter",
+            "POSTN and REPEAT name an address that has no position on the tape of this machine.",
+            "Give the address a position in machine.toml, or use another letter.";
+        /// A macro nobody calls.
+        UnusedMacro = 240, Warning, "macro is not called",
+            "No CALL of the loaded files names this macro.",
+            "Remove it, or check the spelling of the CALL.";
+        /// An array nobody uses.
+        UnusedArray = 241, Warning, "array is not used",
+            "No statement reads or sets an element of this array.",
+            "Remove its RESERV, or check the spelling where it was to be used.";
+        /// A word near a known one.
+        MisspeltWord = 242, Warning, "word is perhaps misspelt",
+            "The word is in no vocabulary and differs little from one that is.",
+            "Correct the word; if it is one of your own, allow it with a comment.";
     }
 }
 
@@ -198,11 +256,13 @@ fil_diag::codes! {
 
 #[cfg(test)]
 mod tests {
-    use super::{CompileCode, RunCode};
+    use super::{CompileCode, LintCode, RunCode};
 
     #[test]
     fn numbers_stay_in_their_range_and_are_unique() {
-        for (codes, range) in [(CompileCode::ALL, 201..300), (RunCode::ALL, 301..400)] {
+        let tables =
+            [(CompileCode::ALL, 201..230), (LintCode::ALL, 220..300), (RunCode::ALL, 301..400)];
+        for (codes, range) in tables {
             for pair in codes.windows(2) {
                 assert!(pair[0].number < pair[1].number);
             }

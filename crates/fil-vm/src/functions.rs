@@ -62,6 +62,10 @@ impl Functions {
         Some((u16::try_from(index).ok()?, self.list[index].arity))
     }
 
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.list.iter().map(|function| function.name.as_str())
+    }
+
     pub(crate) fn arities(&self) -> Vec<u16> {
         self.list.iter().map(|function| function.arity).collect()
     }

@@ -142,6 +142,9 @@ pub struct CheckArgs {
     /// FIL files, each checked by itself
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
+    /// The machine, for what depends on one
+    #[command(flatten)]
+    pub chosen: Chosen,
     /// Check all files as one post: they share one name space
     #[arg(long)]
     pub together: bool,
@@ -162,6 +165,8 @@ pub enum Format {
     Text,
     /// One JSON array to standard output
     Json,
+    /// A SARIF 2.1.0 log to standard output, for code hosts and editors
+    Sarif,
 }
 
 /// `filpost fmt`

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use filpost::check::{self, Options};
-use filpost::{Compat, Diag, Error, files, includes};
+use filpost::{Commons, Compat, Diag, Error, files, includes};
 
 use crate::args::{CheckArgs, Format};
-use crate::{Status, json, output, render, setup, summary};
+use crate::{Status, json, output, render, sarif, setup, summary};
 
 /// Checks FIL files.
 ///
@@ -14,11 +14,15 @@ use crate::{Status, json, output, render, setup, summary};
 /// Files that can't be read or written.
 pub fn run(args: &CheckArgs) -> Result<Status, Error> {
     let compat = setup::compat(&args.reading)?;
+    let machine = match setup::named(&args.chosen, args.reading.encoding.as_deref())? {
+        Some(named) => Some(named.builder.build()?.commons().clone()),
+        None => None,
+    };
     let groups =
         if args.together { args.files.chunks(args.files.len()) } else { args.files.chunks(1) };
     let mut diags = Vec::new();
     for group in groups {
-        diags.extend(check_group(args, group, &compat)?);
+        diags.extend(check_group(args, group, &compat, machine.as_ref())?);
     }
     match args.format {
         Format::Text => {
@@ -30,12 +34,20 @@ pub fn run(args: &CheckArgs) -> Result<Status, Error> {
         Format::Json => {
             output::print(format!("{:#}\n", json::findings(&diags)).as_bytes())?;
         }
+        Format::Sarif => {
+            output::print(format!("{:#}\n", sarif::log(&diags)).as_bytes())?;
+        }
     }
     let wrong = diags.iter().any(Diag::is_error) || (args.deny_warnings && !diags.is_empty());
     Ok(if wrong { Status::Failed } else { Status::Done })
 }
 
-fn check_group(args: &CheckArgs, paths: &[PathBuf], compat: &Compat) -> Result<Vec<Diag>, Error> {
+fn check_group(
+    args: &CheckArgs,
+    paths: &[PathBuf],
+    compat: &Compat,
+    machine: Option<&Commons>,
+) -> Result<Vec<Diag>, Error> {
     let encoding = args.reading.encoding.as_deref();
     let mut texts = Vec::new();
     for path in paths {
@@ -48,6 +60,7 @@ fn check_group(args: &CheckArgs, paths: &[PathBuf], compat: &Compat) -> Result<V
         compat: compat.clone(),
         strict: args.reading.strict,
         includes: Some(&mut includes),
+        machine,
     };
     Ok(check::check(&files, options))
 }

@@ -5,7 +5,7 @@ use filpost::cl::Vocabulary;
 use filpost::locations::{Location, TABLE};
 use filpost::postf::{Grade, POSTF, PostfInfo};
 use filpost::ready::{self, READY};
-use filpost::{Code, Commons, Error, Kind, Severity, post_words};
+use filpost::{Code, Commons, Error, Kind, Severity, post_words, suggest};
 
 use crate::errors::CommandCode;
 use crate::{Status, output};
@@ -232,30 +232,7 @@ fn nearest(subject: &str) -> Option<String> {
     names.extend(READY.iter().map(|post| post.name.to_string()));
     names.extend(post_words::HANDLERS.iter().map(|(id, _)| vocabulary.name(*id).to_string()));
     names.extend(filpost::all_codes().into_iter().map(Code::name));
-    let wanted = subject.to_ascii_uppercase();
-    let most = 1 + wanted.chars().count() / 4;
-    names
-        .into_iter()
-        .map(|name| (distance(&name.to_ascii_uppercase(), &wanted), name))
-        .filter(|(distance, _)| *distance <= most)
-        .min()
-        .map(|(_, name)| name)
-}
-
-/// Number of single-letter changes from one word to the other.
-fn distance(from: &str, to: &str) -> usize {
-    let to: Vec<char> = to.chars().collect();
-    let mut row: Vec<usize> = (0..=to.len()).collect();
-    for (index, letter) in from.chars().enumerate() {
-        let mut corner = row[0];
-        row[0] = index + 1;
-        for (column, other) in to.iter().enumerate() {
-            let change = corner + usize::from(letter != *other);
-            corner = row[column + 1];
-            row[column + 1] = change.min(corner + 1).min(row[column] + 1);
-        }
-    }
-    row[to.len()]
+    suggest::nearest(subject, names.iter().map(String::as_str)).map(String::from)
 }
 
 /// The value of a setting with the meaning of its choice.
@@ -265,17 +242,5 @@ pub fn shown_value(row: &Location, commons: &Commons) -> String {
     match choice {
         Some((_, meaning)) if number != filpost::commons::EMPTY => format!("{number} ({meaning})"),
         _ => value(number),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn distances_are_counted_in_letters() {
-        assert_eq!(distance("CYCEL", "CYCLE"), 2);
-        assert_eq!(distance("", "ABC"), 3);
-        assert_eq!(distance("SPINDL", "SPINDLE"), 1);
     }
 }

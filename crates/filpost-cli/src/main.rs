@@ -14,6 +14,7 @@ mod machine;
 mod output;
 mod post;
 mod render;
+mod sarif;
 mod setup;
 mod summary;
 mod test;

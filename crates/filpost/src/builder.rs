@@ -196,9 +196,9 @@ impl Builder {
                 compat: self.compat,
                 limits: self.limits,
                 strict: self.strict,
-                lint: false,
                 functions: Some(&self.functions),
                 loader: includes.as_mut().map(|loader| loader as Loader<'_>),
+                ..LoadOptions::default()
             },
         )
         .map_err(Error::Setup)?;

@@ -2,10 +2,21 @@
 
 use fil_cl::Vocabulary;
 use fil_diag::Diag;
-use fil_vm::{Compat, FilFile, LoadOptions};
+use fil_post::address::Addresses;
+use fil_post::commons::{Commons, LAST_OUTPUT};
+use fil_post::locations::Location;
+use fil_vm::{CommonKind, Compat, FilFile, LoadOptions, MachineFacts};
+
+use crate::outside::common_kind;
 
 /// Gives a file by the name INCLUD has, or why it cannot.
 pub type Includes<'a> = fil_vm::Loader<'a>;
+
+/// Letters of the alphabet, and of each set of tape positions.
+const LETTERS: u32 = 26;
+
+/// The last of the four tables of tape positions, INTCOM 1 to 211.
+const ADDRESS_TABLES: u32 = 211;
 
 /// How FIL files are checked.
 #[derive(Default)]
@@ -16,22 +27,62 @@ pub struct Options<'a> {
     pub strict: bool,
     /// Gives the files that INCLUD names; without it INCLUD is refused.
     pub includes: Option<Includes<'a>>,
+    /// The machine; without it what depends on one is not looked at.
+    pub machine: Option<&'a Commons>,
 }
 
 /// Everything a run would refuse or warn of when it loads these files, and
-/// sections that can swallow their record. The files share one name space;
-/// each is a name for messages and a text.
+/// what would run but is most likely not meant, by file and line. The files
+/// share one name space; each is a name for messages and a text.
 pub fn check(files: &[(&str, &str)], options: Options<'_>) -> Vec<Diag> {
     let files: Vec<FilFile<'_>> = files.iter().map(|(name, text)| FilFile { name, text }).collect();
-    let options = LoadOptions {
+    let mut addresses = Addresses::default();
+    if let Some(commons) = options.machine {
+        addresses.refresh(commons, true);
+    }
+    let writes = |letter: u8| addresses.position(letter).is_some();
+    let facts = MachineFacts {
+        name_of_common: Some(&name_of_common),
+        writes_letter: options.machine.map(|_| &writes as &dyn Fn(u8) -> bool),
+    };
+    let mut includes = options.includes;
+    let load = LoadOptions {
         compat: options.compat,
         strict: options.strict,
         lint: true,
-        loader: options.includes,
+        facts,
+        loader: includes.as_mut().map(|loader| loader as Includes<'_>),
         ..LoadOptions::default()
     };
-    match fil_vm::load(&files, &mut Vocabulary::new(), options) {
+    let mut diags = match fil_vm::load(&files, &mut Vocabulary::new(), load) {
         Ok(loaded) => loaded.warnings,
         Err(diags) => diags,
+    };
+    let given = |name: &str| files.iter().position(|file| file.name == name);
+    diags.sort_by_cached_key(|diag| {
+        diag.places.first().map(|place| {
+            let order = given(&place.file).unwrap_or(files.len());
+            (order, place.file.clone(), place.line, place.span.start, diag.code.number)
+        })
+    });
+    diags
+}
+
+/// The name of a common location: that of its setting, or its use in a table
+/// of all letters.
+fn name_of_common(kind: CommonKind, number: u32) -> Option<String> {
+    if let Some(row) = Location::numbered(common_kind(kind), number) {
+        return Some(row.name.to_string());
+    }
+    let last_output = LAST_OUTPUT as u32;
+    match kind {
+        CommonKind::Int if (1..=ADDRESS_TABLES).contains(&number) => {
+            Some("part of the address table".to_string())
+        }
+        CommonKind::Dbl if (last_output + 1..=last_output + LETTERS).contains(&number) => {
+            let letter = char::from(b'A' + (number - last_output - 1) as u8);
+            Some(format!("the last output value of {letter}"))
+        }
+        _ => None,
     }
 }

@@ -83,9 +83,10 @@ impl std::error::Error for Error {}
 
 /// The tables of all codes, by number.
 pub fn all_codes() -> Vec<&'static Code> {
-    let tables: [&'static [Code]; 6] = [
+    let tables: [&'static [Code]; 7] = [
         fil_syntax::SyntaxCode::ALL,
         fil_vm::errors::CompileCode::ALL,
+        fil_vm::errors::LintCode::ALL,
         fil_vm::errors::RunCode::ALL,
         fil_cl::errors::ClCode::ALL,
         fil_post::errors::PostCode::ALL,

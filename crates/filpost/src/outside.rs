@@ -233,7 +233,7 @@ impl<R: Read> Host for Outside<'_, R> {
     }
 }
 
-fn common_kind(kind: CommonKind) -> fil_post::Kind {
+pub(crate) fn common_kind(kind: CommonKind) -> fil_post::Kind {
     match kind {
         CommonKind::Int => fil_post::Kind::Int,
         CommonKind::Rel => fil_post::Kind::Rel,

@@ -6,6 +6,7 @@
 //! lists of texts. A flag takes true or false, a letter or character a text of
 //! one character, and every setting takes `"none"` for absent.
 
+use fil_diag::suggest::did_you_mean;
 use fil_diag::{Diag, LineIndex};
 use std::ops::Range;
 use toml::Spanned;
@@ -120,9 +121,7 @@ impl TomlReader<'_> {
         }
         let Some(location) = Location::named(name) else {
             let mut diag = Diag::new(PostCode::UnknownSetting, format!("no setting `{name}`"));
-            if let Some(near) = nearest(name) {
-                diag = diag.hint(format!("did you mean `{near}`?"));
-            }
+            diag.hint = did_you_mean(name, loc::TABLE.iter().map(|row| row.name));
             return Err(self.at(key, diag));
         };
         let number = self.value(location, value)?;
@@ -294,30 +293,6 @@ fn numbered(name: &str) -> Option<(Kind, u32)> {
         _ => return None,
     };
     Some((kind, number.parse().ok()?))
-}
-
-/// The setting whose name differs least, if it differs little.
-fn nearest(name: &str) -> Option<&'static str> {
-    loc::TABLE
-        .iter()
-        .map(|row| (edits(name, row.name), row.name))
-        .min()
-        .filter(|(edits, _)| *edits <= 3)
-        .map(|(_, name)| name)
-}
-
-/// Number of single-character edits between two texts (Levenshtein).
-fn edits(a: &str, b: &str) -> usize {
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.bytes().enumerate() {
-        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
-        for (j, y) in b.bytes().enumerate() {
-            let replaced = diagonal + usize::from(x != y);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
 }
 
 #[cfg(test)]

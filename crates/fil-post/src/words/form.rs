@@ -99,7 +99,11 @@ impl<'a> Form<'a> {
     /// Items are left.
     pub fn end(self) -> Result<(), Box<Diag>> {
         match self.left() {
-            Some(left) => Err(self.error(format!("no meaning is known for {left}"))),
+            Some(left) => {
+                let mut diag = self.error(format!("no meaning is known for {left}"));
+                diag.hint = self.meant();
+                Err(diag)
+            }
             None => Ok(()),
         }
     }
@@ -108,7 +112,8 @@ impl<'a> Form<'a> {
     pub fn finish(self, post: &mut Post) {
         if let Some(left) = self.left() {
             let major = self.name(self.record.major);
-            post.warn(PostCode::IgnoredPart, format!("{major}: no effect of {left}"));
+            let message = format!("{major}: no effect of {left}");
+            post.warn_with(PostCode::IgnoredPart, message, || self.meant());
         }
     }
 
@@ -137,6 +142,15 @@ impl<'a> Form<'a> {
     pub fn error(&self, message: impl std::fmt::Display) -> Box<Diag> {
         let major = self.name(self.record.major);
         Box::new(Diag::new(PostCode::WordForm, format!("{major}: {message}")))
+    }
+
+    /// What the first unknown word of those left was perhaps meant to be.
+    fn meant(&self) -> Option<String> {
+        let mut left = self.taken.iter().zip(&self.record.data).filter(|(taken, _)| !**taken);
+        left.find_map(|(_, word)| match word {
+            Word::Minor(word) => self.vocabulary.perhaps_meant(*word),
+            _ => None,
+        })
     }
 
     fn find(&self, word: WordId) -> Option<usize> {

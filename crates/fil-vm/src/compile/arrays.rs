@@ -1,5 +1,6 @@
 //! Arrays of RESERV and tables of DATA.
 
+use fil_diag::suggest::did_you_mean;
 use fil_syntax::tree::{Expr, ExprKind, Name, Span};
 
 use super::Compiler;
@@ -81,7 +82,8 @@ impl<'t> Compiler<'t> {
     pub(super) fn writable_array(&mut self, name: &Name) -> Option<u16> {
         let Some(array) = self.names.arrays.get(name.text.as_str()).copied() else {
             let message = format!("{} is no array; RESERV reserves one", name.text);
-            self.report(CompileCode::UnknownFunction, name.span, message);
+            let hint = did_you_mean(&name.text, self.names.arrays.keys().copied());
+            self.report_with(CompileCode::UnknownFunction, name.span, message, hint);
             return None;
         };
         if self.module.arrays[usize::from(array)].read_only {

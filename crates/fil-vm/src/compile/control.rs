@@ -1,5 +1,6 @@
 //! Jumps, IF, DO and CASE.
 
+use fil_diag::suggest::did_you_mean;
 use fil_syntax::tree::{Expr, Name, Span, Stmt, StmtKind, Target, When};
 
 use super::Compiler;
@@ -45,7 +46,8 @@ impl Compiler<'_> {
     fn destination(&mut self, name: &Name) -> Option<Label> {
         let Some(named) = self.chunk.named.get(&name.text) else {
             let message = format!("there is no label {} here", name.text);
-            self.report(CompileCode::UnknownLabel, name.span, message);
+            let hint = did_you_mean(&name.text, self.chunk.named.keys().map(String::as_str));
+            self.report_with(CompileCode::UnknownLabel, name.span, message, hint);
             return None;
         };
         let label = named.label;

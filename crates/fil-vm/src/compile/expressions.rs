@@ -1,11 +1,13 @@
 //! Expressions.
 
+use fil_diag::suggest::did_you_mean;
 use fil_syntax::tree::{BinaryOp, Expr, ExprKind, Name, Span, UnaryOp};
 
 use super::Compiler;
 use super::conditions::is_logical;
 use crate::builtins;
 use crate::errors::CompileCode;
+use crate::functions::Functions;
 use crate::ops::{Op, Reg};
 
 impl Compiler<'_> {
@@ -91,8 +93,16 @@ impl Compiler<'_> {
             }
         } else {
             let message = format!("{} is neither a function nor an array", name.text);
-            self.report(CompileCode::UnknownFunction, name.span, message);
+            let hint = self.function_like(&name.text);
+            self.report_with(CompileCode::UnknownFunction, name.span, message, hint);
         }
+    }
+
+    /// A hint that names the function or array that was perhaps meant.
+    fn function_like(&self, name: &str) -> Option<String> {
+        let built_in = builtins::BUILTINS.iter().map(|builtin| builtin.name);
+        let added = self.functions.into_iter().flat_map(Functions::names);
+        did_you_mean(name, built_in.chain(self.names.arrays.keys().copied()).chain(added))
     }
 
     /// Values in consecutive registers; gives the first.

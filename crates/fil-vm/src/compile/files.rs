@@ -11,14 +11,14 @@ use crate::errors::CompileCode;
 use crate::module::File;
 
 /// A file with its tree.
-pub(super) struct Unit {
+pub(crate) struct Unit {
     pub file: File,
     pub program: Program,
 }
 
 /// Which units are loaded by name and which an INCLUD stands for.
 #[derive(Default)]
-pub(super) struct Found {
+pub(crate) struct Found {
     /// The files given to `load`.
     pub roots: Vec<usize>,
     /// From unit and start of an INCLUD to the unit it brings in.

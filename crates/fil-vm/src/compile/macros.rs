@@ -1,5 +1,6 @@
 //! Macros: definition, call, and the refusal of recursion.
 
+use fil_diag::suggest::did_you_mean;
 use fil_syntax::tree::{Expr, Macro, Name, Span};
 
 use super::Compiler;
@@ -27,7 +28,8 @@ impl<'t> Compiler<'t> {
     pub(super) fn call_macro(&mut self, name: &Name, args: &[(Option<Name>, Expr)], span: Span) {
         let Some(id) = self.names.macro_ids.get(name.text.as_str()).copied() else {
             let message = format!("there is no macro {}", name.text);
-            self.report(CompileCode::UnknownMacro, name.span, message);
+            let hint = did_you_mean(&name.text, self.names.macro_ids.keys().copied());
+            self.report_with(CompileCode::UnknownMacro, name.span, message, hint);
             return;
         };
         if let Some(caller) = self.inside {

@@ -8,10 +8,10 @@ mod chunk;
 mod conditions;
 mod control;
 mod expressions;
-mod files;
+pub(crate) mod files;
 mod functions;
 mod macros;
-mod names;
+pub(crate) mod names;
 mod posts;
 mod sections;
 mod statements;
@@ -23,10 +23,10 @@ use fil_syntax::tree::{Item, Program, Span};
 
 use crate::errors::CompileCode;
 use crate::functions::Functions;
+use crate::lint::{self, MachineFacts};
 use crate::machine::Limits;
 use crate::module::Module;
 use crate::postf::Compat;
-use crate::swallow;
 use chunk::ChunkBuilder;
 use files::{Includes, Unit};
 use names::Names;
@@ -62,8 +62,10 @@ pub struct LoadOptions<'a> {
     pub limits: Limits,
     /// Refuse extensions of filpost.
     pub strict: bool,
-    /// Warn of sections that can swallow their record and of names set nowhere.
+    /// Look for what would run but is most likely not meant, see [`LintCode`](crate::errors::LintCode).
     pub lint: bool,
+    /// What the lints may ask about the machine.
+    pub facts: MachineFacts<'a>,
     /// Functions of the embedding program.
     pub functions: Option<&'a Functions>,
     /// Where INCLUD gets its files; without it INCLUD is refused.
@@ -88,7 +90,7 @@ pub fn load(
     vocab: &mut Vocabulary,
     options: LoadOptions<'_>,
 ) -> Result<Loaded, Vec<Diag>> {
-    let LoadOptions { compat, limits, strict, lint, functions, loader } = options;
+    let LoadOptions { compat, limits, strict, lint, facts, functions, loader } = options;
     let mut includes = Includes::new(loader);
     for file in files {
         includes.read(file.name, file.text);
@@ -105,7 +107,6 @@ pub fn load(
         found: &found,
         vocab,
         strict,
-        lint,
         limits,
         functions,
         module,
@@ -118,7 +119,14 @@ pub fn load(
         noted: Vec::new(),
     };
     compiler.run();
-    compiler.finish()
+    let Compiler { module, mut diags, names, vocab, .. } = compiler;
+    let refused = diags.iter().any(Diag::is_error);
+    if lint && !refused {
+        let program = lint::Program { units: &units, found: &found, module: &module, names };
+        diags.extend(lint::warnings(program, vocab, facts));
+    }
+    lint::drop_allowed(&mut diags, &units);
+    if refused { Err(diags) } else { Ok(Loaded { module, warnings: diags }) }
 }
 
 struct Compiler<'t> {
@@ -126,7 +134,6 @@ struct Compiler<'t> {
     found: &'t files::Found,
     vocab: &'t mut Vocabulary,
     strict: bool,
-    lint: bool,
     limits: Limits,
     functions: Option<&'t Functions>,
     module: Module,
@@ -155,19 +162,20 @@ impl<'t> Compiler<'t> {
         self.refuse_recursion();
     }
 
-    fn finish(mut self) -> Result<Loaded, Vec<Diag>> {
-        if self.diags.iter().any(Diag::is_error) {
-            return Err(self.diags);
-        }
-        if self.lint {
-            self.diags.extend(swallow::warnings(&self.module));
-        }
-        Ok(Loaded { module: self.module, warnings: self.diags })
+    fn report(&mut self, code: CompileCode, span: Span, message: impl Into<String>) {
+        self.report_with(code, span, message, None);
     }
 
-    fn report(&mut self, code: CompileCode, span: Span, message: impl Into<String>) {
+    /// The same with a hint made for this case.
+    fn report_with(
+        &mut self,
+        code: CompileCode,
+        span: Span,
+        message: impl Into<String>,
+        hint: Option<String>,
+    ) {
         let place = self.units[self.unit].file.place(span);
-        self.diags.push(Diag::new(code, message).at(place));
+        self.diags.push(Diag { hint, ..Diag::new(code, message).at(place) });
     }
 
     /// An index that must fit a `u16` field of an operation.

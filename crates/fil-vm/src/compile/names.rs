@@ -14,7 +14,7 @@ use crate::ops::Reg;
 const MOST_NAMES_NOTED: usize = 12;
 
 /// A macro with the registers of its parameters.
-pub(super) struct MacroInfo<'t> {
+pub(crate) struct MacroInfo<'t> {
     pub definition: &'t Macro,
     pub unit: usize,
     pub params: Vec<Reg>,
@@ -22,9 +22,9 @@ pub(super) struct MacroInfo<'t> {
 
 /// All names of the program.
 #[derive(Default)]
-pub(super) struct Names<'t> {
+pub(crate) struct Names<'t> {
     /// Names that some statement sets.
-    assigned: HashSet<&'t str>,
+    pub assigned: HashSet<&'t str>,
     /// Parameters of the macro that is being compiled.
     pub params: HashMap<&'t str, Reg>,
     pub arrays: HashMap<&'t str, u16>,
@@ -139,13 +139,8 @@ impl<'t> Compiler<'t> {
         let reg = self.reserve(1, span);
         self.module.variables.insert(name.to_string(), reg);
         self.module.names.insert(reg, name.to_string());
-        match letter(name) {
-            Some(number) => self.module.constants.push((reg, Constant::Number(number))),
-            None if self.lint && !self.is_assigned(name) => {
-                let message = format!("no statement sets {name}");
-                self.report(CompileCode::NeverAssigned, span, message);
-            }
-            None => {}
+        if let Some(number) = letter(name) {
+            self.module.constants.push((reg, Constant::Number(number)));
         }
         reg
     }
@@ -187,7 +182,7 @@ impl<'t> Compiler<'t> {
 }
 
 /// The number of a letter variable.
-pub(super) fn letter(name: &str) -> Option<f64> {
+pub(crate) fn letter(name: &str) -> Option<f64> {
     match name.as_bytes() {
         [byte @ b'A'..=b'Z'] => Some(f64::from(byte - b'A' + 1)),
         _ => None,
@@ -195,7 +190,7 @@ pub(super) fn letter(name: &str) -> Option<f64> {
 }
 
 /// The statement lists inside a statement.
-pub(super) fn inner_bodies<'t>(stmt: &'t Stmt, visit: &mut dyn FnMut(&'t [Stmt])) {
+pub(crate) fn inner_bodies<'t>(stmt: &'t Stmt, visit: &mut dyn FnMut(&'t [Stmt])) {
     match &stmt.kind {
         StmtKind::If { arms, otherwise } => {
             arms.iter().for_each(|(_, body)| visit(body));

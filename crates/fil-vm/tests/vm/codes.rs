@@ -1,7 +1,7 @@
 //! One case for each code of the compiler and of the machine.
 
-use fil_vm::errors::{CompileCode, RunCode};
-use fil_vm::{Compat, FilFile, Functions, Limits, LoadOptions, load};
+use fil_vm::errors::{CompileCode, LintCode, RunCode};
+use fil_vm::{CommonKind, Compat, FilFile, Functions, Limits, LoadOptions, MachineFacts, load};
 
 use crate::bench::{Bench, Mock, compile};
 
@@ -30,8 +30,6 @@ fn compile_case(number: u16) -> Option<(String, u32)> {
         216 => ("XX=ICODEF(1+1)", 1),
         217 => ("A=7", 1),
         218 => ("CIMFIL/ON,CYCLE\nXX=POSTF(5)\nCIMFIL/OFF", 2),
-        220 => ("CIMFIL/ON,CYCLE\nIF(POSTF(7,4).EQ.1)DMY=POSTF(13)\nCIMFIL/OFF", 1),
-        221 => ("XX=1\nYY=XX+MISSNG", 2),
         222 => ("VV=1\nDATA/TAB,1,VV", 2),
         219 => ("CIMFIL/ON,CYCLE\nXX=HASF(DEPTH)\nCIMFIL/OFF", 2),
         _ => return None,
@@ -47,7 +45,6 @@ fn every_code_of_the_compiler_has_a_case() {
         let text = format!("{text}\nFINI\n");
         let options = LoadOptions {
             strict: row.number == code(CompileCode::Extension),
-            lint: row.number >= code(CompileCode::Swallows),
             ..LoadOptions::default()
         };
         let files = [FilFile { name: "case.fil", text: &text }];
@@ -58,6 +55,74 @@ fn every_code_of_the_compiler_has_a_case() {
         let found: Vec<_> = diags.iter().map(|d| (d.code.number, d.places[0].line)).collect();
         assert_eq!(found, [(row.number, line)], "{}: {diags:?}", row.name());
     }
+}
+
+/// A program that would run, what a lint finds in it, and where.
+fn lint_case(number: u16) -> Option<(&'static str, u32)> {
+    let case = match number {
+        220 => ("CIMFIL/ON,CYCLE\nIF(POSTF(7,4).EQ.1)DMY=POSTF(13)\nCIMFIL/OFF", 1),
+        221 => ("XX=1\nYY=XX+MISSNG", 2),
+        230 => ("CIMFIL/ON,THREAD\nTP=POSTF(7,13)\nPREFUN/TP\nCIMFIL/OFF", 2),
+        231 => ("IF(1.EQ.1)XX=1\nYY=XX", 2),
+        232 => ("JUMPTO/LA\nXX=1\nLA) CONTIN", 2),
+        233 => ("CASE/1\nWHEN/2,3\nXX=1\nWHEN/3\nXX=2\nENDCAS", 4),
+        234 => ("XX=1\nLA) XX=2", 2),
+        235 => ("IF(1.EQ.2)JUMPTO/LA\nIF(1.EQ.1)THEN\nLA) CONTIN\nENDIF", 1),
+        236 => ("XX=POSTF(1,3,7)\nXX=POSTF(1,3,8)", 2),
+        237 => ("XX=SQRTF(2)\nIF(XX.EQ.1)XX=2", 2),
+        238 => ("LA) XX=1\nJUMPTO/LA", 2),
+        239 => ("POSTN/OUT,X,1\nPOSTN/OUT,Y,1", 2),
+        240 => ("CIMFIL/ON,CYCLE\nRAPID\nCIMFIL/OFF\nMM=MACRO\nRAPID\nTERMAC", 4),
+        241 => ("CIMFIL/ON,CYCLE\nRAPID\nCIMFIL/OFF\nRESERV/AR,3", 4),
+        242 => ("RAPID\nSPINDEL/ON", 2),
+        _ => return None,
+    };
+    Some(case)
+}
+
+fn findings(text: &str) -> Vec<fil_diag::Diag> {
+    let text = format!("{text}\nFINI\n");
+    let files = [FilFile { name: "case.fil", text: &text }];
+    let facts = MachineFacts {
+        name_of_common: Some(&|kind, number| {
+            (kind == CommonKind::Dbl && number == 7).then(|| "seven".to_string())
+        }),
+        writes_letter: Some(&|letter| letter == 24),
+    };
+    let options = LoadOptions { lint: true, facts, ..LoadOptions::default() };
+    load(&files, &mut fil_cl::Vocabulary::new(), options).unwrap().warnings
+}
+
+#[test]
+fn every_lint_has_a_case_and_can_be_allowed() {
+    for row in LintCode::ALL {
+        let (text, line) =
+            lint_case(row.number).unwrap_or_else(|| panic!("no case for {}", row.name()));
+        let diags = findings(text);
+        let found: Vec<_> = diags.iter().map(|d| (d.code.number, d.places[0].line)).collect();
+        assert_eq!(found, [(row.number, line)], "{}: {diags:?}", row.name());
+        let allowed = format!("$$ filpost: allow-file {}\n{text}", row.name());
+        assert!(findings(&allowed).is_empty(), "{}", row.name());
+        let mut lines: Vec<String> = text.lines().map(String::from).collect();
+        lines[line as usize - 1] += &format!(" $$ filpost: allow {}", row.name());
+        assert!(findings(&lines.join("\n")).is_empty(), "{}", row.name());
+    }
+}
+
+#[test]
+fn what_is_misspelt_gets_the_name_that_was_meant() {
+    for (text, hint) in [
+        ("XX=SQRFT(2)", "did you mean SQRTF?"),
+        ("RESERV/TABLE,3\nTABEL(1)=2", "did you mean TABLE?"),
+        ("JUMPTO/FINSH\nFINISH) CONTIN", "did you mean FINISH?"),
+        ("HEADR=MACRO\nRAPID\nTERMAC\nCALL/HAEDR", "did you mean HEADR?"),
+    ] {
+        let diags = compile(&format!("{text}\nFINI\n")).unwrap_err();
+        assert_eq!(diags[0].hint.as_deref(), Some(hint), "{text}");
+    }
+    assert_eq!(findings("SPINDEL/ON")[0].hint.as_deref(), Some("did you mean SPINDL?"));
+    let hint = findings("XX=POSTF(1,1,7)")[0].hint.clone();
+    assert_eq!(hint.as_deref(), Some("DBLCOM 7 is seven; its type is 3"));
 }
 
 /// A program that stops or warns at run time, and the line it names.

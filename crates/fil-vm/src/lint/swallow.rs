@@ -3,7 +3,7 @@
 
 use fil_diag::Diag;
 
-use crate::errors::CompileCode;
+use crate::errors::LintCode;
 use crate::module::{ChunkId, Module};
 use crate::ops::Op;
 use crate::postf::PostfOp;
@@ -18,7 +18,7 @@ pub(crate) fn warnings(module: &Module) -> Vec<Diag> {
     let warn = |section: &crate::module::Section| {
         let place = module.files[usize::from(section.file)].place(section.span);
         let message = format!("the section for {} can end without sending anything", section.key);
-        Diag::new(CompileCode::Swallows, message).at(place)
+        Diag::new(LintCode::Swallows, message).at(place)
     };
     swallowing.map(warn).collect()
 }

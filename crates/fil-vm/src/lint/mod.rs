@@ -1,0 +1,112 @@
+//! Lints: FIL that would run but is most likely not meant.
+//!
+//! One file a lint; each looks at the trees and the graphs of their statements
+//! and knows nothing of compiling. What they need to know of the machine the
+//! caller says with [`MachineFacts`].
+
+mod addresses;
+mod allow;
+mod commons;
+mod context;
+mod early;
+mod endless;
+pub(crate) mod flow;
+mod labels;
+mod positions;
+mod reals;
+mod same_when;
+mod swallow;
+mod unreachable;
+mod unset;
+mod unused;
+mod walk;
+mod words;
+
+use std::collections::HashSet;
+
+use fil_cl::Vocabulary;
+use fil_diag::Diag;
+
+use crate::compile::files::{Found, Unit};
+use crate::compile::names::Names;
+use crate::host::CommonKind;
+use crate::module::Module;
+use allow::Allowed;
+use context::Context;
+
+/// Gives the name of a common location, or `None` where nothing is known of it.
+pub type NameOfCommon<'a> = &'a dyn Fn(CommonKind, u32) -> Option<String>;
+
+/// What the lints may ask about the machine; what is left out is not looked at.
+#[derive(Clone, Copy, Default)]
+pub struct MachineFacts<'a> {
+    /// Names of common locations.
+    pub name_of_common: Option<NameOfCommon<'a>>,
+    /// True for a letter, 1 to 26, that the machine writes.
+    pub writes_letter: Option<&'a dyn Fn(u8) -> bool>,
+}
+
+/// What a program is made of once it is compiled.
+pub(crate) struct Program<'t> {
+    /// Its files.
+    pub units: &'t [Unit],
+    /// Which files include which.
+    pub found: &'t Found,
+    /// Its code.
+    pub module: &'t Module,
+    /// Its names.
+    pub names: Names<'t>,
+}
+
+/// The lints that look at trees, in the order of their findings.
+const LINTS: &[fn(&mut Context<'_>)] = &[
+    unset::look,
+    positions::look,
+    early::look,
+    unreachable::look,
+    same_when::look,
+    labels::look,
+    commons::look,
+    reals::look,
+    endless::look,
+    addresses::look,
+    unused::look,
+    words::look,
+];
+
+/// The findings of all lints.
+pub(crate) fn warnings(
+    program: Program<'_>,
+    vocabulary: &Vocabulary,
+    facts: MachineFacts<'_>,
+) -> Vec<Diag> {
+    let mut context = Context::new(&program, vocabulary, facts);
+    for look in LINTS {
+        look(&mut context);
+    }
+    let mut diags = context.diags;
+    diags.extend(swallow::warnings(program.module));
+    // A file that two others include is looked at in both places.
+    let mut seen = HashSet::new();
+    diags.retain(|diag| {
+        let place = diag.places.first();
+        let at = place.map(|place| (place.file.clone(), place.line, place.span.start));
+        seen.insert((diag.code.number, at, diag.message.clone()))
+    });
+    diags
+}
+
+/// Takes out the warnings that comments of their files allow.
+pub(crate) fn drop_allowed(diags: &mut Vec<Diag>, units: &[Unit]) {
+    if diags.is_empty() {
+        return;
+    }
+    let allowed: Vec<(&str, Allowed)> = units
+        .iter()
+        .map(|unit| (unit.file.name.as_str(), Allowed::read(&unit.file.text)))
+        .collect();
+    diags.retain(|diag| {
+        let file = diag.places.first().map(|place| place.file.as_str());
+        !allowed.iter().any(|(name, allowed)| Some(*name) == file && allowed.allows(diag))
+    });
+}

@@ -1,0 +1,146 @@
+//! Walking over expressions: values, words and constants.
+
+use fil_cl::Vocabulary;
+use fil_syntax::tree::{BinaryOp, Expr, ExprKind, Name, Stmt, StmtKind, Target, UnaryOp};
+
+use super::flow::Action;
+use crate::builtins::{self, BUILTINS, Kind};
+
+/// How an expression is used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Use {
+    /// For its value.
+    Value,
+    /// As an argument of a post word, where a bare name may be a minor word.
+    PostArgument,
+}
+
+/// Every expression an action evaluates, those inside of others too.
+pub(crate) fn expressions<'t>(action: Action<'t>, visit: &mut dyn FnMut(&'t Expr, Use)) {
+    match action {
+        Action::Entry | Action::Exit | Action::DoNext | Action::Jump => {}
+        Action::Decide(expr) => within(expr, Use::Value, visit),
+        Action::When(when) => when.values.iter().for_each(|v| within(v, Use::Value, visit)),
+        Action::Plain(stmt) | Action::DoEnter(stmt) => statement(stmt, visit),
+    }
+}
+
+fn statement<'t>(stmt: &'t Stmt, visit: &mut dyn FnMut(&'t Expr, Use)) {
+    let mut value = |expr| within(expr, Use::Value, visit);
+    let index = |target: &'t Target| target.index.as_deref();
+    match &stmt.kind {
+        StmtKind::Assign { target, value: source } => {
+            index(target).into_iter().for_each(&mut value);
+            value(source);
+        }
+        StmtKind::Text { target, args } => {
+            index(target).into_iter().for_each(&mut value);
+            // The first may be a word that says what to do with the others.
+            args.iter().for_each(|arg| within(arg, Use::PostArgument, visit));
+        }
+        // A table of constants, known before anything runs.
+        StmtKind::Post { word, .. } if word.text == "DATA" => {}
+        StmtKind::Post { args, .. } => {
+            args.iter().for_each(|arg| within(arg, Use::PostArgument, visit));
+        }
+        StmtKind::Do { from, to, step, .. } => {
+            [from, to].into_iter().chain(step).for_each(value);
+        }
+        StmtKind::Call { args, .. } => args.iter().for_each(|(_, arg)| value(arg)),
+        _ => {}
+    }
+}
+
+/// An expression and those inside of it; a word that a function names is none.
+pub(crate) fn within<'t>(expr: &'t Expr, used: Use, visit: &mut dyn FnMut(&'t Expr, Use)) {
+    visit(expr, used);
+    match &expr.kind {
+        ExprKind::Number(_) | ExprKind::Text(_) | ExprKind::Name(_) => {}
+        ExprKind::Call { name, args } => {
+            let word = word_argument(name);
+            for (index, arg) in args.iter().enumerate() {
+                if word != Some(index) {
+                    within(arg, Use::Value, visit);
+                }
+            }
+        }
+        ExprKind::Unary { operand, .. } => within(operand, Use::Value, visit),
+        ExprKind::Binary { left, right, .. } => {
+            within(left, Use::Value, visit);
+            within(right, Use::Value, visit);
+        }
+    }
+}
+
+/// Which argument of a function is a word or name as it is written.
+pub(crate) fn word_argument(function: &Name) -> Option<usize> {
+    match BUILTINS[builtins::find(&function.text)?].kind {
+        Kind::WordCode
+        | Kind::Couplet
+        | Kind::HasWord
+        | Kind::NextMotion
+        | Kind::PreviousMotion
+        | Kind::Size => Some(0),
+        Kind::File => Some(1),
+        _ => None,
+    }
+}
+
+/// Every function call or array element an action evaluates.
+pub(crate) fn calls<'t>(action: Action<'t>, visit: &mut dyn FnMut(&'t Name, &'t [Expr], &'t Expr)) {
+    expressions(action, &mut |expr, _| {
+        if let ExprKind::Call { name, args } = &expr.kind {
+            visit(name, args, expr);
+        }
+    });
+}
+
+/// The plain variable an action sets.
+pub(crate) fn sets(action: Action<'_>) -> Option<&str> {
+    match action {
+        Action::Plain(stmt) | Action::DoEnter(stmt) => match &stmt.kind {
+            StmtKind::Assign { target, .. }
+            | StmtKind::Text { target, .. }
+            | StmtKind::Do { variable: target, .. }
+                if target.index.is_none() =>
+            {
+                Some(&target.name.text)
+            }
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// The value of an expression of numbers.
+pub(crate) fn constant(expr: &Expr) -> Option<f64> {
+    match &expr.kind {
+        ExprKind::Number(number) => Some(*number),
+        ExprKind::Unary { op: UnaryOp::Minus, operand } => Some(-constant(operand)?),
+        ExprKind::Unary { op: UnaryOp::Plus, operand } => constant(operand),
+        ExprKind::Binary { op, left, right } => {
+            let (left, right) = (constant(left)?, constant(right)?);
+            match op {
+                BinaryOp::Add => Some(left + right),
+                BinaryOp::Sub => Some(left - right),
+                BinaryOp::Mul => Some(left * right),
+                BinaryOp::Div => Some(left / right),
+                _ => None,
+            }
+        }
+        _ => None,
+    }
+}
+
+/// The same with ICODEF of a word.
+pub(crate) fn code(expr: &Expr, vocabulary: &Vocabulary) -> Option<f64> {
+    match &expr.kind {
+        ExprKind::Call { name, args } if name.text == "ICODEF" => match args.as_slice() {
+            [Expr { kind: ExprKind::Name(word), .. }] => {
+                vocabulary.find(word).map(|id| vocabulary.code(id))
+            }
+            _ => None,
+        },
+        _ => constant(expr),
+    }
+}

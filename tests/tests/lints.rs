@@ -1,0 +1,107 @@
+//! One test for each FIL file of `tests/lints/`, whose header lists what a check
+//! must find in it, and for each script of `fil-scripts/`: the published ones
+//! have the findings listed here, all others have none.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use filpost::check::{self, Options};
+use filpost::files;
+use filpost_tests::{lints, root};
+use libtest_mimic::{Arguments, Failed, Trial};
+
+/// What a check says of the published scripts.
+const PAPERS: &[(&str, &[&str])] = &[
+    ("embos-cycle.fil", &["W0151 at 1", "W0220 at 1", "W0151 at 3", "W0152 at 3"]),
+    ("embos-motion.fil", &["W0221 at 4"]),
+    (
+        "thread-g76.fil",
+        &[
+            "W0220 at 1",
+            "W0230 at 8",
+            "W0230 at 9",
+            "W0230 at 10",
+            "W0230 at 11",
+            "W0230 at 14",
+            "W0152 at 20",
+        ],
+    ),
+    (
+        "thread-g92.fil",
+        &["W0220 at 1", "W0150 at 3", "W0230 at 4", "W0230 at 5", "W0230 at 6", "W0152 at 26"],
+    ),
+];
+
+fn main() -> ExitCode {
+    let arguments = Arguments::from_args();
+    let mut trials = Vec::new();
+    for folder in ["bad", "good"] {
+        for path in lints::fil_files(&root().join("tests/lints").join(folder)) {
+            let name = format!("{folder}/{}", name(&path));
+            trials.push(Trial::test(name, move || {
+                lists_something(&path, folder == "bad")?;
+                lints::run(&path).map_err(Failed::from)
+            }));
+        }
+    }
+    for path in lints::fil_files(&root().join("fil-scripts")) {
+        let shown = path.strip_prefix(root()).expect("a path below the root");
+        trials.push(Trial::test(shown.to_string_lossy().replace('\\', "/"), move || script(&path)));
+    }
+    trials.push(Trial::test("papers are all there", papers_are_there));
+    trials.push(Trial::test("embos files together", embos_together));
+    libtest_mimic::run(&arguments, trials).exit_code()
+}
+
+fn name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// Files of `bad/` list findings, those of `good/` list none.
+fn lists_something(path: &Path, something: bool) -> Result<(), Failed> {
+    let text = files::read_text(path, None).map_err(|error| error.to_string())?;
+    if lints::listed(&text).is_empty() == something {
+        return Err("a file of bad/ lists findings, one of good/ lists none".into());
+    }
+    Ok(())
+}
+
+fn findings(paths: &[PathBuf]) -> Result<Vec<String>, Failed> {
+    let mut texts = Vec::new();
+    for path in paths {
+        texts.push(files::read_text(path, None).map_err(|error| error.to_string())?);
+    }
+    let files: Vec<(&str, &str)> = texts.iter().map(|text| ("a.fil", text.as_str())).collect();
+    Ok(lints::found(&check::check(&files, Options::default())))
+}
+
+fn script(path: &Path) -> Result<(), Failed> {
+    let published = path.parent().is_some_and(|folder| folder.ends_with("papers"));
+    let row = PAPERS.iter().find(|(file, _)| published && *file == name(path));
+    let expected = row.map_or(&[][..], |(_, expected)| expected);
+    let found = findings(&[path.to_path_buf()])?;
+    if found == expected { Ok(()) } else { Err(format!("{found:#?}").into()) }
+}
+
+fn papers_are_there() -> Result<(), Failed> {
+    for (file, _) in PAPERS {
+        let path = root().join("fil-scripts/papers").join(file);
+        if !path.is_file() {
+            return Err(format!("{} is not there", path.display()).into());
+        }
+    }
+    Ok(())
+}
+
+/// Loaded with the section that sets it, CTYPE is no longer a name set nowhere,
+/// but still one that has no value before the first CYCLE.
+fn embos_together() -> Result<(), Failed> {
+    let folder = root().join("fil-scripts/papers");
+    let files = ["embos-cycle.fil", "embos-motion.fil"].map(|file| folder.join(file));
+    let found = findings(&files)?;
+    let about_ctype: Vec<&String> = found
+        .iter()
+        .filter(|found| found.starts_with("W0221") || found.ends_with("at 4"))
+        .collect();
+    if about_ctype == ["W0231 at 4"] { Ok(()) } else { Err(format!("{found:#?}").into()) }
+}
