@@ -5,6 +5,7 @@ use fil_syntax::tree::{BinaryOp, Expr, ExprKind, Name, Stmt, StmtKind, Target, U
 
 use super::flow::Action;
 use crate::builtins::{self, BUILTINS, Kind};
+use crate::library::{Library, NumberRules};
 
 /// How an expression is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,8 +59,9 @@ pub(crate) fn within<'t>(expr: &'t Expr, used: Use, visit: &mut dyn FnMut(&'t Ex
         ExprKind::Number(_) | ExprKind::Text(_) | ExprKind::Name(_) => {}
         ExprKind::Call { name, args } => {
             let word = word_argument(name);
+            let writes_number = writes_number(name);
             for (index, arg) in args.iter().enumerate() {
-                if word != Some(index) {
+                if word != Some(index) && !(writes_number && is_rule(arg)) {
                     within(arg, Use::Value, visit);
                 }
             }
@@ -70,6 +72,17 @@ pub(crate) fn within<'t>(expr: &'t Expr, used: Use, visit: &mut dyn FnMut(&'t Ex
             within(right, Use::Value, visit);
         }
     }
+}
+
+/// True for functions that take words after their digits (ZEROS, TRIM, …).
+fn writes_number(function: &Name) -> bool {
+    builtins::find(&function.text)
+        .is_some_and(|index| matches!(BUILTINS[index].kind, Kind::Library(Library::ToText, ..)))
+}
+
+/// True for a word that says how a number is written as text.
+fn is_rule(arg: &Expr) -> bool {
+    matches!(&arg.kind, ExprKind::Name(word) if NumberRules::default().take(word))
 }
 
 /// Which argument of a function is a word or name as it is written.
