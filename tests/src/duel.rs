@@ -112,6 +112,15 @@ fn line(diag: &Diag) -> u32 {
 /// # Errors
 /// What they disagree about.
 pub fn fight(case: &Case) -> Result<Agreed, String> {
+    fight_over(case, &case.fil)
+}
+
+/// Runs a case on the machine and another FIL text on the oracle: to see that
+/// a difference is found.
+///
+/// # Errors
+/// What they disagree about.
+pub fn fight_over(case: &Case, oracle_fil: &str) -> Result<Agreed, String> {
     let mut vocab = Vocabulary::new();
     let limits = Limits { fuel: FUEL, ..Limits::default() };
     let options = LoadOptions { limits, ..LoadOptions::default() };
@@ -128,8 +137,8 @@ pub fn fight(case: &Case) -> Result<Agreed, String> {
     let mut machine = Machine::new(Arc::new(module), limits, Functions::new());
     let ran = drive(&mut machine, &mut vocab, &mut world);
 
-    let program = fil_syntax::parse("case.fil", &case.fil).program;
-    let mut oracle = Oracle::new(&program, &case.fil, own, FUEL);
+    let program = fil_syntax::parse("case.fil", oracle_fil).program;
+    let mut oracle = Oracle::new(&program, oracle_fil, own, FUEL);
     let wanted = oracle.run();
     compare(ran, wanted, &world, &oracle, &machine)
 }

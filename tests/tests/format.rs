@@ -37,7 +37,8 @@ fn compiled(path: &Path, text: &str) -> Result<(String, Vec<String>), Vec<String
     let folder = path.parent().unwrap_or(Path::new("."));
     let mut loader = |_: &str, name: &str| {
         let text = files::read_text(&folder.join(name), None);
-        text.map(|text| Included { name: name.into(), text }).map_err(|error| error.to_string())
+        let included = |text| Included { name: name.to_string(), text };
+        text.map(included).map_err(|error| error.to_string())
     };
     let file = FilFile { name: "script.fil", text };
     let options = LoadOptions { loader: Some(&mut loader), lint: true, ..LoadOptions::default() };

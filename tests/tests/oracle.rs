@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use filpost_tests::duel::{Agreed, fight, reduce};
+use filpost_tests::duel::{Agreed, fight, fight_over, reduce};
 use filpost_tests::programs::{Dice, case};
 
 /// Runs the programs of these seeds and counts how they ended.
@@ -35,6 +35,26 @@ fn mostly_done(ends: &BTreeMap<Agreed, u64>) {
 #[test]
 fn machine_and_oracle_agree() {
     mostly_done(&tournament(0..2_000));
+}
+
+/// One sign changed for one of the two must show. Many programs never run the
+/// changed line, or do not use what it makes, so not every change can.
+#[test]
+fn a_difference_is_found() {
+    let changes = [(".EQ.", ".NE."), (".LT.", ".GT."), ("POSTF(13)", "POSTF(20)")];
+    let signs = [("+", "-"), ("*", "+"), ("=0\n", "=1\n")];
+    for (from, to) in changes.into_iter().chain(signs) {
+        let (mut made, mut found) = (0, 0);
+        for seed in 0..200 {
+            let case = case(&mut Dice::from_seed(seed));
+            if fight(&case) == Ok(Agreed::Done) && case.fil.contains(from) {
+                made += 1;
+                found += u32::from(fight_over(&case, &case.fil.replace(from, to)).is_err());
+            }
+        }
+        println!("{from:?} as {to:?}: {found} of {made} found");
+        assert!(made > 20 && found * 3 > made, "{from:?} as {to:?}: {found} of {made}");
+    }
 }
 
 /// FILPOST_ORACLE=first,count chooses other seeds than the first 100,000.

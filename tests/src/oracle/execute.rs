@@ -74,7 +74,7 @@ impl Oracle<'_> {
             }
             StmtKind::Text { target, args } => {
                 let index = self.index(target)?;
-                let text = self.joined(args)?;
+                let text = self.joined(args, stmt.span)?;
                 self.set(target, index, Value::Text(text))?;
             }
             StmtKind::Post { word, args } => self.post(word, args, stmt.span)?,
@@ -243,15 +243,12 @@ impl Oracle<'_> {
     }
 
     /// Texts and numbers as one text.
-    fn joined(&mut self, args: &[Expr]) -> Result<String, Fault> {
-        let mut text = String::new();
-        for arg in args {
-            text += &written(self.eval(arg)?);
-        }
-        Ok(text)
+    fn joined(&mut self, args: &[Expr], span: Span) -> Result<String, Fault> {
+        let values: Vec<Value> = args.iter().map(|arg| self.eval(arg)).collect::<Result<_, _>>()?;
+        self.written(values, span)
     }
 
-    /// The text of a record; EMPTY must not get on the tape.
+    /// Values as one text; EMPTY must not get on the tape.
     fn written(
         &self,
         values: impl IntoIterator<Item = Value>,
@@ -326,12 +323,12 @@ impl Oracle<'_> {
     }
 }
 
-/// A value as texts show it: a number in its shortest form, EMPTY by its name.
+/// A value as texts show it: a number in its shortest form.
 fn written(value: Value) -> String {
     match value {
         Value::Text(text) => text,
-        Value::Number(EMPTY) => "EMPTY".to_string(),
-        Value::Number(number) => number.to_string(),
+        // Adding 0 makes a -0 plain.
+        Value::Number(number) => (number + 0.0).to_string(),
     }
 }
 

@@ -198,6 +198,8 @@ fn place(kind: f64, location: f64) -> Result<(u8, u32), Class> {
     Ok((kind as u8, location as u32))
 }
 
+/// Words count from 1. A number that no counter holds is no word's number.
 fn word_number(n: f64) -> Result<usize, Class> {
-    if n.fract() != 0.0 || n < 1.0 { Err(Class::BadWordNumber) } else { Ok(n as usize) }
+    let countable = (1.0..u64::MAX as f64).contains(&n);
+    if n.fract() != 0.0 || !countable { Err(Class::BadWordNumber) } else { Ok(n as usize) }
 }

@@ -2,7 +2,8 @@
 
 use super::{ARRAYS, NUMBERS, Program, Scope, TEXTS, WORDS};
 
-const OPERATORS: &[&str] = &["+", "-", "*", "/", "+", "-", "*", "**"];
+const OPERATORS: &[&str] =
+    &["+", "-", "*", "/", "+", "-", "*", "**", "+", "-", "*", "+", "-", "**"];
 const RELATIONS: &[&str] = &[".EQ.", ".NE.", ".LT.", ".LE.", ".GT.", ".GE."];
 const FUNCTIONS: &[(&str, usize)] = &[
     ("ABSF", 1),
@@ -58,6 +59,9 @@ impl Program<'_, '_> {
                 let sign = self.dice.pick(OPERATORS);
                 // Two signs in a row are no FIL; sizes stay small.
                 let sign = if sign == "**" { "*" } else { sign };
+                if sign == "/" && !self.dice.once_in(8) {
+                    return format!("({one})/(0.5+ABSF({other}))");
+                }
                 format!("({one}){sign}({other})")
             }
             5 => format!("-({})", self.number(scope, depth - 1)),
@@ -89,7 +93,7 @@ impl Program<'_, '_> {
     /// Mostly within the domain of the function.
     fn function(&mut self, scope: Scope, depth: usize) -> String {
         let (name, count) = FUNCTIONS[self.dice.below(FUNCTIONS.len())];
-        let careful = !self.dice.once_in(8);
+        let careful = !self.dice.once_in(30);
         let argument = |this: &mut Self| match name {
             "SQRTF" if careful => format!("ABSF({})", this.number(scope, depth - 1)),
             "LOGF" | "LOG10F" if careful => format!("1+ABSF({})", this.number(scope, depth - 1)),
@@ -105,7 +109,7 @@ impl Program<'_, '_> {
     pub(super) fn element(&mut self, scope: Scope, depth: usize) -> String {
         let (name, size) = ARRAYS[self.dice.below(ARRAYS.len())];
         let index = match self.dice.below(12) {
-            0 => self.number(scope, depth.saturating_sub(1)),
+            0 if self.dice.once_in(6) => self.number(scope, depth.saturating_sub(1)),
             1 => format!("1+ABSF(INTF(MODF({},{size})))", self.name(scope)),
             _ => (1 + self.dice.below(size)).to_string(),
         };
@@ -129,7 +133,7 @@ impl Program<'_, '_> {
     fn postf_value(&mut self, scope: Scope, depth: usize) -> String {
         match self.dice.below(4) {
             0 => "POSTF(4)".to_string(),
-            1 if self.dice.once_in(8) => {
+            1 if self.dice.once_in(40) => {
                 format!("POSTF(1,{},486)", self.number(scope, depth - 1))
             }
             _ => format!("POSTF(1,{},{})", 1 + self.dice.below(3), 480 + self.dice.below(4)),
@@ -151,7 +155,7 @@ impl Program<'_, '_> {
         let relation = self.dice.pick(RELATIONS);
         match self.dice.below(16) {
             0 => format!("{}{relation}{}", self.text(0), self.text(1)),
-            1 => self.name(scope) + ".EQ." + &self.text(0),
+            1 if self.dice.once_in(12) => self.name(scope) + ".EQ." + &self.text(0),
             2 if self.dice.once_in(10) => self.name(scope),
             3 => format!("{}.EQ.POSTF(4)", self.name(scope)),
             _ => format!("{}{relation}{}", self.number(scope, 1), self.number(scope, 1)),

@@ -29,13 +29,15 @@ const ARRAYS: &[(&str, usize)] = &[("AR", 5), ("BR", 2)];
 const WORDS: &[&str] =
     &["DRILL", "DEEP", "TAP", "DEPTH", "RPM", "CLW", "CCLW", "ON", "OFF", "MILL", "TURN", "WAVY"];
 /// Keys of sections; a program takes each at most once, and of those in one
-/// row, which name the same records, only one.
+/// row, which name the same records, only one. Those for many records come first.
 const KEYS: &[&[&str]] = &[
     &["GOTO", "5000,5"],
-    &["FROM", "5000,3"],
-    &["FINI", "14000"],
-    &["SPINDL", "2000,1031"],
+    &["2000"],
     &["CYCLE"],
+    &["FINI", "14000"],
+    &["5000"],
+    &["SPINDL", "2000,1031"],
+    &["FROM", "5000,3"],
     &["CYCLE,DEEP"],
     &["CYCLE,DRILL,DEPTH"],
     &["SPINDL,RPM"],
@@ -45,8 +47,6 @@ const KEYS: &[&[&str]] = &[
     &["MODE"],
     &["ENGRAV"],
     &["ENGRAV,WAVY"],
-    &["5000"],
-    &["2000"],
 ];
 
 /// Makes a case.
@@ -82,7 +82,7 @@ struct Program<'d, 'b> {
 
 impl<'d, 'b> Program<'d, 'b> {
     fn new(dice: &'d mut Dice<'b>) -> Self {
-        let left = 6 + dice.below(60);
+        let left = 10 + dice.below(60);
         Program {
             dice,
             out: String::new(),
@@ -105,9 +105,13 @@ impl<'d, 'b> Program<'d, 'b> {
         let globals = Scope { in_section: false, in_macro: None, depth: 0 };
         self.preset();
         self.statements(globals, 8);
+        for _ in 0..self.macros.len() {
+            let line = self.call(globals);
+            self.line(&line);
+        }
         let mut keys = KEYS.to_vec();
-        for _ in 0..1 + self.dice.below(4) {
-            let row = keys.swap_remove(self.dice.below(keys.len()));
+        for _ in 0..2 + self.dice.below(4) {
+            let row = keys.remove(self.dice.below(keys.len()).min(self.dice.below(keys.len())));
             let key = self.dice.pick(row);
             self.line(&format!("CIMFIL/ON,{key}"));
             self.statements(Scope { in_section: true, ..globals }, 10);
@@ -150,8 +154,11 @@ impl<'d, 'b> Program<'d, 'b> {
         self.line(&head);
         self.macros.push(count);
         // A macro that looks at the record is an error where it is called without one.
-        let in_section = self.dice.once_in(4);
+        let in_section = self.dice.once_in(16);
+        // The macros must not use up what the program may have.
+        let left = std::mem::replace(&mut self.left, 5);
         self.statements(Scope { in_section, in_macro: Some(number), depth: 1 }, 4);
+        self.left = left;
         self.line("TERMAC");
     }
 

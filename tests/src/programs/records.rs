@@ -5,7 +5,7 @@ use super::Dice;
 /// A CL file of a few records; the last one is FINI.
 pub(super) fn file(dice: &mut Dice<'_>) -> String {
     let mut out = String::new();
-    for _ in 0..1 + dice.below(12) {
+    for _ in 0..4 + dice.below(14) {
         let number = format!("{}.{}", dice.below(40), dice.below(1000));
         let word = dice.pick(&["DRILL", "DEEP", "TAP", "OFF"]);
         out += &match dice.below(12) {

@@ -40,8 +40,9 @@ impl Program<'_, '_> {
 
     /// A statement of one line.
     fn plain(&mut self, scope: Scope) -> String {
-        match self.dice.below(20) {
-            0 => self.output(scope),
+        match self.dice.below(22) {
+            0 | 20 => self.output(scope),
+            21 => self.call(scope),
             1 => self.post_word(scope),
             2 => self.call(scope),
             3 => format!("{}={}", self.element(scope, 1), self.number(scope, 2)),
@@ -49,7 +50,7 @@ impl Program<'_, '_> {
             5 | 6 => self.postf_action(scope),
             7 if scope.in_section => self.record_action(scope),
             7 | 8 => self.output(scope),
-            9 if self.dice.once_in(2) => self.odd(scope),
+            9 if self.dice.once_in(6) => self.odd(scope),
             9 if !self.ahead.is_empty() => {
                 let label = self.ahead[self.dice.below(self.ahead.len())].clone();
                 format!("IF({})JUMPTO/{label}", self.condition(scope, 0))
@@ -83,7 +84,7 @@ impl Program<'_, '_> {
     }
 
     /// A call of a macro made before this place.
-    fn call(&mut self, scope: Scope) -> String {
+    pub(super) fn call(&mut self, scope: Scope) -> String {
         let known = scope.in_macro.unwrap_or(self.macros.len());
         if known == 0 {
             return self.output(scope);
@@ -173,11 +174,16 @@ impl Program<'_, '_> {
     }
 
     fn case(&mut self, scope: Scope) {
-        let subject = self.either(scope);
+        let of_texts = self.dice.once_in(3);
+        let value = |this: &mut Self| match (of_texts, this.dice.once_in(40)) {
+            (_, true) => this.either(scope),
+            (true, _) => this.text(1),
+            (false, _) => this.number(scope, 1),
+        };
+        let subject = value(self);
         self.line(&format!("CASE/{subject}"));
         for _ in 0..self.dice.below(4) {
-            let values: Vec<String> =
-                (0..1 + self.dice.below(2)).map(|_| self.either(scope)).collect();
+            let values: Vec<String> = (0..1 + self.dice.below(2)).map(|_| value(self)).collect();
             self.line(&format!("WHEN/{}", values.join(",")));
             self.statements(scope, 2);
         }
