@@ -2,9 +2,10 @@
 //! program it must give.
 //!
 //! `case.toml`: `cl`; `ready`, `machine` (machine.toml) or `option_file`; `fil` (a file or a
-//! list); `set` (list of `key=value`); `compat`; `strict`; `read` (a folder for scripts); `clock`; `expect` (NC file) or
-//! `expect_error` (code); `expect_warnings`; `expect_at` (`file:line` of the error or of the
-//! first warning expected); `origin` and `repairs` for people.
+//! list); `set` (list of `key=value`); `compat`; `strict`; `read` (a folder for scripts);
+//! `clock`; `expect` (NC file) or `expect_error` (code); `expect_warnings`; `expect_at`
+//! (`file:line` of the error or of the first warning expected); `origin` and `repairs` for
+//! people.
 
 use std::path::{Path, PathBuf};
 
