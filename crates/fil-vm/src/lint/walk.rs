@@ -5,7 +5,6 @@ use fil_syntax::tree::{BinaryOp, Expr, ExprKind, Name, Stmt, StmtKind, Target, U
 
 use super::flow::Action;
 use crate::builtins::{self, BUILTINS, Kind};
-use crate::library::{Library, NumberRules};
 
 /// How an expression is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
