@@ -125,7 +125,9 @@ pub fn load(
         let program = lint::Program { units: &units, found: &found, module: &module, names };
         diags.extend(lint::warnings(program, vocab, facts));
     }
-    lint::drop_allowed(&mut diags, &units);
+    if lint {
+        lint::drop_allowed(&mut diags, &units);
+    }
     if refused { Err(diags) } else { Ok(Loaded { module, warnings: diags }) }
 }
 

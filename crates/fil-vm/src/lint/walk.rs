@@ -11,7 +11,7 @@ use crate::builtins::{self, BUILTINS, Kind};
 pub(crate) enum Use {
     /// For its value.
     Value,
-    /// As an argument of a post word, where a bare name may be a minor word.
+    /// As an argument where a bare name may be a word instead of a variable.
     PostArgument,
 }
 
@@ -58,9 +58,10 @@ pub(crate) fn within<'t>(expr: &'t Expr, used: Use, visit: &mut dyn FnMut(&'t Ex
         ExprKind::Number(_) | ExprKind::Text(_) | ExprKind::Name(_) => {}
         ExprKind::Call { name, args } => {
             let word = word_argument(name);
-            for (index, arg) in values(name, args).iter().enumerate() {
+            let used = arguments_use(name);
+            for (index, arg) in args.iter().enumerate() {
                 if word != Some(index) {
-                    within(arg, Use::Value, visit);
+                    within(arg, used, visit);
                 }
             }
         }
@@ -72,11 +73,11 @@ pub(crate) fn within<'t>(expr: &'t Expr, used: Use, visit: &mut dyn FnMut(&'t Ex
     }
 }
 
-/// The arguments of a function without the rules at their end, which are words.
-fn values<'t>(function: &Name, args: &'t [Expr]) -> &'t [Expr] {
+/// Functions of texts take words such as TRIM among their arguments.
+fn arguments_use(function: &Name) -> Use {
     match builtins::find(&function.text).map(|index| BUILTINS[index].kind) {
-        Some(Kind::Library(library, ..)) => library.rules(args).0,
-        _ => args,
+        Some(Kind::Library(..)) => Use::PostArgument,
+        _ => Use::Value,
     }
 }
 
