@@ -20,6 +20,7 @@ mod module;
 mod moment;
 mod ops;
 pub mod postf;
+pub mod statements;
 mod texts;
 mod value;
 

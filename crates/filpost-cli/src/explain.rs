@@ -5,6 +5,7 @@ use filpost::cl::Vocabulary;
 use filpost::locations::{Location, TABLE};
 use filpost::postf::{Grade, POSTF, PostfInfo};
 use filpost::ready::{self, READY};
+use filpost::statements::STATEMENTS;
 use filpost::{Code, Commons, Error, Kind, Severity, post_words, suggest};
 
 use crate::errors::CommandCode;
@@ -50,6 +51,7 @@ fn one(word: &str) -> Option<String> {
     let mut parts: Vec<String> = Vec::new();
     parts.extend(code(word));
     parts.extend(Location::named(&word.to_ascii_lowercase()).map(location));
+    parts.extend(statement(word));
     parts.extend(function(word));
     parts.extend(ready::find(word).map(|post| post.readme.to_string()));
     if parts.is_empty() {
@@ -143,6 +145,11 @@ fn postf(row: &PostfInfo) -> String {
     )
 }
 
+fn statement(word: &str) -> Option<String> {
+    let row = STATEMENTS.iter().find(|row| row.word.eq_ignore_ascii_case(word))?;
+    Some(format!("{}\n\n{}\n\n{}", row.form, row.doc, grade(row.grade)))
+}
+
 fn function(name: &str) -> Option<String> {
     if name.eq_ignore_ascii_case("POSTF") {
         let rows: Vec<String> = POSTF
@@ -228,6 +235,7 @@ fn sentence(doc: &str) -> String {
 fn nearest(subject: &str) -> Option<String> {
     let vocabulary = Vocabulary::new();
     let mut names: Vec<String> = TABLE.iter().map(|row| row.name.to_string()).collect();
+    names.extend(STATEMENTS.iter().map(|row| row.word.to_string()));
     names.extend(BUILTINS.iter().map(|row| row.name.to_string()));
     names.extend(READY.iter().map(|post| post.name.to_string()));
     names.extend(post_words::HANDLERS.iter().map(|(id, _)| vocabulary.name(*id).to_string()));

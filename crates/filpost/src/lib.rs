@@ -54,7 +54,7 @@ pub use fil_post::{Commons, FilLine, Kind, Origin, commons, locations, settings}
 pub use fil_post::{address, words as post_words};
 pub use fil_syntax as syntax;
 pub use fil_vm::{Argument, Compat, Included, Limits, Moment, SectionMode};
-pub use fil_vm::{builtins, postf};
+pub use fil_vm::{builtins, postf, statements};
 
 /// The example of the README, run with the documentation tests.
 #[cfg(doctest)]
