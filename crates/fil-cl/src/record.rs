@@ -4,8 +4,8 @@ use crate::vocabulary::{Vocabulary, WordId};
 
 /// CLDATA record types: word 2 of a record.
 pub mod kind {
-    /// A `$$-> KEY / …` pseudo-comment of Creo. Not a CLDATA type: FIL sees such
-    /// a record only through a section for its key, and POSTF(14) passes over it.
+    /// A `$$-> KEY / …` pseudo-comment of Creo. Not a CLDATA type: the post and
+    /// observers see such a record, FIL does not, and POSTF(14) passes over it.
     pub const PSEUDO: u32 = 1;
     /// Post-processor command; word 3 is the code of the major word.
     pub const POST: u32 = 2000;
