@@ -37,6 +37,7 @@ pub mod stop;
 pub mod thread;
 pub mod trans;
 pub mod units;
+pub mod unsupported;
 
 use fil_cl::vocabulary::{Vocabulary, words as w};
 use fil_cl::{Record, WordId};
@@ -50,19 +51,25 @@ pub type Handler = fn(&mut Post, &Record, &Vocabulary) -> Result<(), Box<Diag>>;
 /// Major words and their handlers.
 pub const HANDLERS: &[(WordId, Handler)] = &[
     (w::AUXFUN, prefun::auxfun),
+    (w::CALSUB, unsupported::handle),
     (w::CIRCLE, circle::handle),
     (w::COOLNT, coolnt::handle),
+    (w::COPY, unsupported::handle),
     (w::CUTCOM, cutcom::handle),
     (w::CUTTER, cutter::handle),
     (w::CYCLE, cycle::handle),
+    (w::DEFSUB, unsupported::handle),
     (w::DELAY, delay::handle),
     (w::END, end::handle),
+    (w::ENDSUB, unsupported::handle),
     (w::FEDRAT, fedrat::handle),
     (w::FINI, fini::handle),
     (w::FROM, from::handle),
     (w::GODLTA, godlta::handle),
     (w::GOHOME, goto::gohome),
     (w::GOTO, goto::handle),
+    (w::HEAD, unsupported::handle),
+    (w::INDEX, unsupported::handle),
     (w::INSERT, insert::handle),
     (w::LOAD, loadtl::handle),
     (w::LOADTL, loadtl::handle),
@@ -72,6 +79,7 @@ pub const HANDLERS: &[(WordId, Handler)] = &[
     (w::OP, op::handle),
     (w::OPSKIP, opskip::handle),
     (w::OPSTOP, stop::opstop),
+    (w::ORIGIN, unsupported::handle),
     (w::PARTNO, partno::handle),
     (w::POSTN, postn::handle),
     (w::PPRINT, pprint::handle),
@@ -79,6 +87,9 @@ pub const HANDLERS: &[(WordId, Handler)] = &[
     (w::RAPID, rapid::handle),
     (w::REPEAT, repeat::handle),
     (w::REWIND, rewind::handle),
+    (w::ROTABL, unsupported::handle),
+    (w::ROTATE, unsupported::handle),
+    (w::ROTHED, unsupported::handle),
     (w::SELCTL, loadtl::select),
     (w::SELECT, loadtl::select),
     (w::SEQNO, seqno::handle),
@@ -86,6 +97,7 @@ pub const HANDLERS: &[(WordId, Handler)] = &[
     (w::STOP, stop::stop),
     (w::THREAD, thread::handle),
     (w::TLAXIS, multax::tlaxis),
+    (w::TRACUT, unsupported::handle),
     (w::TRANS, trans::handle),
     (w::TURRET, loadtl::handle),
     (w::UNIT, units::handle),
