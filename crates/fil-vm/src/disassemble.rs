@@ -43,6 +43,9 @@ fn show(module: &Module, op: Op) -> String {
         Op::Add { dst, a, b } => format!("{} = {} + {}", n(dst), n(a), n(b)),
         Op::Sub { dst, a, b } => format!("{} = {} - {}", n(dst), n(a), n(b)),
         Op::Mul { dst, a, b } => format!("{} = {} * {}", n(dst), n(a), n(b)),
+        Op::AddProduct { dst, a, b } => {
+            format!("{} = {} + {} * {}", n(dst), n(dst), n(a), n(b))
+        }
         Op::Div { dst, a, b } => format!("{} = {} / {}", n(dst), n(a), n(b)),
         Op::Pow { dst, a, b } => format!("{} = {} ** {}", n(dst), n(a), n(b)),
         Op::Jump { to } => format!("jump {to}"),

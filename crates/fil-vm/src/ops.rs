@@ -21,6 +21,8 @@ pub enum Op {
     Sub { dst: Reg, a: Reg, b: Reg },
     /// `dst = a * b`
     Mul { dst: Reg, a: Reg, b: Reg },
+    /// `dst = dst + a * b`, rounded after each of both
+    AddProduct { dst: Reg, a: Reg, b: Reg },
     /// `dst = a / b`
     Div { dst: Reg, a: Reg, b: Reg },
     /// `dst = a ** b`

@@ -41,6 +41,20 @@ pub(super) struct ChunkBuilder {
 
 impl ChunkBuilder {
     pub fn emit(&mut self, op: Op) {
+        match (self.code.last_mut(), op) {
+            // A product that is only added to a variable needs no register of its own.
+            (Some(last @ Op::Mul { .. }), Op::Add { dst, a: sum, b }) if dst == sum => {
+                if let Op::Mul { dst: product, a, b: factor } = *last
+                    && product == b
+                    && product >= FIRST_TEMPORARY
+                    && product != dst
+                {
+                    *last = Op::AddProduct { dst, a, b: factor };
+                    return;
+                }
+            }
+            _ => {}
+        }
         self.code.push(op);
         self.statements.push(self.statement);
     }

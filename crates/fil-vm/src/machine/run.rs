@@ -97,6 +97,17 @@ impl<H: Host + ?Sized> Vm<'_, H> {
                 Op::Add { dst, a, b } => arithmetic!(dst, a, b, +),
                 Op::Sub { dst, a, b } => arithmetic!(dst, a, b, -),
                 Op::Mul { dst, a, b } => arithmetic!(dst, a, b, *),
+                Op::AddProduct { dst, a, b } => {
+                    let sum = match (at!(registers[dst]), at!(registers[a]), at!(registers[b])) {
+                        (Number(sum), Number(x), Number(y)) => sum + x * y,
+                        _ => f64::NAN,
+                    };
+                    at!(registers[dst]) = if sum.is_finite() {
+                        Number(sum)
+                    } else {
+                        slow!(self.add_product(registers, dst, a, b))
+                    };
+                }
                 Op::Div { dst, a, b } => arithmetic!(dst, a, b, /),
                 Op::Pow { dst, a, b } => {
                     let power = slow!(self.arithmetic(registers, a, b, "**", f64::powf));

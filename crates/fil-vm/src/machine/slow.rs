@@ -71,6 +71,27 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         Err(fault(RunCode::Domain, message))
     }
 
+    /// The product first, then the sum, each with its own message.
+    #[inline(never)]
+    pub(super) fn add_product(
+        &mut self,
+        registers: &Registers,
+        dst: Reg,
+        a: Reg,
+        b: Reg,
+    ) -> Result<Value, Box<Diag>> {
+        let Number(product) = self.arithmetic(registers, a, b, "*", |x, y| x * y)? else {
+            unreachable!("arithmetic gives a number")
+        };
+        let start = self.number(registers, dst)?;
+        let sum = start + product;
+        if sum.is_finite() {
+            return Ok(Number(sum));
+        }
+        let message = format!("{} + {} has no finite result", Shown(start), Shown(product));
+        Err(fault(RunCode::Domain, message))
+    }
+
     #[inline(never)]
     pub(super) fn equal(
         &mut self,
