@@ -152,6 +152,14 @@ impl Post {
         })
     }
 
+    /// The letter a setting names, 1 to 26.
+    ///
+    /// # Errors
+    /// The setting is absent.
+    pub(crate) fn letter(&self, location: Int, what: &str) -> Result<u8, Box<Diag>> {
+        Ok(self.code(location, what)?.clamp(1, 26) as u8)
+    }
+
     /// Writes the block under construction and empties it.
     ///
     /// # Errors

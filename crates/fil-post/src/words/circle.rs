@@ -285,7 +285,7 @@ fn center_words(
 ) -> Result<(), Box<Diag>> {
     let form = center_form(post);
     if form == CenterForm::Radius {
-        let letter = post.code(loc::CIRCLE_RADIUS_ADDRESS, "the radius")?.clamp(1, 26) as u8;
+        let letter = post.letter(loc::CIRCLE_RADIUS_ADDRESS, "the radius")?;
         let radius = if sweep > 180.0 + 1e-6 { -arc.radius } else { arc.radius };
         return post.word(letter, radius);
     }

@@ -45,8 +45,8 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
             return Err(form.error("no offset number, and no tool is loaded"));
         }
         if let Some(offset) = offset {
-            let letter = post.code(loc::CUTCOM_ADDRESS, "the offset's address")?;
-            post.word(letter.clamp(1, 26) as u8, offset)?;
+            let letter = post.letter(loc::CUTCOM_ADDRESS, "the offset's address")?;
+            post.word(letter, offset)?;
         }
     }
     form.end()?;

@@ -93,6 +93,13 @@ pub struct HoleLevels {
     pub to_initial: bool,
 }
 
+impl HoleLevels {
+    /// Where the tool stands after the hole.
+    pub fn rest(self, cycle: &Cycle) -> f64 {
+        if self.to_initial { cycle.initial.unwrap_or(self.clear) } else { self.clear }
+    }
+}
+
 /// Takes the cycle, or ends it.
 ///
 /// # Errors
@@ -225,7 +232,7 @@ pub fn hole(post: &mut Post, target: Target) -> Result<(), Box<Diag>> {
     } else {
         cycle_expand::hole(post, &cycle, &at, levels)?;
     }
-    let rest = if levels.to_initial { cycle.initial.unwrap_or(levels.clear) } else { levels.clear };
+    let rest = levels.rest(&cycle);
     let axis = *post.machine.axis(2);
     post.commons.set_last_output(axis.letter, axis.value(rest)?);
     if let Some(cycle) = &mut post.state.cycle {
@@ -323,13 +330,13 @@ fn depth_words(post: &mut Post, levels: HoleLevels) -> Result<(), Box<Diag>> {
 /// Peck, dwell and feed.
 fn data_words(post: &mut Post, cycle: &Cycle) -> Result<(), Box<Diag>> {
     if let Some(step) = cycle.step {
-        let letter = post.code(loc::CYCLE_STEP_ADDRESS, "the peck")?;
-        post.word(letter.clamp(1, 26) as u8, step)?;
+        let letter = post.letter(loc::CYCLE_STEP_ADDRESS, "the peck")?;
+        post.word(letter, step)?;
     }
     if cycle.dwell > 0.0 {
-        let letter = post.code(loc::CYCLE_DWELL_ADDRESS, "the dwell of a cycle")?;
+        let letter = post.letter(loc::CYCLE_DWELL_ADDRESS, "the dwell of a cycle")?;
         let value = delay::in_seconds(post, cycle.dwell);
-        post.word(letter.clamp(1, 26) as u8, value)?;
+        post.word(letter, value)?;
     }
     with_feed(post, cycle.feed, |post| {
         post.state.force_feed = true;

@@ -43,8 +43,7 @@ pub fn hole(
     if matches!(cycle.word, w::BORE | w::REAM) {
         feed_z(post, cycle, levels.clear)?;
     }
-    let rest = if levels.to_initial { cycle.initial.unwrap_or(levels.clear) } else { levels.clear };
-    rapid_z(post, rest)
+    rapid_z(post, levels.rest(cycle))
 }
 
 /// DEEP comes out to the R level after each peck, BRKCHP only lifts.

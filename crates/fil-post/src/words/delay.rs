@@ -48,8 +48,7 @@ pub fn write(post: &mut Post, value: f64) -> Result<(), Box<Diag>> {
 /// # Errors
 /// The machine has none.
 fn letter_of(post: &Post) -> Result<u8, Box<Diag>> {
-    let letter = post.code(loc::DWELL_ADDRESS, "the address of a dwell")?;
-    Ok(letter.clamp(1, 26) as u8)
+    post.letter(loc::DWELL_ADDRESS, "the address of a dwell")
 }
 
 /// Seconds in the control's unit (DBLCOM 980: 1000 for milliseconds, 0 as they

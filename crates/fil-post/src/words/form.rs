@@ -81,17 +81,6 @@ impl<'a> Form<'a> {
         std::iter::from_fn(|| self.number()).collect()
     }
 
-    /// Takes the first minor word that is left.
-    pub fn minor(&mut self) -> Option<WordId> {
-        let at = (0..self.taken.len())
-            .find(|at| !self.taken[*at] && matches!(self.record.data[*at], Word::Minor(_)))?;
-        self.taken[at] = true;
-        match self.record.data[at] {
-            Word::Minor(word) => Some(word),
-            _ => None,
-        }
-    }
-
     /// Refuses what is left: in a record that commands the machine, an item
     /// without meaning leaves the rest in doubt too.
     ///
