@@ -227,6 +227,8 @@ pub fn hole(post: &mut Post, target: Target) -> Result<(), Box<Diag>> {
         clear: clear[2],
         to_initial: raise(post, &cycle, at[2], clear[2])?,
     };
+    // Raising the tool sets the level to return to.
+    let cycle = post.state.cycle.clone().unwrap_or(cycle);
     if cycle.code.is_some() {
         block(post, &cycle, &at, levels)?;
     } else {
