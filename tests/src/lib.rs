@@ -9,6 +9,7 @@ pub mod lints;
 pub mod nc_path;
 pub mod oracle;
 pub mod path;
+pub mod picture;
 pub mod programs;
 pub mod rs274;
 
