@@ -1,8 +1,10 @@
 //! A block under construction: words by tape position.
 
-use crate::address::{Addresses, Output, SLOTS, letter};
+use crate::address::{Addresses, Output, SLOTS, character, letter};
+use crate::cause::Cause;
 use crate::commons::Commons;
 use crate::errors::PostCode;
+use crate::tape::WordInfo;
 use fil_diag::Diag;
 
 /// The letters that can stand several times in a block.
@@ -13,15 +15,25 @@ const M: u8 = letter(b'M');
 /// by whoever puts them here, except for the rounding of the address format.
 #[derive(Clone, Debug)]
 pub struct Block {
+    /// What the words put from now on are due to.
+    pub cause: Cause,
     present: u64,
     scaled: [i64; SLOTS],
-    g: Vec<i32>,
-    m: Vec<i32>,
+    causes: [Cause; SLOTS],
+    g: Vec<(i32, Cause)>,
+    m: Vec<(i32, Cause)>,
 }
 
 impl Default for Block {
     fn default() -> Self {
-        Block { present: 0, scaled: [0; SLOTS], g: Vec::new(), m: Vec::new() }
+        Block {
+            cause: Cause::default(),
+            present: 0,
+            scaled: [0; SLOTS],
+            causes: [Cause::default(); SLOTS],
+            g: Vec::new(),
+            m: Vec::new(),
+        }
     }
 }
 
@@ -41,7 +53,7 @@ impl Block {
     /// True when the machine writes at least one of the words.
     pub fn prints(&self, addresses: &Addresses) -> bool {
         let written =
-            |letter, codes: &[i32]| !codes.is_empty() && addresses.position(letter).is_some();
+            |letter, codes: &[(i32, Cause)]| !codes.is_empty() && addresses.position(letter).is_some();
         self.present != 0 || written(G, &self.g) || written(M, &self.m)
     }
 
@@ -56,12 +68,12 @@ impl Block {
 
     /// Adds a preparatory function.
     pub fn g(&mut self, code: i32) {
-        add(&mut self.g, code);
+        add(&mut self.g, (code, self.cause));
     }
 
     /// Adds an auxiliary function.
     pub fn m(&mut self, code: i32) {
-        add(&mut self.m, code);
+        add(&mut self.m, (code, self.cause));
     }
 
     /// Adds a word, whether or not its value has changed.
@@ -108,26 +120,47 @@ impl Block {
         Ok(())
     }
 
-    /// Adds the words of another block; a word of the same address is kept.
+    /// Adds the words of another block, each with its cause; a word of the same
+    /// address is kept.
     pub fn merge(&mut self, other: &Block) {
-        other.g.iter().for_each(|code| self.g(*code));
-        other.m.iter().for_each(|code| self.m(*code));
+        other.g.iter().for_each(|code| add(&mut self.g, *code));
+        other.m.iter().for_each(|code| add(&mut self.m, *code));
         let mut slots = other.present & !self.present;
         while slots != 0 {
             let position = slots.trailing_zeros() as u8;
             slots &= slots - 1;
             self.put(position, other.scaled[position as usize]);
+            self.causes[position as usize] = other.causes[position as usize];
         }
     }
 
     /// Adds a word whose value is already scaled to its format.
     pub fn put(&mut self, position: u8, scaled: i64) {
         self.scaled[position as usize] = scaled;
+        self.causes[position as usize] = self.cause;
         self.present |= 1 << position;
     }
 
-    /// Writes the words in tape order and remembers the last output values.
-    pub fn write(&self, addresses: &Addresses, commons: &mut Commons, out: &mut Vec<u8>) {
+    /// The words so far; what is put next is due to the same as before.
+    pub fn take(&mut self) -> Block {
+        let cause = self.cause;
+        std::mem::replace(self, Block { cause, ..Block::default() })
+    }
+
+    /// Writes the words in tape order and remembers the last output values;
+    /// notes what the words are due to when asked.
+    pub fn write(
+        &self,
+        addresses: &Addresses,
+        commons: &mut Commons,
+        out: &mut Vec<u8>,
+        mut noted: Option<&mut Vec<WordInfo>>,
+    ) {
+        let mut note = |letter, start, cause| {
+            if let Some(noted) = &mut noted {
+                noted.push(WordInfo { letter: character(letter), start, cause });
+            }
+        };
         let mut first = true;
         let mut slots = self.present;
         for (letter, codes) in [(G, &self.g), (M, &self.m)] {
@@ -144,6 +177,7 @@ impl Block {
                 M => &self.m,
                 _ => {
                     separate(&mut first, addresses.blank, out);
+                    note(slot.letter, out.len(), self.causes[position as usize]);
                     out.push(slot.character);
                     let scaled = self.scaled[position as usize];
                     slot.format.write(scaled, out);
@@ -151,8 +185,9 @@ impl Block {
                     continue;
                 }
             };
-            for code in codes {
+            for (code, cause) in codes {
                 separate(&mut first, addresses.blank, out);
+                note(slot.letter, out.len(), *cause);
                 out.push(slot.character);
                 slot.format.write(i64::from(*code), out);
                 commons.set_last_output(slot.letter, f64::from(*code));
@@ -161,8 +196,8 @@ impl Block {
     }
 }
 
-fn add(codes: &mut Vec<i32>, code: i32) {
-    if !codes.contains(&code) {
+fn add(codes: &mut Vec<(i32, Cause)>, code: (i32, Cause)) {
+    if codes.iter().all(|known| known.0 != code.0) {
         codes.push(code);
     }
 }

@@ -8,7 +8,7 @@ use crate::errors::PostCode;
 use crate::letters::{F, G, H};
 use crate::locations as loc;
 use crate::post::Post;
-use crate::state::{FeedMode, Placement};
+use crate::state::{Feed, FeedMode, Placement};
 use fil_diag::Diag;
 
 /// Positions of the five axes: X Y Z in mm or inch, two rotaries in degrees.
@@ -87,8 +87,11 @@ impl Post {
         let position = self.position_of(target)?;
         self.state.point = Some(target.point);
         self.state.axis = target.axis;
-        if std::mem::take(&mut self.state.rapid) {
-            self.rapid(&position)
+        if let Some(cause) = self.state.rapid.take() {
+            self.state.motion_cause = Some(cause);
+            let result = self.rapid(&position);
+            self.state.motion_cause = None;
+            result
         } else if self.state.thread.is_some() {
             crate::words::thread::cut(self, &position)
         } else {
@@ -202,10 +205,29 @@ impl Post {
         for number in (0..AXES).filter(moving) {
             let place = self.machine.axis(number).place()?;
             if let Some(place) = place.filter(|_| always || changed[number]) {
+                self.block.cause.word = self.axis_word_of_record(number);
                 self.block.put(place, scaled[number]);
             }
         }
+        self.block.cause.word = 0;
         Ok(true)
+    }
+
+    /// The word of the record that an axis word repeats; 0 where the record as
+    /// a whole stands behind it, because a rotary axis or TRANS mixes its
+    /// coordinates or because its point is not where the motion goes.
+    fn axis_word_of_record(&self, number: usize) -> u16 {
+        if !self.tape.observe {
+            return 0;
+        }
+        let mixed = self.state.transformation.is_some()
+            || self.machine.kinematics().is_some_and(|kinematics| {
+                kinematics.has_rotary() || self.state.axis != kinematics.tool.into_inner()
+            });
+        match self.state.point_word {
+            first if first > 0 && number < 3 && !mixed => first + number as u16,
+            _ => 0,
+        }
     }
 
     /// Adds one axis word if it has changed or `always`.
@@ -218,15 +240,25 @@ impl Post {
         position: f64,
         always: bool,
     ) -> Result<bool, Box<Diag>> {
+        if self.state.point_word > 0 {
+            self.block.cause.word = self.axis_word_of_record(number);
+        }
         let axis = self.machine.axis(number);
-        axis.write(position, always, &mut self.block, &self.commons)
+        let written = axis.write(position, always, &mut self.block, &self.commons)?;
+        if self.state.point_word > 0 {
+            self.block.cause.word = 0;
+        }
+        Ok(written)
     }
 
     /// Adds a motion G code unless the control stands at it.
     pub(crate) fn motion_code(&mut self, code: i32, modal: bool) {
         self.check_forgotten();
         if !modal || self.state.motion != Some(code) {
-            self.block.g(code);
+            match self.state.motion_cause {
+                Some(cause) => self.because(cause, |post| post.block.g(code)),
+                None => self.block.g(code),
+            }
             self.state.motion = Some(code);
         }
     }
@@ -239,6 +271,10 @@ impl Post {
         let feed = self.state.feed.ok_or_else(|| {
             Box::new(Diag::new(PostCode::NoFeed, "no FEDRAT came before this motion"))
         })?;
+        self.because(feed.cause, |post| post.feed_words_of(feed))
+    }
+
+    fn feed_words_of(&mut self, feed: Feed) -> Result<(), Box<Diag>> {
         if self.state.feed_mode != Some(feed.mode) {
             let code = self.code(feed_mode_code(feed.mode), "this feed mode")?;
             self.block.g(code);
@@ -269,10 +305,10 @@ impl Post {
         }
         let mut kept = Vec::new();
         for letter in 1..=26u8 {
-            let Some(value) = self.state.repeat[letter as usize] else { continue };
+            let Some((value, cause)) = self.state.repeat[letter as usize] else { continue };
             if !self.block.has(letter, &self.machine.addresses) {
                 kept.push((letter, self.commons.last_output(letter)));
-                self.word(letter, value)?;
+                self.because(cause, |post| post.word(letter, value))?;
             }
         }
         self.write_block()?;
@@ -310,10 +346,12 @@ impl Post {
         if !self.moves_axis(2) {
             return Ok(());
         }
-        if let Some(offset) = self.state.length_offset.take() {
+        if let Some((offset, cause)) = self.state.length_offset.take() {
             let code = self.code(loc::TOOL_LENGTH_CODE, "tool length offset")?;
-            self.block.g(code);
-            self.word(H, offset as f64)?;
+            self.because(cause, |post| {
+                post.block.g(code);
+                post.word(H, offset as f64)
+            })?;
         }
         Ok(())
     }

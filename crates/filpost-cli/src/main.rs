@@ -4,11 +4,13 @@
 //! 3 internal fault.
 
 mod args;
+mod batch;
 mod check;
 mod cl;
 mod errors;
 mod explain;
 mod fmt;
+mod job;
 mod json;
 mod machine;
 mod output;
