@@ -17,6 +17,8 @@ const M: u8 = letter(b'M');
 pub struct Block {
     /// What the words put from now on are due to.
     pub cause: Cause,
+    /// Keep what each word is due to; off by default because it costs time.
+    pub noting: bool,
     present: u64,
     scaled: [i64; SLOTS],
     causes: [Cause; SLOTS],
@@ -28,6 +30,7 @@ impl Default for Block {
     fn default() -> Self {
         Block {
             cause: Cause::default(),
+            noting: false,
             present: 0,
             scaled: [0; SLOTS],
             causes: [Cause::default(); SLOTS],
@@ -52,8 +55,9 @@ impl Block {
 
     /// True when the machine writes at least one of the words.
     pub fn prints(&self, addresses: &Addresses) -> bool {
-        let written =
-            |letter, codes: &[(i32, Cause)]| !codes.is_empty() && addresses.position(letter).is_some();
+        let written = |letter, codes: &[(i32, Cause)]| {
+            !codes.is_empty() && addresses.position(letter).is_some()
+        };
         self.present != 0 || written(G, &self.g) || written(M, &self.m)
     }
 
@@ -69,6 +73,11 @@ impl Block {
     /// Adds a preparatory function.
     pub fn g(&mut self, code: i32) {
         add(&mut self.g, (code, self.cause));
+    }
+
+    /// Adds a preparatory function with what it is due to.
+    pub fn g_due_to(&mut self, code: i32, cause: Cause) {
+        add(&mut self.g, (code, cause));
     }
 
     /// Adds an auxiliary function.
@@ -96,7 +105,8 @@ impl Block {
         Ok(())
     }
 
-    /// Adds a word unless the address already stands at that value.
+    /// Adds a word unless the address already stands at that value; gives its
+    /// tape position when it was added.
     ///
     /// # Errors
     /// As [`Block::word`].
@@ -106,18 +116,19 @@ impl Block {
         value: f64,
         addresses: &Addresses,
         commons: &Commons,
-    ) -> Result<(), Box<Diag>> {
+    ) -> Result<Option<u8>, Box<Diag>> {
         let position = match addresses.output(letter) {
             Output::At(position) => position,
-            Output::Off => return Ok(()),
+            Output::Off => return Ok(None),
             Output::Unknown => return Err(no_address(letter)),
         };
         let format = &addresses.slot(position).format;
         let scaled = format.scale(value).map_err(|diag| name(diag, letter))?;
-        if format.unscale(scaled) != commons.last_output(letter) {
+        let due = format.unscale(scaled) != commons.last_output(letter);
+        if due {
             self.put(position, scaled);
         }
-        Ok(())
+        Ok(due.then_some(position))
     }
 
     /// Adds the words of another block, each with its cause; a word of the same
@@ -137,14 +148,26 @@ impl Block {
     /// Adds a word whose value is already scaled to its format.
     pub fn put(&mut self, position: u8, scaled: i64) {
         self.scaled[position as usize] = scaled;
-        self.causes[position as usize] = self.cause;
         self.present |= 1 << position;
+        if self.noting {
+            self.causes[position as usize] = self.cause;
+        }
+    }
+
+    /// Notes what a word is due to.
+    pub fn note_cause(&mut self, position: u8, cause: Cause) {
+        self.causes[position as usize] = cause;
+    }
+
+    /// Notes that a word repeats this word of its record.
+    pub fn note_word(&mut self, position: u8, word: u16) {
+        self.causes[position as usize].word = word;
     }
 
     /// The words so far; what is put next is due to the same as before.
     pub fn take(&mut self) -> Block {
-        let cause = self.cause;
-        std::mem::replace(self, Block { cause, ..Block::default() })
+        let (cause, noting) = (self.cause, self.noting);
+        std::mem::replace(self, Block { cause, noting, ..Block::default() })
     }
 
     /// Writes the words in tape order and remembers the last output values;

@@ -8,7 +8,7 @@ use crate::errors::PostCode;
 use crate::letters::{F, G, H};
 use crate::locations as loc;
 use crate::post::Post;
-use crate::state::{Feed, FeedMode, Placement};
+use crate::state::{FeedMode, Placement};
 use fil_diag::Diag;
 
 /// Positions of the five axes: X Y Z in mm or inch, two rotaries in degrees.
@@ -205,28 +205,27 @@ impl Post {
         for number in (0..AXES).filter(moving) {
             let place = self.machine.axis(number).place()?;
             if let Some(place) = place.filter(|_| always || changed[number]) {
-                self.block.cause.word = self.axis_word_of_record(number);
                 self.block.put(place, scaled[number]);
+                if self.tape.observe {
+                    self.note_axis_word(number, place);
+                }
             }
         }
-        self.block.cause.word = 0;
         Ok(true)
     }
 
-    /// The word of the record that an axis word repeats; 0 where the record as
-    /// a whole stands behind it, because a rotary axis or TRANS mixes its
-    /// coordinates or because its point is not where the motion goes.
-    fn axis_word_of_record(&self, number: usize) -> u16 {
-        if !self.tape.observe {
-            return 0;
-        }
+    /// Notes which word of the record an axis word repeats. It is the record as
+    /// a whole where a rotary axis or TRANS mixes its coordinates, and where the
+    /// motion does not go to its point.
+    #[cold]
+    fn note_axis_word(&mut self, number: usize, place: u8) {
         let mixed = self.state.transformation.is_some()
             || self.machine.kinematics().is_some_and(|kinematics| {
                 kinematics.has_rotary() || self.state.axis != kinematics.tool.into_inner()
             });
-        match self.state.point_word {
-            first if first > 0 && number < 3 && !mixed => first + number as u16,
-            _ => 0,
+        let first = self.state.point_word;
+        if first > 0 && number < 3 && !mixed {
+            self.block.note_word(place, first + number as u16);
         }
     }
 
@@ -240,13 +239,10 @@ impl Post {
         position: f64,
         always: bool,
     ) -> Result<bool, Box<Diag>> {
-        if self.state.point_word > 0 {
-            self.block.cause.word = self.axis_word_of_record(number);
-        }
         let axis = self.machine.axis(number);
         let written = axis.write(position, always, &mut self.block, &self.commons)?;
-        if self.state.point_word > 0 {
-            self.block.cause.word = 0;
+        if let Some(place) = axis.place()?.filter(|_| written && self.tape.observe) {
+            self.note_axis_word(number, place);
         }
         Ok(written)
     }
@@ -255,12 +251,15 @@ impl Post {
     pub(crate) fn motion_code(&mut self, code: i32, modal: bool) {
         self.check_forgotten();
         if !modal || self.state.motion != Some(code) {
-            match self.state.motion_cause {
-                Some(cause) => self.because(cause, |post| post.block.g(code)),
-                None => self.block.g(code),
-            }
-            self.state.motion = Some(code);
+            self.put_motion_code(code);
         }
+    }
+
+    #[cold]
+    fn put_motion_code(&mut self, code: i32) {
+        let cause = self.state.motion_cause.unwrap_or(self.block.cause);
+        self.block.g_due_to(code, cause);
+        self.state.motion = Some(code);
     }
 
     /// Adds the feed mode code and the F word where they have changed.
@@ -271,21 +270,20 @@ impl Post {
         let feed = self.state.feed.ok_or_else(|| {
             Box::new(Diag::new(PostCode::NoFeed, "no FEDRAT came before this motion"))
         })?;
-        self.because(feed.cause, |post| post.feed_words_of(feed))
-    }
-
-    fn feed_words_of(&mut self, feed: Feed) -> Result<(), Box<Diag>> {
         if self.state.feed_mode != Some(feed.mode) {
             let code = self.code(feed_mode_code(feed.mode), "this feed mode")?;
-            self.block.g(code);
+            self.block.g_due_to(code, feed.cause);
             self.state.feed_mode = Some(feed.mode);
             self.state.force_feed = true;
         }
         if std::mem::take(&mut self.state.force_feed) {
-            self.word(F, feed.value)
-        } else {
-            self.block.modal(F, feed.value, &self.machine.addresses, &self.commons)
+            return self.because(feed.cause, |post| post.word(F, feed.value));
         }
+        let put = self.block.modal(F, feed.value, &self.machine.addresses, &self.commons)?;
+        if let Some(position) = put {
+            self.block.note_cause(position, feed.cause);
+        }
+        Ok(())
     }
 
     /// Writes a motion block: adds the words that wait for it and those of

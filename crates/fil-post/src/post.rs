@@ -66,6 +66,12 @@ impl Post {
         })
     }
 
+    /// Keeps what blocks and words are due to from now on.
+    pub fn observe(&mut self) {
+        self.tape.observe = true;
+        self.block.noting = true;
+    }
+
     /// Carries out one record.
     ///
     /// # Errors
@@ -73,8 +79,10 @@ impl Post {
     /// used after an error.
     pub fn process(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
         self.machine.refresh(&self.commons, self.state.metric)?;
-        self.block.cause = Cause { made_by_fil: record.line == 0, ..self.tape.cause };
-        self.state.point_word = 0;
+        if self.tape.observe {
+            self.block.cause = Cause { made_by_fil: record.line == 0, ..self.tape.cause };
+            self.state.point_word = 0;
+        }
         if record.kind == kind::PSEUDO {
             return words::pseudo::handle(self, record, vocabulary);
         }

@@ -24,7 +24,7 @@ pub struct BlockInfo {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WordInfo {
     /// Its letter, `A` to `Z`; [`TEXT`] for a text, [`SKIP`] for the block-delete
-    /// character.
+    /// character, [`SEQUENCE`] for a sequence number.
     pub letter: u8,
     /// Where it starts in [`Tape::text`]; it ends where the next word of its
     /// block starts.
@@ -38,6 +38,9 @@ pub const TEXT: u8 = b'_';
 
 /// Stands for the block-delete character in place of a letter.
 pub const SKIP: u8 = b'/';
+
+/// Stands for a sequence number in place of its letter.
+pub const SEQUENCE: u8 = b'#';
 
 /// Sequence numbers: what is due for the next block.
 #[derive(Clone, Debug, Default)]
@@ -62,9 +65,10 @@ pub struct Tape {
     pub text: Vec<u8>,
     /// The finished blocks within `text`, when observed.
     pub blocks: Vec<BlockInfo>,
-    /// Keep [`Tape::blocks`] and [`Tape::noted`]; off by default because it
-    /// costs time.
-    pub observe: bool,
+    /// Keep [`Tape::blocks`] and [`Tape::noted`], see
+    /// [`Post::observe`](crate::Post::observe); off by default because it costs
+    /// time.
+    pub(crate) observe: bool,
     /// The words of those blocks.
     pub noted: Vec<WordInfo>,
     /// What the blocks written next are due to.
@@ -128,7 +132,8 @@ impl Tape {
         let start = self.begin(true, addresses, commons)?;
         if self.observe {
             let base = self.text.len();
-            self.noted.extend(noted.iter().map(|word| WordInfo { start: base + word.start, ..*word }));
+            self.noted
+                .extend(noted.iter().map(|word| WordInfo { start: base + word.start, ..*word }));
         }
         self.text.extend_from_slice(&line);
         self.end(start);
@@ -206,7 +211,7 @@ impl Tape {
         self.sequence.next = Some(number + increment);
         let slot = addresses.slot(position);
         let scaled = slot.format.scale(number)?;
-        self.note(b'N', self.sequence.cause);
+        self.note(SEQUENCE, self.sequence.cause);
         self.text.push(slot.character);
         slot.format.write(scaled, &mut self.text);
         if addresses.blank {

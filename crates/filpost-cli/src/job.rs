@@ -217,7 +217,8 @@ fn real(path: &Path) -> Option<PathBuf> {
 fn is_map(path: &Path) -> bool {
     const BEGIN: &[u8] = b"{\"filpost-map\":";
     let mut begin = Vec::new();
-    let read = File::open(path).and_then(|file| file.take(BEGIN.len() as u64).read_to_end(&mut begin));
+    let read =
+        File::open(path).and_then(|file| file.take(BEGIN.len() as u64).read_to_end(&mut begin));
     read.is_ok() && (begin.is_empty() || begin == BEGIN)
 }
 

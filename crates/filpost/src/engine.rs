@@ -66,7 +66,9 @@ impl<'p, R: Read> Engine<'p, R> {
             map,
             granted: Granted::new(post.clock, post.spawn.as_mut(), post.folders.clone()),
         };
-        outside.post.tape.observe = observed || outside.map.is_some();
+        if observed || outside.map.is_some() {
+            outside.post.observe();
+        }
         Engine {
             outside,
             vocabulary: post.vocabulary.clone(),

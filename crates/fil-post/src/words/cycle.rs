@@ -223,12 +223,7 @@ fn optional(form: &mut Form, words: &[WordId], at: &mut u16) -> Result<Option<f6
     Ok(None)
 }
 
-fn required(
-    form: &mut Form,
-    words: &[WordId],
-    name: &str,
-    at: &mut u16,
-) -> Result<f64, Box<Diag>> {
+fn required(form: &mut Form, words: &[WordId], name: &str, at: &mut u16) -> Result<f64, Box<Diag>> {
     optional(form, words, at)?.ok_or_else(|| cycle_error(&format!("{name} is missing")))
 }
 

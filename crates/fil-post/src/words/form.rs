@@ -3,8 +3,8 @@
 //! Each item taken is crossed off; what is left over at the end is reported,
 //! so that no part of a record is ignored without a word.
 
-use fil_cl::vocabulary::Vocabulary;
 use fil_cl::record::FIRST_DATA;
+use fil_cl::vocabulary::Vocabulary;
 use fil_cl::{Record, Word, WordId};
 use fil_diag::Diag;
 

@@ -34,8 +34,8 @@ pub(super) struct FilFile {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct End {
-    /// Number of blocks.
-    pub blocks: u64,
+    /// Number of lines of the NC program.
+    pub lines: u64,
     /// The CL file.
     pub cl: Digest,
     /// The NC program.

@@ -48,19 +48,19 @@ impl MapFile {
     }
 }
 
-/// A block of the NC program.
+/// A line of the NC program: a block.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Block {
-    /// Its line in the NC program, 1-based.
-    pub line: u64,
+pub struct NcLine {
+    /// Its number, 1-based.
+    pub number: u64,
     /// What made it; [`MapReader::stack`] has its FIL lines.
     pub cause: Cause,
     /// Its words, in order.
     pub words: Vec<Word>,
 }
 
-impl Block {
-    /// The word at a byte of the block, from 0.
+impl NcLine {
+    /// The word at a byte of the line, from 0.
     pub fn word_at(&self, byte: usize) -> Option<&Word> {
         self.words.iter().find(|word| word.range.contains(&byte))
     }
@@ -78,11 +78,11 @@ pub struct Taken {
 }
 
 /// What a map tells, one after the other. Where a [`Taken`] stands among the
-/// blocks means nothing.
+/// lines means nothing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Entry {
-    /// A block.
-    Block(Block),
+    /// A line of the NC program; they come in order.
+    Line(NcLine),
     /// A record without effect.
     Taken(Taken),
 }
@@ -101,16 +101,15 @@ pub struct MapReader<R> {
     fil: Vec<MapFile>,
     sections: Vec<String>,
     stacks: Vec<Stack>,
-    /// Blocks that the last line promises, and those read.
+    /// Lines of the program that the last line promises, and those read.
     promised: u64,
-    blocks: u64,
-    nc_line: u64,
+    nc_lines: u64,
     over: bool,
 }
 
-/// A block's line: line, CL line, record, stack, words.
+/// A line of the program: CL line, record, words, and the stack if there is one.
 #[derive(Deserialize)]
-struct BlockLine<'a>(u64, u32, u32, u32, #[serde(borrow)] &'a str);
+struct NcLineLine<'a>(u32, u32, #[serde(borrow)] &'a str, #[serde(default)] u32);
 
 impl MapReader<File> {
     /// Opens a map.
@@ -147,8 +146,7 @@ impl<R: Read + Seek> MapReader<R> {
             sections: Vec::new(),
             stacks: Vec::new(),
             promised: 0,
-            blocks: 0,
-            nc_line: 0,
+            nc_lines: 0,
             over: false,
         };
         let header: Header = match reader.next_line()? {
@@ -166,7 +164,7 @@ impl<R: Read + Seek> MapReader<R> {
         let fil = header.fil.into_iter();
         reader.fil = fil.map(|fil| MapFile { name: fil.name, digest: fil.digest }).collect();
         reader.sections = header.sections;
-        reader.promised = end.blocks;
+        reader.promised = end.lines;
         Ok(reader)
     }
 
@@ -204,7 +202,7 @@ impl<R: Read + Seek> MapReader<R> {
     fn entry(&mut self) -> Result<Option<Entry>, Error> {
         while self.next_line()? {
             if self.line.first() == Some(&b'[') {
-                return self.block().map(|block| Some(Entry::Block(block)));
+                return self.nc_line().map(|line| Some(Entry::Line(line)));
             }
             if let Some(line) = parse::<ObjectLine>(&self.line) {
                 match line {
@@ -224,18 +222,16 @@ impl<R: Read + Seek> MapReader<R> {
         Err(self.broken("the map was cut off: its last line is missing"))
     }
 
-    fn block(&mut self) -> Result<Block, Error> {
-        let wrong = || self.broken("this is no block of a line map");
-        let BlockLine(line, cl_line, record, stack, words) =
-            parse(&self.line).ok_or_else(wrong)?;
-        let cause = Cause { record, line: cl_line, stack, ..Cause::default() };
+    fn nc_line(&mut self) -> Result<NcLine, Error> {
+        let wrong = || self.broken("this is no line of a line map");
+        let NcLineLine(line, record, words, stack) = parse(&self.line).ok_or_else(wrong)?;
+        let cause = Cause { record, line, stack, ..Cause::default() };
         let words = words::read(words, cause).ok_or_else(wrong)?;
         let stacks = words.iter().map(|word| word.cause.stack).chain([stack]);
         let known = stacks.max().is_none_or(|stack| stack as usize <= self.stacks.len());
-        self.known(known && line > self.nc_line)?;
-        self.nc_line = line;
-        self.blocks += 1;
-        Ok(Block { line, cause, words })
+        self.known(known)?;
+        self.nc_lines += 1;
+        Ok(NcLine { number: self.nc_lines, cause, words })
     }
 
     fn add_stack(&mut self, line: StackLine) -> Result<(), Error> {
@@ -257,8 +253,8 @@ impl<R: Read + Seek> MapReader<R> {
         if parse::<End>(&self.line).is_none() {
             return Err(self.broken("this is no line of a line map"));
         }
-        if self.blocks != self.promised {
-            let message = format!("{} blocks of {} are there", self.blocks, self.promised);
+        if self.nc_lines != self.promised {
+            let message = format!("{} lines of {} are there", self.nc_lines, self.promised);
             return Err(self.broken(&message));
         }
         if self.next_line()? {

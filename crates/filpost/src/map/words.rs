@@ -1,14 +1,15 @@
-//! The words of a block in a map: `N4@ X7:6 F5:4@12,9,0`.
+//! The words of a block in a map: `#4 X7:6 F5:4@12,9,0`.
 
 use std::ops::Range;
 
-use fil_post::tape::{SKIP, TEXT};
+use fil_post::tape::{SEQUENCE, SKIP, TEXT};
 use fil_post::{Cause, WordInfo};
 
 /// A word of a block.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Word {
-    /// Its letter, `A` to `Z`; `_` for a text, `/` for the block-delete character.
+    /// Its letter, `A` to `Z`; `_` for a text, `/` for the block-delete character,
+    /// `#` for a sequence number.
     pub letter: char,
     /// Byte range in the block, with the blank that follows.
     pub range: Range<usize>,
@@ -31,24 +32,29 @@ pub(super) fn write(words: &[WordInfo], end: usize, block: Cause, out: &mut Vec<
             out.push(b' ');
         }
         out.push(word.letter);
-        number((end - word.start) as u64, out);
+        number((end - word.start) as u32, out);
         let cause = word.cause;
         if cause.word != 0 {
             out.push(if cause.made_by_fil { b'*' } else { b':' });
-            number(u64::from(cause.word), out);
+            number(u32::from(cause.word), out);
         }
-        if !same_record(cause, block) {
+        if !same_record(cause, usual(word.letter, block)) {
             out.push(b'@');
             if !same_record(cause, Cause::default()) {
                 for (index, part) in [cause.line, cause.record, cause.stack].iter().enumerate() {
                     if index > 0 {
                         out.push(b',');
                     }
-                    number(u64::from(*part), out);
+                    number(*part, out);
                 }
             }
         }
     }
+}
+
+/// What words of a letter are due to unless they say otherwise.
+fn usual(letter: u8, block: Cause) -> Cause {
+    if letter == SEQUENCE { Cause::default() } else { block }
 }
 
 fn same_record(one: Cause, other: Cause) -> bool {
@@ -57,7 +63,7 @@ fn same_record(one: Cause, other: Cause) -> bool {
 
 /// Appends a number.
 #[inline]
-pub(super) fn number(number: u64, out: &mut Vec<u8>) {
+pub(super) fn number(number: u32, out: &mut Vec<u8>) {
     if number < 10 {
         out.push(b'0' + number as u8);
     } else {
@@ -75,7 +81,7 @@ pub(super) fn read(text: &str, block: Cause) -> Option<Vec<Word>> {
             let letter = characters.next().filter(|letter| known(*letter))?;
             let (shape, record) = match characters.as_str().split_once('@') {
                 Some((shape, record)) => (shape, record_of(record)?),
-                None => (characters.as_str(), block),
+                None => (characters.as_str(), usual(letter as u8, block)),
             };
             let by_fil = shape.contains('*');
             let (length, item) = match shape.split_once([':', '*']) {
@@ -91,7 +97,7 @@ pub(super) fn read(text: &str, block: Cause) -> Option<Vec<Word>> {
 }
 
 fn known(letter: char) -> bool {
-    letter.is_ascii_uppercase() || [TEXT, SKIP].map(char::from).contains(&letter)
+    letter.is_ascii_uppercase() || [TEXT, SKIP, SEQUENCE].map(char::from).contains(&letter)
 }
 
 fn record_of(text: &str) -> Option<Cause> {
@@ -127,7 +133,7 @@ mod tests {
     }
 
     fn letter() -> impl Strategy<Value = u8> {
-        prop_oneof![b'A'..=b'Z', Just(TEXT), Just(SKIP)]
+        prop_oneof![b'A'..=b'Z', Just(TEXT), Just(SKIP), Just(SEQUENCE)]
     }
 
     proptest! {
@@ -155,7 +161,7 @@ mod tests {
         }
 
         #[test]
-        fn no_text_is_too_strange(text in "[XN_/0-9:*@, é]{0,30}") {
+        fn no_text_is_too_strange(text in "[XN_/#0-9:*@, é]{0,30}") {
             let _ = read(&text, Cause::default());
         }
     }

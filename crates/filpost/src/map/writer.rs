@@ -2,8 +2,8 @@
 
 use std::io::{self, Write};
 
-use fil_post::tape::{Tape, TEXT};
-use fil_post::{BlockInfo, Stack};
+use fil_post::tape::{TEXT, Tape};
+use fil_post::{BlockInfo, Cause, Stack, WordInfo};
 use fil_vm::Module;
 use serde::Serialize;
 
@@ -22,9 +22,8 @@ pub(crate) struct Writer<'w> {
     lines: Vec<u8>,
     /// The first error of the output; after it nothing more is written.
     failure: Option<io::Error>,
-    /// Line of the NC program that the next block starts on.
-    nc_line: u64,
-    blocks: u64,
+    /// Lines of the NC program so far.
+    nc_lines: u64,
     stacks: usize,
     nc: Digesting,
 }
@@ -48,8 +47,7 @@ impl<'w> Writer<'w> {
             output,
             lines: Vec::with_capacity(FLUSH + FLUSH / 4),
             failure: None,
-            nc_line: 1,
-            blocks: 0,
+            nc_lines: 0,
             stacks: 0,
             nc: Digesting::default(),
         };
@@ -82,32 +80,55 @@ impl<'w> Writer<'w> {
     /// # Errors
     /// The first error of the output.
     pub fn finish(mut self, cl: Digest) -> io::Result<()> {
-        self.object(&End { blocks: self.blocks, cl, nc: self.nc.digest() });
+        self.object(&End { lines: self.nc_lines, cl, nc: self.nc.digest() });
         self.hand_out();
         self.failure.map_or_else(|| self.output.flush(), Err)
     }
 
     fn block(&mut self, block: &BlockInfo, tape: &Tape) {
         let noted = &tape.noted[block.words.clone()];
-        let cause = block.cause;
+        match noted.last() {
+            Some(word) if word.letter == TEXT => self.text_block(block, noted, *word, tape),
+            _ => self.nc_line(noted, block.range.end, block.cause),
+        }
+    }
+
+    /// A block that ends in a text, which a script can give line ends.
+    fn text_block(
+        &mut self,
+        block: &BlockInfo,
+        noted: &[WordInfo],
+        mut text: WordInfo,
+        tape: &Tape,
+    ) {
+        let mut first = Some(noted);
+        let whole = text.start..block.range.end;
+        let bytes = tape.text[whole.clone()].iter().enumerate();
+        let ends = bytes.filter(|(_, byte)| **byte == b'\n').map(|(at, _)| whole.start + at);
+        for end in ends.chain([whole.end]) {
+            match first.take() {
+                Some(words) => self.nc_line(words, end, block.cause),
+                None => self.nc_line(&[text], end, block.cause),
+            }
+            text.start = end + 1;
+        }
+    }
+
+    fn nc_line(&mut self, words: &[WordInfo], end: usize, cause: Cause) {
         let lines = &mut self.lines;
-        let parts = [cause.line, cause.record, cause.stack].map(u64::from);
         lines.push(b'[');
-        words::number(self.nc_line, lines);
-        for part in parts {
-            lines.push(b',');
-            words::number(part, lines);
-        }
+        words::number(cause.line, lines);
+        lines.push(b',');
+        words::number(cause.record, lines);
         lines.extend_from_slice(b",\"");
-        words::write(noted, block.range.end, cause, lines);
-        lines.extend_from_slice(b"\"]\n");
-        self.blocks += 1;
-        self.nc_line += 1;
-        // A script can put line ends into a text.
-        if noted.iter().any(|word| word.letter == TEXT) {
-            let text = &tape.text[block.range.clone()];
-            self.nc_line += text.iter().filter(|byte| **byte == b'\n').count() as u64;
+        words::write(words, end, cause, lines);
+        lines.push(b'"');
+        if cause.stack != 0 {
+            lines.push(b',');
+            words::number(cause.stack, lines);
         }
+        lines.extend_from_slice(b"]\n");
+        self.nc_lines += 1;
     }
 
     fn stack(&mut self, stack: &Stack) {
