@@ -9,11 +9,15 @@ fil_diag::codes! {
             "Mend what the warnings name, or leave --deny-warnings out.";
         /// Output over an input.
         OverInput = 802, Error, "the output would replace an input",
-            "Two files of this run are the same file.",
+            "Two files of this run are the same file, or --map names a file that is there and is no line map.",
             "Choose another name for the output.";
         /// `filpost test` without cases.
         NoCases = 803, Error, "no regression cases",
             "A test run without cases would prove nothing.",
             "Name a folder that holds folders with a case.toml.";
+        /// `filpost trace` without a line.
+        NoLine = 804, Error, "no line to trace",
+            "A question is FILE:LINE, of an NC program also FILE:LINE:COLUMN.",
+            "Put a colon and the number of the line after the name of the file.";
     }
 }

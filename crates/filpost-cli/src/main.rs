@@ -20,6 +20,7 @@ mod sarif;
 mod setup;
 mod summary;
 mod test;
+mod trace;
 
 use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind};
 use std::process::ExitCode;
@@ -65,6 +66,7 @@ fn run(command: &Command) -> Result<Status, Error> {
         Command::Fmt(args) => fmt::run(args),
         Command::Cl(args) => cl::run(args),
         Command::Test(args) => test::run(args),
+        Command::Trace(args) => trace::run(args),
         Command::Explain(args) => explain::run(&args.subject),
         Command::Machine(args) => machine::run(args),
         Command::Completions { shell } => {

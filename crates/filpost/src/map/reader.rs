@@ -188,6 +188,11 @@ impl<R: Read + Seek> MapReader<R> {
         &self.sections
     }
 
+    /// Number of lines of the NC program.
+    pub fn nc_lines(&self) -> u64 {
+        self.promised
+    }
+
     /// The FIL call stack of a cause; `None` where no FIL was running. The
     /// stacks of all entries read so far are known.
     pub fn stack(&self, cause: Cause) -> Option<&Stack> {
