@@ -15,6 +15,10 @@ fil_diag::codes! {
         NoCases = 803, Error, "no regression cases",
             "A test run without cases would prove nothing.",
             "Name a folder that holds folders with a case.toml.";
+        /// A folder without CL files.
+        NoClFiles = 805, Error, "no CL files in this folder",
+            "Of a folder those files are posted that end as CL files do; folders in it are not looked into.",
+            "Name the folder that holds the CL files, or name the files themselves.";
         /// `filpost trace` without a line.
         NoLine = 804, Error, "no line to trace",
             "A question is FILE:LINE, of an NC program also FILE:LINE:COLUMN.",

@@ -39,10 +39,9 @@ enum Status {
     Failed = 1,
     /// The command was not used as it is meant; it has been reported.
     Usage = 2,
+    /// An internal fault; it has been reported.
+    Fault = 3,
 }
-
-/// Exit status of an internal fault.
-const FAULT: u8 = 3;
 
 fn main() -> ExitCode {
     std::panic::set_hook(Box::new(report_fault));
@@ -54,7 +53,7 @@ fn main() -> ExitCode {
             }
             Status::Failed as u8
         }
-        Err(_) => FAULT,
+        Err(_) => Status::Fault as u8,
     };
     ExitCode::from(status)
 }

@@ -85,16 +85,9 @@ impl Map<'_> {
             return Err(no_line(place, self.reader.nc_lines()));
         }
         for entry in self.reader.by_ref() {
-            if let Entry::Line(mut line) = entry? {
-                if line.number == place.line {
-                    if let Some(column) = place.column {
-                        let byte = files.nc_byte(place.line, column)?;
-                        let byte = byte.filter(|byte| line.word_at(*byte).is_some());
-                        let byte = byte.ok_or_else(|| no_column(place, column))?;
-                        line.words.retain(|word| word.range.contains(&byte));
-                    }
-                    return Ok(Found { lines: vec![line], in_all: 1 });
-                }
+            match entry? {
+                Entry::Line(line) if line.number == place.line => return asked(line, place, files),
+                _ => {}
             }
         }
         Err(no_line(place, self.reader.nc_lines()))
@@ -224,6 +217,16 @@ impl Map<'_> {
             fil: steps.collect(),
         }
     }
+}
+
+/// The line asked for, or its word at the column asked for.
+fn asked(mut line: NcLine, place: &Place, files: &RunFiles) -> Result<Found, Error> {
+    if let Some(column) = place.column {
+        let byte = files.nc_byte(place.line, column)?;
+        let word = byte.and_then(|byte| line.word_at(byte)).cloned();
+        line.words = vec![word.ok_or_else(|| no_column(place, column))?];
+    }
+    Ok(Found { lines: vec![line], in_all: 1 })
 }
 
 /// Column, from 1 and in characters, of a byte of a line.
