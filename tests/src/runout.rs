@@ -6,6 +6,8 @@
 //! about Y that holds the tool along +X at B0. C and B count as motion of the tool
 //! relative to the part. X Y Z is the place of the tip while the head stands at B0.
 
+pub mod drawing;
+
 use std::fmt::Write as _;
 
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
@@ -268,10 +270,12 @@ fn of_turn(path: &[Axes], height: f64, cylinder: &Cylinder) -> Residual {
     Residual { run_out: high - low, ..worst }
 }
 
-/// C and the distance of the tip from the surface, along a program.
+/// C, from 0 to 360, and the distance of the tip from the surface in the middle turn of a
+/// program of [`cl_file`].
 pub fn deviations(nc: &str, cylinder: &Cylinder) -> Vec<[f64; 2]> {
-    let path = between(&positions(nc));
-    path.iter().map(|axes| [axes[4], cylinder.deviation(&tool(axes).0)]).collect()
+    let path = between(&positions(nc)[POINTS..2 * POINTS]);
+    let start = path[0][4];
+    path.iter().map(|axes| [axes[4] - start, cylinder.deviation(&tool(axes).0)]).collect()
 }
 
 fn between(path: &[Axes]) -> Vec<Axes> {

@@ -19,14 +19,17 @@ fn read(name: &str) -> String {
     std::fs::read_to_string(root().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-/// README.md and the pages of docs/, without those of the codes.
+/// README.md and the pages of docs/ and docs/papers/.
 fn pages() -> Vec<(String, String)> {
     let mut pages = vec![("README.md".to_string(), read("README.md"))];
-    for entry in std::fs::read_dir(root().join("docs")).expect("docs/ is there") {
-        let path = entry.expect("an entry").path();
-        if path.extension().is_some_and(|ending| ending == "md") {
-            let name = format!("docs/{}", path.file_name().expect("a name").to_string_lossy());
-            pages.push((name.clone(), read(&name)));
+    for folder in ["docs", "docs/papers"] {
+        for entry in std::fs::read_dir(root().join(folder)).expect("the folder is there") {
+            let path = entry.expect("an entry").path();
+            if path.extension().is_some_and(|ending| ending == "md") {
+                let file = path.file_name().expect("a name").to_string_lossy();
+                let name = format!("{folder}/{file}");
+                pages.push((name.clone(), read(&name)));
+            }
         }
     }
     pages.sort();
