@@ -130,9 +130,9 @@ pub fn compare(first: &Program, second: &Program, options: &Options) -> Comparis
     for [one, two] in &pairs {
         match (one.map(|at| &first.lines[at]), two.map(|at| &second.lines[at])) {
             (Some(one), Some(two)) => pair::compare(one, two, options, &mut found),
-            (Some(one), None) => found.only([Some(one.block.line), None]),
-            (None, Some(two)) => found.only([None, Some(two.block.line)]),
-            (None, None) => {}
+            (Some(one), None) if !one.silent => found.only([Some(one.block.line), None]),
+            (None, Some(two)) if !two.silent => found.only([None, Some(two.block.line)]),
+            _ => {}
         }
     }
     let lines = |pair: &[Option<usize>; 2]| {

@@ -231,9 +231,17 @@ pub(super) fn unlike(one: &Line, two: &Line, options: &Options) -> f64 {
     compare_functions(pair, b'M', options, &mut found);
     total += functions(one).max(functions(two)) as f64;
     cost += found.differences.len() as f64;
-    if one.block.comments != two.block.comments || one.block.tape_mark != two.block.tape_mark {
+    if one.block.tape_mark != two.block.tape_mark {
+        return 1.0;
+    }
+    let comments = [one, two].map(|line| !line.block.comments.is_empty());
+    if comments[0] || comments[1] {
         total += 1.0;
-        cost += 1.0;
+        cost += match comments {
+            [true, true] if one.block.comments == two.block.comments => 0.0,
+            [true, true] => 0.5,
+            _ => 1.0,
+        };
     }
     if total > 0.0 { (cost / total).min(1.0) } else { 0.0 }
 }

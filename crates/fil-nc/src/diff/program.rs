@@ -17,6 +17,8 @@ pub(super) struct Line {
     pub block: Block,
     pub before: Modal,
     pub after: Modal,
+    /// It only repeats what is in force.
+    pub silent: bool,
     /// The same for blocks that say the same.
     pub token: u64,
 }
@@ -24,7 +26,7 @@ pub(super) struct Line {
 /// A program read for a comparison.
 #[derive(Clone, Debug, Default)]
 pub struct Program {
-    /// Lines that say anything.
+    /// Lines that are not empty.
     pub(super) lines: Vec<Line>,
     texts: Vec<String>,
 }
@@ -50,10 +52,12 @@ impl Program {
             leave_out(&mut block, options);
             let before = modal.clone();
             modal.take(&block);
-            if !says_nothing(&block, &before, &modal, options) {
-                let token = token(&block, &before, &modal);
-                program.lines.push(Line { block, before, after: modal.clone(), token });
+            if is_empty(&block) {
+                continue;
             }
+            let silent = !options.modal && only_repeats(&block, &before, &modal);
+            let token = token(&block, |word| !silent && repeats(word, &before, &modal));
+            program.lines.push(Line { block, before, after: modal.clone(), silent, token });
         }
         Ok(program)
     }
@@ -88,17 +92,18 @@ fn without_dates(text: &str) -> String {
     words.collect::<Vec<_>>().join(" ")
 }
 
-/// A block that is empty or only repeats what is in force.
-fn says_nothing(block: &Block, before: &Modal, after: &Modal, options: &Options) -> bool {
-    if block.tape_mark || block.skip || !block.comments.is_empty() {
-        return false;
-    }
-    if options.modal {
-        return block.words.is_empty();
-    }
+fn is_empty(block: &Block) -> bool {
+    let marked = block.tape_mark || block.skip;
+    !marked && block.words.is_empty() && block.comments.is_empty()
+}
+
+/// A block that changes nothing: a cycle would drill again at the same place.
+fn only_repeats(block: &Block, before: &Modal, after: &Modal) -> bool {
     let drills =
         after.in_cycle() && block.words.iter().any(|word| b"XYZABC".contains(&word.letter));
-    !drills && block.words.iter().all(|word| word.letter == b'N' || repeats(word, before, after))
+    let marked = block.tape_mark || block.skip || !block.comments.is_empty();
+    let repeated = |word: &Word| word.letter == b'N' || repeats(word, before, after);
+    !drills && !marked && block.words.iter().all(repeated)
 }
 
 /// The word says what is in force already.
@@ -118,12 +123,12 @@ fn repeats(word: &Word, before: &Modal, after: &Modal) -> bool {
     }
 }
 
-/// A hash of what a block says, without its number and without repetitions.
-fn token(block: &Block, before: &Modal, after: &Modal) -> u64 {
+/// A hash of what a block says, without its number and what is left out.
+fn token(block: &Block, left_out: impl Fn(&Word) -> bool) -> u64 {
     let mut said: Vec<(u8, Option<u32>, i64)> = block
         .words
         .iter()
-        .filter(|word| word.letter != b'N' && !repeats(word, before, after))
+        .filter(|word| word.letter != b'N' && !left_out(word))
         .map(|word| (word.letter, word.index, (word.number.value() * STEPS).round() as i64))
         .collect();
     said.sort_unstable();
