@@ -81,6 +81,7 @@ fn word(letter: u8, values: [Option<f64>; 2]) -> String {
         b'T' => "tool".to_string(),
         b'H' => "length offset".to_string(),
         b'D' => "radius offset".to_string(),
+        b'O' => "program number".to_string(),
         letter => char::from(letter).to_string(),
     };
     match values {
@@ -90,7 +91,7 @@ fn word(letter: u8, values: [Option<f64>; 2]) -> String {
             match letter {
                 b'Z' if two < one => format!("Z deeper by {step} ({instead})"),
                 b'Z' => format!("Z higher by {step} ({instead})"),
-                b'T' | b'H' | b'D' => format!("{name} {instead}"),
+                b'T' | b'H' | b'D' | b'O' => format!("{name} {instead}"),
                 _ => format!(
                     "{name} {} by {step} ({instead})",
                     if two > one { "more" } else { "less" }
