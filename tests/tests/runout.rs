@@ -397,6 +397,7 @@ fn bad_inputs_are_refused_in_words() {
         ("unknown-form", "RUNOUT needs PROBE, TOLER, ON, POINTS or OFF"),
         ("tolerance", "RUNOUT/TOLER is above 0 and at most 0.1 mm"),
         ("other-table", "the machine has no table about Z through X0 Y0"),
+        ("inches", "RUNOUT counts in mm, and this CL file in inches"),
         ("four-axes", "tool axis"),
     ];
     let folder = root().join("corpus/papers/run-out-refused");
