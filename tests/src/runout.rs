@@ -63,7 +63,7 @@ impl Cylinder {
 
     /// How far a point lies outside of the surface.
     pub fn deviation(&self, point: &Point3<f64>) -> f64 {
-        self.from_axis(point).norm() - RADIUS
+        self.off_axis(point).norm() - RADIUS
     }
 
     /// What the probe reads at a height while the table stands at C: where a line from
@@ -71,7 +71,7 @@ impl Cylinder {
     pub fn reading(&self, height: f64, c: f64) -> f64 {
         let start = Point3::new(0.0, 0.0, height);
         let out = Rotation3::from_axis_angle(&Vector3::z_axis(), c.to_radians()) * Vector3::x();
-        let at = self.from_axis(&start);
+        let at = self.off_axis(&start);
         let flat = out - self.axis.scale(self.axis.dot(&out));
         let (a, b, c) = (flat.dot(&flat), at.dot(&flat), at.dot(&at) - RADIUS * RADIUS);
         (-b + (b * b - a * c).sqrt()) / a
@@ -84,7 +84,7 @@ impl Cylinder {
         self.foot + tilt.unwrap_or_else(Rotation3::identity) * point.coords
     }
 
-    fn from_axis(&self, point: &Point3<f64>) -> Vector3<f64> {
+    fn off_axis(&self, point: &Point3<f64>) -> Vector3<f64> {
         let from = point - self.foot;
         from - self.axis.scale(self.axis.dot(&from))
     }
@@ -95,7 +95,7 @@ impl Cylinder {
 pub enum Search {
     /// From four touches a quarter turn apart.
     FourTouches,
-    /// The least of all readings, one degree apart, within half a turn.
+    /// The least of 360 readings, one degree apart.
     Lowest,
 }
 
@@ -135,7 +135,7 @@ impl Probe {
         Probed { height, least: at(c), largest: at(c + 180.0) }
     }
 
-    /// As the paper puts it: within half a turn, which must hold the least reading.
+    /// A search that compares readings, as the paper seems to do.
     fn lowest(&mut self, cylinder: &Cylinder, height: f64) -> f64 {
         let readings: Vec<f64> =
             (0..360).map(|c| self.read(cylinder, height, f64::from(c))).collect();
@@ -259,6 +259,7 @@ fn of_turn(path: &[Axes], height: f64, cylinder: &Cylinder) -> Residual {
         let angle = (STEP * index) as f64 / BETWEEN as f64;
         let (tip, held) = tool(axes);
         let off = cylinder.deviation(&tip);
+        assert!(off.is_finite(), "{axes:?}");
         (low, high) = (low.min(off), high.max(off));
         worst = worst.worse(Residual {
             radial: off.abs(),
