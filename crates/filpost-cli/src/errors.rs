@@ -15,13 +15,21 @@ fil_diag::codes! {
         NoCases = 803, Error, "no regression cases",
             "A test run without cases would prove nothing.",
             "Name a folder that holds folders with a case.toml.";
-        /// A folder without CL files.
-        NoClFiles = 805, Error, "no CL files in this folder",
-            "Of a folder those files are posted that end as CL files do; folders in it are not looked into.",
-            "Name the folder that holds the CL files, or name the files themselves.";
+        /// `filpost test --init` over a case.
+        CaseExists = 804, Error, "the folder holds a case already",
+            "A case that is there may be proof of something; it is not replaced.",
+            "Choose another folder, or remove the old case.";
+        /// Two files of one name in a case to be.
+        SameName = 805, Error, "two files of the case have one name",
+            "All files of a case lie in its folder.",
+            "Give one of them another name.";
         /// `filpost trace` without a line.
-        NoLine = 804, Error, "no line to trace",
+        NoLine = 806, Error, "no line to trace",
             "A question is FILE:LINE, of an NC program also FILE:LINE:COLUMN.",
             "Put a colon and the number of the line after the name of the file.";
+        /// A folder without CL files.
+        NoClFiles = 807, Error, "no CL files in this folder",
+            "Of a folder those files are posted that end as CL files do; folders in it are not looked into.",
+            "Name the folder that holds the CL files, or name the files themselves.";
     }
 }

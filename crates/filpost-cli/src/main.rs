@@ -7,6 +7,7 @@ mod args;
 mod batch;
 mod check;
 mod cl;
+mod diff;
 mod errors;
 mod explain;
 mod fmt;
@@ -64,10 +65,18 @@ fn run(command: &Command) -> Result<Status, Error> {
         Command::Check(args) => check::run(args),
         Command::Fmt(args) => fmt::run(args),
         Command::Cl(args) => cl::run(args),
+        Command::Diff(args) => diff::run(args),
         Command::Test(args) => test::run(args),
         Command::Trace(args) => trace::run(args),
         Command::Explain(args) => explain::run(&args.subject),
         Command::Machine(args) => machine::run(args),
+        Command::Man => {
+            let mut page = Vec::new();
+            let written = clap_mangen::Man::new(Args::command()).render(&mut page);
+            written.map_err(|error| output::stdout_error(&error))?;
+            output::print(&page)?;
+            Ok(Status::Done)
+        }
         Command::Completions { shell } => {
             let mut text = Vec::new();
             clap_complete::generate(*shell, &mut Args::command(), "filpost", &mut text);

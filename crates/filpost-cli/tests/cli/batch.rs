@@ -85,7 +85,7 @@ fn what_makes_no_sense_for_several_files_is_wrong_usage() {
         assert_eq!(ran.status, 2, "{more:?}: {ran:?}");
     }
     let empty = place.folder("empty").run(&["post", "empty"]);
-    assert!(empty.status == 1 && empty.err.contains("E0805"), "{empty:?}");
+    assert!(empty.status == 1 && empty.err.contains("E0807"), "{empty:?}");
 }
 
 #[test]

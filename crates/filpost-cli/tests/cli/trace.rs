@@ -192,6 +192,6 @@ fn places_that_are_not_there_are_refused() {
     }
     for question in ["part.tap", "part.tap:x", ":3"] {
         let ran = place.run(&["trace", question]);
-        assert!(ran.status == 2 && ran.err.contains("E0804"), "{question}: {ran:?}");
+        assert!(ran.status == 2 && ran.err.contains("E0806"), "{question}: {ran:?}");
     }
 }
