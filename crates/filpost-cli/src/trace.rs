@@ -96,7 +96,7 @@ fn block(text: &mut String, answer: &Answer, line: &Line) {
     }
     let width = line.words.iter().filter_map(|word| word.text.as_deref());
     let width = width.map(|word| word.chars().count().min(WIDEST)).max().unwrap_or(0);
-    let mut told = BTreeSet::new();
+    let mut told: BTreeSet<u32> = answer.record.iter().map(|asked| asked.number).collect();
     for word in &line.words {
         let shown = word.text.clone().unwrap_or_else(|| word.letter.to_string());
         let _ = writeln!(text, "    {shown:width$}  {}", due(word, &line.made, &mut told));
