@@ -120,12 +120,11 @@ impl Groove {
             .find(|layer| (floors[*layer] - floor).abs() < FINE)
             .ok_or_else(|| format!("depth {floor} is the floor of no layer"))?;
         let (top, floor) = (floors[layer - 1], floors[layer]);
-        let chip = self.take(thread, place, depth, |level| match pass.cycle {
-            Cycle::G76(number) => {
-                level > top + law(thread, floor - top, number - 1) - BETWEEN
-            }
-            Cycle::G92 => level > top - BETWEEN,
-        })?;
+        let roughed = match pass.cycle {
+            Cycle::G76(number) => top + law(thread, floor - top, number - 1),
+            Cycle::G92 => top,
+        };
+        let chip = self.take(thread, place, depth, [top, roughed])?;
         found.cutting += usize::from(chip > BETWEEN);
         let outer = thread.span(floor) / 2.0;
         match pass.cycle {
@@ -134,7 +133,7 @@ impl Groove {
                 if (depth - wanted).abs() > FINE {
                     return Err(format!("pass {number} of G76 at {depth:.4} for {wanted:.4}"));
                 }
-                if chip < thread.nose - BETWEEN {
+                if wanted - roughed > 2.0 * BETWEEN && chip < thread.nose - BETWEEN {
                     return Err(format!("pass {number} of G76 cuts air"));
                 }
                 if (place + outer).abs() > FINE {
@@ -160,22 +159,27 @@ impl Groove {
         Ok(())
     }
 
-    /// Takes the tool's outline away; the widest chip at one depth.
+    /// Takes the tool's outline away; the widest chip at one depth. Nothing may
+    /// be left above the first depth given, and nothing under the nose above the
+    /// second: the edges of the tool widen what is roughed on their way down.
     ///
     /// # Errors
-    /// A chip at a depth where this pass has none to take.
+    /// A chip where this pass has none to take.
     fn take(
         &mut self,
         thread: &Thread,
         place: f64,
         depth: f64,
-        due: impl Fn(f64) -> bool,
+        [top, roughed]: [f64; 2],
     ) -> Result<f64, String> {
         let mut widest: f64 = 0.0;
+        let nose = thread.nose / 2.0;
         for level in self.levels.iter_mut().filter(|level| level.depth <= depth) {
-            let half = thread.nose / 2.0 + (depth - level.depth) * thread.edge();
+            let half = nose + (depth - level.depth) * thread.edge();
+            let under = length(&level.left([place - nose, place + nose]));
             let chip = level.take([place - half, place + half]);
-            if chip > BETWEEN && !due(level.depth) {
+            let due = if under > BETWEEN { roughed } else { top };
+            if chip > BETWEEN && level.depth < due - BETWEEN {
                 return Err(format!("deeper than its law: it meets stock {:.4} deep", level.depth));
             }
             widest = widest.max(chip);
@@ -227,7 +231,7 @@ impl Level {
 
     /// Cuts an interval; how much of it was stock.
     fn take(&mut self, [mut from, mut to]: [f64; 2]) -> f64 {
-        let chip = self.left([from, to]).iter().map(|[low, high]| high - low).sum();
+        let chip = length(&self.left([from, to]));
         self.cut.retain(|[low, high]| {
             let apart = *high < from || *low > to;
             if !apart {
@@ -239,6 +243,10 @@ impl Level {
         self.cut.insert(position, [from, to]);
         chip
     }
+}
+
+fn length(pieces: &[[f64; 2]]) -> f64 {
+    pieces.iter().map(|[low, high]| high - low).sum()
 }
 
 /// Depth of a pass of G76 below the top of its layer: D1*sqrt(i), the layer's
