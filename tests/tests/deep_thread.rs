@@ -6,6 +6,7 @@ use std::io::Cursor;
 use std::sync::{Arc, Mutex};
 
 use filpost::{Error, Post, WhatHappened};
+use filpost_tests::examples::blocks;
 use filpost_tests::root;
 use filpost_tests::thread::Thread;
 use filpost_tests::thread::section::{self, Cut};
@@ -430,6 +431,21 @@ fn bad_input_is_refused_in_clear_words() {
         let text = error.to_string();
         assert!(text.contains("E0325") && text.contains(message), "{new} for {old}: {text}");
     }
+}
+
+/// The page shows the case, its program and its table.
+#[test]
+fn the_page_shows_what_is_written() {
+    let page = std::fs::read_to_string(root().join("docs/papers/deep-thread.md")).expect("a page");
+    let shown = |word: &str| {
+        let block = blocks(&page).into_iter().find(|block| block.words == [word]);
+        block.unwrap_or_else(|| panic!("no `{word}` block")).text
+    };
+    let cl = case("deep-thread-worm", "part.ncl");
+    let (nc, messages) = post(&[SCRIPT], &cl).expect("the case is posted");
+    assert_eq!(shown("cl"), cl);
+    assert_eq!(shown("nc"), nc);
+    assert_eq!(shown("text"), messages.join("\n") + "\n");
 }
 
 #[test]
