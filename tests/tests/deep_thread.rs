@@ -6,7 +6,7 @@ use std::io::Cursor;
 use std::sync::{Arc, Mutex};
 
 use filpost::{Error, Post, WhatHappened};
-use filpost_tests::examples::blocks;
+use filpost_tests::examples::{Block, blocks};
 use filpost_tests::root;
 use filpost_tests::thread::Thread;
 use filpost_tests::thread::section::{self, Cut};
@@ -148,6 +148,9 @@ prop_compose! {
             layers,
         };
         thread.pitch = thousandths(2.0 * thread.half_width(0.0) + crest_width) + 0.001;
+        // No layer has more than 99 shifts.
+        let least = thousandths(thread.span(thread.layers[0]) / 90.0) + 0.001;
+        thread.shift = thread.shift.max(least).min(nose);
         let highest = thread.layers.iter().copied().fold(0.0, f64::max);
         let stair = highest * (thread.flank() - thread.edge());
         thread.tolerance = thousandths(stair) + 0.001;
@@ -196,8 +199,8 @@ prop_compose! {
 /// Runs a property on 400 threads.
 fn for_each(threads: impl Strategy<Value = Thread>, holds: impl Fn(Thread) -> Result<(), String>) {
     let config = Config { cases: 400, failure_persistence: None, ..Config::default() };
-    let result = TestRunner::new(config)
-        .run(&threads, |thread| holds(thread).map_err(TestCaseError::fail));
+    let result =
+        TestRunner::new(config).run(&threads, |thread| holds(thread).map_err(TestCaseError::fail));
     result.unwrap_or_else(|error| panic!("{error}"));
 }
 
@@ -362,7 +365,8 @@ fn the_listing_has_the_depths_of_g76() {
 /// The blocks of the thread without their numbers.
 fn thread_blocks(nc: &str) -> Vec<String> {
     let blocks = nc.lines().filter_map(|line| line.split_once(' ').map(|(_, block)| block));
-    let of_thread = |block: &&str| ["G0 ", "G76 ", "G92 "].iter().any(|code| block.starts_with(code));
+    let of_thread =
+        |block: &&str| ["G0 ", "G76 ", "G92 "].iter().any(|code| block.starts_with(code));
     blocks.filter(of_thread).map(str::to_string).collect()
 }
 
@@ -419,7 +423,11 @@ fn bad_input_is_refused_in_clear_words() {
         ("LAYER, 2,2,2", "LAYER, 6,0", "a layer of 0 is not above zero"),
         ("WIDTH, 3", "WIDHT, 3", "is no word of a deep thread"),
         ("CUTTER, 2.4", "CUTTER, 3.1", "no pass fits: the tool nose is 3.1 wide, the root 3"),
-        ("CUTTER, 2.4, 40", "CUTTER, 2.4, 60", "no pass fits: the tool has 60 degrees, the profile 40"),
+        (
+            "CUTTER, 2.4, 40",
+            "CUTTER, 2.4, 60",
+            "no pass fits: the tool has 60 degrees, the profile 40",
+        ),
         ("CUTTER, 2.4, 40", "CUTTER, 2.4, 30", "layer 1 leaves 0.180 on the flank, TOLER is 0.02"),
         ("TO, 30, 0, -80", "TO, 28, 0, -80", "x1 30 and x2 28 make a cone: not covered"),
         ("AUTO, 30, 0, 20, TO, 30", "AUTO, 5, 0, 20, TO, 5", "radius 5: no room to the axis"),
@@ -437,15 +445,15 @@ fn bad_input_is_refused_in_clear_words() {
 #[test]
 fn the_page_shows_what_is_written() {
     let page = std::fs::read_to_string(root().join("docs/papers/deep-thread.md")).expect("a page");
-    let shown = |word: &str| {
-        let block = blocks(&page).into_iter().find(|block| block.words == [word]);
-        block.unwrap_or_else(|| panic!("no `{word}` block")).text
+    let shown = |word: &str, heading: &str| {
+        let fits = |block: &Block<'_>| block.words == [word] && block.heading == heading;
+        blocks(&page).into_iter().find(fits).unwrap_or_else(|| panic!("no `{word}` block")).text
     };
     let cl = case("deep-thread-worm", "part.ncl");
     let (nc, messages) = post(&[SCRIPT], &cl).expect("the case is posted");
-    assert_eq!(shown("cl"), cl);
-    assert_eq!(shown("nc"), nc);
-    assert_eq!(shown("text"), messages.join("\n") + "\n");
+    assert_eq!(shown("text", "The CL file"), cl);
+    assert_eq!(shown("nc", "The program"), nc);
+    assert_eq!(shown("text", "The program"), messages.join("\n") + "\n");
 }
 
 #[test]

@@ -54,7 +54,9 @@ pub struct Program {
 pub fn read(nc: &str) -> Result<Program, String> {
     let mut reader = Reader::default();
     for (index, block) in nc.lines().enumerate() {
-        reader.block(index + 1, block).map_err(|reason| format!("NC line {}: {reason}", index + 1))?;
+        reader
+            .block(index + 1, block)
+            .map_err(|reason| format!("NC line {}: {reason}", index + 1))?;
     }
     Ok(reader.program)
 }
@@ -97,7 +99,8 @@ impl Reader {
 
     fn g76(&mut self, line: usize, block: &Block) -> Result<(), String> {
         if block.get('A')? != 0.0 {
-            return Err("G76 with an infeed along the flank: where its groove lies is not known".to_string());
+            return Err("G76 with an infeed along the flank: where its groove lies is not known"
+                .to_string());
         }
         let (height, first) = (block.get('K')?, block.get('D')?);
         if height <= 0.0 || first <= 0.0 {

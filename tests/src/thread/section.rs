@@ -108,7 +108,13 @@ impl Groove {
     }
 
     /// Cuts with one pass.
-    fn pass(&mut self, thread: &Thread, pass: &Pass, place: f64, found: &mut Cut) -> Result<(), String> {
+    fn pass(
+        &mut self,
+        thread: &Thread,
+        pass: &Pass,
+        place: f64,
+        found: &mut Cut,
+    ) -> Result<(), String> {
         let depth = thread.inwards() * (thread.crest - pass.radius);
         found.gouge = found.gouge.max(gouge(thread, place, depth));
         if found.gouge > FINE {
