@@ -114,7 +114,7 @@ impl Thread {
         let layers = layers.join(",");
         format!(
             "PARTNO / 90\nUNITS / MM\nLOADTL / 3\nSPINDL / RPM, 200, CLW\n\
-             THREAD / AUTO, {crest}, 0, {start}, TO, {crest}, 0, {end}, TPI, {pitch}, $\n \
+             THREAD / AUTO, {crest}, 0, {start}, TO, {crest}, 0, {end}, MMPR, {pitch}, $\n \
              DEEP, {first}, LAST, {finish}, TYPE, 0, {height}, {angle}, IPM, 100, $\n \
              FEDTO, {clearance}, {side}, TIMES, {starts}, OFSETL, 0, {shift}, $\n \
              LAYER, {layers}, WIDTH, {root}, CUTTER, {nose}, {tool_angle}, TOLER, {tolerance}\n\

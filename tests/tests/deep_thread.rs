@@ -333,6 +333,17 @@ fn each_rule_of_the_section_can_fail() {
     assert!(judge(&ground, &nc).unwrap_err().contains("left on the flank"));
 }
 
+/// The record is in the unit of the CL file, and says so.
+#[test]
+fn a_thread_in_inches_is_cut_too() {
+    let inches = |cl: &str| cl.replace("UNITS / MM", "UNITS / INCHES");
+    let cl = inches(&worm().cl());
+    let (nc, _) = post(&[SCRIPT], &cl.replace("MMPR", "IPR")).expect("the thread is posted");
+    assert!(nc.contains("G20"), "{nc}");
+    judge(&worm(), &nc).expect("the program is right");
+    assert!(post(&[SCRIPT], &cl).unwrap_err().to_string().contains("lacks IPR"));
+}
+
 /// The table of the listing against the law D1*sqrt(i).
 #[test]
 fn the_listing_has_the_depths_of_g76() {
@@ -406,9 +417,10 @@ fn one_record_writes_what_the_published_scripts_write_layer_by_layer() {
 fn bad_input_is_refused_in_clear_words() {
     let cl = worm().cl();
     for (old, new, message) in [
-        ("TPI, 12,", "", "the record lacks TPI,pitch"),
-        ("TPI, 12", "TPI, 0", "the pitch of 0 is not above zero"),
-        ("TPI, 12", "TPI, 7", "the groove is 7.368 wide at the crest, the pitch is 7"),
+        ("MMPR, 12,", "", "the record lacks MMPR,pitch"),
+        ("MMPR, 12", "TPI, 12", "TPI can mean two things here"),
+        ("MMPR, 12", "MMPR, 0", "the pitch of 0 is not above zero"),
+        ("MMPR, 12", "MMPR, 7", "the groove is 7.368 wide at the crest, the pitch is 7"),
         ("DEEP, 0.8, ", "", "the record lacks DEEP,first depth"),
         ("DEEP, 0.8", "DEEP, 0.1", "layer 1: more than 99 passes of G76"),
         ("TYPE, 0, 6, 40,", "TYPE, 0, 6,", "a number is missing in TYPE,0,height,angle"),
