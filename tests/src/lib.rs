@@ -13,6 +13,7 @@ pub mod path;
 pub mod picture;
 pub mod programs;
 pub mod rs274;
+pub mod runout;
 pub mod thread;
 
 /// The folder of the workspace.

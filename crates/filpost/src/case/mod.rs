@@ -1,0 +1,198 @@
+//! Regression cases: a folder with `case.toml`, a CL file, a post and the NC
+//! program it must give.
+//!
+//! `case.toml`: `cl`; `ready`, `machine` (machine.toml) or `option_file`; `fil` (a file or a
+//! list); `set` (list of `key=value`); `compat`; `strict`; `read` (a folder for scripts);
+//! `clock`; `expect` (NC file) or `expect_error` (code); `listing` (its expected text);
+//! `tolerance`, `ignore`, `diameter` (how the NC programs are compared; letter by letter
+//! when none is given); `expect_warnings`; `expect_at` (`file:line` of the error or of the
+//! first warning expected); `origin` and `repairs` for people.
+
+mod outcome;
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use fil_diag::Diag;
+use fil_nc::diff;
+use fil_vm::Moment;
+use serde::Deserialize;
+
+use crate::builder::{Builder, Post};
+use crate::error::{Error, RunCode};
+use crate::files;
+use crate::granted::Clock;
+use crate::includes;
+
+pub use outcome::{Fresh, Outcome, Verdict};
+
+/// The text of a `case.toml`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CaseFile {
+    /// The CL file.
+    pub cl: String,
+    /// A ready post.
+    pub ready: Option<String>,
+    /// A `machine.toml`.
+    pub machine: Option<String>,
+    /// An option file.
+    pub option_file: Option<String>,
+    /// FIL files, in order.
+    #[serde(default)]
+    pub fil: Vec<String>,
+    /// Settings on top.
+    #[serde(default)]
+    pub set: Vec<String>,
+    /// A compat file.
+    pub compat: Option<String>,
+    /// A folder that scripts may read.
+    pub read: Option<String>,
+    /// The moment of DATEF and TIMEF, as `2026-01-31T12:00:00`.
+    pub clock: Option<String>,
+    /// Refuse extensions.
+    #[serde(default)]
+    pub strict: bool,
+    /// The expected NC program.
+    pub expect: Option<String>,
+    /// The expected listing.
+    pub listing: Option<String>,
+    /// Largest difference of a length or an angle that is none; with it, or with
+    /// `ignore`, programs are compared as a control reads them.
+    pub tolerance: Option<f64>,
+    /// What that comparison leaves out: `n`, `comments`, `dates`, `points`, letters.
+    #[serde(default)]
+    pub ignore: Vec<String>,
+    /// X of that comparison is written as a diameter.
+    #[serde(default)]
+    pub diameter: bool,
+    /// The code that must come when the input is to be refused.
+    pub expect_error: Option<String>,
+    /// Codes of the warnings that must come.
+    #[serde(default)]
+    pub expect_warnings: Vec<String>,
+    /// Where the error, or the first of the warnings expected, must point:
+    /// `file:line`, the file without its folder.
+    pub expect_at: Option<String>,
+    /// Most loop passes, calls and reads of a section.
+    pub fuel: Option<u64>,
+    /// Who published it, and where each part comes from.
+    pub origin: String,
+    /// What was repaired against the print.
+    #[serde(default)]
+    pub repairs: Vec<String>,
+}
+
+impl CaseFile {
+    /// How the NC programs are compared; the text is what is wrong with it.
+    fn comparison(&self) -> Result<diff::Options, String> {
+        let tolerance = self.tolerance.unwrap_or(0.0);
+        if !tolerance.is_finite() || tolerance < 0.0 {
+            return Err(format!("tolerance = {tolerance} is no length"));
+        }
+        let mut ignore = diff::Ignore::default();
+        for entry in &self.ignore {
+            ignore.add(entry).map_err(|entry| {
+                format!("ignore: `{entry}` is not n, comments, dates, points, spaces or a letter")
+            })?;
+        }
+        Ok(diff::Options { tolerance, ignore, diameter: self.diameter, ..Default::default() })
+    }
+}
+
+/// A case folder.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// The folder.
+    pub folder: PathBuf,
+    /// Its file.
+    pub file: CaseFile,
+}
+
+/// All case folders below a folder, sorted.
+///
+/// # Errors
+/// A `case.toml` that can't be read.
+pub fn find(folder: &Path) -> Result<Vec<Case>, Error> {
+    let mut cases = Vec::new();
+    let mut folders = vec![folder.to_path_buf()];
+    while let Some(folder) = folders.pop() {
+        if folder.join("case.toml").is_file() {
+            cases.push(Case::load(&folder)?);
+        }
+        let Ok(entries) = std::fs::read_dir(&folder) else { continue };
+        folders.extend(entries.flatten().map(|entry| entry.path()).filter(|path| path.is_dir()));
+    }
+    cases.sort_by(|a, b| a.folder.cmp(&b.folder));
+    Ok(cases)
+}
+
+impl Case {
+    /// Reads a case folder.
+    ///
+    /// # Errors
+    /// E0705 for a `case.toml` that is missing or wrong.
+    pub fn load(folder: &Path) -> Result<Case, Error> {
+        let path = folder.join("case.toml");
+        let text = files::read_text(&path, None)?;
+        let wrong = |message: String, range: Range<usize>| {
+            let index = fil_diag::LineIndex::new(&text);
+            let place = index.place(&path.display().to_string(), &text, range);
+            Error::setup(Diag::new(RunCode::CaseFile, message).at(place))
+        };
+        let file: CaseFile = toml::from_str(&text)
+            .map_err(|error| wrong(error.message().to_string(), error.span().unwrap_or(0..0)))?;
+        file.comparison().map_err(|message| wrong(message, 0..0))?;
+        Ok(Case { folder: folder.to_path_buf(), file })
+    }
+
+    /// The post of the case.
+    ///
+    /// # Errors
+    /// As [`crate::Builder::build`]; files that can't be read.
+    pub fn post(&self) -> Result<Post, Error> {
+        self.builder()?.build()
+    }
+
+    fn builder(&self) -> Result<Builder, Error> {
+        let text = |name: &str| files::read_text(&self.folder.join(name), None);
+        let mut builder = Post::builder().strict(self.file.strict);
+        if let Some(name) = &self.file.ready {
+            builder = builder.ready(name);
+        }
+        if let Some(name) = &self.file.machine {
+            builder = builder.machine(name, &text(name)?);
+        }
+        if let Some(name) = &self.file.option_file {
+            builder = builder.option_file(name, &text(name)?);
+        }
+        let mut paths = Vec::new();
+        for name in &self.file.fil {
+            let path = self.folder.join(name);
+            builder = builder.fil(&path.display().to_string(), &text(name)?);
+            paths.push(path);
+        }
+        builder = builder.includes(includes::beside(&paths, None));
+        if let Some(folder) = &self.file.read {
+            builder = builder.grant_read(self.folder.join(folder));
+        }
+        if let Some(text) = &self.file.clock {
+            let moment = Moment::parse(text).ok_or_else(|| {
+                let message = format!("clock = '{text}' is no moment as 2026-01-31T12:00:00");
+                Error::setup(Diag::new(RunCode::CaseFile, message))
+            })?;
+            builder = builder.clock(Clock::Fixed(moment));
+        }
+        for setting in &self.file.set {
+            builder = builder.set(setting);
+        }
+        if let Some(name) = &self.file.compat {
+            let compat = crate::read_compat(name, &text(name)?).map_err(Error::setup)?;
+            builder = builder.compat(compat);
+        }
+        if let Some(fuel) = self.file.fuel {
+            builder = builder.limits(crate::Limits { fuel, ..crate::Limits::default() });
+        }
+        Ok(builder.cl_name(&self.file.cl))
+    }
+}
