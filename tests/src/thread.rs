@@ -8,6 +8,7 @@
 
 pub mod cycles;
 pub mod drawing;
+pub mod random;
 pub mod section;
 
 /// A thread and its tool, as one THREAD record names them.

@@ -9,6 +9,7 @@ use filpost::{Error, Post, WhatHappened};
 use filpost_tests::examples::{Block, blocks};
 use filpost_tests::root;
 use filpost_tests::thread::Thread;
+use filpost_tests::thread::random::{odd_threads, threads};
 use filpost_tests::thread::section::{self, Cut};
 use filpost_tests::thread::{cycles, drawing};
 use proptest::prelude::*;
@@ -27,14 +28,18 @@ fn post(scripts: &[&str], cl: &str) -> Result<(String, Vec<String>), Error> {
         }
     });
     for script in scripts {
-        let path = root().join("fil-scripts/papers").join(script);
-        let text = std::fs::read_to_string(path).expect("a script");
-        builder = builder.fil(script, &text);
+        builder = builder.fil(script, &published(script));
     }
     let mut nc = Vec::new();
     builder.build()?.run_seekable(Cursor::new(cl.as_bytes()), &mut nc)?;
     let messages = messages.lock().expect("one thread").clone();
     Ok((String::from_utf8(nc).expect("an NC program is text"), messages))
+}
+
+/// A script of the papers.
+fn published(script: &str) -> String {
+    let path = root().join("fil-scripts/papers").join(script);
+    std::fs::read_to_string(path).expect("a script")
 }
 
 fn written(thread: &Thread) -> String {
@@ -102,97 +107,6 @@ fn the_cases_cut_their_profiles() {
         let cut = judge(&thread, &nc).unwrap_or_else(|error| panic!("{name}: {error}"));
         println!("{name}: {cut:?}");
         assert!(cut.cutting > 20 && cut.chip > 0.0, "{cut:?}");
-    }
-}
-
-/// Numbers as a CL file has them.
-fn thousandths(value: f64) -> f64 {
-    (value * 1000.0).round() / 1000.0
-}
-
-prop_compose! {
-    /// Threads that a machinist could ask for.
-    fn threads()(
-        nose in 0.3..4.0_f64,
-        wider in prop_oneof![Just(0.0), 0.0..3.0_f64],
-        shift in 0.2..1.0_f64,
-        angle in prop::sample::select(vec![0.0, 7.0, 29.0, 30.0, 40.0, 55.0, 60.0]),
-        slimmer in prop_oneof![3 => Just(0.0), 1 => 0.0..5.0_f64],
-        layers in prop::collection::vec(0.2..3.0_f64, 1..5),
-        first in 0.35..0.9_f64,
-        crest_width in 0.0..5.0_f64,
-        starts in 1..4_u32,
-        finish in 0..3_u32,
-        internal: bool,
-        backwards: bool,
-    ) -> Thread {
-        let layers: Vec<f64> = layers.into_iter().map(thousandths).collect();
-        let tool_angle = thousandths((angle - slimmer).max(0.0));
-        let nose = thousandths(nose);
-        let mut thread = Thread {
-            crest: thousandths(layers.iter().sum::<f64>() + 8.5),
-            start: 6.123,
-            end: if backwards { 60.0 } else { -50.25 },
-            pitch: 0.0,
-            starts,
-            first: thousandths(first),
-            root: thousandths(nose + wider),
-            angle,
-            nose,
-            tool_angle,
-            shift: thousandths(nose * shift),
-            clearance: 1.5,
-            finish,
-            internal,
-            tolerance: 0.0,
-            layers,
-        };
-        thread.pitch = thousandths(2.0 * thread.half_width(0.0) + crest_width) + 0.001;
-        // No layer has more than 99 shifts.
-        let least = thousandths(thread.span(thread.layers[0]) / 90.0) + 0.001;
-        thread.shift = thread.shift.max(least).min(nose);
-        let highest = thread.layers.iter().copied().fold(0.0, f64::max);
-        let stair = highest * (thread.flank() - thread.edge());
-        thread.tolerance = thousandths(stair) + 0.001;
-        thread
-    }
-}
-
-/// A length of a CL file, most of them sound.
-fn length(most: f64) -> impl Strategy<Value = f64> {
-    prop_oneof![8 => (0.0..most).prop_map(thousandths), 1 => Just(0.0), 1 => Just(-most)]
-}
-
-prop_compose! {
-    /// Threads of which many can't be cut.
-    fn odd_threads()(
-        mut thread in threads(),
-        nose in length(4.0),
-        root in length(6.0),
-        shift in length(2.0),
-        first in length(1.0),
-        pitch in length(30.0),
-        tool_angle in length(60.0),
-        tolerance in length(0.5),
-        height in length(5.0),
-        which in 0..256_u32,
-    ) -> Thread {
-        let fields = [
-            (&mut thread.nose, nose),
-            (&mut thread.root, root),
-            (&mut thread.shift, shift),
-            (&mut thread.first, first),
-            (&mut thread.pitch, pitch),
-            (&mut thread.tool_angle, tool_angle),
-            (&mut thread.tolerance, tolerance),
-            (&mut thread.layers[0], height),
-        ];
-        for (bit, (field, value)) in fields.into_iter().enumerate() {
-            if which >> bit & 1 == 1 {
-                *field = value;
-            }
-        }
-        thread
     }
 }
 
@@ -299,6 +213,42 @@ fn a_missing_block_is_found() {
         }
         println!("{found} of {} blocks are missed", lines.len());
         assert!(found > lines.len() / 2, "{found}");
+    }
+}
+
+/// A script with one error writes a program that is found to be wrong.
+#[test]
+fn a_changed_script_is_found() {
+    let script = published(SCRIPT);
+    for (old, new) in [
+        ("HDONE = HDONE + KLAY", "HDONE = KLAY"),
+        ("LEAD = PITCH*NSTART", "LEAD = PITCH"),
+        ("SIGNF(1,ZSTART-ZFAR)", "SIGNF(1,ZFAR-ZSTART)"),
+        ("2*(XCREST+SIDE*CLRCE)", "2*(XCREST-SIDE*CLRCE)"),
+        ("2*(XCREST-SIDE*HDONE)", "2*(XCREST+SIDE*HDONE)"),
+        ("(HEIGHT-HDONE)*TANF(ANGLE/2) - NOSE", "(HEIGHT-HDONE)*TANF(ANGLE) - NOSE"),
+        ("(HEIGHT-HDONE)*TANF(ANGLE/2) - NOSE", "HEIGHT*TANF(ANGLE/2) - NOSE"),
+        ("TANF(ANGLE/2) - NOSE", "TANF(ANGLE/2) - NOSE/2"),
+        ("INTF(SPAN/MOST+0.999999)", "INTF(SPAN/MOST)+2"),
+        ("CUTOFF = SPAN/NCUT", "CUTOFF = MOST"),
+        ("(ISTART-1)*PITCH-SPAN/2)\n  POSTN", "(ISTART-1)*PITCH-SPAN)\n  POSTN"),
+        ("(ISTART-1)*PITCH-SPAN/2)\n  POSTN", "ISTART*CUTOFF-SPAN/2)\n  POSTN"),
+        ("K,KLAY(ILAY),D,D1", "K,HDONE,D,D1"),
+        ("K,KLAY(ILAY),D,D1", "K,KLAY(ILAY),D,2*D1"),
+        ("DO/WIDENL,ICUT=0,NCUT", "DO/WIDENL,ICUT=0,NCUT-1"),
+        ("ZFIRST + ZAWAY*ICUT*CUTOFF", "ZFIRST - ZAWAY*ICUT*CUTOFF"),
+        ("DO/LASTL,ILAST=1,NLAST", "DO/LASTL,ILAST=1,NLAST-1"),
+    ] {
+        let changed = script.replacen(old, new, 1);
+        assert_ne!(changed, script, "{old} is not there");
+        let found = [worm(), two_starts()].iter().any(|thread| {
+            let mut post = Post::builder().ready("fanuc-lathe").fil(SCRIPT, &changed).build();
+            let post = post.as_mut().expect("the script is sound");
+            let mut nc = Vec::new();
+            let ran = post.run_seekable(Cursor::new(thread.cl().as_bytes()), &mut nc);
+            ran.is_ok() && judge(thread, &String::from_utf8_lossy(&nc)).is_err()
+        });
+        assert!(found, "{new} for {old} was not found");
     }
 }
 
