@@ -28,7 +28,7 @@ fn post(scripts: &[&str], cl: &str) -> Result<(String, Vec<String>), Error> {
         }
     });
     for script in scripts {
-        builder = builder.fil(script, &published(script));
+        builder = builder.fil(script, &text_of(script));
     }
     let mut nc = Vec::new();
     builder.build()?.run_seekable(Cursor::new(cl.as_bytes()), &mut nc)?;
@@ -37,7 +37,7 @@ fn post(scripts: &[&str], cl: &str) -> Result<(String, Vec<String>), Error> {
 }
 
 /// A script of the papers.
-fn published(script: &str) -> String {
+fn text_of(script: &str) -> String {
     let path = root().join("fil-scripts/papers").join(script);
     std::fs::read_to_string(path).expect("a script")
 }
@@ -219,7 +219,7 @@ fn a_missing_block_is_found() {
 /// A script with one error writes a program that is found to be wrong.
 #[test]
 fn a_changed_script_is_found() {
-    let script = published(SCRIPT);
+    let script = text_of(SCRIPT);
     for (old, new) in [
         ("HDONE = HDONE + KLAY", "HDONE = KLAY"),
         ("LEAD = PITCH*NSTART", "LEAD = PITCH"),

@@ -125,42 +125,23 @@ impl Groove {
         let layer = (1..floors.len())
             .find(|layer| (floors[*layer] - floor).abs() < FINE)
             .ok_or_else(|| format!("depth {floor} is the floor of no layer"))?;
-        let (top, floor) = (floors[layer - 1], floors[layer]);
+        let mut stroke =
+            Stroke { place, depth, top: floors[layer - 1], floor: floors[layer], chip: 0.0 };
         let roughed = match pass.cycle {
-            Cycle::G76(number) => top + law(thread, floor - top, number - 1),
-            Cycle::G92 => top,
+            Cycle::G76(number) => stroke.roughed(thread, number - 1),
+            Cycle::G92 => stroke.top,
         };
-        let chip = self.take(thread, place, depth, [top, roughed])?;
-        found.cutting += usize::from(chip > BETWEEN);
-        let outer = thread.span(floor) / 2.0;
-        match pass.cycle {
-            Cycle::G76(number) => {
-                let wanted = top + law(thread, floor - top, number);
-                if (depth - wanted).abs() > FINE {
-                    return Err(format!("pass {number} of G76 at {depth:.4} for {wanted:.4}"));
-                }
-                if wanted - roughed > 2.0 * BETWEEN && chip < thread.nose - BETWEEN {
-                    return Err(format!("pass {number} of G76 cuts air"));
-                }
-                if (place + outer).abs() > FINE {
-                    return Err(format!("G76 at {place:.4} for {:.4}", -outer));
-                }
-            }
-            Cycle::G92 => {
-                found.chip = found.chip.max(chip);
-                let law = thread.cut_offset(floor);
-                if chip > law + BETWEEN {
-                    return Err(format!("a chip of {chip:.4} for a CUT_OFFSET of {law:.4}"));
-                }
-                let shifts = (place + outer) / law;
-                if law > FINE && (shifts - shifts.round()).abs() * law > FINE {
-                    return Err(format!("G92 at {place:.4} is {shifts:.3} shifts from G76"));
-                }
-                if layer == thread.layers.len() {
-                    self.outer[0] += u32::from((place + outer).abs() < FINE);
-                    self.outer[1] += u32::from((place - outer).abs() < FINE);
-                }
-            }
+        stroke.chip = self.take(thread, place, depth, [stroke.top, roughed])?;
+        found.cutting += usize::from(stroke.chip > BETWEEN);
+        if let Cycle::G76(number) = pass.cycle {
+            return stroke.roughs(thread, number);
+        }
+        found.chip = found.chip.max(stroke.chip);
+        stroke.widens(thread)?;
+        if layer == thread.layers.len() {
+            let outer = thread.span(stroke.floor) / 2.0;
+            self.outer[0] += u32::from((place + outer).abs() < FINE);
+            self.outer[1] += u32::from((place - outer).abs() < FINE);
         }
         Ok(())
     }
@@ -214,6 +195,55 @@ impl Groove {
         let cleaned = u32::from(span > 1e-6);
         if (span > BETWEEN || cleaned == 0) && self.outer != [cleaned + thread.finish; 2] {
             return Err(format!("{:?} passes at the outer positions of the root", self.outer));
+        }
+        Ok(())
+    }
+}
+
+/// A pass in its layer.
+struct Stroke {
+    /// Where the middle of the tool is, and how deep its nose.
+    place: f64,
+    depth: f64,
+    /// The layer.
+    top: f64,
+    floor: f64,
+    /// Its chip along the axis.
+    chip: f64,
+}
+
+impl Stroke {
+    /// How deep a number of passes of G76 has cut the layer.
+    fn roughed(&self, thread: &Thread, number: u32) -> f64 {
+        self.top + law(thread, self.floor - self.top, number)
+    }
+
+    /// Looks at a pass of G76.
+    fn roughs(&self, thread: &Thread, number: u32) -> Result<(), String> {
+        let wanted = self.roughed(thread, number);
+        if (self.depth - wanted).abs() > FINE {
+            return Err(format!("pass {number} of G76 at {:.4} for {wanted:.4}", self.depth));
+        }
+        let added = wanted - self.roughed(thread, number - 1);
+        if added > 2.0 * BETWEEN && self.chip < thread.nose - BETWEEN {
+            return Err(format!("pass {number} of G76 cuts air"));
+        }
+        let outer = -thread.span(self.floor) / 2.0;
+        if (self.place - outer).abs() > FINE {
+            return Err(format!("G76 at {:.4} for {outer:.4}", self.place));
+        }
+        Ok(())
+    }
+
+    /// Looks at a pass of G92.
+    fn widens(&self, thread: &Thread) -> Result<(), String> {
+        let law = thread.cut_offset(self.floor);
+        if self.chip > law + BETWEEN {
+            return Err(format!("a chip of {:.4} for a CUT_OFFSET of {law:.4}", self.chip));
+        }
+        let shifts = (self.place + thread.span(self.floor) / 2.0) / law;
+        if law > FINE && (shifts - shifts.round()).abs() * law > FINE {
+            return Err(format!("G92 at {:.4} is {shifts:.3} shifts from G76", self.place));
         }
         Ok(())
     }
