@@ -4,6 +4,7 @@ pub mod cl_path;
 pub mod compare;
 pub mod duel;
 pub mod examples;
+pub mod feed;
 pub mod language;
 pub mod lints;
 pub mod nc_path;
@@ -12,6 +13,7 @@ pub mod path;
 pub mod picture;
 pub mod programs;
 pub mod rs274;
+pub mod sinumerik;
 
 /// The folder of the workspace.
 pub fn root() -> &'static std::path::Path {
