@@ -19,14 +19,16 @@ fn read(name: &str) -> String {
     std::fs::read_to_string(root().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-/// README.md and the pages of docs/, without those of the codes.
+/// README.md and the pages of docs/ and docs/papers/, without those of the codes.
 fn pages() -> Vec<(String, String)> {
     let mut pages = vec![("README.md".to_string(), read("README.md"))];
-    for entry in std::fs::read_dir(root().join("docs")).expect("docs/ is there") {
-        let path = entry.expect("an entry").path();
-        if path.extension().is_some_and(|ending| ending == "md") {
-            let name = format!("docs/{}", path.file_name().expect("a name").to_string_lossy());
-            pages.push((name.clone(), read(&name)));
+    for folder in ["docs", "docs/papers"] {
+        for entry in std::fs::read_dir(root().join(folder)).expect("the folder is there") {
+            let path = entry.expect("an entry").path();
+            if path.extension().is_some_and(|ending| ending == "md") {
+                let name = path.file_name().expect("a name").to_string_lossy();
+                pages.push((format!("{folder}/{name}"), read(&format!("{folder}/{name}"))));
+            }
         }
     }
     pages.sort();

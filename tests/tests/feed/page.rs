@@ -56,11 +56,11 @@ impl Chart {
         let [x, y] = self.corner;
         let [width, height] = self.size;
         picture.line(&[[x, y + height], [x, y], [x + width, y]], GROUND);
-        picture.text([x + width / 2.0, y + height + 1.2], title);
+        picture.text([x + width / 2.0, y + height + 2.0], title);
         for (share, name) in marks {
             let [x, y] = self.place(0.0, *share);
-            picture.line(&[[x - 0.4, y], [x, y]], GROUND);
-            picture.text([x - 2.2, y - 0.4], name);
+            picture.line(&[[x - 0.5, y], [x, y]], GROUND);
+            picture.text([x - 2.4, y - 0.4], name);
         }
     }
 }
@@ -87,17 +87,22 @@ fn profile(picture: &mut Picture, points: &[Point], contacts: &[Contact]) {
             let (from, to) = (centre(&ends[0]), centre(&ends[1]));
             let [dx, dz] = [to[0] - from[0], to[1] - from[1]];
             let radius = LISTING.ball / dx.hypot(dz);
-            [(from[0] + to[0]) / 2.0 + dz * radius, (from[1] + to[1]) / 2.0 - dx * radius]
+            [(from[0] + to[0]) / 2.0 - dz * radius, (from[1] + to[1]) / 2.0 + dx * radius]
         })
         .collect();
     picture.line(&touched, Pen::full("black", 1.5));
-    for (index, name) in [(3, "wall"), (15, "floor")] {
-        let at = centre(&points[index]);
-        picture.circle(at, LISTING.ball, GROUND);
+    for index in [3, 15] {
+        picture.circle(centre(&points[index]), LISTING.ball, GROUND);
+    }
+    for (at, name) in [
+        ([0.0, 6.0], "section of the groove"),
+        ([0.0, 0.0], "path of the ball's"),
+        ([0.0, -2.0], "centre: blue on"),
+        ([0.0, -4.0], "the wall, red"),
+        ([0.0, -6.0], "on the floor"),
+    ] {
         picture.text(at, name);
     }
-    picture.text([0.0, 8.0], "path of the ball's centre");
-    picture.text([0.0, 6.0], "and the groove it leaves");
 }
 
 #[test]
@@ -115,7 +120,7 @@ fn the_picture_shows_profile_angle_and_feed() {
     let angles = chart(-10.0, 90.0);
     angles.frame(
         &mut picture,
-        "angle of the move; dashed: below this angle it cuts the floor",
+        "angle of each move to the level",
         &[(0.0, "0°"), (45.0, "45°"), (90.0, "90°")],
     );
     let middle = |cut: usize| (along[cut] + along[cut + 1]) / 2.0;
@@ -131,7 +136,7 @@ fn the_picture_shows_profile_angle_and_feed() {
     let feeds = chart(-34.0, 3.0);
     feeds.frame(
         &mut picture,
-        "feed, mm/min; dashed: the constant feed of the paper",
+        "feed of each block, mm/min",
         &[(0.0, "1"), (1.0, "10"), (2.0, "100"), (3.0, "1000")],
     );
     let constant = CONSTANT.log10();
@@ -148,6 +153,12 @@ fn the_picture_shows_profile_angle_and_feed() {
                 .line(&[chart.place(along[cut], value), chart.place(along[cut + 1], value)], pen);
         }
     }
-    picture.text([54.0, -36.5], "along the pass, 0 to 72 mm");
+    for (at, name) in [
+        (angles.place(56.0, 22.0), "floor: below the dashes"),
+        (feeds.place(56.0, constant - 0.45), "dashes: constant, F6"),
+        (feeds.place(total / 2.0, -0.45), "along the pass, 72 mm"),
+    ] {
+        picture.text(at, name);
+    }
     picture.check(&root().join("docs/papers/feed-control.svg"));
 }

@@ -104,6 +104,13 @@ fn the_subprogram_gives_the_feed_of_the_formulas_on_the_way_down() {
 }
 
 #[test]
+fn the_feed_for_the_floor_is_that_of_the_print() {
+    let cl = pass_cl().replace("FEDRAT / 5.000000", "FEDRAT / 8");
+    let (_, warnings) = post(Some("feed-l400.fil"), &cl).unwrap();
+    assert_eq!(warnings[0].message, "L400 AS PRINTED SETS 5 MM/MIN FOR THE FLOOR, NOT 8");
+}
+
+#[test]
 fn the_script_says_for_how_many_points_the_subprogram_has_no_feed() {
     let (_, warnings) = post(Some("feed-l400.fil"), &pass_cl()).unwrap();
     let said: Vec<_> = warnings.iter().map(|warning| warning.message.as_str()).collect();
