@@ -26,7 +26,7 @@ fn both(cutting: Cutting, cl: &str, points: &[Point]) -> Vec<(f64, f64)> {
     let cuts = cuts(&nc);
     let expected = pass(cutting, points, Floor::Formula);
     assert_eq!(cuts.len(), expected.len());
-    cuts.iter().map(|(_, feed)| *feed).zip(expected.iter().map(|move_| move_.feed)).collect()
+    cuts.iter().map(|(_, feed)| *feed).zip(expected.iter().map(|contact| contact.feed)).collect()
 }
 
 #[test]

@@ -75,6 +75,12 @@ fn moves_that_have_no_angle_or_no_radius() {
         "BETWEEN FEDCTL/ON AND OFF A MOVE IS A GOTO",
         "GODLTA",
     );
+    both_refuse(
+        ninth,
+        "MULTAX / ON\nGOTO / 9, 0, -22.756, 0.6, 0, 0.8\n",
+        "THE FORMULAS ARE FOR A TOOL ALONG Z",
+        "GOTO",
+    );
     let twice = ninth.repeat(2);
     let (found, _) = refusal("feed-l400.fil", &changed(ninth, &twice));
     assert_eq!(found, "E0325 A MOVE OF LENGTH 0 HAS NO ANGLE");
