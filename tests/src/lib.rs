@@ -14,6 +14,7 @@ pub mod path;
 pub mod picture;
 pub mod programs;
 pub mod rs274;
+pub mod runout;
 pub mod sinumerik;
 
 /// The folder of the workspace.
