@@ -110,9 +110,30 @@ fn the_feed_for_the_floor_is_that_of_the_print() {
     assert_eq!(warnings[0].message, "L400 AS PRINTED SETS 5 MM/MIN FOR THE FLOOR, NOT 8");
 }
 
+/// The script counts in its warning the calls at which the control stops: on the way up
+/// and, at radii below half the height of the stock, on the way down.
 #[test]
 fn the_script_says_for_how_many_points_the_subprogram_has_no_feed() {
-    let (_, warnings) = post(Some("feed-l400.fil"), &pass_cl()).unwrap();
-    let said: Vec<_> = warnings.iter().map(|warning| warning.message.as_str()).collect();
-    assert_eq!(said, ["L400 AS PRINTED HAS NO FEED FOR 16 OF 30 POINTS"]);
+    let said = |cl: &str| -> (Vec<String>, usize) {
+        let (nc, warnings) = post(Some("feed-l400.fil"), cl).unwrap();
+        let stops = sinumerik::run(&nc).unwrap().iter().filter(|made| made.done.is_err()).count();
+        (warnings.into_iter().map(|warning| warning.message).collect(), stops)
+    };
+    let text = |stops: usize| format!("L400 AS PRINTED HAS NO FEED FOR {stops} OF 30 POINTS");
+    assert_eq!(said(&pass_cl()), (vec![text(16)], 16));
+    let mut on_the_way_down = Vec::new();
+    for radius in [0.5, 1.0, 1.4, 2.0, 3.0, 9.0] {
+        let mut cl = String::from(
+            "FROM / 40, 0, 9\nSPINDL / RPM, 1000\nFEDCTL / ON, RADIUS, 5, STOCK, 0.25\nRAPID\n",
+        );
+        for k in 0..=30 {
+            let (sin, cos) = (f64::from(k) * 5.5 - 85.0).to_radians().sin_cos();
+            cl += &format!("GOTO / {:.4}, 0, {:.4}\n", -radius * sin, -radius * cos);
+        }
+        cl += "FEDCTL / OFF\nRAPID\nGOTO / 0, 0, 90\nFINI\n";
+        let (warnings, stops) = said(&cl);
+        assert_eq!(warnings, [text(stops)], "radius {radius}");
+        on_the_way_down.push(stops > 16);
+    }
+    assert_eq!(on_the_way_down, [true, true, true, false, false, false]);
 }
