@@ -1,8 +1,10 @@
 //! The command as its users meet it: outputs, exit statuses, files left behind.
 
 mod batch;
+mod cases;
 mod check;
 mod cl;
+mod diff;
 mod explain;
 mod fmt;
 mod machine;

@@ -24,7 +24,9 @@ impl Place {
     }
 
     pub fn with(self, name: &str, text: impl AsRef<[u8]>) -> Place {
-        std::fs::write(self.0.path().join(name), text).expect("a file for the test");
+        let path = self.0.path().join(name);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder for the test");
+        std::fs::write(path, text).expect("a file for the test");
         self
     }
 
