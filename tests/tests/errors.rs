@@ -375,11 +375,8 @@ fn e0701_missing_file() {
 fn e0707_to_e0710_line_maps() {
     let folder = root().join("docs/trace");
     let (nc, map) = (folder.join("cover.nc"), folder.join("cover.nc.map"));
-    let options = trace::Options {
-        most: 1,
-        cl: filpost::cl::reader::Options::default(),
-        encoding: None,
-    };
+    let options =
+        trace::Options { most: 1, cl: filpost::cl::reader::Options::default(), encoding: None };
     let ask = |file: &Path, line, map: &Path| {
         let place = trace::Place { file: file.to_path_buf(), line, column: None };
         trace::trace(&place, map, &options)
