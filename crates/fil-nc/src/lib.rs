@@ -6,5 +6,6 @@
 //! the reader.
 
 pub mod errors;
+pub mod forward;
 pub mod motion;
 pub mod text;
