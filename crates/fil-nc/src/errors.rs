@@ -15,5 +15,9 @@ fil_diag::codes! {
         OpenComment = 903, Error, "comment not closed",
             "What follows an open bracket may be comment or motion.",
             "Close the comment; a file that was cut off often ends in one.";
+        /// A program that has next to nothing in common with the CL file.
+        AnotherPart = 941, Error, "a program of another part",
+            "Fewer than one in ten motions of the CL file are in the program; a list of all differences would say nothing.",
+            "Give the program that was made from this CL file, and the machine it was made for.";
     }
 }

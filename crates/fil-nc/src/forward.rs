@@ -119,6 +119,11 @@ impl Forward {
         at
     }
 
+    /// True when a rotary axis changes the direction of the tool where it stands.
+    pub fn turns_tool(&self, at: [f64; 2], index: usize) -> bool {
+        self.slope(at, index) != Vector3::zeros()
+    }
+
     /// Change of the tool axis by a degree of a rotary axis; zero without one.
     fn slope(&self, at: [f64; 2], index: usize) -> Vector3<f64> {
         if self.machine.rotaries[index].is_none() {

@@ -9,3 +9,4 @@ pub mod errors;
 pub mod forward;
 pub mod motion;
 pub mod text;
+pub mod verify;
