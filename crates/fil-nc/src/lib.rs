@@ -5,6 +5,8 @@
 //! with the post's output side: a fault of the writer must not hide itself in
 //! the reader.
 
+pub mod dialect;
 pub mod errors;
+pub mod interpret;
 pub mod motion;
 pub mod text;
