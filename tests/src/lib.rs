@@ -3,6 +3,7 @@
 pub mod cl_path;
 pub mod compare;
 pub mod duel;
+pub mod event_path;
 pub mod examples;
 pub mod language;
 pub mod lints;

@@ -5,8 +5,10 @@
 //! with the post's output side: a fault of the writer must not hide itself in
 //! the reader.
 
+pub mod dialect;
 pub mod errors;
 pub mod forward;
+pub mod interpret;
 pub mod motion;
 pub mod text;
 pub mod verify;

@@ -19,8 +19,9 @@ pub enum Course {
     Feed,
     /// At feed, in step with the spindle.
     Thread,
-    /// Rapid traverse to a point of the machine frame (`G53`, `G28`), which no CL
-    /// file asks for; its position is in that frame.
+    /// Rapid traverse to a point of the machine (`G53`, `G28`), which no CL file asks
+    /// for. The axes that go there are not `known`; their values are those the
+    /// block gives.
     Machine,
 }
 

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use super::report::Kind;
 use super::wanted::{CycleKind, Hole, Step};
 use super::walk::{Walk, short};
-use crate::motion::{Course, Event, Move};
+use crate::motion::{Course, Event, Move, Spindle};
 
 /// Most motions over a hole before it is drilled.
 const APPROACH: usize = 6;
@@ -41,7 +41,7 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
         let Some(plunge) = self.plunge(self.next) else { return false };
         let first = self.next;
         let levels = self.levels(hole, &plunge);
-        let wrong = self.drill(cl_line, hole, levels);
+        let wrong = self.drill(cl_line, hole, levels, plunge.modes.spindle);
         if let Err((line, message)) = wrong {
             self.find(Kind::Cycle, Some(cl_line), Some(line), message);
             self.leave_hole(first, &plunge);
@@ -79,7 +79,13 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
     }
 
     /// Goes through the hole.
-    fn drill(&mut self, cl_line: u32, hole: &Hole, levels: Levels) -> Result<(), (u32, String)> {
+    fn drill(
+        &mut self,
+        cl_line: u32,
+        hole: &Hole,
+        levels: Levels,
+        turning: Spindle,
+    ) -> Result<(), (u32, String)> {
         let rest = self.approach(cl_line, hole, levels)?;
         let mut reached = levels.clear;
         for depth in depths(hole, levels) {
@@ -95,7 +101,7 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
             reached = depth;
         }
         self.bottom_dwell(cl_line, hole)?;
-        self.retract(cl_line, hole, levels, rest)
+        self.retract(cl_line, hole.kind, levels.clear, (rest, turning))
     }
 
     /// The motions over the hole, down to the R level. Gives the level to return to.
@@ -184,13 +190,26 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
 
     /// The next motion, which must go straight to a level.
     fn level(&mut self, cl_line: u32, z: f64, what: &str) -> Result<Move, (u32, String)> {
-        let Some(found) = self.next_move() else {
+        self.level_turning(cl_line, z, what, None)
+    }
+
+    /// The same; on the way out the spindle may stand or turn back, and `turning` is
+    /// how it goes on.
+    fn level_turning(
+        &mut self,
+        cl_line: u32,
+        z: f64,
+        what: &str,
+        turning: Option<Spindle>,
+    ) -> Result<Move, (u32, String)> {
+        let Some(mut found) = self.next_move() else {
             return Err((self.next_line(), "the hole is not finished".to_string()));
         };
         self.vertical(&found)?;
         if (found.to.linear[2] - z).abs() > self.slack.linear[2] {
             return Err((found.line, self.spell_level(what, found.to.linear[2], z)));
         }
+        found.modes.spindle = turning.unwrap_or(found.modes.spindle);
         self.take(cl_line, &found);
         self.next += 1;
         let off = found.to.linear[2] - z;
@@ -231,11 +250,11 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
     fn retract(
         &mut self,
         cl_line: u32,
-        hole: &Hole,
-        levels: Levels,
-        rest: f64,
+        kind: CycleKind,
+        clear: f64,
+        (rest, turning): (f64, Spindle),
     ) -> Result<(), (u32, String)> {
-        let out = self.way_out(hole.kind);
+        let out = self.way_out(kind);
         let Some(first) = self.next_move() else {
             return Err((self.next_line(), "the tool stays in the hole".to_string()));
         };
@@ -248,14 +267,22 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
         if !course {
             return Err((first.line, format!("{} out of the hole", self.spell_move(&first))));
         }
-        let straight_to_rest = (first.to.linear[2] - rest).abs() <= self.slack.linear[2];
-        if !straight_to_rest {
-            self.level(cl_line, levels.clear, "the retract")?;
+        let spindle = match (self.settings.cycle_code(kind), out) {
+            (Some(86), _) => Spindle::Off,
+            (_, Out::Thread) => reversed(turning),
+            _ => turning,
+        };
+        if first.modes.spindle != spindle {
+            let message = "the spindle is not as it should be on the way out".to_string();
+            return Err((first.line, message));
         }
-        if !straight_to_rest && (levels.clear - rest).abs() <= self.slack.linear[2] {
-            return Ok(());
+        if (first.to.linear[2] - rest).abs() > self.slack.linear[2] {
+            self.level_turning(cl_line, clear, "the retract", Some(turning))?;
+            if let Some(up) = self.next_move().filter(|up| up.course != Course::Rapid) {
+                return Err((up.line, format!("{} out of the hole", self.spell_move(&up))));
+            }
         }
-        self.level(cl_line, rest, "the return level").map(|_| ())
+        self.level_turning(cl_line, rest, "the return level", Some(turning)).map(|_| ())
     }
 
     /// How the tool leaves the hole, by the code of the cycle.
@@ -302,6 +329,14 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
         let (way, by) = if is < should { ("deeper", should - is) } else { ("higher", is - should) };
         let by = short(by);
         format!("{what} is {way} by {by} (Z{} in place of Z{})", short(is), short(should))
+    }
+}
+
+fn reversed(spindle: Spindle) -> Spindle {
+    match spindle {
+        Spindle::Off => Spindle::Off,
+        Spindle::Clockwise => Spindle::Counterclockwise,
+        Spindle::Counterclockwise => Spindle::Clockwise,
     }
 }
 

@@ -131,7 +131,7 @@ impl<'c> Settings<'c> {
             rotary,
             centre: [b'I', b'J', b'K'].map(|name| self.allowed(half(letter(name)) * unit)),
             radius: self.allowed(half(letter(b'R')) * unit),
-            feed: half(letter(b'F')) * unit + DUST,
+            feed: half(letter(b'F')) * unit / self.feed_factor() + DUST,
             speed: half(letter(b'S')) + DUST,
             dwell: self.dwell_slack(half),
         }
@@ -141,6 +141,11 @@ impl<'c> Settings<'c> {
         let factor = self.commons.dbl_opt(loc::DWELL_UPM_FACTOR).filter(|factor| *factor > 0.0);
         let letter = self.commons.int_opt(loc::DWELL_ADDRESS).unwrap_or(16).clamp(1, 26) as u8;
         half(letter) / factor.unwrap_or(1.0) + DUST
+    }
+
+    /// Control's feed unit in a unit of length a minute.
+    fn feed_factor(&self) -> f64 {
+        self.commons.dbl_opt(loc::FEED_UPM_FACTOR).filter(|factor| *factor > 0.0).unwrap_or(1.0)
     }
 
     fn allowed(&self, last_digit: f64) -> f64 {
@@ -203,12 +208,12 @@ impl<'c> Settings<'c> {
         speed.max(low.unwrap_or(0.0)).min(high.unwrap_or(f64::MAX))
     }
 
-    /// A feed in mm/min within the machine's range, as its control counts it.
+    /// A feed in mm/min within the machine's range.
     pub fn feed_within(&self, feed: f64, metric: bool) -> f64 {
         let unit = if metric { 1.0 } else { INCH };
         let min = self.commons.dbl_opt(loc::FEED_UPM_MIN).unwrap_or(0.0) * unit;
         let max = self.commons.dbl_opt(loc::FEED_UPM_MAX).map_or(f64::MAX, |max| max * unit);
-        feed.max(min).min(max) * self.commons.dbl_opt(loc::FEED_UPM_FACTOR).unwrap_or(1.0)
+        feed.max(min).min(max)
     }
 
     /// True when the machine has a code for a coolant.
@@ -228,7 +233,7 @@ impl<'c> Settings<'c> {
 
     /// True when the program calls tools.
     pub fn calls_tools(&self) -> bool {
-        self.calls_tools_with_offset() || self.commons.int_opt(loc::TOOL_CHANGE_CODE).is_some()
+        self.commons.int_opt(loc::TOOL_CHANGE_CODE).is_some() || self.writes(b'T')
     }
 
     /// True when a tool already in the spindle is not called again.
@@ -322,9 +327,13 @@ impl<'c> Settings<'c> {
 
     /// Which of X, Y, Z the program writes; one that it never writes stands at 0.
     pub fn written(&self) -> [bool; 3] {
+        [b'X', b'Y', b'Z'].map(|name| self.writes(name))
+    }
+
+    fn writes(&self, name: u8) -> bool {
         let mut addresses = Addresses::default();
         addresses.refresh(self.commons, true);
-        [b'X', b'Y', b'Z'].map(|name| addresses.output(letter(name)) != Output::Off)
+        matches!(addresses.output(letter(name)), Output::At(_))
     }
 
     /// True when an arc is written with its radius.

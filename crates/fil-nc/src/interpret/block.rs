@@ -1,0 +1,230 @@
+//! One block: modes first, then tool and spindle, then the motion.
+
+use super::Fault;
+use super::state::State;
+use super::words::{Words, letter};
+use crate::dialect::{Auxiliary, Function, Group};
+use crate::errors::NcCode;
+use crate::motion::{Course, Event};
+use crate::text::Block;
+
+const P: u8 = letter(b'P');
+const L: u8 = letter(b'L');
+const F: u8 = letter(b'F');
+
+/// What a block asks of the order of blocks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Outcome {
+    /// The next one.
+    Next,
+    /// The program ends.
+    End,
+    /// A subprogram.
+    Call {
+        /// Its number.
+        number: i64,
+        /// How often.
+        times: u32,
+    },
+    /// The end of the subprogram.
+    Back,
+}
+
+impl State<'_> {
+    /// Runs a block.
+    pub(super) fn run(
+        &mut self,
+        block: &Block,
+        take: &mut dyn FnMut(Event),
+    ) -> Result<Outcome, Fault> {
+        self.line = block.line;
+        let mut words = Words::read(block, self.dialect, self.metric)?;
+        let outcome = self.outcome(&mut words)?;
+        self.modes(&mut words)?;
+        self.tool_and_spindle(&mut words, take)?;
+        self.motion(&mut words, take)?;
+        words.finish()?;
+        if outcome == Outcome::End {
+            take(Event::End { line: self.line });
+        }
+        Ok(outcome)
+    }
+
+    /// End, call and return.
+    fn outcome(&self, words: &mut Words) -> Result<Outcome, Fault> {
+        let mut outcome = Outcome::Next;
+        for (auxiliary, range) in words.auxiliaries.clone() {
+            let asked = match auxiliary {
+                Auxiliary::End => Outcome::End,
+                Auxiliary::Back => Outcome::Back,
+                Auxiliary::Call => call(words)?,
+                _ => continue,
+            };
+            if outcome != Outcome::Next {
+                let message = "two M words that steer the program";
+                return Err(Fault::new(NcCode::Twice, message).at(&range));
+            }
+            outcome = asked;
+        }
+        Ok(outcome)
+    }
+
+    fn motion(&mut self, words: &mut Words, take: &mut dyn FnMut(Event)) -> Result<(), Fault> {
+        match words.peek(Group::Once) {
+            Some(Function::Dwell) => {
+                words.function(Group::Once);
+                self.dwell(words, take)?;
+            }
+            Some(Function::Reference) => {
+                words.function(Group::Once);
+                return self.reference(words, take);
+            }
+            Some(Function::MachineFrame) => {
+                words.function(Group::Once);
+                self.take_motion(words)?;
+                return self.machine_frame(words, take);
+            }
+            Some(Function::ThreadPasses) => {
+                words.function(Group::Once);
+                self.motion = None;
+                return self.thread_passes(words, take);
+            }
+            _ => {}
+        }
+        if let Some(kind) = self.take_motion(words)? {
+            return self.begin_cycle(kind, words, take);
+        }
+        if self.cycle.is_some() && (words.has_axes(self.dialect) || words.has(letter(b'R'))) {
+            return self.hole(words, take);
+        }
+        let arc = matches!(self.motion, Some(Function::Arc { .. }));
+        let centre = [b'I', b'J', b'K'].map(letter).iter().any(|letter| words.has(*letter));
+        if !words.has_axes(self.dialect) && !(arc && centre) {
+            return self.feed_word(words);
+        }
+        match self.motion {
+            Some(Function::Thread) => self.thread(words, take),
+            Some(Function::ThreadPass) => self.thread_pass(words, take),
+            motion => {
+                self.feed_word(words)?;
+                match motion {
+                    Some(Function::Rapid) => self.straight(words, Course::Rapid, take),
+                    Some(Function::Linear) => self.straight(words, Course::Feed, take),
+                    Some(Function::Arc { ccw }) => self.arc(words, ccw, take),
+                    _ => Err(Fault::new(NcCode::NoMotion, "no G word says how the axes move")),
+                }
+            }
+        }
+    }
+
+    /// Takes up the motion function and the cycle function of a block. Says which
+    /// cycle begins.
+    fn take_motion(
+        &mut self,
+        words: &mut Words,
+    ) -> Result<Option<crate::dialect::CycleKind>, Fault> {
+        let motion = words.function(Group::Motion);
+        let cycle = words.function(Group::Cycle);
+        if motion.is_some() || cycle == Some(Function::CycleOff) {
+            self.motion = motion;
+            self.cycle = None;
+            self.pass = None;
+        }
+        match cycle {
+            Some(Function::Cycle(_)) if motion.is_some() => {
+                Err(Fault::new(NcCode::Twice, "a motion and a cycle in one block"))
+            }
+            Some(Function::Cycle(kind)) => {
+                self.motion = None;
+                self.pass = None;
+                Ok(Some(kind))
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// Takes up F.
+    pub(super) fn feed_word(&mut self, words: &mut Words) -> Result<(), Fault> {
+        if let Some(feed) = words.take(F)? {
+            self.feed = Some(feed);
+        } else if self.feed_mode == crate::dialect::FeedMode::Inverse {
+            self.feed = None;
+        }
+        Ok(())
+    }
+
+    fn straight(
+        &mut self,
+        words: &mut Words,
+        course: Course,
+        take: &mut dyn FnMut(Event),
+    ) -> Result<(), Fault> {
+        let rate = if course == Course::Feed { Some(self.rate()?) } else { None };
+        let axes = words.take_axes(self.dialect)?;
+        let target = self.target(&axes);
+        self.go(target, course, rate, take);
+        Ok(())
+    }
+
+    /// To the reference point by way of the point that the block names.
+    fn reference(&mut self, words: &mut Words, take: &mut dyn FnMut(Event)) -> Result<(), Fault> {
+        let axes = words.take_axes(self.dialect)?;
+        if axes.is_empty() {
+            return Err(Fault::new(NcCode::MissingWord, "the axes that go there are needed"));
+        }
+        self.cycle = None;
+        let (between, known) = self.target(&axes);
+        if between != self.at {
+            self.go((between, known), Course::Rapid, None, take);
+        }
+        let mut lost = self.known;
+        axes.iter().for_each(|word| lost[word.axis] = false);
+        self.go((between, lost), Course::Machine, None, take);
+        Ok(())
+    }
+
+    /// To a point of the machine frame.
+    fn machine_frame(
+        &mut self,
+        words: &mut Words,
+        take: &mut dyn FnMut(Event),
+    ) -> Result<(), Fault> {
+        if !self.absolute {
+            let message = "the machine frame knows no increments";
+            return Err(Fault::new(NcCode::NoMeaning, message));
+        }
+        self.feed_word(words)?;
+        let axes = words.take_axes(self.dialect)?;
+        if axes.is_empty() {
+            return Err(Fault::new(NcCode::MissingWord, "the axes that go there are needed"));
+        }
+        let (to, _) = self.target(&axes);
+        let mut lost = self.known;
+        axes.iter().for_each(|word| lost[word.axis] = false);
+        self.go((to, lost), Course::Machine, None, take);
+        Ok(())
+    }
+
+    fn dwell(&mut self, words: &mut Words, take: &mut dyn FnMut(Event)) -> Result<(), Fault> {
+        let time = words.take(self.dialect.dwell)?;
+        let time =
+            time.ok_or_else(|| Fault::new(NcCode::MissingWord, "the time of the dwell is needed"))?;
+        let seconds = Some(time / self.dialect.dwell_factor);
+        take(Event::Dwell { line: self.line, seconds });
+        Ok(())
+    }
+}
+
+/// The subprogram of a call: `P1001`, `P1001 L3`, or `P31001` for three times.
+fn call(words: &mut Words) -> Result<Outcome, Fault> {
+    let number = words.take_whole(P)?;
+    let number = number
+        .ok_or_else(|| Fault::new(NcCode::MissingWord, "the number of the subprogram is needed"))?;
+    let times = words.take_whole(L)?;
+    Ok(match times {
+        None if number > 9999 => {
+            Outcome::Call { number: i64::from(number % 10_000), times: number / 10_000 }
+        }
+        times => Outcome::Call { number: i64::from(number), times: times.unwrap_or(1) },
+    })
+}
