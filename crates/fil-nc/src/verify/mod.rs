@@ -11,6 +11,7 @@ mod cl_path;
 mod gap;
 mod hole;
 mod modes;
+mod programs;
 mod report;
 mod settings;
 mod walk;
@@ -27,6 +28,7 @@ use crate::motion::Event;
 use blocks::OwnBlocks;
 
 pub use cl_path::ClPath;
+pub use programs::compare_programs;
 pub use report::{Deviation, Finding, Kind, Report, Unverified, Verdict};
 pub use settings::{Due, Settings, Slack};
 pub use wanted::{Arc, CoolantKind, CycleKind, Hole, Step, Wanted};

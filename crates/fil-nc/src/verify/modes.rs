@@ -69,7 +69,8 @@ pub(super) struct Expected {
     spindle: Lag<Option<Spindle>>,
     speed: Lag<Option<f64>>,
     coolant: Lag<bool>,
-    fixture: Option<u32>,
+    /// `None` when words of the user's own may have chosen it.
+    fixture: Option<Option<u32>>,
     /// What was wrong at the last motion, so that it is said once.
     said: Vec<(Kind, String)>,
 }
@@ -83,7 +84,7 @@ impl Expected {
             spindle: Lag::new(Some(Spindle::Off)),
             speed: Lag::new(None),
             coolant: Lag::new(false),
-            fixture: fixture_of(&settings.own_blocks()),
+            fixture: Some(fixture_of(&settings.own_blocks())),
             said: Vec::new(),
         }
     }
@@ -124,6 +125,7 @@ impl Expected {
                 self.compensation.set(*side, settings.compensation_due());
             }
             Wanted::Stop | Wanted::End => self.flush(),
+            Wanted::Unknown { .. } => self.fixture = None,
             _ => {}
         }
     }
@@ -197,9 +199,9 @@ impl Expected {
             let said = if must { "coolant is off, it should be on" } else { "coolant is on, it should be off" };
             wrong.push((Kind::Coolant, said.to_string()));
         }
-        if modes.fixture != self.fixture {
+        if let Some(must) = self.fixture.filter(|must| *must != modes.fixture) {
             let name = |fixture: Option<u32>| fixture.map_or("none".to_string(), |g| format!("G{g}"));
-            let (found, must) = (name(modes.fixture), name(self.fixture));
+            let (found, must) = (name(modes.fixture), name(must));
             wrong.push((Kind::Fixture, format!("work offset {found}, it should be {must}")));
         }
         wrong

@@ -176,12 +176,12 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
         }
         loop {
             self.pass(step.line);
-            if self.at_end() {
-                return self.ends_early(step);
-            }
             if self.makes(step) {
                 self.report.matched += 1;
                 return;
+            }
+            if self.at_end() {
+                return self.ends_early(step);
             }
             match self.detour(step) {
                 Detour::Missing => {
@@ -417,11 +417,14 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
     fn tool(&mut self, cl_line: u32, number: u32, offset: u32) {
         self.initial = None;
         let same = self.modes.tool() == Some(number) && self.settings.tool_is_modal();
+        let changes = !same && self.settings.calls_tools();
+        if changes {
+            self.to_change_position(cl_line);
+        }
         self.modes.change_tool(number, offset, self.settings);
-        if same || !self.settings.calls_tools() {
+        if !changes {
             return;
         }
-        self.to_change_position(cl_line);
         let changes = self.nc[self.next..].iter().take(LOOK_AHEAD).position(|event| {
             matches!(event, Event::ToolChange { .. })
         });
