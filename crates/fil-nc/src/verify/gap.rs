@@ -55,7 +55,8 @@ impl Gap {
         }
         let wanted = forward.frame(rotary).linear(pose.tip);
         for n in 0..3 {
-            gap.linear[n] = at.linear[n] - wanted[n];
+            let wanted = slack.rounded[n].map_or(wanted[n], |digit| rounded(wanted[n], digit));
+            gap.linear[n] = at.linear[n] - wanted;
             gap.excess[n] = gap.linear[n].abs() > allowed[n];
         }
         gap
@@ -65,6 +66,11 @@ impl Gap {
     pub(super) fn closed(&self) -> bool {
         self.turned.is_none() && self.excess == [false; 3]
     }
+}
+
+/// A value as the last digit shows it, halves away from zero.
+fn rounded(value: f64, digit: f64) -> f64 {
+    (value / digit).round() * digit
 }
 
 /// An axis that does not turn the tool may stand anywhere within its last digit; X Y Z

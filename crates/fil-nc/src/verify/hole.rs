@@ -11,8 +11,8 @@ use crate::motion::{Course, Event, Move, Spindle};
 /// Most motions over a hole before it is drilled.
 const APPROACH: usize = 6;
 
-/// How single moves come back above the last peck, mm.
-const MOST_GAP: f64 = 5.0;
+/// How far single moves come back above the last peck, mm.
+const PECK_GAP: f64 = 0.2;
 
 /// Levels of a hole in the machine's Z, and its place.
 #[derive(Clone, Copy)]
@@ -121,7 +121,8 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
         if known && self.initial.is_none() {
             self.initial = Some(self.at.linear[2]);
         }
-        if known && self.at.linear[2] < raised - slack[2] {
+        let mut raise = known && self.at.linear[2] < raised - slack[2];
+        if raise {
             self.initial = Some(raised);
         }
         while let Some(found) = self.next_move().filter(|found| found.course == Course::Rapid) {
@@ -140,8 +141,13 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
             if z_moves && !level {
                 return Err((found.line, self.spell_level("the R level", to[2], levels.clear)));
             }
+            raise &= !near(to[2], raised, 2);
             self.take(cl_line, &found);
             self.next += 1;
+        }
+        if raise {
+            let message = format!("the tool does not go up to Z{} before the hole", short(raised));
+            return Err((self.next_line(), message));
         }
         if !near(self.at.linear[2], levels.clear, 2) {
             let line = self.next_move().map_or(0, |found| found.line);
@@ -166,26 +172,26 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
         levels: Levels,
         reached: f64,
     ) -> Result<(), (u32, String)> {
-        let out = self.next_move().ok_or((0, "the hole is not finished".to_string()))?;
         if hole.kind == CycleKind::Deep {
             self.level(cl_line, levels.clear, "the retract between pecks")?;
         }
-        let Some(back) = self.next_move().filter(|found| found.course == Course::Rapid) else {
-            return Ok(());
-        };
-        let gap = back.to.linear[2] - reached;
-        let usual = *self.peck_gap.get_or_insert(gap);
-        let held = back.to.linear[2].min(levels.clear);
-        let right = (gap - usual).abs() <= 2.0 * self.slack.linear[2]
-            || (held - levels.clear).abs() <= self.slack.linear[2];
-        if gap < -self.slack.linear[2] || gap > MOST_GAP || !right {
-            let message = format!("comes back {} above the last peck", short(gap));
-            return Err((back.line.max(out.line), message));
-        }
+        let Some(back) = self.next_move() else { return Ok(()) };
         self.vertical(&back)?;
-        self.take(cl_line, &back);
-        self.next += 1;
-        Ok(())
+        let slack = self.slack.linear[2];
+        let gap = back.to.linear[2] - reached;
+        // How far a control comes back by itself is a parameter of the control.
+        let right = if back.in_cycle { gap > 0.0 } else { (gap - PECK_GAP).abs() <= 2.0 * slack };
+        let above = (back.to.linear[2] - levels.clear).abs() <= slack && gap <= PECK_GAP + slack;
+        if back.course == Course::Rapid && (right || above) {
+            self.take(cl_line, &back);
+            self.next += 1;
+            return Ok(());
+        }
+        if hole.kind == CycleKind::Deep && levels.clear - reached <= PECK_GAP + slack {
+            return Ok(());
+        }
+        let message = format!("{} in place of a rapid to just above the last peck", self.spell_move(&back));
+        Err((back.line, message))
     }
 
     /// The next motion, which must go straight to a level.

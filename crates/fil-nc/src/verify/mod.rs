@@ -31,7 +31,7 @@ pub use cl_path::ClPath;
 pub use programs::compare_programs;
 pub use report::{Deviation, Finding, Kind, Report, Unverified, Verdict};
 pub use settings::{Due, Settings, Slack};
-pub use wanted::{Arc, CoolantKind, CycleKind, Hole, Step, Wanted};
+pub use wanted::{Arc, CoolantKind, CycleKind, Effect, Hole, Step, Wanted};
 
 /// The inputs of a back-check.
 pub struct Check<'a, R> {

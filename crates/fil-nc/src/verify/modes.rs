@@ -5,7 +5,7 @@
 
 use super::report::Kind;
 use super::settings::{Due, Settings};
-use super::wanted::{CoolantKind, Wanted};
+use super::wanted::{CoolantKind, Effect, Wanted};
 use crate::motion::{Compensation, Modes, Spindle};
 
 /// A state that may change with a motion.
@@ -71,6 +71,8 @@ pub(super) struct Expected {
     coolant: Lag<bool>,
     /// `None` when words of the user's own may have chosen it.
     fixture: Option<Option<u32>>,
+    /// The length offset seen last.
+    offset_on: Option<u32>,
     /// What was wrong at the last motion, so that it is said once.
     said: Vec<(Kind, String)>,
 }
@@ -85,6 +87,7 @@ impl Expected {
             speed: Lag::new(None),
             coolant: Lag::new(false),
             fixture: Some(fixture_of(&settings.own_blocks())),
+            offset_on: None,
             said: Vec::new(),
         }
     }
@@ -125,7 +128,8 @@ impl Expected {
                 self.compensation.set(*side, settings.compensation_due());
             }
             Wanted::Stop | Wanted::End => self.flush(),
-            Wanted::Unknown { .. } => self.fixture = None,
+            Wanted::Fixture(code) => self.fixture = Some(Some(*code)),
+            Wanted::Unknown { effect: Effect::Words | Effect::Path, .. } => self.fixture = None,
             _ => {}
         }
     }
@@ -162,10 +166,28 @@ impl Expected {
         self.spindle.moved(moved);
         self.speed.moved(moved);
         self.coolant.moved(moved);
+        self.offset_on = modes.length_offset;
         let wrong = self.wrong(modes, cuts, speed_slack);
         let news = wrong.iter().filter(|one| !self.said.contains(one)).cloned().collect();
         self.said = wrong;
         news
+    }
+
+    /// A length offset is still to be called.
+    pub(super) fn offset_waits(&self) -> bool {
+        self.offset.next.is_some()
+    }
+
+    /// A motion with a new tool is over: what is wrong when its length offset is
+    /// not yet on.
+    pub(super) fn settle(&mut self) -> Option<(Kind, String)> {
+        let (must, _) = self.offset.next?;
+        self.offset.flush();
+        let one = (Kind::Tool, said_of_offset(self.offset_on, must));
+        (self.offset_on != must && !self.said.contains(&one)).then(|| {
+            self.said.push(one.clone());
+            one
+        })
     }
 
     fn wrong(&self, modes: &Modes, cuts: bool, speed_slack: f64) -> Vec<(Kind, String)> {

@@ -1,5 +1,6 @@
 //! Walks along the steps of a CL file and the events of a program at once.
 
+use std::borrow::Cow;
 use std::collections::VecDeque;
 
 use fil_diag::Diag;
@@ -9,7 +10,7 @@ use super::gap::Gap;
 use super::modes::{Expected, Moved};
 use super::report::{Finding, Kind, Report, Unverified};
 use super::settings::{Settings, Slack};
-use super::wanted::{Step, Wanted};
+use super::wanted::{Effect, Step, Wanted};
 use crate::forward::Pose;
 use crate::motion::{Course, Event, Move, Position, Rate};
 
@@ -71,7 +72,7 @@ enum Detour {
 
 pub(super) struct Walk<'a, C> {
     pub(super) cl: Ahead<C>,
-    pub(super) nc: &'a [Event],
+    pub(super) nc: Cow<'a, [Event]>,
     /// Index of the next event.
     pub(super) next: usize,
     pub(super) own: OwnBlocks<'a>,
@@ -82,14 +83,16 @@ pub(super) struct Walk<'a, C> {
     travel: [(f64, f64); 3],
     written: [bool; 3],
     splits_rapids: bool,
+    /// What the program multiplies X by.
+    x_scale: f64,
     /// Where the program stands.
     pub(super) at: Position,
     pub(super) known: [bool; 5],
+    /// Line of the last motion taken.
+    line: u32,
     pub(super) modes: Expected,
     /// Level the control's cycle began from.
     pub(super) initial: Option<f64>,
-    /// How far single moves stay above the last peck.
-    pub(super) peck_gap: Option<f64>,
     /// What was said of the last position, so that one fault is said once.
     said: Option<([f64; 3], Option<f64>)>,
     pub(super) report: Report,
@@ -105,7 +108,7 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
     ) -> Self {
         Walk {
             cl: Ahead::new(cl),
-            nc,
+            nc: Cow::Borrowed(nc),
             next: 0,
             own,
             settings,
@@ -114,11 +117,12 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
             travel: settings.travel(true),
             written: settings.written(),
             splits_rapids: settings.splits_rapids(),
+            x_scale: settings.x_scale(),
             at: Position::default(),
             known: [false; 5],
+            line: 0,
             modes: Expected::new(settings),
             initial: None,
-            peck_gap: None,
             said: None,
             report: Report::default(),
             over: false,
@@ -158,14 +162,29 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
                 self.slack = self.settings.slack(*metric);
                 self.travel = self.settings.travel(*metric);
             }
+            Wanted::XScale(scale) => self.scale_x(*scale),
             Wanted::CycleEnd => self.initial = None,
             Wanted::Tool { number, offset } => self.tool(step.line, *number, *offset),
             Wanted::Dwell(seconds) => self.dwell(step.line, *seconds),
             Wanted::Insert(text) => self.insert(step.line, text),
-            Wanted::Unknown { what, ends } => self.unknown(step.line, what, *ends),
+            Wanted::Unknown { what, effect } => self.unknown(step.line, what, *effect),
             Wanted::End => self.end(step.line),
             _ if step.what.end().is_some() => self.motion(step),
             _ => {}
+        }
+    }
+
+    /// X on the tape is another multiple of its position from here on, which the
+    /// program does not say.
+    fn scale_x(&mut self, scale: f64) {
+        let change = std::mem::replace(&mut self.x_scale, scale) / scale;
+        for event in &mut self.nc.to_mut()[self.next..] {
+            if let Event::Move(found) = event {
+                found.to.linear[0] *= change;
+                if let Some(arc) = &mut found.arc {
+                    arc.centre[0] *= change;
+                }
+            }
         }
     }
 
@@ -178,7 +197,7 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
             self.pass(step.line);
             if self.makes(step) {
                 self.report.matched += 1;
-                return;
+                return self.settle(step.line);
             }
             if self.at_end() {
                 return self.ends_early(step);
@@ -289,7 +308,10 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
                     let message = "goes to a point of the machine that neither the CL file nor the settings ask for";
                     self.find(Kind::Extra, Some(cl_line), Some(found.line), message.to_string());
                 }
-                Some(Event::Move(found)) if self.is_still(&found) => self.stand(&found),
+                Some(Event::Move(found)) if self.is_still(&found) => {
+                    self.take(cl_line, &found);
+                    self.next += 1;
+                }
                 Some(Event::Dwell { line, .. }) if self.own.has(line) => self.next += 1,
                 _ => return,
             }
@@ -340,15 +362,30 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
 
     /// Takes a motion: its modes, its limits, where it goes.
     pub(super) fn take(&mut self, cl_line: u32, found: &Move) {
-        let differs = |n: usize| (found.to.linear[n] - self.at.linear[n]).abs() > STILL;
+        let differs = |n: usize| {
+            let way = (found.to.linear[n] - self.at.linear[n]).abs();
+            way > STILL || (found.known[n] && !self.known[n])
+        };
         let moved = Moved { xy: differs(0) || differs(1), z: differs(2) };
         let cuts = matches!(found.course, Course::Feed | Course::Thread);
         for (kind, message) in self.modes.check(&found.modes, moved, cuts, self.slack.speed) {
             self.find(kind, Some(cl_line), Some(found.line), message);
         }
         self.check_limits(cl_line, found);
+        self.line = found.line;
         self.at = found.to;
         self.known = found.known;
+    }
+
+    /// After the first motion with a new tool its length offset is on.
+    fn settle(&mut self, cl_line: u32) {
+        if !self.modes.offset_waits() {
+            return;
+        }
+        self.pass(cl_line);
+        if let Some((kind, message)) = self.modes.settle() {
+            self.find(kind, Some(cl_line), Some(self.line), message);
+        }
     }
 
     fn check_limits(&mut self, cl_line: u32, found: &Move) {
@@ -538,14 +575,14 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
         }
     }
 
-    fn unknown(&mut self, cl_line: u32, what: &str, ends: bool) {
-        let what = if ends {
-            format!("{what}: the CL file does not say what path it makes; nothing after it was compared")
-        } else {
-            format!("{what}: what it writes was not compared")
+    fn unknown(&mut self, cl_line: u32, what: &str, effect: Effect) {
+        let open = match effect {
+            Effect::Auxiliary => "what its M function does was not compared",
+            Effect::Words => "what it writes was not compared",
+            Effect::Path => "the CL file does not say what path it makes; nothing after it was compared",
         };
-        self.report.unverified.push(Unverified { cl_line, what });
-        self.over |= ends;
+        self.report.unverified.push(Unverified { cl_line, what: format!("{what}: {open}") });
+        self.over |= effect == Effect::Path;
     }
 
     fn end(&mut self, cl_line: u32) {
@@ -555,7 +592,12 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
             .position(|event| matches!(event, Event::End { .. }))
             .unwrap_or(self.nc.len() - self.next);
         self.extra(rest, cl_line);
-        match self.nc.get(self.next) {
+        match self.nc.get(self.next).copied() {
+            Some(Event::End { line }) if !self.settings.has_end_code() && !self.own.has(line) => {
+                self.next += 1;
+                let message = "the program ends here, the settings have no code for it".to_string();
+                self.find(Kind::End, Some(cl_line), Some(line), message);
+            }
             Some(_) => self.next += 1,
             None if self.settings.has_end_code() => {
                 let message = "the program has no end".to_string();

@@ -48,6 +48,10 @@ pub enum Wanted {
     Coolant(CoolantKind),
     /// Cutter compensation by the control.
     Compensation(Compensation),
+    /// A work offset, by its preparatory function.
+    Fixture(u32),
+    /// The program multiplies X by this from here on.
+    XScale(f64),
     /// The program waits, seconds; `None` for turns of the spindle.
     Dwell(Option<f64>),
     /// The operator is waited for; what was to come with a motion comes now.
@@ -60,9 +64,20 @@ pub enum Wanted {
     Unknown {
         /// What it is, for the report.
         what: String,
-        /// The path after it is not known either.
-        ends: bool,
+        /// What it leaves open.
+        effect: Effect,
     },
+}
+
+/// What a statement leaves open that the CL file does not explain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effect {
+    /// An M function.
+    Auxiliary,
+    /// Words of the user's own; the motions of the CL file go on.
+    Words,
+    /// The path from here on.
+    Path,
 }
 
 /// What COOLNT asks for.
