@@ -9,6 +9,7 @@ pub mod language;
 pub mod lints;
 pub mod mutants;
 pub mod nc_cases;
+pub mod nc;
 pub mod nc_path;
 pub mod oracle;
 pub mod path;
