@@ -7,6 +7,7 @@ pub mod event_path;
 pub mod examples;
 pub mod language;
 pub mod lints;
+pub mod motions;
 pub mod nc_path;
 pub mod oracle;
 pub mod path;
