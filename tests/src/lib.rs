@@ -8,6 +8,7 @@ pub mod examples;
 pub mod language;
 pub mod lints;
 pub mod motions;
+pub mod nc;
 pub mod nc_path;
 pub mod oracle;
 pub mod path;
