@@ -9,6 +9,8 @@ pub mod language;
 pub mod lints;
 pub mod motions;
 pub mod nc;
+pub mod mutants;
+pub mod nc_cases;
 pub mod nc_path;
 pub mod oracle;
 pub mod path;
@@ -20,3 +22,4 @@ pub mod rs274;
 pub fn root() -> &'static std::path::Path {
     std::path::Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the workspace")
 }
+pub mod words;

@@ -59,5 +59,9 @@ fil_diag::codes! {
         BadCall = 914, Error, "a subprogram call that can't be followed",
             "The motions of the subprogram are part of the path.",
             "Check the number, and that the subprogram is in this file and ends with M99.";
+        /// A program that has next to nothing in common with the CL file.
+        AnotherPart = 941, Error, "a program of another part",
+            "Fewer than one in ten motions of the CL file are in the program; a list of all differences would say nothing.",
+            "Give the program that was made from this CL file, and the machine it was made for.";
     }
 }

@@ -9,6 +9,8 @@
 pub mod dialect;
 pub mod diff;
 pub mod errors;
+pub mod forward;
 pub mod interpret;
 pub mod motion;
 pub mod text;
+pub mod verify;
