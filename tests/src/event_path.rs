@@ -68,7 +68,8 @@ pub fn differences(ours: &ToolPath, theirs: &ToolPath, tolerance: f64) -> Vec<St
 }
 
 fn same(own: &Action, other: &Action, tolerance: f64) -> bool {
-    let point = |a: &[f64; 3], b: &[f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < tolerance);
+    let point =
+        |a: &[f64; 3], b: &[f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < tolerance);
     let rate = |a: &Option<f64>, b: &Option<f64>| match (a, b) {
         (Some(a), Some(b)) => (a - b).abs() < 0.01,
         (a, b) => a.is_none() == b.is_none(),
@@ -80,9 +81,11 @@ fn same(own: &Action, other: &Action, tolerance: f64) -> bool {
         }
         (Action::Feed(a, f), Action::Feed(b, g)) => point(a, b) && rate(f, g),
         (Action::Arc(a, f), Action::Arc(b, g)) => {
-            let in_plane = a.normal.plane().iter().all(|axis| {
-                (a.centre[*axis] - b.centre[*axis]).abs() < tolerance
-            });
+            let in_plane = a
+                .normal
+                .plane()
+                .iter()
+                .all(|axis| (a.centre[*axis] - b.centre[*axis]).abs() < tolerance);
             point(&a.to, &b.to)
                 && in_plane
                 && (a.normal, a.ccw, a.turns) == (b.normal, b.ccw, b.turns)

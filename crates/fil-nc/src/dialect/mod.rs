@@ -11,8 +11,8 @@ use fil_post::commons::{Commons, EMPTY, Kind};
 use fil_post::kinematics::Kinematics;
 use fil_post::locations::Location;
 
-pub use codes::{Auxiliary, CycleKind, FeedMode, Function, Group};
 use codes::{Auxiliaries, Functions};
+pub use codes::{Auxiliary, CycleKind, FeedMode, Function, Group};
 pub use numbers::{Address, Unreadable};
 
 /// Names of the six axes that settings know, as their keys end.

@@ -47,6 +47,11 @@ pub enum Unreadable {
 }
 
 impl Address {
+    /// An address of whole numbers, for words that a setting need not name.
+    pub(crate) fn plain(printed: u8) -> Self {
+        address(printed.to_ascii_uppercase() - b'A' + 1, 9090, 0)
+    }
+
     /// What a number of this address stands for.
     ///
     /// # Errors

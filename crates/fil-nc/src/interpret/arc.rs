@@ -5,7 +5,7 @@ use super::state::{Axes, State};
 use super::words::{Words, letter};
 use crate::dialect::CentreForm;
 use crate::errors::NcCode;
-use crate::motion::{Arc, Course, Event};
+use crate::motion::{Arc, Course};
 
 const FULL: f64 = 360.0;
 
@@ -29,12 +29,7 @@ fn plane_axes(normal: usize) -> [usize; 2] {
 
 impl State<'_> {
     /// An arc in the plane in force.
-    pub(super) fn arc(
-        &mut self,
-        words: &mut Words,
-        ccw: bool,
-        take: &mut dyn FnMut(Event),
-    ) -> Result<(), Fault> {
+    pub(super) fn arc(&mut self, words: &mut Words, ccw: bool) -> Result<(), Fault> {
         let rate = self.rate()?;
         let axes = words.take_axes(self.dialect)?;
         let (to, known) = self.target(&axes);
@@ -53,7 +48,7 @@ impl State<'_> {
         point[self.plane] = self.at[self.plane];
         (point[plane[0]], point[plane[1]]) = (centre[0], centre[1]);
         let arc = Arc { centre: point, normal: self.plane, ccw, angle };
-        self.travel((to, known), Course::Feed, Some(rate), Some(arc), take);
+        self.travel((to, known), Course::Feed, Some(rate), Some(arc));
         Ok(())
     }
 
@@ -108,9 +103,8 @@ impl State<'_> {
     }
 
     fn check_radii(&self, plane: [usize; 2], centre: [f64; 2], to: &Axes) -> Result<(), Fault> {
-        let radius = |point: &Axes| {
-            (point[plane[0]] - centre[0]).hypot(point[plane[1]] - centre[1])
-        };
+        let radius =
+            |point: &Axes| (point[plane[0]] - centre[0]).hypot(point[plane[1]] - centre[1]);
         let (start, end) = (radius(&self.at), radius(to));
         let tolerance = if self.metric { RADIUS_TOLERANCE } else { INCH_TOLERANCE };
         if (start - end).abs() > tolerance || start < SAME_POINT {

@@ -31,21 +31,18 @@ pub(super) enum Outcome {
 }
 
 impl State<'_> {
-    /// Runs a block.
-    pub(super) fn run(
-        &mut self,
-        block: &Block,
-        take: &mut dyn FnMut(Event),
-    ) -> Result<Outcome, Fault> {
+    /// Runs a block; what it does is in [`State::events`].
+    pub(super) fn run(&mut self, block: &Block) -> Result<Outcome, Fault> {
         self.line = block.line;
+        self.events.clear();
         let mut words = Words::read(block, self.dialect, self.metric)?;
         let outcome = self.outcome(&mut words)?;
         self.modes(&mut words)?;
-        self.tool_and_spindle(&mut words, take)?;
-        self.motion(&mut words, take)?;
+        self.tool_and_spindle(&mut words)?;
+        self.motion(&mut words)?;
         words.finish()?;
         if outcome == Outcome::End {
-            take(Event::End { line: self.line });
+            self.events.push(Event::End { line: self.line });
         }
         Ok(outcome)
     }
@@ -69,33 +66,33 @@ impl State<'_> {
         Ok(outcome)
     }
 
-    fn motion(&mut self, words: &mut Words, take: &mut dyn FnMut(Event)) -> Result<(), Fault> {
+    fn motion(&mut self, words: &mut Words) -> Result<(), Fault> {
         match words.peek(Group::Once) {
             Some(Function::Dwell) => {
                 words.function(Group::Once);
-                self.dwell(words, take)?;
+                self.dwell(words)?;
             }
             Some(Function::Reference) => {
                 words.function(Group::Once);
-                return self.reference(words, take);
+                return self.reference(words);
             }
             Some(Function::MachineFrame) => {
                 words.function(Group::Once);
                 self.take_motion(words)?;
-                return self.machine_frame(words, take);
+                return self.machine_frame(words);
             }
             Some(Function::ThreadPasses) => {
                 words.function(Group::Once);
                 self.motion = None;
-                return self.thread_passes(words, take);
+                return self.thread_passes(words);
             }
             _ => {}
         }
         if let Some(kind) = self.take_motion(words)? {
-            return self.begin_cycle(kind, words, take);
+            return self.begin_cycle(kind, words);
         }
         if self.cycle.is_some() && (words.has_axes(self.dialect) || words.has(letter(b'R'))) {
-            return self.hole(words, take);
+            return self.hole(words);
         }
         let arc = matches!(self.motion, Some(Function::Arc { .. }));
         let centre = [b'I', b'J', b'K'].map(letter).iter().any(|letter| words.has(*letter));
@@ -103,14 +100,14 @@ impl State<'_> {
             return self.feed_word(words);
         }
         match self.motion {
-            Some(Function::Thread) => self.thread(words, take),
-            Some(Function::ThreadPass) => self.thread_pass(words, take),
+            Some(Function::Thread) => self.thread(words),
+            Some(Function::ThreadPass) => self.thread_pass(words),
             motion => {
                 self.feed_word(words)?;
                 match motion {
-                    Some(Function::Rapid) => self.straight(words, Course::Rapid, take),
-                    Some(Function::Linear) => self.straight(words, Course::Feed, take),
-                    Some(Function::Arc { ccw }) => self.arc(words, ccw, take),
+                    Some(Function::Rapid) => self.straight(words, Course::Rapid),
+                    Some(Function::Linear) => self.straight(words, Course::Feed),
+                    Some(Function::Arc { ccw }) => self.arc(words, ccw),
                     _ => Err(Fault::new(NcCode::NoMotion, "no G word says how the axes move")),
                 }
             }
@@ -153,21 +150,16 @@ impl State<'_> {
         Ok(())
     }
 
-    fn straight(
-        &mut self,
-        words: &mut Words,
-        course: Course,
-        take: &mut dyn FnMut(Event),
-    ) -> Result<(), Fault> {
+    fn straight(&mut self, words: &mut Words, course: Course) -> Result<(), Fault> {
         let rate = if course == Course::Feed { Some(self.rate()?) } else { None };
         let axes = words.take_axes(self.dialect)?;
         let target = self.target(&axes);
-        self.go(target, course, rate, take);
+        self.go(target, course, rate);
         Ok(())
     }
 
     /// To the reference point by way of the point that the block names.
-    fn reference(&mut self, words: &mut Words, take: &mut dyn FnMut(Event)) -> Result<(), Fault> {
+    fn reference(&mut self, words: &mut Words) -> Result<(), Fault> {
         let axes = words.take_axes(self.dialect)?;
         if axes.is_empty() {
             return Err(Fault::new(NcCode::MissingWord, "the axes that go there are needed"));
@@ -175,20 +167,16 @@ impl State<'_> {
         self.cycle = None;
         let (between, known) = self.target(&axes);
         if between != self.at {
-            self.go((between, known), Course::Rapid, None, take);
+            self.go((between, known), Course::Rapid, None);
         }
         let mut lost = self.known;
         axes.iter().for_each(|word| lost[word.axis] = false);
-        self.go((between, lost), Course::Machine, None, take);
+        self.go((between, lost), Course::Machine, None);
         Ok(())
     }
 
     /// To a point of the machine frame.
-    fn machine_frame(
-        &mut self,
-        words: &mut Words,
-        take: &mut dyn FnMut(Event),
-    ) -> Result<(), Fault> {
+    fn machine_frame(&mut self, words: &mut Words) -> Result<(), Fault> {
         if !self.absolute {
             let message = "the machine frame knows no increments";
             return Err(Fault::new(NcCode::NoMeaning, message));
@@ -201,16 +189,16 @@ impl State<'_> {
         let (to, _) = self.target(&axes);
         let mut lost = self.known;
         axes.iter().for_each(|word| lost[word.axis] = false);
-        self.go((to, lost), Course::Machine, None, take);
+        self.go((to, lost), Course::Machine, None);
         Ok(())
     }
 
-    fn dwell(&mut self, words: &mut Words, take: &mut dyn FnMut(Event)) -> Result<(), Fault> {
+    fn dwell(&mut self, words: &mut Words) -> Result<(), Fault> {
         let time = words.take(self.dialect.dwell)?;
         let time =
             time.ok_or_else(|| Fault::new(NcCode::MissingWord, "the time of the dwell is needed"))?;
         let seconds = Some(time / self.dialect.dwell_factor);
-        take(Event::Dwell { line: self.line, seconds });
+        self.events.push(Event::Dwell { line: self.line, seconds });
         Ok(())
     }
 }

@@ -14,7 +14,7 @@ const R: u8 = letter(b'R');
 const PECK_GAP: f64 = 0.254;
 
 /// Most pecks of a hole.
-const MAX_PECKS: f64 = 100_000.0;
+const MAX_PECKS: f64 = 10_000.0;
 
 /// A cycle in force.
 #[derive(Clone, Copy, Debug)]
@@ -39,12 +39,7 @@ struct Hole {
 
 impl State<'_> {
     /// A block with a cycle's code: the cycle and its first hole.
-    pub(super) fn begin_cycle(
-        &mut self,
-        kind: CycleKind,
-        words: &mut Words,
-        take: &mut dyn FnMut(Event),
-    ) -> Result<(), Fault> {
+    pub(super) fn begin_cycle(&mut self, kind: CycleKind, words: &mut Words) -> Result<(), Fault> {
         let axis = self.plane;
         let fresh = Cycle {
             kind,
@@ -59,21 +54,18 @@ impl State<'_> {
             Some(before) => Cycle { kind, ..before },
             None => fresh,
         });
-        self.hole(words, take)
+        self.hole(words)
     }
 
     /// A hole of the cycle in force.
-    pub(super) fn hole(
-        &mut self,
-        words: &mut Words,
-        take: &mut dyn FnMut(Event),
-    ) -> Result<(), Fault> {
+    pub(super) fn hole(&mut self, words: &mut Words) -> Result<(), Fault> {
         let Some(mut cycle) = self.cycle else { return Ok(()) };
         self.feed_word(words)?;
         let axes = words.take_axes(self.dialect)?;
         self.levels(&mut cycle, words, &axes)?;
         self.cycle = Some(cycle);
-        let missing = |what: &str| Fault::new(NcCode::MissingWord, format!("the cycle needs {what}"));
+        let missing =
+            |what: &str| Fault::new(NcCode::MissingWord, format!("the cycle needs {what}"));
         let hole = Hole {
             axis: self.plane,
             clear: cycle.clear.ok_or_else(|| missing("its R level"))?,
@@ -90,21 +82,16 @@ impl State<'_> {
         let across: Vec<AxisWord> = axes.into_iter().filter(|w| w.axis != hole.axis).collect();
         let (to, known) = self.target(&across);
         if to != self.at || known != self.known {
-            self.go((to, known), Course::Rapid, None, take);
+            self.go((to, known), Course::Rapid, None);
         }
         self.known[hole.axis] = true;
-        self.step(&[(hole.axis, hole.clear)], Course::Rapid, None, take);
-        self.drill(hole, step, take)?;
-        self.leave(&cycle, hole, take)
+        self.step(&[(hole.axis, hole.clear)], Course::Rapid, None);
+        self.drill(hole, step)?;
+        self.leave(&cycle, hole)
     }
 
     /// Takes up the cycle's words.
-    fn levels(
-        &self,
-        cycle: &mut Cycle,
-        words: &mut Words,
-        axes: &[AxisWord],
-    ) -> Result<(), Fault> {
+    fn levels(&self, cycle: &mut Cycle, words: &mut Words, axes: &[AxisWord]) -> Result<(), Fault> {
         let axis = self.plane;
         let depth = axes.iter().find(|word| word.axis == axis);
         let increments = !self.absolute || depth.is_some_and(|word| word.increment);
@@ -134,53 +121,43 @@ impl State<'_> {
     }
 
     /// From the R level to the bottom.
-    fn drill(
-        &mut self,
-        hole: Hole,
-        step: Option<f64>,
-        take: &mut dyn FnMut(Event),
-    ) -> Result<(), Fault> {
+    fn drill(&mut self, hole: Hole, step: Option<f64>) -> Result<(), Fault> {
         let rate = Some(self.rate()?);
         let mut reached = hole.clear;
         let whole = |cycle: &Option<Cycle>| cycle.is_some_and(|c| c.kind == CycleKind::Peck);
         while let Some(step) = step.filter(|step| reached - step > hole.bottom + 1e-9) {
             reached -= step;
-            self.step(&[(hole.axis, reached)], Course::Feed, rate, take);
+            self.step(&[(hole.axis, reached)], Course::Feed, rate);
             if whole(&self.cycle) {
-                self.step(&[(hole.axis, hole.clear)], Course::Rapid, None, take);
+                self.step(&[(hole.axis, hole.clear)], Course::Rapid, None);
             }
             let again = (reached + PECK_GAP).min(hole.clear);
-            self.step(&[(hole.axis, again)], Course::Rapid, None, take);
+            self.step(&[(hole.axis, again)], Course::Rapid, None);
         }
-        self.step(&[(hole.axis, hole.bottom)], Course::Feed, rate, take);
+        self.step(&[(hole.axis, hole.bottom)], Course::Feed, rate);
         Ok(())
     }
 
     /// What happens at the bottom, and the way out.
-    fn leave(
-        &mut self,
-        cycle: &Cycle,
-        hole: Hole,
-        take: &mut dyn FnMut(Event),
-    ) -> Result<(), Fault> {
+    fn leave(&mut self, cycle: &Cycle, hole: Hole) -> Result<(), Fault> {
         if let Some(seconds) = cycle.dwell.filter(|seconds| *seconds > 0.0) {
-            take(Event::Dwell { line: self.line, seconds: Some(seconds) });
+            self.events.push(Event::Dwell { line: self.line, seconds: Some(seconds) });
         }
         let turning = self.modes.spindle;
         let rate = Some(self.rate()?);
         match cycle.kind {
             CycleKind::Tap => {
                 self.modes.spindle = reversed(turning);
-                self.step(&[(hole.axis, hole.clear)], Course::Feed, rate, take);
+                self.step(&[(hole.axis, hole.clear)], Course::Feed, rate);
             }
             CycleKind::FeedOut => {
-                self.step(&[(hole.axis, hole.clear)], Course::Feed, rate, take);
+                self.step(&[(hole.axis, hole.clear)], Course::Feed, rate);
             }
             CycleKind::StopOut => self.modes.spindle = Spindle::Off,
             CycleKind::Drill | CycleKind::Peck | CycleKind::BreakChips => {}
         }
         let rest = if self.return_initial { cycle.initial } else { hole.clear };
-        self.step(&[(hole.axis, rest)], Course::Rapid, None, take);
+        self.step(&[(hole.axis, rest)], Course::Rapid, None);
         self.modes.spindle = turning;
         self.known[hole.axis] = !self.return_initial || cycle.initial_known;
         Ok(())

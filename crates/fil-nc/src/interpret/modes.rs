@@ -79,11 +79,7 @@ impl State<'_> {
     }
 
     /// Speed, tool and M words.
-    pub(super) fn tool_and_spindle(
-        &mut self,
-        words: &mut Words,
-        take: &mut dyn FnMut(Event),
-    ) -> Result<(), Fault> {
+    pub(super) fn tool_and_spindle(&mut self, words: &mut Words) -> Result<(), Fault> {
         if let Some(Function::Surface(on)) = words.function(Group::Surface) {
             self.surface = on;
             self.modes.speed = self.modes.speed.filter(|_| !on);
@@ -97,7 +93,7 @@ impl State<'_> {
         if let Some(speed) = words.take(S)?.filter(|_| !oriented) {
             self.modes.speed = (!self.surface).then_some(speed);
         }
-        self.tool(words, take)?;
+        self.tool(words)?;
         for (auxiliary, _) in &words.auxiliaries {
             match auxiliary {
                 Auxiliary::Clockwise => self.modes.spindle = Spindle::Clockwise,
@@ -110,28 +106,29 @@ impl State<'_> {
         Ok(())
     }
 
-    fn tool(&mut self, words: &mut Words, take: &mut dyn FnMut(Event)) -> Result<(), Fault> {
+    fn tool(&mut self, words: &mut Words) -> Result<(), Fault> {
         let named = words.take_whole(T)?;
         let changes = words.auxiliaries.iter().any(|(a, _)| *a == Auxiliary::ToolChange);
         match (self.dialect.tool_call, named) {
             (ToolCall::WithOffset, Some(number)) => {
                 self.modes.length_offset = Some(number % 100).filter(|offset| *offset > 0);
-                self.change(number / 100, take);
+                self.change(number / 100);
             }
-            (ToolCall::Word, Some(number)) => self.change(number, take),
+            (ToolCall::Word, Some(number)) => self.change(number),
             (ToolCall::WithCode, Some(number)) => self.next_tool = Some(number),
             (_, None) => {}
         }
         if changes && self.dialect.tool_call == ToolCall::WithCode {
             let next = self.next_tool.take();
-            let missing = || Fault::new(NcCode::MissingWord, "no T word names the tool to change to");
-            self.change(next.ok_or_else(missing)?, take);
+            let missing =
+                || Fault::new(NcCode::MissingWord, "no T word names the tool to change to");
+            self.change(next.ok_or_else(missing)?);
         }
         Ok(())
     }
 
-    fn change(&mut self, tool: u32, take: &mut dyn FnMut(Event)) {
+    fn change(&mut self, tool: u32) {
         self.modes.tool = tool;
-        take(Event::ToolChange { line: self.line, tool });
+        self.events.push(Event::ToolChange { line: self.line, tool });
     }
 }

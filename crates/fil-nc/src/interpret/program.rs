@@ -16,8 +16,8 @@ use crate::text::{Block, read_block};
 /// Most calls within calls.
 const MAX_DEPTH: usize = 16;
 
-/// Most blocks that calls may run in all.
-const MAX_CALLED: u64 = 20_000_000;
+/// Most motions that calls may make in all, blocks without one counted too.
+const MAX_CALLED: usize = 5_000_000;
 
 /// Where the reading stands.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -58,7 +58,7 @@ pub(super) struct Program<'a> {
     /// Why a line of the head is no block; it may be a label.
     label: Option<Box<Diag>>,
     calls: Vec<Call>,
-    called: u64,
+    called: usize,
 }
 
 impl<'a> Program<'a> {
@@ -152,7 +152,9 @@ impl<'a> Program<'a> {
             Part::Head if is_program_number(&block) => return Ok(None),
             Part::Head | Part::Body => self.part = Part::Body,
         }
-        let outcome = state.run(&block, take).map_err(placed)?;
+        let outcome = state.run(&block).map_err(placed)?;
+        self.count_called(state.events.len()).map_err(placed)?;
+        state.events.drain(..).for_each(take);
         self.follow(outcome, index).map_err(|fault| fault.place(self.name, number, line))
     }
 
@@ -182,14 +184,19 @@ impl<'a> Program<'a> {
         Ok(())
     }
 
+    /// Stops calls that would run for ever.
+    fn count_called(&mut self, motions: usize) -> Result<(), Fault> {
+        if !self.calls.is_empty() {
+            self.called += 1 + motions;
+        }
+        if self.called > MAX_CALLED {
+            return Err(Fault::new(NcCode::BadCall, "the calls make too many motions"));
+        }
+        Ok(())
+    }
+
     /// What a block asks of the order of lines.
     fn follow(&mut self, outcome: Outcome, index: usize) -> Result<Option<usize>, Fault> {
-        if !self.calls.is_empty() {
-            self.called += 1;
-            if self.called > MAX_CALLED {
-                return Err(Fault::new(NcCode::BadCall, "the calls run too many blocks"));
-            }
-        }
         match outcome {
             Outcome::Next => Ok(None),
             Outcome::End => {
@@ -262,4 +269,3 @@ fn is_program_number(block: &Block) -> bool {
     let mut words = block.words.iter().filter(|word| word.letter != b'N');
     words.next().is_some_and(|word| word.letter == b'O') && words.next().is_none()
 }
-

@@ -38,6 +38,8 @@ pub(super) struct State<'d> {
     /// Tool that the next change takes.
     pub(super) next_tool: Option<u32>,
     pub(super) modes: Modes,
+    /// Events of the block; they count when the whole block has a meaning.
+    pub(super) events: Vec<Event>,
 }
 
 impl<'d> State<'d> {
@@ -62,6 +64,7 @@ impl<'d> State<'d> {
             setup: None,
             next_tool: None,
             modes: Modes::default(),
+            events: Vec::new(),
         }
     }
 
@@ -105,9 +108,7 @@ impl<'d> State<'d> {
         let feed = self.feed.filter(|feed| *feed > 0.0);
         let feed = feed.ok_or_else(|| Fault::new(NcCode::NoFeed, "no F word is in force"))?;
         Ok(match self.feed_mode {
-            FeedMode::PerMinute => {
-                Rate::PerMinute(feed / self.dialect.feed_factor * self.unit())
-            }
+            FeedMode::PerMinute => Rate::PerMinute(feed / self.dialect.feed_factor * self.unit()),
             FeedMode::PerTurn => Rate::PerTurn(feed * self.unit()),
             FeedMode::Inverse => Rate::Inverse(feed),
         })
@@ -119,9 +120,8 @@ impl<'d> State<'d> {
         (to, known): (Axes, [bool; 5]),
         course: Course,
         rate: Option<Rate>,
-        take: &mut dyn FnMut(Event),
     ) {
-        self.travel((to, known), course, rate, None, take);
+        self.travel((to, known), course, rate, None);
     }
 
     /// A motion to a point, along an arc where one is given.
@@ -131,11 +131,10 @@ impl<'d> State<'d> {
         course: Course,
         rate: Option<Rate>,
         arc: Option<Arc>,
-        take: &mut dyn FnMut(Event),
     ) {
         (self.at, self.known) = (to, known);
         let [x, y, z, primary, secondary] = to;
-        take(Event::Move(Move {
+        self.events.push(Event::Move(Move {
             line: self.line,
             course,
             to: Position { linear: [x, y, z], rotary: [primary, secondary] },
@@ -148,19 +147,13 @@ impl<'d> State<'d> {
     }
 
     /// A motion of some axes within a cycle; none when they stand there.
-    pub(super) fn step(
-        &mut self,
-        to: &[(usize, f64)],
-        course: Course,
-        rate: Option<Rate>,
-        take: &mut dyn FnMut(Event),
-    ) {
+    pub(super) fn step(&mut self, to: &[(usize, f64)], course: Course, rate: Option<Rate>) {
         let mut target = self.at;
         for (axis, position) in to {
             target[*axis] = *position;
         }
         if target != self.at {
-            self.go((target, self.known), course, rate, take);
+            self.go((target, self.known), course, rate);
         }
     }
 }

@@ -4,7 +4,7 @@ use super::Fault;
 use super::state::State;
 use super::words::{AxisWord, Words, letter};
 use crate::errors::NcCode;
-use crate::motion::{Course, Event, Rate};
+use crate::motion::{Course, Rate};
 
 const A: u8 = letter(b'A');
 const D: u8 = letter(b'D');
@@ -50,15 +50,11 @@ struct Thread {
 
 impl State<'_> {
     /// One pass from where the tool stands.
-    pub(super) fn thread(
-        &mut self,
-        words: &mut Words,
-        take: &mut dyn FnMut(Event),
-    ) -> Result<(), Fault> {
+    pub(super) fn thread(&mut self, words: &mut Words) -> Result<(), Fault> {
         let lead = self.lead(words, None)?;
         let axes = words.take_axes(self.dialect)?;
         let target = self.target(&axes);
-        self.go(target, Course::Thread, Some(Rate::PerTurn(lead)), take);
+        self.go(target, Course::Thread, Some(Rate::PerTurn(lead)));
         Ok(())
     }
 
@@ -78,11 +74,7 @@ impl State<'_> {
     }
 
     /// In, along, out and back to where it began.
-    pub(super) fn thread_pass(
-        &mut self,
-        words: &mut Words,
-        take: &mut dyn FnMut(Event),
-    ) -> Result<(), Fault> {
+    pub(super) fn thread_pass(&mut self, words: &mut Words) -> Result<(), Fault> {
         let before = self.pass;
         let lead = self.lead(words, before.map(|pass| pass.lead))?;
         let axes = words.take_axes(self.dialect)?;
@@ -94,7 +86,7 @@ impl State<'_> {
         let taper = taper.map(|taper| taper * self.unit()).or(before.map(|pass| pass.taper));
         let pass = Pass { x, z, taper: taper.unwrap_or(0.0), lead };
         self.pass = Some(pass);
-        self.cut(pass, 0.0, take);
+        self.cut(pass, 0.0);
         Ok(())
     }
 
@@ -113,28 +105,24 @@ impl State<'_> {
     }
 
     /// One pass that begins `infeed` later in Z.
-    fn cut(&mut self, pass: Pass, infeed: f64, take: &mut dyn FnMut(Event)) {
+    fn cut(&mut self, pass: Pass, infeed: f64) {
         let (x, z) = (self.at[X], self.at[Z]);
         let known = self.known;
         let towards = (pass.z - z).signum();
         (self.known[X], self.known[Z]) = (true, known[Z]);
-        self.step(&[(Z, z + infeed * towards)], Course::Rapid, None, take);
-        self.step(&[(X, pass.x + pass.taper)], Course::Rapid, None, take);
+        self.step(&[(Z, z + infeed * towards)], Course::Rapid, None);
+        self.step(&[(X, pass.x + pass.taper)], Course::Rapid, None);
         self.known[Z] = true;
         let rate = Some(Rate::PerTurn(pass.lead));
-        self.step(&[(X, pass.x), (Z, pass.z)], Course::Thread, rate, take);
+        self.step(&[(X, pass.x), (Z, pass.z)], Course::Thread, rate);
         self.known[X] = known[X];
-        self.step(&[(X, x)], Course::Rapid, None, take);
+        self.step(&[(X, x)], Course::Rapid, None);
         self.known[Z] = known[Z];
-        self.step(&[(Z, z)], Course::Rapid, None, take);
+        self.step(&[(Z, z)], Course::Rapid, None);
     }
 
     /// The threading cycle of all passes, in one block or in two.
-    pub(super) fn thread_passes(
-        &mut self,
-        words: &mut Words,
-        take: &mut dyn FnMut(Event),
-    ) -> Result<(), Fault> {
+    pub(super) fn thread_passes(&mut self, words: &mut Words) -> Result<(), Fault> {
         if !words.has_axes(self.dialect) {
             self.setup = Some(self.first_block(words)?);
             return Ok(());
@@ -144,7 +132,7 @@ impl State<'_> {
             Some(setup) => self.second_block(words, setup, lead)?,
             None => self.only_block(words, lead)?,
         };
-        self.passes(&thread, take)
+        self.passes(&thread)
     }
 
     /// `P` finishing passes, chamfer and angle, two digits each; `Q` least depth; `R`
@@ -185,13 +173,13 @@ impl State<'_> {
 
     /// Passes of falling depth, so that each takes the same chip, then those at the
     /// full height.
-    fn passes(&mut self, thread: &Thread, take: &mut dyn FnMut(Event)) -> Result<(), Fault> {
+    fn passes(&mut self, thread: &Thread) -> Result<(), Fault> {
         let out = (self.at[X] - thread.last.x).signum();
         let slope = (thread.setup.angle / 2.0).to_radians().tan();
         self.pass = Some(thread.last);
         for depth in depths(thread)? {
             let x = thread.last.x + out * (thread.height - depth);
-            self.cut(Pass { x, ..thread.last }, depth * slope, take);
+            self.cut(Pass { x, ..thread.last }, depth * slope);
         }
         self.pass = None;
         Ok(())

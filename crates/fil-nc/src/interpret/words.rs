@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Fault;
-use crate::dialect::{Auxiliary, Dialect, Function, Group, Unreadable};
+use crate::dialect::{Address, Auxiliary, Dialect, Function, Group, Unreadable};
 use crate::errors::NcCode;
 use crate::text::{Block, Number, Word};
 
@@ -70,9 +70,8 @@ impl Words {
             .and_then(|code| dialect.function(code))
             .ok_or_else(|| foreign('G', word))?;
         let group = function.group();
-        if let Some((_, other)) = self.functions.iter().find(|(f, _)| f.group() == group) {
-            let message = if *other == word.range { "the same function" } else { "one group" };
-            return Err(twice(format!("two G words of {message}"), &word.range));
+        if self.peek(group).is_some() {
+            return Err(twice("two G words of one group".to_string(), &word.range));
         }
         self.functions.push((function, word.range.clone()));
         Ok(())
@@ -102,8 +101,13 @@ impl Words {
     }
 
     fn add_item(&mut self, word: &Word, dialect: &Dialect, metric: bool) -> Result<(), Fault> {
-        let Some(address) = dialect.address(word.letter) else {
-            return Err(no_meaning(word.letter, &word.range, "an address the machine does not have"));
+        let of_calls = matches!(word.letter, b'L' | b'P').then(|| Address::plain(word.letter));
+        let Some(address) = dialect.address(word.letter).copied().or(of_calls) else {
+            return Err(no_meaning(
+                word.letter,
+                &word.range,
+                "an address the machine does not have",
+            ));
         };
         let item = Item {
             letter: address.letter,
@@ -112,11 +116,8 @@ impl Words {
             value: address.value(word.number, metric),
             range: word.range.clone(),
         };
-        let same = |other: &&Item| {
-            other.letter == item.letter
-                || (item.increment && other.letter == item.letter && !other.increment)
-        };
-        if self.items.iter().find(same).is_some_and(|other| other.increment == item.increment) {
+        let same = |other: &Item| (other.letter, other.increment) == (item.letter, item.increment);
+        if self.items.iter().any(same) {
             return Err(twice(format!("two words of {}", char::from(word.letter)), &word.range));
         }
         self.items.push(item);
@@ -225,7 +226,9 @@ impl Item {
     pub(super) fn read(&self) -> Result<f64, Fault> {
         self.value.map_err(|why| {
             let message = match why {
-                Unreadable::NoPoint => "without its point this can be millimetres or smallest steps",
+                Unreadable::NoPoint => {
+                    "without its point this can be millimetres or smallest steps"
+                }
                 Unreadable::NoZeros => "its zeros are dropped on both sides",
             };
             Fault::new(NcCode::BadNumber, message).at(&self.range)
