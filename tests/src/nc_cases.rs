@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use filpost::{Commons, Post, case};
 
+use crate::root;
 use crate::words::Header;
 
 /// A program and what it comes from.
@@ -19,11 +20,6 @@ pub struct NcCase {
     pub commons: Commons,
     /// FIL has a part in it, so that the CL file alone does not say what it does.
     pub fil: bool,
-}
-
-/// The folder of the workspace.
-pub fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
 /// All programs of the suites, sorted by name.

@@ -19,6 +19,7 @@ mod sarif;
 mod setup;
 mod summary;
 mod test;
+mod verify;
 
 use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind};
 use std::process::ExitCode;
@@ -64,6 +65,7 @@ fn run(command: &Command) -> Result<Status, Error> {
         Command::Fmt(args) => fmt::run(args),
         Command::Cl(args) => cl::run(args),
         Command::Diff(args) => diff::run(args),
+        Command::Verify(args) => verify::run(args),
         Command::Test(args) => test::run(args),
         Command::Explain(args) => explain::run(&args.subject),
         Command::Machine(args) => machine::run(args),

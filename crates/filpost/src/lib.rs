@@ -36,6 +36,7 @@ mod script_files;
 pub mod select;
 mod source;
 mod statement;
+pub mod verify;
 
 pub use blocks::{Block, Blocks};
 pub use builder::{Builder, Post};

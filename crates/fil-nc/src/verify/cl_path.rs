@@ -222,14 +222,18 @@ impl State {
                 [x, y, z] => self.line_to(Point3::new(x, y, z), self.axis),
                 _ => unknown(Effect::Path),
             },
-            w::LOADTL | w::LOAD | w::TURRET => self.tool(record).unwrap_or_else(|| unknown(Effect::Words)),
+            w::LOADTL | w::LOAD | w::TURRET => {
+                self.tool(record).unwrap_or_else(|| unknown(Effect::Words))
+            }
             w::SPINDL => spindle(record),
             w::COOLNT => coolant(record).map_or_else(|| unknown(Effect::Words), |kind| vec![kind]),
-            w::CUTCOM => compensation(record).map_or_else(|| unknown(Effect::Words), |side| vec![side]),
-            w::DELAY => vec![Wanted::Dwell(numbers(record).first().copied().filter(|_| !record.has(w::REV)))],
-            w::OP | w::THREAD => {
-                self.thread(record).unwrap_or_else(|| unknown(Effect::Path))
+            w::CUTCOM => {
+                compensation(record).map_or_else(|| unknown(Effect::Words), |side| vec![side])
             }
+            w::DELAY => vec![Wanted::Dwell(
+                numbers(record).first().copied().filter(|_| !record.has(w::REV)),
+            )],
+            w::OP | w::THREAD => self.thread(record).unwrap_or_else(|| unknown(Effect::Path)),
             w::MODE if record.has(w::TURN) => vec![Wanted::XScale(DIAMETER)],
             w::MODE if record.has(w::MILL) => vec![Wanted::XScale(1.0)],
             w::PREFUN => match numbers(record)[..] {
@@ -322,7 +326,10 @@ impl State {
         let numbers = numbers_beside(record, &[w::LENGTH, w::OSETNO, w::ADJUST]);
         let number = *numbers.first()?;
         let offset = record.number_after(w::OSETNO).or(record.number_after(w::ADJUST));
-        Some(vec![Wanted::Tool { number: whole(number)?, offset: whole(offset.unwrap_or(number))? }])
+        Some(vec![Wanted::Tool {
+            number: whole(number)?,
+            offset: whole(offset.unwrap_or(number))?,
+        }])
     }
 
     /// OP/THREAD and THREAD with a pitch; `None` for forms that leave the passes open.

@@ -1,11 +1,11 @@
 //! Holes of the path against canned cycles, or single moves, of the program.
 
-use fil_diag::Diag;
-use nalgebra::Vector3;
-
+use super::ahead::Steps;
 use super::report::Kind;
-use super::wanted::{CycleKind, Hole, Step};
-use super::walk::{Walk, short};
+use super::say::short;
+use super::walk::Walk;
+use super::wanted::{CycleKind, Hole};
+use crate::forward::Pose;
 use crate::motion::{Course, Event, Move, Spindle};
 
 /// Most motions over a hole before it is drilled.
@@ -32,21 +32,41 @@ enum Out {
     Any,
 }
 
-impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
+impl<C: Steps> Walk<'_, C> {
     /// Takes the events that make a hole; false when the next ones make none here.
     pub(super) fn hole(&mut self, cl_line: u32, hole: &Hole) -> bool {
         if !self.is_over_hole(self.next, hole) {
             return false;
         }
         let Some(plunge) = self.plunge(self.next) else { return false };
-        let first = self.next;
         let levels = self.levels(hole, &plunge);
-        let wrong = self.drill(cl_line, hole, levels, plunge.modes.spindle);
-        if let Err((line, message)) = wrong {
-            self.find(Kind::Cycle, Some(cl_line), Some(line), message);
-            self.leave_hole(first, &plunge);
-        }
+        self.drill_at(cl_line, hole, levels, &plunge);
         true
+    }
+
+    /// Takes the events of a hole that is not where it should be; false when the next
+    /// ones make no hole.
+    pub(super) fn hole_elsewhere(&mut self, cl_line: u32, hole: &Hole) -> bool {
+        let Some(plunge) = self.plunge(self.next).filter(|plunge| plunge.arc.is_none()) else {
+            return false;
+        };
+        let mut levels = self.levels(hole, &plunge);
+        let over = Pose { tip: hole.start.tip, ..hole.start };
+        let mut stands = plunge;
+        stands.to.linear[2] = levels.at[2];
+        self.say_gap(cl_line, &stands, &over);
+        self.measure(&stands, &over);
+        levels.at = [plunge.to.linear[0], plunge.to.linear[1], levels.at[2]];
+        self.drill_at(cl_line, hole, levels, &plunge);
+        true
+    }
+
+    fn drill_at(&mut self, cl_line: u32, hole: &Hole, levels: Levels, plunge: &Move) {
+        let first = self.next;
+        if let Err((line, message)) = self.drill(cl_line, hole, levels, plunge.modes.spindle) {
+            self.find(Kind::Cycle, Some(cl_line), Some(line), message);
+            self.leave_hole(first, plunge);
+        }
     }
 
     /// The first motion at feed from `index` on, after motions over the hole.
@@ -94,7 +114,8 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
             }
             let found = self.level(cl_line, depth, "the hole")?;
             let course = if hole.kind == CycleKind::Tap { Course::Thread } else { Course::Feed };
-            if found.course != course && !(course == Course::Thread && found.course == Course::Feed) {
+            if found.course != course && !(course == Course::Thread && found.course == Course::Feed)
+            {
                 return Err((found.line, format!("{} in a hole", self.spell_move(&found))));
             }
             self.check_rate(cl_line, &found, hole.rate);
@@ -127,11 +148,15 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
         }
         while let Some(found) = self.next_move().filter(|found| found.course == Course::Rapid) {
             let to = found.to.linear;
-            let across = (0..2).any(|n| to[n] != self.at.linear[n]) && self.known[0] && self.known[1];
+            let across =
+                (0..2).any(|n| to[n] != self.at.linear[n]) && self.known[0] && self.known[1];
             let z_moves = to[2] != self.at.linear[2];
             let arrives = (0..2).all(|n| near(to[n], levels.at[n], n));
             if across && !arrives {
-                return Err((found.line, format!("{}, which is not over the hole", self.spell_move(&found))));
+                return Err((
+                    found.line,
+                    format!("{}, which is not over the hole", self.spell_move(&found)),
+                ));
             }
             let low = self.at.linear[2].min(to[2]) < levels.clear - slack[2];
             if across && self.known[2] && low {
@@ -190,7 +215,8 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
         if hole.kind == CycleKind::Deep && levels.clear - reached <= PECK_GAP + slack {
             return Ok(());
         }
-        let message = format!("{} in place of a rapid to just above the last peck", self.spell_move(&back));
+        let message =
+            format!("{} in place of a rapid to just above the last peck", self.spell_move(&back));
         Err((back.line, message))
     }
 
@@ -212,14 +238,14 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
             return Err((self.next_line(), "the hole is not finished".to_string()));
         };
         self.vertical(&found)?;
-        if (found.to.linear[2] - z).abs() > self.slack.linear[2] {
+        let off = found.to.linear[2] - z;
+        self.report.position.add(off.abs(), found.line);
+        if off.abs() > self.slack.linear[2] {
             return Err((found.line, self.spell_level(what, found.to.linear[2], z)));
         }
         found.modes.spindle = turning.unwrap_or(found.modes.spindle);
         self.take(cl_line, &found);
         self.next += 1;
-        let off = found.to.linear[2] - z;
-        self.report.position.add(Vector3::new(0.0, 0.0, off).norm(), found.line);
         Ok(found)
     }
 

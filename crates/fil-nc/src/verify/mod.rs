@@ -5,15 +5,20 @@
 //! machine's settings lay down what the CL file leaves open (where codes stand,
 //! what the last digit is), [`settings`] says it.
 
+mod ahead;
+mod align;
 mod arc;
 mod blocks;
 mod cl_path;
 mod gap;
 mod hole;
+mod lines;
 mod modes;
 mod programs;
 mod report;
+mod say;
 mod settings;
+mod tools;
 mod walk;
 mod wanted;
 

@@ -1,0 +1,81 @@
+//! Back-check of an NC program: against the CL file, or against a second run.
+//!
+//! Without FIL the CL file says what the program must do, and the comparison shares
+//! nothing with the post. FIL sections make motions that no CL file determines; then
+//! the post runs again in memory and the program is compared with what that run
+//! makes. That finds what was changed in a program, not what a script does wrong.
+
+use std::io::{Cursor, Read};
+
+use fil_nc::dialect::Dialect;
+use fil_nc::interpret;
+use fil_nc::motion::Event;
+use fil_nc::verify::{Check, Report, compare_programs, verify};
+
+use crate::builder::Post;
+use crate::error::Error;
+
+/// What a program is compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reference {
+    /// The path of the CL file.
+    ClFile,
+    /// What the post with its FIL makes of the CL file in a second run.
+    SecondRun,
+}
+
+/// An NC program to be checked.
+#[derive(Clone, Copy, Debug)]
+pub struct Program<'a> {
+    /// Its text.
+    pub text: &'a [u8],
+    /// Its name in messages.
+    pub name: &'a str,
+}
+
+impl Post {
+    /// Compares a program with the CL file that it should come from, within
+    /// `tolerance` (mm) besides the last digit of each address.
+    ///
+    /// # Errors
+    /// A program or a CL file that can't be read, a program of another part; what
+    /// the second run of a post with FIL refuses.
+    pub fn verify(
+        &mut self,
+        mut cl: impl Read,
+        program: Program<'_>,
+        tolerance: Option<f64>,
+    ) -> Result<(Report, Reference), Error> {
+        let dialect = Dialect::new(self.commons()).map_err(Error::Run)?;
+        let events = interpret::events(program.text, program.name, &dialect).map_err(Error::Run)?;
+        if self.has_fil() {
+            let mut text = Vec::new();
+            let name = self.cl_name.clone();
+            cl.read_to_end(&mut text)
+                .map_err(|error| crate::files::cant_read(name.as_ref(), &error))?;
+            let again = self.second_run(text, &dialect)?;
+            return Ok((compare_programs(&again, &events, tolerance), Reference::SecondRun));
+        }
+        let check = Check {
+            cl,
+            cl_name: &self.cl_name,
+            options: self.options,
+            nc: program.text,
+            events: &events,
+            commons: self.commons(),
+            tolerance,
+        };
+        Ok((verify(check).map_err(Error::Run)?, Reference::ClFile))
+    }
+
+    fn has_fil(&self) -> bool {
+        !self.module.files.is_empty()
+    }
+
+    /// What the program of another run does; files of scripts are not written.
+    fn second_run(&mut self, cl: Vec<u8>, dialect: &Dialect) -> Result<Vec<Event>, Error> {
+        let mut nc = Vec::new();
+        self.run_held(Cursor::new(cl), &mut nc)?;
+        interpret::events(&nc, "the second run", dialect).map_err(Error::Run)
+    }
+}
