@@ -8,8 +8,8 @@ pub mod examples;
 pub mod language;
 pub mod lints;
 pub mod motions;
-pub mod nc;
 pub mod mutants;
+pub mod nc;
 pub mod nc_cases;
 pub mod nc_path;
 pub mod oracle;
@@ -17,9 +17,9 @@ pub mod path;
 pub mod picture;
 pub mod programs;
 pub mod rs274;
+pub mod words;
 
 /// The folder of the workspace.
 pub fn root() -> &'static std::path::Path {
     std::path::Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the workspace")
 }
-pub mod words;
