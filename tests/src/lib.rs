@@ -17,6 +17,7 @@ pub mod path;
 pub mod picture;
 pub mod programs;
 pub mod rs274;
+pub mod runout;
 pub mod words;
 
 /// The folder of the workspace.
