@@ -73,8 +73,9 @@ pub struct Reading {
 /// `filpost post`
 #[derive(Debug, ClapArgs)]
 pub struct PostArgs {
-    /// The CL file; - reads standard input
-    pub cl: PathBuf,
+    /// The CL file, or several, or a folder of them; - reads standard input
+    #[arg(required = true, value_name = "CL")]
+    pub cl: Vec<PathBuf>,
     #[command(flatten)]
     pub chosen: Chosen,
     /// A FIL file (may be given again; all share one name space)
@@ -90,6 +91,9 @@ pub struct PostArgs {
     /// Write a listing: records, sections, and the blocks they made
     #[arg(long, value_name = "FILE")]
     pub listing: Option<PathBuf>,
+    /// Write the line map for `filpost trace`; OUT.map when no FILE is given
+    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "")]
+    pub map: Option<PathBuf>,
     /// A folder to look in for the option file that MACHIN names (may be given again)
     #[arg(long, value_name = "DIR")]
     pub post_path: Vec<PathBuf>,

@@ -4,12 +4,14 @@
 //! 3 internal fault.
 
 mod args;
+mod batch;
 mod check;
 mod cl;
 mod diff;
 mod errors;
 mod explain;
 mod fmt;
+mod job;
 mod json;
 mod machine;
 mod output;

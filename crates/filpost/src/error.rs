@@ -29,6 +29,14 @@ fil_diag::codes! {
         OutsideFolder = 706, Error, "file outside of the granted folder",
             "A script is granted a folder and what is below it; no name, `..` or link leads out of there.",
             "Name the file relative to the folder, or grant another folder.";
+        /// A line map.
+        MapFile = 707, Error, "line map can't be used",
+            "A line map has its first and its last line, and each line between them names what came before.",
+            "Post the CL file again with --map.";
+        /// A line map of another run.
+        OtherRun = 708, Error, "line map of another run",
+            "The map tells the lines of the files it was written with; one of them has changed since.",
+            "Post the CL file again with --map, or name the map that belongs to the program.";
         /// Statements after the end.
         AfterFini = 751, Warning, "records after FINI",
             "FINI ends the program; what comes after it is not posted.",
