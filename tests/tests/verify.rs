@@ -137,9 +137,9 @@ fn bare(events: &[Event]) -> Vec<Event> {
                 }
                 Event::Move(found)
             }
-            Event::ToolChange { tool, .. } => Event::ToolChange { line: 0, tool },
+            Event::ToolChange { tool, modes, .. } => Event::ToolChange { line: 0, tool, modes },
             Event::Dwell { seconds, .. } => Event::Dwell { line: 0, seconds },
-            Event::End { .. } => Event::End { line: 0 },
+            Event::End { modes, .. } => Event::End { line: 0, modes },
         });
     }
     bare
@@ -202,7 +202,7 @@ fn bad_programs_are_refused() {
     let cases = nc_cases::posted(&cl);
     let case = cases.iter().find(|case| case.name.starts_with("fanuc-mill")).expect("a program");
     let half = case.nc.len() / 2;
-    let conversational = "0 BEGIN PGM 11 MM\n1 L X+0 Y+0 R0 FMAX\n2 END PGM 11 MM\n";
+    let conversational = "BEGIN PGM 11 MM\n1 L X+0 Y+0 R0 FMAX\n2 END PGM 11 MM\n";
     let foreign = case.nc.replacen("G17", "G17 G68.2", 1);
     for (nc, code) in [
         (&case.nc[..half], "E0912"),

@@ -42,7 +42,7 @@ impl State<'_> {
         self.motion(&mut words)?;
         words.finish()?;
         if outcome == Outcome::End {
-            self.events.push(Event::End { line: self.line });
+            self.events.push(Event::End { line: self.line, modes: self.modes });
         }
         Ok(outcome)
     }

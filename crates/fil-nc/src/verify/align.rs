@@ -204,7 +204,7 @@ impl<C: Steps> Walk<'_, C> {
                     self.find(Kind::Extra, Some(cl_line), Some(found.line), message);
                     self.stand_through(self.unit_end(self.next));
                 }
-                Event::ToolChange { line, tool } => {
+                Event::ToolChange { line, tool, .. } => {
                     let message = format!("the CL file asks for no change to tool {tool} here");
                     self.find(Kind::Tool, Some(cl_line), Some(line), message);
                     self.next += 1;

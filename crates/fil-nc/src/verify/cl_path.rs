@@ -506,12 +506,13 @@ fn coolant(record: &Record) -> Option<Wanted> {
 }
 
 fn compensation(record: &Record) -> Option<Wanted> {
-    Some(Wanted::Compensation(match () {
+    let side = match () {
         () if record.has(w::OFF) => Compensation::Off,
         () if record.has(w::LEFT) => Compensation::Left,
         () if record.has(w::RIGHT) => Compensation::Right,
         () => return None,
-    }))
+    };
+    Some(Wanted::Compensation(side, numbers(record).first().and_then(|offset| whole(*offset))))
 }
 
 /// All numbers of a record in order.

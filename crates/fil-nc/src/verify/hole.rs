@@ -351,7 +351,7 @@ impl<C: Steps> Walk<'_, C> {
                 Event::Move(Move { line, .. })
                 | Event::ToolChange { line, .. }
                 | Event::Dwell { line, .. }
-                | Event::End { line },
+                | Event::End { line, .. },
             ) => *line,
             None => 0,
         }

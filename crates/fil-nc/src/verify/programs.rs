@@ -115,6 +115,10 @@ impl Pair<'_> {
                 self.arcs(a, b);
                 self.modes(b.line, &a.modes, &b.modes);
             }
+            (Event::ToolChange { modes: a, .. }, Event::ToolChange { line, modes: b, .. })
+            | (Event::End { modes: a, .. }, Event::End { line, modes: b }) => {
+                self.modes(*line, a, b);
+            }
             (Event::Dwell { seconds: a, .. }, Event::Dwell { line, seconds: b }) => {
                 let same = match (a, b) {
                     (Some(a), Some(b)) => self.near(*a, *b),
@@ -177,7 +181,7 @@ impl Pair<'_> {
                 "another length offset is on".to_string(),
             ),
             (
-                a.compensation != b.compensation,
+                (a.compensation, a.compensation_offset) != (b.compensation, b.compensation_offset),
                 Kind::Compensation,
                 "cutter compensation is not as it should be".to_string(),
             ),
@@ -237,7 +241,7 @@ fn line_of(event: &Event) -> u32 {
         Event::Move(Move { line, .. })
         | Event::ToolChange { line, .. }
         | Event::Dwell { line, .. }
-        | Event::End { line } => *line,
+        | Event::End { line, .. } => *line,
     }
 }
 

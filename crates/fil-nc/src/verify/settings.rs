@@ -181,6 +181,11 @@ impl<'c> Settings<'c> {
         due(self.commons.int(loc::COOLANT_PLACEMENT))
     }
 
+    /// True when the tool's number is that of its diameter offset.
+    pub fn offsets_diameters_by_tool(&self) -> bool {
+        self.commons.flag(loc::TOOL_DIAMETER_FROM_TOOL)
+    }
+
     /// When cutter compensation must be in force.
     pub fn compensation_due(&self) -> Due {
         if self.commons.flag(loc::CUTCOM_WITH_MOTION) { Due::WithXY } else { Due::Now }

@@ -12,29 +12,27 @@ impl<C: Steps> Walk<'_, C> {
         self.initial = None;
         let same = self.modes.tool() == Some(number) && self.settings.tool_is_modal();
         let changes = !same && self.settings.calls_tools();
-        if changes {
-            self.go_to_change_position(cl_line);
-        }
-        self.modes.change_tool(number, offset, self.settings);
         if !changes {
-            return;
+            return self.modes.change_tool(number, offset, self.settings);
         }
-        let Some(left_out) = self.units_to_tool_change() else {
-            return self.find(
-                Kind::Tool,
-                Some(cl_line),
-                None,
-                format!("no change to tool {number}"),
-            );
-        };
-        self.extra(left_out, cl_line);
-        if let Some(Event::ToolChange { line, tool }) = self.nc.get(self.next).copied() {
+        self.go_to_change_position(cl_line);
+        match self.units_to_tool_change() {
+            Some(left_out) => self.extra(left_out, cl_line),
+            None => {
+                let message = format!("no change to tool {number}");
+                self.find(Kind::Tool, Some(cl_line), None, message);
+                return self.modes.change_tool(number, offset, self.settings);
+            }
+        }
+        if let Some(Event::ToolChange { line, tool, modes }) = self.nc.get(self.next).copied() {
             self.next += 1;
+            self.check_standing(cl_line, line, &modes, true);
             if tool != number {
                 let message = format!("changes to tool {tool}, it should be tool {number}");
                 self.find(Kind::Tool, Some(cl_line), Some(line), message);
             }
         }
+        self.modes.change_tool(number, offset, self.settings);
         self.go_to_offset_level(cl_line);
     }
 

@@ -14,7 +14,7 @@ use super::say::{Shape, short};
 use super::settings::{Settings, Slack};
 use super::wanted::{Effect, Step, Wanted};
 use crate::forward::Pose;
-use crate::motion::{Course, Event, Move, Position, Rate};
+use crate::motion::{Course, Event, Modes, Move, Position, Rate};
 
 /// How far to look for the place where path and program agree again.
 pub(super) const LOOK_AHEAD: usize = 8;
@@ -258,6 +258,19 @@ impl<'a, C: Steps> Walk<'a, C> {
         self.known = found.known;
     }
 
+    /// What must be in force while the axes stand.
+    pub(super) fn check_standing(
+        &mut self,
+        cl_line: u32,
+        nc_line: u32,
+        modes: &Modes,
+        changes: bool,
+    ) {
+        for (kind, message) in self.modes.check_standing(modes, changes, self.slack.speed) {
+            self.find(kind, Some(cl_line), Some(nc_line), message);
+        }
+    }
+
     /// After the first motion with a new tool its length offset is on.
     pub(super) fn settle(&mut self, cl_line: u32) {
         if !self.modes.offset_waits() {
@@ -346,17 +359,19 @@ impl<'a, C: Steps> Walk<'a, C> {
             self.pass(cl_line);
         }
         match self.nc.get(self.next).copied() {
-            Some(Event::End { line }) if !self.settings.has_end_code() && !self.own.has(line) => {
+            Some(Event::End { line, modes }) => {
                 self.next += 1;
-                let message = "the program ends here, the settings have no code for it".to_string();
-                self.find(Kind::End, Some(cl_line), Some(line), message);
+                self.check_standing(cl_line, line, &modes, false);
+                if !self.settings.has_end_code() && !self.own.has(line) {
+                    let message = "the program ends here, the settings have no code for it";
+                    self.find(Kind::End, Some(cl_line), Some(line), message.to_string());
+                }
             }
-            Some(_) => self.next += 1,
             None if self.settings.has_end_code() => {
                 let message = "the program has no end".to_string();
                 self.find(Kind::End, Some(cl_line), None, message);
             }
-            None => {}
+            _ => {}
         }
         self.extra(self.nc.len() - self.next, cl_line);
     }
@@ -368,7 +383,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         }
         self.report.compared += missing - 1;
         let nc_line = match self.nc.get(self.next) {
-            Some(Event::End { line }) => Some(*line),
+            Some(Event::End { line, .. }) => Some(*line),
             _ => None,
         };
         let motions = if missing == 1 { "motion is" } else { "motions are" };

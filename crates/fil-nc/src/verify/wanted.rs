@@ -46,8 +46,9 @@ pub enum Wanted {
     Orient,
     /// A coolant is switched on or off.
     Coolant(CoolantKind),
-    /// Cutter compensation by the control.
-    Compensation(Compensation),
+    /// Cutter compensation by the control, with the number of its offset where the
+    /// record gives one.
+    Compensation(Compensation, Option<u32>),
     /// A work offset, by its preparatory function.
     Fixture(u32),
     /// The program multiplies X by this from here on.
