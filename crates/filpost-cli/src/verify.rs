@@ -84,6 +84,9 @@ fn conclusion(args: &VerifyArgs, report: &Report, reference: Reference) -> Strin
         (Verdict::Agrees, Reference::SecondRun) => {
             format!("{nc} does what a second run of the post makes of {cl}")
         }
+        (Verdict::Partly, _) if report.compared == 0 => {
+            return format!("nothing of {nc} could be compared with {cl}");
+        }
         (Verdict::Partly, _) => format!("{nc} agrees with {cl} as far as it was compared"),
         (Verdict::Differs, Reference::ClFile) => {
             let findings = report.findings.len() as u64 + report.more;

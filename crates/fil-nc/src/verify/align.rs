@@ -199,7 +199,7 @@ impl<C: Steps> Walk<'_, C> {
             match event {
                 Event::Move(found) => {
                     let what = self.spell_move(&found);
-                    let what = if found.in_cycle { "hole".to_string() } else { what };
+                    let what = if found.in_cycle { "cycle".to_string() } else { what };
                     let message = format!("the CL file asks for no {what} here");
                     self.find(Kind::Extra, Some(cl_line), Some(found.line), message);
                     self.stand_through(self.unit_end(self.next));

@@ -31,6 +31,12 @@ impl<C: Steps> Walk<'_, C> {
                 let message = format!("changes to tool {tool}, it should be tool {number}");
                 self.find(Kind::Tool, Some(cl_line), Some(line), message);
             }
+            let at_once = self.settings.calls_tools_with_offset();
+            let taken = modes.length_offset.unwrap_or(0);
+            if at_once && taken != offset {
+                let message = format!("length offset {taken} is taken up, it should be {offset}");
+                self.find(Kind::Tool, Some(cl_line), Some(line), message);
+            }
         }
         self.modes.change_tool(number, offset, self.settings);
         self.go_to_offset_level(cl_line);
