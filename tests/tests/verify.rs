@@ -34,7 +34,9 @@ fn programs_agree_with_their_cl_files() {
                     wrong += &format!("  {finding}\n");
                 }
             }
-            Ok(report) if report.verdict() == Verdict::Partly => println!("{}: {:?}", case.name, report.unverified),
+            Ok(report) if report.verdict() == Verdict::Partly => {
+                println!("{}: {:?}", case.name, report.unverified)
+            }
             Ok(_) => {}
             Err(refused) => wrong += &format!("\n{}: {refused}\n", case.name),
         }
@@ -87,16 +89,23 @@ fn faults_are_found() {
     let mut missed = Vec::new();
     for case in nc_cases::all() {
         let dialect = Dialect::new(&case.commons).unwrap();
-        let Ok(original) = events(case.nc.as_bytes(), "nc", &dialect) else { println!("refused: {}", case.name); continue };
+        let Ok(original) = events(case.nc.as_bytes(), "nc", &dialect) else {
+            println!("refused: {}", case.name);
+            continue;
+        };
         for mutant in mutants::all(&case.nc) {
             match fate(&case, &original, &dialect, &mutant.text) {
                 Fate::Same => same += 1,
                 Fate::Refused => refused += 1,
                 Fate::Reported => reported += 1,
-                Fate::Missed => missed.push(format!("{}:{}: {}", case.name, mutant.line, mutant.fault)),
+                Fate::Missed => {
+                    missed.push(format!("{}:{}: {}", case.name, mutant.line, mutant.fault))
+                }
             }
         }
     }
     println!("{same} same, {refused} refused, {reported} reported, {} missed", missed.len());
-    for one in &missed { println!("{one}"); }
+    for one in &missed {
+        println!("{one}");
+    }
 }

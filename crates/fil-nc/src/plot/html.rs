@@ -19,9 +19,8 @@ const STEPS: f64 = 1_048_576.0;
 pub fn html(drawing: &Drawing) -> String {
     let extent = drawing.extent();
     let sides = extent.map_or(String::new(), |extent| {
-        let side = |axis: usize| {
-            format!("{} to {}", short(extent.min[axis]), short(extent.max[axis]))
-        };
+        let side =
+            |axis: usize| format!("{} to {}", short(extent.min[axis]), short(extent.max[axis]));
         format!("X {} · Y {} · Z {}", side(0), side(1), side(2))
     });
     let fields = [
@@ -57,12 +56,8 @@ fn data(drawing: &Drawing, extent: Option<Extent>) -> String {
     let step = (extent.size() / STEPS).max(1e-6);
     let mut out = String::from("{");
     let list = |values: [f64; 3]| format!("[{},{},{}]", values[0], values[1], values[2]);
-    let _ = write!(
-        out,
-        "\"step\":{step},\"min\":{},\"max\":{},",
-        list(extent.min),
-        list(extent.max)
-    );
+    let _ =
+        write!(out, "\"step\":{step},\"min\":{},\"max\":{},", list(extent.min), list(extent.max));
     let strokes: Vec<String> = Stroke::ALL
         .iter()
         .map(|stroke| {

@@ -57,7 +57,8 @@ fn between(from: &Position, to: &Position, arc: Option<&Arc>, share: f64) -> Pos
         let [first, second] = plane(arc);
         let turned = (arc.angle * share * if arc.ccw { 1.0 } else { -1.0 }).to_radians();
         let (sine, cosine) = turned.sin_cos();
-        let arm = [from.linear[first] - arc.centre[first], from.linear[second] - arc.centre[second]];
+        let arm =
+            [from.linear[first] - arc.centre[first], from.linear[second] - arc.centre[second]];
         at.linear[first] = arc.centre[first] + arm[0] * cosine - arm[1] * sine;
         at.linear[second] = arc.centre[second] + arm[0] * sine + arm[1] * cosine;
     }

@@ -35,15 +35,13 @@ impl Frame {
         let corners = extent.corners().map(|corner| view.project(&corner));
         let side = |axis: usize| {
             let values = corners.iter().map(|corner| corner[axis]);
-            let (low, high) = values.fold((f64::MAX, f64::MIN), |(low, high), value| {
-                (low.min(value), high.max(value))
-            });
+            let (low, high) = values
+                .fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(value), high.max(value)));
             (low, high)
         };
         let (x, y) = (side(0), side(1));
         let room = [WIDTH - 4.0 * GAP, HEIGHT - 5.0 * GAP];
-        let scale =
-            (room[0] / (x.1 - x.0).max(LEAST)).min(room[1] / (y.1 - y.0).max(LEAST));
+        let scale = (room[0] / (x.1 - x.0).max(LEAST)).min(room[1] / (y.1 - y.0).max(LEAST));
         let origin = [
             corner[0] + WIDTH / 2.0 - (x.0 + x.1) / 2.0 * scale,
             corner[1] + HEIGHT / 2.0 + GAP / 2.0 + (y.0 + y.1) / 2.0 * scale,
@@ -106,9 +104,8 @@ fn legend(out: &mut String, drawing: &Drawing, extent: Option<&Extent>) {
         sample(out, CL_COLOUR, "CL file", UNDER);
     }
     if let Some(extent) = extent {
-        let range = |axis: usize| {
-            format!("{} to {}", short(extent.min[axis]), short(extent.max[axis]))
-        };
+        let range =
+            |axis: usize| format!("{} to {}", short(extent.min[axis]), short(extent.max[axis]));
         let _ = writeln!(
             out,
             "<text x=\"{}\" y=\"50\" fill=\"#444444\">X {}   Y {}   Z {}</text>",
@@ -200,7 +197,11 @@ fn path(out: &mut String, lines: &[Vec<Dot>], colour: &str, style: &str) {
 }
 
 fn tenths(value: i32) -> String {
-    if value % 10 == 0 { (value / 10).to_string() } else { format!("{:.1}", f64::from(value) / 10.0) }
+    if value % 10 == 0 {
+        (value / 10).to_string()
+    } else {
+        format!("{:.1}", f64::from(value) / 10.0)
+    }
 }
 
 /// Tool changes: a ring and the number, once at each place.

@@ -4,8 +4,8 @@ use fil_diag::Diag;
 use nalgebra::{Point3, Vector3};
 
 use super::report::Kind;
-use super::wanted::{Arc, Step, Wanted};
 use super::walk::{Walk, short};
+use super::wanted::{Arc, Step, Wanted};
 use crate::motion::{self, Course, Move, Position, Rate};
 
 /// Directions nearer than this are the same.
@@ -67,13 +67,7 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
     }
 
     /// The angle an arc block sweeps, when its centre, plane and sense are right.
-    fn on_arc(
-        &self,
-        arc: &Arc,
-        from: &Position,
-        found: &Move,
-        part: &motion::Arc,
-    ) -> Option<f64> {
+    fn on_arc(&self, arc: &Arc, from: &Position, found: &Move, part: &motion::Arc) -> Option<f64> {
         let frame = self.settings.forward.frame(found.to.rotary);
         let mut normal = Vector3::zeros();
         normal[part.normal] = if part.ccw { 1.0 } else { -1.0 };
@@ -131,7 +125,8 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
         let lines = parts.len() > 1 && parts.iter().all(|part| part.found.arc.is_none());
         let slack = 2.0 * self.angle_slack(arc);
         let share = arc.sweep / parts.len() as f64;
-        !lines || (1..).zip(parts).all(|(n, part)| (part.angle - share * f64::from(n)).abs() <= slack)
+        !lines
+            || (1..).zip(parts).all(|(n, part)| (part.angle - share * f64::from(n)).abs() <= slack)
     }
 
     /// Angle that the last digits stand for on this arc, degrees.
@@ -154,8 +149,11 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
             let plane = ["YZ", "ZX", "XY"][part.normal];
             format!("the arc lies in the {plane} plane, the CL file has it in another")
         } else if (wanted[part.normal] > 0.0) != part.ccw {
-            let (is, should) =
-                if part.ccw { ("counterclockwise (G3)", "clockwise (G2)") } else { ("clockwise (G2)", "counterclockwise (G3)") };
+            let (is, should) = if part.ccw {
+                ("counterclockwise (G3)", "clockwise (G2)")
+            } else {
+                ("clockwise (G2)", "counterclockwise (G3)")
+            };
             format!("the arc is {is}, it should be {should}")
         } else {
             let centre = frame.linear(arc.centre);

@@ -64,7 +64,8 @@ fn numbered(text: &[u8]) -> impl Iterator<Item = (u32, &[u8])> {
 
 /// A block without blanks and sequence number, in upper case.
 fn bare(line: &[u8]) -> String {
-    let mut bare: Vec<u8> = line.iter().filter(|byte| !byte.is_ascii_whitespace()).copied().collect();
+    let mut bare: Vec<u8> =
+        line.iter().filter(|byte| !byte.is_ascii_whitespace()).copied().collect();
     bare.make_ascii_uppercase();
     if bare.first() == Some(&b'N') {
         let digits = bare[1..].iter().take_while(|byte| byte.is_ascii_digit()).count();

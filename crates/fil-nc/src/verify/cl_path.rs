@@ -220,10 +220,10 @@ impl State {
             w::SPINDL => spindle(record),
             w::COOLNT => coolant(record).map_or_else(|| unknown(false), |kind| vec![kind]),
             w::CUTCOM => compensation(record).map_or_else(|| unknown(false), |side| vec![side]),
-            w::DELAY => vec![Wanted::Dwell(numbers(record).first().copied().filter(|_| !record.has(w::REV)))],
-            w::OP | w::THREAD => {
-                self.thread(record).unwrap_or_else(|| unknown(true))
-            }
+            w::DELAY => vec![Wanted::Dwell(
+                numbers(record).first().copied().filter(|_| !record.has(w::REV)),
+            )],
+            w::OP | w::THREAD => self.thread(record).unwrap_or_else(|| unknown(true)),
             w::MODE if record.has(w::TURN) => unknown(true),
             w::STOP | w::OPSTOP => vec![Wanted::Stop],
             w::INSERT => vec![Wanted::Insert(record.text.trim().to_string())],
@@ -310,7 +310,10 @@ impl State {
         let numbers = numbers_beside(record, &[w::LENGTH, w::OSETNO, w::ADJUST]);
         let number = *numbers.first()?;
         let offset = record.number_after(w::OSETNO).or(record.number_after(w::ADJUST));
-        Some(vec![Wanted::Tool { number: whole(number)?, offset: whole(offset.unwrap_or(number))? }])
+        Some(vec![Wanted::Tool {
+            number: whole(number)?,
+            offset: whole(offset.unwrap_or(number))?,
+        }])
     }
 
     /// OP/THREAD and THREAD with a pitch; `None` for forms that leave the passes open.

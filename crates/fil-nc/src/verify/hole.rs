@@ -4,8 +4,8 @@ use fil_diag::Diag;
 use nalgebra::Vector3;
 
 use super::report::Kind;
-use super::wanted::{CycleKind, Hole, Step};
 use super::walk::{Walk, short};
+use super::wanted::{CycleKind, Hole, Step};
 use crate::motion::{Course, Event, Move, Spindle};
 
 /// Most motions over a hole before it is drilled.
@@ -94,7 +94,8 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
             }
             let found = self.level(cl_line, depth, "the hole")?;
             let course = if hole.kind == CycleKind::Tap { Course::Thread } else { Course::Feed };
-            if found.course != course && !(course == Course::Thread && found.course == Course::Feed) {
+            if found.course != course && !(course == Course::Thread && found.course == Course::Feed)
+            {
                 return Err((found.line, format!("{} in a hole", self.spell_move(&found))));
             }
             self.check_rate(cl_line, &found, hole.rate);
@@ -126,11 +127,15 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
         }
         while let Some(found) = self.next_move().filter(|found| found.course == Course::Rapid) {
             let to = found.to.linear;
-            let across = (0..2).any(|n| to[n] != self.at.linear[n]) && self.known[0] && self.known[1];
+            let across =
+                (0..2).any(|n| to[n] != self.at.linear[n]) && self.known[0] && self.known[1];
             let z_moves = to[2] != self.at.linear[2];
             let arrives = (0..2).all(|n| near(to[n], levels.at[n], n));
             if across && !arrives {
-                return Err((found.line, format!("{}, which is not over the hole", self.spell_move(&found))));
+                return Err((
+                    found.line,
+                    format!("{}, which is not over the hole", self.spell_move(&found)),
+                ));
             }
             let low = self.at.linear[2].min(to[2]) < levels.clear - slack[2];
             if across && self.known[2] && low {

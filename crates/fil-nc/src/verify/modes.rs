@@ -171,7 +171,8 @@ impl Expected {
     fn wrong(&self, modes: &Modes, cuts: bool, speed_slack: f64) -> Vec<(Kind, String)> {
         let mut wrong = Vec::new();
         if let Some(tool) = self.tool.filter(|tool| *tool != modes.tool) {
-            wrong.push((Kind::Tool, format!("tool {} moves, it should be tool {tool}", modes.tool)));
+            wrong
+                .push((Kind::Tool, format!("tool {} moves, it should be tool {tool}", modes.tool)));
         }
         // Between the change and the new offset the old one may be given up.
         let offset = |may: Option<u32>| may == modes.length_offset;
@@ -196,11 +197,16 @@ impl Expected {
             wrong.push((Kind::Speed, format!("the spindle has {found}, it should be {must}")));
         }
         if let Some(must) = self.coolant.refuses(|may| may == modes.coolant) {
-            let said = if must { "coolant is off, it should be on" } else { "coolant is on, it should be off" };
+            let said = if must {
+                "coolant is off, it should be on"
+            } else {
+                "coolant is on, it should be off"
+            };
             wrong.push((Kind::Coolant, said.to_string()));
         }
         if let Some(must) = self.fixture.filter(|must| *must != modes.fixture) {
-            let name = |fixture: Option<u32>| fixture.map_or("none".to_string(), |g| format!("G{g}"));
+            let name =
+                |fixture: Option<u32>| fixture.map_or("none".to_string(), |g| format!("G{g}"));
             let (found, must) = (name(modes.fixture), name(must));
             wrong.push((Kind::Fixture, format!("work offset {found}, it should be {must}")));
         }

@@ -89,7 +89,9 @@ impl Pair<'_> {
                 a.course == b.course && a.arc.is_some() == b.arc.is_some() && self.same_end(a, b)
             }
             (Event::ToolChange { tool: a, .. }, Event::ToolChange { tool: b, .. }) => a == b,
-            (Event::Dwell { .. }, Event::Dwell { .. }) | (Event::End { .. }, Event::End { .. }) => true,
+            (Event::Dwell { .. }, Event::Dwell { .. }) | (Event::End { .. }, Event::End { .. }) => {
+                true
+            }
             _ => false,
         }
     }
@@ -144,12 +146,18 @@ impl Pair<'_> {
         let (Some(wanted), Some(found)) = (&a.arc, &b.arc) else { return };
         let message = match () {
             () if wanted.normal != found.normal => "the arc lies in another plane".to_string(),
-            () if wanted.ccw != found.ccw => format!("{}, it should be {}", sense(found), sense(wanted)),
+            () if wanted.ccw != found.ccw => {
+                format!("{}, it should be {}", sense(found), sense(wanted))
+            }
             () if !(0..3).all(|n| self.near(wanted.centre[n], found.centre[n])) => {
                 "the centre of the arc is elsewhere".to_string()
             }
             () if !self.near(wanted.angle, found.angle) => {
-                format!("the arc sweeps {} degrees, it should be {}", short(found.angle), short(wanted.angle))
+                format!(
+                    "the arc sweeps {} degrees, it should be {}",
+                    short(found.angle),
+                    short(wanted.angle)
+                )
             }
             () => return,
         };
@@ -158,12 +166,33 @@ impl Pair<'_> {
 
     fn modes(&mut self, line: u32, a: &Modes, b: &Modes) {
         let checks = [
-            (a.tool != b.tool, Kind::Tool, format!("tool {} moves, it should be tool {}", b.tool, a.tool)),
-            (a.length_offset != b.length_offset, Kind::Tool, "another length offset is on".to_string()),
-            (a.compensation != b.compensation, Kind::Compensation, "cutter compensation is not as it should be".to_string()),
-            (a.spindle != b.spindle, Kind::Spindle, format!("the spindle is {:?}, it should be {:?}", b.spindle, a.spindle).to_lowercase()),
+            (
+                a.tool != b.tool,
+                Kind::Tool,
+                format!("tool {} moves, it should be tool {}", b.tool, a.tool),
+            ),
+            (
+                a.length_offset != b.length_offset,
+                Kind::Tool,
+                "another length offset is on".to_string(),
+            ),
+            (
+                a.compensation != b.compensation,
+                Kind::Compensation,
+                "cutter compensation is not as it should be".to_string(),
+            ),
+            (
+                a.spindle != b.spindle,
+                Kind::Spindle,
+                format!("the spindle is {:?}, it should be {:?}", b.spindle, a.spindle)
+                    .to_lowercase(),
+            ),
             (a.speed != b.speed, Kind::Speed, "the spindle has another speed".to_string()),
-            (a.coolant != b.coolant, Kind::Coolant, "the coolant is not as it should be".to_string()),
+            (
+                a.coolant != b.coolant,
+                Kind::Coolant,
+                "the coolant is not as it should be".to_string(),
+            ),
             (a.fixture != b.fixture, Kind::Fixture, "another work offset is on".to_string()),
         ];
         for (differs, kind, message) in checks {

@@ -229,10 +229,11 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
 
     /// How many rapids from `index` on reach a pose.
     fn rapid_parts(&self, index: usize, pose: &Pose) -> Option<usize> {
-        let rapids = self.nc.get(index..)?.iter().take(RAPID_PARTS).map_while(|event| match event {
-            Event::Move(part) if part.course == Course::Rapid && !part.in_cycle => Some(part),
-            _ => None,
-        });
+        let rapids =
+            self.nc.get(index..)?.iter().take(RAPID_PARTS).map_while(|event| match event {
+                Event::Move(part) if part.course == Course::Rapid && !part.in_cycle => Some(part),
+                _ => None,
+            });
         rapids.into_iter().position(|part| self.reaches(part, pose)).map(|at| at + 1)
     }
 
@@ -327,8 +328,7 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
     }
 
     pub(super) fn reaches(&self, found: &Move, pose: &Pose) -> bool {
-        self.is_known(&found.known)
-            && Gap::of(self.settings, &self.slack, &found.to, pose).closed()
+        self.is_known(&found.known) && Gap::of(self.settings, &self.slack, &found.to, pose).closed()
     }
 
     /// All axes that the program writes are known.
@@ -356,7 +356,8 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
             let value = found.to.linear[n];
             if !(min..=max).contains(&value) {
                 let axis = ["X", "Y", "Z"][n];
-                let message = format!("{axis}{} lies outside the travel {min} to {max}", short(value));
+                let message =
+                    format!("{axis}{} lies outside the travel {min} to {max}", short(value));
                 self.find(Kind::Limit, Some(cl_line), Some(found.line), message);
             }
         }
@@ -367,7 +368,8 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
             let high = axis.max.is_some_and(|max| value > max + self.slack.rotary[n]);
             if low || high {
                 let letter = char::from(b'A' + axis.letter.clamp(1, 26) - 1);
-                let message = format!("{letter}{} lies outside the travel of the axis", short(value));
+                let message =
+                    format!("{letter}{} lies outside the travel of the axis", short(value));
                 self.find(Kind::Limit, Some(cl_line), Some(found.line), message);
             }
         }
@@ -425,11 +427,17 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
         if !changes {
             return;
         }
-        let changes = self.nc[self.next..].iter().take(LOOK_AHEAD).position(|event| {
-            matches!(event, Event::ToolChange { .. })
-        });
+        let changes = self.nc[self.next..]
+            .iter()
+            .take(LOOK_AHEAD)
+            .position(|event| matches!(event, Event::ToolChange { .. }));
         let Some(changes) = changes else {
-            return self.find(Kind::Tool, Some(cl_line), None, format!("no change to tool {number}"));
+            return self.find(
+                Kind::Tool,
+                Some(cl_line),
+                None,
+                format!("no change to tool {number}"),
+            );
         };
         self.extra(changes, cl_line);
         if let Some(Event::ToolChange { line, tool }) = self.nc.get(self.next).copied() {
@@ -540,7 +548,9 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
 
     fn unknown(&mut self, cl_line: u32, what: &str, ends: bool) {
         let what = if ends {
-            format!("{what}: the CL file does not say what path it makes; nothing after it was compared")
+            format!(
+                "{what}: the CL file does not say what path it makes; nothing after it was compared"
+            )
         } else {
             format!("{what}: what it writes was not compared")
         };
@@ -659,7 +669,9 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
     fn next_pair_fits(&mut self) -> bool {
         let mut ahead = 0;
         loop {
-            let Some(what) = self.cl.peek(ahead).map(|step| step.what.clone()) else { return false };
+            let Some(what) = self.cl.peek(ahead).map(|step| step.what.clone()) else {
+                return false;
+            };
             if what.end().is_some() {
                 return self.fits(self.next + 1, &what);
             }
@@ -727,7 +739,9 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
     fn rapids_ahead(&self) -> usize {
         let rapids = self.nc[self.next..].iter().take(RAPID_PARTS);
         rapids
-            .take_while(|event| matches!(event, Event::Move(m) if m.course == Course::Rapid && !m.in_cycle))
+            .take_while(
+                |event| matches!(event, Event::Move(m) if m.course == Course::Rapid && !m.in_cycle),
+            )
             .count()
     }
 
@@ -762,7 +776,9 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
             return;
         }
         let shape = (
-            std::array::from_fn(|n| if gap.excess[n] { (gap.linear[n] * 1e6).round() } else { 0.0 }),
+            std::array::from_fn(
+                |n| if gap.excess[n] { (gap.linear[n] * 1e6).round() } else { 0.0 },
+            ),
             gap.turned.map(|angle| (angle * 1e6).round()),
         );
         if self.said == Some(shape) {
@@ -832,7 +848,6 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
         };
         format!("{way} to X{x} Y{y} Z{z}")
     }
-
 }
 
 /// A straight line of this course that no cycle makes.
