@@ -29,6 +29,8 @@ pub enum Command {
     Diff(DiffArgs),
     /// Check an NC program against the CL file it was made from
     Verify(VerifyArgs),
+    /// Draw the path of a CL file or of an NC program, as SVG or as a page
+    Plot(PlotArgs),
     /// Run regression cases (folders with a case.toml)
     Test(TestArgs),
     /// Explain a code, a POSTF number, a location, a setting, a word or a function
@@ -261,6 +263,44 @@ pub struct VerifyArgs {
     /// How findings are written
     #[arg(long, value_enum, default_value_t = Report::Text)]
     pub format: Report,
+}
+
+/// `filpost plot`
+#[derive(Debug, ClapArgs)]
+pub struct PlotArgs {
+    /// The CL file or the NC program; - reads standard input
+    pub file: PathBuf,
+    /// The machine that the program is for
+    #[command(flatten)]
+    pub chosen: Chosen,
+    /// A CL file whose path is drawn under that of the program
+    #[arg(long, value_name = "PART")]
+    pub cl: Option<PathBuf>,
+    /// The line map of the program; FILE.map when it is there
+    #[arg(long, value_name = "FILE")]
+    pub map: Option<PathBuf>,
+    /// The picture, .svg or .html; SVG to standard output when left out
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
+    /// Views of an SVG; all of them when left out
+    #[arg(long, value_enum, value_name = "VIEWS", value_delimiter = ',')]
+    pub view: Vec<Seen>,
+    /// Encoding of the CL file's texts (utf-8, cp1251, koi8-r, …); guessed when left out
+    #[arg(long, value_name = "LABEL")]
+    pub encoding: Option<String>,
+}
+
+/// A view of `filpost plot`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Seen {
+    /// From above
+    Xy,
+    /// As at a lathe: Z to the right, X up
+    Zx,
+    /// Z to the right, Y up
+    Zy,
+    /// Isometric
+    Iso,
 }
 
 /// How a finding about NC programs is written.

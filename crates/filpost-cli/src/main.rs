@@ -15,6 +15,7 @@ mod job;
 mod json;
 mod machine;
 mod output;
+mod plot;
 mod post;
 mod render;
 mod sarif;
@@ -68,6 +69,7 @@ fn run(command: &Command) -> Result<Status, Error> {
         Command::Cl(args) => cl::run(args),
         Command::Diff(args) => diff::run(args),
         Command::Verify(args) => verify::run(args),
+        Command::Plot(args) => plot::run(args),
         Command::Test(args) => test::run(args),
         Command::Explain(args) => explain::run(&args.subject),
         Command::Machine(args) => machine::run(args),

@@ -31,6 +31,7 @@ pub mod listing;
 pub mod map;
 mod observe;
 mod outside;
+pub mod plot;
 pub mod ready;
 mod report;
 mod script_files;
