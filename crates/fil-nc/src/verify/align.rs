@@ -1,7 +1,6 @@
 //! Where path and program part, and how they come together again.
 
 use super::ahead::Steps;
-use super::gap::Gap;
 use super::lines::{RAPID_PARTS, is_line};
 use super::report::Kind;
 use super::say::shape;
@@ -47,7 +46,7 @@ impl<C: Steps> Walk<'_, C> {
     /// The next motion is off by what has been said of the one before.
     pub(super) fn goes_on_beside(&self, step: &Step) -> bool {
         let (Some(pose), Some(found)) = (step.what.end(), self.next_move()) else { return false };
-        let gap = Gap::of(self.settings, &self.slack, &found.to, &pose);
+        let gap = self.gap(&found.to, &pose);
         self.said == Some(shape(&gap))
     }
 
@@ -142,7 +141,7 @@ impl<C: Steps> Walk<'_, C> {
         let rapid = matches!(step.what, Wanted::Rapid(_));
         let parts = if rapid { self.rapids_ahead().max(1) } else { 1 };
         let nearest = |index: &usize| match self.nc[*index] {
-            Event::Move(found) => Gap::of(self.settings, &self.slack, &found.to, &pose).tip,
+            Event::Move(found) => self.gap(&found.to, &pose).tip,
             _ => f64::MAX,
         };
         let chosen = (self.next..self.next + parts)

@@ -89,9 +89,7 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     fn levels(&self, hole: &Hole, plunge: &Move) -> Levels {
-        let rotary = self.settings.forward.refine(plunge.to.rotary, hole.start.axis);
-        let near = |n: usize| (rotary[n] - plunge.to.rotary[n]).abs() <= self.slack.rotary[n];
-        let rotary = if near(0) && near(1) { rotary } else { plunge.to.rotary };
+        let rotary = self.gap(&plunge.to, &hole.start).rotary;
         let frame = self.settings.forward.frame(rotary);
         let above = |by: f64| frame.linear(hole.start.tip + hole.start.axis * by);
         let clear = hole.clear.unwrap_or_else(|| self.settings.cycle_clearance(self.metric));

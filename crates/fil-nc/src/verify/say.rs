@@ -38,7 +38,7 @@ impl<C: Steps> Walk<'_, C> {
     /// Says where a motion ends, when that is not where it should, and has not
     /// been said of the motion before.
     pub(super) fn say_gap(&mut self, cl_line: u32, found: &Move, pose: &Pose) {
-        let gap = Gap::of(self.settings, &self.slack, &found.to, pose);
+        let gap = self.gap(&found.to, pose);
         if gap.closed() && self.is_known(&found.known) {
             return;
         }

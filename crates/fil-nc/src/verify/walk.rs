@@ -40,6 +40,8 @@ pub(super) struct Walk<'a, C> {
     /// Where the program stands.
     pub(super) at: Position,
     pub(super) known: [bool; 5],
+    /// Exact rotary positions that the tape shows rounded.
+    pub(super) exact: [f64; 2],
     /// Line of the last motion taken.
     line: u32,
     pub(super) modes: Expected,
@@ -72,6 +74,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             x_scale: settings.x_scale(),
             at: Position::default(),
             known: [false; 5],
+            exact: [0.0; 2],
             line: 0,
             modes: Expected::new(settings),
             initial: None,
@@ -226,12 +229,22 @@ impl<'a, C: Steps> Walk<'a, C> {
     }
 
     /// True when the tool already is where a pose asks it to be.
-    pub(super) fn stands_at(&self, pose: &Pose) -> bool {
-        self.is_known(&self.known) && Gap::of(self.settings, &self.slack, &self.at, pose).closed()
+    pub(super) fn stands_at(&mut self, pose: &Pose) -> bool {
+        let gap = self.gap(&self.at, pose);
+        let stands = self.is_known(&self.known) && gap.closed();
+        if stands {
+            self.exact = gap.rotary;
+        }
+        stands
     }
 
     pub(super) fn reaches(&self, found: &Move, pose: &Pose) -> bool {
-        self.is_known(&found.known) && Gap::of(self.settings, &self.slack, &found.to, pose).closed()
+        self.is_known(&found.known) && self.gap(&found.to, pose).closed()
+    }
+
+    /// The gap between where the axes stand and a pose.
+    pub(super) fn gap(&self, at: &Position, pose: &Pose) -> Gap {
+        Gap::of(self.settings, &self.slack, at, pose, self.exact)
     }
 
     /// All axes that the program writes are known.
@@ -284,12 +297,13 @@ impl<'a, C: Steps> Walk<'a, C> {
 
     /// Adds a motion to the deviations.
     pub(super) fn measure(&mut self, found: &Move, pose: &Pose) {
-        let gap = Gap::of(self.settings, &self.slack, &found.to, pose);
+        let gap = self.gap(&found.to, pose);
         self.report.position.add(gap.tip, found.line);
         self.report.axis.add(gap.axis, found.line);
         if gap.closed() {
             self.said = None;
         }
+        self.exact = gap.rotary;
     }
 
     pub(super) fn find(
