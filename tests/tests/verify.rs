@@ -6,6 +6,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -15,6 +16,7 @@ use fil_nc::interpret;
 use fil_nc::motion::{Event, Move};
 use fil_nc::verify::{Check, Kind, Report, Verdict, compare_programs, verify};
 use filpost::Diag;
+use filpost::verify::{Program, Reference};
 use filpost_tests::mutants;
 use filpost_tests::nc_cases::{self, NcCase};
 use filpost_tests::root;
@@ -23,7 +25,7 @@ use filpost_tests::root;
 const FOUND: f64 = 0.99;
 
 fn events(case: &NcCase, nc: &str) -> Result<Vec<Event>, Box<Diag>> {
-    interpret::events(nc.as_bytes(), "out.nc", &Dialect::new(&case.commons)?)
+    interpret::events(nc.as_bytes(), "out.nc", &Dialect::new(case.post.commons())?)
 }
 
 fn against_cl(case: &NcCase, nc: &str, events: &[Event]) -> Result<Report, Box<Diag>> {
@@ -33,7 +35,7 @@ fn against_cl(case: &NcCase, nc: &str, events: &[Event]) -> Result<Report, Box<D
         options: Options::default(),
         nc: nc.as_bytes(),
         events,
-        commons: &case.commons,
+        commons: case.post.commons(),
         tolerance: None,
     })
 }
@@ -56,34 +58,25 @@ fn same_as(name: &str, found: &str) {
     assert_eq!(found, wanted, "{name}; FILPOST_UPDATE=1 writes it anew");
 }
 
-/// Without FIL the CL file is the reference. With FIL the program of the suite must
-/// be one that can be followed; a second run makes the same bytes, which the corpus
-/// proves.
+/// Without FIL the CL file is the reference, with FIL a second run.
 #[test]
-fn programs_agree_with_their_cl_files() {
+fn programs_agree_with_what_they_come_from() {
     let (mut list, mut wrong) = (String::new(), String::new());
-    for case in nc_cases::all() {
-        let report = match events(&case, &case.nc) {
-            Ok(_) if case.fil => {
-                let _ = writeln!(list, "{}: FIL makes it; compared with a second run", case.name);
-                continue;
-            }
-            Ok(events) => against_cl(&case, &case.nc, &events),
-            Err(refused) => Err(refused),
-        };
-        match report {
-            Ok(report) if report.verdict() == Verdict::Differs => {
-                let _ = writeln!(wrong, "{}:{}", case.name, listed(&report));
-            }
-            Ok(report) => {
-                for open in &report.unverified {
-                    let _ =
-                        writeln!(list, "{}: CL line {}: {}", case.name, open.cl_line, open.what);
-                }
-            }
-            Err(refused) => {
-                let _ = writeln!(list, "{}: can't be followed: {refused}", case.name);
-            }
+    for mut case in nc_cases::all() {
+        let program = Program { text: case.nc.as_bytes(), name: "out.nc" };
+        let (report, reference) = case
+            .post
+            .verify(Cursor::new(&case.cl), program, None)
+            .unwrap_or_else(|refused| panic!("{}: {refused}", case.name));
+        assert_eq!(reference == Reference::SecondRun, case.fil, "{}", case.name);
+        if report.verdict() == Verdict::Differs {
+            let _ = writeln!(wrong, "{}:{}", case.name, listed(&report));
+        }
+        if reference == Reference::SecondRun {
+            let _ = writeln!(list, "{}: compared with a second run", case.name);
+        }
+        for open in &report.unverified {
+            let _ = writeln!(list, "{}: {}", case.name, open.what);
         }
     }
     assert!(wrong.is_empty(), "{wrong}");
@@ -216,6 +209,44 @@ fn bad_programs_are_refused() {
     }
     let inch = check(case, &case.nc.replacen("G21", "G20", 1)).expect("a report");
     assert_eq!(inch.findings[0].kind, Kind::Units, "{}", listed(&inch));
+}
+
+/// A program that is cut off anywhere before its end is never taken as right.
+#[test]
+fn programs_cut_off_are_found() {
+    for case in nc_cases::posted(&root().join("tests/cl/planes.ncl.1")) {
+        let end = case.nc.rfind("M30").expect("an end") + "M30".len();
+        for cut in 0..end {
+            let said = check(&case, &case.nc[..cut]);
+            let agrees = said.is_ok_and(|report| report.verdict() == Verdict::Agrees);
+            assert!(!agrees, "{} cut at {cut}:\n{}", case.name, &case.nc[..cut]);
+        }
+    }
+}
+
+/// Whatever a program or a CL file holds, the check comes to an end.
+#[test]
+fn any_bytes_come_to_an_end() {
+    let mut seed = 7u64;
+    let mut next = move |below: usize| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 33) as usize % below
+    };
+    for mut case in nc_cases::all().into_iter().filter(|case| !case.cl.is_empty()) {
+        for _ in 0..30 {
+            let mut nc: Vec<u8> = case.nc.clone().into_bytes();
+            for _ in 0..3 {
+                let (at, other) = (next(nc.len()), next(nc.len()));
+                nc[at] = nc[other];
+            }
+            let (at, other) = (next(case.cl.len()), next(case.cl.len()));
+            let kept = std::mem::replace(&mut case.cl[at], b' ');
+            case.cl.swap(at, other);
+            let _ = check(&case, &String::from_utf8_lossy(&nc));
+            case.cl.swap(at, other);
+            case.cl[at] = kept;
+        }
+    }
 }
 
 /// The real files, where they are at hand.

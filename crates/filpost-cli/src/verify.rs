@@ -40,7 +40,9 @@ pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
                     writeln!(out, "and {} more", counted(report.more, "finding"))?;
                 }
                 for open in &report.unverified {
-                    writeln!(out, "not compared: CL line {}: {}", open.cl_line, open.what)?;
+                    let place =
+                        open.cl_line.map_or(String::new(), |line| format!("CL line {line}: "));
+                    writeln!(out, "not compared: {place}{}", open.what)?;
                 }
                 writeln!(out, "{}", conclusion(args, &report, reference))
             })?;

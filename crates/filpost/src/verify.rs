@@ -9,8 +9,7 @@ use std::io::{Cursor, Read};
 
 use fil_nc::dialect::Dialect;
 use fil_nc::interpret;
-use fil_nc::motion::Event;
-use fil_nc::verify::{Check, Report, compare_programs, verify};
+use fil_nc::verify::{Check, Report, compare_programs, compare_words, refuse_another_part, verify};
 
 use crate::builder::Post;
 use crate::error::Error;
@@ -47,15 +46,15 @@ impl Post {
         tolerance: Option<f64>,
     ) -> Result<(Report, Reference), Error> {
         let dialect = Dialect::new(self.commons()).map_err(Error::Run)?;
-        let events = interpret::events(program.text, program.name, &dialect).map_err(Error::Run)?;
         if self.has_fil() {
             let mut text = Vec::new();
             let name = self.cl_name.clone();
             cl.read_to_end(&mut text)
                 .map_err(|error| crate::files::cant_read(name.as_ref(), &error))?;
-            let again = self.second_run(text, &dialect)?;
-            return Ok((compare_programs(&again, &events, tolerance), Reference::SecondRun));
+            let report = self.against_second_run(text, program, &dialect, tolerance)?;
+            return Ok((report, Reference::SecondRun));
         }
+        let events = interpret::events(program.text, program.name, &dialect).map_err(Error::Run)?;
         let check = Check {
             cl,
             cl_name: &self.cl_name,
@@ -72,10 +71,26 @@ impl Post {
         !self.module.files.is_empty()
     }
 
-    /// What the program of another run does; files of scripts are not written.
-    fn second_run(&mut self, cl: Vec<u8>, dialect: &Dialect) -> Result<Vec<Event>, Error> {
-        let mut nc = Vec::new();
-        self.run_held(Cursor::new(cl), &mut nc)?;
-        interpret::events(&nc, "the second run", dialect).map_err(Error::Run)
+    /// Compares with what another run makes; files of scripts are not written. When
+    /// that run's own program can't be followed, the blocks are compared.
+    fn against_second_run(
+        &mut self,
+        cl: Vec<u8>,
+        program: Program<'_>,
+        dialect: &Dialect,
+        tolerance: Option<f64>,
+    ) -> Result<Report, Error> {
+        let mut again = Vec::new();
+        self.run_held(Cursor::new(cl), &mut again)?;
+        let compared = match interpret::events(&again, "the second run", dialect) {
+            Ok(again) => interpret::events(program.text, program.name, dialect)
+                .map(|events| compare_programs(&again, &events, tolerance)),
+            Err(refused) => {
+                compare_words(&again, (program.text, program.name), &refused, tolerance)
+            }
+        };
+        let report = compared.map_err(Error::Run)?;
+        refuse_another_part(&report).map_err(Error::Run)?;
+        Ok(report)
     }
 }

@@ -33,7 +33,7 @@ use crate::motion::Event;
 use blocks::OwnBlocks;
 
 pub use cl_path::ClPath;
-pub use programs::compare_programs;
+pub use programs::{compare_programs, compare_words};
 pub use report::{Deviation, Finding, Kind, Report, Unverified, Verdict};
 pub use settings::{Due, Settings, Slack};
 pub use wanted::{Arc, CoolantKind, CycleKind, Effect, Hole, Step, Wanted};
@@ -74,7 +74,10 @@ pub fn verify<R: Read>(check: Check<'_, R>) -> Result<Report, Box<Diag>> {
 const FEW: u64 = 6;
 
 /// A program that makes next to none of the motions is one of another part.
-fn refuse_another_part(report: &Report) -> Result<(), Box<Diag>> {
+///
+/// # Errors
+/// E0941 for such a program.
+pub fn refuse_another_part(report: &Report) -> Result<(), Box<Diag>> {
     if report.compared < FEW || report.matched * 10 >= report.compared {
         return Ok(());
     }

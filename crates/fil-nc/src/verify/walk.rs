@@ -362,7 +362,9 @@ impl<'a, C: Steps> Walk<'a, C> {
                 "the CL file does not say what path it makes; nothing after it was compared"
             }
         };
-        self.report.unverified.push(Unverified { cl_line, what: format!("{what}: {open}") });
+        self.report
+            .unverified
+            .push(Unverified { cl_line: Some(cl_line), what: format!("{what}: {open}") });
         self.over |= effect == Effect::Path;
     }
 
