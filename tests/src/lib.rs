@@ -5,6 +5,7 @@ pub mod compare;
 pub mod duel;
 pub mod event_path;
 pub mod examples;
+pub mod feed;
 pub mod language;
 pub mod lints;
 pub mod motions;
@@ -18,6 +19,8 @@ pub mod picture;
 pub mod programs;
 pub mod rs274;
 pub mod runout;
+pub mod sinumerik;
+pub mod thread;
 pub mod words;
 
 /// The folder of the workspace.

@@ -38,6 +38,7 @@ mod script_files;
 pub mod select;
 mod source;
 mod statement;
+pub mod trace;
 pub mod verify;
 
 pub use blocks::{Block, Blocks};
