@@ -6,6 +6,7 @@ pub mod compare;
 pub mod duel;
 pub mod event_path;
 pub mod examples;
+pub mod feed;
 pub mod language;
 pub mod lints;
 pub mod motions;
@@ -19,6 +20,7 @@ pub mod picture;
 pub mod programs;
 pub mod rs274;
 pub mod runout;
+pub mod sinumerik;
 pub mod words;
 
 /// The folder of the workspace.
