@@ -96,7 +96,7 @@ impl State<'_> {
         }
         let arc = matches!(self.motion, Some(Function::Arc { .. }));
         let centre = [b'I', b'J', b'K'].map(letter).iter().any(|letter| words.has(*letter));
-        if !words.has_axes(self.dialect) && !(arc && centre) {
+        if !(words.has_axes(self.dialect) || arc && centre) {
             return self.feed_word(words);
         }
         match self.motion {
