@@ -138,6 +138,32 @@ fn the_picture_of_the_docs_is_drawn_by_the_code() {
     assert!(std::fs::read_to_string(file).unwrap() == picture, "docs/plot.svg is an older drawing");
 }
 
+/// Grooves on a cylinder of radius 81 about Y, cut at a table that turns: on the part
+/// the tool stays on the cylinder.
+#[test]
+fn a_turning_table_is_drawn_on_the_part() {
+    let folder = root().join("corpus/papers/embos-engraving");
+    let case = filpost::case::Case::load(&folder).unwrap();
+    let post = case.post().unwrap();
+    let nc = std::fs::read(folder.join("figure-3.nc")).unwrap();
+    // The printed program has no end code, and neither has its machine.
+    let drawing = plot::program(Text { name: "figure-3.nc", bytes: &nc }, post.commons()).unwrap();
+    let path = &drawing.path;
+    let turning = path.pieces.iter().filter(|piece| {
+        let points = &path.points[piece.start..piece.end];
+        piece.stroke == Stroke::Feed && points.first().map(|p| p[1]) != points.last().map(|p| p[1])
+    });
+    let mut count = 0;
+    for piece in turning {
+        for point in &path.points[piece.start..piece.end] {
+            let radius = point[0].hypot(point[2]);
+            assert!((radius - 81.0).abs() < 1e-6, "line {}: {point:?}", piece.line);
+            count += 1;
+        }
+    }
+    assert!(count >= 18, "{count} points");
+}
+
 #[test]
 fn notes_name_the_fil_line() {
     let drawing = drawing();
