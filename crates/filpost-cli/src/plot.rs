@@ -1,7 +1,7 @@
 //! `filpost plot`
 
 use std::io::{Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use filpost::map::MapReader;
 use filpost::nc::plot::{Drawing, View, html, svg};
@@ -111,7 +111,7 @@ fn views(seen: &[Seen]) -> Vec<View> {
     if seen.is_empty() { View::ALL.to_vec() } else { seen.iter().map(view).collect() }
 }
 
-fn read(path: &PathBuf) -> Result<Vec<u8>, Error> {
+fn read(path: &Path) -> Result<Vec<u8>, Error> {
     let mut bytes = Vec::new();
     output::open(path)?.read_to_end(&mut bytes).map_err(|error| files::cant_read(path, &error))?;
     Ok(bytes)
