@@ -1,9 +1,9 @@
 //! Back-check: does an NC program do what the CL file asks for?
 //!
-//! The CL file is read by [`cl_path`] without the post, the program by the
-//! interpreter without the writer; [`walk`] goes along both at once. Where the
-//! machine's settings lay down what the CL file leaves open (where codes stand,
-//! what the last digit is), [`settings`] says it.
+//! [`ClPath`] reads the CL file without the post, the interpreter reads the program
+//! without the writer; `walk` goes along both at once, `align` finds where they part.
+//! What the machine's settings lay down where the CL file leaves it open (when codes
+//! stand, what the last digit is) comes from [`Settings`].
 
 mod ahead;
 mod align;
