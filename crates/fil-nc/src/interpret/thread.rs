@@ -140,7 +140,7 @@ impl State<'_> {
     /// `P` finishing passes, chamfer and angle, two digits each; `Q` least depth; `R`
     /// finishing allowance.
     fn first_block(&self, words: &mut Words) -> Result<Setup, Fault> {
-        let said = words.take_whole(P)?.unwrap_or(10_000);
+        let said = words.take_plain(P)?.unwrap_or(10_000);
         let least = words.take_number(Q).map_or(0.0, |least| least.steps(self.unit()));
         let allowance = words.take(R)?.unwrap_or(0.0) * self.unit();
         Ok(Setup {
