@@ -38,6 +38,7 @@ mod script_files;
 pub mod select;
 mod source;
 mod statement;
+pub mod trace;
 
 pub use blocks::{Block, Blocks};
 pub use builder::{Builder, Post};
