@@ -38,6 +38,7 @@ const TESTED_HERE: &[(&str, &str)] = &[
     ("E0708", "e0707_to_e0710_line_maps"),
     ("E0709", "e0707_to_e0710_line_maps"),
     ("E0710", "e0707_to_e0710_line_maps"),
+    ("E0941", "e0941_another_part"),
 ];
 
 fn pages() -> BTreeMap<String, (PathBuf, String)> {
@@ -468,6 +469,18 @@ fn e0705_case_file() {
     let error = Case::load(folder.path()).expect_err("refused");
     assert_eq!(names(&error), ["E0705"]);
     assert_eq!(error.diags()[0].places[0].line, 3);
+}
+
+#[test]
+fn e0941_another_part() {
+    let cl = |name: &str| std::fs::read(root().join("tests/cl").join(name)).expect("a CL file");
+    let mut post = Post::builder().build().expect("the generic mill");
+    let mut nc = Vec::new();
+    post.run(cl("holes.ncl.1").as_slice(), &mut nc).expect("a program");
+    let program = filpost::verify::Program { text: &nc, name: "holes.nc" };
+    let error = post.verify(cl("planes.ncl.1").as_slice(), program, None).expect_err("refused");
+    assert_eq!(names(&error), ["E0941"]);
+    assert!(error.diags()[0].notes[0].contains("tool 1"), "{error}");
 }
 
 #[test]

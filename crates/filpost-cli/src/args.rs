@@ -27,6 +27,8 @@ pub enum Command {
     Cl(ClArgs),
     /// Compare two NC programs word by word, as a control reads them
     Diff(DiffArgs),
+    /// Check an NC program against the CL file it was made from
+    Verify(VerifyArgs),
     /// Draw the path of a CL file or of an NC program, as SVG or as a page
     Plot(PlotArgs),
     /// Run regression cases (folders with a case.toml)
@@ -234,6 +236,33 @@ pub struct DiffArgs {
     #[arg(long, value_name = "LINES", default_value_t = 2)]
     pub context: usize,
     /// How differences are written
+    #[arg(long, value_enum, default_value_t = Report::Text)]
+    pub format: Report,
+}
+
+/// `filpost verify`
+#[derive(Debug, ClapArgs)]
+pub struct VerifyArgs {
+    /// The CL file; - reads standard input
+    pub cl: PathBuf,
+    /// The NC program
+    pub nc: PathBuf,
+    #[command(flatten)]
+    pub chosen: Chosen,
+    /// A FIL file (may be given again); the program is then compared with a second run
+    #[arg(short, long, value_name = "FILE")]
+    pub fil: Vec<PathBuf>,
+    #[command(flatten)]
+    pub reading: Reading,
+    #[command(flatten)]
+    pub grants: Grants,
+    /// A folder to look in for the option file that MACHIN names (may be given again)
+    #[arg(long, value_name = "DIR")]
+    pub post_path: Vec<PathBuf>,
+    /// Deviation allowed, mm and degrees; without it only the last digit of each address
+    #[arg(long, value_name = "MM", value_parser = tolerance)]
+    pub tol: Option<f64>,
+    /// How findings are written
     #[arg(long, value_enum, default_value_t = Report::Text)]
     pub format: Report,
 }

@@ -39,6 +39,7 @@ pub mod select;
 mod source;
 mod statement;
 pub mod trace;
+pub mod verify;
 
 pub use blocks::{Block, Blocks};
 pub use builder::{Builder, Post};

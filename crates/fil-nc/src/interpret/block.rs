@@ -42,7 +42,7 @@ impl State<'_> {
         self.motion(&mut words)?;
         words.finish()?;
         if outcome == Outcome::End {
-            self.events.push(Event::End { line: self.line });
+            self.events.push(Event::End { line: self.line, modes: self.modes });
         }
         Ok(outcome)
     }
@@ -98,7 +98,8 @@ impl State<'_> {
         }
         let arc = matches!(self.motion, Some(Function::Arc { .. }));
         let centre = [b'I', b'J', b'K'].map(letter).iter().any(|letter| words.has(*letter));
-        if !(words.has_axes(self.dialect) || arc && centre) {
+        let moves = words.has_axes(self.dialect) || (arc && centre);
+        if !moves {
             return self.feed_word(words);
         }
         match self.motion {
