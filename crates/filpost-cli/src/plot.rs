@@ -32,7 +32,12 @@ pub fn run(args: &PlotArgs) -> Result<Status, Error> {
     let bytes = read(&args.file)?;
     let name = output::input_name(&args.file);
     let text = Text { name: &name, bytes: &bytes };
-    let drawing = if plot::is_cl(&bytes) {
+    let is_cl = plot::is_cl(&bytes);
+    if is_cl && (args.cl.is_some() || args.map.is_some()) {
+        output::say(&format!("error: {name} is a CL file; --cl and --map go with an NC program"));
+        return Ok(Status::Usage);
+    }
+    let drawing = if is_cl {
         plot::cl_file(text, setup::cl_options(args.encoding.as_deref())?)?
     } else {
         program(args, text)?

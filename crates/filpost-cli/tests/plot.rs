@@ -86,6 +86,14 @@ fn a_program_of_another_dialect_is_refused_and_nothing_written() {
 }
 
 #[test]
+fn options_of_a_program_do_not_go_with_a_cl_file() {
+    let place = Place::new();
+    let output = place.run(&["plot", "a part.ncl", "--cl", "a part.ncl"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("is a CL file"), "{}", text(&output.stderr));
+}
+
+#[test]
 fn a_picture_of_no_known_kind_is_wrong_usage() {
     let place = Place::new();
     let output = place.run(&["plot", "a part.ncl", "-o", "path.png"]);

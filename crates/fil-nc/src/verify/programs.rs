@@ -31,11 +31,11 @@ pub fn compare_programs(wanted: &[Event], found: &[Event], tolerance: Option<f64
     pair.report
 }
 
-/// Compares two programs word by word: for one that the interpreter refuses, so that
-/// its motions are not known.
+/// Compares two programs word by word, for one that the interpreter refuses, so that
+/// its motions are not known; line by line when it is not made of such words.
 ///
 /// # Errors
-/// A line that is no block of words.
+/// A line of the program that is no block of words.
 pub fn compare_words(
     wanted: &[u8],
     (found, name): (&[u8], &str),
@@ -45,24 +45,47 @@ pub fn compare_words(
     let ignore = diff::Ignore { numbers: true, comments: true, ..diff::Ignore::default() };
     let tolerance = tolerance.unwrap_or(0.0) + DUST;
     let options = diff::Options { tolerance, ignore, ..diff::Options::default() };
-    let wanted = diff::read(wanted, "the second run", &options)?;
-    let found = diff::read(found, name, &options)?;
     let mut report = Report::default();
-    for difference in diff::compare(&wanted, &found, &options).differences {
-        report.find(Finding {
-            kind: Kind::Block,
-            cl_line: None,
-            nc_line: difference.lines[1],
-            message: diff::sentence(&difference, &wanted, &found),
-        });
-    }
+    let compared = match diff::read(wanted, "the second run", &options) {
+        Ok(wanted) => {
+            let found = diff::read(found, name, &options)?;
+            for difference in diff::compare(&wanted, &found, &options).differences {
+                let message = diff::sentence(&difference, &wanted, &found);
+                report.find(block(difference.lines[1], message));
+            }
+            "its blocks were compared word by word"
+        }
+        Err(_) => {
+            compare_lines(wanted, found, &mut report);
+            "its lines were compared as text"
+        }
+    };
     let line = refused.places.first().map_or(0, |place| place.line);
-    let what = format!(
-        "the program from line {line} on can't be followed ({}); its blocks were compared word by word",
-        refused.message
-    );
+    let why = &refused.message;
+    let what = format!("the program from line {line} on can't be followed ({why}); {compared}");
     report.unverified.push(Unverified { cl_line: None, what });
     Ok(report)
+}
+
+fn compare_lines(wanted: &[u8], found: &[u8], report: &mut Report) {
+    let lines = |text: &[u8]| -> Vec<String> {
+        let text = String::from_utf8_lossy(text);
+        text.lines().map(|line| line.trim_end().to_string()).collect()
+    };
+    let (wanted, found) = (lines(wanted), lines(found));
+    for number in 0..wanted.len().max(found.len()) {
+        let message = match (wanted.get(number), found.get(number)) {
+            (Some(wanted), Some(found)) if wanted == found => continue,
+            (Some(wanted), Some(_)) => format!("it should be `{wanted}`"),
+            (Some(wanted), None) => format!("`{wanted}` is missing"),
+            (None, _) => "nothing should be here".to_string(),
+        };
+        report.find(block(Some(number as u32 + 1), message));
+    }
+}
+
+fn block(nc_line: Option<u32>, message: String) -> Finding {
+    Finding { kind: Kind::Block, cl_line: None, nc_line, message }
 }
 
 struct Pair<'a> {
