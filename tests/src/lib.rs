@@ -1,13 +1,18 @@
 //! Support for the test runners of this member.
 
+pub mod browser;
 pub mod cl_path;
 pub mod compare;
 pub mod duel;
+pub mod event_path;
 pub mod examples;
 pub mod feed;
 pub mod language;
 pub mod lints;
+pub mod motions;
+pub mod mutants;
 pub mod nc;
+pub mod nc_cases;
 pub mod nc_path;
 pub mod oracle;
 pub mod path;
@@ -17,6 +22,7 @@ pub mod rs274;
 pub mod runout;
 pub mod sinumerik;
 pub mod thread;
+pub mod words;
 
 /// The folder of the workspace.
 pub fn root() -> &'static std::path::Path {

@@ -9,72 +9,12 @@
 
 use std::path::Path;
 
-use filpost::{Error, Post};
+use filpost_tests::words::Header;
 use libtest_mimic::{Arguments, Failed, Trial};
-
-/// Settings that leave nothing of the program but the blocks of its records.
-const BARE: &[&str] = &[
-    "seqno.off_at_start=72",
-    "tape.start_char=none",
-    "tape.end_char=none",
-    "program.number_address=none",
-    "units.metric_code=none",
-    "units.inch_code=none",
-    "mode.position=none",
-    "feed.mode=none",
-    "circle.plane=none",
-    "program.rewind_code=none",
-    "program.end_code=none",
-];
-
-#[derive(Default)]
-struct Header {
-    post: Option<String>,
-    settings: Vec<String>,
-    fil: Vec<String>,
-    expected: Vec<String>,
-    warnings: Vec<String>,
-    error: Option<String>,
-    whole: bool,
-}
-
-impl Header {
-    fn read(text: &str) -> Result<Header, Failed> {
-        let mut header = Header::default();
-        for line in text.lines().filter_map(|line| line.strip_prefix("$$ ")) {
-            let (key, value) = line.split_once(':').unwrap_or((line, ""));
-            let value = value.trim().to_string();
-            match key.trim() {
-                "post" => header.post = Some(value),
-                "set" => header.settings.push(value),
-                "fil" => header.fil.push(value),
-                "expect" => header.expected.push(value),
-                "warn" => header.warnings.push(value),
-                "error" => header.error = Some(value),
-                "whole" => header.whole = true,
-                "note" => {}
-                other => return Err(format!("unknown header line `{other}`").into()),
-            }
-        }
-        Ok(header)
-    }
-
-    fn post(&self) -> Result<Post, Error> {
-        let mut builder = Post::builder().ready(self.post.as_deref().unwrap_or("fanuc-mill"));
-        let bare = if self.whole { &[] } else { BARE };
-        for setting in bare.iter().copied().chain(self.settings.iter().map(String::as_str)) {
-            builder = builder.set(setting);
-        }
-        if !self.fil.is_empty() {
-            builder = builder.fil("header", &format!("{}\nFINI\n", self.fil.join("\n")));
-        }
-        builder.build()
-    }
-}
 
 fn check(path: &Path) -> Result<(), Failed> {
     let text = std::fs::read_to_string(path)?;
-    let header = Header::read(&text)?;
+    let header = Header::read(&text).map_err(Failed::from)?;
     let mut nc = Vec::new();
     let result = header.post().and_then(|mut post| post.run(text.as_bytes(), &mut nc));
     match (result, &header.error) {

@@ -2,11 +2,17 @@
 //!
 //! [`text`] cuts a program into blocks of words, whatever control it is for;
 //! [`diff`] compares two programs;
+//! [`plot`] draws a path;
 //! [`motion`] is what a program does, as plain data. Nothing here shares a line
 //! with the post's output side: a fault of the writer must not hide itself in
 //! the reader.
 
+pub mod dialect;
 pub mod diff;
 pub mod errors;
+pub mod forward;
+pub mod interpret;
 pub mod motion;
+pub mod plot;
 pub mod text;
+pub mod verify;

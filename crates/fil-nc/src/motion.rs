@@ -19,8 +19,9 @@ pub enum Course {
     Feed,
     /// At feed, in step with the spindle.
     Thread,
-    /// Rapid traverse to a point of the machine frame (`G53`, `G28`), which no CL
-    /// file asks for; its position is in that frame.
+    /// Rapid traverse to a point of the machine (`G53`, `G28`), which no CL file asks
+    /// for. The axes that go there are not `known`; their values are those the
+    /// block gives.
     Machine,
 }
 
@@ -81,6 +82,8 @@ pub struct Modes {
     pub length_offset: Option<u32>,
     /// Cutter compensation.
     pub compensation: Compensation,
+    /// Number of its offset; `None` when off or not said.
+    pub compensation_offset: Option<u32>,
     /// Spindle.
     pub spindle: Spindle,
     /// Spindle speed, turns/min; `None` before the first and at constant surface speed.
@@ -106,6 +109,11 @@ pub struct Move {
     pub rate: Option<Rate>,
     /// Made by a canned cycle that is in force.
     pub in_cycle: bool,
+    /// Which axes of `to` (X, Y, Z, primary, secondary) are known in the frame of the
+    /// program. An axis is not known before its first word, after a motion to a
+    /// point of the machine, and after a change of the work offset; its value is
+    /// then the last one that was said, or 0.
+    pub known: [bool; 5],
     /// What else is in force.
     pub modes: Modes,
 }
@@ -121,6 +129,8 @@ pub enum Event {
         line: u32,
         /// Number of the tool.
         tool: u32,
+        /// What is in force while it is changed; its tool is the one before.
+        modes: Modes,
     },
     /// The axes wait.
     Dwell {
@@ -133,5 +143,7 @@ pub enum Event {
     End {
         /// Line of the NC program.
         line: u32,
+        /// What is in force at the end.
+        modes: Modes,
     },
 }

@@ -27,6 +27,10 @@ pub enum Command {
     Cl(ClArgs),
     /// Compare two NC programs word by word, as a control reads them
     Diff(DiffArgs),
+    /// Check an NC program against the CL file it was made from
+    Verify(VerifyArgs),
+    /// Draw the path of a CL file or of an NC program, as SVG or as a page
+    Plot(PlotArgs),
     /// Run regression cases (folders with a case.toml)
     Test(TestArgs),
     /// Tell who made a block, or what a CL record or a line of FIL made
@@ -234,6 +238,71 @@ pub struct DiffArgs {
     /// How differences are written
     #[arg(long, value_enum, default_value_t = Report::Text)]
     pub format: Report,
+}
+
+/// `filpost verify`
+#[derive(Debug, ClapArgs)]
+pub struct VerifyArgs {
+    /// The CL file; - reads standard input
+    pub cl: PathBuf,
+    /// The NC program
+    pub nc: PathBuf,
+    #[command(flatten)]
+    pub chosen: Chosen,
+    /// A FIL file (may be given again); the program is then compared with a second run
+    #[arg(short, long, value_name = "FILE")]
+    pub fil: Vec<PathBuf>,
+    #[command(flatten)]
+    pub reading: Reading,
+    #[command(flatten)]
+    pub grants: Grants,
+    /// A folder to look in for the option file that MACHIN names (may be given again)
+    #[arg(long, value_name = "DIR")]
+    pub post_path: Vec<PathBuf>,
+    /// Deviation allowed, mm and degrees; without it only the last digit of each address
+    #[arg(long, value_name = "MM", value_parser = tolerance)]
+    pub tol: Option<f64>,
+    /// How findings are written
+    #[arg(long, value_enum, default_value_t = Report::Text)]
+    pub format: Report,
+}
+
+/// `filpost plot`
+#[derive(Debug, ClapArgs)]
+pub struct PlotArgs {
+    /// The CL file or the NC program; - reads standard input
+    pub file: PathBuf,
+    /// The machine that the program is for
+    #[command(flatten)]
+    pub chosen: Chosen,
+    /// A CL file whose path is drawn under that of the program
+    #[arg(long, value_name = "PART")]
+    pub cl: Option<PathBuf>,
+    /// The line map of the program; FILE.map when it is there
+    #[arg(long, value_name = "FILE")]
+    pub map: Option<PathBuf>,
+    /// The picture, .svg or .html; SVG to standard output when left out
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
+    /// Views of an SVG; all of them when left out
+    #[arg(long, value_enum, value_name = "VIEWS", value_delimiter = ',')]
+    pub view: Vec<Seen>,
+    /// Encoding of the CL file's texts (utf-8, cp1251, koi8-r, …); guessed when left out
+    #[arg(long, value_name = "LABEL")]
+    pub encoding: Option<String>,
+}
+
+/// A view of `filpost plot`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Seen {
+    /// From above
+    Xy,
+    /// As at a lathe: Z to the right, X up
+    Zx,
+    /// Z to the right, Y up
+    Zy,
+    /// Isometric
+    Iso,
 }
 
 /// How a finding about NC programs is written.

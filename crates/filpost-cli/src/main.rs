@@ -15,6 +15,7 @@ mod job;
 mod json;
 mod machine;
 mod output;
+mod plot;
 mod post;
 mod render;
 mod sarif;
@@ -22,6 +23,7 @@ mod setup;
 mod summary;
 mod test;
 mod trace;
+mod verify;
 
 use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind};
 use std::process::ExitCode;
@@ -66,6 +68,8 @@ fn run(command: &Command) -> Result<Status, Error> {
         Command::Fmt(args) => fmt::run(args),
         Command::Cl(args) => cl::run(args),
         Command::Diff(args) => diff::run(args),
+        Command::Verify(args) => verify::run(args),
+        Command::Plot(args) => plot::run(args),
         Command::Test(args) => test::run(args),
         Command::Trace(args) => trace::run(args),
         Command::Explain(args) => explain::run(&args.subject),

@@ -69,7 +69,7 @@ pub fn for_run(
     let encoding = reading.encoding.as_deref();
     let mut named = match named(chosen, encoding)? {
         Some(named) => named,
-        None => with_settings(asked_for(machin()?.as_ref(), folders, encoding)?, &chosen.set),
+        None => asked(chosen, machin()?.as_ref(), folders, encoding)?,
     };
     let by_machin = chosen.post.is_none() && chosen.machine.is_none();
     if by_machin && !fil.is_empty() {
@@ -84,6 +84,19 @@ pub fn for_run(
     named.builder = named.builder.compat(compat(reading)?);
     named.inputs.extend(reading.compat.clone());
     Ok(named)
+}
+
+/// The post that MACHIN asks for, with the settings of the command line.
+///
+/// # Errors
+/// Files that can't be read.
+pub fn asked(
+    chosen: &Chosen,
+    machin: Option<&Machin>,
+    folders: &[PathBuf],
+    encoding: Option<&str>,
+) -> Result<Named, Error> {
+    Ok(with_settings(asked_for(machin, folders, encoding)?, &chosen.set))
 }
 
 /// The readings of `--compat`, or the built-in ones.

@@ -31,6 +31,7 @@ pub mod listing;
 pub mod map;
 mod observe;
 mod outside;
+pub mod plot;
 pub mod ready;
 mod report;
 mod script_files;
@@ -38,6 +39,7 @@ pub mod select;
 mod source;
 mod statement;
 pub mod trace;
+pub mod verify;
 
 pub use blocks::{Block, Blocks};
 pub use builder::{Builder, Post};

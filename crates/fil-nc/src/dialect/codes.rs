@@ -1,0 +1,400 @@
+//! G and M words: which number stands for which function.
+
+use std::collections::HashMap;
+
+use super::Settings;
+use crate::motion::Compensation;
+
+/// How a feed is counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FeedMode {
+    /// Length a minute.
+    PerMinute,
+    /// Length a turn of the spindle.
+    PerTurn,
+    /// Blocks a minute.
+    Inverse,
+}
+
+/// What a drilling cycle does at and from the bottom.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CycleKind {
+    /// Feed in, rapid out.
+    Drill,
+    /// In pecks, out of the hole after each.
+    Peck,
+    /// In pecks, lifted a little after each.
+    BreakChips,
+    /// Feed in, spindle reversed, feed out.
+    Tap,
+    /// Feed in, feed out.
+    FeedOut,
+    /// Feed in, spindle stopped, rapid out.
+    StopOut,
+}
+
+/// What a G word asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Function {
+    /// Rapid traverse.
+    Rapid,
+    /// Straight line at feed.
+    Linear,
+    /// Arc at feed.
+    Arc {
+        /// Counterclockwise.
+        ccw: bool,
+    },
+    /// Straight line in step with the spindle.
+    Thread,
+    /// Threading cycle of one pass: in, along, out, back.
+    ThreadPass,
+    /// Threading cycle of all passes.
+    ThreadPasses,
+    /// Drilling cycle.
+    Cycle(CycleKind),
+    /// End of a drilling cycle.
+    CycleOff,
+    /// Level to return to after a hole.
+    Return {
+        /// That before the cycle, else the R level.
+        initial: bool,
+    },
+    /// Plane of arcs, by the index of its normal.
+    Plane(usize),
+    /// Unit of length.
+    Units {
+        /// Millimetre, else inch.
+        metric: bool,
+    },
+    /// Meaning of axis words.
+    Positions {
+        /// Positions, else increments.
+        absolute: bool,
+    },
+    /// Meaning of F.
+    Feed(FeedMode),
+    /// Cutter compensation.
+    Compensation(Compensation),
+    /// Tool length offset taken up, else given up.
+    Length(bool),
+    /// Work offset.
+    Fixture(u32),
+    /// S is a surface speed, else turns.
+    Surface(bool),
+    /// S of this block limits the speed.
+    SpeedLimit,
+    /// Wait.
+    Dwell,
+    /// Axis words of this block are in the machine frame.
+    MachineFrame,
+    /// To the reference point.
+    Reference,
+    /// How exactly corners are cut; no motion of its own.
+    PathControl,
+}
+
+/// Functions of a group exclude each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Group {
+    /// Motions.
+    Motion,
+    /// Drilling cycles and their end.
+    Cycle,
+    /// Return levels.
+    Return,
+    /// Planes.
+    Plane,
+    /// Units.
+    Units,
+    /// Positions and increments.
+    Positions,
+    /// Feed modes.
+    Feed,
+    /// Cutter compensation.
+    Compensation,
+    /// Tool length.
+    Length,
+    /// Work offsets.
+    Fixture,
+    /// Speed modes.
+    Surface,
+    /// Path control.
+    PathControl,
+    /// What holds for one block only.
+    Once,
+}
+
+impl Function {
+    /// The group it belongs to.
+    pub fn group(self) -> Group {
+        match self {
+            Function::Rapid
+            | Function::Linear
+            | Function::Arc { .. }
+            | Function::Thread
+            | Function::ThreadPass => Group::Motion,
+            Function::Cycle(_) | Function::CycleOff => Group::Cycle,
+            Function::Return { .. } => Group::Return,
+            Function::Plane(_) => Group::Plane,
+            Function::Units { .. } => Group::Units,
+            Function::Positions { .. } => Group::Positions,
+            Function::Feed(_) => Group::Feed,
+            Function::Compensation(_) => Group::Compensation,
+            Function::Length(_) => Group::Length,
+            Function::Fixture(_) => Group::Fixture,
+            Function::Surface(_) => Group::Surface,
+            Function::PathControl => Group::PathControl,
+            Function::ThreadPasses
+            | Function::SpeedLimit
+            | Function::Dwell
+            | Function::MachineFrame
+            | Function::Reference => Group::Once,
+        }
+    }
+}
+
+/// What an M word asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Auxiliary {
+    /// Spindle clockwise.
+    Clockwise,
+    /// Spindle counterclockwise.
+    Counterclockwise,
+    /// Spindle stands.
+    SpindleOff,
+    /// Coolant flows, or stops.
+    Coolant(bool),
+    /// Tool change.
+    ToolChange,
+    /// End of the program.
+    End,
+    /// Call of a subprogram.
+    Call,
+    /// End of a subprogram.
+    Back,
+    /// Steers the program in a way that can't be followed.
+    Flow,
+    /// Anything else: no motion of the axes.
+    Other,
+}
+
+impl Auxiliary {
+    /// True when one block can't ask for both.
+    pub fn excludes(self, other: Auxiliary) -> bool {
+        let turns = |auxiliary| {
+            matches!(
+                auxiliary,
+                Auxiliary::Clockwise | Auxiliary::Counterclockwise | Auxiliary::SpindleOff
+            )
+        };
+        match (self, other) {
+            (Auxiliary::Coolant(on), Auxiliary::Coolant(other)) => on != other,
+            _ => turns(self) && turns(other),
+        }
+    }
+}
+
+/// G words by their numbers in tenths.
+#[derive(Clone, Debug)]
+pub(super) struct Functions(HashMap<i64, Function>);
+
+/// Kinds of cycles in the settings, and what they do where the number of their code
+/// is not one of [`STANDARD_CYCLES`].
+const CYCLES: &[(&str, CycleKind)] = &[
+    ("cycle.drill_code", CycleKind::Drill),
+    ("cycle.csink_code", CycleKind::Drill),
+    ("cycle.thru_code", CycleKind::Drill),
+    ("cycle.face_code", CycleKind::Drill),
+    ("cycle.deep_code", CycleKind::Peck),
+    ("cycle.brkchp_code", CycleKind::BreakChips),
+    ("cycle.tap_code", CycleKind::Tap),
+    ("cycle.ream_code", CycleKind::FeedOut),
+    ("cycle.bore_code", CycleKind::StopOut),
+];
+
+/// What the numbers of ISO 6983 and of Fanuc's mills do. A control that has cycles
+/// has these, whatever its post writes.
+const STANDARD_CYCLES: &[(i32, CycleKind)] = &[
+    (73, CycleKind::BreakChips),
+    (74, CycleKind::Tap),
+    (76, CycleKind::StopOut),
+    (81, CycleKind::Drill),
+    (82, CycleKind::Drill),
+    (83, CycleKind::Peck),
+    (84, CycleKind::Tap),
+    (85, CycleKind::FeedOut),
+    (86, CycleKind::StopOut),
+    (89, CycleKind::FeedOut),
+];
+
+/// Functions that each control of this family has and no setting names.
+const STANDARD: &[(i32, Function)] = &[
+    (28, Function::Reference),
+    (30, Function::Reference),
+    (53, Function::MachineFrame),
+    (9, Function::PathControl),
+    (61, Function::PathControl),
+    (64, Function::PathControl),
+];
+
+impl Functions {
+    pub(super) fn new(settings: &Settings, lathe: bool) -> Self {
+        let mut table = Functions(HashMap::new());
+        for (key, function) in named() {
+            table.add(settings.code(key), function);
+        }
+        if !lathe || settings.code("mode.position").is_some() {
+            for (key, absolute) in [("mode.absolute_code", true), ("mode.incremental_code", false)]
+            {
+                table.add(settings.code(key), Function::Positions { absolute });
+            }
+        }
+        if lathe {
+            table.add(Some(92), Function::ThreadPass);
+            table.add(Some(76), Function::ThreadPasses);
+        }
+        table.add_cycles(settings);
+        table.add_fixtures(settings);
+        if settings.code("tool.length_code").is_some() {
+            table.add(Some(49), Function::Length(false));
+        }
+        for (code, function) in STANDARD {
+            table.add(Some(*code), *function);
+        }
+        table
+    }
+
+    /// A code that two settings name stays with the first of them.
+    fn add(&mut self, code: Option<i32>, function: Function) {
+        if let Some(code) = code {
+            self.0.entry(i64::from(code) * 10).or_insert(function);
+        }
+    }
+
+    fn add_cycles(&mut self, settings: &Settings) {
+        let standard = |code: i32| STANDARD_CYCLES.iter().find(|row| row.0 == code);
+        let mut any = false;
+        for (key, kind) in CYCLES {
+            let Some(code) = settings.code(key) else { continue };
+            any = true;
+            self.add(Some(code), Function::Cycle(standard(code).map_or(*kind, |row| row.1)));
+        }
+        if !any {
+            return;
+        }
+        self.add(settings.code("cycle.off_code"), Function::CycleOff);
+        for (code, kind) in STANDARD_CYCLES {
+            self.add(Some(*code), Function::Cycle(*kind));
+        }
+        for (key, initial) in
+            [("cycle.return_initial_code", true), ("cycle.return_clear_code", false)]
+        {
+            self.add(settings.code(key), Function::Return { initial });
+        }
+    }
+
+    fn add_fixtures(&mut self, settings: &Settings) {
+        let ends = [settings.code("fixture.min_code"), settings.code("fixture.max_code")];
+        if let [Some(first), Some(last)] = ends {
+            for code in (first..=last).take(100) {
+                self.add(Some(code), Function::Fixture(code.unsigned_abs()));
+            }
+        }
+    }
+
+    pub(super) fn get(&self, tenths: i64) -> Option<Function> {
+        self.0.get(&tenths).copied()
+    }
+
+    /// The plane that a setting names by its code; XY when it names none.
+    pub(super) fn plane(&self, code: Option<i32>) -> usize {
+        match code.and_then(|code| self.get(i64::from(code) * 10)) {
+            Some(Function::Plane(normal)) => normal,
+            _ => 2,
+        }
+    }
+
+    /// The feed mode that a setting names by its code; a minute when it names none.
+    pub(super) fn feed_mode(&self, code: Option<i32>) -> FeedMode {
+        match code.and_then(|code| self.get(i64::from(code) * 10)) {
+            Some(Function::Feed(mode)) => mode,
+            _ => FeedMode::PerMinute,
+        }
+    }
+}
+
+/// Settings that name the code of a function.
+fn named() -> [(&'static str, Function); 24] {
+    use Function as F;
+    [
+        ("rapid.code_xy", F::Rapid),
+        ("rapid.code_z", F::Rapid),
+        ("rotary.rapid_code", F::Rapid),
+        ("linear.code", F::Linear),
+        ("circle.cw_code", F::Arc { ccw: false }),
+        ("circle.ccw_code", F::Arc { ccw: true }),
+        ("thread.code", F::Thread),
+        ("dwell.code", F::Dwell),
+        ("circle.plane_xy", F::Plane(2)),
+        ("circle.plane_zx", F::Plane(1)),
+        ("circle.plane_yz", F::Plane(0)),
+        ("units.inch_code", F::Units { metric: false }),
+        ("units.metric_code", F::Units { metric: true }),
+        ("feed.upm_code", F::Feed(FeedMode::PerMinute)),
+        ("feed.upr_code", F::Feed(FeedMode::PerTurn)),
+        ("feed.inverse_code", F::Feed(FeedMode::Inverse)),
+        ("cutcom.left_code", F::Compensation(Compensation::Left)),
+        ("cutcom.right_code", F::Compensation(Compensation::Right)),
+        ("cutcom.off_code", F::Compensation(Compensation::Off)),
+        ("tool.length_code", F::Length(true)),
+        ("tool.length_cancel_code", F::Length(false)),
+        ("spindle.css_code", F::Surface(true)),
+        ("spindle.rpm_code", F::Surface(false)),
+        ("spindle.max_code", F::SpeedLimit),
+    ]
+}
+
+/// M words by their numbers.
+#[derive(Clone, Debug)]
+pub(super) struct Auxiliaries(HashMap<i64, Auxiliary>);
+
+impl Auxiliaries {
+    pub(super) fn new(settings: &Settings) -> Self {
+        use Auxiliary as A;
+        let named = [
+            ("spindle.cw_code", A::Clockwise),
+            ("spindle.ccw_code", A::Counterclockwise),
+            ("spindle.stop_code", A::SpindleOff),
+            ("spindle.orient_code", A::SpindleOff),
+            ("coolant.off_code", A::Coolant(false)),
+            ("coolant.flood_code", A::Coolant(true)),
+            ("coolant.mist_code", A::Coolant(true)),
+            ("coolant.default_code", A::Coolant(true)),
+            ("coolant.flood_high_code", A::Coolant(true)),
+            ("coolant.flood_low_code", A::Coolant(true)),
+            ("coolant.thru_high_code", A::Coolant(true)),
+            ("coolant.thru_low_code", A::Coolant(true)),
+            ("tool.change_code", A::ToolChange),
+            ("program.end_code", A::End),
+            ("program.rewind_code", A::End),
+        ];
+        let mut table = HashMap::new();
+        for (key, auxiliary) in named {
+            if let Some(code) = settings.code(key) {
+                table.entry(i64::from(code)).or_insert(auxiliary);
+            }
+        }
+        for (code, auxiliary) in [(2, A::End), (30, A::End), (98, A::Call), (99, A::Back)] {
+            table.entry(code).or_insert(auxiliary);
+        }
+        for code in [96, 97, 198] {
+            table.entry(code).or_insert(A::Flow);
+        }
+        Auxiliaries(table)
+    }
+
+    pub(super) fn get(&self, code: i64) -> Auxiliary {
+        self.0.get(&code).copied().unwrap_or(Auxiliary::Other)
+    }
+}

@@ -1,0 +1,252 @@
+//! What letters, numbers and codes of an NC program mean on a machine.
+//!
+//! All of it is read from the machine's commons, as whoever wrote them
+//! understands them; the post's own output code has no part in it.
+
+mod codes;
+mod numbers;
+
+use fil_diag::Diag;
+use fil_post::commons::{Commons, EMPTY, Kind};
+use fil_post::kinematics::Kinematics;
+use fil_post::locations::Location;
+
+use codes::{Auxiliaries, Functions};
+pub use codes::{Auxiliary, CycleKind, FeedMode, Function, Group};
+pub use numbers::{Address, Unreadable};
+
+/// Names of the six axes that settings know, as their keys end.
+const AXIS_NAMES: [&str; 6] = ["x", "y", "z", "a", "b", "c"];
+
+/// What the tape holds of one axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale {
+    factor: f64,
+    shift: f64,
+}
+
+impl Scale {
+    /// Position that a value of the tape stands for.
+    pub fn position(self, value: f64) -> f64 {
+        (value - self.shift) / self.factor
+    }
+
+    /// Way that an increment on the tape stands for.
+    pub fn way(self, value: f64) -> f64 {
+        value / self.factor
+    }
+}
+
+/// How an arc names its centre.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CentreForm {
+    /// From the start to the centre.
+    FromStart,
+    /// From the centre to the start.
+    FromCentre,
+    /// The centre's own coordinates.
+    Absolute,
+    /// From the start to the centre without signs; arcs stay within a quadrant.
+    Unsigned,
+}
+
+/// How a cycle names its bottom and its R level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DepthForm {
+    /// As positions.
+    Absolute,
+    /// R from the level before the cycle, the bottom from R.
+    Increments,
+    /// The same without signs: both go down.
+    Unsigned,
+}
+
+/// How a tool is called.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ToolCall {
+    /// `T` names it, the change code changes it.
+    WithCode,
+    /// `T` changes it at once.
+    Word,
+    /// `T0102` changes to tool 1 with offset 2.
+    WithOffset,
+}
+
+/// The language of a machine's NC programs.
+#[derive(Clone, Debug)]
+pub struct Dialect {
+    functions: Functions,
+    auxiliaries: Auxiliaries,
+    /// By printed letter.
+    addresses: [Option<Address>; 26],
+    /// X Y Z and the two rotary axes; `None` without one.
+    pub(crate) scales: [Option<Scale>; 5],
+    /// Letters (1 to 26) of these axes.
+    pub(crate) axis_letters: [u8; 5],
+    /// The machine turns parts: X may be a diameter, threads have cycles.
+    pub lathe: bool,
+    /// Programs begin in mm and not in inch, where they don't say.
+    pub metric: bool,
+    /// Where the axes stand when the program begins, as far as the settings say.
+    pub(crate) start: [Option<f64>; 5],
+    pub(crate) plane: usize,
+    pub(crate) feed_mode: FeedMode,
+    pub(crate) centre: CentreForm,
+    pub(crate) depth: DepthForm,
+    pub(crate) tool_call: ToolCall,
+    /// Letters of special words, 1 to 26.
+    pub(crate) radius: u8,
+    pub(crate) step: u8,
+    pub(crate) cycle_dwell: u8,
+    pub(crate) dwell: u8,
+    pub(crate) tool_offset: u8,
+    /// Control's dwell unit in a second.
+    pub(crate) dwell_factor: f64,
+    /// Control's feed unit in a unit of length a minute.
+    pub(crate) feed_factor: f64,
+    /// Holes return to the level before the cycle, where the program does not say.
+    pub(crate) return_initial: bool,
+    /// Programs end with a code; without one the last block is the end.
+    pub(crate) has_end: bool,
+}
+
+/// The settings of a machine, by their names.
+pub(crate) struct Settings<'c>(&'c Commons);
+
+impl Settings<'_> {
+    /// A setting; `None` when absent.
+    pub(crate) fn number(&self, key: &str) -> Option<f64> {
+        let row = Location::named(key)?;
+        let value = self.0.get(row.kind, row.number.into()).ok()?;
+        (value != EMPTY).then_some(value)
+    }
+
+    /// A code; `None` when absent.
+    pub(crate) fn code(&self, key: &str) -> Option<i32> {
+        self.number(key).map(|value| value as i32)
+    }
+
+    fn flag(&self, key: &str) -> bool {
+        matches!(self.code(key), Some(1 | 71))
+    }
+
+    /// A letter, 1 to 26.
+    fn letter(&self, key: &str) -> u8 {
+        self.code(key).and_then(|code| u8::try_from(code).ok()).filter(|n| *n <= 26).unwrap_or(0)
+    }
+}
+
+impl Dialect {
+    /// The language of the machine that these commons describe.
+    ///
+    /// # Errors
+    /// Settings that make no machine (a direction of length zero).
+    pub fn new(commons: &Commons) -> Result<Self, Box<Diag>> {
+        let settings = Settings(commons);
+        let tool_call = match (settings.code("tool.format"), settings.code("tool.change_code")) {
+            (Some(2), _) => ToolCall::WithOffset,
+            (_, Some(_)) => ToolCall::WithCode,
+            (_, None) => ToolCall::Word,
+        };
+        let diameter = settings.flag("lathe.diameter");
+        let lathe = diameter || tool_call == ToolCall::WithOffset;
+        let kinematics = Kinematics::from_commons(commons)?;
+        let mut axis_letters = [24, 25, 26, 0, 0];
+        let mut scales = [0, 1, 2].map(|axis| Some(scale(&settings, axis))).to_vec();
+        for (index, rotary) in kinematics.rotaries.iter().enumerate() {
+            axis_letters[index + 3] = rotary.as_ref().map_or(0, |rotary| rotary.letter);
+            scales.push(rotary.as_ref().map(|rotary| scale(&settings, rotary.axis + 3)));
+        }
+        if let (true, Some(x)) = (diameter, &mut scales[0]) {
+            x.factor = 2.0;
+        }
+        let scales = [scales[0], scales[1], scales[2], scales[3], scales[4]];
+        let functions = Functions::new(&settings, lathe);
+        Ok(Dialect {
+            addresses: numbers::addresses(commons, lathe),
+            start: start(commons, axis_letters, scales),
+            scales,
+            axis_letters,
+            lathe,
+            metric: settings.code("units.mode") != Some(1),
+            plane: functions.plane(settings.code("circle.plane")),
+            feed_mode: functions.feed_mode(settings.code("feed.mode")),
+            functions,
+            auxiliaries: Auxiliaries::new(&settings),
+            centre: match settings.code("circle.center") {
+                Some(2) => CentreForm::FromCentre,
+                Some(4) => CentreForm::Absolute,
+                Some(5) => CentreForm::Unsigned,
+                _ => CentreForm::FromStart,
+            },
+            depth: match settings.code("cycle.depth_output") {
+                Some(2) => DepthForm::Increments,
+                Some(3) => DepthForm::Unsigned,
+                _ => DepthForm::Absolute,
+            },
+            tool_call,
+            radius: settings.letter("circle.radius_address"),
+            step: settings.letter("cycle.step_address"),
+            cycle_dwell: settings.letter("cycle.dwell_address"),
+            dwell: settings.letter("dwell.address"),
+            tool_offset: settings.letter("cutcom.address"),
+            dwell_factor: factor(&settings, "dwell.upm_factor"),
+            feed_factor: factor(&settings, "feed.upm_factor"),
+            return_initial: settings.code("cycle.return_codes") == Some(2),
+            has_end: ["program.end_code", "program.rewind_code"]
+                .iter()
+                .any(|key| settings.code(key).is_some()),
+        })
+    }
+
+    /// What a G word means, its number in tenths (`G68.2` is 682).
+    pub fn function(&self, tenths: i64) -> Option<Function> {
+        self.functions.get(tenths)
+    }
+
+    /// What an M word means; an M word that is none of the machine's own functions
+    /// and steers no program is [`Auxiliary::Other`].
+    pub fn auxiliary(&self, code: i64) -> Auxiliary {
+        self.auxiliaries.get(code)
+    }
+
+    /// The address of a printed letter; `None` when the machine has none.
+    pub fn address(&self, printed: u8) -> Option<&Address> {
+        self.addresses.get(usize::from(printed.wrapping_sub(b'A')))?.as_ref()
+    }
+
+    /// Number of the axis (0 to 2 are X Y Z, 3 and 4 the rotaries) that a letter
+    /// (1 to 26) moves.
+    pub fn axis(&self, letter: u8) -> Option<usize> {
+        let named = |axis: &usize| self.axis_letters[*axis] == letter;
+        (0..5).filter(|axis| self.scales[*axis].is_some()).find(named)
+    }
+}
+
+fn scale(settings: &Settings, axis: usize) -> Scale {
+    let name = AXIS_NAMES[axis];
+    let factor = settings.number(&format!("scale.{name}")).filter(|factor| *factor != 0.0);
+    let shift = settings.number(&format!("output.translate_{name}"));
+    Scale { factor: factor.unwrap_or(1.0), shift: shift.unwrap_or(0.0) }
+}
+
+/// A factor where 0 and absent leave values as they are.
+fn factor(settings: &Settings, key: &str) -> f64 {
+    settings.number(key).filter(|factor| *factor > 0.0).unwrap_or(1.0)
+}
+
+/// Positions of the axes before the program, where the settings name them as last
+/// output values.
+fn start(commons: &Commons, letters: [u8; 5], scales: [Option<Scale>; 5]) -> [Option<f64>; 5] {
+    std::array::from_fn(|axis| {
+        let value = commons.last_output(letters[axis]);
+        let scale = scales[axis].filter(|_| letters[axis] > 0 && value != EMPTY)?;
+        Some(scale.position(value))
+    })
+}
+
+/// A location of INTCOM by its number; `None` when absent.
+pub(crate) fn int(commons: &Commons, location: u32) -> Option<i32> {
+    let value = commons.get(Kind::Int, location).ok()?;
+    (value != EMPTY).then_some(value as i32)
+}

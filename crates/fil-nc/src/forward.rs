@@ -1,0 +1,297 @@
+//! Forward kinematics: from the axes of a machine to tip and tool axis in the part.
+//!
+//! The chain is the one that `machine.toml` describes: the tool direction at zero
+//! positions, turned by the heads, and what the tables carry, turned back. Only
+//! the description of the machine is shared with the post; where its inverse
+//! solves equations, this side multiplies rotations.
+
+use fil_diag::Diag;
+use fil_post::Commons;
+use fil_post::kinematics::{Carries, Kinematics, Rotary};
+use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
+
+use crate::motion::Position;
+
+/// Steps in which [`Forward::refine`] comes to its end; it doubles the digits in each.
+const STEPS: usize = 8;
+
+/// A step of so many degrees changes no digit any more.
+const EXACT: f64 = 1e-12;
+
+/// Angle in degrees of the difference quotients of [`Forward::refine`].
+const NUDGE: f64 = 1e-3;
+
+/// Least change of the tool axis by a degree of an axis that counts as turning it.
+const TURNS: f64 = 2e-7;
+
+/// Tip and axis of the tool in the part frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Tool tip, mm.
+    pub tip: Point3<f64>,
+    /// Unit vector from the tip to the spindle.
+    pub axis: Vector3<f64>,
+}
+
+/// How the part frame lies in the machine at fixed rotary positions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// Turns directions of the machine into those of the part.
+    pub turn: Matrix3<f64>,
+    /// Tip in the part when the linear axes stand at zero, mm.
+    pub origin: Point3<f64>,
+}
+
+/// The forward kinematics of a machine.
+#[derive(Clone, Debug)]
+pub struct Forward {
+    machine: Kinematics,
+}
+
+impl Forward {
+    /// The machine that the settings describe.
+    ///
+    /// # Errors
+    /// A direction of length zero.
+    pub fn from_commons(commons: &Commons) -> Result<Self, Box<Diag>> {
+        Ok(Forward { machine: Kinematics::from_commons(commons)? })
+    }
+
+    /// True when the machine has a rotary axis.
+    pub fn has_rotary(&self) -> bool {
+        self.machine.rotaries.iter().any(Option::is_some)
+    }
+
+    /// The rotary axes, primary first.
+    pub fn rotaries(&self) -> &[Option<Rotary>; 2] {
+        &self.machine.rotaries
+    }
+
+    /// Tip and axis of the tool where the axes stand.
+    pub fn pose(&self, position: &Position) -> Pose {
+        let frame = self.frame(position.rotary);
+        Pose { tip: frame.tip(position.linear), axis: self.axis(position.rotary) }
+    }
+
+    /// The tool axis in the part: `R(u1, r1) R(u2, r2) t`.
+    pub fn axis(&self, rotary: [f64; 2]) -> Vector3<f64> {
+        let turned = |vector, index: usize| match &self.machine.rotaries[index] {
+            Some(axis) => turn(axis, rotary[index]) * vector,
+            None => vector,
+        };
+        turned(turned(self.machine.tool.into_inner(), 1), 0)
+    }
+
+    /// Where the linear axes count from in the part.
+    pub fn frame(&self, rotary: [f64; 2]) -> Frame {
+        let tool = self.machine.tool.into_inner();
+        let mut head = tool;
+        let mut frame = Frame { turn: Matrix3::identity(), origin: Point3::origin() };
+        // From the tool to the part: the secondary axis first.
+        for index in [1, 0] {
+            let Some(axis) = &self.machine.rotaries[index] else { continue };
+            let turn = turn(axis, rotary[index]);
+            match axis.carries {
+                Carries::Head => head = turn * head,
+                Carries::Table => {
+                    frame.turn = turn.matrix() * frame.turn;
+                    frame.origin = axis.center + turn * (frame.origin - axis.center);
+                }
+            }
+        }
+        // The linear axes carry the pivot, which stands above the tip at zero.
+        if let Some(length) = self.machine.pivot {
+            frame.origin -= frame.turn * (head - tool) * length;
+        }
+        frame
+    }
+
+    /// Most that a turn of the rotary axes by a radian may move the tip, mm.
+    pub fn lever(&self, tip: Point3<f64>) -> f64 {
+        let centers = self.machine.rotaries.iter().flatten();
+        let reach = centers.map(|axis| (tip - axis.center).norm() + axis.center.coords.norm());
+        reach.sum::<f64>() + self.machine.pivot.unwrap_or(0.0)
+    }
+
+    /// Rotary positions near `rotary` at which the tool lies exactly along `axis`,
+    /// by Newton's method; positions that do not turn the tool stay as they are.
+    pub fn refine(&self, rotary: [f64; 2], axis: Vector3<f64>) -> [f64; 2] {
+        let mut at = rotary;
+        for _ in 0..STEPS {
+            let off = axis - self.axis(at);
+            let slope = [0, 1].map(|index| self.slope(at, index));
+            let step = least_squares(slope, off);
+            at = [at[0] + step[0], at[1] + step[1]];
+            if step.iter().all(|step| step.abs() < EXACT) {
+                break;
+            }
+        }
+        at
+    }
+
+    /// Change of the tool axis by a degree of a rotary axis; zero without one.
+    fn slope(&self, at: [f64; 2], index: usize) -> Vector3<f64> {
+        if self.machine.rotaries[index].is_none() {
+            return Vector3::zeros();
+        }
+        let mut ahead = at;
+        let mut behind = at;
+        ahead[index] += NUDGE;
+        behind[index] -= NUDGE;
+        let slope = (self.axis(ahead) - self.axis(behind)) / (2.0 * NUDGE);
+        if slope.norm() < TURNS { Vector3::zeros() } else { slope }
+    }
+}
+
+impl Frame {
+    /// The tip in the part for positions of the linear axes, mm.
+    pub fn tip(&self, linear: [f64; 3]) -> Point3<f64> {
+        self.origin + self.turn * Vector3::from(linear)
+    }
+
+    /// The positions of the linear axes that bring the tip to a point of the part, mm.
+    pub fn linear(&self, tip: Point3<f64>) -> [f64; 3] {
+        (self.turn.transpose() * (tip - self.origin)).into()
+    }
+}
+
+fn turn(axis: &Rotary, degrees: f64) -> Rotation3<f64> {
+    Rotation3::from_axis_angle(&axis.direction, degrees.to_radians())
+}
+
+/// The factors of the two vectors whose sum comes nearest to `target`; 0 for a
+/// vector that is zero, or along the other.
+fn least_squares([a, b]: [Vector3<f64>; 2], target: Vector3<f64>) -> [f64; 2] {
+    let (aa, ab, bb) = (a.dot(&a), a.dot(&b), b.dot(&b));
+    let (at, bt) = (a.dot(&target), b.dot(&target));
+    let determinant = aa * bb - ab * ab;
+    if determinant > 1e-9 * aa * bb && aa > 0.0 && bb > 0.0 {
+        return [(at * bb - bt * ab) / determinant, (bt * aa - at * ab) / determinant];
+    }
+    if bb > aa {
+        [0.0, bt / bb]
+    } else if aa > 0.0 {
+        [at / aa, 0.0]
+    } else {
+        [0.0, 0.0]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Unit;
+    use proptest::prelude::*;
+
+    /// What it carries, its direction, a point on it.
+    type Axis = Option<(Carries, [f64; 3], [f64; 3])>;
+
+    fn machine([first, second]: [Axis; 2], pivot: Option<f64>) -> Kinematics {
+        let axis = |axis: Axis| {
+            axis.map(|(carries, direction, center)| Rotary {
+                carries,
+                direction: Unit::new_normalize(Vector3::from(direction)),
+                center: Point3::from(center),
+                letter: 1,
+                axis: 0,
+                min: None,
+                max: None,
+            })
+        };
+        Kinematics { rotaries: [axis(first), axis(second)], tool: Vector3::z_axis(), pivot }
+    }
+
+    fn near(a: Vector3<f64>, b: Vector3<f64>, within: f64) -> bool {
+        (a - b).norm() < within
+    }
+
+    #[test]
+    fn a_table_about_x_turns_the_part_back() {
+        let table = Some((Carries::Table, [1.0, 0.0, 0.0], [0.0; 3]));
+        let forward = Forward { machine: machine([table, None], None) };
+        let position = Position { linear: [5.0, 0.0, 100.0], rotary: [30.0, 0.0] };
+        let pose = forward.pose(&position);
+        // The table at A30: what stands upright at Z100 lies at 30 degrees in the part.
+        assert!(near(pose.tip.coords, Vector3::new(5.0, -50.0, 86.602_540_378), 1e-9));
+        assert!(near(pose.axis, Vector3::new(0.0, -0.5, 0.866_025_403_8), 1e-9));
+    }
+
+    #[test]
+    fn a_head_swings_the_tip_about_its_pivot() {
+        let head = Some((Carries::Head, [0.0, 1.0, 0.0], [0.0; 3]));
+        let forward = Forward { machine: machine([None, head], Some(100.0)) };
+        let position = Position { linear: [100.0, 0.0, -100.0], rotary: [0.0, 90.0] };
+        let pose = forward.pose(&position);
+        assert!(near(pose.tip.coords, Vector3::zeros(), 1e-9));
+        assert!(near(pose.axis, Vector3::x(), 1e-9));
+    }
+
+    #[test]
+    fn a_frame_goes_both_ways() {
+        let table = |direction, center| Some((Carries::Table, direction, center));
+        let both = [table([1.0, 0.0, 0.0], [0.0, 3.0, -40.0]), table([0.0, 0.0, 1.0], [7.0; 3])];
+        let frame = Forward { machine: machine(both, None) }.frame([33.0, -120.0]);
+        let linear = frame.linear(frame.tip([1.0, -2.0, 3.0]));
+        assert!(near(Vector3::from(linear), Vector3::new(1.0, -2.0, 3.0), 1e-12));
+    }
+
+    fn carries() -> impl Strategy<Value = [Carries; 2]> {
+        prop_oneof![
+            Just([Carries::Table, Carries::Table]),
+            Just([Carries::Table, Carries::Head]),
+            Just([Carries::Head, Carries::Head]),
+        ]
+    }
+
+    fn directions() -> impl Strategy<Value = [[f64; 3]; 2]> {
+        prop_oneof![
+            Just([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]),
+            Just([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]),
+            Just([[0.0, 0.0, -1.0], [0.0, -1.0, 1.0]]),
+            Just([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]),
+        ]
+    }
+
+    fn point() -> impl Strategy<Value = [f64; 3]> {
+        proptest::array::uniform3(-200.0..200.0)
+    }
+
+    proptest! {
+        /// What the post's inverse finds for a target comes back as that target.
+        #[test]
+        fn forward_undoes_the_inverse(
+            carries in carries(),
+            directions in directions(),
+            centers in proptest::array::uniform2(point()),
+            pivot in proptest::option::of(50.0..400.0),
+            tip in point(),
+            tilt in 0.0..0.7f64,
+            around in -3.1..3.1f64,
+            last in proptest::array::uniform2(-90.0..90.0),
+        ) {
+            let axes = [0, 1].map(|n| Some((carries[n], directions[n], centers[n])));
+            let machine = machine(axes, pivot);
+            let axis = Vector3::new(tilt.sin() * around.cos(), tilt.sin() * around.sin(), tilt.cos());
+            let rotary = machine.solve(axis, last).unwrap();
+            let linear = machine.linear(Point3::from(tip), rotary);
+            let forward = Forward { machine };
+            let pose = forward.pose(&Position { linear: linear.coords.into(), rotary });
+            prop_assert!(near(pose.tip.coords, Vector3::from(tip), 1e-6), "{:?}", pose);
+            prop_assert!(near(pose.axis, axis, 2e-5), "{:?}", pose);
+        }
+
+        /// Angles rounded on a tape are refined to the exact ones.
+        #[test]
+        fn refining_finds_the_exact_angles(
+            carries in carries(),
+            directions in directions(),
+            exact in [5.0..170.0f64, 5.0..80.0f64],
+            off in proptest::array::uniform2(-5e-4..5e-4f64),
+        ) {
+            let axes = [0, 1].map(|n| Some((carries[n], directions[n], [0.0; 3])));
+            let forward = Forward { machine: machine(axes, None) };
+            let found = forward.refine([exact[0] + off[0], exact[1] + off[1]], forward.axis(exact));
+            prop_assert!((found[0] - exact[0]).abs() < 1e-7 && (found[1] - exact[1]).abs() < 1e-7);
+        }
+    }
+}

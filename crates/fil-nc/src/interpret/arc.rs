@@ -1,0 +1,157 @@
+//! Arcs and helices: centre or radius, sense, sweep.
+
+use super::Fault;
+use super::state::{Axes, State};
+use super::words::{Words, letter};
+use crate::dialect::CentreForm;
+use crate::errors::NcCode;
+use crate::motion::{Arc, Course};
+
+const FULL: f64 = 360.0;
+
+/// By this much the radii at start and end may differ, mm: numbers on the tape are
+/// rounded to a thousandth, and so may be those of the CL file.
+const RADIUS_TOLERANCE: f64 = 0.004;
+
+/// The same of inches, which have four digits.
+const INCH_TOLERANCE: f64 = 0.013;
+
+/// Ends nearer than this are one point, mm.
+const SAME_POINT: f64 = 1e-7;
+
+/// Letters of the centre, by axis.
+const CENTRE: [u8; 3] = [letter(b'I'), letter(b'J'), letter(b'K')];
+
+/// The two axes of a plane, in the order that makes its normal right-handed.
+fn plane_axes(normal: usize) -> [usize; 2] {
+    [(normal + 1) % 3, (normal + 2) % 3]
+}
+
+impl State<'_> {
+    /// An arc in the plane in force.
+    pub(super) fn arc(&mut self, words: &mut Words, ccw: bool) -> Result<(), Fault> {
+        let rate = self.rate()?;
+        let axes = words.take_axes(self.dialect)?;
+        let (to, known) = self.target(&axes);
+        let plane = plane_axes(self.plane);
+        if plane.iter().any(|axis| !self.known[*axis]) {
+            return Err(Fault::new(NcCode::NoCentre, "it is not known where the arc begins"));
+        }
+        let (centre, angle) = match words.take(self.dialect.radius)? {
+            Some(radius) => self.about_radius(plane, &to, radius * self.unit(), ccw)?,
+            None => {
+                let centre = self.centre(words, plane, &to, ccw)?;
+                (centre, sweep(plane, centre, &self.at, &to, ccw))
+            }
+        };
+        let mut point = [0.0; 3];
+        point[self.plane] = self.at[self.plane];
+        (point[plane[0]], point[plane[1]]) = (centre[0], centre[1]);
+        let arc = Arc { centre: point, normal: self.plane, ccw, angle };
+        self.travel((to, known), Course::Feed, Some(rate), Some(arc));
+        Ok(())
+    }
+
+    /// The centre that I, J, K name.
+    fn centre(
+        &self,
+        words: &mut Words,
+        plane: [usize; 2],
+        to: &Axes,
+        ccw: bool,
+    ) -> Result<[f64; 2], Fault> {
+        let mut given = [None; 2];
+        for (value, axis) in given.iter_mut().zip(plane) {
+            *value = words.take(CENTRE[axis])?.map(|value| value * self.unit());
+        }
+        if given == [None; 2] {
+            return Err(Fault::new(NcCode::NoCentre, "neither a centre nor a radius is given"));
+        }
+        let start = plane.map(|axis| self.at[axis]);
+        let by = given.map(|value| value.unwrap_or(0.0));
+        let centre = match self.dialect.centre {
+            CentreForm::FromStart => [start[0] + by[0], start[1] + by[1]],
+            CentreForm::FromCentre => [start[0] - by[0], start[1] - by[1]],
+            CentreForm::Absolute => match given {
+                [Some(first), Some(second)] => [first, second],
+                _ => return Err(Fault::new(NcCode::NoCentre, "the centre needs both coordinates")),
+            },
+            CentreForm::Unsigned => self.unsigned(plane, by, to, ccw)?,
+        };
+        self.check_radii(plane, centre, to)?;
+        Ok(centre)
+    }
+
+    /// Of the four centres without signs the one that makes an arc within a quadrant.
+    fn unsigned(
+        &self,
+        plane: [usize; 2],
+        by: [f64; 2],
+        to: &Axes,
+        ccw: bool,
+    ) -> Result<[f64; 2], Fault> {
+        let start = plane.map(|axis| self.at[axis]);
+        let signs = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
+        signs
+            .map(|sign| [start[0] + sign[0] * by[0], start[1] + sign[1] * by[1]])
+            .into_iter()
+            .find(|centre| {
+                self.check_radii(plane, *centre, to).is_ok()
+                    && sweep(plane, *centre, &self.at, to, ccw) < 90.1
+            })
+            .ok_or_else(|| Fault::new(NcCode::ArcRadii, "no signs of the centre make an arc"))
+    }
+
+    fn check_radii(&self, plane: [usize; 2], centre: [f64; 2], to: &Axes) -> Result<(), Fault> {
+        let radius =
+            |point: &Axes| (point[plane[0]] - centre[0]).hypot(point[plane[1]] - centre[1]);
+        let (start, end) = (radius(&self.at), radius(to));
+        let tolerance = if self.metric { RADIUS_TOLERANCE } else { INCH_TOLERANCE };
+        if (start - end).abs() > tolerance || start < SAME_POINT {
+            let message = format!("radius {start:.4} mm at the start, {end:.4} mm at the end");
+            return Err(Fault::new(NcCode::ArcRadii, message));
+        }
+        Ok(())
+    }
+
+    /// Centre and sweep of an arc of a radius; a negative one goes the long way.
+    fn about_radius(
+        &self,
+        plane: [usize; 2],
+        to: &Axes,
+        radius: f64,
+        ccw: bool,
+    ) -> Result<([f64; 2], f64), Fault> {
+        let start = plane.map(|axis| self.at[axis]);
+        let chord = [to[plane[0]] - start[0], to[plane[1]] - start[1]];
+        let length = chord[0].hypot(chord[1]);
+        if length < SAME_POINT {
+            return Err(Fault::new(NcCode::NoCentre, "a radius can't make a full circle"));
+        }
+        let tolerance = if self.metric { RADIUS_TOLERANCE } else { INCH_TOLERANCE };
+        if length / 2.0 > radius.abs() + tolerance {
+            let message = format!("radius {radius:.4} mm, but the ends are {length:.4} mm apart");
+            return Err(Fault::new(NcCode::ArcRadii, message));
+        }
+        let height = (radius * radius - length * length / 4.0).max(0.0).sqrt();
+        // Left of the chord lies the centre of a short counterclockwise arc.
+        let side = if ccw == (radius > 0.0) { height } else { -height };
+        let centre = [
+            start[0] + chord[0] / 2.0 - chord[1] / length * side,
+            start[1] + chord[1] / 2.0 + chord[0] / length * side,
+        ];
+        Ok((centre, sweep(plane, centre, &self.at, to, ccw)))
+    }
+}
+
+/// Degrees from start to end about the centre, above 0; 360 when they are one point.
+fn sweep(plane: [usize; 2], centre: [f64; 2], from: &Axes, to: &Axes, ccw: bool) -> f64 {
+    let arm = |point: &Axes| [point[plane[0]] - centre[0], point[plane[1]] - centre[1]];
+    let (a, b) = (arm(from), arm(to));
+    if (a[0] - b[0]).hypot(a[1] - b[1]) < SAME_POINT {
+        return FULL;
+    }
+    let turned = (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]).to_degrees();
+    let turned = if ccw { turned } else { -turned };
+    if turned <= 0.0 { turned + FULL } else { turned }
+}

@@ -1,0 +1,218 @@
+//! One block: modes first, then tool and spindle, then the motion.
+
+use super::Fault;
+use super::state::State;
+use super::words::{Words, letter};
+use crate::dialect::{Auxiliary, CycleKind, FeedMode, Function, Group};
+use crate::errors::NcCode;
+use crate::motion::{Course, Event};
+use crate::text::Block;
+
+const P: u8 = letter(b'P');
+const L: u8 = letter(b'L');
+const F: u8 = letter(b'F');
+
+/// What a block asks of the order of blocks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Outcome {
+    /// The next one.
+    Next,
+    /// The program ends.
+    End,
+    /// A subprogram.
+    Call {
+        /// Its number.
+        number: i64,
+        /// How often.
+        times: u32,
+    },
+    /// The end of the subprogram.
+    Back,
+}
+
+impl State<'_> {
+    /// Runs a block; what it does is in [`State::events`].
+    pub(super) fn run(&mut self, block: &Block) -> Result<Outcome, Fault> {
+        self.line = block.line;
+        self.events.clear();
+        let mut words = Words::read(block, self.dialect, self.metric)?;
+        let outcome = self.outcome(&mut words)?;
+        self.modes(&mut words)?;
+        self.tool_and_spindle(&mut words)?;
+        self.motion(&mut words)?;
+        words.finish()?;
+        if outcome == Outcome::End {
+            self.events.push(Event::End { line: self.line, modes: self.modes });
+        }
+        Ok(outcome)
+    }
+
+    /// End, call and return.
+    fn outcome(&self, words: &mut Words) -> Result<Outcome, Fault> {
+        let mut outcome = Outcome::Next;
+        for (auxiliary, range) in words.auxiliaries.clone() {
+            let asked = match auxiliary {
+                Auxiliary::End => Outcome::End,
+                Auxiliary::Back => Outcome::Back,
+                Auxiliary::Call => call(words)?,
+                _ => continue,
+            };
+            if outcome != Outcome::Next {
+                let message = "two M words that steer the program";
+                return Err(Fault::new(NcCode::Twice, message).at(&range));
+            }
+            outcome = asked;
+        }
+        Ok(outcome)
+    }
+
+    fn motion(&mut self, words: &mut Words) -> Result<(), Fault> {
+        match words.peek(Group::Once) {
+            Some(Function::Dwell) => {
+                words.function(Group::Once);
+                self.dwell(words)?;
+            }
+            Some(Function::Reference) => {
+                words.function(Group::Once);
+                return self.reference(words);
+            }
+            Some(Function::MachineFrame) => {
+                words.function(Group::Once);
+                if self.take_motion(words)?.is_some() {
+                    return Err(Fault::new(NcCode::Twice, "a cycle in the machine frame"));
+                }
+                return self.machine_frame(words);
+            }
+            Some(Function::ThreadPasses) => {
+                words.function(Group::Once);
+                self.motion = None;
+                return self.thread_passes(words);
+            }
+            _ => {}
+        }
+        if let Some(kind) = self.take_motion(words)? {
+            return self.begin_cycle(kind, words);
+        }
+        if self.cycle.is_some() && (words.has_axes(self.dialect) || words.has(letter(b'R'))) {
+            return self.hole(words);
+        }
+        let arc = matches!(self.motion, Some(Function::Arc { .. }));
+        let centre = [b'I', b'J', b'K'].map(letter).iter().any(|letter| words.has(*letter));
+        let moves = words.has_axes(self.dialect) || (arc && centre);
+        if !moves {
+            return self.feed_word(words);
+        }
+        match self.motion {
+            Some(Function::Thread) => self.thread(words),
+            Some(Function::ThreadPass) => self.thread_pass(words),
+            motion => {
+                self.feed_word(words)?;
+                match motion {
+                    Some(Function::Rapid) => self.straight(words, Course::Rapid),
+                    Some(Function::Linear) => self.straight(words, Course::Feed),
+                    Some(Function::Arc { ccw }) => self.arc(words, ccw),
+                    _ => Err(Fault::new(NcCode::NoMotion, "no G word says how the axes move")),
+                }
+            }
+        }
+    }
+
+    /// Takes up the motion function and the cycle function of a block. Says which
+    /// cycle begins.
+    fn take_motion(&mut self, words: &mut Words) -> Result<Option<CycleKind>, Fault> {
+        let motion = words.function(Group::Motion);
+        let cycle = words.function(Group::Cycle);
+        if motion.is_some() || cycle == Some(Function::CycleOff) {
+            self.motion = motion;
+            self.cycle = None;
+            self.pass = None;
+        }
+        match cycle {
+            Some(Function::Cycle(_)) if motion.is_some() => {
+                Err(Fault::new(NcCode::Twice, "a motion and a cycle in one block"))
+            }
+            Some(Function::Cycle(kind)) => {
+                self.motion = None;
+                self.pass = None;
+                Ok(Some(kind))
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// Takes up F.
+    pub(super) fn feed_word(&mut self, words: &mut Words) -> Result<(), Fault> {
+        if let Some(feed) = words.take(F)? {
+            self.feed = Some(feed);
+        } else if self.feed_mode == FeedMode::Inverse {
+            self.feed = None;
+        }
+        Ok(())
+    }
+
+    fn straight(&mut self, words: &mut Words, course: Course) -> Result<(), Fault> {
+        let rate = if course == Course::Feed { Some(self.rate()?) } else { None };
+        let axes = words.take_axes(self.dialect)?;
+        let target = self.target(&axes);
+        self.go(target, course, rate);
+        Ok(())
+    }
+
+    /// To the reference point by way of the point that the block names.
+    fn reference(&mut self, words: &mut Words) -> Result<(), Fault> {
+        let axes = words.take_axes(self.dialect)?;
+        if axes.is_empty() {
+            return Err(Fault::new(NcCode::MissingWord, "the axes that go there are needed"));
+        }
+        self.cycle = None;
+        let (between, known) = self.target(&axes);
+        if between != self.at {
+            self.go((between, known), Course::Rapid, None);
+        }
+        let mut lost = self.known;
+        axes.iter().for_each(|word| lost[word.axis] = false);
+        self.go((between, lost), Course::Machine, None);
+        Ok(())
+    }
+
+    /// To a point of the machine frame.
+    fn machine_frame(&mut self, words: &mut Words) -> Result<(), Fault> {
+        if !self.absolute {
+            let message = "the machine frame knows no increments";
+            return Err(Fault::new(NcCode::NoMeaning, message));
+        }
+        self.feed_word(words)?;
+        let axes = words.take_axes(self.dialect)?;
+        if axes.is_empty() {
+            return Err(Fault::new(NcCode::MissingWord, "the axes that go there are needed"));
+        }
+        let (to, _) = self.target(&axes);
+        let mut lost = self.known;
+        axes.iter().for_each(|word| lost[word.axis] = false);
+        self.go((to, lost), Course::Machine, None);
+        Ok(())
+    }
+
+    fn dwell(&mut self, words: &mut Words) -> Result<(), Fault> {
+        let time = words.take(self.dialect.dwell)?;
+        let time =
+            time.ok_or_else(|| Fault::new(NcCode::MissingWord, "the time of the dwell is needed"))?;
+        let seconds = Some(time / self.dialect.dwell_factor);
+        self.events.push(Event::Dwell { line: self.line, seconds });
+        Ok(())
+    }
+}
+
+/// The subprogram of a call: `P1001`, `P1001 L3`, or `P31001` for three times.
+fn call(words: &mut Words) -> Result<Outcome, Fault> {
+    let number = words.take_plain(P)?;
+    let number = number
+        .ok_or_else(|| Fault::new(NcCode::MissingWord, "the number of the subprogram is needed"))?;
+    let times = words.take_plain(L)?;
+    Ok(match times {
+        None if number > 9999 => {
+            Outcome::Call { number: i64::from(number % 10_000), times: number / 10_000 }
+        }
+        times => Outcome::Call { number: i64::from(number), times: times.unwrap_or(1) },
+    })
+}

@@ -1,0 +1,173 @@
+//! Drilling cycles as single motions.
+
+use super::Fault;
+use super::state::State;
+use super::words::{AxisWord, Words, letter};
+use crate::dialect::{CycleKind, DepthForm};
+use crate::errors::NcCode;
+use crate::motion::{Course, Event, Spindle};
+
+const R: u8 = letter(b'R');
+
+/// Distance above the last depth at which a peck begins to feed, and by which a
+/// chip-breaking peck lifts, mm: a parameter of the control; this is LinuxCNC's.
+const PECK_GAP: f64 = 0.254;
+
+/// Most pecks of a hole.
+const MAX_PECKS: f64 = 10_000.0;
+
+/// A cycle in force.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cycle {
+    kind: CycleKind,
+    /// Level before the cycle, along the plane's normal.
+    initial: f64,
+    initial_known: bool,
+    bottom: Option<f64>,
+    clear: Option<f64>,
+    step: Option<f64>,
+    dwell: Option<f64>,
+}
+
+/// A cycle whose levels are all there.
+#[derive(Clone, Copy)]
+struct Hole {
+    axis: usize,
+    clear: f64,
+    bottom: f64,
+}
+
+impl State<'_> {
+    /// A block with a cycle's code: the cycle and its first hole.
+    pub(super) fn begin_cycle(&mut self, kind: CycleKind, words: &mut Words) -> Result<(), Fault> {
+        let axis = self.plane;
+        let fresh = Cycle {
+            kind,
+            initial: self.at[axis],
+            initial_known: self.known[axis],
+            bottom: None,
+            clear: None,
+            step: None,
+            dwell: None,
+        };
+        self.cycle = Some(match self.cycle {
+            Some(before) => Cycle { kind, ..before },
+            None => fresh,
+        });
+        self.hole(words)
+    }
+
+    /// A hole of the cycle in force.
+    pub(super) fn hole(&mut self, words: &mut Words) -> Result<(), Fault> {
+        let Some(mut cycle) = self.cycle else { return Ok(()) };
+        self.feed_word(words)?;
+        let axes = words.take_axes(self.dialect)?;
+        self.levels(&mut cycle, words, &axes)?;
+        self.cycle = Some(cycle);
+        let missing =
+            |what: &str| Fault::new(NcCode::MissingWord, format!("the cycle needs {what}"));
+        let hole = Hole {
+            axis: self.plane,
+            clear: cycle.clear.ok_or_else(|| missing("its R level"))?,
+            bottom: cycle.bottom.ok_or_else(|| missing("its depth"))?,
+        };
+        let pecks = matches!(cycle.kind, CycleKind::Peck | CycleKind::BreakChips);
+        let step = match cycle.step.filter(|_| pecks) {
+            None if pecks => return Err(missing("its peck")),
+            Some(step) if (hole.clear - hole.bottom) / step > MAX_PECKS => {
+                return Err(Fault::new(NcCode::BadNumber, "the pecks are too small to count"));
+            }
+            step => step,
+        };
+        let across: Vec<AxisWord> = axes.into_iter().filter(|w| w.axis != hole.axis).collect();
+        let (to, known) = self.target(&across);
+        if to != self.at || known != self.known {
+            self.go((to, known), Course::Rapid, None);
+        }
+        self.known[hole.axis] = true;
+        self.step(&[(hole.axis, hole.clear)], Course::Rapid, None);
+        self.drill(hole, step)?;
+        self.leave(&cycle, hole)
+    }
+
+    /// Takes up the cycle's words.
+    fn levels(&self, cycle: &mut Cycle, words: &mut Words, axes: &[AxisWord]) -> Result<(), Fault> {
+        let axis = self.plane;
+        let depth = axes.iter().find(|word| word.axis == axis);
+        let increments = !self.absolute || depth.is_some_and(|word| word.increment);
+        let form = if increments { DepthForm::Increments } else { self.dialect.depth };
+        if let Some(r) = words.take(R)? {
+            cycle.clear = Some(match form {
+                DepthForm::Absolute => self.position(axis, r),
+                DepthForm::Increments => cycle.initial + self.way(axis, r),
+                DepthForm::Unsigned => cycle.initial - self.way(axis, r).abs(),
+            });
+        }
+        if let Some(word) = depth {
+            let clear = cycle.clear.unwrap_or(cycle.initial);
+            cycle.bottom = Some(match form {
+                DepthForm::Absolute => self.position(axis, word.value),
+                DepthForm::Increments => clear + self.way(axis, word.value),
+                DepthForm::Unsigned => clear - self.way(axis, word.value).abs(),
+            });
+        }
+        if let Some(step) = words.take(self.dialect.step)? {
+            cycle.step = Some(step * self.unit()).filter(|step| *step > 0.0);
+        }
+        if let Some(dwell) = words.take(self.dialect.cycle_dwell)? {
+            cycle.dwell = Some(dwell / self.dialect.dwell_factor);
+        }
+        Ok(())
+    }
+
+    /// From the R level to the bottom.
+    fn drill(&mut self, hole: Hole, step: Option<f64>) -> Result<(), Fault> {
+        let rate = Some(self.rate()?);
+        let mut reached = hole.clear;
+        let whole = |cycle: &Option<Cycle>| cycle.is_some_and(|c| c.kind == CycleKind::Peck);
+        while let Some(step) = step.filter(|step| reached - step > hole.bottom + 1e-9) {
+            reached -= step;
+            self.step(&[(hole.axis, reached)], Course::Feed, rate);
+            if whole(&self.cycle) {
+                self.step(&[(hole.axis, hole.clear)], Course::Rapid, None);
+            }
+            let again = (reached + PECK_GAP).min(hole.clear);
+            self.step(&[(hole.axis, again)], Course::Rapid, None);
+        }
+        self.step(&[(hole.axis, hole.bottom)], Course::Feed, rate);
+        Ok(())
+    }
+
+    /// What happens at the bottom, and the way out.
+    fn leave(&mut self, cycle: &Cycle, hole: Hole) -> Result<(), Fault> {
+        if let Some(seconds) = cycle.dwell.filter(|seconds| *seconds > 0.0) {
+            self.events.push(Event::Dwell { line: self.line, seconds: Some(seconds) });
+        }
+        let turning = self.modes.spindle;
+        let rate = Some(self.rate()?);
+        match cycle.kind {
+            CycleKind::Tap => {
+                self.modes.spindle = reversed(turning);
+                self.step(&[(hole.axis, hole.clear)], Course::Feed, rate);
+            }
+            CycleKind::FeedOut => {
+                self.step(&[(hole.axis, hole.clear)], Course::Feed, rate);
+            }
+            CycleKind::StopOut => self.modes.spindle = Spindle::Off,
+            CycleKind::Drill | CycleKind::Peck | CycleKind::BreakChips => {}
+        }
+        let rest = if self.return_initial { cycle.initial } else { hole.clear };
+        self.step(&[(hole.axis, rest)], Course::Rapid, None);
+        self.modes.spindle = turning;
+        self.known[hole.axis] = !self.return_initial || cycle.initial_known;
+        Ok(())
+    }
+}
+
+fn reversed(spindle: Spindle) -> Spindle {
+    match spindle {
+        Spindle::Off => Spindle::Off,
+        Spindle::Clockwise => Spindle::Counterclockwise,
+        Spindle::Counterclockwise => Spindle::Clockwise,
+    }
+}

@@ -1,0 +1,135 @@
+//! Modal functions, tool, spindle and coolant.
+
+use super::Fault;
+use super::state::State;
+use super::words::{Words, letter};
+use crate::dialect::{Auxiliary, Function, Group, ToolCall};
+use crate::errors::NcCode;
+use crate::motion::{Compensation, Event, Spindle};
+
+const H: u8 = letter(b'H');
+const S: u8 = letter(b'S');
+const T: u8 = letter(b'T');
+
+impl State<'_> {
+    /// Takes up all modal functions but the motion.
+    pub(super) fn modes(&mut self, words: &mut Words) -> Result<(), Fault> {
+        if let Some(Function::Units { metric }) = words.function(Group::Units) {
+            if self.metric != metric {
+                self.feed = None;
+            }
+            self.metric = metric;
+        }
+        if let Some(Function::Feed(mode)) = words.function(Group::Feed) {
+            if self.feed_mode != mode {
+                self.feed = None;
+            }
+            self.feed_mode = mode;
+        }
+        if let Some(Function::Plane(normal)) = words.function(Group::Plane) {
+            self.plane = normal;
+        }
+        if let Some(Function::Positions { absolute }) = words.function(Group::Positions) {
+            self.absolute = absolute;
+        }
+        if let Some(Function::Return { initial }) = words.function(Group::Return) {
+            self.return_initial = initial;
+        }
+        if let Some(Function::Fixture(code)) = words.function(Group::Fixture) {
+            self.fixture(code);
+        }
+        words.function(Group::PathControl);
+        self.offsets(words)
+    }
+
+    /// Another work offset: where the axes stand in it is not known.
+    fn fixture(&mut self, code: u32) {
+        if self.modes.fixture.is_some_and(|now| now != code) {
+            for axis in (0..5).filter(|axis| self.dialect.scales[*axis].is_some()) {
+                self.known[axis] = false;
+            }
+        }
+        self.modes.fixture = Some(code);
+    }
+
+    /// Cutter compensation and tool length.
+    fn offsets(&mut self, words: &mut Words) -> Result<(), Fault> {
+        if let Some(Function::Compensation(side)) = words.function(Group::Compensation) {
+            self.modes.compensation = side;
+            self.modes.compensation_offset = match side {
+                Compensation::Off => None,
+                _ => words.take_whole(self.dialect.tool_offset)?,
+            };
+        }
+        match words.function(Group::Length) {
+            Some(Function::Length(true)) => {
+                let offset = words.take_whole(H)?;
+                let missing = || Fault::new(NcCode::MissingWord, "the length offset needs its H");
+                self.modes.length_offset = Some(offset.ok_or_else(missing)?);
+            }
+            Some(_) => {
+                words.take_whole(H)?;
+                self.modes.length_offset = None;
+            }
+            None if self.modes.length_offset.is_some() && words.has(H) => {
+                self.modes.length_offset = words.take_whole(H)?;
+            }
+            None => {}
+        }
+        Ok(())
+    }
+
+    /// Speed, tool and M words.
+    pub(super) fn tool_and_spindle(&mut self, words: &mut Words) -> Result<(), Fault> {
+        if let Some(Function::Surface(on)) = words.function(Group::Surface) {
+            self.surface = on;
+            self.modes.speed = self.modes.speed.filter(|_| !on);
+        }
+        if words.peek(Group::Once) == Some(Function::SpeedLimit) {
+            words.function(Group::Once);
+            let limit = words.take(S)?;
+            limit.ok_or_else(|| Fault::new(NcCode::MissingWord, "the speed limit needs its S"))?;
+        }
+        let oriented = words.auxiliaries.iter().any(|(a, _)| *a == Auxiliary::SpindleOff);
+        if let Some(speed) = words.take(S)?.filter(|_| !oriented) {
+            self.modes.speed = (!self.surface).then_some(speed);
+        }
+        self.tool(words)?;
+        for (auxiliary, _) in &words.auxiliaries {
+            match auxiliary {
+                Auxiliary::Clockwise => self.modes.spindle = Spindle::Clockwise,
+                Auxiliary::Counterclockwise => self.modes.spindle = Spindle::Counterclockwise,
+                Auxiliary::SpindleOff => self.modes.spindle = Spindle::Off,
+                Auxiliary::Coolant(on) => self.modes.coolant = *on,
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn tool(&mut self, words: &mut Words) -> Result<(), Fault> {
+        let named = words.take_whole(T)?;
+        let changes = words.auxiliaries.iter().any(|(a, _)| *a == Auxiliary::ToolChange);
+        match (self.dialect.tool_call, named) {
+            (ToolCall::WithOffset, Some(number)) => {
+                self.modes.length_offset = Some(number % 100).filter(|offset| *offset > 0);
+                self.change(number / 100);
+            }
+            (ToolCall::Word, Some(number)) => self.change(number),
+            (ToolCall::WithCode, Some(number)) => self.next_tool = Some(number),
+            (_, None) => {}
+        }
+        if changes && self.dialect.tool_call == ToolCall::WithCode {
+            let next = self.next_tool.take();
+            let missing =
+                || Fault::new(NcCode::MissingWord, "no T word names the tool to change to");
+            self.change(next.ok_or_else(missing)?);
+        }
+        Ok(())
+    }
+
+    fn change(&mut self, tool: u32) {
+        self.events.push(Event::ToolChange { line: self.line, tool, modes: self.modes });
+        self.modes.tool = tool;
+    }
+}

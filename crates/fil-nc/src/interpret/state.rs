@@ -1,0 +1,159 @@
+//! What the control remembers from block to block.
+
+use super::Fault;
+use super::cycle::Cycle;
+use super::thread::{Pass, Setup};
+use super::words::AxisWord;
+use crate::dialect::{Dialect, FeedMode, Function};
+use crate::errors::NcCode;
+use crate::motion::{Arc, Course, Event, Modes, Move, Position, Rate};
+
+/// Millimetres of an inch.
+const INCH: f64 = 25.4;
+
+/// X, Y, Z in mm, primary and secondary rotary axis in degrees.
+pub(super) type Axes = [f64; 5];
+
+/// The control.
+pub(super) struct State<'d> {
+    pub(super) dialect: &'d Dialect,
+    /// Line of the block that is run.
+    pub(super) line: u32,
+    pub(super) at: Axes,
+    pub(super) known: [bool; 5],
+    /// Motion function in force.
+    pub(super) motion: Option<Function>,
+    pub(super) plane: usize,
+    pub(super) metric: bool,
+    pub(super) absolute: bool,
+    pub(super) feed_mode: FeedMode,
+    /// F as on the tape.
+    pub(super) feed: Option<f64>,
+    /// S is a surface speed.
+    pub(super) surface: bool,
+    pub(super) return_initial: bool,
+    pub(super) cycle: Option<Cycle>,
+    pub(super) pass: Option<Pass>,
+    pub(super) setup: Option<Setup>,
+    /// Tool that the next change takes.
+    pub(super) next_tool: Option<u32>,
+    pub(super) modes: Modes,
+    /// Events of the block; they count when the whole block has a meaning.
+    pub(super) events: Vec<Event>,
+}
+
+impl<'d> State<'d> {
+    pub(super) fn new(dialect: &'d Dialect) -> Self {
+        State {
+            dialect,
+            line: 0,
+            at: dialect.start.map(|position| position.unwrap_or(0.0)),
+            known: std::array::from_fn(|axis| {
+                dialect.start[axis].is_some() || dialect.scales[axis].is_none()
+            }),
+            motion: None,
+            plane: dialect.plane,
+            metric: dialect.metric,
+            absolute: true,
+            feed_mode: dialect.feed_mode,
+            feed: None,
+            surface: false,
+            return_initial: dialect.return_initial,
+            cycle: None,
+            pass: None,
+            setup: None,
+            next_tool: None,
+            modes: Modes::default(),
+            events: Vec::new(),
+        }
+    }
+
+    /// Millimetres of a unit of length on the tape.
+    pub(super) fn unit(&self) -> f64 {
+        if self.metric { 1.0 } else { INCH }
+    }
+
+    /// Position of an axis that a value on the tape stands for.
+    pub(super) fn position(&self, axis: usize, value: f64) -> f64 {
+        let scale = self.dialect.scales[axis];
+        scale.map_or(value, |scale| scale.position(value)) * self.axis_unit(axis)
+    }
+
+    /// Way of an axis that an increment on the tape stands for.
+    pub(super) fn way(&self, axis: usize, value: f64) -> f64 {
+        let scale = self.dialect.scales[axis];
+        scale.map_or(value, |scale| scale.way(value)) * self.axis_unit(axis)
+    }
+
+    fn axis_unit(&self, axis: usize) -> f64 {
+        if axis < 3 { self.unit() } else { 1.0 }
+    }
+
+    /// Where axis words lead, from where the axes stand; which axes are known there.
+    pub(super) fn target(&self, words: &[AxisWord]) -> (Axes, [bool; 5]) {
+        let (mut to, mut known) = (self.at, self.known);
+        for word in words {
+            if self.absolute && !word.increment {
+                to[word.axis] = self.position(word.axis, word.value);
+                known[word.axis] = true;
+            } else {
+                to[word.axis] += self.way(word.axis, word.value);
+            }
+        }
+        (to, known)
+    }
+
+    /// The feed in force.
+    pub(super) fn rate(&self) -> Result<Rate, Fault> {
+        let feed = self.feed.filter(|feed| *feed > 0.0);
+        let feed = feed.ok_or_else(|| Fault::new(NcCode::NoFeed, "no F word is in force"))?;
+        Ok(match self.feed_mode {
+            FeedMode::PerMinute => Rate::PerMinute(feed / self.dialect.feed_factor * self.unit()),
+            FeedMode::PerTurn => Rate::PerTurn(feed * self.unit()),
+            FeedMode::Inverse => Rate::Inverse(feed),
+        })
+    }
+
+    /// A straight motion.
+    pub(super) fn go(
+        &mut self,
+        (to, known): (Axes, [bool; 5]),
+        course: Course,
+        rate: Option<Rate>,
+    ) {
+        self.travel((to, known), course, rate, None);
+    }
+
+    /// A motion to a point, along an arc where one is given.
+    pub(super) fn travel(
+        &mut self,
+        (to, known): (Axes, [bool; 5]),
+        course: Course,
+        rate: Option<Rate>,
+        arc: Option<Arc>,
+    ) {
+        (self.at, self.known) = (to, known);
+        let [x, y, z, primary, secondary] = to;
+        self.events.push(Event::Move(Move {
+            line: self.line,
+            course,
+            to: Position { linear: [x, y, z], rotary: [primary, secondary] },
+            arc,
+            rate,
+            in_cycle: course != Course::Machine && (self.cycle.is_some() || self.pass.is_some()),
+            known,
+            modes: self.modes,
+        }));
+    }
+
+    /// A motion of some axes within a cycle; none when they stand there.
+    pub(super) fn step(&mut self, to: &[(usize, f64)], course: Course, rate: Option<Rate>) {
+        let mut target = self.at;
+        for (axis, position) in to {
+            target[*axis] = *position;
+        }
+        if target != self.at {
+            self.go((target, self.known), course, rate);
+        }
+    }
+}

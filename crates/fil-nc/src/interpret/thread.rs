@@ -1,0 +1,223 @@
+//! Threads: single passes, and a lathe's threading cycles as single passes.
+
+use super::Fault;
+use super::state::State;
+use super::words::{AxisWord, Words, letter};
+use crate::errors::NcCode;
+use crate::motion::{Course, Rate};
+
+const A: u8 = letter(b'A');
+const D: u8 = letter(b'D');
+const F: u8 = letter(b'F');
+const I: u8 = letter(b'I');
+const K: u8 = letter(b'K');
+const P: u8 = letter(b'P');
+const Q: u8 = letter(b'Q');
+const R: u8 = letter(b'R');
+
+const X: usize = 0;
+const Z: usize = 2;
+
+/// Most passes of one thread.
+const MAX_PASSES: usize = 10_000;
+
+/// What the threading cycle of one pass keeps from block to block. Radii and
+/// lengths in mm.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pass {
+    x: f64,
+    z: f64,
+    taper: f64,
+    lead: f64,
+}
+
+/// The first block of the two that describe a thread in all passes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Setup {
+    finishing: u32,
+    angle: f64,
+    least: f64,
+    allowance: f64,
+}
+
+/// A thread in all its passes; depths are radii.
+struct Thread {
+    last: Pass,
+    height: f64,
+    first: f64,
+    setup: Setup,
+}
+
+impl State<'_> {
+    /// One pass from where the tool stands.
+    pub(super) fn thread(&mut self, words: &mut Words) -> Result<(), Fault> {
+        let lead = self.lead(words, &[F, K], None)?;
+        let axes = words.take_axes(self.dialect)?;
+        let target = self.target(&axes);
+        self.go(target, Course::Thread, Some(Rate::PerTurn(lead)));
+        Ok(())
+    }
+
+    /// The lead, from the first of these letters that the block has, else the one in
+    /// force. It is no feed for the motions after it.
+    fn lead(
+        &mut self,
+        words: &mut Words,
+        letters: &[u8],
+        in_force: Option<f64>,
+    ) -> Result<f64, Fault> {
+        self.feed = None;
+        let letter = letters.iter().find(|letter| words.has(**letter));
+        let said = letter.map(|letter| words.take(*letter)).transpose()?.flatten();
+        said.map(|lead| lead * self.unit())
+            .or(in_force)
+            .filter(|lead| *lead > 0.0)
+            .ok_or_else(|| Fault::new(NcCode::MissingWord, "the thread needs its lead"))
+    }
+
+    /// In, along, out and back to where it began.
+    pub(super) fn thread_pass(&mut self, words: &mut Words) -> Result<(), Fault> {
+        let before = self.pass;
+        let lead = self.lead(words, &[F], before.map(|pass| pass.lead))?;
+        let axes = words.take_axes(self.dialect)?;
+        let taper = match words.take(R)? {
+            Some(taper) => Some(taper),
+            None => words.take(I)?,
+        };
+        let (x, z) = self.thread_end(&axes, before)?;
+        let taper = taper.map(|taper| taper * self.unit()).or(before.map(|pass| pass.taper));
+        let pass = Pass { x, z, taper: taper.unwrap_or(0.0), lead };
+        self.pass = Some(pass);
+        self.cut(pass, 0.0);
+        Ok(())
+    }
+
+    /// The end of a thread; what a block does not say is as it was.
+    fn thread_end(&self, axes: &[AxisWord], before: Option<Pass>) -> Result<(f64, f64), Fault> {
+        let (to, _) = self.target(axes);
+        let end = |axis: usize, before: Option<f64>| {
+            let said = axes.iter().any(|word| word.axis == axis).then_some(to[axis]);
+            said.or(before)
+                .ok_or_else(|| Fault::new(NcCode::MissingWord, "a thread needs the end in X and Z"))
+        };
+        if axes.iter().any(|word| word.axis != X && word.axis != Z) {
+            return Err(Fault::new(NcCode::NoMeaning, "a thread has only X and Z"));
+        }
+        Ok((end(X, before.map(|pass| pass.x))?, end(Z, before.map(|pass| pass.z))?))
+    }
+
+    /// One pass that begins `infeed` later in Z.
+    fn cut(&mut self, pass: Pass, infeed: f64) {
+        let (x, z) = (self.at[X], self.at[Z]);
+        let known = self.known;
+        let towards = (pass.z - z).signum();
+        (self.known[X], self.known[Z]) = (true, known[Z]);
+        self.step(&[(Z, z + infeed * towards)], Course::Rapid, None);
+        self.step(&[(X, pass.x + pass.taper)], Course::Rapid, None);
+        self.known[Z] = true;
+        let rate = Some(Rate::PerTurn(pass.lead));
+        self.step(&[(X, pass.x), (Z, pass.z)], Course::Thread, rate);
+        self.known[X] = known[X];
+        self.step(&[(X, x)], Course::Rapid, None);
+        self.known[Z] = known[Z];
+        self.step(&[(Z, z)], Course::Rapid, None);
+    }
+
+    /// The threading cycle of all passes, in one block or in two.
+    pub(super) fn thread_passes(&mut self, words: &mut Words) -> Result<(), Fault> {
+        if !words.has_axes(self.dialect) {
+            self.setup = Some(self.first_block(words)?);
+            return Ok(());
+        }
+        let lead = self.lead(words, &[F], None)?;
+        let thread = match self.setup.take() {
+            Some(setup) => self.second_block(words, setup, lead)?,
+            None => self.only_block(words, lead)?,
+        };
+        self.passes(&thread)
+    }
+
+    /// `P` finishing passes, chamfer and angle, two digits each; `Q` least depth; `R`
+    /// finishing allowance.
+    fn first_block(&self, words: &mut Words) -> Result<Setup, Fault> {
+        let said = words.take_plain(P)?.unwrap_or(10_000);
+        let least = words.take_number(Q).map_or(0.0, |least| least.steps(self.unit()));
+        let allowance = words.take(R)?.unwrap_or(0.0) * self.unit();
+        Ok(Setup {
+            finishing: (said / 10_000).clamp(1, 99),
+            angle: f64::from(said % 100),
+            least,
+            allowance,
+        })
+    }
+
+    /// `P` height and `Q` first depth in smallest steps, `R` taper.
+    fn second_block(&self, words: &mut Words, setup: Setup, lead: f64) -> Result<Thread, Fault> {
+        let axes = words.take_axes(self.dialect)?;
+        let (x, z) = self.thread_end(&axes, None)?;
+        let taper = words.take(R)?.unwrap_or(0.0) * self.unit();
+        let height = words.take_number(P).map(|height| height.steps(self.unit()));
+        let first = words.take_number(Q).map(|first| first.steps(self.unit()));
+        thread(Pass { x, z, taper, lead }, height, first, setup)
+    }
+
+    /// `K` height, `D` first depth, `A` angle, `I` taper.
+    fn only_block(&self, words: &mut Words, lead: f64) -> Result<Thread, Fault> {
+        let angle = words.take(A)?.unwrap_or(0.0);
+        let axes = words.take_axes(self.dialect)?;
+        let (x, z) = self.thread_end(&axes, None)?;
+        let taper = words.take(I)?.unwrap_or(0.0) * self.unit();
+        let height = words.take_number(K).map(|height| height.steps(self.unit()));
+        let first = words.take_number(D).map(|first| first.steps(self.unit()));
+        let setup = Setup { finishing: 1, angle, least: 0.0, allowance: 0.0 };
+        thread(Pass { x, z, taper, lead }, height, first, setup)
+    }
+
+    /// Passes of falling depth, so that each takes the same chip, then those at the
+    /// full height.
+    fn passes(&mut self, thread: &Thread) -> Result<(), Fault> {
+        let out = (self.at[X] - thread.last.x).signum();
+        let slope = (thread.setup.angle / 2.0).to_radians().tan();
+        self.pass = Some(thread.last);
+        for depth in depths(thread)? {
+            let x = thread.last.x + out * (thread.height - depth);
+            self.cut(Pass { x, ..thread.last }, depth * slope);
+        }
+        self.pass = None;
+        Ok(())
+    }
+}
+
+fn thread(
+    last: Pass,
+    height: Option<f64>,
+    first: Option<f64>,
+    setup: Setup,
+) -> Result<Thread, Fault> {
+    match (height, first) {
+        (Some(height), Some(first)) if height > 0.0 && first > 0.0 => {
+            Ok(Thread { last, height, first, setup })
+        }
+        _ => {
+            let message = "the thread needs its height and the depth of its first pass";
+            Err(Fault::new(NcCode::MissingWord, message))
+        }
+    }
+}
+
+/// Depth of each pass below the crest.
+fn depths(thread: &Thread) -> Result<Vec<f64>, Fault> {
+    let rough = (thread.height - thread.setup.allowance).max(0.0);
+    let mut depths: Vec<f64> = Vec::new();
+    let mut depth = 0.0;
+    while depth < rough - 1e-9 {
+        if depths.len() == MAX_PASSES {
+            return Err(Fault::new(NcCode::BadNumber, "the passes are too shallow to count"));
+        }
+        let next = thread.first * ((depths.len() + 1) as f64).sqrt();
+        depth = next.max(depth + thread.setup.least).min(rough);
+        depths.push(depth);
+    }
+    depths.extend((0..thread.setup.finishing).map(|_| thread.height));
+    Ok(depths)
+}

@@ -1,0 +1,268 @@
+//! Views as SVG.
+
+use std::fmt::Write as _;
+
+use super::simplify::{Dot, Lines, dot};
+use super::view::{Extent, View};
+use super::{CL_COLOUR, Drawing, Stroke, Trace};
+
+/// Width of a view's field, pixels.
+const WIDTH: f64 = 560.0;
+
+/// Height of a view's field, pixels.
+const HEIGHT: f64 = 400.0;
+
+/// Room around fields, pixels.
+const GAP: f64 = 16.0;
+
+/// Room for the heading and the legend, pixels.
+const HEAD: f64 = 64.0;
+
+/// Least size of what is drawn, mm, so that a single point has a scale.
+const LEAST: f64 = 1e-3;
+
+/// From the part to a field.
+struct Frame {
+    view: View,
+    /// Pixels of a millimetre.
+    scale: f64,
+    /// Pixels of the part's origin.
+    origin: [f64; 2],
+}
+
+impl Frame {
+    fn new(view: View, extent: &Extent, corner: [f64; 2]) -> Self {
+        let corners = extent.corners().map(|corner| view.project(&corner));
+        let side = |axis: usize| {
+            let values = corners.iter().map(|corner| corner[axis]);
+            let (low, high) = values
+                .fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(value), high.max(value)));
+            (low, high)
+        };
+        let (x, y) = (side(0), side(1));
+        let room = [WIDTH - 9.0 * GAP, HEIGHT - 6.0 * GAP];
+        let scale = (room[0] / (x.1 - x.0).max(LEAST)).min(room[1] / (y.1 - y.0).max(LEAST));
+        let origin = [
+            corner[0] + WIDTH / 2.0 - (x.0 + x.1) / 2.0 * scale,
+            corner[1] + HEIGHT / 2.0 + GAP / 2.0 + (y.0 + y.1) / 2.0 * scale,
+        ];
+        Frame { view, scale, origin }
+    }
+
+    fn place(&self, point: &super::Point) -> [f64; 2] {
+        let [right, up] = self.view.project(point);
+        [self.origin[0] + right * self.scale, self.origin[1] - up * self.scale]
+    }
+}
+
+/// Draws views of a path, two in a row. What is smaller than a part of a pixel, or
+/// lies on what is drawn already, is left out, so that the size of the picture does
+/// not grow with the number of motions.
+pub fn svg(drawing: &Drawing, views: &[View]) -> String {
+    let columns = views.len().clamp(1, 2);
+    let rows = views.len().div_ceil(columns).max(1);
+    let width = columns as f64 * (WIDTH + GAP) + GAP;
+    let height = HEAD + rows as f64 * (HEIGHT + GAP);
+    let mut out = String::new();
+    let _ = write!(
+        out,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"13\">\n\
+         <title>{0}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n\
+         <text x=\"{GAP}\" y=\"26\" font-size=\"18\" fill=\"#222222\">{0}</text>\n",
+        escape(&drawing.title)
+    );
+    let extent = drawing.extent();
+    legend(&mut out, drawing, extent.as_ref());
+    for (index, view) in views.iter().enumerate() {
+        let corner = [
+            GAP + (index % columns) as f64 * (WIDTH + GAP),
+            HEAD + (index / columns) as f64 * (HEIGHT + GAP),
+        ];
+        field(&mut out, drawing, extent.as_ref(), *view, corner);
+    }
+    out.push_str("</svg>\n");
+    out
+}
+
+fn legend(out: &mut String, drawing: &Drawing, extent: Option<&Extent>) {
+    let mut x = GAP;
+    let mut sample = |out: &mut String, colour: &str, name: &str, style: &str| {
+        let end = x + 26.0;
+        let _ = writeln!(
+            out,
+            "<path d=\"M{x} 46H{end}\" stroke=\"{colour}\"{style}/>\
+             <text x=\"{}\" y=\"50\" fill=\"#444444\">{name}</text>",
+            end + 6.0
+        );
+        x = end + 22.0 + name.len() as f64 * 7.5;
+    };
+    for stroke in strokes(&drawing.path) {
+        sample(out, stroke.colour(), stroke.name(), style(stroke));
+    }
+    if drawing.under.is_some() {
+        sample(out, CL_COLOUR, "CL file", UNDER);
+    }
+    if let Some(extent) = extent {
+        let range =
+            |axis: usize| format!("{} to {}", short(extent.min[axis]), short(extent.max[axis]));
+        let _ = writeln!(
+            out,
+            "<text x=\"{}\" y=\"50\" fill=\"#444444\">X {}   Y {}   Z {}</text>",
+            x + GAP,
+            range(0),
+            range(1),
+            range(2)
+        );
+    }
+}
+
+const UNDER: &str = " stroke-width=\"5\" stroke-opacity=\"0.5\"";
+
+fn style(stroke: Stroke) -> &'static str {
+    match stroke {
+        Stroke::Rapid => " stroke-dasharray=\"5 3\"",
+        Stroke::Thread => " stroke-width=\"2\" stroke-dasharray=\"1 2\"",
+        Stroke::Feed | Stroke::Arc => " stroke-width=\"1.4\"",
+    }
+}
+
+/// The strokes that a trace has.
+fn strokes(trace: &Trace) -> impl Iterator<Item = Stroke> {
+    let used = Stroke::ALL.map(|stroke| trace.pieces.iter().any(|piece| piece.stroke == stroke));
+    Stroke::ALL.into_iter().zip(used).filter_map(|(stroke, used)| used.then_some(stroke))
+}
+
+fn field(
+    out: &mut String,
+    drawing: &Drawing,
+    extent: Option<&Extent>,
+    view: View,
+    corner: [f64; 2],
+) {
+    let [x, y] = corner;
+    let _ = writeln!(
+        out,
+        "<g>\n<rect x=\"{x}\" y=\"{y}\" width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"none\" \
+         stroke=\"#cccccc\"/><text x=\"{}\" y=\"{}\" fill=\"#666666\">{}</text>",
+        x + 8.0,
+        y + 20.0,
+        view.name()
+    );
+    if let Some(extent) = extent {
+        let frame = Frame::new(view, extent, corner);
+        axes(out, view, corner);
+        if let Some(under) = &drawing.under {
+            let all = collect(under, &frame, |_| true);
+            path(out, &all, CL_COLOUR, UNDER);
+        }
+        for stroke in strokes(&drawing.path) {
+            let lines = collect(&drawing.path, &frame, |of| of == stroke);
+            path(out, &lines, stroke.colour(), style(stroke));
+        }
+        changes(out, drawing, &frame);
+    }
+    out.push_str("</g>\n");
+}
+
+fn collect(trace: &Trace, frame: &Frame, wanted: impl Fn(Stroke) -> bool) -> Vec<Vec<Dot>> {
+    let mut lines = Lines::default();
+    for piece in trace.pieces.iter().filter(|piece| wanted(piece.stroke)) {
+        let points = &trace.points[piece.start..piece.end];
+        lines.add(points.iter().map(|point| dot(frame.place(point))));
+    }
+    lines.finish();
+    lines.lines
+}
+
+/// Lines as one path, in steps from point to point.
+fn path(out: &mut String, lines: &[Vec<Dot>], colour: &str, style: &str) {
+    if lines.is_empty() {
+        return;
+    }
+    let _ = write!(
+        out,
+        "<path fill=\"none\" stroke=\"{colour}\"{style} stroke-linejoin=\"round\" d=\""
+    );
+    for line in lines {
+        let mut at = line[0];
+        let _ = write!(out, "M{} {}", tenths(at[0]), tenths(at[1]));
+        for (index, dot) in line[1..].iter().enumerate() {
+            out.push_str(if index == 0 { "l" } else { " " });
+            let _ = write!(out, "{} {}", tenths(dot[0] - at[0]), tenths(dot[1] - at[1]));
+            at = *dot;
+        }
+    }
+    out.push_str("\"/>\n");
+}
+
+fn tenths(value: i32) -> String {
+    if value % 10 == 0 {
+        (value / 10).to_string()
+    } else {
+        format!("{:.1}", f64::from(value) / 10.0)
+    }
+}
+
+/// Tool changes: a ring and the number, once at each place.
+fn changes(out: &mut String, drawing: &Drawing, frame: &Frame) {
+    let mut seen = Vec::new();
+    for change in &drawing.path.changes {
+        let [x, y] = frame.place(&change.at);
+        let key = (dot([x, y]), change.tool);
+        if seen.contains(&key) {
+            continue;
+        }
+        let above = seen.iter().filter(|(place, _)| *place == key.0).count() as f64 * 14.0;
+        seen.push(key);
+        let _ = writeln!(
+            out,
+            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"#ffffff\" stroke=\"#222222\"/>\
+             <text x=\"{:.1}\" y=\"{:.1}\" fill=\"#222222\">T{}</text>",
+            x + 7.0,
+            y - 5.0 - above,
+            change.tool
+        );
+    }
+}
+
+/// Directions of the part's axes, in the corner of the field.
+fn axes(out: &mut String, view: View, corner: [f64; 2]) {
+    let [x, y] = [corner[0] + 34.0, corner[1] + HEIGHT - 34.0];
+    for (axis, name) in ["X", "Y", "Z"].iter().enumerate() {
+        let mut unit = [0.0; 3];
+        unit[axis] = 26.0;
+        let [right, up] = view.project(&unit);
+        if right.hypot(up) > 1.0 {
+            let _ = writeln!(
+                out,
+                "<path d=\"M{x} {y}l{right:.1} {:.1}\" stroke=\"#999999\"/>\
+                 <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"11\" fill=\"#666666\">{name}</text>",
+                -up,
+                x + right * 1.25 - 3.0,
+                y - up * 1.25 + 4.0
+            );
+        }
+    }
+}
+
+/// A length with at most three digits after the point.
+pub(super) fn short(value: f64) -> String {
+    ((value * 1e3).round() / 1e3 + 0.0).to_string()
+}
+
+/// Text within SVG and HTML.
+pub(super) fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            control if control.is_control() => out.push(' '),
+            other => out.push(other),
+        }
+    }
+    out
+}

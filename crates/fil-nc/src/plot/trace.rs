@@ -1,0 +1,194 @@
+//! Programs and CL files to traces.
+
+use std::io::Read;
+
+use fil_cl::Options;
+use fil_diag::Diag;
+use nalgebra::{Point3, Rotation3, Unit};
+
+use super::sample::{arc_step, positions, tip};
+use super::{Change, Extent, Piece, Point, Stroke, Trace};
+use crate::forward::Forward;
+use crate::motion::{Course, Event, Move, Position};
+use crate::verify::{Arc, ClPath, Hole, Wanted};
+
+/// Chords of arcs leave them by this part of the size of the picture.
+const FINENESS: f64 = 1.0 / 20_000.0;
+
+/// Least chord tolerance, mm.
+const LEAST: f64 = 1e-4;
+
+/// Puts pieces together.
+#[derive(Default)]
+struct Builder {
+    trace: Trace,
+    /// Where the pen stands; `None` while that is not known.
+    pen: Option<Point>,
+    /// Tool changes before the first point.
+    waiting: Vec<(u32, u32)>,
+}
+
+impl Builder {
+    /// Lifts the pen to a point.
+    fn put(&mut self, to: Point) {
+        self.pen = Some(to);
+        for (line, tool) in std::mem::take(&mut self.waiting) {
+            self.trace.changes.push(Change { at: to, tool, line });
+        }
+    }
+
+    /// Draws through points; what has no length is left out.
+    fn draw(&mut self, stroke: Stroke, line: u32, through: impl IntoIterator<Item = Point>) {
+        let Some(from) = self.pen else { return };
+        let points = &mut self.trace.points;
+        if points.last() != Some(&from) {
+            points.push(from);
+        }
+        let start = points.len() - 1;
+        for point in through {
+            if points.last() != Some(&point) {
+                points.push(point);
+            }
+        }
+        let end = points.len();
+        if end > start + 1 {
+            self.pen = points.last().copied();
+            self.trace.pieces.push(Piece { stroke, line, start, end });
+        }
+    }
+
+    fn change(&mut self, line: u32, tool: u32) {
+        match self.pen {
+            Some(at) => self.trace.changes.push(Change { at, tool, line }),
+            None => self.waiting.push((line, tool)),
+        }
+    }
+}
+
+/// The trace of a program from its events.
+///
+/// Motions from or to a place that is not known are left out, and so are those to
+/// points of the machine.
+pub fn nc_trace(events: &[Event], forward: &Forward) -> Trace {
+    let moves = || {
+        events.iter().filter_map(|event| match event {
+            Event::Move(motion) => Some(motion),
+            _ => None,
+        })
+    };
+    // An axis that no block names does not move: it is known well enough.
+    let mut named = [false; 5];
+    moves().for_each(|m| (0..5).for_each(|axis| named[axis] |= m.known[axis]));
+    let known = |motion: &Move| (0..5).all(|axis| motion.known[axis] || !named[axis]);
+    let ends: Vec<Point> = moves().filter(|m| known(m)).map(|m| tip(forward, &m.to)).collect();
+    let tolerance = tolerance(&ends);
+    let mut builder = Builder::default();
+    let mut at = Position::default();
+    for event in events {
+        match event {
+            Event::Move(motion) => {
+                if motion.course == Course::Machine || !known(motion) {
+                    builder.pen = None;
+                } else if builder.pen.is_none() {
+                    builder.put(tip(forward, &motion.to));
+                } else {
+                    let along = positions(&at, &motion.to, motion.arc.as_ref(), tolerance);
+                    let points = along.map(|position| tip(forward, &position));
+                    builder.draw(stroke(motion), motion.line, points);
+                }
+                at = motion.to;
+            }
+            Event::ToolChange { line, tool, .. } => builder.change(*line, *tool),
+            Event::Dwell { .. } | Event::End { .. } => {}
+        }
+    }
+    builder.trace
+}
+
+fn stroke(motion: &Move) -> Stroke {
+    match (motion.course, motion.arc) {
+        (Course::Thread, _) => Stroke::Thread,
+        (Course::Rapid | Course::Machine, _) => Stroke::Rapid,
+        (Course::Feed, Some(_)) => Stroke::Arc,
+        (Course::Feed, None) => Stroke::Feed,
+    }
+}
+
+fn tolerance(points: &[Point]) -> f64 {
+    (Extent::of(points).map_or(0.0, |extent| extent.size()) * FINENESS).max(LEAST)
+}
+
+/// The trace of a CL file; `name` is for messages, `shift` the machine's translation
+/// of the input.
+///
+/// # Errors
+/// What the CL reader refuses.
+pub fn cl_trace(
+    cl: impl Read,
+    name: &str,
+    options: Options,
+    shift: [f64; 3],
+) -> Result<Trace, Box<Diag>> {
+    let mut steps = Vec::new();
+    for step in ClPath::new(cl, name, options, shift) {
+        steps.push(step?);
+    }
+    let ends: Vec<Point> =
+        steps.iter().filter_map(|step| Some(step.what.end()?.tip.into())).collect();
+    let tolerance = tolerance(&ends);
+    let mut builder = Builder::default();
+    let mut drilling = None;
+    for step in &steps {
+        if let Some(first) = step.what.end().filter(|_| builder.pen.is_none()) {
+            builder.put(first.tip.into());
+        }
+        match &step.what {
+            Wanted::Rapid(to) => builder.draw(Stroke::Rapid, step.line, [to.tip.into()]),
+            Wanted::Feed(to, _) => builder.draw(Stroke::Feed, step.line, [to.tip.into()]),
+            Wanted::Thread(to, _) => builder.draw(Stroke::Thread, step.line, [to.tip.into()]),
+            Wanted::Arc(arc, _) => builder.draw(Stroke::Arc, step.line, along(arc, tolerance)),
+            Wanted::Hole(hole) => {
+                let before = *drilling.get_or_insert(builder.pen);
+                drill(&mut builder, hole, before, step.line);
+            }
+            Wanted::CycleEnd => drilling = None,
+            Wanted::Tool { number, .. } => builder.change(step.line, *number),
+            _ => {}
+        }
+    }
+    Ok(builder.trace)
+}
+
+/// Points of an arc without its start.
+fn along(arc: &Arc, tolerance: f64) -> Vec<Point> {
+    let count = (arc.sweep / arc_step(arc.radius(), tolerance)).ceil().clamp(1.0, 720.0) as u32;
+    let spoke = arc.spoke(arc.start);
+    let base = arc.start - spoke;
+    let rise = arc.normal * arc.normal.dot(&(arc.end.tip - arc.start));
+    let axis = Unit::new_normalize(arc.normal);
+    (1..=count)
+        .map(|index| {
+            let share = f64::from(index) / f64::from(count);
+            if index == count {
+                return arc.end.tip.into();
+            }
+            let turn = Rotation3::from_axis_angle(&axis, (arc.sweep * share).to_radians());
+            Point::from(base + turn * spoke + rise * share)
+        })
+        .collect()
+}
+
+/// A hole: to the level above it, down, and up again.
+fn drill(builder: &mut Builder, hole: &Hole, before: Option<Point>, line: u32) {
+    let (start, axis) = (hole.start.tip, hole.start.axis);
+    let level = |height: f64| Point::from(start + axis * height);
+    let clear = hole.clear.unwrap_or(0.0);
+    let entry = match (hole.retract, before) {
+        (Some(0.0), Some(before)) => axis.dot(&(Point3::from(before) - start)).max(clear),
+        (Some(height), _) => height.max(clear),
+        (None, _) => clear,
+    };
+    builder.draw(Stroke::Rapid, line, [level(entry), level(clear)]);
+    builder.draw(Stroke::Feed, line, [level(-hole.depth)]);
+    builder.draw(Stroke::Rapid, line, [level(entry)]);
+}

@@ -1,0 +1,182 @@
+//! Arcs of the path against arcs, or short lines, of the program.
+
+use nalgebra::{Point3, Vector3};
+
+use super::ahead::Steps;
+use super::report::Kind;
+use super::say::short;
+use super::walk::Walk;
+use super::wanted::{Arc, Step, Wanted};
+use crate::motion::{self, Course, Move, Position, Rate};
+
+/// Directions nearer than this are the same.
+const PARALLEL: f64 = 1e-4;
+
+/// Most blocks of one arc.
+const MOST_BLOCKS: usize = 100_000;
+
+/// A part of an arc that the program makes.
+struct Part {
+    found: Move,
+    /// Where it ends on the arc, degrees from the start.
+    angle: f64,
+}
+
+impl<C: Steps> Walk<'_, C> {
+    /// Takes the blocks that make an arc; false when they don't.
+    pub(super) fn arc(&mut self, cl_line: u32, arc: &Arc, rate: Option<Rate>) -> bool {
+        let Some(parts) = self.arc_parts(arc) else { return false };
+        for part in &parts {
+            self.check_rate(cl_line, &part.found, rate);
+            self.take(cl_line, &part.found);
+        }
+        if let Some(last) = parts.last() {
+            self.measure(&last.found, &arc.end);
+        }
+        self.next += parts.len();
+        true
+    }
+
+    /// The motions from here to the end of the arc, when they lie on it.
+    fn arc_parts(&self, arc: &Arc) -> Option<Vec<Part>> {
+        let mut parts: Vec<Part> = Vec::new();
+        let mut angle = 0.0;
+        let mut from = self.at;
+        while parts.len() < MOST_BLOCKS {
+            let event = self.nc.get(self.next + parts.len())?;
+            let motion::Event::Move(found) = *event else { return None };
+            if found.course != Course::Feed || found.in_cycle {
+                return None;
+            }
+            let swept = match &found.arc {
+                Some(part) => self.on_arc(arc, &from, &found, part)?,
+                None => self.on_chord(arc, angle, &found)?,
+            };
+            angle += swept;
+            let slack = self.angle_slack(arc);
+            let ends = (angle - arc.sweep).abs() <= slack && self.reaches(&found, &arc.end);
+            if !ends && (angle > arc.sweep + slack || !self.is_on(arc, angle, &found)) {
+                return None;
+            }
+            parts.push(Part { found, angle });
+            if ends {
+                return self.steps_are_even(arc, &parts).then_some(parts);
+            }
+            from = found.to;
+        }
+        None
+    }
+
+    /// The angle an arc block sweeps, when its centre, plane and sense are right.
+    fn on_arc(&self, arc: &Arc, from: &Position, found: &Move, part: &motion::Arc) -> Option<f64> {
+        let frame = self.settings.forward.frame(found.to.rotary);
+        let mut normal = Vector3::zeros();
+        normal[part.normal] = if part.ccw { 1.0 } else { -1.0 };
+        if (frame.turn * normal - arc.normal).norm() > PARALLEL {
+            return None;
+        }
+        let centre = frame.linear(arc.centre);
+        let off = |n: usize| (part.centre[n] - centre[n]).abs();
+        let in_plane = |n: &usize| *n != part.normal;
+        let radius = if self.settings.writes_radius() {
+            let given = distance(part.centre, from.linear, part.normal);
+            (given - arc.radius()).abs() <= self.slack.radius
+        } else {
+            (0..3).filter(in_plane).all(|n| off(n) <= self.centre_slack(n))
+        };
+        radius.then_some(part.angle)
+    }
+
+    /// The centre is written from the start as it is rounded on the tape. When
+    /// the machine turns besides, the arc lies as its rounded angles have it.
+    fn centre_slack(&self, n: usize) -> f64 {
+        let turned = if self.settings.forward.has_rotary() { self.slack.linear[n] } else { 0.0 };
+        self.slack.centre[n] + turned
+    }
+
+    /// The angle a straight line sweeps, when it stays within the chord tolerance.
+    fn on_chord(&self, arc: &Arc, before: f64, found: &Move) -> Option<f64> {
+        let tip = self.tip(found);
+        let turns = (before / 360.0).floor() * 360.0;
+        let mut angle = turns + arc.angle_of(tip);
+        if angle <= before {
+            angle += 360.0;
+        }
+        let swept = angle - before;
+        let sagitta = arc.radius() * (1.0 - (swept / 2.0).to_radians().cos());
+        let allowed = self.settings.chord_tolerance() + 2.0 * self.slack.linear[0];
+        (swept < 180.0 && sagitta <= allowed).then_some(swept)
+    }
+
+    /// The end of a part lies on the arc, at the height of its share.
+    fn is_on(&self, arc: &Arc, angle: f64, found: &Move) -> bool {
+        let tip = self.tip(found);
+        let slack = 2.0 * self.slack.linear.iter().fold(0.0f64, |a, b| a.max(*b));
+        let share = angle / arc.sweep;
+        let rise = arc.rise_of(arc.end.tip) * share;
+        let behind = (arc.angle_of(tip) - angle).rem_euclid(360.0);
+        let along = behind.min(360.0 - behind).to_radians() * arc.radius();
+        (arc.spoke(tip).norm() - arc.radius()).abs() <= slack
+            && (arc.rise_of(tip) - rise).abs() <= slack
+            && along <= slack
+    }
+
+    /// Short lines divide an arc into even parts.
+    fn steps_are_even(&self, arc: &Arc, parts: &[Part]) -> bool {
+        let lines = parts.len() > 1 && parts.iter().all(|part| part.found.arc.is_none());
+        let slack = 2.0 * self.angle_slack(arc);
+        let share = arc.sweep / parts.len() as f64;
+        !lines
+            || (1..).zip(parts).all(|(n, part)| (part.angle - share * f64::from(n)).abs() <= slack)
+    }
+
+    /// Angle that the last digits stand for on this arc, degrees.
+    fn angle_slack(&self, arc: &Arc) -> f64 {
+        let slack = self.slack.linear.iter().fold(0.0f64, |a, b| a.max(*b));
+        (4.0 * slack / arc.radius().max(slack)).to_degrees()
+    }
+
+    fn tip(&self, found: &Move) -> Point3<f64> {
+        self.settings.forward.pose(&found.to).tip
+    }
+
+    /// Says how an arc block differs from the arc it stands for.
+    pub(super) fn say_arc(&mut self, step: &Step, found: &Move) {
+        let (Wanted::Arc(arc, _), Some(part)) = (&step.what, &found.arc) else { return };
+        let frame = self.settings.forward.frame(found.to.rotary);
+        let wanted = frame.turn.transpose() * arc.normal;
+        let along = wanted[part.normal].abs() > 1.0 - PARALLEL;
+        let message = if !along {
+            let plane = ["YZ", "ZX", "XY"][part.normal];
+            format!("the arc lies in the {plane} plane, the CL file has it in another")
+        } else if (wanted[part.normal] > 0.0) != part.ccw {
+            let (is, should) = if part.ccw {
+                ("counterclockwise (G3)", "clockwise (G2)")
+            } else {
+                ("clockwise (G2)", "counterclockwise (G3)")
+            };
+            format!("the arc is {is}, it should be {should}")
+        } else {
+            let centre = frame.linear(arc.centre);
+            let off: Vec<String> = (0..3)
+                .filter(|n| *n != part.normal)
+                .map(|n| (n, part.centre[n] - centre[n]))
+                .filter(|(n, off)| off.abs() > self.slack.centre[*n])
+                .map(|(n, off)| format!("{} by {}", ["X", "Y", "Z"][n], short(off)))
+                .collect();
+            if off.is_empty() {
+                let (is, should) = (short(part.angle), short(arc.sweep));
+                format!("the arc sweeps {is} degrees, it should be {should}")
+            } else {
+                format!("the centre of the arc is off in {}", off.join(" and "))
+            }
+        };
+        self.find(Kind::Arc, Some(step.line), Some(found.line), message);
+    }
+}
+
+/// Distance of two points in the plane of a normal.
+fn distance(a: [f64; 3], b: [f64; 3], normal: usize) -> f64 {
+    let squares = (0..3).filter(|n| *n != normal).map(|n| (a[n] - b[n]).powi(2));
+    squares.sum::<f64>().sqrt()
+}

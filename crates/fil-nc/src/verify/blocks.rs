@@ -1,0 +1,75 @@
+//! Lines of a program that stand word for word in the settings or in INSERT.
+
+use std::collections::{HashMap, HashSet};
+
+/// The lines that must be there as they are.
+pub(super) struct OwnBlocks<'a> {
+    /// Blocks of the settings, bare, and whether the program has them.
+    wanted: HashMap<String, bool>,
+    /// Lines of the program that are such blocks.
+    lines: HashSet<u32>,
+    /// The text in which the next INSERT is looked for, and the lines before it.
+    rest: &'a [u8],
+    passed: u32,
+}
+
+impl<'a> OwnBlocks<'a> {
+    /// Looks for the blocks of the settings in a program.
+    pub(super) fn new(text: &'a [u8], blocks: &[String]) -> Self {
+        let mut wanted: HashMap<String, bool> =
+            blocks.iter().map(|block| (bare(block.as_bytes()), false)).collect();
+        let mut lines = HashSet::new();
+        if !wanted.is_empty() {
+            for (line, text) in numbered(text) {
+                if let Some(found) = wanted.get_mut(&bare(text)) {
+                    *found = true;
+                    lines.insert(line);
+                }
+            }
+        }
+        OwnBlocks { wanted, lines, rest: text, passed: 0 }
+    }
+
+    /// True when a line is one of those blocks.
+    pub(super) fn has(&self, line: u32) -> bool {
+        self.lines.contains(&line)
+    }
+
+    /// Takes the next line that is this text; false when there is none.
+    pub(super) fn insert(&mut self, wanted: &str) -> bool {
+        let wanted = bare(wanted.as_bytes());
+        let Some((line, _)) = numbered(self.rest).find(|(_, text)| bare(text) == wanted) else {
+            return false;
+        };
+        let ends = self.rest.iter().enumerate().filter(|(_, byte)| **byte == b'\n');
+        let start = ends.map(|(at, _)| at + 1).nth(line as usize - 1).unwrap_or(self.rest.len());
+        self.rest = &self.rest[start..];
+        self.passed += line;
+        self.lines.insert(self.passed);
+        true
+    }
+
+    /// Blocks of the settings that the program does not have, sorted.
+    pub(super) fn missing(&self) -> Vec<String> {
+        let missing = self.wanted.iter().filter(|(_, found)| !**found);
+        let mut missing: Vec<String> = missing.map(|(block, _)| block.clone()).collect();
+        missing.sort();
+        missing
+    }
+}
+
+fn numbered(text: &[u8]) -> impl Iterator<Item = (u32, &[u8])> {
+    (1..).zip(text.split(|byte| *byte == b'\n'))
+}
+
+/// A block without blanks and sequence number, in upper case.
+fn bare(line: &[u8]) -> String {
+    let mut bare: Vec<u8> =
+        line.iter().filter(|byte| !byte.is_ascii_whitespace()).copied().collect();
+    bare.make_ascii_uppercase();
+    if bare.first() == Some(&b'N') {
+        let digits = bare[1..].iter().take_while(|byte| byte.is_ascii_digit()).count();
+        bare.drain(..=digits);
+    }
+    String::from_utf8_lossy(&bare).into_owned()
+}

@@ -1,0 +1,552 @@
+//! The path a CL file asks for, read without the post.
+//!
+//! [`ClPath`] goes through the records and gives [`Step`]s: poses in the part
+//! frame after TRANS and the input translation, in mm. A statement whose effect is
+//! not known from the CL file alone becomes [`Wanted::Unknown`].
+
+use std::collections::VecDeque;
+use std::io::Read;
+
+use fil_cl::record::{kind, mode, motion};
+use fil_cl::{Circle, Options, Reader, Record, Vocabulary, Word, WordId, words as w};
+use fil_diag::Diag;
+use nalgebra::{Matrix3x4, Point3, Vector3};
+
+use super::wanted::{Arc, CoolantKind, CycleKind, Effect, Hole, Step, Wanted};
+use crate::forward::Pose;
+use crate::motion::{Compensation, Rate, Spindle};
+
+/// Millimetres of an inch.
+const INCH: f64 = 25.4;
+
+/// What X is multiplied by when it is a diameter.
+const DIAMETER: f64 = 2.0;
+
+/// Preparatory functions of work offsets on every control.
+const WORK_OFFSETS: [f64; 6] = [54.0, 55.0, 56.0, 57.0, 58.0, 59.0];
+
+/// Start and end of an arc nearer than this make a full circle, in CL units.
+const SAME_POINT: f64 = 1e-6;
+
+/// Statements that move the tool or the frame by rules that are not public.
+const ENDS_THE_PATH: [WordId; 11] = [
+    w::TRACUT,
+    w::ORIGIN,
+    w::COPY,
+    w::INDEX,
+    w::ROTABL,
+    w::ROTATE,
+    w::ROTHED,
+    w::HEAD,
+    w::CALSUB,
+    w::DEFSUB,
+    w::ENDSUB,
+];
+
+/// Statements that write words of the user's own.
+const OWN_WORDS: [WordId; 2] = [w::POSTN, w::REPEAT];
+
+const CYCLES: [(WordId, CycleKind); 10] = [
+    (w::BRKCHP, CycleKind::Brkchp),
+    (w::DEEP, CycleKind::Deep),
+    (w::DEEP2, CycleKind::Deep),
+    (w::DRILL, CycleKind::Drill),
+    (w::CSINK, CycleKind::Csink),
+    (w::TAP, CycleKind::Tap),
+    (w::BORE, CycleKind::Bore),
+    (w::REAM, CycleKind::Ream),
+    (w::FACE, CycleKind::Face),
+    (w::THRU, CycleKind::Thru),
+];
+
+/// A cycle that is on; lengths in CL units.
+#[derive(Clone, Copy)]
+struct Cycle {
+    kind: CycleKind,
+    depth: f64,
+    clear: Option<f64>,
+    retract: Option<f64>,
+    step: Option<f64>,
+    dwell: Option<f64>,
+    rate: Option<Rate>,
+}
+
+/// A CIRCLE that waits for its end.
+#[derive(Clone, Copy)]
+struct Waiting {
+    circle: Circle,
+    turns: f64,
+}
+
+/// TRANS with a matrix.
+struct Matrix {
+    rows: Matrix3x4<f64>,
+    turns_axis: bool,
+}
+
+/// What statements leave for the later ones; lengths in CL units.
+struct State {
+    metric: bool,
+    point: Option<Point3<f64>>,
+    axis: Vector3<f64>,
+    rapid: bool,
+    rate: Option<Rate>,
+    thread: Option<f64>,
+    circle: Option<Waiting>,
+    cycle: Option<Cycle>,
+    matrix: Option<Matrix>,
+    shift: Vector3<f64>,
+}
+
+/// Goes through a CL file.
+pub struct ClPath<R> {
+    reader: Reader<R>,
+    vocabulary: Vocabulary,
+    record: Record,
+    state: State,
+    ready: VecDeque<Step>,
+    over: bool,
+}
+
+impl<R: Read> ClPath<R> {
+    /// The path of a CL text; `name` is what messages show, `shift` the machine's
+    /// translation of the input.
+    pub fn new(input: R, name: &str, options: Options, shift: [f64; 3]) -> Self {
+        ClPath {
+            reader: Reader::new(input, name, options),
+            vocabulary: Vocabulary::new(),
+            record: Record::default(),
+            state: State {
+                metric: true,
+                point: None,
+                axis: Vector3::z(),
+                rapid: false,
+                rate: None,
+                thread: None,
+                circle: None,
+                cycle: None,
+                matrix: None,
+                shift: Vector3::from(shift),
+            },
+            ready: VecDeque::new(),
+            over: false,
+        }
+    }
+
+    /// Reads on until a step is ready; false at the end.
+    fn fill(&mut self) -> Result<bool, Box<Diag>> {
+        while self.ready.is_empty() {
+            if self.over {
+                return Ok(false);
+            }
+            if !self.reader.read(&mut self.vocabulary, &mut self.record)? {
+                self.over = true;
+                self.ready.push_back(Step { line: self.record.line, what: Wanted::End });
+                return Ok(true);
+            }
+            let line = self.record.line;
+            let steps = self.state.take(&self.record, &self.vocabulary);
+            self.over = steps.iter().any(|what| matches!(what, Wanted::End));
+            self.ready.extend(steps.into_iter().map(|what| Step { line, what }));
+        }
+        Ok(true)
+    }
+}
+
+impl<R: Read> Iterator for ClPath<R> {
+    type Item = Result<Step, Box<Diag>>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        match self.fill() {
+            Ok(true) => self.ready.pop_front().map(Ok),
+            Ok(false) => None,
+            Err(diag) => {
+                self.over = true;
+                Some(Err(diag))
+            }
+        }
+    }
+}
+
+impl State {
+    fn take(&mut self, record: &Record, vocabulary: &Vocabulary) -> Vec<Wanted> {
+        match record.kind {
+            kind::MOTION => self.motion(record, vocabulary),
+            kind::SURFACE => {
+                self.circle = record.circle().map(|circle| Waiting {
+                    circle,
+                    turns: record.number_after(w::TIMES).unwrap_or(0.0),
+                });
+                Vec::new()
+            }
+            kind::MODE => {
+                self.mode(record);
+                Vec::new()
+            }
+            kind::FINI => vec![Wanted::End],
+            kind::PSEUDO => Vec::new(),
+            _ => self.command(record, vocabulary),
+        }
+    }
+
+    fn mode(&mut self, record: &Record) {
+        match (record.sub, &numbers(record)[..]) {
+            (mode::TLAXIS, [i, j, k]) => self.axis = Vector3::new(*i, *j, *k),
+            (mode::MULTAX, _) if record.has(w::OFF) => self.axis = Vector3::z(),
+            _ => {}
+        }
+    }
+
+    fn command(&mut self, record: &Record, vocabulary: &Vocabulary) -> Vec<Wanted> {
+        let unknown = |effect| {
+            let what = statement(record, vocabulary);
+            vec![Wanted::Unknown { what, effect }]
+        };
+        match record.major {
+            w::UNITS | w::UNIT => {
+                self.metric = !record.has(w::INCHES);
+                vec![Wanted::Metric(self.metric)]
+            }
+            w::RAPID => {
+                self.rapid = true;
+                Vec::new()
+            }
+            w::FEDRAT => {
+                self.rate = numbers(record).first().map(|value| self.rate_of(record, *value));
+                self.thread = None;
+                Vec::new()
+            }
+            w::TRANS => self.trans(record),
+            w::CYCLE => self.cycle(record, vocabulary),
+            w::GOHOME => match numbers(record)[..] {
+                [x, y, z] => self.line_to(Point3::new(x, y, z), self.axis),
+                _ => unknown(Effect::Path),
+            },
+            w::LOADTL | w::LOAD | w::TURRET => {
+                self.tool(record).unwrap_or_else(|| unknown(Effect::Words))
+            }
+            w::SPINDL => spindle(record),
+            w::COOLNT => coolant(record).map_or_else(|| unknown(Effect::Words), |kind| vec![kind]),
+            w::CUTCOM => {
+                compensation(record).map_or_else(|| unknown(Effect::Words), |side| vec![side])
+            }
+            w::DELAY => vec![Wanted::Dwell(
+                numbers(record).first().copied().filter(|_| !record.has(w::REV)),
+            )],
+            w::OP | w::THREAD => self.thread(record).unwrap_or_else(|| unknown(Effect::Path)),
+            w::MODE if record.has(w::TURN) => vec![Wanted::XScale(DIAMETER)],
+            w::MODE if record.has(w::MILL) => vec![Wanted::XScale(1.0)],
+            w::PREFUN => match numbers(record)[..] {
+                [code] if WORK_OFFSETS.contains(&code) => vec![Wanted::Fixture(code as u32)],
+                _ => unknown(Effect::Words),
+            },
+            w::STOP | w::OPSTOP => vec![Wanted::Stop],
+            w::INSERT => vec![Wanted::Insert(record.text.trim().to_string())],
+            w::END | w::REWIND => vec![Wanted::End],
+            w::AUXFUN => unknown(Effect::Auxiliary),
+            major if ENDS_THE_PATH.contains(&major) => unknown(Effect::Path),
+            major if OWN_WORDS.contains(&major) => unknown(Effect::Words),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Length of a CL unit in mm.
+    fn unit(&self) -> f64 {
+        if self.metric { 1.0 } else { INCH }
+    }
+
+    /// A feed; per minute in the unit of the file when none is named.
+    fn rate_of(&self, record: &Record, value: f64) -> Rate {
+        let foot = 12.0 * INCH;
+        match () {
+            () if record.has(w::MMPM) => Rate::PerMinute(value),
+            () if record.has(w::IPM) => Rate::PerMinute(value * INCH),
+            () if record.has(w::FPM) => Rate::PerMinute(value * foot),
+            () if record.has(w::MMPR) => Rate::PerTurn(value),
+            () if record.has(w::IPR) => Rate::PerTurn(value * INCH),
+            () if record.has(w::FPR) => Rate::PerTurn(value * foot),
+            () if record.has(w::UPR) => Rate::PerTurn(value * self.unit()),
+            () => Rate::PerMinute(value * self.unit()),
+        }
+    }
+
+    fn trans(&mut self, record: &Record) -> Vec<Wanted> {
+        if record.has(w::NOMORE) || record.has(w::OFF) {
+            self.matrix = None;
+            self.shift = Vector3::zeros();
+            return Vec::new();
+        }
+        let option = record.number_after(w::OPTION);
+        let values = numbers_beside(record, &[w::OPTION]);
+        match values[..] {
+            [x, y, z] => self.shift = Vector3::new(x, y, z),
+            _ if values.len() == 12 => {
+                let rows = Matrix3x4::from_row_slice(&values);
+                self.matrix = Some(Matrix { rows, turns_axis: option.is_none() });
+            }
+            _ => return vec![Wanted::Unknown { what: "TRANS".to_string(), effect: Effect::Path }],
+        }
+        Vec::new()
+    }
+
+    fn cycle(&mut self, record: &Record, vocabulary: &Vocabulary) -> Vec<Wanted> {
+        if record.has(w::OFF) || record.has(w::NOMORE) {
+            self.cycle = None;
+            return vec![Wanted::CycleEnd];
+        }
+        if record.data == [Word::Minor(w::INIT)] {
+            return Vec::new();
+        }
+        let number = |words: &[WordId]| words.iter().find_map(|word| record.number_after(*word));
+        let kind = CYCLES.iter().find(|(word, _)| record.has(*word)).map(|(_, kind)| *kind);
+        let (Some(kind), Some(depth)) = (kind, number(&[w::DEPTH, w::FEDTO])) else {
+            let what = statement(record, vocabulary);
+            return vec![Wanted::Unknown { what, effect: Effect::Path }];
+        };
+        let rate = [w::MMPM, w::IPM, w::FPM, w::MMPR, w::IPR, w::FPR]
+            .iter()
+            .find_map(|unit| record.number_after(*unit))
+            .map(|value| self.rate_of(record, value));
+        let begins = self.cycle.is_none();
+        self.cycle = Some(Cycle {
+            kind,
+            depth: depth.abs(),
+            clear: number(&[w::RAPTO, w::CLEAR]),
+            retract: number(&[w::RETURN, w::RTRCTO]),
+            step: number(&[w::STEP, w::SUBPECK, w::INCR])
+                .filter(|_| matches!(kind, CycleKind::Deep | CycleKind::Brkchp)),
+            dwell: record.number_after(w::DWELL),
+            rate: rate.or(self.rate),
+        });
+        if begins { vec![Wanted::CycleEnd] } else { Vec::new() }
+    }
+
+    fn tool(&mut self, record: &Record) -> Option<Vec<Wanted>> {
+        self.thread = None;
+        let numbers = numbers_beside(record, &[w::LENGTH, w::OSETNO, w::ADJUST]);
+        let number = *numbers.first()?;
+        let offset = record.number_after(w::OSETNO).or(record.number_after(w::ADJUST));
+        Some(vec![Wanted::Tool {
+            number: whole(number)?,
+            offset: whole(offset.unwrap_or(number))?,
+        }])
+    }
+
+    /// OP/THREAD and THREAD with a pitch; `None` for forms that leave the passes open.
+    fn thread(&mut self, record: &Record) -> Option<Vec<Wanted>> {
+        if record.has(w::NOMORE) || record.has(w::OFF) {
+            self.thread = None;
+            return Some(Vec::new());
+        }
+        if record.has(w::AUTO) || (record.major == w::OP && !record.has(w::THREAD)) {
+            return None;
+        }
+        let pitch = record.number_after(w::TPI).filter(|pitch| *pitch > 0.0)?;
+        self.thread = Some(pitch * self.unit());
+        Some(Vec::new())
+    }
+
+    fn motion(&mut self, record: &Record, vocabulary: &Vocabulary) -> Vec<Wanted> {
+        let axis = record.axis().map_or(self.axis, Vector3::from);
+        let point = match (record.sub, record.point(), &numbers(record)[..]) {
+            (motion::GODLTA, _, [along]) => self.point.map(|point| point + self.axis * *along),
+            (motion::GODLTA, Some(by), _) => self.point.map(|point| point + Vector3::from(by)),
+            (_, Some(point), _) => Some(Point3::from(point)),
+            _ => None,
+        };
+        let Some(point) = point else {
+            let what = statement(record, vocabulary);
+            return vec![Wanted::Unknown { what, effect: Effect::Path }];
+        };
+        if record.sub == motion::FROM {
+            self.point = Some(point);
+            self.axis = axis;
+            return Vec::new();
+        }
+        if record.sub == motion::GODLTA {
+            return self.line_to(point, axis);
+        }
+        match (self.circle.take(), self.cycle) {
+            (Some(waiting), _) => self.arc_to(&waiting, point, axis),
+            (None, Some(cycle)) if !self.rapid => {
+                self.point = Some(point);
+                self.axis = axis;
+                vec![Wanted::Hole(self.hole(&cycle, self.pose(point, axis)))]
+            }
+            _ => self.line_to(point, axis),
+        }
+    }
+
+    fn line_to(&mut self, point: Point3<f64>, axis: Vector3<f64>) -> Vec<Wanted> {
+        self.point = Some(point);
+        self.axis = axis;
+        let pose = self.pose(point, axis);
+        vec![match self.thread {
+            _ if std::mem::take(&mut self.rapid) => Wanted::Rapid(pose),
+            Some(pitch) => Wanted::Thread(pose, pitch),
+            None => Wanted::Feed(pose, self.rate),
+        }]
+    }
+
+    fn hole(&self, cycle: &Cycle, start: Pose) -> Hole {
+        let unit = self.unit();
+        let mm = |length: Option<f64>| length.map(|length| length * unit);
+        Hole {
+            start,
+            kind: cycle.kind,
+            depth: cycle.depth * unit,
+            clear: mm(cycle.clear),
+            retract: mm(cycle.retract),
+            step: mm(cycle.step),
+            dwell: cycle.dwell,
+            rate: cycle.rate,
+        }
+    }
+
+    /// The arc by the right-hand rule from the last point to this one; TIMES are
+    /// full turns besides. In a frame that keeps no circles it is not followed.
+    fn arc_to(&mut self, waiting: &Waiting, end: Point3<f64>, axis: Vector3<f64>) -> Vec<Wanted> {
+        self.rapid = false;
+        let keeps_circles = self.matrix.as_ref().is_none_or(|matrix| {
+            let turn = matrix.rows.fixed_columns::<3>(0).into_owned();
+            (turn.transpose() * turn - nalgebra::Matrix3::identity()).amax() < 1e-6
+        });
+        let normal = Vector3::from(waiting.circle.axis);
+        let (Some(start), Some(normal)) = (self.point, normal.try_normalize(1e-9)) else {
+            return vec![Wanted::Unknown { what: "CIRCLE".to_string(), effect: Effect::Path }];
+        };
+        if !keeps_circles {
+            let what = "an arc in a frame that makes no circle of it".to_string();
+            return vec![Wanted::Unknown { what, effect: Effect::Path }];
+        }
+        let bare = Arc {
+            centre: Point3::from(waiting.circle.center),
+            normal,
+            start,
+            end: Pose { tip: end, axis },
+            sweep: 0.0,
+        };
+        let sweep = if (bare.spoke(start) - bare.spoke(end)).norm() < SAME_POINT {
+            360.0 * waiting.turns.max(1.0)
+        } else {
+            let angle = bare.angle_of(end);
+            (if angle == 0.0 { 360.0 } else { angle }) + 360.0 * waiting.turns
+        };
+        self.point = Some(end);
+        self.axis = axis;
+        vec![Wanted::Arc(self.in_frame(&Arc { sweep, ..bare }), self.rate)]
+    }
+
+    /// The arc as TRANS places it; a mirror turns its sense.
+    fn in_frame(&self, arc: &Arc) -> Arc {
+        let place = |point: Point3<f64>| self.pose(point, Vector3::z()).tip;
+        let (centre, ahead) = (place(arc.centre), place(arc.centre + arc.normal));
+        let mirrored = self.matrix.as_ref().is_some_and(|matrix| {
+            matrix.rows.fixed_columns::<3>(0).into_owned().determinant() < 0.0
+        });
+        let normal = (ahead - centre).normalize() * if mirrored { -1.0 } else { 1.0 };
+        Arc {
+            centre,
+            normal,
+            start: place(arc.start),
+            end: self.pose(arc.end.tip, arc.end.axis),
+            sweep: arc.sweep,
+        }
+    }
+
+    /// A point and a tool axis after TRANS, in mm.
+    fn pose(&self, point: Point3<f64>, axis: Vector3<f64>) -> Pose {
+        let (point, axis) = match &self.matrix {
+            Some(Matrix { rows, turns_axis }) => {
+                let turned = rows.fixed_columns::<3>(0) * axis;
+                let point = Point3::from(rows * point.to_homogeneous());
+                (point, if *turns_axis { turned } else { axis })
+            }
+            None => (point, axis),
+        };
+        let axis = axis.try_normalize(1e-9).unwrap_or(axis);
+        Pose { tip: Point3::from((point.coords + self.shift) * self.unit()), axis }
+    }
+}
+
+fn spindle(record: &Record) -> Vec<Wanted> {
+    if record.has(w::OFF) {
+        return vec![Wanted::Spindle(Some(Spindle::Off))];
+    }
+    if record.has(w::ORIENT) {
+        return vec![Wanted::Orient];
+    }
+    let speed = numbers_beside(record, &[w::MAXRPM, w::RANGE]).first().copied();
+    let surface = record.has(w::SFM) || record.has(w::SMM);
+    let mut wanted = Vec::new();
+    if speed.is_some() {
+        wanted.push(Wanted::Speed(speed.filter(|_| !surface)));
+    }
+    wanted.push(Wanted::Spindle(match () {
+        () if record.has(w::CLW) => Some(Spindle::Clockwise),
+        () if record.has(w::CCLW) => Some(Spindle::Counterclockwise),
+        () => None,
+    }));
+    wanted
+}
+
+fn coolant(record: &Record) -> Option<Wanted> {
+    let low = record.has(w::LOW);
+    Some(Wanted::Coolant(match () {
+        () if record.has(w::OFF) => CoolantKind::Off,
+        () if record.has(w::ON) => CoolantKind::On,
+        () if record.has(w::MIST) => CoolantKind::Mist,
+        () if record.has(w::FLOOD) && low => CoolantKind::FloodLow,
+        () if record.has(w::FLOOD) && record.has(w::HIGH) => CoolantKind::FloodHigh,
+        () if record.has(w::FLOOD) => CoolantKind::Flood,
+        () if record.has(w::THRU) && low => CoolantKind::ThroughLow,
+        () if record.has(w::THRU) => CoolantKind::Through,
+        () => return None,
+    }))
+}
+
+fn compensation(record: &Record) -> Option<Wanted> {
+    let side = match () {
+        () if record.has(w::OFF) => Compensation::Off,
+        () if record.has(w::LEFT) => Compensation::Left,
+        () if record.has(w::RIGHT) => Compensation::Right,
+        () => return None,
+    };
+    Some(Wanted::Compensation(side, numbers(record).first().and_then(|offset| whole(*offset))))
+}
+
+/// All numbers of a record in order.
+fn numbers(record: &Record) -> Vec<f64> {
+    let number = |word: &Word| match word {
+        Word::Number(value) => Some(*value),
+        _ => None,
+    };
+    record.data.iter().filter_map(number).collect()
+}
+
+/// The numbers that are not the value of one of these couplets.
+fn numbers_beside(record: &Record, couplets: &[WordId]) -> Vec<f64> {
+    let of_couplet = |at: usize| match at.checked_sub(1).map(|before| record.data[before]) {
+        Some(Word::Minor(word)) => couplets.contains(&word),
+        _ => false,
+    };
+    let number = |(at, word): (usize, &Word)| match word {
+        Word::Number(value) if !of_couplet(at) => Some(*value),
+        _ => None,
+    };
+    record.data.iter().enumerate().filter_map(number).collect()
+}
+
+fn whole(number: f64) -> Option<u32> {
+    (number.fract() == 0.0 && (0.0..1e9).contains(&number)).then_some(number as u32)
+}
+
+/// The major word and the first minor word of a record: `THREAD/AUTO`.
+fn statement(record: &Record, vocabulary: &Vocabulary) -> String {
+    let minor = record.data.iter().find_map(|word| match word {
+        Word::Minor(word) => Some(vocabulary.name(*word)),
+        _ => None,
+    });
+    let major = vocabulary.name(record.major);
+    minor.map_or(major.to_string(), |minor| format!("{major}/{minor}"))
+}

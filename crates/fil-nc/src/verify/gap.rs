@@ -1,0 +1,114 @@
+//! How far the axes stand from where a pose asks them to be.
+
+use super::settings::{Settings, Slack};
+use crate::forward::Pose;
+use crate::motion::Position;
+
+/// A tool axis this near (radians) to the one asked for is reached: a post need not
+/// turn the machine for less, as CL files round the axis.
+const REACHED: f64 = 1.1e-5;
+
+/// Turn of a rotary axis, at most, for a lean of the tool: more than 2 where the
+/// axes lie at 45 degrees to each other, once for each way to lean.
+const LEAN: f64 = 3.0;
+
+/// The difference between where the axes stand and where they should.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gap {
+    /// Of X, Y, Z in the machine, mm; above 0 when it stands too far in plus.
+    pub(super) linear: [f64; 3],
+    /// What of it is more than the last digits explain.
+    pub(super) excess: [bool; 3],
+    /// Angle between the tool axes, degrees, where the last digits don't explain it.
+    pub(super) turned: Option<f64>,
+    /// Rotary positions for which X, Y, Z were compared, degrees.
+    pub(super) rotary: [f64; 2],
+    /// Distance of the tips in the part, mm.
+    pub(super) tip: f64,
+    /// Angle between the tool axes, degrees.
+    pub(super) axis: f64,
+}
+
+impl Gap {
+    /// The gap of a position. `last` are the exact rotary positions of the motion before:
+    /// an axis that does not turn the tool stays at the exact position, of which the
+    /// tape shows only the rounded one.
+    pub(super) fn of(
+        settings: &Settings,
+        slack: &Slack,
+        at: &Position,
+        pose: &Pose,
+        last: [f64; 2],
+    ) -> Gap {
+        let forward = &settings.forward;
+        let slack = &beside_the_pole(settings, slack, pose);
+        let stays = |n: usize| (last[n] - at.rotary[n]).abs() <= slack.rotary[n];
+        let kept = [0, 1].map(|n| if stays(n) { last[n] } else { at.rotary[n] });
+        let gap = Gap::at(settings, slack, at, pose, forward.refine(kept, pose.axis));
+        if gap.closed() || !forward.has_rotary() {
+            return gap;
+        }
+        // A post need not turn for a difference that small.
+        let unturned = Gap::at(settings, slack, at, pose, last);
+        if unturned.closed() { unturned } else { gap }
+    }
+
+    /// The gap when these are the exact rotary positions.
+    fn at(settings: &Settings, slack: &Slack, at: &Position, pose: &Pose, exact: [f64; 2]) -> Gap {
+        let forward = &settings.forward;
+        let stands = forward.pose(at);
+        let axis = stands.axis.angle(&pose.axis).to_degrees();
+        let near = |n: usize| (exact[n] - at.rotary[n]).abs() <= slack.rotary[n];
+        let reached = (forward.axis(exact) - pose.axis).norm() < REACHED;
+        let solved = reached && near(0) && near(1);
+        let mut gap = Gap {
+            linear: [0.0; 3],
+            excess: [false; 3],
+            turned: (!solved).then_some(axis),
+            rotary: if solved { exact } else { at.rotary },
+            tip: (stands.tip - pose.tip).norm(),
+            axis,
+        };
+        gap.compare(settings, slack, at, pose);
+        gap
+    }
+
+    /// Compares X, Y, Z with where they should be at the rotary positions found.
+    fn compare(&mut self, settings: &Settings, slack: &Slack, at: &Position, pose: &Pose) {
+        let wanted = settings.forward.frame(self.rotary).linear(pose.tip);
+        for n in 0..3 {
+            let wanted = slack.rounded[n].map_or(wanted[n], |digit| rounded(wanted[n], digit));
+            self.linear[n] = at.linear[n] - wanted;
+            self.excess[n] = self.linear[n].abs() > slack.linear[n];
+        }
+    }
+
+    /// True when the pose is reached.
+    pub(super) fn closed(&self) -> bool {
+        self.turned.is_none() && self.excess == [false; 3]
+    }
+}
+
+/// A value as the last digit shows it, halves away from zero.
+fn rounded(value: f64, digit: f64) -> f64 {
+    (value / digit).round() * digit
+}
+
+/// A tool axis that all but lies along the primary rotary axis leaves open which way it
+/// leans: the angle it leans by widens what is allowed.
+fn beside_the_pole(settings: &Settings, slack: &Slack, pose: &Pose) -> Slack {
+    let mut slack = *slack;
+    let Some(primary) = &settings.forward.rotaries()[0] else { return slack };
+    let lean = primary.direction.cross(&pose.axis).norm();
+    if lean >= REACHED {
+        return slack;
+    }
+    let lever = settings.forward.lever(pose.tip);
+    for n in 0..3 {
+        slack.linear[n] += LEAN * lean * lever;
+    }
+    for n in 0..2 {
+        slack.rotary[n] += LEAN * lean.to_degrees();
+    }
+    slack
+}

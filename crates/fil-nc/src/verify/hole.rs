@@ -1,0 +1,385 @@
+//! Holes of the path against canned cycles, or single moves, of the program.
+
+use super::ahead::Steps;
+use super::report::Kind;
+use super::say::short;
+use super::walk::Walk;
+use super::wanted::{CycleKind, Hole};
+use crate::forward::Pose;
+use crate::motion::{Course, Event, Move, Spindle};
+
+/// Most motions over a hole before it is drilled.
+const APPROACH: usize = 6;
+
+/// How far single moves come back above the last peck, mm.
+const PECK_GAP: f64 = 0.2;
+
+/// Levels of a hole in the machine's Z, and its place.
+#[derive(Clone, Copy)]
+struct Levels {
+    at: [f64; 3],
+    clear: f64,
+    bottom: f64,
+}
+
+/// How the tool comes out of a hole.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Out {
+    Rapid,
+    Feed,
+    Thread,
+    /// The control's way is not laid down.
+    Any,
+}
+
+impl<C: Steps> Walk<'_, C> {
+    /// Takes the events that make a hole; false when the next ones make none here.
+    pub(super) fn hole(&mut self, cl_line: u32, hole: &Hole) -> bool {
+        if !self.is_over_hole(self.next, hole) {
+            return false;
+        }
+        let Some(plunge) = self.plunge(self.next) else { return false };
+        let levels = self.levels(hole, &plunge);
+        self.drill_at(cl_line, hole, levels, &plunge);
+        true
+    }
+
+    /// Takes the events of a hole that is not where it should be; false when the next
+    /// ones make no hole.
+    pub(super) fn hole_elsewhere(&mut self, cl_line: u32, hole: &Hole) -> bool {
+        let Some(plunge) = self.plunge(self.next).filter(|plunge| plunge.arc.is_none()) else {
+            return false;
+        };
+        let mut levels = self.levels(hole, &plunge);
+        let over = Pose { tip: hole.start.tip, ..hole.start };
+        let mut stands = plunge;
+        stands.to.linear[2] = levels.at[2];
+        self.say_gap(cl_line, &stands, &over);
+        self.measure(&stands, &over);
+        levels.at = [plunge.to.linear[0], plunge.to.linear[1], levels.at[2]];
+        self.drill_at(cl_line, hole, levels, &plunge);
+        true
+    }
+
+    fn drill_at(&mut self, cl_line: u32, hole: &Hole, levels: Levels, plunge: &Move) {
+        let first = self.next;
+        if let Err((line, message)) = self.drill(cl_line, hole, levels, plunge.modes.spindle) {
+            self.find(Kind::Cycle, Some(cl_line), Some(line), message);
+            self.leave_hole(first, plunge);
+        }
+    }
+
+    /// The first motion at feed from `index` on, after motions over the hole.
+    fn plunge(&self, index: usize) -> Option<Move> {
+        let motions = self.nc.get(index..)?.iter().take(APPROACH).map_while(|event| match event {
+            Event::Move(found) if found.course != Course::Machine => Some(*found),
+            _ => None,
+        });
+        motions.into_iter().find(|found| found.course != Course::Rapid)
+    }
+
+    /// The events from `index` on drill at the place of a hole.
+    pub(super) fn is_over_hole(&self, index: usize, hole: &Hole) -> bool {
+        let Some(plunge) = self.plunge(index) else { return false };
+        if plunge.arc.is_some() {
+            return false;
+        }
+        let levels = self.levels(hole, &plunge);
+        (0..2).all(|n| (plunge.to.linear[n] - levels.at[n]).abs() <= self.slack.linear[n])
+    }
+
+    fn levels(&self, hole: &Hole, plunge: &Move) -> Levels {
+        let rotary = self.gap(&plunge.to, &hole.start).rotary;
+        let frame = self.settings.forward.frame(rotary);
+        let above = |by: f64| frame.linear(hole.start.tip + hole.start.axis * by);
+        let clear = hole.clear.unwrap_or_else(|| self.settings.cycle_clearance(self.metric));
+        Levels { at: above(0.0), clear: above(clear)[2], bottom: above(-hole.depth)[2] }
+    }
+
+    /// Goes through the hole.
+    fn drill(
+        &mut self,
+        cl_line: u32,
+        hole: &Hole,
+        levels: Levels,
+        turning: Spindle,
+    ) -> Result<(), (u32, String)> {
+        let rest = self.approach(cl_line, hole, levels)?;
+        let mut reached = levels.clear;
+        for depth in depths(hole, levels) {
+            if reached != levels.clear {
+                self.between_pecks(cl_line, hole, levels, reached)?;
+            }
+            let found = self.level(cl_line, depth, "the hole")?;
+            let course = if hole.kind == CycleKind::Tap { Course::Thread } else { Course::Feed };
+            if found.course != course && !(course == Course::Thread && found.course == Course::Feed)
+            {
+                return Err((found.line, format!("{} in a hole", self.spell_move(&found))));
+            }
+            self.check_rate(cl_line, &found, hole.rate);
+            reached = depth;
+        }
+        self.bottom_dwell(cl_line, hole)?;
+        self.retract(cl_line, hole.kind, levels.clear, (rest, turning))
+    }
+
+    /// The motions over the hole, down to the R level. Gives the level to return to.
+    fn approach(
+        &mut self,
+        cl_line: u32,
+        hole: &Hole,
+        levels: Levels,
+    ) -> Result<f64, (u32, String)> {
+        let slack = self.slack.linear;
+        let near = |a: f64, b: f64, n: usize| (a - b).abs() <= slack[n];
+        let raised = match hole.retract {
+            Some(above) if above > 0.0 => levels.clear.max(levels.at[2] + above),
+            _ => levels.clear,
+        };
+        let known = self.known[2];
+        if known && self.initial.is_none() {
+            self.initial = Some(self.at.linear[2]);
+        }
+        let mut raise = known && self.at.linear[2] < raised - slack[2];
+        if raise {
+            self.initial = Some(raised);
+        }
+        while let Some(found) = self.next_move().filter(|found| found.course == Course::Rapid) {
+            let to = found.to.linear;
+            let across =
+                (0..2).any(|n| to[n] != self.at.linear[n]) && self.known[0] && self.known[1];
+            let z_moves = to[2] != self.at.linear[2];
+            let arrives = (0..2).all(|n| near(to[n], levels.at[n], n));
+            if across && !arrives {
+                return Err((
+                    found.line,
+                    format!("{}, which is not over the hole", self.spell_move(&found)),
+                ));
+            }
+            let low = self.at.linear[2].min(to[2]) < levels.clear - slack[2];
+            if across && self.known[2] && low {
+                return Err((found.line, "rapid goes across below the R level".to_string()));
+            }
+            let level = near(to[2], levels.clear, 2) || near(to[2], raised, 2);
+            if z_moves && !level {
+                return Err((found.line, self.spell_level("the R level", to[2], levels.clear)));
+            }
+            raise &= !near(to[2], raised, 2);
+            self.take(cl_line, &found);
+            self.next += 1;
+        }
+        if raise {
+            let message = format!("the tool does not go up to Z{} before the hole", short(raised));
+            return Err((self.next_line(), message));
+        }
+        if !near(self.at.linear[2], levels.clear, 2) {
+            let line = self.next_move().map_or(0, |found| found.line);
+            return Err((line, self.spell_level("the R level", self.at.linear[2], levels.clear)));
+        }
+        let initial = self.initial.unwrap_or(levels.clear);
+        Ok(match hole.retract {
+            None => levels.clear,
+            Some(above) if above > 0.0 => {
+                let returns = initial >= raised - slack[2] && raised > levels.clear + slack[2];
+                if returns { initial } else { levels.clear }
+            }
+            Some(_) => initial,
+        })
+    }
+
+    /// Out of the hole and back to just above the last peck.
+    fn between_pecks(
+        &mut self,
+        cl_line: u32,
+        hole: &Hole,
+        levels: Levels,
+        reached: f64,
+    ) -> Result<(), (u32, String)> {
+        if hole.kind == CycleKind::Deep {
+            self.level(cl_line, levels.clear, "the retract between pecks")?;
+        }
+        let Some(back) = self.next_move() else { return Ok(()) };
+        self.vertical(&back)?;
+        let slack = self.slack.linear[2];
+        let gap = back.to.linear[2] - reached;
+        // How far a control comes back by itself is a parameter of the control.
+        let right = if back.in_cycle { gap > 0.0 } else { (gap - PECK_GAP).abs() <= 2.0 * slack };
+        let above = (back.to.linear[2] - levels.clear).abs() <= slack && gap <= PECK_GAP + slack;
+        if back.course == Course::Rapid && (right || above) {
+            self.take(cl_line, &back);
+            self.next += 1;
+            return Ok(());
+        }
+        if hole.kind == CycleKind::Deep && levels.clear - reached <= PECK_GAP + slack {
+            return Ok(());
+        }
+        let message =
+            format!("{} in place of a rapid to just above the last peck", self.spell_move(&back));
+        Err((back.line, message))
+    }
+
+    /// The next motion, which must go straight to a level.
+    fn level(&mut self, cl_line: u32, z: f64, what: &str) -> Result<Move, (u32, String)> {
+        self.level_turning(cl_line, z, what, None)
+    }
+
+    /// The same; on the way out the spindle may stand or turn back, and `turning` is
+    /// how it goes on.
+    fn level_turning(
+        &mut self,
+        cl_line: u32,
+        z: f64,
+        what: &str,
+        turning: Option<Spindle>,
+    ) -> Result<Move, (u32, String)> {
+        let Some(mut found) = self.next_move() else {
+            return Err((self.next_line(), "the hole is not finished".to_string()));
+        };
+        self.vertical(&found)?;
+        let off = found.to.linear[2] - z;
+        self.report.position.add(off.abs(), found.line);
+        if off.abs() > self.slack.linear[2] {
+            return Err((found.line, self.spell_level(what, found.to.linear[2], z)));
+        }
+        found.modes.spindle = turning.unwrap_or(found.modes.spindle);
+        self.take(cl_line, &found);
+        self.next += 1;
+        Ok(found)
+    }
+
+    fn vertical(&self, found: &Move) -> Result<(), (u32, String)> {
+        let straight = found.arc.is_none()
+            && (0..2).all(|n| found.to.linear[n] == self.at.linear[n])
+            && found.to.rotary == self.at.rotary;
+        if straight {
+            return Ok(());
+        }
+        Err((found.line, format!("{} in a hole", self.spell_move(found))))
+    }
+
+    fn bottom_dwell(&mut self, cl_line: u32, hole: &Hole) -> Result<(), (u32, String)> {
+        let wanted = hole.dwell.unwrap_or_else(|| self.settings.cycle_dwell(hole.kind));
+        let found = match self.nc.get(self.next) {
+            Some(Event::Dwell { line, seconds }) => Some((*line, *seconds)),
+            _ => None,
+        };
+        match found {
+            Some((line, seconds)) => {
+                self.next += 1;
+                let wanted = if wanted > 0.0 { self.settings.dwell_within(wanted) } else { 0.0 };
+                self.check_dwell(cl_line, line, seconds, Some(wanted));
+                Ok(())
+            }
+            None if wanted > 0.0 => {
+                Err((self.next_line(), "no dwell at the bottom of the hole".to_string()))
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn retract(
+        &mut self,
+        cl_line: u32,
+        kind: CycleKind,
+        clear: f64,
+        (rest, turning): (f64, Spindle),
+    ) -> Result<(), (u32, String)> {
+        let out = self.way_out(kind);
+        let Some(first) = self.next_move() else {
+            return Err((self.next_line(), "the tool stays in the hole".to_string()));
+        };
+        let course = match out {
+            Out::Rapid => first.course == Course::Rapid,
+            Out::Feed => first.course == Course::Feed,
+            Out::Thread => first.course != Course::Rapid,
+            Out::Any => true,
+        };
+        if !course {
+            return Err((first.line, format!("{} out of the hole", self.spell_move(&first))));
+        }
+        let spindle = match (self.settings.cycle_code(kind), out) {
+            (Some(86), _) => Spindle::Off,
+            (_, Out::Thread) => reversed(turning),
+            _ => turning,
+        };
+        if first.modes.spindle != spindle {
+            let message = "the spindle is not as it should be on the way out".to_string();
+            return Err((first.line, message));
+        }
+        if (first.to.linear[2] - rest).abs() > self.slack.linear[2] {
+            self.level_turning(cl_line, clear, "the retract", Some(turning))?;
+            if let Some(up) = self.next_move().filter(|up| up.course != Course::Rapid) {
+                return Err((up.line, format!("{} out of the hole", self.spell_move(&up))));
+            }
+        }
+        self.level_turning(cl_line, rest, "the return level", Some(turning)).map(|_| ())
+    }
+
+    /// How the tool leaves the hole, by the code of the cycle.
+    fn way_out(&self, kind: CycleKind) -> Out {
+        match (self.settings.cycle_code(kind), kind) {
+            (Some(84 | 74), _) => Out::Thread,
+            (Some(85 | 89), _) => Out::Feed,
+            (Some(73 | 81 | 82 | 83 | 86), _) => Out::Rapid,
+            (Some(_), _) => Out::Any,
+            (None, CycleKind::Bore | CycleKind::Ream) => Out::Feed,
+            (None, _) => Out::Rapid,
+        }
+    }
+
+    /// Passes over what is left of a hole that went wrong.
+    fn leave_hole(&mut self, first: usize, plunge: &Move) {
+        while let Some(found) = self.next_move() {
+            let of_cycle = found.in_cycle && found.line == plunge.line;
+            let upright = found.arc.is_none()
+                && found.to.linear[..2] == plunge.to.linear[..2]
+                && found.to.linear[2] != self.at.linear[2];
+            if !of_cycle && (plunge.in_cycle || !upright) && self.next > first {
+                return;
+            }
+            self.at = found.to;
+            self.known = found.known;
+            self.next += 1;
+        }
+    }
+
+    fn next_line(&self) -> u32 {
+        match self.nc.get(self.next) {
+            Some(
+                Event::Move(Move { line, .. })
+                | Event::ToolChange { line, .. }
+                | Event::Dwell { line, .. }
+                | Event::End { line, .. },
+            ) => *line,
+            None => 0,
+        }
+    }
+
+    fn spell_level(&self, what: &str, is: f64, should: f64) -> String {
+        let (way, by) = if is < should { ("deeper", should - is) } else { ("higher", is - should) };
+        let by = short(by);
+        format!("{what} is {way} by {by} (Z{} in place of Z{})", short(is), short(should))
+    }
+}
+
+fn reversed(spindle: Spindle) -> Spindle {
+    match spindle {
+        Spindle::Off => Spindle::Off,
+        Spindle::Clockwise => Spindle::Counterclockwise,
+        Spindle::Counterclockwise => Spindle::Clockwise,
+    }
+}
+
+/// Where the pecks end, the last at the bottom.
+fn depths(hole: &Hole, levels: Levels) -> Vec<f64> {
+    let mut depths = Vec::new();
+    if let Some(step) = hole.step.filter(|step| *step > 1e-6) {
+        let mut reached = levels.clear - step;
+        while reached > levels.bottom + 1e-9 {
+            depths.push(reached);
+            reached -= step;
+        }
+    }
+    depths.push(levels.bottom);
+    depths
+}

@@ -1,0 +1,91 @@
+//! Back-check: does an NC program do what the CL file asks for?
+//!
+//! [`ClPath`] reads the CL file without the post, the interpreter reads the program
+//! without the writer; `walk` goes along both at once, `align` finds where they part.
+//! What the machine's settings lay down where the CL file leaves it open (when codes
+//! stand, what the last digit is) comes from [`Settings`].
+
+mod ahead;
+mod align;
+mod arc;
+mod blocks;
+mod cl_path;
+mod gap;
+mod hole;
+mod lines;
+mod modes;
+mod programs;
+mod report;
+mod say;
+mod settings;
+mod tools;
+mod walk;
+mod wanted;
+
+use std::io::Read;
+
+use fil_cl::Options;
+use fil_diag::Diag;
+use fil_post::Commons;
+
+use crate::errors::NcCode;
+use crate::motion::Event;
+use blocks::OwnBlocks;
+
+pub use cl_path::ClPath;
+pub use programs::{compare_programs, compare_words};
+pub use report::{Deviation, Finding, Kind, Report, Unverified, Verdict};
+pub use settings::{Due, Settings, Slack};
+pub use wanted::{Arc, CoolantKind, CycleKind, Effect, Hole, Step, Wanted};
+
+/// The inputs of a back-check.
+pub struct Check<'a, R> {
+    /// The CL file.
+    pub cl: R,
+    /// Its name in messages.
+    pub cl_name: &'a str,
+    /// How it is read.
+    pub options: Options,
+    /// The text of the program.
+    pub nc: &'a [u8],
+    /// What the program does.
+    pub events: &'a [Event],
+    /// The machine.
+    pub commons: &'a Commons,
+    /// What is allowed besides the last digit of each address, mm; `None` for nothing.
+    pub tolerance: Option<f64>,
+}
+
+/// Compares a program with the CL file it should come from.
+///
+/// # Errors
+/// A CL file that can't be read, a machine that makes no sense, a program that has
+/// next to nothing in common with the CL file.
+pub fn verify<R: Read>(check: Check<'_, R>) -> Result<Report, Box<Diag>> {
+    let settings = Settings::new(check.commons, check.tolerance)?;
+    let path = ClPath::new(check.cl, check.cl_name, check.options, settings.input_shift());
+    let own = OwnBlocks::new(check.nc, &settings.own_blocks());
+    let report = walk::Walk::new(path, check.events, own, &settings).all()?;
+    refuse_another_part(&report)?;
+    Ok(report)
+}
+
+/// Motions that must be compared before a program counts as one of another part.
+const FEW: u64 = 6;
+
+/// A program that makes next to none of the motions is one of another part.
+///
+/// # Errors
+/// E0941 for such a program.
+pub fn refuse_another_part(report: &Report) -> Result<(), Box<Diag>> {
+    if report.compared < FEW || report.matched * 10 >= report.compared {
+        return Ok(());
+    }
+    let message = format!(
+        "{} of the {} motions of the CL file are in the program",
+        report.matched, report.compared
+    );
+    let mut diag = Diag::new(NcCode::AnotherPart, message);
+    diag.notes.extend(report.findings.iter().take(3).map(ToString::to_string));
+    Err(Box::new(diag))
+}

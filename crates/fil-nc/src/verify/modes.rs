@@ -1,0 +1,312 @@
+//! What must be in force while the tool moves: tool, spindle, coolant, compensation.
+//!
+//! A post may let a word wait for a motion of certain axes. Until then both the
+//! state before and the state asked for are right; after it only the latter is.
+
+use super::report::Kind;
+use super::settings::{Due, Settings};
+use super::wanted::{CoolantKind, Effect, Wanted};
+use crate::motion::{Compensation, Modes, Spindle};
+
+/// A state that may change with a motion.
+#[derive(Clone, Copy, Debug)]
+struct Lag<T> {
+    now: T,
+    next: Option<(T, Due)>,
+}
+
+impl<T: Copy + PartialEq> Lag<T> {
+    fn new(now: T) -> Self {
+        Lag { now, next: None }
+    }
+
+    fn set(&mut self, value: T, due: Due) {
+        if due == Due::Now {
+            *self = Lag::new(value);
+        } else {
+            self.next = Some((value, due));
+        }
+    }
+
+    fn flush(&mut self) {
+        if let Some((value, _)) = self.next.take() {
+            self.now = value;
+        }
+    }
+
+    fn moved(&mut self, moved: Moved) {
+        let due = self.next.is_some_and(|(_, due)| match due {
+            Due::Now => true,
+            Due::WithXY => moved.xy,
+            Due::WithZ => moved.z,
+        });
+        if due {
+            self.flush();
+        }
+    }
+
+    /// The state that must be, when `found` is none of those that may be.
+    fn refuses(&self, found: impl Fn(T) -> bool) -> Option<T> {
+        let next = self.next.map(|(value, _)| value);
+        let right = found(self.now) || next.is_some_and(&found);
+        (!right).then_some(next.unwrap_or(self.now))
+    }
+}
+
+/// Which axes a motion moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Moved {
+    pub(super) xy: bool,
+    pub(super) z: bool,
+}
+
+/// What must be in force. `None` inside is a state that is not known.
+#[derive(Clone, Debug)]
+pub(super) struct Expected {
+    tool: Option<u32>,
+    /// The tool that LOADTL named last.
+    loaded: Option<u32>,
+    offset: Lag<Option<u32>>,
+    /// The side, and the number of the offset.
+    compensation: Lag<(Compensation, Option<u32>)>,
+    spindle: Lag<Option<Spindle>>,
+    speed: Lag<Option<f64>>,
+    coolant: Lag<bool>,
+    /// `None` when words of the user's own may have chosen it.
+    fixture: Option<Option<u32>>,
+    /// The length offset seen last.
+    offset_on: Option<u32>,
+    /// What was wrong at the last motion, so that it is said once.
+    said: Vec<(Kind, String)>,
+}
+
+impl Expected {
+    pub(super) fn new(settings: &Settings) -> Self {
+        Expected {
+            tool: None,
+            loaded: None,
+            offset: Lag::new(None),
+            compensation: Lag::new((Compensation::Off, None)),
+            spindle: Lag::new(Some(Spindle::Off)),
+            speed: Lag::new(None),
+            coolant: Lag::new(false),
+            fixture: Some(fixture_of(&settings.own_blocks())),
+            offset_on: None,
+            said: Vec::new(),
+        }
+    }
+
+    /// The tool that must be in the spindle, as far as it is known.
+    pub(super) fn tool(&self) -> Option<u32> {
+        self.tool
+    }
+
+    /// Takes up what a step switches.
+    pub(super) fn take(&mut self, wanted: &Wanted, settings: &Settings) {
+        match wanted {
+            Wanted::Spindle(Some(Spindle::Off)) => {
+                self.flush();
+                self.spindle.set(settings.spindle(Some(Spindle::Off)), Due::Now);
+            }
+            Wanted::Spindle(turn) => {
+                self.spindle.set(settings.spindle(*turn), settings.spindle_due());
+            }
+            Wanted::Speed(speed) => {
+                let speed = speed.map(|speed| settings.speed_within(speed));
+                self.speed.set(speed, settings.spindle_due());
+            }
+            Wanted::Orient => {
+                self.spindle.set(None, Due::Now);
+                self.speed.set(None, Due::Now);
+            }
+            Wanted::Coolant(kind) => {
+                if *kind == CoolantKind::Off {
+                    self.flush();
+                }
+                let due = if *kind == CoolantKind::Off { Due::Now } else { settings.coolant_due() };
+                if settings.has_coolant(*kind) {
+                    self.coolant.set(*kind != CoolantKind::Off, due);
+                }
+            }
+            Wanted::Compensation(side, offset) => {
+                let of_tool = self.loaded.filter(|_| settings.offsets_diameters_by_tool());
+                let offset = offset.or(of_tool).filter(|_| *side != Compensation::Off);
+                self.compensation.set((*side, offset), settings.compensation_due());
+            }
+            Wanted::Stop | Wanted::End => self.flush(),
+            Wanted::Fixture(code) => self.fixture = Some(Some(*code)),
+            Wanted::Unknown { effect: Effect::Words | Effect::Path, .. } => self.fixture = None,
+            _ => {}
+        }
+    }
+
+    /// Takes up a tool change.
+    pub(super) fn change_tool(&mut self, tool: u32, offset: u32, settings: &Settings) {
+        self.flush();
+        self.tool = settings.calls_tools().then_some(tool);
+        self.loaded = Some(tool);
+        if settings.calls_offsets() {
+            self.offset.set(Some(offset), Due::WithZ);
+        } else if settings.calls_tools_with_offset() {
+            self.offset.set(Some(offset).filter(|offset| *offset > 0), Due::Now);
+        }
+    }
+
+    /// What is not as it must be while the axes stand: before a tool is changed, or
+    /// at the end.
+    pub(super) fn check_standing(
+        &mut self,
+        modes: &Modes,
+        changes: bool,
+        speed_slack: f64,
+    ) -> Vec<(Kind, String)> {
+        self.flush();
+        let mut wrong = self.wrong(modes, false, speed_slack);
+        // A change may bring its own offset along; one that waits needs a motion.
+        wrong.retain(|(kind, _)| *kind != Kind::Tool || !(changes || self.offset_waits()));
+        self.news(wrong)
+    }
+
+    fn news(&mut self, wrong: Vec<(Kind, String)>) -> Vec<(Kind, String)> {
+        let news = wrong.iter().filter(|one| !self.said.contains(one)).cloned().collect();
+        self.said = wrong;
+        news
+    }
+
+    fn flush(&mut self) {
+        self.compensation.flush();
+        self.spindle.flush();
+        self.speed.flush();
+        self.coolant.flush();
+    }
+
+    /// What is not as it must be during a motion of these axes; each thing is said
+    /// when it begins to be wrong.
+    pub(super) fn check(
+        &mut self,
+        modes: &Modes,
+        moved: Moved,
+        cuts: bool,
+        speed_slack: f64,
+    ) -> Vec<(Kind, String)> {
+        self.offset.moved(moved);
+        self.compensation.moved(moved);
+        self.spindle.moved(moved);
+        self.speed.moved(moved);
+        self.coolant.moved(moved);
+        self.offset_on = modes.length_offset;
+        let wrong = self.wrong(modes, cuts, speed_slack);
+        self.news(wrong)
+    }
+
+    /// A length offset is still to be called.
+    pub(super) fn offset_waits(&self) -> bool {
+        self.offset.next.is_some()
+    }
+
+    /// A motion with a new tool is over: what is wrong when its length offset is
+    /// not yet on.
+    pub(super) fn settle(&mut self) -> Option<(Kind, String)> {
+        let (must, _) = self.offset.next?;
+        self.offset.flush();
+        let one = (Kind::Tool, said_of_offset(self.offset_on, must));
+        (self.offset_on != must && !self.said.contains(&one)).then(|| {
+            self.said.push(one.clone());
+            one
+        })
+    }
+
+    fn wrong(&self, modes: &Modes, cuts: bool, speed_slack: f64) -> Vec<(Kind, String)> {
+        let mut wrong = Vec::new();
+        if let Some(tool) = self.tool.filter(|tool| *tool != modes.tool) {
+            wrong
+                .push((Kind::Tool, format!("tool {} moves, it should be tool {tool}", modes.tool)));
+        }
+        // Between the change and the new offset the old one may be given up.
+        let offset = |may: Option<u32>| may == modes.length_offset;
+        let given_up = self.offset.next.is_some() && modes.length_offset.is_none();
+        if let Some(must) = self.offset.refuses(offset).filter(|_| !given_up) {
+            wrong.push((Kind::Tool, said_of_offset(modes.length_offset, must)));
+        }
+        let found = (modes.compensation, modes.compensation_offset);
+        if let Some(must) = self.compensation.refuses(|may| may == found) {
+            wrong.push((Kind::Compensation, said_of_compensation(found, must)));
+        }
+        let spindle = |may: Option<Spindle>| may.is_none_or(|may| may == modes.spindle);
+        if let Some(Some(must)) = self.spindle.refuses(spindle) {
+            wrong.push((Kind::Spindle, said_of_spindle(modes.spindle, must, cuts)));
+        }
+        let speed = |may: Option<f64>| match (may, modes.speed) {
+            (Some(may), Some(speed)) => (may - speed).abs() <= speed_slack,
+            (Some(_), None) => false,
+            (None, _) => true,
+        };
+        if let Some(Some(must)) = self.speed.refuses(speed) {
+            let found = modes.speed.map_or("no speed".to_string(), |speed| format!("S{speed}"));
+            wrong.push((Kind::Speed, format!("the spindle has {found}, it should be {must}")));
+        }
+        if let Some(must) = self.coolant.refuses(|may| may == modes.coolant) {
+            let said = if must {
+                "coolant is off, it should be on"
+            } else {
+                "coolant is on, it should be off"
+            };
+            wrong.push((Kind::Coolant, said.to_string()));
+        }
+        if let Some(must) = self.fixture.filter(|must| *must != modes.fixture) {
+            let name =
+                |fixture: Option<u32>| fixture.map_or("none".to_string(), |g| format!("G{g}"));
+            let (found, must) = (name(modes.fixture), name(must));
+            wrong.push((Kind::Fixture, format!("work offset {found}, it should be {must}")));
+        }
+        wrong
+    }
+}
+
+fn said_of_offset(found: Option<u32>, must: Option<u32>) -> String {
+    match (found, must) {
+        (Some(found), Some(must)) => format!("length offset {found} is on, it should be {must}"),
+        (Some(found), None) => format!("length offset {found} is on, none is asked for"),
+        (None, Some(must)) => format!("no length offset is on, it should be {must}"),
+        (None, None) => String::new(),
+    }
+}
+
+type Side = (Compensation, Option<u32>);
+
+fn said_of_compensation((found, offset): Side, (must, must_offset): Side) -> String {
+    let side = |side| match side {
+        Compensation::Off => "off",
+        Compensation::Left => "left",
+        Compensation::Right => "right",
+    };
+    if must == Compensation::Off {
+        return format!("cutter compensation {} is left on", side(found));
+    }
+    let with = |offset: Option<u32>| offset.map_or(String::new(), |n| format!(" with offset {n}"));
+    let (found, must) = (side(found), side(must));
+    let (found_offset, must_offset) = (with(offset), with(must_offset));
+    format!("cutter compensation is {found}{found_offset}, it should be {must}{must_offset}")
+}
+
+fn said_of_spindle(found: Spindle, must: Spindle, cuts: bool) -> String {
+    let turn = |turn| match turn {
+        Spindle::Off => "off",
+        Spindle::Clockwise => "clockwise",
+        Spindle::Counterclockwise => "counterclockwise",
+    };
+    if found == Spindle::Off && cuts {
+        return "the spindle is off while the tool cuts".to_string();
+    }
+    format!("the spindle is {}, it should be {}", turn(found), turn(must))
+}
+
+/// The work offset that the start of a program switches on.
+fn fixture_of(blocks: &[String]) -> Option<u32> {
+    let words = blocks.iter().filter_map(|block| {
+        crate::text::read_block(block.as_bytes(), "settings", 1).ok().map(|block| block.words)
+    });
+    let offset =
+        |word: &crate::text::Word| word.letter == b'G' && (54..=59).contains(&word.number.digits);
+    words.flatten().filter(offset).map(|word| word.number.digits as u32).reduce(|_, last| last)
+}

@@ -1,0 +1,195 @@
+//! What a back-check found.
+
+use std::fmt;
+
+/// What a finding is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// The end of a motion, a depth, an arc's centre.
+    Position,
+    /// The direction of the tool.
+    Axis,
+    /// The sense, plane or length of an arc.
+    Arc,
+    /// Rapid traverse where the CL file asks for feed.
+    RapidForFeed,
+    /// Feed where the CL file asks for rapid traverse.
+    FeedForRapid,
+    /// A thread pass or tap without its lead, or a motion with one it should not have.
+    Thread,
+    /// A motion, hole or dwell the CL file asks for is not there.
+    Missing,
+    /// A motion, hole or dwell the CL file does not ask for.
+    Extra,
+    /// The order of the axes in a rapid.
+    Order,
+    /// The feed.
+    Feed,
+    /// The spindle's direction, or that it stands.
+    Spindle,
+    /// The spindle's speed.
+    Speed,
+    /// The coolant.
+    Coolant,
+    /// The tool or its length offset.
+    Tool,
+    /// Cutter compensation.
+    Compensation,
+    /// The work offset.
+    Fixture,
+    /// The way a hole is made: pecks, return level, dwell.
+    Cycle,
+    /// A dwell of another length.
+    Dwell,
+    /// The travel of an axis.
+    Limit,
+    /// mm in place of inch, or the reverse.
+    Units,
+    /// A line of the tape that the settings or INSERT ask for.
+    Block,
+    /// The end of the program.
+    End,
+}
+
+impl Kind {
+    /// The word for it in JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Position => "position",
+            Kind::Axis => "tool-axis",
+            Kind::Arc => "arc",
+            Kind::RapidForFeed => "rapid-for-feed",
+            Kind::FeedForRapid => "feed-for-rapid",
+            Kind::Thread => "thread",
+            Kind::Missing => "missing",
+            Kind::Extra => "extra",
+            Kind::Order => "order-of-axes",
+            Kind::Feed => "feed",
+            Kind::Spindle => "spindle",
+            Kind::Speed => "speed",
+            Kind::Coolant => "coolant",
+            Kind::Tool => "tool",
+            Kind::Compensation => "compensation",
+            Kind::Fixture => "work-offset",
+            Kind::Cycle => "cycle",
+            Kind::Dwell => "dwell",
+            Kind::Limit => "limit",
+            Kind::Units => "units",
+            Kind::Block => "block",
+            Kind::End => "end",
+        }
+    }
+}
+
+/// Something that is not as the reference says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// What it is about.
+    pub kind: Kind,
+    /// Line of the CL file, where one asks for it.
+    pub cl_line: Option<u32>,
+    /// Line of the NC program, where one does it.
+    pub nc_line: Option<u32>,
+    /// What is wrong, in a machinist's words.
+    pub message: String,
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.nc_line, self.cl_line) {
+            (Some(nc), Some(cl)) => write!(f, "NC line {nc} (CL line {cl}): ")?,
+            (Some(nc), None) => write!(f, "NC line {nc}: ")?,
+            (None, Some(cl)) => write!(f, "CL line {cl}: ")?,
+            (None, None) => {}
+        }
+        f.write_str(&self.message)
+    }
+}
+
+/// Something the reference does not determine, so that it was not compared.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unverified {
+    /// Line of the CL file, where it stands there.
+    pub cl_line: Option<u32>,
+    /// What was not compared.
+    pub what: String,
+}
+
+/// How far the program is from the path, over all motions compared.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Deviation {
+    /// The largest, mm or degrees.
+    pub max: f64,
+    /// Line of the NC program where it is the largest; 0 before any motion.
+    pub nc_line: u32,
+    squares: f64,
+    count: u64,
+}
+
+impl Deviation {
+    pub(super) fn add(&mut self, value: f64, nc_line: u32) {
+        if self.count == 0 || value > self.max {
+            self.max = value;
+            self.nc_line = nc_line;
+        }
+        self.squares += value * value;
+        self.count += 1;
+    }
+
+    /// Root of the mean square; 0 before any motion.
+    pub fn rms(&self) -> f64 {
+        if self.count == 0 { 0.0 } else { (self.squares / self.count as f64).sqrt() }
+    }
+}
+
+/// How a back-check ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// All was compared, and it agrees.
+    Agrees,
+    /// What was compared agrees, but something could not be compared.
+    Partly,
+    /// Something differs.
+    Differs,
+}
+
+/// What a back-check found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Report {
+    /// Differences in the order of the program.
+    pub findings: Vec<Finding>,
+    /// Further findings that are not listed.
+    pub more: u64,
+    /// What was not compared.
+    pub unverified: Vec<Unverified>,
+    /// Motions and holes of the reference that were compared.
+    pub compared: u64,
+    /// Those of them that the program makes.
+    pub matched: u64,
+    /// Deviation of the tool tip, mm.
+    pub position: Deviation,
+    /// Deviation of the tool axis, degrees.
+    pub axis: Deviation,
+}
+
+impl Report {
+    /// Findings that are listed; the rest is counted.
+    pub const LISTED: usize = 50;
+
+    /// How it ends.
+    pub fn verdict(&self) -> Verdict {
+        match () {
+            () if !self.findings.is_empty() => Verdict::Differs,
+            () if !self.unverified.is_empty() => Verdict::Partly,
+            () => Verdict::Agrees,
+        }
+    }
+
+    pub(super) fn find(&mut self, finding: Finding) {
+        if self.findings.len() < Self::LISTED {
+            self.findings.push(finding);
+        } else {
+            self.more += 1;
+        }
+    }
+}

@@ -1,0 +1,387 @@
+//! What the back-check has to know of a machine besides its kinematics: the last
+//! digit of each address, where a post may put a word, and what the settings add.
+
+use fil_diag::Diag;
+use fil_post::address::{Addresses, Output, letter};
+use fil_post::commons::{Commons, Dbl, Int, Rel};
+use fil_post::locations as loc;
+use fil_post::program::user_blocks;
+
+use super::wanted::{CoolantKind, CycleKind};
+use crate::forward::Forward;
+use crate::motion::Spindle;
+
+/// Millimetres of an inch.
+const INCH: f64 = 25.4;
+
+/// How far an axis may be asked to stand from 0 when the program never writes it, mm.
+const NOT_WRITTEN: f64 = 1e-3;
+
+/// What binary fractions may add to the last digit.
+const DUST: f64 = 1e-7;
+
+const SCALES: [Dbl; 6] =
+    [loc::SCALE_X, loc::SCALE_Y, loc::SCALE_Z, loc::SCALE_A, loc::SCALE_B, loc::SCALE_C];
+
+const LINEAR_LIMITS: [(Dbl, Dbl); 3] = [
+    (loc::LIMITS_X_MIN, loc::LIMITS_X_MAX),
+    (loc::LIMITS_Y_MIN, loc::LIMITS_Y_MAX),
+    (loc::LIMITS_Z_MIN, loc::LIMITS_Z_MAX),
+];
+
+const CHANGE_POSITION: [Dbl; 6] = [
+    loc::TOOL_CHANGE_X,
+    loc::TOOL_CHANGE_Y,
+    loc::TOOL_CHANGE_Z,
+    loc::TOOL_CHANGE_A,
+    loc::TOOL_CHANGE_B,
+    loc::TOOL_CHANGE_C,
+];
+
+const RANGES: [(Rel, Rel); 6] = [
+    (loc::SPINDLE_RANGE1_MIN, loc::SPINDLE_RANGE1_MAX),
+    (loc::SPINDLE_RANGE2_MIN, loc::SPINDLE_RANGE2_MAX),
+    (loc::SPINDLE_RANGE3_MIN, loc::SPINDLE_RANGE3_MAX),
+    (loc::SPINDLE_RANGE4_MIN, loc::SPINDLE_RANGE4_MAX),
+    (loc::SPINDLE_RANGE5_MIN, loc::SPINDLE_RANGE5_MAX),
+    (loc::SPINDLE_RANGE6_MIN, loc::SPINDLE_RANGE6_MAX),
+];
+
+/// When a word that waits must be in force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Due {
+    /// At once.
+    Now,
+    /// When X or Y moves.
+    WithXY,
+    /// When Z moves.
+    WithZ,
+}
+
+/// How far a value on the tape may lie from the exact one: half of the last
+/// digit of its address, or what the user allows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slack {
+    /// X, Y, Z, mm.
+    pub linear: [f64; 3],
+    /// Last digit of X, Y, Z, mm, where a value is rounded before it is scaled.
+    pub rounded: [Option<f64>; 3],
+    /// Primary and secondary rotary axis, degrees.
+    pub rotary: [f64; 2],
+    /// I, J, K, mm.
+    pub centre: [f64; 3],
+    /// Radius of an arc, mm.
+    pub radius: f64,
+    /// Feed, mm/min or mm a turn.
+    pub feed: f64,
+    /// Spindle speed, turns/min.
+    pub speed: f64,
+    /// Dwell, seconds.
+    pub dwell: f64,
+}
+
+/// The machine as the back-check sees it.
+#[derive(Clone, Debug)]
+pub struct Settings<'c> {
+    commons: &'c Commons,
+    /// Its forward kinematics.
+    pub forward: Forward,
+    /// What the user allows besides the last digit; `None` for nothing.
+    tolerance: Option<f64>,
+}
+
+impl<'c> Settings<'c> {
+    /// The settings of a machine; `tolerance` in mm and degrees.
+    ///
+    /// # Errors
+    /// A machine whose kinematics make no sense.
+    pub fn new(commons: &'c Commons, tolerance: Option<f64>) -> Result<Self, Box<Diag>> {
+        Ok(Settings { commons, forward: Forward::from_commons(commons)?, tolerance })
+    }
+
+    /// Translation of the input, CL units.
+    pub fn input_shift(&self) -> [f64; 3] {
+        [loc::INPUT_TRANSLATE_X, loc::INPUT_TRANSLATE_Y, loc::INPUT_TRANSLATE_Z]
+            .map(|at| self.commons.dbl_opt(at).unwrap_or(0.0))
+    }
+
+    /// The last digits of the addresses in a program in mm or inch.
+    pub fn slack(&self, metric: bool) -> Slack {
+        let mut addresses = Addresses::default();
+        addresses.refresh(self.commons, metric);
+        let unit = if metric { 1.0 } else { INCH };
+        let half = |letter: u8| match addresses.output(letter) {
+            Output::At(at) => 0.5 * 0.1f64.powi(addresses.slot(at).format.decimals.into()),
+            Output::Off | Output::Unknown => NOT_WRITTEN,
+        };
+        let of_axis = |letter: u8, common: usize, unit: f64| {
+            self.allowed(half(letter) / self.scale(common) * unit)
+        };
+        let axes = [(b'X', 0), (b'Y', 1), (b'Z', 2)];
+        let scaled = |common: usize| (self.scale(common) != 1.0).then_some(2.0 * unit);
+        let rotary = [0, 1].map(|index| match &self.forward.rotaries()[index] {
+            Some(axis) => of_axis(axis.letter, axis.axis + 3, 1.0),
+            None => 0.0,
+        });
+        Slack {
+            linear: axes.map(|(name, common)| of_axis(letter(name), common, unit)),
+            rounded: axes.map(|(name, common)| Some(half(letter(name)) * scaled(common)?)),
+            rotary,
+            centre: [b'I', b'J', b'K'].map(|name| self.allowed(half(letter(name)) * unit)),
+            radius: self.allowed(half(letter(b'R')) * unit),
+            feed: half(letter(b'F')) * unit / self.feed_factor() + DUST,
+            speed: half(letter(b'S')) + DUST,
+            dwell: self.dwell_slack(half),
+        }
+    }
+
+    /// What the program multiplies an axis by.
+    fn scale(&self, common: usize) -> f64 {
+        let diameter = common == 0 && self.commons.flag(loc::LATHE_DIAMETER);
+        let scale = self.commons.dbl_opt(SCALES[common]).unwrap_or(1.0).abs();
+        if diameter { 2.0 } else { scale }
+    }
+
+    /// What the program multiplies X by when it begins.
+    pub fn x_scale(&self) -> f64 {
+        self.scale(0)
+    }
+
+    fn dwell_slack(&self, half: impl Fn(u8) -> f64) -> f64 {
+        let factor = self.commons.dbl_opt(loc::DWELL_UPM_FACTOR).filter(|factor| *factor > 0.0);
+        let letter = self.commons.int_opt(loc::DWELL_ADDRESS).unwrap_or(16).clamp(1, 26) as u8;
+        half(letter) / factor.unwrap_or(1.0) + DUST
+    }
+
+    /// Control's feed unit in a unit of length a minute.
+    fn feed_factor(&self) -> f64 {
+        self.commons.dbl_opt(loc::FEED_UPM_FACTOR).filter(|factor| *factor > 0.0).unwrap_or(1.0)
+    }
+
+    fn allowed(&self, last_digit: f64) -> f64 {
+        self.tolerance.unwrap_or(0.0).max(last_digit) + DUST
+    }
+
+    /// The lines of the tape that stand in the settings: start and end of a program.
+    pub fn own_blocks(&self) -> Vec<String> {
+        let start = (loc::BLOCKS_START_FLAG, loc::BLOCKS_START_COUNT, loc::BLOCKS_START_TEXT);
+        let end = (loc::BLOCKS_END_FLAG, loc::BLOCKS_END_COUNT, loc::BLOCKS_END_TEXT);
+        let mut blocks = user_blocks(self.commons, start);
+        blocks.extend(user_blocks(self.commons, end));
+        blocks
+    }
+
+    /// When a spindle word must be in force.
+    pub fn spindle_due(&self) -> Due {
+        due(self.commons.int(loc::SPINDLE_PLACEMENT))
+    }
+
+    /// When a coolant word must be in force.
+    pub fn coolant_due(&self) -> Due {
+        due(self.commons.int(loc::COOLANT_PLACEMENT))
+    }
+
+    /// True when the tool's number is that of its diameter offset.
+    pub fn offsets_diameters_by_tool(&self) -> bool {
+        self.commons.flag(loc::TOOL_DIAMETER_FROM_TOOL)
+    }
+
+    /// When cutter compensation must be in force.
+    pub fn compensation_due(&self) -> Due {
+        if self.commons.flag(loc::CUTCOM_WITH_MOTION) { Due::WithXY } else { Due::Now }
+    }
+
+    /// What the spindle does for `SPINDL`; `None` where the machine has no code for it.
+    pub fn spindle(&self, wanted: Option<Spindle>) -> Option<Spindle> {
+        let code = |at: Int| self.commons.int_opt(at);
+        match wanted {
+            Some(Spindle::Off) => code(loc::SPINDLE_STOP_CODE).map(|_| Spindle::Off),
+            Some(Spindle::Clockwise) => code(loc::SPINDLE_CW_CODE).map(|_| Spindle::Clockwise),
+            Some(Spindle::Counterclockwise) => {
+                code(loc::SPINDLE_CCW_CODE).map(|_| Spindle::Counterclockwise)
+            }
+            None => {
+                let usual = code(loc::SPINDLE_DEFAULT_CODE)?;
+                match () {
+                    () if code(loc::SPINDLE_CW_CODE) == Some(usual) => Some(Spindle::Clockwise),
+                    () if code(loc::SPINDLE_CCW_CODE) == Some(usual) => {
+                        Some(Spindle::Counterclockwise)
+                    }
+                    () => None,
+                }
+            }
+        }
+    }
+
+    /// A speed within the machine's ranges.
+    pub fn speed_within(&self, speed: f64) -> f64 {
+        let ranges = self.commons.int(loc::SPINDLE_RANGES).clamp(1, 6) as usize;
+        let of = |at: Rel| self.commons.rel_opt(at);
+        let low = RANGES[..ranges].iter().filter_map(|(min, _)| of(*min)).reduce(f64::min);
+        let tops: Option<Vec<f64>> = RANGES[..ranges].iter().map(|(_, max)| of(*max)).collect();
+        let high = tops.and_then(|tops| tops.into_iter().reduce(f64::max));
+        speed.max(low.unwrap_or(0.0)).min(high.unwrap_or(f64::MAX))
+    }
+
+    /// A feed in mm/min within the machine's range.
+    pub fn feed_within(&self, feed: f64, metric: bool) -> f64 {
+        let unit = if metric { 1.0 } else { INCH };
+        let min = self.commons.dbl_opt(loc::FEED_UPM_MIN).unwrap_or(0.0) * unit;
+        let max = self.commons.dbl_opt(loc::FEED_UPM_MAX).map_or(f64::MAX, |max| max * unit);
+        feed.max(min).min(max)
+    }
+
+    /// True when the machine has a code for a coolant.
+    pub fn has_coolant(&self, kind: CoolantKind) -> bool {
+        let at = match kind {
+            CoolantKind::Off => loc::COOLANT_OFF_CODE,
+            CoolantKind::On => loc::COOLANT_DEFAULT_CODE,
+            CoolantKind::Flood => loc::COOLANT_FLOOD_CODE,
+            CoolantKind::FloodHigh => loc::COOLANT_FLOOD_HIGH_CODE,
+            CoolantKind::FloodLow => loc::COOLANT_FLOOD_LOW_CODE,
+            CoolantKind::Mist => loc::COOLANT_MIST_CODE,
+            CoolantKind::Through => loc::COOLANT_THRU_HIGH_CODE,
+            CoolantKind::ThroughLow => loc::COOLANT_THRU_LOW_CODE,
+        };
+        self.commons.int_opt(at).is_some()
+    }
+
+    /// True when the program calls tools.
+    pub fn calls_tools(&self) -> bool {
+        self.commons.int_opt(loc::TOOL_CHANGE_CODE).is_some() || self.writes(b'T')
+    }
+
+    /// True when a tool already in the spindle is not called again.
+    pub fn tool_is_modal(&self) -> bool {
+        self.commons.flag(loc::TOOL_MODAL)
+    }
+
+    /// True when tool and offset stand in one word, `T0101`.
+    pub fn calls_tools_with_offset(&self) -> bool {
+        self.commons.int(loc::TOOL_FORMAT) == 2
+    }
+
+    /// True when a tool change is followed by a length offset of its own.
+    pub fn calls_offsets(&self) -> bool {
+        !self.calls_tools_with_offset()
+            && self.commons.int_opt(loc::TOOL_LENGTH_CODE).is_some()
+            && self.commons.flag(loc::TOOL_LENGTH_FROM_TOOL)
+    }
+
+    /// Z that the length offset is called with, mm.
+    pub fn offset_level(&self, metric: bool) -> Option<f64> {
+        let z = self.commons.dbl_opt(loc::TOOL_LENGTH_Z).filter(|_| self.calls_offsets());
+        z.map(|z| z * if metric { 1.0 } else { INCH })
+    }
+
+    /// Where the axes go before a tool change: X Y Z in mm, primary and secondary
+    /// rotary in degrees; `None` for an axis that stays.
+    pub fn change_position(&self, metric: bool) -> [Option<f64>; 5] {
+        let axes = match self.commons.int(loc::TOOL_CHANGE_BLOCK) {
+            1 => 3,
+            2 => 6,
+            _ => 0,
+        };
+        let value = |common: usize| {
+            let at = CHANGE_POSITION[..axes].get(common)?;
+            self.commons.dbl_opt(*at)
+        };
+        let unit = if metric { 1.0 } else { INCH };
+        let linear = |common: usize| value(common).map(|value| value * unit);
+        let rotary = |index: usize| {
+            let axis = self.forward.rotaries()[index].as_ref()?;
+            value(axis.axis + 3)
+        };
+        [linear(0), linear(1), linear(2), rotary(0), rotary(1)]
+    }
+
+    /// Travel of the linear axes in mm where the machine checks it.
+    pub fn travel(&self, metric: bool) -> [(f64, f64); 3] {
+        if !self.commons.flag(loc::LIMITS_CHECK) {
+            return [(f64::NEG_INFINITY, f64::INFINITY); 3];
+        }
+        let unit = if metric { 1.0 } else { INCH };
+        let of = |at: Dbl, otherwise: f64| {
+            self.commons.dbl_opt(at).map_or(otherwise, |limit| limit * unit)
+        };
+        LINEAR_LIMITS.map(|(min, max)| (of(min, f64::NEG_INFINITY), of(max, f64::INFINITY)))
+    }
+
+    /// R level above a hole's start when the record gives none, mm.
+    pub fn cycle_clearance(&self, metric: bool) -> f64 {
+        let unit = if metric { 1.0 } else { INCH };
+        self.commons.dbl_opt(loc::CYCLE_AUTO_CLEARANCE).unwrap_or(0.0) * unit
+    }
+
+    /// Dwell of a cycle when the record gives none, seconds.
+    pub fn cycle_dwell(&self, kind: CycleKind) -> f64 {
+        self.commons.dbl_opt(of_kind(kind).1).unwrap_or(0.0)
+    }
+
+    /// G code of a cycle; `None` when holes are single moves.
+    pub fn cycle_code(&self, kind: CycleKind) -> Option<i32> {
+        self.commons.int_opt(of_kind(kind).0)
+    }
+
+    /// A dwell within the machine's range, seconds.
+    pub fn dwell_within(&self, seconds: f64) -> f64 {
+        let low = self.commons.dbl_opt(loc::DWELL_UPM_MIN).unwrap_or(0.0);
+        let high = self.commons.dbl_opt(loc::DWELL_UPM_MAX).filter(|max| *max > 0.0);
+        seconds.max(low).min(high.unwrap_or(f64::MAX))
+    }
+
+    /// Deviation allowed when an arc is written as short lines, mm.
+    pub fn chord_tolerance(&self) -> f64 {
+        self.commons.dbl_opt(loc::CIRCLE_CHORD_TOLERANCE).unwrap_or(0.005)
+    }
+
+    /// True when a rapid goes across, turns and goes down in blocks of their own.
+    pub fn splits_rapids(&self) -> bool {
+        self.commons.int(loc::RAPID_SPLIT) != 0
+    }
+
+    /// Which of X, Y, Z the program writes; one that it never writes stands at 0.
+    pub fn written(&self) -> [bool; 3] {
+        [b'X', b'Y', b'Z'].map(|name| self.writes(name))
+    }
+
+    fn writes(&self, name: u8) -> bool {
+        let mut addresses = Addresses::default();
+        addresses.refresh(self.commons, true);
+        matches!(addresses.output(letter(name)), Output::At(_))
+    }
+
+    /// True when an arc is written with its radius.
+    pub fn writes_radius(&self) -> bool {
+        self.commons.int(loc::CIRCLE_CENTER) == 3
+    }
+
+    /// True when the program must end with a code.
+    pub fn has_end_code(&self) -> bool {
+        let codes = [loc::PROGRAM_REWIND_CODE, loc::PROGRAM_END_CODE];
+        codes.iter().any(|at| self.commons.int_opt(*at).is_some())
+    }
+}
+
+fn due(placement: i32) -> Due {
+    match placement {
+        2 => Due::WithXY,
+        3 => Due::WithZ,
+        _ => Due::Now,
+    }
+}
+
+/// Locations of a cycle's G code and of its usual dwell.
+fn of_kind(kind: CycleKind) -> (Int, Dbl) {
+    match kind {
+        CycleKind::Drill => (loc::CYCLE_DRILL_CODE, loc::DWELL_CYCLE_DRILL),
+        CycleKind::Csink => (loc::CYCLE_CSINK_CODE, loc::DWELL_CYCLE_CSINK),
+        CycleKind::Deep => (loc::CYCLE_DEEP_CODE, loc::DWELL_CYCLE_DEEP),
+        CycleKind::Brkchp => (loc::CYCLE_BRKCHP_CODE, loc::DWELL_CYCLE_BRKCHP),
+        CycleKind::Tap => (loc::CYCLE_TAP_CODE, loc::DWELL_CYCLE_TAP),
+        CycleKind::Bore => (loc::CYCLE_BORE_CODE, loc::DWELL_CYCLE_BORE),
+        CycleKind::Ream => (loc::CYCLE_REAM_CODE, loc::DWELL_CYCLE_REAM),
+        CycleKind::Face => (loc::CYCLE_FACE_CODE, loc::DWELL_CYCLE_FACE),
+        CycleKind::Thru => (loc::CYCLE_THRU_CODE, loc::DWELL_CYCLE_THRU),
+    }
+}

@@ -1,0 +1,410 @@
+//! Walks along the steps of a CL file and the events of a program at once.
+
+use std::borrow::Cow;
+
+use fil_diag::Diag;
+
+use super::ahead::{Ahead, Steps};
+use super::align::Detour;
+use super::blocks::OwnBlocks;
+use super::gap::Gap;
+use super::modes::{Expected, Moved};
+use super::report::{Finding, Kind, Report, Unverified};
+use super::say::{Shape, short};
+use super::settings::{Settings, Slack};
+use super::wanted::{Effect, Step, Wanted};
+use crate::forward::Pose;
+use crate::motion::{Course, Event, Modes, Move, Position, Rate};
+
+/// How far to look for the place where path and program agree again.
+pub(super) const LOOK_AHEAD: usize = 8;
+
+/// Ways shorter than this are none, mm or degrees.
+pub(super) const STILL: f64 = 1e-9;
+
+pub(super) struct Walk<'a, C> {
+    pub(super) cl: Ahead<C>,
+    pub(super) nc: Cow<'a, [Event]>,
+    /// Index of the next event.
+    pub(super) next: usize,
+    pub(super) own: OwnBlocks<'a>,
+    pub(super) settings: &'a Settings<'a>,
+    pub(super) slack: Slack,
+    pub(super) metric: bool,
+    /// Travel of the linear axes, mm.
+    pub(super) travel: [(f64, f64); 3],
+    written: [bool; 3],
+    pub(super) splits_rapids: bool,
+    /// What the program multiplies X by.
+    x_scale: f64,
+    /// Where the program stands.
+    pub(super) at: Position,
+    pub(super) known: [bool; 5],
+    /// Exact rotary positions that the tape shows rounded.
+    pub(super) exact: [f64; 2],
+    /// Line of the last motion taken.
+    line: u32,
+    pub(super) modes: Expected,
+    /// Level the control's cycle began from.
+    pub(super) initial: Option<f64>,
+    /// What was said of the last position, so that one fault is said once.
+    pub(super) said: Option<Shape>,
+    pub(super) report: Report,
+    pub(super) over: bool,
+}
+
+impl<'a, C: Steps> Walk<'a, C> {
+    pub(super) fn new(
+        cl: C,
+        nc: &'a [Event],
+        own: OwnBlocks<'a>,
+        settings: &'a Settings<'a>,
+    ) -> Self {
+        Walk {
+            cl: Ahead::new(cl),
+            nc: Cow::Borrowed(nc),
+            next: 0,
+            own,
+            settings,
+            slack: settings.slack(true),
+            metric: true,
+            travel: settings.travel(true),
+            written: settings.written(),
+            splits_rapids: settings.splits_rapids(),
+            x_scale: settings.x_scale(),
+            at: Position::default(),
+            known: [false; 5],
+            exact: [0.0; 2],
+            line: 0,
+            modes: Expected::new(settings),
+            initial: None,
+            said: None,
+            report: Report::default(),
+            over: false,
+        }
+    }
+
+    /// Goes through all steps.
+    pub(super) fn all(mut self) -> Result<Report, Box<Diag>> {
+        let mut ended = false;
+        while !self.over
+            && let Some(step) = self.cl.next()
+        {
+            ended = matches!(step.what, Wanted::End);
+            self.step(&step);
+        }
+        if let Some(diag) = self.cl.failed {
+            return Err(diag);
+        }
+        if !self.over && ended {
+            self.own.missing().into_iter().for_each(|text| {
+                self.report.find(Finding {
+                    kind: Kind::Block,
+                    cl_line: None,
+                    nc_line: None,
+                    message: format!("the block `{text}` of the settings is not there"),
+                });
+            });
+        }
+        Ok(self.report)
+    }
+
+    pub(super) fn step(&mut self, step: &Step) {
+        self.modes.take(&step.what, self.settings);
+        match &step.what {
+            Wanted::Metric(metric) => {
+                self.metric = *metric;
+                self.slack = self.settings.slack(*metric);
+                self.travel = self.settings.travel(*metric);
+            }
+            Wanted::XScale(scale) => self.scale_x(*scale),
+            Wanted::CycleEnd => self.initial = None,
+            Wanted::Tool { number, offset } => self.tool(step.line, *number, *offset),
+            Wanted::Dwell(seconds) => self.dwell(step.line, *seconds),
+            Wanted::Insert(text) => self.insert(step.line, text),
+            Wanted::Unknown { what, effect } => self.unknown(step.line, what, *effect),
+            Wanted::End => self.end(step.line),
+            _ if step.what.end().is_some() => self.motion(step),
+            _ => {}
+        }
+    }
+
+    /// X on the tape is another multiple of its position from here on, which the
+    /// program does not say.
+    pub(super) fn scale_x(&mut self, scale: f64) {
+        let change = std::mem::replace(&mut self.x_scale, scale) / scale;
+        for event in &mut self.nc.to_mut()[self.next..] {
+            if let Event::Move(found) = event {
+                found.to.linear[0] *= change;
+                if let Some(arc) = &mut found.arc {
+                    arc.centre[0] *= change;
+                }
+            }
+        }
+    }
+
+    pub(super) fn motion(&mut self, step: &Step) {
+        self.report.compared += 1;
+        if !matches!(step.what, Wanted::Hole(_)) {
+            self.initial = None;
+        }
+        loop {
+            self.pass(step.line);
+            if self.makes(step) {
+                self.report.matched += 1;
+                return self.settle(step.line);
+            }
+            if self.at_end() {
+                return self.ends_early(step);
+            }
+            match self.detour(step) {
+                Detour::Missing => {
+                    let what = self.spell_step(&step.what);
+                    return self.find(Kind::Missing, Some(step.line), None, format!("no {what}"));
+                }
+                Detour::Extra(count) => self.extra(count, step.line),
+                Detour::Other => return self.other(step),
+            }
+        }
+    }
+
+    /// Takes the events that make a step; false when the next ones don't.
+    pub(super) fn makes(&mut self, step: &Step) -> bool {
+        match &step.what {
+            Wanted::Rapid(pose) => self.rapid(step.line, pose),
+            Wanted::Feed(pose, rate) => self.line(step.line, pose, Course::Feed, *rate),
+            Wanted::Thread(pose, pitch) => {
+                self.line(step.line, pose, Course::Thread, Some(Rate::PerTurn(*pitch)))
+            }
+            Wanted::Arc(arc, rate) => self.arc(step.line, arc, *rate),
+            Wanted::Hole(hole) => self.hole(step.line, hole),
+            _ => true,
+        }
+    }
+
+    /// Passes over events that no step asks for: motions to points of the machine,
+    /// blocks of the settings, ways of no length.
+    pub(super) fn pass(&mut self, cl_line: u32) {
+        loop {
+            match self.nc.get(self.next).copied() {
+                Some(Event::Move(found)) if self.own.has(found.line) => self.stand(&found),
+                Some(Event::Move(found)) if found.course == Course::Machine => {
+                    self.stand(&found);
+                    let message = "goes to a point of the machine that neither the CL file nor the settings ask for";
+                    self.find(Kind::Extra, Some(cl_line), Some(found.line), message.to_string());
+                }
+                Some(Event::Move(found)) if self.is_still(&found) => {
+                    self.take(cl_line, &found);
+                    self.next += 1;
+                }
+                Some(Event::Dwell { line, .. }) if self.own.has(line) => self.next += 1,
+                _ => return,
+            }
+        }
+    }
+
+    /// Goes where a motion goes without a look at it.
+    pub(super) fn stand(&mut self, found: &Move) {
+        self.at = found.to;
+        self.known = found.known;
+        self.next += 1;
+    }
+
+    pub(super) fn is_still(&self, found: &Move) -> bool {
+        let same = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= STILL);
+        found.arc.is_none()
+            && same(&found.to.linear, &self.at.linear)
+            && same(&found.to.rotary, &self.at.rotary)
+    }
+
+    pub(super) fn next_move(&self) -> Option<Move> {
+        match self.nc.get(self.next)? {
+            Event::Move(found) => Some(*found),
+            _ => None,
+        }
+    }
+
+    pub(super) fn at_end(&self) -> bool {
+        matches!(self.nc.get(self.next), None | Some(Event::End { .. }))
+    }
+
+    /// True when the tool already is where a pose asks it to be.
+    pub(super) fn stands_at(&mut self, pose: &Pose) -> bool {
+        let gap = self.gap(&self.at, pose);
+        let stands = self.is_known(&self.known) && gap.closed();
+        if stands {
+            self.exact = gap.rotary;
+        }
+        stands
+    }
+
+    pub(super) fn reaches(&self, found: &Move, pose: &Pose) -> bool {
+        self.is_known(&found.known) && self.gap(&found.to, pose).closed()
+    }
+
+    /// The gap between where the axes stand and a pose.
+    pub(super) fn gap(&self, at: &Position, pose: &Pose) -> Gap {
+        Gap::of(self.settings, &self.slack, at, pose, self.exact)
+    }
+
+    /// All axes that the program writes are known.
+    pub(super) fn is_known(&self, known: &[bool; 5]) -> bool {
+        let linear = (0..3).all(|n| known[n] || !self.written[n]);
+        let rotary = |n: usize| known[n + 3] || self.settings.forward.rotaries()[n].is_none();
+        linear && rotary(0) && rotary(1)
+    }
+
+    /// Takes a motion: its modes, its limits, where it goes.
+    pub(super) fn take(&mut self, cl_line: u32, found: &Move) {
+        let differs = |n: usize| {
+            let way = (found.to.linear[n] - self.at.linear[n]).abs();
+            way > STILL || (found.known[n] && !self.known[n])
+        };
+        let moved = Moved { xy: differs(0) || differs(1), z: differs(2) };
+        let cuts = matches!(found.course, Course::Feed | Course::Thread);
+        for (kind, message) in self.modes.check(&found.modes, moved, cuts, self.slack.speed) {
+            self.find(kind, Some(cl_line), Some(found.line), message);
+        }
+        self.check_limits(cl_line, found);
+        self.line = found.line;
+        self.at = found.to;
+        self.known = found.known;
+    }
+
+    /// What must be in force while the axes stand.
+    pub(super) fn check_standing(
+        &mut self,
+        cl_line: u32,
+        nc_line: u32,
+        modes: &Modes,
+        changes: bool,
+    ) {
+        for (kind, message) in self.modes.check_standing(modes, changes, self.slack.speed) {
+            self.find(kind, Some(cl_line), Some(nc_line), message);
+        }
+    }
+
+    /// After the first motion with a new tool its length offset is on.
+    pub(super) fn settle(&mut self, cl_line: u32) {
+        if !self.modes.offset_waits() {
+            return;
+        }
+        self.pass(cl_line);
+        if let Some((kind, message)) = self.modes.settle() {
+            self.find(kind, Some(cl_line), Some(self.line), message);
+        }
+    }
+
+    /// Adds a motion to the deviations.
+    pub(super) fn measure(&mut self, found: &Move, pose: &Pose) {
+        let gap = self.gap(&found.to, pose);
+        self.report.position.add(gap.tip, found.line);
+        self.report.axis.add(gap.axis, found.line);
+        if gap.closed() {
+            self.said = None;
+        }
+        self.exact = gap.rotary;
+    }
+
+    pub(super) fn find(
+        &mut self,
+        kind: Kind,
+        cl_line: Option<u32>,
+        nc_line: Option<u32>,
+        message: String,
+    ) {
+        self.report.find(Finding { kind, cl_line, nc_line, message });
+    }
+
+    pub(super) fn dwell(&mut self, cl_line: u32, wanted: Option<f64>) {
+        self.pass(cl_line);
+        let Some(Event::Dwell { line, seconds }) = self.nc.get(self.next).copied() else {
+            return self.find(Kind::Missing, Some(cl_line), None, "no dwell".to_string());
+        };
+        self.next += 1;
+        let wanted = wanted.map(|wanted| self.settings.dwell_within(wanted));
+        self.check_dwell(cl_line, line, seconds, wanted);
+    }
+
+    pub(super) fn check_dwell(
+        &mut self,
+        cl_line: u32,
+        nc_line: u32,
+        found: Option<f64>,
+        wanted: Option<f64>,
+    ) {
+        let agrees = match (found, wanted) {
+            (Some(found), Some(wanted)) => (found - wanted).abs() <= self.slack.dwell,
+            (found, wanted) => found.is_none() && wanted.is_none(),
+        };
+        if !agrees {
+            let spell = |seconds: Option<f64>| match seconds {
+                Some(seconds) => format!("{} s", short(seconds)),
+                None => "turns of the spindle".to_string(),
+            };
+            let message = format!("dwell of {}, it should be {}", spell(found), spell(wanted));
+            self.find(Kind::Dwell, Some(cl_line), Some(nc_line), message);
+        }
+    }
+
+    pub(super) fn insert(&mut self, cl_line: u32, text: &str) {
+        if !self.own.insert(text) {
+            let message = format!("the block `{text}` of INSERT is not there");
+            self.find(Kind::Block, Some(cl_line), None, message);
+        }
+    }
+
+    pub(super) fn unknown(&mut self, cl_line: u32, what: &str, effect: Effect) {
+        let open = match effect {
+            Effect::Auxiliary => "what its M function does was not compared",
+            Effect::Words => "what it writes was not compared",
+            Effect::Path => {
+                "the CL file does not say what path it makes; nothing after it was compared"
+            }
+        };
+        self.report
+            .unverified
+            .push(Unverified { cl_line: Some(cl_line), what: format!("{what}: {open}") });
+        self.over |= effect == Effect::Path;
+    }
+
+    pub(super) fn end(&mut self, cl_line: u32) {
+        self.pass(cl_line);
+        while !self.at_end() {
+            self.extra(1, cl_line);
+            self.pass(cl_line);
+        }
+        match self.nc.get(self.next).copied() {
+            Some(Event::End { line, modes }) => {
+                self.next += 1;
+                self.check_standing(cl_line, line, &modes, false);
+                if !self.settings.has_end_code() && !self.own.has(line) {
+                    let message = "the program ends here, the settings have no code for it";
+                    self.find(Kind::End, Some(cl_line), Some(line), message.to_string());
+                }
+            }
+            None if self.settings.has_end_code() => {
+                let message = "the program has no end".to_string();
+                self.find(Kind::End, Some(cl_line), None, message);
+            }
+            _ => {}
+        }
+        self.extra(self.nc.len() - self.next, cl_line);
+    }
+
+    pub(super) fn ends_early(&mut self, step: &Step) {
+        let mut missing = 1;
+        while let Some(step) = self.cl.next() {
+            missing += u64::from(step.what.end().is_some());
+        }
+        self.report.compared += missing - 1;
+        let nc_line = match self.nc.get(self.next) {
+            Some(Event::End { line, .. }) => Some(*line),
+            _ => None,
+        };
+        let motions = if missing == 1 { "motion is" } else { "motions are" };
+        let message = format!("the program ends here; {missing} {motions} missing");
+        self.find(Kind::Missing, Some(step.line), nc_line, message);
+        self.over = true;
+    }
+}

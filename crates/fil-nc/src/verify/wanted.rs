@@ -1,0 +1,199 @@
+//! What a CL file asks of a machine, as plain data: mm, degrees, mm/min.
+
+use nalgebra::{Point3, Vector3};
+
+use crate::forward::Pose;
+use crate::motion::{Compensation, Rate, Spindle};
+
+/// One thing a CL file asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// Line of the CL file, 1-based.
+    pub line: u32,
+    /// What it is.
+    pub what: Wanted,
+}
+
+/// What a step of a CL file asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Wanted {
+    /// The unit of the file and of the program: mm, else inch.
+    Metric(bool),
+    /// Rapid traverse to a pose.
+    Rapid(Pose),
+    /// A straight line at feed; the rate is `None` before the first FEDRAT.
+    Feed(Pose, Option<Rate>),
+    /// A thread pass.
+    Thread(Pose, f64),
+    /// An arc or helix at feed.
+    Arc(Arc, Option<Rate>),
+    /// A hole of a cycle.
+    Hole(Hole),
+    /// The cycle ends, or another one begins.
+    CycleEnd,
+    /// Change to a tool, with the number of its length offset.
+    Tool {
+        /// Its number.
+        number: u32,
+        /// Number of its length offset.
+        offset: u32,
+    },
+    /// The spindle stands or turns; `None` for the direction the machine turns by itself.
+    Spindle(Option<Spindle>),
+    /// Spindle speed, turns a minute; `None` for a constant surface speed.
+    Speed(Option<f64>),
+    /// The spindle is turned to an angle: neither speed nor direction are known.
+    Orient,
+    /// A coolant is switched on or off.
+    Coolant(CoolantKind),
+    /// Cutter compensation by the control, with the number of its offset where the
+    /// record gives one.
+    Compensation(Compensation, Option<u32>),
+    /// A work offset, by its preparatory function.
+    Fixture(u32),
+    /// The program multiplies X by this from here on.
+    XScale(f64),
+    /// The program waits, seconds; `None` for turns of the spindle.
+    Dwell(Option<f64>),
+    /// The operator is waited for; what was to come with a motion comes now.
+    Stop,
+    /// A line of the tape, as it stands.
+    Insert(String),
+    /// The end of the program.
+    End,
+    /// Something whose effect on the machine is not known from the CL file.
+    Unknown {
+        /// What it is, for the report.
+        what: String,
+        /// What it leaves open.
+        effect: Effect,
+    },
+}
+
+/// What a statement leaves open that the CL file does not explain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effect {
+    /// An M function.
+    Auxiliary,
+    /// Words of the user's own; the motions of the CL file go on.
+    Words,
+    /// The path from here on.
+    Path,
+}
+
+/// What COOLNT asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CoolantKind {
+    /// Off.
+    Off,
+    /// The machine's usual one.
+    On,
+    /// Flood.
+    Flood,
+    /// Flood at high pressure.
+    FloodHigh,
+    /// Flood at low pressure.
+    FloodLow,
+    /// Mist.
+    Mist,
+    /// Through the tool.
+    Through,
+    /// Through the tool at low pressure.
+    ThroughLow,
+}
+
+/// An arc or helix in the part frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arc {
+    /// A point of its axis.
+    pub centre: Point3<f64>,
+    /// Unit vector; the arc is counterclockwise seen against it.
+    pub normal: Vector3<f64>,
+    /// Where it begins.
+    pub start: Point3<f64>,
+    /// Where it ends.
+    pub end: Pose,
+    /// Swept angle, degrees, above 0.
+    pub sweep: f64,
+}
+
+/// A kind of cycle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CycleKind {
+    /// DRILL
+    Drill,
+    /// CSINK
+    Csink,
+    /// DEEP
+    Deep,
+    /// BRKCHP
+    Brkchp,
+    /// TAP
+    Tap,
+    /// BORE
+    Bore,
+    /// REAM
+    Ream,
+    /// FACE
+    Face,
+    /// THRU
+    Thru,
+}
+
+/// A hole along the tool axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hole {
+    /// Where the hole begins.
+    pub start: Pose,
+    /// Kind of cycle.
+    pub kind: CycleKind,
+    /// Depth below the start, above 0.
+    pub depth: f64,
+    /// R level above the start; `None` where the machine's settings give it.
+    pub clear: Option<f64>,
+    /// Level above the start to return to; 0 for the level before the cycle.
+    pub retract: Option<f64>,
+    /// Peck.
+    pub step: Option<f64>,
+    /// Dwell at the bottom, seconds; `None` where the machine's settings give it.
+    pub dwell: Option<f64>,
+    /// Feed.
+    pub rate: Option<Rate>,
+}
+
+impl Wanted {
+    /// Where a motion ends; `None` for all else.
+    pub fn end(&self) -> Option<Pose> {
+        match self {
+            Wanted::Rapid(pose) | Wanted::Feed(pose, _) | Wanted::Thread(pose, _) => Some(*pose),
+            Wanted::Arc(arc, _) => Some(arc.end),
+            Wanted::Hole(hole) => Some(hole.start),
+            _ => None,
+        }
+    }
+}
+
+impl Arc {
+    /// The vector from the arc's axis to a point.
+    pub fn spoke(&self, point: Point3<f64>) -> Vector3<f64> {
+        let from = point - self.centre;
+        from - self.normal * self.normal.dot(&from)
+    }
+
+    /// Radius at the start, mm.
+    pub fn radius(&self) -> f64 {
+        self.spoke(self.start).norm()
+    }
+
+    /// Angle from the start about the normal, degrees, 0 to 360.
+    pub fn angle_of(&self, point: Point3<f64>) -> f64 {
+        let (from, to) = (self.spoke(self.start), self.spoke(point));
+        let angle = self.normal.dot(&from.cross(&to)).atan2(from.dot(&to)).to_degrees();
+        angle.rem_euclid(360.0)
+    }
+
+    /// How far a point has risen along the normal since the start, mm.
+    pub fn rise_of(&self, point: Point3<f64>) -> f64 {
+        self.normal.dot(&(point - self.start))
+    }
+}

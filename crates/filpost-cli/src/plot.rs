@@ -1,0 +1,123 @@
+//! `filpost plot`
+
+use std::io::{Read, Write};
+use std::path::Path;
+
+use filpost::map::MapReader;
+use filpost::nc::plot::{Drawing, View, html, svg};
+use filpost::plot::{self, Text};
+use filpost::{Error, Post, files, select};
+
+use crate::args::{PlotArgs, Seen};
+use crate::output::{self, Target};
+use crate::{Status, post, setup};
+
+/// What is drawn, by the ending of the output file.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Svg,
+    Html,
+}
+
+/// Draws a CL file or an NC program.
+///
+/// # Errors
+/// Files that can't be read or written, a program that has no sure meaning, a map
+/// of another run.
+pub fn run(args: &PlotArgs) -> Result<Status, Error> {
+    let Some(form) = form(args.output.as_deref()) else {
+        output::say("error: the name of the picture must end in .svg or .html");
+        return Ok(Status::Usage);
+    };
+    let bytes = read(&args.file)?;
+    let name = output::input_name(&args.file);
+    let text = Text { name: &name, bytes: &bytes };
+    let is_cl = plot::is_cl(&bytes);
+    if is_cl && (args.cl.is_some() || args.map.is_some()) {
+        output::say(&format!("error: {name} is a CL file; --cl and --map go with an NC program"));
+        return Ok(Status::Usage);
+    }
+    let drawing = if is_cl {
+        plot::cl_file(text, setup::cl_options(args.encoding.as_deref())?)?
+    } else {
+        program(args, text)?
+    };
+    let picture = match form {
+        Form::Svg => svg(&drawing, &views(&args.view)),
+        Form::Html => html(&drawing),
+    };
+    let write = |out: &mut dyn Write| out.write_all(picture.as_bytes());
+    Target::new(args.output.as_deref()).write(|mut out| {
+        let path = args.output.clone().unwrap_or_default();
+        write(&mut out).map_err(|error| files::cant_write(&path, &error))
+    })?;
+    let motions = crate::summary::counted(drawing.path.pieces.len() as u64, "motion");
+    output::say(&format!("{name}: {motions} drawn"));
+    Ok(Status::Done)
+}
+
+/// A program, with the CL file under it and the map's notes where they are given.
+fn program(args: &PlotArgs, nc: Text<'_>) -> Result<Drawing, Error> {
+    let cl = args.cl.as_ref().map(|path| Ok((path, read(path)?))).transpose()?;
+    let post = machine(args, cl.as_ref().map(|(path, bytes)| (path.as_path(), &bytes[..])))?;
+    let mut drawing = plot::program(nc, post.commons())?;
+    if let Some((path, bytes)) = &cl {
+        let name = output::input_name(path);
+        let options = setup::cl_options(args.encoding.as_deref())?;
+        plot::lay_under(&mut drawing, Text { name: &name, bytes }, options, post.commons())?;
+    }
+    if let Some(path) = &args.map {
+        origins(&mut drawing, nc, path)?;
+    } else if post::beside(&args.file).is_file()
+        && let Err(error) = origins(&mut drawing, nc, &post::beside(&args.file))
+    {
+        output::say(&format!("note: the map beside the program is not used: {error}"));
+    }
+    Ok(drawing)
+}
+
+fn origins(drawing: &mut Drawing, nc: Text<'_>, path: &Path) -> Result<(), Error> {
+    let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
+    let map = MapReader::open(path)?;
+    plot::add_origins(drawing, nc, map, &mut |name| std::fs::read(folder.join(name)).ok())
+}
+
+/// The machine of the command line, else the one that the CL file asks for, else the
+/// generic mill.
+fn machine(args: &PlotArgs, cl: Option<(&Path, &[u8])>) -> Result<Post, Error> {
+    let named = match (setup::named(&args.chosen, args.encoding.as_deref())?, cl) {
+        (Some(named), _) => named,
+        (None, Some((path, bytes))) => {
+            let beside = path.parent().map(Path::to_path_buf).unwrap_or_default();
+            let machin = select::machin(std::io::Cursor::new(bytes), &output::input_name(path))?;
+            setup::asked(&args.chosen, machin.as_ref(), &[beside], args.encoding.as_deref())?
+        }
+        (None, None) => setup::asked(&args.chosen, None, &[], None)?,
+    };
+    named.builder.build()
+}
+
+fn form(output: Option<&Path>) -> Option<Form> {
+    let Some(path) = output.filter(|path| path.as_os_str() != "-") else { return Some(Form::Svg) };
+    match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+        "svg" => Some(Form::Svg),
+        "html" | "htm" => Some(Form::Html),
+        _ => None,
+    }
+}
+
+fn views(seen: &[Seen]) -> Vec<View> {
+    let view = |seen: &Seen| match seen {
+        Seen::Xy => View::Xy,
+        Seen::Zx => View::Zx,
+        Seen::Zy => View::Zy,
+        Seen::Iso => View::Isometric,
+    };
+    if seen.is_empty() { View::ALL.to_vec() } else { seen.iter().map(view).collect() }
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, Error> {
+    let mut bytes = Vec::new();
+    output::open(path)?.read_to_end(&mut bytes).map_err(|error| files::cant_read(path, &error))?;
+    Ok(bytes)
+}

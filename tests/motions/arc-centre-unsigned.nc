@@ -1,0 +1,9 @@
+; set: circle.center=5
+; expect: rapid X10 Y5 Z0
+; expect: arc ccw X0 Y15 Z0 I0 J5 90deg F100
+; expect: arc cw X10 Y5 Z0 I0 J5 90deg F100
+; expect: end
+G0 X10. Y5. Z0.
+G3 X0. Y15. I10. J0. F100.
+G2 X10. Y5. I0. J10.
+M30

@@ -1,0 +1,4 @@
+; post: grbl
+; error: E0905 at 3
+T1
+M30

@@ -1,0 +1,5 @@
+; expect: end
+; error: E0912 at 5
+M30
+O1001
+G0 X1.

@@ -1,0 +1,4 @@
+; error: E0902 at 2
+PROGRAM OF A PART: 7
+G0 X1.
+M30

@@ -1,0 +1,89 @@
+"use strict";
+// Uses the page as a person does and says what came of it. Added to a page by the test.
+(async () => {
+  // Where the page is only dumped the browser draws no frames.
+  window.requestAnimationFrame = (work) => setTimeout(work, 1);
+  window.cancelAnimationFrame = clearTimeout;
+  const said = {};
+  const plot = document.getElementById("plot"), over = document.getElementById("over");
+  const tip = document.getElementById("tip"), upto = document.getElementById("upto");
+  const frames = async () => {
+    for (let count = 0; count < 3; count++) await new Promise(requestAnimationFrame);
+  };
+  const click = (selector) => document.querySelector(selector).click();
+  const colours = Object.fromEntries(
+    JSON.parse(document.getElementById("data").textContent)
+      .strokes.map(({ name, colour }) => [name, colour]));
+
+  /** Places of a colour on the canvas, in its pixels. */
+  function places(name) {
+    const wanted = [1, 3, 5].map((at) => parseInt(colours[name].slice(at, at + 2), 16));
+    const { width, height } = plot;
+    const pixels = plot.getContext("2d").getImageData(0, 0, width, height).data;
+    const found = [];
+    for (let at = 0; at < pixels.length; at += 4) {
+      const same = wanted.every((value, axis) => Math.abs(pixels[at + axis] - value) < 24);
+      if (same && pixels[at + 3] > 200) found.push([at / 4 % width, Math.floor(at / 4 / width)]);
+    }
+    return found;
+  }
+  const span = (found) => {
+    const values = found.map(([x]) => x);
+    return found.length ? Math.max(...values.slice(0, 50000)) - Math.min(...values.slice(0, 50000)) : 0;
+  };
+  function send(type, [x, y], more = {}) {
+    const ratio = plot.width / plot.clientWidth, box = over.getBoundingClientRect();
+    const place = { clientX: box.left + x / ratio, clientY: box.top + y / ratio };
+    const kind = type === "wheel" ? WheelEvent : PointerEvent;
+    over.dispatchEvent(new kind(type, { bubbles: true, cancelable: true, ...place, ...more }));
+  }
+
+  try {
+    said.views = {};
+    for (const name of ["xy", "zx", "zy", "iso"]) {
+      click(`[data-view=${name}]`);
+      said.views[name] = Object.keys(colours).map((stroke) => places(stroke).length);
+    }
+    click("[data-view=xy]");
+    said.tips = {};
+    for (const name of Object.keys(colours)) {
+      const found = places(name);
+      if (!found.length) continue;
+      send("pointermove", found[Math.floor(found.length / 2)]);
+      await frames();
+      said.tips[name] = tip.hidden ? null : tip.textContent;
+    }
+    send("pointermove", [2, 2]);
+    await frames();
+    said.nothing = tip.hidden;
+
+    const middle = [plot.width / 2, plot.height / 2];
+    const before = span(places("feed"));
+    send("wheel", middle, { deltaY: 300 });
+    await frames();
+    said.zoom = span(places("feed")) / before;
+    const left = Math.min(...places("feed").map(([x]) => x));
+    send("pointermove", middle, { buttons: 1, movementX: 40, movementY: 0 });
+    await frames();
+    said.moved = Math.min(...places("feed").map(([x]) => x)) - left;
+    click("#fit");
+
+    const all = places("feed").length;
+    const box = [...document.querySelectorAll("#layers label")]
+      .find((label) => label.textContent.includes("feed")).querySelector("input");
+    box.click();
+    said.without = places("feed").length;
+    box.click();
+    said.again = places("feed").length === all;
+    upto.value = 1;
+    upto.dispatchEvent(new Event("input"));
+    await frames();
+    said.early = Object.keys(colours).map((stroke) => places(stroke).length);
+  } catch (error) {
+    said.error = String(error);
+  }
+  const result = document.createElement("pre");
+  result.id = "said";
+  result.textContent = JSON.stringify(said);
+  document.body.append(result);
+})();

@@ -1,0 +1,117 @@
+//! Every NC program the suites expect, with the CL file and the machine it is for.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use filpost::{Post, case};
+
+use crate::root;
+use crate::words::Header;
+
+/// A program and what it comes from.
+pub struct NcCase {
+    /// Name for reports.
+    pub name: String,
+    /// The CL file.
+    pub cl: Vec<u8>,
+    /// The program.
+    pub nc: String,
+    /// The post that makes it.
+    pub post: Post,
+    /// FIL has a part in it, so that the CL file alone does not say what it does.
+    pub fil: bool,
+}
+
+/// All programs of the suites, sorted by name.
+pub fn all() -> Vec<NcCase> {
+    let mut cases = corpus();
+    cases.extend(words());
+    cases.extend(ready());
+    cases.sort_by(|a, b| a.name.cmp(&b.name));
+    cases
+}
+
+/// Cases of the corpus that expect a program.
+fn corpus() -> Vec<NcCase> {
+    let folder = root().join("corpus");
+    let cases = case::find(&folder).expect("the corpus");
+    let with_program = cases.into_iter().filter_map(|case| {
+        let nc = fs::read_to_string(case.folder.join(case.file.expect.as_ref()?)).ok()?;
+        let name = case.folder.strip_prefix(&folder).ok()?.display().to_string();
+        Some(NcCase {
+            name: format!("corpus/{name}"),
+            cl: fs::read(case.folder.join(&case.file.cl)).expect("a CL file"),
+            nc,
+            post: case.post().expect("a post"),
+            fil: !case.file.fil.is_empty(),
+        })
+    });
+    with_program.collect()
+}
+
+/// Files of `tests/words` that are posted.
+fn words() -> Vec<NcCase> {
+    let files = files_in(&root().join("tests/words"));
+    let posted = files.into_iter().filter_map(|path| {
+        let text = fs::read_to_string(&path).ok()?;
+        let header = Header::read(&text).ok()?;
+        if !header.whole && text.contains("INCHES") {
+            // Nothing in a program without its start says the unit.
+            return None;
+        }
+        let mut post = header.post().ok()?;
+        let nc = run(&mut post, text.as_bytes())?;
+        let name = path.file_stem()?.to_string_lossy().into_owned();
+        Some(NcCase {
+            name: format!("words/{name}"),
+            cl: text.into_bytes(),
+            nc,
+            post,
+            fil: !header.fil.is_empty(),
+        })
+    });
+    posted.collect()
+}
+
+/// Our own CL files through every ready post that takes them.
+fn ready() -> Vec<NcCase> {
+    let files = files_in(&root().join("tests/cl"));
+    let mut cases = Vec::new();
+    for path in &files {
+        cases.extend(posted(path));
+    }
+    cases
+}
+
+/// A CL file through every ready post that takes it.
+pub fn posted(path: &Path) -> Vec<NcCase> {
+    let cl = fs::read(path).expect("a CL file");
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let through = filpost::ready::READY.iter().filter_map(|ready| {
+        let mut post = Post::builder().ready(ready.name).build().ok()?;
+        Some(NcCase {
+            name: format!("{}/{name}", ready.name),
+            nc: run(&mut post, &cl)?,
+            cl: cl.clone(),
+            post,
+            fil: false,
+        })
+    });
+    through.collect()
+}
+
+/// The program; `None` for an input that is to be refused.
+fn run(post: &mut Post, cl: &[u8]) -> Option<String> {
+    let mut nc = Vec::new();
+    post.run(cl, &mut nc).ok()?;
+    String::from_utf8(nc).ok()
+}
+
+/// The files of a folder, sorted.
+pub fn files_in(folder: &Path) -> Vec<PathBuf> {
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+    let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    files.retain(|path| path.is_file());
+    files.sort();
+    files
+}

@@ -1,0 +1,79 @@
+//! The headers of the files in `tests/words`.
+
+use filpost::{Error, Post};
+
+/// Settings that leave nothing of the program but the blocks of its records.
+const BARE: &[&str] = &[
+    "seqno.off_at_start=72",
+    "tape.start_char=none",
+    "tape.end_char=none",
+    "program.number_address=none",
+    "units.metric_code=none",
+    "units.inch_code=none",
+    "mode.position=none",
+    "feed.mode=none",
+    "circle.plane=none",
+    "program.rewind_code=none",
+    "program.end_code=none",
+];
+
+/// What the header of a file in `tests/words` says.
+#[derive(Default)]
+pub struct Header {
+    /// A ready post.
+    pub post: Option<String>,
+    /// Settings on top.
+    pub settings: Vec<String>,
+    /// Lines of FIL.
+    pub fil: Vec<String>,
+    /// Blocks that must come.
+    pub expected: Vec<String>,
+    /// Warnings that must come.
+    pub warnings: Vec<String>,
+    /// The refusal that must come.
+    pub error: Option<String>,
+    /// Start and end of the program are written.
+    pub whole: bool,
+}
+
+impl Header {
+    /// Reads the header comments.
+    ///
+    /// # Errors
+    /// A line of the header that is not known.
+    pub fn read(text: &str) -> Result<Header, String> {
+        let mut header = Header::default();
+        for line in text.lines().filter_map(|line| line.strip_prefix("$$ ")) {
+            let (key, value) = line.split_once(':').unwrap_or((line, ""));
+            let value = value.trim().to_string();
+            match key.trim() {
+                "post" => header.post = Some(value),
+                "set" => header.settings.push(value),
+                "fil" => header.fil.push(value),
+                "expect" => header.expected.push(value),
+                "warn" => header.warnings.push(value),
+                "error" => header.error = Some(value),
+                "whole" => header.whole = true,
+                "note" => {}
+                other => return Err(format!("unknown header line `{other}`")),
+            }
+        }
+        Ok(header)
+    }
+
+    /// The post the header asks for.
+    ///
+    /// # Errors
+    /// Settings or FIL that make no post.
+    pub fn post(&self) -> Result<Post, Error> {
+        let mut builder = Post::builder().ready(self.post.as_deref().unwrap_or("fanuc-mill"));
+        let bare = if self.whole { &[] } else { BARE };
+        for setting in bare.iter().copied().chain(self.settings.iter().map(String::as_str)) {
+            builder = builder.set(setting);
+        }
+        if !self.fil.is_empty() {
+            builder = builder.fil("header", &format!("{}\nFINI\n", self.fil.join("\n")));
+        }
+        builder.build()
+    }
+}

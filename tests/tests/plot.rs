@@ -1,0 +1,216 @@
+//! The backplot in a real browser: it renders, tells what lies under the pointer,
+//! zooms and moves.
+
+use std::io::Cursor;
+
+use filpost::cl::reader::Options;
+use filpost::nc::plot::{CL_COLOUR, Drawing, Stroke, View, html, svg};
+use filpost::plot::{self, Text};
+use filpost::{Post, map};
+use filpost_tests::{browser, root};
+use serde_json::Value;
+
+/// Rapid, feed, an arc, a hole that a section writes, and a tool change.
+const CL: &str = "\
+PARTNO / 7
+UNITS / MM
+LOADTL / 1
+SPINDL / RPM, 900, CLW
+RAPID
+GOTO / 0, 0, 20
+FEDRAT / 200, MMPM
+GOTO / 0, 0, 0
+GOTO / 60, 0, 0
+CIRCLE / 60, 20, 0, 0, 0, 1, 20
+GOTO / 60, 40, 0
+GOTO / 0, 40, 0
+DELAY / 2
+RAPID
+GOTO / -20, 40, 20
+LOADTL / 2
+RAPID
+GOTO / -20, -10, 20
+FINI
+";
+
+const FIL: &str = "\
+CIMFIL/ON,DELAY
+POSTN/OUT,(G),1,(X),30,(Y),60
+CIMFIL/OFF
+FINI
+";
+
+/// The drawing of [`CL`], posted with [`FIL`], with the notes of its map.
+fn drawing() -> Drawing {
+    let fil = FIL.replace("(G)", "7").replace("(X)", "24").replace("(Y)", "25");
+    let mut post = Post::builder()
+        .ready("fanuc-mill")
+        .fil("mill.fil", &fil)
+        .cl_name("part.ncl")
+        .build()
+        .unwrap();
+    let names =
+        map::Names { cl: "part.ncl".into(), nc: "out.nc".into(), fil: vec!["mill.fil".into()] };
+    let (mut nc, mut lines) = (Vec::new(), Vec::new());
+    post.run_mapped(Cursor::new(CL), &mut nc, &names, &mut lines).unwrap();
+    let text = Text { name: "out.nc", bytes: &nc };
+    let mut drawing = plot::program(text, post.commons()).unwrap();
+    let cl = Text { name: "part.ncl", bytes: CL.as_bytes() };
+    plot::lay_under(&mut drawing, cl, Options::default(), post.commons()).unwrap();
+    let reader = map::MapReader::new("out.nc.map", Cursor::new(lines)).unwrap();
+    plot::add_origins(&mut drawing, text, reader, &mut |name| match name {
+        "part.ncl" => Some(CL.into()),
+        _ => Some(fil.clone().into()),
+    })
+    .unwrap();
+    drawing
+}
+
+/// A program of many motions: a spiral in small steps.
+fn spiral(count: u32) -> Drawing {
+    let mut nc = String::from("G21 G90 G94 G17\nG0 X0. Y0. Z5.\nG1 Z0. F500.\n");
+    for step in 0..count {
+        let (sine, cosine) = (f64::from(step) * 0.002).sin_cos();
+        let radius = f64::from(step) * 5e-4;
+        nc.push_str(&format!("G1 X{:.3} Y{:.3}\n", radius * cosine, radius * sine));
+    }
+    nc.push_str("M30\n");
+    let post = Post::builder().ready("fanuc-mill").build().unwrap();
+    plot::program(Text { name: "spiral.nc", bytes: nc.as_bytes() }, post.commons()).unwrap()
+}
+
+fn said(browser: &std::path::Path, page: &str) -> Value {
+    let script = include_str!("../plot/selftest.js");
+    let page = page.replace("</body>", &format!("<script>{script}</script></body>"));
+    let dom = browser::dom(browser, &page, 20).unwrap();
+    let start = dom.find("<pre id=\"said\">").unwrap_or_else(|| panic!("no answer: {dom:.2000}"));
+    let text = &dom[start + "<pre id=\"said\">".len()..];
+    let text = &text[..text.find("</pre>").unwrap()];
+    let text = text.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
+    serde_json::from_str(&text).unwrap()
+}
+
+#[test]
+fn the_page_draws_tells_and_zooms() {
+    let Some(browser) = browser::program() else { return };
+    let said = said(&browser, &html(&drawing()));
+    assert_eq!(said["error"], Value::Null, "{said:#}");
+    for view in ["xy", "zx", "zy", "iso"] {
+        let counts = &said["views"][view];
+        for (at, stroke) in ["rapid", "feed"].iter().enumerate() {
+            assert!(counts[at].as_u64() > Some(20), "{view} {stroke}: {said:#}");
+        }
+    }
+    assert!(said["views"]["xy"][2].as_u64() > Some(50), "no arc: {said:#}");
+    let tip = |name: &str| said["tips"][name].as_str().unwrap_or_default().to_string();
+    assert!(tip("arc").contains("G3 Y40. I0. J20."), "{said:#}");
+    assert!(tip("arc").contains("part.ncl:11  GOTO / 60, 40, 0"), "{said:#}");
+    assert!(tip("arc").contains("arc to X60 Y40 Z0"), "{said:#}");
+    assert!(tip("rapid").contains("part.ncl:"), "{said:#}");
+    assert_eq!(said["nothing"], true, "{said:#}");
+    let zoom = said["zoom"].as_f64().unwrap();
+    assert!((0.5..0.8).contains(&zoom), "a wheel of 300 shrinks to exp(-.45): {said:#}");
+    let moved = said["moved"].as_f64().unwrap();
+    assert!((38.0..42.0).contains(&moved), "{said:#}");
+    assert_eq!(
+        (&said["without"], &said["again"]),
+        (&Value::from(0), &Value::from(true)),
+        "{said:#}"
+    );
+    assert_eq!(said["early"][2], 0, "the arc is not yet drawn: {said:#}");
+}
+
+/// The picture of docs/plot.md; `FILPOST_UPDATE=1` draws it anew.
+#[test]
+fn the_picture_of_the_docs_is_drawn_by_the_code() {
+    let folder = root().join("corpus/tutorial");
+    let [nc, cl] = ["plate.nc", "plate.ncl"].map(|name| std::fs::read(folder.join(name)).unwrap());
+    let case = filpost::case::Case::load(&folder).unwrap();
+    let post = case.post().unwrap();
+    let mut drawing = plot::program(Text { name: "plate.nc", bytes: &nc }, post.commons()).unwrap();
+    let under = Text { name: "plate.ncl", bytes: &cl };
+    plot::lay_under(&mut drawing, under, Options::default(), post.commons()).unwrap();
+    let picture = svg(&drawing, &View::ALL);
+    let file = root().join("docs/plot.svg");
+    if std::env::var_os("FILPOST_UPDATE").is_some_and(|value| value == "1") {
+        std::fs::write(&file, &picture).unwrap();
+    }
+    assert!(std::fs::read_to_string(file).unwrap() == picture, "docs/plot.svg is an older drawing");
+}
+
+/// Grooves on a cylinder of radius 81 about Y, cut at a table that turns: on the part
+/// the tool stays on the cylinder.
+#[test]
+fn a_turning_table_is_drawn_on_the_part() {
+    let folder = root().join("corpus/papers/embos-engraving");
+    let case = filpost::case::Case::load(&folder).unwrap();
+    let post = case.post().unwrap();
+    let nc = std::fs::read(folder.join("figure-3.nc")).unwrap();
+    // The printed program has no end code, and neither has its machine.
+    let drawing = plot::program(Text { name: "figure-3.nc", bytes: &nc }, post.commons()).unwrap();
+    let path = &drawing.path;
+    let turning = path.pieces.iter().filter(|piece| {
+        let points = &path.points[piece.start..piece.end];
+        piece.stroke == Stroke::Feed && points.first().map(|p| p[1]) != points.last().map(|p| p[1])
+    });
+    let mut count = 0;
+    for piece in turning {
+        for point in &path.points[piece.start..piece.end] {
+            let radius = point[0].hypot(point[2]);
+            assert!((radius - 81.0).abs() < 1e-6, "line {}: {point:?}", piece.line);
+            count += 1;
+        }
+    }
+    assert!(count >= 18, "{count} points");
+}
+
+#[test]
+fn notes_name_the_fil_line() {
+    let drawing = drawing();
+    let note = drawing.notes.iter().find(|note| note.text.contains("X30. Y60.")).unwrap();
+    assert!(note.origin.contains("part.ncl:13  DELAY / 2\nmill.fil:2  POSTN/OUT"), "{note:?}");
+}
+
+#[test]
+fn a_map_of_another_program_is_refused() {
+    let mut post = Post::builder().ready("fanuc-mill").build().unwrap();
+    let names = map::Names { cl: "part.ncl".into(), nc: "out.nc".into(), fil: vec![] };
+    let (mut nc, mut lines) = (Vec::new(), Vec::new());
+    post.run_mapped(Cursor::new(CL), &mut nc, &names, &mut lines).unwrap();
+    let other = [&nc[..], b"\n"].concat();
+    let text = Text { name: "out.nc", bytes: &other };
+    let mut drawing = Drawing::default();
+    let reader = map::MapReader::new("out.nc.map", Cursor::new(lines)).unwrap();
+    let error = plot::add_origins(&mut drawing, text, reader, &mut |_| None).unwrap_err();
+    assert_eq!(error.diags()[0].code.name(), "E0708");
+}
+
+#[test]
+fn the_pictures_have_all_colours() {
+    let Some(browser) = browser::program() else { return };
+    let drawing = drawing();
+    for (name, text) in [("a.html", html(&drawing)), ("a.svg", svg(&drawing, &View::ALL))] {
+        let pixels = browser::screenshot(&browser, name, &text).unwrap();
+        for colour in [Stroke::Rapid, Stroke::Feed, Stroke::Arc].map(Stroke::colour) {
+            let found = browser::count(&pixels, colour);
+            assert!(found > 60, "{name}: {found} pixels of {colour}");
+        }
+        // Half transparent on white.
+        let under = browser::count(&pixels, "#f8d498");
+        assert!(under > 200, "{name}: {under} pixels of {CL_COLOUR} under the path");
+    }
+}
+
+#[test]
+fn two_hundred_thousand_motions_are_readable() {
+    let drawing = spiral(200_000);
+    assert!(drawing.path.pieces.len() > 190_000);
+    let (picture, page) = (svg(&drawing, &View::ALL), html(&drawing));
+    assert!(picture.len() < 1 << 20, "SVG of {} bytes", picture.len());
+    assert!(page.len() < 8 << 20, "page of {} bytes", page.len());
+    let Some(browser) = browser::program() else { return };
+    let said = said(&browser, &page);
+    assert_eq!(said["error"], Value::Null, "{said:#}");
+    assert!(said["views"]["xy"][1].as_u64() > Some(1000), "{said:#}");
+    assert!(said["tips"]["feed"].as_str().is_some_and(|tip| tip.contains("feed to")), "{said:#}");
+}
