@@ -20,7 +20,7 @@ pub fn event_path(events: &[Event], unit: Unit) -> ToolPath {
                     steps.push(Step { line: motion.line, action: action(motion) });
                 }
             }
-            Event::ToolChange { line, tool } => {
+            Event::ToolChange { line, tool, .. } => {
                 steps.push(Step { line: *line, action: Action::Tool(*tool) });
             }
             Event::Dwell { .. } | Event::End { .. } => {}

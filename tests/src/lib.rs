@@ -21,6 +21,7 @@ pub mod programs;
 pub mod rs274;
 pub mod runout;
 pub mod sinumerik;
+pub mod thread;
 pub mod words;
 
 /// The folder of the workspace.

@@ -8,7 +8,7 @@
 //! ; error: E0910 at 12         the refusal and its line; events before it are compared
 //! ```
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use fil_nc::dialect::Dialect;
 use fil_nc::interpret::interpret;
@@ -85,6 +85,35 @@ pub fn lines(text: &str, dialect: &Dialect) -> (Vec<String>, Option<Box<Diag>>) 
         Event::End { .. } => lines.push("end".into()),
     });
     (lines, refused.err())
+}
+
+/// What is said of a program for the generic mill.
+///
+/// # Panics
+/// When the mill can't be built.
+pub fn refusal(text: &str) -> Option<Diag> {
+    let dialect = Head::default().dialect().expect("the generic mill");
+    lines(text, &dialect).1.map(|diag| *diag)
+}
+
+/// The programs, by name.
+///
+/// # Panics
+/// When the folder is not there.
+pub fn files() -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(crate::root().join("tests/motions")).expect("tests/motions");
+    let mut files: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    files.sort();
+    files
+}
+
+/// What the head of a program says it is refused with.
+///
+/// # Panics
+/// When the file can't be read.
+pub fn listed(path: &Path) -> Option<String> {
+    let text = std::fs::read_to_string(path).expect("a program");
+    Head::read(&text).ok()?.error
 }
 
 /// Checks a program against its head.

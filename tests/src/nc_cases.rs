@@ -3,8 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use filpost::{Commons, Post, case};
+use filpost::{Post, case};
 
+use crate::root;
 use crate::words::Header;
 
 /// A program and what it comes from.
@@ -15,15 +16,10 @@ pub struct NcCase {
     pub cl: Vec<u8>,
     /// The program.
     pub nc: String,
-    /// The machine.
-    pub commons: Commons,
+    /// The post that makes it.
+    pub post: Post,
     /// FIL has a part in it, so that the CL file alone does not say what it does.
     pub fil: bool,
-}
-
-/// The folder of the workspace.
-pub fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
 /// All programs of the suites, sorted by name.
@@ -46,7 +42,7 @@ fn corpus() -> Vec<NcCase> {
             name: format!("corpus/{name}"),
             cl: fs::read(case.folder.join(&case.file.cl)).expect("a CL file"),
             nc,
-            commons: case.post().expect("a post").commons().clone(),
+            post: case.post().expect("a post"),
             fil: !case.file.fil.is_empty(),
         })
     });
@@ -70,7 +66,7 @@ fn words() -> Vec<NcCase> {
             name: format!("words/{name}"),
             cl: text.into_bytes(),
             nc,
-            commons: post.commons().clone(),
+            post,
             fil: !header.fil.is_empty(),
         })
     });
@@ -97,7 +93,7 @@ pub fn posted(path: &Path) -> Vec<NcCase> {
             name: format!("{}/{name}", ready.name),
             nc: run(&mut post, &cl)?,
             cl: cl.clone(),
-            commons: post.commons().clone(),
+            post,
             fil: false,
         })
     });

@@ -1,5 +1,5 @@
 //! The error catalogue: every code has its page in `docs/errors/`, and a case
-//! in `corpus/errors/`, a file of the lint suite or of `tests/nc/`, or a test in
+//! in `corpus/errors/`, a file of the lint suite, of `tests/nc/` or of `tests/motions/`, or a test in
 //! this file. The examples of the pages are run: what stands under "Wrong" raises the code with the words printed there,
 //! what stands under "Right" does not. `FILPOST_UPDATE=1` writes the words anew.
 
@@ -8,9 +8,9 @@ use std::io::{self, Cursor, Read};
 use std::path::{Path, PathBuf};
 
 use filpost::case::Case;
-use filpost::{Code, Diag, Error, Limits, Post, Severity, all_codes, files};
+use filpost::{Code, Diag, Error, Limits, Post, Severity, all_codes, files, trace};
 use filpost_tests::examples::{self, PART};
-use filpost_tests::{lints, nc, root};
+use filpost_tests::{lints, motions, nc, root};
 
 /// Codes that no small case folder can raise, with the test of this file that does.
 const TESTED_HERE: &[(&str, &str)] = &[
@@ -34,6 +34,11 @@ const TESTED_HERE: &[(&str, &str)] = &[
     ("E0701", "e0701_missing_file"),
     ("E0702", "e0702_absent_folder"),
     ("E0705", "e0705_case_file"),
+    ("E0707", "e0707_to_e0710_line_maps"),
+    ("E0708", "e0707_to_e0710_line_maps"),
+    ("E0709", "e0707_to_e0710_line_maps"),
+    ("E0710", "e0707_to_e0710_line_maps"),
+    ("E0941", "e0941_another_part"),
 ];
 
 fn pages() -> BTreeMap<String, (PathBuf, String)> {
@@ -100,7 +105,9 @@ fn every_code_has_a_case_or_a_test() {
     let bad = lints::fil_files(&root().join("tests/lints/bad"));
     let read = |path: &PathBuf| std::fs::read_to_string(path).expect("a file of the lint suite");
     let lints: Vec<String> = bad.iter().flat_map(|path| lints::listed(&read(path))).collect();
-    let programs: Vec<String> = nc::files().iter().filter_map(|path| nc::listed(path)).collect();
+    let mut programs: Vec<String> =
+        nc::files().iter().filter_map(|path| nc::listed(path)).collect();
+    programs.extend(motions::files().iter().filter_map(|path| motions::listed(path)));
     let source = include_str!("errors.rs");
     for code in all_codes() {
         let name = code.name();
@@ -368,6 +375,24 @@ fn e0701_missing_file() {
 }
 
 #[test]
+fn e0707_to_e0710_line_maps() {
+    let folder = root().join("docs/trace");
+    let (nc, map) = (folder.join("cover.nc"), folder.join("cover.nc.map"));
+    let options =
+        trace::Options { most: 1, cl: filpost::cl::reader::Options::default(), encoding: None };
+    let ask = |file: &Path, line, map: &Path| {
+        let place = trace::Place { file: file.to_path_buf(), line, column: None };
+        trace::trace(&place, map, &options)
+    };
+    assert!(ask(&nc, 1, &map).is_ok());
+    assert_eq!(names(&ask(&nc, 1, &nc).expect_err("no map")), ["E0707"]);
+    let other = root().join("corpus/papers/embos-grooves/grooves.ncl");
+    assert_eq!(names(&ask(&other, 1, &map).expect_err("of another run")), ["E0708"]);
+    assert_eq!(names(&ask(&nc, 20, &map).expect_err("19 lines")), ["E0709"]);
+    assert_eq!(names(&trace::map_of(&other).expect_err("no map of it")), ["E0710"]);
+}
+
+#[test]
 fn e0702_absent_folder() {
     let shop = Shop::new();
     let error =
@@ -444,6 +469,18 @@ fn e0705_case_file() {
     let error = Case::load(folder.path()).expect_err("refused");
     assert_eq!(names(&error), ["E0705"]);
     assert_eq!(error.diags()[0].places[0].line, 3);
+}
+
+#[test]
+fn e0941_another_part() {
+    let cl = |name: &str| std::fs::read(root().join("tests/cl").join(name)).expect("a CL file");
+    let mut post = Post::builder().build().expect("the generic mill");
+    let mut nc = Vec::new();
+    post.run(cl("holes.ncl.1").as_slice(), &mut nc).expect("a program");
+    let program = filpost::verify::Program { text: &nc, name: "holes.nc" };
+    let error = post.verify(cl("planes.ncl.1").as_slice(), program, None).expect_err("refused");
+    assert_eq!(names(&error), ["E0941"]);
+    assert!(error.diags()[0].notes[0].contains("tool 1"), "{error}");
 }
 
 #[test]

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use fil_nc::dialect::Dialect;
 use fil_nc::interpret::events;
+use fil_nc::motion::Event;
 use filpost_tests::event_path::{differences, event_path};
 use filpost_tests::motions::Head;
 use filpost_tests::nc_path::nc_path;
@@ -111,9 +112,34 @@ fn programs_by_hand_are_read_as_linuxcnc_reads_them() {
     assert!(compared >= 10);
 }
 
+/// A real program of a mill whose units are G70 and G71, packed and without a tape
+/// mark.
+#[test]
+fn a_real_program_is_read() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let data =
+        std::env::var_os("FILPOST_DATA").map_or(here.join("../../shared/data"), PathBuf::from);
+    let file = data.join("nc/gpost-style-mill.tap");
+    let Ok(nc) = fs::read(&file) else {
+        println!("skipped: {} is not there", file.display());
+        return;
+    };
+    let builder = filpost::Post::builder().ready("fanuc-mill");
+    let post = builder.set("units.inch_code=70").set("units.metric_code=71").build().unwrap();
+    let events = events(&nc, "real.nc", &Dialect::new(post.commons()).unwrap()).unwrap();
+    let count = |wanted: fn(&Event) -> bool| events.iter().filter(|event| wanted(event)).count();
+    let blocks = nc.split(|byte| *byte == b'\n');
+    let moving = blocks.filter(|block| block.iter().any(|byte| b"XYZ".contains(byte))).count();
+    assert_eq!(count(|event| matches!(event, Event::Move(_))), moving);
+    let changes = nc.windows(2).filter(|pair| pair == b"M6").count();
+    assert_eq!(count(|event| matches!(event, Event::ToolChange { .. })), changes);
+    assert!(moving > 100 && changes > 1);
+}
+
 /// Programs of the corpus with functions whose motion is not followed, and what is
 /// said of them.
 const NOT_FOLLOWED: &[(&str, &str)] = &[
+    ("feed-control-l400", "E0905 out.nc:2:5: R: an address with an index"),
     ("one-surface", "E0904 out.nc:7:5: the machine has no G65"),
     ("side", "E0904 out.nc:8:5: the machine has no G68.2"),
     ("three-angles", "E0904 out.nc:8:5: the machine has no G68.2"),

@@ -7,7 +7,7 @@ use filpost::cl::reader::Options;
 use filpost::nc::plot::{CL_COLOUR, Drawing, Stroke, View, html, svg};
 use filpost::plot::{self, Text};
 use filpost::{Post, map};
-use filpost_tests::browser;
+use filpost_tests::{browser, root};
 use serde_json::Value;
 
 /// Rapid, feed, an arc, a hole that a section writes, and a tool change.
@@ -118,6 +118,50 @@ fn the_page_draws_tells_and_zooms() {
         "{said:#}"
     );
     assert_eq!(said["early"][2], 0, "the arc is not yet drawn: {said:#}");
+}
+
+/// The picture of docs/plot.md; `FILPOST_UPDATE=1` draws it anew.
+#[test]
+fn the_picture_of_the_docs_is_drawn_by_the_code() {
+    let folder = root().join("corpus/tutorial");
+    let [nc, cl] = ["plate.nc", "plate.ncl"].map(|name| std::fs::read(folder.join(name)).unwrap());
+    let case = filpost::case::Case::load(&folder).unwrap();
+    let post = case.post().unwrap();
+    let mut drawing = plot::program(Text { name: "plate.nc", bytes: &nc }, post.commons()).unwrap();
+    let under = Text { name: "plate.ncl", bytes: &cl };
+    plot::lay_under(&mut drawing, under, Options::default(), post.commons()).unwrap();
+    let picture = svg(&drawing, &View::ALL);
+    let file = root().join("docs/plot.svg");
+    if std::env::var_os("FILPOST_UPDATE").is_some_and(|value| value == "1") {
+        std::fs::write(&file, &picture).unwrap();
+    }
+    assert!(std::fs::read_to_string(file).unwrap() == picture, "docs/plot.svg is an older drawing");
+}
+
+/// Grooves on a cylinder of radius 81 about Y, cut at a table that turns: on the part
+/// the tool stays on the cylinder.
+#[test]
+fn a_turning_table_is_drawn_on_the_part() {
+    let folder = root().join("corpus/papers/embos-engraving");
+    let case = filpost::case::Case::load(&folder).unwrap();
+    let post = case.post().unwrap();
+    let nc = std::fs::read(folder.join("figure-3.nc")).unwrap();
+    // The printed program has no end code, and neither has its machine.
+    let drawing = plot::program(Text { name: "figure-3.nc", bytes: &nc }, post.commons()).unwrap();
+    let path = &drawing.path;
+    let turning = path.pieces.iter().filter(|piece| {
+        let points = &path.points[piece.start..piece.end];
+        piece.stroke == Stroke::Feed && points.first().map(|p| p[1]) != points.last().map(|p| p[1])
+    });
+    let mut count = 0;
+    for piece in turning {
+        for point in &path.points[piece.start..piece.end] {
+            let radius = point[0].hypot(point[2]);
+            assert!((radius - 81.0).abs() < 1e-6, "line {}: {point:?}", piece.line);
+            count += 1;
+        }
+    }
+    assert!(count >= 18, "{count} points");
 }
 
 #[test]

@@ -1,55 +1,94 @@
-//! The back-check: every program of the suites agrees with its CL file.
+//! The back-check: every program of the suites agrees with what it comes from, and
+//! small faults put into them are found.
+//!
+//! `tests/verify/agree.txt` and `tests/verify/faults.txt` list what was not compared
+//! and what was not found; `FILPOST_UPDATE=1` writes them anew.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use fil_cl::Options;
 use fil_nc::dialect::Dialect;
-use fil_nc::interpret::events;
-use fil_nc::motion::Event;
-use fil_nc::verify::{Check, Report, Verdict, compare_programs, verify};
+use fil_nc::interpret;
+use fil_nc::motion::{Event, Move};
+use fil_nc::verify::{Check, Kind, Report, Verdict, compare_programs, verify};
+use filpost::Diag;
+use filpost::verify::{Program, Reference};
 use filpost_tests::mutants;
 use filpost_tests::nc_cases::{self, NcCase};
+use filpost_tests::root;
 
-fn check(case: &NcCase, nc: &str) -> Result<Report, String> {
-    let dialect = Dialect::new(&case.commons).map_err(|diag| diag.to_string())?;
-    let events = events(nc.as_bytes(), "nc", &dialect).map_err(|diag| diag.to_string())?;
-    let check = Check {
-        cl: case.cl.as_slice(),
-        cl_name: &case.name,
-        options: Options::default(),
-        nc: nc.as_bytes(),
-        events: &events,
-        commons: &case.commons,
-        tolerance: None,
-    };
-    verify(check).map_err(|diag| diag.to_string())
+/// Share of the faults that change what the machine does which must be found.
+const FOUND: f64 = 0.99;
+
+fn events(case: &NcCase, nc: &str) -> Result<Vec<Event>, Box<Diag>> {
+    interpret::events(nc.as_bytes(), "out.nc", &Dialect::new(case.post.commons())?)
 }
 
+fn against_cl(case: &NcCase, nc: &str, events: &[Event]) -> Result<Report, Box<Diag>> {
+    verify(Check {
+        cl: case.cl.as_slice(),
+        cl_name: "part.ncl",
+        options: Options::default(),
+        nc: nc.as_bytes(),
+        events,
+        commons: case.post.commons(),
+        tolerance: None,
+    })
+}
+
+fn check(case: &NcCase, nc: &str) -> Result<Report, Box<Diag>> {
+    against_cl(case, nc, &events(case, nc)?)
+}
+
+fn listed(report: &Report) -> String {
+    report.findings.iter().map(|finding| format!("\n  {finding}")).collect()
+}
+
+/// Compares with a file of `tests/verify`, or writes it anew.
+fn same_as(name: &str, found: &str) {
+    let path = root().join("tests/verify").join(name);
+    if std::env::var_os("FILPOST_UPDATE").is_some_and(|value| value == "1") {
+        std::fs::write(&path, found).expect("the list is written");
+    }
+    let wanted = std::fs::read_to_string(&path).unwrap_or_default();
+    assert_eq!(found, wanted, "{name}; FILPOST_UPDATE=1 writes it anew");
+}
+
+/// Without FIL the CL file is the reference, with FIL a second run.
 #[test]
-fn programs_agree_with_their_cl_files() {
-    let mut wrong = String::new();
-    for case in nc_cases::all().iter().filter(|case| !case.fil) {
-        match check(case, &case.nc) {
-            Ok(report) if report.verdict() == Verdict::Differs => {
-                wrong += &format!("\n{}:\n", case.name);
-                for finding in report.findings.iter().take(4) {
-                    wrong += &format!("  {finding}\n");
-                }
-            }
-            Ok(report) if report.verdict() == Verdict::Partly => {
-                println!("{}: {:?}", case.name, report.unverified)
-            }
-            Ok(_) => {}
-            Err(refused) => wrong += &format!("\n{}: {refused}\n", case.name),
+fn programs_agree_with_what_they_come_from() {
+    let (mut list, mut wrong) = (String::new(), String::new());
+    for mut case in nc_cases::all() {
+        let program = Program { text: case.nc.as_bytes(), name: "out.nc" };
+        let (report, reference) = case
+            .post
+            .verify(Cursor::new(&case.cl), program, None)
+            .unwrap_or_else(|refused| panic!("{}: {refused}", case.name));
+        assert_eq!(reference == Reference::SecondRun, case.fil, "{}", case.name);
+        if report.verdict() == Verdict::Differs {
+            let _ = writeln!(wrong, "{}:{}", case.name, listed(&report));
+        }
+        if reference == Reference::SecondRun {
+            let _ = writeln!(list, "{}: compared with a second run", case.name);
+        }
+        for open in &report.unverified {
+            let _ = writeln!(list, "{}: {}", case.name, open.what);
         }
     }
     assert!(wrong.is_empty(), "{wrong}");
+    same_as("agree.txt", &list);
 }
 
-/// What becomes of a mutant.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+/// What becomes of a fault.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 enum Fate {
     /// The machine does the same.
     Same,
-    /// The interpreter refuses it.
+    /// The interpreter refuses the program.
     Refused,
     /// The back-check reports it.
     Reported,
@@ -57,55 +96,207 @@ enum Fate {
     Missed,
 }
 
-fn fate(case: &NcCase, original: &[Event], dialect: &Dialect, nc: &str) -> Fate {
-    let Ok(found) = events(nc.as_bytes(), "nc", dialect) else { return Fate::Refused };
-    if found == original {
+fn fate(case: &NcCase, original: &[Event], nc: &str) -> Fate {
+    let Ok(found) = events(case, nc) else { return Fate::Refused };
+    if bare(&found) == bare(original) {
         return Fate::Same;
     }
-    let reported = if case.fil {
-        compare_programs(original, &found, None).verdict() == Verdict::Differs
+    let report = if case.fil {
+        Ok(compare_programs(original, &found, None))
     } else {
-        check_events(case, nc, &found).is_none_or(|report| report.verdict() == Verdict::Differs)
+        against_cl(case, nc, &found)
     };
-    if reported { Fate::Reported } else { Fate::Missed }
+    match report {
+        Ok(report) if report.verdict() != Verdict::Differs => Fate::Missed,
+        _ => Fate::Reported,
+    }
 }
 
-fn check_events(case: &NcCase, nc: &str, events: &[Event]) -> Option<Report> {
-    let check = Check {
-        cl: case.cl.as_slice(),
-        cl_name: &case.name,
-        options: Options::default(),
-        nc: nc.as_bytes(),
-        events,
-        commons: &case.commons,
-        tolerance: None,
-    };
-    verify(check).ok()
+/// What the machine does, without the lines that make it and without motions of no
+/// length that change nothing.
+fn bare(events: &[Event]) -> Vec<Event> {
+    let mut before: Option<Move> = None;
+    let mut bare = Vec::new();
+    for event in events {
+        bare.push(match *event {
+            Event::Move(found) => {
+                let found = Move { line: 0, in_cycle: false, ..found };
+                let still = |old: Move| {
+                    let same = Move { course: old.course, rate: old.rate, ..found };
+                    found.arc.is_none() && same == Move { arc: None, ..old }
+                };
+                if before.replace(found).is_some_and(still) {
+                    continue;
+                }
+                Event::Move(found)
+            }
+            Event::ToolChange { tool, modes, .. } => Event::ToolChange { line: 0, tool, modes },
+            Event::Dwell { seconds, .. } => Event::Dwell { line: 0, seconds },
+            Event::End { modes, .. } => Event::End { line: 0, modes },
+        });
+    }
+    bare
 }
 
 #[test]
 fn faults_are_found() {
-    let (mut same, mut refused, mut reported) = (0, 0, 0);
-    let mut missed = Vec::new();
+    let mut fates: BTreeMap<Fate, usize> = BTreeMap::new();
+    let mut missed = String::new();
     for case in nc_cases::all() {
-        let dialect = Dialect::new(&case.commons).unwrap();
-        let Ok(original) = events(case.nc.as_bytes(), "nc", &dialect) else {
-            println!("refused: {}", case.name);
-            continue;
-        };
+        let Ok(original) = events(&case, &case.nc) else { continue };
         for mutant in mutants::all(&case.nc) {
-            match fate(&case, &original, &dialect, &mutant.text) {
-                Fate::Same => same += 1,
-                Fate::Refused => refused += 1,
-                Fate::Reported => reported += 1,
-                Fate::Missed => {
-                    missed.push(format!("{}:{}: {}", case.name, mutant.line, mutant.fault))
-                }
+            let fate = fate(&case, &original, &mutant.text);
+            *fates.entry(fate).or_default() += 1;
+            if fate == Fate::Missed {
+                let _ = writeln!(missed, "{} line {}: {}", case.name, mutant.line, mutant.fault);
             }
         }
     }
-    println!("{same} same, {refused} refused, {reported} reported, {} missed", missed.len());
-    for one in &missed {
-        println!("{one}");
+    let count = |fate| fates.get(&fate).copied().unwrap_or(0);
+    let found = count(Fate::Refused) + count(Fate::Reported);
+    println!("{fates:?}\n{missed}");
+    assert!(count(Fate::Reported) > 5_000, "only {} faults were put in", count(Fate::Reported));
+    let share = count(Fate::Reported) as f64 / (count(Fate::Reported) + count(Fate::Missed)) as f64;
+    assert!(share >= FOUND, "{share}:\n{missed}");
+    assert!(found > 0);
+    same_as("faults.txt", &missed);
+}
+
+/// A program for the ready mill, with one word changed, and what must be said.
+#[test]
+fn findings_are_a_machinists_words() {
+    let cl = root().join("tests/cl/holes.ncl.1");
+    let cases = nc_cases::posted(&cl);
+    let case = cases.iter().find(|case| case.name.starts_with("fanuc-mill")).expect("a program");
+    for (old, new, kind, said) in [
+        ("Z-7.25", "Z-7.55", Kind::Cycle, "the hole is deeper by 0.3 (Z-7.55 in place of Z-7.25)"),
+        ("X25.", "X26.", Kind::Position, "X off by 1 (X26 in place of X25)"),
+        ("M3", "M4", Kind::Spindle, "the spindle is counterclockwise, it should be clockwise"),
+        ("S2500", "S250", Kind::Speed, "the spindle has S250, it should be 2500"),
+        ("F120.", "F1200.", Kind::Feed, "feed 1200 mm/min, it should be 120 mm/min"),
+        ("T12", "T13", Kind::Tool, "changes to tool 13, it should be tool 12"),
+        ("H12", "H1", Kind::Tool, "length offset 1 is on, it should be 12"),
+        ("Q4.", "Q5.", Kind::Cycle, "the hole is deeper by 1 (Z-3.5 in place of Z-2.5)"),
+        ("P500", "P50", Kind::Dwell, "dwell of 0.05 s, it should be 0.5 s"),
+        ("\nN80 X12.5", "\n", Kind::Missing, "no hole at X12.5 Y0"),
+        ("M8", "M9", Kind::Coolant, "coolant is off, it should be on"),
+    ] {
+        assert!(case.nc.contains(old), "{old}:\n{}", case.nc);
+        let report = check(case, &case.nc.replacen(old, new, 1)).expect("a report");
+        let first = report.findings.first().expect(new);
+        assert_eq!((first.kind, first.message.as_str()), (kind, said), "{new}{}", listed(&report));
     }
+}
+
+/// Programs that are none of this machine or not of this part.
+#[test]
+fn bad_programs_are_refused() {
+    let cl = root().join("tests/cl/planes.ncl.1");
+    let cases = nc_cases::posted(&cl);
+    let case = cases.iter().find(|case| case.name.starts_with("fanuc-mill")).expect("a program");
+    let half = case.nc.len() / 2;
+    let conversational = "BEGIN PGM 11 MM\n1 L X+0 Y+0 R0 FMAX\n2 END PGM 11 MM\n";
+    let foreign = case.nc.replacen("G17", "G17 G68.2", 1);
+    for (nc, code) in [
+        (&case.nc[..half], "E0912"),
+        (&case.nc[..case.nc.rfind("M30").expect("an end") + 1], "E0902"),
+        (conversational, "E0902"),
+        (foreign.as_str(), "E0904"),
+        ("", "E0912"),
+    ] {
+        let refused = check(case, nc).expect_err("refused");
+        assert_eq!(refused.code.name(), code, "{refused}\n{nc}");
+    }
+    let inch = check(case, &case.nc.replacen("G21", "G20", 1)).expect("a report");
+    assert_eq!(inch.findings[0].kind, Kind::Units, "{}", listed(&inch));
+}
+
+/// A program that is cut off anywhere before its end is never taken as right.
+#[test]
+fn programs_cut_off_are_found() {
+    for case in nc_cases::posted(&root().join("tests/cl/planes.ncl.1")) {
+        let end = case.nc.rfind("M30").expect("an end") + "M30".len();
+        for cut in 0..end {
+            let said = check(&case, &case.nc[..cut]);
+            let agrees = said.is_ok_and(|report| report.verdict() == Verdict::Agrees);
+            assert!(!agrees, "{} cut at {cut}:\n{}", case.name, &case.nc[..cut]);
+        }
+    }
+}
+
+/// Whatever a program or a CL file holds, the check comes to an end.
+#[test]
+fn any_bytes_come_to_an_end() {
+    let mut seed = 7u64;
+    let mut next = move |below: usize| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 33) as usize % below
+    };
+    for mut case in nc_cases::all().into_iter().filter(|case| !case.cl.is_empty()) {
+        for _ in 0..30 {
+            let mut nc: Vec<u8> = case.nc.clone().into_bytes();
+            for _ in 0..3 {
+                let (at, other) = (next(nc.len()), next(nc.len()));
+                nc[at] = nc[other];
+            }
+            let (at, other) = (next(case.cl.len()), next(case.cl.len()));
+            let kept = std::mem::replace(&mut case.cl[at], b' ');
+            case.cl.swap(at, other);
+            let _ = check(&case, &String::from_utf8_lossy(&nc));
+            case.cl.swap(at, other);
+            case.cl[at] = kept;
+        }
+    }
+}
+
+/// The real files, where they are at hand.
+#[test]
+fn real_files_agree() {
+    let data =
+        std::env::var_os("FILPOST_DATA").map_or(root().join("../shared/data"), PathBuf::from);
+    let mut count = 0;
+    for folder in ["cl/creo", "cl/nx"] {
+        for path in nc_cases::files_in(&Path::new(&data).join(folder)) {
+            for case in nc_cases::posted(&path) {
+                let report =
+                    check(&case, &case.nc).unwrap_or_else(|d| panic!("{}: {d}", case.name));
+                assert_eq!(report.verdict(), Verdict::Agrees, "{}:{}", case.name, listed(&report));
+                println!("{}: {} motions agree", case.name, report.compared);
+                count += 1;
+            }
+        }
+    }
+    if count == 0 {
+        println!("skipped: no CL files in {}", data.display());
+    }
+}
+
+/// A long program is read and compared in about a second (in a release build).
+#[test]
+fn a_long_program_agrees() {
+    const MOTIONS: usize = 200_000;
+    let mut cl = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 3000., CLW\nRAPID\nGOTO / 0., 0., 5.\n\
+                  FEDRAT / 500., MMPM\n"
+        .to_string();
+    for n in 0..MOTIONS {
+        let angle = n as f64 * 0.01;
+        let _ = writeln!(
+            cl,
+            "GOTO / {:.5}, {:.5}, {:.5}",
+            angle.cos() * 90.0,
+            angle.sin() * 70.0,
+            angle / -500.0
+        );
+    }
+    cl.push_str("FINI\n");
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("long.ncl");
+    std::fs::write(&path, cl).expect("the CL file");
+    let cases = nc_cases::posted(&path);
+    let case = cases.iter().find(|case| case.name.starts_with("fanuc-mill")).expect("a program");
+    let start = Instant::now();
+    let report = check(case, &case.nc).expect("a report");
+    println!("{} motions in {:.2?}", report.compared, start.elapsed());
+    assert_eq!(report.verdict(), Verdict::Agrees, "{}", listed(&report));
+    assert_eq!(report.compared, MOTIONS as u64 + 1);
 }

@@ -15,6 +15,9 @@ use crate::motion::Position;
 /// Steps in which [`Forward::refine`] comes to its end; it doubles the digits in each.
 const STEPS: usize = 8;
 
+/// A step of so many degrees changes no digit any more.
+const EXACT: f64 = 1e-12;
+
 /// Angle in degrees of the difference quotients of [`Forward::refine`].
 const NUDGE: f64 = 1e-3;
 
@@ -103,25 +106,27 @@ impl Forward {
         frame
     }
 
+    /// Most that a turn of the rotary axes by a radian may move the tip, mm.
+    pub fn lever(&self, tip: Point3<f64>) -> f64 {
+        let centers = self.machine.rotaries.iter().flatten();
+        let reach = centers.map(|axis| (tip - axis.center).norm() + axis.center.coords.norm());
+        reach.sum::<f64>() + self.machine.pivot.unwrap_or(0.0)
+    }
+
     /// Rotary positions near `rotary` at which the tool lies exactly along `axis`,
     /// by Newton's method; positions that do not turn the tool stay as they are.
     pub fn refine(&self, rotary: [f64; 2], axis: Vector3<f64>) -> [f64; 2] {
         let mut at = rotary;
         for _ in 0..STEPS {
             let off = axis - self.axis(at);
-            if off.norm() < 1e-12 {
-                break;
-            }
             let slope = [0, 1].map(|index| self.slope(at, index));
             let step = least_squares(slope, off);
             at = [at[0] + step[0], at[1] + step[1]];
+            if step.iter().all(|step| step.abs() < EXACT) {
+                break;
+            }
         }
         at
-    }
-
-    /// True when a rotary axis changes the direction of the tool where it stands.
-    pub fn turns_tool(&self, at: [f64; 2], index: usize) -> bool {
-        self.slope(at, index) != Vector3::zeros()
     }
 
     /// Change of the tool axis by a degree of a rotary axis; zero without one.

@@ -82,6 +82,8 @@ pub struct Modes {
     pub length_offset: Option<u32>,
     /// Cutter compensation.
     pub compensation: Compensation,
+    /// Number of its offset; `None` when off or not said.
+    pub compensation_offset: Option<u32>,
     /// Spindle.
     pub spindle: Spindle,
     /// Spindle speed, turns/min; `None` before the first and at constant surface speed.
@@ -127,6 +129,8 @@ pub enum Event {
         line: u32,
         /// Number of the tool.
         tool: u32,
+        /// What is in force while it is changed; its tool is the one before.
+        modes: Modes,
     },
     /// The axes wait.
     Dwell {
@@ -139,5 +143,7 @@ pub enum Event {
     End {
         /// Line of the NC program.
         line: u32,
+        /// What is in force at the end.
+        modes: Modes,
     },
 }

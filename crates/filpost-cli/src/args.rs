@@ -27,10 +27,14 @@ pub enum Command {
     Cl(ClArgs),
     /// Compare two NC programs word by word, as a control reads them
     Diff(DiffArgs),
+    /// Check an NC program against the CL file it was made from
+    Verify(VerifyArgs),
     /// Draw the path of a CL file or of an NC program, as SVG or as a page
     Plot(PlotArgs),
     /// Run regression cases (folders with a case.toml)
     Test(TestArgs),
+    /// Tell who made a block, or what a CL record or a line of FIL made
+    Trace(TraceArgs),
     /// Explain a code, a POSTF number, a location, a setting, a word or a function
     Explain(ExplainArgs),
     /// Import and show machine settings
@@ -94,8 +98,8 @@ pub struct PostArgs {
     #[arg(long, value_name = "FILE")]
     pub listing: Option<PathBuf>,
     /// Write the line map for `filpost trace`; OUT.map when no FILE is given
-    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "")]
-    pub map: Option<PathBuf>,
+    #[arg(long, value_name = "FILE")]
+    pub map: Option<Option<PathBuf>>,
     /// A folder to look in for the option file that MACHIN names (may be given again)
     #[arg(long, value_name = "DIR")]
     pub post_path: Vec<PathBuf>,
@@ -236,6 +240,33 @@ pub struct DiffArgs {
     pub format: Report,
 }
 
+/// `filpost verify`
+#[derive(Debug, ClapArgs)]
+pub struct VerifyArgs {
+    /// The CL file; - reads standard input
+    pub cl: PathBuf,
+    /// The NC program
+    pub nc: PathBuf,
+    #[command(flatten)]
+    pub chosen: Chosen,
+    /// A FIL file (may be given again); the program is then compared with a second run
+    #[arg(short, long, value_name = "FILE")]
+    pub fil: Vec<PathBuf>,
+    #[command(flatten)]
+    pub reading: Reading,
+    #[command(flatten)]
+    pub grants: Grants,
+    /// A folder to look in for the option file that MACHIN names (may be given again)
+    #[arg(long, value_name = "DIR")]
+    pub post_path: Vec<PathBuf>,
+    /// Deviation allowed, mm and degrees; without it only the last digit of each address
+    #[arg(long, value_name = "MM", value_parser = tolerance)]
+    pub tol: Option<f64>,
+    /// How findings are written
+    #[arg(long, value_enum, default_value_t = Report::Text)]
+    pub format: Report,
+}
+
 /// `filpost plot`
 #[derive(Debug, ClapArgs)]
 pub struct PlotArgs {
@@ -330,6 +361,35 @@ pub struct TestArgs {
     /// What the case does not look at: n, comments, dates, points, letters
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = ignored, requires = "init")]
     pub ignore: Vec<String>,
+}
+
+/// `filpost trace`
+#[derive(Debug, ClapArgs)]
+pub struct TraceArgs {
+    /// FILE:LINE of an NC program, a CL file or a FIL file; FILE:LINE:COLUMN of an NC program
+    #[arg(value_name = "FILE:LINE[:COLUMN]")]
+    pub place: String,
+    /// The line map of the run; FILE.map, or the one beside that knows FILE, when left out
+    #[arg(long, value_name = "FILE")]
+    pub map: Option<PathBuf>,
+    /// How the answer is written
+    #[arg(long, value_enum, default_value_t = AnswerFormat::Text)]
+    pub format: AnswerFormat,
+    /// Most lines of the NC program that are shown; all are counted
+    #[arg(long, value_name = "N", default_value_t = 20)]
+    pub most: usize,
+    /// Encoding of CL and FIL texts (utf-8, cp1251, koi8-r, …); guessed when left out
+    #[arg(long, value_name = "LABEL")]
+    pub encoding: Option<String>,
+}
+
+/// How `filpost trace` writes its answer.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum AnswerFormat {
+    /// For people
+    Text,
+    /// One JSON object
+    Json,
 }
 
 /// `filpost explain`

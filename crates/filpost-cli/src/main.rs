@@ -22,6 +22,8 @@ mod sarif;
 mod setup;
 mod summary;
 mod test;
+mod trace;
+mod verify;
 
 use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind};
 use std::process::ExitCode;
@@ -40,10 +42,9 @@ enum Status {
     Failed = 1,
     /// The command was not used as it is meant; it has been reported.
     Usage = 2,
+    /// An internal fault; it has been reported.
+    Fault = 3,
 }
-
-/// Exit status of an internal fault.
-const FAULT: u8 = 3;
 
 fn main() -> ExitCode {
     std::panic::set_hook(Box::new(report_fault));
@@ -55,7 +56,7 @@ fn main() -> ExitCode {
             }
             Status::Failed as u8
         }
-        Err(_) => FAULT,
+        Err(_) => Status::Fault as u8,
     };
     ExitCode::from(status)
 }
@@ -67,8 +68,10 @@ fn run(command: &Command) -> Result<Status, Error> {
         Command::Fmt(args) => fmt::run(args),
         Command::Cl(args) => cl::run(args),
         Command::Diff(args) => diff::run(args),
+        Command::Verify(args) => verify::run(args),
         Command::Plot(args) => plot::run(args),
         Command::Test(args) => test::run(args),
+        Command::Trace(args) => trace::run(args),
         Command::Explain(args) => explain::run(&args.subject),
         Command::Machine(args) => machine::run(args),
         Command::Man => {

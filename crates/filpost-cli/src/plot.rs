@@ -1,7 +1,7 @@
 //! `filpost plot`
 
 use std::io::{Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use filpost::map::MapReader;
 use filpost::nc::plot::{Drawing, View, html, svg};
@@ -32,7 +32,12 @@ pub fn run(args: &PlotArgs) -> Result<Status, Error> {
     let bytes = read(&args.file)?;
     let name = output::input_name(&args.file);
     let text = Text { name: &name, bytes: &bytes };
-    let drawing = if plot::is_cl(&bytes) {
+    let is_cl = plot::is_cl(&bytes);
+    if is_cl && (args.cl.is_some() || args.map.is_some()) {
+        output::say(&format!("error: {name} is a CL file; --cl and --map go with an NC program"));
+        return Ok(Status::Usage);
+    }
+    let drawing = if is_cl {
         plot::cl_file(text, setup::cl_options(args.encoding.as_deref())?)?
     } else {
         program(args, text)?
@@ -111,7 +116,7 @@ fn views(seen: &[Seen]) -> Vec<View> {
     if seen.is_empty() { View::ALL.to_vec() } else { seen.iter().map(view).collect() }
 }
 
-fn read(path: &PathBuf) -> Result<Vec<u8>, Error> {
+fn read(path: &Path) -> Result<Vec<u8>, Error> {
     let mut bytes = Vec::new();
     output::open(path)?.read_to_end(&mut bytes).map_err(|error| files::cant_read(path, &error))?;
     Ok(bytes)

@@ -27,7 +27,7 @@ pub fn run(args: &PostArgs) -> Result<Status, Error> {
 
 fn one(args: &PostArgs, cl: &Path) -> Result<Status, Error> {
     let map = match &args.map {
-        Some(named) => match map_name(named, args.output.as_deref()) {
+        Some(named) => match map_name(named.as_deref(), args.output.as_deref()) {
             Some(map) => Some(map),
             None => {
                 output::say("error: --map needs a FILE when the program goes to standard output");
@@ -55,11 +55,11 @@ fn one(args: &PostArgs, cl: &Path) -> Result<Status, Error> {
 }
 
 /// What `--map` names: OUT.map without a FILE; `None` when there is no OUT.
-fn map_name(named: &Path, output: Option<&Path>) -> Option<PathBuf> {
-    if !named.as_os_str().is_empty() {
-        return Some(named.to_path_buf());
+fn map_name(named: Option<&Path>, output: Option<&Path>) -> Option<PathBuf> {
+    match named {
+        Some(named) => Some(named.to_path_buf()),
+        None => output.filter(|path| path.as_os_str() != "-").map(beside),
     }
-    output.filter(|path| path.as_os_str() != "-").map(beside)
 }
 
 /// The map of an NC file: its name with `.map` after it.

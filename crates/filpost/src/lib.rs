@@ -38,6 +38,8 @@ mod script_files;
 pub mod select;
 mod source;
 mod statement;
+pub mod trace;
+pub mod verify;
 
 pub use blocks::{Block, Blocks};
 pub use builder::{Builder, Post};

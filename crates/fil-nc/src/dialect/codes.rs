@@ -179,6 +179,22 @@ pub enum Auxiliary {
     Other,
 }
 
+impl Auxiliary {
+    /// True when one block can't ask for both.
+    pub fn excludes(self, other: Auxiliary) -> bool {
+        let turns = |auxiliary| {
+            matches!(
+                auxiliary,
+                Auxiliary::Clockwise | Auxiliary::Counterclockwise | Auxiliary::SpindleOff
+            )
+        };
+        match (self, other) {
+            (Auxiliary::Coolant(on), Auxiliary::Coolant(other)) => on != other,
+            _ => turns(self) && turns(other),
+        }
+    }
+}
+
 /// G words by their numbers in tenths.
 #[derive(Clone, Debug)]
 pub(super) struct Functions(HashMap<i64, Function>);

@@ -3,7 +3,7 @@
 use super::Fault;
 use super::state::State;
 use super::words::{Words, letter};
-use crate::dialect::{Auxiliary, Function, Group};
+use crate::dialect::{Auxiliary, CycleKind, FeedMode, Function, Group};
 use crate::errors::NcCode;
 use crate::motion::{Course, Event};
 use crate::text::Block;
@@ -42,7 +42,7 @@ impl State<'_> {
         self.motion(&mut words)?;
         words.finish()?;
         if outcome == Outcome::End {
-            self.events.push(Event::End { line: self.line });
+            self.events.push(Event::End { line: self.line, modes: self.modes });
         }
         Ok(outcome)
     }
@@ -78,7 +78,9 @@ impl State<'_> {
             }
             Some(Function::MachineFrame) => {
                 words.function(Group::Once);
-                self.take_motion(words)?;
+                if self.take_motion(words)?.is_some() {
+                    return Err(Fault::new(NcCode::Twice, "a cycle in the machine frame"));
+                }
                 return self.machine_frame(words);
             }
             Some(Function::ThreadPasses) => {
@@ -96,7 +98,8 @@ impl State<'_> {
         }
         let arc = matches!(self.motion, Some(Function::Arc { .. }));
         let centre = [b'I', b'J', b'K'].map(letter).iter().any(|letter| words.has(*letter));
-        if !words.has_axes(self.dialect) && !(arc && centre) {
+        let moves = words.has_axes(self.dialect) || (arc && centre);
+        if !moves {
             return self.feed_word(words);
         }
         match self.motion {
@@ -116,10 +119,7 @@ impl State<'_> {
 
     /// Takes up the motion function and the cycle function of a block. Says which
     /// cycle begins.
-    fn take_motion(
-        &mut self,
-        words: &mut Words,
-    ) -> Result<Option<crate::dialect::CycleKind>, Fault> {
+    fn take_motion(&mut self, words: &mut Words) -> Result<Option<CycleKind>, Fault> {
         let motion = words.function(Group::Motion);
         let cycle = words.function(Group::Cycle);
         if motion.is_some() || cycle == Some(Function::CycleOff) {
@@ -144,7 +144,7 @@ impl State<'_> {
     pub(super) fn feed_word(&mut self, words: &mut Words) -> Result<(), Fault> {
         if let Some(feed) = words.take(F)? {
             self.feed = Some(feed);
-        } else if self.feed_mode == crate::dialect::FeedMode::Inverse {
+        } else if self.feed_mode == FeedMode::Inverse {
             self.feed = None;
         }
         Ok(())
@@ -205,10 +205,10 @@ impl State<'_> {
 
 /// The subprogram of a call: `P1001`, `P1001 L3`, or `P31001` for three times.
 fn call(words: &mut Words) -> Result<Outcome, Fault> {
-    let number = words.take_whole(P)?;
+    let number = words.take_plain(P)?;
     let number = number
         .ok_or_else(|| Fault::new(NcCode::MissingWord, "the number of the subprogram is needed"))?;
-    let times = words.take_whole(L)?;
+    let times = words.take_plain(L)?;
     Ok(match times {
         None if number > 9999 => {
             Outcome::Call { number: i64::from(number % 10_000), times: number / 10_000 }

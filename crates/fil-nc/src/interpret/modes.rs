@@ -56,9 +56,10 @@ impl State<'_> {
     fn offsets(&mut self, words: &mut Words) -> Result<(), Fault> {
         if let Some(Function::Compensation(side)) = words.function(Group::Compensation) {
             self.modes.compensation = side;
-            if side != Compensation::Off {
-                words.take_whole(self.dialect.tool_offset)?;
-            }
+            self.modes.compensation_offset = match side {
+                Compensation::Off => None,
+                _ => words.take_whole(self.dialect.tool_offset)?,
+            };
         }
         match words.function(Group::Length) {
             Some(Function::Length(true)) => {
@@ -128,7 +129,7 @@ impl State<'_> {
     }
 
     fn change(&mut self, tool: u32) {
+        self.events.push(Event::ToolChange { line: self.line, tool, modes: self.modes });
         self.modes.tool = tool;
-        self.events.push(Event::ToolChange { line: self.line, tool });
     }
 }

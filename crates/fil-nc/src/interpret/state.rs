@@ -140,7 +140,7 @@ impl<'d> State<'d> {
             to: Position { linear: [x, y, z], rotary: [primary, secondary] },
             arc,
             rate,
-            in_cycle: self.cycle.is_some() || self.pass.is_some(),
+            in_cycle: course != Course::Machine && (self.cycle.is_some() || self.pass.is_some()),
             known,
             modes: self.modes,
         }));

@@ -51,22 +51,24 @@ struct Thread {
 impl State<'_> {
     /// One pass from where the tool stands.
     pub(super) fn thread(&mut self, words: &mut Words) -> Result<(), Fault> {
-        let lead = self.lead(words, None)?;
+        let lead = self.lead(words, &[F, K], None)?;
         let axes = words.take_axes(self.dialect)?;
         let target = self.target(&axes);
         self.go(target, Course::Thread, Some(Rate::PerTurn(lead)));
         Ok(())
     }
 
-    /// The lead: F, else K, else the one in force. F of a thread is no feed for the
-    /// motions after it.
-    fn lead(&mut self, words: &mut Words, in_force: Option<f64>) -> Result<f64, Fault> {
+    /// The lead, from the first of these letters that the block has, else the one in
+    /// force. It is no feed for the motions after it.
+    fn lead(
+        &mut self,
+        words: &mut Words,
+        letters: &[u8],
+        in_force: Option<f64>,
+    ) -> Result<f64, Fault> {
         self.feed = None;
-        let said = match words.take(F)? {
-            Some(lead) => Some(lead),
-            None if in_force.is_none() => words.take(K)?,
-            None => None,
-        };
+        let letter = letters.iter().find(|letter| words.has(**letter));
+        let said = letter.map(|letter| words.take(*letter)).transpose()?.flatten();
         said.map(|lead| lead * self.unit())
             .or(in_force)
             .filter(|lead| *lead > 0.0)
@@ -76,7 +78,7 @@ impl State<'_> {
     /// In, along, out and back to where it began.
     pub(super) fn thread_pass(&mut self, words: &mut Words) -> Result<(), Fault> {
         let before = self.pass;
-        let lead = self.lead(words, before.map(|pass| pass.lead))?;
+        let lead = self.lead(words, &[F], before.map(|pass| pass.lead))?;
         let axes = words.take_axes(self.dialect)?;
         let taper = match words.take(R)? {
             Some(taper) => Some(taper),
@@ -127,7 +129,7 @@ impl State<'_> {
             self.setup = Some(self.first_block(words)?);
             return Ok(());
         }
-        let lead = self.lead(words, Some(0.0))?;
+        let lead = self.lead(words, &[F], None)?;
         let thread = match self.setup.take() {
             Some(setup) => self.second_block(words, setup, lead)?,
             None => self.only_block(words, lead)?,
@@ -138,7 +140,7 @@ impl State<'_> {
     /// `P` finishing passes, chamfer and angle, two digits each; `Q` least depth; `R`
     /// finishing allowance.
     fn first_block(&self, words: &mut Words) -> Result<Setup, Fault> {
-        let said = words.take_whole(P)?.unwrap_or(10_000);
+        let said = words.take_plain(P)?.unwrap_or(10_000);
         let least = words.take_number(Q).map_or(0.0, |least| least.steps(self.unit()));
         let allowance = words.take(R)?.unwrap_or(0.0) * self.unit();
         Ok(Setup {
@@ -193,11 +195,11 @@ fn thread(
     setup: Setup,
 ) -> Result<Thread, Fault> {
     match (height, first) {
-        (Some(height), Some(first)) if height > 0.0 && first > 0.0 && last.lead > 0.0 => {
+        (Some(height), Some(first)) if height > 0.0 && first > 0.0 => {
             Ok(Thread { last, height, first, setup })
         }
         _ => {
-            let message = "the thread needs its lead, its height and the depth of its first pass";
+            let message = "the thread needs its height and the depth of its first pass";
             Err(Fault::new(NcCode::MissingWord, message))
         }
     }

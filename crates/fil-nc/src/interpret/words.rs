@@ -48,17 +48,23 @@ impl Words {
     pub(super) fn read(block: &Block, dialect: &Dialect, metric: bool) -> Result<Self, Fault> {
         let mut words = Words::default();
         for word in &block.words {
-            if word.index.is_some() {
-                return Err(no_meaning(word.letter, &word.range, "an address with an index"));
-            }
             match word.letter {
-                b'N' => {}
+                _ if word.index.is_some() => {
+                    return Err(no_meaning(word.letter, &word.range, "an address with an index"));
+                }
                 b'G' => words.add_function(word, dialect)?,
                 b'M' => words.add_auxiliary(word, dialect)?,
-                _ => words.add_item(word, dialect, metric)?,
+                _ => {}
             }
         }
-        words.resolve_units(dialect, metric);
+        // A unit function of the block holds for its other words too.
+        let metric = match words.peek(Group::Units) {
+            Some(Function::Units { metric }) => metric,
+            _ => metric,
+        };
+        for word in block.words.iter().filter(|word| !matches!(word.letter, b'N' | b'G' | b'M')) {
+            words.add_item(word, dialect, metric)?;
+        }
         Ok(words)
     }
 
@@ -85,15 +91,7 @@ impl Words {
         if auxiliary == Auxiliary::Flow {
             return Err(foreign('M', word));
         }
-        let same_kind = |other: &Auxiliary| {
-            let turns = |a: &Auxiliary| {
-                use Auxiliary::{Clockwise, Counterclockwise, SpindleOff};
-                matches!(a, Clockwise | Counterclockwise | SpindleOff)
-            };
-            (turns(other) && turns(&auxiliary))
-                || matches!((other, auxiliary), (Auxiliary::Coolant(a), Auxiliary::Coolant(b)) if *a != b)
-        };
-        if self.auxiliaries.iter().any(|(other, _)| same_kind(other)) {
+        if self.auxiliaries.iter().any(|(other, _)| other.excludes(auxiliary)) {
             return Err(twice("two M words of one kind".to_string(), &word.range));
         }
         self.auxiliaries.push((auxiliary, word.range.clone()));
@@ -124,23 +122,6 @@ impl Words {
         Ok(())
     }
 
-    /// A unit function of the block holds for its other words too.
-    fn resolve_units(&mut self, dialect: &Dialect, metric: bool) {
-        let said = self.functions.iter().find_map(|(function, _)| match function {
-            Function::Units { metric } => Some(*metric),
-            _ => None,
-        });
-        let Some(said) = said.filter(|said| *said != metric) else { return };
-        for item in &mut self.items {
-            let address = (b'A'..=b'Z')
-                .filter_map(|printed| dialect.address(printed))
-                .find(|a| a.letter == item.letter && a.increment == item.increment);
-            if let Some(address) = address {
-                item.value = address.value(item.number, said);
-            }
-        }
-    }
-
     /// Takes the function of a group.
     pub(super) fn function(&mut self, group: Group) -> Option<Function> {
         let at = self.functions.iter().position(|(function, _)| function.group() == group)?;
@@ -169,6 +150,16 @@ impl Words {
             return Err(Fault::new(NcCode::BadNumber, message).at(&item.range));
         }
         Ok(Some(value as u32))
+    }
+
+    /// Takes a number without decimals as it is written, whatever the format of the
+    /// address.
+    pub(super) fn take_plain(&mut self, letter: u8) -> Result<Option<u32>, Fault> {
+        let Some(item) = self.take_number(letter) else { return Ok(None) };
+        let plain = Some(item.number.digits).filter(|_| item.number.decimals == 0);
+        let plain = plain.and_then(|digits| u32::try_from(digits).ok());
+        let wrong = || Fault::new(NcCode::BadNumber, "a whole number is needed").at(&item.range);
+        plain.map(Some).ok_or_else(wrong)
     }
 
     /// Takes a word as it is written.

@@ -227,9 +227,13 @@
       pen.stroke();
     }
     pen.fillStyle = "#222";
+    pen.strokeStyle = "#fff";
+    pen.lineWidth = 4;
     for (const [key, tools] of seen) {
       const [px, py] = key.split(",").map(Number);
-      pen.fillText(tools.map((tool) => `T${tool}`).join(" "), px + 7, py - 6);
+      const label = tools.map((tool) => `T${tool}`).join(" ");
+      pen.strokeText(label, px + 7, py - 6);
+      pen.fillText(label, px + 7, py - 6);
     }
   }
 

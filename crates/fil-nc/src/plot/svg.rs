@@ -40,7 +40,7 @@ impl Frame {
             (low, high)
         };
         let (x, y) = (side(0), side(1));
-        let room = [WIDTH - 4.0 * GAP, HEIGHT - 5.0 * GAP];
+        let room = [WIDTH - 9.0 * GAP, HEIGHT - 6.0 * GAP];
         let scale = (room[0] / (x.1 - x.0).max(LEAST)).min(room[1] / (y.1 - y.0).max(LEAST));
         let origin = [
             corner[0] + WIDTH / 2.0 - (x.0 + x.1) / 2.0 * scale,

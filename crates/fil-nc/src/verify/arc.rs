@@ -1,15 +1,16 @@
 //! Arcs of the path against arcs, or short lines, of the program.
 
-use fil_diag::Diag;
 use nalgebra::{Point3, Vector3};
 
+use super::ahead::Steps;
 use super::report::Kind;
-use super::walk::{Walk, short};
+use super::say::short;
+use super::walk::Walk;
 use super::wanted::{Arc, Step, Wanted};
 use crate::motion::{self, Course, Move, Position, Rate};
 
 /// Directions nearer than this are the same.
-const PARALLEL: f64 = 1e-6;
+const PARALLEL: f64 = 1e-4;
 
 /// Most blocks of one arc.
 const MOST_BLOCKS: usize = 100_000;
@@ -21,7 +22,7 @@ struct Part {
     angle: f64,
 }
 
-impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
+impl<C: Steps> Walk<'_, C> {
     /// Takes the blocks that make an arc; false when they don't.
     pub(super) fn arc(&mut self, cl_line: u32, arc: &Arc, rate: Option<Rate>) -> bool {
         let Some(parts) = self.arc_parts(arc) else { return false };
@@ -71,7 +72,7 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
         let frame = self.settings.forward.frame(found.to.rotary);
         let mut normal = Vector3::zeros();
         normal[part.normal] = if part.ccw { 1.0 } else { -1.0 };
-        if (frame.turn * normal - arc.normal).norm() > PARALLEL.max(1e-4) {
+        if (frame.turn * normal - arc.normal).norm() > PARALLEL {
             return None;
         }
         let centre = frame.linear(arc.centre);
@@ -81,14 +82,14 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
             let given = distance(part.centre, from.linear, part.normal);
             (given - arc.radius()).abs() <= self.slack.radius
         } else {
-            (0..3).filter(in_plane).all(|n| off(n) <= self.centre_slack(n, from, found))
+            (0..3).filter(in_plane).all(|n| off(n) <= self.centre_slack(n))
         };
         radius.then_some(part.angle)
     }
 
     /// The centre is written from the start as it is rounded on the tape. When
     /// the machine turns besides, the arc lies as its rounded angles have it.
-    fn centre_slack(&self, n: usize, _from: &Position, _found: &Move) -> f64 {
+    fn centre_slack(&self, n: usize) -> f64 {
         let turned = if self.settings.forward.has_rotary() { self.slack.linear[n] } else { 0.0 };
         self.slack.centre[n] + turned
     }
@@ -144,7 +145,7 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
         let (Wanted::Arc(arc, _), Some(part)) = (&step.what, &found.arc) else { return };
         let frame = self.settings.forward.frame(found.to.rotary);
         let wanted = frame.turn.transpose() * arc.normal;
-        let along = wanted[part.normal].abs() > 1.0 - 1e-4;
+        let along = wanted[part.normal].abs() > 1.0 - PARALLEL;
         let message = if !along {
             let plane = ["YZ", "ZX", "XY"][part.normal];
             format!("the arc lies in the {plane} plane, the CL file has it in another")

@@ -12,12 +12,18 @@ use fil_cl::{Circle, Options, Reader, Record, Vocabulary, Word, WordId, words as
 use fil_diag::Diag;
 use nalgebra::{Matrix3x4, Point3, Vector3};
 
-use super::wanted::{Arc, CoolantKind, CycleKind, Hole, Step, Wanted};
+use super::wanted::{Arc, CoolantKind, CycleKind, Effect, Hole, Step, Wanted};
 use crate::forward::Pose;
 use crate::motion::{Compensation, Rate, Spindle};
 
 /// Millimetres of an inch.
 const INCH: f64 = 25.4;
+
+/// What X is multiplied by when it is a diameter.
+const DIAMETER: f64 = 2.0;
+
+/// Preparatory functions of work offsets on every control.
+const WORK_OFFSETS: [f64; 6] = [54.0, 55.0, 56.0, 57.0, 58.0, 59.0];
 
 /// Start and end of an arc nearer than this make a full circle, in CL units.
 const SAME_POINT: f64 = 1e-6;
@@ -38,7 +44,7 @@ const ENDS_THE_PATH: [WordId; 11] = [
 ];
 
 /// Statements that write words of the user's own.
-const OWN_WORDS: [WordId; 4] = [w::POSTN, w::PREFUN, w::AUXFUN, w::REPEAT];
+const OWN_WORDS: [WordId; 2] = [w::POSTN, w::REPEAT];
 
 const CYCLES: [(WordId, CycleKind); 10] = [
     (w::BRKCHP, CycleKind::Brkchp),
@@ -192,9 +198,9 @@ impl State {
     }
 
     fn command(&mut self, record: &Record, vocabulary: &Vocabulary) -> Vec<Wanted> {
-        let unknown = |ends| {
+        let unknown = |effect| {
             let what = statement(record, vocabulary);
-            vec![Wanted::Unknown { what, ends }]
+            vec![Wanted::Unknown { what, effect }]
         };
         match record.major {
             w::UNITS | w::UNIT => {
@@ -214,22 +220,32 @@ impl State {
             w::CYCLE => self.cycle(record, vocabulary),
             w::GOHOME => match numbers(record)[..] {
                 [x, y, z] => self.line_to(Point3::new(x, y, z), self.axis),
-                _ => unknown(true),
+                _ => unknown(Effect::Path),
             },
-            w::LOADTL | w::LOAD | w::TURRET => self.tool(record).unwrap_or_else(|| unknown(false)),
+            w::LOADTL | w::LOAD | w::TURRET => {
+                self.tool(record).unwrap_or_else(|| unknown(Effect::Words))
+            }
             w::SPINDL => spindle(record),
-            w::COOLNT => coolant(record).map_or_else(|| unknown(false), |kind| vec![kind]),
-            w::CUTCOM => compensation(record).map_or_else(|| unknown(false), |side| vec![side]),
+            w::COOLNT => coolant(record).map_or_else(|| unknown(Effect::Words), |kind| vec![kind]),
+            w::CUTCOM => {
+                compensation(record).map_or_else(|| unknown(Effect::Words), |side| vec![side])
+            }
             w::DELAY => vec![Wanted::Dwell(
                 numbers(record).first().copied().filter(|_| !record.has(w::REV)),
             )],
-            w::OP | w::THREAD => self.thread(record).unwrap_or_else(|| unknown(true)),
-            w::MODE if record.has(w::TURN) => unknown(true),
+            w::OP | w::THREAD => self.thread(record).unwrap_or_else(|| unknown(Effect::Path)),
+            w::MODE if record.has(w::TURN) => vec![Wanted::XScale(DIAMETER)],
+            w::MODE if record.has(w::MILL) => vec![Wanted::XScale(1.0)],
+            w::PREFUN => match numbers(record)[..] {
+                [code] if WORK_OFFSETS.contains(&code) => vec![Wanted::Fixture(code as u32)],
+                _ => unknown(Effect::Words),
+            },
             w::STOP | w::OPSTOP => vec![Wanted::Stop],
             w::INSERT => vec![Wanted::Insert(record.text.trim().to_string())],
             w::END | w::REWIND => vec![Wanted::End],
-            major if ENDS_THE_PATH.contains(&major) => unknown(true),
-            major if OWN_WORDS.contains(&major) => unknown(false),
+            w::AUXFUN => unknown(Effect::Auxiliary),
+            major if ENDS_THE_PATH.contains(&major) => unknown(Effect::Path),
+            major if OWN_WORDS.contains(&major) => unknown(Effect::Words),
             _ => Vec::new(),
         }
     }
@@ -268,7 +284,7 @@ impl State {
                 let rows = Matrix3x4::from_row_slice(&values);
                 self.matrix = Some(Matrix { rows, turns_axis: option.is_none() });
             }
-            _ => return vec![Wanted::Unknown { what: "TRANS".to_string(), ends: true }],
+            _ => return vec![Wanted::Unknown { what: "TRANS".to_string(), effect: Effect::Path }],
         }
         Vec::new()
     }
@@ -285,7 +301,7 @@ impl State {
         let kind = CYCLES.iter().find(|(word, _)| record.has(*word)).map(|(_, kind)| *kind);
         let (Some(kind), Some(depth)) = (kind, number(&[w::DEPTH, w::FEDTO])) else {
             let what = statement(record, vocabulary);
-            return vec![Wanted::Unknown { what, ends: true }];
+            return vec![Wanted::Unknown { what, effect: Effect::Path }];
         };
         let rate = [w::MMPM, w::IPM, w::FPM, w::MMPR, w::IPR, w::FPR]
             .iter()
@@ -340,7 +356,7 @@ impl State {
         };
         let Some(point) = point else {
             let what = statement(record, vocabulary);
-            return vec![Wanted::Unknown { what, ends: true }];
+            return vec![Wanted::Unknown { what, effect: Effect::Path }];
         };
         if record.sub == motion::FROM {
             self.point = Some(point);
@@ -397,11 +413,11 @@ impl State {
         });
         let normal = Vector3::from(waiting.circle.axis);
         let (Some(start), Some(normal)) = (self.point, normal.try_normalize(1e-9)) else {
-            return vec![Wanted::Unknown { what: "CIRCLE".to_string(), ends: true }];
+            return vec![Wanted::Unknown { what: "CIRCLE".to_string(), effect: Effect::Path }];
         };
         if !keeps_circles {
             let what = "an arc in a frame that makes no circle of it".to_string();
-            return vec![Wanted::Unknown { what, ends: true }];
+            return vec![Wanted::Unknown { what, effect: Effect::Path }];
         }
         let bare = Arc {
             centre: Point3::from(waiting.circle.center),
@@ -490,12 +506,13 @@ fn coolant(record: &Record) -> Option<Wanted> {
 }
 
 fn compensation(record: &Record) -> Option<Wanted> {
-    Some(Wanted::Compensation(match () {
+    let side = match () {
         () if record.has(w::OFF) => Compensation::Off,
         () if record.has(w::LEFT) => Compensation::Left,
         () if record.has(w::RIGHT) => Compensation::Right,
         () => return None,
-    }))
+    };
+    Some(Wanted::Compensation(side, numbers(record).first().and_then(|offset| whole(*offset))))
 }
 
 /// All numbers of a record in order.

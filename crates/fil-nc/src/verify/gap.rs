@@ -4,11 +4,13 @@ use super::settings::{Settings, Slack};
 use crate::forward::Pose;
 use crate::motion::Position;
 
-/// A tool axis this near (radians) to the one asked for is reached by the angles found.
-const SOLVED: f64 = 2e-5;
+/// A tool axis this near (radians) to the one asked for is reached: a post need not
+/// turn the machine for less, as CL files round the axis.
+const REACHED: f64 = 1.1e-5;
 
-/// Difference of axes in degrees that no CL file writes for sure.
-const AXIS_DUST: f64 = 1e-3;
+/// Turn of a rotary axis, at most, for a lean of the tool: more than 2 where the
+/// axes lie at 45 degrees to each other, once for each way to lean.
+const LEAN: f64 = 3.0;
 
 /// The difference between where the axes stand and where they should.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +21,8 @@ pub(super) struct Gap {
     pub(super) excess: [bool; 3],
     /// Angle between the tool axes, degrees, where the last digits don't explain it.
     pub(super) turned: Option<f64>,
+    /// Rotary positions for which X, Y, Z were compared, degrees.
+    pub(super) rotary: [f64; 2],
     /// Distance of the tips in the part, mm.
     pub(super) tip: f64,
     /// Angle between the tool axes, degrees.
@@ -26,39 +30,57 @@ pub(super) struct Gap {
 }
 
 impl Gap {
-    /// The gap of a position.
-    pub(super) fn of(settings: &Settings, slack: &Slack, at: &Position, pose: &Pose) -> Gap {
+    /// The gap of a position. `last` are the exact rotary positions of the motion before:
+    /// an axis that does not turn the tool stays at the exact position, of which the
+    /// tape shows only the rounded one.
+    pub(super) fn of(
+        settings: &Settings,
+        slack: &Slack,
+        at: &Position,
+        pose: &Pose,
+        last: [f64; 2],
+    ) -> Gap {
+        let forward = &settings.forward;
+        let slack = &beside_the_pole(settings, slack, pose);
+        let stays = |n: usize| (last[n] - at.rotary[n]).abs() <= slack.rotary[n];
+        let kept = [0, 1].map(|n| if stays(n) { last[n] } else { at.rotary[n] });
+        let gap = Gap::at(settings, slack, at, pose, forward.refine(kept, pose.axis));
+        if gap.closed() || !forward.has_rotary() {
+            return gap;
+        }
+        // A post need not turn for a difference that small.
+        let unturned = Gap::at(settings, slack, at, pose, last);
+        if unturned.closed() { unturned } else { gap }
+    }
+
+    /// The gap when these are the exact rotary positions.
+    fn at(settings: &Settings, slack: &Slack, at: &Position, pose: &Pose, exact: [f64; 2]) -> Gap {
         let forward = &settings.forward;
         let stands = forward.pose(at);
         let axis = stands.axis.angle(&pose.axis).to_degrees();
+        let near = |n: usize| (exact[n] - at.rotary[n]).abs() <= slack.rotary[n];
+        let reached = (forward.axis(exact) - pose.axis).norm() < REACHED;
+        let solved = reached && near(0) && near(1);
         let mut gap = Gap {
             linear: [0.0; 3],
             excess: [false; 3],
-            turned: None,
+            turned: (!solved).then_some(axis),
+            rotary: if solved { exact } else { at.rotary },
             tip: (stands.tip - pose.tip).norm(),
             axis,
         };
-        let mut allowed = slack.linear;
-        let mut rotary = at.rotary;
-        if forward.has_rotary() {
-            let exact = forward.refine(at.rotary, pose.axis);
-            let solved = (forward.axis(exact) - pose.axis).norm() < SOLVED;
-            let near = [0, 1].iter().all(|n| (exact[*n] - at.rotary[*n]).abs() <= slack.rotary[*n]);
-            if solved && near {
-                rotary = exact;
-                widen(settings, slack, rotary, pose, &mut allowed);
-            } else {
-                gap.turned = Some(axis);
-            }
-        } else if axis > AXIS_DUST {
-            gap.turned = Some(axis);
-        }
-        let wanted = forward.frame(rotary).linear(pose.tip);
-        for n in 0..3 {
-            gap.linear[n] = at.linear[n] - wanted[n];
-            gap.excess[n] = gap.linear[n].abs() > allowed[n];
-        }
+        gap.compare(settings, slack, at, pose);
         gap
+    }
+
+    /// Compares X, Y, Z with where they should be at the rotary positions found.
+    fn compare(&mut self, settings: &Settings, slack: &Slack, at: &Position, pose: &Pose) {
+        let wanted = settings.forward.frame(self.rotary).linear(pose.tip);
+        for n in 0..3 {
+            let wanted = slack.rounded[n].map_or(wanted[n], |digit| rounded(wanted[n], digit));
+            self.linear[n] = at.linear[n] - wanted;
+            self.excess[n] = self.linear[n].abs() > slack.linear[n];
+        }
     }
 
     /// True when the pose is reached.
@@ -67,19 +89,26 @@ impl Gap {
     }
 }
 
-/// An axis that does not turn the tool may stand anywhere within its last digit; X Y Z
-/// then follow an angle that the tape does not show.
-fn widen(settings: &Settings, slack: &Slack, at: [f64; 2], pose: &Pose, allowed: &mut [f64; 3]) {
-    let here = settings.forward.frame(at).linear(pose.tip);
-    for index in 0..2 {
-        if settings.forward.rotaries()[index].is_none() || settings.forward.turns_tool(at, index) {
-            continue;
-        }
-        let mut beside = at;
-        beside[index] += slack.rotary[index];
-        let there = settings.forward.frame(beside).linear(pose.tip);
-        for n in 0..3 {
-            allowed[n] += (there[n] - here[n]).abs();
-        }
+/// A value as the last digit shows it, halves away from zero.
+fn rounded(value: f64, digit: f64) -> f64 {
+    (value / digit).round() * digit
+}
+
+/// A tool axis that all but lies along the primary rotary axis leaves open which way it
+/// leans: the angle it leans by widens what is allowed.
+fn beside_the_pole(settings: &Settings, slack: &Slack, pose: &Pose) -> Slack {
+    let mut slack = *slack;
+    let Some(primary) = &settings.forward.rotaries()[0] else { return slack };
+    let lean = primary.direction.cross(&pose.axis).norm();
+    if lean >= REACHED {
+        return slack;
     }
+    let lever = settings.forward.lever(pose.tip);
+    for n in 0..3 {
+        slack.linear[n] += LEAN * lean * lever;
+    }
+    for n in 0..2 {
+        slack.rotary[n] += LEAN * lean.to_degrees();
+    }
+    slack
 }

@@ -1,18 +1,18 @@
 //! Holes of the path against canned cycles, or single moves, of the program.
 
-use fil_diag::Diag;
-use nalgebra::Vector3;
-
+use super::ahead::Steps;
 use super::report::Kind;
-use super::walk::{Walk, short};
-use super::wanted::{CycleKind, Hole, Step};
+use super::say::short;
+use super::walk::Walk;
+use super::wanted::{CycleKind, Hole};
+use crate::forward::Pose;
 use crate::motion::{Course, Event, Move, Spindle};
 
 /// Most motions over a hole before it is drilled.
 const APPROACH: usize = 6;
 
-/// How single moves come back above the last peck, mm.
-const MOST_GAP: f64 = 5.0;
+/// How far single moves come back above the last peck, mm.
+const PECK_GAP: f64 = 0.2;
 
 /// Levels of a hole in the machine's Z, and its place.
 #[derive(Clone, Copy)]
@@ -32,21 +32,41 @@ enum Out {
     Any,
 }
 
-impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
+impl<C: Steps> Walk<'_, C> {
     /// Takes the events that make a hole; false when the next ones make none here.
     pub(super) fn hole(&mut self, cl_line: u32, hole: &Hole) -> bool {
         if !self.is_over_hole(self.next, hole) {
             return false;
         }
         let Some(plunge) = self.plunge(self.next) else { return false };
-        let first = self.next;
         let levels = self.levels(hole, &plunge);
-        let wrong = self.drill(cl_line, hole, levels, plunge.modes.spindle);
-        if let Err((line, message)) = wrong {
-            self.find(Kind::Cycle, Some(cl_line), Some(line), message);
-            self.leave_hole(first, &plunge);
-        }
+        self.drill_at(cl_line, hole, levels, &plunge);
         true
+    }
+
+    /// Takes the events of a hole that is not where it should be; false when the next
+    /// ones make no hole.
+    pub(super) fn hole_elsewhere(&mut self, cl_line: u32, hole: &Hole) -> bool {
+        let Some(plunge) = self.plunge(self.next).filter(|plunge| plunge.arc.is_none()) else {
+            return false;
+        };
+        let mut levels = self.levels(hole, &plunge);
+        let over = Pose { tip: hole.start.tip, ..hole.start };
+        let mut stands = plunge;
+        stands.to.linear[2] = levels.at[2];
+        self.say_gap(cl_line, &stands, &over);
+        self.measure(&stands, &over);
+        levels.at = [plunge.to.linear[0], plunge.to.linear[1], levels.at[2]];
+        self.drill_at(cl_line, hole, levels, &plunge);
+        true
+    }
+
+    fn drill_at(&mut self, cl_line: u32, hole: &Hole, levels: Levels, plunge: &Move) {
+        let first = self.next;
+        if let Err((line, message)) = self.drill(cl_line, hole, levels, plunge.modes.spindle) {
+            self.find(Kind::Cycle, Some(cl_line), Some(line), message);
+            self.leave_hole(first, plunge);
+        }
     }
 
     /// The first motion at feed from `index` on, after motions over the hole.
@@ -69,9 +89,7 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
     }
 
     fn levels(&self, hole: &Hole, plunge: &Move) -> Levels {
-        let rotary = self.settings.forward.refine(plunge.to.rotary, hole.start.axis);
-        let near = |n: usize| (rotary[n] - plunge.to.rotary[n]).abs() <= self.slack.rotary[n];
-        let rotary = if near(0) && near(1) { rotary } else { plunge.to.rotary };
+        let rotary = self.gap(&plunge.to, &hole.start).rotary;
         let frame = self.settings.forward.frame(rotary);
         let above = |by: f64| frame.linear(hole.start.tip + hole.start.axis * by);
         let clear = hole.clear.unwrap_or_else(|| self.settings.cycle_clearance(self.metric));
@@ -122,7 +140,8 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
         if known && self.initial.is_none() {
             self.initial = Some(self.at.linear[2]);
         }
-        if known && self.at.linear[2] < raised - slack[2] {
+        let mut raise = known && self.at.linear[2] < raised - slack[2];
+        if raise {
             self.initial = Some(raised);
         }
         while let Some(found) = self.next_move().filter(|found| found.course == Course::Rapid) {
@@ -145,8 +164,13 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
             if z_moves && !level {
                 return Err((found.line, self.spell_level("the R level", to[2], levels.clear)));
             }
+            raise &= !near(to[2], raised, 2);
             self.take(cl_line, &found);
             self.next += 1;
+        }
+        if raise {
+            let message = format!("the tool does not go up to Z{} before the hole", short(raised));
+            return Err((self.next_line(), message));
         }
         if !near(self.at.linear[2], levels.clear, 2) {
             let line = self.next_move().map_or(0, |found| found.line);
@@ -171,26 +195,27 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
         levels: Levels,
         reached: f64,
     ) -> Result<(), (u32, String)> {
-        let out = self.next_move().ok_or((0, "the hole is not finished".to_string()))?;
         if hole.kind == CycleKind::Deep {
             self.level(cl_line, levels.clear, "the retract between pecks")?;
         }
-        let Some(back) = self.next_move().filter(|found| found.course == Course::Rapid) else {
-            return Ok(());
-        };
-        let gap = back.to.linear[2] - reached;
-        let usual = *self.peck_gap.get_or_insert(gap);
-        let held = back.to.linear[2].min(levels.clear);
-        let right = (gap - usual).abs() <= 2.0 * self.slack.linear[2]
-            || (held - levels.clear).abs() <= self.slack.linear[2];
-        if gap < -self.slack.linear[2] || gap > MOST_GAP || !right {
-            let message = format!("comes back {} above the last peck", short(gap));
-            return Err((back.line.max(out.line), message));
-        }
+        let Some(back) = self.next_move() else { return Ok(()) };
         self.vertical(&back)?;
-        self.take(cl_line, &back);
-        self.next += 1;
-        Ok(())
+        let slack = self.slack.linear[2];
+        let gap = back.to.linear[2] - reached;
+        // How far a control comes back by itself is a parameter of the control.
+        let right = if back.in_cycle { gap > 0.0 } else { (gap - PECK_GAP).abs() <= 2.0 * slack };
+        let above = (back.to.linear[2] - levels.clear).abs() <= slack && gap <= PECK_GAP + slack;
+        if back.course == Course::Rapid && (right || above) {
+            self.take(cl_line, &back);
+            self.next += 1;
+            return Ok(());
+        }
+        if hole.kind == CycleKind::Deep && levels.clear - reached <= PECK_GAP + slack {
+            return Ok(());
+        }
+        let message =
+            format!("{} in place of a rapid to just above the last peck", self.spell_move(&back));
+        Err((back.line, message))
     }
 
     /// The next motion, which must go straight to a level.
@@ -211,14 +236,14 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
             return Err((self.next_line(), "the hole is not finished".to_string()));
         };
         self.vertical(&found)?;
-        if (found.to.linear[2] - z).abs() > self.slack.linear[2] {
+        let off = found.to.linear[2] - z;
+        self.report.position.add(off.abs(), found.line);
+        if off.abs() > self.slack.linear[2] {
             return Err((found.line, self.spell_level(what, found.to.linear[2], z)));
         }
         found.modes.spindle = turning.unwrap_or(found.modes.spindle);
         self.take(cl_line, &found);
         self.next += 1;
-        let off = found.to.linear[2] - z;
-        self.report.position.add(Vector3::new(0.0, 0.0, off).norm(), found.line);
         Ok(found)
     }
 
@@ -324,7 +349,7 @@ impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'_, C> {
                 Event::Move(Move { line, .. })
                 | Event::ToolChange { line, .. }
                 | Event::Dwell { line, .. }
-                | Event::End { line },
+                | Event::End { line, .. },
             ) => *line,
             None => 0,
         }

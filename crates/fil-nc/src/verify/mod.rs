@@ -5,15 +5,20 @@
 //! machine's settings lay down what the CL file leaves open (where codes stand,
 //! what the last digit is), [`settings`] says it.
 
+mod ahead;
+mod align;
 mod arc;
 mod blocks;
 mod cl_path;
 mod gap;
 mod hole;
+mod lines;
 mod modes;
 mod programs;
 mod report;
+mod say;
 mod settings;
+mod tools;
 mod walk;
 mod wanted;
 
@@ -28,10 +33,10 @@ use crate::motion::Event;
 use blocks::OwnBlocks;
 
 pub use cl_path::ClPath;
-pub use programs::compare_programs;
+pub use programs::{compare_programs, compare_words};
 pub use report::{Deviation, Finding, Kind, Report, Unverified, Verdict};
 pub use settings::{Due, Settings, Slack};
-pub use wanted::{Arc, CoolantKind, CycleKind, Hole, Step, Wanted};
+pub use wanted::{Arc, CoolantKind, CycleKind, Effect, Hole, Step, Wanted};
 
 /// The inputs of a back-check.
 pub struct Check<'a, R> {
@@ -69,7 +74,10 @@ pub fn verify<R: Read>(check: Check<'_, R>) -> Result<Report, Box<Diag>> {
 const FEW: u64 = 6;
 
 /// A program that makes next to none of the motions is one of another part.
-fn refuse_another_part(report: &Report) -> Result<(), Box<Diag>> {
+///
+/// # Errors
+/// E0941 for such a program.
+pub fn refuse_another_part(report: &Report) -> Result<(), Box<Diag>> {
     if report.compared < FEW || report.matched * 10 >= report.compared {
         return Ok(());
     }

@@ -5,7 +5,7 @@
 
 use super::report::Kind;
 use super::settings::{Due, Settings};
-use super::wanted::{CoolantKind, Wanted};
+use super::wanted::{CoolantKind, Effect, Wanted};
 use crate::motion::{Compensation, Modes, Spindle};
 
 /// A state that may change with a motion.
@@ -64,13 +64,18 @@ pub(super) struct Moved {
 #[derive(Clone, Debug)]
 pub(super) struct Expected {
     tool: Option<u32>,
+    /// The tool that LOADTL named last.
+    loaded: Option<u32>,
     offset: Lag<Option<u32>>,
-    compensation: Lag<Compensation>,
+    /// The side, and the number of the offset.
+    compensation: Lag<(Compensation, Option<u32>)>,
     spindle: Lag<Option<Spindle>>,
     speed: Lag<Option<f64>>,
     coolant: Lag<bool>,
     /// `None` when words of the user's own may have chosen it.
     fixture: Option<Option<u32>>,
+    /// The length offset seen last.
+    offset_on: Option<u32>,
     /// What was wrong at the last motion, so that it is said once.
     said: Vec<(Kind, String)>,
 }
@@ -79,12 +84,14 @@ impl Expected {
     pub(super) fn new(settings: &Settings) -> Self {
         Expected {
             tool: None,
+            loaded: None,
             offset: Lag::new(None),
-            compensation: Lag::new(Compensation::Off),
+            compensation: Lag::new((Compensation::Off, None)),
             spindle: Lag::new(Some(Spindle::Off)),
             speed: Lag::new(None),
             coolant: Lag::new(false),
             fixture: Some(fixture_of(&settings.own_blocks())),
+            offset_on: None,
             said: Vec::new(),
         }
     }
@@ -121,11 +128,14 @@ impl Expected {
                     self.coolant.set(*kind != CoolantKind::Off, due);
                 }
             }
-            Wanted::Compensation(side) => {
-                self.compensation.set(*side, settings.compensation_due());
+            Wanted::Compensation(side, offset) => {
+                let of_tool = self.loaded.filter(|_| settings.offsets_diameters_by_tool());
+                let offset = offset.or(of_tool).filter(|_| *side != Compensation::Off);
+                self.compensation.set((*side, offset), settings.compensation_due());
             }
             Wanted::Stop | Wanted::End => self.flush(),
-            Wanted::Unknown { .. } => self.fixture = None,
+            Wanted::Fixture(code) => self.fixture = Some(Some(*code)),
+            Wanted::Unknown { effect: Effect::Words | Effect::Path, .. } => self.fixture = None,
             _ => {}
         }
     }
@@ -134,11 +144,33 @@ impl Expected {
     pub(super) fn change_tool(&mut self, tool: u32, offset: u32, settings: &Settings) {
         self.flush();
         self.tool = settings.calls_tools().then_some(tool);
+        self.loaded = Some(tool);
         if settings.calls_offsets() {
             self.offset.set(Some(offset), Due::WithZ);
         } else if settings.calls_tools_with_offset() {
             self.offset.set(Some(offset).filter(|offset| *offset > 0), Due::Now);
         }
+    }
+
+    /// What is not as it must be while the axes stand: before a tool is changed, or
+    /// at the end.
+    pub(super) fn check_standing(
+        &mut self,
+        modes: &Modes,
+        changes: bool,
+        speed_slack: f64,
+    ) -> Vec<(Kind, String)> {
+        self.flush();
+        let mut wrong = self.wrong(modes, false, speed_slack);
+        // A change may bring its own offset along; one that waits needs a motion.
+        wrong.retain(|(kind, _)| *kind != Kind::Tool || !(changes || self.offset_waits()));
+        self.news(wrong)
+    }
+
+    fn news(&mut self, wrong: Vec<(Kind, String)>) -> Vec<(Kind, String)> {
+        let news = wrong.iter().filter(|one| !self.said.contains(one)).cloned().collect();
+        self.said = wrong;
+        news
     }
 
     fn flush(&mut self) {
@@ -162,10 +194,26 @@ impl Expected {
         self.spindle.moved(moved);
         self.speed.moved(moved);
         self.coolant.moved(moved);
+        self.offset_on = modes.length_offset;
         let wrong = self.wrong(modes, cuts, speed_slack);
-        let news = wrong.iter().filter(|one| !self.said.contains(one)).cloned().collect();
-        self.said = wrong;
-        news
+        self.news(wrong)
+    }
+
+    /// A length offset is still to be called.
+    pub(super) fn offset_waits(&self) -> bool {
+        self.offset.next.is_some()
+    }
+
+    /// A motion with a new tool is over: what is wrong when its length offset is
+    /// not yet on.
+    pub(super) fn settle(&mut self) -> Option<(Kind, String)> {
+        let (must, _) = self.offset.next?;
+        self.offset.flush();
+        let one = (Kind::Tool, said_of_offset(self.offset_on, must));
+        (self.offset_on != must && !self.said.contains(&one)).then(|| {
+            self.said.push(one.clone());
+            one
+        })
     }
 
     fn wrong(&self, modes: &Modes, cuts: bool, speed_slack: f64) -> Vec<(Kind, String)> {
@@ -180,8 +228,9 @@ impl Expected {
         if let Some(must) = self.offset.refuses(offset).filter(|_| !given_up) {
             wrong.push((Kind::Tool, said_of_offset(modes.length_offset, must)));
         }
-        if let Some(must) = self.compensation.refuses(|may| may == modes.compensation) {
-            wrong.push((Kind::Compensation, said_of_compensation(modes.compensation, must)));
+        let found = (modes.compensation, modes.compensation_offset);
+        if let Some(must) = self.compensation.refuses(|may| may == found) {
+            wrong.push((Kind::Compensation, said_of_compensation(found, must)));
         }
         let spindle = |may: Option<Spindle>| may.is_none_or(|may| may == modes.spindle);
         if let Some(Some(must)) = self.spindle.refuses(spindle) {
@@ -223,7 +272,9 @@ fn said_of_offset(found: Option<u32>, must: Option<u32>) -> String {
     }
 }
 
-fn said_of_compensation(found: Compensation, must: Compensation) -> String {
+type Side = (Compensation, Option<u32>);
+
+fn said_of_compensation((found, offset): Side, (must, must_offset): Side) -> String {
     let side = |side| match side {
         Compensation::Off => "off",
         Compensation::Left => "left",
@@ -232,7 +283,10 @@ fn said_of_compensation(found: Compensation, must: Compensation) -> String {
     if must == Compensation::Off {
         return format!("cutter compensation {} is left on", side(found));
     }
-    format!("cutter compensation is {}, it should be {}", side(found), side(must))
+    let with = |offset: Option<u32>| offset.map_or(String::new(), |n| format!(" with offset {n}"));
+    let (found, must) = (side(found), side(must));
+    let (found_offset, must_offset) = (with(offset), with(must_offset));
+    format!("cutter compensation is {found}{found_offset}, it should be {must}{must_offset}")
 }
 
 fn said_of_spindle(found: Spindle, must: Spindle, cuts: bool) -> String {
@@ -252,9 +306,7 @@ fn fixture_of(blocks: &[String]) -> Option<u32> {
     let words = blocks.iter().filter_map(|block| {
         crate::text::read_block(block.as_bytes(), "settings", 1).ok().map(|block| block.words)
     });
-    words
-        .flatten()
-        .filter(|word| word.letter == b'G' && (54..=59).contains(&word.number.digits))
-        .map(|word| word.number.digits as u32)
-        .last()
+    let offset =
+        |word: &crate::text::Word| word.letter == b'G' && (54..=59).contains(&word.number.digits);
+    words.flatten().filter(offset).map(|word| word.number.digits as u32).reduce(|_, last| last)
 }

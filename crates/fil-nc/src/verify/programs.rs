@@ -6,8 +6,11 @@
 //! this finds what was changed in a program, not what was wrong with it from the
 //! start.
 
-use super::report::{Finding, Kind, Report};
-use super::walk::short;
+use fil_diag::Diag;
+
+use super::report::{Finding, Kind, Report, Unverified};
+use super::say::short;
+use crate::diff;
 use crate::motion::{Arc, Course, Event, Modes, Move, Rate};
 
 /// How far to look for the place where two programs agree again.
@@ -26,6 +29,40 @@ pub fn compare_programs(wanted: &[Event], found: &[Event], tolerance: Option<f64
     };
     pair.all();
     pair.report
+}
+
+/// Compares two programs word by word: for one that the interpreter refuses, so that
+/// its motions are not known.
+///
+/// # Errors
+/// A line that is no block of words.
+pub fn compare_words(
+    wanted: &[u8],
+    (found, name): (&[u8], &str),
+    refused: &Diag,
+    tolerance: Option<f64>,
+) -> Result<Report, Box<Diag>> {
+    let ignore = diff::Ignore { numbers: true, comments: true, ..diff::Ignore::default() };
+    let tolerance = tolerance.unwrap_or(0.0) + DUST;
+    let options = diff::Options { tolerance, ignore, ..diff::Options::default() };
+    let wanted = diff::read(wanted, "the second run", &options)?;
+    let found = diff::read(found, name, &options)?;
+    let mut report = Report::default();
+    for difference in diff::compare(&wanted, &found, &options).differences {
+        report.find(Finding {
+            kind: Kind::Block,
+            cl_line: None,
+            nc_line: difference.lines[1],
+            message: diff::sentence(&difference, &wanted, &found),
+        });
+    }
+    let line = refused.places.first().map_or(0, |place| place.line);
+    let what = format!(
+        "the program from line {line} on can't be followed ({}); its blocks were compared word by word",
+        refused.message
+    );
+    report.unverified.push(Unverified { cl_line: None, what });
+    Ok(report)
 }
 
 struct Pair<'a> {
@@ -115,6 +152,10 @@ impl Pair<'_> {
                 self.arcs(a, b);
                 self.modes(b.line, &a.modes, &b.modes);
             }
+            (Event::ToolChange { modes: a, .. }, Event::ToolChange { line, modes: b, .. })
+            | (Event::End { modes: a, .. }, Event::End { line, modes: b }) => {
+                self.modes(*line, a, b);
+            }
             (Event::Dwell { seconds: a, .. }, Event::Dwell { line, seconds: b }) => {
                 let same = match (a, b) {
                     (Some(a), Some(b)) => self.near(*a, *b),
@@ -177,7 +218,7 @@ impl Pair<'_> {
                 "another length offset is on".to_string(),
             ),
             (
-                a.compensation != b.compensation,
+                (a.compensation, a.compensation_offset) != (b.compensation, b.compensation_offset),
                 Kind::Compensation,
                 "cutter compensation is not as it should be".to_string(),
             ),
@@ -237,7 +278,7 @@ fn line_of(event: &Event) -> u32 {
         Event::Move(Move { line, .. })
         | Event::ToolChange { line, .. }
         | Event::Dwell { line, .. }
-        | Event::End { line } => *line,
+        | Event::End { line, .. } => *line,
     }
 }
 

@@ -109,8 +109,8 @@ impl fmt::Display for Finding {
 /// Something the reference does not determine, so that it was not compared.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unverified {
-    /// Line of the CL file.
-    pub cl_line: u32,
+    /// Line of the CL file, where it stands there.
+    pub cl_line: Option<u32>,
     /// What was not compared.
     pub what: String,
 }

@@ -64,6 +64,8 @@ pub enum Due {
 pub struct Slack {
     /// X, Y, Z, mm.
     pub linear: [f64; 3],
+    /// Last digit of X, Y, Z, mm, where a value is rounded before it is scaled.
+    pub rounded: [Option<f64>; 3],
     /// Primary and secondary rotary axis, degrees.
     pub rotary: [f64; 2],
     /// I, J, K, mm.
@@ -113,21 +115,17 @@ impl<'c> Settings<'c> {
             Output::Off | Output::Unknown => NOT_WRITTEN,
         };
         let of_axis = |letter: u8, common: usize, unit: f64| {
-            let diameter = common == 0 && self.commons.flag(loc::LATHE_DIAMETER);
-            let scale = self.commons.dbl_opt(SCALES[common]).unwrap_or(1.0).abs()
-                * if diameter { 2.0 } else { 1.0 };
-            let written = half(letter);
-            // Rounded before the scale and after it.
-            let exact = if scale == 1.0 { written } else { written + written / scale };
-            self.allowed(exact * unit)
+            self.allowed(half(letter) / self.scale(common) * unit)
         };
+        let axes = [(b'X', 0), (b'Y', 1), (b'Z', 2)];
+        let scaled = |common: usize| (self.scale(common) != 1.0).then_some(2.0 * unit);
         let rotary = [0, 1].map(|index| match &self.forward.rotaries()[index] {
             Some(axis) => of_axis(axis.letter, axis.axis + 3, 1.0),
             None => 0.0,
         });
         Slack {
-            linear: [(b'X', 0), (b'Y', 1), (b'Z', 2)]
-                .map(|(name, common)| of_axis(letter(name), common, unit)),
+            linear: axes.map(|(name, common)| of_axis(letter(name), common, unit)),
+            rounded: axes.map(|(name, common)| Some(half(letter(name)) * scaled(common)?)),
             rotary,
             centre: [b'I', b'J', b'K'].map(|name| self.allowed(half(letter(name)) * unit)),
             radius: self.allowed(half(letter(b'R')) * unit),
@@ -135,6 +133,18 @@ impl<'c> Settings<'c> {
             speed: half(letter(b'S')) + DUST,
             dwell: self.dwell_slack(half),
         }
+    }
+
+    /// What the program multiplies an axis by.
+    fn scale(&self, common: usize) -> f64 {
+        let diameter = common == 0 && self.commons.flag(loc::LATHE_DIAMETER);
+        let scale = self.commons.dbl_opt(SCALES[common]).unwrap_or(1.0).abs();
+        if diameter { 2.0 } else { scale }
+    }
+
+    /// What the program multiplies X by when it begins.
+    pub fn x_scale(&self) -> f64 {
+        self.scale(0)
     }
 
     fn dwell_slack(&self, half: impl Fn(u8) -> f64) -> f64 {
@@ -169,6 +179,11 @@ impl<'c> Settings<'c> {
     /// When a coolant word must be in force.
     pub fn coolant_due(&self) -> Due {
         due(self.commons.int(loc::COOLANT_PLACEMENT))
+    }
+
+    /// True when the tool's number is that of its diameter offset.
+    pub fn offsets_diameters_by_tool(&self) -> bool {
+        self.commons.flag(loc::TOOL_DIAMETER_FROM_TOOL)
     }
 
     /// When cutter compensation must be in force.

@@ -1,77 +1,30 @@
 //! Walks along the steps of a CL file and the events of a program at once.
 
-use std::collections::VecDeque;
+use std::borrow::Cow;
 
 use fil_diag::Diag;
 
+use super::ahead::{Ahead, Steps};
+use super::align::Detour;
 use super::blocks::OwnBlocks;
 use super::gap::Gap;
 use super::modes::{Expected, Moved};
 use super::report::{Finding, Kind, Report, Unverified};
+use super::say::{Shape, short};
 use super::settings::{Settings, Slack};
-use super::wanted::{Step, Wanted};
+use super::wanted::{Effect, Step, Wanted};
 use crate::forward::Pose;
-use crate::motion::{Course, Event, Move, Position, Rate};
+use crate::motion::{Course, Event, Modes, Move, Position, Rate};
 
 /// How far to look for the place where path and program agree again.
-const LOOK_AHEAD: usize = 8;
-
-/// Most blocks of one rapid.
-const RAPID_PARTS: usize = 4;
+pub(super) const LOOK_AHEAD: usize = 8;
 
 /// Ways shorter than this are none, mm or degrees.
-const STILL: f64 = 1e-9;
-
-/// The steps to come.
-pub(super) struct Ahead<C> {
-    steps: C,
-    seen: VecDeque<Step>,
-    /// The CL file can't be read on.
-    pub(super) failed: Option<Box<Diag>>,
-}
-
-impl<C: Iterator<Item = Result<Step, Box<Diag>>>> Ahead<C> {
-    fn new(steps: C) -> Self {
-        Ahead { steps, seen: VecDeque::new(), failed: None }
-    }
-
-    fn read(&mut self) -> Option<Step> {
-        match self.steps.next()? {
-            Ok(step) => Some(step),
-            Err(diag) => {
-                self.failed = Some(diag);
-                None
-            }
-        }
-    }
-
-    fn next(&mut self) -> Option<Step> {
-        self.seen.pop_front().or_else(|| self.read())
-    }
-
-    /// The `n`th step to come, from 0.
-    fn peek(&mut self, n: usize) -> Option<&Step> {
-        while self.seen.len() <= n {
-            let step = self.read()?;
-            self.seen.push_back(step);
-        }
-        self.seen.get(n)
-    }
-}
-
-/// How path and program come together again.
-enum Detour {
-    /// The program lacks the step.
-    Missing,
-    /// The program has so many events too many.
-    Extra(usize),
-    /// The next motion stands for the step, but differs.
-    Other,
-}
+pub(super) const STILL: f64 = 1e-9;
 
 pub(super) struct Walk<'a, C> {
     pub(super) cl: Ahead<C>,
-    pub(super) nc: &'a [Event],
+    pub(super) nc: Cow<'a, [Event]>,
     /// Index of the next event.
     pub(super) next: usize,
     pub(super) own: OwnBlocks<'a>,
@@ -79,24 +32,28 @@ pub(super) struct Walk<'a, C> {
     pub(super) slack: Slack,
     pub(super) metric: bool,
     /// Travel of the linear axes, mm.
-    travel: [(f64, f64); 3],
+    pub(super) travel: [(f64, f64); 3],
     written: [bool; 3],
-    splits_rapids: bool,
+    pub(super) splits_rapids: bool,
+    /// What the program multiplies X by.
+    x_scale: f64,
     /// Where the program stands.
     pub(super) at: Position,
     pub(super) known: [bool; 5],
+    /// Exact rotary positions that the tape shows rounded.
+    pub(super) exact: [f64; 2],
+    /// Line of the last motion taken.
+    line: u32,
     pub(super) modes: Expected,
     /// Level the control's cycle began from.
     pub(super) initial: Option<f64>,
-    /// How far single moves stay above the last peck.
-    pub(super) peck_gap: Option<f64>,
     /// What was said of the last position, so that one fault is said once.
-    said: Option<([f64; 3], Option<f64>)>,
+    pub(super) said: Option<Shape>,
     pub(super) report: Report,
-    over: bool,
+    pub(super) over: bool,
 }
 
-impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
+impl<'a, C: Steps> Walk<'a, C> {
     pub(super) fn new(
         cl: C,
         nc: &'a [Event],
@@ -105,7 +62,7 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
     ) -> Self {
         Walk {
             cl: Ahead::new(cl),
-            nc,
+            nc: Cow::Borrowed(nc),
             next: 0,
             own,
             settings,
@@ -114,11 +71,13 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
             travel: settings.travel(true),
             written: settings.written(),
             splits_rapids: settings.splits_rapids(),
+            x_scale: settings.x_scale(),
             at: Position::default(),
             known: [false; 5],
+            exact: [0.0; 2],
+            line: 0,
             modes: Expected::new(settings),
             initial: None,
-            peck_gap: None,
             said: None,
             report: Report::default(),
             over: false,
@@ -150,7 +109,7 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
         Ok(self.report)
     }
 
-    fn step(&mut self, step: &Step) {
+    pub(super) fn step(&mut self, step: &Step) {
         self.modes.take(&step.what, self.settings);
         match &step.what {
             Wanted::Metric(metric) => {
@@ -158,18 +117,33 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
                 self.slack = self.settings.slack(*metric);
                 self.travel = self.settings.travel(*metric);
             }
+            Wanted::XScale(scale) => self.scale_x(*scale),
             Wanted::CycleEnd => self.initial = None,
             Wanted::Tool { number, offset } => self.tool(step.line, *number, *offset),
             Wanted::Dwell(seconds) => self.dwell(step.line, *seconds),
             Wanted::Insert(text) => self.insert(step.line, text),
-            Wanted::Unknown { what, ends } => self.unknown(step.line, what, *ends),
+            Wanted::Unknown { what, effect } => self.unknown(step.line, what, *effect),
             Wanted::End => self.end(step.line),
             _ if step.what.end().is_some() => self.motion(step),
             _ => {}
         }
     }
 
-    fn motion(&mut self, step: &Step) {
+    /// X on the tape is another multiple of its position from here on, which the
+    /// program does not say.
+    pub(super) fn scale_x(&mut self, scale: f64) {
+        let change = std::mem::replace(&mut self.x_scale, scale) / scale;
+        for event in &mut self.nc.to_mut()[self.next..] {
+            if let Event::Move(found) = event {
+                found.to.linear[0] *= change;
+                if let Some(arc) = &mut found.arc {
+                    arc.centre[0] *= change;
+                }
+            }
+        }
+    }
+
+    pub(super) fn motion(&mut self, step: &Step) {
         self.report.compared += 1;
         if !matches!(step.what, Wanted::Hole(_)) {
             self.initial = None;
@@ -178,7 +152,7 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
             self.pass(step.line);
             if self.makes(step) {
                 self.report.matched += 1;
-                return;
+                return self.settle(step.line);
             }
             if self.at_end() {
                 return self.ends_early(step);
@@ -195,7 +169,7 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
     }
 
     /// Takes the events that make a step; false when the next ones don't.
-    fn makes(&mut self, step: &Step) -> bool {
+    pub(super) fn makes(&mut self, step: &Step) -> bool {
         match &step.what {
             Wanted::Rapid(pose) => self.rapid(step.line, pose),
             Wanted::Feed(pose, rate) => self.line(step.line, pose, Course::Feed, *rate),
@@ -205,77 +179,6 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
             Wanted::Arc(arc, rate) => self.arc(step.line, arc, *rate),
             Wanted::Hole(hole) => self.hole(step.line, hole),
             _ => true,
-        }
-    }
-
-    /// A rapid in one block or in parts.
-    fn rapid(&mut self, cl_line: u32, pose: &Pose) -> bool {
-        if self.stands_at(pose) {
-            return true;
-        }
-        let Some(count) = self.rapid_parts(self.next, pose) else { return false };
-        let last = self.next + count - 1;
-        let Event::Move(end) = self.nc[last] else { return false };
-        for index in self.next..=last {
-            if let Event::Move(part) = self.nc[index] {
-                self.check_part(cl_line, &part, &end.to);
-                self.take(cl_line, &part);
-            }
-        }
-        self.measure(&end, pose);
-        self.next = last + 1;
-        true
-    }
-
-    /// How many rapids from `index` on reach a pose.
-    fn rapid_parts(&self, index: usize, pose: &Pose) -> Option<usize> {
-        let rapids =
-            self.nc.get(index..)?.iter().take(RAPID_PARTS).map_while(|event| match event {
-                Event::Move(part) if part.course == Course::Rapid && !part.in_cycle => Some(part),
-                _ => None,
-            });
-        rapids.into_iter().position(|part| self.reaches(part, pose)).map(|at| at + 1)
-    }
-
-    /// Each axis stays or ends in a part of a rapid, and the height is the safe one.
-    fn check_part(&mut self, cl_line: u32, part: &Move, end: &Position) {
-        let splits = self.splits_rapids;
-        let at = self.at.linear;
-        let known = self.known;
-        let same = |a: f64, b: f64| (a - b).abs() <= STILL;
-        let moved = |n: usize| !same(part.to.linear[n], at[n]);
-        let arrived = |n: usize| same(part.to.linear[n], end.linear[n]);
-        let mut say = |message: String| {
-            self.find(Kind::Order, Some(cl_line), Some(part.line), message);
-        };
-        if (0..3).any(|n| moved(n) && !arrived(n) && known[n]) {
-            let [x, y, z] = part.to.linear.map(short);
-            say(format!("rapid by way of X{x} Y{y} Z{z}, which is on no way to its end"));
-        }
-        if !splits || !known[2] {
-            return;
-        }
-        let lower = moved(2) && part.to.linear[2] < at[2];
-        if lower && !(arrived(0) && arrived(1)) {
-            say("rapid plunges before X and Y have arrived".to_string());
-        }
-        let across = (moved(0) || moved(1)) && !moved(2);
-        if across && end.linear[2] > at[2] + STILL {
-            say("rapid goes across before Z has gone up".to_string());
-        }
-    }
-
-    /// A straight line at feed, or a thread pass.
-    fn line(&mut self, cl_line: u32, pose: &Pose, course: Course, rate: Option<Rate>) -> bool {
-        match self.next_move() {
-            Some(found) if is_line(&found, course) && self.reaches(&found, pose) => {
-                self.check_rate(cl_line, &found, rate);
-                self.take(cl_line, &found);
-                self.measure(&found, pose);
-                self.next += 1;
-                true
-            }
-            _ => self.stands_at(pose),
         }
     }
 
@@ -290,7 +193,10 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
                     let message = "goes to a point of the machine that neither the CL file nor the settings ask for";
                     self.find(Kind::Extra, Some(cl_line), Some(found.line), message.to_string());
                 }
-                Some(Event::Move(found)) if self.is_still(&found) => self.stand(&found),
+                Some(Event::Move(found)) if self.is_still(&found) => {
+                    self.take(cl_line, &found);
+                    self.next += 1;
+                }
                 Some(Event::Dwell { line, .. }) if self.own.has(line) => self.next += 1,
                 _ => return,
             }
@@ -298,13 +204,13 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
     }
 
     /// Goes where a motion goes without a look at it.
-    fn stand(&mut self, found: &Move) {
+    pub(super) fn stand(&mut self, found: &Move) {
         self.at = found.to;
         self.known = found.known;
         self.next += 1;
     }
 
-    fn is_still(&self, found: &Move) -> bool {
+    pub(super) fn is_still(&self, found: &Move) -> bool {
         let same = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= STILL);
         found.arc.is_none()
             && same(&found.to.linear, &self.at.linear)
@@ -323,16 +229,26 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
     }
 
     /// True when the tool already is where a pose asks it to be.
-    pub(super) fn stands_at(&self, pose: &Pose) -> bool {
-        self.is_known(&self.known) && Gap::of(self.settings, &self.slack, &self.at, pose).closed()
+    pub(super) fn stands_at(&mut self, pose: &Pose) -> bool {
+        let gap = self.gap(&self.at, pose);
+        let stands = self.is_known(&self.known) && gap.closed();
+        if stands {
+            self.exact = gap.rotary;
+        }
+        stands
     }
 
     pub(super) fn reaches(&self, found: &Move, pose: &Pose) -> bool {
-        self.is_known(&found.known) && Gap::of(self.settings, &self.slack, &found.to, pose).closed()
+        self.is_known(&found.known) && self.gap(&found.to, pose).closed()
+    }
+
+    /// The gap between where the axes stand and a pose.
+    pub(super) fn gap(&self, at: &Position, pose: &Pose) -> Gap {
+        Gap::of(self.settings, &self.slack, at, pose, self.exact)
     }
 
     /// All axes that the program writes are known.
-    fn is_known(&self, known: &[bool; 5]) -> bool {
+    pub(super) fn is_known(&self, known: &[bool; 5]) -> bool {
         let linear = (0..3).all(|n| known[n] || !self.written[n]);
         let rotary = |n: usize| known[n + 3] || self.settings.forward.rotaries()[n].is_none();
         linear && rotary(0) && rotary(1)
@@ -340,70 +256,54 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
 
     /// Takes a motion: its modes, its limits, where it goes.
     pub(super) fn take(&mut self, cl_line: u32, found: &Move) {
-        let differs = |n: usize| (found.to.linear[n] - self.at.linear[n]).abs() > STILL;
+        let differs = |n: usize| {
+            let way = (found.to.linear[n] - self.at.linear[n]).abs();
+            way > STILL || (found.known[n] && !self.known[n])
+        };
         let moved = Moved { xy: differs(0) || differs(1), z: differs(2) };
         let cuts = matches!(found.course, Course::Feed | Course::Thread);
         for (kind, message) in self.modes.check(&found.modes, moved, cuts, self.slack.speed) {
             self.find(kind, Some(cl_line), Some(found.line), message);
         }
         self.check_limits(cl_line, found);
+        self.line = found.line;
         self.at = found.to;
         self.known = found.known;
     }
 
-    fn check_limits(&mut self, cl_line: u32, found: &Move) {
-        for (n, (min, max)) in self.travel.into_iter().enumerate() {
-            let value = found.to.linear[n];
-            if !(min..=max).contains(&value) {
-                let axis = ["X", "Y", "Z"][n];
-                let message =
-                    format!("{axis}{} lies outside the travel {min} to {max}", short(value));
-                self.find(Kind::Limit, Some(cl_line), Some(found.line), message);
-            }
+    /// What must be in force while the axes stand.
+    pub(super) fn check_standing(
+        &mut self,
+        cl_line: u32,
+        nc_line: u32,
+        modes: &Modes,
+        changes: bool,
+    ) {
+        for (kind, message) in self.modes.check_standing(modes, changes, self.slack.speed) {
+            self.find(kind, Some(cl_line), Some(nc_line), message);
         }
-        for n in 0..2 {
-            let Some(axis) = &self.settings.forward.rotaries()[n] else { continue };
-            let value = found.to.rotary[n];
-            let low = axis.min.is_some_and(|min| value < min - self.slack.rotary[n]);
-            let high = axis.max.is_some_and(|max| value > max + self.slack.rotary[n]);
-            if low || high {
-                let letter = char::from(b'A' + axis.letter.clamp(1, 26) - 1);
-                let message =
-                    format!("{letter}{} lies outside the travel of the axis", short(value));
-                self.find(Kind::Limit, Some(cl_line), Some(found.line), message);
-            }
+    }
+
+    /// After the first motion with a new tool its length offset is on.
+    pub(super) fn settle(&mut self, cl_line: u32) {
+        if !self.modes.offset_waits() {
+            return;
+        }
+        self.pass(cl_line);
+        if let Some((kind, message)) = self.modes.settle() {
+            self.find(kind, Some(cl_line), Some(self.line), message);
         }
     }
 
     /// Adds a motion to the deviations.
     pub(super) fn measure(&mut self, found: &Move, pose: &Pose) {
-        let gap = Gap::of(self.settings, &self.slack, &found.to, pose);
+        let gap = self.gap(&found.to, pose);
         self.report.position.add(gap.tip, found.line);
         self.report.axis.add(gap.axis, found.line);
         if gap.closed() {
             self.said = None;
         }
-    }
-
-    pub(super) fn check_rate(&mut self, cl_line: u32, found: &Move, wanted: Option<Rate>) {
-        let wanted = match wanted {
-            Some(Rate::PerMinute(rate)) => {
-                Rate::PerMinute(self.settings.feed_within(rate, self.metric))
-            }
-            Some(rate) => rate,
-            None => return,
-        };
-        let agrees = match (wanted, found.rate) {
-            (Rate::PerMinute(a), Some(Rate::PerMinute(b)))
-            | (Rate::PerTurn(a), Some(Rate::PerTurn(b)))
-            | (Rate::Inverse(a), Some(Rate::Inverse(b))) => (a - b).abs() <= self.slack.feed,
-            _ => false,
-        };
-        if !agrees {
-            let found_rate = found.rate.map_or("none".to_string(), spell_rate);
-            let message = format!("feed {found_rate}, it should be {}", spell_rate(wanted));
-            self.find(Kind::Feed, Some(cl_line), Some(found.line), message);
-        }
+        self.exact = gap.rotary;
     }
 
     pub(super) fn find(
@@ -416,99 +316,7 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
         self.report.find(Finding { kind, cl_line, nc_line, message });
     }
 
-    fn tool(&mut self, cl_line: u32, number: u32, offset: u32) {
-        self.initial = None;
-        let same = self.modes.tool() == Some(number) && self.settings.tool_is_modal();
-        let changes = !same && self.settings.calls_tools();
-        if changes {
-            self.to_change_position(cl_line);
-        }
-        self.modes.change_tool(number, offset, self.settings);
-        if !changes {
-            return;
-        }
-        let changes = self.nc[self.next..]
-            .iter()
-            .take(LOOK_AHEAD)
-            .position(|event| matches!(event, Event::ToolChange { .. }));
-        let Some(changes) = changes else {
-            return self.find(
-                Kind::Tool,
-                Some(cl_line),
-                None,
-                format!("no change to tool {number}"),
-            );
-        };
-        self.extra(changes, cl_line);
-        if let Some(Event::ToolChange { line, tool }) = self.nc.get(self.next).copied() {
-            self.next += 1;
-            if tool != number {
-                let message = format!("changes to tool {tool}, it should be tool {number}");
-                self.find(Kind::Tool, Some(cl_line), Some(line), message);
-            }
-        }
-        self.to_offset_level(cl_line);
-    }
-
-    /// The rapids to the position where the machine changes tools.
-    fn to_change_position(&mut self, cl_line: u32) {
-        self.pass(cl_line);
-        let wanted = self.settings.change_position(self.metric);
-        let value = |at: &Position, n: usize| {
-            if n < 3 { at.linear[n] } else { at.rotary[n - 3] }
-        };
-        let near = |at: &Position, n: usize| match wanted[n] {
-            Some(wanted) => {
-                let slack = if n < 3 { self.slack.linear[n] } else { self.slack.rotary[n - 3] };
-                (value(at, n) - wanted).abs() <= slack
-            }
-            None => true,
-        };
-        if (0..5).all(|n| near(&self.at, n)) {
-            return;
-        }
-        let reached = self.nc[self.next..].iter().take(RAPID_PARTS).position(|event| match event {
-            Event::Move(found) => {
-                found.course == Course::Rapid && (0..5).all(|n| near(&found.to, n))
-            }
-            _ => false,
-        });
-        match reached {
-            Some(reached) => {
-                for _ in 0..=reached {
-                    if let Some(found) = self.next_move() {
-                        self.take(cl_line, &found);
-                        self.next += 1;
-                    }
-                }
-            }
-            None => {
-                let message = "no motion to the tool change position".to_string();
-                self.find(Kind::Missing, Some(cl_line), None, message);
-            }
-        }
-    }
-
-    /// The Z motion that calls the length offset, where the settings have one.
-    fn to_offset_level(&mut self, cl_line: u32) {
-        let Some(level) = self.settings.offset_level(self.metric) else { return };
-        let found = self.next_move().filter(|found| {
-            (found.to.linear[2] - level).abs() <= self.slack.linear[2]
-                && found.to.linear[..2] == self.at.linear[..2]
-        });
-        match found {
-            Some(found) => {
-                self.take(cl_line, &found);
-                self.next += 1;
-            }
-            None => {
-                let message = format!("the length offset is not called at Z{}", short(level));
-                self.find(Kind::Tool, Some(cl_line), None, message);
-            }
-        }
-    }
-
-    fn dwell(&mut self, cl_line: u32, wanted: Option<f64>) {
+    pub(super) fn dwell(&mut self, cl_line: u32, wanted: Option<f64>) {
         self.pass(cl_line);
         let Some(Event::Dwell { line, seconds }) = self.nc.get(self.next).copied() else {
             return self.find(Kind::Missing, Some(cl_line), None, "no dwell".to_string());
@@ -539,52 +347,59 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
         }
     }
 
-    fn insert(&mut self, cl_line: u32, text: &str) {
+    pub(super) fn insert(&mut self, cl_line: u32, text: &str) {
         if !self.own.insert(text) {
             let message = format!("the block `{text}` of INSERT is not there");
             self.find(Kind::Block, Some(cl_line), None, message);
         }
     }
 
-    fn unknown(&mut self, cl_line: u32, what: &str, ends: bool) {
-        let what = if ends {
-            format!(
-                "{what}: the CL file does not say what path it makes; nothing after it was compared"
-            )
-        } else {
-            format!("{what}: what it writes was not compared")
+    pub(super) fn unknown(&mut self, cl_line: u32, what: &str, effect: Effect) {
+        let open = match effect {
+            Effect::Auxiliary => "what its M function does was not compared",
+            Effect::Words => "what it writes was not compared",
+            Effect::Path => {
+                "the CL file does not say what path it makes; nothing after it was compared"
+            }
         };
-        self.report.unverified.push(Unverified { cl_line, what });
-        self.over |= ends;
+        self.report
+            .unverified
+            .push(Unverified { cl_line: Some(cl_line), what: format!("{what}: {open}") });
+        self.over |= effect == Effect::Path;
     }
 
-    fn end(&mut self, cl_line: u32) {
+    pub(super) fn end(&mut self, cl_line: u32) {
         self.pass(cl_line);
-        let rest = self.nc[self.next..]
-            .iter()
-            .position(|event| matches!(event, Event::End { .. }))
-            .unwrap_or(self.nc.len() - self.next);
-        self.extra(rest, cl_line);
-        match self.nc.get(self.next) {
-            Some(_) => self.next += 1,
+        while !self.at_end() {
+            self.extra(1, cl_line);
+            self.pass(cl_line);
+        }
+        match self.nc.get(self.next).copied() {
+            Some(Event::End { line, modes }) => {
+                self.next += 1;
+                self.check_standing(cl_line, line, &modes, false);
+                if !self.settings.has_end_code() && !self.own.has(line) {
+                    let message = "the program ends here, the settings have no code for it";
+                    self.find(Kind::End, Some(cl_line), Some(line), message.to_string());
+                }
+            }
             None if self.settings.has_end_code() => {
                 let message = "the program has no end".to_string();
                 self.find(Kind::End, Some(cl_line), None, message);
             }
-            None => {}
+            _ => {}
         }
-        let after = self.nc.len() - self.next;
-        self.extra(after, cl_line);
+        self.extra(self.nc.len() - self.next, cl_line);
     }
 
-    fn ends_early(&mut self, step: &Step) {
+    pub(super) fn ends_early(&mut self, step: &Step) {
         let mut missing = 1;
         while let Some(step) = self.cl.next() {
             missing += u64::from(step.what.end().is_some());
         }
         self.report.compared += missing - 1;
         let nc_line = match self.nc.get(self.next) {
-            Some(Event::End { line }) => Some(*line),
+            Some(Event::End { line, .. }) => Some(*line),
             _ => None,
         };
         let motions = if missing == 1 { "motion is" } else { "motions are" };
@@ -592,294 +407,4 @@ impl<'a, C: Iterator<Item = Result<Step, Box<Diag>>>> Walk<'a, C> {
         self.find(Kind::Missing, Some(step.line), nc_line, message);
         self.over = true;
     }
-
-    /// Says that events of the program are too many, and passes over them.
-    fn extra(&mut self, count: usize, cl_line: u32) {
-        for _ in 0..count {
-            self.pass(cl_line);
-            let Some(event) = self.nc.get(self.next).copied() else { return };
-            match event {
-                Event::Move(found) => {
-                    let what = self.spell_move(&found);
-                    let message = format!("the CL file asks for no {what} here");
-                    self.find(Kind::Extra, Some(cl_line), Some(found.line), message);
-                    self.stand(&found);
-                }
-                Event::ToolChange { line, tool } => {
-                    let message = format!("the CL file asks for no change to tool {tool} here");
-                    self.find(Kind::Tool, Some(cl_line), Some(line), message);
-                    self.next += 1;
-                }
-                Event::Dwell { line, .. } => {
-                    let message = "the CL file asks for no dwell here".to_string();
-                    self.find(Kind::Extra, Some(cl_line), Some(line), message);
-                    self.next += 1;
-                }
-                Event::End { .. } => return,
-            }
-        }
-    }
-
-    /// Tells whether path and program agree again after leaving out parts of one.
-    fn detour(&mut self, step: &Step) -> Detour {
-        if !matches!(self.nc[self.next], Event::Move(_)) {
-            let comes = match self.nc[self.next] {
-                Event::ToolChange { tool, .. } => self.tool_comes(tool),
-                _ => false,
-            };
-            return if comes { Detour::Missing } else { Detour::Extra(1) };
-        }
-        let missing = self.steps_left_out();
-        let extra = self.nc[self.next..]
-            .iter()
-            .skip(1)
-            .take(LOOK_AHEAD)
-            .take_while(|event| !matches!(event, Event::ToolChange { .. }))
-            .enumerate()
-            .position(|(ahead, _)| self.fits(self.next + 1 + ahead, &step.what))
-            .map(|at| at + 1);
-        match (missing, extra) {
-            (Some(missing), Some(extra)) if extra < missing => Detour::Extra(extra),
-            (Some(_), _) => Detour::Missing,
-            (None, Some(_)) if self.next_pair_fits() => Detour::Other,
-            (None, Some(extra)) => Detour::Extra(extra),
-            (None, None) => Detour::Other,
-        }
-    }
-
-    /// After how many motions of the path the next event fits, if after any.
-    fn steps_left_out(&mut self) -> Option<usize> {
-        let mut motions = 0;
-        for ahead in 0..4 * LOOK_AHEAD {
-            let what = self.cl.peek(ahead)?.what.clone();
-            if matches!(what, Wanted::Tool { .. }) || motions == LOOK_AHEAD {
-                return None;
-            }
-            if what.end().is_some() {
-                motions += 1;
-                if self.fits(self.next, &what) {
-                    return Some(motions);
-                }
-            }
-        }
-        None
-    }
-
-    /// The event after the next fits the step after this one.
-    fn next_pair_fits(&mut self) -> bool {
-        let mut ahead = 0;
-        loop {
-            let Some(what) = self.cl.peek(ahead).map(|step| step.what.clone()) else {
-                return false;
-            };
-            if what.end().is_some() {
-                return self.fits(self.next + 1, &what);
-            }
-            ahead += 1;
-            if ahead > LOOK_AHEAD {
-                return false;
-            }
-        }
-    }
-
-    /// A change to that tool comes within the next steps.
-    fn tool_comes(&mut self, tool: u32) -> bool {
-        let mut ahead = 0;
-        while ahead < 4 * LOOK_AHEAD
-            && let Some(step) = self.cl.peek(ahead)
-        {
-            if matches!(step.what, Wanted::Tool { number, .. } if number == tool) {
-                return true;
-            }
-            ahead += 1;
-        }
-        false
-    }
-
-    /// The events from `index` on begin to do what a step asks for.
-    fn fits(&self, index: usize, wanted: &Wanted) -> bool {
-        let Some(Event::Move(found)) = self.nc.get(index) else { return false };
-        match wanted {
-            Wanted::Rapid(pose) => self.rapid_parts(index, pose).is_some(),
-            Wanted::Feed(pose, _) => is_line(found, Course::Feed) && self.reaches(found, pose),
-            Wanted::Thread(pose, _) => is_line(found, Course::Thread) && self.reaches(found, pose),
-            Wanted::Arc(arc, _) => found.arc.is_some() && self.reaches(found, &arc.end),
-            Wanted::Hole(hole) => self.is_over_hole(index, hole),
-            _ => false,
-        }
-    }
-
-    /// The next motion stands for a step, but is another one.
-    fn other(&mut self, step: &Step) {
-        let (Some(pose), Some(first)) = (step.what.end(), self.next_move()) else { return };
-        if self.units_differ(step.line, &first, &pose) {
-            return;
-        }
-        let rapid = matches!(step.what, Wanted::Rapid(_));
-        let parts = if rapid { self.rapids_ahead().max(1) } else { 1 };
-        let nearest = |index: &usize| match self.nc[*index] {
-            Event::Move(found) => Gap::of(self.settings, &self.slack, &found.to, &pose).tip,
-            _ => f64::MAX,
-        };
-        let chosen = (self.next..self.next + parts)
-            .min_by(|a, b| nearest(a).total_cmp(&nearest(b)))
-            .unwrap_or(self.next);
-        let Event::Move(found) = self.nc[chosen] else { return };
-        self.say_way(step, &found);
-        self.say_gap(step.line, &found, &pose);
-        for index in self.next..=chosen {
-            if let Event::Move(part) = self.nc[index] {
-                self.take(step.line, &part);
-            }
-        }
-        self.measure(&found, &pose);
-        self.next = chosen + 1;
-    }
-
-    fn rapids_ahead(&self) -> usize {
-        let rapids = self.nc[self.next..].iter().take(RAPID_PARTS);
-        rapids
-            .take_while(
-                |event| matches!(event, Event::Move(m) if m.course == Course::Rapid && !m.in_cycle),
-            )
-            .count()
-    }
-
-    /// Says that a motion is of another kind than the step.
-    fn say_way(&mut self, step: &Step, found: &Move) {
-        let way = (found.course, found.arc.is_some());
-        let what = self.spell_move(found);
-        let (kind, should) = match (&step.what, way) {
-            (Wanted::Rapid(_), (Course::Rapid, _)) => return,
-            (Wanted::Rapid(_), (Course::Feed, _)) => (Kind::FeedForRapid, "a rapid"),
-            (Wanted::Feed(..), (Course::Feed, false)) => return,
-            (Wanted::Feed(..), (Course::Rapid, _)) => (Kind::RapidForFeed, "a line at feed"),
-            (Wanted::Feed(..), (Course::Feed, true)) => (Kind::Arc, "a straight line"),
-            (Wanted::Thread(..), (Course::Thread, _)) => return,
-            (Wanted::Thread(..), (Course::Rapid, _)) => (Kind::RapidForFeed, "a thread pass"),
-            (Wanted::Thread(..), _) => (Kind::Thread, "a thread pass"),
-            (Wanted::Arc(..), (Course::Rapid, _)) => (Kind::RapidForFeed, "an arc at feed"),
-            (Wanted::Arc(..), (_, false)) => (Kind::Arc, "an arc"),
-            (Wanted::Arc(..), _) => return self.say_arc(step, found),
-            (_, (Course::Thread, _)) => (Kind::Thread, "a motion without lead"),
-            _ => return,
-        };
-        let message = format!("{what}, it should be {should}");
-        self.find(kind, Some(step.line), Some(found.line), message);
-    }
-
-    /// Says where a motion ends, when that is not where it should, and has not
-    /// been said of the motion before.
-    pub(super) fn say_gap(&mut self, cl_line: u32, found: &Move, pose: &Pose) {
-        let gap = Gap::of(self.settings, &self.slack, &found.to, pose);
-        if gap.closed() && self.is_known(&found.known) {
-            return;
-        }
-        let shape = (
-            std::array::from_fn(
-                |n| if gap.excess[n] { (gap.linear[n] * 1e6).round() } else { 0.0 },
-            ),
-            gap.turned.map(|angle| (angle * 1e6).round()),
-        );
-        if self.said == Some(shape) {
-            return;
-        }
-        self.said = Some(shape);
-        let unknown = !self.is_known(&found.known);
-        if let Some(angle) = gap.turned {
-            let message = format!("the tool is tilted {} degrees away from its axis", short(angle));
-            return self.find(Kind::Axis, Some(cl_line), Some(found.line), message);
-        }
-        let parts: Vec<String> = (0..3)
-            .filter(|n| gap.excess[*n])
-            .map(|n| spell_gap(n, found.to.linear[n], gap.linear[n]))
-            .collect();
-        let message = match (parts.is_empty(), unknown) {
-            (true, _) => "moves before all axes have been given a position".to_string(),
-            (false, _) => parts.join(", "),
-        };
-        self.find(Kind::Position, Some(cl_line), Some(found.line), message);
-    }
-
-    /// Says it when the whole program is in the other unit.
-    fn units_differ(&mut self, cl_line: u32, found: &Move, pose: &Pose) -> bool {
-        let wanted = self.settings.forward.frame(found.to.rotary).linear(pose.tip);
-        let times = |factor: f64| {
-            let mut large = false;
-            let same = (0..3).filter(|n| found.known[*n]).all(|n| {
-                large |= wanted[n].abs() > 1.0;
-                (found.to.linear[n] * factor - wanted[n]).abs() < 0.02
-            });
-            same && large
-        };
-        let said = match () {
-            () if times(1.0 / 25.4) => "is in inch, the CL file is in mm",
-            () if times(25.4) => "is in mm, the CL file is in inch",
-            () => return false,
-        };
-        let message = format!("the program {said}; nothing more was compared");
-        self.find(Kind::Units, Some(cl_line), Some(found.line), message);
-        self.over = true;
-        true
-    }
-
-    fn spell_step(&self, wanted: &Wanted) -> String {
-        let Some(pose) = wanted.end() else { return String::new() };
-        let point = self.settings.forward.frame(self.at.rotary).linear(pose.tip);
-        let [x, y, z] = point.map(short);
-        match wanted {
-            Wanted::Rapid(_) => format!("rapid to X{x} Y{y} Z{z}"),
-            Wanted::Arc(..) => format!("arc to X{x} Y{y} Z{z}"),
-            Wanted::Hole(_) => format!("hole at X{x} Y{y}"),
-            Wanted::Thread(..) => format!("thread pass to X{x} Y{y} Z{z}"),
-            _ => format!("line at feed to X{x} Y{y} Z{z}"),
-        }
-    }
-
-    pub(super) fn spell_move(&self, found: &Move) -> String {
-        let [x, y, z] = found.to.linear.map(short);
-        let way = match (found.course, &found.arc) {
-            (Course::Rapid, _) => "rapid",
-            (Course::Machine, _) => "motion to a point of the machine",
-            (Course::Thread, _) => "thread pass",
-            (Course::Feed, None) => "line at feed",
-            (Course::Feed, Some(arc)) if arc.ccw => "arc counterclockwise (G3)",
-            (Course::Feed, Some(_)) => "arc clockwise (G2)",
-        };
-        format!("{way} to X{x} Y{y} Z{z}")
-    }
-}
-
-/// A straight line of this course that no cycle makes.
-fn is_line(found: &Move, course: Course) -> bool {
-    found.course == course && found.arc.is_none() && !found.in_cycle
-}
-
-/// `Z deeper by 0.3`, `X 0.1 too far in plus`.
-fn spell_gap(axis: usize, stands: f64, gap: f64) -> String {
-    let by = short(gap.abs());
-    let wanted = short(stands - gap);
-    match (axis, gap < 0.0) {
-        (2, true) => format!("Z deeper by {by} (Z{} in place of Z{wanted})", short(stands)),
-        (2, false) => format!("Z higher by {by} (Z{} in place of Z{wanted})", short(stands)),
-        _ => {
-            let name = ["X", "Y", "Z"][axis];
-            format!("{name} off by {by} ({name}{} in place of {name}{wanted})", short(stands))
-        }
-    }
-}
-
-fn spell_rate(rate: Rate) -> String {
-    match rate {
-        Rate::PerMinute(rate) => format!("{} mm/min", short(rate)),
-        Rate::PerTurn(rate) => format!("{} mm a turn", short(rate)),
-        Rate::Inverse(rate) => format!("{} blocks a minute", short(rate)),
-    }
-}
-
-/// At most four decimals, no zeros at the end.
-pub(super) fn short(value: f64) -> String {
-    let text = format!("{value:.4}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_string() } else { text.to_string() }
 }

@@ -46,8 +46,13 @@ pub enum Wanted {
     Orient,
     /// A coolant is switched on or off.
     Coolant(CoolantKind),
-    /// Cutter compensation by the control.
-    Compensation(Compensation),
+    /// Cutter compensation by the control, with the number of its offset where the
+    /// record gives one.
+    Compensation(Compensation, Option<u32>),
+    /// A work offset, by its preparatory function.
+    Fixture(u32),
+    /// The program multiplies X by this from here on.
+    XScale(f64),
     /// The program waits, seconds; `None` for turns of the spindle.
     Dwell(Option<f64>),
     /// The operator is waited for; what was to come with a motion comes now.
@@ -60,9 +65,20 @@ pub enum Wanted {
     Unknown {
         /// What it is, for the report.
         what: String,
-        /// The path after it is not known either.
-        ends: bool,
+        /// What it leaves open.
+        effect: Effect,
     },
+}
+
+/// What a statement leaves open that the CL file does not explain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effect {
+    /// An M function.
+    Auxiliary,
+    /// Words of the user's own; the motions of the CL file go on.
+    Words,
+    /// The path from here on.
+    Path,
 }
 
 /// What COOLNT asks for.

@@ -102,8 +102,8 @@ pub struct MapReader<R> {
     sections: Vec<String>,
     stacks: Vec<Stack>,
     /// Lines of the program that the last line promises, and those read.
-    promised: u64,
     nc_lines: u64,
+    read: u64,
     over: bool,
 }
 
@@ -145,8 +145,8 @@ impl<R: Read + Seek> MapReader<R> {
             fil: Vec::new(),
             sections: Vec::new(),
             stacks: Vec::new(),
-            promised: 0,
             nc_lines: 0,
+            read: 0,
             over: false,
         };
         let header: Header = match reader.next_line()? {
@@ -164,7 +164,7 @@ impl<R: Read + Seek> MapReader<R> {
         let fil = header.fil.into_iter();
         reader.fil = fil.map(|fil| MapFile { name: fil.name, digest: fil.digest }).collect();
         reader.sections = header.sections;
-        reader.promised = end.lines;
+        reader.nc_lines = end.lines;
         Ok(reader)
     }
 
@@ -186,6 +186,11 @@ impl<R: Read + Seek> MapReader<R> {
     /// Keys of the sections (`CYCLE,DEEP`), by the numbers in [`Stack::section`].
     pub fn sections(&self) -> &[String] {
         &self.sections
+    }
+
+    /// Number of lines of the NC program.
+    pub fn nc_lines(&self) -> u64 {
+        self.nc_lines
     }
 
     /// The FIL call stack of a cause; `None` where no FIL was running. The
@@ -230,8 +235,8 @@ impl<R: Read + Seek> MapReader<R> {
         let stacks = words.iter().map(|word| word.cause.stack).chain([stack]);
         let known = stacks.max().is_none_or(|stack| stack as usize <= self.stacks.len());
         self.known(known)?;
-        self.nc_lines += 1;
-        Ok(NcLine { number: self.nc_lines, cause, words })
+        self.read += 1;
+        Ok(NcLine { number: self.read, cause, words })
     }
 
     fn add_stack(&mut self, line: StackLine) -> Result<(), Error> {
@@ -253,8 +258,8 @@ impl<R: Read + Seek> MapReader<R> {
         if parse::<End>(&self.line).is_none() {
             return Err(self.broken("this is no line of a line map"));
         }
-        if self.nc_lines != self.promised {
-            let message = format!("{} lines of {} are there", self.nc_lines, self.promised);
+        if self.read != self.nc_lines {
+            let message = format!("{} lines of {} are there", self.read, self.nc_lines);
             return Err(self.broken(&message));
         }
         if self.next_line()? {

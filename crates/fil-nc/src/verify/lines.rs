@@ -1,0 +1,140 @@
+//! Rapids and straight lines: where they end, how they get there, how fast.
+
+use super::ahead::Steps;
+use super::report::Kind;
+use super::say::{short, spell_rate};
+use super::walk::{STILL, Walk};
+use crate::forward::Pose;
+use crate::motion::{Course, Event, Move, Position, Rate};
+
+/// Most blocks of one rapid.
+pub(super) const RAPID_PARTS: usize = 4;
+
+impl<C: Steps> Walk<'_, C> {
+    /// A rapid in one block or in parts.
+    pub(super) fn rapid(&mut self, cl_line: u32, pose: &Pose) -> bool {
+        if self.stands_at(pose) {
+            return true;
+        }
+        let Some(count) = self.rapid_parts(self.next, pose) else { return false };
+        let last = self.next + count - 1;
+        let Event::Move(end) = self.nc[last] else { return false };
+        for index in self.next..=last {
+            if let Event::Move(part) = self.nc[index] {
+                self.check_part(cl_line, &part, &end.to);
+                self.take(cl_line, &part);
+            }
+        }
+        self.measure(&end, pose);
+        self.next = last + 1;
+        true
+    }
+
+    /// How many rapids from `index` on reach a pose.
+    pub(super) fn rapid_parts(&self, index: usize, pose: &Pose) -> Option<usize> {
+        let rapids =
+            self.nc.get(index..)?.iter().take(RAPID_PARTS).map_while(|event| match event {
+                Event::Move(part) if part.course == Course::Rapid && !part.in_cycle => Some(part),
+                _ => None,
+            });
+        rapids.into_iter().position(|part| self.reaches(part, pose)).map(|at| at + 1)
+    }
+
+    /// Each axis stays or ends in a part of a rapid, and the height is the safe one.
+    pub(super) fn check_part(&mut self, cl_line: u32, part: &Move, end: &Position) {
+        let splits = self.splits_rapids;
+        let at = self.at.linear;
+        let known = self.known;
+        let same = |a: f64, b: f64| (a - b).abs() <= STILL;
+        let moved = |n: usize| !same(part.to.linear[n], at[n]);
+        let arrived = |n: usize| same(part.to.linear[n], end.linear[n]);
+        let mut say = |message: String| {
+            self.find(Kind::Order, Some(cl_line), Some(part.line), message);
+        };
+        if (0..3).any(|n| moved(n) && !arrived(n) && known[n]) {
+            let [x, y, z] = part.to.linear.map(short);
+            say(format!("rapid by way of X{x} Y{y} Z{z}, which is on no way to its end"));
+        }
+        if !splits || !known[2] {
+            return;
+        }
+        let lower = moved(2) && part.to.linear[2] < at[2];
+        if lower && !(arrived(0) && arrived(1)) {
+            say("rapid plunges before X and Y have arrived".to_string());
+        }
+        let across = (moved(0) || moved(1)) && !moved(2);
+        if across && end.linear[2] > at[2] + STILL {
+            say("rapid goes across before Z has gone up".to_string());
+        }
+    }
+
+    /// A straight line at feed, or a thread pass.
+    pub(super) fn line(
+        &mut self,
+        cl_line: u32,
+        pose: &Pose,
+        course: Course,
+        rate: Option<Rate>,
+    ) -> bool {
+        match self.next_move() {
+            Some(found) if is_line(&found, course) && self.reaches(&found, pose) => {
+                self.check_rate(cl_line, &found, rate);
+                self.take(cl_line, &found);
+                self.measure(&found, pose);
+                self.next += 1;
+                true
+            }
+            _ => self.stands_at(pose),
+        }
+    }
+
+    pub(super) fn check_rate(&mut self, cl_line: u32, found: &Move, wanted: Option<Rate>) {
+        let wanted = match wanted {
+            Some(Rate::PerMinute(rate)) => {
+                Rate::PerMinute(self.settings.feed_within(rate, self.metric))
+            }
+            Some(rate) => rate,
+            None => return,
+        };
+        let agrees = match (wanted, found.rate) {
+            (Rate::PerMinute(a), Some(Rate::PerMinute(b)))
+            | (Rate::PerTurn(a), Some(Rate::PerTurn(b)))
+            | (Rate::Inverse(a), Some(Rate::Inverse(b))) => (a - b).abs() <= self.slack.feed,
+            _ => false,
+        };
+        if !agrees {
+            let found_rate = found.rate.map_or("none".to_string(), spell_rate);
+            let message = format!("feed {found_rate}, it should be {}", spell_rate(wanted));
+            self.find(Kind::Feed, Some(cl_line), Some(found.line), message);
+        }
+    }
+
+    pub(super) fn check_limits(&mut self, cl_line: u32, found: &Move) {
+        for (n, (min, max)) in self.travel.into_iter().enumerate() {
+            let value = found.to.linear[n];
+            if !(min..=max).contains(&value) {
+                let axis = ["X", "Y", "Z"][n];
+                let message =
+                    format!("{axis}{} lies outside the travel {min} to {max}", short(value));
+                self.find(Kind::Limit, Some(cl_line), Some(found.line), message);
+            }
+        }
+        for n in 0..2 {
+            let Some(axis) = &self.settings.forward.rotaries()[n] else { continue };
+            let value = found.to.rotary[n];
+            let low = axis.min.is_some_and(|min| value < min - self.slack.rotary[n]);
+            let high = axis.max.is_some_and(|max| value > max + self.slack.rotary[n]);
+            if low || high {
+                let letter = char::from(b'A' + axis.letter.clamp(1, 26) - 1);
+                let message =
+                    format!("{letter}{} lies outside the travel of the axis", short(value));
+                self.find(Kind::Limit, Some(cl_line), Some(found.line), message);
+            }
+        }
+    }
+}
+
+/// A straight line of this course that no cycle makes.
+pub(super) fn is_line(found: &Move, course: Course) -> bool {
+    found.course == course && found.arc.is_none() && !found.in_cycle
+}

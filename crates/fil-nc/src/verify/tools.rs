@@ -1,0 +1,115 @@
+//! Tool changes: the number, the way there, the length offset after it.
+
+use super::ahead::Steps;
+use super::lines::RAPID_PARTS;
+use super::report::Kind;
+use super::say::short;
+use super::walk::{LOOK_AHEAD, Walk};
+use crate::motion::{Course, Event, Position};
+
+impl<C: Steps> Walk<'_, C> {
+    pub(super) fn tool(&mut self, cl_line: u32, number: u32, offset: u32) {
+        self.initial = None;
+        let same = self.modes.tool() == Some(number) && self.settings.tool_is_modal();
+        let changes = !same && self.settings.calls_tools();
+        if !changes {
+            return self.modes.change_tool(number, offset, self.settings);
+        }
+        self.go_to_change_position(cl_line);
+        match self.units_to_tool_change() {
+            Some(left_out) => self.extra(left_out, cl_line),
+            None => {
+                let message = format!("no change to tool {number}");
+                self.find(Kind::Tool, Some(cl_line), None, message);
+                return self.modes.change_tool(number, offset, self.settings);
+            }
+        }
+        if let Some(Event::ToolChange { line, tool, modes }) = self.nc.get(self.next).copied() {
+            self.next += 1;
+            self.check_standing(cl_line, line, &modes, true);
+            if tool != number {
+                let message = format!("changes to tool {tool}, it should be tool {number}");
+                self.find(Kind::Tool, Some(cl_line), Some(line), message);
+            }
+            let at_once = self.settings.calls_tools_with_offset();
+            let taken = modes.length_offset.unwrap_or(0);
+            if at_once && taken != offset {
+                let message = format!("length offset {taken} is taken up, it should be {offset}");
+                self.find(Kind::Tool, Some(cl_line), Some(line), message);
+            }
+        }
+        self.modes.change_tool(number, offset, self.settings);
+        self.go_to_offset_level(cl_line);
+    }
+
+    /// Motions and holes before the next tool change, if it comes soon.
+    pub(super) fn units_to_tool_change(&self) -> Option<usize> {
+        let mut index = self.next;
+        for units in 0..LOOK_AHEAD {
+            match self.nc.get(index)? {
+                Event::ToolChange { .. } => return Some(units),
+                Event::End { .. } => return None,
+                _ => index = self.unit_end(index),
+            }
+        }
+        None
+    }
+
+    /// The rapids to the position where the machine changes tools.
+    pub(super) fn go_to_change_position(&mut self, cl_line: u32) {
+        self.pass(cl_line);
+        let wanted = self.settings.change_position(self.metric);
+        let value = |at: &Position, n: usize| {
+            if n < 3 { at.linear[n] } else { at.rotary[n - 3] }
+        };
+        let near = |at: &Position, n: usize| match wanted[n] {
+            Some(wanted) => {
+                let slack = if n < 3 { self.slack.linear[n] } else { self.slack.rotary[n - 3] };
+                (value(at, n) - wanted).abs() <= slack
+            }
+            None => true,
+        };
+        if (0..5).all(|n| near(&self.at, n)) {
+            return;
+        }
+        let reached = self.nc[self.next..].iter().take(RAPID_PARTS).position(|event| match event {
+            Event::Move(found) => {
+                found.course == Course::Rapid && (0..5).all(|n| near(&found.to, n))
+            }
+            _ => false,
+        });
+        match reached {
+            Some(reached) => {
+                for _ in 0..=reached {
+                    if let Some(found) = self.next_move() {
+                        self.take(cl_line, &found);
+                        self.next += 1;
+                    }
+                }
+            }
+            None => {
+                let message = "no motion to the tool change position".to_string();
+                self.find(Kind::Missing, Some(cl_line), None, message);
+            }
+        }
+    }
+
+    /// The Z motion that calls the length offset, where the settings have one.
+    pub(super) fn go_to_offset_level(&mut self, cl_line: u32) {
+        let Some(level) = self.settings.offset_level(self.metric) else { return };
+        let found = self.next_move().filter(|found| {
+            (found.to.linear[2] - level).abs() <= self.slack.linear[2]
+                && found.to.linear[..2] == self.at.linear[..2]
+        });
+        match found {
+            Some(found) => {
+                self.take(cl_line, &found);
+                self.next += 1;
+            }
+            None => {
+                let message = format!("the length offset is not called at Z{}", short(level));
+                self.find(Kind::Tool, Some(cl_line), None, message);
+            }
+        }
+    }
+}

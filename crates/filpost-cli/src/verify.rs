@@ -1,0 +1,150 @@
+//! `filpost verify`
+
+use std::io::{Read, Seek, Write};
+use std::path::{Path, PathBuf};
+
+use filpost::nc::verify::{Deviation, Finding, Report, Unverified, Verdict};
+use filpost::verify::{Program, Reference};
+use filpost::{Error, Post, files, select};
+use serde_json::{Value, json};
+
+use crate::args::{self, VerifyArgs};
+use crate::summary::counted;
+use crate::{Status, output, setup};
+
+/// Checks an NC program against its CL file.
+///
+/// # Errors
+/// Files that can't be read, a program or a CL file that makes no sense.
+pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
+    let mut cl = output::open(&args.cl)?;
+    let mut text = Vec::new();
+    output::open(&args.nc)?
+        .read_to_end(&mut text)
+        .map_err(|error| files::cant_read(&args.nc, &error))?;
+    let mut post = post(args, &mut cl)?;
+    let name = output::input_name(&args.nc);
+    let program = Program { text: &text, name: &name };
+    let (report, reference) = post.verify(cl, program, args.tol)?;
+    match args.format {
+        args::Report::Json => {
+            output::print(format!("{:#}\n", as_json(&report, reference)).as_bytes())?;
+        }
+        args::Report::Text => {
+            let lines: Vec<&[u8]> = text.split(|byte| *byte == b'\n').collect();
+            output::print_with(|out| {
+                for finding in &report.findings {
+                    write_finding(out, finding, &lines)?;
+                }
+                if report.more > 0 {
+                    writeln!(out, "and {} more", counted(report.more, "finding"))?;
+                }
+                for open in &report.unverified {
+                    let place =
+                        open.cl_line.map_or(String::new(), |line| format!("CL line {line}: "));
+                    writeln!(out, "not compared: {place}{}", open.what)?;
+                }
+                writeln!(out, "{}", conclusion(args, &report, reference))
+            })?;
+        }
+    }
+    Ok(if report.verdict() == Verdict::Agrees { Status::Done } else { Status::Failed })
+}
+
+fn post(args: &VerifyArgs, cl: &mut std::fs::File) -> Result<Post, Error> {
+    let beside = args.cl.parent().map(Path::to_path_buf).unwrap_or_default();
+    let folders: Vec<PathBuf> =
+        std::iter::once(beside).chain(args.post_path.iter().cloned()).collect();
+    let name = output::input_name(&args.cl);
+    let named = setup::for_run(&args.chosen, &args.fil, &args.reading, &folders, || {
+        select::machin(&mut *cl, &name)
+    })?;
+    cl.rewind().map_err(|error| files::cant_read(&args.cl, &error))?;
+    if let Some(note) = &named.note {
+        output::say(&format!("note: {note}"));
+    }
+    let options = setup::cl_options(args.reading.encoding.as_deref())?;
+    let builder = setup::granted(named.builder, &args.grants);
+    builder.cl_name(&name).cl_options(options).build()
+}
+
+/// The finding, and the block it is about.
+fn write_finding(out: &mut dyn Write, finding: &Finding, lines: &[&[u8]]) -> std::io::Result<()> {
+    writeln!(out, "{finding}")?;
+    let block = finding.nc_line.and_then(|line| lines.get((line as usize).checked_sub(1)?));
+    match block {
+        Some(block) => writeln!(out, "    {}", String::from_utf8_lossy(block).trim_end()),
+        None => Ok(()),
+    }
+}
+
+/// The last line: how it ends, and how far the paths are apart.
+fn conclusion(args: &VerifyArgs, report: &Report, reference: Reference) -> String {
+    let (nc, cl) = (output::input_name(&args.nc), output::input_name(&args.cl));
+    let what = match (report.verdict(), reference) {
+        (Verdict::Agrees, Reference::ClFile) => format!("{nc} agrees with {cl}"),
+        (Verdict::Agrees, Reference::SecondRun) => {
+            format!("{nc} does what a second run of the post makes of {cl}")
+        }
+        (Verdict::Partly, _) if report.compared == 0 => {
+            return format!("nothing of {nc} could be compared with {cl}");
+        }
+        (Verdict::Partly, _) => format!("{nc} agrees with {cl} as far as it was compared"),
+        (Verdict::Differs, Reference::ClFile) => {
+            let findings = report.findings.len() as u64 + report.more;
+            format!("{nc} does not agree with {cl}: {}", counted(findings, "finding"))
+        }
+        (Verdict::Differs, Reference::SecondRun) => {
+            let findings = report.findings.len() as u64 + report.more;
+            let findings = counted(findings, "finding");
+            format!("{nc} does not do what a second run of the post makes of {cl}: {findings}")
+        }
+    };
+    format!(
+        "{what}; {} of {} made, tool tip off by at most {} mm ({} RMS), tool axis by at most {} degrees",
+        report.matched,
+        counted(report.compared, "motion"),
+        length(report.position.max),
+        length(report.position.rms()),
+        length(report.axis.max),
+    )
+}
+
+/// Four decimals: the last digits of most addresses are three.
+fn length(value: f64) -> String {
+    let text = format!("{value:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_string()
+}
+
+fn as_json(report: &Report, reference: Reference) -> Value {
+    let deviation = |of: &Deviation| {
+        let line = (of.nc_line > 0).then_some(of.nc_line);
+        json!({ "max": of.max, "rms": of.rms(), "nc_line": line })
+    };
+    let finding = |finding: &Finding| {
+        json!({
+            "kind": finding.kind.name(),
+            "nc_line": finding.nc_line,
+            "cl_line": finding.cl_line,
+            "message": finding.message,
+        })
+    };
+    let open = |open: &Unverified| json!({ "cl_line": open.cl_line, "what": open.what });
+    json!({
+        "verdict": match report.verdict() {
+            Verdict::Agrees => "agrees",
+            Verdict::Partly => "partly",
+            Verdict::Differs => "differs",
+        },
+        "reference": match reference {
+            Reference::ClFile => "cl-file",
+            Reference::SecondRun => "second-run",
+        },
+        "findings": report.findings.iter().map(finding).collect::<Value>(),
+        "more": report.more,
+        "not_compared": report.unverified.iter().map(open).collect::<Value>(),
+        "motions": { "asked": report.compared, "made": report.matched },
+        "position": deviation(&report.position),
+        "axis": deviation(&report.axis),
+    })
+}

@@ -1,0 +1,149 @@
+//! The back-check on machines with two rotary axes of every arrangement: a posted
+//! path agrees to the last digit, and a last digit that is changed is found.
+
+use fil_cl::Options;
+use fil_nc::dialect::Dialect;
+use fil_nc::interpret::events;
+use fil_nc::verify::{Check, Report, Verdict, verify};
+use filpost::{Commons, Post};
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
+
+/// A rotary axis: 1 a table, 2 a head; its direction and a point on it.
+#[derive(Clone, Copy, Debug)]
+struct Rotary {
+    kind: u8,
+    direction: [f64; 3],
+    center: [f64; 3],
+}
+
+/// A target: point, tilt and turn of the tool axis in radians, rapid.
+type Target = ([f64; 3], f64, f64, bool);
+
+fn rotaries() -> impl Strategy<Value = [Rotary; 2]> {
+    let kinds = prop_oneof![Just([1, 1]), Just([1, 2]), Just([2, 2])];
+    let directions = prop_oneof![
+        Just([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]),
+        Just([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]),
+        Just([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]),
+        Just([[0.0, 0.0, 1.0], [0.0, -1.0, 1.0]]),
+    ];
+    let centers = proptest::array::uniform2(proptest::array::uniform3(-150.0..150.0f64));
+    (kinds, directions, centers).prop_map(|(kinds, directions, centers)| {
+        [0, 1].map(|n| Rotary { kind: kinds[n], direction: directions[n], center: centers[n] })
+    })
+}
+
+fn targets() -> impl Strategy<Value = Vec<Target>> {
+    let target = (
+        proptest::array::uniform3(-120.0..120.0f64),
+        // A lean below 1e-5 leaves open which way a post turns the machine.
+        prop_oneof![Just(0.0), 3e-5..1e-4f64, 0.01..0.7f64],
+        -3.0..3.0f64,
+        any::<bool>(),
+    );
+    proptest::collection::vec(target, 1..12)
+}
+
+fn post(rotaries: &[Rotary; 2], pivot: Option<f64>, split: bool) -> Post {
+    let mut builder = Post::builder().ready("fanuc-mill");
+    let mut set = |key: &str, value: f64| {
+        let builder_now = std::mem::replace(&mut builder, Post::builder());
+        builder = builder_now.set(&format!("{key}={value}"));
+    };
+    let names = ["primary", "secondary"];
+    for ((rotary, name), letter) in rotaries.iter().zip(names).zip([3.0, 2.0]) {
+        set(&format!("rotary.{name}_kind"), rotary.kind.into());
+        set(&format!("rotary.{name}_axis"), letter);
+        for (n, part) in ["i", "j", "k"].into_iter().enumerate() {
+            set(&format!("rotary.{name}_{part}"), rotary.direction[n]);
+        }
+        for (n, part) in ["x", "y", "z"].into_iter().enumerate() {
+            set(&format!("rotary.{name}_{part}"), rotary.center[n]);
+        }
+    }
+    if let Some(pivot) = pivot {
+        set("rotary.pivot_distance", pivot);
+    }
+    set("rapid.split", f64::from(u8::from(split)));
+    builder.build().expect("a machine")
+}
+
+fn cl(targets: &[Target]) -> String {
+    let mut cl = "UNITS / MM\nMULTAX / ON\nFEDRAT / 500., MMPM\n".to_string();
+    for (point, tilt, turn, rapid) in targets {
+        let [x, y, z] = point;
+        let (i, j, k) = (tilt.sin() * turn.cos(), tilt.sin() * turn.sin(), tilt.cos());
+        let rapid = if *rapid { "RAPID\n" } else { "" };
+        cl += &format!("{rapid}GOTO / {x:.10}, {y:.10}, {z:.10}, {i:.10}, {j:.10}, {k:.10}\n");
+    }
+    cl + "FINI\n"
+}
+
+fn check(commons: &Commons, cl: &str, nc: &str) -> Option<Report> {
+    let events = events(nc.as_bytes(), "out.nc", &Dialect::new(commons).ok()?).ok()?;
+    verify(Check {
+        cl: cl.as_bytes(),
+        cl_name: "part.ncl",
+        options: Options::default(),
+        nc: nc.as_bytes(),
+        events: &events,
+        commons,
+        tolerance: None,
+    })
+    .ok()
+}
+
+/// The program with the last digit of an axis word one up.
+fn one_up(nc: &str, letters: &[char], which: usize) -> Option<String> {
+    let digits: Vec<usize> = nc
+        .match_indices(char::is_numeric)
+        .map(|(at, _)| at)
+        .filter(|at| !nc[at + 1..].starts_with(char::is_numeric))
+        .filter(|at| {
+            let word = nc[..*at].rfind(|c: char| c.is_ascii_alphabetic()).map(|at| &nc[at..]);
+            let decimals = nc[..*at].rfind('.').is_some_and(|point| at - point == 3);
+            decimals && word.is_some_and(|word| word.starts_with(letters))
+        })
+        .collect();
+    let at = *digits.get(which % digits.len().max(1))?;
+    let digit = nc.as_bytes()[at] - b'0';
+    let mut changed = nc.to_string();
+    changed.replace_range(at..=at, &((digit + 1) % 10).to_string());
+    Some(changed)
+}
+
+/// Paths posted for random machines.
+const PATHS: usize = 2_000;
+
+#[test]
+fn posted_paths_agree_and_a_changed_last_digit_is_found() {
+    let mut runner = TestRunner::deterministic();
+    let pivots = proptest::option::of(80.0..300.0f64);
+    let all = (rotaries(), pivots, any::<bool>(), targets(), any::<usize>());
+    let (mut faults, mut found) = (0, 0);
+    for _ in 0..PATHS {
+        let (rotaries, pivot, split, targets, which) = all.new_tree(&mut runner).unwrap().current();
+        let mut post = post(&rotaries, pivot, split);
+        let cl = cl(&targets);
+        let mut nc = Vec::new();
+        if post.run(cl.as_bytes(), &mut nc).is_err() {
+            // The machine can't reach the axis.
+            continue;
+        }
+        let nc = String::from_utf8(nc).unwrap();
+        let report = check(post.commons(), &cl, &nc).unwrap();
+        assert_eq!(report.verdict(), Verdict::Agrees, "{:#?}\n{cl}\n{nc}", report.findings);
+        // Along the primary axis its own position makes no difference to the tool.
+        let upright = targets.iter().any(|(_, tilt, ..)| *tilt == 0.0);
+        let letters = ['X', 'Y', 'Z', 'B', 'C'];
+        let letters = if upright { &letters[..3] } else { &letters };
+        let Some(changed) = one_up(&nc, letters, which) else { continue };
+        let report = check(post.commons(), &cl, &changed);
+        faults += 1;
+        found += usize::from(report.is_none_or(|report| report.verdict() == Verdict::Differs));
+    }
+    println!("{found} of {faults} changed last digits found");
+    assert!(faults > PATHS / 2 && found * 1000 >= faults * 998, "{found} of {faults}");
+}
