@@ -183,11 +183,11 @@ mod tests {
     use nalgebra::Unit;
     use proptest::prelude::*;
 
-    fn machine(
-        [first, second]: [Option<(Carries, [f64; 3], [f64; 3])>; 2],
-        pivot: Option<f64>,
-    ) -> Kinematics {
-        let axis = |axis: Option<(Carries, [f64; 3], [f64; 3])>| {
+    /// What it carries, its direction, a point on it.
+    type Axis = Option<(Carries, [f64; 3], [f64; 3])>;
+
+    fn machine([first, second]: [Axis; 2], pivot: Option<f64>) -> Kinematics {
+        let axis = |axis: Axis| {
             axis.map(|(carries, direction, center)| Rotary {
                 carries,
                 direction: Unit::new_normalize(Vector3::from(direction)),
