@@ -12,6 +12,7 @@ pub mod path;
 pub mod picture;
 pub mod programs;
 pub mod rs274;
+pub mod screw;
 
 /// The folder of the workspace.
 pub fn root() -> &'static std::path::Path {

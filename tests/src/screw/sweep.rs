@@ -1,0 +1,147 @@
+//! What passes leave and cut in the plane of the axis, as the paper counts: an end
+//! mill is a rectangle, a ball a circle, both open above.
+
+use super::passes::Pass;
+use super::section::{Place, Section, norm, plus};
+use super::{Cutter, Job};
+
+/// Tolerance of the checks: a µm.
+const MICRON: f64 = 0.001;
+/// Distance of the columns that the stock is cut into, mm.
+const COLUMN: f64 = 0.002;
+
+/// What a sweep found.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Report {
+    /// Deepest cut below the finished section, mm.
+    pub gouge: f64,
+    /// Deepest cut of roughing into the allowance, mm.
+    pub into_stock: f64,
+    /// Highest step of roughing above the allowance, mm.
+    pub step: f64,
+    /// Highest scallop of finishing, mm.
+    pub scallop: f64,
+}
+
+/// Sweeps all passes over the section and compares with the job.
+///
+/// # Errors
+/// What is beyond the limits of the job by more than a µm.
+pub fn check(job: &Job, passes: &[Pass]) -> Result<Report, String> {
+    let mut report = Report::default();
+    let mut finishing = false;
+    let mut tools: [Vec<(&Cutter, Place)>; 2] = [Vec::new(), Vec::new()];
+    for pass in passes {
+        let cutter = job.cutter(pass.tool).ok_or("an unknown cutter")?;
+        if finishing && !cutter.ball {
+            return Err("an end mill after a ball".to_string());
+        }
+        finishing = cutter.ball;
+        let place = pass.place(job);
+        let clearance = clearance(&job.section, cutter, place);
+        report.gouge = report.gouge.max(-clearance);
+        if !cutter.ball {
+            report.into_stock = report.into_stock.max(job.stock - clearance);
+        }
+        tools[usize::from(cutter.ball)].push((cutter, place));
+    }
+    for kind in &tools {
+        if kind.iter().any(|(cutter, _)| *cutter != kind[0].0) {
+            return Err("several cutters where one is chosen".to_string());
+        }
+    }
+    report.step = left(&job.section, &tools[0]) - job.stock;
+    report.scallop = left(&job.section, &tools[1]);
+    let limits = [
+        ("gouge", report.gouge, 0.0),
+        ("cut into the allowance", report.into_stock, 0.0),
+        ("step", report.step, job.rough),
+        ("scallop", report.scallop, job.finish),
+    ];
+    for (name, value, limit) in limits {
+        if value > limit + MICRON {
+            return Err(format!("{name} {value:.4}, allowed {limit}"));
+        }
+    }
+    Ok(report)
+}
+
+/// Least distance of a cutter from the finished part, negative inside of it.
+fn clearance(section: &Section, cutter: &Cutter, tip: Place) -> f64 {
+    let radius = cutter.diameter / 2.0;
+    if cutter.ball {
+        let centre = [tip[0], tip[1] + radius];
+        let inside = section.height(centre[0]) > centre[1];
+        return if inside { -radius } else { section.distance(centre) - radius };
+    }
+    let signed = |point: Place| {
+        let distance = section.distance(point);
+        if point[1] < section.height(point[0]) { -distance } else { distance }
+    };
+    let bottom = (0..=400).map(|share| [tip[0] + radius * (f64::from(share) / 200.0 - 1.0), tip[1]]);
+    let sides = (0..=200).flat_map(|share| {
+        let z = tip[1] + (section.top() - tip[1]) * f64::from(share) / 200.0;
+        [[tip[0] - radius, z], [tip[0] + radius, z]]
+    });
+    bottom.chain(sides).map(signed).fold(f64::INFINITY, f64::min)
+}
+
+/// How far the stock that is left reaches from the section, columns along X.
+fn left(section: &Section, tools: &[(&Cutter, Place)]) -> f64 {
+    let [first, last] = section.ends();
+    let count = ((last - first) / COLUMN).ceil() as usize;
+    let column = |index: usize| {
+        let x = first + (last - first) * (index as f64 + 0.5) / count as f64;
+        let cut = tools.iter().filter_map(|(cutter, tip)| bottom(cutter, *tip, x));
+        let z = cut.fold(section.top(), f64::min);
+        if z > section.height(x) { section.distance([x, z]) } else { 0.0 }
+    };
+    (0..count).map(column).fold(0.0, f64::max)
+}
+
+/// Z of the lower side of a cutter at an X.
+fn bottom(cutter: &Cutter, tip: Place, x: f64) -> Option<f64> {
+    let radius = cutter.diameter / 2.0;
+    let across = x - tip[0];
+    if across.abs() > radius {
+        return None;
+    }
+    let drop = if cutter.ball { (radius * radius - across * across).sqrt() } else { radius };
+    Some(tip[1] + radius - drop)
+}
+
+/// Width that an end mill has at a level when it keeps the allowance.
+pub fn width(job: &Job, level: f64) -> f64 {
+    let [first, last] = job.section.ends();
+    let free = |x: f64| job.section.height(x) <= level && job.section.distance([x, level]) >= job.stock;
+    let count = ((last - first) / COLUMN) as usize;
+    let open = (0..=count).map(|index| first + index as f64 * COLUMN).filter(|x| free(*x));
+    open.fold(None, |range: Option<(f64, f64)>, x| Some((range.map_or(x, |r| r.0), x)))
+        .map_or(0.0, |range| range.1 - range.0)
+}
+
+/// True when a ball reaches each point that lies just more than the allowed scallop
+/// from the section: some place of its centre covers the point and cuts nothing.
+pub fn ball_fits(job: &Job, radius: f64) -> bool {
+    let section = &job.section;
+    let height = job.finish + 2.0 * MICRON;
+    section.samples(0.05).into_iter().all(|(point, normal)| {
+        let point = plus(point, normal, height);
+        if section.distance(point) < height - 1e-9 || point[1] > section.top() {
+            return true;
+        }
+        let centre = |angle: f64| plus(point, [angle.cos(), angle.sin()], radius - 1e-9);
+        let free = |angle: f64| {
+            let centre = centre(angle);
+            if centre[1] < section.height(centre[0]) { 0.0 } else { section.distance(centre) }
+        };
+        let angles = (0..=1440).map(|step| f64::from(step) * std::f64::consts::TAU / 1440.0);
+        let best = angles.max_by(|a, b| free(*a).total_cmp(&free(*b))).unwrap_or(0.0);
+        (-100..=100).any(|step| free(best + f64::from(step) * 5e-5) >= radius - 1e-4)
+    })
+}
+
+/// Distance of two places.
+pub fn apart(a: Place, b: Place) -> f64 {
+    norm([a[0] - b[0], a[1] - b[1]])
+}
