@@ -6,6 +6,7 @@ use std::io::Cursor;
 
 use filpost::{Diag, Error, Post, files, includes};
 use filpost_tests::root;
+use filpost_tests::screw::passes::Pass;
 use filpost_tests::screw::section::{Section, Step};
 use filpost_tests::screw::{Job, helix, passes, sweep};
 
@@ -63,23 +64,143 @@ fn round_bottom() -> Section {
 
 /// Proves one job: its passes, what they leave and cut, the choice of the cutters, and
 /// the undercut it warns of.
-fn prove(name: &str, job: &Job) {
-    let (nc, warnings) = post(job).unwrap_or_else(|error| panic!("{name}: {error}\n{}", job.cl()));
-    let made = passes::read(job, &nc).unwrap_or_else(|error| panic!("{name}: {error}"));
-    let report = sweep::check(job, &made).unwrap_or_else(|error| panic!("{name}: {error}\n{}\n{nc}", job.cl()));
-    let said = warned(&warnings);
-    let true_cut = [false, true].map(|ball| helix::undercut(job, &made, ball, 0.02));
-    println!("{name}: {} passes, {report:.4?}, undercut {true_cut:.4?} said {said:?}", made.len());
-    for (found, said) in true_cut.iter().zip(said) {
-        assert!((found - said).abs() < 0.002, "{name}: undercut {true_cut:?}, said {said:?}");
+fn prove(name: &str, job: &Job, nc: &str, warnings: &[Diag]) -> Proof {
+    let fail = |what: String| -> ! { panic!("{name}: {what}\n{}\n{nc}", job.cl()) };
+    let made = passes::read(job, nc).unwrap_or_else(|error| fail(error));
+    let report = sweep::check(job, &made).unwrap_or_else(|error| fail(error));
+    if let Err(error) = choice(job, &made) {
+        fail(error);
     }
+    let undercut = [false, true].map(|ball| helix::undercut(job, &made, ball, 0.002));
+    let said = warned(warnings);
+    if undercut.iter().zip(said).any(|(found, said)| (found - said).abs() > 0.0021) {
+        fail(format!("undercut {undercut:?}, said {said:?}"));
+    }
+    if !helix::reaches(job, &made, job.finish + 0.001, 0.05) {
+        fail("a scallop in space is too high".to_string());
+    }
+    Proof { passes: made, report, undercut }
+}
+
+/// What a proof found.
+struct Proof {
+    passes: Vec<Pass>,
+    report: sweep::Report,
+    undercut: [f64; 2],
+}
+
+/// The cutters are the largest of the list that the section allows.
+fn choice(job: &Job, made: &[Pass]) -> Result<(), String> {
+    let used = |ball: bool| {
+        let cutters = made.iter().filter_map(|pass| job.cutter(pass.tool));
+        cutters.filter(|cutter| cutter.ball == ball).map(|cutter| cutter.diameter).next()
+    };
+    let larger = |ball: bool, than: f64| {
+        let list = job.cutters.iter().filter(move |cutter| cutter.ball == ball);
+        list.map(|cutter| cutter.diameter).filter(move |diameter| *diameter > than)
+    };
+    if let Some(mill) = used(false) {
+        let mills = made.iter().filter(|pass| job.cutter(pass.tool).is_some_and(|c| !c.ball));
+        let lowest = mills.map(|pass| pass.from[1]).fold(f64::INFINITY, f64::min);
+        // A µm higher a level between fillets is up to 0.15 mm wider.
+        let width = sweep::width(job, lowest + 0.001) - 0.15;
+        if let Some(fits) = larger(false, mill).find(|diameter| *diameter < width) {
+            return Err(format!("an end mill of {fits} fits the width {width} too"));
+        }
+    }
+    let ball = used(true).ok_or("no ball")?;
+    if let Some(fits) = larger(true, ball).find(|d| reached(job, *d, -0.005)) {
+        return Err(format!("a ball of {fits} reaches everything too"));
+    }
+    if reached(job, ball, 0.005) { Ok(()) } else { Err("the ball leaves a corner".to_string()) }
+}
+
+fn reached(job: &Job, diameter: f64, more: f64) -> bool {
+    sweep::ball_reaches(&job.section, diameter / 2.0, job.finish + more)
 }
 
 #[test]
 fn programs_leave_and_cut_what_they_may() {
     for (name, section) in sections() {
-        let mut job = Job::new(section, 30.0);
-        job.finish = if name == "trapezoid" { 0.3 } else { 0.05 };
-        prove(name, &job);
+        for pitch in [25.0, 40.0, 90.0] {
+            let mut job = Job::new(section.clone(), pitch);
+            job.finish = if name == "trapezoid" { 0.3 } else { 0.05 };
+            job.left = pitch > 50.0;
+            job.start = 40.0 - pitch;
+            let (nc, warnings) = post(&job).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let Proof { passes, report, undercut } = prove(name, &job, &nc, &warnings);
+            println!(
+                "{name}, pitch {pitch}: {} passes, {report:.4?}, undercut {undercut:.4?}",
+                passes.len()
+            );
+        }
     }
+}
+
+/// Numbers from a fixed row.
+struct Dice(u64);
+
+impl Dice {
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        low + (high - low) * ((self.0 >> 11) as f64 / (1_u64 << 53) as f64)
+    }
+
+    fn chance(&mut self, share: f64) -> bool {
+        self.between(0.0, 1.0) < share
+    }
+}
+
+/// A job with a random section: two walls with fillets, a floor, lips or not.
+fn random_job(dice: &mut Dice) -> Job {
+    let top = dice.between(15.0, 60.0);
+    let depth = dice.between(2.0, 10.0_f64.min(top - 5.0));
+    let slope = |dice: &mut Dice| {
+        if dice.chance(0.2) { 0.0 } else { depth * dice.between(0.05, 1.2) }
+    };
+    let [left, right] = [slope(dice), slope(dice)];
+    let floor = dice.between(4.0, 18.0);
+    let points = [
+        [0.0, top],
+        [left, top - depth],
+        [left + floor, top - depth],
+        [left + floor + right, top],
+    ];
+    let largest = 3.0_f64.min(0.9 * depth).min(0.45 * floor);
+    let mut fillet = || if dice.chance(0.2) { 0.0 } else { dice.between(0.5, largest) };
+    let radii = [fillet(), fillet()];
+    let mut job = Job::new(Section::rounded(&points, &radii), 1.0);
+    job.pitch = (left + floor + right) * dice.between(1.05, 3.0);
+    job.turns = dice.between(0.5, 6.0);
+    job.start = dice.between(-80.0, 80.0);
+    job.left = dice.chance(0.5);
+    job.stock = if dice.chance(0.2) { 0.0 } else { dice.between(0.1, 1.0) };
+    job.rough = dice.between(0.2, 2.0);
+    job.finish = dice.between(0.01, 0.2);
+    job
+}
+
+#[test]
+fn random_jobs_are_right_or_refused() {
+    let count = std::env::var("FILPOST_SCREWS").ok().and_then(|text| text.parse().ok()).unwrap_or(60);
+    let mut dice = Dice(1);
+    let (mut made, mut no_mill, mut no_ball) = (0, 0, 0);
+    for index in 0..count {
+        let job = random_job(&mut dice);
+        match post(&job) {
+            Ok((nc, warnings)) => {
+                prove(&format!("job {index}"), &job, &nc, &warnings);
+                made += 1;
+            }
+            Err(error) if error.to_string().contains("no end mill of the list fits") => no_mill += 1,
+            Err(error) if error.to_string().contains("uncut in a corner") => {
+                let fits = job.cutters.iter().find(|c| c.ball && reached(&job, c.diameter, -0.005));
+                assert!(fits.is_none(), "{fits:?} fits\n{}", job.cl());
+                no_ball += 1;
+            }
+            Err(error) => panic!("{error}\n{}", job.cl()),
+        }
+    }
+    println!("{made} made, {no_mill} without an end mill, {no_ball} without a ball");
+    assert!(made * 3 > count, "too many are refused");
 }

@@ -6,14 +6,13 @@ use super::passes::Pass;
 use super::section::{Place, plus};
 use super::{Cutter, Job};
 
+/// Further than this from the cutter in the plane of the axis nothing is cut, mm.
+const REACH: f64 = 3.0;
+
 /// Deepest cut of the passes of one kind of cutter below the finished section, mm,
 /// along normals of the section `spacing` apart.
 pub fn undercut(job: &Job, passes: &[Pass], ball: bool, spacing: f64) -> f64 {
-    let tools: Vec<(&Cutter, Place)> = passes
-        .iter()
-        .filter_map(|pass| Some((job.cutter(pass.tool)?, pass.place(job))))
-        .filter(|(cutter, _)| cutter.ball == ball)
-        .collect();
+    let tools = tools(job, passes, ball);
     let samples = job.section.samples(spacing);
     samples.iter().fold(0.0, |deepest, (point, normal)| {
         let cut = |depth: f64| {
@@ -22,6 +21,23 @@ pub fn undercut(job: &Job, passes: &[Pass], ball: bool, spacing: f64) -> f64 {
         };
         if cut(deepest) { deepen(cut, deepest) } else { deepest }
     })
+}
+
+/// True when the balls reach each point that lies `height` from the section.
+pub fn reaches(job: &Job, passes: &[Pass], height: f64, spacing: f64) -> bool {
+    let tools = tools(job, passes, true);
+    job.section.samples(spacing).into_iter().all(|(point, normal)| {
+        let point = plus(point, normal, height);
+        job.section.distance(point) < height - 1e-9
+            || point[1] > job.section.top()
+            || tools.iter().any(|(cutter, tip)| cuts(job, cutter, *tip, point))
+    })
+}
+
+/// The cutters of one kind with the places of their tips.
+fn tools<'j>(job: &'j Job, passes: &[Pass], ball: bool) -> Vec<(&'j Cutter, Place)> {
+    let all = passes.iter().filter_map(|pass| Some((job.cutter(pass.tool)?, pass.place(job))));
+    all.filter(|(cutter, _)| cutter.ball == ball).collect()
 }
 
 /// The greatest depth that is cut, from one that is.
@@ -48,9 +64,10 @@ fn cuts(job: &Job, cutter: &Cutter, tip: Place, point: Place) -> bool {
             (along - lead * turn).powi(2) + high * high + centre * centre
                 - 2.0 * high * centre * turn.cos()
         };
-        return gap(lowest(gap, 1.0)) < radius * radius;
+        let near = gap(0.0) < (radius + REACH).powi(2);
+        return near && gap(lowest(gap, 1.0)) < radius * radius;
     }
-    if high <= tip[1] {
+    if high <= tip[1] || along.abs() > radius + REACH {
         return false;
     }
     let gap = |turn: f64| (along - lead * turn).powi(2) + (high * turn.sin()).powi(2);
@@ -60,7 +77,7 @@ fn cuts(job: &Job, cutter: &Cutter, tip: Place, point: Place) -> bool {
 /// Where a function with one valley within `-range` to `range` is lowest.
 fn lowest(value: impl Fn(f64) -> f64, range: f64) -> f64 {
     let (mut low, mut high) = (-range, range);
-    for _ in 0..60 {
+    for _ in 0..32 {
         let (first, second) = (low + (high - low) * 0.382, low + (high - low) * 0.618);
         if value(first) < value(second) { high = second } else { low = first }
     }

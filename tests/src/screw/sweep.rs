@@ -2,7 +2,7 @@
 //! mill is a rectangle, a ball a circle, both open above.
 
 use super::passes::Pass;
-use super::section::{Place, Section, norm, plus};
+use super::section::{Place, Section, plus};
 use super::{Cutter, Job};
 
 /// Tolerance of the checks: a µm.
@@ -120,28 +120,26 @@ pub fn width(job: &Job, level: f64) -> f64 {
         .map_or(0.0, |range| range.1 - range.0)
 }
 
-/// True when a ball reaches each point that lies just more than the allowed scallop
-/// from the section: some place of its centre covers the point and cuts nothing.
-pub fn ball_fits(job: &Job, radius: f64) -> bool {
-    let section = &job.section;
-    let height = job.finish + 2.0 * MICRON;
-    section.samples(0.05).into_iter().all(|(point, normal)| {
+/// True when a ball reaches each point that lies `height` from the section: some
+/// place of its centre covers the point and cuts nothing.
+pub fn ball_reaches(section: &Section, radius: f64, height: f64) -> bool {
+    section.samples(0.02).into_iter().all(|(point, normal)| {
         let point = plus(point, normal, height);
         if section.distance(point) < height - 1e-9 || point[1] > section.top() {
             return true;
         }
-        let centre = |angle: f64| plus(point, [angle.cos(), angle.sin()], radius - 1e-9);
         let free = |angle: f64| {
-            let centre = centre(angle);
+            let centre = plus(point, [angle.cos(), angle.sin()], radius - 1e-9);
             if centre[1] < section.height(centre[0]) { 0.0 } else { section.distance(centre) }
         };
-        let angles = (0..=1440).map(|step| f64::from(step) * std::f64::consts::TAU / 1440.0);
-        let best = angles.max_by(|a, b| free(*a).total_cmp(&free(*b))).unwrap_or(0.0);
-        (-100..=100).any(|step| free(best + f64::from(step) * 5e-5) >= radius - 1e-4)
+        let best = |middle: f64, step: f64| {
+            let angles = (-180..=180).map(|index| middle + f64::from(index) * step);
+            angles.max_by(|a, b| free(*a).total_cmp(&free(*b))).unwrap_or(middle)
+        };
+        if free(normal[1].atan2(normal[0])) >= radius {
+            return true;
+        }
+        let angle = best(best(0.0, 1f64.to_radians()), 0.01f64.to_radians());
+        free(best(angle, 0.0001f64.to_radians())) >= radius - 1e-6
     })
-}
-
-/// Distance of two places.
-pub fn apart(a: Place, b: Place) -> f64 {
-    norm([a[0] - b[0], a[1] - b[1]])
 }
