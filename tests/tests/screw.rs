@@ -8,6 +8,7 @@ use filpost::{Diag, Error, Post, files, includes};
 use filpost_tests::root;
 use filpost_tests::screw::passes::Pass;
 use filpost_tests::screw::section::{Section, Step};
+use filpost_tests::screw::mutate::{self, Mutation};
 use filpost_tests::screw::{Job, helix, passes, sweep};
 
 /// The NC program of a job and the warnings.
@@ -68,8 +69,8 @@ fn prove(name: &str, job: &Job, nc: &str, warnings: &[Diag]) -> Proof {
     let fail = |what: String| -> ! { panic!("{name}: {what}\n{}\n{nc}", job.cl()) };
     let made = passes::read(job, nc).unwrap_or_else(|error| fail(error));
     let report = sweep::check(job, &made).unwrap_or_else(|error| fail(error));
-    if let Err(error) = choice(job, &made) {
-        fail(error);
+    for found in [sweep::check_levels(job, &made), choice(job, &made)] {
+        found.unwrap_or_else(|error| fail(error));
     }
     let undercut = [false, true].map(|ball| helix::undercut(job, &made, ball, 0.002));
     let said = warned(warnings);
@@ -203,4 +204,37 @@ fn random_jobs_are_right_or_refused() {
     }
     println!("{made} made, {no_mill} without an end mill, {no_ball} without a ball");
     assert!(made * 3 > count, "too many are refused");
+}
+
+#[test]
+fn each_change_of_a_program_is_found() {
+    let (_, section) = sections().swap_remove(1);
+    let mut job = Job::new(section, 30.0);
+    job.finish = 0.02;
+    let (nc, _) = post(&job).expect("the job is made");
+    let judge = |nc: &str| {
+        let made = passes::read(&job, nc)?;
+        sweep::check(&job, &made)?;
+        sweep::check_levels(&job, &made)?;
+        let radius = made.last().and_then(|pass| job.cutter(pass.tool)).map_or(0.0, |c| c.diameter / 2.0);
+        let [x, z] = made.last().map_or([0.0; 2], |pass| pass.place(&job));
+        let off = (x - job.section.ends()[1]).hypot(z + radius - job.section.top()) - radius;
+        if off.abs() < 0.001 { Ok(()) } else { Err("the end is not reached".to_string()) }
+    };
+    judge(&nc).expect("the program is right");
+    let lines: Vec<&str> = nc.lines().collect();
+    let idle = |line: &str| ["G43", "G94", "Y0.", "A0.", "Z27."].iter().any(|word| line.contains(word));
+    let mut count = 0;
+    for (index, line) in lines.iter().enumerate() {
+        // Positions above the blank may be others too.
+        if !line.contains("G0") && !line.contains("G1 ") || idle(line) {
+            continue;
+        }
+        for Mutation { what, nc } in mutate::mutations(&nc, index) {
+            assert!(judge(&nc).is_err(), "not found: {what}");
+            count += 1;
+        }
+    }
+    println!("{count} changes, all found");
+    assert!(count > 500);
 }

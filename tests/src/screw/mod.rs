@@ -3,6 +3,7 @@
 //! passes an NC program makes, and what they leave and cut.
 
 pub mod helix;
+pub mod mutate;
 pub mod passes;
 pub mod section;
 pub mod sweep;

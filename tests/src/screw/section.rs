@@ -174,6 +174,12 @@ impl Section {
         self.parts().map(|(from, step)| step.distance(from, point)).fold(f64::INFINITY, f64::min)
     }
 
+    /// Distance of a point from the section, negative in the finished part.
+    pub fn signed(&self, point: Place) -> f64 {
+        let distance = self.distance(point);
+        if point[1] < self.height(point[0]) { -distance } else { distance }
+    }
+
     /// Points of the section about `spacing` apart with their normals into the groove.
     pub fn samples(&self, spacing: f64) -> Vec<(Place, Place)> {
         let mut samples = Vec::new();

@@ -66,6 +66,30 @@ pub fn check(job: &Job, passes: &[Pass]) -> Result<Report, String> {
     Ok(report)
 }
 
+/// Roughing goes level by level, and the outer passes of each touch the allowance.
+///
+/// # Errors
+/// The level that does not.
+pub fn check_levels(job: &Job, passes: &[Pass]) -> Result<(), String> {
+    let mills = passes.iter().filter(|pass| job.cutter(pass.tool).is_some_and(|c| !c.ball));
+    let mills: Vec<&Pass> = mills.collect();
+    for level in mills.chunk_by(|a, b| a.from[1] == b.from[1]) {
+        let radius = job.cutter(level[0].tool).map_or(0.0, |cutter| cutter.diameter / 2.0);
+        let places = level.iter().map(|pass| pass.place(job));
+        let xs: Vec<f64> = places.map(|place| place[0]).collect();
+        let low = xs.iter().copied().fold(f64::INFINITY, f64::min) - radius;
+        let high = xs.iter().copied().fold(f64::NEG_INFINITY, f64::max) + radius;
+        for (x, outward) in [(low, -0.05), (high, 0.05)] {
+            let off = job.section.signed([x, level[0].from[1]]);
+            let beyond = job.section.signed([x + outward, level[0].from[1]]);
+            if (off - job.stock).abs() > MICRON || beyond > off - 0.000_1 {
+                return Err(format!("level {} stops {off:.4} off the section", level[0].from[1]));
+            }
+        }
+    }
+    Ok(())
+}
+
 /// Least distance of a cutter from the finished part, negative inside of it.
 fn clearance(section: &Section, cutter: &Cutter, tip: Place) -> f64 {
     let radius = cutter.diameter / 2.0;
@@ -74,16 +98,12 @@ fn clearance(section: &Section, cutter: &Cutter, tip: Place) -> f64 {
         let inside = section.height(centre[0]) > centre[1];
         return if inside { -radius } else { section.distance(centre) - radius };
     }
-    let signed = |point: Place| {
-        let distance = section.distance(point);
-        if point[1] < section.height(point[0]) { -distance } else { distance }
-    };
     let bottom = (0..=400).map(|share| [tip[0] + radius * (f64::from(share) / 200.0 - 1.0), tip[1]]);
     let sides = (0..=200).flat_map(|share| {
         let z = tip[1] + (section.top() - tip[1]) * f64::from(share) / 200.0;
         [[tip[0] - radius, z], [tip[0] + radius, z]]
     });
-    bottom.chain(sides).map(signed).fold(f64::INFINITY, f64::min)
+    bottom.chain(sides).map(|point| section.signed(point)).fold(f64::INFINITY, f64::min)
 }
 
 /// How far the stock that is left reaches from the section, columns along X.
