@@ -4,7 +4,7 @@
 
 use std::io::Cursor;
 
-use filpost::{Diag, Error, Post, files, includes};
+use filpost::{Diag, Error, Post, check, files, includes};
 use filpost_tests::root;
 use filpost_tests::screw::passes::Pass;
 use filpost_tests::screw::section::{Section, Step};
@@ -138,6 +138,76 @@ fn programs_leave_and_cut_what_they_may() {
     }
 }
 
+/// The cases of the corpus with their programs as they are kept there.
+fn cases() -> Vec<(String, Job, String)> {
+    let names = ["trapezoid", "fillets", "left-hand", "low-lead"];
+    names
+        .map(|name| {
+            let folder = root().join(format!("corpus/papers/screw-{name}"));
+            let text = |file: &str| std::fs::read_to_string(folder.join(file)).expect("is there");
+            let job = Job::read(&text("screw.ncl")).unwrap_or_else(|error| panic!("{name}: {error}"));
+            (name.to_string(), job, text("screw.nc"))
+        })
+        .to_vec()
+}
+
+#[test]
+fn the_programs_of_the_corpus_are_right() {
+    for (name, job, nc) in cases() {
+        let (_, warnings) = post(&job).expect("the job is made");
+        let Proof { passes, report, undercut } = prove(&name, &job, &nc, &warnings);
+        println!("{name}: {} passes, {report:.4?}, undercut {undercut:.4?}", passes.len());
+    }
+}
+
+/// The undercut comes from the lead angle: the cut of a ball of radius r is as wide as
+/// r / cos(lead) along the axis.
+#[test]
+fn the_undercut_grows_with_the_pitch() {
+    let page = std::fs::read_to_string(root().join("docs/papers/screw.md")).expect("the page");
+    let upright = [[0.0, 25.0], [0.0, 15.0], [16.0, 15.0], [16.0, 25.0]];
+    let mut rows = String::new();
+    let mut last = 0.0;
+    for pitch in [16.0, 20.0, 30.0, 40.0, 60.0, 80.0] {
+        let mut job = Job::new(Section::rounded(&upright, &[5.0, 5.0]), pitch);
+        job.cutters.retain(|cutter| cutter.number == 3 || cutter.diameter == 8.0 && cutter.ball);
+        let (nc, warnings) = post(&job).expect("the job is made");
+        let made = passes::read(&job, &nc).expect("the passes are right");
+        let undercut = helix::undercut(&job, &made, true, 0.001);
+        let lead = (pitch / (std::f64::consts::TAU * 20.0)).atan();
+        let rule = 4.0 * (1.0 / lead.cos() - 1.0);
+        let said = warned(&warnings)[1];
+        rows += &format!(
+            "| {pitch} | {:.1} | {said:.3} | {undercut:.3} | {rule:.3} |\n",
+            lead.to_degrees()
+        );
+        assert!((said - undercut).abs() < 0.001 && undercut > last, "{rows}");
+        assert!(page.contains(rows.lines().last().unwrap_or_default()), "{rows}");
+        last = undercut;
+    }
+}
+
+/// Each extension that the script uses is named in its header.
+#[test]
+fn the_script_names_its_extensions() {
+    let path = root().join("fil-scripts/papers/screw.fil");
+    let text = files::read_text(&path, None).expect("the script is there");
+    let mut loader = includes::beside(&[path.clone()], None);
+    let options = check::Options { strict: true, includes: Some(&mut loader), ..Default::default() };
+    let name = path.to_string_lossy();
+    let diags = check::check(&[(&name, &text)], options);
+    let header: String = text.lines().take_while(|line| line.starts_with("$$")).collect();
+    for diag in diags {
+        let named = ["COUPLF", "HASF", "ERROR", "WARN"]
+            .iter()
+            .any(|name| diag.to_string().contains(name) && header.contains(name));
+        assert!(diag.code.name() == "E0219" && named, "{diag}");
+    }
+    let options = check::Options { includes: Some(&mut loader), ..Default::default() };
+    let diags = check::check(&[(&name, &text)], options);
+    assert!(diags.is_empty(), "{diags:?}");
+}
+
 /// Numbers from a fixed row.
 struct Dice(u64);
 
@@ -168,7 +238,7 @@ fn random_job(dice: &mut Dice) -> Job {
         [left + floor + right, top],
     ];
     let largest = 3.0_f64.min(0.9 * depth).min(0.45 * floor);
-    let mut fillet = || if dice.chance(0.2) { 0.0 } else { dice.between(0.5, largest) };
+    let mut fillet = || if dice.chance(0.1) { 0.0 } else { dice.between(0.5, largest) };
     let radii = [fillet(), fillet()];
     let mut job = Job::new(Section::rounded(&points, &radii), 1.0);
     job.pitch = (left + floor + right) * dice.between(1.05, 3.0);
@@ -194,7 +264,7 @@ fn random_jobs_are_right_or_refused() {
                 made += 1;
             }
             Err(error) if error.to_string().contains("no end mill of the list fits") => no_mill += 1,
-            Err(error) if error.to_string().contains("uncut in a corner") => {
+            Err(error) if error.to_string().contains("leaves a corner uncut") => {
                 let fits = job.cutters.iter().find(|c| c.ball && reached(&job, c.diameter, -0.005));
                 assert!(fits.is_none(), "{fits:?} fits\n{}", job.cl());
                 no_ball += 1;
