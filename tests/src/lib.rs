@@ -6,12 +6,14 @@ pub mod duel;
 pub mod examples;
 pub mod language;
 pub mod lints;
+pub mod nc;
 pub mod nc_path;
 pub mod oracle;
 pub mod path;
 pub mod picture;
 pub mod programs;
 pub mod rs274;
+pub mod runout;
 pub mod screw;
 
 /// The folder of the workspace.

@@ -14,6 +14,9 @@ use crate::errors::NcCode;
 /// Digits a number may have in all; more would not fit its exact form.
 const MAX_DIGITS: u32 = 18;
 
+/// What some editors put before the first line.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
 /// A number exactly as written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Number {
@@ -81,6 +84,9 @@ impl Block {
 pub fn read_block(text: &[u8], name: &str, line: u32) -> Result<Block, Box<Diag>> {
     let mut scan = Scan { text, at: 0, name, line };
     let mut block = Block { line, ..Block::default() };
+    if line == 1 && text.starts_with(BYTE_ORDER_MARK) {
+        scan.at = BYTE_ORDER_MARK.len();
+    }
     scan.blanks();
     if scan.peek() == Some(b'%') {
         block.tape_mark = true;
