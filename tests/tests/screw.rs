@@ -9,7 +9,7 @@ use filpost_tests::root;
 use filpost_tests::screw::passes::Pass;
 use filpost_tests::screw::section::{Section, Step};
 use filpost_tests::screw::mutate::{self, Mutation};
-use filpost_tests::screw::{Job, helix, passes, sweep};
+use filpost_tests::screw::{Job, drawing, helix, passes, sweep};
 
 /// The NC program of a job and the warnings.
 fn post(job: &Job) -> Result<(String, Vec<Diag>), Error> {
@@ -158,6 +158,15 @@ fn the_programs_of_the_corpus_are_right() {
         let Proof { passes, report, undercut } = prove(&name, &job, &nc, &warnings);
         println!("{name}: {} passes, {report:.4?}, undercut {undercut:.4?}", passes.len());
     }
+}
+
+#[test]
+fn the_pictures_show_the_case() {
+    let (_, job, nc) = cases().swap_remove(0);
+    let made = passes::read(&job, &nc).expect("the passes are right");
+    let folder = root().join("docs/papers");
+    drawing::section(&job, &made).check(&folder.join("screw-section.svg"));
+    drawing::unrolled(&job, &made, 5).check(&folder.join("screw-unrolled.svg"));
 }
 
 /// The undercut comes from the lead angle: the cut of a ball of radius r is as wide as

@@ -2,6 +2,7 @@
 //! `fil-scripts/papers/screw.fil` without the post: a job as data, its section, the
 //! passes an NC program makes, and what they leave and cut.
 
+pub mod drawing;
 pub mod helix;
 pub mod job;
 pub mod mutate;

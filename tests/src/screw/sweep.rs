@@ -112,11 +112,16 @@ fn left(section: &Section, tools: &[(&Cutter, Place)]) -> f64 {
     let count = ((last - first) / COLUMN).ceil() as usize;
     let column = |index: usize| {
         let x = first + (last - first) * (index as f64 + 0.5) / count as f64;
-        let cut = tools.iter().filter_map(|(cutter, tip)| bottom(cutter, *tip, x));
-        let z = cut.fold(section.top(), f64::min);
+        let z = surface(section, tools, x);
         if z > section.height(x) { section.distance([x, z]) } else { 0.0 }
     };
     (0..count).map(column).fold(0.0, f64::max)
+}
+
+/// Z of what tools leave at an X.
+pub fn surface(section: &Section, tools: &[(&Cutter, Place)], x: f64) -> f64 {
+    let cut = tools.iter().filter_map(|(cutter, tip)| bottom(cutter, *tip, x));
+    cut.fold(section.top(), f64::min)
 }
 
 /// Z of the lower side of a cutter at an X.
