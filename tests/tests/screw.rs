@@ -5,7 +5,7 @@
 use std::io::Cursor;
 
 use filpost::{Diag, Error, Post, check, files, includes};
-use filpost_tests::root;
+use filpost_tests::{examples, root};
 use filpost_tests::screw::passes::Pass;
 use filpost_tests::screw::section::{Section, Step};
 use filpost_tests::screw::mutate::{self, Mutation};
@@ -161,8 +161,15 @@ fn the_programs_of_the_corpus_are_right() {
 }
 
 #[test]
-fn the_pictures_show_the_case() {
+fn the_page_shows_the_case() {
     let (_, job, nc) = cases().swap_remove(0);
+    let page = std::fs::read_to_string(root().join("docs/papers/screw.md")).expect("the page");
+    let shown: Vec<_> = examples::blocks(&page).into_iter().filter(|b| b.words == ["text"]).collect();
+    let cl = std::fs::read_to_string(root().join("corpus/papers/screw-trapezoid/screw.ncl"));
+    assert_eq!(shown[0].text, cl.expect("the case"));
+    assert!(nc.contains(&shown[1].text));
+    let (_, warnings) = post(&job).expect("the job is made");
+    assert!(warnings.iter().any(|diag| diag.to_string().contains(shown[2].text.trim())));
     let made = passes::read(&job, &nc).expect("the passes are right");
     let folder = root().join("docs/papers");
     drawing::section(&job, &made).check(&folder.join("screw-section.svg"));
@@ -191,9 +198,9 @@ fn the_undercut_grows_with_the_pitch() {
             lead.to_degrees()
         );
         assert!((said - undercut).abs() < 0.001 && undercut > last, "{rows}");
-        assert!(page.contains(rows.lines().last().unwrap_or_default()), "{rows}");
         last = undercut;
     }
+    assert!(page.contains(&rows), "{rows}");
 }
 
 /// Each extension that the script uses is named in its header.

@@ -103,7 +103,7 @@ pub fn unrolled(job: &Job, passes: &[Pass], count: usize) -> Picture {
     picture.area(&corners, Pen::full("none", 0.0), "#e0e0e0");
     let mut turn = (low / 360.0).ceil();
     while turn * 360.0 <= high {
-        let a = turn * 360.0;
+        let a = turn * 360.0 + 0.0;
         picture.line(&[[start, a / 20.0], [end, a / 20.0]], THIN);
         picture.text([start - 6.0, a / 20.0 - 0.5], &format!("A{a}"));
         turn += 1.0;
