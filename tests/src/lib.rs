@@ -4,6 +4,7 @@ pub mod cl_path;
 pub mod compare;
 pub mod duel;
 pub mod examples;
+pub mod feed;
 pub mod language;
 pub mod lints;
 pub mod nc;
@@ -15,6 +16,8 @@ pub mod programs;
 pub mod rs274;
 pub mod runout;
 pub mod screw;
+pub mod sinumerik;
+pub mod thread;
 
 /// The folder of the workspace.
 pub fn root() -> &'static std::path::Path {

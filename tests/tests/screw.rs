@@ -110,10 +110,10 @@ fn choice(job: &Job, made: &[Pass]) -> Result<(), String> {
         }
     }
     let ball = used(true).ok_or("no ball")?;
-    if let Some(fits) = larger(true, ball).find(|d| reached(job, *d, -0.005)) {
+    if let Some(fits) = larger(true, ball).find(|d| reached(job, *d, -0.01)) {
         return Err(format!("a ball of {fits} reaches everything too"));
     }
-    if reached(job, ball, 0.005) { Ok(()) } else { Err("the ball leaves a corner".to_string()) }
+    if reached(job, ball, 0.01) { Ok(()) } else { Err("the ball leaves a corner".to_string()) }
 }
 
 fn reached(job: &Job, diameter: f64, more: f64) -> bool {
@@ -214,7 +214,7 @@ fn the_script_names_its_extensions() {
     let diags = check::check(&[(&name, &text)], options);
     let header: String = text.lines().take_while(|line| line.starts_with("$$")).collect();
     for diag in diags {
-        let named = ["COUPLF", "HASF", "ERROR", "WARN"]
+        let named = ["COUPLF", "HASF", "COMF", "ERROR", "WARN"]
             .iter()
             .any(|name| diag.to_string().contains(name) && header.contains(name));
         assert!(diag.code.name() == "E0219" && named, "{diag}");
@@ -269,7 +269,7 @@ fn random_job(dice: &mut Dice) -> Job {
 
 #[test]
 fn random_jobs_are_right_or_refused() {
-    let count = std::env::var("FILPOST_SCREWS").ok().and_then(|text| text.parse().ok()).unwrap_or(60);
+    let count = std::env::var("FILPOST_SCREWS").ok().and_then(|text| text.parse().ok()).unwrap_or(40);
     let mut dice = Dice(1);
     let (mut made, mut no_mill, mut no_ball) = (0, 0, 0);
     for index in 0..count {
@@ -281,7 +281,7 @@ fn random_jobs_are_right_or_refused() {
             }
             Err(error) if error.to_string().contains("no end mill of the list fits") => no_mill += 1,
             Err(error) if error.to_string().contains("leaves a corner uncut") => {
-                let fits = job.cutters.iter().find(|c| c.ball && reached(&job, c.diameter, -0.005));
+                let fits = job.cutters.iter().find(|c| c.ball && reached(&job, c.diameter, -0.01));
                 assert!(fits.is_none(), "{fits:?} fits\n{}", job.cl());
                 no_ball += 1;
             }
@@ -321,6 +321,6 @@ fn each_change_of_a_program_is_found() {
             count += 1;
         }
     }
-    println!("{count} changes, all found");
-    assert!(count > 500);
+    let page = std::fs::read_to_string(root().join("docs/papers/screw.md")).expect("the page");
+    assert!(page.contains(&format!("{count} changes of")), "{count} changes, all found");
 }

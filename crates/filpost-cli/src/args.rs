@@ -33,6 +33,8 @@ pub enum Command {
     Explain(ExplainArgs),
     /// Import and show machine settings
     Machine(MachineArgs),
+    /// Print the manual page
+    Man,
     /// Print completions for a shell
     Completions {
         /// The shell
@@ -323,6 +325,13 @@ pub enum MachineCommand {
         /// Only settings whose name starts with this
         #[arg(value_name = "PREFIX")]
         prefix: Option<String>,
+    },
+    /// Say in which settings two machines differ
+    Diff {
+        /// A ready post, a folder with machine.toml, a machine.toml or an option file
+        first: PathBuf,
+        /// What it is compared with
+        second: PathBuf,
     },
     /// Print the JSON schema of machine.toml
     Schema,

@@ -7,7 +7,7 @@ use super::section::{Place, plus};
 use super::{Cutter, Job};
 
 /// Further than this from the cutter in the plane of the axis nothing is cut, mm.
-const REACH: f64 = 3.0;
+const REACH: f64 = 12.0;
 
 /// Deepest cut of the passes of one kind of cutter below the finished section, mm,
 /// along normals of the section `spacing` apart.
@@ -19,7 +19,15 @@ pub fn undercut(job: &Job, passes: &[Pass], ball: bool, spacing: f64) -> f64 {
             let point = plus(*point, *normal, -depth);
             tools.iter().any(|(cutter, tip)| cuts(job, cutter, *tip, point))
         };
-        if cut(deepest) { deepen(cut, deepest) } else { deepest }
+        if !cut(deepest) {
+            return deepest;
+        }
+        let depth = deepen(cut, deepest);
+        let end = plus(*point, *normal, -depth);
+        let [first, last] = job.section.ends();
+        let beside = end[0] < first || end[0] > last;
+        // Beside the groove the surface of the blank may be nearer.
+        deepest.max(if beside { depth.min(job.section.top() - end[1]) } else { depth })
     })
 }
 
