@@ -5,11 +5,11 @@
 use std::io::Cursor;
 
 use filpost::{Diag, Error, Post, check, files, includes};
-use filpost_tests::{examples, root};
+use filpost_tests::screw::mutate::{self, Mutation};
 use filpost_tests::screw::passes::Pass;
 use filpost_tests::screw::section::{Section, Step};
-use filpost_tests::screw::mutate::{self, Mutation};
 use filpost_tests::screw::{Job, drawing, helix, passes, sweep};
+use filpost_tests::{examples, root};
 
 /// The NC program of a job and the warnings.
 fn post(job: &Job) -> Result<(String, Vec<Diag>), Error> {
@@ -145,7 +145,8 @@ fn cases() -> Vec<(String, Job, String)> {
         .map(|name| {
             let folder = root().join(format!("corpus/papers/screw-{name}"));
             let text = |file: &str| std::fs::read_to_string(folder.join(file)).expect("is there");
-            let job = Job::read(&text("screw.ncl")).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let job =
+                Job::read(&text("screw.ncl")).unwrap_or_else(|error| panic!("{name}: {error}"));
             (name.to_string(), job, text("screw.nc"))
         })
         .to_vec()
@@ -164,7 +165,8 @@ fn the_programs_of_the_corpus_are_right() {
 fn the_page_shows_the_case() {
     let (_, job, nc) = cases().swap_remove(0);
     let page = std::fs::read_to_string(root().join("docs/papers/screw.md")).expect("the page");
-    let shown: Vec<_> = examples::blocks(&page).into_iter().filter(|b| b.words == ["text"]).collect();
+    let shown: Vec<_> =
+        examples::blocks(&page).into_iter().filter(|b| b.words == ["text"]).collect();
     let cl = std::fs::read_to_string(root().join("corpus/papers/screw-trapezoid/screw.ncl"));
     assert_eq!(shown[0].text, cl.expect("the case"));
     assert!(nc.contains(&shown[1].text));
@@ -208,8 +210,9 @@ fn the_undercut_grows_with_the_pitch() {
 fn the_script_names_its_extensions() {
     let path = root().join("fil-scripts/papers/screw.fil");
     let text = files::read_text(&path, None).expect("the script is there");
-    let mut loader = includes::beside(&[path.clone()], None);
-    let options = check::Options { strict: true, includes: Some(&mut loader), ..Default::default() };
+    let mut loader = includes::beside(std::slice::from_ref(&path), None);
+    let options =
+        check::Options { strict: true, includes: Some(&mut loader), ..Default::default() };
     let name = path.to_string_lossy();
     let diags = check::check(&[(&name, &text)], options);
     let header: String = text.lines().take_while(|line| line.starts_with("$$")).collect();
@@ -229,7 +232,8 @@ struct Dice(u64);
 
 impl Dice {
     fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         low + (high - low) * ((self.0 >> 11) as f64 / (1_u64 << 53) as f64)
     }
 
@@ -247,12 +251,8 @@ fn random_job(dice: &mut Dice) -> Job {
     };
     let [left, right] = [slope(dice), slope(dice)];
     let floor = dice.between(4.0, 18.0);
-    let points = [
-        [0.0, top],
-        [left, top - depth],
-        [left + floor, top - depth],
-        [left + floor + right, top],
-    ];
+    let points =
+        [[0.0, top], [left, top - depth], [left + floor, top - depth], [left + floor + right, top]];
     let largest = 3.0_f64.min(0.9 * depth).min(0.45 * floor);
     let mut fillet = || if dice.chance(0.1) { 0.0 } else { dice.between(0.5, largest) };
     let radii = [fillet(), fillet()];
@@ -269,7 +269,8 @@ fn random_job(dice: &mut Dice) -> Job {
 
 #[test]
 fn random_jobs_are_right_or_refused() {
-    let count = std::env::var("FILPOST_SCREWS").ok().and_then(|text| text.parse().ok()).unwrap_or(40);
+    let count =
+        std::env::var("FILPOST_SCREWS").ok().and_then(|text| text.parse().ok()).unwrap_or(40);
     let mut dice = Dice(1);
     let (mut made, mut no_mill, mut no_ball) = (0, 0, 0);
     for index in 0..count {
@@ -279,7 +280,9 @@ fn random_jobs_are_right_or_refused() {
                 prove(&format!("job {index}"), &job, &nc, &warnings);
                 made += 1;
             }
-            Err(error) if error.to_string().contains("no end mill of the list fits") => no_mill += 1,
+            Err(error) if error.to_string().contains("no end mill of the list fits") => {
+                no_mill += 1
+            }
             Err(error) if error.to_string().contains("leaves a corner uncut") => {
                 let fits = job.cutters.iter().find(|c| c.ball && reached(&job, c.diameter, -0.01));
                 assert!(fits.is_none(), "{fits:?} fits\n{}", job.cl());
@@ -302,14 +305,16 @@ fn each_change_of_a_program_is_found() {
         let made = passes::read(&job, nc)?;
         sweep::check(&job, &made)?;
         sweep::check_levels(&job, &made)?;
-        let radius = made.last().and_then(|pass| job.cutter(pass.tool)).map_or(0.0, |c| c.diameter / 2.0);
+        let radius =
+            made.last().and_then(|pass| job.cutter(pass.tool)).map_or(0.0, |c| c.diameter / 2.0);
         let [x, z] = made.last().map_or([0.0; 2], |pass| pass.place(&job));
         let off = (x - job.section.ends()[1]).hypot(z + radius - job.section.top()) - radius;
         if off.abs() < 0.001 { Ok(()) } else { Err("the end is not reached".to_string()) }
     };
     judge(&nc).expect("the program is right");
     let lines: Vec<&str> = nc.lines().collect();
-    let idle = |line: &str| ["G43", "G94", "Y0.", "A0.", "Z27."].iter().any(|word| line.contains(word));
+    let idle =
+        |line: &str| ["G43", "G94", "Y0.", "A0.", "Z27."].iter().any(|word| line.contains(word));
     let mut count = 0;
     for (index, line) in lines.iter().enumerate() {
         // Positions above the blank may be others too.

@@ -32,7 +32,10 @@ pub fn section(job: &Job, passes: &[Pass]) -> Picture {
         let diameter = tools.first().map_or(0.0, |(cutter, _)| cutter.diameter);
         let text = if ball { "finishing: ball" } else { "roughing: end mill" };
         let middle = (first + last) / 2.0 + shift;
-        picture.text([middle, job.section.top() + 3.4], &format!("{text} {diameter}, {} passes", tools.len()));
+        picture.text(
+            [middle, job.section.top() + 3.4],
+            &format!("{text} {diameter}, {} passes", tools.len()),
+        );
     }
     picture
 }
@@ -72,16 +75,16 @@ fn roughing(picture: &mut Picture, job: &Job, tools: &[(&Cutter, [f64; 2])], shi
     if let Some((cutter, tip)) = tools.first() {
         let [x, radius] = [tip[0] + shift, cutter.diameter / 2.0];
         let top = job.section.top() + 2.5;
-        let outline = [[x - radius, top], [x - radius, tip[1]], [x + radius, tip[1]], [x + radius, top]];
+        let outline =
+            [[x - radius, top], [x - radius, tip[1]], [x + radius, tip[1]], [x + radius, top]];
         picture.line(&outline, CUT);
     }
 }
 
 /// The balls, and the path of their centres.
 fn finishing(picture: &mut Picture, tools: &[(&Cutter, [f64; 2])], shift: f64) {
-    let centre = |(cutter, tip): &(&Cutter, [f64; 2])| {
-        [tip[0] + shift, tip[1] + cutter.diameter / 2.0]
-    };
+    let centre =
+        |(cutter, tip): &(&Cutter, [f64; 2])| [tip[0] + shift, tip[1] + cutter.diameter / 2.0];
     for tool in tools {
         picture.circle(centre(tool), tool.0.diameter / 2.0, THIN);
         picture.circle(centre(tool), 0.08, CUT);
@@ -116,6 +119,9 @@ pub fn unrolled(job: &Job, passes: &[Pass], count: usize) -> Picture {
     for pair in passes.windows(2).take(count.saturating_sub(1)) {
         picture.line(&[place(pair[0].to), place(pair[1].from)], LIMIT);
     }
-    picture.text([(start + end) / 2.0, high / 20.0 + 1.0], "blank, unrolled: X to the right, A upward");
+    picture.text(
+        [(start + end) / 2.0, high / 20.0 + 1.0],
+        "blank, unrolled: X to the right, A upward",
+    );
     picture
 }

@@ -116,7 +116,8 @@ impl State {
     /// A rapid stays above the blank or on one side of it.
     fn idle(&self, job: &Job, from: &[f64; 4]) -> Result<(), String> {
         let radius = job.cutter(self.tool).map_or(0.0, |cutter| cutter.diameter / 2.0);
-        let above = |at: &[f64; 4]| at[2].is_nan() || at[2] >= job.section.top() + job.clear - ROUNDING;
+        let above =
+            |at: &[f64; 4]| at[2].is_nan() || at[2] >= job.section.top() + job.clear - ROUNDING;
         let side = |at: &[f64; 4]| beside(job, at[0], radius);
         let one_side = side(from) != 0 && side(from) == side(&self.at);
         if above(from) && above(&self.at) || one_side {

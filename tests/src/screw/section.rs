@@ -99,8 +99,7 @@ impl Step {
 fn angles(from: Place, to: Place, centre: Place, hollow: bool) -> (f64, f64) {
     let angle = |p: Place| (p[1] - centre[1]).atan2(p[0] - centre[0]);
     let (start, end) = (angle(from), angle(to));
-    let sweep =
-        if hollow { (end - start).rem_euclid(TAU) } else { -(start - end).rem_euclid(TAU) };
+    let sweep = if hollow { (end - start).rem_euclid(TAU) } else { -(start - end).rem_euclid(TAU) };
     (start, sweep)
 }
 
@@ -199,9 +198,7 @@ impl Section {
             return self.top();
         };
         match *step {
-            Step::Line(to) => {
-                from[1] + (to[1] - from[1]) * (x - from[0]) / (to[0] - from[0])
-            }
+            Step::Line(to) => from[1] + (to[1] - from[1]) * (x - from[0]) / (to[0] - from[0]),
             Step::Arc { centre, hollow, .. } => {
                 let out = minus(from, centre);
                 let rise = (dot(out, out) - (x - centre[0]).powi(2)).max(0.0).sqrt();
@@ -257,10 +254,8 @@ mod tests {
 
     #[test]
     fn a_rounded_lip_is_a_hump() {
-        let section = Section::rounded(
-            &[[0.0, 10.0], [2.0, 10.0], [4.0, 4.0], [8.0, 10.0]],
-            &[1.0, 0.0],
-        );
+        let section =
+            Section::rounded(&[[0.0, 10.0], [2.0, 10.0], [4.0, 4.0], [8.0, 10.0]], &[1.0, 0.0]);
         assert!(matches!(section.steps[1], Step::Arc { hollow: false, .. }));
     }
 }

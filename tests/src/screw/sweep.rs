@@ -98,7 +98,8 @@ fn clearance(section: &Section, cutter: &Cutter, tip: Place) -> f64 {
         let inside = section.height(centre[0]) > centre[1];
         return if inside { -radius } else { section.distance(centre) - radius };
     }
-    let bottom = (0..=400).map(|share| [tip[0] + radius * (f64::from(share) / 200.0 - 1.0), tip[1]]);
+    let bottom =
+        (0..=400).map(|share| [tip[0] + radius * (f64::from(share) / 200.0 - 1.0), tip[1]]);
     let sides = (0..=200).flat_map(|share| {
         let z = tip[1] + (section.top() - tip[1]) * f64::from(share) / 200.0;
         [[tip[0] - radius, z], [tip[0] + radius, z]]
@@ -138,7 +139,8 @@ fn bottom(cutter: &Cutter, tip: Place, x: f64) -> Option<f64> {
 /// Width that an end mill has at a level when it keeps the allowance.
 pub fn width(job: &Job, level: f64) -> f64 {
     let [first, last] = job.section.ends();
-    let free = |x: f64| job.section.height(x) <= level && job.section.distance([x, level]) >= job.stock;
+    let free =
+        |x: f64| job.section.height(x) <= level && job.section.distance([x, level]) >= job.stock;
     let count = ((last - first) / COLUMN) as usize;
     let open = (0..=count).map(|index| first + index as f64 * COLUMN).filter(|x| free(*x));
     open.fold(None, |range: Option<(f64, f64)>, x| Some((range.map_or(x, |r| r.0), x)))
