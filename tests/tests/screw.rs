@@ -45,12 +45,14 @@ fn sections() -> Vec<(&'static str, Section)> {
     let uneven = [[1.0, 25.0], [3.0, 17.0], [12.0, 16.0], [15.0, 16.0], [24.0, 25.0]];
     let upright = [[0.0, 25.0], [0.0, 17.0], [18.0, 17.0], [18.0, 25.0]];
     let lips = [[-1.0, 25.0], [1.0, 25.0], [3.0, 18.0], [16.0, 18.0], [20.0, 25.0], [22.0, 25.0]];
+    let shelf = [[0.0, 25.0], [1.0, 22.1], [5.0, 22.1], [7.0, 17.0], [16.0, 17.0], [20.0, 25.0]];
     vec![
         ("trapezoid", Section::rounded(&trapezoid, &[0.0, 0.0])),
         ("trapezoid with fillets", Section::rounded(&trapezoid, &[4.0, 4.0])),
         ("uneven", Section::rounded(&uneven, &[5.0, 0.0, 3.0])),
         ("upright walls", Section::rounded(&upright, &[4.0, 6.0])),
         ("rounded lips", Section::rounded(&lips, &[1.0, 3.0, 5.0, 1.5])),
+        ("shelf", Section::rounded(&shelf, &[3.0, 1.0, 3.0, 5.0])),
         ("round bottom", round_bottom()),
     ]
 }
@@ -128,6 +130,7 @@ fn programs_leave_and_cut_what_they_may() {
             job.finish = if name == "trapezoid" { 0.3 } else { 0.05 };
             job.left = pitch > 50.0;
             job.start = 40.0 - pitch;
+            job.depth = if pitch < 30.0 { 1.5 } else { 1000.0 };
             let (nc, warnings) = post(&job).unwrap_or_else(|error| panic!("{name}: {error}"));
             let Proof { passes, report, undercut } = prove(name, &job, &nc, &warnings);
             println!(
@@ -263,6 +266,7 @@ fn random_job(dice: &mut Dice) -> Job {
     job.left = dice.chance(0.5);
     job.stock = if dice.chance(0.2) { 0.0 } else { dice.between(0.1, 1.0) };
     job.rough = dice.between(0.2, 2.0);
+    job.depth = dice.between(0.5, 10.0);
     job.finish = dice.between(0.01, 0.2);
     job
 }

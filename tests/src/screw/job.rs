@@ -36,6 +36,8 @@ pub struct Job {
     pub stock: f64,
     /// Height of the steps of roughing above the allowance, mm.
     pub rough: f64,
+    /// Largest depth of a level of roughing, mm.
+    pub depth: f64,
     /// Height of the scallops of finishing, mm.
     pub finish: f64,
     /// Clearance, mm.
@@ -64,6 +66,7 @@ impl Job {
             left: false,
             stock: 0.5,
             rough: 1.0,
+            depth: 1000.0,
             finish: 0.05,
             clear: 2.0,
             cutters: list.iter().chain(&balls).map(cutter).collect(),
@@ -81,11 +84,11 @@ impl Job {
                 "SCREW / CUTTER, {kind}, {number}, DIAMTR, {diameter}, RPM, {speed}, FEDRAT, {feed}"
             );
         }
-        let Job { pitch, turns, start, stock, rough, finish, clear, .. } = self;
+        let Job { pitch, turns, start, stock, rough, depth, finish, clear, .. } = self;
         let _ = writeln!(
             text,
             "SCREW / PITCH, {pitch}, TURN, {turns}, DIAMTR, {}, STOCK, {stock}, ROUGH, {rough}, $\n  \
-             FINISH, {finish}, CLEAR, {clear}, TOLER, 0, START, {start}{}",
+             FINISH, {finish}, CLEAR, {clear}, TOLER, 0, DEPTH, {depth}, START, {start}{}",
             2.0 * self.section.top(),
             if self.left { ", LEFT" } else { "" }
         );

@@ -73,7 +73,12 @@ pub fn check(job: &Job, passes: &[Pass]) -> Result<Report, String> {
 pub fn check_levels(job: &Job, passes: &[Pass]) -> Result<(), String> {
     let mills = passes.iter().filter(|pass| job.cutter(pass.tool).is_some_and(|c| !c.ball));
     let mills: Vec<&Pass> = mills.collect();
+    let mut above = job.section.top();
     for level in mills.chunk_by(|a, b| a.from[1] == b.from[1]) {
+        if above - level[0].from[1] > job.depth + MICRON {
+            return Err(format!("level {} is too deep", level[0].from[1]));
+        }
+        above = level[0].from[1];
         let radius = job.cutter(level[0].tool).map_or(0.0, |cutter| cutter.diameter / 2.0);
         let places = level.iter().map(|pass| pass.place(job));
         let xs: Vec<f64> = places.map(|place| place[0]).collect();
