@@ -50,7 +50,8 @@ impl Job {
     /// A job on a right-hand screw of four turns with common allowances and cutters.
     pub fn new(section: Section, pitch: f64) -> Self {
         let list = [(1, false, 12.0), (2, false, 8.0), (3, false, 5.0), (4, false, 3.0)];
-        let balls = [(5, true, 12.0), (6, true, 8.0), (7, true, 5.0), (8, true, 3.0)];
+        let balls =
+            [(5, true, 12.0), (6, true, 8.0), (7, true, 5.0), (8, true, 3.0), (9, true, 1.5)];
         let cutter = |&(number, ball, diameter): &(u32, bool, f64)| Cutter {
             number,
             ball,
@@ -137,6 +138,9 @@ impl Job {
         self.left = items.0.contains(&"LEFT");
         self.stock = items.after("STOCK");
         self.rough = items.after("ROUGH");
+        if items.0.contains(&"DEPTH") {
+            self.depth = items.after("DEPTH");
+        }
         self.finish = items.after("FINISH");
         self.clear = items.after("CLEAR");
     }
