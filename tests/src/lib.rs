@@ -20,6 +20,7 @@ pub mod picture;
 pub mod programs;
 pub mod rs274;
 pub mod runout;
+pub mod screw;
 pub mod sinumerik;
 pub mod thread;
 pub mod words;

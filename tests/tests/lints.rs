@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use filpost::check::{self, Options};
-use filpost::files;
+use filpost::{files, includes};
 use filpost_tests::{lints, root};
 use libtest_mimic::{Arguments, Failed, Trial};
 
@@ -44,7 +44,7 @@ fn main() -> ExitCode {
             }));
         }
     }
-    for path in lints::fil_files(&root().join("fil-scripts")) {
+    for path in lints::fil_files(&root().join("fil-scripts")).into_iter().filter(|p| !is_part(p)) {
         let shown = path.strip_prefix(root()).expect("a path below the root");
         trials.push(Trial::test(shown.to_string_lossy().replace('\\', "/"), move || script(&path)));
     }
@@ -66,13 +66,22 @@ fn lists_something(path: &Path, something: bool) -> Result<(), Failed> {
     Ok(())
 }
 
+/// A file in the folder of a script, `screw/` beside `screw.fil`, is checked with it.
+fn is_part(path: &Path) -> bool {
+    path.parent().is_some_and(|folder| folder.with_extension("fil").is_file())
+}
+
 fn findings(paths: &[PathBuf]) -> Result<Vec<String>, Failed> {
     let mut texts = Vec::new();
     for path in paths {
         texts.push(files::read_text(path, None).map_err(|error| error.to_string())?);
     }
-    let files: Vec<(&str, &str)> = texts.iter().map(|text| ("a.fil", text.as_str())).collect();
-    Ok(lints::found(&check::check(&files, Options::default())))
+    let names: Vec<_> = paths.iter().map(|path| path.to_string_lossy()).collect();
+    let files: Vec<(&str, &str)> =
+        names.iter().zip(&texts).map(|(name, text)| (name.as_ref(), text.as_str())).collect();
+    let mut loader = includes::beside(paths, None);
+    let options = Options { includes: Some(&mut loader), ..Options::default() };
+    Ok(lints::found(&check::check(&files, options)))
 }
 
 fn script(path: &Path) -> Result<(), Failed> {
