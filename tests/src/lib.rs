@@ -1,5 +1,6 @@
 //! Support for the test runners of this member.
 
+pub mod cl_file;
 pub mod cl_path;
 pub mod compare;
 pub mod duel;
