@@ -65,11 +65,14 @@ pub fn blocks(page: &str) -> Vec<Block<'_>> {
 /// post, `toml` is a machine.toml that [`PART`] is posted with. Marks:
 /// `strict`, `check` (the warnings of `filpost check`), `fuel=N`, `post=NAME`,
 /// `option-file`, `compat`, `read` (the folder `tests/language/with` is granted),
-/// `clock` (a fixed one).
+/// `clock` (a fixed one). `nc` is read as an NC program.
 pub fn run(block: &Block<'_>) -> Option<Vec<Diag>> {
     let (language, marks) = block.words.split_first()?;
     if marks.contains(&"check") {
         return Some(check(&block.text));
+    }
+    if *language == "nc" {
+        return Some(crate::nc::refusal("out.nc", &block.text).into_iter().collect());
     }
     let value = |name: &str| marks.iter().find_map(|mark| mark.strip_prefix(name));
     let mut builder = Post::builder()

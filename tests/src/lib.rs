@@ -7,6 +7,7 @@ pub mod duel;
 pub mod examples;
 pub mod language;
 pub mod lints;
+pub mod nc;
 pub mod nc_path;
 pub mod oracle;
 pub mod path;

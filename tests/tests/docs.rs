@@ -19,14 +19,17 @@ fn read(name: &str) -> String {
     std::fs::read_to_string(root().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-/// README.md and the pages of docs/, without those of the codes.
+/// README.md and the pages of docs/ and docs/papers/.
 fn pages() -> Vec<(String, String)> {
     let mut pages = vec![("README.md".to_string(), read("README.md"))];
-    for entry in std::fs::read_dir(root().join("docs")).expect("docs/ is there") {
-        let path = entry.expect("an entry").path();
-        if path.extension().is_some_and(|ending| ending == "md") {
-            let name = format!("docs/{}", path.file_name().expect("a name").to_string_lossy());
-            pages.push((name.clone(), read(&name)));
+    for folder in ["docs", "docs/papers"] {
+        for entry in std::fs::read_dir(root().join(folder)).into_iter().flatten() {
+            let path = entry.expect("an entry").path();
+            if path.extension().is_some_and(|ending| ending == "md") {
+                let file = path.file_name().expect("a name").to_string_lossy();
+                let name = format!("{folder}/{file}");
+                pages.push((name.clone(), read(&name)));
+            }
         }
     }
     pages.sort();
@@ -80,6 +83,22 @@ fn commands_run_as_printed() {
         }
     }
     assert!(count >= 15, "only {count} commands");
+}
+
+/// A block `sh fails` ends with status 1; a block `text` right after it shows
+/// what is printed.
+#[test]
+fn commands_that_fail_do_so_as_printed() {
+    for (name, page) in pages() {
+        let all = blocks(&page);
+        for (index, block) in all.iter().enumerate().filter(|(_, b)| b.words == ["sh", "fails"]) {
+            let output = shell(block.text.trim());
+            assert_eq!(output.status.code(), Some(1), "{name}: {}", block.text);
+            if let Some(shown) = all.get(index + 1).filter(|next| next.words == ["text"]) {
+                assert_eq!(String::from_utf8_lossy(&output.stdout), shown.text, "{name}");
+            }
+        }
+    }
 }
 
 #[test]

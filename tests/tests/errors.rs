@@ -1,6 +1,6 @@
 //! The error catalogue: every code has its page in `docs/errors/`, and a case
-//! in `corpus/errors/`, a file of the lint suite or a test in this file. The examples of the pages are
-//! run: what stands under "Wrong" raises the code with the words printed there,
+//! in `corpus/errors/`, a file of the lint suite or of `tests/nc/`, or a test in
+//! this file. The examples of the pages are run: what stands under "Wrong" raises the code with the words printed there,
 //! what stands under "Right" does not. `FILPOST_UPDATE=1` writes the words anew.
 
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use filpost::case::Case;
 use filpost::{Code, Diag, Error, Limits, Post, Severity, all_codes, files};
 use filpost_tests::examples::{self, PART};
-use filpost_tests::{lints, root};
+use filpost_tests::{lints, nc, root};
 
 /// Codes that no small case folder can raise, with the test of this file that does.
 const TESTED_HERE: &[(&str, &str)] = &[
@@ -100,13 +100,15 @@ fn every_code_has_a_case_or_a_test() {
     let bad = lints::fil_files(&root().join("tests/lints/bad"));
     let read = |path: &PathBuf| std::fs::read_to_string(path).expect("a file of the lint suite");
     let lints: Vec<String> = bad.iter().flat_map(|path| lints::listed(&read(path))).collect();
+    let programs: Vec<String> = nc::files().iter().filter_map(|path| nc::listed(path)).collect();
     let source = include_str!("errors.rs");
     for code in all_codes() {
         let name = code.name();
         let in_corpus = cases.iter().any(|case| expected(case).contains(&name));
         let here = TESTED_HERE.iter().find(|(code, _)| *code == name);
         let in_lints = lints.iter().any(|listed| listed.starts_with(&name));
-        let once = in_corpus != here.is_some() || (in_lints && here.is_none());
+        let in_nc = programs.iter().any(|listed| listed.starts_with(&name));
+        let once = in_corpus != here.is_some() || ((in_lints || in_nc) && here.is_none());
         assert!(once, "{name}: a case or a test, and not both");
         if let Some((_, test)) = here {
             assert!(source.contains(&format!("fn {test}()")), "there is no test {test}");

@@ -405,7 +405,25 @@ pub const BUILTINS: &[Builtin] = &[
         Kind::Statement,
         "writes texts and numbers, one after the other, as a line of a file open for writing",
     ),
+    extension(
+        "ERROR",
+        "item,…",
+        Kind::Statement,
+        "refuses the input: the run ends with E0325, whose message is the texts and numbers one after the other, and there is no NC program",
+    ),
+    extension(
+        "WARN",
+        "item,…",
+        Kind::Statement,
+        "adds the warning W0326, whose message is the texts and numbers one after the other; the run goes on",
+    ),
 ];
+
+/// True for the word of a statement of our own.
+pub(crate) fn is_statement(word: &str) -> bool {
+    let is_it = |builtin: &Builtin| builtin.name == word && matches!(builtin.kind, Kind::Statement);
+    BUILTINS.iter().any(is_it)
+}
 
 /// The index of a built-in function or of a form, `TEXT/UP`, in [`BUILTINS`].
 pub(crate) fn find(name: &str) -> Option<usize> {

@@ -251,6 +251,14 @@ fil_diag::codes! {
         FileUse = 324, Error, "file used in a wrong way",
             "Units are 1 and 2; a unit is opened, read or written as it was opened, and closed before it is opened again.",
             "Compare with FILEF in the language reference; FILEF(unit,END) is 1 when no line is left.";
+        /// ERROR/
+        Refused = 325, Error, "the script refuses this input",
+            "The script looked at its input and says in its own words why no NC program can be made of it.",
+            "Correct what the message names; the statement of the script and the CL record stand beside it.";
+        /// WARN/
+        Warned = 326, Warning, "the script warns",
+            "The script makes the NC program, but its author wants this to be looked at first.",
+            "Read the message; the statement of the script and the CL record stand beside it.";
     }
 }
 

@@ -1,5 +1,5 @@
-//! What functions and forms of TEXT/ can be asked of the machine beyond numbers:
-//! texts, outside files, clock and commands.
+//! What functions, forms of TEXT/ and statements of our own ask of the machine beyond
+//! numbers: texts, outside files, messages, clock and commands.
 
 use fil_syntax::tree::{Expr, ExprKind};
 
@@ -42,6 +42,10 @@ pub enum Library {
     ReadLine,
     /// WRITE/
     WriteLine,
+    /// ERROR/
+    Refuse,
+    /// WARN/
+    Warn,
     /// FILEF
     File(FileOp),
     /// DATEF

@@ -25,6 +25,8 @@ pub enum Command {
     Fmt(FmtArgs),
     /// Show the records of a CL file with their numbered words
     Cl(ClArgs),
+    /// Compare two NC programs word by word, as a control reads them
+    Diff(DiffArgs),
     /// Run regression cases (folders with a case.toml)
     Test(TestArgs),
     /// Explain a code, a POSTF number, a location, a setting, a word or a function
@@ -197,6 +199,54 @@ pub struct ClArgs {
     /// Encoding of the texts (utf-8, cp1251, koi8-r, …); guessed when left out
     #[arg(long, value_name = "LABEL")]
     pub encoding: Option<String>,
+}
+
+/// `filpost diff`
+#[derive(Debug, ClapArgs)]
+pub struct DiffArgs {
+    /// The program that is known to be right; - reads standard input
+    pub first: PathBuf,
+    /// The program that is compared with it
+    pub second: PathBuf,
+    /// Lengths and angles that differ by no more are the same
+    #[arg(long, value_name = "STEP", default_value_t = 0.001, value_parser = tolerance)]
+    pub tol: f64,
+    /// What is not looked at: n, comments, dates, points, or letters of words
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = ignored)]
+    pub ignore: Vec<String>,
+    /// Count a modal word that only one program repeats
+    #[arg(long)]
+    pub modal: bool,
+    /// X is written as a diameter (which arcs of a lathe need)
+    #[arg(long)]
+    pub diameter: bool,
+    /// Equal lines shown around each difference
+    #[arg(long, value_name = "LINES", default_value_t = 2)]
+    pub context: usize,
+    /// How differences are written
+    #[arg(long, value_enum, default_value_t = Report::Text)]
+    pub format: Report,
+}
+
+/// How a finding about NC programs is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Report {
+    /// For people
+    Text,
+    /// JSON
+    Json,
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "write a number".to_string())?;
+    if value.is_finite() && value >= 0.0 { Ok(value) } else { Err("write 0 or more".to_string()) }
+}
+
+fn ignored(text: &str) -> Result<String, String> {
+    let known = filpost::nc::diff::Ignore::default().add(text);
+    known.map(|()| text.to_string()).map_err(|_| {
+        "write n, comments, dates, points, spaces or a letter, with commas between".to_string()
+    })
 }
 
 /// `filpost test`

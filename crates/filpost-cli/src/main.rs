@@ -6,6 +6,7 @@
 mod args;
 mod check;
 mod cl;
+mod diff;
 mod errors;
 mod explain;
 mod fmt;
@@ -62,6 +63,7 @@ fn run(command: &Command) -> Result<Status, Error> {
         Command::Check(args) => check::run(args),
         Command::Fmt(args) => fmt::run(args),
         Command::Cl(args) => cl::run(args),
+        Command::Diff(args) => diff::run(args),
         Command::Test(args) => test::run(args),
         Command::Explain(args) => explain::run(&args.subject),
         Command::Machine(args) => machine::run(args),

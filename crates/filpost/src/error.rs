@@ -83,7 +83,7 @@ impl std::error::Error for Error {}
 
 /// The tables of all codes, by number.
 pub fn all_codes() -> Vec<&'static Code> {
-    let tables: [&'static [Code]; 7] = [
+    let tables: [&'static [Code]; 8] = [
         fil_syntax::SyntaxCode::ALL,
         fil_vm::errors::CompileCode::ALL,
         fil_vm::errors::LintCode::ALL,
@@ -91,6 +91,7 @@ pub fn all_codes() -> Vec<&'static Code> {
         fil_cl::errors::ClCode::ALL,
         fil_post::errors::PostCode::ALL,
         RunCode::ALL,
+        fil_nc::errors::NcCode::ALL,
     ];
     let mut codes: Vec<_> = tables.into_iter().flatten().collect();
     codes.sort_by_key(|code| code.number);

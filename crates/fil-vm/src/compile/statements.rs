@@ -5,6 +5,7 @@ use fil_syntax::tree::{Expr, Item, Span, Stmt, StmtKind, Target};
 use super::Compiler;
 use super::names::letter;
 use crate::errors::CompileCode;
+use crate::library::Library;
 use crate::ops::Op;
 
 impl Compiler<'_> {
@@ -50,6 +51,12 @@ impl Compiler<'_> {
             // The table was declared before anything runs.
             StmtKind::Post { word, .. } if word.text == "DATA" => {}
             StmtKind::Post { word, args } if word.text == "WRITE" => self.write_line(word, args),
+            StmtKind::Post { word, args } if word.text == "ERROR" => {
+                self.message(Library::Refuse, word, args);
+            }
+            StmtKind::Post { word, args } if word.text == "WARN" => {
+                self.message(Library::Warn, word, args);
+            }
             StmtKind::Post { word, args } => self.post(word, args),
             StmtKind::PostText { word, text } => self.post_text(word, text),
             StmtKind::If { arms, otherwise } => self.if_block(arms, otherwise.as_deref()),

@@ -1,4 +1,4 @@
-//! TEXT/, the functions on texts and on the world outside, WRITE/.
+//! TEXT/, the functions on texts and on the world outside, WRITE/, ERROR/ and WARN/.
 
 use fil_syntax::tree::{Expr, ExprKind, Name, Span, Target};
 
@@ -105,6 +105,20 @@ impl Compiler<'_> {
         }
         let dst = self.temporary(word.span);
         self.library_call(Library::WriteLine, args, NumberRules::default(), word.span, dst);
+    }
+
+    /// `ERROR/values` and `WARN/values`
+    pub(super) fn message(&mut self, library: Library, word: &Name, args: &[Expr]) {
+        let name = format!("{}/", word.text);
+        if self.refuse_extension(&name, word.span) {
+            return;
+        }
+        if args.is_empty() {
+            self.wrong_count(&name, "item,…", 0, word.span);
+            return;
+        }
+        let dst = self.temporary(word.span);
+        self.library_call(library, args, NumberRules::default(), word.span, dst);
     }
 
     /// Refuses an extension under `--strict`; true when it did.

@@ -12,7 +12,7 @@ pub(super) fn look(context: &mut Context<'_>) {
     let mut found = Vec::new();
     for body in &context.bodies {
         let reached = body.graph.reached(ENTRY, |_| true);
-        let leaves = body.graph.reach_exit();
+        let leaves = body.graph.can_leave();
         for (at, node) in body.graph.nodes.iter().enumerate() {
             if !reached[at] {
                 continue;

@@ -110,14 +110,15 @@ impl<'t> Graph<'t> {
         reached
     }
 
-    /// Nodes from which the exit can be reached.
-    pub fn reach_exit(&self) -> Vec<bool> {
+    /// Nodes from which the body can be left: over its exit, or by a statement that ends the run.
+    pub fn can_leave(&self) -> Vec<bool> {
         let mut before: Vec<Vec<usize>> = vec![Vec::new(); self.nodes.len()];
         for (at, node) in self.nodes.iter().enumerate() {
             node.next.iter().for_each(|next| before[*next].push(at));
         }
         let mut reached = vec![false; self.nodes.len()];
-        let mut open = vec![EXIT];
+        let ends = self.nodes.iter().enumerate().filter(|(_, node)| node.next.is_empty());
+        let mut open: Vec<usize> = ends.map(|(at, _)| at).collect();
         while let Some(at) = open.pop() {
             if !std::mem::replace(&mut reached[at], true) {
                 open.extend(&before[at]);
@@ -224,6 +225,11 @@ impl<'t> Builder<'t> {
             StmtKind::Includ { .. } => {
                 let node = self.node(Action::Plain(stmt), stmt.span, &from);
                 self.included(stmt, vec![node])
+            }
+            // The run ends here.
+            StmtKind::Post { word, .. } if word.text == "ERROR" => {
+                self.node(Action::Plain(stmt), stmt.span, &from);
+                Vec::new()
             }
             _ => vec![self.node(Action::Plain(stmt), stmt.span, &from)],
         }

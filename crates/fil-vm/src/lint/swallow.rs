@@ -4,6 +4,7 @@
 use fil_diag::Diag;
 
 use crate::errors::LintCode;
+use crate::library::Library;
 use crate::module::{ChunkId, Module};
 use crate::ops::Op;
 use crate::postf::PostfOp;
@@ -50,6 +51,8 @@ fn sends(module: &Module, op: Op, depth: u32) -> bool {
     match op {
         Op::Post { .. } | Op::PostfDynamic { .. } => true,
         Op::Postf { op, .. } => op == PostfOp::Process as u16,
+        // A refused record is not lost.
+        Op::Library { call, .. } => module.calls[usize::from(call)].library == Library::Refuse,
         Op::Call { macro_id } => {
             let called = module.macros[usize::from(macro_id)];
             depth >= MOST_CALLS_FOLLOWED || !is_silent(module, called, depth + 1)

@@ -40,6 +40,9 @@ fn statement<'t>(stmt: &'t Stmt, visit: &mut dyn FnMut(&'t Expr, Use)) {
         }
         // A table of constants, known before anything runs.
         StmtKind::Post { word, .. } if word.text == "DATA" => {}
+        StmtKind::Post { word, args } if builtins::is_statement(&word.text) => {
+            args.iter().for_each(value);
+        }
         StmtKind::Post { args, .. } => {
             args.iter().for_each(|arg| within(arg, Use::PostArgument, visit));
         }

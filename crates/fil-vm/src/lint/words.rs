@@ -7,6 +7,7 @@ use fil_syntax::tree::{ExprKind, Name, SectionKey, Span, StmtKind};
 use super::context::Context;
 use super::flow::Action;
 use super::walk::{calls, word_argument};
+use crate::builtins;
 use crate::compile::names::letter;
 use crate::errors::LintCode;
 
@@ -32,7 +33,7 @@ pub(super) fn look(context: &mut Context<'_>) {
         for node in &body.graph.nodes {
             let Action::Plain(stmt) = node.action else { continue };
             let StmtKind::Post { word, args } = &stmt.kind else { continue };
-            if word.text == "DATA" {
+            if builtins::is_statement(&word.text) {
                 continue;
             }
             note(node.unit, &word.text, word.span);

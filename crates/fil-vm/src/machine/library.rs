@@ -74,6 +74,11 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             }
             Library::ReadLine => self.read_line(registers, base),
             Library::WriteLine => self.write_line(registers, base, call.count),
+            Library::Refuse => {
+                let message = self.message(registers, base, call.count)?;
+                Err(fault(RunCode::Refused, message))
+            }
+            Library::Warn => self.warn(registers, base, call.count),
             Library::File(op) => self.file(registers, op, base),
             Library::Date | Library::Time => self.clock(registers, call),
             Library::Spawn => self.spawn(registers, base),
@@ -240,6 +245,17 @@ impl<H: Host + ?Sized> Vm<'_, H> {
                 Err(fault(RunCode::HostFunction, format!("SPAWNF('{command}'): {sentence}")))
             }
         }
+    }
+
+    /// WARN/ with its values in `base` and after it.
+    fn warn(&mut self, registers: &Registers, base: Reg, count: u16) -> Result<Value, Box<Diag>> {
+        // A warning is kept until the end of the run: a loop of them must end early.
+        for _ in 0..1000 {
+            self.burn()?;
+        }
+        let message = self.message(registers, base, count)?;
+        self.warning(RunCode::Warned, message);
+        Ok(Number(0.0))
     }
 
     /// A number of characters: whole and not negative.

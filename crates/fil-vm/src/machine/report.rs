@@ -36,11 +36,17 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     pub(super) fn warn_once(&mut self, code: RunCode, message: impl FnOnce() -> String) {
         let number = <&fil_diag::Code>::from(code).number;
         if self.state.warned.insert((self.spot, number)) {
-            let mut diag = Diag::new(code, message()).at(self.place(self.spot));
-            self.add_calls(&mut diag);
-            self.add_record(&mut diag);
-            self.host.warn(diag);
+            self.warning(code, message());
         }
+    }
+
+    /// Warns of something at the place the machine is at.
+    #[cold]
+    pub(super) fn warning(&mut self, code: RunCode, message: String) {
+        let mut diag = Diag::new(code, message).at(self.place(self.spot));
+        self.add_calls(&mut diag);
+        self.add_record(&mut diag);
+        self.host.warn(diag);
     }
 
     fn place(&self, spot: Spot) -> fil_diag::Place {

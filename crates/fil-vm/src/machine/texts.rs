@@ -45,15 +45,28 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         base: Reg,
         count: u16,
     ) -> Result<String, Box<Diag>> {
+        for offset in 0..count {
+            // EMPTY means "nothing here" and must not end up as a word in a block.
+            if self.read(registers, base.wrapping_add(offset))? == Number(EMPTY) {
+                return Err(fault(RunCode::WrongType, "EMPTY can't be part of a text"));
+            }
+        }
+        self.message(registers, base, count)
+    }
+
+    /// The same for people, who may read EMPTY.
+    pub(super) fn message(
+        &mut self,
+        registers: &Registers,
+        base: Reg,
+        count: u16,
+    ) -> Result<String, Box<Diag>> {
         let mut joined = String::new();
         for offset in 0..count {
             match self.read(registers, base.wrapping_add(offset))? {
                 Text(id) => joined.push_str(self.state.texts.get(id)),
-                // EMPTY means "nothing here" and must not end up as a word in a block.
-                Number(EMPTY) | Unset => {
-                    return Err(fault(RunCode::WrongType, "EMPTY can't be part of a text"));
-                }
                 Number(number) => joined.push_str(&Shown(number).to_string()),
+                Unset => joined.push_str(&Shown(EMPTY).to_string()),
             }
             if joined.len() > self.limits.text_bytes {
                 return Err(self.too_much_text());

@@ -152,6 +152,8 @@ fn run_case(number: u16) -> Option<(&'static str, u32)> {
         322 => ("T1=DATEF()", 1),
         323 => ("XX=SPAWNF('DIR')", 1),
         324 => ("XX=1\nXX=FILEF(1,CLOSE)", 2),
+        325 => ("XX=1\nERROR/'XX IS ',XX", 2),
+        326 => ("XX=1\nWARN/'XX IS ',XX", 2),
         _ => return None,
     };
     Some(case)

@@ -59,6 +59,8 @@ const STATEMENTS: &[&str] = &[
     "XX=DAT(XX)",
     "XX=FILEF(XX,READ,T1)",
     "WRITE/1,T1",
+    "WARN/T1,XX",
+    "IF(XX.GT.YY)ERROR/XX,T1",
     "T1=TEXT/CLW",
 ];
 

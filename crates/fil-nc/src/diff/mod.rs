@@ -1,0 +1,153 @@
+//! Two NC programs compared word by word, as a control would read them.
+//!
+//! [`compare`] aligns the blocks of both programs and tells what the second one
+//! says otherwise. A modal word that one program repeats and the other leaves
+//! out is no difference, arcs are compared as geometry, and what a user chose
+//! to ignore is not looked at. No machine is needed: the modal groups are those
+//! that ISO 6983 and the controls built on it share, and a word of no known
+//! group must be the same in both.
+
+mod align;
+mod arc;
+mod modal;
+mod pair;
+mod program;
+mod say;
+
+use std::ops::Range;
+
+use fil_diag::Diag;
+
+pub use program::Program;
+pub use say::sentence;
+
+/// What is compared, and how exactly.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// Largest difference of a length (in the unit of the programs) or an angle
+    /// (degrees) that is none.
+    pub tolerance: f64,
+    /// What is not looked at.
+    pub ignore: Ignore,
+    /// Repeated modal words count: a word that only one program writes is a
+    /// difference, whatever is in force.
+    pub modal: bool,
+    /// X is written as a diameter, so that its arcs start at half of it.
+    pub diameter: bool,
+}
+
+impl Default for Options {
+    /// A thousandth, nothing ignored, modality understood.
+    fn default() -> Self {
+        Options { tolerance: 0.001, ignore: Ignore::default(), modal: false, diameter: false }
+    }
+}
+
+/// What a comparison leaves out.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Ignore {
+    /// Sequence numbers.
+    pub numbers: bool,
+    /// Comments.
+    pub comments: bool,
+    /// Dates and times inside comments.
+    pub dates: bool,
+    /// Whether a number is written with a point.
+    pub points: bool,
+    /// Words of these letters.
+    pub letters: Vec<u8>,
+}
+
+impl Ignore {
+    /// Adds an entry of an ignore list: `n`, `comments`, `dates`, `points`,
+    /// `spaces` (which are never looked at) or a letter.
+    ///
+    /// # Errors
+    /// The entry when it is none of these.
+    pub fn add(&mut self, entry: &str) -> Result<(), String> {
+        match entry.trim().to_ascii_lowercase().as_str() {
+            "n" => self.numbers = true,
+            "comments" => self.comments = true,
+            "dates" => self.dates = true,
+            "points" => self.points = true,
+            "spaces" => {}
+            letter if letter.len() == 1 && letter.as_bytes()[0].is_ascii_alphabetic() => {
+                self.letters.push(letter.as_bytes()[0].to_ascii_uppercase());
+            }
+            other => return Err(other.to_string()),
+        }
+        Ok(())
+    }
+}
+
+/// What differs at one place.
+#[derive(Clone, Debug, PartialEq)]
+pub enum What {
+    /// A block that the other program lacks.
+    Only,
+    /// A letter other than G and M; `None` where a program lacks it and nothing
+    /// is in force.
+    Word(u8, [Option<f64>; 2]),
+    /// A preparatory (G) or auxiliary (M) function of the same modal group.
+    Function(u8, [Option<f64>; 2]),
+    /// An arc that leaves the other by this much between the same ends.
+    Arc(f64),
+    /// Comments.
+    Comment([String; 2]),
+    /// Block skip or tape mark.
+    Mark([bool; 2]),
+    /// The sequence numbers differ in this many blocks, here for the first time.
+    Numbering(usize, [Option<i64>; 2]),
+    /// Words of this letter have a point in one program alone in this many
+    /// blocks, here for the first time.
+    Points(u8, usize),
+}
+
+/// A difference between two programs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// Lines, 1-based; `None` where that program has no such block.
+    pub lines: [Option<u32>; 2],
+    /// What differs.
+    pub what: What,
+    /// Bytes of the words in their lines.
+    pub words: [Option<Range<usize>>; 2],
+}
+
+/// What a comparison found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Comparison {
+    /// The differences in the order of the programs.
+    pub differences: Vec<Difference>,
+    /// Pairs of lines that were compared, and lines alone, in order.
+    pub pairs: Vec<[Option<u32>; 2]>,
+}
+
+/// Compares two programs.
+pub fn compare(first: &Program, second: &Program, options: &Options) -> Comparison {
+    let pairs = align::align(first, second, options);
+    let mut found = pair::Found::default();
+    for [one, two] in &pairs {
+        match (one.map(|at| &first.lines[at]), two.map(|at| &second.lines[at])) {
+            (Some(one), Some(two)) => pair::compare(one, two, options, &mut found),
+            (Some(one), None) if !one.silent => found.only([Some(one.block.line), None]),
+            (None, Some(two)) if !two.silent => found.only([None, Some(two.block.line)]),
+            _ => {}
+        }
+    }
+    let lines = |pair: &[Option<usize>; 2]| {
+        [
+            pair[0].map(|at| first.lines[at].block.line),
+            pair[1].map(|at| second.lines[at].block.line),
+        ]
+    };
+    Comparison { pairs: pairs.iter().map(lines).collect(), differences: found.finish() }
+}
+
+/// Reads a program for a comparison; `name` is for messages.
+///
+/// # Errors
+/// The first line that can't be read.
+pub fn read(text: &[u8], name: &str, options: &Options) -> Result<Program, Box<Diag>> {
+    Program::read(text, name, options)
+}

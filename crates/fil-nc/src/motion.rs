@@ -1,0 +1,137 @@
+//! What an NC program does, as plain data: millimetres, degrees, absolute
+//! positions of the machine's axes.
+
+/// Where the axes stand.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Position {
+    /// X, Y, Z as the program names them, mm; X of a diameter program is halved.
+    pub linear: [f64; 3],
+    /// Primary and secondary rotary axis of the machine, degrees; 0 without one.
+    pub rotary: [f64; 2],
+}
+
+/// How a motion is driven.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Course {
+    /// Rapid traverse.
+    Rapid,
+    /// At feed.
+    Feed,
+    /// At feed, in step with the spindle.
+    Thread,
+    /// Rapid traverse to a point of the machine frame (`G53`, `G28`), which no CL
+    /// file asks for; its position is in that frame.
+    Machine,
+}
+
+/// A feed as it is in force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rate {
+    /// mm/min, or degrees/min of a rotary motion.
+    PerMinute(f64),
+    /// mm a turn of the spindle.
+    PerTurn(f64),
+    /// Blocks a minute.
+    Inverse(f64),
+}
+
+/// An arc or helix about a principal axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arc {
+    /// Centre, mm; the coordinate along the normal is that of the start.
+    pub centre: [f64; 3],
+    /// Index of the axis that is the plane's normal: 2 for the XY plane.
+    pub normal: usize,
+    /// Counterclockwise when seen against the normal.
+    pub ccw: bool,
+    /// Swept angle, degrees, above 0; 360 for a full circle.
+    pub angle: f64,
+}
+
+/// What the spindle does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Spindle {
+    /// Stands.
+    #[default]
+    Off,
+    /// Turns clockwise, seen from behind.
+    Clockwise,
+    /// Turns counterclockwise.
+    Counterclockwise,
+}
+
+/// Cutter compensation by the control.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Compensation {
+    /// None.
+    #[default]
+    Off,
+    /// Left of the path.
+    Left,
+    /// Right of the path.
+    Right,
+}
+
+/// What is in force besides the motion itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Modes {
+    /// Number of the tool in the spindle; 0 before the first change.
+    pub tool: u32,
+    /// Number of the length offset; `None` when off.
+    pub length_offset: Option<u32>,
+    /// Cutter compensation.
+    pub compensation: Compensation,
+    /// Spindle.
+    pub spindle: Spindle,
+    /// Spindle speed, turns/min; `None` before the first and at constant surface speed.
+    pub speed: Option<f64>,
+    /// Preparatory function of the work offset (54 for `G54`).
+    pub fixture: Option<u32>,
+    /// Coolant flows.
+    pub coolant: bool,
+}
+
+/// A single motion from where the axes stand to `to`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Move {
+    /// Line of the NC program, 1-based.
+    pub line: u32,
+    /// Rapid, feed, thread.
+    pub course: Course,
+    /// End of the motion.
+    pub to: Position,
+    /// The arc it goes along; `None` for a straight line of the axes.
+    pub arc: Option<Arc>,
+    /// Feed in force; `None` in rapid traverse.
+    pub rate: Option<Rate>,
+    /// Made by a canned cycle that is in force.
+    pub in_cycle: bool,
+    /// What else is in force.
+    pub modes: Modes,
+}
+
+/// What happens in a program, in order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Event {
+    /// A motion.
+    Move(Move),
+    /// A tool is put into the spindle.
+    ToolChange {
+        /// Line of the NC program.
+        line: u32,
+        /// Number of the tool.
+        tool: u32,
+    },
+    /// The axes wait.
+    Dwell {
+        /// Line of the NC program.
+        line: u32,
+        /// Seconds; `None` when the program waits turns of the spindle.
+        seconds: Option<f64>,
+    },
+    /// The end of the program.
+    End {
+        /// Line of the NC program.
+        line: u32,
+    },
+}

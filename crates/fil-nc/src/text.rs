@@ -1,0 +1,260 @@
+//! NC text to blocks of words, for any control whose words are a letter and a
+//! number.
+//!
+//! One line is one block. Read are `N10 G1 X-.5`, `G1X5.Y6.` packed, `R1=15.6`
+//! (an indexed address), `/` block skip, `(comment)` and `; comment`, and lines
+//! that begin with `%`. What is none of these is refused.
+
+use std::ops::Range;
+
+use fil_diag::{Diag, Place};
+
+use crate::errors::NcCode;
+
+/// Digits a number may have in all; more would not fit its exact form.
+const MAX_DIGITS: u32 = 18;
+
+/// What some editors put before the first line.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// A number exactly as written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Number {
+    /// All digits as one whole number, with the sign.
+    pub digits: i64,
+    /// Digits after the point.
+    pub decimals: u8,
+    /// How many digits are written before the point, leading zeros too.
+    pub whole: u8,
+    /// A point is written.
+    pub point: bool,
+}
+
+impl Number {
+    /// The value as a human reads it.
+    pub fn value(self) -> f64 {
+        self.digits as f64 / 10f64.powi(self.decimals.into())
+    }
+}
+
+/// A letter and its number.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Word {
+    /// The address, `A` to `Z`.
+    pub letter: u8,
+    /// The index of an indexed address: 1 in `R1=15.6`.
+    pub index: Option<u32>,
+    /// What it is given.
+    pub number: Number,
+    /// Where in the line, bytes.
+    pub range: Range<usize>,
+}
+
+/// A line of an NC program.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Block {
+    /// Line of the file, 1-based.
+    pub line: u32,
+    /// Begins with `/`: left out when the operator asks for it.
+    pub skip: bool,
+    /// Begins with `%`: start or end of the tape; the rest of the line is no word.
+    pub tape_mark: bool,
+    /// The words in order; the sequence number is one of them.
+    pub words: Vec<Word>,
+    /// Comments without their brackets.
+    pub comments: Vec<String>,
+}
+
+impl Block {
+    /// The last word of a letter.
+    pub fn word(&self, letter: u8) -> Option<&Word> {
+        self.words.iter().rev().find(|word| word.letter == letter && word.index.is_none())
+    }
+
+    /// The number of the `N` word.
+    pub fn sequence_number(&self) -> Option<i64> {
+        self.word(b'N').map(|word| word.number.digits)
+    }
+}
+
+/// Reads a line; `name` and `line` are for messages.
+///
+/// # Errors
+/// [`NcCode`] with the place of what can't be read.
+pub fn read_block(text: &[u8], name: &str, line: u32) -> Result<Block, Box<Diag>> {
+    let mut scan = Scan { text, at: 0, name, line };
+    let mut block = Block { line, ..Block::default() };
+    if line == 1 && text.starts_with(BYTE_ORDER_MARK) {
+        scan.at = BYTE_ORDER_MARK.len();
+    }
+    scan.blanks();
+    if scan.peek() == Some(b'%') {
+        block.tape_mark = true;
+        return Ok(block);
+    }
+    if scan.peek() == Some(b'/') {
+        block.skip = true;
+        scan.at += 1;
+    }
+    loop {
+        scan.blanks();
+        match scan.peek() {
+            None => return Ok(block),
+            Some(b'(') => block.comments.push(scan.bracket()?),
+            Some(b';') => block.comments.push(scan.rest()),
+            Some(letter) if letter.is_ascii_alphabetic() => block.words.push(scan.word()?),
+            Some(_) => return Err(scan.refuse(NcCode::NotAWord, scan.at)),
+        }
+    }
+}
+
+struct Scan<'t> {
+    text: &'t [u8],
+    at: usize,
+    name: &'t str,
+    line: u32,
+}
+
+impl Scan<'_> {
+    fn peek(&self) -> Option<u8> {
+        self.text.get(self.at).copied()
+    }
+
+    fn blanks(&mut self) {
+        while self.peek().is_some_and(|byte| byte.is_ascii_whitespace()) {
+            self.at += 1;
+        }
+    }
+
+    /// `(comment)`.
+    fn bracket(&mut self) -> Result<String, Box<Diag>> {
+        let start = self.at + 1;
+        let Some(length) = self.text[start..].iter().position(|byte| *byte == b')') else {
+            return Err(self.refuse(NcCode::OpenComment, self.at));
+        };
+        self.at = start + length + 1;
+        Ok(String::from_utf8_lossy(&self.text[start..start + length]).into_owned())
+    }
+
+    /// `; comment` to the end of the line.
+    fn rest(&mut self) -> String {
+        let start = std::mem::replace(&mut self.at, self.text.len()) + 1;
+        String::from_utf8_lossy(&self.text[start..]).trim().to_string()
+    }
+
+    /// A letter, its index with `=` where it has one, and its number.
+    fn word(&mut self) -> Result<Word, Box<Diag>> {
+        let start = self.at;
+        let letter = self.text[start].to_ascii_uppercase();
+        self.at += 1;
+        self.blanks();
+        let first = self.number(start)?;
+        if self.peek() != Some(b'=') {
+            return Ok(Word { letter, index: None, number: first, range: start..self.at });
+        }
+        self.at += 1;
+        let index = u32::try_from(first.digits).ok().filter(|_| !first.point);
+        let index = index.ok_or_else(|| self.refuse(NcCode::BadNumber, start))?;
+        let number = self.number(start)?;
+        Ok(Word { letter, index: Some(index), number, range: start..self.at })
+    }
+
+    fn number(&mut self, start: usize) -> Result<Number, Box<Diag>> {
+        let negative = self.peek() == Some(b'-');
+        if matches!(self.peek(), Some(b'-' | b'+')) {
+            self.at += 1;
+        }
+        let (mut digits, mut whole, mut decimals, mut point) = (0i64, 0u32, 0u32, false);
+        while let Some(byte) = self.peek() {
+            match byte {
+                b'.' if !point => point = true,
+                b'0'..=b'9' => {
+                    if whole + decimals == MAX_DIGITS {
+                        return Err(self.refuse(NcCode::BadNumber, start));
+                    }
+                    digits = digits * 10 + i64::from(byte - b'0');
+                    *(if point { &mut decimals } else { &mut whole }) += 1;
+                }
+                _ => break,
+            }
+            self.at += 1;
+        }
+        if whole + decimals == 0 || self.peek() == Some(b'.') {
+            return Err(self.refuse(NcCode::BadNumber, start));
+        }
+        let digits = if negative { -digits } else { digits };
+        Ok(Number { digits, decimals: decimals as u8, whole: whole as u8, point })
+    }
+
+    /// A refusal of what stands from `start` up to where the reader is.
+    fn refuse(&self, code: NcCode, start: usize) -> Box<Diag> {
+        let (head, tail) = self.text.split_at(start);
+        let shown = &tail[..(self.at + 1 - start).clamp(1, tail.len().max(1)).min(tail.len())];
+        let shown = String::from_utf8_lossy(shown).trim_end().to_string();
+        let from = String::from_utf8_lossy(head).len();
+        let mut place = Place::line(self.name, self.line, String::from_utf8_lossy(self.text));
+        place.span = from..(from + shown.len()).min(place.excerpt.len());
+        Box::new(Diag::new(code, format!("`{shown}`")).at(place))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn read(text: &str) -> Block {
+        read_block(text.as_bytes(), "test", 1).unwrap()
+    }
+
+    fn values(text: &str) -> Vec<(char, f64)> {
+        let words = read(text).words;
+        words.iter().map(|word| (word.letter.into(), word.number.value())).collect()
+    }
+
+    #[test]
+    fn packed_and_spaced_words_are_the_same() {
+        assert_eq!(values("N10G1X-.5Y6."), values("N10 G1 X-.5 Y 6."));
+        assert_eq!(values("n10g1x-.5 y+6."), [('N', 10.0), ('G', 1.0), ('X', -0.5), ('Y', 6.0)]);
+    }
+
+    #[test]
+    fn a_number_keeps_how_it_is_written() {
+        let number = read("X-007.50").words[0].number;
+        assert_eq!(number, Number { digits: -750, decimals: 2, whole: 3, point: true });
+    }
+
+    #[test]
+    fn comments_marks_and_indexed_addresses() {
+        let block = read("/N5 R1=15.622 (a tool) ; the rest");
+        assert!(block.skip);
+        assert_eq!(block.comments, ["a tool", "the rest"]);
+        assert_eq!(block.words[1].index, Some(1));
+        assert_eq!(block.words[1].number.value(), 15.622);
+        assert_eq!(block.sequence_number(), Some(5));
+        assert!(read("% O100").tape_mark);
+    }
+
+    #[test]
+    fn what_is_no_word_is_refused_with_its_place() {
+        for (text, code, column) in [
+            ("G1 X", "E0902", 4),
+            ("G1 X1.2.3", "E0902", 4),
+            ("G1 X-", "E0902", 4),
+            ("G1 (open", "E0903", 4),
+            ("G1 ?", "E0901", 4),
+            ("X12345678901234567890", "E0902", 1),
+        ] {
+            let diag = read_block(text.as_bytes(), "test", 3).unwrap_err();
+            assert_eq!(diag.code.name(), code, "{text}");
+            assert_eq!(diag.places[0].column(), column, "{text}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn any_bytes_never_panic(bytes in proptest::collection::vec(any::<u8>(), 0..60)) {
+            let _ = read_block(&bytes, "test", 1);
+        }
+    }
+}
