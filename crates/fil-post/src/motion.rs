@@ -264,12 +264,11 @@ impl Post {
         if self.state.length_offset.is_some() {
             self.length_offset_words()?;
         }
-        if self.state.repeat.iter().all(Option::is_none) {
+        if self.state.repeat.is_empty() {
             return self.write_block();
         }
         let mut kept = Vec::new();
-        for letter in 1..=26u8 {
-            let Some(value) = self.state.repeat[letter as usize] else { continue };
+        for (letter, value) in self.state.repeat.clone() {
             if !self.block.has(letter, &self.machine.addresses) {
                 kept.push((letter, self.commons.last_output(letter)));
                 self.word(letter, value)?;

@@ -134,28 +134,24 @@ impl NumberFormat {
 
     fn write_with_point(&self, digits: &[u8], out: &mut Vec<u8>) {
         let decimals = self.decimals as usize;
-        let zero = digits == b"0";
-        let whole = digits.len().saturating_sub(decimals);
-        if whole == 0 || zero {
-            if self.leading || zero {
-                out.push(b'0');
+        let (whole, rest) = digits.split_at(digits.len().saturating_sub(decimals));
+        if !whole.is_empty() {
+            out.extend_from_slice(whole);
+        } else if self.leading || digits == b"0" {
+            out.push(b'0');
+        }
+        let kept = if self.trailing { rest } else { &rest[..significant(rest)] };
+        if kept.is_empty() {
+            match self.rule {
+                DecimalRule::Always => out.push(b'.'),
+                DecimalRule::WhenNeeded => {}
+                DecimalRule::OneZero => out.extend_from_slice(b".0"),
             }
-        } else {
-            out.extend_from_slice(&digits[..whole]);
+            return;
         }
-        let mut fraction = [b'0'; 10];
-        if !zero {
-            let tail = &digits[whole..];
-            fraction[decimals - tail.len()..decimals].copy_from_slice(tail);
-        }
-        let kept = if self.trailing { decimals } else { significant(&fraction[..decimals]) };
-        let kept = match self.rule {
-            DecimalRule::OneZero if kept == 0 => 1,
-            DecimalRule::WhenNeeded if kept == 0 => return,
-            _ => kept,
-        };
         out.push(b'.');
-        out.extend_from_slice(&fraction[..kept]);
+        out.extend(std::iter::repeat_n(b'0', decimals - rest.len()));
+        out.extend_from_slice(kept);
     }
 
     fn write_plain(&self, digits: &[u8], out: &mut Vec<u8>) {

@@ -1,5 +1,7 @@
 //! What the post remembers between two records, beyond the commons.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Matrix3, Matrix3x4, Point3, Vector3};
 
 use crate::block::Block;
@@ -125,7 +127,7 @@ pub struct State {
     /// Last spindle speed, revolutions a minute or surface speed.
     pub spindle: Option<f64>,
     /// Words REPEAT adds to each motion block, by letter.
-    pub repeat: [Option<f64>; 27],
+    pub repeat: BTreeMap<u8, f64>,
     /// TRANS.
     pub transformation: Option<Transformation>,
     /// A thread is cut by each feed motion: pitch in mm or inch.
@@ -156,7 +158,7 @@ impl Default for State {
             length_offset: None,
             cutter: None,
             spindle: None,
-            repeat: [None; 27],
+            repeat: BTreeMap::new(),
             transformation: None,
             thread: None,
         }
