@@ -228,19 +228,25 @@ impl<R: Read> Reader<R> {
         if count == 6 && !self.is_axis(dialect, axis) {
             return false;
         }
-        record.line = self.lines.line();
-        self.lines.take_line(length);
+        record.line = self.take_line(length);
         let axis = if count == 6 { Some(axis) } else { None };
         self.give_point(dialect, record, [x, y, z], axis);
         true
+    }
+
+    /// Takes a whole statement of one line; gives its number.
+    #[inline]
+    fn take_line(&mut self, length: usize) -> u32 {
+        self.statement.line = self.lines.line();
+        self.lines.take_line(length);
+        self.statement.line
     }
 
     /// The short way for a line that was read before.
     #[inline]
     fn read_repeated(&mut self, record: &mut Record) -> bool {
         let Some(length) = self.repeated.read(self.lines.unread(), record) else { return false };
-        record.line = self.lines.line();
-        self.lines.take_line(length);
+        record.line = self.take_line(length);
         self.count(record);
         true
     }

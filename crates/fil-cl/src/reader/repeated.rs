@@ -69,3 +69,64 @@ fn place(line: &[u8]) -> usize {
     let middle = line.len() / 2;
     (line.len() + byte(0) * 7 + byte(middle) * 5 + byte(middle / 2) * 3) % LINES
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::Word;
+    use crate::{Options, Reader, Vocabulary};
+
+    fn read_all(text: &str) -> Vec<Record> {
+        let mut reader = Reader::new(text.as_bytes(), "x.ncl", Options::default());
+        let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
+        let mut records = Vec::new();
+        while reader.read(&mut vocab, &mut record).unwrap() {
+            records.push(record.clone());
+        }
+        records
+    }
+
+    #[test]
+    fn a_line_makes_the_same_record_each_time() {
+        let lines = [
+            "RAPID",
+            "FEDRAT / 10.5,  MMPM",
+            "PPRINT / TOOL 1",
+            "$$-> END /",
+            "MACHIN / UNCX01, 1",
+            "GOTO / 1, 2, 3",
+            "GODLTA / 1, 2, 3",
+            "SPINDL / RPM, 1E3, CLW $$ a comment",
+        ];
+        let text = lines.join("\n") + "\n";
+        let records = read_all(&text.repeat(3));
+        assert_eq!(records.len(), 3 * lines.len());
+        for (first, later) in records.iter().zip(&records[lines.len()..]) {
+            let passed = later.number - first.number;
+            assert_eq!(passed as usize, lines.len());
+            assert_eq!(Record { number: first.number, line: first.line, ..later.clone() }, *first);
+            assert_eq!(later.line, first.line + passed);
+        }
+    }
+
+    #[test]
+    fn a_known_line_may_begin_a_longer_statement() {
+        let records = read_all("COOLNT / ON\nCOOLNT / ON $\n, MIST\nCOOLNT / ON\n");
+        let lengths: Vec<usize> = records.iter().map(|record| record.data.len()).collect();
+        assert_eq!(lengths, [1, 2, 1]);
+    }
+
+    #[test]
+    fn what_depends_on_other_statements_is_not_kept() {
+        let mut repeated = Repeated::default();
+        let motion = Record { kind: kind::MOTION, ..Record::default() };
+        repeated.keep(b"GOTO / 1,2,3\n", &motion);
+        let rapid = Record { kind: kind::POST, data: vec![Word::Empty], ..Record::default() };
+        repeated.keep(b"RAPID\n", &rapid);
+        let mut found = Record::default();
+        assert_eq!(repeated.read(b"GOTO / 1,2,3\n", &mut found), None);
+        assert_eq!(repeated.read(b"RAPID\nRAPID\n", &mut found), Some(6));
+        assert_eq!(found, rapid);
+        assert_eq!(repeated.read(b"RAPID", &mut found), None);
+    }
+}
