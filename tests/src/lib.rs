@@ -5,6 +5,7 @@ pub mod cl_path;
 pub mod compare;
 pub mod duel;
 pub mod examples;
+pub mod feed;
 pub mod language;
 pub mod lints;
 pub mod nc;
@@ -14,6 +15,8 @@ pub mod path;
 pub mod picture;
 pub mod programs;
 pub mod rs274;
+pub mod runout;
+pub mod sinumerik;
 
 /// The folder of the workspace.
 pub fn root() -> &'static std::path::Path {

@@ -17,6 +17,7 @@ pub mod motion;
 pub mod number;
 pub mod post;
 pub mod program;
+pub mod runout;
 pub mod settings;
 pub mod state;
 pub mod tape;

@@ -153,8 +153,9 @@ pub trait Host {
         None
     }
 
-    /// Coordinate 0 to 5 (X Y Z I J K) of the next or previous motion, without
-    /// consuming anything; `None` where there is none.
+    /// Coordinate 0 to 5 (X Y Z I J K) of the next or previous motion, or with 6
+    /// whether it is a rapid move (1 or 0), without consuming anything; `None`
+    /// where there is none.
     fn neighbour(
         &mut self,
         _next: bool,

@@ -33,6 +33,8 @@ pub enum Command {
     Explain(ExplainArgs),
     /// Import and show machine settings
     Machine(MachineArgs),
+    /// Print the manual page
+    Man,
     /// Print completions for a shell
     Completions {
         /// The shell
@@ -257,6 +259,33 @@ pub struct TestArgs {
     /// Show each difference and write the expected files anew
     #[arg(long)]
     pub update: bool,
+    /// Write a report for people: one HTML file
+    #[arg(long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
+    /// Write a report for continuous integration: JUnit XML
+    #[arg(long, value_name = "FILE")]
+    pub junit: Option<PathBuf>,
+    /// Make a case in this folder from --cl, --nc and a post, and run it
+    #[arg(long, value_name = "FOLDER", requires = "cl", requires = "nc", conflicts_with_all = ["dir", "update", "html", "junit"])]
+    pub init: Option<PathBuf>,
+    /// The CL file of the case
+    #[arg(long, value_name = "PART", requires = "init")]
+    pub cl: Option<PathBuf>,
+    /// The proven NC program of the case
+    #[arg(long, value_name = "NC", requires = "init")]
+    pub nc: Option<PathBuf>,
+    /// The post of the case
+    #[command(flatten)]
+    pub chosen: Chosen,
+    /// A FIL file of the case (may be given again)
+    #[arg(short, long, value_name = "FILE", requires = "init")]
+    pub fil: Vec<PathBuf>,
+    /// Lengths and angles of the case that differ by no more are the same
+    #[arg(long, value_name = "STEP", requires = "init", value_parser = tolerance)]
+    pub tol: Option<f64>,
+    /// What the case does not look at: n, comments, dates, points, letters
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = ignored, requires = "init")]
+    pub ignore: Vec<String>,
 }
 
 /// `filpost explain`
@@ -296,6 +325,13 @@ pub enum MachineCommand {
         /// Only settings whose name starts with this
         #[arg(value_name = "PREFIX")]
         prefix: Option<String>,
+    },
+    /// Say in which settings two machines differ
+    Diff {
+        /// A ready post, a folder with machine.toml, a machine.toml or an option file
+        first: PathBuf,
+        /// What it is compared with
+        second: PathBuf,
     },
     /// Print the JSON schema of machine.toml
     Schema,

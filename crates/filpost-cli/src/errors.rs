@@ -15,5 +15,13 @@ fil_diag::codes! {
         NoCases = 803, Error, "no regression cases",
             "A test run without cases would prove nothing.",
             "Name a folder that holds folders with a case.toml.";
+        /// `filpost test --init` over a case.
+        CaseExists = 804, Error, "the folder holds a case already",
+            "A case that is there may be proof of something; it is not replaced.",
+            "Choose another folder, or remove the old case.";
+        /// Two files of one name in a case to be.
+        SameName = 805, Error, "two files of the case have one name",
+            "All files of a case lie in its folder.",
+            "Give one of them another name.";
     }
 }

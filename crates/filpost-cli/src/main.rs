@@ -67,6 +67,13 @@ fn run(command: &Command) -> Result<Status, Error> {
         Command::Test(args) => test::run(args),
         Command::Explain(args) => explain::run(&args.subject),
         Command::Machine(args) => machine::run(args),
+        Command::Man => {
+            let mut page = Vec::new();
+            let written = clap_mangen::Man::new(Args::command()).render(&mut page);
+            written.map_err(|error| output::stdout_error(&error))?;
+            output::print(&page)?;
+            Ok(Status::Done)
+        }
         Command::Completions { shell } => {
             let mut text = Vec::new();
             clap_complete::generate(*shell, &mut Args::command(), "filpost", &mut text);

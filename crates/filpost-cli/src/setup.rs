@@ -111,7 +111,7 @@ fn folder(folder: &Path, encoding: Option<&str>) -> Result<Named, Error> {
 fn machine_file(path: &Path, encoding: Option<&str>) -> Result<Named, Error> {
     let text = files::read_text(path, encoding)?;
     let name = path.display().to_string();
-    let builder = if is_option_file(path, &text) {
+    let builder = if is_option_text(path, &text) {
         Post::builder().option_file(&name, &text)
     } else {
         Post::builder().machine(&name, &text)
@@ -121,7 +121,15 @@ fn machine_file(path: &Path, encoding: Option<&str>) -> Result<Named, Error> {
     Ok(named)
 }
 
-fn is_option_file(path: &Path, text: &str) -> bool {
+/// A machine file is an option file and not a `machine.toml`.
+///
+/// # Errors
+/// A file that can't be read.
+pub fn is_option_file(path: &Path) -> Result<bool, Error> {
+    Ok(is_option_text(path, &files::read_text(path, None)?))
+}
+
+fn is_option_text(path: &Path, text: &str) -> bool {
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or("");
     let digits = ending.strip_prefix(['p', 'P']).unwrap_or("");
     let numbered = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());

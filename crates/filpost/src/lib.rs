@@ -51,7 +51,7 @@ pub use fil_cl as cl;
 pub use fil_diag::suggest;
 pub use fil_diag::{Code, Diag, Place, Severity};
 pub use fil_nc as nc;
-pub use fil_post::{Commons, FilLine, Kind, Origin, commons, locations, settings};
+pub use fil_post::{Commons, FilLine, Kind, Origin, commons, locations, runout, settings};
 pub use fil_post::{address, words as post_words};
 pub use fil_syntax as syntax;
 pub use fil_vm::{Argument, Compat, Included, Limits, Moment, SectionMode};

@@ -4,14 +4,15 @@
 use std::collections::VecDeque;
 use std::io::Read;
 
-use fil_cl::{Record, Vocabulary, reader::Dialect, reader::Reader, record::kind};
+use fil_cl::{Record, Vocabulary, reader::Dialect, reader::Reader, record::kind, words};
 use fil_diag::Diag;
 
 /// Records NEXTF looks through for the next motion.
 const LOOK_AHEAD: usize = 1000;
 
-/// X Y Z I J K of a motion record; without a tool axis of its own I J K are absent.
-pub(crate) type Coordinates = [Option<f64>; 6];
+/// X Y Z I J K of a motion record, and 1 for a rapid move, else 0; without a tool
+/// axis of its own I J K are absent.
+pub(crate) type Coordinates = [Option<f64>; 7];
 
 /// The reader with its neighbourhood.
 pub(crate) struct Source<R: Read> {
@@ -21,6 +22,8 @@ pub(crate) struct Source<R: Read> {
     /// The last two motions read, and whether the current record is the last of them.
     motions: [Option<Coordinates>; 2],
     on_motion: bool,
+    /// A RAPID record was read whose motion is still to come.
+    rapid: bool,
     keeps_motions: bool,
     /// Records read so far.
     pub records: u64,
@@ -34,6 +37,7 @@ impl<R: Read> Source<R> {
             ahead: VecDeque::new(),
             motions: [None; 2],
             on_motion: false,
+            rapid: false,
             keeps_motions,
             records: 0,
         }
@@ -78,6 +82,7 @@ impl<R: Read> Source<R> {
         self.ahead.clear();
         self.motions = [None; 2];
         self.on_motion = false;
+        self.rapid = false;
         Ok(())
     }
 
@@ -86,6 +91,7 @@ impl<R: Read> Source<R> {
     /// # Errors
     /// What the reader refuses.
     pub fn next(&mut self, vocabulary: &mut Vocabulary) -> Result<Option<Coordinates>, Box<Diag>> {
+        let mut rapid = self.rapid;
         for index in 0..LOOK_AHEAD {
             if index == self.ahead.len() {
                 let mut next = Record::default();
@@ -94,10 +100,11 @@ impl<R: Read> Source<R> {
                 }
                 self.ahead.push_back(next);
             }
-            match self.ahead[index].kind {
-                kind::MOTION => return Ok(Some(coordinates(&self.ahead[index]))),
+            let record = &self.ahead[index];
+            match record.kind {
+                kind::MOTION => return Ok(Some(coordinates(record, rapid))),
                 kind::FINI => break,
-                _ => {}
+                _ => rapid |= record.major == words::RAPID,
             }
         }
         Ok(None)
@@ -111,13 +118,16 @@ impl<R: Read> Source<R> {
     fn remember(&mut self, record: &Record) {
         self.on_motion = record.kind == kind::MOTION;
         if self.on_motion {
-            self.motions = [self.motions[1], Some(coordinates(record))];
+            let rapid = std::mem::take(&mut self.rapid);
+            self.motions = [self.motions[1], Some(coordinates(record, rapid))];
         }
+        self.rapid |= record.major == words::RAPID;
     }
 }
 
-fn coordinates(record: &Record) -> Coordinates {
-    let mut found = [None; 6];
+fn coordinates(record: &Record, rapid: bool) -> Coordinates {
+    let mut found = [None; 7];
+    found[6] = Some(f64::from(u8::from(rapid)));
     let parts = record.point().into_iter().chain(record.axis());
     for (place, part) in parts.enumerate() {
         for (slot, value) in found[place * 3..].iter_mut().zip(part) {

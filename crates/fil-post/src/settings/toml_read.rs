@@ -28,13 +28,14 @@ const ABOUT: &[&str] = &["name", "description", "origin"];
 /// Text that is not TOML, an unknown key, a value of the wrong kind. The
 /// second part of the result are warnings: settings the post does not act on.
 pub fn read_toml(file: &str, text: &str) -> Result<(Commons, Vec<Diag>), Box<Diag>> {
-    let mut reader = TomlReader { file, text, index: LineIndex::new(text), unused: Vec::new() };
+    let mut reader = TomlReader::new(file, text);
     let table = DeTable::parse(text).map_err(|error| {
         let range = error.span().unwrap_or(0..0);
         reader.at(range, Diag::new(PostCode::MachineSyntax, error.message().to_string()))
     })?;
     let mut commons = default_commons();
     reader.table(&mut commons, table.get_ref(), "")?;
+    reader.one_letter_a_position(&mut commons)?;
     Ok((commons, reader.unused_settings()))
 }
 
@@ -47,10 +48,11 @@ pub fn apply_setting(commons: &mut Commons, setting: &str) -> Result<(), Box<Dia
     let sources = [Some(setting.to_string()), quoted];
     let mut result = Ok(());
     for source in sources.into_iter().flatten() {
-        let index = LineIndex::new(&source);
-        let mut reader = TomlReader { file: "--set", text: &source, index, unused: Vec::new() };
+        let mut reader = TomlReader::new("--set", &source);
         result = match DeTable::parse(&source) {
-            Ok(table) => reader.table(commons, table.get_ref(), ""),
+            Ok(table) => reader
+                .table(commons, table.get_ref(), "")
+                .and_then(|()| reader.one_letter_a_position(commons)),
             Err(error) => {
                 Err(Box::new(Diag::new(PostCode::MachineSyntax, error.message().to_string())))
             }
@@ -68,9 +70,16 @@ struct TomlReader<'a> {
     index: LineIndex,
     /// Settings the post does not act on: where, and their names.
     unused: Vec<(usize, Range<usize>, &'static str)>,
+    /// Letters that are named, with their tape position and where that is said.
+    named: Vec<(u8, u32, Range<usize>)>,
 }
 
-impl TomlReader<'_> {
+impl<'a> TomlReader<'a> {
+    fn new(file: &'a str, text: &'a str) -> Self {
+        let index = LineIndex::new(text);
+        TomlReader { file, text, index, unused: Vec::new(), named: Vec::new() }
+    }
+
     fn table(
         &mut self,
         commons: &mut Commons,
@@ -208,7 +217,7 @@ impl TomlReader<'_> {
 
     /// `[address.X]`: tape position, format, specification, printed character.
     fn address(
-        &self,
+        &mut self,
         commons: &mut Commons,
         key: &Spanned<std::borrow::Cow<'_, str>>,
         value: &Spanned<DeValue>,
@@ -265,6 +274,27 @@ impl TomlReader<'_> {
         }
         if fields.get("char").is_none() && slot < 53 {
             commons.set(Kind::Int, 52 + slot, f64::from(name))?;
+        }
+        self.named.push((name, slot, fields.get("slot").map_or(key.span(), |slot| slot.span())));
+        Ok(())
+    }
+
+    /// Two letters at one tape position would be written as one of them. A letter
+    /// the file does not name gives way: the machine does not have it.
+    fn one_letter_a_position(&self, commons: &mut Commons) -> Result<(), Box<Diag>> {
+        for (at, (name, slot, span)) in self.named.iter().enumerate().filter(|(_, l)| l.1 < 53) {
+            if let Some((other, ..)) = self.named[..at].iter().find(|other| other.1 == *slot) {
+                let (one, other) = (char::from(*other), char::from(*name));
+                let message = format!("{one} and {other} are both at tape position {slot}");
+                let diag = Diag::new(PostCode::SettingValue, message);
+                return Err(self.at(span.clone(), diag));
+            }
+            for other in (b'A'..=b'Z').filter(|other| other != name) {
+                let index = u32::from(letter(other));
+                if commons.get(Kind::Int, index)? == f64::from(*slot) {
+                    commons.set(Kind::Int, index, EMPTY)?;
+                }
+            }
         }
         Ok(())
     }
@@ -330,6 +360,17 @@ mod tests {
         assert_eq!(error("[scale]\nx = 'a'"), ("E0605".into(), "machine.toml:2:5".into()));
         assert_eq!(error("int.10000 = 1"), ("E0601".into(), "machine.toml:1:13".into()));
         assert_eq!(error("[address.x]\nslot = 1"), ("E0604".into(), "machine.toml:1:10".into()));
+    }
+
+    #[test]
+    fn two_letters_never_stand_at_one_tape_position() {
+        let twice = "[address]\nK = { slot = 8 }\nM = { slot = 8 }\n";
+        assert_eq!(error(twice), ("E0605".into(), "machine.toml:3:14".into()));
+        // K stands at 8 when nothing else is said.
+        let (mut commons, _) = read_toml("m", "[address]\nM = { slot = 8 }\n").unwrap();
+        assert_eq!((commons.int(Int(13)), commons.int_opt(Int(11))), (8, None));
+        apply_setting(&mut commons, "address.Q.slot=8").unwrap();
+        assert_eq!((commons.int(Int(17)), commons.int_opt(Int(13))), (8, None));
     }
 
     #[test]

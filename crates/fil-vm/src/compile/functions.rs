@@ -10,7 +10,7 @@ use crate::postf::{Grade, PostfOp};
 use crate::value::Shown;
 
 /// Words that NEXTF and PREVF take, in the order of the host's coordinates.
-const COORDINATES: [&str; 6] = ["X", "Y", "Z", "I", "J", "K"];
+const COORDINATES: [&str; 7] = ["X", "Y", "Z", "I", "J", "K", "RAPID"];
 
 impl Compiler<'_> {
     pub(super) fn builtin(&mut self, function: usize, args: &[Expr], span: Span, dst: Reg) {
@@ -74,7 +74,7 @@ impl Compiler<'_> {
                     }
                     Some(word) => self.chunk.emit(Op::PreviousMotion { dst, word: word as u16 }),
                     None => {
-                        let message = format!("{} takes one of X Y Z I J K", builtin.name);
+                        let message = format!("{} takes one of X Y Z I J K RAPID", builtin.name);
                         self.report(CompileCode::WordExpected, span, message);
                     }
                 }

@@ -1,10 +1,13 @@
 //! `filpost machine`
 
+mod diff;
+mod schema;
+
 use std::path::Path;
 
-use filpost::locations::{Location, TABLE};
+use filpost::locations::TABLE;
 use filpost::{Commons, Error, Kind, Post, files, ready, settings};
-use serde_json::{Map, Value, json};
+use serde_json::Value;
 
 use crate::args::{Chosen, MachineArgs, MachineCommand};
 use crate::output::{self, Target};
@@ -30,7 +33,8 @@ pub fn run(args: &MachineArgs) -> Result<Status, Error> {
             import(file, output.as_deref(), encoding.as_deref())?;
         }
         MachineCommand::Show { chosen, prefix } => show(chosen, prefix.as_deref())?,
-        MachineCommand::Schema => output::print(format!("{:#}\n", schema()).as_bytes())?,
+        MachineCommand::Diff { first, second } => return diff::run(first, second),
+        MachineCommand::Schema => output::print(format!("{:#}\n", schema::schema()).as_bytes())?,
     }
     Ok(Status::Done)
 }
@@ -95,82 +99,4 @@ fn address(commons: &Commons, letter: u8) -> String {
     let (format, specification) = (int(FORMAT + slot as u32), int(SPECIFICATION + slot as u32));
     let format = explain::value(format);
     format!("address.{name:<20} slot {slot}, format {format}, spec {specification}")
-}
-
-/// The JSON schema of `machine.toml`, from the table of locations.
-fn schema() -> Value {
-    let mut properties = Map::new();
-    for row in TABLE {
-        let mut path: Vec<&str> = row.name.split('.').collect();
-        let key = path.pop().unwrap_or(row.name);
-        let group = path.into_iter().fold(&mut properties, |map, part| inner(map, part));
-        group.insert(key.into(), setting(row));
-    }
-    let text = json!({"type": "string"});
-    for about in ["name", "description", "origin"] {
-        properties.insert(about.into(), text.clone());
-    }
-    let blocks = json!({"type": "array", "items": text, "maxItems": 10});
-    inner(&mut properties, "blocks").insert("start".into(), blocks.clone());
-    inner(&mut properties, "blocks").insert("end".into(), blocks);
-    properties.insert("address".into(), addresses());
-    for kind in ["int", "rel", "dbl"] {
-        let numbers = json!({"type": "object", "patternProperties": {"^[0-9]+$": number()}});
-        properties.insert(kind.into(), numbers);
-    }
-    json!({
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "machine.toml of filpost",
-        "type": "object",
-        "properties": properties,
-        "additionalProperties": false,
-    })
-}
-
-/// The properties of a table within a table, made when it is not there.
-fn inner<'m>(map: &'m mut Map<String, Value>, part: &str) -> &'m mut Map<String, Value> {
-    let empty = || json!({"type": "object", "properties": {}, "additionalProperties": false});
-    let table = map.entry(part).or_insert_with(empty);
-    table["properties"].as_object_mut().expect("tables of the schema have properties")
-}
-
-fn number() -> Value {
-    json!({"anyOf": [{"type": "number"}, {"const": "none"}]})
-}
-
-fn setting(row: &Location) -> Value {
-    let choices = row.choice_list();
-    let mut forms = vec![json!({"const": "none"})];
-    if choices.iter().any(|(_, meaning)| matches!(*meaning, "yes" | "no")) {
-        forms.push(json!({"type": "boolean"}));
-    }
-    if matches!(row.unit, "letter" | "char") {
-        forms.push(json!({"type": "string", "minLength": 1, "maxLength": 1}));
-    }
-    if choices.is_empty() {
-        forms.push(json!({"type": "number"}));
-    } else {
-        forms.push(json!({"enum": choices.iter().map(|(value, _)| value).collect::<Vec<_>>()}));
-    }
-    let listed: Vec<String> =
-        choices.iter().map(|(value, meaning)| format!("{value} = {meaning}")).collect();
-    let mut description = row.meaning.to_string();
-    if !listed.is_empty() {
-        description.push_str(&format!(" {}.", listed.join(", ")));
-    }
-    json!({"anyOf": forms, "description": description})
-}
-
-fn addresses() -> Value {
-    let whole = json!({"type": "integer"});
-    let text = json!({"type": "string", "maxLength": 1});
-    json!({
-        "type": "object",
-        "patternProperties": {"^[A-Z]$": {
-            "type": "object",
-            "properties": {"slot": whole, "format": whole, "spec": whole, "char": text},
-            "additionalProperties": false,
-        }},
-        "additionalProperties": false,
-    })
 }

@@ -3,22 +3,28 @@
 //!
 //! `case.toml`: `cl`; `ready`, `machine` (machine.toml) or `option_file`; `fil` (a file or a
 //! list); `set` (list of `key=value`); `compat`; `strict`; `read` (a folder for scripts);
-//! `clock`; `expect` (NC file) or `expect_error` (code); `expect_warnings`; `expect_at`
-//! (`file:line` of the error or of the first warning expected); `origin` and `repairs` for
-//! people.
+//! `clock`; `expect` (NC file) or `expect_error` (code); `listing` (its expected text);
+//! `tolerance`, `ignore`, `diameter` (how the NC programs are compared; letter by letter
+//! when none is given); `expect_warnings`; `expect_at` (`file:line` of the error or of the
+//! first warning expected); `origin` and `repairs` for people.
 
+mod outcome;
+
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use fil_diag::Diag;
+use fil_nc::diff;
 use fil_vm::Moment;
 use serde::Deserialize;
-use similar::TextDiff;
 
-use crate::builder::Post;
+use crate::builder::{Builder, Post};
 use crate::error::{Error, RunCode};
 use crate::files;
 use crate::granted::Clock;
 use crate::includes;
+
+pub use outcome::{Fresh, Outcome, Verdict};
 
 /// The text of a `case.toml`.
 #[derive(Clone, Debug, Deserialize)]
@@ -49,6 +55,17 @@ pub struct CaseFile {
     pub strict: bool,
     /// The expected NC program.
     pub expect: Option<String>,
+    /// The expected listing.
+    pub listing: Option<String>,
+    /// Largest difference of a length or an angle that is none; with it, or with
+    /// `ignore`, programs are compared as a control reads them.
+    pub tolerance: Option<f64>,
+    /// What that comparison leaves out: `n`, `comments`, `dates`, `points`, letters.
+    #[serde(default)]
+    pub ignore: Vec<String>,
+    /// X of that comparison is written as a diameter.
+    #[serde(default)]
+    pub diameter: bool,
     /// The code that must come when the input is to be refused.
     pub expect_error: Option<String>,
     /// Codes of the warnings that must come.
@@ -66,6 +83,23 @@ pub struct CaseFile {
     pub repairs: Vec<String>,
 }
 
+impl CaseFile {
+    /// How the NC programs are compared; the text is what is wrong with it.
+    fn comparison(&self) -> Result<diff::Options, String> {
+        let tolerance = self.tolerance.unwrap_or(0.0);
+        if !tolerance.is_finite() || tolerance < 0.0 {
+            return Err(format!("tolerance = {tolerance} is no length"));
+        }
+        let mut ignore = diff::Ignore::default();
+        for entry in &self.ignore {
+            ignore.add(entry).map_err(|entry| {
+                format!("ignore: `{entry}` is not n, comments, dates, points, spaces or a letter")
+            })?;
+        }
+        Ok(diff::Options { tolerance, ignore, diameter: self.diameter, ..Default::default() })
+    }
+}
+
 /// A case folder.
 #[derive(Clone, Debug)]
 pub struct Case {
@@ -73,17 +107,6 @@ pub struct Case {
     pub folder: PathBuf,
     /// Its file.
     pub file: CaseFile,
-}
-
-/// How a case ended.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// As expected.
-    Passed,
-    /// Not as expected; the text says how.
-    Failed(String),
-    /// The expected file was written anew; the text is what changed.
-    Updated(String),
 }
 
 /// All case folders below a folder, sorted.
@@ -112,12 +135,14 @@ impl Case {
     pub fn load(folder: &Path) -> Result<Case, Error> {
         let path = folder.join("case.toml");
         let text = files::read_text(&path, None)?;
-        let file = toml::from_str(&text).map_err(|error| {
+        let wrong = |message: String, range: Range<usize>| {
             let index = fil_diag::LineIndex::new(&text);
-            let range = error.span().unwrap_or(0..0);
             let place = index.place(&path.display().to_string(), &text, range);
-            Error::setup(Diag::new(RunCode::CaseFile, error.message().to_string()).at(place))
-        })?;
+            Error::setup(Diag::new(RunCode::CaseFile, message).at(place))
+        };
+        let file: CaseFile = toml::from_str(&text)
+            .map_err(|error| wrong(error.message().to_string(), error.span().unwrap_or(0..0)))?;
+        file.comparison().map_err(|message| wrong(message, 0..0))?;
         Ok(Case { folder: folder.to_path_buf(), file })
     }
 
@@ -126,6 +151,10 @@ impl Case {
     /// # Errors
     /// As [`crate::Builder::build`]; files that can't be read.
     pub fn post(&self) -> Result<Post, Error> {
+        self.builder()?.build()
+    }
+
+    fn builder(&self) -> Result<Builder, Error> {
         let text = |name: &str| files::read_text(&self.folder.join(name), None);
         let mut builder = Post::builder().strict(self.file.strict);
         if let Some(name) = &self.file.ready {
@@ -164,81 +193,6 @@ impl Case {
         if let Some(fuel) = self.file.fuel {
             builder = builder.limits(crate::Limits { fuel, ..crate::Limits::default() });
         }
-        builder.cl_name(&self.file.cl).build()
+        Ok(builder.cl_name(&self.file.cl))
     }
-
-    /// Posts the case's CL file. The second part are the codes of all warnings.
-    ///
-    /// # Errors
-    /// As [`Case::post`] and [`Post::run`].
-    pub fn run(&self) -> Result<(Vec<u8>, Vec<Diag>), Error> {
-        let mut post = self.post()?;
-        let cl = files::read(&self.folder.join(&self.file.cl))?;
-        let mut nc = Vec::new();
-        let report = post.run_seekable(std::io::Cursor::new(cl), &mut nc)?;
-        let warnings = post.warnings().iter().cloned().chain(report.warnings).collect();
-        Ok((nc, warnings))
-    }
-
-    /// Runs the case and compares; with `update` the expected file is written anew.
-    pub fn check(&self, update: bool) -> Verdict {
-        match (self.run(), &self.file.expect_error) {
-            (Err(error), Some(code)) => self
-                .expect_code(code, error.diags(), true)
-                .map_or(Verdict::Passed, |missing| Verdict::Failed(format!("{missing}\n{error}"))),
-            (Err(error), None) => Verdict::Failed(error.to_string()),
-            (Ok(_), Some(code)) => Verdict::Failed(format!("expected {code}, but it was posted")),
-            (Ok((nc, warnings)), None) => self.compare(&nc, &warnings, update),
-        }
-    }
-
-    /// What is missing, when none of the diagnostics has this code at the place expected.
-    fn expect_code(&self, code: &str, diags: &[Diag], placed: bool) -> Option<String> {
-        let mut of_code = diags.iter().filter(|diag| diag.code.name() == code).peekable();
-        if of_code.peek().is_none() {
-            return Some(format!("expected {code}, got:"));
-        }
-        let at = self.file.expect_at.as_ref().filter(|_| placed)?;
-        let mut places = of_code.map(place_in_case);
-        (!places.any(|place| place.as_ref() == Some(at)))
-            .then(|| format!("expected {code} at {at}, got:"))
-    }
-
-    fn compare(&self, nc: &[u8], warnings: &[Diag], update: bool) -> Verdict {
-        for (index, code) in self.file.expect_warnings.iter().enumerate() {
-            if let Some(missing) = self.expect_code(code, warnings, index == 0) {
-                let found: Vec<String> = warnings.iter().map(Diag::to_string).collect();
-                return Verdict::Failed(format!("{missing}\n{}", found.join("\n")));
-            }
-        }
-        let Some(expect) = &self.file.expect else { return Verdict::Passed };
-        let path = self.folder.join(expect);
-        let found = String::from_utf8_lossy(nc);
-        let wanted = match files::read_text(&path, None) {
-            Ok(text) => text.replace("\r\n", "\n"),
-            Err(_) if update => String::new(),
-            Err(error) => return Verdict::Failed(error.to_string()),
-        };
-        if wanted == found {
-            return Verdict::Passed;
-        }
-        let changes = TextDiff::from_lines(wanted.as_str(), &found)
-            .unified_diff()
-            .header(expect, "this run")
-            .to_string();
-        if !update {
-            return Verdict::Failed(changes);
-        }
-        match std::fs::write(&path, nc) {
-            Ok(()) => Verdict::Updated(changes),
-            Err(error) => Verdict::Failed(format!("{}: {error}", path.display())),
-        }
-    }
-}
-
-/// The primary place of a diagnostic as `file:line`, the file without its folder.
-fn place_in_case(diag: &Diag) -> Option<String> {
-    let place = diag.places.first()?;
-    let file = Path::new(&place.file).file_name()?.to_string_lossy();
-    Some(format!("{file}:{}", place.line))
 }

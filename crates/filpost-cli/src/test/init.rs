@@ -1,0 +1,174 @@
+//! `filpost test --init`: a case from a CL file, a post and a proven program.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
+
+use filpost::case::Case;
+use filpost::{Builder, Diag, Error, Post, files, includes};
+
+use crate::args::{Chosen, TestArgs};
+use crate::errors::CommandCode;
+use crate::{Status, output, setup};
+
+/// Makes a folder with a copy of each file and a case.toml, and runs the case.
+///
+/// # Errors
+/// E0804 for a folder that has a case already; files that can't be read or
+/// written; a post that can't be built.
+pub fn run(folder: &Path, args: &TestArgs) -> Result<Status, Error> {
+    if folder.join("case.toml").exists() {
+        let message = format!("{} has a case.toml", folder.display());
+        return Err(Error::Run(Box::new(Diag::new(CommandCode::CaseExists, message))));
+    }
+    let mut making = Making::default();
+    let toml = making.describe(args)?;
+    std::fs::create_dir_all(folder).map_err(|error| files::cant_write(folder, &error))?;
+    for (name, from) in &making.copies {
+        let to = folder.join(name);
+        let parent = to.parent().unwrap_or(folder);
+        let copied =
+            std::fs::create_dir_all(parent).and_then(|()| std::fs::copy(from, &to).map(|_| ()));
+        copied.map_err(|error| files::cant_write(&to, &error))?;
+    }
+    let path = folder.join("case.toml");
+    std::fs::write(&path, toml).map_err(|error| files::cant_write(&path, &error))?;
+    report(folder)
+}
+
+fn report(folder: &Path) -> Result<Status, Error> {
+    let outcome = Case::load(folder)?.outcome();
+    let mut text = format!("{} is made; ", folder.display());
+    match &outcome.failure {
+        None => text.push_str("its program is what this run gives\n"),
+        Some(failure) => {
+            let _ = write!(text, "it fails now:\n{}\n", failure.trim_end());
+        }
+    }
+    output::print(text.as_bytes())?;
+    Ok(if outcome.failure.is_none() { Status::Done } else { Status::Failed })
+}
+
+/// The files of a case to be.
+#[derive(Default)]
+struct Making {
+    /// Names in the case, and where they come from.
+    copies: Vec<(String, PathBuf)>,
+}
+
+impl Making {
+    /// Collects the files; gives the text of the case.toml.
+    fn describe(&mut self, args: &TestArgs) -> Result<String, Error> {
+        let mut text = String::new();
+        let cl = args.cl.as_deref().unwrap_or(Path::new(""));
+        let nc = args.nc.as_deref().unwrap_or(Path::new(""));
+        let _ = writeln!(text, "cl = {}", quoted(&self.copy(cl)?));
+        let mut fil = args.fil.clone();
+        self.machine(&args.chosen, &mut fil, &mut text)?;
+        let names: Vec<String> =
+            fil.iter().map(|path| self.copy(path)).collect::<Result<_, _>>()?;
+        self.included(&fil)?;
+        list(&mut text, "fil", &names);
+        list(&mut text, "set", &args.chosen.set);
+        let _ = writeln!(text, "expect = {}", quoted(&self.copy(nc)?));
+        if let Some(step) = args.tol {
+            let _ = writeln!(text, "tolerance = {step:?}");
+        }
+        list(&mut text, "ignore", &args.ignore);
+        let origin = format!("{}, proven on the machine", nc.display());
+        let _ = writeln!(text, "origin = {}", quoted(&origin));
+        Ok(text)
+    }
+
+    /// The machine: a ready post by its name, anything else as a copy.
+    fn machine(
+        &mut self,
+        chosen: &Chosen,
+        fil: &mut Vec<PathBuf>,
+        text: &mut String,
+    ) -> Result<(), Error> {
+        let (key, path) = match (&chosen.post, &chosen.machine) {
+            (Some(post), _) if Path::new(post).is_dir() => {
+                let script = Path::new(post).join("post.fil");
+                if script.is_file() {
+                    fil.insert(0, script);
+                }
+                ("machine", Path::new(post).join("machine.toml"))
+            }
+            (Some(ready), _) => {
+                let _ = writeln!(text, "ready = {}", quoted(ready));
+                return Ok(());
+            }
+            (None, Some(path)) if setup::is_option_file(path)? => ("option_file", path.clone()),
+            (None, Some(path)) => ("machine", path.clone()),
+            (None, None) => return Ok(()),
+        };
+        let _ = writeln!(text, "{key} = {}", quoted(&self.copy(&path)?));
+        Ok(())
+    }
+
+    /// Notes a file that has to be copied; gives its name in the case.
+    fn copy(&mut self, path: &Path) -> Result<String, Error> {
+        files::read(path)?;
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        self.note(name, path)
+    }
+
+    fn note(&mut self, name: String, path: &Path) -> Result<String, Error> {
+        match self.copies.iter().find(|(taken, _)| *taken == name) {
+            Some((_, from)) if from == path => Ok(name),
+            Some((_, from)) => {
+                let message =
+                    format!("{} and {} would both be {name}", from.display(), path.display());
+                Err(Error::Run(Box::new(Diag::new(CommandCode::SameName, message))))
+            }
+            None => {
+                self.copies.push((name.clone(), path.to_path_buf()));
+                Ok(name)
+            }
+        }
+    }
+
+    /// Files that INCLUD reads, under their names relative to the FIL files.
+    fn included(&mut self, fil: &[PathBuf]) -> Result<(), Error> {
+        let read = Arc::new(Mutex::new(Vec::new()));
+        let mut builder = Post::builder();
+        for path in fil {
+            let text = files::read_text(path, None)?;
+            builder = builder.fil(&path.display().to_string(), &text);
+        }
+        watched(builder, fil, Arc::clone(&read)).build()?;
+        let names = read.lock().map(|names| names.clone()).unwrap_or_default();
+        for name in names {
+            let path = PathBuf::from(&name);
+            let folders = fil.iter().filter_map(|file| file.parent());
+            let below = folders.filter_map(|folder| path.strip_prefix(folder).ok()).next();
+            let below = below.unwrap_or(&path).to_string_lossy().replace('\\', "/");
+            self.note(below, &path)?;
+        }
+        Ok(())
+    }
+}
+
+/// The builder, with a note taken of each file that INCLUD reads.
+fn watched(builder: Builder, fil: &[PathBuf], read: Arc<Mutex<Vec<String>>>) -> Builder {
+    let mut include = includes::beside(fil, None);
+    builder.includes(move |from, name| {
+        let included = include(from, name)?;
+        if let Ok(mut read) = read.lock() {
+            read.push(included.name.clone());
+        }
+        Ok(included)
+    })
+}
+
+fn quoted(text: &str) -> String {
+    toml::Value::from(text).to_string()
+}
+
+fn list(text: &mut String, key: &str, entries: &[String]) {
+    if !entries.is_empty() {
+        let entries: Vec<String> = entries.iter().map(|entry| quoted(entry)).collect();
+        let _ = writeln!(text, "{key} = [{}]", entries.join(", "));
+    }
+}

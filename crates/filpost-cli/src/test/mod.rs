@@ -1,0 +1,100 @@
+//! `filpost test`: regression cases, all at once, and what is reported of them.
+
+mod init;
+mod junit;
+mod report;
+
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use filpost::case::{self, Case, Outcome};
+use filpost::{Diag, Error, files};
+use indicatif::{ParallelProgressIterator, ProgressBar};
+use rayon::prelude::*;
+
+use crate::args::TestArgs;
+use crate::errors::CommandCode;
+use crate::{Status, output};
+
+/// A case that was run.
+struct Done {
+    name: String,
+    case: Case,
+    outcome: Outcome,
+    time: Duration,
+}
+
+/// Runs the regression cases below a folder, or makes a case.
+///
+/// # Errors
+/// Cases that can't be read; a folder without any; reports that can't be
+/// written.
+pub fn run(args: &TestArgs) -> Result<Status, Error> {
+    if let Some(folder) = &args.init {
+        return init::run(folder, args);
+    }
+    let folder = args.dir.clone().unwrap_or_else(default_folder);
+    let cases = case::find(&folder)?;
+    if cases.is_empty() {
+        let message = format!("{} holds no folder with a case.toml", folder.display());
+        return Err(Error::Run(Box::new(Diag::new(CommandCode::NoCases, message))));
+    }
+    let progress = if std::io::stderr().is_terminal() {
+        ProgressBar::new(cases.len() as u64)
+    } else {
+        ProgressBar::hidden()
+    };
+    let done: Vec<Done> =
+        cases.into_par_iter().progress_with(progress).map(|case| run_case(&folder, case)).collect();
+    let failed = say(&done, args.update)?;
+    if let Some(path) = &args.html {
+        write(path, &report::html(&done))?;
+    }
+    if let Some(path) = &args.junit {
+        write(path, &junit::xml(&done))?;
+    }
+    Ok(if failed == 0 { Status::Done } else { Status::Failed })
+}
+
+fn run_case(root: &Path, case: Case) -> Done {
+    let start = Instant::now();
+    let outcome = case.outcome();
+    let below = case.folder.strip_prefix(root).unwrap_or(&case.folder);
+    let below = if below.as_os_str().is_empty() { &case.folder } else { below };
+    let name = below.display().to_string().replace('\\', "/");
+    Done { name, case, outcome, time: start.elapsed() }
+}
+
+/// Tells how each case ended, in the order of their folders; with `update`
+/// expected files are written once their differences have been shown.
+fn say(done: &[Done], update: bool) -> Result<usize, Error> {
+    let mut failed = 0;
+    for Done { case, outcome, .. } in done {
+        let Some(failure) = &outcome.failure else { continue };
+        let fresh = update && !outcome.fresh.is_empty();
+        let word = if fresh { "UPDATED" } else { "FAILED" };
+        output::print(
+            format!("{word} {}\n{}\n", case.folder.display(), failure.trim_end()).as_bytes(),
+        )?;
+        if fresh {
+            outcome.update()?;
+        } else {
+            failed += 1;
+        }
+    }
+    let passed = done.len() - failed;
+    output::print(format!("{passed} passed, {failed} failed\n").as_bytes())?;
+    Ok(failed)
+}
+
+fn write(path: &Path, text: &str) -> Result<(), Error> {
+    files::write_whole(path, |out| {
+        out.write_all(text.as_bytes()).map_err(|error| files::cant_write(path, &error))
+    })
+}
+
+fn default_folder() -> PathBuf {
+    let corpus = Path::new("corpus");
+    if corpus.is_dir() { corpus.into() } else { ".".into() }
+}

@@ -1,0 +1,263 @@
+//! A case run and compared.
+
+use std::io::{self, Cursor, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
+
+use fil_diag::Diag;
+use fil_nc::diff;
+use similar::TextDiff;
+
+use super::Case;
+use crate::error::Error;
+use crate::files;
+use crate::listing::Listing;
+
+/// Sentences about a difference that are shown.
+const MOST: usize = 20;
+
+/// How a case ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// As expected.
+    Passed,
+    /// Not as expected; the text says how.
+    Failed(String),
+    /// The expected files were written anew; the text is what changed.
+    Updated(String),
+}
+
+/// An expected file that this run would write otherwise.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fresh {
+    /// The file.
+    pub path: PathBuf,
+    /// What this run wrote.
+    pub text: Vec<u8>,
+    /// What changes, as a diff of lines.
+    pub changes: String,
+}
+
+/// A case that was run.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Outcome {
+    /// What is not as expected; `None` for a case that passed.
+    pub failure: Option<String>,
+    /// The NC program of this run; `None` when the input was refused.
+    pub nc: Option<String>,
+    /// The proven NC program, where the case has one.
+    pub wanted: Option<String>,
+    /// What this run's program does otherwise, in a machinist's words.
+    pub differences: Vec<String>,
+    /// Expected files that differ. A case that failed for another reason has none.
+    pub fresh: Vec<Fresh>,
+}
+
+/// What a case's run wrote.
+struct Ran {
+    nc: Vec<u8>,
+    listing: Option<Vec<u8>>,
+    warnings: Vec<Diag>,
+}
+
+/// A listing kept in memory.
+#[derive(Clone, Default)]
+struct Held(Arc<Mutex<Vec<u8>>>);
+
+impl Write for Held {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if let Ok(mut held) = self.0.lock() {
+            held.extend_from_slice(bytes);
+        }
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+impl Outcome {
+    fn failed(why: impl Into<String>) -> Outcome {
+        Outcome { failure: Some(why.into()), ..Outcome::default() }
+    }
+
+    /// Writes the expected files as this run wrote them.
+    ///
+    /// # Errors
+    /// E0702
+    pub fn update(&self) -> Result<(), Error> {
+        for fresh in &self.fresh {
+            std::fs::write(&fresh.path, &fresh.text)
+                .map_err(|error| files::cant_write(&fresh.path, &error))?;
+        }
+        Ok(())
+    }
+}
+
+impl Case {
+    /// Posts the case's CL file. The second part are all warnings.
+    ///
+    /// # Errors
+    /// As [`Case::post`] and [`crate::Post::run`].
+    pub fn run(&self) -> Result<(Vec<u8>, Vec<Diag>), Error> {
+        self.run_whole().map(|ran| (ran.nc, ran.warnings))
+    }
+
+    /// Runs the case and compares; with `update` the expected files are written anew.
+    pub fn check(&self, update: bool) -> Verdict {
+        let outcome = self.outcome();
+        let Some(failure) = &outcome.failure else { return Verdict::Passed };
+        if !update || outcome.fresh.is_empty() {
+            return Verdict::Failed(failure.clone());
+        }
+        match outcome.update() {
+            Ok(()) => Verdict::Updated(failure.clone()),
+            Err(error) => Verdict::Failed(error.to_string()),
+        }
+    }
+
+    /// Runs the case and compares what it wrote with what is expected.
+    pub fn outcome(&self) -> Outcome {
+        match (self.run_whole(), &self.file.expect_error) {
+            (Err(error), Some(code)) => self
+                .expect_code(code, error.diags(), true)
+                .map_or_else(Outcome::default, |missing| {
+                    Outcome::failed(format!("{missing}\n{error}"))
+                }),
+            (Err(error), None) => Outcome::failed(error.to_string()),
+            (Ok(_), Some(code)) => Outcome::failed(format!("expected {code}, but it was posted")),
+            (Ok(ran), None) => self.compare(&ran),
+        }
+    }
+
+    fn run_whole(&self) -> Result<Ran, Error> {
+        let mut builder = self.builder()?;
+        let held = Held::default();
+        let listing = self.file.listing.as_ref().map(|_| Listing::new(held.clone()));
+        if let Some(listing) = &listing {
+            builder = builder.observe(listing.observer());
+        }
+        let mut post = builder.build()?;
+        let cl = files::read(&self.folder.join(&self.file.cl))?;
+        let mut nc = Vec::new();
+        let report = post.run_seekable(Cursor::new(cl), &mut nc)?;
+        let warnings = post.warnings().iter().cloned().chain(report.warnings).collect();
+        let text = held.0.lock().map(|text| text.clone()).unwrap_or_default();
+        Ok(Ran { nc, listing: listing.map(|_| text), warnings })
+    }
+
+    /// What is missing, when none of the diagnostics has this code at the place expected.
+    fn expect_code(&self, code: &str, diags: &[Diag], placed: bool) -> Option<String> {
+        let mut of_code = diags.iter().filter(|diag| diag.code.name() == code).peekable();
+        if of_code.peek().is_none() {
+            return Some(format!("expected {code}, got:"));
+        }
+        let at = self.file.expect_at.as_ref().filter(|_| placed)?;
+        let mut places = of_code.map(place_in_case);
+        (!places.any(|place| place.as_ref() == Some(at)))
+            .then(|| format!("expected {code} at {at}, got:"))
+    }
+
+    fn compare(&self, ran: &Ran) -> Outcome {
+        let mut outcome = Outcome {
+            nc: Some(String::from_utf8_lossy(&ran.nc).into_owned()),
+            ..Outcome::default()
+        };
+        for (index, code) in self.file.expect_warnings.iter().enumerate() {
+            if let Some(missing) = self.expect_code(code, &ran.warnings, index == 0) {
+                let found: Vec<String> = ran.warnings.iter().map(Diag::to_string).collect();
+                outcome.failure = Some(format!("{missing}\n{}", found.join("\n")));
+                return outcome;
+            }
+        }
+        if let Some(name) = &self.file.expect {
+            match expected(&self.folder.join(name)) {
+                Ok(wanted) => self.compare_programs(name, wanted, &ran.nc, &mut outcome),
+                Err(error) => return Outcome::failed(error.to_string()),
+            }
+        }
+        if let (Some(name), Some(text)) = (&self.file.listing, &ran.listing) {
+            let path = self.folder.join(name);
+            match expected(&path) {
+                Ok(wanted) if wanted == String::from_utf8_lossy(text) => {}
+                Ok(wanted) => outcome.differs(name, path, &wanted, text, &[]),
+                Err(error) => return Outcome::failed(error.to_string()),
+            }
+        }
+        outcome
+    }
+
+    fn compare_programs(&self, name: &str, wanted: String, nc: &[u8], outcome: &mut Outcome) {
+        let path = self.folder.join(name);
+        let by_words = self.file.tolerance.is_some() || !self.file.ignore.is_empty();
+        if wanted != String::from_utf8_lossy(nc) {
+            match self.sentences(&wanted, nc) {
+                Ok(sentences) if by_words && sentences.is_empty() => {}
+                Ok(sentences) if sentences.is_empty() => {
+                    let alike = ["a control reads both alike".to_string()];
+                    outcome.differs(name, path, &wanted, nc, &alike);
+                }
+                Ok(sentences) => {
+                    outcome.differs(name, path, &wanted, nc, &sentences);
+                    outcome.differences = sentences;
+                }
+                // What can't be read as words is still a difference of letters.
+                Err(_) => outcome.differs(name, path, &wanted, nc, &[]),
+            }
+        }
+        outcome.wanted = Some(wanted);
+    }
+
+    /// What the program of this run does otherwise than the proven one.
+    fn sentences(&self, wanted: &str, nc: &[u8]) -> Result<Vec<String>, Box<Diag>> {
+        // Case::load has looked at what is set.
+        let options = self.file.comparison().unwrap_or_default();
+        let name = self.file.expect.as_deref().unwrap_or_default();
+        let first = diff::read(wanted.as_bytes(), name, &options)?;
+        let second = diff::read(nc, "this run", &options)?;
+        let found = diff::compare(&first, &second, &options).differences;
+        Ok(found.iter().map(|one| diff::sentence(one, &first, &second)).collect())
+    }
+}
+
+impl Outcome {
+    /// Notes an expected file that this run wrote otherwise.
+    fn differs(
+        &mut self,
+        name: &str,
+        path: PathBuf,
+        wanted: &str,
+        found: &[u8],
+        sentences: &[String],
+    ) {
+        let text = String::from_utf8_lossy(found);
+        let changes =
+            TextDiff::from_lines(wanted, &text).unified_diff().header(name, "this run").to_string();
+        let failure = self.failure.get_or_insert_default();
+        failure.push_str(&changes);
+        for sentence in sentences.iter().take(MOST) {
+            failure.push_str(sentence);
+            failure.push('\n');
+        }
+        if let Some(more) = sentences.len().checked_sub(MOST).filter(|more| *more > 0) {
+            failure.push_str(&format!("and {more} more\n"));
+        }
+        self.fresh.push(Fresh { path, text: found.to_vec(), changes });
+    }
+}
+
+/// The text of an expected file; empty when it is not there yet.
+fn expected(path: &Path) -> Result<String, Error> {
+    if !path.exists() {
+        return Ok(String::new());
+    }
+    Ok(files::read_text(path, None)?.replace("\r\n", "\n"))
+}
+
+/// The primary place of a diagnostic as `file:line`, the file without its folder.
+fn place_in_case(diag: &Diag) -> Option<String> {
+    let place = diag.places.first()?;
+    let file = Path::new(&place.file).file_name()?.to_string_lossy();
+    Some(format!("{file}:{}", place.line))
+}

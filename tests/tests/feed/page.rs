@@ -1,0 +1,165 @@
+//! The page of the docs: its times and its picture are computed here.
+
+use filpost_tests::feed::{Contact, Floor, LISTING, Point, length, minutes, pass};
+use filpost_tests::picture::{Pen, Picture};
+use filpost_tests::root;
+
+use super::{cuts, pass_cl, points, post, read};
+
+const GROUND: Pen = Pen::full("#888888", 1.0);
+const WALL: &str = "#1f6fb2";
+const FLOOR: &str = "#c8401f";
+
+/// The listing's constant feed, and what the paper says both passes took, minutes.
+const CONSTANT: f64 = 6.0;
+const PAPER: [f64; 2] = [12.0, 1.2];
+
+#[test]
+fn the_page_gives_the_times_of_the_pass() {
+    let cl = pass_cl();
+    let points = points(&cl);
+    let (nc, _) = post(Some("feed-ahead.fil"), &cl).unwrap();
+    let ours = minutes(&points, cuts(&nc).iter().map(|(_, feed)| *feed));
+    let (nc, _) = post(None, &cl.replace("FEDRAT / 5.0", "FEDRAT / 6.0")).unwrap();
+    let constant = minutes(&points, cuts(&nc).iter().map(|(_, feed)| *feed));
+    let as_subprogram = pass(LISTING, &points, Floor::Subprogram);
+    let as_subprogram = minutes(&points, as_subprogram.iter().map(|contact| contact.feed));
+    // The paper's first time is that of the length at the constant feed.
+    assert!((constant - PAPER[0]).abs() < 0.01, "{constant}");
+    assert!((constant - length(&points) / CONSTANT).abs() < 1e-9);
+    // Its second is near that of the floor without the 4.
+    assert!((as_subprogram - PAPER[1]).abs() < 0.2 && ours < as_subprogram);
+    let page = read("docs/papers/feed-control.md");
+    for time in [constant, ours, as_subprogram] {
+        let shown = format!("{time:.2} min");
+        assert!(page.contains(&shown), "docs/papers/feed-control.md does not say {shown}");
+    }
+}
+
+/// A chart over the length of the pass: where its lower left corner lies, how wide
+/// and high it is, what its axis ends with.
+struct Chart {
+    corner: Point2,
+    size: Point2,
+    length: f64,
+    top: f64,
+}
+
+type Point2 = [f64; 2];
+
+impl Chart {
+    fn place(&self, along: f64, value: f64) -> Point2 {
+        let [x, y] = self.corner;
+        [x + along / self.length * self.size[0], y + value / self.top * self.size[1]]
+    }
+
+    fn frame(&self, picture: &mut Picture, title: &str, marks: &[(f64, &str)]) {
+        let [x, y] = self.corner;
+        let [width, height] = self.size;
+        picture.line(&[[x, y + height], [x, y], [x + width, y]], GROUND);
+        picture.text([x + width / 2.0, y + height + 2.0], title);
+        for (value, name) in marks {
+            let [x, y] = self.place(0.0, *value);
+            picture.line(&[[x - 0.5, y], [x, y]], GROUND);
+            picture.text([x - 2.4, y - 0.4], name);
+        }
+    }
+}
+
+/// Ends of the moves along the pass, mm from its start.
+fn along(points: &[Point]) -> Vec<f64> {
+    (1..=points.len()).map(|count| length(&points[..count])).collect()
+}
+
+fn colour(contact: &Contact) -> &'static str {
+    if contact.floor { FLOOR } else { WALL }
+}
+
+/// The section of the groove with the ball on the wall and on the floor.
+fn profile(picture: &mut Picture, points: &[Point], contacts: &[Contact]) {
+    let centre = |point: &Point| [point[0], point[2] + LISTING.ball];
+    for (ends, contact) in points.windows(2).zip(contacts) {
+        picture.line(&[centre(&ends[0]), centre(&ends[1])], Pen::full(colour(contact), 3.0));
+    }
+    // What the ball touches lies a radius from the path, at right angles to it.
+    let touched: Vec<Point2> = points
+        .windows(2)
+        .map(|ends| {
+            let (from, to) = (centre(&ends[0]), centre(&ends[1]));
+            let [dx, dz] = [to[0] - from[0], to[1] - from[1]];
+            let radius = LISTING.ball / dx.hypot(dz);
+            [(from[0] + to[0]) / 2.0 - dz * radius, (from[1] + to[1]) / 2.0 + dx * radius]
+        })
+        .collect();
+    picture.line(&touched, Pen::full("black", 1.5));
+    for index in [3, 15] {
+        picture.circle(centre(&points[index]), LISTING.ball, GROUND);
+    }
+    for (at, name) in [
+        ([0.0, 6.0], "section of the groove"),
+        ([0.0, 0.0], "path of the ball's"),
+        ([0.0, -2.0], "centre: blue on"),
+        ([0.0, -4.0], "the wall, red"),
+        ([0.0, -6.0], "on the floor"),
+    ] {
+        picture.text(at, name);
+    }
+}
+
+#[test]
+fn the_picture_shows_profile_angle_and_feed() {
+    let cl = pass_cl();
+    let points = points(&cl);
+    let contacts = pass(LISTING, &points, Floor::Formula);
+    let along = along(&points);
+    let total = along[along.len() - 1];
+    let mut picture = Picture::default();
+    profile(&mut picture, &points, &contacts);
+    let chart =
+        |y: f64, top: f64| Chart { corner: [32.0, y], size: [44.0, 14.0], length: total, top };
+
+    let angles = chart(-10.0, 90.0);
+    angles.frame(
+        &mut picture,
+        "angle of each move to the level",
+        &[(0.0, "0°"), (45.0, "45°"), (90.0, "90°")],
+    );
+    let middle = |cut: usize| (along[cut] + along[cut + 1]) / 2.0;
+    let limit = |contact: &Contact| contact.limit.to_degrees().min(90.0);
+    let dashed: Vec<Point2> = contacts
+        .iter()
+        .enumerate()
+        .map(|(cut, contact)| angles.place(middle(cut), limit(contact)))
+        .collect();
+    picture.line(&dashed, Pen::dashed("black", 1.0));
+
+    // The feed from 1 to 1000 mm/min, each ten times the last.
+    let feeds = chart(-34.0, 3.0);
+    feeds.frame(
+        &mut picture,
+        "feed of each block, mm/min",
+        &[(0.0, "1"), (1.0, "10"), (2.0, "100"), (3.0, "1000")],
+    );
+    let constant = CONSTANT.log10();
+    picture.line(
+        &[feeds.place(0.0, constant), feeds.place(total, constant)],
+        Pen::dashed("black", 1.0),
+    );
+    for (cut, contact) in contacts.iter().enumerate() {
+        let pen = Pen::full(colour(contact), 3.0);
+        for (chart, value) in
+            [(&angles, contact.angle.to_degrees()), (&feeds, contact.feed.log10())]
+        {
+            picture
+                .line(&[chart.place(along[cut], value), chart.place(along[cut + 1], value)], pen);
+        }
+    }
+    for (at, name) in [
+        (angles.place(56.0, 22.0), "floor: below the dashes"),
+        (feeds.place(56.0, constant - 0.45), "dashes: constant, F6"),
+        (feeds.place(total / 2.0, -0.45), "along the pass, 72 mm"),
+    ] {
+        picture.text(at, name);
+    }
+    picture.check(&root().join("docs/papers/feed-control.svg"));
+}
