@@ -116,15 +116,16 @@ fn lengths(folder: &Path, megabytes: u64) -> Outcome<()> {
         most = most.max(peak);
         std::fs::remove_file(&file.path)?;
     }
-    memory_verdict(most);
+    memory_verdict("the library", most);
     Ok(())
 }
 
-fn memory_verdict(peak: u64) {
+fn memory_verdict(program: &str, peak: u64) {
     if peak == 0 {
-        println!("peak memory: skipped, this system has no /proc/self/status");
+        println!("peak memory of {program}: skipped, this system has no /proc");
     } else {
-        verdict("peak memory in MiB, below 32", peak as f64 / 1024.0, peak < MOST_MEMORY);
+        let what = format!("peak memory of {program} in MiB, below 32");
+        verdict(&what, peak as f64 / 1024.0, peak < MOST_MEMORY);
     }
 }
 
@@ -193,7 +194,12 @@ fn gigabyte(folder: &Path) -> Outcome<()> {
     let file = ClFile::new(folder, 1000)?;
     let nc = folder.join("gigabyte.ngc");
     println!("\nCL file of {:.0} MB, {} GOTO", file.megabytes()?, file.points);
-    memory_verdict(children::peak_memory(&file.path, &nc)?);
+    memory_verdict("the library", children::peak_memory(&file.path, &nc)?);
+    if let Some(command) = children::command() {
+        let names = [&file.path, &nc].map(|path| path.display().to_string());
+        let arguments = ["post", &names[0], "-p", POST, "-o", &names[1]];
+        memory_verdict("the command", children::peak_of_command(&command, &arguments)?);
+    }
     Ok(())
 }
 
