@@ -17,6 +17,7 @@ pub mod programs;
 pub mod rs274;
 pub mod runout;
 pub mod sinumerik;
+pub mod thread;
 
 /// The folder of the workspace.
 pub fn root() -> &'static std::path::Path {

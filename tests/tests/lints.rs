@@ -80,7 +80,28 @@ fn script(path: &Path) -> Result<(), Failed> {
     let row = PAPERS.iter().find(|(file, _)| published && *file == name(path));
     let expected = row.map_or(&[][..], |(_, expected)| expected);
     let found = findings(&[path.to_path_buf()])?;
-    if found == expected { Ok(()) } else { Err(format!("{found:#?}").into()) }
+    if found != expected {
+        return Err(format!("{found:#?}").into());
+    }
+    if published { extensions_are_named(path) } else { Ok(()) }
+}
+
+/// What `filpost check --strict` refuses stands in the header after `Extensions:`,
+/// with the reason.
+fn extensions_are_named(path: &Path) -> Result<(), Failed> {
+    let text = files::read_text(path, None).map_err(|error| error.to_string())?;
+    let header: Vec<&str> = text.lines().take_while(|line| line.starts_with("$$")).collect();
+    let header = header.join(" ");
+    let named = header.split_once("Extensions:").map_or("", |(_, named)| named);
+    let named: Vec<&str> = named.split(|c: char| !c.is_ascii_alphanumeric()).collect();
+    let options = Options { strict: true, ..Options::default() };
+    for diag in check::check(&[("a.fil", text.as_str())], options) {
+        let word = diag.message.split(|c: char| !c.is_ascii_alphanumeric()).next();
+        if diag.code.name() == "E0219" && !word.is_some_and(|word| named.contains(&word)) {
+            return Err(format!("the header does not name an extension: {}", diag.message).into());
+        }
+    }
+    Ok(())
 }
 
 fn papers_are_there() -> Result<(), Failed> {

@@ -347,6 +347,18 @@ fn the_listing_shows_records_and_blocks() {
 }
 
 #[test]
+fn a_message_goes_to_the_tape_or_to_the_listing() {
+    let fil = "CIMFIL/ON,SPINDL\nPPRINT/'ON TAPE'\nDMY=POSTF(2,1,484,0)\nPPRINT/'  IN LISTING'\n\
+               DMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
+    let place = Place::new().with("part.ncl", SMALL).with("post.fil", fil);
+    let ran = place.run(&["post", "part.ncl", "-f", "post.fil", "--listing", "part.lst"]);
+    assert!(ran.out.contains("(ON TAPE)") && !ran.out.contains("IN LISTING"), "{}", ran.out);
+    let listing = place.text("part.lst").expect("a listing");
+    let lines: Vec<&str> = listing.lines().filter(|line| line.contains("IN LISTING")).collect();
+    assert_eq!(lines, ["                   IN LISTING"]);
+}
+
+#[test]
 fn the_same_warning_is_shown_once() {
     let fil = "CIMFIL/ON,SPINDL\nAA=ZZ+0\nAA=ZZ+1\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
     let place = Place::new().with("part.ncl", SMALL).with("post.fil", fil);

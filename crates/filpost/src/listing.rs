@@ -1,4 +1,5 @@
-//! The listing: each CL record, what its section did, and the blocks it made.
+//! The listing: each CL record, what its section did, the blocks it made, and
+//! messages that stay off the tape.
 
 use std::io::{self, Write};
 use std::sync::{Arc, Mutex};
@@ -65,6 +66,7 @@ impl<W: Write> Output<W> {
                     origin.fil.iter().map(|at| format!(" <{}:{}>", at.file, at.line)).collect();
                 writeln!(self.writer, "{:>20}{text}{}", "", fil.concat())
             }
+            WhatHappened::Message(text) => writeln!(self.writer, "{:>17}{text}", ""),
         };
         if let Err(error) = written {
             self.failure.get_or_insert(error);

@@ -30,6 +30,9 @@ pub enum WhatHappened<'a> {
         /// What made it.
         origin: &'a Origin,
     },
+    /// A PPRINT was carried out whose text stays off the tape (`message.to_tape`).
+    /// It comes before the blocks of its record.
+    Message(&'a str),
 }
 
 /// An observer.

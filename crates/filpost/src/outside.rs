@@ -3,9 +3,10 @@
 use std::io::Read;
 use std::sync::Arc;
 
+use fil_cl::vocabulary::words;
 use fil_cl::{Record, Vocabulary, reader::Dialect, record::kind};
 use fil_diag::{Diag, Place};
-use fil_post::FilLine;
+use fil_post::{FilLine, locations::MESSAGE_TO_TAPE};
 use fil_vm::{CommonKind, Files, Host, Module, Moment, SectionId, Site};
 
 use crate::error::RunCode;
@@ -58,6 +59,11 @@ impl<R: Read> Outside<'_, R> {
     /// The post carries out a record; what it says gets the place in the CL file,
     /// or in FIL for a record that FIL has made.
     pub fn process(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
+        if record.major == words::PPRINT && !self.post.commons.flag(MESSAGE_TO_TAPE) {
+            for observer in self.observers.iter_mut() {
+                observer(WhatHappened::Message(record.text.trim_end()));
+            }
+        }
         let known = self.post.warnings.len();
         let result = self.post.process(record, vocabulary);
         if result.is_err() || self.post.warnings.len() > known {
