@@ -43,6 +43,10 @@ macro_rules! jump_if {
     };
 }
 
+fn are_numbers(x: f64, y: f64) -> bool {
+    !x.is_nan() && !y.is_nan()
+}
+
 impl<H: Host + ?Sized> Vm<'_, H> {
     /// Runs a chunk and the macros it calls to the end.
     #[inline(never)]
@@ -88,20 +92,18 @@ impl<H: Host + ?Sized> Vm<'_, H> {
                     pc = usize::from(to);
                     continue;
                 }
-                Op::JumpBack { to } => {
-                    if self.fuel > 0 {
-                        self.fuel -= 1;
-                        pc = usize::from(to);
-                        continue;
-                    }
+                Op::JumpBack { to } if self.fuel > 0 => {
+                    self.fuel -= 1;
+                    pc = usize::from(to);
+                    continue;
                 }
                 Op::JumpEq { a, b, to } => {
                     let (x, y) = (number!(registers[a]), number!(registers[b]));
-                    jump_if!(pc = to, x == y, x < y || x > y);
+                    jump_if!(pc = to, x == y, are_numbers(x, y));
                 }
                 Op::JumpNe { a, b, to } => {
                     let (x, y) = (number!(registers[a]), number!(registers[b]));
-                    jump_if!(pc = to, x < y || x > y, x == y);
+                    jump_if!(pc = to, x != y && are_numbers(x, y), x == y);
                 }
                 Op::JumpLt { a, b, to } => {
                     let (x, y) = (number!(registers[a]), number!(registers[b]));
