@@ -49,7 +49,7 @@ pub const CUTTER_SUB: u32 = 6;
 pub const MAX_WORDS: usize = 65_536;
 
 /// Number of the first data word.
-const FIRST_DATA: usize = 4;
+pub const FIRST_DATA: usize = 4;
 
 /// One data word of a record.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -31,6 +31,11 @@ pub const fn letter(character: u8) -> u8 {
     character - b'A' + 1
 }
 
+/// The letter of a number, `A` to `Z`.
+pub const fn character(letter: u8) -> u8 {
+    letter + b'A' - 1
+}
+
 /// What is printed at a tape position.
 #[derive(Clone, Copy, Debug)]
 pub struct Slot {

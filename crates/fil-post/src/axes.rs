@@ -74,7 +74,7 @@ impl Axis {
     ///
     /// # Errors
     /// The value does not fit the address's format.
-    #[inline]
+    #[inline(always)]
     pub fn scaled(&self, position: f64) -> Result<i64, Box<Diag>> {
         let scaled = self.format.scale(position).map_err(|diag| self.named(diag))?;
         if self.scale == 1.0 && self.translate == 0.0 {

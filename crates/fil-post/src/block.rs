@@ -1,8 +1,10 @@
 //! A block under construction: words by tape position.
 
-use crate::address::{Addresses, Output, SLOTS, letter};
+use crate::address::{Addresses, Output, SLOTS, character, letter};
+use crate::cause::Cause;
 use crate::commons::Commons;
 use crate::errors::PostCode;
+use crate::tape::WordInfo;
 use fil_diag::Diag;
 
 /// The letters that can stand several times in a block.
@@ -13,15 +15,28 @@ const M: u8 = letter(b'M');
 /// by whoever puts them here, except for the rounding of the address format.
 #[derive(Clone, Debug)]
 pub struct Block {
+    /// What the words put from now on are due to.
+    pub cause: Cause,
+    /// Keep what each word is due to; off by default because it costs time.
+    pub noting: bool,
     present: u64,
     scaled: [i64; SLOTS],
-    g: Vec<i32>,
-    m: Vec<i32>,
+    causes: [Cause; SLOTS],
+    g: Vec<(i32, Cause)>,
+    m: Vec<(i32, Cause)>,
 }
 
 impl Default for Block {
     fn default() -> Self {
-        Block { present: 0, scaled: [0; SLOTS], g: Vec::new(), m: Vec::new() }
+        Block {
+            cause: Cause::default(),
+            noting: false,
+            present: 0,
+            scaled: [0; SLOTS],
+            causes: [Cause::default(); SLOTS],
+            g: Vec::new(),
+            m: Vec::new(),
+        }
     }
 }
 
@@ -40,8 +55,9 @@ impl Block {
 
     /// True when the machine writes at least one of the words.
     pub fn prints(&self, addresses: &Addresses) -> bool {
-        let written =
-            |letter, codes: &[i32]| !codes.is_empty() && addresses.position(letter).is_some();
+        let written = |letter, codes: &[(i32, Cause)]| {
+            !codes.is_empty() && addresses.position(letter).is_some()
+        };
         self.present != 0 || written(G, &self.g) || written(M, &self.m)
     }
 
@@ -56,12 +72,17 @@ impl Block {
 
     /// Adds a preparatory function.
     pub fn g(&mut self, code: i32) {
-        add(&mut self.g, code);
+        add(&mut self.g, (code, self.cause));
+    }
+
+    /// Adds a preparatory function with what it is due to.
+    pub fn g_due_to(&mut self, code: i32, cause: Cause) {
+        add(&mut self.g, (code, cause));
     }
 
     /// Adds an auxiliary function.
     pub fn m(&mut self, code: i32) {
-        add(&mut self.m, code);
+        add(&mut self.m, (code, self.cause));
     }
 
     /// Adds a word, whether or not its value has changed.
@@ -84,7 +105,8 @@ impl Block {
         Ok(())
     }
 
-    /// Adds a word unless the address already stands at that value.
+    /// Adds a word unless the address already stands at that value; gives its
+    /// tape position when it was added.
     ///
     /// # Errors
     /// As [`Block::word`].
@@ -94,29 +116,32 @@ impl Block {
         value: f64,
         addresses: &Addresses,
         commons: &Commons,
-    ) -> Result<(), Box<Diag>> {
+    ) -> Result<Option<u8>, Box<Diag>> {
         let position = match addresses.output(letter) {
             Output::At(position) => position,
-            Output::Off => return Ok(()),
+            Output::Off => return Ok(None),
             Output::Unknown => return Err(no_address(letter)),
         };
         let format = &addresses.slot(position).format;
         let scaled = format.scale(value).map_err(|diag| name(diag, letter))?;
-        if format.unscale(scaled) != commons.last_output(letter) {
+        let due = format.unscale(scaled) != commons.last_output(letter);
+        if due {
             self.put(position, scaled);
         }
-        Ok(())
+        Ok(due.then_some(position))
     }
 
-    /// Adds the words of another block; a word of the same address is kept.
+    /// Adds the words of another block, each with its cause; a word of the same
+    /// address is kept.
     pub fn merge(&mut self, other: &Block) {
-        other.g.iter().for_each(|code| self.g(*code));
-        other.m.iter().for_each(|code| self.m(*code));
+        other.g.iter().for_each(|code| add(&mut self.g, *code));
+        other.m.iter().for_each(|code| add(&mut self.m, *code));
         let mut slots = other.present & !self.present;
         while slots != 0 {
             let position = slots.trailing_zeros() as u8;
             slots &= slots - 1;
             self.put(position, other.scaled[position as usize]);
+            self.causes[position as usize] = other.causes[position as usize];
         }
     }
 
@@ -124,10 +149,41 @@ impl Block {
     pub fn put(&mut self, position: u8, scaled: i64) {
         self.scaled[position as usize] = scaled;
         self.present |= 1 << position;
+        if self.noting {
+            self.causes[position as usize] = self.cause;
+        }
     }
 
-    /// Writes the words in tape order and remembers the last output values.
-    pub fn write(&self, addresses: &Addresses, commons: &mut Commons, out: &mut Vec<u8>) {
+    /// Notes what a word is due to.
+    pub fn note_cause(&mut self, position: u8, cause: Cause) {
+        self.causes[position as usize] = cause;
+    }
+
+    /// Notes that a word repeats this word of its record.
+    pub fn note_word(&mut self, position: u8, word: u16) {
+        self.causes[position as usize].word = word;
+    }
+
+    /// The words so far; what is put next is due to the same as before.
+    pub fn take(&mut self) -> Block {
+        let (cause, noting) = (self.cause, self.noting);
+        std::mem::replace(self, Block { cause, noting, ..Block::default() })
+    }
+
+    /// Writes the words in tape order and remembers the last output values;
+    /// notes what the words are due to when asked.
+    pub fn write(
+        &self,
+        addresses: &Addresses,
+        commons: &mut Commons,
+        out: &mut Vec<u8>,
+        mut noted: Option<&mut Vec<WordInfo>>,
+    ) {
+        let mut note = |letter, start, cause| {
+            if let Some(noted) = &mut noted {
+                noted.push(WordInfo { letter: character(letter), start, cause });
+            }
+        };
         let mut first = true;
         let mut slots = self.present;
         for (letter, codes) in [(G, &self.g), (M, &self.m)] {
@@ -144,6 +200,7 @@ impl Block {
                 M => &self.m,
                 _ => {
                     separate(&mut first, addresses.blank, out);
+                    note(slot.letter, out.len(), self.causes[position as usize]);
                     out.push(slot.character);
                     let scaled = self.scaled[position as usize];
                     slot.format.write(scaled, out);
@@ -151,8 +208,9 @@ impl Block {
                     continue;
                 }
             };
-            for code in codes {
+            for (code, cause) in codes {
                 separate(&mut first, addresses.blank, out);
+                note(slot.letter, out.len(), *cause);
                 out.push(slot.character);
                 slot.format.write(i64::from(*code), out);
                 commons.set_last_output(slot.letter, f64::from(*code));
@@ -161,8 +219,8 @@ impl Block {
     }
 }
 
-fn add(codes: &mut Vec<i32>, code: i32) {
-    if !codes.contains(&code) {
+fn add(codes: &mut Vec<(i32, Cause)>, code: (i32, Cause)) {
+    if codes.iter().all(|known| known.0 != code.0) {
         codes.push(code);
     }
 }

@@ -8,6 +8,7 @@
 pub mod address;
 pub mod axes;
 pub mod block;
+pub mod cause;
 pub mod commons;
 pub mod errors;
 pub mod kinematics;
@@ -23,6 +24,7 @@ pub mod state;
 pub mod tape;
 pub mod words;
 
+pub use cause::{Cause, FilLine, Origin, Stack, Stacks};
 pub use commons::{Commons, Kind};
 pub use post::Post;
-pub use tape::{BlockInfo, FilLine, Origin};
+pub use tape::{BlockInfo, WordInfo};

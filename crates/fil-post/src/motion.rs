@@ -87,8 +87,11 @@ impl Post {
         let position = self.position_of(target)?;
         self.state.point = Some(target.point);
         self.state.axis = target.axis;
-        if std::mem::take(&mut self.state.rapid) {
-            self.rapid(&position)
+        if let Some(cause) = self.state.rapid.take() {
+            self.state.motion_cause = Some(cause);
+            let result = self.rapid(&position);
+            self.state.motion_cause = None;
+            result
         } else if self.state.thread.is_some() {
             crate::words::thread::cut(self, &position)
         } else {
@@ -203,9 +206,27 @@ impl Post {
             let place = self.machine.axis(number).place()?;
             if let Some(place) = place.filter(|_| written & 1 << number != 0) {
                 self.block.put(place, scaled[number]);
+                if self.tape.observe {
+                    self.note_axis_word(number, place);
+                }
             }
         }
         Ok(true)
+    }
+
+    /// Notes which word of the record an axis word repeats. It is the record as
+    /// a whole where a rotary axis or TRANS mixes its coordinates, and where the
+    /// motion does not go to its point.
+    #[cold]
+    fn note_axis_word(&mut self, number: usize, place: u8) {
+        let mixed = self.state.transformation.is_some()
+            || self.machine.kinematics().is_some_and(|kinematics| {
+                kinematics.has_rotary() || self.state.axis != kinematics.tool.into_inner()
+            });
+        let first = self.state.point_word;
+        if first > 0 && number < 3 && !mixed {
+            self.block.note_word(place, first + number as u16);
+        }
     }
 
     /// Adds one axis word if it has changed or `always`.
@@ -219,16 +240,26 @@ impl Post {
         always: bool,
     ) -> Result<bool, Box<Diag>> {
         let axis = self.machine.axis(number);
-        axis.write(position, always, &mut self.block, &self.commons)
+        let written = axis.write(position, always, &mut self.block, &self.commons)?;
+        if let Some(place) = axis.place()?.filter(|_| written && self.tape.observe) {
+            self.note_axis_word(number, place);
+        }
+        Ok(written)
     }
 
     /// Adds a motion G code unless the control stands at it.
     pub(crate) fn motion_code(&mut self, code: i32, modal: bool) {
         self.check_forgotten();
         if !modal || self.state.motion != Some(code) {
-            self.block.g(code);
-            self.state.motion = Some(code);
+            self.put_motion_code(code);
         }
+    }
+
+    #[cold]
+    fn put_motion_code(&mut self, code: i32) {
+        let cause = self.state.motion_cause.unwrap_or(self.block.cause);
+        self.block.g_due_to(code, cause);
+        self.state.motion = Some(code);
     }
 
     /// Adds the feed mode code and the F word where they have changed.
@@ -241,15 +272,18 @@ impl Post {
         })?;
         if self.state.feed_mode != Some(feed.mode) {
             let code = self.code(feed_mode_code(feed.mode), "this feed mode")?;
-            self.block.g(code);
+            self.block.g_due_to(code, feed.cause);
             self.state.feed_mode = Some(feed.mode);
             self.state.force_feed = true;
         }
         if std::mem::take(&mut self.state.force_feed) {
-            self.word(F, feed.value)
-        } else {
-            self.block.modal(F, feed.value, &self.machine.addresses, &self.commons)
+            return self.because(feed.cause, |post| post.word(F, feed.value));
         }
+        let put = self.block.modal(F, feed.value, &self.machine.addresses, &self.commons)?;
+        if let Some(position) = put {
+            self.block.note_cause(position, feed.cause);
+        }
+        Ok(())
     }
 
     /// Writes a motion block: adds the words that wait for it and those of
@@ -268,10 +302,10 @@ impl Post {
             return self.write_block();
         }
         let mut kept = Vec::new();
-        for (letter, value) in self.state.repeat.clone() {
+        for (letter, (value, cause)) in self.state.repeat.clone() {
             if !self.block.has(letter, &self.machine.addresses) {
                 kept.push((letter, self.commons.last_output(letter)));
-                self.word(letter, value)?;
+                self.because(cause, |post| post.word(letter, value))?;
             }
         }
         self.write_block()?;
@@ -309,10 +343,12 @@ impl Post {
         if !self.moves_axis(2) {
             return Ok(());
         }
-        if let Some(offset) = self.state.length_offset.take() {
+        if let Some((offset, cause)) = self.state.length_offset.take() {
             let code = self.code(loc::TOOL_LENGTH_CODE, "tool length offset")?;
-            self.block.g(code);
-            self.word(H, offset as f64)?;
+            self.because(cause, |post| {
+                post.block.g(code);
+                post.word(H, offset as f64)
+            })?;
         }
         Ok(())
     }

@@ -8,11 +8,13 @@ use fil_diag::{Code, Diag};
 
 use crate::axes::Machine;
 use crate::block::Block;
+use crate::cause::Cause;
 use crate::commons::{Commons, EMPTY, Int};
 use crate::errors::PostCode;
 use crate::letters::G;
 use crate::state::{Placement, State};
 use crate::tape::Tape;
+use crate::words::form::Form;
 use crate::words::{self, Handler};
 
 /// Most warnings of one run.
@@ -64,6 +66,12 @@ impl Post {
         })
     }
 
+    /// Keeps what blocks and words are due to from now on.
+    pub fn observe(&mut self) {
+        self.tape.observe = true;
+        self.block.noting = true;
+    }
+
     /// Carries out one record.
     ///
     /// # Errors
@@ -71,6 +79,10 @@ impl Post {
     /// used after an error.
     pub fn process(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
         self.machine.refresh(&self.commons, self.state.metric)?;
+        if self.tape.observe {
+            self.block.cause = Cause { made_by_fil: record.line == 0, ..self.tape.cause };
+            self.state.point_word = 0;
+        }
         if record.kind == kind::PSEUDO {
             return words::pseudo::handle(self, record, vocabulary);
         }
@@ -182,7 +194,7 @@ impl Post {
         if self.state.started {
             return Ok(());
         }
-        let block = std::mem::take(&mut self.block);
+        let block = self.block.take();
         crate::program::start(self)?;
         self.block = block;
         Ok(())
@@ -197,7 +209,8 @@ impl Post {
         if !text.is_ascii() {
             self.warn(PostCode::TapeText, format!("`{text}`"));
         }
-        self.tape.line(text, numbered, &self.machine.addresses, &mut self.commons)
+        let cause = self.block.cause;
+        self.tape.line(text, cause, numbered, &self.machine.addresses, &mut self.commons)
     }
 
     /// Writes the block under construction at once, or keeps its words for a
@@ -209,7 +222,7 @@ impl Post {
         if placement == Placement::OwnBlock {
             return self.write_block();
         }
-        let block = std::mem::take(&mut self.block);
+        let block = self.block.take();
         self.state.pending.push((placement, block));
         Ok(())
     }
@@ -219,11 +232,29 @@ impl Post {
     /// # Errors
     /// As [`Post::write_block`].
     pub(crate) fn flush_pending(&mut self) -> Result<(), Box<Diag>> {
+        let cause = self.block.cause;
         for (_, words) in std::mem::take(&mut self.state.pending) {
             self.block = words;
             self.write_block()?;
         }
+        self.block.cause = cause;
         Ok(())
+    }
+
+    /// Does something whose words are due to another cause than the record that
+    /// is carried out.
+    pub(crate) fn because<T>(&mut self, cause: Cause, act: impl FnOnce(&mut Post) -> T) -> T {
+        let record = std::mem::replace(&mut self.block.cause, cause);
+        let point_word = std::mem::take(&mut self.state.point_word);
+        let result = act(self);
+        self.block.cause = record;
+        self.state.point_word = point_word;
+        result
+    }
+
+    /// What is put next is due to the item that the form gave last.
+    pub(crate) fn due_to(&mut self, form: &Form) {
+        self.block.cause.word = form.last_word();
     }
 
     /// Adds a word to the block under construction.

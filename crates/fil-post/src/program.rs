@@ -4,6 +4,7 @@
 //! mode codes (units, absolute, feed mode, plane). End: the user's end blocks,
 //! the end code, tape end character.
 
+use crate::cause::Cause;
 use crate::commons::{Commons, Int};
 use crate::errors::PostCode;
 use crate::locations as loc;
@@ -26,6 +27,11 @@ pub fn start(post: &mut Post) -> Result<(), Box<Diag>> {
         return Ok(());
     }
     post.machine.refresh(&post.commons, post.state.metric)?;
+    post.because(Cause::default(), write_start)
+}
+
+/// The blocks at the start; the machine's settings ask for them.
+fn write_start(post: &mut Post) -> Result<(), Box<Diag>> {
     if let Some(mark) = tape_mark(&post.commons, loc::TAPE_START_CHAR) {
         post.write_line(&mark.to_string(), false)?;
     }
@@ -50,14 +56,14 @@ pub fn end(post: &mut Post, code: Option<i32>) -> Result<(), Box<Diag>> {
     post.flush_pending()?;
     let flags = (loc::BLOCKS_END_FLAG, loc::BLOCKS_END_COUNT, loc::BLOCKS_END_TEXT);
     for block in user_blocks(&post.commons, flags) {
-        post.write_line(&block, true)?;
+        post.because(Cause::default(), |post| post.write_line(&block, true))?;
     }
     if let Some(code) = code {
         post.block.m(code);
     }
     post.write_block()?;
     if let Some(mark) = tape_mark(&post.commons, loc::TAPE_END_CHAR) {
-        post.write_line(&mark.to_string(), false)?;
+        post.because(Cause::default(), |post| post.write_line(&mark.to_string(), false))?;
     }
     post.state.ended = true;
     Ok(())
@@ -110,7 +116,9 @@ fn program_number(post: &mut Post) -> Result<(), Box<Diag>> {
         let name = post.state.part_name.replace(['(', ')'], " ");
         line.push_str(&format!(" ({name})"));
     }
-    post.write_line(&line, false)
+    let from_part = fixed.is_none() && post.state.part_number.is_some();
+    let cause = if from_part { post.state.part_cause } else { Cause::default() };
+    post.because(cause, |post| post.write_line(&line, false))
 }
 
 /// The character before or after the program; none in a program for direct

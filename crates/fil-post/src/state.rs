@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix3, Matrix3x4, Point3, Vector3};
 
 use crate::block::Block;
+use crate::cause::Cause;
 use crate::words::circle::Arc;
 use crate::words::cycle::Cycle;
 
@@ -24,6 +25,8 @@ pub struct Feed {
     pub value: f64,
     /// How it is meant.
     pub mode: FeedMode,
+    /// The record that gave it.
+    pub cause: Cause,
 }
 
 /// A transformation of the input (TRANS).
@@ -94,16 +97,23 @@ pub struct State {
     pub part_number: Option<i64>,
     /// Text of PARTNO.
     pub part_name: String,
+    /// The PARTNO record.
+    pub part_cause: Cause,
     /// Last CL point, mm or inch, in the part frame.
     pub point: Option<Point3<f64>>,
     /// Last CL tool axis.
     pub axis: Vector3<f64>,
     /// Last rotary positions in degrees; `None` before the first motion.
     pub rotary: Option<[f64; 2]>,
-    /// RAPID was given: the next motion is rapid.
-    pub rapid: bool,
+    /// The word of the current record that holds its x, followed by y and z;
+    /// 0 when the motion does not go to a point of the record.
+    pub point_word: u16,
+    /// RAPID was given, by this record: the next motion is rapid.
+    pub rapid: Option<Cause>,
     /// The motion G code the control stands at.
     pub motion: Option<i32>,
+    /// What the next motion code is due to, when not to the record of the motion.
+    pub motion_cause: Option<Cause>,
     /// The plane G code the control stands at.
     pub plane: Option<i32>,
     /// Feed of the next feed motion.
@@ -120,18 +130,20 @@ pub struct State {
     pub pending: Vec<(Placement, Block)>,
     /// Tool number of the last LOADTL.
     pub tool: Option<i64>,
-    /// Tool length offset to be called with the next Z motion.
-    pub length_offset: Option<i64>,
+    /// Tool length offset to be called with the next Z motion, and the record
+    /// that asked for it.
+    pub length_offset: Option<(i64, Cause)>,
     /// Diameter of the cutter, mm or inch.
     pub cutter: Option<f64>,
     /// Last spindle speed, revolutions a minute or surface speed.
     pub spindle: Option<f64>,
-    /// Words REPEAT adds to each motion block, by letter.
-    pub repeat: BTreeMap<u8, f64>,
+    /// Words REPEAT adds to each motion block, by letter, with their records.
+    pub repeat: BTreeMap<u8, (f64, Cause)>,
     /// TRANS.
     pub transformation: Option<Transformation>,
-    /// A thread is cut by each feed motion: pitch in mm or inch.
-    pub thread: Option<f64>,
+    /// A thread is cut by each feed motion: pitch in mm or inch, and the record
+    /// that gave it.
+    pub thread: Option<(f64, Cause)>,
 }
 
 impl Default for State {
@@ -142,11 +154,14 @@ impl Default for State {
             ended: false,
             part_number: None,
             part_name: String::new(),
+            part_cause: Cause::default(),
             point: None,
             axis: Vector3::z(),
             rotary: None,
-            rapid: false,
+            point_word: 0,
+            rapid: None,
             motion: None,
+            motion_cause: None,
             plane: None,
             feed: None,
             feed_mode: None,

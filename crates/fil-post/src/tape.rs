@@ -2,31 +2,12 @@
 
 use std::ops::Range;
 
-use crate::address::{Addresses, letter};
+use crate::address::{Addresses, character, letter};
 use crate::block::{Block, no_address};
+use crate::cause::{Cause, Stacks};
 use crate::commons::Commons;
 use crate::locations as loc;
 use fil_diag::Diag;
-
-/// A line of FIL that had a part in a block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FilLine {
-    /// Number of the FIL file, in the order they were loaded.
-    pub file: u16,
-    /// Line, 1-based.
-    pub line: u32,
-}
-
-/// What made a block: a CL record and, where FIL wrote it, the FIL lines.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Origin {
-    /// Number of the CL record, 1-based; 0 before the first record.
-    pub record: u32,
-    /// Line of the CL file, 1-based.
-    pub line: u32,
-    /// FIL call stack, innermost first; empty when no section was running.
-    pub fil: Vec<FilLine>,
-}
 
 /// A finished block on the tape.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -34,8 +15,32 @@ pub struct BlockInfo {
     /// Byte range in [`Tape::text`], without line end.
     pub range: Range<usize>,
     /// What made it.
-    pub origin: Origin,
+    pub cause: Cause,
+    /// Range of its words in [`Tape::noted`].
+    pub words: Range<usize>,
 }
+
+/// A word of a finished block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WordInfo {
+    /// Its letter, `A` to `Z`; [`TEXT`] for a text, [`SKIP`] for the block-delete
+    /// character, [`SEQUENCE`] for a sequence number.
+    pub letter: u8,
+    /// Where it starts in [`Tape::text`]; it ends where the next word of its
+    /// block starts.
+    pub start: usize,
+    /// What it is due to.
+    pub cause: Cause,
+}
+
+/// Stands for a text in place of a letter.
+pub const TEXT: u8 = b'_';
+
+/// Stands for the block-delete character in place of a letter.
+pub const SKIP: u8 = b'/';
+
+/// Stands for a sequence number in place of its letter.
+pub const SEQUENCE: u8 = b'#';
 
 /// Sequence numbers: what is due for the next block.
 #[derive(Clone, Debug, Default)]
@@ -44,6 +49,13 @@ struct Sequence {
     increment: Option<f64>,
     switched: Option<bool>,
     since_last: i32,
+    cause: Cause,
+}
+
+/// Where a block starts in [`Tape::text`] and in [`Tape::noted`].
+struct Start {
+    text: usize,
+    noted: usize,
 }
 
 /// The output side of the post.
@@ -53,14 +65,20 @@ pub struct Tape {
     pub text: Vec<u8>,
     /// The finished blocks within `text`, when observed.
     pub blocks: Vec<BlockInfo>,
-    /// Keep [`Tape::blocks`]; off by default because it costs time.
-    pub observe: bool,
+    /// Keep [`Tape::blocks`] and [`Tape::noted`], see
+    /// [`Post::observe`](crate::Post::observe); off by default because it costs
+    /// time.
+    pub(crate) observe: bool,
+    /// The words of those blocks.
+    pub noted: Vec<WordInfo>,
     /// What the blocks written next are due to.
-    pub origin: Origin,
+    pub cause: Cause,
+    /// The FIL call stacks that causes name.
+    pub stacks: Stacks,
     /// Number of blocks written so far.
     pub count: u64,
-    /// The next blocks carry the block-delete character.
-    pub skip: bool,
+    /// The next blocks carry the block-delete character, for this cause.
+    pub skip: Option<Cause>,
     sequence: Sequence,
 }
 
@@ -80,52 +98,63 @@ impl Tape {
             return Ok(());
         }
         let start = self.begin(true, addresses, commons)?;
-        block.write(addresses, commons, &mut self.text);
+        let noted = self.observe.then_some(&mut self.noted);
+        block.write(addresses, commons, &mut self.text, noted);
         self.end(start);
         Ok(())
     }
 
     /// Writes words in the order given, whatever the tape order; all of them,
-    /// whether or not their values have changed.
+    /// whether or not their values have changed. Each comes with what it is due to.
     ///
     /// # Errors
     /// The machine has no such address, or a value does not fit it.
     pub fn words(
         &mut self,
-        words: &[(u8, f64)],
+        words: &[(u8, f64, Cause)],
         addresses: &Addresses,
         commons: &mut Commons,
     ) -> Result<(), Box<Diag>> {
         let mut line = Vec::new();
-        for &(letter, value) in words {
+        let mut noted = Vec::new();
+        for &(letter, value, cause) in words {
             let position = addresses.position(letter).ok_or_else(|| no_address(letter))?;
             let slot = addresses.slot(position);
             let scaled = slot.format.scale(value)?;
             if addresses.blank && !line.is_empty() {
                 line.push(b' ');
             }
+            noted.push(WordInfo { letter: character(letter), start: line.len(), cause });
             line.push(slot.character);
             slot.format.write(scaled, &mut line);
             commons.set_last_output(letter, slot.format.unscale(scaled));
         }
         let start = self.begin(true, addresses, commons)?;
+        if self.observe {
+            let base = self.text.len();
+            self.noted
+                .extend(noted.iter().map(|word| WordInfo { start: base + word.start, ..*word }));
+        }
         self.text.extend_from_slice(&line);
         self.end(start);
         Ok(())
     }
 
-    /// Writes a text as a block, with or without a sequence number.
+    /// Writes a text as a block, with or without a sequence number, and with
+    /// what it is due to.
     ///
     /// # Errors
     /// As [`Tape::block`].
     pub fn line(
         &mut self,
         text: &str,
+        cause: Cause,
         numbered: bool,
         addresses: &Addresses,
         commons: &mut Commons,
     ) -> Result<(), Box<Diag>> {
         let start = self.begin(numbered, addresses, commons)?;
+        self.note(TEXT, cause);
         self.text.extend_from_slice(text.as_bytes());
         self.end(start);
         Ok(())
@@ -136,11 +165,13 @@ impl Tape {
         self.sequence.next = Some(next);
         self.sequence.increment = increment.or(self.sequence.increment);
         self.sequence.since_last = 0;
+        self.sequence.cause = self.cause;
     }
 
     /// Switches sequence numbers on or off.
     pub fn switch_numbers(&mut self, on: bool) {
         self.sequence.switched = Some(on);
+        self.sequence.cause = self.cause;
     }
 
     fn begin(
@@ -148,9 +179,10 @@ impl Tape {
         numbered: bool,
         addresses: &Addresses,
         commons: &mut Commons,
-    ) -> Result<usize, Box<Diag>> {
-        let start = self.text.len();
-        if self.skip {
+    ) -> Result<Start, Box<Diag>> {
+        let start = Start { text: self.text.len(), noted: self.noted.len() };
+        if let Some(cause) = self.skip {
+            self.note(SKIP, cause);
             self.text.push(b'/');
         }
         if numbered {
@@ -179,6 +211,7 @@ impl Tape {
         self.sequence.next = Some(number + increment);
         let slot = addresses.slot(position);
         let scaled = slot.format.scale(number)?;
+        self.note(SEQUENCE, self.sequence.cause);
         self.text.push(slot.character);
         slot.format.write(scaled, &mut self.text);
         if addresses.blank {
@@ -188,11 +221,18 @@ impl Tape {
         Ok(())
     }
 
-    fn end(&mut self, start: usize) {
+    /// Notes the word that is written next.
+    fn note(&mut self, letter: u8, cause: Cause) {
+        if self.observe {
+            self.noted.push(WordInfo { letter, start: self.text.len(), cause });
+        }
+    }
+
+    fn end(&mut self, start: Start) {
         self.count += 1;
         if self.observe {
-            let range = start..self.text.len();
-            self.blocks.push(BlockInfo { range, origin: self.origin.clone() });
+            let (range, words) = (start.text..self.text.len(), start.noted..self.noted.len());
+            self.blocks.push(BlockInfo { range, cause: self.cause, words });
         }
         self.text.push(b'\n');
     }

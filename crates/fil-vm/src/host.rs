@@ -44,7 +44,7 @@ pub struct Site {
 
 impl Site {
     /// File and line of the statement and of the calls, innermost first.
-    pub fn stack(&self) -> impl Iterator<Item = (u16, u32)> + '_ {
+    pub fn stack(&self) -> impl Iterator<Item = (u16, u32)> + Clone + '_ {
         std::iter::once((self.file, self.line)).chain(self.callers.iter().copied())
     }
 }

@@ -19,6 +19,13 @@ pub(crate) type ChunkId = u16;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SectionId(pub(crate) u16);
 
+impl SectionId {
+    /// Its number, in the order of the sections in FIL.
+    pub fn index(self) -> u16 {
+        self.0
+    }
+}
+
 /// A FIL file with its text.
 #[derive(Clone, Debug)]
 pub struct File {
@@ -172,6 +179,11 @@ impl Module {
     /// The key of a section as FIL writes it: `CYCLE,DEEP` or `5000,5`.
     pub fn section_key(&self, section: SectionId) -> &str {
         &self.sections[usize::from(section.0)].key
+    }
+
+    /// The keys of all sections, by [`SectionId::index`].
+    pub fn section_keys(&self) -> impl Iterator<Item = &str> {
+        self.sections.iter().map(|section| section.key.as_str())
     }
 
     /// Where a section stands.

@@ -29,6 +29,8 @@ pub enum Command {
     Diff(DiffArgs),
     /// Run regression cases (folders with a case.toml)
     Test(TestArgs),
+    /// Tell who made a block, or what a CL record or a line of FIL made
+    Trace(TraceArgs),
     /// Explain a code, a POSTF number, a location, a setting, a word or a function
     Explain(ExplainArgs),
     /// Import and show machine settings
@@ -73,8 +75,9 @@ pub struct Reading {
 /// `filpost post`
 #[derive(Debug, ClapArgs)]
 pub struct PostArgs {
-    /// The CL file; - reads standard input
-    pub cl: PathBuf,
+    /// The CL file, or several, or a folder of them; - reads standard input
+    #[arg(required = true, value_name = "CL")]
+    pub cl: Vec<PathBuf>,
     #[command(flatten)]
     pub chosen: Chosen,
     /// A FIL file (may be given again; all share one name space)
@@ -90,6 +93,9 @@ pub struct PostArgs {
     /// Write a listing: records, sections, and the blocks they made
     #[arg(long, value_name = "FILE")]
     pub listing: Option<PathBuf>,
+    /// Write the line map for `filpost trace`; OUT.map when no FILE is given
+    #[arg(long, value_name = "FILE")]
+    pub map: Option<Option<PathBuf>>,
     /// A folder to look in for the option file that MACHIN names (may be given again)
     #[arg(long, value_name = "DIR")]
     pub post_path: Vec<PathBuf>,
@@ -286,6 +292,35 @@ pub struct TestArgs {
     /// What the case does not look at: n, comments, dates, points, letters
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = ignored, requires = "init")]
     pub ignore: Vec<String>,
+}
+
+/// `filpost trace`
+#[derive(Debug, ClapArgs)]
+pub struct TraceArgs {
+    /// FILE:LINE of an NC program, a CL file or a FIL file; FILE:LINE:COLUMN of an NC program
+    #[arg(value_name = "FILE:LINE[:COLUMN]")]
+    pub place: String,
+    /// The line map of the run; FILE.map, or the one beside that knows FILE, when left out
+    #[arg(long, value_name = "FILE")]
+    pub map: Option<PathBuf>,
+    /// How the answer is written
+    #[arg(long, value_enum, default_value_t = AnswerFormat::Text)]
+    pub format: AnswerFormat,
+    /// Most lines of the NC program that are shown; all are counted
+    #[arg(long, value_name = "N", default_value_t = 20)]
+    pub most: usize,
+    /// Encoding of CL and FIL texts (utf-8, cp1251, koi8-r, …); guessed when left out
+    #[arg(long, value_name = "LABEL")]
+    pub encoding: Option<String>,
+}
+
+/// How `filpost trace` writes its answer.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum AnswerFormat {
+    /// For people
+    Text,
+    /// One JSON object
+    Json,
 }
 
 /// `filpost explain`

@@ -9,7 +9,7 @@ fil_diag::codes! {
             "Mend what the warnings name, or leave --deny-warnings out.";
         /// Output over an input.
         OverInput = 802, Error, "the output would replace an input",
-            "Two files of this run are the same file.",
+            "Two files of this run are the same file, or --map names a file that is there and is no line map.",
             "Choose another name for the output.";
         /// `filpost test` without cases.
         NoCases = 803, Error, "no regression cases",
@@ -23,5 +23,13 @@ fil_diag::codes! {
         SameName = 805, Error, "two files of the case have one name",
             "All files of a case lie in its folder.",
             "Give one of them another name.";
+        /// `filpost trace` without a line.
+        NoLine = 806, Error, "no line to trace",
+            "A question is FILE:LINE, of an NC program also FILE:LINE:COLUMN.",
+            "Put a colon and the number of the line after the name of the file.";
+        /// A folder without CL files.
+        NoClFiles = 807, Error, "no CL files in this folder",
+            "Of a folder those files are posted that end as CL files do; folders in it are not looked into.",
+            "Name the folder that holds the CL files, or name the files themselves.";
     }
 }

@@ -4,12 +4,14 @@
 //! 3 internal fault.
 
 mod args;
+mod batch;
 mod check;
 mod cl;
 mod diff;
 mod errors;
 mod explain;
 mod fmt;
+mod job;
 mod json;
 mod machine;
 mod output;
@@ -19,6 +21,7 @@ mod sarif;
 mod setup;
 mod summary;
 mod test;
+mod trace;
 
 use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind};
 use std::process::ExitCode;
@@ -37,10 +40,9 @@ enum Status {
     Failed = 1,
     /// The command was not used as it is meant; it has been reported.
     Usage = 2,
+    /// An internal fault; it has been reported.
+    Fault = 3,
 }
-
-/// Exit status of an internal fault.
-const FAULT: u8 = 3;
 
 fn main() -> ExitCode {
     std::panic::set_hook(Box::new(report_fault));
@@ -52,7 +54,7 @@ fn main() -> ExitCode {
             }
             Status::Failed as u8
         }
-        Err(_) => FAULT,
+        Err(_) => Status::Fault as u8,
     };
     ExitCode::from(status)
 }
@@ -65,6 +67,7 @@ fn run(command: &Command) -> Result<Status, Error> {
         Command::Cl(args) => cl::run(args),
         Command::Diff(args) => diff::run(args),
         Command::Test(args) => test::run(args),
+        Command::Trace(args) => trace::run(args),
         Command::Explain(args) => explain::run(&args.subject),
         Command::Machine(args) => machine::run(args),
         Command::Man => {

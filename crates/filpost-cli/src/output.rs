@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use filpost::{Error, files};
 
 /// Name of standard output in messages.
-const STANDARD_OUTPUT: &str = "standard output";
+pub const STANDARD_OUTPUT: &str = "standard output";
 
 /// Buffer on the way to a stream.
 const BUFFER: usize = 256 * 1024;

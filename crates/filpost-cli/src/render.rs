@@ -131,7 +131,7 @@ fn shown_excerpt(place: &Place) -> (String, std::ops::Range<usize>) {
 }
 
 /// Text without characters that would steer a terminal.
-fn clean(text: &str) -> String {
+pub fn clean(text: &str) -> String {
     text.chars()
         .map(|character| if character == '\n' { '\n' } else { visible(character) })
         .collect()

@@ -12,7 +12,9 @@ use fil_vm::{Argument, Compat, FilFile, Functions, Included, Limits, LoadOptions
 use crate::blocks::Blocks;
 use crate::engine::Engine;
 use crate::error::{Error, RunCode};
+use crate::files;
 use crate::granted::{Clock, Spawn};
+use crate::map;
 use crate::observe::{Observer, WhatHappened};
 use crate::ready;
 use crate::report::Report;
@@ -318,7 +320,7 @@ impl Post {
     /// program. The writer's own errors come as E0702.
     pub fn run(&mut self, cl: impl Read, nc: impl Write) -> Result<Report, Error> {
         let reader = reader::Reader::new(cl, &self.cl_name, self.options);
-        let (report, held) = self.drive(reader, nc)?;
+        let (report, held) = self.drive(reader, nc, None).0?;
         held.keep()?;
         Ok(report)
     }
@@ -344,24 +346,49 @@ impl Post {
         nc: impl Write,
     ) -> Result<(Report, HeldFiles), Error> {
         let reader = reader::Reader::seekable(cl, &self.cl_name, self.options);
-        self.drive(reader, nc)
+        self.drive(reader, nc, None).0
+    }
+
+    /// The same, with the line map of the run. `names` is how the map calls the
+    /// files; see [`map::Names::from_folder`].
+    ///
+    /// # Errors
+    /// As [`Post::run`]; E0702 for the map.
+    pub fn run_mapped(
+        &mut self,
+        cl: impl Read + Seek,
+        nc: impl Write,
+        names: &map::Names,
+        mut output: impl Write,
+    ) -> Result<(Report, HeldFiles), Error> {
+        let cant = |error| files::cant_read(Path::new(&names.cl), &error);
+        let mut cl = map::Digested::new(cl).map_err(cant)?;
+        let reader = reader::Reader::seekable(&mut cl, &self.cl_name, self.options);
+        let map = map::Writer::new(&mut output, names, &self.module);
+        let (result, map) = self.drive(reader, nc, Some(map));
+        let result = result?;
+        let digest = cl.finish().map_err(cant)?;
+        let written = map.map_or(Ok(()), |map| map.finish(digest));
+        written.map_err(|error| files::cant_write(Path::new("the line map"), &error))?;
+        Ok(result)
     }
 
     /// The blocks of a CL stream, one by one, each with what made it.
     pub fn records<R: Read>(&mut self, cl: R) -> Blocks<'_, R> {
         let reader = reader::Reader::new(cl, &self.cl_name, self.options);
-        Blocks::new(Engine::new(self, reader, true))
+        Blocks::new(Engine::new(self, reader, true, None))
     }
 
-    fn drive<R: Read>(
-        &mut self,
+    fn drive<'p, R: Read>(
+        &'p mut self,
         reader: reader::Reader<R>,
         mut nc: impl Write,
-    ) -> Result<(Report, HeldFiles), Error> {
+        map: Option<map::Writer<'p>>,
+    ) -> (Result<(Report, HeldFiles), Error>, Option<map::Writer<'p>>) {
         let observed = !self.observers.is_empty();
-        let mut engine = Engine::new(self, reader, observed);
+        let mut engine = Engine::new(self, reader, observed, map);
         let result = engine.run(&mut nc);
         engine.finish();
-        result
+        (result, engine.take_map())
     }
 }

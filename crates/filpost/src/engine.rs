@@ -11,6 +11,7 @@ use fil_vm::{Machine, SectionMode};
 use crate::builder::Post;
 use crate::error::{Error, RunCode};
 use crate::granted::Granted;
+use crate::map;
 use crate::observe::WhatHappened;
 use crate::outside::Outside;
 use crate::report::Report;
@@ -41,8 +42,14 @@ pub(crate) struct Engine<'p, R: Read> {
 }
 
 impl<'p, R: Read> Engine<'p, R> {
-    /// A run from the start. `observed`: keep the provenance of blocks.
-    pub(crate) fn new(post: &'p mut Post, reader: Reader<R>, observed: bool) -> Self {
+    /// A run from the start. `observed`: keep the provenance of blocks; so does
+    /// a run with a map.
+    pub(crate) fn new(
+        post: &'p mut Post,
+        reader: Reader<R>,
+        observed: bool,
+        map: Option<map::Writer<'p>>,
+    ) -> Self {
         let functions = std::mem::take(&mut post.functions);
         let machine = Machine::new(post.module.clone(), post.limits, functions);
         let has_sections = !post.module.has_no_section();
@@ -55,9 +62,13 @@ impl<'p, R: Read> Engine<'p, R> {
             cl_name: &post.cl_name,
             ended: false,
             trace: false,
+            section: None,
+            map,
             granted: Granted::new(post.clock, post.spawn.as_mut(), post.folders.clone()),
         };
-        outside.post.tape.observe = observed;
+        if observed || outside.map.is_some() {
+            outside.post.observe();
+        }
         Engine {
             outside,
             vocabulary: post.vocabulary.clone(),
@@ -83,7 +94,8 @@ impl<'p, R: Read> Engine<'p, R> {
     pub(crate) fn run(&mut self, nc: &mut impl Write) -> Result<(Report, HeldFiles), Error> {
         while self.step()? {
             let tape = &self.outside.post.tape;
-            if tape.observe || tape.text.len() >= FLUSH {
+            let observed = !self.outside.observers.is_empty();
+            if observed || tape.text.len() >= FLUSH {
                 self.flush(nc)?;
             }
         }
@@ -97,6 +109,11 @@ impl<'p, R: Read> Engine<'p, R> {
         let held = self.take_held();
         report.script_files = held.paths().map(Path::to_path_buf).collect();
         Ok((report, held))
+    }
+
+    /// The map of the run, to be ended.
+    pub(crate) fn take_map(&mut self) -> Option<map::Writer<'p>> {
+        self.outside.map.take()
     }
 
     /// What the script wrote, when the program is complete.
@@ -118,22 +135,37 @@ impl<'p, R: Read> Engine<'p, R> {
 
     /// Hands the finished blocks out and forgets them.
     pub(crate) fn take_blocks(&mut self, mut take: impl FnMut(&str, &Origin)) {
-        let tape = &mut self.outside.post.tape;
+        let tape = &self.outside.post.tape;
         for block in &tape.blocks {
             let text = String::from_utf8_lossy(&tape.text[block.range.clone()]);
-            take(&text, &block.origin);
+            let origin = tape.stacks.origin(block.cause);
+            take(&text, &origin);
             for observer in self.outside.observers.iter_mut() {
-                observer(WhatHappened::Block { text: &text, origin: &block.origin });
+                observer(WhatHappened::Block { text: &text, origin: &origin });
             }
         }
+        self.forget_blocks();
+    }
+
+    fn forget_blocks(&mut self) {
+        let tape = &mut self.outside.post.tape;
         tape.blocks.clear();
+        tape.noted.clear();
         self.outside.report.bytes += tape.text.len() as u64;
         tape.text.clear();
     }
 
     fn flush(&mut self, nc: &mut impl Write) -> Result<(), Error> {
-        nc.write_all(&self.outside.post.tape.text).map_err(write_error)?;
-        self.take_blocks(|_, _| {});
+        let tape = &self.outside.post.tape;
+        nc.write_all(&tape.text).map_err(write_error)?;
+        if let Some(map) = &mut self.outside.map {
+            map.blocks(tape);
+        }
+        if self.outside.observers.is_empty() {
+            self.forget_blocks();
+        } else {
+            self.take_blocks(|_, _| {});
+        }
         Ok(())
     }
 
@@ -154,13 +186,15 @@ impl<'p, R: Read> Engine<'p, R> {
         };
         match (section, &mut self.machine) {
             (Some(section), Some(machine)) => {
-                let number = self.record.number;
+                let (number, line) = (self.record.number, self.record.line);
+                self.outside.section = Some(section);
                 let outcome = machine.run_section(
                     section,
                     &mut self.record,
                     &mut self.vocabulary,
                     &mut self.outside,
                 )?;
+                self.outside.section = None;
                 let mut swallowed = outcome.swallowed();
                 if self.outside.module.compat.section == SectionMode::Process
                     && !outcome.processed
@@ -169,7 +203,7 @@ impl<'p, R: Read> Engine<'p, R> {
                     swallowed = false;
                     self.outside.process(&self.record, &self.vocabulary)?;
                 }
-                self.outside.section_done(section, number, swallowed);
+                self.outside.section_done(section, (number, line), swallowed);
             }
             _ => self.outside.process(&self.record, &self.vocabulary)?,
         }

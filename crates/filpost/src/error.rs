@@ -29,6 +29,22 @@ fil_diag::codes! {
         OutsideFolder = 706, Error, "file outside of the granted folder",
             "A script is granted a folder and what is below it; no name, `..` or link leads out of there.",
             "Name the file relative to the folder, or grant another folder.";
+        /// A line map.
+        MapFile = 707, Error, "line map can't be used",
+            "A line map has its first and its last line, and each line between them names what came before.",
+            "Post the CL file again with --map.";
+        /// A line map of another run.
+        OtherRun = 708, Error, "line map of another run",
+            "The map tells the lines of the files it was written with; one of them has changed since.",
+            "Post the CL file again with --map, or name the map that belongs to the program.";
+        /// A question about a line that is not there.
+        NoSuchLine = 709, Error, "there is no such place",
+            "A question names a line of the NC program, the CL file or a FIL file, from 1; of the NC program a column too.",
+            "Count lines from 1, columns in characters.";
+        /// No line map for a question.
+        NoMap = 710, Error, "no line map",
+            "The map of OUT.nc is looked for as OUT.nc.map, that of a CL or FIL file among the maps in its folder and in the current one.",
+            "Post the CL file with --map, or name the map with --map.";
         /// Statements after the end.
         AfterFini = 751, Warning, "records after FINI",
             "FINI ends the program; what comes after it is not posted.",

@@ -28,6 +28,7 @@ pub mod files;
 mod granted;
 pub mod includes;
 pub mod listing;
+pub mod map;
 mod observe;
 mod outside;
 pub mod ready;
@@ -36,6 +37,7 @@ mod script_files;
 pub mod select;
 mod source;
 mod statement;
+pub mod trace;
 
 pub use blocks::{Block, Blocks};
 pub use builder::{Builder, Post};
@@ -51,7 +53,9 @@ pub use fil_cl as cl;
 pub use fil_diag::suggest;
 pub use fil_diag::{Code, Diag, Place, Severity};
 pub use fil_nc as nc;
-pub use fil_post::{Commons, FilLine, Kind, Origin, commons, locations, runout, settings};
+pub use fil_post::{
+    Cause, Commons, FilLine, Kind, Origin, Stack, commons, locations, runout, settings,
+};
 pub use fil_post::{address, words as post_words};
 pub use fil_syntax as syntax;
 pub use fil_vm::{Argument, Compat, Included, Limits, Moment, SectionMode};

@@ -11,6 +11,7 @@ use fil_vm::{CommonKind, Files, Host, Module, Moment, SectionId, Site};
 
 use crate::error::RunCode;
 use crate::granted::Granted;
+use crate::map;
 use crate::observe::{Observer, SectionEvent, WhatHappened};
 use crate::report::{Extents, Report};
 use crate::source::Source;
@@ -34,6 +35,10 @@ pub(crate) struct Outside<'p, R: Read> {
     pub ended: bool,
     /// FIL has asked for the development listing.
     pub trace: bool,
+    /// The line map of the run.
+    pub map: Option<map::Writer<'p>>,
+    /// The section that runs.
+    pub section: Option<SectionId>,
     /// Clock, commands and files.
     pub granted: Granted<'p>,
 }
@@ -47,8 +52,8 @@ impl<R: Read> Outside<'_, R> {
     ) -> Result<bool, Box<Diag>> {
         let more = self.source.read(record, vocabulary)?;
         if more {
-            self.post.tape.origin.record = record.number;
-            self.post.tape.origin.line = record.line;
+            self.post.tape.cause.record = record.number;
+            self.post.tape.cause.line = record.line;
             for observer in self.observers.iter_mut() {
                 observer(WhatHappened::Record(record, vocabulary));
             }
@@ -84,7 +89,8 @@ impl<R: Read> Outside<'_, R> {
 
     /// The FIL line that made a record.
     fn fil_line(&self, record: &Record) -> Option<FilLine> {
-        self.post.tape.origin.fil.first().copied().filter(|_| record.line == 0)
+        let tape = &self.post.tape;
+        tape.stacks.lines(tape.cause.stack).first().copied().filter(|_| record.line == 0)
     }
 
     /// Where a record stands: in the CL file, or in FIL for one that FIL has made.
@@ -93,14 +99,22 @@ impl<R: Read> Outside<'_, R> {
             let file = &self.module.files[usize::from(made.file)].name;
             return Place::line(file, made.line, statement_text(record, vocabulary));
         }
-        let line = if record.line == 0 { self.post.tape.origin.line } else { record.line };
+        let line = if record.line == 0 { self.post.tape.cause.line } else { record.line };
         Place::line(self.cl_name, line, statement_text(record, vocabulary))
     }
 
-    /// Notes what a section did with its record.
-    pub fn section_done(&mut self, section: SectionId, record: u32, swallowed: bool) {
+    /// Notes what a section did with its record, given by number and line.
+    pub fn section_done(
+        &mut self,
+        section: SectionId,
+        (record, line): (u32, u32),
+        swallowed: bool,
+    ) {
         let key = self.module.section_key(section);
         if swallowed {
+            if let Some(map) = &mut self.map {
+                map.taken(line, record, section.index());
+            }
             *self.report.swallowed.entry(key.to_string()).or_default() += 1;
         }
         if !self.observers.is_empty() {
@@ -164,11 +178,12 @@ impl<R: Read> Host for Outside<'_, R> {
         vocabulary: &mut Vocabulary,
         site: &Site,
     ) -> Result<(), Box<Diag>> {
-        let fil = &mut self.post.tape.origin.fil;
-        fil.clear();
-        fil.extend(site.stack().map(|(file, line)| FilLine { file, line }));
+        let tape = &mut self.post.tape;
+        let section = self.section.map(SectionId::index);
+        let lines = site.stack().map(|(file, line)| FilLine { file, line });
+        tape.cause.stack = tape.stacks.number(section, lines);
         let result = self.process(record, vocabulary);
-        self.post.tape.origin.fil.clear();
+        self.post.tape.cause.stack = 0;
         result
     }
 

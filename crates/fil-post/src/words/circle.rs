@@ -9,6 +9,7 @@ use fil_diag::Diag;
 use nalgebra::{Point3, Vector3};
 
 use super::form::Form;
+use crate::cause::Cause;
 use crate::errors::PostCode;
 use crate::letters::{I, J, K};
 use crate::locations as loc;
@@ -47,6 +48,8 @@ pub struct Arc {
     radius: Option<f64>,
     /// Full turns besides the arc from start to end (TIMES).
     turns: f64,
+    /// The CIRCLE record.
+    cause: Cause,
 }
 
 /// An arc in machine coordinates and in a plane of the machine.
@@ -62,6 +65,8 @@ struct PlaneArc {
     start_angle: f64,
     /// Degrees, above 0; above 360 for a helix of several turns.
     sweep: f64,
+    /// The CIRCLE record.
+    cause: Cause,
 }
 
 /// Keeps the circle until its end point comes.
@@ -90,6 +95,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         axis: axis.normalize(),
         radius: circle.radius,
         turns,
+        cause: post.block.cause,
     });
     Ok(())
 }
@@ -105,7 +111,7 @@ pub fn finish(post: &mut Post, arc: &Arc, target: Target) -> Result<(), Box<Diag
         .ok_or_else(|| Box::new(Diag::new(PostCode::ArcStart, "CIRCLE before any FROM or GOTO")))?;
     check_radii(arc, start, target.point)?;
     super::cycle::cancel(post)?;
-    post.state.rapid = false;
+    post.state.rapid = None;
     let sweep = sweep(arc, start, target.point);
     let turns_axis = target.axis != post.state.axis;
     match plane_arc(post, arc, start, sweep)? {
@@ -188,6 +194,7 @@ fn plane_arc(
         radius,
         start_angle: (from[second] - center[1]).atan2(from[first] - center[0]).to_degrees(),
         sweep,
+        cause: arc.cause,
     }))
 }
 
@@ -205,7 +212,10 @@ fn write_arc(post: &mut Post, arc: &PlaneArc, target: Target) -> Result<(), Box<
     for stop in stops(post, arc) {
         let share = stop / arc.sweep;
         let mut next = end;
+        let point_word = post.state.point_word;
         if stop < arc.sweep {
+            // The record's point is where the arc ends, not this part of it.
+            post.state.point_word = 0;
             let turned = if arc.counter_clockwise { stop } else { -stop };
             let (sine, cosine) = (arc.start_angle + turned).to_radians().sin_cos();
             next[arc.first] = arc.center[0] + arc.radius * cosine;
@@ -213,6 +223,7 @@ fn write_arc(post: &mut Post, arc: &PlaneArc, target: Target) -> Result<(), Box<
             next[along] = from[along] + (end[along] - from[along]) * share;
         }
         arc_block(post, arc, &here, &next, stop - done)?;
+        post.state.point_word = point_word;
         here = next;
         done = stop;
     }
@@ -251,17 +262,19 @@ fn arc_block(
     to: &Position,
     sweep: f64,
 ) -> Result<(), Box<Diag>> {
-    post.plane_code(arc.plane);
     let code = if arc.counter_clockwise { loc::CIRCLE_CCW_CODE } else { loc::CIRCLE_CW_CODE };
     let code = post.code(code, "an arc")?;
     let modal = post.commons.flag(loc::CIRCLE_MODAL);
-    post.motion_code(code, modal);
+    post.because(arc.cause, |post| {
+        post.plane_code(arc.plane);
+        post.motion_code(code, modal);
+    });
     let always = !post.commons.flag(loc::CIRCLE_AXES_MODAL);
     for number in [arc.first, arc.second] {
         post.axis_word(number, to[number], always)?;
     }
     post.axis_word(3 - arc.first - arc.second, to[3 - arc.first - arc.second], false)?;
-    center_words(post, arc, from, sweep)?;
+    post.because(arc.cause, |post| center_words(post, arc, from, sweep))?;
     post.feed_words()?;
     post.write_motion()
 }
@@ -321,6 +334,7 @@ fn write_lines(
     let across = arc.axis.cross(&from);
     let rise = arc.axis.dot(&(target.point - start));
     let base = start - from;
+    let point_word = std::mem::take(&mut post.state.point_word);
     for number in 1..count {
         let share = f64::from(number) / f64::from(count);
         let (sine, cosine) = (sweep * share).to_radians().sin_cos();
@@ -328,5 +342,6 @@ fn write_lines(
         let axis = from_axis.lerp(&target.axis, share).normalize();
         post.move_to(Target { point, axis })?;
     }
+    post.state.point_word = point_word;
     post.move_to(target)
 }

@@ -17,6 +17,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     let mut form = Form::new(record, vocabulary);
     let pressure = form.any_of(&[w::LOW, w::MEDIUM, w::HIGH]);
     let kind = form.any_of(&[w::ON, w::OFF, w::FLOOD, w::MIST, w::THRU]);
+    post.due_to(&form);
     let location = match (kind, pressure) {
         (Some(w::ON), None) => loc::COOLANT_DEFAULT_CODE,
         (Some(w::OFF), None) => loc::COOLANT_OFF_CODE,
@@ -34,7 +35,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         None => post.warn_no_code("this coolant"),
     }
     if kind == Some(w::OFF) {
-        let words = std::mem::take(&mut post.block);
+        let words = post.block.take();
         post.flush_pending()?;
         post.block = words;
         return post.write_block();

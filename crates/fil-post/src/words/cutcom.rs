@@ -17,8 +17,11 @@ use crate::state::Placement;
 pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
     let mut form = Form::new(record, vocabulary);
     let side = form.any_of(&[w::LEFT, w::RIGHT, w::OFF]);
+    let side_word = form.last_word();
     let plane = form.any_of(&[w::XYPLAN, w::YZPLAN, w::ZXPLAN]);
+    let plane_word = form.last_word();
     let number = form.number();
+    let number_word = if number.is_some() { form.last_word() } else { 0 };
     let location = match side {
         Some(w::LEFT) => loc::CUTCOM_LEFT_CODE,
         Some(w::RIGHT) => loc::CUTCOM_RIGHT_CODE,
@@ -33,10 +36,12 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         };
         let code = post.code(location, "this plane")?;
         post.begin()?;
+        post.block.cause.word = plane_word;
         post.plane_code(code);
         post.write_block()?;
     }
     let code = post.code(location, "cutter compensation")?;
+    post.block.cause.word = side_word;
     post.block.g(code);
     if side != Some(w::OFF) {
         let from_tool = post.commons.flag(loc::TOOL_DIAMETER_FROM_TOOL);
@@ -46,6 +51,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         }
         if let Some(offset) = offset {
             let letter = post.letter(loc::CUTCOM_ADDRESS, "the offset's address")?;
+            post.block.cause.word = number_word;
             post.word(letter, offset)?;
         }
     }

@@ -12,6 +12,7 @@ use fil_diag::Diag;
 
 use super::form::Form;
 use super::{cycle_expand, delay, fedrat};
+use crate::cause::Cause;
 use crate::commons::{Dbl, EMPTY, Int};
 use crate::errors::PostCode;
 use crate::letters::R;
@@ -78,8 +79,25 @@ pub struct Cycle {
     pub feed: Feed,
     /// Level of the tool before the cycle, machine Z.
     pub initial: Option<f64>,
+    /// The CYCLE record.
+    pub cause: Cause,
+    /// Its words with values.
+    pub words: CycleWords,
     /// Words of the last hole's block, when the control still has them.
     pub in_force: Option<HoleLevels>,
+}
+
+/// The words of a CYCLE record that hold a value; 0 for one that has none.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CycleWords {
+    /// DEPTH
+    pub depth: u16,
+    /// CLEAR
+    pub clear: u16,
+    /// STEP
+    pub step: u16,
+    /// DWELL
+    pub dwell: u16,
 }
 
 /// Levels of a hole in machine Z, after all transformations but the scale.
@@ -91,6 +109,13 @@ pub struct HoleLevels {
     pub clear: f64,
     /// Retract to the level before the cycle (G98).
     pub to_initial: bool,
+}
+
+impl Cycle {
+    /// The CYCLE record at one of its words.
+    pub fn due_to(&self, word: u16) -> Cause {
+        Cause { word, ..self.cause }
+    }
 }
 
 impl HoleLevels {
@@ -135,17 +160,18 @@ fn read(post: &mut Post, form: &mut Form) -> Result<Cycle, Box<Diag>> {
         .find(|kind| Some(kind.word) == word || (word.is_none() && form.flag(kind.word)))
         .ok_or_else(|| form.error("the kind of cycle is not known"))?;
     form.flag(w::DRILL);
-    let depth = required(form, &[w::DEPTH, w::FEDTO], "DEPTH")?.abs();
-    let clear = optional(form, &[w::RAPTO, w::CLEAR])?;
+    let mut words = CycleWords::default();
+    let depth = required(form, &[w::DEPTH, w::FEDTO], "DEPTH", &mut words.depth)?.abs();
+    let clear = optional(form, &[w::RAPTO, w::CLEAR], &mut words.clear)?;
     form.couplet(w::CLEAR)?;
     let clear = clear.or(post.commons.dbl_opt(loc::CYCLE_AUTO_CLEARANCE)).unwrap_or(0.0);
-    let step = optional(form, &[w::STEP, w::SUBPECK, w::INCR])?;
+    let step = optional(form, &[w::STEP, w::SUBPECK, w::INCR], &mut words.step)?;
     let first_peck = form.couplet(w::FIRST_PECK)?;
     if first_peck.is_some() && first_peck != step {
         post.warn(PostCode::IgnoredPart, "CYCLE: the first peck is as deep as the others".into());
     }
-    let retract = optional(form, &[w::RETURN, w::RTRCTO])?;
-    let dwell = form.couplet(w::DWELL)?;
+    let retract = optional(form, &[w::RETURN, w::RTRCTO], &mut 0)?;
+    let dwell = optional(form, &[w::DWELL], &mut words.dwell)?;
     if depth == 0.0 || clear < 0.0 {
         return Err(cycle_error("DEPTH must not be zero and CLEAR not negative"));
     }
@@ -164,6 +190,8 @@ fn read(post: &mut Post, form: &mut Form) -> Result<Cycle, Box<Diag>> {
         dwell: dwell.or(post.commons.dbl_opt(kind.dwell)).unwrap_or(0.0),
         feed,
         initial: level(post),
+        cause: post.block.cause.whole(),
+        words,
         in_force: None,
     })
 }
@@ -172,7 +200,9 @@ fn read(post: &mut Post, form: &mut Form) -> Result<Cycle, Box<Diag>> {
 fn feed(post: &mut Post, form: &mut Form) -> Result<Feed, Box<Diag>> {
     for unit in UNITS {
         if let Some(value) = form.couplet(*unit)? {
-            let feed = fedrat::in_output_units(value, Some(*unit), post.state.metric);
+            post.due_to(form);
+            let feed = fedrat::in_output_units(value, Some(*unit), post);
+            post.block.cause.word = 0;
             if feed.value <= 0.0 {
                 return Err(cycle_error("the feed must be above zero"));
             }
@@ -182,17 +212,19 @@ fn feed(post: &mut Post, form: &mut Form) -> Result<Feed, Box<Diag>> {
     post.state.feed.ok_or_else(|| cycle_error("no feed in the cycle, and no FEDRAT before it"))
 }
 
-fn optional(form: &mut Form, words: &[WordId]) -> Result<Option<f64>, Box<Diag>> {
+/// The value of the first of these words, and where in the record it stands.
+fn optional(form: &mut Form, words: &[WordId], at: &mut u16) -> Result<Option<f64>, Box<Diag>> {
     for word in words {
         if let Some(value) = form.couplet(*word)? {
+            *at = form.last_word();
             return Ok(Some(value));
         }
     }
     Ok(None)
 }
 
-fn required(form: &mut Form, words: &[WordId], name: &str) -> Result<f64, Box<Diag>> {
-    optional(form, words)?.ok_or_else(|| cycle_error(&format!("{name} is missing")))
+fn required(form: &mut Form, words: &[WordId], name: &str, at: &mut u16) -> Result<f64, Box<Diag>> {
+    optional(form, words, at)?.ok_or_else(|| cycle_error(&format!("{name} is missing")))
 }
 
 fn cycle_error(message: &str) -> Box<Diag> {
@@ -256,7 +288,7 @@ fn raise(post: &mut Post, cycle: &Cycle, z: f64, clear: f64) -> Result<bool, Box
         cancel(post)?;
         let mut position = Position::default();
         position[2] = want;
-        post.rapid_to(&position, Z)?;
+        post.because(cycle.cause, |post| post.rapid_to(&position, Z))?;
         here = want;
         if let Some(cycle) = &mut post.state.cycle {
             cycle.initial = Some(want);
@@ -297,9 +329,9 @@ fn block(
             loc::CYCLE_RETURN_CLEAR_CODE
         };
         let code = post.code(location, "the return level")?;
-        post.block.g(code);
+        post.because(cycle.cause, |post| post.block.g(code));
     }
-    post.block.g(code);
+    post.because(cycle.cause, |post| post.block.g(code));
     for axis in [0, 1] {
         post.axis_word(axis, at[axis], true)?;
     }
@@ -308,7 +340,7 @@ fn block(
             post.axis_word(axis, at[axis], false)?;
         }
     }
-    depth_words(post, levels)?;
+    depth_words(post, cycle, levels)?;
     data_words(post, cycle)?;
     post.write_motion()?;
     post.state.motion = None;
@@ -316,8 +348,8 @@ fn block(
 }
 
 /// Z and R: absolute, or as increments from the level before and from R.
-fn depth_words(post: &mut Post, levels: HoleLevels) -> Result<(), Box<Diag>> {
-    let start = post.state.cycle.as_ref().and_then(|cycle| cycle.initial).unwrap_or(levels.clear);
+fn depth_words(post: &mut Post, cycle: &Cycle, levels: HoleLevels) -> Result<(), Box<Diag>> {
+    let start = cycle.initial.unwrap_or(levels.clear);
     let axis = *post.machine.axis(2);
     let (bottom, clear) = (axis.value(levels.bottom)?, axis.value(levels.clear)?);
     let (z, r) = match post.commons.int(loc::CYCLE_DEPTH_OUTPUT) {
@@ -325,20 +357,20 @@ fn depth_words(post: &mut Post, levels: HoleLevels) -> Result<(), Box<Diag>> {
         3 => ((bottom - clear).abs(), (clear - axis.value(start)?).abs()),
         _ => (bottom, clear),
     };
-    post.word(axis.letter, z)?;
-    post.word(R, r)
+    post.because(cycle.due_to(cycle.words.depth), |post| post.word(axis.letter, z))?;
+    post.because(cycle.due_to(cycle.words.clear), |post| post.word(R, r))
 }
 
 /// Peck, dwell and feed.
 fn data_words(post: &mut Post, cycle: &Cycle) -> Result<(), Box<Diag>> {
     if let Some(step) = cycle.step {
         let letter = post.letter(loc::CYCLE_STEP_ADDRESS, "the peck")?;
-        post.word(letter, step)?;
+        post.because(cycle.due_to(cycle.words.step), |post| post.word(letter, step))?;
     }
     if cycle.dwell > 0.0 {
         let letter = post.letter(loc::CYCLE_DWELL_ADDRESS, "the dwell of a cycle")?;
         let value = delay::in_seconds(post, cycle.dwell);
-        post.word(letter, value)?;
+        post.because(cycle.due_to(cycle.words.dwell), |post| post.word(letter, value))?;
     }
     with_feed(post, cycle.feed, |post| {
         post.state.force_feed = true;

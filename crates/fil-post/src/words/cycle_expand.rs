@@ -31,6 +31,11 @@ pub fn hole(
         )));
     }
     post.rapid_to(at, XY | ROTARY)?;
+    post.because(cycle.cause, |post| down_and_up(post, cycle, levels))
+}
+
+/// The moves along Z, which the CYCLE record asks for.
+fn down_and_up(post: &mut Post, cycle: &Cycle, levels: HoleLevels) -> Result<(), Box<Diag>> {
     rapid_z(post, levels.clear)?;
     match cycle.step {
         Some(step) => pecks(post, cycle, levels, step)?,
@@ -38,7 +43,7 @@ pub fn hole(
     }
     if cycle.dwell > 0.0 {
         let value = delay::in_seconds(post, cycle.dwell);
-        delay::write(post, value)?;
+        post.because(cycle.due_to(cycle.words.dwell), |post| delay::write(post, value))?;
     }
     if matches!(cycle.word, w::BORE | w::REAM) {
         feed_z(post, cycle, levels.clear)?;

@@ -25,6 +25,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
             in_seconds(post, seconds)
         }
     };
+    post.due_to(&form);
     form.end()?;
     write(post, value)
 }

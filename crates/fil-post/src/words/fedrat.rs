@@ -26,18 +26,21 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     }
     let unit = form.any_of(UNITS);
     let value = form.required("the feed")?;
+    post.due_to(&form);
     if value <= 0.0 {
         return Err(form.error(format!("a feed of {value} is not positive")));
     }
     form.end()?;
-    let feed = in_output_units(value, unit, post.state.metric);
+    let feed = in_output_units(value, unit, post);
     post.state.feed = Some(within_limits(post, feed));
     post.state.thread = None;
     Ok(())
 }
 
-/// A feed in the unit of the CL file, per minute when no unit is given.
-pub fn in_output_units(value: f64, unit: Option<WordId>, metric: bool) -> Feed {
+/// A feed in the unit of the CL file, per minute when no unit is given; it is
+/// due to the word that the record is at.
+pub fn in_output_units(value: f64, unit: Option<WordId>, post: &Post) -> Feed {
+    let metric = post.state.metric;
     let (factor, mode) = match unit {
         Some(w::MMPM) => (if metric { 1.0 } else { 1.0 / INCH }, FeedMode::PerMinute),
         Some(w::IPM) => (if metric { INCH } else { 1.0 }, FeedMode::PerMinute),
@@ -48,7 +51,7 @@ pub fn in_output_units(value: f64, unit: Option<WordId>, metric: bool) -> Feed {
         Some(w::UPR) => (1.0, FeedMode::PerRevolution),
         _ => (1.0, FeedMode::PerMinute),
     };
-    Feed { value: value * factor, mode }
+    Feed { value: value * factor, mode, cause: post.block.cause }
 }
 
 /// Brings a feed per minute within the machine's range (DBLCOM 114, 120), with

@@ -3,6 +3,7 @@
 //! Each item taken is crossed off; what is left over at the end is reported,
 //! so that no part of a record is ignored without a word.
 
+use fil_cl::record::FIRST_DATA;
 use fil_cl::vocabulary::Vocabulary;
 use fil_cl::{Record, Word, WordId};
 use fil_diag::Diag;
@@ -15,12 +16,21 @@ pub struct Form<'a> {
     record: &'a Record,
     vocabulary: &'a Vocabulary,
     taken: Vec<bool>,
+    /// Index of the item that was taken last.
+    last: Option<usize>,
 }
 
 impl<'a> Form<'a> {
     /// All items of a record.
     pub fn new(record: &'a Record, vocabulary: &'a Vocabulary) -> Self {
-        Form { record, vocabulary, taken: vec![false; record.data.len()] }
+        Form { record, vocabulary, taken: vec![false; record.data.len()], last: None }
+    }
+
+    /// The word of the record that was taken last, as POSTF(7,n) counts; of a
+    /// couplet its number. 0 before the first.
+    pub fn last_word(&self) -> u16 {
+        let word = self.last.map_or(0, |index| index + FIRST_DATA);
+        u16::try_from(word).unwrap_or(0)
     }
 
     /// Takes a minor word wherever it stands.
@@ -28,6 +38,7 @@ impl<'a> Form<'a> {
         match self.find(word) {
             Some(at) => {
                 self.taken[at] = true;
+                self.last = Some(at);
                 true
             }
             None => false,
@@ -50,6 +61,7 @@ impl<'a> Form<'a> {
             Some(Word::Number(value)) if !self.taken[at + 1] => {
                 self.taken[at] = true;
                 self.taken[at + 1] = true;
+                self.last = Some(at + 1);
                 Ok(Some(*value))
             }
             _ => Err(self.error(format!("{} needs a number after it", self.name(word)))),
@@ -65,6 +77,7 @@ impl<'a> Form<'a> {
         let at = (0..self.taken.len())
             .find(|at| !self.taken[*at] && number(&self.record.data[*at]).is_some())?;
         self.taken[at] = true;
+        self.last = Some(at);
         number(&self.record.data[at])
     }
 
@@ -79,6 +92,11 @@ impl<'a> Form<'a> {
     /// Takes all numbers that are left.
     pub fn numbers(&mut self) -> Vec<f64> {
         std::iter::from_fn(|| self.number()).collect()
+    }
+
+    /// The same, each with its word as POSTF(7,n) counts.
+    pub fn numbered(&mut self) -> Vec<(f64, u16)> {
+        std::iter::from_fn(|| self.number().map(|number| (number, self.last_word()))).collect()
     }
 
     /// Refuses what is left: in a record that commands the machine, an item

@@ -7,6 +7,7 @@ use fil_diag::Diag;
 use nalgebra::Vector3;
 
 use super::form::Form;
+use super::goto;
 use crate::errors::PostCode;
 use crate::motion::Target;
 use crate::post::Post;
@@ -22,7 +23,10 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         .point
         .ok_or_else(|| Box::new(Diag::new(PostCode::ArcStart, "GODLTA before any FROM or GOTO")))?;
     let step = match form.numbers()[..] {
-        [x, y, z] => Vector3::new(x, y, z),
+        [x, y, z] => {
+            post.state.point_word = goto::POINT;
+            Vector3::new(x, y, z)
+        }
         [distance] => post.state.axis * distance,
         _ => return Err(form.error("one or three increments are needed")),
     };

@@ -1,6 +1,7 @@
 //! GOTO/x,y,z\[,i,j,k] (and GOHOME): the next point of the path.
 
 use fil_cl::Record;
+use fil_cl::record::FIRST_DATA;
 use fil_cl::vocabulary::Vocabulary;
 use fil_diag::Diag;
 
@@ -11,6 +12,9 @@ use super::{circle, cycle};
 use crate::motion::Target;
 use crate::post::Post;
 
+/// The word of a motion record that holds its x.
+pub const POINT: u16 = 6;
+
 /// Moves to the point; ends an arc or drills a hole when CIRCLE or CYCLE ask for it.
 ///
 /// # Errors
@@ -18,9 +22,10 @@ use crate::post::Post;
 pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
     post.begin()?;
     let target = target(post, record, vocabulary)?;
+    post.state.point_word = POINT;
     if let Some(arc) = post.state.arc.take() {
         circle::finish(post, &arc, target)
-    } else if post.state.cycle.is_some() && !post.state.rapid {
+    } else if post.state.cycle.is_some() && post.state.rapid.is_none() {
         cycle::hole(post, target)
     } else {
         post.move_to(target)
@@ -38,6 +43,7 @@ pub fn gohome(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     };
     form.end()?;
     post.begin()?;
+    post.state.point_word = FIRST_DATA as u16;
     post.move_to(Target { point: Point3::new(x, y, z), axis: post.state.axis })
 }
 

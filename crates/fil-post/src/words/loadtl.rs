@@ -7,6 +7,7 @@ use fil_diag::Diag;
 
 use super::form::Form;
 use crate::axes::AXES;
+use crate::cause::Cause;
 use crate::commons::EMPTY;
 use crate::letters::{G, H, T};
 use crate::locations as loc;
@@ -23,11 +24,14 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         Some(offset) => Some(offset),
         None => form.couplet(w::ADJUST)?,
     };
+    let offset = offset.map(|offset| (offset, form.last_word()));
     form.couplet(w::LENGTH)?;
     let tool = tool_number(&mut form)?;
-    let offset = match offset {
-        Some(offset) => whole(&form, offset)?,
-        None => tool,
+    post.due_to(&form);
+    let tool_cause = post.block.cause;
+    let (offset, offset_cause) = match offset {
+        Some((offset, word)) => (whole(&form, offset)?, Cause { word, ..tool_cause }),
+        None => (tool, tool_cause),
     };
     form.finish(post);
     super::cycle::cancel(post)?;
@@ -36,7 +40,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     if post.commons.flag(loc::TOOL_MODAL) && post.state.tool == Some(tool) {
         return Ok(());
     }
-    change_position(post)?;
+    post.because(tool_cause.whole(), change_position)?;
     if post.commons.int(loc::TOOL_FORMAT) == 2 {
         post.word(T, (tool * 100 + offset) as f64)?;
         post.write_block()?;
@@ -44,7 +48,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     } else {
         change(post, tool)?;
         restate(post);
-        length_offset(post, offset)?;
+        post.because(offset_cause, |post| length_offset(post, offset))?;
     }
     post.state.tool = Some(tool);
     Ok(())
@@ -68,6 +72,7 @@ fn restate(post: &mut Post) {
 pub fn select(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
     let mut form = Form::new(record, vocabulary);
     let tool = tool_number(&mut form)?;
+    post.due_to(&form);
     form.finish(post);
     if !post.commons.flag(loc::TOOL_PRESELECT) {
         return Ok(());
@@ -123,7 +128,7 @@ fn change(post: &mut Post, tool: i64) -> Result<(), Box<Diag>> {
         post.write_block()?;
     }
     match post.commons.int_opt(loc::TOOL_CHANGE_CODE) {
-        Some(code) => post.block.m(code),
+        Some(code) => post.because(post.block.cause.whole(), |post| post.block.m(code)),
         None => post.warn_no_code("a tool change"),
     }
     post.write_block()
@@ -141,7 +146,7 @@ fn length_offset(post: &mut Post, offset: i64) -> Result<(), Box<Diag>> {
         post.write_block()?;
     }
     let Some(z) = post.commons.dbl_opt(loc::TOOL_LENGTH_Z) else {
-        post.state.length_offset = Some(offset);
+        post.state.length_offset = Some((offset, post.block.cause));
         post.commons.set_last_output(post.machine.axis(2).letter, EMPTY);
         return Ok(());
     };

@@ -23,6 +23,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         return Err(form.error("only OP/THREAD is known"));
     }
     let pitch = form.couplet(w::TPI)?.filter(|pitch| *pitch > 0.0);
+    post.due_to(&form);
     let pitch = pitch.ok_or_else(|| form.error("TPI and a pitch above zero are needed"))?;
     if form.couplet(w::MULTRD)?.is_some_and(|starts| starts > 1.0) {
         return Err(form.error("a thread of several starts needs a FIL section"));
@@ -34,6 +35,6 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         form.couplet(word)?;
     }
     form.finish(post);
-    post.state.thread = Some(pitch);
+    post.state.thread = Some((pitch, post.block.cause));
     Ok(())
 }

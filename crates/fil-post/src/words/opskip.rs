@@ -14,7 +14,7 @@ use crate::post::Post;
 pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
     let mut form = Form::new(record, vocabulary);
     post.tape.skip = match form.any_of(&[w::ON, w::OFF]) {
-        Some(word) => word == w::ON,
+        Some(word) => (word == w::ON).then_some(post.block.cause),
         None => return Err(form.error("ON or OFF is needed")),
     };
     form.end()?;

@@ -16,5 +16,6 @@ pub fn handle(post: &mut Post, record: &Record, _: &Vocabulary) -> Result<(), Bo
     let digits: String = name.chars().filter(char::is_ascii_digit).collect();
     post.state.part_number = digits.parse().ok();
     post.state.part_name = name.to_string();
+    post.state.part_cause = post.block.cause;
     Ok(())
 }

@@ -7,6 +7,7 @@ use fil_diag::Diag;
 use fil_cl::Word;
 
 use super::form::Form;
+use crate::cause::Cause;
 use crate::letters::{G, M};
 use crate::post::Post;
 use crate::program;
@@ -21,7 +22,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     if !form.flag(w::OUT) || record.data.first() != Some(&Word::Minor(w::OUT)) {
         return Err(form.error("only POSTN/OUT is known"));
     }
-    let numbers = form.numbers();
+    let numbers = form.numbered();
     form.end()?;
     let form = Form::new(record, vocabulary);
     if numbers.is_empty()
@@ -30,19 +31,20 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     {
         return Err(form.error("pairs of a letter and a value are needed"));
     }
-    let mut words: Vec<(u8, f64)> = Vec::new();
+    let mut words: Vec<(u8, f64, Cause)> = Vec::new();
     for pair in numbers.chunks(2) {
-        let letter = letter_number(pair[0])
-            .ok_or_else(|| form.error(format!("{} is no letter, A is 1 and Z is 26", pair[0])))?;
-        if letter != G && letter != M && words.iter().any(|(known, _)| *known == letter) {
+        let [(letter, _), (value, word)] = [pair[0], pair[1]];
+        let letter = letter_number(letter)
+            .ok_or_else(|| form.error(format!("{letter} is no letter, A is 1 and Z is 26")))?;
+        if letter != G && letter != M && words.iter().any(|(known, ..)| *known == letter) {
             let name = char::from(b'A' + letter - 1);
             return Err(form.error(format!("address {name} stands twice")));
         }
-        words.push((letter, pair[1]));
+        words.push((letter, value, Cause { word, ..post.block.cause }));
     }
     program::start(post)?;
     post.tape.words(&words, &post.machine.addresses, &mut post.commons)?;
-    if let Some((_, code)) = words.iter().rfind(|(letter, _)| *letter == G) {
+    if let Some((_, code, _)) = words.iter().rfind(|(letter, ..)| *letter == G) {
         post.note_g(*code as i32);
     }
     Ok(())

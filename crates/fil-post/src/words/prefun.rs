@@ -34,6 +34,7 @@ fn write(
 ) -> Result<f64, Box<Diag>> {
     let mut form = Form::new(record, vocabulary);
     let code = form.required("the number of the function")?;
+    post.due_to(&form);
     form.end()?;
     post.word(letter, code)?;
     post.write_block()?;

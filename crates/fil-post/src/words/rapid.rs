@@ -13,6 +13,6 @@ use crate::post::Post;
 /// RAPID with items.
 pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
     Form::new(record, vocabulary).end()?;
-    post.state.rapid = true;
+    post.state.rapid = Some(post.block.cause);
     Ok(())
 }

@@ -7,6 +7,7 @@ use fil_diag::Diag;
 use super::form::Form;
 use super::postn::letter_number;
 use crate::block::no_address;
+use crate::cause::Cause;
 use crate::post::Post;
 
 /// Sets or clears the words; a motion block that has a word of that letter is
@@ -21,17 +22,18 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         form.end()?;
         return Ok(());
     }
-    let numbers = form.numbers();
+    let numbers = form.numbered();
     if numbers.is_empty() || !numbers.len().is_multiple_of(2) {
         return Err(form.error("pairs of a letter and a value, or OFF, are needed"));
     }
     for pair in numbers.chunks(2) {
-        let letter = letter_number(pair[0])
-            .ok_or_else(|| form.error(format!("{} is no letter, A is 1 and Z is 26", pair[0])))?;
+        let [(letter, _), (value, word)] = [pair[0], pair[1]];
+        let letter = letter_number(letter)
+            .ok_or_else(|| form.error(format!("{letter} is no letter, A is 1 and Z is 26")))?;
         if post.machine.addresses.position(letter).is_none() {
             return Err(no_address(letter));
         }
-        post.state.repeat.insert(letter, pair[1]);
+        post.state.repeat.insert(letter, (value, Cause { word, ..post.block.cause }));
     }
     form.end()?;
     Ok(())

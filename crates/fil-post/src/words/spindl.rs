@@ -43,22 +43,30 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     }
     if form.flag(w::ORIENT) {
         if let Some(angle) = form.number() {
+            post.due_to(&form);
             post.word(S, angle)?;
         }
         form.end()?;
         return turn(post, loc::SPINDLE_ORIENT_CODE, "SPINDL/ORIENT");
     }
     if let Some(range) = form.couplet(w::RANGE)? {
+        post.due_to(&form);
         range_code(post, &form, range)?;
     }
     if let Some(limit) = form.couplet(w::MAXRPM)? {
         let code = post.code(loc::SPINDLE_MAX_CODE, "SPINDL/MAXRPM")?;
+        post.due_to(&form);
         post.block.g(code);
         post.word(S, limit)?;
         post.write_block()?;
     }
     speed(post, &mut form)?;
-    let direction = match form.any_of(&[w::CLW, w::CCLW]) {
+    let direction = form.any_of(&[w::CLW, w::CCLW]);
+    match direction {
+        Some(_) => post.due_to(&form),
+        None => post.block.cause.word = 0,
+    }
+    let direction = match direction {
         Some(w::CLW) => loc::SPINDLE_CW_CODE,
         Some(_) => loc::SPINDLE_CCW_CODE,
         None => loc::SPINDLE_DEFAULT_CODE,
@@ -89,6 +97,7 @@ fn speed(post: &mut Post, form: &mut Form) -> Result<(), Box<Diag>> {
             (Some(_), _) => Err(form.error("the speed is missing")),
         };
     };
+    post.due_to(form);
     if asked < 0.0 {
         return Err(form.error("the speed is negative; CCLW turns the other way"));
     }

@@ -28,10 +28,11 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         return Err(form.error("AUTO needs a FIL section that writes the machine's thread cycle"));
     }
     let pitch = form.couplet(w::TPI)?.filter(|pitch| *pitch > 0.0);
+    post.due_to(&form);
     let pitch = pitch.ok_or_else(|| form.error("TPI and a pitch above zero are needed"))?;
     form.flag(w::TURN);
     form.finish(post);
-    post.state.thread = Some(pitch);
+    post.state.thread = Some((pitch, post.block.cause));
     Ok(())
 }
 
@@ -40,11 +41,13 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
 /// # Errors
 /// The machine has no thread code; a value that does not fit.
 pub fn cut(post: &mut Post, position: &Position) -> Result<(), Box<Diag>> {
-    let Some(pitch) = post.state.thread else { return Ok(()) };
+    let Some((pitch, cause)) = post.state.thread else { return Ok(()) };
     if post.axis_words(position, XY | Z)? {
         let code = post.code(loc::THREAD_CODE, "a thread")?;
-        post.motion_code(code, false);
-        post.word(F, pitch)?;
+        post.because(cause, |post| {
+            post.motion_code(code, false);
+            post.word(F, pitch)
+        })?;
         post.write_motion()?;
         post.commons.set_last_output(F, EMPTY);
     }

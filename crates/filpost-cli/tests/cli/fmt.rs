@@ -1,100 +1,58 @@
 //! `filpost fmt` as its users meet it.
 
-use std::io::Write as _;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
 
-use tempfile::TempDir;
+use crate::support::{Place, Ran};
 
 const MESSY: &str = "cimfil/on,goto\nx=postf(13)\ncimfil/off\nfini";
 const TIDY: &str = "CIMFIL/ON,GOTO\n  X = POSTF(13)\nCIMFIL/OFF\nFINI\n";
 
-struct Place(TempDir);
-
-impl Place {
-    fn with(files: &[(&str, &[u8])]) -> Place {
-        let folder = TempDir::new().expect("a folder for the test");
-        for (name, bytes) in files {
-            std::fs::write(folder.path().join(name), bytes).expect("a file for the test");
-        }
-        Place(folder)
-    }
-
-    fn bytes(&self, name: &str) -> Vec<u8> {
-        std::fs::read(self.0.path().join(name)).expect("the file is there")
-    }
-
-    fn fmt(&self, arguments: &[&str], input: &[u8]) -> Ran {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_filpost"));
-        command.arg("fmt").args(arguments).current_dir(self.0.path());
-        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let mut child = command.spawn().expect("the command starts");
-        let mut stdin = child.stdin.take().expect("a pipe");
-        // A command that does not read its input closes the pipe.
-        let _ = stdin.write_all(input);
-        drop(stdin);
-        Ran::of(child.wait_with_output().expect("the command ends"))
-    }
+fn folder(files: &[(&str, &[u8])]) -> Place {
+    files.iter().fold(Place::new(), |place, (name, bytes)| place.with(name, bytes))
 }
 
-struct Ran {
-    status: i32,
-    out: String,
-    err: String,
-}
-
-impl Ran {
-    fn of(output: Output) -> Ran {
-        Ran {
-            status: output.status.code().expect("an exit status"),
-            out: String::from_utf8(output.stdout).expect("UTF-8"),
-            err: String::from_utf8(output.stderr).expect("UTF-8"),
-        }
-    }
-
-    fn seen(&self) -> (i32, &str, &str) {
-        (self.status, &self.out, &self.err)
-    }
+fn fmt(place: &Place, arguments: &[&str], input: &[u8]) -> Ran {
+    place.run_with_input(&[&["fmt"], arguments].concat(), input)
 }
 
 #[test]
 fn files_are_rewritten_and_named_when_they_change() {
-    let place = Place::with(&[("a.fil", MESSY.as_bytes()), ("b.fil", TIDY.as_bytes())]);
+    let place = folder(&[("a.fil", MESSY.as_bytes()), ("b.fil", TIDY.as_bytes())]);
     let before = std::fs::metadata(place.0.path().join("b.fil")).expect("a file").modified();
-    let ran = place.fmt(&["a.fil", "b.fil"], b"");
+    let ran = fmt(&place, &["a.fil", "b.fil"], b"");
     assert_eq!(ran.seen(), (0, "a.fil\n", "2 files: 1 formatted, 0 refused\n"));
     assert_eq!(place.bytes("a.fil"), TIDY.as_bytes());
     let after = std::fs::metadata(place.0.path().join("b.fil")).expect("a file").modified();
     assert_eq!(before.expect("a time"), after.expect("a time"));
-    let ran = place.fmt(&["a.fil", "b.fil"], b"");
+    let ran = fmt(&place, &["a.fil", "b.fil"], b"");
     assert_eq!(ran.seen(), (0, "", "2 files: 0 formatted, 0 refused\n"));
 }
 
 #[test]
 fn check_names_what_would_change_and_changes_nothing() {
-    let place = Place::with(&[("a.fil", MESSY.as_bytes()), ("b.fil", TIDY.as_bytes())]);
-    let ran = place.fmt(&["--check", "a.fil", "b.fil"], b"");
+    let place = folder(&[("a.fil", MESSY.as_bytes()), ("b.fil", TIDY.as_bytes())]);
+    let ran = fmt(&place, &["--check", "a.fil", "b.fil"], b"");
     assert_eq!(ran.seen(), (1, "a.fil\n", "2 files: 1 to be formatted, 0 refused\n"));
     assert_eq!(place.bytes("a.fil"), MESSY.as_bytes());
-    assert_eq!(place.fmt(&["--check", "b.fil"], b"").status, 0);
-    assert_eq!(place.fmt(&["--check", "-"], MESSY.as_bytes()).seen().0, 1);
-    assert_eq!(place.fmt(&["--check", "-"], TIDY.as_bytes()).seen().1, "");
+    assert_eq!(fmt(&place, &["--check", "b.fil"], b"").status, 0);
+    assert_eq!(fmt(&place, &["--check", "-"], MESSY.as_bytes()).seen().0, 1);
+    assert_eq!(fmt(&place, &["--check", "-"], TIDY.as_bytes()).seen().1, "");
 }
 
 #[test]
 fn standard_input_goes_to_standard_output() {
-    let place = Place::with(&[]);
-    let ran = place.fmt(&["-"], MESSY.as_bytes());
+    let place = folder(&[]);
+    let ran = fmt(&place, &["-"], MESSY.as_bytes());
     assert_eq!(ran.seen(), (0, TIDY, "1 file: 1 formatted, 0 refused\n"));
-    let ran = place.fmt(&["-"], b"A=(\nFINI\n");
+    let ran = fmt(&place, &["-"], b"A=(\nFINI\n");
     assert_eq!((ran.status, ran.out.as_str()), (1, ""));
     assert!(ran.err.contains("E0101") && ran.err.contains("standard input"), "{}", ran.err);
 }
 
 #[test]
 fn a_file_with_errors_is_left_alone_and_the_others_are_formatted() {
-    let place = Place::with(&[("bad.fil", b"a=(\nFINI"), ("a.fil", MESSY.as_bytes())]);
-    let ran = place.fmt(&["bad.fil", "none.fil", "a.fil"], b"");
+    let place = folder(&[("bad.fil", b"a=(\nFINI"), ("a.fil", MESSY.as_bytes())]);
+    let ran = fmt(&place, &["bad.fil", "none.fil", "a.fil"], b"");
     assert_eq!((ran.status, ran.out.as_str()), (1, "a.fil\n"));
     assert!(ran.err.contains("E0101") && ran.err.contains("E0701"), "{}", ran.err);
     assert!(ran.err.ends_with("3 files: 1 formatted, 2 refused\n"), "{}", ran.err);
@@ -107,12 +65,12 @@ fn the_encoding_and_the_line_ends_are_kept() {
     let comment = b"$$ \xF8\xE0\xE3 \xEF\xEE \xEE\xF1\xE8";
     let source = [b"a=1 ", comment.as_slice(), b"\r\nfini"].concat();
     let expected = [b"A = 1  ", comment.as_slice(), b"\r\nFINI\r\n"].concat();
-    let place = Place::with(&[("a.fil", &source), ("b.fil", &source)]);
-    assert_eq!(place.fmt(&["a.fil"], b"").status, 0);
+    let place = folder(&[("a.fil", &source), ("b.fil", &source)]);
+    assert_eq!(fmt(&place, &["a.fil"], b"").status, 0);
     assert_eq!(place.bytes("a.fil"), expected);
-    assert_eq!(place.fmt(&["--encoding", "cp1251", "b.fil"], b"").status, 0);
+    assert_eq!(fmt(&place, &["--encoding", "cp1251", "b.fil"], b"").status, 0);
     assert_eq!(place.bytes("b.fil"), expected);
-    let ran = place.fmt(&["--encoding", "utf-8", "b.fil"], b"");
+    let ran = fmt(&place, &["--encoding", "utf-8", "b.fil"], b"");
     assert!(ran.status == 1 && ran.err.contains("E0121"), "{}", ran.err);
 }
 
@@ -126,7 +84,7 @@ fn our_own_scripts_have_the_layout() {
     assert!(!scripts.is_empty(), "no scripts in fil-scripts");
     let mut arguments = vec!["--check"];
     arguments.extend(scripts.iter().map(String::as_str));
-    let ran = Place::with(&[]).fmt(&arguments, b"");
+    let ran = fmt(&folder(&[]), &arguments, b"");
     assert_eq!((ran.status, ran.out.as_str()), (0, ""), "{}", ran.err);
 }
 

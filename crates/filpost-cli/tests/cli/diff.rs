@@ -1,60 +1,47 @@
 //! `filpost diff` as its users meet it.
 
-use std::process::{Command, Output};
-
-use tempfile::TempDir;
+use crate::support::{Place, Ran};
 
 const RIGHT: &str = "%\nN10 G1 X1. Z-4.7 F200.\nM30\n%\n";
 
-fn diff(first: &[u8], second: &[u8], more: &[&str]) -> Output {
-    let folder = TempDir::new().expect("a folder for the test");
-    std::fs::write(folder.path().join("a b.nc"), first).expect("a file");
-    std::fs::write(folder.path().join("new.nc"), second).expect("a file");
-    Command::new(env!("CARGO_BIN_EXE_filpost"))
-        .args(["diff", "a b.nc", "new.nc"])
-        .args(more)
-        .current_dir(folder.path())
-        .output()
-        .expect("the command runs")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
+fn diff(first: &[u8], second: &[u8], more: &[&str]) -> Ran {
+    let place = Place::new().with("a b.nc", first).with("new.nc", second);
+    place.run(&[&["diff", "a b.nc", "new.nc"], more].concat())
 }
 
 #[test]
 fn programs_that_say_the_same() {
     let output =
         diff(RIGHT.as_bytes(), b"\xef\xbb\xbf%\r\nN10G01X1.000Z-4.70F200.\r\nM30\r\n%", &[]);
-    assert_eq!(text(&output.stdout), "the programs say the same\n");
-    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(output.out, "the programs say the same\n");
+    assert_eq!(output.status, 0);
 }
 
 #[test]
 fn a_difference_is_shown_side_by_side_and_said() {
     let output = diff(RIGHT.as_bytes(), RIGHT.replace("4.7", "5").as_bytes(), &["--context", "1"]);
-    let out = text(&output.stdout);
+    let out = output.out;
     assert!(out.contains("block N10: Z deeper by 0.3 (-5 instead of -4.7)"), "{out}");
     assert!(out.contains("*     2 N10 G1 X1. Z-4.7 F200."), "{out}");
     assert!(out.ends_with("\n1 difference\n"), "{out}");
     assert!(!out.contains('\u{1b}'), "no colours where there is no terminal");
-    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(output.status, 1);
 }
 
 #[test]
 fn the_tolerance_and_the_ignore_list_are_used() {
     let second = RIGHT.replace("X1.", "X1.004").replace("N10", "N20").replace("F200", "F100");
     let same = ["--tol", "0.005", "--ignore", "n,f"];
-    assert_eq!(diff(RIGHT.as_bytes(), second.as_bytes(), &same).status.code(), Some(0));
+    assert_eq!(diff(RIGHT.as_bytes(), second.as_bytes(), &same).status, 0);
     let output = diff(RIGHT.as_bytes(), second.as_bytes(), &["--tol", "0.003", "--ignore", "n,f"]);
-    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(output.status, 1);
 }
 
 #[test]
 fn json_has_the_numbers() {
     let second = RIGHT.replace("4.7", "5");
     let output = diff(RIGHT.as_bytes(), second.as_bytes(), &["--format", "json"]);
-    let value: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let value: serde_json::Value = serde_json::from_slice(output.out.as_bytes()).expect("JSON");
     assert_eq!(value["equal"], false);
     assert_eq!(value["differences"][0]["kind"], "word");
     assert_eq!(value["differences"][0]["letter"], "Z");
@@ -64,14 +51,14 @@ fn json_has_the_numbers() {
 #[test]
 fn what_is_no_program_is_refused_with_its_place() {
     let output = diff(RIGHT.as_bytes(), b"0 BEGIN PGM 1 MM\n", &[]);
-    assert!(text(&output.stderr).contains("E0901"), "{}", text(&output.stderr));
-    assert!(text(&output.stderr).contains("new.nc:1:1"), "{}", text(&output.stderr));
-    assert_eq!((output.status.code(), output.stdout.len()), (Some(1), 0));
+    assert!(output.err.contains("E0901"), "{}", output.err);
+    assert!(output.err.contains("new.nc:1:1"), "{}", output.err);
+    assert_eq!((output.status, output.out.len()), (1, 0));
 }
 
 #[test]
 fn a_wrong_option_is_wrong_usage() {
     for wrong in [["--tol", "-1"], ["--tol", "x"], ["--ignore", "everything"]] {
-        assert_eq!(diff(b"", b"", &wrong).status.code(), Some(2), "{wrong:?}");
+        assert_eq!(diff(b"", b"", &wrong).status, 2, "{wrong:?}");
     }
 }

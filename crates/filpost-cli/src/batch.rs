@@ -1,0 +1,309 @@
+//! `filpost post` with many CL files: all cores, one program each, in any
+//! number as if they were posted one by one.
+
+use std::collections::HashMap;
+use std::io::{self, IsTerminal};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use filpost::{Diag, Error, files};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::args::{Grant, PostArgs};
+use crate::errors::CommandCode;
+use crate::job::{self, Job, Outcome};
+use crate::{Status, output, post, render, summary};
+
+/// Endings of CL files in a folder, lower case.
+const ENDINGS: &[&str] = &["ncl", "cl", "cls", "apt", "aptsource", "clf"];
+
+/// Ending of the NC programs.
+const NC: &str = "nc";
+
+/// Posts many CL files.
+///
+/// # Errors
+/// Files or folders that can't be used; with them nothing is posted.
+pub fn run(args: &PostArgs) -> Result<Status, Error> {
+    if let Some(message) = misused(args) {
+        output::say(&format!("error: {message}"));
+        return Ok(Status::Usage);
+    }
+    let start = Instant::now();
+    let jobs = jobs(args)?;
+    let bar = bar(&jobs);
+    let mut rows = Vec::new();
+    each(args, &jobs, &bar, |job, outcome| {
+        bar.suspend(|| tell(job, &outcome));
+        rows.push(Row::new(job, &outcome));
+    });
+    bar.finish_and_clear();
+    table(&rows, start.elapsed());
+    Ok(rows.iter().map(|row| row.status).max_by_key(|status| *status as u8).unwrap_or(Status::Done))
+}
+
+/// Options that make sense for one CL file only.
+fn misused(args: &PostArgs) -> Option<&'static str> {
+    let stream = |path: &PathBuf| path.as_os_str() == "-";
+    if args.cl.iter().any(stream) {
+        Some("- stands for one CL file, it can't be one of several")
+    } else if args.output.as_ref().is_some_and(stream) {
+        Some("several programs need a folder, -o DIR")
+    } else if args.listing.is_some() {
+        Some("--listing names one file; post the CL files one by one for it")
+    } else if matches!(args.map, Some(Some(_))) {
+        Some("--map takes no name with several CL files: each map lies beside its program")
+    } else {
+        None
+    }
+}
+
+/// A job for each CL file, in the order given; those of a folder by name.
+fn jobs(args: &PostArgs) -> Result<Vec<Job>, Error> {
+    let mut cl = Vec::new();
+    for path in &args.cl {
+        if path.is_dir() {
+            cl.extend(newest(path)?);
+        } else {
+            cl.push(path.clone());
+        }
+    }
+    if let Some(folder) = &args.output {
+        std::fs::create_dir_all(folder).map_err(|error| files::cant_write(folder, &error))?;
+    }
+    let jobs: Vec<Job> = cl.into_iter().map(|cl| job(args, cl)).collect();
+    refuse_collisions(&jobs)?;
+    Ok(jobs)
+}
+
+fn job(args: &PostArgs, cl: PathBuf) -> Job {
+    let folder = match &args.output {
+        Some(folder) => folder.clone(),
+        None => cl.parent().map(Path::to_path_buf).unwrap_or_default(),
+    };
+    let stem = ClName::of(&cl).map_or("program".to_string(), |name| name.stem);
+    let output = folder.join(format!("{stem}.{NC}"));
+    let map = args.map.as_ref().map(|_| post::beside(&output));
+    Job { cl, output: Some(output), listing: None, map }
+}
+
+/// The parts of the name of a CL file.
+struct ClName {
+    /// The name without the version: `op010.ncl` of `op010.ncl.2`.
+    file: String,
+    /// The version; 0 for none.
+    version: u32,
+    /// The name without ending: `op010`.
+    stem: String,
+    /// It ends as CL files do.
+    is_cl: bool,
+}
+
+impl ClName {
+    fn of(cl: &Path) -> Option<ClName> {
+        let name = cl.file_name()?.to_string_lossy().into_owned();
+        let versioned = name.rsplit_once('.').and_then(|(file, digits)| {
+            let plain = digits.bytes().all(|byte| byte.is_ascii_digit());
+            Some((file.to_string(), digits.parse().ok().filter(|_| plain)?))
+        });
+        let (file, version) = versioned.unwrap_or((name, 0));
+        let (stem, ending) = match file.rsplit_once('.') {
+            Some((stem, ending)) if !stem.is_empty() => (stem.to_string(), ending),
+            _ => (file.clone(), ""),
+        };
+        let is_cl = ENDINGS.contains(&ending.to_ascii_lowercase().as_str());
+        Some(ClName { file, version, stem, is_cl })
+    }
+}
+
+/// The CL files of a folder, sorted; of several versions the newest.
+fn newest(folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    let cant = |error| files::cant_read(folder, &error);
+    let mut found: HashMap<String, (u32, PathBuf)> = HashMap::new();
+    let mut older = 0;
+    for entry in std::fs::read_dir(folder).map_err(cant)? {
+        let path = entry.map_err(cant)?.path();
+        let Some(name) = ClName::of(&path).filter(|name| name.is_cl && path.is_file()) else {
+            continue;
+        };
+        let version = name.version;
+        match found.get_mut(&name.file) {
+            Some(kept) => {
+                older += 1;
+                if kept.0 < version {
+                    *kept = (version, path);
+                }
+            }
+            None => {
+                found.insert(name.file, (version, path));
+            }
+        }
+    }
+    if found.is_empty() {
+        let message = format!("{} holds no file .{}", folder.display(), ENDINGS.join(", ."));
+        return Err(Error::Run(Box::new(Diag::new(CommandCode::NoClFiles, message))));
+    }
+    if older > 0 {
+        let versions = summary::counted(older, "older version");
+        output::say(&format!("note: {versions} in {} left out", folder.display()));
+    }
+    let mut files: Vec<PathBuf> = found.into_values().map(|(_, path)| path).collect();
+    files.sort();
+    Ok(files)
+}
+
+/// Refuses programs of the same name, and one over a CL file.
+fn refuse_collisions(jobs: &[Job]) -> Result<(), Error> {
+    let read: HashMap<PathBuf, &Path> = jobs.iter().map(|job| (real(&job.cl), &*job.cl)).collect();
+    let mut written: HashMap<PathBuf, &Path> = HashMap::new();
+    for job in jobs {
+        for path in job.output.iter().chain(&job.map) {
+            // Case is no difference on many disks.
+            let name = PathBuf::from(real(path).to_string_lossy().to_lowercase());
+            let other = written.insert(name, &job.cl).or(read.get(&real(path)).copied());
+            if let Some(other) = other {
+                let (cl, other) = (job.cl.display(), other.display());
+                let message = format!("{} would come from {cl} and from {other}", path.display());
+                return Err(job::over_input(message));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The real path of a file that need not be there.
+fn real(path: &Path) -> PathBuf {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let there = folder.unwrap_or(Path::new(".")).canonicalize();
+    let named = there.map(|folder| folder.join(path.file_name().unwrap_or_default()));
+    path.canonicalize().or(named).unwrap_or_else(|_| path.to_path_buf())
+}
+
+/// Runs the jobs on all cores and hands the outcomes out in their order.
+fn each(args: &PostArgs, jobs: &[Job], bar: &ProgressBar, mut take: impl FnMut(&Job, Ended)) {
+    let next = AtomicUsize::new(0);
+    let (send, receive) = mpsc::channel();
+    thread::scope(|scope| {
+        for _ in 0..workers(args, jobs.len()) {
+            let (send, next) = (send.clone(), &next);
+            scope.spawn(move || {
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(job) = jobs.get(index) else { return };
+                    let run = || job::run(args, job, Some(bar));
+                    let ended = catch_unwind(AssertUnwindSafe(run)).ok();
+                    if send.send((index, ended)).is_err() {
+                        return;
+                    }
+                }
+            });
+        }
+        drop(send);
+        let mut waiting = HashMap::new();
+        let mut due = 0;
+        for (index, ended) in receive {
+            waiting.insert(index, ended);
+            while let Some(ended) = waiting.remove(&due) {
+                take(&jobs[due], ended);
+                due += 1;
+            }
+        }
+    });
+}
+
+/// How a job ended; `None` for an internal fault, which has been reported.
+type Ended = Option<Outcome>;
+
+/// Scripts that may write files could meet in one of them, so they run one
+/// after the other.
+fn workers(args: &PostArgs, jobs: usize) -> usize {
+    let writes = args.grants.grant.iter().any(|grant| matches!(grant, Grant::Write(_)));
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    if writes { 1 } else { cores.min(jobs) }
+}
+
+/// A progress bar over all bytes, on a terminal.
+fn bar(jobs: &[Job]) -> ProgressBar {
+    if !io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let length = |job: &Job| job.cl.metadata().map_or(0, |found| found.len());
+    let style = ProgressStyle::with_template("{bar:40} {percent:>3} %  {bytes_per_sec}  {eta}")
+        .unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::new(jobs.iter().map(length).sum()).with_style(style)
+}
+
+/// Messages of a job, under its name.
+fn tell(job: &Job, ended: &Ended) {
+    let quiet = ended.as_ref().is_some_and(|outcome| {
+        let result = outcome.result.as_ref();
+        let silent = |report: &filpost::Report| {
+            report.swallowed.is_empty() && report.script_files.is_empty()
+        };
+        outcome.note.is_none() && outcome.warnings.is_empty() && result.is_ok_and(silent)
+    });
+    if quiet {
+        return;
+    }
+    output::say(&format!("{}:", job.cl.display()));
+    let Some(outcome) = ended else { return };
+    post::tell(outcome);
+    if let Err(error) = &outcome.result {
+        for diag in error.diags() {
+            render::to_stderr(diag);
+        }
+    }
+}
+
+/// A row of the table at the end.
+struct Row {
+    cl: String,
+    result: String,
+    warnings: usize,
+    time: Duration,
+    status: Status,
+}
+
+impl Row {
+    fn new(job: &Job, ended: &Ended) -> Row {
+        let cl = job.cl.display().to_string();
+        let Some(outcome) = ended else {
+            let result = "internal fault".to_string();
+            return Row { cl, result, warnings: 0, time: Duration::ZERO, status: Status::Fault };
+        };
+        let (result, status) = match &outcome.result {
+            Ok(report) => (summary::counted(report.blocks, "block"), Status::Done),
+            Err(error) => {
+                let code = error.diags().first().map_or(String::new(), |diag| diag.code.name());
+                (format!("refused, {code}"), Status::Failed)
+            }
+        };
+        Row { cl, result, warnings: outcome.warnings.len(), time: outcome.time, status }
+    }
+}
+
+/// The table, and a line of sums.
+fn table(rows: &[Row], time: Duration) {
+    let widest = |of: fn(&Row) -> &str| rows.iter().map(|row| of(row).chars().count()).max();
+    let name = widest(|row| &row.cl).unwrap_or(0);
+    let result = widest(|row| &row.result).unwrap_or(0);
+    for row in rows {
+        output::say(&format!(
+            "{:name$}  {:>result$}  {:>12}  {:>8.2} s",
+            row.cl,
+            row.result,
+            summary::counted(row.warnings as u64, "warning"),
+            row.time.as_secs_f64()
+        ));
+    }
+    let failed = rows.iter().filter(|row| row.status != Status::Done).count();
+    output::say(&format!(
+        "{} posted, {failed} refused, {:.2} s",
+        summary::counted((rows.len() - failed) as u64, "file"),
+        time.as_secs_f64()
+    ));
+}

@@ -1,0 +1,227 @@
+//! One CL file on its way to one NC program.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Read, Seek};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use filpost::listing::Listing;
+use filpost::map::Names;
+use filpost::{Diag, Error, HeldFiles, Post, Report, files, select};
+use indicatif::ProgressBar;
+
+use crate::args::PostArgs;
+use crate::errors::CommandCode;
+use crate::output::{self, Target};
+use crate::setup::{self, Named};
+use crate::summary;
+
+/// A CL file and where its results go.
+#[derive(Clone, Debug)]
+pub struct Job {
+    /// The CL file; `-` is standard input.
+    pub cl: PathBuf,
+    /// The NC file; standard output when `None` or `-`.
+    pub output: Option<PathBuf>,
+    /// The listing.
+    pub listing: Option<PathBuf>,
+    /// The line map.
+    pub map: Option<PathBuf>,
+}
+
+/// How a job ended.
+#[derive(Debug)]
+pub struct Outcome {
+    /// What the summary calls the post.
+    pub title: String,
+    /// Something the user should know about the choice of the post.
+    pub note: Option<String>,
+    /// All warnings.
+    pub warnings: Vec<Diag>,
+    /// The run's report, or why there is no program.
+    pub result: Result<Report, Error>,
+    /// How long it took.
+    pub time: Duration,
+}
+
+/// Posts a CL file; `bar` moves on by the bytes read.
+pub fn run(args: &PostArgs, job: &Job, bar: Option<&ProgressBar>) -> Outcome {
+    let start = Instant::now();
+    let mut outcome = Outcome {
+        title: String::new(),
+        note: None,
+        warnings: Vec::new(),
+        result: Ok(Report::default()),
+        time: Duration::ZERO,
+    };
+    outcome.result = post(args, job, bar, &mut outcome);
+    outcome.time = start.elapsed();
+    outcome
+}
+
+fn post(
+    args: &PostArgs,
+    job: &Job,
+    bar: Option<&ProgressBar>,
+    outcome: &mut Outcome,
+) -> Result<Report, Error> {
+    let mut input = output::open(&job.cl)?;
+    let named = named(args, job, &mut input)?;
+    refuse_over_input(job, &named.inputs)?;
+    (outcome.title, outcome.note) = (named.title.clone(), named.note.clone());
+    let (mut post, listing) = build(args, job, named)?;
+    Target::new(job.output.as_deref()).write(|nc| {
+        let input = Watched { input, bar, at: 0, furthest: 0 };
+        let (report, held) = match &job.map {
+            Some(map) => {
+                let names = names(&post, job, map);
+                Target::new(Some(map)).write(|map| post.run_mapped(input, nc, &names, map))?
+            }
+            None => post.run_held(input, nc)?,
+        };
+        finish(args, listing, &post, &report, held, outcome)?;
+        Ok(report)
+    })
+}
+
+/// What is left to do before the program appears under its name.
+fn finish(
+    args: &PostArgs,
+    listing: OpenListing,
+    post: &Post,
+    report: &Report,
+    held: HeldFiles,
+    outcome: &mut Outcome,
+) -> Result<(), Error> {
+    if let Some((path, listing)) = listing {
+        listing.finish().map_err(|error| files::cant_write(&path, &error))?;
+    }
+    outcome.warnings = post.warnings().iter().chain(&report.warnings).cloned().collect();
+    deny(args.deny_warnings, outcome.warnings.len())?;
+    // Last of all: from here on only the program itself can fail to appear.
+    held.keep()
+}
+
+fn named(args: &PostArgs, job: &Job, input: &mut File) -> Result<Named, Error> {
+    let beside = job.cl.parent().map(Path::to_path_buf).unwrap_or_default();
+    let folders: Vec<PathBuf> =
+        std::iter::once(beside).chain(args.post_path.iter().cloned()).collect();
+    let name = output::input_name(&job.cl);
+    let named = setup::for_run(&args.chosen, &args.fil, &args.reading, &folders, || {
+        select::machin(&mut *input, &name)
+    });
+    input.rewind().map_err(|error| files::cant_read(&job.cl, &error))?;
+    named
+}
+
+type OpenListing = Option<(PathBuf, Listing<BufWriter<File>>)>;
+
+fn build(args: &PostArgs, job: &Job, named: Named) -> Result<(Post, OpenListing), Error> {
+    let options = setup::cl_options(args.reading.encoding.as_deref())?;
+    let builder = setup::granted(named.builder, &args.grants);
+    let mut builder = builder.cl_name(&output::input_name(&job.cl)).cl_options(options);
+    let mut listing = None;
+    if let Some(path) = &job.listing {
+        let file = File::create(path).map_err(|error| files::cant_write(path, &error))?;
+        let open = Listing::new(BufWriter::new(file));
+        builder = builder.observe(open.observer());
+        listing = Some((path.clone(), open));
+    }
+    Ok((builder.build()?, listing))
+}
+
+/// How the map calls the files: as they are seen from its folder.
+fn names(post: &Post, job: &Job, map: &Path) -> Names {
+    let folder = map.parent().unwrap_or(Path::new(""));
+    let seen = |path: &Path| Names::from_folder(folder, path);
+    let stream = |path: &Path| path.as_os_str() == "-";
+    let cl = if stream(&job.cl) { output::input_name(&job.cl) } else { seen(&job.cl) };
+    let nc = match &job.output {
+        Some(path) if !stream(path) => seen(path),
+        _ => output::STANDARD_OUTPUT.to_string(),
+    };
+    Names { cl, nc, fil: post.fil_files().iter().map(|name| seen(Path::new(name))).collect() }
+}
+
+/// An input that moves a progress bar.
+struct Watched<'b> {
+    input: File,
+    bar: Option<&'b ProgressBar>,
+    at: u64,
+    furthest: u64,
+}
+
+impl Read for Watched<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.input.read(buffer)?;
+        self.at += count as u64;
+        if let Some(bar) = self.bar.filter(|_| self.at > self.furthest) {
+            bar.inc(self.at - self.furthest);
+            self.furthest = self.at;
+        }
+        Ok(count)
+    }
+}
+
+impl Seek for Watched<'_> {
+    fn seek(&mut self, to: io::SeekFrom) -> io::Result<u64> {
+        self.at = self.input.seek(to)?;
+        Ok(self.at)
+    }
+}
+
+/// The error of `--deny-warnings`.
+fn deny(denied: bool, warnings: usize) -> Result<(), Error> {
+    if !denied || warnings == 0 {
+        return Ok(());
+    }
+    let message = summary::counted(warnings as u64, "warning");
+    Err(Error::Run(Box::new(Diag::new(CommandCode::Denied, message))))
+}
+
+/// Refuses an output that is one of the inputs, or another output; and a map
+/// over a file that is none.
+fn refuse_over_input(job: &Job, inputs: &[PathBuf]) -> Result<(), Error> {
+    let mut taken: Vec<PathBuf> = inputs.iter().filter_map(|path| real(path)).collect();
+    taken.extend(real(&job.cl));
+    for path in job.output.iter().chain(&job.listing).chain(&job.map) {
+        let file = real(path).unwrap_or_else(|| path.clone());
+        if taken.contains(&file) {
+            let message = format!("{} is read or written by this run already", path.display());
+            return Err(over_input(message));
+        }
+        if !is_device(path) {
+            taken.push(file);
+        }
+    }
+    match &job.map {
+        Some(map) if real(map).is_some_and(|map| !is_map(&map)) => Err(over_input(format!(
+            "{} is there and is no line map; --map takes the name after it for that of the map",
+            map.display()
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// E0802
+pub fn over_input(message: String) -> Error {
+    Error::Run(Box::new(Diag::new(CommandCode::OverInput, message)))
+}
+
+/// The real path of a plain file.
+fn real(path: &Path) -> Option<PathBuf> {
+    path.canonicalize().ok().filter(|path| path.is_file())
+}
+
+/// True for an empty file and for one that begins as a map does.
+fn is_map(path: &Path) -> bool {
+    const BEGIN: &[u8] = b"{\"filpost-map\":";
+    let mut begin = Vec::new();
+    let read =
+        File::open(path).and_then(|file| file.take(BEGIN.len() as u64).read_to_end(&mut begin));
+    read.is_ok() && (begin.is_empty() || begin == BEGIN)
+}
+
+fn is_device(path: &Path) -> bool {
+    path.as_os_str() == "-" || path.metadata().is_ok_and(|found| !found.is_file())
+}

@@ -1,0 +1,164 @@
+//! `filpost test` as its users meet it: reports, tolerances, cases made.
+
+use crate::support::{NC, Place, SMALL};
+
+const CASE: &str = "cl = 'part.ncl'\nready = 'fanuc-mill'\nexpect = 'part.nc'\norigin = 'ours'\n";
+
+fn place(files: &[(&str, &str)]) -> Place {
+    files.iter().fold(Place::new(), |place, (name, text)| place.with(name, text))
+}
+
+/// Ten cases of which the seventh fails.
+fn ten_cases() -> Place {
+    let mut place = Place::new();
+    for number in 0..10 {
+        let nc = if number == 7 { NC.replace("Z3.", "Z3.5") } else { NC.to_string() };
+        for (name, text) in [("part.ncl", SMALL), ("case.toml", CASE), ("part.nc", &nc)] {
+            place = place.with(&format!("case-{number}/{name}"), text);
+        }
+    }
+    place
+}
+
+#[test]
+fn a_failing_case_is_told_in_words_and_the_rest_goes_on() {
+    let place = ten_cases();
+    let ran = place.run(&["test", "."]);
+    let out = ran.out;
+    assert_eq!(ran.status, 1, "{out}");
+    assert!(out.contains("FAILED ./case-7\n"), "{out}");
+    assert!(out.contains("block N40: Z deeper by 0.5 (3 instead of 3.5)"), "{out}");
+    assert!(out.ends_with("9 passed, 1 failed\n"), "{out}");
+}
+
+#[test]
+fn reports_for_people_and_for_servers() {
+    let place = ten_cases();
+    place.run(&["test", ".", "--html", "r.html", "--junit", "r.xml"]);
+    let html = place.text("r.html").unwrap_or_default();
+    assert!(html.starts_with("<!DOCTYPE html>"), "{html}");
+    assert!(html.contains("block N40: Z deeper by 0.5 (3 instead of 3.5)"), "{html}");
+    assert!(!html.contains("http://") && !html.contains("src="), "it needs no other file");
+    let xml = place.text("r.xml").unwrap_or_default();
+    assert!(xml.contains("tests=\"10\"") && xml.contains("failures=\"1\""), "{xml}");
+    assert!(xml.contains("<testcase name=\"case-7\""), "{xml}");
+    assert!(xml.contains("message=\"block N40: Z deeper by 0.5"), "{xml}");
+}
+
+#[test]
+fn update_shows_the_difference_and_writes() {
+    let place = ten_cases();
+    let ran = place.run(&["test", ".", "--update"]);
+    let out = ran.out;
+    assert!(out.contains("UPDATED ./case-7\n") && out.contains("-N40 G1"), "{out}");
+    assert!(out.ends_with("10 passed, 0 failed\n"), "{out}");
+    assert_eq!(place.text("case-7/part.nc").unwrap_or_default(), NC);
+}
+
+#[test]
+fn a_tolerance_and_an_ignore_list_forgive() {
+    let nc = NC.replace("Z3.", "Z3.004").replace("N40 ", "").replace("(7)", "(8)");
+    let with = |more: &str| {
+        let case = format!("{CASE}{more}");
+        let files = [("part.ncl", SMALL), ("case.toml", case.as_str()), ("part.nc", nc.as_str())];
+        let ran = place(&files).run(&["test", "."]);
+        (ran.status, ran.out + &ran.err)
+    };
+    let forgiving = "tolerance = 0.01\nignore = ['n', 'comments']\n";
+    assert_eq!(with(forgiving), (0, "1 passed, 0 failed\n".to_string()));
+    let (status, out) = with("tolerance = 0.001\nignore = ['n', 'comments']\n");
+    assert_eq!(status, 1, "{out}");
+    assert!(out.contains("Z deeper by 0.004"), "{out}");
+    for wrong in ["ignore = ['everything']\n", "tolerance = -1\n"] {
+        let (status, out) = with(wrong);
+        assert_eq!(status, 1, "{out}");
+        assert!(out.contains("E0705"), "{out}");
+    }
+}
+
+#[test]
+fn a_difference_of_letters_alone_is_said_to_be_one() {
+    let nc = NC.replace("Z3.", "Z3.0");
+    let place = place(&[("part.ncl", SMALL), ("case.toml", CASE), ("part.nc", &nc)]);
+    let ran = place.run(&["test", "."]);
+    assert_eq!(ran.status, 1);
+    assert!(ran.out.contains("a control reads both alike"), "{}", ran.out);
+}
+
+#[test]
+fn a_listing_is_compared() {
+    let case = format!("{CASE}listing = 'part.lst'\n");
+    let files = [("part.ncl", SMALL), ("case.toml", &case), ("part.nc", NC), ("part.lst", "")];
+    let place = place(&files);
+    let ran = place.run(&["test", "."]);
+    assert_eq!(ran.status, 1);
+    assert!(ran.out.contains("+      6       6  GOTO / 1.0, 2.0, 3.0"), "{}", ran.out);
+    place.run(&["test", ".", "--update"]);
+    place.run(&["post", "part.ncl", "-p", "fanuc-mill", "-o", "x.nc", "--listing", "x.lst"]);
+    assert_eq!(place.text("part.lst").unwrap_or_default(), place.text("x.lst").unwrap_or_default());
+    assert_eq!(place.run(&["test", "."]).status, 0);
+}
+
+const INIT: [&str; 10] = [
+    "test",
+    "--init",
+    "cases/one",
+    "--cl",
+    "part.ncl",
+    "--nc",
+    "out/part.nc",
+    "-m",
+    "m.toml",
+    "--ignore=n",
+];
+
+#[test]
+fn a_case_is_made_from_files_that_are_there() {
+    let fil = "INCLUD/'lib/speed.fil'\nFINI\n";
+    let speed = "CIMFIL/ON,SPINDL\nDMY=POSTF(13)\nCIMFIL/OFF\n";
+    let place = place(&[
+        ("part.ncl", SMALL),
+        ("out/part.nc", NC),
+        ("m.toml", "name = 'mine'\nseqno.increment = 10\n"),
+        ("scripts/all.fil", fil),
+        ("scripts/lib/speed.fil", speed),
+    ]);
+    let arguments: Vec<&str> = INIT.into_iter().chain(["-f", "scripts/all.fil"]).collect();
+    let ran = place.run(&arguments);
+    let said = ran.out + &ran.err;
+    assert!(said.starts_with("cases/one is made; "), "{said}");
+    assert_eq!(place.text("cases/one/part.nc").unwrap_or_default(), NC);
+    assert_eq!(place.text("cases/one/lib/speed.fil").unwrap_or_default(), speed);
+    let toml = place.text("cases/one/case.toml").unwrap_or_default();
+    assert!(
+        toml.contains("machine = \"m.toml\"") && toml.contains("fil = [\"all.fil\"]"),
+        "{toml}"
+    );
+    assert!(toml.contains("ignore = [\"n\"]"), "{toml}");
+    let again = place.run(&arguments);
+    assert_eq!(again.status, 1);
+    assert!(again.err.contains("E0804"), "{}", again.err);
+}
+
+#[test]
+fn a_case_that_fails_when_it_is_made_says_so() {
+    let nc = NC.replace("S900", "S950");
+    let place = place(&[("part.ncl", SMALL), ("part.nc", &nc)]);
+    let arguments =
+        ["test", "--init", "c", "--cl", "part.ncl", "--nc", "part.nc", "-p", "fanuc-mill"];
+    let ran = place.run(&arguments);
+    assert_eq!(ran.status, 1);
+    assert!(ran.out.contains("it fails now:"), "{}", ran.out);
+    assert!(ran.out.contains("spindle speed"), "{}", ran.out);
+}
+
+#[test]
+fn a_case_is_not_made_of_two_files_of_one_name() {
+    let place = place(&[("part.ncl", SMALL), ("out/part.ncl", NC)]);
+    let arguments =
+        ["test", "--init", "c", "--cl", "part.ncl", "--nc", "out/part.ncl", "-p", "fanuc-mill"];
+    let ran = place.run(&arguments);
+    assert!(ran.err.contains("E0805"), "{}", ran.err);
+    assert!(!place.0.path().join("c").exists(), "nothing is left");
+    assert_eq!(place.run(&["test", "--init", "c"]).status, 2);
+}

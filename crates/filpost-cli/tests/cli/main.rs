@@ -1,0 +1,16 @@
+//! The command as its users meet it: outputs, exit statuses, files left behind.
+
+mod batch;
+mod cases;
+mod check;
+mod cl;
+mod diff;
+mod explain;
+mod fmt;
+mod machine;
+mod messages;
+mod output;
+mod post;
+mod support;
+mod test;
+mod trace;

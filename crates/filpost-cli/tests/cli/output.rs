@@ -1,0 +1,167 @@
+//! Where programs and messages go: streams, files, devices; what is left after an error.
+
+use crate::support::{NC, Place, Ran, SMALL, WRONG};
+
+#[test]
+fn nc_goes_to_standard_output_and_messages_to_standard_error() {
+    let ran = Place::new().with("part.ncl", SMALL).run(&["post", "part.ncl"]);
+    assert_eq!((ran.status, ran.out.as_str()), (0, NC), "{ran:?}");
+    assert_eq!(ran.err.lines().count(), 1, "{}", ran.err);
+    assert!(ran.err.starts_with("fanuc-mill (the CL file has no MACHIN): 8 blocks, 0 warnings"));
+}
+
+#[test]
+fn nc_goes_to_the_named_file() {
+    let place = Place::new().with("part.ncl", SMALL);
+    let ran = place.run(&["post", "part.ncl", "-o", "part.tap"]);
+    assert_eq!((ran.status, ran.out.as_str()), (0, ""), "{ran:?}");
+    assert_eq!(place.text("part.tap").as_deref(), Some(NC));
+    assert_eq!(place.files(), ["part.ncl", "part.tap"]);
+}
+
+#[test]
+fn streams_can_stand_for_files() {
+    let place = Place::new();
+    for arguments in
+        [&["post", "-"][..], &["post", "-", "-o", "-"], &["post", "-p", "fanuc-mill", "-"]]
+    {
+        let ran = place.run_with_input(arguments, SMALL.as_bytes());
+        assert_eq!((ran.status, ran.out.as_str()), (0, NC), "{arguments:?} {ran:?}");
+    }
+    let ran = place.run_with_input(&["post", "-"], WRONG.as_bytes());
+    assert!(ran.err.contains("standard input:4:"), "{}", ran.err);
+}
+
+#[test]
+fn a_refused_part_leaves_nothing_behind() {
+    let place = Place::new().with("part.ncl", WRONG).with("old.tap", "old");
+    for target in ["new.tap", "old.tap"] {
+        let ran = place.run(&["post", "part.ncl", "-o", target]);
+        assert_eq!((ran.status, ran.out.as_str()), (1, ""), "{ran:?}");
+    }
+    assert_eq!(place.text("old.tap").as_deref(), Some("old"));
+    assert_eq!(place.files(), ["old.tap", "part.ncl"]);
+    let ran = place.run(&["post", "part.ncl"]);
+    assert_eq!((ran.status, ran.out.as_str()), (1, ""), "{ran:?}");
+}
+
+#[test]
+fn denied_warnings_leave_nothing_behind() {
+    let place = Place::new().with("part.ncl", SMALL.replace("FINI\n", ""));
+    let allowed = place.run(&["post", "part.ncl"]);
+    assert_eq!(allowed.status, 0, "{allowed:?}");
+    assert!(allowed.err.contains("W0752") && allowed.err.contains("1 warning"), "{}", allowed.err);
+    let denied = place.run(&["post", "part.ncl", "--deny-warnings", "-o", "part.tap"]);
+    assert_eq!(denied.status, 1, "{denied:?}");
+    assert!(denied.err.contains("W0752") && denied.err.contains("E0801"), "{}", denied.err);
+    assert_eq!(place.files(), ["part.ncl"]);
+}
+
+#[test]
+fn line_ends_marks_and_names_of_all_kinds() {
+    let place = Place::new()
+        .with("with spaces.ncl", SMALL.replace('\n', "\r\n"))
+        .with("деталь.ncl", format!("\u{feff}{SMALL}"));
+    for name in ["with spaces.ncl", "деталь.ncl"] {
+        let ran = place.run(&["post", name, "-o", "выход 1.tap"]);
+        assert_eq!(ran.status, 0, "{name}: {ran:?}");
+        assert_eq!(place.text("выход 1.tap").as_deref(), Some(NC), "{name}");
+    }
+}
+
+#[test]
+fn files_that_cannot_be_read_or_written_are_named() {
+    let place = Place::new().with("part.ncl", SMALL).with("file", "");
+    let missing = place.run(&["post", "nowhere.ncl", "-o", "x.tap"]);
+    assert!(missing.status == 1 && missing.err.contains("E0701"), "{missing:?}");
+    assert!(missing.err.contains("nowhere.ncl"), "{missing:?}");
+    for target in ["no-such-folder/x.tap", "file/x.tap", "."] {
+        let ran = place.run(&["post", "part.ncl", "-o", target]);
+        assert!(ran.status == 1 && ran.err.contains("E0702"), "{target}: {ran:?}");
+    }
+    assert_eq!(place.files(), ["file", "part.ncl"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_read_only_folder_is_refused() {
+    use std::os::unix::fs::PermissionsExt;
+    let place = Place::new().with("part.ncl", SMALL);
+    let folder = place.0.path().join("locked");
+    std::fs::create_dir(&folder).expect("a folder");
+    std::fs::set_permissions(&folder, std::fs::Permissions::from_mode(0o555)).expect("rights");
+    if std::fs::write(folder.join("probe"), "").is_ok() {
+        println!("skipped: this user may write into read-only folders");
+        return;
+    }
+    let ran = place.run(&["post", "part.ncl", "-o", "locked/x.tap"]);
+    assert!(ran.status == 1 && ran.err.contains("E0702"), "{ran:?}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_an_error() {
+    let place = Place::new().with("part.ncl", SMALL);
+    let named = place.run(&["post", "part.ncl", "-o", "/dev/full"]);
+    assert!(named.status == 1 && named.err.contains("E0702"), "{named:?}");
+    let full = std::fs::File::options().write(true).open("/dev/full").expect("the device");
+    for arguments in [&["post", "part.ncl"][..], &["cl", "part.ncl"], &["explain", "POSTF"]] {
+        let mut command = place.command(arguments);
+        let output = command.stdout(full.try_clone().expect("a handle")).output();
+        let ran = Ran::of(output.expect("the command starts"));
+        assert!(ran.status == 1 && ran.err.contains("E0702"), "{arguments:?} {ran:?}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_device_stays_a_device() {
+    let place = Place::new().with("part.ncl", SMALL);
+    let ran = place.run(&["post", "part.ncl", "-o", "/dev/null"]);
+    assert_eq!(ran.status, 0, "{ran:?}");
+    let null = std::fs::metadata("/dev/null").expect("the device");
+    assert!(!null.is_file());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_closed_pipe_is_an_error() {
+    let place = Place::new().with("part.ncl", SMALL);
+    for arguments in [&["post", "part.ncl"][..], &["cl", "part.ncl"], &["machine", "show"]] {
+        let mut command = place.command(arguments);
+        let (reader, writer) = std::io::pipe().expect("a pipe");
+        drop(reader);
+        let output = command.stdout(writer).output().expect("the command starts");
+        let ran = Ran::of(output);
+        assert!(ran.status == 1 && ran.err.contains("E0702"), "{arguments:?} {ran:?}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_stays_a_link() {
+    let place = Place::new().with("part.ncl", SMALL).with("real.tap", "old");
+    std::os::unix::fs::symlink("real.tap", place.0.path().join("link.tap")).expect("a link");
+    let ran = place.run(&["post", "part.ncl", "-o", "link.tap"]);
+    assert_eq!(ran.status, 0, "{ran:?}");
+    assert_eq!(place.text("real.tap").as_deref(), Some(NC));
+    assert!(place.0.path().join("link.tap").is_symlink());
+}
+
+#[test]
+fn an_output_never_replaces_an_input() {
+    let place = Place::new().with("part.ncl", SMALL).with("post.fil", "FINI\n");
+    for arguments in [
+        &["-o", "part.ncl"][..],
+        &["-o", "./part.ncl"],
+        &["--listing", "part.ncl"],
+        &["-f", "post.fil", "-o", "post.fil"],
+        &["-o", "x.tap", "--listing", "x.tap"],
+    ] {
+        let ran = place.run(&[&["post", "part.ncl"], arguments].concat());
+        assert!(ran.status == 1 && ran.err.contains("E0802"), "{arguments:?} {ran:?}");
+    }
+    assert_eq!(place.text("part.ncl").as_deref(), Some(SMALL));
+    assert_eq!(place.text("post.fil").as_deref(), Some("FINI\n"));
+    assert_eq!(place.files(), ["part.ncl", "post.fil"]);
+}

@@ -1,0 +1,176 @@
+//! `filpost post`: the choice of the post, its options, what scripts reach.
+
+use std::path::Path;
+
+use crate::support::{NC, Place, SMALL};
+
+#[test]
+fn the_post_comes_from_machin() {
+    let machin = |name: &str| format!("MACHIN / {name}\n{SMALL}");
+    let place = Place::new().with("part.ncl", machin("LINUXCNC-MILL, 1"));
+    let ran = place.run(&["post", "part.ncl"]);
+    assert!(ran.err.contains("linuxcnc-mill (for MACHIN/LINUXCNC-MILL,1)"), "{ran:?}");
+    let turned = machin("UNCL01, 3").replace("1, 2, 3", "1, 0, 3");
+    let lathe = place.with("lathe.ncl", turned).run(&["post", "lathe.ncl"]);
+    assert!(lathe.err.contains("fanuc-lathe (no post found for MACHIN/UNCL01,3)"), "{lathe:?}");
+}
+
+#[test]
+fn an_option_file_is_found_with_its_fil() {
+    let option_file = "OPTION FILE\nMINE\n INTCOM:(LOCATION,VALUE)\n   0      0\n";
+    let fil = "CIMFIL/ON,SPINDL\nDMY=POSTF(13)\nPOSTN/OUT,M,8\nCIMFIL/OFF\nFINI\n";
+    let cl = format!("MACHIN / MYPOST, 2\n{SMALL}");
+    let place = Place::new().with("part.ncl", cl);
+    let folder = place.0.path().join("posts");
+    std::fs::create_dir(&folder).expect("a folder");
+    std::fs::write(folder.join("mypost.p02"), option_file).expect("a file");
+    std::fs::write(folder.join("MYPOST.F02"), fil).expect("a file");
+    let ran = place.run(&["post", "part.ncl", "--post-path", "posts"]);
+    assert_eq!(ran.status, 0, "{ran:?}");
+    assert!(ran.err.contains("mypost.p02 with "), "{}", ran.err);
+    assert!(ran.out.contains("M8") || ran.out.contains("M08"), "{}", ran.out);
+    let alone = place.run(&["post", "part.ncl", "-m", "posts/mypost.p02"]);
+    assert!(alone.err.contains("MYPOST.F02 beside the option file is not used"), "{alone:?}");
+}
+
+#[test]
+fn a_post_folder_and_settings_on_top() {
+    let place = Place::new().with("part.ncl", SMALL);
+    let folder = place.0.path().join("mine");
+    std::fs::create_dir(&folder).expect("a folder");
+    std::fs::write(folder.join("machine.toml"), "seqno.increment = 5\n").expect("a file");
+    let fil = "INCLUD/'part.inc'\nFINI\n";
+    std::fs::write(folder.join("post.fil"), fil).expect("a file");
+    let section = "CIMFIL/ON,SPINDL\nDMY=POSTF(13)\nPOSTN/OUT,M,8\nCIMFIL/OFF\nFINI\n";
+    std::fs::write(folder.join("part.inc"), section).expect("a file");
+    let ran = place.run(&["post", "part.ncl", "-p", "mine"]);
+    assert_eq!(ran.status, 0, "{ran:?}");
+    assert!(
+        ran.out.contains("N5 ") && ran.out.contains("N15 ") && ran.out.contains("M8"),
+        "{ran:?}"
+    );
+    let set = place.run(&["post", "part.ncl", "-p", "mine", "--set", "seqno.increment=3"]);
+    assert!(set.out.contains("N3 ") && set.out.contains("N6 "), "{set:?}");
+    let none = place.run(&["post", "part.ncl", "-p", "yours"]);
+    assert!(none.status == 1 && none.err.contains("E0703"), "{none:?}");
+}
+
+#[test]
+fn the_listing_shows_records_and_blocks() {
+    let place = Place::new().with("part.ncl", SMALL);
+    let ran = place.run(&["post", "part.ncl", "--listing", "part.lst"]);
+    assert_eq!(ran.out, NC);
+    let listing = place.text("part.lst").expect("a listing");
+    assert!(listing.contains("SPINDL / RPM") && listing.contains("N30 S900 M3"), "{listing}");
+}
+
+#[test]
+fn a_message_goes_to_the_tape_or_to_the_listing() {
+    let fil = "CIMFIL/ON,SPINDL\nPPRINT/'ON TAPE'\nDMY=POSTF(2,1,484,0)\nPPRINT/'  IN LISTING'\n\
+               DMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
+    let place = Place::new().with("part.ncl", SMALL).with("post.fil", fil);
+    let ran = place.run(&["post", "part.ncl", "-f", "post.fil", "--listing", "part.lst"]);
+    assert!(ran.out.contains("(ON TAPE)") && !ran.out.contains("IN LISTING"), "{}", ran.out);
+    let listing = place.text("part.lst").expect("a listing");
+    let lines: Vec<&str> = listing.lines().filter(|line| line.contains("IN LISTING")).collect();
+    assert_eq!(lines, ["                   IN LISTING"]);
+}
+
+#[test]
+fn the_same_warning_is_shown_once() {
+    let fil = "CIMFIL/ON,SPINDL\nAA=ZZ+0\nAA=ZZ+1\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
+    let place = Place::new().with("part.ncl", SMALL).with("post.fil", fil);
+    let ran = place.run(&["post", "part.ncl", "-f", "post.fil"]);
+    assert_eq!(ran.err.matches("ZZ was never set").count(), 1, "{}", ran.err);
+    assert!(ran.err.contains("this warning came 2 times"), "{}", ran.err);
+    assert!(ran.err.contains("2 warnings"), "{}", ran.err);
+}
+
+#[test]
+fn a_script_reaches_files_and_a_clock_only_when_granted() {
+    let fil = "DMY=FILEF(1,READ,'tools.txt')\nT1=TEXT/READ,1\nDMY=FILEF(1,CLOSE)\n\
+               DMY=FILEF(1,WRITE,'log.txt')\nWRITE/1,T1,' ',DATEF()\nFINI\n";
+    let place = Place::new().with("part.ncl", SMALL).with("log.fil", fil);
+    for folder in ["in", "out"] {
+        std::fs::create_dir(place.0.path().join(folder)).expect("a folder");
+    }
+    let place = place.with("in/tools.txt", "T1;8.5\n");
+    let post = ["post", "part.ncl", "-f", "log.fil", "-o", "part.tap"];
+    let grants = ["--grant", "read=in,write=out"];
+    let clock = ["--set-clock", "2026-01-31T12:00:00"];
+    for (more, code) in [
+        (&[][..], "E0321"),
+        (&["--grant", "read=in"], "E0321"),
+        (&grants, "E0322"),
+        (&["--grant", "read=nowhere"], "E0701"),
+    ] {
+        let ran = place.run(&[&post[..], more].concat());
+        assert!(ran.status == 1 && ran.err.contains(code), "{more:?} {ran:?}");
+        assert_eq!(place.files(), ["in", "log.fil", "out", "part.ncl"], "{more:?}");
+        assert_eq!(place.text("out/log.txt"), None);
+    }
+    let ran = place.run(&[&post[..], &grants, &clock].concat());
+    assert_eq!(ran.status, 0, "{ran:?}");
+    assert_eq!(place.text("out/log.txt").as_deref(), Some("T1;8.5 2026-01-31\n"));
+    assert!(ran.err.contains("FIL has changed"), "{}", ran.err);
+    let ran = place.run(&[&post[..], &grants, &["--clock", "system"]].concat());
+    assert_eq!(ran.status, 0, "{ran:?}");
+    for wrong in [
+        &["--grant", "in"][..],
+        &["--grant", "read="],
+        &["--set-clock", "noon"],
+        &["--clock", "system", "--set-clock", "2026-01-31T12:00:00"],
+    ] {
+        assert_eq!(place.run(&[&post[..], wrong].concat()).status, 2, "{wrong:?}");
+    }
+}
+
+#[test]
+fn denied_warnings_keep_the_files_of_scripts_back() {
+    let fil = "DMY=FILEF(1,WRITE,'log.txt')\nWRITE/1,'DONE'\nFINI\n";
+    let place = Place::new().with("part.ncl", SMALL.replace("FINI\n", "")).with("log.fil", fil);
+    let post = ["post", "part.ncl", "-f", "log.fil", "-o", "part.tap", "--grant", "write=."];
+    let denied = place.run(&[&post[..], &["--deny-warnings"]].concat());
+    assert!(denied.status == 1 && denied.err.contains("E0801"), "{denied:?}");
+    assert_eq!(place.files(), ["log.fil", "part.ncl"]);
+    assert_eq!(place.run(&post).status, 0);
+    assert_eq!(place.files(), ["log.fil", "log.txt", "part.ncl", "part.tap"]);
+}
+
+#[test]
+fn includ_counts_from_the_including_file() {
+    let place = Place::new().with("part.ncl", SMALL);
+    std::fs::create_dir_all(place.0.path().join("post/lib")).expect("folders");
+    let place = place
+        .with("secret.fil", "PPRINT/'SECRET'\n")
+        .with("post/main.fil", "INCLUD/lib/outer.fil\nFINI\n")
+        .with("post/lib/outer.fil", "INCLUD/inner.fil\nINCLUD/'../side.fil'\n")
+        .with("post/lib/inner.fil", "PPRINT/'INNER'\n")
+        .with("post/side.fil", "PPRINT/'SIDE'\n")
+        .with("post/out.fil", "INCLUD/'../secret.fil'\nFINI\n");
+    let ran = place.run(&["post", "part.ncl", "-f", "post/main.fil"]);
+    assert!(ran.out.contains("(INNER)") && ran.out.contains("(SIDE)"), "{ran:?}");
+    assert_eq!(place.run(&["check", "post/main.fil"]).status, 0);
+    for command in [&["post", "part.ncl", "-f", "post/out.fil"][..], &["check", "post/out.fil"]] {
+        let ran = place.run(command);
+        assert!(ran.status == 1 && ran.err.contains("E0214"), "{ran:?}");
+    }
+}
+
+/// Uses files of others where they are at hand.
+#[test]
+fn real_files_are_posted() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let data = std::env::var_os("FILPOST_DATA")
+        .map_or_else(|| root.join("../shared/data"), |data| root.join(data));
+    let cl = data.join("cl/creo/op010.ncl.1");
+    if !cl.is_file() {
+        println!("skipped: {} is not there", cl.display());
+        return;
+    }
+    let place = Place::new();
+    let ran = place.run(&["post", &cl.display().to_string(), "-o", "op010.tap"]);
+    assert_eq!(ran.status, 0, "{ran:?}");
+    let nc = place.text("op010.tap").expect("the program");
+    assert!(nc.contains("G20") && nc.contains("S1000 M3"), "{nc}");
+}

@@ -1,0 +1,41 @@
+//! The line map of a run: what made each block of the NC program and each word
+//! of it.
+//!
+//! A map is a text of JSON lines. The first line says what the run read and
+//! wrote; the last line holds the digests of the CL file and of the NC program,
+//! so that a map that was cut off, or one of another run, is refused. Between
+//! them stand, in any number:
+//!
+//! - `[cl,record,"words"]`: a line of the NC program; the n-th of them is line n.
+//!   The line and number of its CL record; a fourth item is its FIL call stack.
+//! - `{"stack":n,"section":s,"fil":[[file,line],…]}`: a FIL call stack, innermost
+//!   line first, before the first block that names it.
+//! - `{"taken":[cl,record],"section":s}`: a record that a section took without
+//!   any effect on the post.
+//!
+//! The words of a block are separated by blanks: `X7:6` is an X of 7 bytes (the
+//! blank after it counts) that repeats word 6 of the block's record, `G3` one due
+//! to that record as a whole, `M3*5` one due to word 5 of the record that a FIL
+//! statement made, `G4@` one that the machine's settings ask for, `F5:4@12,9,0`
+//! one due to word 4 of record 9 in CL line 12, without FIL. `_` stands for a
+//! text, `/` for the block-delete character, `#` for a sequence number.
+//!
+//! [`Post::run_mapped`](crate::Post::run_mapped) writes a map, [`MapReader`]
+//! reads one, block by block; neither needs memory for the length of the file.
+
+mod digest;
+mod line;
+mod names;
+mod reader;
+mod words;
+mod writer;
+
+pub use digest::Digest;
+pub(crate) use digest::Digested;
+pub use names::Names;
+pub use reader::{Entry, MapFile, MapReader, NcLine, Taken};
+pub use words::Word;
+pub(crate) use writer::Writer;
+
+/// The version of the format that is written, and the only one that is read.
+pub const VERSION: u32 = 1;

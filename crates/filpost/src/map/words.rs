@@ -1,0 +1,168 @@
+//! The words of a block in a map: `#4 X7:6 F5:4@12,9,0`.
+
+use std::ops::Range;
+
+use fil_post::tape::{SEQUENCE, SKIP, TEXT};
+use fil_post::{Cause, WordInfo};
+
+/// A word of a block.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Word {
+    /// Its letter, `A` to `Z`; `_` for a text, `/` for the block-delete character,
+    /// `#` for a sequence number.
+    pub letter: char,
+    /// Byte range in the block, with the blank that follows.
+    pub range: Range<usize>,
+    /// What it is due to.
+    pub cause: Cause,
+}
+
+impl Word {
+    /// The word as it stands in the block; empty for a block of another program.
+    pub fn text<'a>(&self, block: &'a str) -> &'a str {
+        block.get(self.range.clone()).unwrap_or("").trim_end()
+    }
+}
+
+/// Writes the words of a block whose text ends at `end`.
+pub(super) fn write(words: &[WordInfo], end: usize, block: Cause, out: &mut Vec<u8>) {
+    let ends = words.iter().skip(1).map(|next| next.start).chain([end]);
+    for (index, (word, end)) in words.iter().zip(ends).enumerate() {
+        if index > 0 {
+            out.push(b' ');
+        }
+        out.push(word.letter);
+        number((end - word.start) as u32, out);
+        let cause = word.cause;
+        if cause.word != 0 {
+            out.push(if cause.made_by_fil { b'*' } else { b':' });
+            number(u32::from(cause.word), out);
+        }
+        if !same_record(cause, usual(word.letter, block)) {
+            out.push(b'@');
+            if !same_record(cause, Cause::default()) {
+                for (index, part) in [cause.line, cause.record, cause.stack].iter().enumerate() {
+                    if index > 0 {
+                        out.push(b',');
+                    }
+                    number(*part, out);
+                }
+            }
+        }
+    }
+}
+
+/// What words of a letter are due to unless they say otherwise.
+fn usual(letter: u8, block: Cause) -> Cause {
+    if letter == SEQUENCE { Cause::default() } else { block }
+}
+
+fn same_record(one: Cause, other: Cause) -> bool {
+    (one.line, one.record, one.stack) == (other.line, other.record, other.stack)
+}
+
+/// Appends a number.
+#[inline]
+pub(super) fn number(number: u32, out: &mut Vec<u8>) {
+    if number < 10 {
+        out.push(b'0' + number as u8);
+    } else {
+        out.extend_from_slice(itoa::Buffer::new().format(number).as_bytes());
+    }
+}
+
+/// Reads the words of a block; `None` for a text of another form.
+pub(super) fn read(text: &str, block: Cause) -> Option<Vec<Word>> {
+    let mut start = 0usize;
+    let words = text.split(' ').filter(|_| !text.is_empty());
+    words
+        .map(|word| {
+            let mut characters = word.chars();
+            let letter = characters.next().filter(|letter| known(*letter))?;
+            let (shape, record) = match characters.as_str().split_once('@') {
+                Some((shape, record)) => (shape, record_of(record)?),
+                None => (characters.as_str(), usual(letter as u8, block)),
+            };
+            let by_fil = shape.contains('*');
+            let (length, item) = match shape.split_once([':', '*']) {
+                Some((length, item)) => (length, plain(item)?),
+                None => (shape, 0),
+            };
+            let end = start.checked_add(usize::try_from(plain(length)?).ok()?)?;
+            let range = std::mem::replace(&mut start, end)..end;
+            let word = u16::try_from(item).ok()?;
+            Some(Word { letter, range, cause: Cause { word, made_by_fil: by_fil, ..record } })
+        })
+        .collect()
+}
+
+fn known(letter: char) -> bool {
+    letter.is_ascii_uppercase() || [TEXT, SKIP, SEQUENCE].map(char::from).contains(&letter)
+}
+
+fn record_of(text: &str) -> Option<Cause> {
+    if text.is_empty() {
+        return Some(Cause::default());
+    }
+    let mut parts = text.split(',').map(plain);
+    let [line, record, stack] = [parts.next()??, parts.next()??, parts.next()??];
+    let none_left = parts.next().is_none();
+    none_left.then_some(Cause { line, record, stack, ..Cause::default() })
+}
+
+/// A number of digits alone.
+fn plain(text: &str) -> Option<u32> {
+    text.bytes().all(|byte| byte.is_ascii_digit()).then(|| text.parse().ok())?
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn cause() -> impl Strategy<Value = Cause> {
+        let parts = (0u32..3, 0u32..3, 0u32..3, 0u16..3, any::<bool>());
+        parts.prop_map(|(record, line, stack, word, made_by_fil)| Cause {
+            record,
+            line,
+            stack,
+            word,
+            made_by_fil: made_by_fil && word > 0,
+        })
+    }
+
+    fn letter() -> impl Strategy<Value = u8> {
+        prop_oneof![b'A'..=b'Z', Just(TEXT), Just(SKIP), Just(SEQUENCE)]
+    }
+
+    proptest! {
+        #[test]
+        fn words_are_read_as_they_were_written(
+            block in cause(), words in prop::collection::vec((letter(), 1usize..2000, cause()), 0..9)
+        ) {
+            let mut start = 70;
+            let mut infos = Vec::new();
+            for (letter, length, cause) in words {
+                infos.push(WordInfo { letter, start, cause });
+                start += length;
+            }
+            let mut text = Vec::new();
+            write(&infos, start, block, &mut text);
+            let found = read(std::str::from_utf8(&text).unwrap(), block).unwrap();
+            let wanted: Vec<(char, usize, Cause)> = infos
+                .iter()
+                .map(|word| (char::from(word.letter), word.start - 70, word.cause))
+                .collect();
+            let shown: Vec<_> =
+                found.iter().map(|word| (word.letter, word.range.start, word.cause)).collect();
+            prop_assert_eq!(shown, wanted);
+            prop_assert_eq!(found.last().map_or(70, |word| word.range.end + 70), start);
+        }
+
+        #[test]
+        fn no_text_is_too_strange(text in "[XN_/#0-9:*@, é]{0,30}") {
+            let _ = read(&text, Cause::default());
+        }
+    }
+}

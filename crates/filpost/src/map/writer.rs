@@ -1,0 +1,153 @@
+//! Writing a map while a run goes.
+
+use std::io::{self, Write};
+
+use fil_post::tape::{TEXT, Tape};
+use fil_post::{BlockInfo, Cause, Stack, WordInfo};
+use fil_vm::Module;
+use serde::Serialize;
+
+use super::digest::{Digest, Digesting};
+use super::line::{End, FilFile, Header, StackLine, TakenLine};
+use super::names::Names;
+use super::{VERSION, words};
+
+/// Bytes of lines that are kept before they go to the writer.
+const FLUSH: usize = 64 * 1024;
+
+/// Writes the map of one run.
+pub(crate) struct Writer<'w> {
+    output: &'w mut dyn Write,
+    /// Lines not yet handed to the output.
+    lines: Vec<u8>,
+    /// The first error of the output; after it nothing more is written.
+    failure: Option<io::Error>,
+    /// Lines of the NC program so far.
+    nc_lines: u64,
+    stacks: usize,
+    nc: Digesting,
+}
+
+impl<'w> Writer<'w> {
+    /// Starts a map.
+    pub fn new(output: &'w mut dyn Write, names: &Names, module: &Module) -> Self {
+        let name = |index: usize, own: &str| names.fil.get(index).cloned().unwrap_or(own.into());
+        let fil = module.files.iter().enumerate().map(|(index, file)| FilFile {
+            name: name(index, &file.name),
+            digest: Digest::of(file.text.as_bytes()),
+        });
+        let header = Header {
+            version: VERSION,
+            cl: names.cl.clone(),
+            nc: names.nc.clone(),
+            fil: fil.collect(),
+            sections: module.section_keys().map(str::to_string).collect(),
+        };
+        let mut writer = Writer {
+            output,
+            lines: Vec::with_capacity(FLUSH + FLUSH / 4),
+            failure: None,
+            nc_lines: 0,
+            stacks: 0,
+            nc: Digesting::default(),
+        };
+        writer.object(&header);
+        writer
+    }
+
+    /// Writes the finished blocks of a tape.
+    pub fn blocks(&mut self, tape: &Tape) {
+        for stack in &tape.stacks.all()[self.stacks..] {
+            self.stack(stack);
+        }
+        for block in &tape.blocks {
+            self.block(block, tape);
+        }
+        self.nc.add(&tape.text);
+        self.hand_out();
+    }
+
+    /// Notes a record that a section took without effect.
+    pub fn taken(&mut self, line: u32, record: u32, section: u16) {
+        self.object(&TakenLine { taken: (line, record), section });
+        if self.lines.len() >= FLUSH {
+            self.hand_out();
+        }
+    }
+
+    /// Ends the map.
+    ///
+    /// # Errors
+    /// The first error of the output.
+    pub fn finish(mut self, cl: Digest) -> io::Result<()> {
+        self.object(&End { lines: self.nc_lines, cl, nc: self.nc.digest() });
+        self.hand_out();
+        self.failure.map_or_else(|| self.output.flush(), Err)
+    }
+
+    fn block(&mut self, block: &BlockInfo, tape: &Tape) {
+        let noted = &tape.noted[block.words.clone()];
+        match noted.last() {
+            Some(word) if word.letter == TEXT => self.text_block(block, noted, *word, tape),
+            _ => self.nc_line(noted, block.range.end, block.cause),
+        }
+    }
+
+    /// A block that ends in a text, which a script can give line ends.
+    fn text_block(
+        &mut self,
+        block: &BlockInfo,
+        noted: &[WordInfo],
+        mut text: WordInfo,
+        tape: &Tape,
+    ) {
+        let mut first = Some(noted);
+        let whole = text.start..block.range.end;
+        let bytes = tape.text[whole.clone()].iter().enumerate();
+        let ends = bytes.filter(|(_, byte)| **byte == b'\n').map(|(at, _)| whole.start + at);
+        for end in ends.chain([whole.end]) {
+            match first.take() {
+                Some(words) => self.nc_line(words, end, block.cause),
+                None => self.nc_line(&[text], end, block.cause),
+            }
+            text.start = end + 1;
+        }
+    }
+
+    fn nc_line(&mut self, words: &[WordInfo], end: usize, cause: Cause) {
+        let lines = &mut self.lines;
+        lines.push(b'[');
+        words::number(cause.line, lines);
+        lines.push(b',');
+        words::number(cause.record, lines);
+        lines.extend_from_slice(b",\"");
+        words::write(words, end, cause, lines);
+        lines.push(b'"');
+        if cause.stack != 0 {
+            lines.push(b',');
+            words::number(cause.stack, lines);
+        }
+        lines.extend_from_slice(b"]\n");
+        self.nc_lines += 1;
+    }
+
+    fn stack(&mut self, stack: &Stack) {
+        self.stacks += 1;
+        let fil = stack.lines.iter().map(|at| (at.file, at.line)).collect();
+        self.object(&StackLine { stack: self.stacks as u32, section: stack.section, fil });
+    }
+
+    fn object(&mut self, line: &impl Serialize) {
+        if let Err(error) = serde_json::to_writer(&mut self.lines, line) {
+            self.failure.get_or_insert(error.into());
+        }
+        self.lines.push(b'\n');
+    }
+
+    fn hand_out(&mut self) {
+        if self.failure.is_none() {
+            self.failure = self.output.write_all(&self.lines).err();
+        }
+        self.lines.clear();
+    }
+}

@@ -1,0 +1,259 @@
+//! Who made this block, and what did this record or this line of FIL make:
+//! answers from the line map of a run.
+//!
+//! The files of the run are compared with the map first; an answer is never
+//! about files that have changed since.
+
+mod answer;
+mod place;
+mod records;
+mod run_files;
+
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::path::Path;
+
+use fil_cl::reader;
+use fil_diag::Diag;
+use fil_post::Cause;
+
+pub use answer::{Answer, Asked, Line, LineWord, Made, Record, Step, Taken};
+pub use place::{Place, map_of};
+
+use crate::error::{Error, RunCode};
+use crate::map::{Entry, MapReader, NcLine};
+use records::Records;
+use run_files::{Role, RunFiles};
+
+/// How a question is answered.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Most lines of the NC program that are shown; all are counted.
+    pub most: usize,
+    /// How the CL file is read.
+    pub cl: reader::Options,
+    /// Encoding of the FIL files; guessed when `None`.
+    pub encoding: Option<String>,
+}
+
+/// Answers a question about a line.
+///
+/// # Errors
+/// E0707 for a map that can't be used, E0708 for files of another run, E0709
+/// for a line that is not there, E0701 for files that can't be read.
+pub fn trace(place: &Place, map: &Path, options: &Options) -> Result<Answer, Error> {
+    let mut map = Map { reader: MapReader::open(map)?, path: map };
+    let files = RunFiles::find(&map.reader, map.path, place, options)?;
+    let mut answer = Answer {
+        asked: Asked::from(files.role),
+        file: place.file.display().to_string(),
+        line: place.line,
+        excerpt: None,
+        record: None,
+        taken: Vec::new(),
+        lines: Vec::new(),
+        in_all: 0,
+        missing: files.missing.clone(),
+    };
+    let found = match files.role {
+        Role::Nc => map.nc_line(place, &files)?,
+        Role::Cl => map.of_record(place, options, &mut answer)?,
+        Role::Fil(file) => map.of_fil_line(place, file, &files, options, &mut answer)?,
+    };
+    answer.in_all = found.in_all;
+    answer.lines = map.shown(found.lines, &files, options)?;
+    Ok(answer)
+}
+
+/// A map that is asked.
+struct Map<'p> {
+    reader: MapReader<File>,
+    path: &'p Path,
+}
+
+/// Lines of the program that belong to an answer; of each only the words that do.
+#[derive(Default)]
+struct Found {
+    lines: Vec<NcLine>,
+    in_all: u64,
+}
+
+impl Map<'_> {
+    /// The line asked for, or the word at its column.
+    fn nc_line(&mut self, place: &Place, files: &RunFiles) -> Result<Found, Error> {
+        if place.line == 0 || place.line > self.reader.nc_lines() {
+            return Err(no_line(place, self.reader.nc_lines()));
+        }
+        for entry in self.reader.by_ref() {
+            match entry? {
+                Entry::Line(line) if line.number == place.line => return asked(line, place, files),
+                _ => {}
+            }
+        }
+        Err(no_line(place, self.reader.nc_lines()))
+    }
+
+    /// What the record at a line of the CL file has made.
+    fn of_record(
+        &mut self,
+        place: &Place,
+        options: &Options,
+        answer: &mut Answer,
+    ) -> Result<Found, Error> {
+        refuse_column(place)?;
+        let record = records::at_line(&place.file, place, &options.cl)?;
+        let Some(record) = record else { return Ok(Found::default()) };
+        let number = record.number;
+        answer.record = Some(record);
+        self.matching(options, answer, |_, cause| cause.record == number)
+    }
+
+    /// What a line of FIL has made or had a part in.
+    fn of_fil_line(
+        &mut self,
+        place: &Place,
+        file: u16,
+        files: &RunFiles,
+        options: &Options,
+        answer: &mut Answer,
+    ) -> Result<Found, Error> {
+        refuse_column(place)?;
+        let lines = files.fil_line_count(file);
+        answer.excerpt = files.fil_line(file, place.line);
+        if answer.excerpt.is_none() {
+            return Err(no_line(place, lines));
+        }
+        self.matching(options, answer, |reader, cause| {
+            let lines = reader.stack(cause).map_or(&[][..], |stack| &stack.lines);
+            lines.iter().any(|at| at.file == file && u64::from(at.line) == place.line)
+        })
+    }
+
+    /// The lines whose cause, or the cause of a word of which, is wanted.
+    fn matching(
+        &mut self,
+        options: &Options,
+        answer: &mut Answer,
+        wanted: impl Fn(&MapReader<File>, Cause) -> bool,
+    ) -> Result<Found, Error> {
+        let mut found = Found::default();
+        while let Some(entry) = self.reader.next() {
+            match entry? {
+                Entry::Line(mut line) => {
+                    let whole = wanted(&self.reader, line.cause);
+                    if !whole {
+                        line.words.retain(|word| wanted(&self.reader, word.cause));
+                    }
+                    if whole || !line.words.is_empty() {
+                        found.in_all += 1;
+                        if found.lines.len() < options.most {
+                            found.lines.push(line);
+                        }
+                    }
+                }
+                Entry::Taken(taken) => {
+                    let of_record = answer.record.as_ref().map(|record| record.number);
+                    if of_record == Some(taken.record) {
+                        let section = self.reader.sections()[usize::from(taken.section)].clone();
+                        answer.taken.push(Taken { record: taken.record, section });
+                    }
+                }
+            }
+        }
+        Ok(found)
+    }
+
+    /// The lines with the texts of all that they name.
+    fn shown(
+        &self,
+        lines: Vec<NcLine>,
+        files: &RunFiles,
+        options: &Options,
+    ) -> Result<Vec<Line>, Error> {
+        let numbers: BTreeSet<u64> = lines.iter().map(|line| line.number).collect();
+        let texts = files.nc_lines(&numbers)?;
+        let causes = lines
+            .iter()
+            .flat_map(|line| line.words.iter().map(|word| word.cause).chain([line.cause]));
+        let wanted: BTreeSet<u32> = causes.map(|cause| cause.record).filter(|n| *n > 0).collect();
+        let records = match files.cl() {
+            Some(path) => records::read(path, &wanted, &options.cl)?,
+            None => Records::default(),
+        };
+        let made = |cause: Cause| self.made(cause, &records, files);
+        Ok(lines
+            .into_iter()
+            .map(|line| {
+                let text = texts.get(&line.number).cloned();
+                let words = line.words.iter().map(|word| LineWord {
+                    letter: word.letter,
+                    column: text.as_deref().map(|text| column_of(text, word.range.start)),
+                    text: text.as_deref().map(|text| word.text(text).to_string()),
+                    word: word.cause.word,
+                    value: (!word.cause.made_by_fil)
+                        .then(|| records.get(&word.cause.record)?.word(word.cause.word))
+                        .flatten(),
+                    made_by_fil: word.cause.made_by_fil,
+                    made: made(word.cause),
+                });
+                Line { number: line.number, words: words.collect(), made: made(line.cause), text }
+            })
+            .collect())
+    }
+
+    fn made(&self, cause: Cause, records: &Records, files: &RunFiles) -> Made {
+        let stack = self.reader.stack(cause);
+        let steps = stack.map_or(&[][..], |stack| &stack.lines).iter().map(|at| Step {
+            file: files.fil_name(at.file),
+            line: at.line,
+            text: files.fil_line(at.file, u64::from(at.line)),
+        });
+        Made {
+            record: cause.record,
+            cl: files.cl_name(),
+            line: cause.line,
+            statement: records.get(&cause.record).map(|record| record.statement.clone()),
+            section: stack.and_then(|stack| self.reader.section(stack)).map(str::to_string),
+            fil: steps.collect(),
+        }
+    }
+}
+
+/// The line asked for, or its word at the column asked for.
+fn asked(mut line: NcLine, place: &Place, files: &RunFiles) -> Result<Found, Error> {
+    if let Some(column) = place.column {
+        let byte = files.nc_byte(place.line, column)?;
+        let word = byte.and_then(|byte| line.word_at(byte)).cloned();
+        line.words = vec![word.ok_or_else(|| no_column(place, column))?];
+    }
+    Ok(Found { lines: vec![line], in_all: 1 })
+}
+
+/// Column, from 1 and in characters, of a byte of a line.
+fn column_of(text: &str, byte: usize) -> usize {
+    text.get(..byte).map_or(byte, |head| head.chars().count()) + 1
+}
+
+fn no_line(place: &Place, lines: u64) -> Error {
+    let message = match lines {
+        0 => format!("{} has no line", place.file.display()),
+        _ => format!("{} has the lines 1 to {lines}, and no {}", place.file.display(), place.line),
+    };
+    Error::setup(Diag::new(RunCode::NoSuchLine, message))
+}
+
+fn no_column(place: &Place, column: u64) -> Error {
+    let file = place.file.display();
+    let message = format!("line {} of {file} has no word at column {column}", place.line);
+    Error::setup(Diag::new(RunCode::NoSuchLine, message))
+}
+
+fn refuse_column(place: &Place) -> Result<(), Error> {
+    match place.column {
+        Some(_) => {
+            let message = "a column is understood of a line of the NC program only";
+            Err(Error::setup(Diag::new(RunCode::NoSuchLine, message)))
+        }
+        None => Ok(()),
+    }
+}
