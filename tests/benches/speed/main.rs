@@ -49,6 +49,8 @@ fn posting_verdicts(input: &str, results: &Results) {
     let what = |way: &str, other: &str| format!("{input}: {way} against {other}");
     let (way, by_hand) = (posting::FILPOST, posting::BY_HAND);
     verdict(&what(way, by_hand), results, way, by_hand, 1.5);
+    let mapped = posting::MAPPED;
+    verdict(&what(mapped, way), results, mapped, way, 4.0 / 3.0);
     for way in results.ran(posting::FILPOST) {
         verdict(&what(way, posting::LUAJIT), results, way, posting::LUAJIT, 1.0);
     }

@@ -1,10 +1,11 @@
 //! CL to NC by filpost and by translators written for this one job.
 
-use std::fs;
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use filpost::files::post_file;
+use filpost::files::{post_file, write_whole};
+use filpost::map::Names;
 
 use crate::inputs::Input;
 use crate::race::{self, Lap, Racer, Results};
@@ -14,6 +15,8 @@ use crate::{Outcome, agree, handwritten};
 pub const BY_HAND: &str = "by hand, Rust";
 /// The post without a section; the names of its other ways begin so too.
 pub const FILPOST: &str = "filpost";
+/// The same with a line map.
+pub const MAPPED: &str = "filpost, line map";
 /// The script that filpost is to be faster than.
 pub const LUAJIT: &str = "by hand, LuaJIT";
 
@@ -25,6 +28,7 @@ struct Programs<'a> {
     by_hand: PathBuf,
     plain: PathBuf,
     section: PathBuf,
+    mapped: PathBuf,
     luajit: PathBuf,
     python: PathBuf,
 }
@@ -40,6 +44,7 @@ pub fn post_all(input: &Input, folder: &Path) -> Outcome<Results> {
         by_hand: nc("by_hand.ngc"),
         plain: nc("plain.ngc"),
         section: nc("section.ngc"),
+        mapped: nc("mapped.ngc"),
         luajit: nc("luajit.ngc"),
         python: nc("python.ngc"),
     };
@@ -50,6 +55,7 @@ pub fn post_all(input: &Input, folder: &Path) -> Outcome<Results> {
         Racer::new("filpost, 20 operations a GOTO", || {
             race::timed(|| post(Some(SECTION), cl, &programs.section))
         }),
+        Racer::new(MAPPED, || race::timed(|| post_mapped(cl, &programs.mapped))),
         Racer::new(LUAJIT, || script("luajit", "translate.lua", cl, &programs.luajit)),
         Racer::new("by hand, Python", || script("python3", "translate.py", cl, &programs.python)),
         Racer::new("rs274 reads the result", || rs274(&programs.plain, folder)),
@@ -60,13 +66,29 @@ pub fn post_all(input: &Input, folder: &Path) -> Outcome<Results> {
 
 /// Posts a file with a FIL text or none.
 pub fn post(fil: Option<&str>, cl: &Path, nc: &Path) -> Outcome<()> {
-    let mut builder = filpost::Post::builder().ready("linuxcnc-mill");
+    let mut builder = builder();
     if let Some(fil) = fil {
         builder = builder.fil("bench.fil", fil);
     }
     let mut post = builder.build().map_err(|error| format!("{error:?}"))?;
     post_file(&mut post, cl, nc).map_err(|error| format!("{error:?}"))?;
     Ok(())
+}
+
+/// Posts a file and writes the line map beside the program.
+fn post_mapped(cl: &Path, nc: &Path) -> Outcome<()> {
+    let mut post = builder().build().map_err(|error| format!("{error:?}"))?;
+    let input = File::open(cl)?;
+    let map = nc.with_extension("map");
+    let written = write_whole(nc, |nc| {
+        write_whole(&map, |map| post.run_mapped(input, nc, &Names::default(), map))
+    });
+    written.map_err(|error| format!("{error:?}"))?;
+    Ok(())
+}
+
+fn builder() -> filpost::Builder {
+    filpost::Post::builder().ready("linuxcnc-mill")
 }
 
 /// Runs one of the scripts beside this file.
@@ -98,6 +120,9 @@ fn compare(programs: &Programs<'_>) -> Outcome<()> {
     }
     for way in [&programs.plain, &programs.section] {
         agree::same_cuts(&programs.by_hand, way)?;
+    }
+    if fs::read(&programs.mapped)? != fs::read(&programs.plain)? {
+        return Err("the line map changes the program".into());
     }
     Ok(())
 }
