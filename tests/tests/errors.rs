@@ -8,7 +8,7 @@ use std::io::{self, Cursor, Read};
 use std::path::{Path, PathBuf};
 
 use filpost::case::Case;
-use filpost::{Code, Diag, Error, Limits, Post, Severity, all_codes, files};
+use filpost::{Code, Diag, Error, Limits, Post, Severity, all_codes, files, trace};
 use filpost_tests::examples::{self, PART};
 use filpost_tests::{lints, nc, root};
 
@@ -34,6 +34,10 @@ const TESTED_HERE: &[(&str, &str)] = &[
     ("E0701", "e0701_missing_file"),
     ("E0702", "e0702_absent_folder"),
     ("E0705", "e0705_case_file"),
+    ("E0707", "e0707_to_e0710_line_maps"),
+    ("E0708", "e0707_to_e0710_line_maps"),
+    ("E0709", "e0707_to_e0710_line_maps"),
+    ("E0710", "e0707_to_e0710_line_maps"),
 ];
 
 fn pages() -> BTreeMap<String, (PathBuf, String)> {
@@ -365,6 +369,24 @@ fn e0701_missing_file() {
     let error = post_file(shop.folder.path(), &shop.path("new.nc")).expect_err("a folder");
     assert_eq!(names(&error), ["E0701"]);
     assert_eq!(shop.names(), ["out.nc", "part.ncl"]);
+}
+
+#[test]
+fn e0707_to_e0710_line_maps() {
+    let folder = root().join("docs/trace");
+    let (nc, map) = (folder.join("cover.nc"), folder.join("cover.nc.map"));
+    let options =
+        trace::Options { most: 1, cl: filpost::cl::reader::Options::default(), encoding: None };
+    let ask = |file: &Path, line, map: &Path| {
+        let place = trace::Place { file: file.to_path_buf(), line, column: None };
+        trace::trace(&place, map, &options)
+    };
+    assert!(ask(&nc, 1, &map).is_ok());
+    assert_eq!(names(&ask(&nc, 1, &nc).expect_err("no map")), ["E0707"]);
+    let other = root().join("corpus/papers/embos-grooves/grooves.ncl");
+    assert_eq!(names(&ask(&other, 1, &map).expect_err("of another run")), ["E0708"]);
+    assert_eq!(names(&ask(&nc, 20, &map).expect_err("19 lines")), ["E0709"]);
+    assert_eq!(names(&trace::map_of(&other).expect_err("no map of it")), ["E0710"]);
 }
 
 #[test]

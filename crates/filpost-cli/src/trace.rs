@@ -1,5 +1,6 @@
 //! `filpost trace`
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use filpost::trace::{self, Answer, Asked, Line, LineWord, Made, Options, Place};
@@ -95,9 +96,10 @@ fn block(text: &mut String, answer: &Answer, line: &Line) {
     }
     let width = line.words.iter().filter_map(|word| word.text.as_deref());
     let width = width.map(|word| word.chars().count().min(WIDEST)).max().unwrap_or(0);
+    let mut told: BTreeSet<u32> = answer.record.iter().map(|asked| asked.number).collect();
     for word in &line.words {
         let shown = word.text.clone().unwrap_or_else(|| word.letter.to_string());
-        let _ = writeln!(text, "    {shown:width$}  {}", due(word, &line.made));
+        let _ = writeln!(text, "    {shown:width$}  {}", due(word, &line.made, &mut told));
     }
 }
 
@@ -130,8 +132,9 @@ fn record(made: &Made) -> String {
     format!("record {}, {}:{}{statement}", made.record, made.cl, made.line)
 }
 
-/// What a word is due to, as seen from its block.
-fn due(word: &LineWord, block: &Made) -> String {
+/// What a word is due to, as seen from its block; the statement of a record is
+/// told once.
+fn due(word: &LineWord, block: &Made, told: &mut BTreeSet<u32>) -> String {
     if word.made.by_machine() {
         return match word.letter {
             '#' => "counted by the post".to_string(),
@@ -151,7 +154,8 @@ fn due(word: &LineWord, block: &Made) -> String {
         Some(step) if word.made_by_fil || word.made.record == 0 => {
             format!("{}:{}", step.file, step.line)
         }
-        _ => record(&word.made),
+        _ if told.insert(word.made.record) => record(&word.made),
+        _ => format!("record {}", word.made.record),
     };
     if part.is_empty() { place } else { format!("{part}, {place}") }
 }
