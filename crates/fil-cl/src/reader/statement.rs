@@ -226,8 +226,8 @@ fn content(line: &[u8], start: usize, form: Form) -> Option<usize> {
     if let Form::Text(_) = form {
         return Some(trim_end(line).len().max(start));
     }
-    let signs = memchr::memchr_iter(b'$', &line[start..]).map(|at| start + at);
-    let end = signs.into_iter().find(|at| line.get(at + 1) == Some(&b'$')).unwrap_or(line.len());
+    let mut signs = memchr::memchr_iter(b'$', &line[start..]).map(|at| start + at);
+    let end = signs.find(|at| line.get(at + 1) == Some(&b'$')).unwrap_or(line.len());
     let text = trim_end(&line[start..end]);
     if text.is_empty() { None } else { Some(start + text.len()) }
 }
