@@ -1,6 +1,7 @@
 //! Support for the test runners of this member.
 
 pub mod browser;
+pub mod cl_file;
 pub mod cl_path;
 pub mod compare;
 pub mod duel;

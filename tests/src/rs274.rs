@@ -62,21 +62,25 @@ pub enum Canon {
     Other(String),
 }
 
-/// The interpreter: `FILPOST_RS274`, else on the PATH, else where
-/// `.ci/install-rs274` unpacks it. `None`, with the reason printed, where it is
-/// absent.
+/// The interpreter as [`installed`]; where it is absent, the reason is printed.
 pub fn program() -> Option<PathBuf> {
+    let found = installed();
+    if found.is_none() {
+        println!("skipped: no rs274 (.ci/install-rs274 unpacks it)");
+    }
+    found
+}
+
+/// The interpreter: `FILPOST_RS274`, else on the PATH, else where
+/// `.ci/install-rs274` unpacks it.
+pub fn installed() -> Option<PathBuf> {
     if let Some(named) = env::var_os("FILPOST_RS274") {
         return Some(PathBuf::from(named));
     }
     let search = env::var_os("PATH").unwrap_or_default();
     let unpacked = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/tools/linuxcnc/rs274");
     let mut places = env::split_paths(&search).map(|folder| folder.join("rs274"));
-    let found = places.find(|file| file.is_file()).or(Some(unpacked).filter(|file| file.is_file()));
-    if found.is_none() {
-        println!("skipped: no rs274 (.ci/install-rs274 unpacks it)");
-    }
-    found
+    places.find(|file| file.is_file()).or(Some(unpacked).filter(|file| file.is_file()))
 }
 
 /// Runs an NC program with a fresh variable file and a table of its tools.

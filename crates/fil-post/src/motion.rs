@@ -187,7 +187,7 @@ impl Post {
         axes: AxisSet,
     ) -> Result<bool, Box<Diag>> {
         let mut scaled = [0; AXES];
-        let mut changed = [false; AXES];
+        let mut changed: AxisSet = 0;
         let present = axes & self.machine.present();
         let moving = |number: &usize| present & 1 << number != 0;
         for number in (0..AXES).filter(moving) {
@@ -195,16 +195,16 @@ impl Post {
             axis.check(position[number])?;
             if !axis.is_off() {
                 scaled[number] = axis.scaled(position[number])?;
-                changed[number] = axis.changes(scaled[number], &self.commons);
+                changed |= AxisSet::from(axis.changes(scaled[number], &self.commons)) << number;
             }
         }
-        if changed == [false; AXES] {
+        if changed == 0 {
             return Ok(false);
         }
-        let always = !self.commons.flag(loc::MOTION_MODAL);
+        let written = if self.commons.flag(loc::MOTION_MODAL) { changed } else { present };
         for number in (0..AXES).filter(moving) {
             let place = self.machine.axis(number).place()?;
-            if let Some(place) = place.filter(|_| always || changed[number]) {
+            if let Some(place) = place.filter(|_| written & 1 << number != 0) {
                 self.block.put(place, scaled[number]);
                 if self.tape.observe {
                     self.note_axis_word(number, place);
@@ -298,12 +298,11 @@ impl Post {
         if self.state.length_offset.is_some() {
             self.length_offset_words()?;
         }
-        if self.state.repeat.iter().all(Option::is_none) {
+        if self.state.repeat.is_empty() {
             return self.write_block();
         }
         let mut kept = Vec::new();
-        for letter in 1..=26u8 {
-            let Some((value, cause)) = self.state.repeat[letter as usize] else { continue };
+        for (letter, (value, cause)) in self.state.repeat.clone() {
             if !self.block.has(letter, &self.machine.addresses) {
                 kept.push((letter, self.commons.last_output(letter)));
                 self.because(cause, |post| post.word(letter, value))?;

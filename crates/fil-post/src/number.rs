@@ -118,53 +118,96 @@ impl NumberFormat {
 
     /// Appends a scaled integer by the rules of the address.
     pub fn write(&self, scaled: i64, out: &mut Vec<u8>) {
-        if scaled < 0 {
-            out.push(b'-');
-        } else if self.plus {
-            out.push(b'+');
-        }
-        let mut digits = itoa::Buffer::new();
-        let digits = digits.format(scaled.unsigned_abs()).as_bytes();
+        let mut text = Backwards::new();
         if self.point {
-            self.write_with_point(digits, out);
+            self.write_with_point(scaled.unsigned_abs(), &mut text);
         } else {
-            self.write_plain(digits, out);
+            self.write_plain(scaled.unsigned_abs(), &mut text);
         }
+        if scaled < 0 {
+            text.put(b'-');
+        } else if self.plus {
+            text.put(b'+');
+        }
+        out.extend_from_slice(text.bytes());
     }
 
-    fn write_with_point(&self, digits: &[u8], out: &mut Vec<u8>) {
-        let decimals = self.decimals as usize;
-        let zero = digits == b"0";
-        let whole = digits.len().saturating_sub(decimals);
-        if whole == 0 || zero {
-            if self.leading || zero {
-                out.push(b'0');
+    fn write_with_point(&self, size: u64, text: &mut Backwards) {
+        let mut rest = size;
+        let mut kept = self.trailing;
+        for _ in 0..self.decimals {
+            kept |= !rest.is_multiple_of(10);
+            if kept {
+                text.put_digit(rest);
             }
-        } else {
-            out.extend_from_slice(&digits[..whole]);
+            rest /= 10;
         }
-        let mut fraction = [b'0'; 10];
-        if !zero {
-            let tail = &digits[whole..];
-            fraction[decimals - tail.len()..decimals].copy_from_slice(tail);
+        match (text.is_empty(), self.rule) {
+            (true, DecimalRule::WhenNeeded) => {}
+            (true, DecimalRule::OneZero) => {
+                text.put(b'0');
+                text.put(b'.');
+            }
+            _ => text.put(b'.'),
         }
-        let kept = if self.trailing { decimals } else { significant(&fraction[..decimals]) };
-        let kept = match self.rule {
-            DecimalRule::OneZero if kept == 0 => 1,
-            DecimalRule::WhenNeeded if kept == 0 => return,
-            _ => kept,
-        };
-        out.push(b'.');
-        out.extend_from_slice(&fraction[..kept]);
+        if rest != 0 || self.leading || size == 0 {
+            text.put_number(rest);
+        }
     }
 
-    fn write_plain(&self, digits: &[u8], out: &mut Vec<u8>) {
-        let width = (self.whole + self.decimals) as usize;
-        if self.leading {
-            out.extend(std::iter::repeat_n(b'0', width.saturating_sub(digits.len())));
+    fn write_plain(&self, size: u64, text: &mut Backwards) {
+        let mut width = usize::from(self.whole + self.decimals);
+        let mut rest = size;
+        while self.drop_whole_zeros && rest != 0 && rest.is_multiple_of(10) {
+            rest /= 10;
+            width = width.saturating_sub(1);
         }
-        let kept = if self.drop_whole_zeros { significant(digits).max(1) } else { digits.len() };
-        out.extend_from_slice(&digits[..kept]);
+        text.put_number(rest);
+        while self.leading && text.bytes().len() < width {
+            text.put(b'0');
+        }
+    }
+}
+
+/// The longest number: a sign, 20 digits of an integer, a point and the zeros
+/// around it.
+const LONGEST: usize = 48;
+
+/// The text of a number, made from its end.
+struct Backwards {
+    bytes: [u8; LONGEST],
+    start: usize,
+}
+
+impl Backwards {
+    fn new() -> Self {
+        Backwards { bytes: [0; LONGEST], start: LONGEST }
+    }
+
+    fn put(&mut self, byte: u8) {
+        self.start -= 1;
+        self.bytes[self.start] = byte;
+    }
+
+    /// The last digit of a number.
+    fn put_digit(&mut self, number: u64) {
+        self.put(b'0' + (number % 10) as u8);
+    }
+
+    fn put_number(&mut self, mut number: u64) {
+        self.put_digit(number);
+        while number > 9 {
+            number /= 10;
+            self.put_digit(number);
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.start == LONGEST
+    }
+
+    fn bytes(&self) -> &[u8] {
+        &self.bytes[self.start..]
     }
 }
 
@@ -175,11 +218,6 @@ fn round(value: f64) -> i64 {
     let whole = value as i64;
     let rest = value - whole as f64;
     whole + i64::from(rest >= 0.5) - i64::from(rest <= -0.5)
-}
-
-/// Length without trailing zeros.
-fn significant(digits: &[u8]) -> usize {
-    digits.iter().rposition(|digit| *digit != b'0').map_or(0, |last| last + 1)
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! What the post remembers between two records, beyond the commons.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Matrix3, Matrix3x4, Point3, Vector3};
 
 use crate::block::Block;
@@ -136,7 +138,7 @@ pub struct State {
     /// Last spindle speed, revolutions a minute or surface speed.
     pub spindle: Option<f64>,
     /// Words REPEAT adds to each motion block, by letter, with their records.
-    pub repeat: [Option<(f64, Cause)>; 27],
+    pub repeat: BTreeMap<u8, (f64, Cause)>,
     /// TRANS.
     pub transformation: Option<Transformation>,
     /// A thread is cut by each feed motion: pitch in mm or inch, and the record
@@ -171,7 +173,7 @@ impl Default for State {
             length_offset: None,
             cutter: None,
             spindle: None,
-            repeat: [None; 27],
+            repeat: BTreeMap::new(),
             transformation: None,
             thread: None,
         }

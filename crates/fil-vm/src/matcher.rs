@@ -1,5 +1,8 @@
 //! From a CL record to its section.
 
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+
 use fil_cl::Vocabulary;
 use fil_cl::{Record, Word, WordId};
 
@@ -12,8 +15,8 @@ pub struct Matcher {
     by_major: Vec<u16>,
     /// Sections of one major word, those with the most minor words first.
     lists: Vec<Vec<(Vec<WordId>, SectionId)>>,
-    /// Sections by type, those with a subtype first.
-    types: Vec<(u32, Option<u32>, SectionId)>,
+    /// Sections by type and, where they name one, subtype.
+    types: BTreeMap<(u32, Option<u32>), SectionId>,
 }
 
 impl Matcher {
@@ -49,13 +52,13 @@ impl Matcher {
         sub: Option<u32>,
         section: SectionId,
     ) -> Option<SectionId> {
-        let same = |(k, s, _): &&(u32, Option<u32>, SectionId)| (*k, *s) == (kind, sub);
-        if let Some((_, _, other)) = self.types.iter().find(same) {
-            return Some(*other);
+        match self.types.entry((kind, sub)) {
+            Entry::Occupied(other) => Some(*other.get()),
+            Entry::Vacant(place) => {
+                place.insert(section);
+                None
+            }
         }
-        let position = if sub.is_some() { 0 } else { self.types.len() };
-        self.types.insert(position, (kind, sub, section));
-        None
     }
 
     /// The section of a record. A key of words beats a key of types, more minor
@@ -78,9 +81,9 @@ impl Matcher {
     }
 
     fn find_type(&self, record: &Record, vocab: &Vocabulary) -> Option<SectionId> {
-        let fits =
-            |sub: Option<u32>| sub.is_none_or(|sub| record.value(3, vocab) == Some(f64::from(sub)));
-        let found = self.types.iter().find(|(kind, sub, _)| *kind == record.kind && fits(*sub));
-        found.map(|(_, _, section)| *section)
+        let of = |sub| self.types.get(&(record.kind, sub)).copied();
+        let value = record.value(3, vocab);
+        let sub = value.map(|value| value as u32).filter(|sub| value == Some(f64::from(*sub)));
+        sub.and_then(|sub| of(Some(sub))).or_else(|| of(None))
     }
 }

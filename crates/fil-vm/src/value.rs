@@ -9,7 +9,7 @@ pub const EMPTY: f64 = 999_999.0;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TextId(u32);
 
-/// What a register holds.
+/// What a name holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value {
     /// A number; always finite.
@@ -19,6 +19,56 @@ pub enum Value {
     /// A name that was never set. It is read as EMPTY, with a warning, so it
     /// is kept apart from a name that was set to EMPTY on purpose.
     Unset,
+}
+
+/// A value as registers and arrays keep it, in 8 bytes: a number as it is, all
+/// else as a NaN, which no number of FIL is.
+///
+/// Arithmetic on a NaN gives a NaN. So the machine computes first, and a result
+/// that is finite says that the operands were numbers too.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Slot(u64);
+
+impl Slot {
+    /// A name that was never set.
+    pub const UNSET: Slot = Slot(0x7FF8_0001_0000_0000);
+
+    /// Upper half of a text; the lower half is its id.
+    const TEXT: u64 = 0x7FF8_0002;
+
+    /// The number; a NaN where there is none.
+    #[inline]
+    pub fn number(self) -> f64 {
+        f64::from_bits(self.0)
+    }
+
+    /// What it holds.
+    #[inline]
+    pub fn value(self) -> Value {
+        match self {
+            Slot::UNSET => Value::Unset,
+            Slot(bits) if bits >> 32 == Slot::TEXT => Value::Text(TextId(bits as u32)),
+            _ => Value::Number(self.number()),
+        }
+    }
+}
+
+impl From<f64> for Slot {
+    #[inline]
+    fn from(number: f64) -> Self {
+        Slot(number.to_bits())
+    }
+}
+
+impl From<Value> for Slot {
+    #[inline]
+    fn from(value: Value) -> Self {
+        match value {
+            Value::Number(number) => Slot::from(number),
+            Value::Text(id) => Slot(Slot::TEXT << 32 | u64::from(id.0)),
+            Value::Unset => Slot::UNSET,
+        }
+    }
 }
 
 /// All texts a machine holds, one after the other in one buffer.
@@ -61,16 +111,17 @@ impl Texts {
     }
 
     /// Keeps only the texts the given values refer to and renames these.
-    pub fn keep<'a>(&mut self, live: impl Iterator<Item = &'a mut Value>) {
+    pub(crate) fn keep<'a>(&mut self, live: impl Iterator<Item = &'a mut Slot>) {
         let old = std::mem::take(self);
         let mut renamed = vec![None; old.ends.len()];
-        for value in live {
-            if let Value::Text(id) = value {
-                *id = *renamed[id.0 as usize].get_or_insert_with(|| {
-                    self.bytes.push_str(old.get(*id));
+        for slot in live {
+            if let Value::Text(id) = slot.value() {
+                let kept = *renamed[id.0 as usize].get_or_insert_with(|| {
+                    self.bytes.push_str(old.get(id));
                     self.ends.push(self.bytes.len() as u32);
                     TextId(self.ends.len() as u32 - 1)
                 });
+                *slot = Value::Text(kept).into();
             }
         }
     }
@@ -91,8 +142,26 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_value_is_two_words_wide() {
-        assert_eq!(size_of::<Value>(), 16);
+    fn a_slot_gives_back_what_it_was_made_of() {
+        assert_eq!(size_of::<Slot>(), 8);
+        let numbers = [0.0, -0.0, EMPTY, f64::MIN_POSITIVE, f64::MAX, f64::MIN];
+        for number in numbers {
+            let slot = Slot::from(Value::Number(number));
+            assert_eq!(slot, Slot::from(number));
+            assert_eq!(slot.value(), Value::Number(number));
+            assert_eq!(slot.number().to_bits(), number.to_bits());
+        }
+        for value in [Value::Unset, Value::Text(TextId(0)), Value::Text(TextId(u32::MAX))] {
+            assert_eq!(Slot::from(value).value(), value);
+            assert!(Slot::from(value).number().is_nan());
+        }
+    }
+
+    #[test]
+    fn a_result_that_is_no_number_is_not_taken_for_a_text() {
+        for number in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN, -f64::NAN] {
+            assert!(matches!(Slot::from(number).value(), Value::Number(_)));
+        }
     }
 
     #[test]
@@ -102,11 +171,12 @@ mod tests {
         texts.add("garbage", 100).unwrap();
         let third = texts.add("third", 100).unwrap();
         let mut values =
-            [Value::Text(third), Value::Number(1.0), Value::Text(first), Value::Text(third)];
+            [Value::Text(third), Value::Number(1.0), Value::Text(first), Value::Text(third)]
+                .map(Slot::from);
         texts.keep(values.iter_mut());
         assert_eq!(texts.size(), "firstthird".len() + 8);
         assert_eq!(values[0], values[3]);
-        let Value::Text(kept) = values[2] else { panic!("still a text") };
+        let Value::Text(kept) = values[2].value() else { panic!("still a text") };
         assert_eq!(texts.get(kept), "first");
     }
 

@@ -114,6 +114,11 @@ impl<R: Read> Lines<R> {
         &self.buffer[self.mark..self.end]
     }
 
+    /// The lines of the statement under way, with their line ends.
+    pub(super) fn taken(&self) -> &[u8] {
+        &self.buffer[self.mark..self.next]
+    }
+
     /// Number of the next line.
     pub(super) fn line(&self) -> u32 {
         self.line

@@ -8,6 +8,7 @@ mod dialect;
 mod items;
 mod lines;
 mod number;
+mod repeated;
 mod seek;
 mod statement;
 
@@ -23,6 +24,7 @@ use crate::words;
 pub use dialect::Dialect;
 pub(crate) use items::reads_as_text;
 use lines::{LineError, Lines};
+use repeated::Repeated;
 use seek::Seeking;
 use statement::{Form, GatherError, Statement};
 
@@ -76,6 +78,7 @@ struct Pending {
 pub struct Reader<R> {
     lines: Lines<R>,
     statement: Statement,
+    repeated: Repeated,
     /// Start and end of each item in the statement, to point at it.
     item_ranges: Vec<std::ops::Range<usize>>,
     pending: Pending,
@@ -97,6 +100,7 @@ impl<R: Read> Reader<R> {
         Reader {
             lines: Lines::new(input, options.statement_limit),
             statement: Statement::new(),
+            repeated: Repeated::default(),
             item_ranges: Vec::new(),
             pending: Pending::default(),
             modal: Modal::default(),
@@ -173,7 +177,7 @@ impl<R: Read> Reader<R> {
         if self.seeking.is_due(self.number) {
             self.seeking.keep(self.number, self.lines.offset(), self.lines.line(), self.modal);
         }
-        if self.read_plain_goto(dialect, record) {
+        if self.read_plain_goto(dialect, record) || self.read_repeated(record) {
             return Ok(true);
         }
         let Some(form) = self.gather()? else { return Ok(false) };
@@ -191,6 +195,9 @@ impl<R: Read> Reader<R> {
                 self.parse_items(vocab, record, false)?;
                 self.finish(dialect, record)?;
             }
+        }
+        if self.statement.is_one_line() {
+            self.repeated.keep(self.lines.taken(), record);
         }
         self.count(record);
         Ok(true)
@@ -221,10 +228,26 @@ impl<R: Read> Reader<R> {
         if count == 6 && !self.is_axis(dialect, axis) {
             return false;
         }
-        record.line = self.lines.line();
-        self.lines.take_line(length);
+        record.line = self.take_line(length);
         let axis = if count == 6 { Some(axis) } else { None };
         self.give_point(dialect, record, [x, y, z], axis);
+        true
+    }
+
+    /// Takes a whole statement of one line; gives its number.
+    #[inline]
+    fn take_line(&mut self, length: usize) -> u32 {
+        self.statement.line = self.lines.line();
+        self.lines.take_line(length);
+        self.statement.line
+    }
+
+    /// The short way for a line that was read before.
+    #[inline]
+    fn read_repeated(&mut self, record: &mut Record) -> bool {
+        let Some(length) = self.repeated.read(self.lines.unread(), record) else { return false };
+        record.line = self.take_line(length);
+        self.count(record);
         true
     }
 
@@ -352,13 +375,14 @@ impl<R: Read> Reader<R> {
 
     /// Refuses control characters in the statement.
     fn check_bytes(&self) -> Result<(), Box<Diag>> {
-        match self.statement.joined.iter().position(|byte| is_control(*byte)) {
-            None => Ok(()),
-            Some(at) => {
-                let message = format!("byte {:#04x} in the line", self.statement.joined[at]);
-                Err(self.diag(ClCode::BinaryData, &message, at..at + 1))
-            }
+        let bytes = &self.statement.joined;
+        // Looking at all bytes is faster than stopping at the first.
+        if !bytes.iter().fold(false, |found, byte| found | is_control(*byte)) {
+            return Ok(());
         }
+        let at = bytes.iter().position(|byte| is_control(*byte)).unwrap_or(0);
+        let message = format!("byte {:#04x} in the line", bytes[at]);
+        Err(self.diag(ClCode::BinaryData, &message, at..at + 1))
     }
 
     /// A diagnostic at a range of the joined statement.

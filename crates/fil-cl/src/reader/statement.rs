@@ -92,6 +92,11 @@ impl Statement {
         }
     }
 
+    /// True when the statement fills one line.
+    pub(super) fn is_one_line(&self) -> bool {
+        self.pieces.len() == 1
+    }
+
     /// Removes a continuation sign from the end of the joined text.
     fn takes_next(&mut self, form: Form) -> bool {
         let is_comment = matches!(form, Form::Text(_)) && self.joined.ends_with(b"$$");
@@ -184,8 +189,12 @@ fn opening(line: &[u8]) -> (Form, usize) {
     }
     let blanks = line.len() - line.trim_ascii_start().len();
     let rest = &line[blanks..];
+    let first = rest.first().map(u8::to_ascii_uppercase);
     for (name, id) in TEXT_WORDS {
-        if rest.len() < name.len() || !rest[..name.len()].eq_ignore_ascii_case(name) {
+        if first != Some(name[0])
+            || rest.len() < name.len()
+            || !rest[..name.len()].eq_ignore_ascii_case(name)
+        {
             continue;
         }
         if let Some(text) = text_start(rest, name.len()) {
@@ -217,8 +226,8 @@ fn content(line: &[u8], start: usize, form: Form) -> Option<usize> {
     if let Form::Text(_) = form {
         return Some(trim_end(line).len().max(start));
     }
-    let comment = memchr::memmem::find(&line[start..], b"$$");
-    let end = comment.map_or(line.len(), |at| start + at);
+    let mut signs = memchr::memchr_iter(b'$', &line[start..]).map(|at| start + at);
+    let end = signs.find(|at| line.get(at + 1) == Some(&b'$')).unwrap_or(line.len());
     let text = trim_end(&line[start..end]);
     if text.is_empty() { None } else { Some(start + text.len()) }
 }

@@ -18,7 +18,7 @@ use crate::post::Post;
 pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
     let mut form = Form::new(record, vocabulary);
     if form.flag(w::OFF) {
-        post.state.repeat = [None; 27];
+        post.state.repeat.clear();
         form.end()?;
         return Ok(());
     }
@@ -33,7 +33,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
         if post.machine.addresses.position(letter).is_none() {
             return Err(no_address(letter));
         }
-        post.state.repeat[letter as usize] = Some((value, Cause { word, ..post.block.cause }));
+        post.state.repeat.insert(letter, (value, Cause { word, ..post.block.cause }));
     }
     form.end()?;
     Ok(())

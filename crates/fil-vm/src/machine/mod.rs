@@ -1,5 +1,6 @@
 //! The machine: runs the global area once, then sections for records.
 
+mod careful;
 mod files;
 mod library;
 mod post;
@@ -19,10 +20,10 @@ use fil_diag::Diag;
 use crate::functions::Functions;
 use crate::host::{FileMode, Host, Site};
 use crate::module::{ChunkId, Constant, Module, SectionId};
-use crate::value::{Texts, Value};
+use crate::value::{Slot, Texts, Value};
 
 /// The register file: indexed by `u16`, so no access is out of bounds.
-pub(crate) type Registers = [Value; 1 << 16];
+pub(crate) type Registers = [Slot; 1 << 16];
 
 /// First register of the temporaries of expressions.
 pub(crate) const FIRST_TEMPORARY: u16 = 0xF000;
@@ -83,7 +84,7 @@ struct Spot {
 #[derive(Debug, Default)]
 struct State {
     texts: Texts,
-    arrays: Vec<Value>,
+    arrays: Vec<Slot>,
     saved: Option<Record>,
     warned: HashSet<(Spot, u16)>,
     frames: Vec<Spot>,
@@ -122,13 +123,13 @@ struct Vm<'a, H: Host + ?Sized> {
 impl Machine {
     /// A machine for a module compiled with the same functions.
     pub fn new(module: Arc<Module>, limits: Limits, functions: Functions) -> Self {
-        let registers = vec![Value::Unset; 1 << 16].into_boxed_slice();
+        let registers = vec![Slot::UNSET; 1 << 16].into_boxed_slice();
         let Ok(mut registers) = <Box<Registers>>::try_from(registers) else {
             unreachable!("the slice has the length of the array")
         };
         let mut state = State::default();
         let elements = module.arrays.last().map_or(0, |array| array.start + array.len);
-        state.arrays.resize(elements, Value::Unset);
+        state.arrays.resize(elements, Slot::UNSET);
         for (register, constant) in &module.constants {
             registers[usize::from(*register)] = loaded(&mut state.texts, constant);
         }
@@ -191,7 +192,7 @@ impl Machine {
 
     fn value(&self, name: &str) -> Option<Value> {
         let register = self.module.variables.get(name)?;
-        Some(self.registers[usize::from(*register)])
+        Some(self.registers[usize::from(*register)].value())
     }
 
     fn run<H: Host + ?Sized>(
@@ -223,10 +224,11 @@ impl Machine {
 }
 
 /// The value of a constant.
-fn loaded(texts: &mut Texts, constant: &Constant) -> Value {
-    match constant {
+fn loaded(texts: &mut Texts, constant: &Constant) -> Slot {
+    let value = match constant {
         Constant::Number(number) => Value::Number(*number),
         // Texts of the program itself are not counted against the limit.
         Constant::Text(text) => texts.add(text, usize::MAX).map_or(Value::Unset, Value::Text),
-    }
+    };
+    value.into()
 }

@@ -65,7 +65,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             .iter()
             .filter_map(|reg| {
                 let name = self.module.names.get(reg)?;
-                Some(format!("{name} = {}", self.shown(registers[usize::from(*reg)])))
+                Some(format!("{name} = {}", self.shown(registers[usize::from(*reg)].value())))
             })
             .collect();
         if !values.is_empty() {

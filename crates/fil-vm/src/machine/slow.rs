@@ -19,10 +19,9 @@ const BYTES_A_UNIT: usize = 64;
 const MOST_ARGUMENTS: usize = 6;
 
 impl<H: Host + ?Sized> Vm<'_, H> {
-    #[inline(never)]
     /// A register's value; EMPTY with a warning where it was never set.
     pub(super) fn read(&mut self, registers: &Registers, reg: Reg) -> Result<Value, Box<Diag>> {
-        match registers[usize::from(reg)] {
+        match registers[usize::from(reg)].value() {
             Unset => {
                 let module = self.module;
                 self.warn_once(RunCode::NeverSet, || {
@@ -35,7 +34,6 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         }
     }
 
-    #[inline(never)]
     /// A register's number.
     pub(super) fn number(&mut self, registers: &Registers, reg: Reg) -> Result<f64, Box<Diag>> {
         match self.read(registers, reg)? {
@@ -46,14 +44,13 @@ impl<H: Host + ?Sized> Vm<'_, H> {
 
     #[cold]
     pub(super) fn not_a_number(&self, registers: &Registers, reg: Reg) -> Box<Diag> {
-        let text = match registers[usize::from(reg)] {
+        let text = match registers[usize::from(reg)].value() {
             Text(id) => self.state.texts.get(id),
             _ => "",
         };
         fault(RunCode::WrongType, format!("'{text}' is a text; a number is needed here"))
     }
 
-    #[inline(never)]
     pub(super) fn arithmetic(
         &mut self,
         registers: &Registers,
@@ -72,7 +69,6 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     }
 
     /// The product first, then the sum, each with its own message.
-    #[inline(never)]
     pub(super) fn add_product(
         &mut self,
         registers: &Registers,
@@ -92,7 +88,6 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         Err(fault(RunCode::Domain, message))
     }
 
-    #[inline(never)]
     pub(super) fn equal(
         &mut self,
         registers: &Registers,
@@ -109,37 +104,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         }
     }
 
-    #[inline(never)]
-    pub(super) fn differ(
-        &mut self,
-        registers: &Registers,
-        a: Reg,
-        b: Reg,
-    ) -> Result<bool, Box<Diag>> {
-        self.equal(registers, a, b).map(|equal| !equal)
-    }
-
-    #[inline(never)]
-    pub(super) fn less(
-        &mut self,
-        registers: &Registers,
-        a: Reg,
-        b: Reg,
-    ) -> Result<bool, Box<Diag>> {
-        self.order(registers, a, b).map(std::cmp::Ordering::is_lt)
-    }
-
-    #[inline(never)]
-    pub(super) fn less_or_equal(
-        &mut self,
-        registers: &Registers,
-        a: Reg,
-        b: Reg,
-    ) -> Result<bool, Box<Diag>> {
-        self.order(registers, a, b).map(std::cmp::Ordering::is_le)
-    }
-
-    fn order(
+    pub(super) fn order(
         &mut self,
         registers: &Registers,
         a: Reg,
@@ -156,7 +121,6 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     }
 
     /// A value used as a condition.
-    #[inline(never)]
     pub(super) fn truth(&mut self, registers: &Registers, reg: Reg) -> Result<bool, Box<Diag>> {
         let number = self.number(registers, reg)?;
         if number == 1.0 || number == 0.0 {
@@ -205,7 +169,6 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     }
 
     /// Settles last value and step of a DO; true when there is a first pass.
-    #[inline(never)]
     pub(super) fn enter_loop(
         &mut self,
         registers: &mut Registers,
@@ -218,9 +181,27 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         if step == 0.0 {
             return Err(fault(RunCode::ZeroStep, "the step of the loop is 0"));
         }
-        registers[usize::from(base)] = Number(last);
-        registers[usize::from(step_at)] = Number(step);
+        registers[usize::from(base)] = last.into();
+        registers[usize::from(step_at)] = step.into();
         Ok(if step > 0.0 { first <= last } else { first >= last })
+    }
+
+    /// Steps the variable of a DO; true when there is another pass.
+    pub(super) fn next_pass(
+        &mut self,
+        registers: &mut Registers,
+        var: Reg,
+        base: Reg,
+    ) -> Result<bool, Box<Diag>> {
+        self.burn()?;
+        let step = registers[usize::from(base.wrapping_add(1))].number();
+        let value = self.number(registers, var)? + step;
+        if !value.is_finite() {
+            return Err(fault(RunCode::Domain, "the loop variable passes all numbers"));
+        }
+        registers[usize::from(var)] = value.into();
+        let last = registers[usize::from(base)].number();
+        Ok(if step > 0.0 { value <= last } else { value >= last })
     }
 
     /// Position of an array element in the array store.
@@ -233,10 +214,10 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     ) -> Result<usize, Box<Diag>> {
         let module = self.module;
         let shape = &module.arrays[usize::from(array)];
-        let number = match registers[usize::from(index)] {
-            Number(number) => number,
-            _ => self.number(registers, index)?,
-        };
+        let mut number = registers[usize::from(index)].number();
+        if number.is_nan() {
+            number = self.number(registers, index)?;
+        }
         let whole = number as usize;
         if whole >= 1 && whole <= shape.len && whole as f64 == number {
             return Ok(shape.start + whole - 1);
@@ -253,7 +234,6 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         Ok(Number(EMPTY))
     }
 
-    #[inline(never)]
     pub(super) fn function(
         &mut self,
         registers: &Registers,
@@ -278,7 +258,6 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         }
     }
 
-    #[inline(never)]
     pub(super) fn host_function(
         &mut self,
         registers: &Registers,
@@ -309,7 +288,6 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     }
 
     /// Last value written for a letter: DBLCOM 355+n.
-    #[inline(never)]
     pub(super) fn last_written(
         &mut self,
         registers: &Registers,
@@ -324,7 +302,6 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         self.host.common(CommonKind::Dbl, 355 + whole).map(Number)
     }
 
-    #[inline(never)]
     pub(super) fn named_common(
         &mut self,
         registers: &Registers,
@@ -340,7 +317,6 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         }
     }
 
-    #[inline(never)]
     pub(super) fn neighbour(&mut self, next: bool, word: u16) -> Result<Value, Box<Diag>> {
         let side = if next { "next" } else { "previous" };
         match self.host.neighbour(next, usize::from(word), self.vocab)? {

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Tells this program, started again, to post a file and show its peak memory.
 pub const MEMORY_RUN: &str = "--memory-run";
@@ -25,7 +25,32 @@ pub fn peak_memory(cl: &Path, nc: &Path) -> io::Result<u64> {
 
 /// Peak memory of this process in KiB; `None` where the system does not tell.
 pub fn own_peak() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    peak_of("self")
+}
+
+/// Peak memory in KiB of a run of the command. It is asked again and again while
+/// the command runs; 0 where the system does not tell.
+///
+/// # Errors
+/// The command can't be run, or it failed.
+pub fn peak_of_command(command: &Path, arguments: &[&str]) -> io::Result<u64> {
+    let mut run = Command::new(command);
+    run.args(arguments).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    let mut child = run.spawn()?;
+    let id = child.id().to_string();
+    let mut peak = 0;
+    loop {
+        peak = peak_of(&id).unwrap_or(0).max(peak);
+        match child.try_wait()? {
+            None => std::thread::sleep(Duration::from_millis(10)),
+            Some(status) if status.success() => return Ok(peak),
+            Some(status) => return Err(io::Error::other(format!("filpost ended with {status}"))),
+        }
+    }
+}
+
+fn peak_of(process: &str) -> Option<u64> {
+    let status = std::fs::read_to_string(format!("/proc/{process}/status")).ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
     line.trim().trim_end_matches("kB").trim().parse().ok()
 }

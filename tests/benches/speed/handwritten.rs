@@ -1,9 +1,10 @@
 //! What somebody writes who needs one translator for one control: straight
 //! moves of a CL file to blocks, and nothing else. The measure for the post.
 //!
-//! It knows four statements, checks nothing, and can say of no block where it
+//! It knows five statements, checks nothing, and can say of no block where it
 //! comes from; but it does the same work on each GOTO: read three numbers,
 //! round them, drop what has not changed, write the rest, number the block.
+//! `translate.lua` and `translate.py` beside it write the same bytes.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, BufWriter, Write};
@@ -26,7 +27,8 @@ struct Translator {
     last: [Option<i64>; 3],
     feed: Option<i64>,
     last_feed: Option<i64>,
-    cutting: bool,
+    rapid: bool,
+    last_rapid: Option<bool>,
     number: u32,
 }
 
@@ -57,6 +59,9 @@ impl Translator {
         } else if let Some(items) = text.strip_prefix("FEDRAT /") {
             self.feed = Some(scaled(items.split(',').next().unwrap_or_default())?);
             Ok(())
+        } else if text.starts_with("RAPID") {
+            self.rapid = true;
+            Ok(())
         } else if text.starts_with("FINI") {
             self.number(block);
             block.extend_from_slice(b"M30\n");
@@ -72,12 +77,13 @@ impl Translator {
         for value in &mut point {
             *value = scaled(items.next().unwrap_or_default())?;
         }
+        let rapid = std::mem::take(&mut self.rapid);
         if self.last == point.map(Some) {
             return Ok(());
         }
         self.number(block);
-        if !std::mem::replace(&mut self.cutting, true) {
-            block.extend_from_slice(b"G1 ");
+        if self.last_rapid.replace(rapid) != Some(rapid) {
+            block.extend_from_slice(if rapid { b"G0 " } else { b"G1 " });
         }
         for ((letter, value), last) in b"XYZ".iter().zip(point).zip(&mut self.last) {
             if *last != Some(value) {
@@ -85,7 +91,7 @@ impl Translator {
                 *last = Some(value);
             }
         }
-        if self.feed != self.last_feed {
+        if !rapid && self.feed != self.last_feed {
             word(b'F', self.feed.unwrap_or_default(), block);
             self.last_feed = self.feed;
         }

@@ -1,0 +1,35 @@
+//! Posts a CL file with a ready post and perhaps a FIL file:
+//! `cargo run -p filpost --example post_file -- part.ncl part.ngc [post.fil]`.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use filpost::{Post, files};
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let (cl, nc, fil) = match arguments.as_slice() {
+        [cl, nc] => (cl, nc, None),
+        [cl, nc, fil] => (cl, nc, Some(fil)),
+        _ => {
+            eprintln!("usage: post_file CL NC [FIL]");
+            return ExitCode::from(2);
+        }
+    };
+    match post(Path::new(cl), Path::new(nc), fil.map(Path::new)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn post(cl: &Path, nc: &Path, fil: Option<&Path>) -> Result<(), filpost::Error> {
+    let mut builder = Post::builder().ready("linuxcnc-mill");
+    if let Some(fil) = fil {
+        builder = builder.fil(&fil.display().to_string(), &files::read_text(fil, None)?);
+    }
+    files::post_file(&mut builder.build()?, cl, nc)?;
+    Ok(())
+}
