@@ -75,6 +75,11 @@ impl Block {
         add(&mut self.g, (code, self.cause));
     }
 
+    /// Adds a preparatory function that is due to the record as a whole.
+    pub fn g_of_record(&mut self, code: i32) {
+        add(&mut self.g, (code, self.cause.whole()));
+    }
+
     /// Adds a preparatory function with what it is due to.
     pub fn g_due_to(&mut self, code: i32, cause: Cause) {
         add(&mut self.g, (code, cause));

@@ -272,7 +272,7 @@ impl Post {
         })?;
         if self.state.feed_mode != Some(feed.mode) {
             let code = self.code(feed_mode_code(feed.mode), "this feed mode")?;
-            self.block.g_due_to(code, feed.cause);
+            self.block.g_due_to(code, feed.cause.whole());
             self.state.feed_mode = Some(feed.mode);
             self.state.force_feed = true;
         }
@@ -347,7 +347,7 @@ impl Post {
         if let Some((offset, cause)) = self.state.length_offset.take() {
             let code = self.code(loc::TOOL_LENGTH_CODE, "tool length offset")?;
             self.because(cause, |post| {
-                post.block.g(code);
+                post.block.g_of_record(code);
                 post.word(H, offset as f64)
             })?;
         }

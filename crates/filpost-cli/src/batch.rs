@@ -1,5 +1,5 @@
-//! `filpost post` with many CL files: all cores, one program each, in any
-//! number as if they were posted one by one.
+//! `filpost post` with many CL files: on all cores, as if they were posted one
+//! by one.
 
 use std::collections::HashMap;
 use std::io::{self, IsTerminal};
@@ -72,11 +72,11 @@ fn jobs(args: &PostArgs) -> Result<Vec<Job>, Error> {
             cl.push(path.clone());
         }
     }
+    let jobs: Vec<Job> = cl.into_iter().map(|cl| job(args, cl)).collect();
+    refuse_collisions(&jobs)?;
     if let Some(folder) = &args.output {
         std::fs::create_dir_all(folder).map_err(|error| files::cant_write(folder, &error))?;
     }
-    let jobs: Vec<Job> = cl.into_iter().map(|cl| job(args, cl)).collect();
-    refuse_collisions(&jobs)?;
     Ok(jobs)
 }
 

@@ -78,6 +78,7 @@ pub fn lay_under(
         value.filter(|value| *value != fil_post::commons::EMPTY).unwrap_or(0.0)
     });
     drawing.under = Some(cl_trace(cl.bytes, cl.name, options, shift).map_err(Error::Run)?);
+    drawing.under_name = "CL file";
     drawing.under_notes = notes(cl.bytes);
     Ok(())
 }

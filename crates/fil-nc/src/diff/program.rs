@@ -28,10 +28,16 @@ pub(super) struct Line {
 pub struct Program {
     /// Lines that are not empty.
     pub(super) lines: Vec<Line>,
+    name: String,
     texts: Vec<String>,
 }
 
 impl Program {
+    /// The name it was read by.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
     /// The text of a line, 1-based; empty past the end.
     pub fn text(&self, line: u32) -> &str {
         self.texts.get(line as usize - 1).map_or("", String::as_str)
@@ -45,7 +51,7 @@ impl Program {
 
     pub(super) fn read(text: &[u8], name: &str, options: &Options) -> Result<Self, Box<Diag>> {
         let mut modal = Modal::default();
-        let mut program = Program::default();
+        let mut program = Program { name: name.to_string(), ..Program::default() };
         for (number, line) in text.split(|byte| *byte == b'\n').enumerate() {
             program.texts.push(String::from_utf8_lossy(line).trim_end().to_string());
             let mut block = read_block(line, name, number as u32 + 1)?;

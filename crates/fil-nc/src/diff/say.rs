@@ -42,8 +42,9 @@ pub fn sentence(difference: &Difference, first: &Program, second: &Program) -> S
         What::Only => {
             let side = usize::from(difference.lines[0].is_none());
             let text = difference.lines[side].map_or("", |line| programs[side].text(line));
-            let where_ = ["is missing in the second program", "is in the second program alone"];
-            return format!("{block} {}: {text}", where_[side]);
+            let name = second.name();
+            let found = [format!("is missing in {name}"), format!("is in {name} alone")];
+            return format!("{block} {}: {text}", found[side]);
         }
         What::Word(letter, values) => word(*letter, *values),
         What::Function(letter, codes) => function(*letter, *codes),

@@ -64,7 +64,8 @@ fn data(drawing: &Drawing, extent: Option<Extent>) -> String {
             format!("{{\"name\":\"{}\",\"colour\":\"{}\"}}", stroke.name(), stroke.colour())
         })
         .collect();
-    let _ = write!(out, "\"strokes\":[{}],\"clColour\":\"{CL_COLOUR}\",", strokes.join(","));
+    let _ = write!(out, "\"strokes\":[{}],\"underColour\":\"{CL_COLOUR}\",", strokes.join(","));
+    let _ = write!(out, "\"underName\":\"{}\",", drawing.under_name);
     let _ = write!(out, "\"path\":{}", trace(&drawing.path, &drawing.notes, &extent, step));
     if let Some(under) = &drawing.under {
         let _ = write!(out, ",\"under\":{}", trace(under, &drawing.under_notes, &extent, step));

@@ -117,8 +117,10 @@ pub struct Drawing {
     pub title: String,
     /// The path.
     pub path: Trace,
-    /// The CL path under it.
+    /// The path under it, with which it is compared: mostly that of the CL file.
     pub under: Option<Trace>,
+    /// What the path under it is called in a legend.
+    pub under_name: &'static str,
     /// Notes on the lines of the path: `notes[0]` is on line 1. May be shorter than
     /// the program.
     pub notes: Vec<Note>,

@@ -123,7 +123,7 @@
   // --- drawing -----------------------------------------------------------------
 
   const layers = data.strokes.map((stroke, index) => ({ ...stroke, index, on: true }));
-  const clLayer = { name: "CL file", colour: data.clColour, on: true };
+  const clLayer = { name: data.underName, colour: data.underColour, on: true };
   const BATCH = 4000, DASHES = 20000;
 
   /** Draws the pieces of a trace that `wanted` takes; what does not reach the next
@@ -318,7 +318,7 @@
     const line = trace.lines[piece];
     const at = 3 * (trace.ends[piece] - 1);
     const end = ["X", "Y", "Z"].map((name, axis) => name + short(trace.points[at + axis])).join(" ");
-    const what = `${trace === under ? "CL file, " : ""}${data.strokes[trace.strokes[piece]].name} to ${end}`;
+    const what = `${trace === under ? data.underName + ", " : ""}${data.strokes[trace.strokes[piece]].name} to ${end}`;
     const text = trace.texts[line - 1] || "";
     const origin = trace.origins[trace.originOf[line - 1] || 0];
     return [`line ${line}: ${text}`, what, origin].filter((part) => part).join("\n");

@@ -101,7 +101,7 @@ fn legend(out: &mut String, drawing: &Drawing, extent: Option<&Extent>) {
         sample(out, stroke.colour(), stroke.name(), style(stroke));
     }
     if drawing.under.is_some() {
-        sample(out, CL_COLOUR, "CL file", UNDER);
+        sample(out, CL_COLOUR, drawing.under_name, UNDER);
     }
     if let Some(extent) = extent {
         let range =

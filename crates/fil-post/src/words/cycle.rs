@@ -414,7 +414,7 @@ pub fn cancel(post: &mut Post) -> Result<(), Box<Diag>> {
         return Ok(());
     }
     let code = post.code(loc::CYCLE_OFF_CODE, "CYCLE/OFF")?;
-    post.block.g(code);
+    post.block.g_of_record(code);
     post.state.motion = None;
     post.write_block()
 }

@@ -37,7 +37,7 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
 pub fn write(post: &mut Post, value: f64) -> Result<(), Box<Diag>> {
     let letter = letter_of(post)?;
     let code = post.code(loc::DWELL_CODE, "a dwell")?;
-    post.block.g(code);
+    post.block.g_of_record(code);
     post.word(letter, value)?;
     post.write_block()?;
     post.commons.set_last_output(letter, EMPTY);

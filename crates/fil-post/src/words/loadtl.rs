@@ -142,7 +142,7 @@ fn length_offset(post: &mut Post, offset: i64) -> Result<(), Box<Diag>> {
         return Ok(());
     }
     if let Some(cancel) = post.commons.int_opt(loc::TOOL_LENGTH_CANCEL_CODE) {
-        post.block.g(cancel);
+        post.block.g_of_record(cancel);
         post.write_block()?;
     }
     let Some(z) = post.commons.dbl_opt(loc::TOOL_LENGTH_Z) else {
@@ -150,7 +150,7 @@ fn length_offset(post: &mut Post, offset: i64) -> Result<(), Box<Diag>> {
         post.commons.set_last_output(post.machine.axis(2).letter, EMPTY);
         return Ok(());
     };
-    post.block.g(code);
+    post.block.g_of_record(code);
     post.axis_word(2, z, true)?;
     post.word(H, offset as f64)?;
     post.write_block()?;

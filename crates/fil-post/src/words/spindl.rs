@@ -56,10 +56,11 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
     if let Some(limit) = form.couplet(w::MAXRPM)? {
         let code = post.code(loc::SPINDLE_MAX_CODE, "SPINDL/MAXRPM")?;
         post.due_to(&form);
-        post.block.g(code);
+        post.block.g_of_record(code);
         post.word(S, limit)?;
         post.write_block()?;
     }
+    post.block.cause.word = 0;
     speed(post, &mut form)?;
     let direction = form.any_of(&[w::CLW, w::CCLW]);
     match direction {
@@ -107,7 +108,7 @@ fn speed(post: &mut Post, form: &mut Form) -> Result<(), Box<Diag>> {
         post.commons.int_opt(loc::SPINDLE_RPM_CODE)
     };
     if let Some(code) = code {
-        post.block.g(code);
+        post.block.g_of_record(code);
     }
     let speed = if surface { surface_speed(post, unit, asked) } else { within_range(post, asked) };
     post.state.spindle = Some(speed);

@@ -44,10 +44,8 @@ pub fn cut(post: &mut Post, position: &Position) -> Result<(), Box<Diag>> {
     let Some((pitch, cause)) = post.state.thread else { return Ok(()) };
     if post.axis_words(position, XY | Z)? {
         let code = post.code(loc::THREAD_CODE, "a thread")?;
-        post.because(cause, |post| {
-            post.motion_code(code, false);
-            post.word(F, pitch)
-        })?;
+        post.because(cause.whole(), |post| post.motion_code(code, false));
+        post.because(cause, |post| post.word(F, pitch))?;
         post.write_motion()?;
         post.commons.set_last_output(F, EMPTY);
     }

@@ -1,5 +1,7 @@
 //! The report for people: one HTML file that needs nothing else.
 
+use filpost::nc::plot::{View, svg};
+use filpost::plot::{self, Text};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::Done;
@@ -68,10 +70,26 @@ fn failure(done: &Done) -> Markup {
         @if outcome.fresh.is_empty() {
             pre { (outcome.failure.as_deref().unwrap_or_default()) }
         }
+        @if let Some(plot) = plot(done) {
+            details open { summary { "Paths" } (plot) }
+        }
         @for fresh in &outcome.fresh {
             details open { summary { (fresh.path.display()) } (changes(&fresh.changes)) }
         }
     }
+}
+
+/// The path of this run over that of the proven program, as far as they can be read
+/// as motion of the case's machine.
+fn plot(done: &Done) -> Option<Markup> {
+    let post = done.case.post().ok()?;
+    let path = |name: &'static str, text: &str| {
+        plot::program(Text { name, bytes: text.as_bytes() }, post.commons()).ok()
+    };
+    let mut drawing = path("this run", done.outcome.nc.as_deref()?)?;
+    drawing.under = path("proven", done.outcome.wanted.as_deref()?).map(|proven| proven.path);
+    drawing.under_name = "proven program";
+    Some(PreEscaped(svg(&drawing, &[View::Xy, View::Zx, View::Isometric])))
 }
 
 /// A diff of lines, in colours.

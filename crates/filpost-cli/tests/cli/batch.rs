@@ -69,6 +69,7 @@ fn names_that_would_meet_are_refused_before_anything_is_written() {
         Place::new().folder("a").folder("b").with("a/op.ncl", SMALL).with("b/op.ncl", SMALL);
     let ran = place.run(&["post", "a/op.ncl", "b/op.ncl", "-o", "nc"]);
     assert!(ran.status == 1 && ran.err.contains("E0802"), "{ran:?}");
+    assert_eq!(place.files(), ["a", "b"], "nothing is written");
     let twice = place.run(&["post", "a/op.ncl", "./a/op.ncl"]);
     assert!(twice.status == 1 && twice.err.contains("E0802"), "{twice:?}");
     let place = place.with("a/x.nc", SMALL).with("a/x.ncl", SMALL);

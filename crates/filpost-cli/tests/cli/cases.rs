@@ -38,7 +38,8 @@ fn reports_for_people_and_for_servers() {
     let html = place.text("r.html").unwrap_or_default();
     assert!(html.starts_with("<!DOCTYPE html>"), "{html}");
     assert!(html.contains("block N40: Z deeper by 0.5 (3 instead of 3.5)"), "{html}");
-    assert!(!html.contains("http://") && !html.contains("src="), "it needs no other file");
+    assert!(html.contains("<svg") && html.contains("proven program"), "{html}");
+    assert!(!html.contains("src=") && !html.contains("<link"), "it needs no other file");
     let xml = place.text("r.xml").unwrap_or_default();
     assert!(xml.contains("tests=\"10\"") && xml.contains("failures=\"1\""), "{xml}");
     assert!(xml.contains("<testcase name=\"case-7\""), "{xml}");

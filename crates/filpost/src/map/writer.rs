@@ -2,8 +2,8 @@
 
 use std::io::{self, Write};
 
-use fil_post::tape::{TEXT, Tape};
-use fil_post::{BlockInfo, Cause, Stack, WordInfo};
+use fil_post::tape::Tape;
+use fil_post::{BlockInfo, Stack};
 use fil_vm::Module;
 use serde::Serialize;
 
@@ -86,42 +86,14 @@ impl<'w> Writer<'w> {
     }
 
     fn block(&mut self, block: &BlockInfo, tape: &Tape) {
-        let noted = &tape.noted[block.words.clone()];
-        match noted.last() {
-            Some(word) if word.letter == TEXT => self.text_block(block, noted, *word, tape),
-            _ => self.nc_line(noted, block.range.end, block.cause),
-        }
-    }
-
-    /// A block that ends in a text, which a script can give line ends.
-    fn text_block(
-        &mut self,
-        block: &BlockInfo,
-        noted: &[WordInfo],
-        mut text: WordInfo,
-        tape: &Tape,
-    ) {
-        let mut first = Some(noted);
-        let whole = text.start..block.range.end;
-        let bytes = tape.text[whole.clone()].iter().enumerate();
-        let ends = bytes.filter(|(_, byte)| **byte == b'\n').map(|(at, _)| whole.start + at);
-        for end in ends.chain([whole.end]) {
-            match first.take() {
-                Some(words) => self.nc_line(words, end, block.cause),
-                None => self.nc_line(&[text], end, block.cause),
-            }
-            text.start = end + 1;
-        }
-    }
-
-    fn nc_line(&mut self, words: &[WordInfo], end: usize, cause: Cause) {
+        let cause = block.cause;
         let lines = &mut self.lines;
         lines.push(b'[');
         words::number(cause.line, lines);
         lines.push(b',');
         words::number(cause.record, lines);
         lines.extend_from_slice(b",\"");
-        words::write(words, end, cause, lines);
+        words::write(&tape.noted[block.words.clone()], block.range.end, cause, lines);
         lines.push(b'"');
         if cause.stack != 0 {
             lines.push(b',');
