@@ -150,6 +150,11 @@ impl<C: Steps> Walk<'_, C> {
         let Event::Move(found) = self.nc[chosen] else { return };
         self.say_way(step, &found);
         self.say_gap(step.line, &found, &pose);
+        if found.in_cycle && self.gap(&found.to, &pose).closed() {
+            let what = self.spell_move(&found);
+            let message = format!("{what} by a cycle that the CL file does not ask for here");
+            self.find(Kind::Extra, Some(step.line), Some(found.line), message);
+        }
         for index in self.next..=chosen {
             if let Event::Move(part) = self.nc[index] {
                 self.take(step.line, &part);

@@ -106,6 +106,17 @@ impl<'a, C: Steps> Walk<'a, C> {
                 });
             });
         }
+        // Whatever was not made has been said; this holds if something was forgotten.
+        let report = &mut self.report;
+        if report.findings.is_empty() && report.matched < report.compared {
+            let missing = report.compared - report.matched;
+            report.find(Finding {
+                kind: Kind::Missing,
+                cl_line: None,
+                nc_line: None,
+                message: format!("{missing} motions are not made as the CL file asks"),
+            });
+        }
         Ok(self.report)
     }
 
