@@ -85,36 +85,31 @@ fn commands_run_as_printed() {
     assert!(count >= 15, "only {count} commands");
 }
 
-/// A block `sh fails` ends with status 1; a block `text` right after it shows
-/// what is printed.
+/// A block `sh fails` ends with status 1.
 #[test]
-fn commands_that_fail_do_so_as_printed() {
+fn commands_that_fail_do_so() {
     for (name, page) in pages() {
-        let all = blocks(&page);
-        for (index, block) in all.iter().enumerate().filter(|(_, b)| b.words == ["sh", "fails"]) {
-            let output = shell(block.text.trim());
-            assert_eq!(output.status.code(), Some(1), "{name}: {}", block.text);
-            if let Some(shown) = all.get(index + 1).filter(|next| next.words == ["text"]) {
-                assert_eq!(String::from_utf8_lossy(&output.stdout), shown.text, "{name}");
-            }
+        for block in blocks(&page).into_iter().filter(|block| block.words == ["sh", "fails"]) {
+            assert_eq!(shell(block.text.trim()).status.code(), Some(1), "{name}: {}", block.text);
         }
     }
 }
 
+/// A block `nc` or `text printed` right after a command is what it prints.
 #[test]
-fn programs_shown_are_those_printed() {
+fn what_is_shown_is_what_is_printed() {
     let mut count = 0;
     for (name, page) in pages() {
         for pair in blocks(&page).windows(2) {
             let shown = pair[1].words == ["nc"] || pair[1].words == ["text", "printed"];
-            if pair[0].words == ["sh"] && shown {
+            if pair[0].words.first() == Some(&"sh") && shown {
                 let output = shell(pair[0].text.trim());
                 assert_eq!(String::from_utf8_lossy(&output.stdout), pair[1].text, "{name}");
                 count += 1;
             }
         }
     }
-    assert!(count >= 1, "no page shows a program");
+    assert!(count >= 10, "only {count} commands are shown with what they print");
 }
 
 #[test]
