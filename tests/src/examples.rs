@@ -65,19 +65,14 @@ pub fn blocks(page: &str) -> Vec<Block<'_>> {
 /// post, `toml` is a machine.toml that [`PART`] is posted with. Marks:
 /// `strict`, `check` (the warnings of `filpost check`), `fuel=N`, `post=NAME`,
 /// `option-file`, `compat`, `read` (the folder `tests/language/with` is granted),
-/// `clock` (a fixed one). `nc` is read as an NC program, with the mark `run` also
-/// interpreted.
+/// `clock` (a fixed one). `nc` is an NC program for fanuc-mill.
 pub fn run(block: &Block<'_>) -> Option<Vec<Diag>> {
     let (language, marks) = block.words.split_first()?;
     if marks.contains(&"check") {
         return Some(check(&block.text));
     }
     if *language == "nc" {
-        let said = match marks.contains(&"run") {
-            true => crate::motions::refusal(&block.text),
-            false => crate::nc::refusal("out.nc", &block.text),
-        };
-        return Some(said.into_iter().collect());
+        return Some(crate::motions::refusal(&block.text).into_iter().collect());
     }
     let value = |name: &str| marks.iter().find_map(|mark| mark.strip_prefix(name));
     let mut builder = Post::builder()

@@ -12,7 +12,6 @@ pub mod language;
 pub mod lints;
 pub mod motions;
 pub mod mutants;
-pub mod nc;
 pub mod nc_cases;
 pub mod nc_path;
 pub mod oracle;

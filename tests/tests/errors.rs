@@ -1,7 +1,8 @@
 //! The error catalogue: every code has its page in `docs/errors/`, and a case
-//! in `corpus/errors/`, a file of the lint suite, of `tests/nc/` or of `tests/motions/`, or a test in
-//! this file. The examples of the pages are run: what stands under "Wrong" raises the code with the words printed there,
-//! what stands under "Right" does not. `FILPOST_UPDATE=1` writes the words anew.
+//! in `corpus/errors/`, a file of the lint suite or of `tests/motions/`, or a test
+//! in this file. The examples of the pages are run: what stands under "Wrong"
+//! raises the code with the words printed there, what stands under "Right" does
+//! not. `FILPOST_UPDATE=1` writes the words anew.
 
 use std::collections::BTreeMap;
 use std::io::{self, Cursor, Read};
@@ -10,7 +11,7 @@ use std::path::{Path, PathBuf};
 use filpost::case::Case;
 use filpost::{Code, Diag, Error, Limits, Post, Severity, all_codes, files, trace};
 use filpost_tests::examples::{self, PART};
-use filpost_tests::{lints, motions, nc, root};
+use filpost_tests::{lints, motions, root};
 
 /// Codes that no small case folder can raise, with the test of this file that does.
 const TESTED_HERE: &[(&str, &str)] = &[
@@ -105,9 +106,8 @@ fn every_code_has_a_case_or_a_test() {
     let bad = lints::fil_files(&root().join("tests/lints/bad"));
     let read = |path: &PathBuf| std::fs::read_to_string(path).expect("a file of the lint suite");
     let lints: Vec<String> = bad.iter().flat_map(|path| lints::listed(&read(path))).collect();
-    let mut programs: Vec<String> =
-        nc::files().iter().filter_map(|path| nc::listed(path)).collect();
-    programs.extend(motions::files().iter().filter_map(|path| motions::listed(path)));
+    let programs: Vec<String> =
+        motions::files().iter().filter_map(|path| motions::listed(path)).collect();
     let source = include_str!("errors.rs");
     for code in all_codes() {
         let name = code.name();

@@ -1,0 +1,3 @@
+; error: E0903 at 2
+T3 M6 (12 MM ENDMILL
+M30

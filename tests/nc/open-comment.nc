@@ -1,3 +1,0 @@
-(error: E0903 at 2:9)
-T3 M6 S9(12 MM ENDMILL
-M30
