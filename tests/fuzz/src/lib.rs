@@ -5,6 +5,14 @@
 
 use std::sync::LazyLock;
 
+use fil_nc::dialect::Dialect;
+use fil_nc::diff;
+use fil_nc::forward::Forward;
+use fil_nc::interpret::interpret;
+use fil_nc::motion::Event;
+use fil_nc::plot::{Drawing, View, nc_trace, svg};
+use fil_nc::text::read_block;
+use filpost::map::{Entry, MapReader};
 use filpost::{Builder, Commons, Limits, Post};
 use filpost_tests::duel::{fight, reduce};
 use filpost_tests::programs::{Dice, case};
@@ -89,5 +97,80 @@ pub fn programs(data: &[u8]) {
     if fight(&made).is_err() {
         let (small, told) = reduce(&made);
         panic!("{told}\n--- FIL\n{}--- CL\n{}", small.fil, small.cl);
+    }
+}
+
+/// What a reader of NC programs needs of a ready post, made once.
+static MACHINES: LazyLock<Vec<(Dialect, Forward)>> = LazyLock::new(|| {
+    let machine = |commons: &Commons| {
+        let dialect = Dialect::new(commons).expect("a ready post has a dialect");
+        (dialect, Forward::from_commons(commons).expect("a ready post has axes"))
+    };
+    READY.iter().map(machine).collect()
+});
+
+/// Events that are drawn; the ones after them are looked at and dropped.
+const DRAWN: usize = 5_000;
+
+/// Any bytes as an NC program; the first one chooses the control, and the two
+/// halves of the rest are compared.
+pub fn nc_bytes(data: &[u8]) {
+    let Some((first, nc)) = data.split_first() else { return };
+    let (dialect, forward) = &MACHINES[usize::from(*first) % MACHINES.len()];
+    for line in nc.split(|byte| *byte == b'\n') {
+        if let Ok(block) = read_block(line, "fuzz.nc", 1) {
+            assert!(block.words.iter().all(|word| word.range.end <= line.len()));
+        }
+    }
+    let mut events = Vec::new();
+    let _ = interpret(nc, "fuzz.nc", dialect, &mut |event| {
+        finite(&event);
+        if events.len() < DRAWN {
+            events.push(event);
+        }
+    });
+    let drawing = Drawing { path: nc_trace(&events, forward), ..Drawing::default() };
+    let picture = svg(&drawing, &View::ALL);
+    assert!(!picture.contains("NaN") && !picture.contains("inf"), "{picture}");
+    compare(nc);
+}
+
+/// An event has no number that is none.
+fn finite(event: &Event) {
+    if let Event::Move(motion) = event {
+        let mut axes = motion.to.linear.iter().chain(&motion.to.rotary);
+        assert!(axes.all(|at| at.is_finite()), "{motion:?}");
+    }
+}
+
+/// Compares the halves of a program with each other, and each with itself.
+fn compare(nc: &[u8]) {
+    let (head, tail) = nc.split_at(nc.len() / 2);
+    let options = diff::Options::default();
+    let read = |text| diff::read(text, "fuzz.nc", &options).ok();
+    let halves = [read(head), read(tail)];
+    for half in halves.iter().flatten() {
+        let same = diff::compare(half, half, &options);
+        assert!(same.differences.is_empty(), "a program differs from itself: {same:?}");
+    }
+    if let [Some(head), Some(tail)] = &halves {
+        for difference in &diff::compare(head, tail, &options).differences {
+            assert!(!diff::sentence(difference, head, tail).is_empty());
+        }
+    }
+}
+
+/// Any bytes as a line map.
+pub fn map_bytes(data: &[u8]) {
+    let Ok(mut map) = MapReader::new("fuzz.map", std::io::Cursor::new(data)) else { return };
+    while let Some(Ok(entry)) = map.next() {
+        let Entry::Line(line) = entry else { continue };
+        let causes = line.words.iter().map(|word| word.cause).chain([line.cause]);
+        causes.filter_map(|cause| map.stack(cause)).for_each(|stack| {
+            let _ = map.section(stack);
+        });
+        line.words.iter().for_each(|word| {
+            let _ = word.text("N10 G1 X1.");
+        });
     }
 }
