@@ -65,11 +65,11 @@ impl<R: Read> Lines<R> {
         &self.buffer[self.next..self.end]
     }
 
-    /// Takes one whole line of `length` bytes, line end included, out of [`Self::unread`].
+    /// Takes whole lines of `length` bytes, line ends included, out of [`Self::unread`].
     #[inline]
-    pub(super) fn take_line(&mut self, length: usize) {
+    pub(super) fn take_lines(&mut self, length: usize, lines: u32) {
         self.next += length;
-        self.line = self.line.saturating_add(1);
+        self.line = self.line.saturating_add(lines);
     }
 
     /// Starts a statement at the next line.

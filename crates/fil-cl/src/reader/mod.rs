@@ -196,9 +196,8 @@ impl<R: Read> Reader<R> {
                 self.finish(dialect, record)?;
             }
         }
-        if self.statement.is_one_line() {
-            self.repeated.keep(self.lines.taken(), record);
-        }
+        let lines = self.lines.line().saturating_sub(self.statement.line);
+        self.repeated.keep(self.lines.taken(), lines, record);
         self.count(record);
         Ok(true)
     }
@@ -228,25 +227,27 @@ impl<R: Read> Reader<R> {
         if count == 6 && !self.is_axis(dialect, axis) {
             return false;
         }
-        record.line = self.take_line(length);
+        record.line = self.take_lines(length, 1);
         let axis = if count == 6 { Some(axis) } else { None };
         self.give_point(dialect, record, [x, y, z], axis);
         true
     }
 
-    /// Takes a whole statement of one line; gives its number.
+    /// Takes a whole statement; gives the number of its first line.
     #[inline]
-    fn take_line(&mut self, length: usize) -> u32 {
+    fn take_lines(&mut self, length: usize, lines: u32) -> u32 {
         self.statement.line = self.lines.line();
-        self.lines.take_line(length);
+        self.lines.take_lines(length, lines);
         self.statement.line
     }
 
-    /// The short way for a line that was read before.
+    /// The short way for a statement that was read before.
     #[inline]
     fn read_repeated(&mut self, record: &mut Record) -> bool {
-        let Some(length) = self.repeated.read(self.lines.unread(), record) else { return false };
-        record.line = self.take_line(length);
+        let Some((length, lines)) = self.repeated.read(self.lines.unread(), record) else {
+            return false;
+        };
+        record.line = self.take_lines(length, lines);
         self.count(record);
         true
     }

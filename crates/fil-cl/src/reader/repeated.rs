@@ -1,6 +1,6 @@
 //! Statements that come again and again with the same text: `RAPID`, a FEDRAT
-//! between two rapids, `COOLNT / ON`. They are read once and then known by their
-//! line.
+//! between two rapids, the coordinate system of each operation. They are read once
+//! and then known by their lines.
 
 use crate::record::{Record, kind};
 use crate::words;
@@ -8,47 +8,54 @@ use crate::words;
 /// Lines kept at a time.
 const LINES: usize = 16;
 
-/// Longest line that is kept.
-const LONGEST: usize = 64;
+/// Longest first line of a statement that is kept.
+const LONGEST: usize = 80;
 
-/// A line, line end included, and the record it makes.
+/// Longest statement that is kept.
+const LONGEST_STATEMENT: usize = 4 * LONGEST;
+
+/// A statement, line ends included, and the record it makes.
 #[derive(Default)]
 struct Known {
-    line: Vec<u8>,
+    text: Vec<u8>,
+    lines: u32,
     record: Record,
 }
 
-/// The lines known by now, each in the place its bytes name.
+/// The statements known by now, each in the place its first line names.
 #[derive(Default)]
 pub(super) struct Repeated {
     known: [Known; LINES],
 }
 
 impl Repeated {
-    /// Makes `record` what the first line of `text` makes, when that is known;
-    /// gives the length of the line.
+    /// Makes `record` what the statement at the start of `text` makes, when that is
+    /// known; gives its length and the number of its lines.
     #[inline]
-    pub(super) fn read(&self, text: &[u8], record: &mut Record) -> Option<usize> {
+    pub(super) fn read(&self, text: &[u8], record: &mut Record) -> Option<(usize, u32)> {
         let head = &text[..text.len().min(LONGEST)];
         let length = memchr::memchr(b'\n', head)? + 1;
         let known = &self.known[place(&head[..length])];
-        if known.line != head[..length] {
+        if known.text.len() < length || !text.starts_with(&known.text) {
             return None;
         }
         copy(&known.record, record);
-        Some(length)
+        Some((known.text.len(), known.lines))
     }
 
-    /// Keeps a line that is a whole statement, unless its record depends on the
+    /// Keeps a whole statement of so many lines, unless its record depends on the
     /// statements before it or leaves something for those after it.
-    pub(super) fn keep(&mut self, line: &[u8], record: &Record) {
+    pub(super) fn keep(&mut self, text: &[u8], lines: u32, record: &Record) {
         let is_modal = record.kind == kind::MOTION || record.major == words::MULTAX;
-        if is_modal || line.len() > LONGEST || !line.ends_with(b"\n") {
+        let first = memchr::memchr(b'\n', text).map_or(usize::MAX, |end| end + 1);
+        let is_long = first > LONGEST || text.len() > LONGEST_STATEMENT;
+        if is_modal || is_long || !text.ends_with(b"\n") {
             return;
         }
-        let known = &mut self.known[place(line)];
-        known.line.clear();
-        known.line.extend_from_slice(line);
+        let known = &mut self.known[place(&text[..first])];
+        known.text.clear();
+        known.text.extend_from_slice(text);
+        known.lines = lines;
         copy(record, &mut known.record);
     }
 }
@@ -117,15 +124,37 @@ mod tests {
     }
 
     #[test]
+    fn statements_of_several_lines_keep_their_places() {
+        let text = "$$-> CSYS / 1, 0, $\n 0, 4, $\n 5\n\n$$ a comment\nCOOLNT / $\n ON\n";
+        let once = read_all(text);
+        let places: Vec<u32> = once.iter().map(|record| record.line).collect();
+        assert_eq!(places, [1, 6]);
+        let again = read_all(&text.repeat(3));
+        for (at, record) in again.iter().enumerate() {
+            let first = &once[at % 2];
+            assert_eq!(record.line, first.line + 7 * (at as u32 / 2));
+            assert_eq!(record.number, at as u32 + 1);
+            assert_eq!((&record.data, &record.text), (&first.data, &first.text));
+        }
+    }
+
+    #[test]
+    fn a_statement_that_goes_on_otherwise_is_read_anew() {
+        let text = "CUTTER / 1, $\n 2\nCUTTER / 1, $\n 3\nCUTTER / 1, $\n 2, $\n 4\nRAPID\n";
+        let lengths: Vec<usize> = read_all(text).iter().map(|record| record.data.len()).collect();
+        assert_eq!(lengths, [2, 2, 3, 0]);
+    }
+
+    #[test]
     fn what_depends_on_other_statements_is_not_kept() {
         let mut repeated = Repeated::default();
         let motion = Record { kind: kind::MOTION, ..Record::default() };
-        repeated.keep(b"GOTO / 1,2,3\n", &motion);
+        repeated.keep(b"GOTO / 1,2,3\n", 1, &motion);
         let rapid = Record { kind: kind::POST, data: vec![Word::Empty], ..Record::default() };
-        repeated.keep(b"RAPID\n", &rapid);
+        repeated.keep(b"RAPID\n", 1, &rapid);
         let mut found = Record::default();
         assert_eq!(repeated.read(b"GOTO / 1,2,3\n", &mut found), None);
-        assert_eq!(repeated.read(b"RAPID\nRAPID\n", &mut found), Some(6));
+        assert_eq!(repeated.read(b"RAPID\nRAPID\n", &mut found), Some((6, 1)));
         assert_eq!(found, rapid);
         assert_eq!(repeated.read(b"RAPID", &mut found), None);
     }

@@ -92,11 +92,6 @@ impl Statement {
         }
     }
 
-    /// True when the statement fills one line.
-    pub(super) fn is_one_line(&self) -> bool {
-        self.pieces.len() == 1
-    }
-
     /// Removes a continuation sign from the end of the joined text.
     fn takes_next(&mut self, form: Form) -> bool {
         let is_comment = matches!(form, Form::Text(_)) && self.joined.ends_with(b"$$");

@@ -38,9 +38,10 @@ impl Program {
         &self.name
     }
 
-    /// The text of a line, 1-based; empty past the end.
+    /// The text of a line, 1-based; empty where there is none.
     pub fn text(&self, line: u32) -> &str {
-        self.texts.get(line as usize - 1).map_or("", String::as_str)
+        let at = (line as usize).checked_sub(1);
+        at.and_then(|at| self.texts.get(at)).map_or("", String::as_str)
     }
 
     /// The sequence number of a line.

@@ -12,9 +12,12 @@ use fil_cl::{Circle, Options, Reader, Record, Vocabulary, Word, WordId, words as
 use fil_diag::Diag;
 use nalgebra::{Matrix3x4, Point3, Vector3};
 
-use super::wanted::{Arc, CoolantKind, CycleKind, Effect, Hole, Step, Wanted};
+use super::statements::{
+    compensation, coolant, numbers, numbers_beside, spindle, statement, whole,
+};
+use super::wanted::{Arc, CycleKind, Effect, Hole, Step, Wanted};
 use crate::forward::Pose;
-use crate::motion::{Compensation, Rate, Spindle};
+use crate::motion::Rate;
 
 /// Millimetres of an inch.
 const INCH: f64 = 25.4;
@@ -467,86 +470,4 @@ impl State {
         let axis = axis.try_normalize(1e-9).unwrap_or(axis);
         Pose { tip: Point3::from((point.coords + self.shift) * self.unit()), axis }
     }
-}
-
-fn spindle(record: &Record) -> Vec<Wanted> {
-    if record.has(w::OFF) {
-        return vec![Wanted::Spindle(Some(Spindle::Off))];
-    }
-    if record.has(w::ORIENT) {
-        return vec![Wanted::Orient];
-    }
-    let speed = numbers_beside(record, &[w::MAXRPM, w::RANGE]).first().copied();
-    let surface = record.has(w::SFM) || record.has(w::SMM);
-    let mut wanted = Vec::new();
-    if speed.is_some() {
-        wanted.push(Wanted::Speed(speed.filter(|_| !surface)));
-    }
-    wanted.push(Wanted::Spindle(match () {
-        () if record.has(w::CLW) => Some(Spindle::Clockwise),
-        () if record.has(w::CCLW) => Some(Spindle::Counterclockwise),
-        () => None,
-    }));
-    wanted
-}
-
-fn coolant(record: &Record) -> Option<Wanted> {
-    let low = record.has(w::LOW);
-    Some(Wanted::Coolant(match () {
-        () if record.has(w::OFF) => CoolantKind::Off,
-        () if record.has(w::ON) => CoolantKind::On,
-        () if record.has(w::MIST) => CoolantKind::Mist,
-        () if record.has(w::FLOOD) && low => CoolantKind::FloodLow,
-        () if record.has(w::FLOOD) && record.has(w::HIGH) => CoolantKind::FloodHigh,
-        () if record.has(w::FLOOD) => CoolantKind::Flood,
-        () if record.has(w::THRU) && low => CoolantKind::ThroughLow,
-        () if record.has(w::THRU) => CoolantKind::Through,
-        () => return None,
-    }))
-}
-
-fn compensation(record: &Record) -> Option<Wanted> {
-    let side = match () {
-        () if record.has(w::OFF) => Compensation::Off,
-        () if record.has(w::LEFT) => Compensation::Left,
-        () if record.has(w::RIGHT) => Compensation::Right,
-        () => return None,
-    };
-    Some(Wanted::Compensation(side, numbers(record).first().and_then(|offset| whole(*offset))))
-}
-
-/// All numbers of a record in order.
-fn numbers(record: &Record) -> Vec<f64> {
-    let number = |word: &Word| match word {
-        Word::Number(value) => Some(*value),
-        _ => None,
-    };
-    record.data.iter().filter_map(number).collect()
-}
-
-/// The numbers that are not the value of one of these couplets.
-fn numbers_beside(record: &Record, couplets: &[WordId]) -> Vec<f64> {
-    let of_couplet = |at: usize| match at.checked_sub(1).map(|before| record.data[before]) {
-        Some(Word::Minor(word)) => couplets.contains(&word),
-        _ => false,
-    };
-    let number = |(at, word): (usize, &Word)| match word {
-        Word::Number(value) if !of_couplet(at) => Some(*value),
-        _ => None,
-    };
-    record.data.iter().enumerate().filter_map(number).collect()
-}
-
-fn whole(number: f64) -> Option<u32> {
-    (number.fract() == 0.0 && (0.0..1e9).contains(&number)).then_some(number as u32)
-}
-
-/// The major word and the first minor word of a record: `THREAD/AUTO`.
-fn statement(record: &Record, vocabulary: &Vocabulary) -> String {
-    let minor = record.data.iter().find_map(|word| match word {
-        Word::Minor(word) => Some(vocabulary.name(*word)),
-        _ => None,
-    });
-    let major = vocabulary.name(record.major);
-    minor.map_or(major.to_string(), |minor| format!("{major}/{minor}"))
 }

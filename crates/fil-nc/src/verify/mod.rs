@@ -18,6 +18,7 @@ mod programs;
 mod report;
 mod say;
 mod settings;
+mod statements;
 mod tools;
 mod walk;
 mod wanted;
