@@ -28,17 +28,26 @@ impl Word {
 pub(super) fn write(words: &[WordInfo], end: usize, block: Cause, out: &mut Vec<u8>) {
     let ends = words.iter().skip(1).map(|next| next.start).chain([end]);
     for (index, (word, end)) in words.iter().zip(ends).enumerate() {
+        let length = (end - word.start) as u32;
+        let cause = word.cause;
+        let is_usual = same_record(cause, usual(word.letter, block));
+        if is_usual && !cause.made_by_fil && length < 10 && (1..10).contains(&cause.word) {
+            // Most words, in one go: a map must cost little.
+            let digits = [b'0' + length as u8, b'0' + cause.word as u8];
+            let text = [b' ', word.letter, digits[0], b':', digits[1]];
+            out.extend_from_slice(&text[usize::from(index == 0)..]);
+            continue;
+        }
         if index > 0 {
             out.push(b' ');
         }
         out.push(word.letter);
-        number((end - word.start) as u32, out);
-        let cause = word.cause;
+        number(length, out);
         if cause.word != 0 {
             out.push(if cause.made_by_fil { b'*' } else { b':' });
             number(u32::from(cause.word), out);
         }
-        if !same_record(cause, usual(word.letter, block)) {
+        if !is_usual {
             out.push(b'@');
             if !same_record(cause, Cause::default()) {
                 for (index, part) in [cause.line, cause.record, cause.stack].iter().enumerate() {
