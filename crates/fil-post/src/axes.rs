@@ -24,12 +24,6 @@ const DIAMETER: f64 = 2.0;
 const SCALE: [Dbl; 6] =
     [loc::SCALE_X, loc::SCALE_Y, loc::SCALE_Z, loc::SCALE_A, loc::SCALE_B, loc::SCALE_C];
 
-const LIMITS: [(Dbl, Dbl); 3] = [
-    (loc::LIMITS_X_MIN, loc::LIMITS_X_MAX),
-    (loc::LIMITS_Y_MIN, loc::LIMITS_Y_MAX),
-    (loc::LIMITS_Z_MIN, loc::LIMITS_Z_MAX),
-];
-
 const TRANSLATE: [Dbl; 6] = [
     loc::OUTPUT_TRANSLATE_X,
     loc::OUTPUT_TRANSLATE_Y,
@@ -215,7 +209,7 @@ impl Machine {
             self.write_diameters()?;
         }
         if commons.flag(loc::LIMITS_CHECK) {
-            for (axis, (min, max)) in self.axes.iter_mut().zip(LIMITS) {
+            for (axis, (min, max)) in self.axes.iter_mut().zip(loc::LINEAR_LIMITS) {
                 axis.min = commons.dbl_opt(min).unwrap_or(f64::NEG_INFINITY);
                 axis.max = commons.dbl_opt(max).unwrap_or(f64::INFINITY);
             }

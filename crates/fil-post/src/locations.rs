@@ -108,6 +108,24 @@ fn default_format(letter: u8) -> (i32, i32) {
     }
 }
 
+/// Least and greatest X, Y, Z of the machine, mm.
+pub const LINEAR_LIMITS: [(Dbl, Dbl); 3] =
+    [(LIMITS_X_MIN, LIMITS_X_MAX), (LIMITS_Y_MIN, LIMITS_Y_MAX), (LIMITS_Z_MIN, LIMITS_Z_MAX)];
+
+/// Where X, Y, Z, A, B, C stand for a tool change, mm and degrees.
+pub const CHANGE_POSITION: [Dbl; 6] =
+    [TOOL_CHANGE_X, TOOL_CHANGE_Y, TOOL_CHANGE_Z, TOOL_CHANGE_A, TOOL_CHANGE_B, TOOL_CHANGE_C];
+
+/// Least and greatest speed of each spindle range, turns/min.
+pub const RANGE_SPEEDS: [(Rel, Rel); 6] = [
+    (SPINDLE_RANGE1_MIN, SPINDLE_RANGE1_MAX),
+    (SPINDLE_RANGE2_MIN, SPINDLE_RANGE2_MAX),
+    (SPINDLE_RANGE3_MIN, SPINDLE_RANGE3_MAX),
+    (SPINDLE_RANGE4_MIN, SPINDLE_RANGE4_MAX),
+    (SPINDLE_RANGE5_MIN, SPINDLE_RANGE5_MAX),
+    (SPINDLE_RANGE6_MIN, SPINDLE_RANGE6_MAX),
+];
+
 /// Commons of a machine that nothing has been said about yet: the defaults of
 /// the table and the address table of a mill.
 pub fn default_commons() -> Commons {

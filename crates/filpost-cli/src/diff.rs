@@ -1,7 +1,7 @@
 //! `filpost diff`
 
 use std::collections::HashSet;
-use std::io::{self, IsTerminal, Read, Write};
+use std::io::{self, Read, Write};
 use std::path::Path;
 
 use filpost::nc::diff::{
@@ -11,7 +11,7 @@ use filpost::{Error, files};
 use serde_json::{Value, json};
 
 use crate::args::{DiffArgs, Report};
-use crate::{Status, output};
+use crate::{Status, output, render};
 
 /// Width of one program's column, characters.
 const COLUMN: usize = 46;
@@ -40,7 +40,8 @@ pub fn run(args: &DiffArgs) -> Result<Status, Error> {
             output::print_with(|out| writeln!(out, "{:#}", as_json(&found, &first, &second)))?
         }
         Report::Text => {
-            let show = Show { programs: [&first, &second], colours: colours() };
+            let show =
+                Show { programs: [&first, &second], colours: render::colours(&io::stdout()) };
             output::print_with(|out| show.all(out, &found, args.context))?;
         }
     }
@@ -51,11 +52,6 @@ fn program(path: &Path, options: &Options) -> Result<Program, Error> {
     let mut text = Vec::new();
     output::open(path)?.read_to_end(&mut text).map_err(|error| files::cant_read(path, &error))?;
     read(&text, &output::input_name(path), options).map_err(Error::Run)
-}
-
-fn colours() -> bool {
-    let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
-    !refused && io::stdout().is_terminal()
 }
 
 /// An object with the differences in order.

@@ -22,13 +22,13 @@ const BEFORE: usize = 60;
 
 /// Shows a diagnostic on standard error.
 pub fn to_stderr(diag: &Diag) {
-    output::say(render(diag, colours()).trim_end());
+    output::say(render(diag, colours(&std::io::stderr())).trim_end());
 }
 
-/// True when standard error takes colours.
-fn colours() -> bool {
+/// True when a stream takes colours.
+pub fn colours(stream: &impl IsTerminal) -> bool {
     let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
-    !refused && std::io::stderr().is_terminal()
+    !refused && stream.is_terminal()
 }
 
 /// A diagnostic as text: the places in other lines than the first follow, each

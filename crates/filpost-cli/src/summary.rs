@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::time::Duration;
 
+use filpost::nc::decimals;
 use filpost::{Diag, Report};
 
 use crate::{output, render};
@@ -70,9 +71,7 @@ pub fn counted(count: u64, noun: &str) -> String {
 
 /// A length with at most three decimals and no zeros at its end.
 pub fn length(value: f64) -> String {
-    let text = format!("{value:.3}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".into() } else { text.into() }
+    decimals::short(value, 3)
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use std::io::{Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
+use filpost::nc::decimals;
 use filpost::nc::verify::{Deviation, Finding, Report, Unverified, Verdict};
 use filpost::verify::{Program, Reference};
 use filpost::{Error, Post, files, select};
@@ -112,8 +113,7 @@ fn conclusion(args: &VerifyArgs, report: &Report, reference: Reference) -> Strin
 
 /// Four decimals: the last digits of most addresses are three.
 fn length(value: f64) -> String {
-    let text = format!("{value:.4}");
-    text.trim_end_matches('0').trim_end_matches('.').to_string()
+    decimals::short(value, 4)
 }
 
 fn as_json(report: &Report, reference: Reference) -> Value {

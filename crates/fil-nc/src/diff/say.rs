@@ -1,6 +1,7 @@
 //! A difference in a machinist's words.
 
 use super::{Difference, Program, What};
+use crate::decimals;
 
 /// Names of functions; the others are called by their codes.
 const NAMES: [(u8, i32, &str); 27] = [
@@ -121,7 +122,5 @@ fn function(letter: u8, codes: [Option<f64>; 2]) -> String {
 
 /// A number without needless zeros.
 fn number(value: f64) -> String {
-    let text = format!("{value:.5}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_string() } else { text.to_string() }
+    decimals::short(value, 5)
 }

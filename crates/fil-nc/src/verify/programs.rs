@@ -9,9 +9,9 @@
 use fil_diag::Diag;
 
 use super::report::{Finding, Kind, Report, Unverified};
-use super::say::short;
+use super::say::{sense, short, way};
 use crate::diff;
-use crate::motion::{Arc, Course, Event, Modes, Move, Rate};
+use crate::motion::{Course, Event, Modes, Move, Rate};
 
 /// How far to look for the place where two programs agree again.
 const LOOK_AHEAD: usize = 16;
@@ -309,29 +309,18 @@ fn spell(event: &Event) -> String {
     match event {
         Event::Move(found) => {
             let [x, y, z] = found.to.linear.map(short);
-            let way = match (found.course, &found.arc) {
-                (Course::Rapid, _) => "rapid",
-                (Course::Machine, _) => "motion to a point of the machine",
-                (Course::Thread, _) => "thread pass",
-                (Course::Feed, None) => "line at feed",
-                (Course::Feed, Some(arc)) => sense(arc),
-            };
             let [primary, secondary] = found.to.rotary.map(short);
             let turned = if found.to.rotary == [0.0; 2] {
                 String::new()
             } else {
                 format!(", rotary axes at {primary} and {secondary}")
             };
-            format!("{way} to X{x} Y{y} Z{z}{turned}")
+            format!("{} to X{x} Y{y} Z{z}{turned}", way(found))
         }
         Event::ToolChange { tool, .. } => format!("change to tool {tool}"),
         Event::Dwell { seconds, .. } => format!("dwell of {}", dwell(*seconds)),
         Event::End { .. } => "end of the program".to_string(),
     }
-}
-
-fn sense(arc: &Arc) -> &'static str {
-    if arc.ccw { "arc counterclockwise (G3)" } else { "arc clockwise (G2)" }
 }
 
 fn dwell(seconds: Option<f64>) -> String {

@@ -5,8 +5,9 @@ use super::gap::Gap;
 use super::report::Kind;
 use super::walk::Walk;
 use super::wanted::{Step, Wanted};
+use crate::decimals;
 use crate::forward::Pose;
-use crate::motion::{Course, Move, Rate};
+use crate::motion::{Arc, Course, Move, Rate};
 
 /// What a gap is off by, in millionths, so that two can be compared.
 pub(super) type Shape = ([f64; 3], Option<f64>);
@@ -78,15 +79,7 @@ impl<C: Steps> Walk<'_, C> {
 
     pub(super) fn spell_move(&self, found: &Move) -> String {
         let [x, y, z] = found.to.linear.map(short);
-        let way = match (found.course, &found.arc) {
-            (Course::Rapid, _) => "rapid",
-            (Course::Machine, _) => "motion to a point of the machine",
-            (Course::Thread, _) => "thread pass",
-            (Course::Feed, None) => "line at feed",
-            (Course::Feed, Some(arc)) if arc.ccw => "arc counterclockwise (G3)",
-            (Course::Feed, Some(_)) => "arc clockwise (G2)",
-        };
-        format!("{way} to X{x} Y{y} Z{z}")
+        format!("{} to X{x} Y{y} Z{z}", way(found))
     }
 }
 
@@ -119,9 +112,23 @@ pub(super) fn spell_rate(rate: Rate) -> String {
     }
 }
 
+/// What kind of motion a program makes.
+pub(super) fn way(found: &Move) -> &'static str {
+    match (found.course, &found.arc) {
+        (Course::Rapid, _) => "rapid",
+        (Course::Machine, _) => "motion to a point of the machine",
+        (Course::Thread, _) => "thread pass",
+        (Course::Feed, None) => "line at feed",
+        (Course::Feed, Some(arc)) => sense(arc),
+    }
+}
+
+/// Which way an arc goes.
+pub(super) fn sense(arc: &Arc) -> &'static str {
+    if arc.ccw { "arc counterclockwise (G3)" } else { "arc clockwise (G2)" }
+}
+
 /// At most four decimals, no zeros at the end.
 pub(super) fn short(value: f64) -> String {
-    let text = format!("{value:.4}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_string() } else { text.to_string() }
+    decimals::short(value, 4)
 }

@@ -23,30 +23,6 @@ const DUST: f64 = 1e-7;
 const SCALES: [Dbl; 6] =
     [loc::SCALE_X, loc::SCALE_Y, loc::SCALE_Z, loc::SCALE_A, loc::SCALE_B, loc::SCALE_C];
 
-const LINEAR_LIMITS: [(Dbl, Dbl); 3] = [
-    (loc::LIMITS_X_MIN, loc::LIMITS_X_MAX),
-    (loc::LIMITS_Y_MIN, loc::LIMITS_Y_MAX),
-    (loc::LIMITS_Z_MIN, loc::LIMITS_Z_MAX),
-];
-
-const CHANGE_POSITION: [Dbl; 6] = [
-    loc::TOOL_CHANGE_X,
-    loc::TOOL_CHANGE_Y,
-    loc::TOOL_CHANGE_Z,
-    loc::TOOL_CHANGE_A,
-    loc::TOOL_CHANGE_B,
-    loc::TOOL_CHANGE_C,
-];
-
-const RANGES: [(Rel, Rel); 6] = [
-    (loc::SPINDLE_RANGE1_MIN, loc::SPINDLE_RANGE1_MAX),
-    (loc::SPINDLE_RANGE2_MIN, loc::SPINDLE_RANGE2_MAX),
-    (loc::SPINDLE_RANGE3_MIN, loc::SPINDLE_RANGE3_MAX),
-    (loc::SPINDLE_RANGE4_MIN, loc::SPINDLE_RANGE4_MAX),
-    (loc::SPINDLE_RANGE5_MIN, loc::SPINDLE_RANGE5_MAX),
-    (loc::SPINDLE_RANGE6_MIN, loc::SPINDLE_RANGE6_MAX),
-];
-
 /// When a word that waits must be in force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Due {
@@ -217,8 +193,10 @@ impl<'c> Settings<'c> {
     pub fn speed_within(&self, speed: f64) -> f64 {
         let ranges = self.commons.int(loc::SPINDLE_RANGES).clamp(1, 6) as usize;
         let of = |at: Rel| self.commons.rel_opt(at);
-        let low = RANGES[..ranges].iter().filter_map(|(min, _)| of(*min)).reduce(f64::min);
-        let tops: Option<Vec<f64>> = RANGES[..ranges].iter().map(|(_, max)| of(*max)).collect();
+        let low =
+            loc::RANGE_SPEEDS[..ranges].iter().filter_map(|(min, _)| of(*min)).reduce(f64::min);
+        let tops: Option<Vec<f64>> =
+            loc::RANGE_SPEEDS[..ranges].iter().map(|(_, max)| of(*max)).collect();
         let high = tops.and_then(|tops| tops.into_iter().reduce(f64::max));
         speed.max(low.unwrap_or(0.0)).min(high.unwrap_or(f64::MAX))
     }
@@ -283,7 +261,7 @@ impl<'c> Settings<'c> {
             _ => 0,
         };
         let value = |common: usize| {
-            let at = CHANGE_POSITION[..axes].get(common)?;
+            let at = loc::CHANGE_POSITION[..axes].get(common)?;
             self.commons.dbl_opt(*at)
         };
         let unit = if metric { 1.0 } else { INCH };
@@ -304,7 +282,7 @@ impl<'c> Settings<'c> {
         let of = |at: Dbl, otherwise: f64| {
             self.commons.dbl_opt(at).map_or(otherwise, |limit| limit * unit)
         };
-        LINEAR_LIMITS.map(|(min, max)| (of(min, f64::NEG_INFINITY), of(max, f64::INFINITY)))
+        loc::LINEAR_LIMITS.map(|(min, max)| (of(min, f64::NEG_INFINITY), of(max, f64::INFINITY)))
     }
 
     /// R level above a hole's start when the record gives none, mm.

@@ -97,16 +97,9 @@ fn whole(form: &Form, number: f64) -> Result<i64, Box<Diag>> {
 /// Goes to the machine's change position before the change (INTCOM 1872,
 /// DBLCOM 604–609); coordinates that are absent stay where they are.
 fn change_position(post: &mut Post) -> Result<(), Box<Diag>> {
-    let axes: &[_] = match post.commons.int(loc::TOOL_CHANGE_BLOCK) {
-        1 => &[loc::TOOL_CHANGE_X, loc::TOOL_CHANGE_Y, loc::TOOL_CHANGE_Z],
-        2 => &[
-            loc::TOOL_CHANGE_X,
-            loc::TOOL_CHANGE_Y,
-            loc::TOOL_CHANGE_Z,
-            loc::TOOL_CHANGE_A,
-            loc::TOOL_CHANGE_B,
-            loc::TOOL_CHANGE_C,
-        ],
+    let axes = match post.commons.int(loc::TOOL_CHANGE_BLOCK) {
+        1 => &loc::CHANGE_POSITION[..3],
+        2 => &loc::CHANGE_POSITION[..],
         _ => return Ok(()),
     };
     let mut position: Position = Default::default();

@@ -6,7 +6,7 @@ use fil_cl::{Record, WordId};
 use fil_diag::Diag;
 
 use super::form::Form;
-use crate::commons::{Int, Rel};
+use crate::commons::Int;
 use crate::errors::PostCode;
 use crate::letters::S;
 use crate::locations as loc;
@@ -20,15 +20,6 @@ const RANGE_CODES: [Int; 6] = [
     loc::SPINDLE_RANGE4_CODE,
     loc::SPINDLE_RANGE5_CODE,
     loc::SPINDLE_RANGE6_CODE,
-];
-
-const RANGE_SPEEDS: [(Rel, Rel); 6] = [
-    (loc::SPINDLE_RANGE1_MIN, loc::SPINDLE_RANGE1_MAX),
-    (loc::SPINDLE_RANGE2_MIN, loc::SPINDLE_RANGE2_MAX),
-    (loc::SPINDLE_RANGE3_MIN, loc::SPINDLE_RANGE3_MAX),
-    (loc::SPINDLE_RANGE4_MIN, loc::SPINDLE_RANGE4_MAX),
-    (loc::SPINDLE_RANGE5_MIN, loc::SPINDLE_RANGE5_MAX),
-    (loc::SPINDLE_RANGE6_MIN, loc::SPINDLE_RANGE6_MAX),
 ];
 
 /// Writes the spindle's words, in a block of their own or with a motion.
@@ -128,7 +119,7 @@ fn surface_speed(post: &Post, unit: Option<WordId>, value: f64) -> f64 {
 /// Brings a speed within the ranges of the machine, with a warning.
 fn within_range(post: &mut Post, speed: f64) -> f64 {
     let ranges = post.commons.int(loc::SPINDLE_RANGES).clamp(1, 6) as usize;
-    let limits = RANGE_SPEEDS[..ranges].iter();
+    let limits = loc::RANGE_SPEEDS[..ranges].iter();
     let low = limits.clone().filter_map(|(min, _)| post.commons.rel_opt(*min)).reduce(f64::min);
     let high = if limits.clone().all(|(_, max)| post.commons.rel_opt(*max).is_some()) {
         limits.filter_map(|(_, max)| post.commons.rel_opt(*max)).reduce(f64::max)
