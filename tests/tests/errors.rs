@@ -9,6 +9,7 @@ use std::io::{self, Cursor, Read};
 use std::path::{Path, PathBuf};
 
 use filpost::case::Case;
+use filpost::nc::verify::Allowed;
 use filpost::{Code, Diag, Error, Limits, Post, Severity, all_codes, files, trace};
 use filpost_tests::examples::{self, PART};
 use filpost_tests::{lints, motions, root};
@@ -478,7 +479,9 @@ fn e0941_another_part() {
     let mut nc = Vec::new();
     post.run(cl("holes.ncl.1").as_slice(), &mut nc).expect("a program");
     let program = filpost::verify::Program { text: &nc, name: "holes.nc" };
-    let error = post.verify(cl("planes.ncl.1").as_slice(), program, None).expect_err("refused");
+    let error = post
+        .verify(cl("planes.ncl.1").as_slice(), program, Allowed::default())
+        .expect_err("refused");
     assert_eq!(names(&error), ["E0941"]);
     assert!(error.diags()[0].notes[0].contains("tool 1"), "{error}");
 }

@@ -14,7 +14,7 @@ use fil_cl::Options;
 use fil_nc::dialect::Dialect;
 use fil_nc::interpret;
 use fil_nc::motion::{Event, Move};
-use fil_nc::verify::{Check, Kind, Report, Verdict, compare_programs, verify};
+use fil_nc::verify::{Allowed, Check, Kind, Report, Verdict, compare_programs, verify};
 use filpost::Diag;
 use filpost::verify::{Program, Reference};
 use filpost_tests::mutants;
@@ -36,7 +36,7 @@ fn against_cl(case: &NcCase, nc: &str, events: &[Event]) -> Result<Report, Box<D
         nc: nc.as_bytes(),
         events,
         commons: case.post.commons(),
-        tolerance: None,
+        allowed: Allowed::default(),
     })
 }
 
@@ -66,7 +66,7 @@ fn programs_agree_with_what_they_come_from() {
         let program = Program { text: case.nc.as_bytes(), name: "out.nc" };
         let (report, reference) = case
             .post
-            .verify(Cursor::new(&case.cl), program, None)
+            .verify(Cursor::new(&case.cl), program, Allowed::default())
             .unwrap_or_else(|refused| panic!("{}: {refused}", case.name));
         assert_eq!(reference == Reference::SecondRun, case.fil, "{}", case.name);
         if report.verdict() == Verdict::Differs {

@@ -4,7 +4,7 @@
 use fil_cl::Options;
 use fil_nc::dialect::Dialect;
 use fil_nc::interpret::events;
-use fil_nc::verify::{Check, Report, Verdict, verify};
+use fil_nc::verify::{Allowed, Check, Report, Verdict, verify};
 use filpost::{Commons, Post};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
@@ -90,7 +90,7 @@ fn check(commons: &Commons, cl: &str, nc: &str) -> Option<Report> {
         nc: nc.as_bytes(),
         events: &events,
         commons,
-        tolerance: None,
+        allowed: Allowed::default(),
     })
     .ok()
 }

@@ -10,7 +10,7 @@ use fil_post::Commons;
 use fil_post::kinematics::{Carries, Kinematics, Rotary};
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
-use crate::motion::Position;
+use crate::motion::{Arc, Position};
 
 /// Steps in which [`Forward::refine`] comes to its end; it doubles the digits in each.
 const STEPS: usize = 8;
@@ -57,6 +57,11 @@ impl Forward {
         Ok(Forward { machine: Kinematics::from_commons(commons)? })
     }
 
+    /// The machine with these rotary axes.
+    pub fn new(machine: Kinematics) -> Self {
+        Forward { machine }
+    }
+
     /// True when the machine has a rotary axis.
     pub fn has_rotary(&self) -> bool {
         self.machine.rotaries.iter().any(Option::is_some)
@@ -67,10 +72,41 @@ impl Forward {
         &self.machine.rotaries
     }
 
+    /// Direction from the tip to the spindle when the rotary axes stand at zero.
+    pub fn tool(&self) -> Vector3<f64> {
+        self.machine.tool.into_inner()
+    }
+
+    /// Distance of the tip from the pivot of the heads, mm; `None` when the control
+    /// keeps the tip where it is.
+    pub fn pivot(&self) -> Option<f64> {
+        self.machine.pivot
+    }
+
     /// Tip and axis of the tool where the axes stand.
     pub fn pose(&self, position: &Position) -> Pose {
         let frame = self.frame(position.rotary);
         Pose { tip: frame.tip(position.linear), axis: self.axis(position.rotary) }
+    }
+
+    /// Where the axes stand at a share (0 to 1) of a motion that ends at `to`: X, Y, Z
+    /// and the rotary axes go evenly.
+    pub fn along(&self, from: &Position, to: &Position, arc: Option<&Arc>, share: f64) -> Position {
+        let mix = |a: f64, b: f64| a + (b - a) * share;
+        let mut at = Position {
+            linear: std::array::from_fn(|axis| mix(from.linear[axis], to.linear[axis])),
+            rotary: std::array::from_fn(|axis| mix(from.rotary[axis], to.rotary[axis])),
+        };
+        if let Some(arc) = arc {
+            let [first, second] = arc.plane();
+            let turned = (arc.angle * share * if arc.ccw { 1.0 } else { -1.0 }).to_radians();
+            let (sine, cosine) = turned.sin_cos();
+            let arm =
+                [from.linear[first] - arc.centre[first], from.linear[second] - arc.centre[second]];
+            at.linear[first] = arc.centre[first] + arm[0] * cosine - arm[1] * sine;
+            at.linear[second] = arc.centre[second] + arm[0] * sine + arm[1] * cosine;
+        }
+        at
     }
 
     /// The tool axis in the part: `R(u1, r1) R(u2, r2) t`.

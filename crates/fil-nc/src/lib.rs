@@ -7,6 +7,7 @@
 //! with the post's output side: a fault of the writer must not hide itself in
 //! the reader.
 
+pub mod bend;
 pub mod decimals;
 pub mod dialect;
 pub mod diff;

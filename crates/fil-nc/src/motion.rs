@@ -49,6 +49,13 @@ pub struct Arc {
     pub angle: f64,
 }
 
+impl Arc {
+    /// Indices of the two axes of its plane.
+    pub fn plane(&self) -> [usize; 2] {
+        [(self.normal + 1) % 3, (self.normal + 2) % 3]
+    }
+}
+
 /// What the spindle does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Spindle {

@@ -262,6 +262,10 @@ pub struct VerifyArgs {
     /// Deviation allowed, mm and degrees; without it only the last digit of each address
     #[arg(long, value_name = "MM", value_parser = tolerance)]
     pub tol: Option<f64>,
+    /// How far the tip may leave its line while the machine turns; LINTOL of the CL file when
+    /// left out
+    #[arg(long, value_name = "MM", value_parser = tolerance)]
+    pub between: Option<f64>,
     /// How findings are written
     #[arg(long, value_enum, default_value_t = Report::Text)]
     pub format: Report,

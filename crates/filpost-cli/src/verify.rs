@@ -4,7 +4,9 @@ use std::io::{Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
 use filpost::nc::decimals;
-use filpost::nc::verify::{Deviation, Finding, Report, Unverified, Verdict};
+use filpost::nc::verify::{
+    Allowed, Between, Deviation, Finding, Peak, Report, Unverified, Verdict,
+};
 use filpost::verify::{Program, Reference};
 use filpost::{Error, Post, files, select};
 use serde_json::{Value, json};
@@ -26,7 +28,8 @@ pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
     let mut post = post(args, &mut cl)?;
     let name = output::input_name(&args.nc);
     let program = Program { text: &text, name: &name };
-    let (report, reference) = post.verify(cl, program, args.tol)?;
+    let allowed = Allowed { tolerance: args.tol, between: args.between };
+    let (report, reference) = post.verify(cl, program, allowed)?;
     match args.format {
         args::Report::Json => {
             output::print(format!("{:#}\n", as_json(&report, reference)).as_bytes())?;
@@ -101,13 +104,26 @@ fn conclusion(args: &VerifyArgs, report: &Report, reference: Reference) -> Strin
             format!("{nc} does not do what a second run of the post makes of {cl}: {findings}")
         }
     };
+    let between = report.between.as_ref().map_or(String::new(), spell_between);
     format!(
-        "{what}; {} of {} made, tool tip off by at most {} mm ({} RMS), tool axis by at most {} degrees",
+        "{what}; {} of {} made, tool tip off by at most {} mm ({} RMS), tool axis by at most {} degrees{between}",
         report.matched,
         counted(report.compared, "motion"),
         length(report.position.max),
         length(report.position.rms()),
         length(report.axis.max),
+    )
+}
+
+/// How far the path is off on the way of motions that turn the machine.
+fn spell_between(between: &Between) -> String {
+    let Between { position, axis } = between;
+    format!(
+        "; while the machine turns, the tip leaves its line by at most {} mm (NC line {}), the tool its plane by at most {} degrees (NC line {})",
+        length(position.max),
+        position.nc_line,
+        decimals::short(axis.max, 3),
+        axis.nc_line,
     )
 }
 
@@ -121,6 +137,8 @@ fn as_json(report: &Report, reference: Reference) -> Value {
         let line = (of.nc_line > 0).then_some(of.nc_line);
         json!({ "max": of.max, "rms": of.rms(), "nc_line": line })
     };
+    let peak = |peak: &Peak| json!({ "max": peak.max, "nc_line": peak.nc_line });
+    let between = |between: &Between| json!({ "position": peak(&between.position), "axis": peak(&between.axis) });
     let finding = |finding: &Finding| {
         json!({
             "kind": finding.kind.name(),
@@ -146,5 +164,6 @@ fn as_json(report: &Report, reference: Reference) -> Value {
         "motions": { "asked": report.compared, "made": report.matched },
         "position": deviation(&report.position),
         "axis": deviation(&report.axis),
+        "between": report.between.as_ref().map(between),
     })
 }

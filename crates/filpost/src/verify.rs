@@ -9,7 +9,10 @@ use std::io::{Cursor, Read};
 
 use fil_nc::dialect::Dialect;
 use fil_nc::interpret;
-use fil_nc::verify::{Check, Report, compare_programs, compare_words, refuse_another_part, verify};
+use fil_nc::verify::{
+    Allowed, Check, Report, compare_programs, compare_words, look_at_blocks, refuse_another_part,
+    verify,
+};
 
 use crate::builder::Post;
 use crate::error::Error;
@@ -33,8 +36,8 @@ pub struct Program<'a> {
 }
 
 impl Post {
-    /// Compares a program with the CL file that it should come from, within
-    /// `tolerance` (mm) besides the last digit of each address.
+    /// Compares a program with the CL file that it should come from; `allowed` is what
+    /// it may be off by.
     ///
     /// # Errors
     /// A program or a CL file that can't be read, a program of another part; what
@@ -43,7 +46,7 @@ impl Post {
         &mut self,
         mut cl: impl Read,
         program: Program<'_>,
-        tolerance: Option<f64>,
+        allowed: Allowed,
     ) -> Result<(Report, Reference), Error> {
         let dialect = Dialect::new(self.commons()).map_err(Error::Run)?;
         if self.has_fil() {
@@ -51,7 +54,7 @@ impl Post {
             let name = self.cl_name.clone();
             cl.read_to_end(&mut text)
                 .map_err(|error| crate::files::cant_read(name.as_ref(), &error))?;
-            let report = self.against_second_run(text, program, &dialect, tolerance)?;
+            let report = self.against_second_run(text, program, &dialect, allowed)?;
             return Ok((report, Reference::SecondRun));
         }
         let events = interpret::events(program.text, program.name, &dialect).map_err(Error::Run)?;
@@ -62,7 +65,7 @@ impl Post {
             nc: program.text,
             events: &events,
             commons: self.commons(),
-            tolerance,
+            allowed,
         };
         Ok((verify(check).map_err(Error::Run)?, Reference::ClFile))
     }
@@ -78,13 +81,18 @@ impl Post {
         cl: Vec<u8>,
         program: Program<'_>,
         dialect: &Dialect,
-        tolerance: Option<f64>,
+        Allowed { tolerance, between }: Allowed,
     ) -> Result<Report, Error> {
         let mut again = Vec::new();
         self.run_held(Cursor::new(cl), &mut again)?;
         let compared = match interpret::events(&again, "the second run", dialect) {
-            Ok(again) => interpret::events(program.text, program.name, dialect)
-                .map(|events| compare_programs(&again, &events, tolerance)),
+            Ok(again) => {
+                interpret::events(program.text, program.name, dialect).and_then(|events| {
+                    let mut report = compare_programs(&again, &events, tolerance);
+                    look_at_blocks(&events, self.commons(), between, &mut report)?;
+                    Ok(report)
+                })
+            }
             Err(refused) => {
                 compare_words(&again, (program.text, program.name), &refused, tolerance)
             }

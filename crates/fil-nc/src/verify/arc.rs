@@ -3,6 +3,7 @@
 use nalgebra::{Point3, Vector3};
 
 use super::ahead::Steps;
+use super::between::Asked;
 use super::report::Kind;
 use super::say::short;
 use super::walk::Walk;
@@ -26,8 +27,12 @@ impl<C: Steps> Walk<'_, C> {
     /// Takes the blocks that make an arc; false when they don't.
     pub(super) fn arc(&mut self, cl_line: u32, arc: &Arc, rate: Option<Rate>) -> bool {
         let Some(parts) = self.arc_parts(arc) else { return false };
+        let from = self.begins();
+        let mut before = 0.0;
         for part in &parts {
             self.check_rate(cl_line, &part.found, rate);
+            self.look_between(cl_line, &part.found, &Asked::arc(arc, from, [before, part.angle]));
+            before = part.angle;
             self.take(cl_line, &part.found);
         }
         if let Some(last) = parts.last() {

@@ -243,6 +243,7 @@ impl State {
                 [code] if WORK_OFFSETS.contains(&code) => vec![Wanted::Fixture(code as u32)],
                 _ => unknown(Effect::Words),
             },
+            w::LINTOL => self.straight(record),
             w::STOP | w::OPSTOP => vec![Wanted::Stop],
             w::INSERT => vec![Wanted::Insert(record.text.trim().to_string())],
             w::END | w::REWIND => vec![Wanted::End],
@@ -270,6 +271,16 @@ impl State {
             () if record.has(w::FPR) => Rate::PerTurn(value * foot),
             () if record.has(w::UPR) => Rate::PerTurn(value * self.unit()),
             () => Rate::PerMinute(value * self.unit()),
+        }
+    }
+
+    /// LINTOL with a length or OFF.
+    fn straight(&self, record: &Record) -> Vec<Wanted> {
+        let within = numbers(record).first().copied().filter(|within| *within > 0.0);
+        match within {
+            Some(within) => vec![Wanted::Straight(Some(within * self.unit()))],
+            None if record.has(w::OFF) => vec![Wanted::Straight(None)],
+            None => Vec::new(),
         }
     }
 

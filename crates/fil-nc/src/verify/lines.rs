@@ -1,6 +1,7 @@
 //! Rapids and straight lines: where they end, how they get there, how fast.
 
 use super::ahead::Steps;
+use super::between::Asked;
 use super::report::Kind;
 use super::say::{short, spell_rate};
 use super::walk::{STILL, Walk};
@@ -79,12 +80,15 @@ impl<C: Steps> Walk<'_, C> {
         match self.next_move() {
             Some(found) if is_line(&found, course) && self.reaches(&found, pose) => {
                 self.check_rate(cl_line, &found, rate);
+                self.look_between(cl_line, &found, &Asked::line(self.begins(), *pose));
                 self.take(cl_line, &found);
                 self.measure(&found, pose);
                 self.next += 1;
                 true
             }
-            _ => self.stands_at(pose),
+            _ => {
+                self.stands_at(pose) || (course == Course::Feed && self.parts(cl_line, pose, rate))
+            }
         }
     }
 

@@ -8,12 +8,14 @@
 mod ahead;
 mod align;
 mod arc;
+mod between;
 mod blocks;
 mod cl_path;
 mod gap;
 mod hole;
 mod lines;
 mod modes;
+mod parts;
 mod programs;
 mod report;
 mod say;
@@ -31,8 +33,10 @@ use fil_post::Commons;
 
 use crate::errors::NcCode;
 use crate::motion::Event;
+use between::Watch;
 use blocks::OwnBlocks;
 
+pub use between::{Between, Peak, look_at_blocks};
 pub use cl_path::ClPath;
 pub use programs::{compare_programs, compare_words};
 pub use report::{Deviation, Finding, Kind, Report, Unverified, Verdict};
@@ -53,8 +57,18 @@ pub struct Check<'a, R> {
     pub events: &'a [Event],
     /// The machine.
     pub commons: &'a Commons,
-    /// What is allowed besides the last digit of each address, mm; `None` for nothing.
+    /// What is allowed.
+    pub allowed: Allowed,
+}
+
+/// What a program may be off by.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Allowed {
+    /// Besides the last digit of each address, mm and degrees; `None` for nothing.
     pub tolerance: Option<f64>,
+    /// Of the tip between the ends of motions that turn the machine, mm; `None` for
+    /// what LINTOL of the CL file says, or anything.
+    pub between: Option<f64>,
 }
 
 /// Compares a program with the CL file it should come from.
@@ -63,10 +77,11 @@ pub struct Check<'a, R> {
 /// A CL file that can't be read, a machine that makes no sense, a program that has
 /// next to nothing in common with the CL file.
 pub fn verify<R: Read>(check: Check<'_, R>) -> Result<Report, Box<Diag>> {
-    let settings = Settings::new(check.commons, check.tolerance)?;
+    let settings = Settings::new(check.commons, check.allowed.tolerance)?;
     let path = ClPath::new(check.cl, check.cl_name, check.options, settings.input_shift());
     let own = OwnBlocks::new(check.nc, &settings.own_blocks());
-    let report = walk::Walk::new(path, check.events, own, &settings).all()?;
+    let watch = Watch::new(check.allowed.between);
+    let report = walk::Walk::new(path, check.events, own, &settings, watch).all()?;
     refuse_another_part(&report)?;
     Ok(report)
 }

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::between::Between;
+
 /// What a finding is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Kind {
@@ -41,6 +43,8 @@ pub enum Kind {
     Cycle,
     /// A dwell of another length.
     Dwell,
+    /// The path between the ends of a motion that turns the machine.
+    Between,
     /// The travel of an axis.
     Limit,
     /// mm in place of inch, or the reverse.
@@ -73,6 +77,7 @@ impl Kind {
             Kind::Fixture => "work-offset",
             Kind::Cycle => "cycle",
             Kind::Dwell => "dwell",
+            Kind::Between => "between",
             Kind::Limit => "limit",
             Kind::Units => "units",
             Kind::Block => "block",
@@ -170,6 +175,8 @@ pub struct Report {
     pub position: Deviation,
     /// Deviation of the tool axis, degrees.
     pub axis: Deviation,
+    /// Between the ends of motions that turn the machine; `None` without any.
+    pub between: Option<Between>,
 }
 
 impl Report {

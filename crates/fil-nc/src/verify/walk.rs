@@ -6,6 +6,7 @@ use fil_diag::Diag;
 
 use super::ahead::{Ahead, Steps};
 use super::align::Detour;
+use super::between::Watch;
 use super::blocks::OwnBlocks;
 use super::gap::Gap;
 use super::modes::{Expected, Moved};
@@ -45,6 +46,7 @@ pub(super) struct Walk<'a, C> {
     /// Line of the last motion taken.
     line: u32,
     pub(super) modes: Expected,
+    pub(super) watch: Watch,
     /// Level the control's cycle began from.
     pub(super) initial: Option<f64>,
     /// What was said of the last position, so that one fault is said once.
@@ -59,6 +61,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         nc: &'a [Event],
         own: OwnBlocks<'a>,
         settings: &'a Settings<'a>,
+        watch: Watch,
     ) -> Self {
         Walk {
             cl: Ahead::new(cl),
@@ -77,6 +80,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             exact: [0.0; 2],
             line: 0,
             modes: Expected::new(settings),
+            watch,
             initial: None,
             said: None,
             report: Report::default(),
@@ -130,6 +134,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             }
             Wanted::XScale(scale) => self.scale_x(*scale),
             Wanted::CycleEnd => self.initial = None,
+            Wanted::Straight(within) => self.watch.ask(*within),
             Wanted::Tool { number, offset } => self.tool(step.line, *number, *offset),
             Wanted::Dwell(seconds) => self.dwell(step.line, *seconds),
             Wanted::Insert(text) => self.insert(step.line, text),
@@ -155,6 +160,12 @@ impl<'a, C: Steps> Walk<'a, C> {
     }
 
     pub(super) fn motion(&mut self, step: &Step) {
+        let made = self.is_made(step);
+        self.watch.stand(step.what.end().filter(|_| made && !matches!(step.what, Wanted::Hole(_))));
+    }
+
+    /// Goes through what the program does for a motion; false when that is another.
+    fn is_made(&mut self, step: &Step) -> bool {
         self.report.compared += 1;
         if !matches!(step.what, Wanted::Hole(_)) {
             self.initial = None;
@@ -163,18 +174,29 @@ impl<'a, C: Steps> Walk<'a, C> {
             self.pass(step.line);
             if self.makes(step) {
                 self.report.matched += 1;
-                return self.settle(step.line);
+                self.settle(step.line);
+                return true;
             }
             if self.at_end() {
-                return self.ends_early(step);
+                self.ends_early(step);
+                return false;
+            }
+            if let Wanted::Feed(pose, rate) = &step.what
+                && self.parts_beside(step.line, pose, *rate)
+            {
+                return false;
             }
             match self.detour(step) {
                 Detour::Missing => {
                     let what = self.spell_step(&step.what);
-                    return self.find(Kind::Missing, Some(step.line), None, format!("no {what}"));
+                    self.find(Kind::Missing, Some(step.line), None, format!("no {what}"));
+                    return false;
                 }
                 Detour::Extra(count) => self.extra(count, step.line),
-                Detour::Other => return self.other(step),
+                Detour::Other => {
+                    self.other(step);
+                    return false;
+                }
             }
         }
     }

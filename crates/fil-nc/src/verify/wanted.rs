@@ -29,6 +29,9 @@ pub enum Wanted {
     Arc(Arc, Option<Rate>),
     /// A hole of a cycle.
     Hole(Hole),
+    /// How far the tip may leave its line between the ends of a motion, mm; `None` for
+    /// as far as it does.
+    Straight(Option<f64>),
     /// The cycle ends, or another one begins.
     CycleEnd,
     /// Change to a tool, with the number of its length offset.

@@ -1,0 +1,232 @@
+//! The path between the ends of a motion that turns the machine.
+//!
+//! A block moves all axes evenly. When a rotary axis is among them, the tip leaves the
+//! line that the CL file asks for, and the tool the plane in which it should turn.
+
+mod farthest;
+#[cfg(test)]
+mod tests;
+pub(crate) mod way;
+
+use fil_diag::Diag;
+use fil_post::Commons;
+use nalgebra::{Point3, Vector3};
+
+use super::ahead::Steps;
+use super::report::{Finding, Kind, Report};
+use super::say::short;
+use super::walk::{STILL, Walk};
+use super::wanted::Arc;
+use crate::bend;
+use crate::forward::{Forward, Pose};
+use crate::motion::{Course, Event, Move, Position};
+use farthest::farthest;
+use way::Way;
+
+/// How exact the distance of the tip is, mm.
+const EXACT_TIP: f64 = 1e-5;
+
+/// How exact the angle of the tool is, as the distance of the tips of unit vectors:
+/// 0.001 degrees.
+const EXACT_AXIS: f64 = 1.7e-5;
+
+/// The largest of a kind of deviation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Peak {
+    /// How large it is, mm or degrees.
+    pub max: f64,
+    /// Line of the NC program where it is.
+    pub nc_line: u32,
+}
+
+/// How far the path is from what is asked for between the ends of feed motions in
+/// which a rotary axis moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Between {
+    /// Distance of the tip from its line or arc, mm; exact to 0.00001 mm.
+    pub position: Peak,
+    /// Angle between the tool and the plane in which it should turn, degrees; exact
+    /// to 0.001 degrees.
+    pub axis: Peak,
+}
+
+/// What the tip may leave its line by, and where the CL file has the tool.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Watch {
+    /// Allowed distance, mm; `None` when it is only said.
+    limit: Option<f64>,
+    /// The limit is that of the user, whatever the CL file says.
+    given: bool,
+    /// Where the last motion of the CL file ended, when the program made it.
+    stands: Option<Pose>,
+}
+
+/// What a motion between two poses should go along.
+pub(super) struct Asked {
+    way: Way,
+    ends: [Pose; 2],
+}
+
+impl Watch {
+    pub(super) fn new(limit: Option<f64>) -> Self {
+        Watch { limit, given: limit.is_some(), stands: None }
+    }
+
+    /// LINTOL of the CL file.
+    pub(super) fn ask(&mut self, limit: Option<f64>) {
+        if !self.given {
+            self.limit = limit;
+        }
+    }
+
+    /// A motion of the CL file was made, and the tool stands at its end.
+    pub(super) fn stand(&mut self, pose: Option<Pose>) {
+        self.stands = pose;
+    }
+}
+
+impl Asked {
+    pub(super) fn line(from: Pose, to: Pose) -> Self {
+        Asked { way: Way::line(from.tip, to.tip), ends: [from, to] }
+    }
+
+    /// A part (degrees) of an arc that begins with the tool as it is in `from`.
+    pub(super) fn arc(arc: &Arc, from: Pose, part: [f64; 2]) -> Self {
+        Asked { way: Way::arc(arc, part), ends: [from, arc.end] }
+    }
+}
+
+impl Peak {
+    fn add(&mut self, value: f64, nc_line: u32) {
+        if self.nc_line == 0 || value > self.max {
+            *self = Peak { max: value, nc_line };
+        }
+    }
+}
+
+impl Between {
+    /// Takes in a motion from `at` and gives the distance of its tip, which is exact
+    /// when it is more than the largest before and more than `limit`.
+    fn add(
+        &mut self,
+        forward: &Forward,
+        at: &Position,
+        found: &Move,
+        asked: &Asked,
+        limit: Option<f64>,
+    ) -> f64 {
+        let enough = limit.map_or(self.position.max, |limit| limit.min(self.position.max));
+        let off = tip_off(forward, at, found, &asked.way, enough);
+        self.position.add(off, found.line);
+        self.axis.add(axis_off(forward, at, found, &asked.ends, self.axis.max), found.line);
+        off
+    }
+}
+
+/// Largest distance of the tip from its way, mm, when it is more than `enough`.
+fn tip_off(forward: &Forward, at: &Position, found: &Move, way: &Way, enough: f64) -> f64 {
+    let arc = found.arc.as_ref();
+    let tip = |share| forward.pose(&forward.along(at, &found.to, arc, share)).tip;
+    farthest(tip, way, bend::of_tip(forward, at, &found.to, arc), enough, EXACT_TIP)
+}
+
+/// Largest angle between the tool and the way it should turn from one pose to the
+/// other, degrees, when it is more than `enough`.
+fn axis_off(
+    forward: &Forward,
+    at: &Position,
+    found: &Move,
+    [from, to]: &[Pose; 2],
+    enough: f64,
+) -> f64 {
+    let axis = |share| forward.axis(forward.along(at, &found.to, None, share).rotary);
+    let way = Way::turn(from.axis, to.axis, axis(0.5));
+    let curve = |share| Point3::from(axis(share));
+    let chord = 2.0 * (enough.to_radians() / 2.0).sin();
+    let off = farthest(curve, &way, bend::of_axis(forward, at, &found.to), chord, EXACT_AXIS);
+    2.0 * (off / 2.0).min(1.0).asin().to_degrees()
+}
+
+/// True when a rotary axis moves.
+fn turns(forward: &Forward, at: &Position, to: &Position) -> bool {
+    let moves = |n: usize| (at.rotary[n] - to.rotary[n]).abs() > STILL;
+    (0..2).any(|n| forward.rotaries()[n].is_some() && moves(n))
+}
+
+/// Looks at the blocks of a program by themselves, where no CL file says what they
+/// should go along: in each the tip should go straight from end to end. `limit` is
+/// how far it may be off, mm.
+///
+/// # Errors
+/// A machine whose kinematics make no sense.
+pub fn look_at_blocks(
+    events: &[Event],
+    commons: &Commons,
+    limit: Option<f64>,
+    report: &mut Report,
+) -> Result<(), Box<Diag>> {
+    let forward = Forward::from_commons(commons)?;
+    let mut before: Option<Move> = None;
+    for event in events {
+        let Event::Move(found) = event else { continue };
+        let Some(last) = before.replace(*found) else { continue };
+        let cuts = matches!(found.course, Course::Feed | Course::Thread) && found.arc.is_none();
+        if !cuts || found.known != last.known || !turns(&forward, &last.to, &found.to) {
+            continue;
+        }
+        let asked = Asked::line(forward.pose(&last.to), forward.pose(&found.to));
+        let between = report.between.get_or_insert_default();
+        let off = between.add(&forward, &last.to, found, &asked, limit);
+        if let Some(limit) = limit.filter(|limit| off > *limit) {
+            let message = said(off, limit);
+            let (kind, nc_line) = (Kind::Between, Some(found.line));
+            report.find(Finding { kind, cl_line: None, nc_line, message });
+        }
+    }
+    Ok(())
+}
+
+impl<C: Steps> Walk<'_, C> {
+    /// Where the next motion of the CL file begins: at the end of the one before, when
+    /// the tool stands there.
+    pub(super) fn begins(&self) -> Pose {
+        let at = self.settings.forward.pose(&self.at);
+        let near = |pose: &Pose| {
+            (pose.tip - at.tip).norm() <= self.tip_slack(pose.tip)
+                && pose.axis.angle(&at.axis) <= self.axis_slack()
+        };
+        self.watch.stands.filter(near).unwrap_or(at)
+    }
+
+    /// How far rounding on the tape can bring the tip from a point, mm.
+    pub(super) fn tip_slack(&self, tip: Point3<f64>) -> f64 {
+        let linear = Vector3::from(self.slack.linear).norm();
+        linear + self.axis_slack() * self.settings.forward.lever(tip)
+    }
+
+    /// How far rounding on the tape can turn the tool, radians.
+    pub(super) fn axis_slack(&self) -> f64 {
+        let rotary = self.slack.rotary.iter().sum::<f64>();
+        rotary.to_radians()
+    }
+
+    /// Looks how far a motion from where the axes stand leaves what is asked for.
+    pub(super) fn look_between(&mut self, cl_line: u32, found: &Move, asked: &Asked) {
+        let known = self.is_known(&self.known) && self.is_known(&found.known);
+        if !known || !turns(&self.settings.forward, &self.at, &found.to) {
+            return;
+        }
+        let between = self.report.between.get_or_insert_default();
+        let forward = &self.settings.forward;
+        let off = between.add(forward, &self.at, found, asked, self.watch.limit);
+        if let Some(limit) = self.watch.limit.filter(|limit| off > *limit) {
+            let message = said(off, limit);
+            self.find(Kind::Between, Some(cl_line), Some(found.line), message);
+        }
+    }
+}
+
+fn said(off: f64, limit: f64) -> String {
+    let (off, limit) = (short(off), short(limit));
+    format!("the tip leaves its line by {off} on the way, {limit} is allowed")
+}
