@@ -27,6 +27,7 @@ pub fn all() -> Vec<NcCase> {
     let mut cases = corpus();
     cases.extend(words());
     cases.extend(ready());
+    cases.extend(foreign());
     cases.sort_by(|a, b| a.name.cmp(&b.name));
     cases
 }
@@ -81,6 +82,24 @@ fn ready() -> Vec<NcCase> {
         cases.extend(posted(path));
     }
     cases
+}
+
+/// Programs of other posts in `tests/verify`, beside the CL files they were made from.
+fn foreign() -> Vec<NcCase> {
+    let files = files_in(&root().join("tests/verify")).into_iter();
+    let programs = files.filter(|path| path.extension().is_some_and(|ending| ending == "nc"));
+    let case = |path: PathBuf| {
+        let text = fs::read_to_string(path.with_extension("ncl")).expect("its CL file");
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        NcCase {
+            name: format!("verify/{name}"),
+            nc: fs::read_to_string(&path).expect("a program"),
+            post: Header::read(&text).expect("a header").post().expect("a post"),
+            cl: text.into_bytes(),
+            fil: false,
+        }
+    };
+    programs.map(case).collect()
 }
 
 /// A CL file through every ready post that takes it.

@@ -1,6 +1,8 @@
 //! A straight line of the CL file that a program makes in several blocks, as a post
 //! does to keep the tip near its line while the machine turns.
 
+use nalgebra::Vector3;
+
 use super::ahead::Steps;
 use super::between::Asked;
 use super::between::way::Way;
@@ -98,13 +100,14 @@ impl<C: Steps> Walk<'_, C> {
                 break;
             }
             let tip = self.settings.forward.pose(&found.to).tip;
-            let slack = self.tip_slack(tip);
             let foot = line.foot(tip, 0.0);
             let along = foot.along * length;
+            let slack = self.tip_slack(tip);
             if foot.distance > slack.max(BESIDE * length) || along < reached - slack {
                 return None;
             }
-            if foot.distance > slack {
+            let off = tip - (from.tip + (pose.tip - from.tip) * foot.along);
+            if foot.distance > self.rounded_by(&found.to, off) {
                 parts.faults.push((found.line, Fault::Tip(foot.distance)));
             }
             reached = along;
@@ -126,6 +129,24 @@ impl<C: Steps> Walk<'_, C> {
             }
             before = at;
         }
+    }
+
+    /// How far rounding of each axis on the tape can move the tip in a direction, mm.
+    fn rounded_by(&self, at: &Position, direction: Vector3<f64>) -> f64 {
+        let forward = &self.settings.forward;
+        let Some(direction) = direction.try_normalize(f64::MIN_POSITIVE) else { return 0.0 };
+        let turn = forward.frame(at.rotary).turn;
+        let linear = (0..3).map(|n| turn.column(n).dot(&direction).abs() * self.slack.linear[n]);
+        let rotary = (0..2).map(|n| {
+            let turned = |by: f64| {
+                let mut at = *at;
+                at.rotary[n] += by;
+                forward.pose(&at).tip
+            };
+            let slack = self.slack.rotary[n];
+            (turned(slack) - turned(-slack)).dot(&direction).abs() * 0.5
+        });
+        linear.chain(rotary).sum()
     }
 
     fn is_between(&self, before: &Position, at: &Position, end: &Position) -> bool {
