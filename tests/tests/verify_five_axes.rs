@@ -3,9 +3,13 @@
 
 use fil_cl::Options;
 use fil_nc::dialect::Dialect;
+use fil_nc::forward::Forward;
 use fil_nc::interpret::events;
-use fil_nc::verify::{Allowed, Check, Report, Verdict, verify};
+use fil_nc::motion::{Event, Move};
+use fil_nc::verify::{Allowed, Check, Kind, Report, Verdict, verify};
+use fil_post::kinematics::Kinematics;
 use filpost::{Commons, Post};
+use nalgebra::Point3;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
@@ -35,15 +39,18 @@ fn rotaries() -> impl Strategy<Value = [Rotary; 2]> {
     })
 }
 
-fn targets() -> impl Strategy<Value = Vec<Target>> {
-    let target = (
+fn target() -> impl Strategy<Value = Target> {
+    (
         proptest::array::uniform3(-120.0..120.0f64),
         // A lean below 1e-5 leaves open which way a post turns the machine.
         prop_oneof![Just(0.0), 3e-5..1e-4f64, 0.01..0.7f64],
         -3.0..3.0f64,
         any::<bool>(),
-    );
-    proptest::collection::vec(target, 1..12)
+    )
+}
+
+fn targets() -> impl Strategy<Value = Vec<Target>> {
+    proptest::collection::vec(target(), 1..12)
 }
 
 fn post(rotaries: &[Rotary; 2], pivot: Option<f64>, split: bool) -> Post {
@@ -82,6 +89,10 @@ fn cl(targets: &[Target]) -> String {
 }
 
 fn check(commons: &Commons, cl: &str, nc: &str) -> Option<Report> {
+    check_allowed(commons, cl, nc, Allowed::default())
+}
+
+fn check_allowed(commons: &Commons, cl: &str, nc: &str, allowed: Allowed) -> Option<Report> {
     let events = events(nc.as_bytes(), "out.nc", &Dialect::new(commons).ok()?).ok()?;
     verify(Check {
         cl: cl.as_bytes(),
@@ -90,7 +101,7 @@ fn check(commons: &Commons, cl: &str, nc: &str) -> Option<Report> {
         nc: nc.as_bytes(),
         events: &events,
         commons,
-        allowed: Allowed::default(),
+        allowed,
     })
     .ok()
 }
@@ -146,4 +157,126 @@ fn posted_paths_agree_and_a_changed_last_digit_is_found() {
     }
     println!("{found} of {faults} changed last digits found");
     assert!(faults > PATHS / 2 && found * 1000 >= faults * 998, "{found} of {faults}");
+}
+
+/// A line with points between its ends, and the two programs that make it.
+struct Divided {
+    /// The points between.
+    with_points: String,
+    /// The middle one left out.
+    without_one: String,
+    ends: [Point3<f64>; 2],
+}
+
+/// Points between the ends of a divided line.
+const POINTS: usize = 3;
+
+/// Divides the last line of a program as another post would: even shares of the rotary
+/// axes, the tip on the line, everything rounded.
+fn divided(post: &Post, targets: &[Target], nc: &str) -> Option<Divided> {
+    let machine = Kinematics::from_commons(post.commons()).ok()?;
+    let moves = moves(post.commons(), nc);
+    let (to, from) = (moves.last()?, moves.get(moves.len().checked_sub(2)?)?);
+    let [.., (start, ..), (end, ..)] = targets else { return None };
+    let ends = [Point3::from(*start), Point3::from(*end)];
+    let block = |share: f64| {
+        let rotary = [0, 1].map(|n| {
+            let (from, to) = (from.to.rotary[n], to.to.rotary[n]);
+            from + (to - from) * share
+        });
+        let on_the_way = machine.linear(ends[0] + (ends[1] - ends[0]) * share, rotary).coords;
+        let [x, y, z] = if share == 1.0 { to.to.linear } else { on_the_way.into() };
+        format!("G1 X{x:.3} Y{y:.3} Z{z:.3} C{:.3} B{:.3} F500.", rotary[0], rotary[1])
+    };
+    let lines: Vec<&str> = nc.lines().collect();
+    let last = to.line as usize - 1;
+    let blocks: Vec<String> =
+        (1..=POINTS + 1).map(|n| block(n as f64 / (POINTS + 1) as f64)).collect();
+    let program = |blocks: &[String]| {
+        [&lines[..last].join("\n"), &blocks.join("\n"), &lines[last + 1..].join("\n")]
+            .map(String::as_str)
+            .join("\n")
+    };
+    let with_points = program(&blocks);
+    let mut fewer = blocks;
+    fewer.remove(POINTS / 2);
+    Some(Divided { with_points, without_one: program(&fewer), ends })
+}
+
+fn moves(commons: &Commons, nc: &str) -> Vec<Move> {
+    let dialect = Dialect::new(commons).expect("a dialect");
+    let events = events(nc.as_bytes(), "out.nc", &dialect).expect("a program");
+    let moves = events.iter().filter_map(|event| match event {
+        Event::Move(found) => Some(*found),
+        _ => None,
+    });
+    moves.collect()
+}
+
+/// How far the tip leaves the line in those of the last blocks that turn the machine,
+/// by many samples.
+fn sampled(commons: &Commons, nc: &str, blocks: usize, [a, b]: [Point3<f64>; 2]) -> f64 {
+    const SAMPLES: u32 = 2_000;
+    let forward = Forward::from_commons(commons).expect("a machine");
+    let moves = moves(commons, nc);
+    let pairs = moves[moves.len() - blocks - 1..].windows(2);
+    let pairs = pairs.filter(|pair| pair[0].to.rotary != pair[1].to.rotary);
+    let tips = pairs.flat_map(|pair| {
+        let forward = &forward;
+        let (from, to) = (pair[0].to, pair[1].to);
+        (0..=SAMPLES).map(move |n| {
+            let share = f64::from(n) / f64::from(SAMPLES);
+            forward.pose(&forward.along(&from, &to, None, share)).tip
+        })
+    });
+    let way = b - a;
+    let off = tips.map(|tip| {
+        let along = (way.dot(&(tip - a)) / way.norm_squared()).clamp(0.0, 1.0);
+        (a + way * along - tip).norm()
+    });
+    off.fold(0.0, f64::max)
+}
+
+/// Lines divided by another post agree on every machine; how far the tip leaves them is
+/// what samples say, and a point left out is found when it makes that too much.
+#[test]
+fn divided_lines_agree_and_a_point_left_out_is_found() {
+    let mut runner = TestRunner::deterministic();
+    let pivots = proptest::option::of(80.0..300.0f64);
+    let all = (rotaries(), pivots, proptest::collection::vec(target(), 2));
+    let (mut lines, mut worse) = (0, 0);
+    for _ in 0..PATHS / 4 {
+        let (rotaries, pivot, mut targets) = all.new_tree(&mut runner).unwrap().current();
+        (targets[0].3, targets[1].3) = (true, false);
+        let post = &mut post(&rotaries, pivot, false);
+        let cl = cl(&targets);
+        let mut nc = Vec::new();
+        if post.run(cl.as_bytes(), &mut nc).is_err() {
+            continue;
+        }
+        let nc = String::from_utf8(nc).unwrap();
+        let Some(divided) = divided(post, &targets, &nc) else { continue };
+        let commons = post.commons();
+        let report = check(commons, &cl, &divided.with_points).unwrap();
+        let seen = format!(
+            "{:#?}\n{rotaries:?} {pivot:?}\n{cl}\n{nc}{}",
+            report.findings, divided.with_points
+        );
+        assert_eq!(report.verdict(), Verdict::Agrees, "{seen}");
+        // A tool that does not turn makes no such motion.
+        let Some(between) = report.between else { continue };
+        let max = between.position.max;
+        let dense = sampled(commons, &divided.with_points, POINTS + 1, divided.ends);
+        assert!((max - dense).abs() < 1e-4, "{max} {dense}\n{seen}");
+        let dense = sampled(commons, &divided.without_one, POINTS, divided.ends);
+        let limit = max * 1.2;
+        let allowed = Allowed { tolerance: None, between: Some(limit) };
+        let report = check_allowed(commons, &cl, &divided.without_one, allowed).unwrap();
+        let found = report.findings.iter().any(|finding| finding.kind == Kind::Between);
+        assert_eq!(found, dense > limit, "{dense} {limit}\n{seen}");
+        lines += 1;
+        worse += usize::from(found);
+    }
+    println!("{lines} divided lines agree; without a point {worse} are off by more");
+    assert!(lines > PATHS / 8 && worse * 2 > lines, "{worse} of {lines}");
 }

@@ -14,3 +14,4 @@ mod post;
 mod support;
 mod test;
 mod trace;
+mod verify;
