@@ -295,23 +295,3 @@ fn files_named_by_the_architecture_are_there() {
         }
     }
 }
-
-#[test]
-fn pages_of_the_command_s_codes_agree_with_explain() {
-    for number in 801..820 {
-        let name = format!("E{number:04}");
-        let output = shell(&format!("filpost explain {name}"));
-        let page = root().join(format!("docs/errors/{name}.md"));
-        assert_eq!(output.status.success(), page.is_file(), "{name}");
-        if output.status.success() {
-            let text = String::from_utf8_lossy(&output.stdout).into_owned();
-            let title =
-                text.lines().next().and_then(|line| line.split_once("  ")).expect("a title");
-            let first = format!("# {name}: {}", title.1);
-            assert_eq!(
-                read(&format!("docs/errors/{name}.md")).lines().next(),
-                Some(first.as_str())
-            );
-        }
-    }
-}

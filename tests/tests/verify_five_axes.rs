@@ -171,32 +171,38 @@ struct Divided {
 /// Points between the ends of a divided line.
 const POINTS: usize = 3;
 
-/// Divides the last line of a program as another post would: even shares of the rotary
-/// axes, the tip on the line, everything rounded.
-fn divided(post: &Post, targets: &[Target], nc: &str) -> Option<Divided> {
+/// Divides the last line of a program as another post would: the tip on the line, even
+/// shares of the rotary axes, or of the turn of the tool in its plane, everything rounded.
+fn divided(post: &Post, targets: &[Target], nc: &str, in_plane: bool) -> Option<Divided> {
     let machine = Kinematics::from_commons(post.commons()).ok()?;
     let moves = moves(post.commons(), nc);
     let (to, from) = (moves.last()?, moves.get(moves.len().checked_sub(2)?)?);
     let [.., (start, ..), (end, ..)] = targets else { return None };
     let ends = [Point3::from(*start), Point3::from(*end)];
-    let block = |share: f64| {
-        let rotary = [0, 1].map(|n| {
+    let forward = Forward::from_commons(post.commons()).ok()?;
+    let axes = [from, to].map(|end| forward.axis(end.to.rotary));
+    let mut last = from.to.rotary;
+    let mut block = |share: f64| {
+        let even = [0, 1].map(|n| {
             let (from, to) = (from.to.rotary[n], to.to.rotary[n]);
             from + (to - from) * share
         });
+        let rotary = if in_plane && share < 1.0 {
+            machine.solve(axes[0].slerp(&axes[1], share), last).ok()?
+        } else {
+            even
+        };
+        last = rotary;
         let on_the_way = machine.linear(ends[0] + (ends[1] - ends[0]) * share, rotary).coords;
         let [x, y, z] = if share == 1.0 { to.to.linear } else { on_the_way.into() };
-        format!("G1 X{x:.3} Y{y:.3} Z{z:.3} C{:.3} B{:.3} F500.", rotary[0], rotary[1])
+        Some(format!("G1 X{x:.3} Y{y:.3} Z{z:.3} C{:.3} B{:.3} F500.", rotary[0], rotary[1]))
     };
     let lines: Vec<&str> = nc.lines().collect();
-    let last = to.line as usize - 1;
-    let blocks: Vec<String> =
-        (1..=POINTS + 1).map(|n| block(n as f64 / (POINTS + 1) as f64)).collect();
-    let program = |blocks: &[String]| {
-        [&lines[..last].join("\n"), &blocks.join("\n"), &lines[last + 1..].join("\n")]
-            .map(String::as_str)
-            .join("\n")
-    };
+    let (before, after) = (&lines[..to.line as usize - 1], &lines[to.line as usize..]);
+    let shares = (1..=POINTS + 1).map(|n| n as f64 / (POINTS + 1) as f64);
+    let blocks: Vec<String> = shares.map(&mut block).collect::<Option<_>>()?;
+    let program =
+        |blocks: &[String]| [before.join("\n"), blocks.join("\n"), after.join("\n")].join("\n");
     let with_points = program(&blocks);
     let mut fewer = blocks;
     fewer.remove(POINTS / 2);
@@ -243,10 +249,10 @@ fn sampled(commons: &Commons, nc: &str, blocks: usize, [a, b]: [Point3<f64>; 2])
 fn divided_lines_agree_and_a_point_left_out_is_found() {
     let mut runner = TestRunner::deterministic();
     let pivots = proptest::option::of(80.0..300.0f64);
-    let all = (rotaries(), pivots, proptest::collection::vec(target(), 2));
+    let all = (rotaries(), pivots, proptest::collection::vec(target(), 2), any::<bool>());
     let (mut lines, mut worse) = (0, 0);
     for _ in 0..PATHS / 4 {
-        let (rotaries, pivot, mut targets) = all.new_tree(&mut runner).unwrap().current();
+        let (rotaries, pivot, mut targets, in_plane) = all.new_tree(&mut runner).unwrap().current();
         (targets[0].3, targets[1].3) = (true, false);
         let post = &mut post(&rotaries, pivot, false);
         let cl = cl(&targets);
@@ -255,7 +261,7 @@ fn divided_lines_agree_and_a_point_left_out_is_found() {
             continue;
         }
         let nc = String::from_utf8(nc).unwrap();
-        let Some(divided) = divided(post, &targets, &nc) else { continue };
+        let Some(divided) = divided(post, &targets, &nc, in_plane) else { continue };
         let commons = post.commons();
         let report = check(commons, &cl, &divided.with_points).unwrap();
         let seen = format!(
@@ -278,5 +284,5 @@ fn divided_lines_agree_and_a_point_left_out_is_found() {
         worse += usize::from(found);
     }
     println!("{lines} divided lines agree; without a point {worse} are off by more");
-    assert!(lines > PATHS / 8 && worse * 2 > lines, "{worse} of {lines}");
+    assert!(lines > PATHS / 8 && worse * 3 > lines, "{worse} of {lines}");
 }

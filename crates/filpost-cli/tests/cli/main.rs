@@ -4,6 +4,7 @@ mod batch;
 mod cases;
 mod check;
 mod cl;
+mod codes;
 mod diff;
 mod explain;
 mod fmt;
