@@ -16,6 +16,9 @@ use crate::motion::{Course, Event, Move, Position, Rate};
 /// Most blocks of one line.
 const MOST_PARTS: usize = 1_000;
 
+/// Only a point so near to the end of a line is looked at more closely, mm.
+const NEAR: f64 = 1.0;
+
 /// A point so far off a line, in parts of its length, belongs to another motion.
 const BESIDE: f64 = 0.1;
 
@@ -96,13 +99,13 @@ impl<C: Steps> Walk<'_, C> {
                 return None;
             }
             parts.blocks.push(*found);
-            if self.reaches(found, pose) {
+            let tip = self.settings.forward.pose(&found.to).tip;
+            let slack = self.tip_slack(tip);
+            if (tip - pose.tip).norm() < NEAR + slack && self.reaches(found, pose) {
                 break;
             }
-            let tip = self.settings.forward.pose(&found.to).tip;
             let foot = line.foot(tip, 0.0);
             let along = foot.along * length;
-            let slack = self.tip_slack(tip);
             if foot.distance > slack.max(BESIDE * length) || along < reached - slack {
                 return None;
             }

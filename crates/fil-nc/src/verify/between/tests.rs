@@ -31,7 +31,7 @@ fn machine(rotaries: [Option<Rotary>; 2], pivot: Option<f64>) -> Forward {
 }
 
 fn at(linear: [f64; 3], rotary: [f64; 2]) -> Position {
-    Position { linear, rotary, ..Position::default() }
+    Position { linear, rotary }
 }
 
 fn feed(to: Position, arc: Option<motion::Arc>) -> Move {
