@@ -127,8 +127,7 @@ pub fn check(path: &Path) -> Result<(), String> {
     let (found, refused) = lines(&text, &head.dialect()?);
     let said = refused.map(|diag| {
         let place = diag.places.first();
-        let mut said =
-            format!("{} at {}", diag.code.name(), place.map_or(0, |place| place.line));
+        let mut said = format!("{} at {}", diag.code.name(), place.map_or(0, |place| place.line));
         if head.error.as_ref().is_some_and(|error| error.contains(':')) {
             said += &format!(":{}", place.map_or(0, fil_diag::Place::column));
         }

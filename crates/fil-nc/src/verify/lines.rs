@@ -46,7 +46,7 @@ impl<C: Steps> Walk<'_, C> {
         let forward = &self.settings.forward;
         let at = forward.restated(&self.at, end.tip_control).linear;
         let to = forward.restated(&part.to, end.tip_control).linear;
-        let known = self.known;
+        let known: [bool; 3] = std::array::from_fn(|n| self.known[n] && part.known[n]);
         let same = |a: f64, b: f64| (a - b).abs() <= STILL;
         let moved = |n: usize| !same(to[n], at[n]);
         let arrived = |n: usize| same(to[n], end.linear[n]);

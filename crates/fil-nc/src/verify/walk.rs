@@ -230,9 +230,14 @@ impl<'a, C: Steps> Walk<'a, C> {
             && same(&found.to.rotary, &at.rotary)
     }
 
-    /// Where the axes stand, X, Y, Z as a motion means them.
+    /// Where the axes stand, X, Y, Z as a motion means them; those it leaves unknown keep
+    /// their last value.
     fn at_as(&self, found: &Move) -> Position {
-        self.settings.forward.restated(&self.at, found.to.tip_control)
+        let mut at = self.settings.forward.restated(&self.at, found.to.tip_control);
+        for n in (0..3).filter(|n| !found.known[*n]) {
+            at.linear[n] = self.at.linear[n];
+        }
+        at
     }
 
     /// Says X, Y, Z of where the axes stand as the next motion means them.
