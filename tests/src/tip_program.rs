@@ -8,7 +8,7 @@
 
 use std::fmt::Write as _;
 
-use filpost::Post;
+use filpost::{Builder, Post};
 
 use crate::nc_cases::NcCase;
 use crate::root;
@@ -78,16 +78,18 @@ const COMMON: [&str; 7] = [
 ];
 
 impl Machine {
+    /// The settings of the machine.
+    pub fn builder(&self) -> Builder {
+        let settings = COMMON.iter().chain(self.settings);
+        settings.fold(Post::builder().ready("fanuc-mill"), |builder, setting| builder.set(setting))
+    }
+
     /// The post of the machine.
     ///
     /// # Panics
     /// When it can't be built.
     pub fn post(&self) -> Post {
-        let mut builder = Post::builder().ready("fanuc-mill");
-        for setting in COMMON.iter().chain(self.settings) {
-            builder = builder.set(setting);
-        }
-        builder.build().expect("a machine")
+        self.builder().build().expect("a machine")
     }
 
     /// The angles of a tool axis: about Z, by the shorter way, and of the tilt. Upright,

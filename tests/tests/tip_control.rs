@@ -5,7 +5,7 @@ use fil_nc::dialect::Dialect;
 use fil_nc::interpret;
 use fil_nc::verify::{Check, Kind, Report, Verdict, verify};
 use filpost::{Diag, Post};
-use filpost_tests::tip_program::{MACHINES, cases, part};
+use filpost_tests::tip_program::{MACHINES, Machine, cases, part};
 
 fn check(post: &Post, cl: &str, nc: &str) -> Result<Report, Box<Diag>> {
     let events = interpret::events(nc.as_bytes(), "out.nc", &Dialect::new(post.commons())?)?;
@@ -36,6 +36,83 @@ fn both_forms_agree_with_the_cl_file() {
         assert_eq!((report.compared, report.matched), (14, 14), "{name}");
         let off = (report.position.max, report.axis.max);
         println!("{name}: tip off by at most {} mm, axis by {} degrees", off.0, off.1);
-        assert!(!name.ends_with("tip") || off.0 < 5.001e-4, "{name}: {off:?}");
+        // Half of a thousandth in X, Y and Z: rounded angles do not move the tip.
+        assert!(!name.ends_with("tip") || off.0 < 8.67e-4, "{name}: {off:?}");
     }
+}
+
+fn machine(name: &str) -> &'static Machine {
+    MACHINES.iter().find(|machine| machine.name == name).expect("a machine")
+}
+
+/// One fault in the program for two tables, and what must be said.
+#[test]
+fn faults_are_said_in_a_machinists_words() {
+    let machine = machine("two-tables");
+    let nc = machine.tip_program(&part());
+    let first = |old: &str, new: &str| {
+        assert!(nc.contains(old), "{old}:\n{nc}");
+        check(&machine.post(), &part(), &nc.replacen(old, new, 1))
+    };
+    for (old, new, kind, said) in [
+        ("X30.5", "X31.5", Kind::Position, "X off by 1 (X31.5 in place of X30.5)"),
+        ("Z5.855", "Z5.854", Kind::Position, "Z deeper by 0.0006 (Z5.854 in place of Z5.8546)"),
+        ("A24.518", "A24.618", Kind::Axis, "the tool is tilted 0.1002 degrees away from its axis"),
+        (
+            "A24.518",
+            "A-24.518",
+            Kind::Axis,
+            "the tool is tilted 49.0358 degrees away from its axis",
+        ),
+        ("F420.0", "F42.0", Kind::Feed, "feed 42 mm/min, it should be 420 mm/min"),
+        ("H15", "H5", Kind::Tool, "length offset 5 is on, it should be 15"),
+        (
+            "G43.4 H15",
+            "G43 H15",
+            Kind::Position,
+            "X off by 35.4535 (X31.251 in place of X-4.2025), Y off by 34.6006 (Y-14.499 in place of Y20.1016), Z higher by 0.2951 (Z48.75 in place of Z48.4549)",
+        ),
+        ("G49\nM30", "M30", Kind::Tool, "tool-tip control is on, it should be off"),
+        ("M8\n", "M9\n", Kind::Coolant, "coolant is off, it should be on"),
+    ] {
+        let report = first(old, new);
+        let report = report.unwrap_or_else(|diag| panic!("{new}: {diag}"));
+        let found = report.findings.first().expect(new);
+        assert_eq!((found.kind, found.message.as_str()), (kind, said), "{new}");
+    }
+    for (old, new, code, place) in [
+        ("G43.4 H15", "H15", "E0905", (8, 1)),
+        ("G43.4 H15", "G43.4", "E0911", (8, 1)),
+        ("G0 C0. A0.", "G0 C0.", "E0911", (8, 1)),
+        ("G0 C0. A0.", "G0 C0. A1.", "E0905", (8, 1)),
+        ("G49\nT6", "T6", "E0905", (22, 1)),
+    ] {
+        let refused = first(old, new).expect_err(new);
+        let at = &refused.places[0];
+        assert_eq!((refused.code.name(), (at.line, at.column())), (code.into(), place), "{new}");
+    }
+}
+
+/// The start, the tool change and the end in the shop's own words: to points of the
+/// machine that stand in the settings, tables to zero, tool-tip control off.
+#[test]
+fn start_and_tool_change_in_words_of_the_shop() {
+    let machine = machine("two-tables");
+    let blocks = r#"blocks.start=["G40 G49 G80 G54", "G91 G28 Z0.", "G90 G53 G0 X-400. Y0."]"#;
+    let post = machine.builder().set(blocks).build().expect("a machine");
+    let start = "G40 G49 G80 G54\nG91 G28 Z0.\nG90 G53 G0 X-400. Y0.\n";
+    let change = "G49\nG91 G28 Z0.\nG90 G53 G0 X-400. Y0.\nT6";
+    let nc = machine
+        .tip_program(&part())
+        .replace("T5 M6", &format!("{start}T5 M6"))
+        .replace("G49\nT6", change)
+        .replace("G49\nM30", "G49 G53 G0 Z0.\nM30");
+    let report = check(&post, &part(), &nc).expect("a report");
+    let said: Vec<String> = report.findings.iter().map(ToString::to_string).collect();
+    let machine_point = "goes to a point of the machine that neither the CL file nor the settings \
+                         ask for";
+    assert_eq!(said, [format!("NC line 34 (CL line 32): {machine_point}")], "{nc}");
+    assert_eq!((report.compared, report.matched), (14, 14));
+    let report = check(&post, &part(), &nc.replace("G49 G53 G0 Z0.", "G49")).expect("a report");
+    assert_eq!(report.verdict(), Verdict::Agrees, "{:#?}\n{nc}", report.findings);
 }

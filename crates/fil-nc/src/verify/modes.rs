@@ -236,7 +236,9 @@ impl Expected {
                 .push((Kind::Tool, format!("tool {} moves, it should be tool {tool}", modes.tool)));
         }
         // Between the change and the new offset, and at the end, the old one may be given up.
-        let offset = |may: Option<u32>| may == modes.length_offset;
+        // Tool-tip control has an offset, whether one is asked for or not.
+        let own = |may: Option<u32>| may.is_none() && modes.tip_control;
+        let offset = |may: Option<u32>| may == modes.length_offset || own(may);
         let may_give_up = self.offset.next.is_some() || doing == Doing::Standing;
         let given_up = may_give_up && modes.length_offset.is_none();
         if let Some(must) = self.offset.refuses(offset).filter(|_| !given_up) {
