@@ -85,7 +85,7 @@ fn faults_are_said_in_a_machinists_words() {
         ("G43.4 H15", "G43.4", "E0911", (8, 1)),
         ("G0 C0. A0.", "G0 C0.", "E0911", (8, 1)),
         ("G0 C0. A0.", "G0 C0. A1.", "E0905", (8, 1)),
-        ("G49\nT6", "T6", "E0905", (22, 1)),
+        ("G49\nT6", "T6", "E0905", (21, 1)),
     ] {
         let refused = first(old, new).expect_err(new);
         let at = &refused.places[0];
