@@ -4,6 +4,7 @@ use fil_cl::Options;
 use fil_nc::dialect::Dialect;
 use fil_nc::interpret;
 use fil_nc::verify::{Check, Kind, Report, Verdict, verify};
+use filpost::plot::{self, Text};
 use filpost::{Diag, Post};
 use filpost_tests::tip_program::{MACHINES, Machine, cases, part};
 
@@ -115,4 +116,32 @@ fn start_and_tool_change_in_words_of_the_shop() {
     assert_eq!((report.compared, report.matched), (14, 14));
     let report = check(&post, &part(), &nc.replace("G49 G53 G0 Z0.", "G49")).expect("a report");
     assert_eq!(report.verdict(), Verdict::Agrees, "{:#?}\n{nc}", report.findings);
+}
+
+/// Under tool-tip control a picture shows straight lines between the points of the CL
+/// file; without it the tip leaves them where the machine turns.
+#[test]
+fn the_picture_shows_the_tip_going_straight() {
+    let cl_points: Vec<[f64; 3]> = part()
+        .lines()
+        .filter_map(|line| line.strip_prefix("GOTO / "))
+        .map(|numbers| {
+            let mut numbers = numbers.split(", ").map(|n| n.parse::<f64>().expect("a number"));
+            std::array::from_fn(|_| numbers.next().expect("a coordinate"))
+        })
+        .collect();
+    for case in cases() {
+        let text = Text { name: "out.nc", bytes: case.nc.as_bytes() };
+        let path = plot::program(text, case.post.commons()).expect("a picture").path;
+        let straight = case.name.ends_with("tip");
+        for piece in &path.pieces {
+            let points = &path.points[piece.start..piece.end];
+            let end = points.last().expect("an end");
+            let near = |point: &&[f64; 3]| (0..3).all(|n| (point[n] - end[n]).abs() < 3e-3);
+            assert!(cl_points.iter().any(|point| near(&point)), "{}: {end:?}", case.name);
+            assert!(!straight || points.len() == 2, "{} line {}", case.name, piece.line);
+        }
+        let bent = path.pieces.iter().filter(|piece| piece.end - piece.start > 2).count();
+        assert!(straight || bent > 5, "{}: {bent} motions with a bend", case.name);
+    }
 }
