@@ -118,6 +118,26 @@ fn start_and_tool_change_in_words_of_the_shop() {
     assert_eq!(report.verdict(), Verdict::Agrees, "{:#?}\n{nc}", report.findings);
 }
 
+/// Many posts turn the tables first. Then the control must take the part as it lies with
+/// the tables at zero, which a setting says.
+#[test]
+fn tables_that_are_turned_first() {
+    let machine = machine("two-tables");
+    let turned_first = |nc: &str, offset: &str, point: &str, angles: &str| {
+        let old = format!("G0 C0. A0.\nG43.4 {offset}\nG0 {point} {angles}\n");
+        assert!(nc.contains(&old), "{nc}");
+        nc.replace(&old, &format!("G0 {angles}\nG43.4 {offset} {point}\n"))
+    };
+    let nc = machine.tip_program(&part());
+    let nc = turned_first(&nc, "H15", "X31.251 Y-14.499 Z48.75", "C125.048 A20.123");
+    let nc = turned_first(&nc, "H6", "X-18.203 Y4.407 Z57.3", "C-62.619 A17.445");
+    let refused = check(&machine.post(), &part(), &nc).expect_err("turned tables");
+    assert_eq!((refused.code.name(), refused.places[0].line), ("E0905".into(), 8), "{nc}");
+    let post = machine.builder().set("rotary.tip_control=1").build().expect("a machine");
+    let report = check(&post, &part(), &nc).expect("a report");
+    assert_eq!(report.verdict(), Verdict::Agrees, "{:#?}\n{nc}", report.findings);
+}
+
 /// Under tool-tip control a picture shows straight lines between the points of the CL
 /// file; without it the tip leaves them where the machine turns.
 #[test]

@@ -85,6 +85,8 @@ pub struct Dialect {
     pub(crate) axis_letters: [u8; 5],
     /// Which of the two rotary axes turn the part.
     pub(crate) tables: [bool; 2],
+    /// Tool-tip control may begin wherever the tables stand.
+    pub(crate) tip_control_anywhere: bool,
     /// The machine turns parts: X may be a diameter, threads have cycles.
     pub lathe: bool,
     /// Programs begin in mm and not in inch, where they don't say.
@@ -174,6 +176,7 @@ impl Dialect {
             scales,
             axis_letters,
             tables,
+            tip_control_anywhere: settings.code("rotary.tip_control") == Some(1),
             lathe,
             metric: settings.code("units.mode") != Some(1),
             plane: functions.plane(settings.code("circle.plane")),

@@ -41,6 +41,14 @@ impl State<'_> {
         if self.cycle.is_some() {
             return refuse(words, "a cycle is in force");
         }
+        if !self.dialect.tip_control_anywhere {
+            self.check_tables(words)?;
+        }
+        self.check_functions(words)
+    }
+
+    /// Where the tables stand at zero, all controls take the part alike.
+    fn check_tables(&self, words: &Words) -> Result<(), Fault> {
         for axis in (0..2).filter(|axis| self.dialect.tables[*axis]).map(|axis| axis + 3) {
             let letter = char::from(b'@' + self.dialect.axis_letters[axis]);
             if !self.known[axis] {
@@ -54,7 +62,7 @@ impl State<'_> {
                 return refuse(words, &why);
             }
         }
-        self.check_functions(words)
+        Ok(())
     }
 
     /// In the block of `G43.4` the tip does not yet go straight, so the rotary axes must
