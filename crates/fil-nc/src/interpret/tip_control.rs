@@ -35,10 +35,12 @@ impl State<'_> {
     }
 
     fn check_begin(&self, words: &Words) -> Result<(), Fault> {
-        if self.modes.compensation != Compensation::Off {
+        let gives_up = |function: Function| words.peek(function.group()) == Some(function);
+        let compensates = self.modes.compensation != Compensation::Off;
+        if compensates && !gives_up(Function::Compensation(Compensation::Off)) {
             return refuse(words, "cutter compensation is on");
         }
-        if self.cycle.is_some() {
+        if self.cycle.is_some() && !gives_up(Function::CycleOff) {
             return refuse(words, "a cycle is in force");
         }
         if !self.dialect.tip_control_anywhere {
