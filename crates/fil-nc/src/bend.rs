@@ -74,8 +74,13 @@ impl Moving {
     }
 }
 
-/// Most that the second derivative of the tip by the share of a motion can be, mm.
+/// Most that the second derivative of the tip by the share of a motion can be, mm; under
+/// tool-tip control no rotary axis bends its path.
 pub fn of_tip(forward: &Forward, from: &Position, to: &Position, arc: Option<&Arc>) -> f64 {
+    let mut point = Moving::linear(forward, from, to, arc);
+    if to.tip_control {
+        return point.bend;
+    }
     let tool = forward.tool();
     let turn = |point: Moving, carries: Carries, centred: bool| {
         // From the tool to the part: the secondary axis first.
@@ -87,7 +92,6 @@ pub fn of_tip(forward: &Forward, from: &Position, to: &Position, arc: Option<&Ar
             _ => point,
         })
     };
-    let mut point = Moving::linear(forward, from, to, arc);
     if let Some(length) = forward.pivot() {
         let head = turn(Moving::fixed(tool * length), Carries::Head, false);
         point = point.less(head).less(Moving::fixed(-tool * length));

@@ -6,7 +6,7 @@ use super::say::short;
 use super::walk::Walk;
 use super::wanted::{CycleKind, Hole};
 use crate::forward::Pose;
-use crate::motion::{Course, Event, Move, Spindle};
+use crate::motion::{Course, Event, Move, Position, Spindle};
 
 /// Most motions over a hole before it is drilled.
 const APPROACH: usize = 6;
@@ -90,7 +90,7 @@ impl<C: Steps> Walk<'_, C> {
 
     fn levels(&self, hole: &Hole, plunge: &Move) -> Levels {
         let rotary = self.gap(&plunge.to, &hole.start).rotary;
-        let frame = self.settings.forward.frame(rotary);
+        let frame = self.settings.forward.frame_of(&Position { rotary, ..plunge.to });
         let above = |by: f64| frame.linear(hole.start.tip + hole.start.axis * by);
         let clear = hole.clear.unwrap_or_else(|| self.settings.cycle_clearance(self.metric));
         Levels { at: above(0.0), clear: above(clear)[2], bottom: above(-hole.depth)[2] }

@@ -100,7 +100,7 @@ impl<C: Steps> Walk<'_, C> {
             }
             parts.blocks.push(*found);
             let tip = self.settings.forward.pose(&found.to).tip;
-            let slack = self.tip_slack(tip);
+            let slack = self.tip_slack(&found.to);
             if (tip - pose.tip).norm() < NEAR + slack && self.reaches(found, pose) {
                 break;
             }
@@ -138,7 +138,7 @@ impl<C: Steps> Walk<'_, C> {
     fn rounded_by(&self, at: &Position, direction: Vector3<f64>) -> f64 {
         let forward = &self.settings.forward;
         let Some(direction) = direction.try_normalize(f64::MIN_POSITIVE) else { return 0.0 };
-        let turn = forward.frame(at.rotary).turn;
+        let turn = forward.frame_of(at).turn;
         let linear = (0..3).map(|n| turn.column(n).dot(&direction).abs() * self.slack.linear[n]);
         let rotary = (0..2).map(|n| {
             let turned = |by: f64| {

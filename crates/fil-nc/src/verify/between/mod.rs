@@ -192,16 +192,17 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn begins(&self) -> Pose {
         let at = self.settings.forward.pose(&self.at);
         let near = |pose: &Pose| {
-            (pose.tip - at.tip).norm() <= self.tip_slack(pose.tip)
+            (pose.tip - at.tip).norm() <= self.tip_slack(&self.at)
                 && pose.axis.angle(&at.axis) <= self.axis_slack()
         };
         self.watch.stands.filter(near).unwrap_or(at)
     }
 
     /// How far rounding on the tape can bring the tip from a point, mm.
-    pub(super) fn tip_slack(&self, tip: Point3<f64>) -> f64 {
-        let linear = Vector3::from(self.slack.linear).norm();
-        linear + self.axis_slack() * self.settings.forward.lever(tip)
+    pub(super) fn tip_slack(&self, at: &Position) -> f64 {
+        let forward = &self.settings.forward;
+        let lever = if at.tip_control { 0.0 } else { forward.lever(forward.pose(at).tip) };
+        Vector3::from(self.slack.linear).norm() + self.axis_slack() * lever
     }
 
     /// How far rounding on the tape can turn the tool, radians.

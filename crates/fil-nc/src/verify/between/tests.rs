@@ -31,7 +31,7 @@ fn machine(rotaries: [Option<Rotary>; 2], pivot: Option<f64>) -> Forward {
 }
 
 fn at(linear: [f64; 3], rotary: [f64; 2]) -> Position {
-    Position { linear, rotary }
+    Position { linear, rotary, tip_control: false }
 }
 
 fn feed(to: Position, arc: Option<motion::Arc>) -> Move {
@@ -105,6 +105,14 @@ fn a_motion_round_its_own_line_keeps_its_distance_all_the_way() {
 }
 
 #[test]
+fn tool_tip_control_keeps_the_tip_on_its_line() {
+    let forward = machine([rotary(Carries::Table, Z, [0.0; 3]), None], None);
+    let controlled = |linear, turned| Position { tip_control: true, ..at(linear, [turned, 0.0]) };
+    let (tip, _) = off(&forward, controlled([50.0, 0.0, 0.0], 0.0), controlled([9.0; 3], 100.0));
+    assert!(tip < EXACT_TIP, "{tip}");
+}
+
+#[test]
 fn what_is_not_more_than_enough_is_not_searched_for() {
     let forward = machine([rotary(Carries::Table, X, [0.0; 3]), None], None);
     let mut between = Between::default();
@@ -159,18 +167,22 @@ fn machines() -> impl Strategy<Value = Forward> {
     )
 }
 
-/// Two ends: small steps as of a path, and turns of up to half a circle.
+/// Two ends: small steps as of a path, and turns of up to half a circle, each with
+/// tool-tip control or without.
 fn ends() -> impl Strategy<Value = (Position, Position)> {
     let point = proptest::array::uniform3(-150.0..150.0f64);
     let angles = proptest::array::uniform2(-180.0..180.0f64);
     let scale = prop_oneof![Just(0.02), Just(0.2), Just(1.0)];
     let by = (proptest::array::uniform3(-80.0..80.0f64), [-180.0..180.0f64, -180.0..180.0f64]);
-    (point, angles, by, scale).prop_map(|(point, angles, (way, turn), scale)| {
+    let control = proptest::array::uniform2(any::<bool>());
+    (point, angles, by, scale, control).prop_map(|(point, angles, (way, turn), scale, control)| {
         let to = at(
             std::array::from_fn(|n| point[n] + scale * way[n]),
             std::array::from_fn(|n| angles[n] + scale * turn[n]),
         );
-        (at(point, angles), to)
+        let [before, after] = control;
+        let from = Position { tip_control: before, ..at(point, angles) };
+        (from, Position { tip_control: after, ..to })
     })
 }
 
