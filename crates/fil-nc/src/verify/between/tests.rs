@@ -146,6 +146,30 @@ fn an_arc_is_no_distance_from_itself() {
     assert!((tip - 7.233_918_2).abs() < 2.0 * EXACT_TIP, "{tip}");
 }
 
+#[test]
+fn a_helix_is_followed_turn_by_turn() {
+    let forward = machine([rotary(Carries::Table, Z, [0.0; 3]), None], None);
+    let (from, to) = (at([20.0, 0.0, 3.0], [0.0; 2]), at([20.0, 0.0, -9.0], [720.0, 0.0]));
+    let arc = wanted::Arc {
+        centre: Point3::origin(),
+        normal: Vector3::z(),
+        start: forward.pose(&from).tip,
+        end: forward.pose(&to),
+        sweep: 720.0,
+    };
+    let off = |from: &Position, to: Position, part| {
+        tip_off(&forward, from, &feed(to, None), &Way::arc(&arc, part), 0.0)
+    };
+    // 2,000 points don't tell it from zero: steps of 1/1024 of two turns at radius 20 have
+    // a sagitta of 0.0004, and so has the arc.
+    let whole = off(&from, to, [0.0, 720.0]);
+    assert!(whole < 1e-3, "{whole}");
+    // The second turn by itself, 1 mm too deep in its middle.
+    let middle = at([20.0, 0.0, -7.0], [540.0, 0.0]);
+    let first = off(&at([20.0, 0.0, -3.0], [360.0, 0.0]), middle, [360.0, 540.0]);
+    assert!((first - 1.0).abs() < 1e-4, "{first}");
+}
+
 /// A machine of any arrangement: table/table, table/head, head/head.
 fn machines() -> impl Strategy<Value = Forward> {
     let carries = prop_oneof![
@@ -277,10 +301,13 @@ proptest! {
         };
         let dense = (0..=300).map(|n| nearest(tip(f64::from(n) / 300.0))).fold(0.0, f64::max);
         let found = tip_off(&forward, &from, &feed(to, None), &Way::arc(&arc, [0.0, sweep]), 0.0);
-        // Never too small; a point farther along than the end of the arc, seen from its
-        // centre, counts from that end.
+        // Never too small. Nor too large, but for points so far away that the place at the
+        // same angle need not be the nearest.
         let spacing = radius * sweep.to_radians() / 1e3;
         prop_assert!(found >= dense - spacing - EXACT_TIP, "{found} {dense}");
+        let coarse = bend::of_tip(&forward, &from, &to, None) / 8.0 / 300f64.powi(2);
+        let far = dense > radius / 2.0;
+        prop_assert!(far || found <= dense + coarse + spacing + EXACT_TIP, "{found} {dense}");
     }
 
     /// The curve never bends more than its bound.

@@ -110,16 +110,20 @@ impl Way {
 }
 
 impl Turn {
-    /// The place of the arc at the same angle about its normal, or its end.
+    /// The place of the arc at the same angle about its normal, or an end: the nearest of
+    /// those in the turn that the motion should be in, and in those beside it.
     fn foot(&self, point: Point3<f64>, share: f64) -> Foot {
         let from = point - self.centre;
         let aside = self.normal.cross(&self.spoke);
         let angle = aside.dot(&from).atan2(self.spoke.dot(&from));
         let expected = self.part[0] + (self.part[1] - self.part[0]) * share;
         let turns = ((expected - angle) / TAU).round();
-        let along = (angle + turns * TAU).clamp(0.0, self.sweep);
-        let rise = self.normal * (self.rise * along / self.sweep.max(f64::MIN_POSITIVE));
-        let place = self.centre + self.spoke * along.cos() + aside * along.sin() + rise;
-        Foot { point, distance: (place - point).norm(), along }
+        let feet = [0.0, -1.0, 1.0].map(|turn| {
+            let along = (angle + (turns + turn) * TAU).clamp(0.0, self.sweep);
+            let rise = self.normal * (self.rise * along / self.sweep.max(f64::MIN_POSITIVE));
+            let place = self.centre + self.spoke * along.cos() + aside * along.sin() + rise;
+            Foot { point, distance: (place - point).norm(), along }
+        });
+        feet.into_iter().min_by(|a, b| a.distance.total_cmp(&b.distance)).unwrap_or(feet[0])
     }
 }
