@@ -126,6 +126,7 @@ impl Machine {
             tool: None,
             feed: None,
             cycle: None,
+            before: [0.0; 3],
         };
         writer.line("%\nO0001\nG21 G90 G94 G17");
         let mut rapid = false;
@@ -134,7 +135,10 @@ impl Machine {
             match word {
                 "RAPID" => rapid = true,
                 "GOTO" if writer.cycle.is_some() && !rapid => writer.hole(&numbers(rest)),
-                "GOTO" => writer.goto(&numbers(rest), std::mem::take(&mut rapid)),
+                "GOTO" => {
+                    writer.before.copy_from_slice(&numbers(rest)[..3]);
+                    writer.goto(&numbers(rest), std::mem::take(&mut rapid));
+                }
                 "CYCLE" => writer.cycle = Cycle::read(rest),
                 "FEDRAT" => writer.feed = numbers(rest).first().copied(),
                 "LOADTL" => writer.change_tool(&numbers(rest)),
@@ -164,6 +168,8 @@ struct Cycle {
     feed: f64,
     clear: f64,
     step: Option<f64>,
+    /// Back to the level before the cycle, and not to the clearance.
+    back: bool,
 }
 
 impl Cycle {
@@ -178,6 +184,7 @@ impl Cycle {
             feed: after("MMPM")?,
             clear: after("CLEAR")?,
             step: after("STEP"),
+            back: text.ends_with("RETURN, 0"),
         })
     }
 }
@@ -192,6 +199,8 @@ struct Writer<'m> {
     /// A feed that no motion has yet.
     feed: Option<f64>,
     cycle: Option<Cycle>,
+    /// Where the CL file had the tool before the cycle.
+    before: [f64; 3],
 }
 
 impl Writer<'_> {
@@ -212,7 +221,7 @@ impl Writer<'_> {
     /// A hole in single moves along the tool axis; after a peck they come back to 0.2 mm
     /// above it.
     fn hole(&mut self, start: &[f64]) {
-        let Some(Cycle { depth, feed, clear, step }) = self.cycle else { return };
+        let Some(Cycle { depth, feed, clear, step, back }) = self.cycle else { return };
         let at = |height: f64| -> Vec<f64> {
             let point = (0..3).map(|n| start[n] + start[n + 3] * height);
             point.chain(start[3..].iter().copied()).collect()
@@ -227,7 +236,8 @@ impl Writer<'_> {
             self.goto(&at(reached + 0.2), true);
         }
         self.goto(&at(-depth), false);
-        self.goto(&at(clear), true);
+        let before: f64 = (0..3).map(|n| (self.before[n] - start[n]) * start[n + 3]).sum();
+        self.goto(&at(if back { before } else { clear }), true);
     }
 
     fn goto(&mut self, numbers: &[f64], rapid: bool) {

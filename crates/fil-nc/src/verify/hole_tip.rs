@@ -28,6 +28,10 @@ struct Line {
     axis: Vector3<f64>,
     /// What the last digits of the tip leave open, mm.
     slack: [f64; 3],
+    /// Heights above the start that the hole asks for, mm.
+    heights: Vec<f64>,
+    /// Height before the cycle, to the last digits, mm.
+    before: f64,
 }
 
 /// What stood there before the moves of a hole were said anew.
@@ -39,8 +43,19 @@ pub(super) struct Kept {
 }
 
 impl Line {
+    /// The height of a tip above the start, one of those asked for when it can be that;
+    /// `None` beside the line.
+    fn height(&self, tip: [f64; 3]) -> Option<f64> {
+        let [low, high] = self.range(tip)?;
+        let within = |height: f64, by: f64| (low - by..=high + by).contains(&height);
+        let asked = self.heights.iter().copied().find(|height| within(*height, DUST));
+        let digits: f64 = (0..3).map(|n| self.axis[n].abs() * self.slack[n]).sum();
+        let before = Some(self.before).filter(|height| within(*height, digits));
+        Some(asked.or(before).unwrap_or(0.5 * (low + high)))
+    }
+
     /// From where to where a tip can be above the start; `None` when it is beside the line.
-    fn heights(&self, tip: [f64; 3]) -> Option<[f64; 2]> {
+    fn range(&self, tip: [f64; 3]) -> Option<[f64; 2]> {
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         for n in 0..3 {
             let (off, slope, slack) = (tip[n] - self.start[n], self.axis[n], self.slack[n]);
@@ -73,52 +88,54 @@ impl<C: Steps> Walk<'_, C> {
     /// A motion ends over a hole, or in it.
     pub(super) fn ends_over(&self, found: &Move, hole: &Hole, over: [f64; 3]) -> bool {
         if found.to.tip_control {
-            return self.line_of(hole).heights(found.to.linear).is_some();
+            return self.line_of(hole).range(found.to.linear).is_some();
         }
         (0..2).all(|n| (found.to.linear[n] - over[n]).abs() <= self.slack.linear[n])
     }
 
     fn line_of(&self, hole: &Hole) -> Line {
-        Line { start: hole.start.tip, axis: hole.start.axis, slack: self.slack.linear }
+        Line {
+            start: hole.start.tip,
+            axis: hole.start.axis,
+            slack: self.slack.linear,
+            heights: Vec::new(),
+            before: f64::NAN,
+        }
     }
 
     /// Says the next motions under tool-tip control in axes, until [`Walk::say_again`].
     pub(super) fn say_in_axes(&mut self, hole: &Hole, levels: Levels) -> Option<Kept> {
-        let heights = heights(hole, levels);
+        let next = self.next_move().filter(|next| next.to.tip_control)?;
+        let mut line = self.line_of(hole);
+        line.heights = heights(hole, levels);
+        self.at = self.said(&Move { to: self.at, ..next }, hole, levels, &line).to;
+        line.before = self.initial.unwrap_or(self.at.linear[2]) - levels.at[2];
         let first = self.next;
         let (mut events, mut said) = (Vec::new(), Vec::new());
-        for event in self.nc[first..].iter().take(MOST + 4 * heights.len()) {
+        for event in self.nc[first..].iter().take(MOST + 4 * line.heights.len()) {
             said.push(match event {
                 Event::Move(found) if found.to.tip_control => {
-                    Event::Move(self.said(found, hole, levels, &heights))
+                    Event::Move(self.said(found, hole, levels, &line))
                 }
                 Event::Dwell { .. } => *event,
                 _ => break,
             });
             events.push(*event);
         }
-        let Some(Event::Move(next)) = events.first() else { return None };
-        self.at = self.said(&Move { to: self.at, ..*next }, hole, levels, &heights).to;
         self.nc.to_mut()[first..first + said.len()].copy_from_slice(&said);
         let slack = std::mem::replace(&mut self.slack.linear, [DUST; 3]);
         Some(Kept { first, events, slack })
     }
 
-    fn said(&self, found: &Move, hole: &Hole, levels: Levels, heights: &[f64]) -> Move {
+    fn said(&self, found: &Move, hole: &Hole, levels: Levels, line: &Line) -> Move {
         let mut said = self.in_axes(found, hole);
         let up = self.settings.forward.frame(said.to.rotary).turn.column(2).into_owned();
         if !found.to.tip_control || (up - hole.start.axis).norm() > PARALLEL {
             return said;
         }
-        let line = self.line_of(hole);
-        let Some([low, high]) = line.heights(found.to.linear) else { return said };
-        let within = |height: f64, by: f64| (low - by..=high + by).contains(&height);
-        let exact = heights.iter().copied().find(|height| within(*height, DUST));
-        // Where the cycle began is known to the last digits only.
-        let before = self.initial.map(|initial| initial - levels.at[2]);
-        let before = before.filter(|height| within(*height, line.slack.iter().sum()));
-        let height = exact.or(before).unwrap_or(0.5 * (low + high));
-        said.to.linear = [levels.at[0], levels.at[1], levels.at[2] + height];
+        if let Some(height) = line.height(found.to.linear) {
+            said.to.linear = [levels.at[0], levels.at[1], levels.at[2] + height];
+        }
         said
     }
 
