@@ -4,7 +4,6 @@ use crate::address::{Addresses, Output, SLOTS, character, letter};
 use crate::cause::Cause;
 use crate::commons::Commons;
 use crate::errors::PostCode;
-use crate::tape::WordInfo;
 use fil_diag::Diag;
 
 /// The letters that can stand several times in a block.
@@ -175,20 +174,15 @@ impl Block {
         std::mem::replace(self, Block { cause, noting, ..Block::default() })
     }
 
-    /// Writes the words in tape order and remembers the last output values;
-    /// notes what the words are due to when asked.
+    /// Writes the words in tape order and remembers the last output values; notes
+    /// letter, place in `out` and cause of each before it is written.
     pub fn write(
         &self,
         addresses: &Addresses,
         commons: &mut Commons,
         out: &mut Vec<u8>,
-        mut noted: Option<&mut Vec<WordInfo>>,
+        mut note: impl FnMut(u8, usize, Cause),
     ) {
-        let mut note = |letter, start, cause| {
-            if let Some(noted) = &mut noted {
-                noted.push(WordInfo { letter: character(letter), start, cause });
-            }
-        };
         let mut first = true;
         let mut slots = self.present;
         for (letter, codes) in [(G, &self.g), (M, &self.m)] {
@@ -205,7 +199,7 @@ impl Block {
                 M => &self.m,
                 _ => {
                     separate(&mut first, addresses.blank, out);
-                    note(slot.letter, out.len(), self.causes[position as usize]);
+                    note(character(slot.letter), out.len(), self.causes[position as usize]);
                     out.push(slot.character);
                     let scaled = self.scaled[position as usize];
                     slot.format.write(scaled, out);
@@ -215,7 +209,7 @@ impl Block {
             };
             for (code, cause) in codes {
                 separate(&mut first, addresses.blank, out);
-                note(slot.letter, out.len(), *cause);
+                note(character(slot.letter), out.len(), *cause);
                 out.push(slot.character);
                 slot.format.write(i64::from(*code), out);
                 commons.set_last_output(slot.letter, f64::from(*code));

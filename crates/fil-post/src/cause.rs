@@ -44,6 +44,11 @@ impl Cause {
     pub fn whole(self) -> Cause {
         Cause { word: 0, ..self }
     }
+
+    /// True when the same record is behind both, and the same FIL lines.
+    pub fn is_of_the_record(self, other: Cause) -> bool {
+        (self.record, self.line, self.stack) == (other.record, other.line, other.stack)
+    }
 }
 
 /// A FIL call stack, with the section it began in.

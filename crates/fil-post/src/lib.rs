@@ -15,6 +15,7 @@ pub mod kinematics;
 pub mod letters;
 pub mod locations;
 pub mod motion;
+pub mod noted;
 pub mod number;
 pub mod post;
 pub mod program;
@@ -26,5 +27,5 @@ pub mod words;
 
 pub use cause::{Cause, FilLine, Origin, Stack, Stacks};
 pub use commons::{Commons, Kind};
+pub use noted::{BlockInfo, DueTo, Noted, WordInfo};
 pub use post::Post;
-pub use tape::{BlockInfo, WordInfo};

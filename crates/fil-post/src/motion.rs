@@ -202,29 +202,34 @@ impl Post {
             return Ok(false);
         }
         let written = if self.commons.flag(loc::MOTION_MODAL) { changed } else { present };
+        let point = self.point_word();
         for number in (0..AXES).filter(moving) {
             let place = self.machine.axis(number).place()?;
             if let Some(place) = place.filter(|_| written & 1 << number != 0) {
                 self.block.put(place, scaled[number]);
-                if self.tape.observe {
-                    self.note_axis_word(number, place);
-                }
+                self.note_axis_word(point, number, place);
             }
         }
         Ok(true)
     }
 
-    /// Notes which word of the record an axis word repeats. It is the record as
-    /// a whole where a rotary axis or TRANS mixes its coordinates, and where the
-    /// motion does not go to its point.
-    #[cold]
-    fn note_axis_word(&mut self, number: usize, place: u8) {
+    /// Which word of the record is the X that the axis words repeat; `None` when
+    /// nobody notes it. It is the record as a whole where a rotary axis or TRANS
+    /// mixes its coordinates, and where the motion does not go to its point.
+    fn point_word(&self) -> Option<u16> {
+        let first = self.state.point_word;
+        if first == 0 || !self.block.noting {
+            return None;
+        }
         let mixed = self.state.transformation.is_some()
             || self.machine.kinematics().is_some_and(|kinematics| {
                 kinematics.has_rotary() || self.state.axis != kinematics.tool.into_inner()
             });
-        let first = self.state.point_word;
-        if first > 0 && number < 3 && !mixed {
+        (!mixed).then_some(first)
+    }
+
+    fn note_axis_word(&mut self, point: Option<u16>, number: usize, place: u8) {
+        if let Some(first) = point.filter(|_| number < 3) {
             self.block.note_word(place, first + number as u16);
         }
     }
@@ -241,8 +246,8 @@ impl Post {
     ) -> Result<bool, Box<Diag>> {
         let axis = self.machine.axis(number);
         let written = axis.write(position, always, &mut self.block, &self.commons)?;
-        if let Some(place) = axis.place()?.filter(|_| written && self.tape.observe) {
-            self.note_axis_word(number, place);
+        if let Some(place) = axis.place()?.filter(|_| written) {
+            self.note_axis_word(self.point_word(), number, place);
         }
         Ok(written)
     }

@@ -9,6 +9,7 @@ use fil_diag::{Code, Diag};
 use crate::axes::Machine;
 use crate::block::Block;
 use crate::cause::Cause;
+use crate::noted::Noted;
 use crate::commons::{Commons, EMPTY, Int};
 use crate::errors::PostCode;
 use crate::letters::G;
@@ -68,7 +69,7 @@ impl Post {
 
     /// Keeps what blocks and words are due to from now on.
     pub fn observe(&mut self) {
-        self.tape.observe = true;
+        self.tape.noted = Some(Noted::default());
         self.block.noting = true;
     }
 
@@ -79,7 +80,7 @@ impl Post {
     /// used after an error.
     pub fn process(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
         self.machine.refresh(&self.commons, self.state.metric)?;
-        if self.tape.observe {
+        if self.tape.noted.is_some() {
             self.block.cause = Cause { made_by_fil: record.line == 0, ..self.tape.cause };
             self.state.point_word = 0;
         }

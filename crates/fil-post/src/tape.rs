@@ -1,46 +1,12 @@
 //! The tape: finished blocks as text, with sequence numbers and provenance.
 
-use std::ops::Range;
-
 use crate::address::{Addresses, character, letter};
 use crate::block::{Block, no_address};
 use crate::cause::{Cause, Stacks};
 use crate::commons::Commons;
 use crate::locations as loc;
+use crate::noted::{BlockInfo, Noted, SEQUENCE, SKIP, TEXT};
 use fil_diag::Diag;
-
-/// A finished block on the tape.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct BlockInfo {
-    /// Byte range in [`Tape::text`], without line end.
-    pub range: Range<usize>,
-    /// What made it.
-    pub cause: Cause,
-    /// Range of its words in [`Tape::noted`].
-    pub words: Range<usize>,
-}
-
-/// A word of a finished block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct WordInfo {
-    /// Its letter, `A` to `Z`; [`TEXT`] for a text, [`SKIP`] for the block-delete
-    /// character, [`SEQUENCE`] for a sequence number.
-    pub letter: u8,
-    /// Where it starts in [`Tape::text`]; it ends where the next word of its
-    /// block starts.
-    pub start: usize,
-    /// What it is due to.
-    pub cause: Cause,
-}
-
-/// Stands for a text in place of a letter.
-pub const TEXT: u8 = b'_';
-
-/// Stands for the block-delete character in place of a letter.
-pub const SKIP: u8 = b'/';
-
-/// Stands for a sequence number in place of its letter.
-pub const SEQUENCE: u8 = b'#';
 
 /// Sequence numbers: what is due for the next block.
 #[derive(Clone, Debug, Default)]
@@ -53,9 +19,11 @@ struct Sequence {
 }
 
 /// Where a block starts in [`Tape::text`] and in [`Tape::noted`].
+#[derive(Default)]
 struct Start {
     text: usize,
-    noted: usize,
+    words: usize,
+    others: usize,
 }
 
 /// The output side of the post.
@@ -63,14 +31,9 @@ struct Start {
 pub struct Tape {
     /// Text of the blocks not yet taken away.
     pub text: Vec<u8>,
-    /// The finished blocks within `text`, when observed.
-    pub blocks: Vec<BlockInfo>,
-    /// Keep [`Tape::blocks`] and [`Tape::noted`], see
-    /// [`Post::observe`](crate::Post::observe); off by default because it costs
-    /// time.
-    pub(crate) observe: bool,
-    /// The words of those blocks.
-    pub noted: Vec<WordInfo>,
+    /// The finished blocks within `text` and their words, when observed; see
+    /// [`Post::observe`](crate::Post::observe).
+    pub noted: Option<Noted>,
     /// What the blocks written next are due to.
     pub cause: Cause,
     /// The FIL call stacks that causes name.
@@ -98,8 +61,15 @@ impl Tape {
             return Ok(());
         }
         let start = self.begin(true, addresses, commons)?;
-        let noted = self.observe.then_some(&mut self.noted);
-        block.write(addresses, commons, &mut self.text, noted);
+        match &mut self.noted {
+            Some(noted) => {
+                let cause = self.cause;
+                block.write(addresses, commons, &mut self.text, |letter, at, word| {
+                    noted.word(letter, at - start.text, word, cause);
+                });
+            }
+            None => block.write(addresses, commons, &mut self.text, |_, _, _| {}),
+        }
         self.end(start);
         Ok(())
     }
@@ -124,16 +94,17 @@ impl Tape {
             if addresses.blank && !line.is_empty() {
                 line.push(b' ');
             }
-            noted.push(WordInfo { letter: character(letter), start: line.len(), cause });
+            noted.push((character(letter), line.len(), cause));
             line.push(slot.character);
             slot.format.write(scaled, &mut line);
             commons.set_last_output(letter, slot.format.unscale(scaled));
         }
         let start = self.begin(true, addresses, commons)?;
-        if self.observe {
-            let base = self.text.len();
-            self.noted
-                .extend(noted.iter().map(|word| WordInfo { start: base + word.start, ..*word }));
+        let base = self.text.len() - start.text;
+        if let Some(all) = &mut self.noted {
+            noted.iter().for_each(|&(letter, at, cause)| {
+                all.word(letter, base + at, cause, self.cause);
+            });
         }
         self.text.extend_from_slice(&line);
         self.end(start);
@@ -154,7 +125,7 @@ impl Tape {
         commons: &mut Commons,
     ) -> Result<(), Box<Diag>> {
         let start = self.begin(numbered, addresses, commons)?;
-        self.note(TEXT, cause);
+        self.note(TEXT, cause, start.text);
         self.text.extend_from_slice(text.as_bytes());
         self.end(start);
         Ok(())
@@ -180,18 +151,27 @@ impl Tape {
         addresses: &Addresses,
         commons: &mut Commons,
     ) -> Result<Start, Box<Diag>> {
-        let start = Start { text: self.text.len(), noted: self.noted.len() };
+        let mut start = Start { text: self.text.len(), ..Start::default() };
+        if let Some(noted) = &self.noted {
+            (start.words, start.others) = (noted.words.len(), noted.others.len());
+        }
         if let Some(cause) = self.skip {
-            self.note(SKIP, cause);
+            self.note(SKIP, cause, start.text);
             self.text.push(b'/');
         }
         if numbered {
-            self.number(addresses, commons)?;
+            self.number(start.text, addresses, commons)?;
         }
         Ok(start)
     }
 
-    fn number(&mut self, addresses: &Addresses, commons: &mut Commons) -> Result<(), Box<Diag>> {
+    /// Writes the sequence number of a block that starts at byte `block`.
+    fn number(
+        &mut self,
+        block: usize,
+        addresses: &Addresses,
+        commons: &mut Commons,
+    ) -> Result<(), Box<Diag>> {
         const N: u8 = letter(b'N');
         let on = self.sequence.switched.unwrap_or(commons.int(loc::SEQNO_OFF_AT_START) != 72);
         let Some(position) = addresses.position(N).filter(|_| on) else { return Ok(()) };
@@ -211,7 +191,7 @@ impl Tape {
         self.sequence.next = Some(number + increment);
         let slot = addresses.slot(position);
         let scaled = slot.format.scale(number)?;
-        self.note(SEQUENCE, self.sequence.cause);
+        self.note(SEQUENCE, self.sequence.cause, block);
         self.text.push(slot.character);
         slot.format.write(scaled, &mut self.text);
         if addresses.blank {
@@ -221,18 +201,22 @@ impl Tape {
         Ok(())
     }
 
-    /// Notes the word that is written next.
-    fn note(&mut self, letter: u8, cause: Cause) {
-        if self.observe {
-            self.noted.push(WordInfo { letter, start: self.text.len(), cause });
+    /// Notes the word that is written next, of a block that starts at byte `block`.
+    fn note(&mut self, letter: u8, cause: Cause, block: usize) {
+        if let Some(noted) = &mut self.noted {
+            noted.word(letter, self.text.len() - block, cause, self.cause);
         }
     }
 
     fn end(&mut self, start: Start) {
         self.count += 1;
-        if self.observe {
-            let (range, words) = (start.text..self.text.len(), start.noted..self.noted.len());
-            self.blocks.push(BlockInfo { range, cause: self.cause, words });
+        if let Some(noted) = &mut self.noted {
+            noted.blocks.push(BlockInfo {
+                range: start.text..self.text.len(),
+                cause: self.cause,
+                words: start.words..noted.words.len(),
+                others: start.others..noted.others.len(),
+            });
         }
         self.text.push(b'\n');
     }

@@ -136,7 +136,7 @@ impl<'p, R: Read> Engine<'p, R> {
     /// Hands the finished blocks out and forgets them.
     pub(crate) fn take_blocks(&mut self, mut take: impl FnMut(&str, &Origin)) {
         let tape = &self.outside.post.tape;
-        for block in &tape.blocks {
+        for block in tape.noted.iter().flat_map(|noted| &noted.blocks) {
             let text = String::from_utf8_lossy(&tape.text[block.range.clone()]);
             let origin = tape.stacks.origin(block.cause);
             take(&text, &origin);
@@ -149,8 +149,9 @@ impl<'p, R: Read> Engine<'p, R> {
 
     fn forget_blocks(&mut self) {
         let tape = &mut self.outside.post.tape;
-        tape.blocks.clear();
-        tape.noted.clear();
+        if let Some(noted) = &mut tape.noted {
+            noted.clear();
+        }
         self.outside.report.bytes += tape.text.len() as u64;
         tape.text.clear();
     }

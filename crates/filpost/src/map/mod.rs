@@ -6,8 +6,10 @@
 //! so that a map that was cut off, or one of another run, is refused. Between
 //! them stand, in any number:
 //!
-//! - `[cl,record,"words"]`: a line of the NC program; the n-th of them is line n.
-//!   The line and number of its CL record; a fourth item is its FIL call stack.
+//! - `[lines,records,"words"]`: a line of the NC program: by how much the line and
+//!   the number of its CL record come after those of the line before, and its
+//!   words; a fourth item is its FIL call stack.
+//! - `7`: a line of the NC program of the same form as the 7th that was written out.
 //! - `{"stack":n,"section":s,"fil":[[file,line],…]}`: a FIL call stack, innermost
 //!   line first, before the first block that names it.
 //! - `{"taken":[cl,record],"section":s}`: a record that a section took without
@@ -16,14 +18,16 @@
 //! The words of a block are separated by blanks: `X7:6` is an X of 7 bytes (the
 //! blank after it counts) that repeats word 6 of the block's record, `G3` one due
 //! to that record as a whole, `M3*5` one due to word 5 of the record that a FIL
-//! statement made, `G4@` one that the machine's settings ask for, `F5:4@12,9,0`
-//! one due to word 4 of record 9 in CL line 12, without FIL. `_` stands for a
-//! text, `/` for the block-delete character, `#` for a sequence number.
+//! statement made, `G4@` one that the machine's settings ask for, `F5:4@-2,-1,0`
+//! one due to word 4 of the record before, two lines before that of the block,
+//! without FIL. `_` stands for a text, `/` for the block-delete character, `#` for a
+//! sequence number.
 //!
 //! [`Post::run_mapped`](crate::Post::run_mapped) writes a map, [`MapReader`]
 //! reads one, block by block; neither needs memory for the length of the file.
 
 mod digest;
+mod forms;
 mod line;
 mod names;
 mod reader;
@@ -38,4 +42,4 @@ pub use words::Word;
 pub(crate) use writer::Writer;
 
 /// The version of the format that is written, and the only one that is read.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;

@@ -10,7 +10,7 @@ use serde::Deserialize;
 
 use super::digest::Digest;
 use super::line::{End, Header, ObjectLine, StackLine};
-use super::{VERSION, Word, words};
+use super::{VERSION, Word, forms, words};
 use crate::error::{Error, RunCode};
 use crate::files;
 
@@ -101,15 +101,32 @@ pub struct MapReader<R> {
     fil: Vec<MapFile>,
     sections: Vec<String>,
     stacks: Vec<Stack>,
+    /// The lines of blocks that were written out, to be repeated.
+    forms: Vec<Form>,
+    /// What the last block is due to.
+    last: Cause,
     /// Lines of the program that the last line promises, and those read.
     nc_lines: u64,
     read: u64,
     over: bool,
 }
 
-/// A line of the program: CL line, record, words, and the stack if there is one.
-#[derive(Deserialize)]
-struct NcLineLine<'a>(u32, u32, #[serde(borrow)] &'a str, #[serde(default)] u32);
+/// A line of the program that is written out: by how much its CL line and record
+/// come after those of the line before, its words, and the stack if there is one.
+#[derive(Clone, Debug, Deserialize)]
+struct Form(i64, i64, String, #[serde(default)] u32);
+
+impl Form {
+    /// What a block of this form is due to, and its words, when it comes after a
+    /// block with the cause `last`; `None` for what no map says.
+    fn after(&self, last: Cause) -> Option<(Cause, Vec<Word>)> {
+        let Form(lines, records, words, stack) = self;
+        let line = words::moved(last.line, *lines)?;
+        let record = words::moved(last.record, *records)?;
+        let cause = Cause { record, line, stack: *stack, ..Cause::default() };
+        Some((cause, words::read(words, cause)?))
+    }
+}
 
 impl MapReader<File> {
     /// Opens a map.
@@ -145,6 +162,8 @@ impl<R: Read + Seek> MapReader<R> {
             fil: Vec::new(),
             sections: Vec::new(),
             stacks: Vec::new(),
+            forms: Vec::new(),
+            last: Cause::default(),
             nc_lines: 0,
             read: 0,
             over: false,
@@ -206,7 +225,7 @@ impl<R: Read + Seek> MapReader<R> {
 
     fn entry(&mut self) -> Result<Option<Entry>, Error> {
         while self.next_line()? {
-            if self.line.first() == Some(&b'[') {
+            if let Some(b'[' | b'0'..=b'9') = self.line.first() {
                 return self.nc_line().map(|line| Some(Entry::Line(line)));
             }
             if let Some(line) = parse::<ObjectLine>(&self.line) {
@@ -228,14 +247,22 @@ impl<R: Read + Seek> MapReader<R> {
     }
 
     fn nc_line(&mut self) -> Result<NcLine, Error> {
-        let wrong = || self.broken("this is no line of a line map");
-        let NcLineLine(line, record, words, stack) = parse(&self.line).ok_or_else(wrong)?;
-        let cause = Cause { record, line, stack, ..Cause::default() };
-        let words = words::read(words, cause).ok_or_else(wrong)?;
-        let stacks = words.iter().map(|word| word.cause.stack).chain([stack]);
+        let written_out = parse::<Form>(&self.line);
+        let form = match &written_out {
+            Some(form) => form,
+            None => {
+                let number: usize = parse(&self.line).ok_or_else(|| self.no_line())?;
+                let known = number.checked_sub(1).and_then(|index| self.forms.get(index));
+                known.ok_or_else(|| self.unfit())?
+            }
+        };
+        let (cause, words) = form.after(self.last).ok_or_else(|| self.no_line())?;
+        let stacks = words.iter().map(|word| word.cause.stack).chain([cause.stack]);
         let known = stacks.max().is_none_or(|stack| stack as usize <= self.stacks.len());
         self.known(known)?;
+        self.forms.extend(written_out.filter(|_| self.forms.len() < forms::MOST));
         self.read += 1;
+        self.last = cause;
         Ok(NcLine { number: self.read, cause, words })
     }
 
@@ -251,12 +278,20 @@ impl<R: Read + Seek> MapReader<R> {
 
     /// Refuses a line that names what the map does not have.
     fn known(&self, known: bool) -> Result<(), Error> {
-        if known { Ok(()) } else { Err(self.broken("this line does not fit the lines before it")) }
+        if known { Ok(()) } else { Err(self.unfit()) }
+    }
+
+    fn unfit(&self) -> Error {
+        self.broken("this line does not fit the lines before it")
+    }
+
+    fn no_line(&self) -> Error {
+        self.broken("this is no line of a line map")
     }
 
     fn end(&mut self) -> Result<(), Error> {
         if parse::<End>(&self.line).is_none() {
-            return Err(self.broken("this is no line of a line map"));
+            return Err(self.no_line());
         }
         if self.read != self.nc_lines {
             let message = format!("{} lines of {} are there", self.read, self.nc_lines);

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use fil_post::tape::{SEQUENCE, SKIP, TEXT};
+use fil_post::noted::{SEQUENCE, SKIP, TEXT};
 use fil_post::{Cause, WordInfo};
 
 /// A word of a block.
@@ -24,39 +24,35 @@ impl Word {
     }
 }
 
-/// Writes the words of a block whose text ends at `end`.
-pub(super) fn write(words: &[WordInfo], end: usize, block: Cause, out: &mut Vec<u8>) {
-    let ends = words.iter().skip(1).map(|next| next.start).chain([end]);
-    for (index, (word, end)) in words.iter().zip(ends).enumerate() {
-        let length = (end - word.start) as u32;
-        let cause = word.cause;
-        let is_usual = same_record(cause, usual(word.letter, block));
-        if is_usual && !cause.made_by_fil && length < 10 && (1..10).contains(&cause.word) {
-            // Most words, in one go: a map must cost little.
-            let digits = [b'0' + length as u8, b'0' + cause.word as u8];
-            let text = [b' ', word.letter, digits[0], b':', digits[1]];
-            out.extend_from_slice(&text[usize::from(index == 0)..]);
-            continue;
-        }
-        if index > 0 {
-            out.push(b' ');
-        }
+/// Writes the words of a block, of which each comes with what it is due to; the
+/// text of the block is so many bytes long.
+pub(super) fn write(
+    words: impl Iterator<Item = (WordInfo, Cause)>,
+    length: usize,
+    block: Cause,
+    out: &mut Vec<u8>,
+) {
+    let mut words = words.peekable();
+    while let Some((word, cause)) = words.next() {
+        let end = words.peek().map_or(length as i64, |(next, _)| next.start.into());
         out.push(word.letter);
-        number(length, out);
+        number(end - i64::from(word.start), out);
         if cause.word != 0 {
             out.push(if cause.made_by_fil { b'*' } else { b':' });
-            number(u32::from(cause.word), out);
+            number(cause.word.into(), out);
         }
-        if !is_usual {
+        if !cause.is_of_the_record(usual(word.letter, block)) {
             out.push(b'@');
-            if !same_record(cause, Cause::default()) {
-                for (index, part) in [cause.line, cause.record, cause.stack].iter().enumerate() {
-                    if index > 0 {
-                        out.push(b',');
-                    }
-                    number(*part, out);
-                }
+            if !cause.is_of_the_record(Cause::default()) {
+                number(distance(block.line, cause.line), out);
+                out.push(b',');
+                number(distance(block.record, cause.record), out);
+                out.push(b',');
+                number(cause.stack.into(), out);
             }
+        }
+        if words.peek().is_some() {
+            out.push(b' ');
         }
     }
 }
@@ -66,18 +62,19 @@ fn usual(letter: u8, block: Cause) -> Cause {
     if letter == SEQUENCE { Cause::default() } else { block }
 }
 
-fn same_record(one: Cause, other: Cause) -> bool {
-    (one.line, one.record, one.stack) == (other.line, other.record, other.stack)
+/// How many lines or records `to` comes after `from`.
+pub(super) fn distance(from: u32, to: u32) -> i64 {
+    i64::from(to) - i64::from(from)
+}
+
+/// The number that comes `distance` after `from`.
+pub(super) fn moved(from: u32, distance: i64) -> Option<u32> {
+    u32::try_from(i64::from(from).checked_add(distance)?).ok()
 }
 
 /// Appends a number.
-#[inline]
-pub(super) fn number(number: u32, out: &mut Vec<u8>) {
-    if number < 10 {
-        out.push(b'0' + number as u8);
-    } else {
-        out.extend_from_slice(itoa::Buffer::new().format(number).as_bytes());
-    }
+pub(super) fn number(number: i64, out: &mut Vec<u8>) {
+    out.extend_from_slice(itoa::Buffer::new().format(number).as_bytes());
 }
 
 /// Reads the words of a block; `None` for a text of another form.
@@ -89,7 +86,7 @@ pub(super) fn read(text: &str, block: Cause) -> Option<Vec<Word>> {
             let mut characters = word.chars();
             let letter = characters.next().filter(|letter| known(*letter))?;
             let (shape, record) = match characters.as_str().split_once('@') {
-                Some((shape, record)) => (shape, record_of(record)?),
+                Some((shape, record)) => (shape, record_of(record, block)?),
                 None => (characters.as_str(), usual(letter as u8, block)),
             };
             let by_fil = shape.contains('*');
@@ -109,14 +106,15 @@ fn known(letter: char) -> bool {
     letter.is_ascii_uppercase() || [TEXT, SKIP, SEQUENCE].map(char::from).contains(&letter)
 }
 
-fn record_of(text: &str) -> Option<Cause> {
+fn record_of(text: &str, block: Cause) -> Option<Cause> {
     if text.is_empty() {
         return Some(Cause::default());
     }
-    let mut parts = text.split(',').map(plain);
-    let [line, record, stack] = [parts.next()??, parts.next()??, parts.next()??];
-    let none_left = parts.next().is_none();
-    none_left.then_some(Cause { line, record, stack, ..Cause::default() })
+    let mut parts = text.split(',');
+    let line = moved(block.line, parts.next()?.parse().ok()?)?;
+    let record = moved(block.record, parts.next()?.parse().ok()?)?;
+    let stack = plain(parts.next()?)?;
+    parts.next().is_none().then_some(Cause { line, record, stack, ..Cause::default() })
 }
 
 /// A number of digits alone.

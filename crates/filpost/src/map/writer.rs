@@ -3,11 +3,12 @@
 use std::io::{self, Write};
 
 use fil_post::tape::Tape;
-use fil_post::{BlockInfo, Stack};
+use fil_post::{BlockInfo, Cause, Noted, Stack};
 use fil_vm::Module;
 use serde::Serialize;
 
 use super::digest::{Digest, Digesting};
+use super::forms::Forms;
 use super::line::{End, FilFile, Header, StackLine, TakenLine};
 use super::names::Names;
 use super::{VERSION, words};
@@ -20,6 +21,9 @@ pub(crate) struct Writer<'w> {
     output: &'w mut dyn Write,
     /// Lines not yet handed to the output.
     lines: Vec<u8>,
+    forms: Forms,
+    /// What the last block is due to.
+    last: Cause,
     /// The first error of the output; after it nothing more is written.
     failure: Option<io::Error>,
     /// Lines of the NC program so far.
@@ -46,6 +50,8 @@ impl<'w> Writer<'w> {
         let mut writer = Writer {
             output,
             lines: Vec::with_capacity(FLUSH + FLUSH / 4),
+            forms: Forms::default(),
+            last: Cause::default(),
             failure: None,
             nc_lines: 0,
             stacks: 0,
@@ -60,8 +66,8 @@ impl<'w> Writer<'w> {
         for stack in &tape.stacks.all()[self.stacks..] {
             self.stack(stack);
         }
-        for block in &tape.blocks {
-            self.block(block, tape);
+        if let Some(noted) = &tape.noted {
+            noted.blocks.iter().for_each(|block| self.block(block, noted));
         }
         self.nc.add(&tape.text);
         self.hand_out();
@@ -85,22 +91,31 @@ impl<'w> Writer<'w> {
         self.failure.map_or_else(|| self.output.flush(), Err)
     }
 
-    fn block(&mut self, block: &BlockInfo, tape: &Tape) {
+    fn block(&mut self, block: &BlockInfo, noted: &Noted) {
+        match self.forms.number(block, noted, self.last) {
+            Some(number) => words::number(number.into(), &mut self.lines),
+            None => self.write_out(block, noted),
+        }
+        self.lines.push(b'\n');
+        self.last = block.cause;
+        self.nc_lines += 1;
+    }
+
+    fn write_out(&mut self, block: &BlockInfo, noted: &Noted) {
         let cause = block.cause;
         let lines = &mut self.lines;
         lines.push(b'[');
-        words::number(cause.line, lines);
+        words::number(words::distance(self.last.line, cause.line), lines);
         lines.push(b',');
-        words::number(cause.record, lines);
+        words::number(words::distance(self.last.record, cause.record), lines);
         lines.extend_from_slice(b",\"");
-        words::write(&tape.noted[block.words.clone()], block.range.end, cause, lines);
+        words::write(noted.words_of(block), block.range.len(), cause, lines);
         lines.push(b'"');
         if cause.stack != 0 {
             lines.push(b',');
-            words::number(cause.stack, lines);
+            words::number(cause.stack.into(), lines);
         }
-        lines.extend_from_slice(b"]\n");
-        self.nc_lines += 1;
+        lines.push(b']');
     }
 
     fn stack(&mut self, stack: &Stack) {

@@ -1,0 +1,104 @@
+//! What finished blocks and their words are due to, noted while they are written.
+
+use std::ops::Range;
+
+use crate::cause::Cause;
+
+/// Stands for a text in place of a letter.
+pub const TEXT: u8 = b'_';
+
+/// Stands for the block-delete character in place of a letter.
+pub const SKIP: u8 = b'/';
+
+/// Stands for a sequence number in place of its letter.
+pub const SEQUENCE: u8 = b'#';
+
+/// A finished block on the tape.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BlockInfo {
+    /// Byte range in [`Tape::text`](crate::tape::Tape::text), without line end.
+    pub range: Range<usize>,
+    /// What made it.
+    pub cause: Cause,
+    /// Range of its words in [`Noted::words`].
+    pub words: Range<usize>,
+    /// Range in [`Noted::others`] of what they are due to.
+    pub others: Range<usize>,
+}
+
+/// A word of a finished block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct WordInfo {
+    /// Its letter, `A` to `Z`; [`TEXT`] for a text, [`SKIP`] for the block-delete
+    /// character, [`SEQUENCE`] for a sequence number.
+    pub letter: u8,
+    /// Which record it is due to.
+    pub due_to: DueTo,
+    /// The word of that record, as [`Cause::word`].
+    pub word: u16,
+    /// Byte in the block where it starts; it ends where the next one starts.
+    pub start: u32,
+}
+
+/// The record that a word of a block is due to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum DueTo {
+    /// The one that made the block.
+    Block,
+    /// One that a FIL statement made, for the record that made the block.
+    Fil,
+    /// None: the settings of the machine ask for it.
+    Machine,
+    /// The next one in [`Noted::others`].
+    Other,
+}
+
+/// The blocks on a tape, what they and their words are due to.
+#[derive(Clone, Debug, Default)]
+pub struct Noted {
+    /// The blocks, in order.
+    pub blocks: Vec<BlockInfo>,
+    /// The words of all blocks.
+    pub words: Vec<WordInfo>,
+    /// The causes of words that are due neither to the record of their block nor
+    /// to the machine.
+    pub others: Vec<Cause>,
+}
+
+impl Noted {
+    /// Notes the next word of a block that is due to `block`.
+    pub fn word(&mut self, letter: u8, start: usize, cause: Cause, block: Cause) {
+        let due_to = if cause.is_of_the_record(block) {
+            if cause.made_by_fil { DueTo::Fil } else { DueTo::Block }
+        } else if cause == Cause::default() {
+            DueTo::Machine
+        } else {
+            self.others.push(cause);
+            DueTo::Other
+        };
+        self.words.push(WordInfo { letter, due_to, word: cause.word, start: start as u32 });
+    }
+
+    /// The words of a block, each with what it is due to.
+    pub fn words_of(&self, block: &BlockInfo) -> impl Iterator<Item = (WordInfo, Cause)> {
+        let made = block.cause;
+        let mut others = self.others[block.others.clone()].iter();
+        self.words[block.words.clone()].iter().map(move |word| {
+            let of_record = Cause { word: word.word, made_by_fil: false, ..made };
+            let cause = match word.due_to {
+                DueTo::Block => of_record,
+                DueTo::Fil => Cause { made_by_fil: true, ..of_record },
+                DueTo::Machine => Cause::default(),
+                DueTo::Other => others.next().copied().unwrap_or_default(),
+            };
+            (*word, cause)
+        })
+    }
+
+    /// Forgets all blocks.
+    pub fn clear(&mut self) {
+        self.blocks.clear();
+        self.words.clear();
+        self.others.clear();
+    }
+}
