@@ -57,8 +57,8 @@ impl Line {
     /// From where to where a tip can be above the start; `None` when it is beside the line.
     fn range(&self, tip: [f64; 3]) -> Option<[f64; 2]> {
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-        for n in 0..3 {
-            let (off, slope, slack) = (tip[n] - self.start[n], self.axis[n], self.slack[n]);
+        for (n, tip) in tip.into_iter().enumerate() {
+            let (off, slope, slack) = (tip - self.start[n], self.axis[n], self.slack[n]);
             if slope.abs() < STILL {
                 if off.abs() > slack {
                     return None;
