@@ -119,15 +119,27 @@ impl Machine {
     /// # Panics
     /// On a statement that those files do not have.
     pub fn tip_program(&self, cl: &str) -> String {
-        let mut writer =
-            Writer { machine: self, nc: String::new(), last: [None; 5], tool: None, feed: None };
+        let mut writer = Writer {
+            machine: self,
+            nc: String::new(),
+            last: [None; 5],
+            tool: None,
+            feed: None,
+            cycle: None,
+            before: [0.0; 3],
+        };
         writer.line("%\nO0001\nG21 G90 G94 G17");
         let mut rapid = false;
         for line in cl.lines() {
             let (word, rest) = line.split_once(" / ").unwrap_or((line, ""));
             match word {
                 "RAPID" => rapid = true,
-                "GOTO" => writer.goto(&numbers(rest), std::mem::take(&mut rapid)),
+                "GOTO" if writer.cycle.is_some() && !rapid => writer.hole(&numbers(rest)),
+                "GOTO" => {
+                    writer.before.copy_from_slice(&numbers(rest)[..3]);
+                    writer.goto(&numbers(rest), std::mem::take(&mut rapid));
+                }
+                "CYCLE" => writer.cycle = Cycle::read(rest),
                 "FEDRAT" => writer.feed = numbers(rest).first().copied(),
                 "LOADTL" => writer.change_tool(&numbers(rest)),
                 "SPINDL" => {
@@ -150,6 +162,33 @@ fn numbers(text: &str) -> Vec<f64> {
     text.split(',').filter_map(|part| part.trim().parse().ok()).collect()
 }
 
+/// CYCLE/DRILL or CYCLE/DEEP.
+struct Cycle {
+    depth: f64,
+    feed: f64,
+    clear: f64,
+    step: Option<f64>,
+    /// Back to the level before the cycle, and not to the clearance.
+    back: bool,
+}
+
+impl Cycle {
+    /// The couplets of the statement; `None` for OFF.
+    fn read(text: &str) -> Option<Cycle> {
+        let after = |name: &str| {
+            let (_, rest) = text.split_once(&format!("{name}, "))?;
+            rest.split(',').next()?.trim().parse().ok()
+        };
+        Some(Cycle {
+            depth: after("DEPTH")?,
+            feed: after("MMPM")?,
+            clear: after("CLEAR")?,
+            step: after("STEP"),
+            back: text.ends_with("RETURN, 0"),
+        })
+    }
+}
+
 struct Writer<'m> {
     machine: &'m Machine,
     nc: String,
@@ -159,6 +198,9 @@ struct Writer<'m> {
     tool: Option<f64>,
     /// A feed that no motion has yet.
     feed: Option<f64>,
+    cycle: Option<Cycle>,
+    /// Where the CL file had the tool before the cycle.
+    before: [f64; 3],
 }
 
 impl Writer<'_> {
@@ -174,6 +216,28 @@ impl Writer<'_> {
         self.line(&format!("T{} M6", numbers[0]));
         self.tool = Some(*numbers.last().expect("a tool"));
         self.last = [None; 5];
+    }
+
+    /// A hole in single moves along the tool axis; after a peck they come back to 0.2 mm
+    /// above it.
+    fn hole(&mut self, start: &[f64]) {
+        let Some(Cycle { depth, feed, clear, step, back }) = self.cycle else { return };
+        let at = |height: f64| -> Vec<f64> {
+            let point = (0..3).map(|n| start[n] + start[n + 3] * height);
+            point.chain(start[3..].iter().copied()).collect()
+        };
+        self.goto(&at(clear), true);
+        self.feed = Some(feed);
+        let mut reached = clear;
+        while let Some(step) = step.filter(|step| reached - step > -depth) {
+            reached -= step;
+            self.goto(&at(reached), false);
+            self.goto(&at(clear), true);
+            self.goto(&at(reached + 0.2), true);
+        }
+        self.goto(&at(-depth), false);
+        let before: f64 = (0..3).map(|n| (self.before[n] - start[n]) * start[n + 3]).sum();
+        self.goto(&at(if back { before } else { clear }), true);
     }
 
     fn goto(&mut self, numbers: &[f64], rapid: bool) {
@@ -210,28 +274,36 @@ impl Writer<'_> {
 /// # Panics
 /// When it is not there.
 pub fn part() -> String {
-    std::fs::read_to_string(root().join("tests/tip_control/five-axes.ncl")).expect("a CL file")
+    file("five-axes.ncl")
 }
 
-/// The CL file on each machine, as the post writes it and with tool-tip control.
+fn file(name: &str) -> String {
+    std::fs::read_to_string(root().join("tests/tip_control").join(name)).expect("a CL file")
+}
+
+/// The CL file on each machine, as the post writes it and with tool-tip control; holes
+/// on the machine that turns them along its Z.
 ///
 /// # Panics
 /// When the post refuses it.
 pub fn cases() -> Vec<NcCase> {
-    let cl = part();
-    let of = |machine: &Machine| {
-        let mut post = machine.post();
-        let mut nc = Vec::new();
-        post.run(cl.as_bytes(), &mut nc).expect("a program");
-        let plain = String::from_utf8(nc).expect("text");
-        let tip = machine.tip_program(&cl);
-        [("axes", plain), ("tip", tip)].map(|(form, nc)| NcCase {
-            name: format!("five-axes/{}-{form}", machine.name),
-            cl: cl.clone().into_bytes(),
-            nc,
-            post: machine.post(),
-            fil: false,
-        })
-    };
-    MACHINES.iter().flat_map(of).collect()
+    let mut cases: Vec<NcCase> =
+        MACHINES.iter().flat_map(|machine| both(machine, "five-axes")).collect();
+    cases.extend(both(&MACHINES[0], "holes"));
+    cases
+}
+
+/// A CL file on a machine, as the post writes it and with tool-tip control.
+fn both(machine: &Machine, name: &str) -> [NcCase; 2] {
+    let cl = file(&format!("{name}.ncl"));
+    let mut nc = Vec::new();
+    machine.post().run(cl.as_bytes(), &mut nc).expect("a program");
+    let plain = String::from_utf8(nc).expect("text");
+    [("axes", plain), ("tip", machine.tip_program(&cl))].map(|(form, nc)| NcCase {
+        name: format!("{name}/{}-{form}", machine.name),
+        cl: cl.clone().into_bytes(),
+        nc,
+        post: machine.post(),
+        fil: false,
+    })
 }
