@@ -1,9 +1,10 @@
 //! A block under construction: words by tape position.
 
-use crate::address::{Addresses, Output, SLOTS, character, letter};
+use crate::address::{Addresses, Output, SLOTS, Slot, character, letter};
 use crate::cause::Cause;
 use crate::commons::Commons;
 use crate::errors::PostCode;
+use crate::word_text::WordText;
 use fil_diag::Diag;
 
 /// The letters that can stand several times in a block.
@@ -184,6 +185,17 @@ impl Block {
         mut note: impl FnMut(u8, usize, Cause),
     ) {
         let mut first = true;
+        let mut write = |slot: &Slot, scaled: i64, cause: Cause| {
+            let mut text = WordText::new();
+            slot.format.put(scaled, &mut text);
+            text.put(slot.character);
+            let blank = addresses.blank && !std::mem::replace(&mut first, false);
+            note(character(slot.letter), out.len() + usize::from(blank), cause);
+            if blank {
+                text.put(b' ');
+            }
+            text.append_to(out);
+        };
         let mut slots = self.present;
         for (letter, codes) in [(G, &self.g), (M, &self.m)] {
             if let (Some(position), true) = (addresses.position(letter), !codes.is_empty()) {
@@ -198,20 +210,14 @@ impl Block {
                 G => &self.g,
                 M => &self.m,
                 _ => {
-                    separate(&mut first, addresses.blank, out);
-                    note(character(slot.letter), out.len(), self.causes[position as usize]);
-                    out.push(slot.character);
                     let scaled = self.scaled[position as usize];
-                    slot.format.write(scaled, out);
+                    write(slot, scaled, self.causes[position as usize]);
                     commons.set_last_output(slot.letter, slot.format.unscale(scaled));
                     continue;
                 }
             };
             for (code, cause) in codes {
-                separate(&mut first, addresses.blank, out);
-                note(character(slot.letter), out.len(), *cause);
-                out.push(slot.character);
-                slot.format.write(i64::from(*code), out);
+                write(slot, i64::from(*code), *cause);
                 commons.set_last_output(slot.letter, f64::from(*code));
             }
         }
@@ -222,13 +228,6 @@ fn add(codes: &mut Vec<(i32, Cause)>, code: (i32, Cause)) {
     if codes.iter().all(|known| known.0 != code.0) {
         codes.push(code);
     }
-}
-
-fn separate(first: &mut bool, blank: bool, out: &mut Vec<u8>) {
-    if !*first && blank {
-        out.push(b' ');
-    }
-    *first = false;
 }
 
 /// The error for a letter without tape position.

@@ -23,6 +23,7 @@ pub mod runout;
 pub mod settings;
 pub mod state;
 pub mod tape;
+mod word_text;
 pub mod words;
 
 pub use cause::{Cause, FilLine, Origin, Stack, Stacks};

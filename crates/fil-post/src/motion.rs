@@ -26,6 +26,15 @@ pub const ROTARY: AxisSet = 0b11000;
 /// All axes.
 pub const ALL: AxisSet = XY | Z | ROTARY;
 
+/// The numbers of the axes in a set.
+fn members(mut set: AxisSet) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let number = set.trailing_zeros() as usize;
+        set &= set.wrapping_sub(1);
+        (number < AXES).then_some(number)
+    })
+}
+
 /// A CL point with its tool axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Target {
@@ -126,7 +135,8 @@ impl Post {
         } else {
             [across, turning, along]
         };
-        for (group, code) in order {
+        let present = self.machine.present();
+        for (group, code) in order.into_iter().filter(|(group, _)| group & present != 0) {
             let code = self.code(code, "rapid motion")?;
             self.rapid_block(position, axes & group, code, modal)?;
         }
@@ -189,8 +199,7 @@ impl Post {
         let mut scaled = [0; AXES];
         let mut changed: AxisSet = 0;
         let present = axes & self.machine.present();
-        let moving = |number: &usize| present & 1 << number != 0;
-        for number in (0..AXES).filter(moving) {
+        for number in members(present) {
             let axis = self.machine.axis(number);
             axis.check(position[number])?;
             if !axis.is_off() {
@@ -203,9 +212,8 @@ impl Post {
         }
         let written = if self.commons.flag(loc::MOTION_MODAL) { changed } else { present };
         let point = self.point_word();
-        for number in (0..AXES).filter(moving) {
-            let place = self.machine.axis(number).place()?;
-            if let Some(place) = place.filter(|_| written & 1 << number != 0) {
+        for number in members(written) {
+            if let Some(place) = self.machine.axis(number).place()? {
                 self.block.put(place, scaled[number]);
                 self.note_axis_word(point, number, place);
             }

@@ -26,22 +26,51 @@ pub struct BlockInfo {
     pub others: Range<usize>,
 }
 
-/// A word of a finished block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct WordInfo {
+/// A word of a finished block, in one number: there are millions to be kept and
+/// compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WordInfo(u64);
+
+impl WordInfo {
+    fn new(letter: u8, due_to: DueTo, word: u16, start: usize) -> Self {
+        let small = u64::from(letter) | (due_to as u64) << 8 | u64::from(word) << 16;
+        WordInfo(small | (start as u64) << 32)
+    }
+
     /// Its letter, `A` to `Z`; [`TEXT`] for a text, [`SKIP`] for the block-delete
     /// character, [`SEQUENCE`] for a sequence number.
-    pub letter: u8,
+    pub fn letter(self) -> u8 {
+        self.0 as u8
+    }
+
     /// Which record it is due to.
-    pub due_to: DueTo,
+    pub fn due_to(self) -> DueTo {
+        match (self.0 >> 8) as u8 {
+            0 => DueTo::Block,
+            1 => DueTo::Fil,
+            2 => DueTo::Machine,
+            _ => DueTo::Other,
+        }
+    }
+
     /// The word of that record, as [`Cause::word`].
-    pub word: u16,
+    pub fn word(self) -> u16 {
+        (self.0 >> 16) as u16
+    }
+
     /// Byte in the block where it starts; it ends where the next one starts.
-    pub start: u32,
+    pub fn start(self) -> usize {
+        (self.0 >> 32) as usize
+    }
+
+    /// All of it; words are the same if these numbers are.
+    pub fn bits(self) -> u64 {
+        self.0
+    }
 }
 
 /// The record that a word of a block is due to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DueTo {
     /// The one that made the block.
     Block,
@@ -76,7 +105,7 @@ impl Noted {
             self.others.push(cause);
             DueTo::Other
         };
-        self.words.push(WordInfo { letter, due_to, word: cause.word, start: start as u32 });
+        self.words.push(WordInfo::new(letter, due_to, cause.word, start));
     }
 
     /// The words of a block, each with what it is due to.
@@ -84,8 +113,8 @@ impl Noted {
         let made = block.cause;
         let mut others = self.others[block.others.clone()].iter();
         self.words[block.words.clone()].iter().map(move |word| {
-            let of_record = Cause { word: word.word, made_by_fil: false, ..made };
-            let cause = match word.due_to {
+            let of_record = Cause { word: word.word(), made_by_fil: false, ..made };
+            let cause = match word.due_to() {
                 DueTo::Block => of_record,
                 DueTo::Fil => Cause { made_by_fil: true, ..of_record },
                 DueTo::Machine => Cause::default(),

@@ -8,6 +8,7 @@
 use fil_diag::Diag;
 
 use crate::errors::PostCode;
+use crate::word_text::WordText;
 
 const POWERS: [f64; 10] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
 
@@ -118,44 +119,56 @@ impl NumberFormat {
 
     /// Appends a scaled integer by the rules of the address.
     pub fn write(&self, scaled: i64, out: &mut Vec<u8>) {
-        let mut text = Backwards::new();
+        let mut text = WordText::new();
+        self.put(scaled, &mut text);
+        text.append_to(out);
+    }
+
+    /// Puts a scaled integer in front of a text by the rules of the address.
+    #[inline]
+    pub(crate) fn put(&self, scaled: i64, text: &mut WordText) {
+        let power = LIMITS[usize::from(self.decimals)] as u64;
+        let size = scaled.unsigned_abs();
         if self.point {
-            self.write_with_point(scaled.unsigned_abs(), &mut text);
+            self.put_with_point(size / power, (size % power) as u32, text);
         } else {
-            self.write_plain(scaled.unsigned_abs(), &mut text);
+            self.put_plain(size, text);
         }
         if scaled < 0 {
             text.put(b'-');
         } else if self.plus {
             text.put(b'+');
         }
-        out.extend_from_slice(text.bytes());
     }
 
-    fn write_with_point(&self, size: u64, text: &mut Backwards) {
-        let mut rest = size;
-        let mut kept = self.trailing;
-        for _ in 0..self.decimals {
-            kept |= !rest.is_multiple_of(10);
-            if kept {
-                text.put_digit(rest);
+    /// The fraction has at most nine digits, as many as a format can name.
+    fn put_with_point(&self, whole: u64, mut fraction: u32, text: &mut WordText) {
+        let mut digits = self.decimals;
+        if !self.trailing {
+            if fraction == 0 {
+                digits = 0;
+            } else {
+                while fraction.is_multiple_of(10) {
+                    fraction /= 10;
+                    digits -= 1;
+                }
             }
-            rest /= 10;
         }
-        match (text.is_empty(), self.rule) {
-            (true, DecimalRule::WhenNeeded) => {}
-            (true, DecimalRule::OneZero) => {
+        text.put_digits(fraction, digits);
+        match (digits, self.rule) {
+            (0, DecimalRule::WhenNeeded) => {}
+            (0, DecimalRule::OneZero) => {
                 text.put(b'0');
                 text.put(b'.');
             }
             _ => text.put(b'.'),
         }
-        if rest != 0 || self.leading || size == 0 {
-            text.put_number(rest);
+        if whole != 0 || self.leading || fraction == 0 {
+            text.put_number(whole);
         }
     }
 
-    fn write_plain(&self, size: u64, text: &mut Backwards) {
+    fn put_plain(&self, size: u64, text: &mut WordText) {
         let mut width = usize::from(self.whole + self.decimals);
         let mut rest = size;
         while self.drop_whole_zeros && rest != 0 && rest.is_multiple_of(10) {
@@ -163,51 +176,9 @@ impl NumberFormat {
             width = width.saturating_sub(1);
         }
         text.put_number(rest);
-        while self.leading && text.bytes().len() < width {
+        while self.leading && text.len() < width {
             text.put(b'0');
         }
-    }
-}
-
-/// The longest number: a sign, 20 digits of an integer, a point and the zeros
-/// around it.
-const LONGEST: usize = 48;
-
-/// The text of a number, made from its end.
-struct Backwards {
-    bytes: [u8; LONGEST],
-    start: usize,
-}
-
-impl Backwards {
-    fn new() -> Self {
-        Backwards { bytes: [0; LONGEST], start: LONGEST }
-    }
-
-    fn put(&mut self, byte: u8) {
-        self.start -= 1;
-        self.bytes[self.start] = byte;
-    }
-
-    /// The last digit of a number.
-    fn put_digit(&mut self, number: u64) {
-        self.put(b'0' + (number % 10) as u8);
-    }
-
-    fn put_number(&mut self, mut number: u64) {
-        self.put_digit(number);
-        while number > 9 {
-            number /= 10;
-            self.put_digit(number);
-        }
-    }
-
-    fn is_empty(&self) -> bool {
-        self.start == LONGEST
-    }
-
-    fn bytes(&self) -> &[u8] {
-        &self.bytes[self.start..]
     }
 }
 

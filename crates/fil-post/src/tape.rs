@@ -6,6 +6,7 @@ use crate::cause::{Cause, Stacks};
 use crate::commons::Commons;
 use crate::locations as loc;
 use crate::noted::{BlockInfo, Noted, SEQUENCE, SKIP, TEXT};
+use crate::word_text::WordText;
 use fil_diag::Diag;
 
 /// Sequence numbers: what is due for the next block.
@@ -192,11 +193,13 @@ impl Tape {
         let slot = addresses.slot(position);
         let scaled = slot.format.scale(number)?;
         self.note(SEQUENCE, self.sequence.cause, block);
-        self.text.push(slot.character);
-        slot.format.write(scaled, &mut self.text);
+        let mut text = WordText::new();
         if addresses.blank {
-            self.text.push(b' ');
+            text.put(b' ');
         }
+        slot.format.put(scaled, &mut text);
+        text.put(slot.character);
+        text.append_to(&mut self.text);
         commons.set_last_output(N, number);
         Ok(())
     }

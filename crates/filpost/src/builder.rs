@@ -364,12 +364,13 @@ impl Post {
         let cant = |error| files::cant_read(Path::new(&names.cl), &error);
         let mut cl = map::Digested::new(cl).map_err(cant)?;
         let reader = reader::Reader::seekable(&mut cl, &self.cl_name, self.options);
-        let map = map::Writer::new(&mut output, names, &self.module);
+        let cant_write = |error| files::cant_write(Path::new("the line map"), &error);
+        let module = self.module.clone();
+        let map = map::Writer::new(&mut output, names, &module).map_err(cant_write)?;
         let (result, map) = self.drive(reader, nc, Some(map));
         let result = result?;
         let digest = cl.finish().map_err(cant)?;
-        let written = map.map_or(Ok(()), |map| map.finish(digest));
-        written.map_err(|error| files::cant_write(Path::new("the line map"), &error))?;
+        map.map_or(Ok(()), |map| map.finish(digest)).map_err(cant_write)?;
         Ok(result)
     }
 

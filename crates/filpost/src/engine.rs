@@ -38,6 +38,8 @@ pub(crate) struct Engine<'p, R: Read> {
     functions_home: &'p mut fil_vm::Functions,
     record: Record,
     started: bool,
+    /// Blocks on the tape that observers have seen.
+    shown: usize,
     failure: Option<Error>,
 }
 
@@ -79,6 +81,7 @@ impl<'p, R: Read> Engine<'p, R> {
             functions_home: &mut post.functions,
             record: Record::default(),
             started: false,
+            shown: 0,
             failure: None,
         }
     }
@@ -92,12 +95,17 @@ impl<'p, R: Read> Engine<'p, R> {
 
     /// Runs to the end; what the script wrote is not under its names yet.
     pub(crate) fn run(&mut self, nc: &mut impl Write) -> Result<(Report, HeldFiles), Error> {
+        let observed = !self.outside.observers.is_empty();
         while self.step()? {
-            let tape = &self.outside.post.tape;
-            let observed = !self.outside.observers.is_empty();
-            if observed || tape.text.len() >= FLUSH {
+            if observed {
+                self.show_blocks(|_, _| {});
+            }
+            if self.outside.post.tape.text.len() >= FLUSH {
                 self.flush(nc)?;
             }
+        }
+        if observed {
+            self.show_blocks(|_, _| {});
         }
         self.flush(nc)?;
         nc.flush().map_err(write_error)?;
@@ -134,9 +142,16 @@ impl<'p, R: Read> Engine<'p, R> {
     }
 
     /// Hands the finished blocks out and forgets them.
-    pub(crate) fn take_blocks(&mut self, mut take: impl FnMut(&str, &Origin)) {
+    pub(crate) fn take_blocks(&mut self, take: impl FnMut(&str, &Origin)) {
+        self.show_blocks(take);
+        self.forget_blocks();
+    }
+
+    /// Hands out the blocks that nobody has seen yet.
+    fn show_blocks(&mut self, mut take: impl FnMut(&str, &Origin)) {
         let tape = &self.outside.post.tape;
-        for block in tape.noted.iter().flat_map(|noted| &noted.blocks) {
+        let Some(noted) = &tape.noted else { return };
+        for block in &noted.blocks[self.shown..] {
             let text = String::from_utf8_lossy(&tape.text[block.range.clone()]);
             let origin = tape.stacks.origin(block.cause);
             take(&text, &origin);
@@ -144,7 +159,7 @@ impl<'p, R: Read> Engine<'p, R> {
                 observer(WhatHappened::Block { text: &text, origin: &origin });
             }
         }
-        self.forget_blocks();
+        self.shown = noted.blocks.len();
     }
 
     fn forget_blocks(&mut self) {
@@ -152,21 +167,18 @@ impl<'p, R: Read> Engine<'p, R> {
         if let Some(noted) = &mut tape.noted {
             noted.clear();
         }
-        self.outside.report.bytes += tape.text.len() as u64;
         tape.text.clear();
+        self.shown = 0;
     }
 
     fn flush(&mut self, nc: &mut impl Write) -> Result<(), Error> {
-        let tape = &self.outside.post.tape;
+        let tape = &mut self.outside.post.tape;
         nc.write_all(&tape.text).map_err(write_error)?;
+        self.outside.report.bytes += tape.text.len() as u64;
         if let Some(map) = &mut self.outside.map {
             map.blocks(tape);
         }
-        if self.outside.observers.is_empty() {
-            self.forget_blocks();
-        } else {
-            self.take_blocks(|_, _| {});
-        }
+        self.forget_blocks();
         Ok(())
     }
 

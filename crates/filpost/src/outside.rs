@@ -113,7 +113,7 @@ impl<R: Read> Outside<'_, R> {
         let key = self.module.section_key(section);
         if swallowed {
             if let Some(map) = &mut self.map {
-                map.taken(line, record, section.index());
+                map.taken(map::Taken { line, record, section: section.index() });
             }
             *self.report.swallowed.entry(key.to_string()).or_default() += 1;
         }

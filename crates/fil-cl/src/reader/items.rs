@@ -20,15 +20,15 @@ const MAX_VOCABULARY: usize = 50_000;
 /// A name is not longer than this; in bytes.
 const MAX_NAME: usize = 64;
 
-/// The values of a `GOTO` that fills one line, with the length of the line
-/// including its line end; `None` when anything about it is unusual.
+/// Reads the values of a `GOTO` that fills one line; gives how many they are and
+/// the length of the line including its line end; `None` when anything about it is
+/// unusual.
 #[inline]
-pub(super) fn plain_goto(text: &[u8]) -> Option<([f64; 6], usize, usize)> {
+pub(super) fn plain_goto(text: &[u8], values: &mut [f64; 6]) -> Option<(usize, usize)> {
     let mut at = skip_blanks(text, text.starts_with(b"GOTO").then_some(4)?);
     if *text.get(at)? != b'/' {
         return None;
     }
-    let mut values = [0.0; 6];
     let mut count = 0;
     loop {
         at = skip_blanks(text, at + 1);
@@ -46,7 +46,7 @@ pub(super) fn plain_goto(text: &[u8]) -> Option<([f64; 6], usize, usize)> {
             _ => return None,
         }
     }
-    matches!(count, 3 | 6).then_some((values, count, at + 1))
+    matches!(count, 3 | 6).then_some((count, at + 1))
 }
 
 #[inline]

@@ -219,7 +219,8 @@ impl<R: Read> Reader<R> {
     /// long way, which gives the same record.
     #[inline]
     fn read_plain_goto(&mut self, dialect: Dialect, record: &mut Record) -> bool {
-        let Some((values, count, length)) = items::plain_goto(self.lines.unread()) else {
+        let mut values = [0.0; 6];
+        let Some((count, length)) = items::plain_goto(self.lines.unread(), &mut values) else {
             return false;
         };
         let [x, y, z, i, j, k] = values;

@@ -5,8 +5,8 @@
 use crate::record::{Record, kind};
 use crate::words;
 
-/// Lines kept at a time.
-const LINES: usize = 16;
+/// Statements kept at a time, a power of two.
+const KEPT: usize = 64;
 
 /// Longest first line of a statement that is kept.
 const LONGEST: usize = 80;
@@ -23,9 +23,14 @@ struct Known {
 }
 
 /// The statements known by now, each in the place its first line names.
-#[derive(Default)]
 pub(super) struct Repeated {
-    known: [Known; LINES],
+    known: Box<[Known; KEPT]>,
+}
+
+impl Default for Repeated {
+    fn default() -> Self {
+        Repeated { known: Box::new(std::array::from_fn(|_| Known::default())) }
+    }
 }
 
 impl Repeated {
@@ -69,12 +74,16 @@ fn copy(from: &Record, to: &mut Record) {
     to.text.push_str(&from.text);
 }
 
-/// Where a line is kept: by its length and the bytes in which such lines differ.
+/// Where a statement is kept, by its first line.
 #[inline]
 fn place(line: &[u8]) -> usize {
-    let byte = |at: usize| usize::from(line[at]);
-    let middle = line.len() / 2;
-    (line.len() + byte(0) * 7 + byte(middle) * 5 + byte(middle / 2) * 3) % LINES
+    // An odd number without pattern in its bits; the product has the best in front.
+    const FACTOR: u64 = 0x9E37_79B9_7F4A_7C15;
+    let mixed = |hash: u64, part: u64| (hash.rotate_left(5) ^ part).wrapping_mul(FACTOR);
+    let (eights, rest) = line.as_chunks::<8>();
+    let hash = eights.iter().fold(0, |hash, eight| mixed(hash, u64::from_le_bytes(*eight)));
+    let last = rest.iter().fold(0, |last, byte| last << 8 | u64::from(*byte));
+    (mixed(hash, last) >> (64 - KEPT.trailing_zeros())) as usize
 }
 
 #[cfg(test)]

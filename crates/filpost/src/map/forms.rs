@@ -1,7 +1,7 @@
 //! The forms of blocks: most blocks of a program are like one before them.
 
 use std::collections::HashMap;
-use std::hash::{Hash, Hasher};
+use std::hash::Hasher;
 
 use fil_post::{BlockInfo, Cause, Noted, WordInfo};
 use rustc_hash::{FxBuildHasher, FxHasher};
@@ -27,23 +27,29 @@ struct Form {
     others: Box<[Other]>,
 }
 
-#[derive(PartialEq, Eq, Hash)]
+/// All of a form but its words.
+#[derive(PartialEq, Eq)]
 struct Head {
     /// Distance from the record of the block before.
-    lines: i64,
-    records: i64,
+    from_last: Distance,
     stack: u32,
     /// Length of the text in bytes.
     length: usize,
 }
 
 /// What a word is due to, as seen from the record of its block.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 struct Other {
-    lines: i64,
-    records: i64,
+    from_block: Distance,
     stack: u32,
     made_by_fil: bool,
+}
+
+/// How far a record lies from another.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Distance {
+    lines: i64,
+    records: i64,
 }
 
 impl Forms {
@@ -52,19 +58,18 @@ impl Forms {
     pub fn number(&mut self, block: &BlockInfo, noted: &Noted, last: Cause) -> Option<u32> {
         let made = block.cause;
         let head = Head {
-            lines: distance(last.line, made.line),
-            records: distance(last.record, made.record),
+            from_last: Distance::new(last, made),
             stack: made.stack,
             length: block.range.len(),
         };
         let words = &noted.words[block.words.clone()];
         let others = noted.others[block.others.clone()].iter();
-        let others = others.map(|cause| Other::from_block(made, *cause));
+        let others = others.map(|cause| Other::new(made, *cause));
 
         let mut hasher = FxHasher::default();
-        head.hash(&mut hasher);
-        words.hash(&mut hasher);
-        others.clone().for_each(|other| other.hash(&mut hasher));
+        head.add_to(&mut hasher);
+        words.iter().for_each(|word| hasher.write_u64(word.bits()));
+        others.clone().for_each(|other| other.add_to(&mut hasher));
         let hash = hasher.finish();
 
         if let Some(&number) = self.numbers.get(&hash) {
@@ -82,13 +87,77 @@ impl Forms {
     }
 }
 
+impl Head {
+    fn add_to(&self, hasher: &mut FxHasher) {
+        self.from_last.add_to(hasher);
+        hasher.write_u64((self.length as u64) << 32 | u64::from(self.stack));
+    }
+}
+
 impl Other {
-    fn from_block(block: Cause, cause: Cause) -> Other {
-        Other {
-            lines: distance(block.line, cause.line),
-            records: distance(block.record, cause.record),
-            stack: cause.stack,
-            made_by_fil: cause.made_by_fil,
+    fn new(block: Cause, cause: Cause) -> Other {
+        let from_block = Distance::new(block, cause);
+        Other { from_block, stack: cause.stack, made_by_fil: cause.made_by_fil }
+    }
+
+    fn add_to(&self, hasher: &mut FxHasher) {
+        self.from_block.add_to(hasher);
+        hasher.write_u64(u64::from(self.made_by_fil) << 32 | u64::from(self.stack));
+    }
+}
+
+impl Distance {
+    fn new(from: Cause, to: Cause) -> Self {
+        let lines = distance(from.line, to.line);
+        Distance { lines, records: distance(from.record, to.record) }
+    }
+
+    fn add_to(&self, hasher: &mut FxHasher) {
+        hasher.write_u64((self.lines as u64) << 32 ^ self.records as u64);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Blocks of records that follow each other, each with a word due to itself and,
+    /// where given, one due to a record so far before it.
+    fn numbers(blocks: &[(u16, Option<u32>)]) -> Vec<Option<u32>> {
+        let (mut forms, mut last) = (Forms::default(), Cause::default());
+        let mut found = Vec::new();
+        for (at, (word, before)) in (10u32..).zip(blocks) {
+            let cause = Cause { record: at, line: at, ..Cause::default() };
+            let mut noted = Noted::default();
+            noted.word(b'X', 0, Cause { word: *word, ..cause }, cause);
+            if let Some(before) = before {
+                let other = Cause { record: at - before, line: at - before, ..cause };
+                noted.word(b'F', 5, other, cause);
+            }
+            let (words, others) = (0..noted.words.len(), 0..noted.others.len());
+            let block = BlockInfo { range: 0..9, cause, words, others };
+            found.push(forms.number(&block, &noted, last));
+            last = cause;
         }
+        found
+    }
+
+    #[test]
+    fn a_form_is_known_by_words_and_distances() {
+        let blocks = [(6, None), (6, None), (6, Some(1)), (6, Some(2)), (7, None), (6, Some(1))];
+        // The first comes from no record, and is another form than the second.
+        assert_eq!(numbers(&blocks), [None, None, None, None, None, Some(3)]);
+        assert_eq!(numbers(&[(6, None), (6, None), (6, None)])[2], Some(2));
+    }
+
+    #[test]
+    fn no_more_forms_are_kept_than_may_be() {
+        let blocks: Vec<(u16, Option<u32>)> =
+            (0..MOST as u16 + 10).map(|word| (word, None)).collect();
+        let twice = numbers(&[&blocks[..], &blocks[..]].concat());
+        let (first, again) = twice.split_at(blocks.len());
+        assert!(first.iter().all(Option::is_none));
+        assert_eq!(again[5], Some(6));
+        assert_eq!(again[MOST + 5], None);
     }
 }

@@ -29,6 +29,7 @@
 mod digest;
 mod forms;
 mod line;
+mod lines;
 mod names;
 mod reader;
 mod words;

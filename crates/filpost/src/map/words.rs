@@ -34,14 +34,14 @@ pub(super) fn write(
 ) {
     let mut words = words.peekable();
     while let Some((word, cause)) = words.next() {
-        let end = words.peek().map_or(length as i64, |(next, _)| next.start.into());
-        out.push(word.letter);
-        number(end - i64::from(word.start), out);
+        let end = words.peek().map_or(length, |(next, _)| next.start());
+        out.push(word.letter());
+        number((end - word.start()) as i64, out);
         if cause.word != 0 {
             out.push(if cause.made_by_fil { b'*' } else { b':' });
             number(cause.word.into(), out);
         }
-        if !cause.is_of_the_record(usual(word.letter, block)) {
+        if !cause.is_of_the_record(usual(word.letter(), block)) {
             out.push(b'@');
             if !cause.is_of_the_record(Cause::default()) {
                 number(distance(block.line, cause.line), out);
@@ -124,6 +124,7 @@ fn plain(text: &str) -> Option<u32> {
 
 #[cfg(test)]
 mod tests {
+    use fil_post::{BlockInfo, Noted};
     use proptest::prelude::*;
 
     use super::*;
@@ -148,23 +149,27 @@ mod tests {
         fn words_are_read_as_they_were_written(
             block in cause(), words in prop::collection::vec((letter(), 1usize..2000, cause()), 0..9)
         ) {
-            let mut start = 70;
-            let mut infos = Vec::new();
+            let mut noted = Noted::default();
+            let mut wanted = Vec::new();
+            let mut start = 0;
             for (letter, length, cause) in words {
-                infos.push(WordInfo { letter, start, cause });
+                noted.word(letter, start, cause, block);
+                wanted.push((char::from(letter), start, cause));
                 start += length;
             }
+            let all = BlockInfo {
+                range: 70..70 + start,
+                cause: block,
+                words: 0..noted.words.len(),
+                others: 0..noted.others.len(),
+            };
             let mut text = Vec::new();
-            write(&infos, start, block, &mut text);
+            write(noted.words_of(&all), start, block, &mut text);
             let found = read(std::str::from_utf8(&text).unwrap(), block).unwrap();
-            let wanted: Vec<(char, usize, Cause)> = infos
-                .iter()
-                .map(|word| (char::from(word.letter), word.start - 70, word.cause))
-                .collect();
             let shown: Vec<_> =
                 found.iter().map(|word| (word.letter, word.range.start, word.cause)).collect();
             prop_assert_eq!(shown, wanted);
-            prop_assert_eq!(found.last().map_or(70, |word| word.range.end + 70), start);
+            prop_assert_eq!(found.last().map_or(0, |word| word.range.end), start);
         }
 
         #[test]

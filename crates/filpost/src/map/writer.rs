@@ -1,83 +1,80 @@
-//! Writing a map while a run goes.
+//! Writing a map while a run goes. A thread of its own makes the lines, so that
+//! the run hardly waits for them.
 
 use std::io::{self, Write};
+use std::panic;
+use std::sync::mpsc::{self, Receiver, Sender, SyncSender};
+use std::thread::{self, JoinHandle};
 
 use fil_post::tape::Tape;
-use fil_post::{BlockInfo, Cause, Noted, Stack};
 use fil_vm::Module;
-use serde::Serialize;
 
-use super::digest::{Digest, Digesting};
-use super::forms::Forms;
-use super::line::{End, FilFile, Header, StackLine, TakenLine};
+use super::VERSION;
+use super::digest::Digest;
+use super::line::{End, FilFile, Header};
+use super::lines::{Batch, Lines, object};
 use super::names::Names;
-use super::{VERSION, words};
+use super::reader::Taken;
 
-/// Bytes of lines that are kept before they go to the writer.
-const FLUSH: usize = 64 * 1024;
+/// Batches that wait for the thread at most.
+const WAITING: usize = 2;
+
+/// Records without effect that are kept before they go to the thread.
+const TAKEN: usize = 4096;
 
 /// Writes the map of one run.
 pub(crate) struct Writer<'w> {
-    output: &'w mut dyn Write,
-    /// Lines not yet handed to the output.
-    lines: Vec<u8>,
-    forms: Forms,
-    /// What the last block is due to.
-    last: Cause,
-    /// The first error of the output; after it nothing more is written.
-    failure: Option<io::Error>,
-    /// Lines of the NC program so far.
-    nc_lines: u64,
+    output: Output<'w>,
+    /// What the thread does not have yet.
+    batch: Batch,
+    /// Stacks of the run that are in a batch.
     stacks: usize,
-    nc: Digesting,
+    /// Where batches go.
+    to: SyncSender<Batch>,
+    /// Where they come back from, with their lines.
+    from: Receiver<Batch>,
+    /// Ends with the number of lines and the digest of the NC program.
+    thread: JoinHandle<(u64, Digest)>,
+}
+
+struct Output<'w> {
+    output: &'w mut dyn Write,
+    /// The first error; after it nothing more is written.
+    failure: Option<io::Error>,
 }
 
 impl<'w> Writer<'w> {
     /// Starts a map.
-    pub fn new(output: &'w mut dyn Write, names: &Names, module: &Module) -> Self {
-        let name = |index: usize, own: &str| names.fil.get(index).cloned().unwrap_or(own.into());
-        let fil = module.files.iter().enumerate().map(|(index, file)| FilFile {
-            name: name(index, &file.name),
-            digest: Digest::of(file.text.as_bytes()),
-        });
-        let header = Header {
-            version: VERSION,
-            cl: names.cl.clone(),
-            nc: names.nc.clone(),
-            fil: fil.collect(),
-            sections: module.section_keys().map(str::to_string).collect(),
-        };
-        let mut writer = Writer {
-            output,
-            lines: Vec::with_capacity(FLUSH + FLUSH / 4),
-            forms: Forms::default(),
-            last: Cause::default(),
-            failure: None,
-            nc_lines: 0,
-            stacks: 0,
-            nc: Digesting::default(),
-        };
-        writer.object(&header);
-        writer
+    ///
+    /// # Errors
+    /// The system gives no thread.
+    pub fn new(output: &'w mut dyn Write, names: &Names, module: &Module) -> io::Result<Self> {
+        let (to, given) = mpsc::sync_channel(WAITING);
+        let (back, from) = mpsc::channel();
+        let named = thread::Builder::new().name("line map".into());
+        let thread = named.spawn(move || make_lines(&given, &back))?;
+        let mut output = Output { output, failure: None };
+        output.object(&header(names, module));
+        Ok(Writer { output, batch: Batch::default(), stacks: 0, to, from, thread })
     }
 
-    /// Writes the finished blocks of a tape.
-    pub fn blocks(&mut self, tape: &Tape) {
-        for stack in &tape.stacks.all()[self.stacks..] {
-            self.stack(stack);
+    /// Takes the finished blocks off a tape.
+    pub fn blocks(&mut self, tape: &mut Tape) {
+        let stacks = tape.stacks.all();
+        self.batch.stacks.extend_from_slice(&stacks[self.stacks..]);
+        self.stacks = stacks.len();
+        std::mem::swap(&mut self.batch.text, &mut tape.text);
+        if let Some(noted) = &mut tape.noted {
+            std::mem::swap(&mut self.batch.noted, noted);
         }
-        if let Some(noted) = &tape.noted {
-            noted.blocks.iter().for_each(|block| self.block(block, noted));
-        }
-        self.nc.add(&tape.text);
-        self.hand_out();
+        self.give();
     }
 
     /// Notes a record that a section took without effect.
-    pub fn taken(&mut self, line: u32, record: u32, section: u16) {
-        self.object(&TakenLine { taken: (line, record), section });
-        if self.lines.len() >= FLUSH {
-            self.hand_out();
+    pub fn taken(&mut self, taken: Taken) {
+        self.batch.taken.push(taken);
+        if self.batch.taken.len() >= TAKEN {
+            self.give();
         }
     }
 
@@ -86,55 +83,65 @@ impl<'w> Writer<'w> {
     /// # Errors
     /// The first error of the output.
     pub fn finish(mut self, cl: Digest) -> io::Result<()> {
-        self.object(&End { lines: self.nc_lines, cl, nc: self.nc.digest() });
-        self.hand_out();
-        self.failure.map_or_else(|| self.output.flush(), Err)
+        self.give();
+        drop(self.to);
+        self.from.iter().for_each(|done| self.output.write(&done.lines));
+        let ended = self.thread.join();
+        let (lines, nc) = ended.unwrap_or_else(|panicked| panic::resume_unwind(panicked));
+        self.output.object(&End { lines, cl, nc });
+        self.output.failure.map_or_else(|| self.output.output.flush(), Err)
     }
 
-    fn block(&mut self, block: &BlockInfo, noted: &Noted) {
-        match self.forms.number(block, noted, self.last) {
-            Some(number) => words::number(number.into(), &mut self.lines),
-            None => self.write_out(block, noted),
+    /// Gives the batch to the thread, and writes what came back from it.
+    fn give(&mut self) {
+        let mut empty = Batch::default();
+        for done in self.from.try_iter() {
+            self.output.write(&done.lines);
+            empty = done;
         }
-        self.lines.push(b'\n');
-        self.last = block.cause;
-        self.nc_lines += 1;
+        empty.clear();
+        let full = std::mem::replace(&mut self.batch, empty);
+        // Only a thread that has panicked takes nothing; the end will tell.
+        let _ = self.to.send(full);
     }
+}
 
-    fn write_out(&mut self, block: &BlockInfo, noted: &Noted) {
-        let cause = block.cause;
-        let lines = &mut self.lines;
-        lines.push(b'[');
-        words::number(words::distance(self.last.line, cause.line), lines);
-        lines.push(b',');
-        words::number(words::distance(self.last.record, cause.record), lines);
-        lines.extend_from_slice(b",\"");
-        words::write(noted.words_of(block), block.range.len(), cause, lines);
-        lines.push(b'"');
-        if cause.stack != 0 {
-            lines.push(b',');
-            words::number(cause.stack.into(), lines);
-        }
-        lines.push(b']');
-    }
-
-    fn stack(&mut self, stack: &Stack) {
-        self.stacks += 1;
-        let fil = stack.lines.iter().map(|at| (at.file, at.line)).collect();
-        self.object(&StackLine { stack: self.stacks as u32, section: stack.section, fil });
-    }
-
-    fn object(&mut self, line: &impl Serialize) {
-        if let Err(error) = serde_json::to_writer(&mut self.lines, line) {
-            self.failure.get_or_insert(error.into());
-        }
-        self.lines.push(b'\n');
-    }
-
-    fn hand_out(&mut self) {
+impl Output<'_> {
+    fn write(&mut self, lines: &[u8]) {
         if self.failure.is_none() {
-            self.failure = self.output.write_all(&self.lines).err();
+            self.failure = self.output.write_all(lines).err();
         }
-        self.lines.clear();
+    }
+
+    fn object(&mut self, line: &impl serde::Serialize) {
+        let mut lines = Vec::new();
+        object(line, &mut lines);
+        self.write(&lines);
+    }
+}
+
+/// Makes the lines of the batches that come, until no more come.
+fn make_lines(given: &Receiver<Batch>, back: &Sender<Batch>) -> (u64, Digest) {
+    let mut lines = Lines::default();
+    for mut batch in given {
+        lines.write(&mut batch);
+        // A run that failed does not wait for its map.
+        let _ = back.send(batch);
+    }
+    lines.end()
+}
+
+fn header(names: &Names, module: &Module) -> Header {
+    let name = |index: usize, own: &str| names.fil.get(index).cloned().unwrap_or(own.into());
+    let fil = module.files.iter().enumerate().map(|(index, file)| FilFile {
+        name: name(index, &file.name),
+        digest: Digest::of(file.text.as_bytes()),
+    });
+    Header {
+        version: VERSION,
+        cl: names.cl.clone(),
+        nc: names.nc.clone(),
+        fil: fil.collect(),
+        sections: module.section_keys().map(str::to_string).collect(),
     }
 }
