@@ -171,3 +171,21 @@ fn the_picture_shows_the_tip_going_straight() {
         assert!(straight || bent > 5, "{}: {bent} motions with a bend", case.name);
     }
 }
+
+/// The travel is that of the machine's axes, in whatever form the program is written.
+#[test]
+fn the_travel_of_the_axes_is_looked_at_in_both_forms() {
+    let outside = |form: &str| {
+        let case = cases().into_iter().find(|case| case.name == format!("five-axes/{form}"));
+        let case = case.expect("a case");
+        let limits = ["limits.check=1", "limits.x_max=70", "limits.z_min=0"];
+        let builder = limits.iter().fold(machine("table-and-head").builder(), |b, set| b.set(set));
+        let post = builder.build().expect("a machine");
+        let report = check(&post, &part(), &case.nc).expect("a report");
+        let axis = |message: &str| message.chars().next();
+        report.findings.iter().map(|f| (f.kind, f.cl_line, axis(&f.message))).collect::<Vec<_>>()
+    };
+    let found = outside("table-and-head-tip");
+    assert!(found.len() > 5 && found.iter().all(|(kind, ..)| *kind == Kind::Limit), "{found:?}");
+    assert_eq!(found, outside("table-and-head-axes"));
+}

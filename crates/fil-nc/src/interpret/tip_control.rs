@@ -19,7 +19,7 @@ impl State<'_> {
     pub(super) fn check_tip_control(&self, words: &Words) -> Result<(), Fault> {
         let on = self.modes.tip_control;
         match words.peek(Group::Length) {
-            Some(Function::TipControl) if on => refuse(words, "it is on already"),
+            Some(Function::TipControl) if on => refuse(words, "tool-tip control is on already"),
             Some(Function::TipControl) => self.check_begin(words),
             Some(Function::TipControlByDirection) => refuse(
                 words,
@@ -38,10 +38,10 @@ impl State<'_> {
         let gives_up = |function: Function| words.peek(function.group()) == Some(function);
         let compensates = self.modes.compensation != Compensation::Off;
         if compensates && !gives_up(Function::Compensation(Compensation::Off)) {
-            return refuse(words, "cutter compensation is on");
+            return refuse(words, "tool-tip control begins under cutter compensation");
         }
         if self.cycle.is_some() && !gives_up(Function::CycleOff) {
-            return refuse(words, "a cycle is in force");
+            return refuse(words, "tool-tip control begins while a cycle is in force");
         }
         if !self.dialect.tip_control_anywhere {
             self.check_tables(words)?;
@@ -158,7 +158,7 @@ fn is_zero(degrees: f64) -> bool {
 }
 
 fn differ(what: &str) -> Fault {
-    let message = format!("controls differ in the way of {what} under tool-tip control");
+    let message = format!("controls differ in what {what} does under tool-tip control");
     Fault::new(NcCode::NoMeaning, message)
 }
 
