@@ -286,7 +286,8 @@ fn file(name: &str) -> String {
 }
 
 /// The CL file on each machine, as the post writes it and with tool-tip control; holes
-/// on the machine that turns them along its Z.
+/// on the machine that turns them along its Z; inches with tool-tip control alone, where
+/// no length of the machine has a part.
 ///
 /// # Panics
 /// When the post refuses it.
