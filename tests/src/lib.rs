@@ -23,6 +23,7 @@ pub mod runout;
 pub mod screw;
 pub mod sinumerik;
 pub mod thread;
+pub mod tip_program;
 pub mod words;
 
 /// The folder of the workspace.

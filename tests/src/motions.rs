@@ -5,7 +5,8 @@
 //! ; set: rotary.primary_kind=1 a setting on top
 //! ; note: TEXT                 why
 //! ; expect: rapid X10 Y? Z5    an event, in order; `?` marks an axis that is not known
-//! ; error: E0910 at 12         the refusal and its line; events before it are compared
+//! ; error: E0910 at 12         the refusal and its line, or `12:5` with its column;
+//!                              events before it are compared
 //! ```
 
 use std::path::{Path, PathBuf};
@@ -125,8 +126,12 @@ pub fn check(path: &Path) -> Result<(), String> {
     let head = Head::read(&text)?;
     let (found, refused) = lines(&text, &head.dialect()?);
     let said = refused.map(|diag| {
-        let line = diag.places.first().map_or(0, |place| place.line);
-        (format!("{} at {line}", diag.code.name()), diag)
+        let place = diag.places.first();
+        let mut said = format!("{} at {}", diag.code.name(), place.map_or(0, |place| place.line));
+        if head.error.as_ref().is_some_and(|error| error.contains(':')) {
+            said += &format!(":{}", place.map_or(0, fil_diag::Place::column));
+        }
+        (said, diag)
     });
     if said.as_ref().map(|(said, _)| said) != head.error.as_ref() {
         return Err(format!("refused: {said:?}\nafter {found:#?}"));
@@ -153,6 +158,9 @@ fn motion_line(motion: &Move) -> String {
         (Course::Machine, _) => "machine",
     };
     let mut line = course.to_string();
+    if motion.to.tip_control {
+        line += " tip";
+    }
     let values = motion.to.linear.into_iter().chain(motion.to.rotary);
     for ((name, value), known) in ["X", "Y", "Z", "p", "s"].iter().zip(values).zip(motion.known) {
         let rotary = name.chars().all(char::is_lowercase);
@@ -181,6 +189,9 @@ fn modes_line(modes: &Modes) -> String {
     let mut line = format!("modes T{}", modes.tool);
     if let Some(offset) = modes.length_offset {
         line += &format!(" H{offset}");
+    }
+    if modes.tip_control {
+        line += " tip-control";
     }
     if let Some(speed) = modes.speed {
         line += &format!(" S{}", number(speed));

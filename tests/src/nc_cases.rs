@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use filpost::{Post, case};
 
-use crate::root;
 use crate::words::Header;
+use crate::{root, tip_program};
 
 /// A program and what it comes from.
 pub struct NcCase {
@@ -27,6 +27,7 @@ pub fn all() -> Vec<NcCase> {
     let mut cases = corpus();
     cases.extend(words());
     cases.extend(ready());
+    cases.extend(tip_program::cases());
     cases.sort_by(|a, b| a.name.cmp(&b.name));
     cases
 }

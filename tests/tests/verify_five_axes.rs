@@ -114,6 +114,27 @@ fn one_up(nc: &str, letters: &[char], which: usize) -> Option<String> {
     Some(changed)
 }
 
+/// The program with tool-tip control: the angles of the plain one, which has a block for
+/// each target, and the tips of the CL file. The tables begin at 0.
+fn with_tip_control(rotaries: &[Rotary; 2], targets: &[Target], plain: &str) -> Option<String> {
+    let blocks: Vec<&str> =
+        plain.lines().filter(|line| line.contains(['X', 'Y', 'Z', 'B', 'C'])).collect();
+    if blocks.len() != targets.len() {
+        return None;
+    }
+    let letters = ['C', 'B'];
+    let tables = (0..2).filter(|n| rotaries[*n].kind == 1).map(|n| format!(" {}0.", letters[n]));
+    let mut nc = format!("G21 G90 G94 G17\nG0{}\nG43.4 H1\n", tables.collect::<String>());
+    for (block, (point, _, _, rapid)) in blocks.iter().zip(targets) {
+        let words = block.split(' ').filter(|word| word.starts_with(letters));
+        let angles: String = words.map(|word| format!(" {word}")).collect();
+        let g = if *rapid { "G0" } else { "G1 F500." };
+        let [x, y, z] = point.map(|value| (value * 1000.0).round() / 1000.0);
+        nc += &format!("{g} X{x:?} Y{y:?} Z{z:?}{angles}\n");
+    }
+    Some(nc + "G49\nM30\n")
+}
+
 /// Paths posted for random machines.
 const PATHS: usize = 2_000;
 
@@ -136,6 +157,35 @@ fn posted_paths_agree_and_a_changed_last_digit_is_found() {
         let report = check(post.commons(), &cl, &nc).unwrap();
         assert_eq!(report.verdict(), Verdict::Agrees, "{:#?}\n{cl}\n{nc}", report.findings);
         // Along the primary axis its own position makes no difference to the tool.
+        let upright = targets.iter().any(|(_, tilt, ..)| *tilt == 0.0);
+        let letters = ['X', 'Y', 'Z', 'B', 'C'];
+        let letters = if upright { &letters[..3] } else { &letters };
+        let Some(changed) = one_up(&nc, letters, which) else { continue };
+        let report = check(post.commons(), &cl, &changed);
+        faults += 1;
+        found += usize::from(report.is_none_or(|report| report.verdict() == Verdict::Differs));
+    }
+    println!("{found} of {faults} changed last digits found");
+    assert!(faults > PATHS / 2 && found * 1000 >= faults * 998, "{found} of {faults}");
+}
+
+#[test]
+fn paths_with_tool_tip_control_agree_and_a_changed_last_digit_is_found() {
+    let mut runner = TestRunner::deterministic();
+    let all = (rotaries(), proptest::option::of(80.0..300.0f64), targets(), any::<usize>());
+    let (mut faults, mut found) = (0, 0);
+    for _ in 0..PATHS {
+        let (rotaries, pivot, targets, which) = all.new_tree(&mut runner).unwrap().current();
+        let mut post = post(&rotaries, pivot, false);
+        let cl = cl(&targets);
+        let mut plain = Vec::new();
+        if post.run(cl.as_bytes(), &mut plain).is_err() {
+            continue;
+        }
+        let plain = String::from_utf8(plain).unwrap();
+        let Some(nc) = with_tip_control(&rotaries, &targets, &plain) else { continue };
+        let report = check(post.commons(), &cl, &nc).unwrap_or_else(|| panic!("{cl}\n{nc}"));
+        assert_eq!(report.verdict(), Verdict::Agrees, "{:#?}\n{cl}\n{nc}", report.findings);
         let upright = targets.iter().any(|(_, tilt, ..)| *tilt == 0.0);
         let letters = ['X', 'Y', 'Z', 'B', 'C'];
         let letters = if upright { &letters[..3] } else { &letters };

@@ -10,7 +10,7 @@ use fil_post::Commons;
 use fil_post::kinematics::{Carries, Kinematics, Rotary};
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
-use crate::motion::Position;
+use crate::motion::{Arc, Position};
 
 /// Steps in which [`Forward::refine`] comes to its end; it doubles the digits in each.
 const STEPS: usize = 8;
@@ -33,12 +33,12 @@ pub struct Pose {
     pub axis: Vector3<f64>,
 }
 
-/// How the part frame lies in the machine at fixed rotary positions.
+/// How what X, Y, Z name lies in the part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
-    /// Turns directions of the machine into those of the part.
+    /// Turns directions of X, Y, Z into those of the part.
     pub turn: Matrix3<f64>,
-    /// Tip in the part when the linear axes stand at zero, mm.
+    /// Tip in the part when X, Y, Z are zero, mm.
     pub origin: Point3<f64>,
 }
 
@@ -69,8 +69,45 @@ impl Forward {
 
     /// Tip and axis of the tool where the axes stand.
     pub fn pose(&self, position: &Position) -> Pose {
-        let frame = self.frame(position.rotary);
-        Pose { tip: frame.tip(position.linear), axis: self.axis(position.rotary) }
+        let tip = self.frame_of(position).tip(position.linear);
+        Pose { tip, axis: self.axis(position.rotary) }
+    }
+
+    /// Where X, Y, Z of a position count from in the part.
+    pub fn frame_of(&self, position: &Position) -> Frame {
+        if position.tip_control { Frame::PART } else { self.frame(position.rotary) }
+    }
+
+    /// The same stand with X, Y, Z said under tool-tip control, or without it.
+    pub fn restated(&self, position: &Position, tip_control: bool) -> Position {
+        if position.tip_control == tip_control {
+            return *position;
+        }
+        let stands = Position { tip_control, ..*position };
+        let linear = self.frame_of(&stands).linear(self.pose(position).tip);
+        Position { linear, ..stands }
+    }
+
+    /// Where the axes stand at a share (0 to 1) of a motion that ends at `to`: X, Y, Z
+    /// and the rotary axes go evenly, X, Y, Z as they are meant at the end.
+    pub fn along(&self, from: &Position, to: &Position, arc: Option<&Arc>, share: f64) -> Position {
+        let from = self.restated(from, to.tip_control);
+        let mix = |a: f64, b: f64| a + (b - a) * share;
+        let mut at = Position {
+            linear: std::array::from_fn(|axis| mix(from.linear[axis], to.linear[axis])),
+            rotary: std::array::from_fn(|axis| mix(from.rotary[axis], to.rotary[axis])),
+            tip_control: to.tip_control,
+        };
+        if let Some(arc) = arc {
+            let [first, second] = arc.plane();
+            let turned = (arc.angle * share * if arc.ccw { 1.0 } else { -1.0 }).to_radians();
+            let (sine, cosine) = turned.sin_cos();
+            let arm =
+                [from.linear[first] - arc.centre[first], from.linear[second] - arc.centre[second]];
+            at.linear[first] = arc.centre[first] + arm[0] * cosine - arm[1] * sine;
+            at.linear[second] = arc.centre[second] + arm[0] * sine + arm[1] * cosine;
+        }
+        at
     }
 
     /// The tool axis in the part: `R(u1, r1) R(u2, r2) t`.
@@ -82,7 +119,7 @@ impl Forward {
         turned(turned(self.machine.tool.into_inner(), 1), 0)
     }
 
-    /// Where the linear axes count from in the part.
+    /// Where the linear axes count from in the part, without tool-tip control.
     pub fn frame(&self, rotary: [f64; 2]) -> Frame {
         let tool = self.machine.tool.into_inner();
         let mut head = tool;
@@ -144,6 +181,12 @@ impl Forward {
 }
 
 impl Frame {
+    /// The part itself.
+    const PART: Frame = Frame {
+        turn: Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
+        origin: Point3::new(0.0, 0.0, 0.0),
+    };
+
     /// The tip in the part for positions of the linear axes, mm.
     pub fn tip(&self, linear: [f64; 3]) -> Point3<f64> {
         self.origin + self.turn * Vector3::from(linear)
@@ -209,7 +252,8 @@ mod tests {
     fn a_table_about_x_turns_the_part_back() {
         let table = Some((Carries::Table, [1.0, 0.0, 0.0], [0.0; 3]));
         let forward = Forward { machine: machine([table, None], None) };
-        let position = Position { linear: [5.0, 0.0, 100.0], rotary: [30.0, 0.0] };
+        let position =
+            Position { linear: [5.0, 0.0, 100.0], rotary: [30.0, 0.0], ..Position::default() };
         let pose = forward.pose(&position);
         // The table at A30: what stands upright at Z100 lies at 30 degrees in the part.
         assert!(near(pose.tip.coords, Vector3::new(5.0, -50.0, 86.602_540_378), 1e-9));
@@ -220,7 +264,8 @@ mod tests {
     fn a_head_swings_the_tip_about_its_pivot() {
         let head = Some((Carries::Head, [0.0, 1.0, 0.0], [0.0; 3]));
         let forward = Forward { machine: machine([None, head], Some(100.0)) };
-        let position = Position { linear: [100.0, 0.0, -100.0], rotary: [0.0, 90.0] };
+        let position =
+            Position { linear: [100.0, 0.0, -100.0], rotary: [0.0, 90.0], ..Position::default() };
         let pose = forward.pose(&position);
         assert!(near(pose.tip.coords, Vector3::zeros(), 1e-9));
         assert!(near(pose.axis, Vector3::x(), 1e-9));
@@ -233,6 +278,24 @@ mod tests {
         let frame = Forward { machine: machine(both, None) }.frame([33.0, -120.0]);
         let linear = frame.linear(frame.tip([1.0, -2.0, 3.0]));
         assert!(near(Vector3::from(linear), Vector3::new(1.0, -2.0, 3.0), 1e-12));
+    }
+
+    #[test]
+    fn the_tip_goes_straight_under_tool_tip_control() {
+        let table = Some((Carries::Table, [0.0, 0.0, 1.0], [0.0; 3]));
+        let forward = Forward { machine: machine([table, None], None) };
+        let at =
+            |linear, turned, tip_control| Position { linear, rotary: [turned, 0.0], tip_control };
+        // Half way from the table at 0 to the table at 90 degrees.
+        let tip = |from, to| forward.pose(&forward.along(&from, &to, None, 0.5)).tip.coords;
+        let straight = tip(at([10.0, 0.0, 0.0], 0.0, true), at([0.0, 10.0, 0.0], 90.0, true));
+        assert!(near(straight, Vector3::new(5.0, 5.0, 0.0), 1e-12));
+        // The axes stand while the table turns: the tip goes along a quarter circle.
+        let round = tip(at([10.0, 0.0, 0.0], 0.0, false), at([10.0, 0.0, 0.0], 90.0, false));
+        assert!(near(round, Vector3::new(50f64.sqrt(), 50f64.sqrt(), 0.0), 1e-12));
+        // Where tool-tip control begins, the start is said anew.
+        let begins = tip(at([10.0, 0.0, 0.0], 90.0, false), at([0.0, 20.0, 0.0], 90.0, true));
+        assert!(near(begins, Vector3::new(0.0, 15.0, 0.0), 1e-12));
     }
 
     fn carries() -> impl Strategy<Value = [Carries; 2]> {
@@ -275,9 +338,15 @@ mod tests {
             let rotary = machine.solve(axis, last).unwrap();
             let linear = machine.linear(Point3::from(tip), rotary);
             let forward = Forward { machine };
-            let pose = forward.pose(&Position { linear: linear.coords.into(), rotary });
+            let position = Position { linear: linear.coords.into(), rotary, tip_control: false };
+            let pose = forward.pose(&position);
             prop_assert!(near(pose.tip.coords, Vector3::from(tip), 1e-6), "{:?}", pose);
             prop_assert!(near(pose.axis, axis, 2e-5), "{:?}", pose);
+            let restated = forward.restated(&position, true);
+            prop_assert!(near(Vector3::from(restated.linear), Vector3::from(tip), 1e-6));
+            prop_assert_eq!(forward.pose(&restated), pose);
+            let back = forward.restated(&restated, false);
+            prop_assert!(near(Vector3::from(back.linear), linear.coords, 1e-9));
         }
 
         /// Angles rounded on a tape are refined to the exact ones.

@@ -8,6 +8,9 @@ pub struct Position {
     pub linear: [f64; 3],
     /// Primary and secondary rotary axis of the machine, degrees; 0 without one.
     pub rotary: [f64; 2],
+    /// Tool-tip control is on: X, Y, Z are the tip in the frame of the part, and not
+    /// positions of the machine's axes.
+    pub tip_control: bool,
 }
 
 /// How a motion is driven.
@@ -49,6 +52,13 @@ pub struct Arc {
     pub angle: f64,
 }
 
+impl Arc {
+    /// Indices of the two axes of its plane.
+    pub fn plane(&self) -> [usize; 2] {
+        [(self.normal + 1) % 3, (self.normal + 2) % 3]
+    }
+}
+
 /// What the spindle does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Spindle {
@@ -80,6 +90,8 @@ pub struct Modes {
     pub tool: u32,
     /// Number of the length offset; `None` when off.
     pub length_offset: Option<u32>,
+    /// Tool-tip control is on.
+    pub tip_control: bool,
     /// Cutter compensation.
     pub compensation: Compensation,
     /// Number of its offset; `None` when off or not said.
@@ -94,7 +106,10 @@ pub struct Modes {
     pub coolant: bool,
 }
 
-/// A single motion from where the axes stand to `to`.
+/// A single motion from where the axes stand to `to`; [`Forward::along`] says how it
+/// gets there.
+///
+/// [`Forward::along`]: crate::forward::Forward::along
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Move {
     /// Line of the NC program, 1-based.
@@ -103,7 +118,8 @@ pub struct Move {
     pub course: Course,
     /// End of the motion.
     pub to: Position,
-    /// The arc it goes along; `None` for a straight line of the axes.
+    /// The arc it goes along; `None` for a straight line of the axes, or of the tip in
+    /// the part when tool-tip control is on.
     pub arc: Option<Arc>,
     /// Feed in force; `None` in rapid traverse.
     pub rate: Option<Rate>,

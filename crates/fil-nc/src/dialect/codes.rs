@@ -78,6 +78,11 @@ pub enum Function {
     Compensation(Compensation),
     /// Tool length offset taken up, else given up.
     Length(bool),
+    /// Tool length offset taken up, with tool-tip control by the angles of the rotary
+    /// axes.
+    TipControl,
+    /// The same by the direction of the tool.
+    TipControlByDirection,
     /// Work offset.
     Fixture(u32),
     /// S is a surface speed, else turns.
@@ -141,7 +146,9 @@ impl Function {
             Function::Positions { .. } => Group::Positions,
             Function::Feed(_) => Group::Feed,
             Function::Compensation(_) => Group::Compensation,
-            Function::Length(_) => Group::Length,
+            Function::Length(_) | Function::TipControl | Function::TipControlByDirection => {
+                Group::Length
+            }
             Function::Fixture(_) => Group::Fixture,
             Function::Surface(_) => Group::Surface,
             Function::PathControl => Group::PathControl,
@@ -238,8 +245,12 @@ const STANDARD: &[(i32, Function)] = &[
     (64, Function::PathControl),
 ];
 
+/// Tool-tip control of the controls that take up the tool length by `G43`, in tenths.
+const TIP_CONTROL: [(i64, Function); 2] =
+    [(434, Function::TipControl), (435, Function::TipControlByDirection)];
+
 impl Functions {
-    pub(super) fn new(settings: &Settings, lathe: bool) -> Self {
+    pub(super) fn new(settings: &Settings, lathe: bool, has_rotary: bool) -> Self {
         let mut table = Functions(HashMap::new());
         for (key, function) in named() {
             table.add(settings.code(key), function);
@@ -258,6 +269,9 @@ impl Functions {
         table.add_fixtures(settings);
         if settings.code("tool.length_code").is_some() {
             table.add(Some(49), Function::Length(false));
+        }
+        if has_rotary && !lathe && settings.code("tool.length_code") == Some(43) {
+            table.0.extend(TIP_CONTROL);
         }
         for (code, function) in STANDARD {
             table.add(Some(*code), *function);

@@ -8,7 +8,7 @@ mod numbers;
 
 use fil_diag::Diag;
 use fil_post::commons::{Commons, EMPTY, Kind};
-use fil_post::kinematics::Kinematics;
+use fil_post::kinematics::{Carries, Kinematics};
 use fil_post::locations::Location;
 
 use codes::{Auxiliaries, Functions};
@@ -83,6 +83,10 @@ pub struct Dialect {
     pub(crate) scales: [Option<Scale>; 5],
     /// Letters (1 to 26) of these axes.
     pub(crate) axis_letters: [u8; 5],
+    /// Which of the two rotary axes turn the part.
+    pub(crate) tables: [bool; 2],
+    /// Tool-tip control may begin wherever the tables stand.
+    pub(crate) tip_control_anywhere: bool,
     /// The machine turns parts: X may be a diameter, threads have cycles.
     pub lathe: bool,
     /// Programs begin in mm and not in inch, where they don't say.
@@ -161,12 +165,18 @@ impl Dialect {
             x.factor = 2.0;
         }
         let scales = [scales[0], scales[1], scales[2], scales[3], scales[4]];
-        let functions = Functions::new(&settings, lathe);
+        let functions = Functions::new(&settings, lathe, kinematics.has_rotary());
+        let tables = kinematics
+            .rotaries
+            .each_ref()
+            .map(|rotary| rotary.as_ref().is_some_and(|rotary| rotary.carries == Carries::Table));
         Ok(Dialect {
             addresses: numbers::addresses(commons, lathe),
             start: start(commons, axis_letters, scales),
             scales,
             axis_letters,
+            tables,
+            tip_control_anywhere: settings.code("rotary.tip_control") == Some(1),
             lathe,
             metric: settings.code("units.mode") != Some(1),
             plane: functions.plane(settings.code("circle.plane")),

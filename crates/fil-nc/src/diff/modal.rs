@@ -15,7 +15,7 @@ const G_GROUPS: [&[i64]; 11] = [
     &[930, 940, 950],
     &[200, 210, 700, 710],
     &[400, 410, 420],
-    &[430, 434, 440, 490],
+    &[430, 431, 434, 435, 440, 490],
     &[980, 990],
     &[540, 550, 560, 570, 580, 590],
     &[960, 970],
@@ -31,12 +31,17 @@ const MOTION: usize = 0;
 const PLANE: usize = 1;
 /// Index of the group of absolute and incremental.
 const DISTANCE: usize = 2;
+/// Index of the group of tool lengths.
+const LENGTH: usize = 6;
 /// Index of the group of return levels.
 const RETURN: usize = 7;
 
 /// Functions after which the position named in the same block is not that of
 /// the program's frame: `G28`, `G30`, `G53`.
 const ELSEWHERE: [i64; 3] = [280, 300, 530];
+
+/// Tool-tip control (`G43.4`, `G43.5`): coordinates are those of the tip in the part.
+const TIP_CONTROL: [i64; 2] = [434, 435];
 
 /// Absolute arc centres (`G90.1`) and those from the start (`G91.1`).
 const ABSOLUTE_CENTRES: i64 = 901;
@@ -92,6 +97,11 @@ impl Modal {
         self.g[MOTION].is_some_and(|code| code > 700 && code != 800)
     }
 
+    /// Tool-tip control is on.
+    fn on_tip(&self) -> bool {
+        self.g[LENGTH].is_some_and(|code| TIP_CONTROL.contains(&code))
+    }
+
     /// The sense of the arc that is in force: counterclockwise or not.
     pub fn arc(&self) -> Option<bool> {
         match self.g[MOTION] {
@@ -139,6 +149,7 @@ impl Modal {
     /// Takes a block up.
     pub fn take(&mut self, block: &Block) {
         let was_in_cycle = self.in_cycle();
+        let was_on_tip = self.on_tip();
         let mut elsewhere = false;
         for word in block.words.iter().filter(|word| matches!(word.letter, b'G' | b'M')) {
             let code = tenths(word.number.value());
@@ -148,6 +159,9 @@ impl Modal {
         if self.in_cycle() && !was_in_cycle {
             self.depth = None;
             b"RQP".iter().for_each(|letter| *self.slot(*letter) = None);
+        }
+        if self.on_tip() != was_on_tip {
+            b"XYZ".iter().for_each(|letter| *self.slot(*letter) = None);
         }
         let level = self.value(self.normal());
         for word in block.words.iter().filter(|word| word.index.is_none()) {

@@ -37,9 +37,15 @@ impl State<'_> {
         self.events.clear();
         let mut words = Words::read(block, self.dialect, self.metric)?;
         let outcome = self.outcome(&mut words)?;
+        self.check_tip_control(&words)?;
+        let begins = words.peek(Group::Length) == Some(Function::TipControl);
+        let (stood, known) = (self.at, self.known);
         self.modes(&mut words)?;
         self.tool_and_spindle(&mut words)?;
         self.motion(&mut words)?;
+        if begins {
+            self.check_begun(&stood, &known)?;
+        }
         words.finish()?;
         if outcome == Outcome::End {
             self.events.push(Event::End { line: self.line, modes: self.modes });
@@ -101,6 +107,9 @@ impl State<'_> {
         let moves = words.has_axes(self.dialect) || (arc && centre);
         if !moves {
             return self.feed_word(words);
+        }
+        if self.modes.tip_control {
+            self.check_tip_motion()?;
         }
         match self.motion {
             Some(Function::Thread) => self.thread(words),

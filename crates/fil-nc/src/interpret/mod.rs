@@ -11,6 +11,7 @@ mod modes;
 mod program;
 mod state;
 mod thread;
+mod tip_control;
 mod words;
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use crate::dialect::{Auxiliary, Function, Group, ToolCall};
 use crate::errors::NcCode;
 use crate::motion::{Compensation, Event, Spindle};
 
-const H: u8 = letter(b'H');
+pub(super) const H: u8 = letter(b'H');
 const S: u8 = letter(b'S');
 const T: u8 = letter(b'T');
 
@@ -42,9 +42,14 @@ impl State<'_> {
         self.offsets(words)
     }
 
+    /// The work offset is another one than that in force.
+    pub(super) fn moves_fixture(&self, code: u32) -> bool {
+        self.modes.fixture.is_some_and(|now| now != code)
+    }
+
     /// Another work offset: where the axes stand in it is not known.
     fn fixture(&mut self, code: u32) {
-        if self.modes.fixture.is_some_and(|now| now != code) {
+        if self.moves_fixture(code) {
             for axis in (0..5).filter(|axis| self.dialect.scales[*axis].is_some()) {
                 self.known[axis] = false;
             }
@@ -67,9 +72,11 @@ impl State<'_> {
                 let missing = || Fault::new(NcCode::MissingWord, "the length offset needs its H");
                 self.modes.length_offset = Some(offset.ok_or_else(missing)?);
             }
+            Some(Function::TipControl) => self.begin_tip_control(words)?,
             Some(_) => {
                 words.take_whole(H)?;
                 self.modes.length_offset = None;
+                self.end_tip_control();
             }
             None if self.modes.length_offset.is_some() && words.has(H) => {
                 self.modes.length_offset = words.take_whole(H)?;

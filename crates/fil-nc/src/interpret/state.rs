@@ -137,7 +137,11 @@ impl<'d> State<'d> {
         self.events.push(Event::Move(Move {
             line: self.line,
             course,
-            to: Position { linear: [x, y, z], rotary: [primary, secondary] },
+            to: Position {
+                linear: [x, y, z],
+                rotary: [primary, secondary],
+                tip_control: self.modes.tip_control,
+            },
             arc,
             rate,
             in_cycle: course != Course::Machine && (self.cycle.is_some() || self.pass.is_some()),

@@ -14,17 +14,32 @@ fn lathe() -> Commons {
     commons
 }
 
-fn dialects() -> [Dialect; 2] {
-    [default_commons(), lathe()].map(|commons| Dialect::new(&commons).unwrap())
+fn five_axes() -> Commons {
+    let mut commons = default_commons();
+    for setting in [
+        "rotary.primary_kind=1",
+        "rotary.primary_axis=3",
+        "rotary.primary_k=1",
+        "rotary.secondary_kind=2",
+        "rotary.secondary_axis=1",
+        "rotary.secondary_i=1",
+    ] {
+        apply_setting(&mut commons, setting).unwrap();
+    }
+    commons
+}
+
+fn dialects() -> [Dialect; 3] {
+    [default_commons(), lathe(), five_axes()].map(|commons| Dialect::new(&commons).unwrap())
 }
 
 /// Words that make programs which get far.
 fn word() -> impl Strategy<Value = String> {
     let codes = prop::sample::select(vec![
         "G0", "G1", "G2", "G3", "G4", "G17", "G18", "G19", "G20", "G21", "G28", "G32", "G41",
-        "G40", "G43", "G49", "G53", "G54", "G55", "G76", "G80", "G81", "G83", "G73", "G84", "G86",
-        "G90", "G91", "G92", "G93", "G94", "G95", "G98", "G99", "M3", "M4", "M5", "M6", "M8",
-        "M98", "M99", "M30", "O1", "O2", "%", "\n", "\n", "\n", "/",
+        "G40", "G43", "G43.4 H1", "G49", "C0. A0.", "G53", "G54", "G55", "G76", "G80", "G81",
+        "G83", "G73", "G84", "G86", "G90", "G91", "G92", "G93", "G94", "G95", "G98", "G99", "M3",
+        "M4", "M5", "M6", "M8", "M98", "M99", "M30", "O1", "O2", "%", "\n", "\n", "\n", "/",
     ]);
     let value =
         (prop::sample::select(b"XYZIJKRPQFSTHDUWAKL".to_vec()), -300i32..300, any::<bool>());

@@ -128,6 +128,11 @@ impl Words {
         Some(self.functions.swap_remove(at).0)
     }
 
+    /// The functions that nothing has taken, and where they stand.
+    pub(super) fn functions(&self) -> impl Iterator<Item = (Function, &Range<usize>)> {
+        self.functions.iter().map(|(function, range)| (*function, range))
+    }
+
     /// Looks at the function of a group.
     pub(super) fn peek(&self, group: Group) -> Option<Function> {
         self.functions.iter().map(|(function, _)| *function).find(|f| f.group() == group)
@@ -175,7 +180,18 @@ impl Words {
 
     /// True when an axis word is left.
     pub(super) fn has_axes(&self, dialect: &Dialect) -> bool {
-        self.items.iter().any(|item| dialect.axis(item.letter).is_some())
+        self.first_axis(dialect).is_some()
+    }
+
+    /// Where the first axis word stands that is left.
+    pub(super) fn first_axis(&self, dialect: &Dialect) -> Option<&Range<usize>> {
+        let axis = self.items.iter().find(|item| dialect.axis(item.letter).is_some());
+        axis.map(|item| &item.range)
+    }
+
+    /// Where the first word of a letter stands that is left.
+    pub(super) fn range_of(&self, letter: u8) -> Option<&Range<usize>> {
+        self.items.iter().find(|item| item.letter == letter).map(|item| &item.range)
     }
 
     /// Takes all axis words.

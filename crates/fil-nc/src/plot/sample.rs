@@ -12,23 +12,29 @@ const TURN: f64 = 2.0;
 /// Most points of one motion.
 const MOST: f64 = 720.0;
 
-/// Positions of the axes along a motion, without its start; the end is the last one.
-pub(super) fn positions(
-    from: &Position,
-    to: &Position,
+/// Tool tips along a motion, without its start; the end is the last one.
+pub(super) fn tips(
+    forward: &Forward,
+    (from, to): (&Position, &Position),
     arc: Option<&Arc>,
     tolerance: f64,
-) -> impl Iterator<Item = Position> {
-    let turned = (0..2).map(|axis| (to.rotary[axis] - from.rotary[axis]).abs()).fold(0.0, f64::max);
-    let radius = arc.map(|arc| radius(arc, from));
-    let swept = arc.map_or(0.0, |arc| arc.angle);
-    let step = radius.map_or(360.0, |radius| arc_step(radius, tolerance));
-    let count = (swept / step).max(turned / TURN).ceil().clamp(1.0, MOST) as u32;
+) -> impl Iterator<Item = Point> {
+    let swept = arc.map_or(0.0, |arc| arc.angle / arc_step(radius(arc, from), tolerance));
+    let count = swept.max(turned(from, to) / TURN).ceil().clamp(1.0, MOST) as u32;
     let (from, to, arc) = (*from, *to, arc.copied());
     (1..=count).map(move |index| {
         let share = f64::from(index) / f64::from(count);
-        if index == count { to } else { between(&from, &to, arc.as_ref(), share) }
+        let at = if index == count { to } else { forward.along(&from, &to, arc.as_ref(), share) };
+        tip(forward, &at)
     })
+}
+
+/// Degrees of the rotary axes that bend the way of the tip.
+fn turned(from: &Position, to: &Position) -> f64 {
+    if to.tip_control {
+        return 0.0;
+    }
+    (0..2).map(|axis| (to.rotary[axis] - from.rotary[axis]).abs()).fold(0.0, f64::max)
 }
 
 /// Degrees of an arc whose chord stays within the tolerance.
@@ -37,32 +43,10 @@ pub(super) fn arc_step(radius: f64, tolerance: f64) -> f64 {
     step.clamp(0.5, 60.0)
 }
 
-fn plane(arc: &Arc) -> [usize; 2] {
-    [(arc.normal + 1) % 3, (arc.normal + 2) % 3]
-}
-
 fn radius(arc: &Arc, from: &Position) -> f64 {
-    let [first, second] = plane(arc);
+    let [first, second] = arc.plane();
     let centre = arc.centre;
     (from.linear[first] - centre[first]).hypot(from.linear[second] - centre[second])
-}
-
-fn between(from: &Position, to: &Position, arc: Option<&Arc>, share: f64) -> Position {
-    let mix = |a: f64, b: f64| a + (b - a) * share;
-    let mut at = Position {
-        linear: std::array::from_fn(|axis| mix(from.linear[axis], to.linear[axis])),
-        rotary: std::array::from_fn(|axis| mix(from.rotary[axis], to.rotary[axis])),
-    };
-    if let Some(arc) = arc {
-        let [first, second] = plane(arc);
-        let turned = (arc.angle * share * if arc.ccw { 1.0 } else { -1.0 }).to_radians();
-        let (sine, cosine) = turned.sin_cos();
-        let arm =
-            [from.linear[first] - arc.centre[first], from.linear[second] - arc.centre[second]];
-        at.linear[first] = arc.centre[first] + arm[0] * cosine - arm[1] * sine;
-        at.linear[second] = arc.centre[second] + arm[0] * sine + arm[1] * cosine;
-    }
-    at
 }
 
 /// The tool tip in the part frame.

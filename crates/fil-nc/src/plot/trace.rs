@@ -6,7 +6,7 @@ use fil_cl::Options;
 use fil_diag::Diag;
 use nalgebra::{Point3, Rotation3, Unit};
 
-use super::sample::{arc_step, positions, tip};
+use super::sample::{arc_step, tip, tips};
 use super::{Change, Extent, Piece, Point, Stroke, Trace};
 use crate::forward::Forward;
 use crate::motion::{Course, Event, Move, Position};
@@ -92,8 +92,7 @@ pub fn nc_trace(events: &[Event], forward: &Forward) -> Trace {
                 } else if builder.pen.is_none() {
                     builder.put(tip(forward, &motion.to));
                 } else {
-                    let along = positions(&at, &motion.to, motion.arc.as_ref(), tolerance);
-                    let points = along.map(|position| tip(forward, &position));
+                    let points = tips(forward, (&at, &motion.to), motion.arc.as_ref(), tolerance);
                     builder.draw(stroke(motion), motion.line, points);
                 }
                 at = motion.to;

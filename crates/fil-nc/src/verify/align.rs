@@ -175,7 +175,7 @@ impl<C: Steps> Walk<'_, C> {
 
     /// Says it when the whole program is in the other unit.
     pub(super) fn units_differ(&mut self, cl_line: u32, found: &Move, pose: &Pose) -> bool {
-        let wanted = self.settings.forward.frame(found.to.rotary).linear(pose.tip);
+        let wanted = self.settings.forward.frame_of(&found.to).linear(pose.tip);
         let times = |factor: f64| {
             let mut large = false;
             let same = (0..3).filter(|n| found.known[*n]).all(|n| {

@@ -69,7 +69,7 @@ impl<C: Steps> Walk<'_, C> {
 
     /// The angle an arc block sweeps, when its centre, plane and sense are right.
     fn on_arc(&self, arc: &Arc, from: &Position, found: &Move, part: &motion::Arc) -> Option<f64> {
-        let frame = self.settings.forward.frame(found.to.rotary);
+        let frame = self.settings.forward.frame_of(&found.to);
         let mut normal = Vector3::zeros();
         normal[part.normal] = if part.ccw { 1.0 } else { -1.0 };
         if (frame.turn * normal - arc.normal).norm() > PARALLEL {
@@ -143,7 +143,7 @@ impl<C: Steps> Walk<'_, C> {
     /// Says how an arc block differs from the arc it stands for.
     pub(super) fn say_arc(&mut self, step: &Step, found: &Move) {
         let (Wanted::Arc(arc, _), Some(part)) = (&step.what, &found.arc) else { return };
-        let frame = self.settings.forward.frame(found.to.rotary);
+        let frame = self.settings.forward.frame_of(&found.to);
         let wanted = frame.turn.transpose() * arc.normal;
         let along = wanted[part.normal].abs() > 1.0 - PARALLEL;
         let message = if !along {

@@ -41,7 +41,7 @@ impl Gap {
         last: [f64; 2],
     ) -> Gap {
         let forward = &settings.forward;
-        let slack = &beside_the_pole(settings, slack, pose);
+        let slack = &beside_the_pole(settings, slack, at, pose);
         let stays = |n: usize| (last[n] - at.rotary[n]).abs() <= slack.rotary[n];
         let kept = [0, 1].map(|n| if stays(n) { last[n] } else { at.rotary[n] });
         let gap = Gap::at(settings, slack, at, pose, forward.refine(kept, pose.axis));
@@ -75,7 +75,8 @@ impl Gap {
 
     /// Compares X, Y, Z with where they should be at the rotary positions found.
     fn compare(&mut self, settings: &Settings, slack: &Slack, at: &Position, pose: &Pose) {
-        let wanted = settings.forward.frame(self.rotary).linear(pose.tip);
+        let exact = Position { rotary: self.rotary, ..*at };
+        let wanted = settings.forward.frame_of(&exact).linear(pose.tip);
         for n in 0..3 {
             let wanted = slack.rounded[n].map_or(wanted[n], |digit| rounded(wanted[n], digit));
             self.linear[n] = at.linear[n] - wanted;
@@ -95,15 +96,15 @@ fn rounded(value: f64, digit: f64) -> f64 {
 }
 
 /// A tool axis that all but lies along the primary rotary axis leaves open which way it
-/// leans: the angle it leans by widens what is allowed.
-fn beside_the_pole(settings: &Settings, slack: &Slack, pose: &Pose) -> Slack {
+/// leans: the angle it leans by widens what is allowed, of X, Y, Z where they follow it.
+fn beside_the_pole(settings: &Settings, slack: &Slack, at: &Position, pose: &Pose) -> Slack {
     let mut slack = *slack;
     let Some(primary) = &settings.forward.rotaries()[0] else { return slack };
     let lean = primary.direction.cross(&pose.axis).norm();
     if lean >= REACHED {
         return slack;
     }
-    let lever = settings.forward.lever(pose.tip);
+    let lever = if at.tip_control { 0.0 } else { settings.forward.lever(pose.tip) };
     for n in 0..3 {
         slack.linear[n] += LEAN * lean * lever;
     }

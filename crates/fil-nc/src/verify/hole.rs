@@ -16,8 +16,8 @@ const PECK_GAP: f64 = 0.2;
 
 /// Levels of a hole in the machine's Z, and its place.
 #[derive(Clone, Copy)]
-struct Levels {
-    at: [f64; 3],
+pub(super) struct Levels {
+    pub(super) at: [f64; 3],
     clear: f64,
     bottom: f64,
 }
@@ -39,8 +39,11 @@ impl<C: Steps> Walk<'_, C> {
             return false;
         }
         let Some(plunge) = self.plunge(self.next) else { return false };
-        let levels = self.levels(hole, &plunge);
-        self.drill_at(cl_line, hole, levels, &plunge);
+        let drills = self.in_axes(&plunge, hole);
+        let levels = self.levels(hole, &drills);
+        let kept = self.say_in_axes(hole, levels);
+        self.drill_at(cl_line, hole, levels, &drills);
+        self.say_again(kept);
         true
     }
 
@@ -50,6 +53,7 @@ impl<C: Steps> Walk<'_, C> {
         let Some(plunge) = self.plunge(self.next).filter(|plunge| plunge.arc.is_none()) else {
             return false;
         };
+        let plunge = self.in_axes(&plunge, hole);
         let mut levels = self.levels(hole, &plunge);
         let over = Pose { tip: hole.start.tip, ..hole.start };
         let mut stands = plunge;
@@ -57,7 +61,9 @@ impl<C: Steps> Walk<'_, C> {
         self.say_gap(cl_line, &stands, &over);
         self.measure(&stands, &over);
         levels.at = [plunge.to.linear[0], plunge.to.linear[1], levels.at[2]];
+        let kept = self.say_in_axes(hole, levels);
         self.drill_at(cl_line, hole, levels, &plunge);
+        self.say_again(kept);
         true
     }
 
@@ -84,8 +90,8 @@ impl<C: Steps> Walk<'_, C> {
         if plunge.arc.is_some() {
             return false;
         }
-        let levels = self.levels(hole, &plunge);
-        (0..2).all(|n| (plunge.to.linear[n] - levels.at[n]).abs() <= self.slack.linear[n])
+        let levels = self.levels(hole, &self.in_axes(&plunge, hole));
+        self.ends_over(&plunge, hole, levels.at)
     }
 
     fn levels(&self, hole: &Hole, plunge: &Move) -> Levels {
@@ -196,7 +202,10 @@ impl<C: Steps> Walk<'_, C> {
         reached: f64,
     ) -> Result<(), (u32, String)> {
         if hole.kind == CycleKind::Deep {
-            self.level(cl_line, levels.clear, "the retract between pecks")?;
+            let up = self.level(cl_line, levels.clear, "the retract between pecks")?;
+            if up.course != Course::Rapid {
+                return Err((up.line, format!("{} between pecks", self.spell_move(&up))));
+            }
         }
         let Some(back) = self.next_move() else { return Ok(()) };
         self.vertical(&back)?;
@@ -368,6 +377,17 @@ fn reversed(spindle: Spindle) -> Spindle {
         Spindle::Clockwise => Spindle::Counterclockwise,
         Spindle::Counterclockwise => Spindle::Clockwise,
     }
+}
+
+/// Heights above its start at which the tool turns round in a hole of single moves.
+pub(super) fn heights(hole: &Hole, levels: Levels) -> Vec<f64> {
+    let raised = hole.retract.filter(|above| *above > 0.0);
+    let mut heights: Vec<f64> = raised.into_iter().collect();
+    heights.push(levels.clear - levels.at[2]);
+    for depth in depths(hole, levels) {
+        heights.extend([depth - levels.at[2], depth + PECK_GAP - levels.at[2]]);
+    }
+    heights
 }
 
 /// Where the pecks end, the last at the bottom.

@@ -43,22 +43,24 @@ impl<C: Steps> Walk<'_, C> {
     /// Each axis stays or ends in a part of a rapid, and the height is the safe one.
     pub(super) fn check_part(&mut self, cl_line: u32, part: &Move, end: &Position) {
         let splits = self.splits_rapids;
-        let at = self.at.linear;
-        let known = self.known;
+        let forward = &self.settings.forward;
+        let at = forward.restated(&self.at, end.tip_control).linear;
+        let to = forward.restated(&part.to, end.tip_control).linear;
+        let known: [bool; 3] = std::array::from_fn(|n| self.known[n] && part.known[n]);
         let same = |a: f64, b: f64| (a - b).abs() <= STILL;
-        let moved = |n: usize| !same(part.to.linear[n], at[n]);
-        let arrived = |n: usize| same(part.to.linear[n], end.linear[n]);
+        let moved = |n: usize| !same(to[n], at[n]);
+        let arrived = |n: usize| same(to[n], end.linear[n]);
         let mut say = |message: String| {
             self.find(Kind::Order, Some(cl_line), Some(part.line), message);
         };
         if (0..3).any(|n| moved(n) && !arrived(n) && known[n]) {
-            let [x, y, z] = part.to.linear.map(short);
+            let [x, y, z] = to.map(short);
             say(format!("rapid by way of X{x} Y{y} Z{z}, which is on no way to its end"));
         }
         if !splits || !known[2] {
             return;
         }
-        let lower = moved(2) && part.to.linear[2] < at[2];
+        let lower = moved(2) && to[2] < at[2];
         if lower && !(arrived(0) && arrived(1)) {
             say("rapid plunges before X and Y have arrived".to_string());
         }
@@ -110,8 +112,9 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     pub(super) fn check_limits(&mut self, cl_line: u32, found: &Move) {
+        let axes = self.settings.forward.restated(&found.to, false).linear;
         for (n, (min, max)) in self.travel.into_iter().enumerate() {
-            let value = found.to.linear[n];
+            let value = axes[n];
             if !(min..=max).contains(&value) {
                 let axis = ["X", "Y", "Z"][n];
                 let message =

@@ -12,6 +12,7 @@ mod blocks;
 mod cl_path;
 mod gap;
 mod hole;
+mod hole_tip;
 mod lines;
 mod modes;
 mod programs;

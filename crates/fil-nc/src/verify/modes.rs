@@ -60,6 +60,14 @@ pub(super) struct Moved {
     pub(super) z: bool,
 }
 
+/// What the machine does while its modes are looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Doing {
+    Standing,
+    Moving,
+    Cutting,
+}
+
 /// What must be in force. `None` inside is a state that is not known.
 #[derive(Clone, Debug)]
 pub(super) struct Expected {
@@ -161,9 +169,13 @@ impl Expected {
         speed_slack: f64,
     ) -> Vec<(Kind, String)> {
         self.flush();
-        let mut wrong = self.wrong(modes, false, speed_slack);
+        let mut wrong = self.wrong(modes, Doing::Standing, speed_slack);
         // A change may bring its own offset along; one that waits needs a motion.
         wrong.retain(|(kind, _)| *kind != Kind::Tool || !(changes || self.offset_waits()));
+        if modes.tip_control {
+            let said = "tool-tip control is on, it should be off";
+            wrong.push((Kind::Tool, said.to_string()));
+        }
         self.news(wrong)
     }
 
@@ -195,7 +207,8 @@ impl Expected {
         self.speed.moved(moved);
         self.coolant.moved(moved);
         self.offset_on = modes.length_offset;
-        let wrong = self.wrong(modes, cuts, speed_slack);
+        let doing = if cuts { Doing::Cutting } else { Doing::Moving };
+        let wrong = self.wrong(modes, doing, speed_slack);
         self.news(wrong)
     }
 
@@ -216,15 +229,18 @@ impl Expected {
         })
     }
 
-    fn wrong(&self, modes: &Modes, cuts: bool, speed_slack: f64) -> Vec<(Kind, String)> {
+    fn wrong(&self, modes: &Modes, doing: Doing, speed_slack: f64) -> Vec<(Kind, String)> {
         let mut wrong = Vec::new();
         if let Some(tool) = self.tool.filter(|tool| *tool != modes.tool) {
             wrong
                 .push((Kind::Tool, format!("tool {} moves, it should be tool {tool}", modes.tool)));
         }
-        // Between the change and the new offset the old one may be given up.
-        let offset = |may: Option<u32>| may == modes.length_offset;
-        let given_up = self.offset.next.is_some() && modes.length_offset.is_none();
+        // Between the change and the new offset, and at the end, the old one may be given up.
+        // Tool-tip control has an offset, whether one is asked for or not.
+        let own = |may: Option<u32>| may.is_none() && modes.tip_control;
+        let offset = |may: Option<u32>| may == modes.length_offset || own(may);
+        let may_give_up = self.offset.next.is_some() || doing == Doing::Standing;
+        let given_up = may_give_up && modes.length_offset.is_none();
         if let Some(must) = self.offset.refuses(offset).filter(|_| !given_up) {
             wrong.push((Kind::Tool, said_of_offset(modes.length_offset, must)));
         }
@@ -234,7 +250,10 @@ impl Expected {
         }
         let spindle = |may: Option<Spindle>| may.is_none_or(|may| may == modes.spindle);
         if let Some(Some(must)) = self.spindle.refuses(spindle) {
-            wrong.push((Kind::Spindle, said_of_spindle(modes.spindle, must, cuts)));
+            wrong.push((
+                Kind::Spindle,
+                said_of_spindle(modes.spindle, must, doing == Doing::Cutting),
+            ));
         }
         let speed = |may: Option<f64>| match (may, modes.speed) {
             (Some(may), Some(speed)) => (may - speed).abs() <= speed_slack,

@@ -159,6 +159,7 @@ impl Pair<'_> {
     fn same_end(&self, a: &Move, b: &Move) -> bool {
         (0..3).all(|n| self.near(a.to.linear[n], b.to.linear[n]))
             && (0..2).all(|n| self.near(a.to.rotary[n], b.to.rotary[n]))
+            && a.to.tip_control == b.to.tip_control
             && a.known == b.known
     }
 
@@ -239,6 +240,11 @@ impl Pair<'_> {
                 a.length_offset != b.length_offset,
                 Kind::Tool,
                 "another length offset is on".to_string(),
+            ),
+            (
+                a.tip_control != b.tip_control,
+                Kind::Tool,
+                "tool-tip control is not as it should be".to_string(),
             ),
             (
                 (a.compensation, a.compensation_offset) != (b.compensation, b.compensation_offset),

@@ -66,7 +66,7 @@ impl<C: Steps> Walk<'_, C> {
 
     pub(super) fn spell_step(&self, wanted: &Wanted) -> String {
         let Some(pose) = wanted.end() else { return String::new() };
-        let point = self.settings.forward.frame(self.at.rotary).linear(pose.tip);
+        let point = self.settings.forward.frame_of(&self.at).linear(pose.tip);
         let [x, y, z] = point.map(short);
         match wanted {
             Wanted::Rapid(_) => format!("rapid to X{x} Y{y} Z{z}"),

@@ -59,8 +59,9 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn go_to_change_position(&mut self, cl_line: u32) {
         self.pass(cl_line);
         let wanted = self.settings.change_position(self.metric);
+        let forward = &self.settings.forward;
         let value = |at: &Position, n: usize| {
-            if n < 3 { at.linear[n] } else { at.rotary[n - 3] }
+            if n < 3 { forward.restated(at, false).linear[n] } else { at.rotary[n - 3] }
         };
         let near = |at: &Position, n: usize| match wanted[n] {
             Some(wanted) => {

@@ -161,6 +161,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         }
         loop {
             self.pass(step.line);
+            self.restate();
             if self.makes(step) {
                 self.report.matched += 1;
                 return self.settle(step.line);
@@ -222,10 +223,28 @@ impl<'a, C: Steps> Walk<'a, C> {
     }
 
     pub(super) fn is_still(&self, found: &Move) -> bool {
+        let at = self.at_as(found);
         let same = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= STILL);
         found.arc.is_none()
-            && same(&found.to.linear, &self.at.linear)
-            && same(&found.to.rotary, &self.at.rotary)
+            && same(&found.to.linear, &at.linear)
+            && same(&found.to.rotary, &at.rotary)
+    }
+
+    /// Where the axes stand, X, Y, Z as a motion means them; those it leaves unknown keep
+    /// their last value.
+    fn at_as(&self, found: &Move) -> Position {
+        let mut at = self.settings.forward.restated(&self.at, found.to.tip_control);
+        for n in (0..3).filter(|n| !found.known[*n]) {
+            at.linear[n] = self.at.linear[n];
+        }
+        at
+    }
+
+    /// Says X, Y, Z of where the axes stand as the next motion means them.
+    fn restate(&mut self) {
+        if let Some(found) = self.next_move() {
+            self.at = self.at_as(&found);
+        }
     }
 
     pub(super) fn next_move(&self) -> Option<Move> {
@@ -267,8 +286,9 @@ impl<'a, C: Steps> Walk<'a, C> {
 
     /// Takes a motion: its modes, its limits, where it goes.
     pub(super) fn take(&mut self, cl_line: u32, found: &Move) {
+        let at = self.at_as(found);
         let differs = |n: usize| {
-            let way = (found.to.linear[n] - self.at.linear[n]).abs();
+            let way = (found.to.linear[n] - at.linear[n]).abs();
             way > STILL || (found.known[n] && !self.known[n])
         };
         let moved = Moved { xy: differs(0) || differs(1), z: differs(2) };

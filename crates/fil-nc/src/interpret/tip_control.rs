@@ -1,0 +1,175 @@
+//! Tool-tip control (`G43.4`): the tip goes straight in the frame of the part while
+//! the rotary axes turn, and X, Y, Z name the tip there.
+//!
+//! Lengths of tools are the control's, so the tip is known from the program where all
+//! rotary axes stand at zero and tool, part and machine lie alike, and wherever the
+//! program names it. What controls, or their parameters, read in different ways is
+//! refused.
+
+use super::Fault;
+use super::modes::H;
+use super::state::{Axes, State};
+use super::words::Words;
+use crate::dialect::{Function, Group};
+use crate::errors::NcCode;
+use crate::motion::Compensation;
+
+impl State<'_> {
+    /// Refuses what has no sure meaning where tool-tip control is on, begins or ends.
+    pub(super) fn check_tip_control(&self, words: &Words) -> Result<(), Fault> {
+        let on = self.modes.tip_control;
+        match words.peek(Group::Length) {
+            Some(Function::TipControl) if on => refuse(words, "tool-tip control is on already"),
+            Some(Function::TipControl) => self.check_begin(words),
+            Some(Function::TipControlByDirection) => refuse(
+                words,
+                "which of two turns of the rotary axes a direction asks for is not known",
+            ),
+            Some(Function::Length(true)) if on => {
+                refuse(words, "tool-tip control must first be ended by G49")
+            }
+            Some(_) if on => self.check_end(words),
+            None if on => self.check_on(words),
+            _ => Ok(()),
+        }
+    }
+
+    fn check_begin(&self, words: &Words) -> Result<(), Fault> {
+        let gives_up = |function: Function| words.peek(function.group()) == Some(function);
+        let compensates = self.modes.compensation != Compensation::Off;
+        if compensates && !gives_up(Function::Compensation(Compensation::Off)) {
+            return refuse(words, "tool-tip control begins under cutter compensation");
+        }
+        if self.cycle.is_some() && !gives_up(Function::CycleOff) {
+            return refuse(words, "tool-tip control begins while a cycle is in force");
+        }
+        if !self.dialect.tip_control_anywhere {
+            self.check_tables(words)?;
+        }
+        self.check_functions(words)
+    }
+
+    /// Where the tables stand at zero, all controls take the part alike.
+    fn check_tables(&self, words: &Words) -> Result<(), Fault> {
+        for axis in (0..2).filter(|axis| self.dialect.tables[*axis]).map(|axis| axis + 3) {
+            let letter = char::from(b'@' + self.dialect.axis_letters[axis]);
+            if !self.known[axis] {
+                let message =
+                    format!("G43.4 needs {letter} at 0, and where it stands is not known");
+                return Err(at_length(words, Fault::new(NcCode::MissingWord, message)));
+            }
+            if !is_zero(self.at[axis]) {
+                let why =
+                    format!("with {letter} away from 0, controls differ in how the part lies");
+                return refuse(words, &why);
+            }
+        }
+        Ok(())
+    }
+
+    /// In the block of `G43.4` the tip does not yet go straight, so the rotary axes must
+    /// stand where they stood.
+    pub(super) fn check_begun(&self, stood: &Axes, known: &[bool; 5]) -> Result<(), Fault> {
+        if self.at[3..] == stood[3..] && self.known[3..] == known[3..] {
+            return Ok(());
+        }
+        let message =
+            "in the block of G43.4 the tip does not yet go straight; turn before or after it";
+        Err(Fault::new(NcCode::NoMeaning, message))
+    }
+
+    fn check_end(&self, words: &Words) -> Result<(), Fault> {
+        let elsewhere =
+            matches!(words.peek(Group::Once), Some(Function::MachineFrame | Function::Reference));
+        match words.first_axis(self.dialect) {
+            Some(range) if !elsewhere => {
+                let message = "controls differ in where a motion in the block of G49 ends";
+                Err(Fault::new(NcCode::NoMeaning, message).at(range))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn check_on(&self, words: &Words) -> Result<(), Fault> {
+        if let Some(range) = words.range_of(H) {
+            let message = "another length offset under tool-tip control; G49 must end it first";
+            return Err(Fault::new(NcCode::NoMeaning, message).at(range));
+        }
+        self.check_functions(words)
+    }
+
+    fn check_functions(&self, words: &Words) -> Result<(), Fault> {
+        for (function, range) in words.functions() {
+            let what = match function {
+                Function::Arc { .. } => "an arc",
+                Function::Thread => "a thread",
+                Function::Cycle(_) => "a cycle",
+                Function::Plane(normal) if normal != self.plane => "another plane",
+                Function::Fixture(code) if self.moves_fixture(code) => "another work offset",
+                Function::Units { metric } if metric != self.metric => "another unit",
+                Function::Compensation(Compensation::Left | Compensation::Right) => {
+                    "cutter compensation"
+                }
+                Function::MachineFrame | Function::Reference => "a point of the machine",
+                _ => continue,
+            };
+            return Err(differ(what).at(range));
+        }
+        Ok(())
+    }
+
+    /// A motion function that is in force from before.
+    pub(super) fn check_tip_motion(&self) -> Result<(), Fault> {
+        match self.motion {
+            Some(Function::Arc { .. }) => Err(differ("an arc")),
+            Some(Function::Thread) => Err(differ("a thread")),
+            _ => Ok(()),
+        }
+    }
+
+    /// Takes up tool-tip control with its length offset.
+    pub(super) fn begin_tip_control(&mut self, words: &mut Words) -> Result<(), Fault> {
+        let offset = words.take_whole(H)?;
+        let missing = || Fault::new(NcCode::MissingWord, "tool-tip control needs its H");
+        self.modes.length_offset = Some(offset.ok_or_else(missing)?);
+        self.modes.tip_control = true;
+        self.lose_tip();
+        Ok(())
+    }
+
+    /// Gives tool-tip control up.
+    pub(super) fn end_tip_control(&mut self) {
+        if std::mem::take(&mut self.modes.tip_control) {
+            self.lose_tip();
+        }
+    }
+
+    /// Where tool-tip control begins or ends, X, Y, Z keep their values when no rotary
+    /// axis is turned; else they must be said again.
+    fn lose_tip(&mut self) {
+        if !(3..5).all(|axis| self.known[axis] && is_zero(self.at[axis])) {
+            self.known[..3].fill(false);
+        }
+    }
+}
+
+fn is_zero(degrees: f64) -> bool {
+    degrees % 360.0 == 0.0
+}
+
+fn differ(what: &str) -> Fault {
+    let message = format!("controls differ in what {what} does under tool-tip control");
+    Fault::new(NcCode::NoMeaning, message)
+}
+
+fn refuse(words: &Words, why: &str) -> Result<(), Fault> {
+    Err(at_length(words, Fault::new(NcCode::NoMeaning, why)))
+}
+
+/// Puts a fault at the function of the tool length.
+fn at_length(words: &Words, fault: Fault) -> Fault {
+    match words.functions().find(|(function, _)| function.group() == Group::Length) {
+        Some((_, range)) => fault.at(range),
+        None => fault,
+    }
+}

@@ -1,0 +1,155 @@
+//! Holes under tool-tip control: single moves of the tip along the tool.
+//!
+//! The rotary axes stand while a hole is made, so its moves are said anew as those of the
+//! machine's axes, whose Z goes along the tool where tables turn the part. A tip that is
+//! on the hole's line to its last digits is said exactly, at one of the heights the hole
+//! asks for when it can be that.
+
+use nalgebra::{Point3, Vector3};
+
+use super::ahead::Steps;
+use super::hole::{Levels, heights};
+use super::walk::{STILL, Walk};
+use super::wanted::Hole;
+use crate::motion::{Event, Move, Position};
+
+/// The machine's Z and a tool this far apart are parallel.
+const PARALLEL: f64 = 1e-6;
+
+/// Motions to and from a hole, at most.
+const MOST: usize = 12;
+
+/// What binary fractions may add, mm.
+const DUST: f64 = 1e-7;
+
+/// The line of a hole.
+struct Line {
+    start: Point3<f64>,
+    axis: Vector3<f64>,
+    /// What the last digits of the tip leave open, mm.
+    slack: [f64; 3],
+    /// Heights above the start that the hole asks for, mm.
+    heights: Vec<f64>,
+    /// Height before the cycle, to the last digits, mm.
+    before: f64,
+}
+
+/// What stood there before the moves of a hole were said anew.
+pub(super) struct Kept {
+    /// Index of the first event.
+    first: usize,
+    events: Vec<Event>,
+    slack: [f64; 3],
+}
+
+impl Line {
+    /// The height of a tip above the start, one of those asked for when it can be that;
+    /// `None` beside the line.
+    fn height(&self, tip: [f64; 3]) -> Option<f64> {
+        let [low, high] = self.range(tip)?;
+        let within = |height: f64, by: f64| (low - by..=high + by).contains(&height);
+        let asked = self.heights.iter().copied().find(|height| within(*height, DUST));
+        let digits: f64 = (0..3).map(|n| self.axis[n].abs() * self.slack[n]).sum();
+        let before = Some(self.before).filter(|height| within(*height, digits));
+        Some(asked.or(before).unwrap_or(0.5 * (low + high)))
+    }
+
+    /// From where to where a tip can be above the start; `None` when it is beside the line.
+    fn range(&self, tip: [f64; 3]) -> Option<[f64; 2]> {
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        for (n, tip) in tip.into_iter().enumerate() {
+            let (off, slope, slack) = (tip - self.start[n], self.axis[n], self.slack[n]);
+            if slope.abs() < STILL {
+                if off.abs() > slack {
+                    return None;
+                }
+                continue;
+            }
+            let ends = [(off - slack) / slope, (off + slack) / slope];
+            low = low.max(ends[0].min(ends[1]));
+            high = high.min(ends[0].max(ends[1]));
+        }
+        (low <= high).then_some([low, high])
+    }
+}
+
+impl<C: Steps> Walk<'_, C> {
+    /// A motion over a hole in positions of the machine's axes, with the rotary axes
+    /// where the tool exactly lies along the hole.
+    pub(super) fn in_axes(&self, found: &Move, hole: &Hole) -> Move {
+        if !found.to.tip_control {
+            return *found;
+        }
+        let rotary = self.gap(&found.to, &hole.start).rotary;
+        let to = self.settings.forward.restated(&Position { rotary, ..found.to }, false);
+        Move { to, ..*found }
+    }
+
+    /// A motion ends over a hole, or in it.
+    pub(super) fn ends_over(&self, found: &Move, hole: &Hole, over: [f64; 3]) -> bool {
+        if found.to.tip_control {
+            return self.line_of(hole).range(found.to.linear).is_some();
+        }
+        (0..2).all(|n| (found.to.linear[n] - over[n]).abs() <= self.slack.linear[n])
+    }
+
+    fn line_of(&self, hole: &Hole) -> Line {
+        Line {
+            start: hole.start.tip,
+            axis: hole.start.axis,
+            slack: self.slack.linear,
+            heights: Vec::new(),
+            before: f64::NAN,
+        }
+    }
+
+    /// Says the next motions under tool-tip control in axes, until [`Walk::say_again`].
+    pub(super) fn say_in_axes(&mut self, hole: &Hole, levels: Levels) -> Option<Kept> {
+        let next = self.next_move().filter(|next| next.to.tip_control)?;
+        let mut line = self.line_of(hole);
+        line.heights = heights(hole, levels);
+        self.at = self.said(&Move { to: self.at, ..next }, hole, levels, &line).to;
+        line.before = self.initial.unwrap_or(self.at.linear[2]) - levels.at[2];
+        let first = self.next;
+        let (mut events, mut said) = (Vec::new(), Vec::new());
+        for event in self.nc[first..].iter().take(MOST + 4 * line.heights.len()) {
+            said.push(match event {
+                Event::Move(found) if found.to.tip_control => {
+                    Event::Move(self.said(found, hole, levels, &line))
+                }
+                Event::Dwell { .. } => *event,
+                _ => break,
+            });
+            events.push(*event);
+        }
+        self.nc.to_mut()[first..first + said.len()].copy_from_slice(&said);
+        let slack = std::mem::replace(&mut self.slack.linear, [DUST; 3]);
+        Some(Kept { first, events, slack })
+    }
+
+    fn said(&self, found: &Move, hole: &Hole, levels: Levels, line: &Line) -> Move {
+        let mut said = self.in_axes(found, hole);
+        let up = self.settings.forward.frame(said.to.rotary).turn.column(2).into_owned();
+        if !found.to.tip_control || (up - hole.start.axis).norm() > PARALLEL {
+            return said;
+        }
+        if let Some(height) = line.height(found.to.linear) {
+            said.to.linear = [levels.at[0], levels.at[1], levels.at[2] + height];
+        }
+        said
+    }
+
+    /// Says the motions again as they stand in the program.
+    pub(super) fn say_again(&mut self, kept: Option<Kept>) {
+        let Some(kept) = kept else { return };
+        self.slack.linear = kept.slack;
+        let end = kept.first + kept.events.len();
+        self.nc.to_mut()[kept.first..end].copy_from_slice(&kept.events);
+        let mut taken = kept.events[..self.next.min(end) - kept.first].iter().rev();
+        let last = taken.find_map(|event| match event {
+            Event::Move(found) => Some(found.to),
+            _ => None,
+        });
+        self.at = last.unwrap_or(self.at);
+    }
+}
