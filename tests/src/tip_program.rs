@@ -119,6 +119,7 @@ impl Machine {
     /// # Panics
     /// On a statement that those files do not have.
     pub fn tip_program(&self, cl: &str) -> String {
+        let inch = cl.contains("INCHES");
         let mut writer = Writer {
             machine: self,
             nc: String::new(),
@@ -126,9 +127,10 @@ impl Machine {
             tool: None,
             feed: None,
             cycle: None,
+            unit: if inch { 1e4 } else { 1e3 },
             before: [0.0; 3],
         };
-        writer.line("%\nO0001\nG21 G90 G94 G17");
+        writer.line(&format!("%\nO0001\nG{} G90 G94 G17", if inch { 20 } else { 21 }));
         let mut rapid = false;
         for line in cl.lines() {
             let (word, rest) = line.split_once(" / ").unwrap_or((line, ""));
@@ -199,6 +201,8 @@ struct Writer<'m> {
     /// A feed that no motion has yet.
     feed: Option<f64>,
     cycle: Option<Cycle>,
+    /// Last digits in a millimetre, an inch or a degree.
+    unit: f64,
     /// Where the CL file had the tool before the cycle.
     before: [f64; 3],
 }
@@ -257,7 +261,7 @@ impl Writer<'_> {
         }
         let mut block = g.to_string();
         for (n, letter) in letters.iter().enumerate() {
-            let value = (to[n] * 1000.0).round() / 1000.0;
+            let value = (to[n] * self.unit).round() / self.unit;
             if self.last[n].replace(value) != Some(value) {
                 let _ = write!(block, " {letter}{value:?}");
             }
@@ -282,7 +286,8 @@ fn file(name: &str) -> String {
 }
 
 /// The CL file on each machine, as the post writes it and with tool-tip control; holes
-/// on the machine that turns them along its Z.
+/// on the machine that turns them along its Z; inches with tool-tip control alone, where
+/// no length of the machine has a part.
 ///
 /// # Panics
 /// When the post refuses it.
@@ -290,6 +295,7 @@ pub fn cases() -> Vec<NcCase> {
     let mut cases: Vec<NcCase> =
         MACHINES.iter().flat_map(|machine| both(machine, "five-axes")).collect();
     cases.extend(both(&MACHINES[0], "holes"));
+    cases.extend(both(&MACHINES[1], "inches").into_iter().skip(1));
     cases
 }
 

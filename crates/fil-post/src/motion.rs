@@ -211,34 +211,33 @@ impl Post {
             return Ok(false);
         }
         let written = if self.commons.flag(loc::MOTION_MODAL) { changed } else { present };
-        let point = self.point_word();
         for number in members(written) {
             if let Some(place) = self.machine.axis(number).place()? {
                 self.block.put(place, scaled[number]);
-                self.note_axis_word(point, number, place);
             }
+        }
+        if self.block.noting {
+            self.note_axis_words(written);
         }
         Ok(true)
     }
 
-    /// Which word of the record is the X that the axis words repeat; `None` when
-    /// nobody notes it. It is the record as a whole where a rotary axis or TRANS
-    /// mixes its coordinates, and where the motion does not go to its point.
-    fn point_word(&self) -> Option<u16> {
-        let first = self.state.point_word;
-        if first == 0 || !self.block.noting {
-            return None;
-        }
+    /// Notes which words of the record the words of axes repeat. It is the record
+    /// as a whole where a rotary axis or TRANS mixes its coordinates, and where the
+    /// motion does not go to its point.
+    fn note_axis_words(&mut self, written: AxisSet) {
         let mixed = self.state.transformation.is_some()
             || self.machine.kinematics().is_some_and(|kinematics| {
                 kinematics.has_rotary() || self.state.axis != kinematics.tool.into_inner()
             });
-        (!mixed).then_some(first)
-    }
-
-    fn note_axis_word(&mut self, point: Option<u16>, number: usize, place: u8) {
-        if let Some(first) = point.filter(|_| number < 3) {
-            self.block.note_word(place, first + number as u16);
+        let first = self.state.point_word;
+        if mixed || first == 0 {
+            return;
+        }
+        for number in members(written & (XY | Z)) {
+            if let Ok(Some(place)) = self.machine.axis(number).place() {
+                self.block.note_word(place, first + number as u16);
+            }
         }
     }
 
@@ -254,8 +253,8 @@ impl Post {
     ) -> Result<bool, Box<Diag>> {
         let axis = self.machine.axis(number);
         let written = axis.write(position, always, &mut self.block, &self.commons)?;
-        if let Some(place) = axis.place()?.filter(|_| written) {
-            self.note_axis_word(self.point_word(), number, place);
+        if written && self.block.noting {
+            self.note_axis_words(1 << number);
         }
         Ok(written)
     }

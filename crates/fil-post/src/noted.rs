@@ -108,6 +108,14 @@ impl Noted {
         self.words.push(WordInfo::new(letter, due_to, cause.word, start));
     }
 
+    /// Notes that a block with the words since the last one is finished.
+    pub fn block(&mut self, range: Range<usize>, cause: Cause) {
+        let last = self.blocks.last();
+        let (words, others) = last.map_or((0, 0), |last| (last.words.end, last.others.end));
+        let (words, others) = (words..self.words.len(), others..self.others.len());
+        self.blocks.push(BlockInfo { range, cause, words, others });
+    }
+
     /// The words of a block, each with what it is due to.
     pub fn words_of(&self, block: &BlockInfo) -> impl Iterator<Item = (WordInfo, Cause)> {
         let made = block.cause;

@@ -5,7 +5,7 @@ use crate::block::{Block, no_address};
 use crate::cause::{Cause, Stacks};
 use crate::commons::Commons;
 use crate::locations as loc;
-use crate::noted::{BlockInfo, Noted, SEQUENCE, SKIP, TEXT};
+use crate::noted::{Noted, SEQUENCE, SKIP, TEXT};
 use crate::word_text::WordText;
 use fil_diag::Diag;
 
@@ -17,14 +17,6 @@ struct Sequence {
     switched: Option<bool>,
     since_last: i32,
     cause: Cause,
-}
-
-/// Where a block starts in [`Tape::text`] and in [`Tape::noted`].
-#[derive(Default)]
-struct Start {
-    text: usize,
-    words: usize,
-    others: usize,
 }
 
 /// The output side of the post.
@@ -66,7 +58,7 @@ impl Tape {
             Some(noted) => {
                 let cause = self.cause;
                 block.write(addresses, commons, &mut self.text, |letter, at, word| {
-                    noted.word(letter, at - start.text, word, cause);
+                    noted.word(letter, at - start, word, cause);
                 });
             }
             None => block.write(addresses, commons, &mut self.text, |_, _, _| {}),
@@ -101,7 +93,7 @@ impl Tape {
             commons.set_last_output(letter, slot.format.unscale(scaled));
         }
         let start = self.begin(true, addresses, commons)?;
-        let base = self.text.len() - start.text;
+        let base = self.text.len() - start;
         if let Some(all) = &mut self.noted {
             noted.iter().for_each(|&(letter, at, cause)| {
                 all.word(letter, base + at, cause, self.cause);
@@ -126,7 +118,7 @@ impl Tape {
         commons: &mut Commons,
     ) -> Result<(), Box<Diag>> {
         let start = self.begin(numbered, addresses, commons)?;
-        self.note(TEXT, cause, start.text);
+        self.note(TEXT, cause, start);
         self.text.extend_from_slice(text.as_bytes());
         self.end(start);
         Ok(())
@@ -146,22 +138,20 @@ impl Tape {
         self.sequence.cause = self.cause;
     }
 
+    /// Begins a block; gives the byte of [`Tape::text`] where it starts.
     fn begin(
         &mut self,
         numbered: bool,
         addresses: &Addresses,
         commons: &mut Commons,
-    ) -> Result<Start, Box<Diag>> {
-        let mut start = Start { text: self.text.len(), ..Start::default() };
-        if let Some(noted) = &self.noted {
-            (start.words, start.others) = (noted.words.len(), noted.others.len());
-        }
+    ) -> Result<usize, Box<Diag>> {
+        let start = self.text.len();
         if let Some(cause) = self.skip {
-            self.note(SKIP, cause, start.text);
+            self.note(SKIP, cause, start);
             self.text.push(b'/');
         }
         if numbered {
-            self.number(start.text, addresses, commons)?;
+            self.number(start, addresses, commons)?;
         }
         Ok(start)
     }
@@ -211,15 +201,10 @@ impl Tape {
         }
     }
 
-    fn end(&mut self, start: Start) {
+    fn end(&mut self, start: usize) {
         self.count += 1;
         if let Some(noted) = &mut self.noted {
-            noted.blocks.push(BlockInfo {
-                range: start.text..self.text.len(),
-                cause: self.cause,
-                words: start.words..noted.words.len(),
-                others: start.others..noted.others.len(),
-            });
+            noted.block(start..self.text.len(), self.cause);
         }
         self.text.push(b'\n');
     }

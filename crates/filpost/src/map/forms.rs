@@ -134,9 +134,8 @@ mod tests {
                 let other = Cause { record: at - before, line: at - before, ..cause };
                 noted.word(b'F', 5, other, cause);
             }
-            let (words, others) = (0..noted.words.len(), 0..noted.others.len());
-            let block = BlockInfo { range: 0..9, cause, words, others };
-            found.push(forms.number(&block, &noted, last));
+            noted.block(0..9, cause);
+            found.push(forms.number(&noted.blocks[0], &noted, last));
             last = cause;
         }
         found

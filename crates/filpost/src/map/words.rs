@@ -124,7 +124,7 @@ fn plain(text: &str) -> Option<u32> {
 
 #[cfg(test)]
 mod tests {
-    use fil_post::{BlockInfo, Noted};
+    use fil_post::Noted;
     use proptest::prelude::*;
 
     use super::*;
@@ -157,14 +157,9 @@ mod tests {
                 wanted.push((char::from(letter), start, cause));
                 start += length;
             }
-            let all = BlockInfo {
-                range: 70..70 + start,
-                cause: block,
-                words: 0..noted.words.len(),
-                others: 0..noted.others.len(),
-            };
+            noted.block(70..70 + start, block);
             let mut text = Vec::new();
-            write(noted.words_of(&all), start, block, &mut text);
+            write(noted.words_of(&noted.blocks[0]), start, block, &mut text);
             let found = read(std::str::from_utf8(&text).unwrap(), block).unwrap();
             let shown: Vec<_> =
                 found.iter().map(|word| (word.letter, word.range.start, word.cause)).collect();
