@@ -28,7 +28,7 @@ pub struct BlockInfo {
 
 /// A word of a finished block, in one number: there are millions to be kept and
 /// compared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct WordInfo(u64);
 
 impl WordInfo {
@@ -61,11 +61,6 @@ impl WordInfo {
     /// Byte in the block where it starts; it ends where the next one starts.
     pub fn start(self) -> usize {
         (self.0 >> 32) as usize
-    }
-
-    /// All of it; words are the same if these numbers are.
-    pub fn bits(self) -> u64 {
-        self.0
     }
 }
 

@@ -1,7 +1,7 @@
 //! The forms of blocks: most blocks of a program are like one before them.
 
 use std::collections::HashMap;
-use std::hash::Hasher;
+use std::hash::{Hash, Hasher};
 
 use fil_post::{BlockInfo, Cause, Noted, WordInfo};
 use rustc_hash::{FxBuildHasher, FxHasher};
@@ -28,7 +28,7 @@ struct Form {
 }
 
 /// All of a form but its words.
-#[derive(PartialEq, Eq)]
+#[derive(PartialEq, Eq, Hash)]
 struct Head {
     /// Distance from the record of the block before.
     from_last: Distance,
@@ -38,7 +38,7 @@ struct Head {
 }
 
 /// What a word is due to, as seen from the record of its block.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct Other {
     from_block: Distance,
     stack: u32,
@@ -46,7 +46,7 @@ struct Other {
 }
 
 /// How far a record lies from another.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct Distance {
     lines: i64,
     records: i64,
@@ -67,9 +67,9 @@ impl Forms {
         let others = others.map(|cause| Other::new(made, *cause));
 
         let mut hasher = FxHasher::default();
-        head.add_to(&mut hasher);
-        words.iter().for_each(|word| hasher.write_u64(word.bits()));
-        others.clone().for_each(|other| other.add_to(&mut hasher));
+        head.hash(&mut hasher);
+        words.hash(&mut hasher);
+        others.clone().for_each(|other| other.hash(&mut hasher));
         let hash = hasher.finish();
 
         if let Some(&number) = self.numbers.get(&hash) {
@@ -87,22 +87,10 @@ impl Forms {
     }
 }
 
-impl Head {
-    fn add_to(&self, hasher: &mut FxHasher) {
-        self.from_last.add_to(hasher);
-        hasher.write_u64((self.length as u64) << 32 | u64::from(self.stack));
-    }
-}
-
 impl Other {
     fn new(block: Cause, cause: Cause) -> Other {
         let from_block = Distance::new(block, cause);
         Other { from_block, stack: cause.stack, made_by_fil: cause.made_by_fil }
-    }
-
-    fn add_to(&self, hasher: &mut FxHasher) {
-        self.from_block.add_to(hasher);
-        hasher.write_u64(u64::from(self.made_by_fil) << 32 | u64::from(self.stack));
     }
 }
 
@@ -110,10 +98,6 @@ impl Distance {
     fn new(from: Cause, to: Cause) -> Self {
         let lines = distance(from.line, to.line);
         Distance { lines, records: distance(from.record, to.record) }
-    }
-
-    fn add_to(&self, hasher: &mut FxHasher) {
-        hasher.write_u64((self.lines as u64) << 32 ^ self.records as u64);
     }
 }
 
