@@ -286,8 +286,7 @@ fn file(name: &str) -> String {
 }
 
 /// The CL file on each machine, as the post writes it and with tool-tip control; holes
-/// on the machine that turns them along its Z; inches with tool-tip control alone, where
-/// no length of the machine has a part.
+/// on the machine that turns them along its Z.
 ///
 /// # Panics
 /// When the post refuses it.
@@ -295,7 +294,7 @@ pub fn cases() -> Vec<NcCase> {
     let mut cases: Vec<NcCase> =
         MACHINES.iter().flat_map(|machine| both(machine, "five-axes")).collect();
     cases.extend(both(&MACHINES[0], "holes"));
-    cases.extend(both(&MACHINES[1], "inches").into_iter().skip(1));
+    cases.extend(both(&MACHINES[1], "inches"));
     cases
 }
 

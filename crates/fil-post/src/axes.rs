@@ -189,6 +189,7 @@ impl Machine {
         }
         self.addresses.refresh(commons, metric);
         let kinematics = Kinematics::from_commons(commons)?;
+        let kinematics = if metric { kinematics } else { kinematics.in_inches() };
         let linear = [b'X', b'Y', b'Z'].into_iter().enumerate();
         self.axes = linear
             .map(|(common, name)| Axis::new(letter(name), common, &self.addresses, commons))

@@ -19,6 +19,9 @@ use fil_diag::Diag;
 /// Directions closer than this (radians, about 0.0006 degrees) count as equal.
 const SAME: f64 = 1e-5;
 
+/// Millimetres of an inch.
+pub const INCH: f64 = 25.4;
+
 /// What a rotary axis carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Carries {
@@ -87,7 +90,7 @@ const SECONDARY: RotaryLocations = RotaryLocations {
 };
 
 impl Kinematics {
-    /// The machine's axes as the commons describe them.
+    /// The machine's axes as the commons describe them, lengths in mm.
     ///
     /// # Errors
     /// A direction of length zero.
@@ -98,6 +101,15 @@ impl Kinematics {
             tool: direction(commons, tool, "tool.axis", [0.0, 0.0, 1.0])?,
             pivot: commons.dbl_opt(loc::ROTARY_PIVOT_DISTANCE),
         })
+    }
+
+    /// The same machine with its lengths in inches, for a program in inches.
+    pub fn in_inches(mut self) -> Self {
+        self.pivot = self.pivot.map(|length| length / INCH);
+        for rotary in self.rotaries.iter_mut().flatten() {
+            rotary.center /= INCH;
+        }
+        self
     }
 
     /// True when the machine has a rotary axis.
@@ -140,8 +152,8 @@ impl Kinematics {
         })
     }
 
-    /// Machine position of the linear axes (mm) for a tool tip in the part
-    /// frame and rotary positions in degrees.
+    /// Machine position of the linear axes for a tool tip in the part frame, in the
+    /// unit of the machine's lengths, and rotary positions in degrees.
     pub fn linear(&self, tip: Point3<f64>, angles: [f64; 2]) -> Point3<f64> {
         let mut point = tip;
         let mut tool = self.tool.into_inner();

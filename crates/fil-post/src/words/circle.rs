@@ -11,6 +11,7 @@ use nalgebra::{Point3, Vector3};
 use super::form::Form;
 use crate::cause::Cause;
 use crate::errors::PostCode;
+use crate::kinematics::INCH;
 use crate::letters::{I, J, K};
 use crate::locations as loc;
 use crate::motion::{Position, Target};
@@ -325,7 +326,7 @@ fn write_lines(
 ) -> Result<(), Box<Diag>> {
     post.warn(PostCode::ArcLines, "an arc was written as short lines".to_string());
     let radius = flat(arc, start).norm();
-    let inch = if post.state.metric { 1.0 } else { 25.4 };
+    let inch = if post.state.metric { 1.0 } else { INCH };
     let tolerance = post.commons.dbl_opt(loc::CIRCLE_CHORD_TOLERANCE).unwrap_or(0.005) / inch;
     let step = 2.0 * (1.0 - tolerance / radius).clamp(-1.0, 1.0).acos().to_degrees();
     let count = (sweep / step.max(0.05)).ceil().max(1.0) as u32;

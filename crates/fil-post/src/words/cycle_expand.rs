@@ -6,6 +6,7 @@ use fil_diag::Diag;
 use super::cycle::{Cycle, HoleLevels, with_feed};
 use super::delay;
 use crate::errors::PostCode;
+use crate::kinematics::INCH;
 use crate::motion::{Position, ROTARY, XY, Z};
 use crate::post::Post;
 
@@ -53,7 +54,7 @@ fn down_and_up(post: &mut Post, cycle: &Cycle, levels: HoleLevels) -> Result<(),
 
 /// DEEP comes out to the R level after each peck, BRKCHP only lifts.
 fn pecks(post: &mut Post, cycle: &Cycle, levels: HoleLevels, step: f64) -> Result<(), Box<Diag>> {
-    let gap = if post.state.metric { PECK_GAP } else { PECK_GAP / 25.4 };
+    let gap = if post.state.metric { PECK_GAP } else { PECK_GAP / INCH };
     let mut reached = levels.clear;
     while reached - step > levels.bottom + 1e-9 {
         reached -= step;

@@ -6,12 +6,10 @@ use fil_diag::Diag;
 
 use super::form::Form;
 use crate::errors::PostCode;
+use crate::kinematics::INCH;
 use crate::locations as loc;
 use crate::post::Post;
 use crate::state::{Feed, FeedMode};
-
-/// Millimetres of an inch.
-const INCH: f64 = 25.4;
 
 const UNITS: &[WordId] = &[w::MMPM, w::IPM, w::FPM, w::MMPR, w::IPR, w::FPR, w::UPM, w::UPR];
 
