@@ -12,10 +12,13 @@ use fil_nc::interpret::interpret;
 use fil_nc::motion::Event;
 use fil_nc::plot::{Drawing, View, nc_trace, svg};
 use fil_nc::text::read_block;
+use fil_nc::verify::{Allowed, Check, verify};
+use filpost::cl::reader::Options;
 use filpost::map::{Entry, MapReader};
 use filpost::{Builder, Commons, Limits, Post};
 use filpost_tests::duel::{fight, reduce};
 use filpost_tests::programs::{Dice, case};
+use filpost_tests::tip_program;
 
 /// Small, so that an input takes milliseconds at most.
 const LIMITS: Limits =
@@ -100,23 +103,35 @@ pub fn programs(data: &[u8]) {
     }
 }
 
-/// What a reader of NC programs needs of a ready post, made once.
-static MACHINES: LazyLock<Vec<(Dialect, Forward)>> = LazyLock::new(|| {
-    let machine = |commons: &Commons| {
-        let dialect = Dialect::new(commons).expect("a ready post has a dialect");
-        (dialect, Forward::from_commons(commons).expect("a ready post has axes"))
+/// What a reader of NC programs needs of a machine, made once.
+struct Machine {
+    commons: Commons,
+    dialect: Dialect,
+    forward: Forward,
+}
+
+/// The ready posts, and machines with two rotary axes.
+static MACHINES: LazyLock<Vec<Machine>> = LazyLock::new(|| {
+    let with_rotary_axes = tip_program::MACHINES.iter().map(|it| it.post().commons().clone());
+    let machine = |commons: Commons| Machine {
+        dialect: Dialect::new(&commons).expect("a dialect"),
+        forward: Forward::from_commons(&commons).expect("axes"),
+        commons,
     };
-    READY.iter().map(machine).collect()
+    READY.iter().cloned().chain(with_rotary_axes).map(machine).collect()
 });
 
-/// Events that are drawn; the ones after them are looked at and dropped.
+/// What programs are compared with: motions that turn the tool.
+static PART: LazyLock<String> = LazyLock::new(tip_program::part);
+
+/// Events that are drawn and compared; the ones after them are looked at and dropped.
 const DRAWN: usize = 5_000;
 
-/// Any bytes as an NC program; the first one chooses the control, and the two
+/// Any bytes as an NC program; the first one chooses the machine, and the two
 /// halves of the rest are compared.
 pub fn nc_bytes(data: &[u8]) {
     let Some((first, nc)) = data.split_first() else { return };
-    let (dialect, forward) = &MACHINES[usize::from(*first) % MACHINES.len()];
+    let Machine { commons, dialect, forward } = &MACHINES[usize::from(*first) % MACHINES.len()];
     for line in nc.split(|byte| *byte == b'\n') {
         if let Ok(block) = read_block(line, "fuzz.nc", 1) {
             assert!(block.words.iter().all(|word| word.range.end <= line.len()));
@@ -133,6 +148,19 @@ pub fn nc_bytes(data: &[u8]) {
     let picture = svg(&drawing, &View::ALL);
     assert!(!picture.contains("NaN") && !picture.contains("inf"), "{picture}");
     compare(nc);
+    let report = verify(Check {
+        cl: PART.as_bytes(),
+        cl_name: "part.ncl",
+        options: Options::default(),
+        nc,
+        events: &events,
+        commons,
+        allowed: Allowed { tolerance: None, between: Some(0.01) },
+    });
+    if let Ok(report) = report {
+        let deviations = [report.position.max, report.axis.max];
+        assert!(deviations.iter().all(|max| max.is_finite()), "{report:?}");
+    }
 }
 
 /// An event has no number that is none.
