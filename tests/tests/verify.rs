@@ -188,6 +188,19 @@ fn findings_are_a_machinists_words() {
     }
 }
 
+/// A feed in inverse time is the time that the way of the tip takes: 29.7001 mm here.
+#[test]
+fn inverse_time_is_compared_with_a_feed() {
+    let cases = nc_cases::all();
+    let named = |case: &&NcCase| case.name == "verify/inverse-time-table-table";
+    let case = cases.iter().find(named).expect("a program");
+    let report = check(case, &case.nc.replace("F13.47", "F26.94")).expect("a report");
+    let said = "feed 26.94 blocks a minute, which is 800.1213 mm/min on this way of 29.7001, it should be 400 mm/min";
+    let found: Vec<(Kind, &str)> =
+        report.findings.iter().map(|found| (found.kind, found.message.as_str())).collect();
+    assert_eq!(found, [(Kind::Feed, said)], "{}", listed(&report));
+}
+
 /// Programs that are none of this machine or not of this part.
 #[test]
 fn bad_programs_are_refused() {

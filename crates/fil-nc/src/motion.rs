@@ -57,6 +57,13 @@ impl Arc {
     pub fn plane(&self) -> [usize; 2] {
         [(self.normal + 1) % 3, (self.normal + 2) % 3]
     }
+
+    /// Length from its start to its end, mm.
+    pub fn length(&self, from: [f64; 3], to: [f64; 3]) -> f64 {
+        let [first, second] = self.plane().map(|axis| from[axis] - self.centre[axis]);
+        let round = self.angle.to_radians() * first.hypot(second);
+        round.hypot(to[self.normal] - from[self.normal])
+    }
 }
 
 /// What the spindle does.

@@ -30,7 +30,7 @@ impl<C: Steps> Walk<'_, C> {
         let from = self.begins();
         let mut before = 0.0;
         for part in &parts {
-            self.check_rate(cl_line, &part.found, rate);
+            self.check_rate(cl_line, self.at, &part.found, rate);
             self.look_between(cl_line, &part.found, &Asked::arc(arc, from, [before, part.angle]));
             before = part.angle;
             self.take(cl_line, &part.found);

@@ -116,13 +116,14 @@ impl<C: Steps> Walk<'_, C> {
             if reached != levels.clear {
                 self.between_pecks(cl_line, hole, levels, reached)?;
             }
+            let before = self.at;
             let found = self.level(cl_line, depth, "the hole")?;
             let course = if hole.kind == CycleKind::Tap { Course::Thread } else { Course::Feed };
             if found.course != course && !(course == Course::Thread && found.course == Course::Feed)
             {
                 return Err((found.line, format!("{} in a hole", self.spell_move(&found))));
             }
-            self.check_rate(cl_line, &found, hole.rate);
+            self.check_rate(cl_line, before, &found, hole.rate);
             reached = depth;
         }
         self.bottom_dwell(cl_line, hole)?;

@@ -1,9 +1,9 @@
-//! Rapids and straight lines: where they end, how they get there, how fast.
+//! Rapids and straight lines: where they end and how they get there.
 
 use super::ahead::Steps;
 use super::between::Asked;
 use super::report::Kind;
-use super::say::{short, spell_rate};
+use super::say::short;
 use super::walk::{STILL, Walk};
 use crate::forward::Pose;
 use crate::motion::{Course, Event, Move, Position, Rate};
@@ -81,7 +81,7 @@ impl<C: Steps> Walk<'_, C> {
     ) -> bool {
         match self.next_move() {
             Some(found) if is_line(&found, course) && self.reaches(&found, pose) => {
-                self.check_rate(cl_line, &found, rate);
+                self.check_rate(cl_line, self.at, &found, rate);
                 self.look_between(cl_line, &found, &Asked::line(self.begins(), *pose));
                 self.take(cl_line, &found);
                 self.measure(&found, pose);
@@ -91,27 +91,6 @@ impl<C: Steps> Walk<'_, C> {
             _ => {
                 self.stands_at(pose) || (course == Course::Feed && self.parts(cl_line, pose, rate))
             }
-        }
-    }
-
-    pub(super) fn check_rate(&mut self, cl_line: u32, found: &Move, wanted: Option<Rate>) {
-        let wanted = match wanted {
-            Some(Rate::PerMinute(rate)) => {
-                Rate::PerMinute(self.settings.feed_within(rate, self.metric))
-            }
-            Some(rate) => rate,
-            None => return,
-        };
-        let agrees = match (wanted, found.rate) {
-            (Rate::PerMinute(a), Some(Rate::PerMinute(b)))
-            | (Rate::PerTurn(a), Some(Rate::PerTurn(b)))
-            | (Rate::Inverse(a), Some(Rate::Inverse(b))) => (a - b).abs() <= self.slack.feed,
-            _ => false,
-        };
-        if !agrees {
-            let found_rate = found.rate.map_or("none".to_string(), spell_rate);
-            let message = format!("feed {found_rate}, it should be {}", spell_rate(wanted));
-            self.find(Kind::Feed, Some(cl_line), Some(found.line), message);
         }
     }
 

@@ -18,6 +18,7 @@ mod lines;
 mod modes;
 mod parts;
 mod programs;
+mod rate;
 mod report;
 mod say;
 mod settings;

@@ -71,7 +71,7 @@ impl<C: Steps> Walk<'_, C> {
     fn take_parts(&mut self, cl_line: u32, parts: &Parts, pose: &Pose, rate: Option<Rate>) {
         let asked = Asked::line(self.begins(), *pose);
         for part in &parts.blocks {
-            self.check_rate(cl_line, part, rate);
+            self.check_rate(cl_line, self.at, part, rate);
             self.look_between(cl_line, part, &asked);
             self.take(cl_line, part);
         }

@@ -50,6 +50,8 @@ pub struct Slack {
     pub radius: f64,
     /// Feed, mm/min or mm a turn.
     pub feed: f64,
+    /// Feed in inverse time, blocks a minute.
+    pub inverse: f64,
     /// Spindle speed, turns/min.
     pub speed: f64,
     /// Dwell, seconds.
@@ -106,6 +108,7 @@ impl<'c> Settings<'c> {
             centre: [b'I', b'J', b'K'].map(|name| self.allowed(half(letter(name)) * unit)),
             radius: self.allowed(half(letter(b'R')) * unit),
             feed: half(letter(b'F')) * unit / self.feed_factor() + DUST,
+            inverse: half(letter(b'F')) + DUST,
             speed: half(letter(b'S')) + DUST,
             dwell: self.dwell_slack(half),
         }

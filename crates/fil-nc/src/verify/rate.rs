@@ -1,0 +1,87 @@
+//! The feed of a motion.
+
+use super::ahead::Steps;
+use super::report::Kind;
+use super::say::{short, spell_rate};
+use super::walk::Walk;
+use crate::motion::{Move, Position, Rate};
+
+/// Steps in which the way of a tip is measured that axes turn on it.
+const STEPS: u32 = 64;
+
+/// A tip that goes less than this stands, mm; how fast is then nobody's business.
+const STANDS: f64 = 1e-3;
+
+impl<C: Steps> Walk<'_, C> {
+    /// Compares the feed of a motion from a position.
+    pub(super) fn check_rate(
+        &mut self,
+        cl_line: u32,
+        from: Position,
+        found: &Move,
+        wanted: Option<Rate>,
+    ) {
+        let wanted = match wanted {
+            Some(Rate::PerMinute(rate)) => {
+                Rate::PerMinute(self.settings.feed_within(rate, self.metric))
+            }
+            Some(rate) => rate,
+            None => return,
+        };
+        let agrees = match (wanted, found.rate) {
+            (Rate::PerMinute(a), Some(Rate::PerMinute(b)))
+            | (Rate::PerTurn(a), Some(Rate::PerTurn(b))) => (a - b).abs() <= self.slack.feed,
+            (Rate::PerMinute(rate), Some(Rate::Inverse(inverse))) => {
+                return self.check_time(cl_line, (from, found), rate, inverse);
+            }
+            _ => false,
+        };
+        if !agrees {
+            let found_rate = found.rate.map_or("none".to_string(), spell_rate);
+            let message = format!("feed {found_rate}, it should be {}", spell_rate(wanted));
+            self.find(Kind::Feed, Some(cl_line), Some(found.line), message);
+        }
+    }
+
+    /// Inverse time: the motion takes `1 / inverse` minutes. Posts take the straight way
+    /// of the tip for its length, or the way it really goes; both are right.
+    fn check_time(
+        &mut self,
+        cl_line: u32,
+        (from, found): (Position, &Move),
+        rate: f64,
+        inverse: f64,
+    ) {
+        let [straight, way] = self.lengths(from, found);
+        let slack = self.slack.inverse;
+        let agrees = |length: f64| (inverse * length - rate).abs() <= slack * length;
+        if way < STANDS || agrees(straight) || agrees(way) {
+            return;
+        }
+        let message = format!(
+            "feed {} blocks a minute, which is {} mm/min on this way of {}, it should be {} mm/min",
+            short(inverse),
+            short(inverse * way),
+            short(way),
+            short(rate)
+        );
+        self.find(Kind::Feed, Some(cl_line), Some(found.line), message);
+    }
+
+    /// How far the tip goes in the part, mm: straight, or along an arc of the program; and
+    /// as the axes lead it.
+    fn lengths(&self, from: Position, found: &Move) -> [f64; 2] {
+        let forward = &self.settings.forward;
+        let arc = found.arc.as_ref();
+        let tip = |step: u32| {
+            let share = f64::from(step) / f64::from(STEPS);
+            forward.pose(&forward.along(&from, &found.to, arc, share)).tip
+        };
+        let straight = match arc {
+            Some(arc) => arc.length(from.linear, found.to.linear),
+            None => (tip(STEPS) - tip(0)).norm(),
+        };
+        let way: f64 = (0..STEPS).map(|step| (tip(step + 1) - tip(step)).norm()).sum();
+        [straight, way.max(straight)]
+    }
+}
