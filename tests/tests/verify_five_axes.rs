@@ -149,12 +149,38 @@ fn with_tip_control(rotaries: &[Rotary; 2], targets: &[Target], plain: &str) -> 
 /// Paths posted for random machines.
 const PATHS: usize = 2_000;
 
+/// Programs of which a last digit was changed, and those of them that were reported.
+#[derive(Default)]
+struct Faults {
+    put: usize,
+    found: usize,
+}
+
+impl Faults {
+    fn put_into(&mut self, commons: &Commons, targets: &[Target], nc: &str, which: usize) {
+        // Along the primary axis its own position makes no difference to the tool.
+        let upright = targets.iter().any(|(_, tilt, ..)| *tilt == 0.0);
+        let letters = ['X', 'Y', 'Z', 'B', 'C'];
+        let letters = if upright { &letters[..3] } else { &letters };
+        let Some(changed) = one_up(nc, letters, which) else { return };
+        let report = check(commons, &cl(targets), &changed);
+        self.put += 1;
+        self.found += usize::from(report.is_none_or(|it| it.verdict() == Verdict::Differs));
+    }
+
+    fn are_found(&self) {
+        let Faults { put, found } = self;
+        println!("{found} of {put} changed last digits found");
+        assert!(*put > PATHS / 2 && found * 1000 >= put * 998, "{found} of {put}");
+    }
+}
+
 #[test]
 fn posted_paths_agree_and_a_changed_last_digit_is_found() {
     let mut runner = TestRunner::deterministic();
     let pivots = proptest::option::of(80.0..300.0f64);
     let all = (rotaries(), pivots, any::<bool>(), targets(), any::<usize>());
-    let (mut faults, mut found) = (0, 0);
+    let mut faults = Faults::default();
     for _ in 0..PATHS {
         let (rotaries, pivot, split, targets, which) = all.new_tree(&mut runner).unwrap().current();
         let mut post = post(&rotaries, pivot, split);
@@ -167,17 +193,9 @@ fn posted_paths_agree_and_a_changed_last_digit_is_found() {
         let nc = String::from_utf8(nc).unwrap();
         let report = check(post.commons(), &cl, &nc).unwrap();
         assert_eq!(report.verdict(), Verdict::Agrees, "{:#?}\n{cl}\n{nc}", report.findings);
-        // Along the primary axis its own position makes no difference to the tool.
-        let upright = targets.iter().any(|(_, tilt, ..)| *tilt == 0.0);
-        let letters = ['X', 'Y', 'Z', 'B', 'C'];
-        let letters = if upright { &letters[..3] } else { &letters };
-        let Some(changed) = one_up(&nc, letters, which) else { continue };
-        let report = check(post.commons(), &cl, &changed);
-        faults += 1;
-        found += usize::from(report.is_none_or(|report| report.verdict() == Verdict::Differs));
+        faults.put_into(post.commons(), &targets, &nc, which);
     }
-    println!("{found} of {faults} changed last digits found");
-    assert!(faults > PATHS / 2 && found * 1000 >= faults * 998, "{found} of {faults}");
+    faults.are_found();
 }
 
 /// A line with points between its ends, and the two programs that make it.
@@ -312,7 +330,7 @@ fn divided_lines_agree_and_a_point_left_out_is_found() {
 fn paths_with_tool_tip_control_agree_and_a_changed_last_digit_is_found() {
     let mut runner = TestRunner::deterministic();
     let all = (rotaries(), proptest::option::of(80.0..300.0f64), targets(), any::<usize>());
-    let (mut faults, mut found) = (0, 0);
+    let mut faults = Faults::default();
     for _ in 0..PATHS {
         let (rotaries, pivot, targets, which) = all.new_tree(&mut runner).unwrap().current();
         let mut post = post(&rotaries, pivot, false);
@@ -325,14 +343,7 @@ fn paths_with_tool_tip_control_agree_and_a_changed_last_digit_is_found() {
         let Some(nc) = with_tip_control(&rotaries, &targets, &plain) else { continue };
         let report = check(post.commons(), &cl, &nc).unwrap_or_else(|| panic!("{cl}\n{nc}"));
         assert_eq!(report.verdict(), Verdict::Agrees, "{:#?}\n{cl}\n{nc}", report.findings);
-        let upright = targets.iter().any(|(_, tilt, ..)| *tilt == 0.0);
-        let letters = ['X', 'Y', 'Z', 'B', 'C'];
-        let letters = if upright { &letters[..3] } else { &letters };
-        let Some(changed) = one_up(&nc, letters, which) else { continue };
-        let report = check(post.commons(), &cl, &changed);
-        faults += 1;
-        found += usize::from(report.is_none_or(|report| report.verdict() == Verdict::Differs));
+        faults.put_into(post.commons(), &targets, &nc, which);
     }
-    println!("{found} of {faults} changed last digits found");
-    assert!(faults > PATHS / 2 && found * 1000 >= faults * 998, "{found} of {faults}");
+    faults.are_found();
 }
