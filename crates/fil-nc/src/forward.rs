@@ -237,7 +237,7 @@ fn least_squares([a, b]: [Vector3<f64>; 2], target: Vector3<f64>) -> [f64; 2] {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use nalgebra::Unit;
     use proptest::prelude::*;
@@ -245,19 +245,21 @@ mod tests {
     /// What it carries, its direction, a point on it.
     type Axis = Option<(Carries, [f64; 3], [f64; 3])>;
 
-    fn machine([first, second]: [Axis; 2], pivot: Option<f64>) -> Kinematics {
-        let axis = |axis: Axis| {
-            axis.map(|(carries, direction, center)| Rotary {
-                carries,
-                direction: Unit::new_normalize(Vector3::from(direction)),
-                center: Point3::from(center),
-                letter: 1,
-                axis: 0,
-                min: None,
-                max: None,
-            })
-        };
-        Kinematics { rotaries: [axis(first), axis(second)], tool: Vector3::z_axis(), pivot }
+    pub(crate) fn rotary(carries: Carries, direction: [f64; 3], center: [f64; 3]) -> Rotary {
+        Rotary {
+            carries,
+            direction: Unit::new_normalize(Vector3::from(direction)),
+            center: Point3::from(center),
+            letter: 1,
+            axis: 0,
+            min: None,
+            max: None,
+        }
+    }
+
+    fn machine(axes: [Axis; 2], pivot: Option<f64>) -> Kinematics {
+        let rotaries = axes.map(|axis| axis.map(|(kind, way, center)| rotary(kind, way, center)));
+        Kinematics { rotaries, tool: Vector3::z_axis(), pivot }
     }
 
     fn near(a: Vector3<f64>, b: Vector3<f64>, within: f64) -> bool {

@@ -1,6 +1,14 @@
 //! What an NC program does, as plain data: millimetres, degrees, absolute
 //! positions of the machine's axes.
 
+/// Millimetres of an inch.
+pub(crate) const INCH: f64 = 25.4;
+
+/// Millimetres of a unit of length.
+pub(crate) fn unit(metric: bool) -> f64 {
+    if metric { 1.0 } else { INCH }
+}
+
 /// Where the axes stand.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Position {

@@ -6,10 +6,7 @@ use super::thread::{Pass, Setup};
 use super::words::AxisWord;
 use crate::dialect::{Dialect, FeedMode, Function};
 use crate::errors::NcCode;
-use crate::motion::{Arc, Course, Event, Modes, Move, Position, Rate};
-
-/// Millimetres of an inch.
-const INCH: f64 = 25.4;
+use crate::motion::{Arc, Course, Event, Modes, Move, Position, Rate, unit};
 
 /// X, Y, Z in mm, primary and secondary rotary axis in degrees.
 pub(super) type Axes = [f64; 5];
@@ -70,7 +67,7 @@ impl<'d> State<'d> {
 
     /// Millimetres of a unit of length on the tape.
     pub(super) fn unit(&self) -> f64 {
-        if self.metric { 1.0 } else { INCH }
+        unit(self.metric)
     }
 
     /// Position of an axis that a value on the tape stands for.

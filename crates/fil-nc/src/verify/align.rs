@@ -7,7 +7,7 @@ use super::say::shape;
 use super::walk::{LOOK_AHEAD, Walk};
 use super::wanted::{Step, Wanted};
 use crate::forward::Pose;
-use crate::motion::{Course, Event, Move};
+use crate::motion::{Course, Event, INCH, Move};
 
 /// How path and program come together again.
 pub(super) enum Detour {
@@ -185,8 +185,8 @@ impl<C: Steps> Walk<'_, C> {
             same && large
         };
         let said = match () {
-            () if times(1.0 / 25.4) => "is in inch, the CL file is in mm",
-            () if times(25.4) => "is in mm, the CL file is in inch",
+            () if times(1.0 / INCH) => "is in inch, the CL file is in mm",
+            () if times(INCH) => "is in mm, the CL file is in inch",
             () => return false,
         };
         let message = format!("the program {said}; nothing more was compared");

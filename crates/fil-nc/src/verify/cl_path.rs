@@ -17,10 +17,7 @@ use super::statements::{
 };
 use super::wanted::{Arc, CycleKind, Effect, Hole, Step, Wanted};
 use crate::forward::Pose;
-use crate::motion::Rate;
-
-/// Millimetres of an inch.
-const INCH: f64 = 25.4;
+use crate::motion::{INCH, Rate, unit};
 
 /// What X is multiplied by when it is a diameter.
 const DIAMETER: f64 = 2.0;
@@ -256,7 +253,7 @@ impl State {
 
     /// Length of a CL unit in mm.
     fn unit(&self) -> f64 {
-        if self.metric { 1.0 } else { INCH }
+        unit(self.metric)
     }
 
     /// A feed; per minute in the unit of the file when none is named.

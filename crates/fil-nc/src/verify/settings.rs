@@ -9,10 +9,7 @@ use fil_post::program::user_blocks;
 
 use super::wanted::{CoolantKind, CycleKind};
 use crate::forward::Forward;
-use crate::motion::Spindle;
-
-/// Millimetres of an inch.
-const INCH: f64 = 25.4;
+use crate::motion::{Spindle, unit};
 
 /// How far an axis may be asked to stand from 0 when the program never writes it, mm.
 const NOT_WRITTEN: f64 = 1e-3;
@@ -87,7 +84,7 @@ impl<'c> Settings<'c> {
     pub fn slack(&self, metric: bool) -> Slack {
         let mut addresses = Addresses::default();
         addresses.refresh(self.commons, metric);
-        let unit = if metric { 1.0 } else { INCH };
+        let unit = unit(metric);
         let half = |letter: u8| match addresses.output(letter) {
             Output::At(at) => 0.5 * 0.1f64.powi(addresses.slot(at).format.decimals.into()),
             Output::Off | Output::Unknown => NOT_WRITTEN,
@@ -206,7 +203,7 @@ impl<'c> Settings<'c> {
 
     /// A feed in mm/min within the machine's range.
     pub fn feed_within(&self, feed: f64, metric: bool) -> f64 {
-        let unit = if metric { 1.0 } else { INCH };
+        let unit = unit(metric);
         let min = self.commons.dbl_opt(loc::FEED_UPM_MIN).unwrap_or(0.0) * unit;
         let max = self.commons.dbl_opt(loc::FEED_UPM_MAX).map_or(f64::MAX, |max| max * unit);
         feed.max(min).min(max)
@@ -252,7 +249,7 @@ impl<'c> Settings<'c> {
     /// Z that the length offset is called with, mm.
     pub fn offset_level(&self, metric: bool) -> Option<f64> {
         let z = self.commons.dbl_opt(loc::TOOL_LENGTH_Z).filter(|_| self.calls_offsets());
-        z.map(|z| z * if metric { 1.0 } else { INCH })
+        z.map(|z| z * unit(metric))
     }
 
     /// Where the axes go before a tool change: X Y Z in mm, primary and secondary
@@ -267,7 +264,7 @@ impl<'c> Settings<'c> {
             let at = loc::CHANGE_POSITION[..axes].get(common)?;
             self.commons.dbl_opt(*at)
         };
-        let unit = if metric { 1.0 } else { INCH };
+        let unit = unit(metric);
         let linear = |common: usize| value(common).map(|value| value * unit);
         let rotary = |index: usize| {
             let axis = self.forward.rotaries()[index].as_ref()?;
@@ -281,7 +278,7 @@ impl<'c> Settings<'c> {
         if !self.commons.flag(loc::LIMITS_CHECK) {
             return [(f64::NEG_INFINITY, f64::INFINITY); 3];
         }
-        let unit = if metric { 1.0 } else { INCH };
+        let unit = unit(metric);
         let of = |at: Dbl, otherwise: f64| {
             self.commons.dbl_opt(at).map_or(otherwise, |limit| limit * unit)
         };
@@ -290,7 +287,7 @@ impl<'c> Settings<'c> {
 
     /// R level above a hole's start when the record gives none, mm.
     pub fn cycle_clearance(&self, metric: bool) -> f64 {
-        let unit = if metric { 1.0 } else { INCH };
+        let unit = unit(metric);
         self.commons.dbl_opt(loc::CYCLE_AUTO_CLEARANCE).unwrap_or(0.0) * unit
     }
 

@@ -1,12 +1,13 @@
 //! The path between ends, by hand arithmetic and against dense sampling.
 
 use fil_post::kinematics::{Carries, Kinematics, Rotary};
-use nalgebra::{Point3, Unit, Vector3};
+use nalgebra::{Point3, Vector3};
 use proptest::prelude::*;
 
 use super::way::Way;
 use super::*;
 use crate::bend;
+use crate::forward;
 use crate::motion::{self, Course, Modes};
 use crate::verify::wanted;
 
@@ -15,15 +16,7 @@ const Y: [f64; 3] = [0.0, 1.0, 0.0];
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 fn rotary(carries: Carries, direction: [f64; 3], center: [f64; 3]) -> Option<Rotary> {
-    Some(Rotary {
-        carries,
-        direction: Unit::new_normalize(Vector3::from(direction)),
-        center: Point3::from(center),
-        letter: 1,
-        axis: 0,
-        min: None,
-        max: None,
-    })
+    Some(forward::tests::rotary(carries, direction, center))
 }
 
 fn machine(rotaries: [Option<Rotary>; 2], pivot: Option<f64>) -> Forward {
