@@ -1,24 +1,13 @@
 //! Programs with tool-tip control, written from the CL file without the post.
 
-use fil_cl::Options;
-use fil_nc::dialect::Dialect;
-use fil_nc::interpret;
-use fil_nc::verify::{Allowed, Check, Kind, Report, Verdict, verify};
+use fil_nc::verify::{Allowed, Kind, Report, Verdict};
 use filpost::plot::{self, Text};
 use filpost::{Diag, Post};
+use filpost_tests::back_check;
 use filpost_tests::tip_program::{MACHINES, Machine, cases, part};
 
 fn check(post: &Post, cl: &str, nc: &str) -> Result<Report, Box<Diag>> {
-    let events = interpret::events(nc.as_bytes(), "out.nc", &Dialect::new(post.commons())?)?;
-    verify(Check {
-        cl: cl.as_bytes(),
-        cl_name: "part.ncl",
-        options: Options::default(),
-        nc: nc.as_bytes(),
-        events: &events,
-        commons: post.commons(),
-        allowed: Allowed::default(),
-    })
+    back_check::check(post.commons(), cl, nc, Allowed::default())
 }
 
 /// The plain program of the post and the one with tool-tip control move the tool alike.

@@ -10,13 +10,11 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use fil_cl::Options;
-use fil_nc::dialect::Dialect;
-use fil_nc::interpret;
 use fil_nc::motion::{Event, Move};
-use fil_nc::verify::{Allowed, Check, Kind, Report, Verdict, compare_programs, verify};
+use fil_nc::verify::{Allowed, Kind, Report, Verdict, compare_programs};
 use filpost::Diag;
 use filpost::verify::{Program, Reference};
+use filpost_tests::back_check;
 use filpost_tests::mutants;
 use filpost_tests::nc_cases::{self, NcCase};
 use filpost_tests::root;
@@ -25,19 +23,12 @@ use filpost_tests::root;
 const FOUND: f64 = 0.99;
 
 fn events(case: &NcCase, nc: &str) -> Result<Vec<Event>, Box<Diag>> {
-    interpret::events(nc.as_bytes(), "out.nc", &Dialect::new(case.post.commons())?)
+    back_check::events(case.post.commons(), nc)
 }
 
 fn against_cl(case: &NcCase, nc: &str, events: &[Event]) -> Result<Report, Box<Diag>> {
-    verify(Check {
-        cl: case.cl.as_slice(),
-        cl_name: "part.ncl",
-        options: Options::default(),
-        nc: nc.as_bytes(),
-        events,
-        commons: case.post.commons(),
-        allowed: Allowed::default(),
-    })
+    let program = (nc.as_bytes(), events);
+    back_check::compare(case.post.commons(), &case.cl, program, Allowed::default())
 }
 
 fn check(case: &NcCase, nc: &str) -> Result<Report, Box<Diag>> {

@@ -1,14 +1,12 @@
 //! The back-check on machines with two rotary axes of every arrangement: a posted
 //! path agrees to the last digit, and a last digit that is changed is found.
 
-use fil_cl::Options;
-use fil_nc::dialect::Dialect;
 use fil_nc::forward::Forward;
-use fil_nc::interpret::events;
 use fil_nc::motion::{Event, Move};
-use fil_nc::verify::{Allowed, Check, Kind, Report, Verdict, verify};
+use fil_nc::verify::{Allowed, Kind, Report, Verdict};
 use fil_post::kinematics::Kinematics;
 use filpost::{Commons, Post};
+use filpost_tests::back_check;
 use nalgebra::Point3;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
@@ -93,17 +91,7 @@ fn check(commons: &Commons, cl: &str, nc: &str) -> Option<Report> {
 }
 
 fn check_allowed(commons: &Commons, cl: &str, nc: &str, allowed: Allowed) -> Option<Report> {
-    let events = events(nc.as_bytes(), "out.nc", &Dialect::new(commons).ok()?).ok()?;
-    verify(Check {
-        cl: cl.as_bytes(),
-        cl_name: "part.ncl",
-        options: Options::default(),
-        nc: nc.as_bytes(),
-        events: &events,
-        commons,
-        allowed,
-    })
-    .ok()
+    back_check::check(commons, cl, nc, allowed).ok()
 }
 
 /// The program with the last digit of an axis word one up.
@@ -249,8 +237,7 @@ fn divided(post: &Post, targets: &[Target], nc: &str, in_plane: bool) -> Option<
 }
 
 fn moves(commons: &Commons, nc: &str) -> Vec<Move> {
-    let dialect = Dialect::new(commons).expect("a dialect");
-    let events = events(nc.as_bytes(), "out.nc", &dialect).expect("a program");
+    let events = back_check::events(commons, nc).expect("a program");
     let moves = events.iter().filter_map(|event| match event {
         Event::Move(found) => Some(*found),
         _ => None,

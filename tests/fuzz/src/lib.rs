@@ -12,13 +12,12 @@ use fil_nc::interpret::interpret;
 use fil_nc::motion::Event;
 use fil_nc::plot::{Drawing, View, nc_trace, svg};
 use fil_nc::text::read_block;
-use fil_nc::verify::{Allowed, Check, verify};
-use filpost::cl::reader::Options;
+use fil_nc::verify::Allowed;
 use filpost::map::{Entry, MapReader};
 use filpost::{Builder, Commons, Limits, Post};
 use filpost_tests::duel::{fight, reduce};
 use filpost_tests::programs::{Dice, case};
-use filpost_tests::tip_program;
+use filpost_tests::{back_check, tip_program};
 
 /// Small, so that an input takes milliseconds at most.
 const LIMITS: Limits =
@@ -148,16 +147,8 @@ pub fn nc_bytes(data: &[u8]) {
     let picture = svg(&drawing, &View::ALL);
     assert!(!picture.contains("NaN") && !picture.contains("inf"), "{picture}");
     compare(nc);
-    let report = verify(Check {
-        cl: PART.as_bytes(),
-        cl_name: "part.ncl",
-        options: Options::default(),
-        nc,
-        events: &events,
-        commons,
-        allowed: Allowed { tolerance: None, between: Some(0.01) },
-    });
-    if let Ok(report) = report {
+    let allowed = Allowed { tolerance: None, between: Some(0.01) };
+    if let Ok(report) = back_check::compare(commons, PART.as_bytes(), (nc, &events), allowed) {
         let deviations = [report.position.max, report.axis.max];
         assert!(deviations.iter().all(|max| max.is_finite()), "{report:?}");
     }

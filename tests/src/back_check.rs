@@ -1,0 +1,38 @@
+//! The back-check of programs that a test holds in memory.
+
+use fil_cl::Options;
+use fil_nc::dialect::Dialect;
+use fil_nc::interpret;
+use fil_nc::motion::Event;
+use fil_nc::verify::{Allowed, Check, Report, verify};
+use filpost::{Commons, Diag};
+
+/// What a program does on a machine.
+///
+/// # Errors
+/// A program that can't be followed.
+pub fn events(commons: &Commons, nc: &str) -> Result<Vec<Event>, Box<Diag>> {
+    interpret::events(nc.as_bytes(), "out.nc", &Dialect::new(commons)?)
+}
+
+/// Compares a program that does this with a CL file.
+///
+/// # Errors
+/// As [`verify`].
+pub fn compare(
+    commons: &Commons,
+    cl: &[u8],
+    (nc, events): (&[u8], &[Event]),
+    allowed: Allowed,
+) -> Result<Report, Box<Diag>> {
+    let (cl_name, options) = ("part.ncl", Options::default());
+    verify(Check { cl, cl_name, options, nc, events, commons, allowed })
+}
+
+/// Follows a program and compares it with a CL file.
+///
+/// # Errors
+/// As [`events`] and [`compare`].
+pub fn check(commons: &Commons, cl: &str, nc: &str, allowed: Allowed) -> Result<Report, Box<Diag>> {
+    compare(commons, cl.as_bytes(), (nc.as_bytes(), &events(commons, nc)?), allowed)
+}
