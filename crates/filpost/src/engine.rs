@@ -96,18 +96,16 @@ impl<'p, R: Read> Engine<'p, R> {
     /// Runs to the end; what the script wrote is not under its names yet.
     pub(crate) fn run(&mut self, nc: &mut impl Write) -> Result<(Report, HeldFiles), Error> {
         let observed = !self.outside.observers.is_empty();
-        while self.step()? {
+        let mut more = true;
+        while more {
+            more = self.step()?;
             if observed {
                 self.show_blocks(|_, _| {});
             }
-            if self.outside.post.tape.text.len() >= FLUSH {
+            if !more || self.outside.post.tape.text.len() >= FLUSH {
                 self.flush(nc)?;
             }
         }
-        if observed {
-            self.show_blocks(|_, _| {});
-        }
-        self.flush(nc)?;
         nc.flush().map_err(write_error)?;
         let mut report = std::mem::take(&mut self.outside.report);
         report.records = self.outside.source.records;

@@ -2,10 +2,14 @@
 //! between two rapids, the coordinate system of each operation. They are read once
 //! and then known by their lines.
 
+use std::hash::Hasher;
+
+use rustc_hash::FxHasher;
+
 use crate::record::{Record, kind};
 use crate::words;
 
-/// Statements kept at a time, a power of two.
+/// Statements kept at a time.
 const KEPT: usize = 64;
 
 /// Longest first line of a statement that is kept.
@@ -77,13 +81,9 @@ fn copy(from: &Record, to: &mut Record) {
 /// Where a statement is kept, by its first line.
 #[inline]
 fn place(line: &[u8]) -> usize {
-    // An odd number without pattern in its bits; the product has the best in front.
-    const FACTOR: u64 = 0x9E37_79B9_7F4A_7C15;
-    let mixed = |hash: u64, part: u64| (hash.rotate_left(5) ^ part).wrapping_mul(FACTOR);
-    let (eights, rest) = line.as_chunks::<8>();
-    let hash = eights.iter().fold(0, |hash, eight| mixed(hash, u64::from_le_bytes(*eight)));
-    let last = rest.iter().fold(0, |last, byte| last << 8 | u64::from(*byte));
-    (mixed(hash, last) >> (64 - KEPT.trailing_zeros())) as usize
+    let mut hasher = FxHasher::default();
+    hasher.write(line);
+    hasher.finish() as usize % KEPT
 }
 
 #[cfg(test)]
