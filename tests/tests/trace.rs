@@ -195,6 +195,26 @@ fn a_map_that_was_cut_off_is_refused_wherever_it_was_cut() {
     }
 }
 
+/// A form that was not written out, a place before the first line of the CL file, and
+/// what is no line of a map are refused where they stand.
+#[test]
+fn lines_that_tell_nothing_are_refused() {
+    let map = String::from_utf8(example()).expect("text");
+    let at = map.lines().position(|line| line == "12").expect("a form is repeated");
+    for (line, said) in [
+        ("99", "this line does not fit the lines before it"),
+        ("0", "this line does not fit the lines before it"),
+        ("[-99,0,\"#5 X4:6\"]", "this is no line of a line map"),
+        ("12.5", "this is no line of a line map"),
+    ] {
+        let broken = map.replacen("\n12\n", &format!("\n{line}\n"), 1);
+        let error = read_all(broken.as_bytes()).expect_err(line);
+        let diag = &error.diags()[0];
+        assert_eq!((diag.code.name().as_str(), diag.message.as_str()), ("E0707", said), "{line}");
+        assert_eq!(diag.places[0].line as usize, at + 1, "{line}");
+    }
+}
+
 proptest! {
     #[test]
     fn no_bytes_are_too_strange(bytes: Vec<u8>) {
