@@ -9,6 +9,10 @@ pub mod suggest;
 
 pub use place::{LineIndex, Place};
 
+/// What a fallible function of any room gives: a value, or the diagnostic that
+/// stops the run.
+pub type Result<T, E = Box<Diag>> = std::result::Result<T, E>;
+
 /// How bad a diagnostic is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
@@ -129,6 +133,12 @@ impl std::error::Error for Diag {}
 /// let code: &fil_diag::Code = ExampleCode::UnknownWord.into();
 /// assert_eq!(code.name(), "W9901");
 /// assert_eq!(ExampleCode::ALL.len(), 1);
+///
+/// let refused: fil_diag::Result<()> = ExampleCode::UnknownWord.err("BANANA");
+/// assert_eq!(refused.unwrap_err().to_string(), "W9901: BANANA");
+/// let missing: Option<f64> = None;
+/// let diag = missing.ok_or_else(|| ExampleCode::UnknownWord.diag("no number")).unwrap_err();
+/// assert_eq!(diag.message, "no number");
 /// ```
 #[macro_export]
 macro_rules! codes {
@@ -149,6 +159,21 @@ macro_rules! codes {
                 reason: $reason,
                 hint: $hint,
             },)*];
+
+            /// A diagnostic of this code, to be returned or extended.
+            #[cold]
+            pub fn diag(self, message: impl Into<String>) -> Box<$crate::Diag> {
+                Box::new($crate::Diag::new(self, message))
+            }
+
+            /// `Err` with a diagnostic of this code.
+            ///
+            /// # Errors
+            /// Always.
+            #[cold]
+            pub fn err<T>(self, message: impl Into<String>) -> $crate::Result<T> {
+                Err(self.diag(message))
+            }
         }
 
         impl From<$name> for &'static $crate::Code {
