@@ -58,6 +58,9 @@ impl Header {
                 other => return Err(format!("unknown header line `{other}`")),
             }
         }
+        if !text.contains("UNITS") {
+            header.settings.insert(0, "units.mode=2".to_string());
+        }
         Ok(header)
     }
 

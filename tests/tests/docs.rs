@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 use filpost::builtins::BUILTINS;
 use filpost::locations::TABLE;
 use filpost::postf::{Grade, POSTF};
-use filpost::{cl::Vocabulary, operation_name, post_words, ready};
+use filpost::{cl::Vocabulary, dispatch, operation_name, ready};
 use filpost_tests::examples::{Block, blocks, run};
 use filpost_tests::root;
 
@@ -235,7 +235,7 @@ fn compat_has_a_row_for_each_post_word_and_no_other() {
     let section = section.split("\n## ").next().expect("its end");
     let vocabulary = Vocabulary::new();
     let mut wanted: Vec<&str> =
-        post_words::HANDLERS.iter().map(|(word, _)| vocabulary.name(*word)).collect();
+        dispatch::HANDLERS.iter().map(|(word, _)| vocabulary.name(*word)).collect();
     wanted.sort_unstable();
     let found: Vec<&str> = section
         .lines()

@@ -5,9 +5,9 @@ use std::fs;
 use std::sync::{Arc, Mutex};
 
 use filpost::check::{self, Options};
-use filpost::runout::{Bounds, Placing, Reading, RunOut, Section};
 use filpost::{Argument, Error, Post, case::Case};
 use filpost_tests::root;
+use filpost_tests::runout::solve::{Bounds, Placing, Reading, RunOut, Section};
 use filpost_tests::runout::{
     Cylinder, Probe, Probed, Random, Residual, SECTIONS, Search, TURNS, cl_file, deviations,
     drawing, positions, residual, tool,

@@ -1,10 +1,10 @@
 //! The back-check on machines with two rotary axes of every arrangement: a posted
 //! path agrees to the last digit, and a last digit that is changed is found.
 
+use fil_machine::axis_chain::AxisChain;
 use fil_nc::forward::Forward;
 use fil_nc::motion::{Event, Move};
 use fil_nc::verify::{Allowed, Kind, Report, Verdict};
-use fil_post::kinematics::Kinematics;
 use filpost::{Commons, Post};
 use filpost_tests::back_check;
 use nalgebra::Point3;
@@ -201,7 +201,7 @@ const POINTS: usize = 3;
 /// Divides the last line of a program as another post would: the tip on the line, even
 /// shares of the rotary axes, or of the turn of the tool in its plane, everything rounded.
 fn divided(post: &Post, targets: &[Target], nc: &str, in_plane: bool) -> Option<Divided> {
-    let machine = Kinematics::from_commons(post.commons()).ok()?;
+    let machine = AxisChain::from_commons(post.commons()).ok()?;
     let moves = moves(post.commons(), nc);
     let (to, from) = (moves.last()?, moves.get(moves.len().checked_sub(2)?)?);
     let [.., (start, ..), (end, ..)] = targets else { return None };

@@ -6,7 +6,7 @@
 //! second derivative is at most `bend` is never farther from a chord than `bend / 8`
 //! times the square of the chord's share of the motion.
 
-use fil_post::kinematics::{Carries, Rotary};
+use fil_machine::axis_chain::{Carries, Rotary};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::forward::Forward;

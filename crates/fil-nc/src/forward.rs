@@ -6,8 +6,8 @@
 //! solves equations, this side multiplies rotations.
 
 use fil_diag::Diag;
-use fil_post::Commons;
-use fil_post::kinematics::{Carries, Kinematics, Rotary};
+use fil_machine::Commons;
+use fil_machine::axis_chain::{AxisChain, Carries, Rotary};
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 use crate::motion::{Arc, Position};
@@ -45,7 +45,7 @@ pub struct Frame {
 /// The forward kinematics of a machine.
 #[derive(Clone, Debug)]
 pub struct Forward {
-    machine: Kinematics,
+    machine: AxisChain,
 }
 
 impl Forward {
@@ -54,11 +54,11 @@ impl Forward {
     /// # Errors
     /// A direction of length zero.
     pub fn from_commons(commons: &Commons) -> Result<Self, Box<Diag>> {
-        Ok(Forward { machine: Kinematics::from_commons(commons)? })
+        Ok(Forward { machine: AxisChain::from_commons(commons)? })
     }
 
     /// The machine with these rotary axes.
-    pub fn new(machine: Kinematics) -> Self {
+    pub fn new(machine: AxisChain) -> Self {
         Forward { machine }
     }
 
@@ -250,16 +250,16 @@ pub(crate) mod tests {
             carries,
             direction: Unit::new_normalize(Vector3::from(direction)),
             center: Point3::from(center),
-            letter: 1,
+            letter: fil_machine::Letter::of(b'A'),
             axis: 0,
             min: None,
             max: None,
         }
     }
 
-    fn machine(axes: [Axis; 2], pivot: Option<f64>) -> Kinematics {
+    fn machine(axes: [Axis; 2], pivot: Option<f64>) -> AxisChain {
         let rotaries = axes.map(|axis| axis.map(|(kind, way, center)| rotary(kind, way, center)));
-        Kinematics { rotaries, tool: Vector3::z_axis(), pivot }
+        AxisChain { rotaries, tool: Vector3::z_axis(), pivot }
     }
 
     fn near(a: Vector3<f64>, b: Vector3<f64>, within: f64) -> bool {

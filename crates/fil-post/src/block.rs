@@ -1,15 +1,15 @@
-//! A block under construction: words by tape position.
+//! A block under construction: words by tape position. The letters G and M can
+//! stand in it several times.
 
-use crate::address::{Addresses, Output, SLOTS, Slot, character, letter};
+use fil_diag::{Diag, Result};
+use fil_machine::address::{Addresses, SLOTS, TapePosition};
+use fil_machine::errors::MachineCode;
+use fil_machine::letters::{G, M};
+use fil_machine::rounding::Rounding;
+use fil_machine::word_text::WordText;
+use fil_machine::{Commons, FunctionCode, Letter};
+
 use crate::cause::Cause;
-use crate::commons::Commons;
-use crate::errors::PostCode;
-use crate::word_text::WordText;
-use fil_diag::Diag;
-
-/// The letters that can stand several times in a block.
-const G: u8 = letter(b'G');
-const M: u8 = letter(b'M');
 
 /// The words of one block. Values are final: scaled, translated and rounded
 /// by whoever puts them here, except for the rounding of the address format.
@@ -22,8 +22,8 @@ pub struct Block {
     present: u64,
     scaled: [i64; SLOTS],
     causes: [Cause; SLOTS],
-    g: Vec<(i32, Cause)>,
-    m: Vec<(i32, Cause)>,
+    g: Vec<(FunctionCode, Cause)>,
+    m: Vec<(FunctionCode, Cause)>,
 }
 
 impl Default for Block {
@@ -42,6 +42,7 @@ impl Default for Block {
 
 impl Block {
     /// Makes the block empty again.
+    #[inline]
     pub fn clear(&mut self) {
         self.present = 0;
         self.g.clear();
@@ -49,91 +50,89 @@ impl Block {
     }
 
     /// True when no word was added.
+    #[inline]
     pub fn is_empty(&self) -> bool {
         self.present == 0 && self.g.is_empty() && self.m.is_empty()
     }
 
+    /// True when it has words other than functions.
+    pub fn has_numbers(&self) -> bool {
+        self.present != 0
+    }
+
     /// True when the machine writes at least one of the words.
     pub fn prints(&self, addresses: &Addresses) -> bool {
-        let written = |letter, codes: &[(i32, Cause)]| {
+        let written = |letter, codes: &[(FunctionCode, Cause)]| {
             !codes.is_empty() && addresses.position(letter).is_some()
         };
         self.present != 0 || written(G, &self.g) || written(M, &self.m)
     }
 
+    /// The preparatory functions, each with its cause.
+    #[inline]
+    pub fn g_codes(&self) -> &[(FunctionCode, Cause)] {
+        &self.g
+    }
+
+    /// The auxiliary functions, each with its cause.
+    #[inline]
+    pub fn m_codes(&self) -> &[(FunctionCode, Cause)] {
+        &self.m
+    }
+
+    /// The scaled integer at a tape position.
+    pub fn scaled_at(&self, position: TapePosition) -> Option<i64> {
+        (self.present & position.bit() != 0).then(|| self.scaled[position.index()])
+    }
+
+    /// The tape positions of its words, functions left out.
+    pub fn positions(&self) -> impl Iterator<Item = TapePosition> {
+        TapePosition::of_set(self.present)
+    }
+
     /// True when a word of this letter is in the block.
-    pub fn has(&self, letter: u8, addresses: &Addresses) -> bool {
+    pub fn has(&self, letter: Letter, addresses: &Addresses) -> bool {
         match letter {
             G => !self.g.is_empty(),
             M => !self.m.is_empty(),
-            _ => addresses.position(letter).is_some_and(|slot| self.present & (1 << slot) != 0),
+            _ => addresses.position(letter).is_some_and(|at| self.present & at.bit() != 0),
         }
     }
 
-    /// Adds a preparatory function.
-    pub fn g(&mut self, code: i32) {
-        add(&mut self.g, (code, self.cause));
-    }
-
-    /// Adds a preparatory function that is due to the record as a whole.
-    pub fn g_of_record(&mut self, code: i32) {
-        add(&mut self.g, (code, self.cause.whole()));
-    }
-
-    /// Adds a preparatory function with what it is due to.
-    pub fn g_due_to(&mut self, code: i32, cause: Cause) {
+    /// Adds a preparatory function with its cause.
+    pub fn g(&mut self, code: FunctionCode, cause: Cause) {
         add(&mut self.g, (code, cause));
     }
 
-    /// Adds an auxiliary function.
-    pub fn m(&mut self, code: i32) {
-        add(&mut self.m, (code, self.cause));
+    /// Adds an auxiliary function with its cause.
+    pub fn m(&mut self, code: FunctionCode, cause: Cause) {
+        add(&mut self.m, (code, cause));
     }
 
-    /// Adds a word, whether or not its value has changed.
+    /// Adds a word, whether or not its value has changed. Gives its tape position;
+    /// `None` for a function, and where the machine suppresses the letter.
     ///
     /// # Errors
     /// The machine has no such address, or the value does not fit its format.
-    pub fn word(&mut self, letter: u8, value: f64, addresses: &Addresses) -> Result<(), Box<Diag>> {
-        let position = match addresses.output(letter) {
-            Output::At(position) => position,
-            Output::Off => return Ok(()),
-            Output::Unknown => return Err(no_address(letter)),
-        };
-        let scaled =
-            addresses.slot(position).format.scale(value).map_err(|diag| name(diag, letter))?;
-        match letter {
-            G => self.g(scaled as i32),
-            M => self.m(scaled as i32),
-            _ => self.put(position, scaled),
-        }
-        Ok(())
-    }
-
-    /// Adds a word unless the address already stands at that value; gives its
-    /// tape position when it was added.
-    ///
-    /// # Errors
-    /// As [`Block::word`].
-    pub fn modal(
+    pub fn word(
         &mut self,
-        letter: u8,
+        letter: Letter,
         value: f64,
+        rounding: Rounding,
         addresses: &Addresses,
-        commons: &Commons,
-    ) -> Result<Option<u8>, Box<Diag>> {
-        let position = match addresses.output(letter) {
-            Output::At(position) => position,
-            Output::Off => return Ok(None),
-            Output::Unknown => return Err(no_address(letter)),
-        };
-        let format = &addresses.slot(position).format;
-        let scaled = format.scale(value).map_err(|diag| name(diag, letter))?;
-        let due = format.unscale(scaled) != commons.last_output(letter);
-        if due {
-            self.put(position, scaled);
+    ) -> Result<Option<TapePosition>> {
+        let Some(position) = addresses.required(letter)? else { return Ok(None) };
+        match letter {
+            G => self.g(function(letter, value)?, self.cause),
+            M => self.m(function(letter, value)?, self.cause),
+            _ => {
+                let format = &addresses.slot(position).format;
+                let scaled = rounding.scale(value, format).map_err(|diag| named(diag, letter))?;
+                self.put(position, scaled);
+                return Ok(Some(position));
+            }
         }
-        Ok(due.then_some(position))
+        Ok(None)
     }
 
     /// Adds the words of another block, each with its cause; a word of the same
@@ -141,42 +140,54 @@ impl Block {
     pub fn merge(&mut self, other: &Block) {
         other.g.iter().for_each(|code| add(&mut self.g, *code));
         other.m.iter().for_each(|code| add(&mut self.m, *code));
-        let mut slots = other.present & !self.present;
-        while slots != 0 {
-            let position = slots.trailing_zeros() as u8;
-            slots &= slots - 1;
-            self.put(position, other.scaled[position as usize]);
-            self.causes[position as usize] = other.causes[position as usize];
+        for position in TapePosition::of_set(other.present & !self.present) {
+            self.put(position, other.scaled[position.index()]);
+            self.causes[position.index()] = other.causes[position.index()];
         }
     }
 
     /// Adds a word whose value is already scaled to its format.
-    pub fn put(&mut self, position: u8, scaled: i64) {
-        self.scaled[position as usize] = scaled;
-        self.present |= 1 << position;
+    #[inline]
+    pub fn put(&mut self, position: TapePosition, scaled: i64) {
+        self.scaled[position.index()] = scaled;
+        self.present |= position.bit();
         if self.noting {
-            self.causes[position as usize] = self.cause;
+            self.causes[position.index()] = self.cause;
         }
     }
 
-    /// Notes what a word is due to.
-    pub fn note_cause(&mut self, position: u8, cause: Cause) {
-        self.causes[position as usize] = cause;
+    /// Notes the cause of a word.
+    pub fn note_cause(&mut self, position: TapePosition, cause: Cause) {
+        self.causes[position.index()] = cause;
     }
 
     /// Notes that a word repeats this word of its record.
-    pub fn note_word(&mut self, position: u8, word: u16) {
-        self.causes[position as usize].word = word;
+    pub fn note_word(&mut self, position: TapePosition, word: u16) {
+        self.causes[position.index()].word = word;
     }
 
-    /// The words so far; what is put next is due to the same as before.
+    /// The words so far; what is put next has the same cause as before.
     pub fn take(&mut self) -> Block {
         let (cause, noting) = (self.cause, self.noting);
         std::mem::replace(self, Block { cause, noting, ..Block::default() })
     }
 
+    /// Refuses a function that the machine can't write as it is.
+    ///
+    /// # Errors
+    /// More digits than the address has, or a tenth where it writes whole numbers.
+    #[inline]
+    pub fn check_functions(&self, addresses: &Addresses) -> Result<()> {
+        for (letter, codes) in [(G, &self.g), (M, &self.m)] {
+            if let Some(format) = addresses.format(letter).filter(|_| !codes.is_empty()) {
+                codes.iter().try_for_each(|(code, _)| code.check(letter, format))?;
+            }
+        }
+        Ok(())
+    }
+
     /// Writes the words in tape order and remembers the last output values; notes
-    /// letter, place in `out` and cause of each before it is written.
+    /// letter, start in `out` and cause of each before it is written.
     pub fn write(
         &self,
         addresses: &Addresses,
@@ -185,58 +196,65 @@ impl Block {
         mut note: impl FnMut(u8, usize, Cause),
     ) {
         let mut first = true;
-        let mut write = |slot: &Slot, scaled: i64, cause: Cause| {
-            let mut text = WordText::new();
-            slot.format.put(scaled, &mut text);
-            text.put(slot.character);
+        let mut write = |letter: Letter, character: u8, mut text: WordText, cause: Cause| {
+            text.put(character);
             let blank = addresses.blank && !std::mem::replace(&mut first, false);
-            note(character(slot.letter), out.len() + usize::from(blank), cause);
+            note(letter.byte(), out.len() + usize::from(blank), cause);
             if blank {
                 text.put(b' ');
             }
             text.append_to(out);
         };
-        let mut slots = self.present;
+        let mut present = self.present;
         for (letter, codes) in [(G, &self.g), (M, &self.m)] {
             if let (Some(position), true) = (addresses.position(letter), !codes.is_empty()) {
-                slots |= 1 << position;
+                present |= position.bit();
             }
         }
-        while slots != 0 {
-            let position = slots.trailing_zeros() as u8;
-            slots &= slots - 1;
+        for position in TapePosition::of_set(present) {
             let slot = addresses.slot(position);
-            let codes = match slot.letter {
+            let Some(letter) = slot.letter else { continue };
+            let codes = match letter {
                 G => &self.g,
                 M => &self.m,
                 _ => {
-                    let scaled = self.scaled[position as usize];
-                    write(slot, scaled, self.causes[position as usize]);
-                    commons.set_last_output(slot.letter, slot.format.unscale(scaled));
+                    let scaled = self.scaled[position.index()];
+                    let mut text = WordText::new();
+                    slot.format.put(scaled, &mut text);
+                    write(letter, slot.character, text, self.causes[position.index()]);
+                    commons.set_last_output(letter, slot.format.unscale(scaled));
                     continue;
                 }
             };
             for (code, cause) in codes {
-                write(slot, i64::from(*code), *cause);
-                commons.set_last_output(slot.letter, f64::from(*code));
+                let mut text = WordText::new();
+                code.put(&slot.format, &mut text);
+                write(letter, slot.character, text, *cause);
+                commons.set_last_output(letter, code.value());
             }
         }
     }
 }
 
-fn add(codes: &mut Vec<(i32, Cause)>, code: (i32, Cause)) {
+fn add(codes: &mut Vec<(FunctionCode, Cause)>, code: (FunctionCode, Cause)) {
     if codes.iter().all(|known| known.0 != code.0) {
         codes.push(code);
     }
 }
 
-/// The error for a letter without tape position.
-pub fn no_address(letter: u8) -> Box<Diag> {
-    let character = char::from(b'A' + letter.clamp(1, 26) - 1);
-    Box::new(Diag::new(PostCode::NoAddress, format!("the machine has no address {character}")))
+/// The function of a number.
+///
+/// # Errors
+/// A number that no function has.
+pub fn function(letter: Letter, value: f64) -> Result<FunctionCode> {
+    FunctionCode::of_value(value).ok_or_else(|| {
+        MachineCode::Inexact.diag(format!("{letter}{value} is not the number of a function"))
+    })
 }
 
-fn name(mut diag: Box<Diag>, letter: u8) -> Box<Diag> {
-    diag.message = format!("{}{}", char::from(b'A' + letter - 1), diag.message);
+/// Names the letter in a message about its value.
+#[cold]
+pub fn named(mut diag: Box<Diag>, letter: Letter) -> Box<Diag> {
+    diag.message = format!("{letter}{}", diag.message);
     diag
 }

@@ -3,14 +3,6 @@
 fil_diag::codes! {
     /// Everything the post refuses or warns about.
     pub enum PostCode {
-        /// A value with too many digits.
-        Overflow = 501, Error, "value does not fit its address",
-            "A number that lost its leading digits would move the machine somewhere else.",
-            "Check the CL value and the format of the address (digits before and after the point).";
-        /// A word for an address the machine lacks.
-        NoAddress = 502, Error, "the machine has no such address",
-            "The block needs a letter that has no tape position on this machine.",
-            "Give the address a position in machine.toml, or don't write that word.";
         /// Motion without position.
         ArcStart = 503, Error, "arc without a start point",
             "An arc starts where the motion before it ended, and no motion came before.",
@@ -31,26 +23,70 @@ fil_diag::codes! {
         NoCode = 507, Error, "the machine has no code for this",
             "The setting that holds the preparatory or auxiliary function is absent.",
             "Set the code in machine.toml, or take the record with a FIL section.";
-        /// Unreachable tool axis.
-        ToolAxis = 508, Error, "the machine can't reach this tool axis",
-            "No position of its rotary axes brings the tool into that direction.",
-            "Check the rotary axes of the machine and their limits, or the part frame.";
         /// Feed motion without feed.
         NoFeed = 509, Error, "feed motion without a feed",
             "A feed motion needs a feed, and none was given before it.",
             "Put a FEDRAT before the first GOTO that is not rapid.";
-        /// Axis limit.
-        AxisLimit = 510, Error, "axis limit exceeded",
-            "The motion leaves the travel of the machine.",
-            "Check the part's position and the limits in machine.toml.";
         /// Sequence of cycle.
         CycleForm = 511, Error, "cycle can't be carried out",
             "A value the cycle needs is missing or makes no sense.",
             "Give DEPTH, a feed and CLEAR (and STEP for DEEP and BRKCHP).";
+        /// No unit.
+        NoUnit = 514, Error, "the unit is not known",
+            "A length or feed means nothing before the CL file, the machine or the user says mm or inch.",
+            "Put UNITS / MM or UNITS / INCHES first, give --units, or set units.mode of the machine.";
+        /// UNITS in mid-file.
+        UnitChange = 515, Error, "the unit changes in mid-file",
+            "Positions, feeds and limits given before would be read in the other unit.",
+            "Keep one unit in a CL file.";
+        /// Blocks after the end.
+        AfterEnd = 516, Error, "block after the end of the program",
+            "The control stops at M2 or M30 and never reads what comes after it.",
+            "Move END or REWIND behind the last record that writes.";
+        /// A character that must not reach the tape.
+        TextCharacter = 517, Error, "character that must not reach the tape",
+            "A percent sign ends the tape, and a control character may do anything.",
+            "Take the character out of the text.";
+        /// A program number.
+        ProgramNumber = 518, Error, "program number out of range",
+            "A program number has at most four digits.",
+            "Change the PARTNO text, or set program.number.";
+        /// Compensation left on.
+        CompensationOn = 519, Error, "cutter compensation is still on",
+            "The control would go on to compensate with another tool, or alarm.",
+            "Put CUTCOM / OFF before it.";
+        /// Compensation on an arc.
+        CompensationOnArc = 520, Error, "cutter compensation begins or ends on an arc",
+            "Controls take up and give up the offset on a straight line only.",
+            "Put a straight motion between CUTCOM and the CIRCLE.";
+        /// Compensation that is lost.
+        CompensationLost = 521, Error, "cutter compensation is no longer certain",
+            "A text that can't be read may have switched it, and saying it again would begin it anew.",
+            "Put the text before CUTCOM or after CUTCOM / OFF.";
+        /// Something in a cycle.
+        InCycle = 522, Error, "not in an active cycle",
+            "The next GOTO would drill a hole, and the control would be in its cycle.",
+            "Put CYCLE / OFF before it.";
+        /// Sense of an arc.
+        ArcSense = 523, Error, "the arc seems to turn the wrong way",
+            "CAM systems disagree about the axis of a CIRCLE; read in the wrong dialect every arc turns the other way.",
+            "Choose the dialect of the CL file with --dialect; write sharp reversals as lines.";
+        /// A rotary axis the long way round.
+        Unwinding = 524, Error, "a rotary axis would unwind while cutting",
+            "Its limits leave only the long way round, and the tool would cut on the way.",
+            "Retract before it, or give the axis more travel.";
+        /// Length of a tool axis.
+        AxisLength = 525, Error, "not a tool axis",
+            "A tool axis has length 1; six values of another length may be two points.",
+            "Check the GOTO; MULTAX / ON allows axes of any length but zero.";
+        /// A part on both sides of a skip mark.
+        SkippedPart = 526, Error, "part of a command stands in blocks that may be skipped",
+            "With the skip switch on the control would get one half of it only.",
+            "Put the whole command on one side of OPSKIP.";
         /// Unknown major word.
-        UnknownWord = 551, Warning, "word without effect",
-            "The post has no handler for this major word; the record passes without output.",
-            "Write a FIL section for it, or check its spelling.";
+        UnknownWord = 513, Error, "unknown word",
+            "The post has no handler for this major word, and no table lists it as without effect. A misspelt GOTO would lose a motion.",
+            "Check its spelling, write a FIL section for it, or list it under words.without_effect in machine.toml or a compat file.";
         /// Unknown minor word or ignored part.
         IgnoredPart = 552, Warning, "part of the record has no effect",
             "The post acts on the record but not on this part of it.",
@@ -67,37 +103,5 @@ fil_diag::codes! {
         TapeText = 555, Warning, "text on the tape that is not ASCII",
             "Many controls read ASCII only and stop at other characters.",
             "Write the message in ASCII if the control is not known to read UTF-8.";
-        /// Unknown common location.
-        CommonLocation = 601, Error, "no such common location",
-            "The commons have a fixed range of locations.",
-            "Check the location number.";
-        /// Value that the common can't hold.
-        CommonValue = 602, Error, "the common can't hold this value",
-            "INTCOM holds whole numbers, and no common holds what is not finite.",
-            "Check the value that is stored.";
-        /// machine.toml syntax.
-        MachineSyntax = 603, Error, "machine.toml can't be read",
-            "The file is not valid TOML.",
-            "Correct the line shown.";
-        /// Unknown key.
-        UnknownSetting = 604, Error, "unknown machine setting",
-            "A setting that is not understood could change how the machine moves.",
-            "Check the spelling of the key; `filpost machine show` lists all of them.";
-        /// Wrong type or choice.
-        SettingValue = 605, Error, "machine setting has a wrong value",
-            "The value is not of the setting's kind or not among its choices.",
-            "See the setting's choices with `filpost machine show`.";
-        /// Bad option file.
-        OptionFile = 606, Error, "option file can't be read",
-            "An option file is a list of pairs, location and value, under INTCOM, RELCOM and DBLCOM.",
-            "Check that the file is an option file (.pNN) and whole.";
-        /// A setting nobody reads.
-        UnusedSetting = 651, Warning, "setting without effect",
-            "The location is known, but this post does not act on it.",
-            "Remove the setting, or do its work in a FIL section.";
-        /// Import of a value we can't be sure of.
-        DoubtfulImport = 652, Warning, "imported value of uncertain meaning",
-            "The numbers of this choice are not published; ours may differ from the vendor's.",
-            "Compare the output with a program the machine has run, and set the key by name.";
     }
 }

@@ -1,32 +1,28 @@
 //! The generalized post: CL records to NC blocks.
 //!
-//! [`Post`] takes records one after the other and writes finished blocks to its
-//! [`tape::Tape`]. All its settings live in the [`commons::Commons`]; the table
-//! of [`locations`] names them. What each post word does is in [`words`], one
-//! file a word.
+//! [`Post`] takes records one after the other. The [`dispatch`]er hands the items of
+//! a record to its post word ([`words`], one file a word), which makes
+//! [`operation`]s; the passes in [`path`] bring motions to the machine's axes; the
+//! [`control`] writes blocks to its [`tape`], and its [`control_state`] learns from
+//! each block what the control knows. All settings live in the commons of
+//! [`fil_machine`].
 
-pub mod address;
-pub mod axes;
 pub mod block;
 pub mod cause;
-pub mod commons;
+pub mod control;
+pub mod control_state;
+pub mod dispatch;
 pub mod errors;
-pub mod kinematics;
-pub mod letters;
-pub mod locations;
-pub mod motion;
+pub mod items;
+pub mod no_effect;
 pub mod noted;
-pub mod number;
+pub mod operation;
+pub mod path;
 pub mod post;
-pub mod program;
-pub mod runout;
-pub mod settings;
-pub mod state;
 pub mod tape;
-mod word_text;
+pub mod warnings;
 pub mod words;
 
 pub use cause::{Cause, FilLine, Origin, Stack, Stacks};
-pub use commons::{Commons, Kind};
 pub use noted::{BlockInfo, DueTo, Noted, WordInfo};
 pub use post::Post;

@@ -1,13 +1,15 @@
 //! The tape: finished blocks as text, with sequence numbers and provenance.
 
-use crate::address::{Addresses, character, letter};
-use crate::block::{Block, no_address};
+use fil_diag::Result;
+use fil_machine::address::{Addresses, no_address};
+use fil_machine::letters::{G, M, N};
+use fil_machine::rounding::Rounding;
+use fil_machine::word_text::WordText;
+use fil_machine::{Commons, Letter, locations as loc};
+
+use crate::block::{Block, function, named};
 use crate::cause::{Cause, Stacks};
-use crate::commons::Commons;
-use crate::locations as loc;
 use crate::noted::{Noted, SEQUENCE, SKIP, TEXT};
-use crate::word_text::WordText;
-use fil_diag::Diag;
 
 /// Sequence numbers: what is due for the next block.
 #[derive(Clone, Debug, Default)]
@@ -49,10 +51,11 @@ impl Tape {
         block: &Block,
         addresses: &Addresses,
         commons: &mut Commons,
-    ) -> Result<(), Box<Diag>> {
+    ) -> Result<()> {
         if !block.prints(addresses) {
             return Ok(());
         }
+        block.check_functions(addresses)?;
         let start = self.begin(true, addresses, commons)?;
         match &mut self.noted {
             Some(noted) => {
@@ -74,24 +77,36 @@ impl Tape {
     /// The machine has no such address, or a value does not fit it.
     pub fn words(
         &mut self,
-        words: &[(u8, f64, Cause)],
+        words: &[(Letter, f64, Cause)],
         addresses: &Addresses,
         commons: &mut Commons,
-    ) -> Result<(), Box<Diag>> {
+    ) -> Result<()> {
         let mut line = Vec::new();
         let mut noted = Vec::new();
+        let mut last = Vec::new();
         for &(letter, value, cause) in words {
             let position = addresses.position(letter).ok_or_else(|| no_address(letter))?;
             let slot = addresses.slot(position);
-            let scaled = slot.format.scale(value)?;
+            let mut text = WordText::new();
+            if matches!(letter, G | M) {
+                let code = function(letter, value)?;
+                code.check(letter, &slot.format)?;
+                code.put(&slot.format, &mut text);
+                last.push((letter, code.value()));
+            } else {
+                let scaled = Rounding::of(letter).scale(value, &slot.format);
+                let scaled = scaled.map_err(|diag| named(diag, letter))?;
+                slot.format.put(scaled, &mut text);
+                last.push((letter, slot.format.unscale(scaled)));
+            }
+            text.put(slot.character);
             if addresses.blank && !line.is_empty() {
                 line.push(b' ');
             }
-            noted.push((character(letter), line.len(), cause));
-            line.push(slot.character);
-            slot.format.write(scaled, &mut line);
-            commons.set_last_output(letter, slot.format.unscale(scaled));
+            noted.push((letter.byte(), line.len(), cause));
+            text.append_to(&mut line);
         }
+        last.into_iter().for_each(|(letter, value)| commons.set_last_output(letter, value));
         let start = self.begin(true, addresses, commons)?;
         let base = self.text.len() - start;
         if let Some(all) = &mut self.noted {
@@ -116,7 +131,7 @@ impl Tape {
         numbered: bool,
         addresses: &Addresses,
         commons: &mut Commons,
-    ) -> Result<(), Box<Diag>> {
+    ) -> Result<()> {
         let start = self.begin(numbered, addresses, commons)?;
         self.note(TEXT, cause, start);
         self.text.extend_from_slice(text.as_bytes());
@@ -144,7 +159,7 @@ impl Tape {
         numbered: bool,
         addresses: &Addresses,
         commons: &mut Commons,
-    ) -> Result<usize, Box<Diag>> {
+    ) -> Result<usize> {
         let start = self.text.len();
         if let Some(cause) = self.skip {
             self.note(SKIP, cause, start);
@@ -157,14 +172,8 @@ impl Tape {
     }
 
     /// Writes the sequence number of a block that starts at byte `block`.
-    fn number(
-        &mut self,
-        block: usize,
-        addresses: &Addresses,
-        commons: &mut Commons,
-    ) -> Result<(), Box<Diag>> {
-        const N: u8 = letter(b'N');
-        let on = self.sequence.switched.unwrap_or(commons.int(loc::SEQNO_OFF_AT_START) != 72);
+    fn number(&mut self, block: usize, addresses: &Addresses, commons: &mut Commons) -> Result<()> {
+        let on = self.sequence.switched.unwrap_or_else(|| commons.read(loc::SEQNO_OFF_AT_START));
         let Some(position) = addresses.position(N).filter(|_| on) else { return Ok(()) };
         let every = commons.int(loc::SEQNO_EVERY).max(1);
         self.sequence.since_last += 1;
@@ -181,7 +190,8 @@ impl Tape {
         }
         self.sequence.next = Some(number + increment);
         let slot = addresses.slot(position);
-        let scaled = slot.format.scale(number)?;
+        let scaled = Rounding::Exact.scale(number, &slot.format);
+        let scaled = scaled.map_err(|diag| named(diag, N))?;
         self.note(SEQUENCE, self.sequence.cause, block);
         let mut text = WordText::new();
         if addresses.blank {

@@ -6,7 +6,7 @@ use filpost::locations::{Location, TABLE};
 use filpost::postf::{Grade, POSTF, PostfInfo};
 use filpost::ready::{self, READY};
 use filpost::statements::STATEMENTS;
-use filpost::{Code, Commons, Error, Kind, Severity, post_words, suggest};
+use filpost::{Code, Commons, Error, Kind, Severity, dispatch, suggest};
 
 use crate::errors::CommandCode;
 use crate::{Status, output};
@@ -205,7 +205,7 @@ fn vocabulary_word(name: &str) -> Option<String> {
     } else {
         "No published code.".into()
     };
-    let handled = post_words::HANDLERS.iter().any(|(word, _)| *word == id);
+    let handled = dispatch::HANDLERS.iter().any(|(word, _)| *word == id);
     let post = match (vocabulary.is_major(id), handled) {
         (_, true) => "The post carries it out.",
         (true, false) => "The post does not know it: a FIL section must take it.",
@@ -238,7 +238,7 @@ fn nearest(subject: &str) -> Option<String> {
     names.extend(STATEMENTS.iter().map(|row| row.word.to_string()));
     names.extend(BUILTINS.iter().map(|row| row.name.to_string()));
     names.extend(READY.iter().map(|post| post.name.to_string()));
-    names.extend(post_words::HANDLERS.iter().map(|(id, _)| vocabulary.name(*id).to_string()));
+    names.extend(dispatch::HANDLERS.iter().map(|(id, _)| vocabulary.name(*id).to_string()));
     names.extend(filpost::all_codes().into_iter().map(Code::name));
     suggest::nearest(subject, names.iter().map(String::as_str)).map(String::from)
 }

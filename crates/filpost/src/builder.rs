@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use fil_cl::{Vocabulary, reader};
 use fil_diag::Diag;
-use fil_post::{Commons, settings};
+use fil_machine::{Commons, files as settings};
 use fil_vm::{Argument, Compat, FilFile, Functions, Included, Limits, LoadOptions, Loader, Module};
 
 use crate::blocks::Blocks;
@@ -299,7 +299,7 @@ impl Post {
 
     /// The settings.
     pub fn commons(&self) -> &Commons {
-        &self.prototype.commons
+        &self.prototype.control.commons
     }
 
     /// Sets the name of the CL file in messages.

@@ -2,9 +2,10 @@
 
 use fil_cl::Vocabulary;
 use fil_diag::Diag;
-use fil_post::address::Addresses;
-use fil_post::commons::{Commons, LAST_OUTPUT};
-use fil_post::locations::Location;
+use fil_machine::Letter;
+use fil_machine::address::Addresses;
+use fil_machine::commons::{Commons, LAST_OUTPUT};
+use fil_machine::locations::Location;
 use fil_vm::{CommonKind, Compat, FilFile, LoadOptions, MachineFacts};
 
 use crate::outside::common_kind;
@@ -36,11 +37,13 @@ pub struct Options<'a> {
 /// share one name space; each is a name for messages and a text.
 pub fn check(files: &[(&str, &str)], options: Options<'_>) -> Vec<Diag> {
     let files: Vec<FilFile<'_>> = files.iter().map(|(name, text)| FilFile { name, text }).collect();
-    let mut addresses = Addresses::default();
-    if let Some(commons) = options.machine {
-        addresses.refresh(commons, true);
-    }
-    let writes = |letter: u8| addresses.position(letter).is_some();
+    let addresses = options.machine.map(|commons| Addresses::from_commons(commons, true));
+    let writes = |letter: u8| {
+        let letter = Letter::numbered(letter.into());
+        let position =
+            addresses.as_ref().zip(letter).and_then(|(all, letter)| all.position(letter));
+        position.is_some()
+    };
     let facts = MachineFacts {
         name_of_common: Some(&name_of_common),
         writes_letter: options.machine.map(|_| &writes as &dyn Fn(u8) -> bool),

@@ -102,16 +102,16 @@ impl<'p, R: Read> Engine<'p, R> {
             if observed {
                 self.show_blocks(|_, _| {});
             }
-            if !more || self.outside.post.tape.text.len() >= FLUSH {
+            if !more || self.outside.post.control.tape.text.len() >= FLUSH {
                 self.flush(nc)?;
             }
         }
         nc.flush().map_err(write_error)?;
         let mut report = std::mem::take(&mut self.outside.report);
         report.records = self.outside.source.records;
-        report.metric = self.outside.post.is_metric();
-        report.blocks = self.outside.post.tape.count;
-        report.warnings.append(&mut self.outside.post.warnings);
+        report.metric = self.outside.post.control.is_metric();
+        report.blocks = self.outside.post.control.tape.count;
+        report.warnings.append(&mut self.outside.post.control.warnings.list);
         let held = self.take_held();
         report.script_files = held.paths().map(Path::to_path_buf).collect();
         Ok((report, held))
@@ -147,7 +147,7 @@ impl<'p, R: Read> Engine<'p, R> {
 
     /// Hands out the blocks that nobody has seen yet.
     fn show_blocks(&mut self, mut take: impl FnMut(&str, &Origin)) {
-        let tape = &self.outside.post.tape;
+        let tape = &self.outside.post.control.tape;
         let Some(noted) = &tape.noted else { return };
         for block in &noted.blocks[self.shown..] {
             let text = String::from_utf8_lossy(&tape.text[block.range.clone()]);
@@ -161,7 +161,7 @@ impl<'p, R: Read> Engine<'p, R> {
     }
 
     fn forget_blocks(&mut self) {
-        let tape = &mut self.outside.post.tape;
+        let tape = &mut self.outside.post.control.tape;
         if let Some(noted) = &mut tape.noted {
             noted.clear();
         }
@@ -170,7 +170,7 @@ impl<'p, R: Read> Engine<'p, R> {
     }
 
     fn flush(&mut self, nc: &mut impl Write) -> Result<(), Error> {
-        let tape = &mut self.outside.post.tape;
+        let tape = &mut self.outside.post.control.tape;
         nc.write_all(&tape.text).map_err(write_error)?;
         self.outside.report.bytes += tape.text.len() as u64;
         if let Some(map) = &mut self.outside.map {

@@ -99,7 +99,8 @@ impl std::error::Error for Error {}
 
 /// The tables of all codes, by number.
 pub fn all_codes() -> Vec<&'static Code> {
-    let tables: [&'static [Code]; 8] = [
+    let tables: [&'static [Code]; 9] = [
+        fil_machine::errors::MachineCode::ALL,
         fil_syntax::SyntaxCode::ALL,
         fil_vm::errors::CompileCode::ALL,
         fil_vm::errors::LintCode::ALL,

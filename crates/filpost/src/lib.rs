@@ -54,11 +54,11 @@ pub use statement::statement_text;
 pub use fil_cl as cl;
 pub use fil_diag::suggest;
 pub use fil_diag::{Code, Diag, Place, Severity};
-pub use fil_nc as nc;
-pub use fil_post::{
-    Cause, Commons, FilLine, Kind, Origin, Stack, commons, locations, runout, settings,
+pub use fil_machine::{
+    Commons, Kind, Letter, Unit, address, commons, files as settings, locations,
 };
-pub use fil_post::{address, words as post_words};
+pub use fil_nc as nc;
+pub use fil_post::{Cause, FilLine, Origin, Stack, dispatch, no_effect};
 pub use fil_syntax as syntax;
 pub use fil_vm::{Argument, Compat, Included, Limits, Moment, SectionMode};
 pub use fil_vm::{builtins, postf, statements};

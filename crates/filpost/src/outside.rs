@@ -6,7 +6,8 @@ use std::sync::Arc;
 use fil_cl::vocabulary::words;
 use fil_cl::{Record, Vocabulary, reader::Dialect, record::kind};
 use fil_diag::{Diag, Place};
-use fil_post::{FilLine, locations::MESSAGE_TO_TAPE};
+use fil_machine::locations::MESSAGE_TO_TAPE;
+use fil_post::FilLine;
 use fil_vm::{CommonKind, Files, Host, Module, Moment, SectionId, Site};
 
 use crate::error::RunCode;
@@ -52,8 +53,8 @@ impl<R: Read> Outside<'_, R> {
     ) -> Result<bool, Box<Diag>> {
         let more = self.source.read(record, vocabulary)?;
         if more {
-            self.post.tape.cause.record = record.number;
-            self.post.tape.cause.line = record.line;
+            self.post.control.tape.cause.record = record.number;
+            self.post.control.tape.cause.line = record.line;
             for observer in self.observers.iter_mut() {
                 observer(WhatHappened::Record(record, vocabulary));
             }
@@ -64,16 +65,16 @@ impl<R: Read> Outside<'_, R> {
     /// The post carries out a record; what it says gets the place in the CL file,
     /// or in FIL for a record that FIL has made.
     pub fn process(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
-        if record.major == words::PPRINT && !self.post.commons.flag(MESSAGE_TO_TAPE) {
+        if record.major == words::PPRINT && !self.post.control.commons.read(MESSAGE_TO_TAPE) {
             for observer in self.observers.iter_mut() {
                 observer(WhatHappened::Message(record.text.trim_end()));
             }
         }
-        let known = self.post.warnings.len();
+        let known = self.post.control.warnings.list.len();
         let result = self.post.process(record, vocabulary);
-        if result.is_err() || self.post.warnings.len() > known {
+        if result.is_err() || self.post.control.warnings.list.len() > known {
             let place = self.place(record, vocabulary);
-            for warning in &mut self.post.warnings[known..] {
+            for warning in &mut self.post.control.warnings.list[known..] {
                 warning.places.push(place.clone());
             }
             // The machine itself adds the FIL line to an error.
@@ -89,7 +90,7 @@ impl<R: Read> Outside<'_, R> {
 
     /// The FIL line that made a record.
     fn fil_line(&self, record: &Record) -> Option<FilLine> {
-        let tape = &self.post.tape;
+        let tape = &self.post.control.tape;
         tape.stacks.lines(tape.cause.stack).first().copied().filter(|_| record.line == 0)
     }
 
@@ -99,7 +100,7 @@ impl<R: Read> Outside<'_, R> {
             let file = &self.module.files[usize::from(made.file)].name;
             return Place::line(file, made.line, statement_text(record, vocabulary));
         }
-        let line = if record.line == 0 { self.post.tape.cause.line } else { record.line };
+        let line = if record.line == 0 { self.post.control.tape.cause.line } else { record.line };
         Place::line(self.cl_name, line, statement_text(record, vocabulary))
     }
 
@@ -161,15 +162,15 @@ impl<R: Read> Outside<'_, R> {
 
 impl<R: Read> Host for Outside<'_, R> {
     fn common(&mut self, kind: CommonKind, location: u32) -> Result<f64, Box<Diag>> {
-        self.post.commons.get(common_kind(kind), location)
+        self.post.control.commons.get(common_kind(kind), location)
     }
 
     fn set_common(&mut self, kind: CommonKind, location: u32, value: f64) -> Result<(), Box<Diag>> {
-        self.post.commons.set(common_kind(kind), location, value)
+        self.post.control.commons.set(common_kind(kind), location, value)
     }
 
     fn clear_common(&mut self, kind: CommonKind, location: u32) -> Result<(), Box<Diag>> {
-        self.post.commons.set(common_kind(kind), location, fil_post::commons::EMPTY)
+        self.post.control.commons.set(common_kind(kind), location, fil_machine::commons::EMPTY)
     }
 
     fn command(
@@ -178,12 +179,12 @@ impl<R: Read> Host for Outside<'_, R> {
         vocabulary: &mut Vocabulary,
         site: &Site,
     ) -> Result<(), Box<Diag>> {
-        let tape = &mut self.post.tape;
+        let tape = &mut self.post.control.tape;
         let section = self.section.map(SectionId::index);
         let lines = site.stack().map(|(file, line)| FilLine { file, line });
         tape.cause.stack = tape.stacks.number(section, lines);
         let result = self.process(record, vocabulary);
-        self.post.tape.cause.stack = 0;
+        self.post.control.tape.cause.stack = 0;
         result
     }
 
@@ -249,15 +250,15 @@ impl<R: Read> Host for Outside<'_, R> {
     }
 
     fn named_common(&mut self, name: &str) -> Option<Result<f64, Box<Diag>>> {
-        let row = fil_post::locations::Location::named(&name.to_ascii_lowercase())?;
-        Some(self.post.commons.get(row.kind, u32::from(row.number)))
+        let row = fil_machine::locations::Location::named(&name.to_ascii_lowercase())?;
+        Some(self.post.control.commons.get(row.kind, u32::from(row.number)))
     }
 }
 
-pub(crate) fn common_kind(kind: CommonKind) -> fil_post::Kind {
+pub(crate) fn common_kind(kind: CommonKind) -> fil_machine::Kind {
     match kind {
-        CommonKind::Int => fil_post::Kind::Int,
-        CommonKind::Rel => fil_post::Kind::Rel,
-        CommonKind::Dbl => fil_post::Kind::Dbl,
+        CommonKind::Int => fil_machine::Kind::Int,
+        CommonKind::Rel => fil_machine::Kind::Rel,
+        CommonKind::Dbl => fil_machine::Kind::Dbl,
     }
 }

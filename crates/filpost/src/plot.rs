@@ -3,11 +3,11 @@
 use std::io::{Read, Seek};
 
 use fil_cl::reader::Options;
+use fil_machine::commons::{Commons, Kind};
 use fil_nc::dialect::Dialect;
 use fil_nc::forward::Forward;
 use fil_nc::interpret::events;
 use fil_nc::plot::{Drawing, Note, cl_trace, nc_trace};
-use fil_post::commons::{Commons, Kind};
 
 use crate::error::Error;
 use crate::map::{Digest, Entry, MapReader};
@@ -73,9 +73,9 @@ pub fn lay_under(
     commons: &Commons,
 ) -> Result<(), Error> {
     let shift = ["input.translate_x", "input.translate_y", "input.translate_z"].map(|key| {
-        let row = fil_post::locations::Location::named(key);
+        let row = fil_machine::locations::Location::named(key);
         let value = row.and_then(|row| commons.get(Kind::Dbl, row.number.into()).ok());
-        value.filter(|value| *value != fil_post::commons::EMPTY).unwrap_or(0.0)
+        value.filter(|value| *value != fil_machine::commons::EMPTY).unwrap_or(0.0)
     });
     drawing.under = Some(cl_trace(cl.bytes, cl.name, options, shift).map_err(Error::Run)?);
     drawing.under_name = "CL file";

@@ -7,9 +7,10 @@ mod codes;
 mod numbers;
 
 use fil_diag::Diag;
-use fil_post::commons::{Commons, EMPTY, Kind};
-use fil_post::kinematics::{Carries, Kinematics};
-use fil_post::locations::Location;
+use fil_machine::Letter;
+use fil_machine::axis_chain::{AxisChain, Carries};
+use fil_machine::commons::{Commons, EMPTY, Kind};
+use fil_machine::locations::Location;
 
 use codes::{Auxiliaries, Functions};
 pub use codes::{Auxiliary, CycleKind, FeedMode, Function, Group};
@@ -154,11 +155,11 @@ impl Dialect {
         };
         let diameter = settings.flag("lathe.diameter");
         let lathe = diameter || tool_call == ToolCall::WithOffset;
-        let kinematics = Kinematics::from_commons(commons)?;
+        let kinematics = AxisChain::from_commons(commons)?;
         let mut axis_letters = [24, 25, 26, 0, 0];
         let mut scales = [0, 1, 2].map(|axis| Some(scale(&settings, axis))).to_vec();
         for (index, rotary) in kinematics.rotaries.iter().enumerate() {
-            axis_letters[index + 3] = rotary.as_ref().map_or(0, |rotary| rotary.letter);
+            axis_letters[index + 3] = rotary.as_ref().map_or(0, |rotary| rotary.letter.number());
             scales.push(rotary.as_ref().map(|rotary| scale(&settings, rotary.axis + 3)));
         }
         if let (true, Some(x)) = (diameter, &mut scales[0]) {
@@ -249,8 +250,8 @@ fn factor(settings: &Settings, key: &str) -> f64 {
 /// output values.
 fn start(commons: &Commons, letters: [u8; 5], scales: [Option<Scale>; 5]) -> [Option<f64>; 5] {
     std::array::from_fn(|axis| {
-        let value = commons.last_output(letters[axis]);
-        let scale = scales[axis].filter(|_| letters[axis] > 0 && value != EMPTY)?;
+        let value = commons.last_output(Letter::numbered(letters[axis].into())?);
+        let scale = scales[axis].filter(|_| value != EMPTY)?;
         Some(scale.position(value))
     })
 }

@@ -1,6 +1,6 @@
 //! Addresses: which letter is printed how, and what its numbers stand for.
 
-use fil_post::commons::Commons;
+use fil_machine::commons::Commons;
 
 use super::int;
 use crate::text::Number;

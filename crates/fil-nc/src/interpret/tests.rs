@@ -1,6 +1,6 @@
-use fil_post::Commons;
-use fil_post::locations::default_commons;
-use fil_post::settings::apply_setting;
+use fil_machine::Commons;
+use fil_machine::files::apply_setting;
+use fil_machine::locations::default_commons;
 use proptest::prelude::*;
 
 use super::events;

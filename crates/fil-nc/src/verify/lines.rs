@@ -111,7 +111,7 @@ impl<C: Steps> Walk<'_, C> {
             let low = axis.min.is_some_and(|min| value < min - self.slack.rotary[n]);
             let high = axis.max.is_some_and(|max| value > max + self.slack.rotary[n]);
             if low || high {
-                let letter = char::from(b'A' + axis.letter.clamp(1, 26) - 1);
+                let letter = axis.letter.character();
                 let message =
                     format!("{letter}{} lies outside the travel of the axis", short(value));
                 self.find(Kind::Limit, Some(cl_line), Some(found.line), message);

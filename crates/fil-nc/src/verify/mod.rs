@@ -31,7 +31,7 @@ use std::io::Read;
 
 use fil_cl::Options;
 use fil_diag::Diag;
-use fil_post::Commons;
+use fil_machine::Commons;
 
 use crate::errors::NcCode;
 use crate::motion::Event;

@@ -2,10 +2,14 @@
 //! digit of each address, where a post may put a word, and what the settings add.
 
 use fil_diag::Diag;
-use fil_post::address::{Addresses, Output, letter};
-use fil_post::commons::{Commons, Dbl, Int, Rel};
-use fil_post::locations as loc;
-use fil_post::program::user_blocks;
+use fil_machine::address::Addresses;
+use fil_machine::commons::{Commons, Dbl, Rel};
+use fil_machine::letter::{Letter, letters};
+use fil_machine::locations::{
+    self as loc, CircleCenter, Placement, RapidSplit, ToolChangeBlock, ToolFormat,
+};
+use fil_machine::setting::CodeAt;
+use fil_machine::user_blocks;
 
 use super::wanted::{CoolantKind, CycleKind};
 use crate::forward::Forward;
@@ -82,38 +86,37 @@ impl<'c> Settings<'c> {
 
     /// The last digits of the addresses in a program in mm or inch.
     pub fn slack(&self, metric: bool) -> Slack {
-        let mut addresses = Addresses::default();
-        addresses.refresh(self.commons, metric);
+        let addresses = Addresses::from_commons(self.commons, metric);
         let unit = unit(metric);
-        let half = |letter: u8| match addresses.output(letter) {
-            Output::At(at) => 0.5 * 0.1f64.powi(addresses.slot(at).format.decimals.into()),
-            Output::Off | Output::Unknown => NOT_WRITTEN,
+        let half = |letter: Letter| match addresses.format(letter) {
+            Some(format) => 0.5 * 0.1f64.powi(format.decimals.into()),
+            None => NOT_WRITTEN,
         };
-        let of_axis = |letter: u8, common: usize, unit: f64| {
+        let of_axis = |letter: Letter, common: usize, unit: f64| {
             self.allowed(half(letter) / self.scale(common) * unit)
         };
-        let axes = [(b'X', 0), (b'Y', 1), (b'Z', 2)];
+        let axes = [0, 1, 2].map(|common| (letters::XYZ[common], common));
         let scaled = |common: usize| (self.scale(common) != 1.0).then_some(2.0 * unit);
         let rotary = [0, 1].map(|index| match &self.forward.rotaries()[index] {
             Some(axis) => of_axis(axis.letter, axis.axis + 3, 1.0),
             None => 0.0,
         });
         Slack {
-            linear: axes.map(|(name, common)| of_axis(letter(name), common, unit)),
-            rounded: axes.map(|(name, common)| Some(half(letter(name)) * scaled(common)?)),
+            linear: axes.map(|(letter, common)| of_axis(letter, common, unit)),
+            rounded: axes.map(|(letter, common)| Some(half(letter) * scaled(common)?)),
             rotary,
-            centre: [b'I', b'J', b'K'].map(|name| self.allowed(half(letter(name)) * unit)),
-            radius: self.allowed(half(letter(b'R')) * unit),
-            feed: half(letter(b'F')) * unit / self.feed_factor() + DUST,
-            inverse: half(letter(b'F')) + DUST,
-            speed: half(letter(b'S')) + DUST,
+            centre: letters::IJK.map(|letter| self.allowed(half(letter) * unit)),
+            radius: self.allowed(half(letters::R) * unit),
+            feed: half(letters::F) * unit / self.feed_factor() + DUST,
+            inverse: half(letters::F) + DUST,
+            speed: half(letters::S) + DUST,
             dwell: self.dwell_slack(half),
         }
     }
 
     /// What the program multiplies an axis by.
     fn scale(&self, common: usize) -> f64 {
-        let diameter = common == 0 && self.commons.flag(loc::LATHE_DIAMETER);
+        let diameter = common == 0 && self.commons.read(loc::LATHE_DIAMETER);
         let scale = self.commons.dbl_opt(SCALES[common]).unwrap_or(1.0).abs();
         if diameter { 2.0 } else { scale }
     }
@@ -123,9 +126,9 @@ impl<'c> Settings<'c> {
         self.scale(0)
     }
 
-    fn dwell_slack(&self, half: impl Fn(u8) -> f64) -> f64 {
+    fn dwell_slack(&self, half: impl Fn(Letter) -> f64) -> f64 {
         let factor = self.commons.dbl_opt(loc::DWELL_UPM_FACTOR).filter(|factor| *factor > 0.0);
-        let letter = self.commons.int_opt(loc::DWELL_ADDRESS).unwrap_or(16).clamp(1, 26) as u8;
+        let letter = self.commons.read(loc::DWELL_ADDRESS).unwrap_or(Letter::of(b'P'));
         half(letter) / factor.unwrap_or(1.0) + DUST
     }
 
@@ -140,36 +143,34 @@ impl<'c> Settings<'c> {
 
     /// The lines of the tape that stand in the settings: start and end of a program.
     pub fn own_blocks(&self) -> Vec<String> {
-        let start = (loc::BLOCKS_START_FLAG, loc::BLOCKS_START_COUNT, loc::BLOCKS_START_TEXT);
-        let end = (loc::BLOCKS_END_FLAG, loc::BLOCKS_END_COUNT, loc::BLOCKS_END_TEXT);
-        let mut blocks = user_blocks(self.commons, start);
-        blocks.extend(user_blocks(self.commons, end));
+        let mut blocks = user_blocks::START.read(self.commons);
+        blocks.extend(user_blocks::END.read(self.commons));
         blocks
     }
 
     /// When a spindle word must be in force.
     pub fn spindle_due(&self) -> Due {
-        due(self.commons.int(loc::SPINDLE_PLACEMENT))
+        due(self.commons.read(loc::SPINDLE_PLACEMENT))
     }
 
     /// When a coolant word must be in force.
     pub fn coolant_due(&self) -> Due {
-        due(self.commons.int(loc::COOLANT_PLACEMENT))
+        due(self.commons.read(loc::COOLANT_PLACEMENT))
     }
 
     /// True when the tool's number is that of its diameter offset.
     pub fn offsets_diameters_by_tool(&self) -> bool {
-        self.commons.flag(loc::TOOL_DIAMETER_FROM_TOOL)
+        self.commons.read(loc::TOOL_DIAMETER_FROM_TOOL)
     }
 
     /// When cutter compensation must be in force.
     pub fn compensation_due(&self) -> Due {
-        if self.commons.flag(loc::CUTCOM_WITH_MOTION) { Due::WithXY } else { Due::Now }
+        if self.commons.read(loc::CUTCOM_WITH_MOTION) { Due::WithXY } else { Due::Now }
     }
 
     /// What the spindle does for `SPINDL`; `None` where the machine has no code for it.
     pub fn spindle(&self, wanted: Option<Spindle>) -> Option<Spindle> {
-        let code = |at: Int| self.commons.int_opt(at);
+        let code = |at: CodeAt| self.commons.read(at);
         match wanted {
             Some(Spindle::Off) => code(loc::SPINDLE_STOP_CODE).map(|_| Spindle::Off),
             Some(Spindle::Clockwise) => code(loc::SPINDLE_CW_CODE).map(|_| Spindle::Clockwise),
@@ -221,29 +222,29 @@ impl<'c> Settings<'c> {
             CoolantKind::Through => loc::COOLANT_THRU_HIGH_CODE,
             CoolantKind::ThroughLow => loc::COOLANT_THRU_LOW_CODE,
         };
-        self.commons.int_opt(at).is_some()
+        self.commons.read(at).is_some()
     }
 
     /// True when the program calls tools.
     pub fn calls_tools(&self) -> bool {
-        self.commons.int_opt(loc::TOOL_CHANGE_CODE).is_some() || self.writes(b'T')
+        self.commons.read(loc::TOOL_CHANGE_CODE).is_some() || self.writes(letters::T)
     }
 
     /// True when a tool already in the spindle is not called again.
     pub fn tool_is_modal(&self) -> bool {
-        self.commons.flag(loc::TOOL_MODAL)
+        self.commons.read(loc::TOOL_MODAL)
     }
 
     /// True when tool and offset stand in one word, `T0101`.
     pub fn calls_tools_with_offset(&self) -> bool {
-        self.commons.int(loc::TOOL_FORMAT) == 2
+        self.commons.read(loc::TOOL_FORMAT) == ToolFormat::ToolAndOffsetInOneTWord
     }
 
     /// True when a tool change is followed by a length offset of its own.
     pub fn calls_offsets(&self) -> bool {
         !self.calls_tools_with_offset()
-            && self.commons.int_opt(loc::TOOL_LENGTH_CODE).is_some()
-            && self.commons.flag(loc::TOOL_LENGTH_FROM_TOOL)
+            && self.commons.read(loc::TOOL_LENGTH_CODE).is_some()
+            && self.commons.read(loc::TOOL_LENGTH_FROM_TOOL)
     }
 
     /// Z that the length offset is called with, mm.
@@ -255,10 +256,10 @@ impl<'c> Settings<'c> {
     /// Where the axes go before a tool change: X Y Z in mm, primary and secondary
     /// rotary in degrees; `None` for an axis that stays.
     pub fn change_position(&self, metric: bool) -> [Option<f64>; 5] {
-        let axes = match self.commons.int(loc::TOOL_CHANGE_BLOCK) {
-            1 => 3,
-            2 => 6,
-            _ => 0,
+        let axes = match self.commons.read(loc::TOOL_CHANGE_BLOCK) {
+            ToolChangeBlock::None => 0,
+            ToolChangeBlock::Xyz => 3,
+            ToolChangeBlock::XyzAndRotary => 6,
         };
         let value = |common: usize| {
             let at = loc::CHANGE_POSITION[..axes].get(common)?;
@@ -275,7 +276,7 @@ impl<'c> Settings<'c> {
 
     /// Travel of the linear axes in mm where the machine checks it.
     pub fn travel(&self, metric: bool) -> [(f64, f64); 3] {
-        if !self.commons.flag(loc::LIMITS_CHECK) {
+        if !self.commons.read(loc::LIMITS_CHECK) {
             return [(f64::NEG_INFINITY, f64::INFINITY); 3];
         }
         let unit = unit(metric);
@@ -298,7 +299,7 @@ impl<'c> Settings<'c> {
 
     /// G code of a cycle; `None` when holes are single moves.
     pub fn cycle_code(&self, kind: CycleKind) -> Option<i32> {
-        self.commons.int_opt(of_kind(kind).0)
+        self.commons.read(of_kind(kind).0)
     }
 
     /// A dwell within the machine's range, seconds.
@@ -315,42 +316,40 @@ impl<'c> Settings<'c> {
 
     /// True when a rapid goes across, turns and goes down in blocks of their own.
     pub fn splits_rapids(&self) -> bool {
-        self.commons.int(loc::RAPID_SPLIT) != 0
+        self.commons.read(loc::RAPID_SPLIT) != RapidSplit::OneBlock
     }
 
     /// Which of X, Y, Z the program writes; one that it never writes stands at 0.
     pub fn written(&self) -> [bool; 3] {
-        [b'X', b'Y', b'Z'].map(|name| self.writes(name))
+        letters::XYZ.map(|letter| self.writes(letter))
     }
 
-    fn writes(&self, name: u8) -> bool {
-        let mut addresses = Addresses::default();
-        addresses.refresh(self.commons, true);
-        matches!(addresses.output(letter(name)), Output::At(_))
+    fn writes(&self, letter: Letter) -> bool {
+        Addresses::from_commons(self.commons, true).position(letter).is_some()
     }
 
     /// True when an arc is written with its radius.
     pub fn writes_radius(&self) -> bool {
-        self.commons.int(loc::CIRCLE_CENTER) == 3
+        self.commons.read(loc::CIRCLE_CENTER) == CircleCenter::Radius
     }
 
     /// True when the program must end with a code.
     pub fn has_end_code(&self) -> bool {
         let codes = [loc::PROGRAM_REWIND_CODE, loc::PROGRAM_END_CODE];
-        codes.iter().any(|at| self.commons.int_opt(*at).is_some())
+        codes.iter().any(|at| self.commons.read(*at).is_some())
     }
 }
 
-fn due(placement: i32) -> Due {
+fn due(placement: Placement) -> Due {
     match placement {
-        2 => Due::WithXY,
-        3 => Due::WithZ,
-        _ => Due::Now,
+        Placement::NextXyBlock => Due::WithXY,
+        Placement::NextZBlock => Due::WithZ,
+        Placement::BlockOfItsOwn => Due::Now,
     }
 }
 
 /// Locations of a cycle's G code and of its usual dwell.
-fn of_kind(kind: CycleKind) -> (Int, Dbl) {
+fn of_kind(kind: CycleKind) -> (CodeAt, Dbl) {
     match kind {
         CycleKind::Drill => (loc::CYCLE_DRILL_CODE, loc::DWELL_CYCLE_DRILL),
         CycleKind::Csink => (loc::CYCLE_CSINK_CODE, loc::DWELL_CYCLE_CSINK),

@@ -1,18 +1,17 @@
 //! CUTTER/d,…: the cutter; its diameter is kept, nothing is written.
 
-use fil_cl::Record;
-use fil_cl::vocabulary::Vocabulary;
-use fil_diag::Diag;
+use fil_diag::Result;
 
-use super::form::Form;
+use crate::items::Items;
 use crate::post::Post;
 
-/// Remembers the diameter.
+/// Remembers the diameter; the other measures of an APT cutter do not change the
+/// program.
 ///
 /// # Errors
 /// No number.
-pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
-    let mut form = Form::new(record, vocabulary);
-    post.state.cutter = Some(form.required("the diameter")?);
+pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
+    post.path.cutter = Some(items.required("the diameter")?);
+    items.numbers();
     Ok(())
 }

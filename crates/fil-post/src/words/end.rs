@@ -1,18 +1,52 @@
-//! END: end of the program without rewinding it.
+//! END, REWIND, FINI: the end of the program. Creo writes no END, so FINI ends the
+//! program too.
 
-use fil_cl::Record;
-use fil_cl::vocabulary::Vocabulary;
-use fil_diag::Diag;
+use fil_diag::Result;
 
-use crate::locations as loc;
+use crate::errors::PostCode;
+use crate::items::Items;
+use crate::operation::{End, Operation};
+use crate::path::carry_out;
 use crate::post::Post;
-use crate::program;
 
-/// Writes the user's end blocks and the end code.
+/// END: end of the program without rewinding it.
 ///
 /// # Errors
-/// The machine has no such code.
-pub fn handle(post: &mut Post, _: &Record, _: &Vocabulary) -> Result<(), Box<Diag>> {
-    let code = post.code(loc::PROGRAM_END_CODE, "END")?;
-    program::end(post, Some(code))
+/// The machine has no such code; a CIRCLE waits for its end.
+pub fn end(post: &mut Post, items: &mut Items) -> Result<()> {
+    items.deny_rest()?;
+    finish(post, End::Stay)
+}
+
+/// REWIND\[/0]: end of the program, back to its start.
+///
+/// # Errors
+/// As [`end`].
+pub fn rewind(post: &mut Post, items: &mut Items) -> Result<()> {
+    if items.number().is_some_and(|count| count != 0.0) {
+        return Err(items.error("only REWIND and REWIND/0 are known"));
+    }
+    items.deny_rest()?;
+    finish(post, End::Rewind)
+}
+
+/// FINI: end of the CL file.
+///
+/// # Errors
+/// As [`end`].
+pub fn fini(post: &mut Post, items: &mut Items) -> Result<()> {
+    items.deny_rest()?;
+    finish(post, End::OfFile)
+}
+
+/// Ends the program once.
+///
+/// # Errors
+/// A CIRCLE waits for its end point; cutter compensation is still on.
+pub fn finish(post: &mut Post, end: End) -> Result<()> {
+    if post.path.arc.is_some() {
+        return PostCode::ArcEnd.err("no GOTO followed the last CIRCLE");
+    }
+    post.path.cycle = None;
+    carry_out(post, Operation::End(end))
 }

@@ -1,55 +1,64 @@
 //! FEDRAT/f,unit: the feed of the motions to come; value and unit in either order.
 
-use fil_cl::vocabulary::{Vocabulary, words as w};
-use fil_cl::{Record, WordId};
-use fil_diag::Diag;
+use fil_cl::WordId;
+use fil_cl::vocabulary::words as w;
+use fil_diag::Result;
+use fil_machine::locations as loc;
+use fil_machine::modes::{FeedMode, INCH, Unit};
 
-use super::form::Form;
 use crate::errors::PostCode;
-use crate::kinematics::INCH;
-use crate::locations as loc;
+use crate::items::Items;
+use crate::operation::Feed;
 use crate::post::Post;
-use crate::state::{Feed, FeedMode};
 
-const UNITS: &[WordId] = &[w::MMPM, w::IPM, w::FPM, w::MMPR, w::IPR, w::FPR, w::UPM, w::UPR];
+/// Units of a feed.
+pub const UNITS: &[WordId] = &[w::MMPM, w::IPM, w::FPM, w::MMPR, w::IPR, w::FPR, w::UPM, w::UPR];
+
+/// Inches of a foot.
+const FOOT: f64 = 12.0;
 
 /// Sets the feed.
 ///
 /// # Errors
 /// No number, a feed that is not positive, or inverse time.
-pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
-    let mut form = Form::new(record, vocabulary);
-    if form.flag(w::INVERS) {
-        return Err(form.error("inverse time is not supported"));
+pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
+    if items.flag(w::INVERS) {
+        return Err(items.error("inverse time is not supported"));
     }
-    let unit = form.any_of(UNITS);
-    let value = form.required("the feed")?;
-    post.due_to(&form);
+    let unit = items.any_of(UNITS);
+    let value = items.required("the feed")?;
+    post.due_to(items);
     if value <= 0.0 {
-        return Err(form.error(format!("a feed of {value} is not positive")));
+        return Err(items.error(format!("a feed of {value} is not positive")));
     }
-    form.end()?;
-    let feed = in_output_units(value, unit, post);
-    post.state.feed = Some(within_limits(post, feed));
-    post.state.thread = None;
+    items.deny_rest()?;
+    let feed = in_output_units(post, value, unit)?;
+    post.path.feed = Some(within_limits(post, feed));
+    post.path.thread = None;
     Ok(())
 }
 
-/// A feed in the unit of the CL file, per minute when no unit is given; it is
-/// due to the word that the record is at.
-pub fn in_output_units(value: f64, unit: Option<WordId>, post: &Post) -> Feed {
-    let metric = post.state.metric;
+/// A feed in the unit of the program, per minute when no unit is given; its cause is
+/// the word that the record is at.
+///
+/// # Errors
+/// Nothing has said the unit of the program.
+pub fn in_output_units(post: &Post, value: f64, unit: Option<WordId>) -> Result<Feed> {
+    let inch = match post.control.require_unit()? {
+        Unit::Mm => INCH,
+        Unit::Inch => 1.0,
+    };
     let (factor, mode) = match unit {
-        Some(w::MMPM) => (if metric { 1.0 } else { 1.0 / INCH }, FeedMode::PerMinute),
-        Some(w::IPM) => (if metric { INCH } else { 1.0 }, FeedMode::PerMinute),
-        Some(w::FPM) => (if metric { 12.0 * INCH } else { 12.0 }, FeedMode::PerMinute),
-        Some(w::MMPR) => (if metric { 1.0 } else { 1.0 / INCH }, FeedMode::PerRevolution),
-        Some(w::IPR) => (if metric { INCH } else { 1.0 }, FeedMode::PerRevolution),
-        Some(w::FPR) => (if metric { 12.0 * INCH } else { 12.0 }, FeedMode::PerRevolution),
+        Some(w::MMPM) => (inch / INCH, FeedMode::PerMinute),
+        Some(w::IPM) => (inch, FeedMode::PerMinute),
+        Some(w::FPM) => (FOOT * inch, FeedMode::PerMinute),
+        Some(w::MMPR) => (inch / INCH, FeedMode::PerRevolution),
+        Some(w::IPR) => (inch, FeedMode::PerRevolution),
+        Some(w::FPR) => (FOOT * inch, FeedMode::PerRevolution),
         Some(w::UPR) => (1.0, FeedMode::PerRevolution),
         _ => (1.0, FeedMode::PerMinute),
     };
-    Feed { value: value * factor, mode, cause: post.block.cause }
+    Ok(Feed { value: value * factor, mode, cause: post.control.block.cause })
 }
 
 /// Brings a feed per minute within the machine's range (DBLCOM 114, 120), with
@@ -58,13 +67,13 @@ pub fn within_limits(post: &mut Post, feed: Feed) -> Feed {
     if feed.mode == FeedMode::PerRevolution {
         return feed;
     }
-    let min = post.commons.dbl_opt(loc::FEED_UPM_MIN).unwrap_or(0.0);
-    let max = post.commons.dbl_opt(loc::FEED_UPM_MAX).unwrap_or(f64::MAX);
+    let commons = &post.control.commons;
+    let min = commons.dbl_opt(loc::FEED_UPM_MIN).unwrap_or(0.0);
+    let max = commons.dbl_opt(loc::FEED_UPM_MAX).unwrap_or(f64::MAX);
+    let factor = commons.dbl_opt(loc::FEED_UPM_FACTOR).unwrap_or(1.0);
     let value = feed.value.max(min).min(max);
     if value != feed.value {
-        let message = format!("feed {} became {value}", feed.value);
-        post.warn(PostCode::Clamped, message);
+        post.warn(PostCode::Clamped, format!("feed {} became {value}", feed.value));
     }
-    let factor = post.commons.dbl_opt(loc::FEED_UPM_FACTOR).unwrap_or(1.0);
     Feed { value: value * factor, ..feed }
 }

@@ -1,36 +1,32 @@
 //! GODLTA/dx,dy,dz or GODLTA/d: a motion relative to the last point.
 
-use fil_cl::Record;
-use fil_cl::vocabulary::Vocabulary;
-use fil_diag::Diag;
-
+use fil_diag::Result;
 use nalgebra::Vector3;
 
-use super::form::Form;
 use super::goto;
+use crate::dispatch::POINT;
 use crate::errors::PostCode;
-use crate::motion::Target;
+use crate::items::Items;
+use crate::operation::{Operation, Target};
+use crate::path::carry_out;
 use crate::post::Post;
 
 /// Moves by the increments; one number moves along the tool axis.
 ///
 /// # Errors
 /// No point came before, or the numbers are neither one nor three.
-pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
-    let mut form = Form::new(record, vocabulary);
-    let start = post
-        .state
-        .point
-        .ok_or_else(|| Box::new(Diag::new(PostCode::ArcStart, "GODLTA before any FROM or GOTO")))?;
-    let step = match form.numbers()[..] {
-        [x, y, z] => {
-            post.state.point_word = goto::POINT;
-            Vector3::new(x, y, z)
-        }
-        [distance] => post.state.axis * distance,
-        _ => return Err(form.error("one or three increments are needed")),
+pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
+    let Some(start) = post.path.point else {
+        return PostCode::ArcStart.err("GODLTA before any FROM or GOTO");
     };
-    form.end()?;
-    post.begin()?;
-    post.move_to(Target { point: start + step, axis: post.state.axis })
+    goto::refuse_waiting_arc(post)?;
+    let (step, word) = match items.numbers()[..] {
+        [x, y, z] => (Vector3::new(x, y, z), POINT),
+        [distance] => (post.path.axis.normalize() * distance, 0),
+        _ => return Err(items.error("one or three increments are needed")),
+    };
+    items.deny_rest()?;
+    let target = Target { point: start + step, axis: post.path.axis, word };
+    let kind = goto::kind_of_motion(post);
+    carry_out(post, Operation::Linear(target, kind))
 }

@@ -1,60 +1,66 @@
 //! GOTO/x,y,z\[,i,j,k] (and GOHOME): the next point of the path.
 
-use fil_cl::Record;
 use fil_cl::record::FIRST_DATA;
-use fil_cl::vocabulary::Vocabulary;
-use fil_diag::Diag;
+use fil_diag::Result;
+use nalgebra::Point3;
 
-use nalgebra::{Point3, Vector3};
-
-use super::form::Form;
-use super::{circle, cycle};
-use crate::motion::Target;
+use crate::errors::PostCode;
+use crate::items::Items;
+use crate::operation::{MotionKind, Operation, Target};
+use crate::path::carry_out;
 use crate::post::Post;
-
-/// The word of a motion record that holds its x.
-pub const POINT: u16 = 6;
 
 /// Moves to the point; ends an arc or drills a hole when CIRCLE or CYCLE ask for it.
 ///
 /// # Errors
-/// A record without a point, and all that the motion refuses.
-pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
-    post.begin()?;
-    let target = target(post, record, vocabulary)?;
-    post.state.point_word = POINT;
-    if let Some(arc) = post.state.arc.take() {
-        circle::finish(post, &arc, target)
-    } else if post.state.cycle.is_some() && post.state.rapid.is_none() {
-        cycle::hole(post, target)
-    } else {
-        post.move_to(target)
+/// All that the motion refuses.
+#[inline]
+pub fn handle(post: &mut Post, target: Target) -> Result<()> {
+    if let Some(arc) = post.path.arc.take() {
+        post.path.rapid = None;
+        return carry_out(post, Operation::Arc(arc, target));
+    }
+    if post.path.cycle.is_some() && post.path.rapid.is_none() {
+        return carry_out(post, Operation::Hole(target));
+    }
+    let kind = kind_of_motion(post);
+    carry_out(post, Operation::Linear(target, kind))
+}
+
+/// Rapid after RAPID, a pass of a thread in a thread, else at feed.
+#[inline]
+pub fn kind_of_motion(post: &mut Post) -> MotionKind {
+    match (post.path.rapid.take(), post.path.thread) {
+        (Some(cause), _) => MotionKind::Rapid(cause),
+        (None, Some(lead)) => MotionKind::Thread(lead),
+        (None, None) => MotionKind::Feed,
     }
 }
 
 /// GOHOME/x,y,z: a motion to that point.
 ///
 /// # Errors
-/// Other than three numbers, and all that the motion refuses.
-pub fn gohome(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
-    let mut form = Form::new(record, vocabulary);
-    let [x, y, z] = form.numbers()[..] else {
-        return Err(form.error("a point x, y, z is missing"));
+/// Other than three numbers, a CIRCLE that waits for its end, and all that the
+/// motion refuses.
+pub fn gohome(post: &mut Post, items: &mut Items) -> Result<()> {
+    let [x, y, z] = items.numbers()[..] else {
+        return Err(items.error("a point x, y, z is missing"));
     };
-    form.end()?;
-    post.begin()?;
-    post.state.point_word = FIRST_DATA as u16;
-    post.move_to(Target { point: Point3::new(x, y, z), axis: post.state.axis })
+    items.deny_rest()?;
+    refuse_waiting_arc(post)?;
+    let point = Point3::new(x, y, z);
+    let target = Target { point, axis: post.path.axis, word: FIRST_DATA as u16 };
+    let kind = kind_of_motion(post);
+    carry_out(post, Operation::Linear(target, kind))
 }
 
-/// The point of a motion record; without an axis of its own it keeps the last one.
+/// Refuses a motion that is no GOTO while a CIRCLE waits for its end point.
 ///
 /// # Errors
-/// A record without a point.
-pub fn target(post: &Post, record: &Record, vocabulary: &Vocabulary) -> Result<Target, Box<Diag>> {
-    let point = record
-        .point()
-        .ok_or_else(|| Form::new(record, vocabulary).error("a point x, y, z is missing"))?;
-    let axis = record.axis().map_or(post.state.axis, Vector3::from);
-    Ok(Target { point: Point3::from(point), axis })
+/// One waits.
+pub fn refuse_waiting_arc(post: &Post) -> Result<()> {
+    if post.path.arc.is_some() {
+        return PostCode::ArcEnd.err("another motion came before the GOTO");
+    }
+    Ok(())
 }

@@ -1,26 +1,27 @@
 //! MULTAX[/ON|OFF] and TLAXIS/i,j,k: tool axes in GOTO.
 
-use fil_cl::Record;
-use fil_cl::vocabulary::{Vocabulary, words as w};
-use fil_diag::Diag;
-
+use fil_cl::vocabulary::words as w;
+use fil_diag::Result;
 use nalgebra::Vector3;
 
-use super::form::Form;
+use crate::errors::PostCode;
+use crate::items::Items;
 use crate::post::Post;
 
-/// OFF brings the axis back to 0,0,1; ON changes nothing, a GOTO with an axis
-/// of its own is always taken by it.
+/// Shortest tool axis that has a direction.
+const SHORTEST: f64 = 1e-9;
+
+/// OFF brings the axis back to 0,0,1; ON lets a GOTO have an axis of any length.
 ///
 /// # Errors
-/// None.
-pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
-    let mut form = Form::new(record, vocabulary);
-    let off = form.flag(w::OFF);
-    form.flag(w::ON);
-    form.end()?;
+/// Any other form.
+pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
+    let off = items.flag(w::OFF);
+    items.flag(w::ON);
+    items.deny_rest()?;
+    post.path.multax = !off;
     if off {
-        post.state.axis = Vector3::z();
+        post.path.axis = Vector3::z();
     }
     Ok(())
 }
@@ -28,13 +29,16 @@ pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Resu
 /// Sets the tool axis of the points to come.
 ///
 /// # Errors
-/// Other than three numbers.
-pub fn tlaxis(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
-    let mut form = Form::new(record, vocabulary);
-    let [i, j, k] = form.numbers()[..] else {
-        return Err(form.error("three components of the tool axis are needed"));
+/// Other than three numbers, or an axis without length.
+pub fn tlaxis(post: &mut Post, items: &mut Items) -> Result<()> {
+    let [i, j, k] = items.numbers()[..] else {
+        return Err(items.error("three components of the tool axis are needed"));
     };
-    form.end()?;
-    post.state.axis = Vector3::new(i, j, k);
+    items.deny_rest()?;
+    let axis = Vector3::new(i, j, k);
+    if axis.norm() < SHORTEST {
+        return PostCode::AxisLength.err("the tool axis has length zero");
+    }
+    post.path.axis = axis;
     Ok(())
 }

@@ -1,40 +1,40 @@
-//! OP/THREAD,TURN,…,TPI,pitch,…: the GOTOs that follow cut a thread, each feed
-//! motion one pass with the thread code.
+//! OP/THREAD,TURN,TPI,n: the GOTOs that follow cut a thread, each feed motion one
+//! pass with the thread code.
 
-use fil_cl::Record;
-use fil_cl::vocabulary::{Vocabulary, words as w};
-use fil_diag::Diag;
+use fil_cl::vocabulary::words as w;
+use fil_diag::Result;
 
-use super::form::Form;
+use super::thread;
+use crate::items::Items;
 use crate::post::Post;
 
-/// Remembers the pitch. FEDRAT, LOADTL or OP/NOMORE end the thread.
+/// Remembers the lead. FEDRAT, LOADTL or OP/NOMORE end the thread.
 ///
 /// # Errors
-/// Another OP than THREAD with TPI.
-pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
-    let mut form = Form::new(record, vocabulary);
-    if form.flag(w::NOMORE) {
-        post.state.thread = None;
-        form.finish(post);
+/// Another OP than THREAD with TPI; depth, cuts or starts, which ask for passes that
+/// the post does not make.
+pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
+    if items.flag(w::NOMORE) {
+        post.path.thread = None;
         return Ok(());
     }
-    if !form.flag(w::THREAD) {
-        return Err(form.error("only OP/THREAD is known"));
+    if !items.flag(w::THREAD) {
+        return Err(items.error("only OP/THREAD is known"));
     }
-    let pitch = form.couplet(w::TPI)?.filter(|pitch| *pitch > 0.0);
-    post.due_to(&form);
-    let pitch = pitch.ok_or_else(|| form.error("TPI and a pitch above zero are needed"))?;
-    if form.couplet(w::MULTRD)?.is_some_and(|starts| starts > 1.0) {
-        return Err(form.error("a thread of several starts needs a FIL section"));
-    }
-    for word in [w::TURN, w::FACE] {
-        form.flag(word);
+    items.any_of(&[w::TURN, w::FACE]);
+    let lead = thread::lead(post, items)?;
+    if items.couplet(w::MULTRD)?.is_some_and(|starts| starts > 1.0) {
+        return Err(items.error("a thread of several starts needs a FIL section"));
     }
     for word in [w::DEPTH, w::CUTS, w::FINCUT, w::CUTANG] {
-        form.couplet(word)?;
+        if items.couplet(word)?.is_some_and(|value| value != 0.0) {
+            let name = items.name(word).to_string();
+            return Err(items.error(format!(
+                "{name} asks for passes that the post does not make; a FIL section must take it"
+            )));
+        }
     }
-    form.finish(post);
-    post.state.thread = Some((pitch, post.block.cause));
+    items.deny_rest()?;
+    post.path.thread = Some(lead);
     Ok(())
 }

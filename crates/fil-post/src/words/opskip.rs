@@ -1,22 +1,25 @@
 //! OPSKIP/ON, OPSKIP/OFF: blocks the operator can skip.
 
-use fil_cl::Record;
-use fil_cl::vocabulary::{Vocabulary, words as w};
-use fil_diag::Diag;
+use fil_cl::vocabulary::words as w;
+use fil_diag::Result;
 
-use super::form::Form;
+use crate::items::Items;
+use crate::operation::Operation;
+use crate::path::carry_out;
 use crate::post::Post;
 
 /// Switches the block-delete character on or off.
 ///
 /// # Errors
 /// Neither ON nor OFF.
-pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
-    let mut form = Form::new(record, vocabulary);
-    post.tape.skip = match form.any_of(&[w::ON, w::OFF]) {
-        Some(word) => (word == w::ON).then_some(post.block.cause),
-        None => return Err(form.error("ON or OFF is needed")),
+pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
+    let on = match items.any_of(&[w::ON, w::OFF]) {
+        Some(word) => word == w::ON,
+        None => return Err(items.error("ON or OFF is needed")),
     };
-    form.end()?;
-    Ok(())
+    items.deny_rest()?;
+    if let Some(cycle) = &mut post.path.cycle {
+        cycle.in_force = None;
+    }
+    carry_out(post, Operation::Skip(on))
 }

@@ -1,56 +1,53 @@
 //! POSTN/OUT,letter,value,…: one block of exactly these words.
 
-use fil_cl::Record;
-use fil_cl::vocabulary::{Vocabulary, words as w};
-use fil_diag::Diag;
+use fil_cl::vocabulary::words as w;
+use fil_diag::Result;
+use fil_machine::Letter;
+use fil_machine::letters::{G, M};
 
-use fil_cl::Word;
-
-use super::form::Form;
 use crate::cause::Cause;
-use crate::letters::{G, M};
+use crate::items::Items;
+use crate::operation::Operation;
+use crate::path::carry_out;
 use crate::post::Post;
-use crate::program;
 
 /// Writes the block: every word in the order given and in any case, its value
 /// as given, in the address's format; the last output values follow.
 ///
 /// # Errors
-/// A form other than OUT, a letter that is none, a value that does not fit.
-pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
-    let mut form = Form::new(record, vocabulary);
-    if !form.flag(w::OUT) || record.data.first() != Some(&Word::Minor(w::OUT)) {
-        return Err(form.error("only POSTN/OUT is known"));
+/// A form other than OUT, a number that is not a letter's, a value that does not fit.
+pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
+    if !items.is_word(0, w::OUT) || !items.flag(w::OUT) {
+        return Err(items.error("only POSTN/OUT is known"));
     }
-    let numbers = form.numbered();
-    form.end()?;
-    let form = Form::new(record, vocabulary);
-    if numbers.is_empty()
-        || !numbers.len().is_multiple_of(2)
-        || numbers.len() + 1 != record.data.len()
-    {
-        return Err(form.error("pairs of a letter and a value are needed"));
+    let words = letters_and_values(post, items)?;
+    items.deny_rest()?;
+    if words.is_empty() {
+        return Err(items.error("pairs of a letter and a value are needed"));
     }
-    let mut words: Vec<(u8, f64, Cause)> = Vec::new();
-    for pair in numbers.chunks(2) {
-        let [(letter, _), (value, word)] = [pair[0], pair[1]];
-        let letter = letter_number(letter)
-            .ok_or_else(|| form.error(format!("{letter} is no letter, A is 1 and Z is 26")))?;
-        if letter != G && letter != M && words.iter().any(|(known, ..)| *known == letter) {
-            let name = char::from(b'A' + letter - 1);
-            return Err(form.error(format!("address {name} stands twice")));
+    for (at, (letter, ..)) in words.iter().enumerate() {
+        let twice = words[..at].iter().any(|(other, ..)| other == letter);
+        if twice && *letter != G && *letter != M {
+            return Err(items.error(format!("address {letter} stands twice")));
         }
-        words.push((letter, value, Cause { word, ..post.block.cause }));
     }
-    program::start(post)?;
-    post.tape.words(&words, &post.machine.addresses, &mut post.commons)?;
-    if let Some((_, code, _)) = words.iter().rfind(|(letter, ..)| *letter == G) {
-        post.note_g(*code as i32);
-    }
-    Ok(())
+    carry_out(post, Operation::Words(words))
 }
 
-/// A letter number, 1 to 26.
-pub fn letter_number(value: f64) -> Option<u8> {
-    (value.fract() == 0.0 && (1.0..=26.0).contains(&value)).then_some(value as u8)
+/// Pairs of a letter (1 to 26) and a value, each with its cause.
+///
+/// # Errors
+/// A letter without a value, or a number that is not a letter's.
+pub fn letters_and_values(post: &Post, items: &mut Items) -> Result<Vec<(Letter, f64, Cause)>> {
+    let numbers = items.numbered();
+    if !numbers.len().is_multiple_of(2) {
+        return Err(items.error("pairs of a letter and a value are needed"));
+    }
+    let pair = |pair: &[(f64, u16)]| {
+        let [(letter, _), (value, word)] = [pair[0], pair[1]];
+        let letter = Letter::of_value(letter)
+            .ok_or_else(|| items.error(format!("{letter} is not a letter: A is 1 and Z is 26")))?;
+        Ok((letter, value, Cause { word, ..post.control.block.cause }))
+    };
+    numbers.chunks(2).map(pair).collect()
 }

@@ -1,18 +1,16 @@
 //! RAPID: the next motion is rapid, only that one.
 
-use fil_cl::Record;
-use fil_cl::vocabulary::Vocabulary;
-use fil_diag::Diag;
+use fil_diag::Result;
 
-use super::form::Form;
+use crate::items::Items;
 use crate::post::Post;
 
 /// Marks the next motion.
 ///
 /// # Errors
-/// RAPID with items.
-pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
-    Form::new(record, vocabulary).end()?;
-    post.state.rapid = Some(post.block.cause);
+/// RAPID with items; RAPID between a CIRCLE and its end.
+pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
+    items.deny_rest()?;
+    post.path.rapid = Some(post.control.block.cause);
     Ok(())
 }

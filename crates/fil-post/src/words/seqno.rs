@@ -1,33 +1,30 @@
 //! SEQNO/n\[,INCR,m], SEQNO/ON, SEQNO/OFF: sequence numbers.
 
-use fil_cl::Record;
-use fil_cl::vocabulary::{Vocabulary, words as w};
-use fil_diag::Diag;
+use fil_cl::vocabulary::words as w;
+use fil_diag::Result;
 
-use super::form::Form;
+use crate::items::Items;
 use crate::post::Post;
 
 /// Sets the next number and the increment, or switches numbers on or off.
 ///
 /// # Errors
-/// A negative number or an increment that is not positive.
-pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
-    let mut form = Form::new(record, vocabulary);
-    let increment = form.couplet(w::INCR)?;
-    if increment.is_some_and(|increment| increment <= 0.0) {
-        return Err(form.error("the increment must be positive"));
+/// A number or an increment that is not a whole number, or out of range.
+pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
+    let increment = items.couplet(w::INCR)?;
+    if increment.is_some_and(|increment| increment <= 0.0 || increment.fract() != 0.0) {
+        return Err(items.error("the increment must be a positive whole number"));
     }
-    match form.any_of(&[w::ON, w::OFF]) {
-        Some(word) => post.tape.switch_numbers(word == w::ON),
+    match items.any_of(&[w::ON, w::OFF]) {
+        Some(word) => post.control.tape.switch_numbers(word == w::ON),
         None => {
-            let next = form.required("the number")?;
-            if next < 0.0 {
-                return Err(form.error("the number must not be negative"));
+            let next = items.required("the number")?;
+            if next < 0.0 || next.fract() != 0.0 {
+                return Err(items.error("the number must be a whole number, not negative"));
             }
-            post.tape.switch_numbers(true);
-            post.tape.renumber(next, increment);
+            post.control.tape.switch_numbers(true);
+            post.control.tape.renumber(next, increment);
         }
     }
-    form.end()?;
-    Ok(())
+    items.deny_rest()
 }

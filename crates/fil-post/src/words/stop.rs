@@ -1,32 +1,26 @@
 //! STOP and OPSTOP: the machine waits for its operator.
 
-use fil_cl::Record;
-use fil_cl::vocabulary::Vocabulary;
-use fil_diag::Diag;
+use fil_diag::Result;
 
-use crate::commons::Int;
-use crate::locations as loc;
+use crate::items::Items;
+use crate::operation::{Operation, Stop};
+use crate::path::carry_out;
 use crate::post::Post;
 
-/// Writes the stop code.
+/// Stops.
 ///
 /// # Errors
-/// A code that does not fit.
-pub fn stop(post: &mut Post, _: &Record, _: &Vocabulary) -> Result<(), Box<Diag>> {
-    write(post, loc::PROGRAM_STOP_CODE, "STOP")
+/// The machine has no such code.
+pub fn stop(post: &mut Post, items: &mut Items) -> Result<()> {
+    items.deny_rest()?;
+    carry_out(post, Operation::Stop(Stop::Always))
 }
 
-/// Writes the optional stop code.
+/// Stops when the operator wants it.
 ///
 /// # Errors
-/// A code that does not fit.
-pub fn opstop(post: &mut Post, _: &Record, _: &Vocabulary) -> Result<(), Box<Diag>> {
-    write(post, loc::PROGRAM_OPSTOP_CODE, "OPSTOP")
-}
-
-fn write(post: &mut Post, code: Int, what: &str) -> Result<(), Box<Diag>> {
-    post.flush_pending()?;
-    let code = post.code(code, what)?;
-    post.block.m(code);
-    post.write_block()
+/// The machine has no such code.
+pub fn opstop(post: &mut Post, items: &mut Items) -> Result<()> {
+    items.deny_rest()?;
+    carry_out(post, Operation::Stop(Stop::Optional))
 }

@@ -1,40 +1,42 @@
 //! UNITS/MM, UNITS/INCHES: the unit of the CL file and of the tape.
 
-use fil_cl::Record;
-use fil_cl::vocabulary::{Vocabulary, words as w};
-use fil_diag::Diag;
+use fil_cl::vocabulary::words as w;
+use fil_diag::Result;
+use fil_machine::modes::Unit;
 
-use super::form::Form;
-use crate::locations as loc;
+use crate::control::program::{self, unit_code};
+use crate::errors::PostCode;
+use crate::items::Items;
 use crate::post::Post;
-use crate::program;
 
 /// Sets the unit; once the program has started, its code is written at once.
 ///
 /// # Errors
-/// Neither MM nor INCHES, or a unit the machine does not take.
-pub fn handle(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
-    let mut form = Form::new(record, vocabulary);
-    let metric = match form.any_of(&[w::MM, w::INCHES]) {
-        Some(w::MM) => true,
-        Some(_) => false,
-        None => return Err(form.error("MM or INCHES is needed")),
+/// Neither MM nor INCHES, a unit the machine does not take, or another unit after
+/// lengths or feeds were given in the first.
+pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
+    let unit = match items.any_of(&[w::MM, w::INCHES]) {
+        Some(w::MM) => Unit::Mm,
+        Some(_) => Unit::Inch,
+        None => return Err(items.error("MM or INCHES is needed")),
     };
-    let only = match post.commons.int(loc::UNITS_MODE) {
-        1 => Some(false),
-        2 => Some(true),
-        _ => None,
-    };
-    if only.is_some_and(|only| only != metric) {
-        return Err(form.error("the machine takes the other unit only (units.mode)"));
+    items.deny_rest()?;
+    if program::unit_of_machine(&post.control.commons).is_some_and(|only| only != unit) {
+        return Err(items.error("the machine takes the other unit only (units.mode)"));
     }
-    form.end()?;
-    let changes = metric != post.state.metric;
-    post.state.metric = metric;
-    if changes && post.state.started {
-        post.machine.refresh(&post.commons, metric)?;
-        program::units_code(post);
-        return post.write_block();
+    if post.control.unit == Some(unit) {
+        return Ok(());
+    }
+    if post.control.unit.is_some() && post.has_lengths() {
+        return PostCode::UnitChange.err("lengths or feeds came before it in the other unit");
+    }
+    post.control.unit = Some(unit);
+    post.control.refresh()?;
+    if post.control.head.started {
+        if let Some(code) = post.control.code_if_any(unit_code(unit)) {
+            post.control.g(code);
+        }
+        return post.control.write_block();
     }
     Ok(())
 }

@@ -90,7 +90,7 @@ fn numbered(first: &Commons, second: &Commons) -> Vec<String> {
 /// The common is a named setting or belongs to the address table.
 fn shown(kind: Kind, number: u32) -> bool {
     let in_table = TABLE.iter().any(|row| row.kind == kind && u32::from(row.number) == number);
-    let of_letter = |letter| u32::from(filpost::address::letter(letter)) == number;
+    let of_letter = |letter| u32::from(filpost::Letter::of(letter).number()) == number;
     let of_position = |offset: u32| POSITIONS.contains(&number.saturating_sub(offset));
     in_table
         || (kind == Kind::Int

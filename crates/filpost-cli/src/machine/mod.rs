@@ -92,7 +92,7 @@ fn show(chosen: &Chosen, prefix: Option<&str>) -> Result<(), Error> {
 fn address(commons: &Commons, letter: u8) -> String {
     let int = |location: u32| commons.get(Kind::Int, location).unwrap_or(NOT_USED);
     let name = char::from(letter);
-    let slot = int(u32::from(filpost::address::letter(letter)));
+    let slot = int(u32::from(filpost::Letter::of(letter).number()));
     if !(1.0..NOT_USED).contains(&slot) {
         return format!("address.{name:<20} none");
     }

@@ -5,7 +5,7 @@ use crate::support::{Place, Ran, SMALL, WRONG};
 const CL: &str = "PARTNO / 7\nUNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\nFEDRAT / 200, MMPM\n\
                   REPEAT / 13, 8\nCOOLNT / FLOOD\nRAPID\nGOTO / 1, 2, 3\nGOTO / 4, 5, 6\n\
                   CYCLE / DRILL, DEPTH, 5, MMPM, 100, CLEAR, 2\nGOTO / 5, 5, 6\nCYCLE / OFF\n\
-                  CIRCLE / 5, 6, 8, 0, 0, 1, 1\nGOTO / 5, 7, 8\nFINI\n";
+                  GOTO / 5, 5, 8\nCIRCLE / 5, 6, 8, 0, 0, 1, 1\nGOTO / 5, 7, 8\nFINI\n";
 
 const FIL: &str = "EXTRA = MACRO/AA\nPOSTN/OUT,M,AA\nTERMAC\nCIMFIL/ON,SPINDL\nDMY=POSTF(13)\n\
                    CALL/EXTRA,AA=8\nCIMFIL/OFF\nCIMFIL/ON,COOLNT\nBB=1\nCIMFIL/OFF\nFINI\n";

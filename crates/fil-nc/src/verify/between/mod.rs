@@ -9,7 +9,7 @@ mod tests;
 pub(crate) mod way;
 
 use fil_diag::Diag;
-use fil_post::Commons;
+use fil_machine::Commons;
 use nalgebra::{Point3, Vector3};
 
 use super::ahead::Steps;

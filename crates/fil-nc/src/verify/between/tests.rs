@@ -1,6 +1,6 @@
 //! The path between ends, by hand arithmetic and against dense sampling.
 
-use fil_post::kinematics::{Carries, Kinematics, Rotary};
+use fil_machine::axis_chain::{AxisChain, Carries, Rotary};
 use nalgebra::{Point3, Vector3};
 use proptest::prelude::*;
 
@@ -20,7 +20,7 @@ fn rotary(carries: Carries, direction: [f64; 3], center: [f64; 3]) -> Option<Rot
 }
 
 fn machine(rotaries: [Option<Rotary>; 2], pivot: Option<f64>) -> Forward {
-    Forward::new(Kinematics { rotaries, tool: Vector3::z_axis(), pivot })
+    Forward::new(AxisChain { rotaries, tool: Vector3::z_axis(), pivot })
 }
 
 fn at(linear: [f64; 3], rotary: [f64; 2]) -> Position {

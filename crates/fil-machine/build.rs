@@ -1,0 +1,163 @@
+//! Makes the typed settings from `data/locations.tsv`: a constant for each
+//! location the post acts on, an enum for each choice, and the table of all rows.
+
+use std::collections::HashSet;
+use std::fmt::Write as _;
+use std::{env, fs, path::Path};
+
+/// Choices that several settings share, and the enum they become.
+const SHARED: &[(&str, &str)] = &[
+    ("0=none|1=table|2=head", "RotaryKind"),
+    ("1=A|2=B|3=C", "RotaryAxis"),
+    ("1=block of its own|2=next XY block|3=next Z block", "Placement"),
+];
+
+/// An integer that is absent.
+const ABSENT: &str = "-32767";
+
+fn main() {
+    println!("cargo::rerun-if-changed=data/locations.tsv");
+    let source = fs::read_to_string("data/locations.tsv").expect("data/locations.tsv");
+    let mut constants = String::new();
+    let mut enums = String::new();
+    let mut seen = HashSet::new();
+    let mut table = String::from("/// All named locations, in the order of the table's file.\n");
+    table.push_str("pub static TABLE: &[Location] = &[\n");
+    for line in source.lines().filter(|line| !line.starts_with('#')).skip(1) {
+        let row = Row::read(line);
+        if row.used {
+            row.constant(&mut constants);
+            if row.unit == "choice" && seen.insert(row.enum_name()) {
+                row.choice_enum(&mut enums);
+            }
+        }
+        row.table_entry(&mut table);
+    }
+    table.push_str("];\n");
+    let out = Path::new(&env::var("OUT_DIR").expect("OUT_DIR")).join("locations.rs");
+    fs::write(out, enums + &constants + &table).expect("write locations.rs");
+}
+
+/// A line of the table.
+struct Row<'a> {
+    kind: &'a str,
+    number: &'a str,
+    name: &'a str,
+    unit: &'a str,
+    default: &'a str,
+    choices: &'a str,
+    meaning: &'a str,
+    evidence: &'a str,
+    used: bool,
+}
+
+impl<'a> Row<'a> {
+    fn read(line: &'a str) -> Self {
+        let fields: Vec<&str> = line.split('\t').collect();
+        let [kind, number, name, unit, default, choices, meaning, evidence, used] = fields[..]
+        else {
+            panic!("nine columns expected: {line}");
+        };
+        let used = used == "yes";
+        Row { kind, number, name, unit, default, choices, meaning, evidence, used }
+    }
+
+    /// The commons this row lies in, as the type of its constant.
+    fn common(&self) -> &'static str {
+        match self.kind {
+            "I" => "Int",
+            "R" => "Rel",
+            "D" => "Dbl",
+            other => panic!("kind I, R or D expected, not {other}"),
+        }
+    }
+
+    /// `circle.center` becomes `CircleCenter`.
+    fn enum_name(&self) -> String {
+        let shared = SHARED.iter().find(|(choices, _)| *choices == self.choices);
+        shared.map_or_else(|| camel_case(self.name), |(_, name)| name.to_string())
+    }
+
+    fn constant(&self, out: &mut String) {
+        let Row { kind, number, name, meaning, .. } = self;
+        let constant = name.to_uppercase().replace('.', "_");
+        let (form, value) = match self.unit {
+            "flag" => {
+                let default = matches!(self.default, "1" | "71");
+                ("Flag".into(), format!("Flag {{ number: {number}, default: {default} }}"))
+            }
+            "choice" if self.default == ABSENT => {
+                (format!("OptionalChoice<{}>", self.enum_name()), self.choice("OptionalChoice"))
+            }
+            "choice" => (format!("Choice<{}>", self.enum_name()), self.choice("Choice")),
+            "letter" => ("LetterAt".into(), format!("LetterAt({number})")),
+            "code" => ("CodeAt".into(), format!("CodeAt({number})")),
+            "char" => ("CharacterAt".into(), format!("CharacterAt({number})")),
+            _ => (self.common().into(), format!("{}({number})", self.common())),
+        };
+        writeln!(out, "/// {kind} {number}, `{name}`: {meaning}").unwrap();
+        writeln!(out, "pub const {constant}: {form} = {value};").unwrap();
+    }
+
+    fn choice(&self, form: &str) -> String {
+        format!("{form}::at({})", self.number)
+    }
+
+    fn choice_enum(&self, out: &mut String) {
+        let name = self.enum_name();
+        let choices: Vec<(&str, String, &str)> = self
+            .choices
+            .split('|')
+            .map(|choice| choice.split_once('=').expect("a choice is number=meaning"))
+            .map(|(number, meaning)| (number, camel_case(meaning), meaning))
+            .collect();
+        writeln!(
+            out,
+            "/// Choices of `{}` ({} {}): {}",
+            self.name, self.kind, self.number, self.meaning
+        )
+        .unwrap();
+        writeln!(out, "#[derive(Clone, Copy, Debug, PartialEq, Eq)]\npub enum {name} {{").unwrap();
+        for (number, variant, meaning) in &choices {
+            writeln!(out, "    /// {number}: {meaning}\n    {variant} = {number},").unwrap();
+        }
+        writeln!(out, "}}\n\nimpl FromNumber for {name} {{").unwrap();
+        writeln!(
+            out,
+            "    fn from_number(number: i32) -> Option<Self> {{\n        match number {{"
+        )
+        .unwrap();
+        for (number, variant, _) in &choices {
+            writeln!(out, "            {number} => Some({name}::{variant}),").unwrap();
+        }
+        writeln!(out, "            _ => None,\n        }}\n    }}\n}}\n").unwrap();
+        if let Some((_, variant, _)) = choices.iter().find(|(number, ..)| *number == self.default) {
+            writeln!(
+                out,
+                "impl Default for {name} {{\n    fn default() -> Self {{\n        {name}::{variant}\n    }}\n}}\n"
+            )
+            .unwrap();
+        }
+    }
+
+    fn table_entry(&self, out: &mut String) {
+        let Row { number, name, unit, choices, meaning, evidence, used, .. } = self;
+        let default: f64 = self.default.parse().expect("numeric default");
+        let common = self.common();
+        writeln!(
+            out,
+            "    Location {{ kind: Kind::{common}, number: {number}, name: {name:?}, \
+             unit: {unit:?}, default: {default:?}, choices: {choices:?}, \
+             meaning: {meaning:?}, evidence: {evidence:?}, used: {used} }},",
+        )
+        .unwrap();
+    }
+}
+
+/// Words of letters and digits joined, each with a capital.
+fn camel_case(text: &str) -> String {
+    text.split(|c: char| !c.is_ascii_alphanumeric())
+        .filter(|word| !word.is_empty())
+        .map(|word| word[..1].to_uppercase() + &word[1..].to_lowercase())
+        .collect()
+}

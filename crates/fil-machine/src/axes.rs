@@ -1,0 +1,267 @@
+//! The five axis words X Y Z and two rotaries: from machine positions to the
+//! values on the tape.
+//!
+//! A position is first rounded to the resolution of its address, then scaled
+//! (DBLCOM 486–491), translated (775–780) and rounded again: that is what the
+//! published grid-of-grooves listing shows. A diameter is different: it is the
+//! position doubled, rounded once.
+
+use fil_diag::{Diag, Result};
+
+use crate::address::{Addresses, Output, TapePosition};
+use crate::commons::{Commons, Dbl};
+use crate::errors::MachineCode;
+use crate::letter::{Letter, letters};
+use crate::locations as loc;
+use crate::number::NumberFormat;
+
+/// Number of axes: X, Y, Z, primary and secondary rotary.
+pub const AXES: usize = 5;
+
+/// Positions of the five axes: X Y Z in mm or inch, two rotaries in degrees.
+pub type Position = [f64; AXES];
+
+/// Scale of X when the tape holds diameters.
+const DIAMETER: f64 = 2.0;
+
+const SCALE: [Dbl; 6] =
+    [loc::SCALE_X, loc::SCALE_Y, loc::SCALE_Z, loc::SCALE_A, loc::SCALE_B, loc::SCALE_C];
+
+const TRANSLATE: [Dbl; 6] = [
+    loc::OUTPUT_TRANSLATE_X,
+    loc::OUTPUT_TRANSLATE_Y,
+    loc::OUTPUT_TRANSLATE_Z,
+    loc::OUTPUT_TRANSLATE_A,
+    loc::OUTPUT_TRANSLATE_B,
+    loc::OUTPUT_TRANSLATE_C,
+];
+
+/// A set of axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct AxisSet(u8);
+
+impl AxisSet {
+    /// No axis.
+    pub const NONE: AxisSet = AxisSet(0);
+    /// X and Y.
+    pub const XY: AxisSet = AxisSet(0b00011);
+    /// Z.
+    pub const Z: AxisSet = AxisSet(0b00100);
+    /// X, Y and Z.
+    pub const LINEAR: AxisSet = AxisSet(0b00111);
+    /// Both rotary axes.
+    pub const ROTARY: AxisSet = AxisSet(0b11000);
+    /// All axes.
+    pub const ALL: AxisSet = AxisSet(0b11111);
+
+    /// The set of one axis by number.
+    #[inline]
+    pub const fn of(number: usize) -> Self {
+        AxisSet(1 << number)
+    }
+
+    /// True when no axis is in it.
+    #[inline]
+    pub fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// True when the axis of this number is in it.
+    #[inline]
+    pub fn has(self, number: usize) -> bool {
+        self.0 & 1 << number != 0
+    }
+
+    /// The axes that are in both.
+    #[inline]
+    pub fn and(self, other: AxisSet) -> AxisSet {
+        AxisSet(self.0 & other.0)
+    }
+
+    /// The axes that are in one of them.
+    #[inline]
+    pub fn or(self, other: AxisSet) -> AxisSet {
+        AxisSet(self.0 | other.0)
+    }
+
+    /// The numbers of its axes, lowest first.
+    #[inline]
+    pub fn numbers(self) -> impl Iterator<Item = usize> {
+        let mut set = self.0;
+        std::iter::from_fn(move || {
+            let number = set.trailing_zeros() as usize;
+            set &= set.wrapping_sub(1);
+            (number < AXES).then_some(number)
+        })
+    }
+}
+
+/// How one axis is written.
+#[derive(Clone, Copy, Debug)]
+pub struct Axis {
+    /// Printed letter.
+    pub letter: Letter,
+    output: Output,
+    format: NumberFormat,
+    scale: f64,
+    translate: f64,
+    /// The tape holds diameters.
+    diameter: bool,
+    min: f64,
+    max: f64,
+}
+
+impl Axis {
+    /// The axis that takes the scale and translation of number `common` (0 to 5
+    /// for X Y Z A B C).
+    pub(crate) fn new(
+        letter: Letter,
+        common: usize,
+        addresses: &Addresses,
+        commons: &Commons,
+    ) -> Self {
+        let scale = commons.dbl_opt(SCALE[common]).unwrap_or(1.0);
+        Axis {
+            letter,
+            output: addresses.output(letter),
+            format: addresses.format(letter).copied().unwrap_or_default(),
+            scale,
+            translate: commons.dbl_opt(TRANSLATE[common]).unwrap_or(0.0),
+            diameter: common == 0 && scale == DIAMETER,
+            min: f64::NEG_INFINITY,
+            max: f64::INFINITY,
+        }
+    }
+
+    /// Writes diameters, on top of an output scale of 1.
+    ///
+    /// # Errors
+    /// Another output scale.
+    pub(crate) fn write_diameters(&mut self) -> Result<()> {
+        if self.scale != 1.0 {
+            return MachineCode::SettingValue.err("lathe.diameter and scale.x would both change X");
+        }
+        self.scale = DIAMETER;
+        self.diameter = true;
+        Ok(())
+    }
+
+    /// Bounds the travel.
+    pub(crate) fn limit(&mut self, min: Option<f64>, max: Option<f64>) {
+        self.min = min.unwrap_or(f64::NEG_INFINITY);
+        self.max = max.unwrap_or(f64::INFINITY);
+    }
+
+    /// Output scale: 2 for diameters.
+    pub fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// True when the output scale leaves circles circles: 1, or X a diameter.
+    pub fn keeps_circles(&self) -> bool {
+        self.scale == 1.0 || self.diameter
+    }
+
+    /// The scaled integer on the tape for a machine position (mm, inch or degrees).
+    ///
+    /// # Errors
+    /// The value does not fit the address's format.
+    #[inline(always)]
+    pub fn scaled(&self, position: f64) -> Result<i64> {
+        if self.scale == 1.0 && self.translate == 0.0 {
+            return self.format.scale(position).map_err(|diag| self.named(diag));
+        }
+        self.scaled_and_moved(position)
+    }
+
+    fn scaled_and_moved(&self, position: f64) -> Result<i64> {
+        let rounded = if self.diameter {
+            position
+        } else {
+            self.format.unscale(self.format.scale(position).map_err(|diag| self.named(diag))?)
+        };
+        self.format.scale(rounded * self.scale + self.translate).map_err(|diag| self.named(diag))
+    }
+
+    /// The value on the tape for a machine position.
+    ///
+    /// # Errors
+    /// As [`Axis::scaled`].
+    pub fn value(&self, position: f64) -> Result<f64> {
+        Ok(self.format.unscale(self.scaled(position)?))
+    }
+
+    /// The machine position that the tape says for a machine position: what is
+    /// left after rounding.
+    ///
+    /// # Errors
+    /// As [`Axis::scaled`].
+    pub fn on_tape(&self, position: f64) -> Result<f64> {
+        Ok(self.position(self.value(position)?))
+    }
+
+    /// Smallest step of the machine position that the tape can say, mm, inch or
+    /// degrees.
+    pub fn resolution(&self) -> f64 {
+        self.format.unscale(1) / self.scale.abs()
+    }
+
+    /// The tape position for a word of this axis; `None` when its output is off.
+    ///
+    /// # Errors
+    /// The machine has no such address.
+    #[inline]
+    pub fn tape_position(&self) -> Result<Option<TapePosition>> {
+        match self.output {
+            Output::Off => Ok(None),
+            Output::Unknown => Err(crate::address::no_address(self.letter)),
+            Output::At(at) => Ok(Some(at)),
+        }
+    }
+
+    /// Refuses a position outside the travel, written or not.
+    ///
+    /// # Errors
+    /// The position lies outside, or is not a number.
+    #[inline]
+    pub fn check(&self, position: f64) -> Result<()> {
+        if (self.min..=self.max).contains(&position) {
+            return Ok(());
+        }
+        Err(self.outside(position))
+    }
+
+    #[cold]
+    fn outside(&self, position: f64) -> Box<Diag> {
+        let Axis { letter, min, max, .. } = self;
+        MachineCode::AxisLimit.diag(format!("{letter}{position} lies outside {min} to {max}"))
+    }
+
+    /// True when the tape does not yet stand at this scaled value.
+    #[inline]
+    pub fn changes(&self, scaled: i64, commons: &Commons) -> bool {
+        self.format.unscale(scaled) != commons.last_output(self.letter)
+    }
+
+    /// True when the settings suppress the words of this axis.
+    #[inline]
+    pub fn is_off(&self) -> bool {
+        self.output == Output::Off
+    }
+
+    /// Position before scale and translation that a tape value stands for.
+    pub fn position(&self, value: f64) -> f64 {
+        (value - self.translate) / self.scale
+    }
+
+    #[cold]
+    fn named(&self, mut diag: Box<Diag>) -> Box<Diag> {
+        diag.message = format!("{}: {}", self.letter, diag.message);
+        diag
+    }
+}
+
+/// The letters X, Y and Z with the numbers of their commons.
+pub(crate) fn linear_letters() -> impl Iterator<Item = (usize, Letter)> {
+    letters::XYZ.into_iter().enumerate()
+}

@@ -1,0 +1,416 @@
+//! Rotary axes: from a point and a tool axis in the part to machine axes.
+//!
+//! The chain from part to tool has up to two rotary axes, the primary next to
+//! the part (on a head/head machine: next to the base), the secondary next to
+//! the tool. With unit directions u1, u2, rotations R by the right-hand rule and
+//! the tool direction t at zero positions, the axis in the part frame is
+//! `a = R(u1, r1) R(u2, r2) t`: angles count as motion of the tool relative to
+//! the part, so a table turns by -r. The solution for r1, r2 is the classical
+//! second subproblem of Paden and Kahan (two successive rotations about axes
+//! through one point).
+
+use nalgebra::{Point3, Rotation3, Unit, Vector3};
+
+use crate::commons::{Commons, Dbl};
+use crate::errors::MachineCode;
+use crate::letter::Letter;
+use crate::locations::{self as loc, RotaryAxis, RotaryKind};
+use crate::setting::{Choice, LetterAt, OptionalChoice};
+use fil_diag::{Diag, Result};
+
+/// Directions closer than this (radians, about 0.0006 degrees) count as equal.
+const SAME: f64 = 1e-5;
+
+use crate::modes::INCH;
+
+/// Letters of rotary axes about X, Y and Z (ISO 841).
+pub const ROTARY_LETTERS: [Letter; 3] = [Letter::of(b'A'), Letter::of(b'B'), Letter::of(b'C')];
+
+/// What a rotary axis carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Carries {
+    /// The part.
+    Table,
+    /// The tool.
+    Head,
+}
+
+/// One rotary axis.
+#[derive(Clone, Debug)]
+pub struct Rotary {
+    /// What it carries.
+    pub carries: Carries,
+    /// Direction in the machine frame.
+    pub direction: Unit<Vector3<f64>>,
+    /// A point on the axis in the machine frame at zero positions, mm.
+    pub center: Point3<f64>,
+    /// Printed letter.
+    pub letter: Letter,
+    /// Which of A, B, C (0 to 2) its scale, translation and limits belong to.
+    pub axis: usize,
+    /// Travel in degrees; `None` when not limited.
+    pub min: Option<f64>,
+    /// Travel in degrees; `None` when not limited.
+    pub max: Option<f64>,
+}
+
+/// The rotary axes of a machine; `None` for an axis that is not there.
+#[derive(Clone, Debug)]
+pub struct AxisChain {
+    /// The axes, primary first.
+    pub rotaries: [Option<Rotary>; 2],
+    /// Tool direction (from the tip to the spindle) at zero positions.
+    pub tool: Unit<Vector3<f64>>,
+    /// Distance from the pivot of the head to the tool tip, mm; `None` when
+    /// the control itself keeps the tip on the path.
+    pub pivot: Option<f64>,
+}
+
+struct RotaryLocations {
+    kind: Choice<RotaryKind>,
+    letter: LetterAt,
+    axis: OptionalChoice<RotaryAxis>,
+    direction: [Dbl; 3],
+    center: [Dbl; 3],
+    range: [Dbl; 2],
+}
+
+const PRIMARY: RotaryLocations = RotaryLocations {
+    kind: loc::ROTARY_PRIMARY_KIND,
+    letter: loc::ROTARY_PRIMARY_LETTER,
+    axis: loc::ROTARY_PRIMARY_AXIS,
+    direction: [loc::ROTARY_PRIMARY_I, loc::ROTARY_PRIMARY_J, loc::ROTARY_PRIMARY_K],
+    center: [loc::ROTARY_PRIMARY_X, loc::ROTARY_PRIMARY_Y, loc::ROTARY_PRIMARY_Z],
+    range: [loc::ROTARY_PRIMARY_MIN, loc::ROTARY_PRIMARY_MAX],
+};
+
+const SECONDARY: RotaryLocations = RotaryLocations {
+    kind: loc::ROTARY_SECONDARY_KIND,
+    letter: loc::ROTARY_SECONDARY_LETTER,
+    axis: loc::ROTARY_SECONDARY_AXIS,
+    direction: [loc::ROTARY_SECONDARY_I, loc::ROTARY_SECONDARY_J, loc::ROTARY_SECONDARY_K],
+    center: [loc::ROTARY_SECONDARY_X, loc::ROTARY_SECONDARY_Y, loc::ROTARY_SECONDARY_Z],
+    range: [loc::ROTARY_SECONDARY_MIN, loc::ROTARY_SECONDARY_MAX],
+};
+
+impl Default for AxisChain {
+    /// Three linear axes, the tool along Z.
+    fn default() -> Self {
+        AxisChain { rotaries: [None, None], tool: Vector3::z_axis(), pivot: None }
+    }
+}
+
+impl AxisChain {
+    /// The machine's axes as the commons describe them, lengths in mm.
+    ///
+    /// # Errors
+    /// A direction of length zero.
+    pub fn from_commons(commons: &Commons) -> Result<Self> {
+        let tool = [loc::TOOL_AXIS_I, loc::TOOL_AXIS_J, loc::TOOL_AXIS_K];
+        Ok(AxisChain {
+            rotaries: [rotary(commons, &PRIMARY)?, rotary(commons, &SECONDARY)?],
+            tool: direction(commons, tool, "tool.axis", [0.0, 0.0, 1.0])?,
+            pivot: commons.dbl_opt(loc::ROTARY_PIVOT_DISTANCE),
+        })
+    }
+
+    /// The same machine with its lengths in inches, for a program in inches.
+    pub fn in_inches(mut self) -> Self {
+        self.pivot = self.pivot.map(|length| length / INCH);
+        for rotary in self.rotaries.iter_mut().flatten() {
+            rotary.center /= INCH;
+        }
+        self
+    }
+
+    /// True when the machine has a rotary axis.
+    pub fn has_rotary(&self) -> bool {
+        self.rotaries.iter().any(Option::is_some)
+    }
+
+    /// Rotary positions in degrees that bring the tool along `axis`: of the
+    /// solutions within the limits, the one nearest to `last` (degrees).
+    ///
+    /// # Errors
+    /// No solution at all, or none within the limits.
+    pub fn solve(&self, axis: Vector3<f64>, last: [f64; 2]) -> Result<[f64; 2]> {
+        let axis = Unit::try_new(axis, 1e-9)
+            .ok_or_else(|| MachineCode::ToolAxis.diag("the tool axis has length zero"))?;
+        let solutions = match &self.rotaries {
+            [None, None] => self.fixed(axis, last),
+            [Some(one), None] => single(one, axis, self.tool, last[0])
+                .map(|angle| vec![[angle, last[1]]])
+                .unwrap_or_default(),
+            [None, Some(one)] => single(one, axis, self.tool, last[1])
+                .map(|angle| vec![[last[0], angle]])
+                .unwrap_or_default(),
+            [Some(first), Some(second)] => pair(first, second, axis, self.tool, last),
+        };
+        if solutions.is_empty() {
+            return Err(Box::new(Diag::new(
+                MachineCode::ToolAxis,
+                format!("tool axis {}", show(axis.into_inner())),
+            )));
+        }
+        self.nearest(&solutions, last).ok_or_else(|| {
+            let angles: Vec<String> =
+                solutions.iter().map(|s| format!("{:.3}/{:.3}", s[0], s[1])).collect();
+            MachineCode::AxisLimit
+                .diag(format!("rotary positions {} lie outside the limits", angles.join(" and ")))
+        })
+    }
+
+    /// Machine position of the linear axes for a tool tip in the part frame, in the
+    /// unit of the machine's lengths, and rotary positions in degrees.
+    pub fn linear(&self, tip: Point3<f64>, angles: [f64; 2]) -> Point3<f64> {
+        let mut point = tip;
+        let mut tool = self.tool.into_inner();
+        for (rotary, angle) in self.rotaries.iter().zip(angles) {
+            let Some(rotary) = rotary.as_ref().filter(|r| r.carries == Carries::Table) else {
+                continue;
+            };
+            let turn = Rotation3::from_axis_angle(&rotary.direction, -angle.to_radians());
+            point = rotary.center + turn * (point - rotary.center);
+        }
+        for (rotary, angle) in self.rotaries.iter().zip(angles).rev() {
+            let Some(rotary) = rotary.as_ref().filter(|r| r.carries == Carries::Head) else {
+                continue;
+            };
+            tool = Rotation3::from_axis_angle(&rotary.direction, angle.to_radians()) * tool;
+        }
+        match self.pivot {
+            Some(length) => point + (tool - self.tool.into_inner()) * length,
+            None => point,
+        }
+    }
+
+    fn fixed(&self, axis: Unit<Vector3<f64>>, last: [f64; 2]) -> Vec<[f64; 2]> {
+        let reached = (axis.into_inner() - self.tool.into_inner()).norm() < SAME;
+        if reached { vec![last] } else { Vec::new() }
+    }
+
+    fn nearest(&self, solutions: &[[f64; 2]], last: [f64; 2]) -> Option<[f64; 2]> {
+        let within = |index: usize, angle: f64| match &self.rotaries[index] {
+            Some(rotary) => rotary.turn_near(angle, last[index]),
+            None => Some(angle),
+        };
+        solutions
+            .iter()
+            .filter_map(|s| Some([within(0, s[0])?, within(1, s[1])?]))
+            .min_by(|a, b| travel(a, &last).total_cmp(&travel(b, &last)))
+    }
+}
+
+impl Rotary {
+    /// The angle plus whole turns that lies nearest to `last` and within the limits.
+    fn turn_near(&self, angle: f64, last: f64) -> Option<f64> {
+        let near = angle + 360.0 * ((last - angle) / 360.0).round();
+        let allowed = |angle: f64| {
+            self.min.is_none_or(|min| angle >= min - 1e-9)
+                && self.max.is_none_or(|max| angle <= max + 1e-9)
+        };
+        [0.0, 360.0, -360.0, 720.0, -720.0]
+            .into_iter()
+            .map(|turn| near + turn)
+            .filter(|angle| allowed(*angle))
+            .min_by(|a, b| (a - last).abs().total_cmp(&(b - last).abs()))
+    }
+}
+
+fn travel(angles: &[f64; 2], last: &[f64; 2]) -> f64 {
+    (angles[0] - last[0]).abs() + (angles[1] - last[1]).abs()
+}
+
+/// Angle in degrees of the rotation about `about` that takes the direction
+/// `from` to `to`; `free` when both lie along the axis, `None` when impossible.
+fn turn(about: Unit<Vector3<f64>>, from: Vector3<f64>, to: Vector3<f64>, free: f64) -> Option<f64> {
+    if (about.dot(&from) - about.dot(&to)).abs() > SAME {
+        return None;
+    }
+    let flat_from = from - about.scale(about.dot(&from));
+    let flat_to = to - about.scale(about.dot(&to));
+    if flat_from.norm() < SAME || flat_to.norm() < SAME {
+        return Some(free);
+    }
+    let sine = about.dot(&flat_from.cross(&flat_to));
+    let cosine = flat_from.dot(&flat_to);
+    Some(sine.atan2(cosine).to_degrees())
+}
+
+fn single(
+    rotary: &Rotary,
+    axis: Unit<Vector3<f64>>,
+    tool: Unit<Vector3<f64>>,
+    last: f64,
+) -> Option<f64> {
+    turn(rotary.direction, tool.into_inner(), axis.into_inner(), last)
+}
+
+/// Solves `axis = R(first) R(second) tool`.
+fn pair(
+    first: &Rotary,
+    second: &Rotary,
+    axis: Unit<Vector3<f64>>,
+    tool: Unit<Vector3<f64>>,
+    last: [f64; 2],
+) -> Vec<[f64; 2]> {
+    let (u1, u2) = (first.direction, second.direction);
+    let skew = u1.dot(&u2);
+    let denominator = skew * skew - 1.0;
+    if denominator.abs() < SAME {
+        return Vec::new();
+    }
+    let (on1, on2) = (u1.dot(&axis), u2.dot(&tool));
+    let alpha = (skew * on2 - on1) / denominator;
+    let beta = (skew * on1 - on2) / denominator;
+    let cross = u1.cross(&u2);
+    let rest = 1.0 - alpha * alpha - beta * beta - 2.0 * alpha * beta * skew;
+    if rest < -SAME {
+        return Vec::new();
+    }
+    let gamma = (rest.max(0.0) / cross.norm_squared()).sqrt();
+    let signs: &[f64] = if gamma < SAME { &[0.0] } else { &[1.0, -1.0] };
+    signs
+        .iter()
+        .filter_map(|sign| {
+            let between = u1.scale(alpha) + u2.scale(beta) + cross.scale(sign * gamma);
+            let r1 = turn(u1, between, axis.into_inner(), last[0])?;
+            let r2 = turn(u2, tool.into_inner(), between, last[1])?;
+            Some([r1, r2])
+        })
+        .collect()
+}
+
+fn rotary(commons: &Commons, at: &RotaryLocations) -> Result<Option<Rotary>> {
+    let carries = match commons.read(at.kind) {
+        RotaryKind::Table => Carries::Table,
+        RotaryKind::Head => Carries::Head,
+        RotaryKind::None => return Ok(None),
+    };
+    let axis = match commons.read(at.axis) {
+        Some(RotaryAxis::C) => 2,
+        Some(RotaryAxis::B) => 1,
+        Some(RotaryAxis::A) | None => 0,
+    };
+    let mut home = [0.0; 3];
+    home[axis] = 1.0;
+    let coordinate = |location: Dbl| commons.dbl_opt(location).unwrap_or(0.0);
+    Ok(Some(Rotary {
+        carries,
+        direction: direction(commons, at.direction, "rotary axis", home)?,
+        center: Point3::from(at.center.map(coordinate)),
+        letter: commons.read(at.letter).unwrap_or(ROTARY_LETTERS[axis]),
+        axis,
+        min: commons.dbl_opt(at.range[0]),
+        max: commons.dbl_opt(at.range[1]),
+    }))
+}
+
+fn direction(
+    commons: &Commons,
+    at: [Dbl; 3],
+    name: &str,
+    default: [f64; 3],
+) -> Result<Unit<Vector3<f64>>, Box<Diag>> {
+    let given = at.map(|location| commons.dbl_opt(location));
+    let vector = if given.iter().all(Option::is_none) {
+        Vector3::from(default)
+    } else {
+        Vector3::from(given.map(|part| part.unwrap_or(0.0)))
+    };
+    Unit::try_new(vector, 1e-9).ok_or_else(|| {
+        MachineCode::SettingValue.diag(format!("the direction of {name} has length zero"))
+    })
+}
+
+fn show(vector: Vector3<f64>) -> String {
+    format!("{:.6}, {:.6}, {:.6}", vector.x, vector.y, vector.z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn axis(carries: Carries, direction: [f64; 3]) -> Option<Rotary> {
+        Some(Rotary {
+            carries,
+            direction: Unit::new_normalize(Vector3::from(direction)),
+            center: Point3::origin(),
+            letter: ROTARY_LETTERS[0],
+            axis: 0,
+            min: None,
+            max: None,
+        })
+    }
+
+    fn machine(first: Option<Rotary>, second: Option<Rotary>) -> AxisChain {
+        AxisChain { rotaries: [first, second], tool: Vector3::z_axis(), pivot: None }
+    }
+
+    /// The solution turned back must give the tool axis it was asked for.
+    fn forward(machine: &AxisChain, angles: [f64; 2]) -> Vector3<f64> {
+        machine.rotaries.iter().zip(angles).rev().fold(
+            machine.tool.into_inner(),
+            |tool, (rotary, angle)| match rotary {
+                Some(r) => Rotation3::from_axis_angle(&r.direction, angle.to_radians()) * tool,
+                None => tool,
+            },
+        )
+    }
+
+    #[test]
+    fn one_table_about_y_brings_the_point_under_the_tool() {
+        let machine = machine(axis(Carries::Table, [0.0, 1.0, 0.0]), None);
+        let c = 4.884_f64.to_radians();
+        let angles = machine.solve(Vector3::new(c.sin(), 0.0, c.cos()), [0.0; 2]).unwrap();
+        assert!((angles[0] - 4.884).abs() < 1e-9);
+        let point = machine.linear(Point3::new(81.0 * c.sin(), 7.0, 81.0 * c.cos()), angles);
+        assert!((point - Point3::new(0.0, 7.0, 81.0)).norm() < 1e-9);
+        let sideways = machine.solve(Vector3::new(0.0, 0.3, 1.0), [0.0; 2]);
+        assert_eq!(sideways.unwrap_err().code.name(), "E0508");
+    }
+
+    #[test]
+    fn five_axis_solutions_reach_the_axis_for_every_arrangement() {
+        let x = [1.0, 0.0, 0.0];
+        let z = [0.0, 0.0, 1.0];
+        let nutating = [0.0, -1.0, 1.0];
+        for (first, second) in [(z, x), (z, [0.0, 1.0, 0.0]), (z, nutating)] {
+            for (a, b) in [
+                (Carries::Table, Carries::Table),
+                (Carries::Table, Carries::Head),
+                (Carries::Head, Carries::Head),
+            ] {
+                let machine = machine(axis(a, first), axis(b, second));
+                for step in 0..60 {
+                    let tilt = f64::from(step) * 0.026;
+                    let turn = f64::from(step) * 0.41;
+                    let want =
+                        Vector3::new(tilt.sin() * turn.cos(), tilt.sin() * turn.sin(), tilt.cos());
+                    let angles = machine.solve(want, [0.0; 2]).unwrap();
+                    assert!((forward(&machine, angles) - want).norm() < 1e-6, "{angles:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn limits_choose_the_other_solution() {
+        let mut second = axis(Carries::Table, [1.0, 0.0, 0.0]).unwrap();
+        second.min = Some(0.0);
+        let machine = machine(axis(Carries::Table, [0.0, 0.0, 1.0]), Some(second));
+        for tilt in [0.2_f64, -0.2] {
+            let angles =
+                machine.solve(Vector3::new(0.0, tilt.sin(), tilt.cos()), [0.0; 2]).unwrap();
+            assert!(angles[1] >= 0.0);
+        }
+    }
+
+    #[test]
+    fn a_pivot_moves_the_linear_axes_with_the_head() {
+        let mut machine = machine(None, axis(Carries::Head, [0.0, 1.0, 0.0]));
+        machine.pivot = Some(100.0);
+        let point = machine.linear(Point3::origin(), [0.0, 90.0]);
+        assert!((point - Point3::new(100.0, 0.0, -100.0)).norm() < 1e-9);
+    }
+}

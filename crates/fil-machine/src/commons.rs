@@ -1,0 +1,238 @@
+//! The commons: the one settings store of the post (INTCOM, RELCOM, DBLCOM).
+//!
+//! Option files load into them, `machine.toml` names them, POSTF(1/2/3) reads
+//! and writes them, and the post reads its behaviour from them at the moment it
+//! acts. Locations are 1-based, as in option files.
+
+use fil_diag::Result;
+
+use crate::errors::MachineCode;
+use crate::letter::Letter;
+use crate::setting::Setting;
+
+/// An absent integer (shown as NA in reports).
+pub const NA: i32 = -32767;
+
+/// An absent real; FIL's EMPTY value.
+pub const EMPTY: f64 = 999_999.0;
+
+/// Number of the INTCOM that holds the last location, own locations included.
+pub const INT_LOCATIONS: usize = 9_999;
+/// Size of RELCOM.
+pub const REL_LOCATIONS: usize = 999;
+/// Size of DBLCOM.
+pub const DBL_LOCATIONS: usize = 9_999;
+
+/// DBLCOM 355 + letter number is the last output value of that letter.
+pub const LAST_OUTPUT: usize = 355;
+
+/// Which of the three commons.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Kind {
+    /// INTCOM: integers.
+    Int,
+    /// RELCOM: reals.
+    Rel,
+    /// DBLCOM: doubles.
+    Dbl,
+}
+
+impl Kind {
+    /// The name used in option files and messages.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Int => "INTCOM",
+            Kind::Rel => "RELCOM",
+            Kind::Dbl => "DBLCOM",
+        }
+    }
+
+    /// Number of locations.
+    pub fn size(self) -> usize {
+        match self {
+            Kind::Int => INT_LOCATIONS,
+            Kind::Rel => REL_LOCATIONS,
+            Kind::Dbl => DBL_LOCATIONS,
+        }
+    }
+}
+
+/// A location of INTCOM, made from the table of locations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Int(pub u16);
+
+/// A location of RELCOM.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rel(pub u16);
+
+/// A location of DBLCOM.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Dbl(pub u16);
+
+/// The three commons and a generation number that grows with each change of
+/// a setting, so that tables derived from them know when they are stale.
+#[derive(Clone, Debug)]
+pub struct Commons {
+    int: Vec<i32>,
+    rel: Vec<f64>,
+    dbl: Vec<f64>,
+    generation: u32,
+}
+
+impl Commons {
+    /// Commons with everything absent.
+    pub fn absent() -> Self {
+        Commons {
+            int: vec![NA; INT_LOCATIONS + 1],
+            rel: vec![EMPTY; REL_LOCATIONS + 1],
+            dbl: vec![EMPTY; DBL_LOCATIONS + 1],
+            generation: 0,
+        }
+    }
+
+    /// An integer setting; [`NA`] when absent.
+    pub fn int(&self, location: Int) -> i32 {
+        self.int[location.0 as usize]
+    }
+
+    /// An integer setting, `None` when absent.
+    pub fn int_opt(&self, location: Int) -> Option<i32> {
+        let value = self.int(location);
+        (value != NA).then_some(value)
+    }
+
+    /// What a setting says, in the type that fits it.
+    #[inline]
+    pub fn read<S: Setting>(&self, setting: S) -> S::Value {
+        setting.read(self)
+    }
+
+    /// A real setting; [`EMPTY`] when absent.
+    pub fn dbl(&self, location: Dbl) -> f64 {
+        self.dbl[location.0 as usize]
+    }
+
+    /// A real setting, `None` when absent.
+    pub fn dbl_opt(&self, location: Dbl) -> Option<f64> {
+        let value = self.dbl(location);
+        (value != EMPTY).then_some(value)
+    }
+
+    /// A RELCOM setting, `None` when absent.
+    pub fn rel_opt(&self, location: Rel) -> Option<f64> {
+        let value = self.rel[location.0 as usize];
+        (value != EMPTY).then_some(value)
+    }
+
+    /// Generation of the settings; the last output values do not count.
+    pub fn generation(&self) -> u32 {
+        self.generation
+    }
+
+    /// Last output value of a letter; [`EMPTY`] when unknown.
+    #[inline]
+    pub fn last_output(&self, letter: Letter) -> f64 {
+        self.dbl[LAST_OUTPUT + letter.index()]
+    }
+
+    /// Remembers the last output value of a letter.
+    #[inline]
+    pub fn set_last_output(&mut self, letter: Letter, value: f64) {
+        self.dbl[LAST_OUTPUT + letter.index()] = value;
+    }
+
+    /// Value of any location as FIL sees it: absent is [`EMPTY`].
+    ///
+    /// # Errors
+    /// A location out of range.
+    pub fn get(&self, kind: Kind, location: u32) -> Result<f64> {
+        let at = check(kind, location)?;
+        Ok(match kind {
+            Kind::Int if self.int[at] == NA => EMPTY,
+            Kind::Int => f64::from(self.int[at]),
+            Kind::Rel => self.rel[at],
+            Kind::Dbl => self.dbl[at],
+        })
+    }
+
+    /// Stores a value; [`EMPTY`] makes the location absent.
+    ///
+    /// # Errors
+    /// A location out of range, a fraction or a value that is too large for
+    /// INTCOM, a value that is not finite.
+    pub fn set(&mut self, kind: Kind, location: u32, value: f64) -> Result<()> {
+        let at = check(kind, location)?;
+        if !value.is_finite() {
+            return MachineCode::CommonValue
+                .err(format!("{} {location} can't hold a value that is not finite", kind.name()));
+        }
+        match kind {
+            Kind::Int => self.int[at] = integer(location, value)?,
+            Kind::Rel => self.rel[at] = value,
+            Kind::Dbl => self.dbl[at] = value,
+        }
+        let last_output = kind == Kind::Dbl && (LAST_OUTPUT + 1..=LAST_OUTPUT + 26).contains(&at);
+        if !last_output {
+            self.generation = self.generation.wrapping_add(1);
+        }
+        Ok(())
+    }
+}
+
+fn check(kind: Kind, location: u32) -> Result<usize> {
+    let at = location as usize;
+    if (1..=kind.size()).contains(&at) {
+        return Ok(at);
+    }
+    MachineCode::CommonLocation.err(format!(
+        "{} has the locations 1 to {}, not {location}",
+        kind.name(),
+        kind.size()
+    ))
+}
+
+fn integer(location: u32, value: f64) -> Result<i32> {
+    if value == EMPTY {
+        return Ok(NA);
+    }
+    if value.fract() != 0.0 || value.abs() > 1e9 {
+        return MachineCode::CommonValue
+            .err(format!("INTCOM {location} holds whole numbers, not {value}"));
+    }
+    Ok(value as i32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn absent_reads_as_empty_in_every_common() {
+        let mut commons = Commons::absent();
+        for kind in [Kind::Int, Kind::Rel, Kind::Dbl] {
+            assert_eq!(commons.get(kind, 25).unwrap(), EMPTY);
+            commons.set(kind, 25, 4.0).unwrap();
+            assert_eq!(commons.get(kind, 25).unwrap(), 4.0);
+            commons.set(kind, 25, EMPTY).unwrap();
+            assert_eq!(commons.get(kind, 25).unwrap(), EMPTY);
+        }
+    }
+
+    #[test]
+    fn bad_locations_and_values_are_refused() {
+        let mut commons = Commons::absent();
+        assert_eq!(commons.get(Kind::Int, 0).unwrap_err().code.name(), "E0601");
+        assert_eq!(commons.get(Kind::Dbl, 10_000).unwrap_err().code.name(), "E0601");
+        assert_eq!(commons.set(Kind::Int, 1, 0.5).unwrap_err().code.name(), "E0602");
+        assert_eq!(commons.set(Kind::Dbl, 1, f64::NAN).unwrap_err().code.name(), "E0602");
+    }
+
+    #[test]
+    fn last_output_values_do_not_stale_the_tables() {
+        let mut commons = Commons::absent();
+        commons.set(Kind::Dbl, 379, 5.0).unwrap();
+        assert_eq!((commons.generation(), commons.last_output(Letter::of(b'X'))), (0, 5.0));
+        commons.set(Kind::Dbl, 486, 2.0).unwrap();
+        assert_eq!(commons.generation(), 1);
+    }
+}

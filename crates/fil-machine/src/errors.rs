@@ -1,0 +1,59 @@
+//! Codes of numbers and axes on the tape (0501 to 0510) and of machine settings (06xx).
+
+fil_diag::codes! {
+    /// Everything a machine description refuses or warns about.
+    pub enum MachineCode {
+        /// A value with too many digits.
+        Overflow = 501, Error, "value does not fit its address",
+            "A number that lost its leading digits would move the machine somewhere else.",
+            "Check the CL value and the format of the address (digits before and after the point).";
+        /// A word for an address the machine lacks.
+        NoAddress = 502, Error, "the machine has no such address",
+            "The block needs a letter that has no tape position on this machine.",
+            "Give the address a position in machine.toml, or don't write that word.";
+        /// Unreachable tool axis.
+        ToolAxis = 508, Error, "the machine can't reach this tool axis",
+            "No position of its rotary axes brings the tool into that direction.",
+            "Check the rotary axes of the machine and their limits, or the part frame.";
+        /// Axis limit.
+        AxisLimit = 510, Error, "axis limit exceeded",
+            "The motion leaves the travel of the machine.",
+            "Check the part's position and the limits in machine.toml.";
+        /// A number that rounding would change.
+        Inexact = 512, Error, "the address can't hold this number",
+            "A tool or code number that is rounded is another tool or code; a lead, feed or peck that is rounded away moves the machine otherwise than asked.",
+            "Give the address more digits after the point (its format in machine.toml), or correct the value.";
+        /// Unknown common location.
+        CommonLocation = 601, Error, "no such common location",
+            "The commons have a fixed range of locations.",
+            "Check the location number.";
+        /// Value that the common can't hold.
+        CommonValue = 602, Error, "the common can't hold this value",
+            "INTCOM holds whole numbers, and no common holds what is not finite.",
+            "Check the value that is stored.";
+        /// machine.toml syntax.
+        MachineSyntax = 603, Error, "machine.toml can't be read",
+            "The file is not valid TOML.",
+            "Correct the line shown.";
+        /// Unknown key.
+        UnknownSetting = 604, Error, "unknown machine setting",
+            "A setting that is not understood could change how the machine moves.",
+            "Check the spelling of the key; `filpost machine show` lists all of them.";
+        /// Wrong type or choice.
+        SettingValue = 605, Error, "machine setting has a wrong value",
+            "The value is not of the setting's kind or not among its choices.",
+            "See the setting's choices with `filpost machine show`.";
+        /// Bad option file.
+        OptionFile = 606, Error, "option file can't be read",
+            "An option file is a list of pairs, location and value, under INTCOM, RELCOM and DBLCOM.",
+            "Check that the file is an option file (.pNN) and whole.";
+        /// A setting nobody reads.
+        UnusedSetting = 651, Warning, "setting without effect",
+            "The location is known, but this post does not act on it.",
+            "Remove the setting, or do its work in a FIL section.";
+        /// Import of a value we can't be sure of.
+        DoubtfulImport = 652, Warning, "imported value of uncertain meaning",
+            "The numbers of this choice are not published; ours may differ from the vendor's.",
+            "Compare the output with a program the machine has run, and set the key by name.";
+    }
+}

@@ -1,0 +1,101 @@
+//! Writing the commons as `machine.toml`: what differs from the defaults, by
+//! name where there is one.
+
+use std::fmt::Write as _;
+
+use crate::commons::{Commons, EMPTY, Kind};
+use crate::locations::{self as loc, Location, default_commons};
+use crate::user_blocks;
+
+/// The settings that differ from the default machine.
+pub fn write_toml(commons: &Commons) -> String {
+    let defaults = default_commons();
+    let mut out = String::new();
+    for row in loc::TABLE.iter().filter(|row| !is_text(row.kind, row.number)) {
+        let value = value_of(commons, row.kind, row.number);
+        if value != value_of(&defaults, row.kind, row.number) {
+            let _ = writeln!(out, "{} = {}  # {}", key(row, value), show(row, value), row.meaning);
+        }
+    }
+    for (name, at) in [("start", user_blocks::START), ("end", user_blocks::END)] {
+        let blocks = at.read(commons);
+        if !blocks.is_empty() {
+            let _ = writeln!(out, "blocks.{name} = {blocks:?}");
+        }
+    }
+    unnamed(commons, &defaults, &mut out);
+    out
+}
+
+/// Locations without a name, the address table among them.
+fn unnamed(commons: &Commons, defaults: &Commons, out: &mut String) {
+    for kind in [Kind::Int, Kind::Rel, Kind::Dbl] {
+        for number in 1..=kind.size() as u16 {
+            let value = value_of(commons, kind, number);
+            let named = Location::numbered(kind, u32::from(number)).is_some();
+            if value != value_of(defaults, kind, number) && !named && !is_text(kind, number) {
+                let value = if value == EMPTY { "\"none\"".into() } else { value.to_string() };
+                let _ = writeln!(out, "{} = {value}", numbered_key(kind, number));
+            }
+        }
+    }
+}
+
+fn value_of(commons: &Commons, kind: Kind, number: u16) -> f64 {
+    commons.get(kind, u32::from(number)).unwrap_or(EMPTY)
+}
+
+/// The name; the number for a value that is none of the setting's choices.
+fn key(row: &Location, value: f64) -> String {
+    let choices = row.choice_list();
+    let strange = value != EMPTY && choices.iter().all(|(choice, _)| *choice != value);
+    if strange && !choices.is_empty() {
+        numbered_key(row.kind, row.number)
+    } else {
+        row.name.to_string()
+    }
+}
+
+fn numbered_key(kind: Kind, number: u16) -> String {
+    let prefix = match kind {
+        Kind::Int => "int",
+        Kind::Rel => "rel",
+        Kind::Dbl => "dbl",
+    };
+    format!("{prefix}.{number}")
+}
+
+fn show(row: &Location, value: f64) -> String {
+    match row.choice_list().iter().find(|(choice, _)| *choice == value) {
+        _ if value == EMPTY => "\"none\"".into(),
+        Some((_, "yes")) => "true".into(),
+        Some((_, "no")) => "false".into(),
+        _ => value.to_string(),
+    }
+}
+
+/// True for the packed texts of user blocks.
+fn is_text(kind: Kind, number: u16) -> bool {
+    kind == Kind::Int && [user_blocks::START, user_blocks::END].iter().any(|at| at.holds(number))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::files::read_toml;
+
+    #[test]
+    fn what_is_written_reads_back() {
+        let text = "rapid.split = 0\nscale.x = 2.0\nint.1861 = 7\ncycle.off_code = 'none'\n\
+                    [address.Y]\nslot = 53\n[blocks]\nend = ['M5', 'G1 Z1.0']\n";
+        let (commons, _) = read_toml("m", text).unwrap();
+        let written = write_toml(&commons);
+        let (again, _) = read_toml("m", &written).unwrap();
+        for kind in [Kind::Int, Kind::Rel, Kind::Dbl] {
+            for number in 1..=kind.size() as u16 {
+                let (a, b) = (value_of(&commons, kind, number), value_of(&again, kind, number));
+                assert_eq!(a, b, "{kind:?} {number}\n{written}");
+            }
+        }
+    }
+}

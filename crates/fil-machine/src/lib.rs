@@ -1,0 +1,30 @@
+//! What a machine is: its settings, addresses and axes, and the files that
+//! describe it.
+//!
+//! All settings live in the [`commons::Commons`]; the table of [`locations`] names
+//! and types them. [`address`] and [`axes`] are what the commons say about the
+//! letters and the axis words of a block, [`kinematics`] is the chain of rotary
+//! axes. [`files`] reads and writes `machine.toml` and option files. Nothing here
+//! knows CL records, FIL or NC programs.
+
+pub mod address;
+pub mod axes;
+pub mod axis_chain;
+pub mod commons;
+pub mod errors;
+pub mod files;
+pub mod function_code;
+pub mod letter;
+pub mod locations;
+pub mod modes;
+pub mod number;
+pub mod rounding;
+pub mod setting;
+pub mod tables;
+pub mod user_blocks;
+pub mod word_text;
+
+pub use commons::{Commons, Kind};
+pub use function_code::FunctionCode;
+pub use letter::{Letter, letters};
+pub use modes::{FeedMode, Plane, Unit};

@@ -1,0 +1,93 @@
+//! Modes of a control that settings and programs share: unit, plane, kind of feed.
+
+/// Unit of lengths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Unit {
+    /// Millimetres.
+    Mm,
+    /// Inches.
+    Inch,
+}
+
+/// Millimetres of an inch.
+pub const INCH: f64 = 25.4;
+
+impl Unit {
+    /// True for millimetres.
+    #[inline]
+    pub fn is_metric(self) -> bool {
+        self == Unit::Mm
+    }
+
+    /// Millimetres of one unit.
+    pub fn in_mm(self) -> f64 {
+        match self {
+            Unit::Mm => 1.0,
+            Unit::Inch => INCH,
+        }
+    }
+}
+
+impl std::fmt::Display for Unit {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Unit::Mm => "mm",
+            Unit::Inch => "inch",
+        })
+    }
+}
+
+/// A plane of two linear axes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Plane {
+    /// X and Y, across Z.
+    Xy,
+    /// Z and X, across Y.
+    Zx,
+    /// Y and Z, across X.
+    Yz,
+}
+
+impl Plane {
+    /// All planes.
+    pub const ALL: [Plane; 3] = [Plane::Xy, Plane::Zx, Plane::Yz];
+
+    /// Numbers of its axes (0 to 2 for X Y Z); first to second is counterclockwise
+    /// seen against [`Plane::normal`].
+    #[inline]
+    pub fn axes(self) -> [usize; 2] {
+        match self {
+            Plane::Xy => [0, 1],
+            Plane::Zx => [2, 0],
+            Plane::Yz => [1, 2],
+        }
+    }
+
+    /// Number of the linear axis across it.
+    #[inline]
+    pub fn normal(self) -> usize {
+        match self {
+            Plane::Xy => 2,
+            Plane::Zx => 1,
+            Plane::Yz => 0,
+        }
+    }
+
+    /// The plane across a linear axis (0 to 2 for X Y Z).
+    pub fn across(axis: usize) -> Self {
+        match axis {
+            0 => Plane::Yz,
+            1 => Plane::Zx,
+            _ => Plane::Xy,
+        }
+    }
+}
+
+/// How the number of an F word is meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FeedMode {
+    /// Units (mm or inch) a minute.
+    PerMinute,
+    /// Units (mm or inch) a revolution.
+    PerRevolution,
+}

@@ -1,0 +1,308 @@
+//! Number output: one function writes every number of the tape.
+//!
+//! A value becomes a scaled integer (rounded half away from zero) and is
+//! written by the rules of its address: format (digits before and after the
+//! point), specification (sign, leading and trailing zeros, point) and the
+//! decimal rule of the tape.
+
+use fil_diag::{Diag, Result};
+
+use crate::errors::MachineCode;
+use crate::locations::TapeDecimalRule;
+use crate::word_text::WordText;
+
+const POWERS: [f64; 10] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
+
+/// Most digits of a format, before and after the point.
+const MAX_DIGITS: usize = 18;
+
+/// By number of digits: the least whole number that does not fit.
+const LIMITS: [i64; MAX_DIGITS + 1] = {
+    let mut limits = [1; MAX_DIGITS + 1];
+    let mut digits = 1;
+    while digits <= MAX_DIGITS {
+        limits[digits] = 10 * limits[digits - 1];
+        digits += 1;
+    }
+    limits
+};
+
+/// Relative difference below which a value counts as held exactly: what a few
+/// operations on doubles leave.
+const EXACT: f64 = 1e-9;
+
+/// How an address writes its numbers.
+///
+/// The specification is read as four decimal digits `p l t d`: `p` plus sign
+/// printed, `l` leading zeros (padded to the format when there is no point,
+/// one zero before the point otherwise), `t` trailing zeros (0 dropped after
+/// the point, 1 kept, 2 dropped in whole numbers too), `d` decimal point.
+/// The digits are our reading of the values 0, 1 and 100 seen in real files.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct NumberFormat {
+    /// Digits before the point.
+    pub whole: u8,
+    /// Digits after the point.
+    pub decimals: u8,
+    /// Print `+`.
+    pub plus: bool,
+    /// Leading zeros.
+    pub leading: bool,
+    /// Keep trailing zeros after the point.
+    pub trailing: bool,
+    /// Drop trailing zeros of whole numbers as well (N10 is N1).
+    pub drop_whole_zeros: bool,
+    /// Print the decimal point.
+    pub point: bool,
+    /// The tape's decimal rule.
+    pub rule: TapeDecimalRule,
+}
+
+impl NumberFormat {
+    /// Reads a format number (`abcd`: inch a.b, metric c.d) and a specification.
+    pub fn from_commons(format: i32, spec: i32, metric: bool, rule: TapeDecimalRule) -> Self {
+        let format = format.clamp(0, 9999);
+        let spec = spec.clamp(0, 9999);
+        let digit = |value: i32, place: i32| ((value / place) % 10) as u8;
+        let (whole, decimals) = if metric {
+            (digit(format, 10), digit(format, 1))
+        } else {
+            (digit(format, 1000), digit(format, 100))
+        };
+        NumberFormat {
+            whole,
+            decimals,
+            plus: digit(spec, 1000) == 1,
+            leading: digit(spec, 100) == 1,
+            trailing: digit(spec, 10) == 1,
+            drop_whole_zeros: digit(spec, 10) == 2,
+            point: digit(spec, 1) == 1,
+            rule,
+        }
+    }
+
+    /// The value as a scaled integer: rounded half away from zero to the
+    /// last digit of the format.
+    ///
+    /// # Errors
+    /// A value that is not finite or has more digits than the format.
+    #[inline]
+    pub fn scale(&self, value: f64) -> Result<i64> {
+        let scaled = value * POWERS[self.decimals as usize];
+        let limit = LIMITS[usize::from(self.whole + self.decimals)];
+        if scaled.abs() < limit as f64 {
+            let rounded = round(scaled);
+            if rounded.abs() < limit {
+                return Ok(rounded);
+            }
+        }
+        Err(self.overflow(value))
+    }
+
+    /// The value as a scaled integer, for a number whose every digit counts (a
+    /// tool, an offset).
+    ///
+    /// # Errors
+    /// As [`NumberFormat::scale`]; a value that the format would round.
+    pub fn exact(&self, value: f64) -> Result<i64> {
+        let scaled = self.scale(value)?;
+        if (self.unscale(scaled) - value).abs() > EXACT * value.abs().max(1.0) {
+            return MachineCode::Inexact.err(format!(
+                "{value} would be written as {}, with {} digits after the point",
+                self.unscale(scaled),
+                self.decimals
+            ));
+        }
+        Ok(scaled)
+    }
+
+    /// The value as a scaled integer that differs from it by at most `share` of it:
+    /// a feed, a lead, a peck or a dwell. Zero never comes from rounding.
+    ///
+    /// # Errors
+    /// As [`NumberFormat::scale`]; a value that rounding would change by more.
+    pub fn within(&self, value: f64, share: f64) -> Result<i64> {
+        let scaled = self.scale(value)?;
+        if (self.unscale(scaled) - value).abs() > share * value.abs() {
+            return MachineCode::Inexact.err(format!(
+                "{value} would be written as {}, off by more than {} %",
+                self.unscale(scaled),
+                share * 100.0
+            ));
+        }
+        Ok(scaled)
+    }
+
+    #[cold]
+    fn overflow(&self, value: f64) -> Box<Diag> {
+        let message = format!("{value} does not fit {}.{} digits", self.whole, self.decimals);
+        MachineCode::Overflow.diag(message)
+    }
+
+    /// The value a scaled integer stands for.
+    #[inline]
+    pub fn unscale(&self, scaled: i64) -> f64 {
+        scaled as f64 / POWERS[self.decimals as usize]
+    }
+
+    /// Appends a scaled integer by the rules of the address.
+    pub fn write(&self, scaled: i64, out: &mut Vec<u8>) {
+        let mut text = WordText::new();
+        self.put(scaled, &mut text);
+        text.append_to(out);
+    }
+
+    /// Puts a scaled integer in front of a text by the rules of the address.
+    #[inline]
+    pub fn put(&self, scaled: i64, text: &mut WordText) {
+        let power = LIMITS[usize::from(self.decimals)] as u64;
+        let size = scaled.unsigned_abs();
+        if self.point {
+            self.put_with_point(size / power, (size % power) as u32, text);
+        } else {
+            self.put_plain(size, text);
+        }
+        if scaled < 0 {
+            text.put(b'-');
+        } else if self.plus {
+            text.put(b'+');
+        }
+    }
+
+    /// The fraction has at most nine digits, as many as a format can name.
+    fn put_with_point(&self, whole: u64, mut fraction: u32, text: &mut WordText) {
+        let mut digits = self.decimals;
+        if !self.trailing {
+            if fraction == 0 {
+                digits = 0;
+            } else {
+                while fraction.is_multiple_of(10) {
+                    fraction /= 10;
+                    digits -= 1;
+                }
+            }
+        }
+        text.put_digits(fraction, digits);
+        match (digits, self.rule) {
+            (0, TapeDecimalRule::PointOnlyIfNeeded) => {}
+            (0, TapeDecimalRule::AtLeastOneDigitAfterThePoint) => {
+                text.put(b'0');
+                text.put(b'.');
+            }
+            _ => text.put(b'.'),
+        }
+        if whole != 0 || self.leading || fraction == 0 {
+            text.put_number(whole);
+        }
+    }
+
+    fn put_plain(&self, size: u64, text: &mut WordText) {
+        let mut width = usize::from(self.whole + self.decimals);
+        let mut rest = size;
+        while self.drop_whole_zeros && rest != 0 && rest.is_multiple_of(10) {
+            rest /= 10;
+            width = width.saturating_sub(1);
+        }
+        text.put_number(rest);
+        while self.leading && text.len() < width {
+            text.put(b'0');
+        }
+    }
+}
+
+/// The nearest whole number, half away from zero, of a value below 10^18. The
+/// rest after the cut is exact; `f64::round` would be a call on most builds.
+#[inline]
+fn round(value: f64) -> i64 {
+    let whole = value as i64;
+    let rest = value - whole as f64;
+    whole + i64::from(rest >= 0.5) - i64::from(rest <= -0.5)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(format: i32, spec: i32, rule: TapeDecimalRule, value: f64) -> String {
+        let format = NumberFormat::from_commons(format, spec, true, rule);
+        let mut out = Vec::new();
+        format.write(format.scale(value).unwrap(), &mut out);
+        String::from_utf8(out).unwrap()
+    }
+
+    #[test]
+    fn decimal_numbers_by_rule() {
+        let always = |spec, value| text(3443, spec, TapeDecimalRule::AsTheAddressSays, value);
+        assert_eq!(always(1, 83.0), "83.");
+        assert_eq!(always(1, -0.7857), "-.786");
+        assert_eq!(always(1, 0.0), "0.");
+        assert_eq!(always(1, -0.0001), "0.");
+        assert_eq!(always(101, 0.05), "0.05");
+        assert_eq!(always(11, 1.5), "1.500");
+        assert_eq!(always(1001, 1.5), "+1.5");
+        assert_eq!(text(3443, 1, TapeDecimalRule::AtLeastOneDigitAfterThePoint, 83.0), "83.0");
+        assert_eq!(text(3443, 1, TapeDecimalRule::AtLeastOneDigitAfterThePoint, 0.0), "0.0");
+        assert_eq!(text(3443, 101, TapeDecimalRule::PointOnlyIfNeeded, 83.0), "83");
+        assert_eq!(text(3443, 101, TapeDecimalRule::PointOnlyIfNeeded, 0.25), "0.25");
+    }
+
+    #[test]
+    fn whole_numbers_by_rule() {
+        let whole =
+            |format, spec, value| text(format, spec, TapeDecimalRule::AsTheAddressSays, value);
+        assert_eq!(whole(2020, 100, 0.0), "00");
+        assert_eq!(whole(2020, 100, 43.0), "43");
+        assert_eq!(whole(4040, 0, 250.0), "250");
+        assert_eq!(whole(4040, 20, 10.0), "1");
+        assert_eq!(whole(4040, 20, 0.0), "0");
+        assert_eq!(whole(4040, 100, 10.0), "0010");
+    }
+
+    #[test]
+    fn inch_uses_the_first_half_of_the_format() {
+        let format = NumberFormat::from_commons(3443, 1, false, TapeDecimalRule::AsTheAddressSays);
+        assert_eq!((format.whole, format.decimals), (3, 4));
+        assert_eq!(format.scale(0.12345).unwrap(), 1235);
+    }
+
+    #[test]
+    fn what_does_not_fit_is_refused() {
+        let format = NumberFormat::from_commons(3443, 1, true, TapeDecimalRule::AsTheAddressSays);
+        assert_eq!(format.scale(9999.9994).unwrap(), 9_999_999);
+        for value in [9999.9996, -10_000.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(format.scale(value).unwrap_err().code.name(), "E0501", "{value}");
+        }
+    }
+
+    #[test]
+    fn a_half_is_rounded_away_from_zero() {
+        for value in [0.49999999999999994, 0.5, 1.5, 2.5, 4503599627370495.5, 9.9e17] {
+            for value in [value, -value] {
+                assert_eq!(round(value), value.round() as i64, "{value}");
+            }
+        }
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn rounding_agrees_with_the_standard_library(value in -1e18f64..1e18, scale in 0..20) {
+            let value = value / 10f64.powi(scale);
+            proptest::prop_assert_eq!(round(value), value.round() as i64);
+        }
+
+        #[test]
+        fn output_reads_back_to_the_rounded_value(
+            value in -9999.0f64..9999.0, leading: bool, trailing: bool, plus: bool, rule in 0..3
+        ) {
+            let rule = [TapeDecimalRule::AsTheAddressSays, TapeDecimalRule::PointOnlyIfNeeded, TapeDecimalRule::AtLeastOneDigitAfterThePoint][rule as usize];
+            let spec = 1 + 10 * i32::from(trailing) + 100 * i32::from(leading) + 1000 * i32::from(plus);
+            let format = NumberFormat::from_commons(3443, spec, true, rule);
+            let scaled = format.scale(value).unwrap();
+            let mut out = Vec::new();
+            format.write(scaled, &mut out);
+            let read: f64 = std::str::from_utf8(&out).unwrap().parse().unwrap();
+            proptest::prop_assert_eq!(read, format.unscale(scaled));
+            proptest::prop_assert!((read - value).abs() <= 0.000_500_001);
+        }
+    }
+}

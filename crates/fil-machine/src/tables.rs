@@ -1,0 +1,99 @@
+//! What the commons say about a machine at this moment: addresses, axis words,
+//! axis chain. The tables are made anew when a setting or the unit has changed.
+
+use fil_diag::Result;
+
+use crate::address::Addresses;
+use crate::axes::{Axis, AxisSet, linear_letters};
+use crate::axis_chain::{AxisChain, ROTARY_LETTERS};
+use crate::commons::Commons;
+use crate::errors::MachineCode;
+use crate::locations as loc;
+
+/// The tables.
+#[derive(Clone, Debug, Default)]
+pub struct MachineTables {
+    /// The address table.
+    pub addresses: Addresses,
+    axes: Vec<Axis>,
+    chain: AxisChain,
+    present: AxisSet,
+    made_for: Option<(u32, bool)>,
+}
+
+impl MachineTables {
+    /// Brings the tables up to date; says whether they were made anew. `metric`:
+    /// the program is in mm, else in inches.
+    ///
+    /// # Errors
+    /// Settings that make no machine (a direction of length zero, scale zero).
+    #[inline]
+    pub fn refresh(&mut self, commons: &Commons, metric: bool) -> Result<bool> {
+        if self.made_for == Some((commons.generation(), metric)) {
+            return Ok(false);
+        }
+        self.make(commons, metric)?;
+        self.made_for = Some((commons.generation(), metric));
+        Ok(true)
+    }
+
+    fn make(&mut self, commons: &Commons, metric: bool) -> Result<()> {
+        self.addresses = Addresses::from_commons(commons, metric);
+        let chain = AxisChain::from_commons(commons)?;
+        self.chain = if metric { chain } else { chain.in_inches() };
+        self.axes = linear_letters()
+            .map(|(common, letter)| Axis::new(letter, common, &self.addresses, commons))
+            .collect();
+        self.present = AxisSet::LINEAR;
+        for (index, rotary) in self.chain.rotaries.iter().enumerate() {
+            let (letter, common) = match rotary {
+                Some(rotary) => (rotary.letter, rotary.axis + 3),
+                None => (ROTARY_LETTERS[index], index + 3),
+            };
+            if rotary.is_some() {
+                self.present = self.present.or(AxisSet::of(index + 3));
+            }
+            self.axes.push(Axis::new(letter, common, &self.addresses, commons));
+        }
+        if self.axes.iter().any(|axis| axis.scale() == 0.0) {
+            return MachineCode::SettingValue.err("an output scale is zero");
+        }
+        if commons.read(loc::LATHE_DIAMETER) {
+            self.axes[0].write_diameters()?;
+        }
+        if commons.read(loc::LIMITS_CHECK) {
+            for (axis, (min, max)) in self.axes.iter_mut().zip(loc::LINEAR_LIMITS) {
+                axis.limit(commons.dbl_opt(min), commons.dbl_opt(max));
+            }
+        }
+        Ok(())
+    }
+
+    /// An axis by number: 0 to 2 are X Y Z, 3 and 4 the rotaries.
+    #[inline]
+    pub fn axis(&self, number: usize) -> &Axis {
+        &self.axes[number]
+    }
+
+    /// The axis a scale or translation common belongs to: 0 to 5 for X Y Z A B C.
+    pub fn axis_of_common(&self, common: usize) -> Option<usize> {
+        if common < 3 {
+            return Some(common);
+        }
+        let rotaries = &self.chain.rotaries;
+        let at = rotaries.iter().position(|r| r.as_ref().is_some_and(|r| r.axis + 3 == common))?;
+        Some(at + 3)
+    }
+
+    /// The axis chain.
+    #[inline]
+    pub fn chain(&self) -> &AxisChain {
+        &self.chain
+    }
+
+    /// The axes the machine has; X, Y and Z are always there.
+    #[inline]
+    pub fn present(&self) -> AxisSet {
+        self.present
+    }
+}

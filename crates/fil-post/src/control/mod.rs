@@ -1,0 +1,369 @@
+//! The control: operations become blocks on the tape.
+//!
+//! [`Control`] holds what every family of controls needs: settings, tables, tape,
+//! what the control knows, what waits. The words of the blocks are made by one
+//! module a family; [`word_address`] (ISO 6983, Fanuc and its relatives) is the
+//! first.
+
+pub mod program;
+mod skip;
+mod texts;
+mod waiting;
+pub mod word_address;
+
+use std::collections::BTreeMap;
+
+use fil_diag::{Diag, Result};
+use fil_machine::address::no_address;
+use fil_machine::commons::EMPTY;
+use fil_machine::letters::{G, M};
+use fil_machine::modes::Unit;
+use fil_machine::rounding::Rounding;
+use fil_machine::setting::{CodeAt, LetterAt};
+use fil_machine::tables::MachineTables;
+use fil_machine::{Commons, FunctionCode, Letter};
+
+use crate::block::Block;
+use crate::cause::Cause;
+use crate::control_state::{Codes, Compensation, ControlState};
+use crate::errors::PostCode;
+use crate::operation::Feed;
+use crate::tape::Tape;
+use crate::warnings::Warnings;
+
+pub use program::ProgramHead;
+pub use waiting::{Function, Waiting};
+
+/// The output side of the post.
+#[derive(Clone)]
+pub struct Control {
+    /// The settings.
+    pub commons: Commons,
+    /// The output.
+    pub tape: Tape,
+    /// Warnings not yet taken away.
+    pub warnings: Warnings,
+    /// Tables derived from the settings.
+    pub tables: MachineTables,
+    /// What the control knows.
+    pub state: ControlState,
+    /// Words that wait for a motion.
+    pub waiting: Waiting,
+    /// Letters whose REPEAT has ended since the last motion.
+    pub(crate) ended_repeats: Vec<Letter>,
+    /// Words REPEAT adds to each motion block, by letter, with their causes.
+    pub repeats: BTreeMap<Letter, (f64, Cause)>,
+    /// The block under construction.
+    pub block: Block,
+    /// Number and name of the program.
+    pub head: ProgramHead,
+    /// The last spindle speed, turns a minute or surface speed.
+    pub speed: Option<f64>,
+    /// The tool in the spindle, as the last tool change named it.
+    pub tool: Option<i64>,
+    /// The compensation the CL file asks for.
+    asked: Compensation,
+    /// Unit of the CL file and of the program; `None` before anything says it.
+    pub unit: Option<Unit>,
+    codes: Codes,
+}
+
+impl Control {
+    /// The output side of a machine.
+    ///
+    /// # Errors
+    /// Settings that make no machine.
+    pub fn new(commons: Commons) -> Result<Self> {
+        let mut tables = MachineTables::default();
+        tables.refresh(&commons, true)?;
+        let unit = program::unit_of_machine(&commons);
+        let state = program::state_at_start(&commons, unit);
+        Ok(Control {
+            codes: Codes::from_commons(&commons),
+            commons,
+            tape: Tape::default(),
+            warnings: Warnings::default(),
+            tables,
+            state,
+            waiting: Waiting::default(),
+            ended_repeats: Vec::new(),
+            repeats: BTreeMap::new(),
+            block: Block::default(),
+            head: ProgramHead::default(),
+            speed: None,
+            tool: None,
+            asked: Compensation::Off,
+            unit,
+        })
+    }
+
+    /// Brings tables and codes up to date with the settings.
+    ///
+    /// # Errors
+    /// As [`MachineTables::refresh`].
+    #[inline]
+    pub fn refresh(&mut self) -> Result<()> {
+        if self.tables.refresh(&self.commons, self.is_metric())? {
+            self.codes = Codes::from_commons(&self.commons);
+        }
+        Ok(())
+    }
+
+    /// True for a program in mm, and before anything says the unit.
+    #[inline]
+    pub fn is_metric(&self) -> bool {
+        self.unit != Some(Unit::Inch)
+    }
+
+    /// Refuses what depends on the unit before anything has said it.
+    ///
+    /// # Errors
+    /// Neither UNITS nor the machine nor the user has.
+    #[inline]
+    pub fn require_unit(&self) -> Result<Unit> {
+        self.unit.ok_or_else(|| {
+            PostCode::NoUnit.diag("a length or feed comes before anything says mm or inch")
+        })
+    }
+
+    /// A code of the machine.
+    ///
+    /// # Errors
+    /// The code is absent or negative.
+    pub fn code(&self, at: CodeAt, what: &str) -> Result<FunctionCode> {
+        let code = self.code_if_any(at);
+        code.ok_or_else(|| {
+            PostCode::NoCode.diag(format!("the machine has no code for {what} (INTCOM {})", at.0))
+        })
+    }
+
+    /// A code of the machine, where it has one.
+    #[inline]
+    pub fn code_if_any(&self, at: CodeAt) -> Option<FunctionCode> {
+        self.commons.read(at).and_then(FunctionCode::of_setting)
+    }
+
+    /// The letter a setting names.
+    ///
+    /// # Errors
+    /// The setting names none.
+    pub fn letter(&self, at: LetterAt, what: &str) -> Result<Letter> {
+        self.commons.read(at).ok_or_else(|| {
+            PostCode::NoCode.diag(format!("the machine has no letter for {what} (INTCOM {})", at.0))
+        })
+    }
+
+    /// Warns that the machine has no code for something it may do by other means.
+    pub fn warn_no_code(&mut self, what: &str) {
+        let message = format!("the machine has no code for {what}; nothing is written");
+        self.warnings.add(PostCode::IgnoredPart, message);
+    }
+
+    /// Adds a preparatory function, with the cause of the block.
+    pub fn g(&mut self, code: FunctionCode) {
+        self.block.g(code, self.block.cause);
+    }
+
+    /// Adds a preparatory function that the record as a whole asks for.
+    pub fn g_of_record(&mut self, code: FunctionCode) {
+        self.block.g(code, self.block.cause.whole());
+    }
+
+    /// Adds an auxiliary function, with the cause of the block.
+    pub fn m(&mut self, code: FunctionCode) {
+        self.block.m(code, self.block.cause);
+    }
+
+    /// Adds a word, rounded as its letter allows.
+    ///
+    /// # Errors
+    /// As [`Block::word`].
+    pub fn word(&mut self, letter: Letter, value: f64) -> Result<()> {
+        self.word_rounded(letter, value, Rounding::of(letter))
+    }
+
+    /// Adds a word, rounded as said.
+    ///
+    /// # Errors
+    /// As [`Block::word`].
+    pub fn word_rounded(&mut self, letter: Letter, value: f64, rounding: Rounding) -> Result<()> {
+        self.block.word(letter, value, rounding, &self.tables.addresses).map(|_| ())
+    }
+
+    /// Adds a feed word unless the control has that value; notes its cause.
+    pub(crate) fn modal_feed(&mut self, letter: Letter, feed: &Feed) -> Result<()> {
+        let addresses = &self.tables.addresses;
+        let Some(position) = addresses.required(letter)? else { return Ok(()) };
+        let format = &addresses.slot(position).format;
+        let scaled = Rounding::Rate.scale(feed.value, format);
+        let scaled = scaled.map_err(|diag| crate::block::named(diag, letter))?;
+        let known = self.state.has_last(letter);
+        if !known || format.unscale(scaled) != self.commons.last_output(letter) {
+            self.block.put(position, scaled);
+            self.block.note_cause(position, feed.cause);
+        }
+        Ok(())
+    }
+
+    /// Writes the block under construction and empties it; the control learns
+    /// from it.
+    ///
+    /// # Errors
+    /// As [`Tape::block`]; what the start of the program refuses; a block after
+    /// the end of the program.
+    #[inline]
+    pub fn write_block(&mut self) -> Result<()> {
+        if self.block.is_empty() {
+            return Ok(());
+        }
+        if !self.head.started {
+            self.begin()?;
+        }
+        if self.unit.is_none() && self.block.has_numbers() {
+            self.require_unit()?;
+        }
+        self.refuse_after_end()?;
+        let result = self.tape.block(&self.block, &self.tables.addresses, &mut self.commons);
+        self.state.learn_block(&self.block, &self.codes, &self.tables.addresses);
+        self.block.clear();
+        result
+    }
+
+    /// Writes words in the order given, whether or not their values have changed
+    /// (POSTN).
+    ///
+    /// # Errors
+    /// As [`Tape::words`].
+    pub fn write_words(&mut self, words: &[(Letter, f64, Cause)]) -> Result<()> {
+        self.begin()?;
+        if words.iter().any(|(letter, ..)| !matches!(*letter, G | M)) {
+            self.require_unit()?;
+        }
+        self.refuse_after_end()?;
+        self.tape.words(words, &self.tables.addresses, &mut self.commons)?;
+        let letters = words.iter().map(|(letter, value, _)| (*letter, *value));
+        self.state.learn_words(letters, &self.codes);
+        Ok(())
+    }
+
+    /// Writes a text as a block; the control learns from it what it can read.
+    ///
+    /// # Errors
+    /// As [`Tape::line`]; a character that must not reach the tape; a block after
+    /// the end of the program.
+    pub fn write_text(&mut self, text: &str, numbered: bool) -> Result<()> {
+        self.begin()?;
+        if texts::begins_program(text) {
+            self.state.program_begins();
+        }
+        self.refuse_after_end()?;
+        texts::check(text)?;
+        self.put_line(text, numbered)?;
+        self.state.learn_text(text, &self.codes);
+        Ok(())
+    }
+
+    /// Writes a comment, which the control does not read.
+    ///
+    /// # Errors
+    /// As [`Control::write_text`].
+    pub fn write_comment(&mut self, text: &str, numbered: bool) -> Result<()> {
+        self.begin()?;
+        self.refuse_after_end()?;
+        texts::check(text)?;
+        self.put_line(text, numbered)
+    }
+
+    /// Writes a line as it is.
+    fn put_line(&mut self, text: &str, numbered: bool) -> Result<()> {
+        if !text.is_ascii() {
+            self.warnings.add(PostCode::TapeText, format!("`{text}`"));
+        }
+        let cause = self.block.cause;
+        self.tape.line(text, cause, numbered, &self.tables.addresses, &mut self.commons)
+    }
+
+    /// Refuses a block after M2 or M30: the control would never read it.
+    #[inline]
+    fn refuse_after_end(&self) -> Result<()> {
+        if self.state.ended {
+            return PostCode::AfterEnd.err("the program has ended before this block");
+        }
+        Ok(())
+    }
+
+    /// Writes the start of the program if it is still due. Whoever asks for what
+    /// the control knows calls it first.
+    ///
+    /// # Errors
+    /// As [`program::start`].
+    #[inline]
+    pub fn begin(&mut self) -> Result<()> {
+        if self.head.started {
+            return Ok(());
+        }
+        program::start(self)
+    }
+
+    /// Does something whose words have another cause than the record that is
+    /// carried out.
+    pub fn because<T>(&mut self, cause: Cause, act: impl FnOnce(&mut Control) -> T) -> T {
+        let record = std::mem::replace(&mut self.block.cause, cause);
+        let result = act(self);
+        self.block.cause = record;
+        result
+    }
+
+    /// The compensation the CL file asks for, begun or not.
+    #[inline]
+    pub fn compensation_asked(&self) -> Compensation {
+        self.asked
+    }
+
+    /// True when the block under construction has a word of this letter.
+    pub fn block_has(&self, letter: Letter) -> bool {
+        self.block.has(letter, &self.tables.addresses)
+    }
+
+    /// True when the control has this value as the last one of a letter.
+    #[inline]
+    pub fn has_value(&self, letter: Letter, value: f64) -> bool {
+        self.state.has_last(letter) && self.commons.last_output(letter) == value
+    }
+
+    /// The last value of a letter that the control is known to have.
+    pub fn last_value(&self, letter: Letter) -> Option<f64> {
+        let value = self.commons.last_output(letter);
+        (self.state.has_last(letter) && value != EMPTY).then_some(value)
+    }
+
+    /// Machine position of an axis by its last word; `None` when it is not known.
+    pub fn axis_position(&self, number: usize) -> Option<f64> {
+        let axis = self.tables.axis(number);
+        self.last_value(axis.letter).map(|value| axis.position(value))
+    }
+
+    /// Refuses a letter that the machine does not write.
+    ///
+    /// # Errors
+    /// It has no tape position.
+    pub fn require_letter(&self, letter: Letter) -> Result<()> {
+        match self.tables.addresses.position(letter) {
+            Some(_) => Ok(()),
+            None => Err(no_address(letter)),
+        }
+    }
+
+    /// Forgets the motion code when FIL has emptied the last output of G.
+    #[inline]
+    pub fn check_forgotten(&mut self) {
+        if self.commons.last_output(G) == EMPTY {
+            self.state.motion = None;
+        }
+    }
+
+    /// Takes the warnings away.
+    pub fn take_warnings(&mut self) -> Vec<Diag> {
+        std::mem::take(&mut self.warnings.list)
+    }
+}

@@ -1,0 +1,173 @@
+//! Start and end of the NC program.
+//!
+//! Start: tape start character, program number, the user's start blocks, the
+//! mode codes (units, absolute, feed mode, plane). End: the user's end blocks,
+//! the end code, tape end character.
+
+use fil_diag::Result;
+use fil_machine::locations::UnitsMode;
+use fil_machine::modes::{FeedMode, Plane, Unit};
+use fil_machine::setting::{CharacterAt, CodeAt};
+use fil_machine::{Commons, FunctionCode, locations as loc, user_blocks};
+
+use super::Control;
+use crate::cause::Cause;
+use crate::control_state::{Compensation, ControlState};
+use crate::errors::PostCode;
+
+/// Program numbers have at most four digits.
+const NUMBERS: i64 = 10_000;
+
+/// What the head of the program says.
+#[derive(Clone, Debug, Default)]
+pub struct ProgramHead {
+    /// The first whole number of the PARTNO text.
+    pub number: Option<i64>,
+    /// Text of PARTNO.
+    pub name: String,
+    /// The PARTNO record.
+    pub cause: Cause,
+    /// The start of the program has been written.
+    pub started: bool,
+}
+
+/// The one unit a machine takes; `None` when the CL file chooses.
+pub fn unit_of_machine(commons: &Commons) -> Option<Unit> {
+    match commons.read(loc::UNITS_MODE) {
+        UnitsMode::Inch => Some(Unit::Inch),
+        UnitsMode::Metric => Some(Unit::Mm),
+        UnitsMode::AsTheClFile => None,
+    }
+}
+
+/// What the control is taken to be in before the program says anything.
+pub fn state_at_start(commons: &Commons, unit: Option<Unit>) -> ControlState {
+    let starts_with = commons.read(loc::FEED_MODE);
+    let per_revolution = commons.read(loc::FEED_UPR_CODE);
+    let feed_mode = if starts_with.is_some() && starts_with == per_revolution {
+        FeedMode::PerRevolution
+    } else {
+        FeedMode::PerMinute
+    };
+    let code = commons.read(loc::CIRCLE_PLANE);
+    let plane = code.and_then(|code| {
+        Plane::ALL.into_iter().find(|plane| commons.read(plane_code(*plane)) == Some(code))
+    });
+    ControlState::at_start(feed_mode, plane, unit)
+}
+
+/// Location of the code of a plane.
+pub fn plane_code(plane: Plane) -> CodeAt {
+    match plane {
+        Plane::Xy => loc::CIRCLE_PLANE_XY,
+        Plane::Zx => loc::CIRCLE_PLANE_ZX,
+        Plane::Yz => loc::CIRCLE_PLANE_YZ,
+    }
+}
+
+/// Location of the code of a unit.
+pub fn unit_code(unit: Unit) -> CodeAt {
+    match unit {
+        Unit::Mm => loc::UNITS_METRIC_CODE,
+        Unit::Inch => loc::UNITS_INCH_CODE,
+    }
+}
+
+/// Writes the start of the program, once, before the first block; the block under
+/// construction waits.
+///
+/// # Errors
+/// A program number that does not fit its address.
+pub fn start(control: &mut Control) -> Result<()> {
+    control.head.started = true;
+    let block = control.block.take();
+    control.refresh()?;
+    control.because(Cause::default(), write_start)?;
+    control.block = block;
+    Ok(())
+}
+
+/// The blocks at the start; the machine's settings ask for them.
+fn write_start(control: &mut Control) -> Result<()> {
+    control.state = state_at_start(&control.commons, control.unit);
+    tape_mark(control, loc::TAPE_START_CHAR)?;
+    program_number(control)?;
+    let blocks = user_blocks::START.read(&control.commons);
+    let own_start = !blocks.is_empty();
+    for block in blocks {
+        control.write_text(&block, true)?;
+    }
+    if !own_start {
+        mode_codes(control);
+    }
+    control.write_block()
+}
+
+/// Writes the end of the program.
+///
+/// # Errors
+/// Cutter compensation that is still on; a code that does not fit its address.
+pub fn end(control: &mut Control, code: Option<FunctionCode>) -> Result<()> {
+    control.begin()?;
+    super::word_address::cycle::cancel(control)?;
+    control.skip_blocks(false)?;
+    control.flush_waiting()?;
+    for block in user_blocks::END.read(&control.commons) {
+        control.because(Cause::default(), |control| control.write_text(&block, true))?;
+    }
+    if matches!(control.state.compensation, Some(Compensation::Left | Compensation::Right)) {
+        return PostCode::CompensationOn.err("at the end of the program");
+    }
+    if let Some(code) = code {
+        control.m(code);
+    }
+    control.write_block()?;
+    control.because(Cause::default(), |control| tape_mark(control, loc::TAPE_END_CHAR))?;
+    control.state.ended = true;
+    Ok(())
+}
+
+/// Adds the mode codes a control must be in. A machine with start blocks of
+/// its own says them there; what they leave open is taken from the settings.
+fn mode_codes(control: &mut Control) {
+    if let Some(code) = control.unit.and_then(|unit| control.code_if_any(unit_code(unit))) {
+        control.g(code);
+    }
+    for at in [loc::MODE_POSITION, loc::FEED_MODE, loc::CIRCLE_PLANE] {
+        if let Some(code) = control.code_if_any(at) {
+            control.g(code);
+        }
+    }
+}
+
+fn program_number(control: &mut Control) -> Result<()> {
+    let Some(letter) = control.commons.read(loc::PROGRAM_NUMBER_ADDRESS) else { return Ok(()) };
+    let fixed = control.commons.read(loc::PROGRAM_NUMBER).map(i64::from);
+    let number = fixed.or(control.head.number).unwrap_or(1);
+    if !(0..NUMBERS).contains(&number) {
+        return PostCode::ProgramNumber
+            .err(format!("program number {number} has more than four digits"));
+    }
+    let width = if fixed.is_some() { 1 } else { 4 };
+    let mut line = format!("{letter}{number:0width$}");
+    if control.commons.read(loc::PROGRAM_NAME_COMMENT) && !control.head.name.is_empty() {
+        let name = control.head.name.replace(['(', ')'], " ");
+        let (name, _) = super::texts::clean_message(&name, '(', ')');
+        line.push_str(&format!(" ({name})"));
+    }
+    let from_part = fixed.is_none() && control.head.number.is_some();
+    let cause = if from_part { control.head.cause } else { Cause::default() };
+    control.because(cause, |control| control.put_line(&line, false))
+}
+
+/// Writes the character before or after the program; none in a program for direct
+/// transfer (INTCOM 2479).
+fn tape_mark(control: &mut Control, at: CharacterAt) -> Result<()> {
+    if control.commons.read(loc::TAPE_DNC) {
+        return Ok(());
+    }
+    match control.commons.read(at) {
+        Some(mark) => control.put_line(&mark.to_string(), false),
+        None => Ok(()),
+    }
+}

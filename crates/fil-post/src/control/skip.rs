@@ -1,0 +1,34 @@
+//! Blocks that the operator can skip (OPSKIP).
+
+use fil_diag::Result;
+
+use super::Control;
+use crate::errors::PostCode;
+
+impl Control {
+    /// Blocks from here on carry the skip mark, or no longer.
+    ///
+    /// # Errors
+    /// A tool length or cutter compensation that would be begun on one side of the
+    /// mark and carried out on the other.
+    pub fn skip_blocks(&mut self, on: bool) -> Result<()> {
+        if on == self.tape.skip.is_some() {
+            return Ok(());
+        }
+        self.begin()?;
+        self.flush_waiting()?;
+        if self.waiting.length_offset.is_some() {
+            return PostCode::SkippedPart.err(
+                "the tool length of the last tool change would stand on the other side of OPSKIP",
+            );
+        }
+        if on {
+            self.tape.skip = Some(self.block.cause);
+            self.state.skip_begins(&self.commons);
+        } else {
+            self.tape.skip = None;
+            self.state.skip_ends(&self.commons);
+        }
+        Ok(())
+    }
+}

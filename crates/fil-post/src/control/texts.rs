@@ -1,0 +1,46 @@
+//! Texts that others put on the tape: what must never get there.
+
+use fil_diag::Result;
+
+use crate::errors::PostCode;
+
+/// True for a text that begins a program or subprogram of its own: `O100`, `:100`, or
+/// the head of a SINUMERIK program, `%_N_NAME_SPF`.
+pub fn begins_program(text: &str) -> bool {
+    let numbered = text.strip_prefix(['O', 'o', ':']);
+    let digit = numbered.and_then(|rest| rest.chars().next());
+    digit.is_some_and(|c| c.is_ascii_digit()) || text.starts_with("%_N_")
+}
+
+/// Refuses a text that would end the tape or that the control can't read.
+///
+/// # Errors
+/// `%`, which begins and ends a tape, or a control character.
+pub fn check(text: &str) -> Result<()> {
+    let body = if begins_program(text) { &text[1..] } else { text };
+    if body.contains('%') {
+        return PostCode::TextCharacter.err(format!("`%` in `{text}` would end the tape"));
+    }
+    match text.chars().find(|c| c.is_control()) {
+        Some(found) => PostCode::TextCharacter.err(format!(
+            "the control character U+{:04X} in `{}`",
+            found as u32,
+            text.escape_debug()
+        )),
+        None => Ok(()),
+    }
+}
+
+/// A message without what must not reach the tape: the characters that enclose it,
+/// `%` and control characters become blanks. Says whether any did besides the
+/// enclosing ones.
+pub fn clean_message(text: &str, open: char, close: char) -> (String, bool) {
+    let mut changed = false;
+    let clean = text.chars().filter(|c| *c != open && *c != close).map(|c| {
+        let harmful = c == '%' || c.is_control();
+        changed |= harmful;
+        if harmful { ' ' } else { c }
+    });
+    let clean = clean.collect();
+    (clean, changed)
+}

@@ -1,0 +1,107 @@
+//! Words that wait for a motion: spindle, coolant, cutter compensation and the
+//! tool length.
+
+use fil_diag::Result;
+use fil_machine::locations::Placement;
+
+use super::Control;
+use crate::block::Block;
+use crate::cause::Cause;
+use crate::errors::PostCode;
+
+/// What words that wait command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Function {
+    /// The spindle.
+    Spindle,
+    /// The coolant.
+    Coolant,
+    /// Cutter compensation.
+    Compensation,
+}
+
+/// Words that wait for a motion.
+#[derive(Clone, Debug, Default)]
+pub struct Waiting {
+    words: Vec<(Function, Placement, Block)>,
+    /// Tool length offset to be called with the next Z motion, with its cause.
+    pub length_offset: Option<(i64, Cause)>,
+}
+
+impl Waiting {
+    /// True when nothing waits.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.words.is_empty() && self.length_offset.is_none()
+    }
+
+    /// True when words of this function wait.
+    pub fn has(&self, function: Function) -> bool {
+        self.words.iter().any(|(waiting, ..)| *waiting == function)
+    }
+}
+
+impl Control {
+    /// Writes the block under construction at once, or keeps its words for a
+    /// motion to come. Words of the same function that still wait never share a
+    /// block with it: those of spindle and coolant are written now, in their own
+    /// block; a compensation that no motion has begun gives way.
+    ///
+    /// # Errors
+    /// As [`Control::write_block`].
+    pub fn place_block(&mut self, function: Function, placement: Placement) -> Result<()> {
+        let block = self.block.take();
+        if let Some(at) = self.waiting.words.iter().position(|(old, ..)| *old == function) {
+            let (_, _, old) = self.waiting.words.remove(at);
+            if function == Function::Compensation {
+                let message = "CUTCOM: no motion came before the next CUTCOM".to_string();
+                self.warnings.add(PostCode::IgnoredPart, message);
+            } else {
+                self.block = old;
+                self.write_block()?;
+            }
+        }
+        self.block = block;
+        if placement == Placement::BlockOfItsOwn {
+            return self.write_block();
+        }
+        let block = self.block.take();
+        self.waiting.words.push((function, placement, block));
+        Ok(())
+    }
+
+    /// Writes the words that still wait for a motion, each in a block of its own.
+    ///
+    /// # Errors
+    /// As [`Control::write_block`].
+    pub fn flush_waiting(&mut self) -> Result<()> {
+        let cause = self.block.cause;
+        for (_, _, words) in std::mem::take(&mut self.waiting.words) {
+            self.block = words;
+            self.write_block()?;
+        }
+        self.block.cause = cause;
+        Ok(())
+    }
+
+    /// Adds the words that wait for the motion in the block.
+    pub(crate) fn take_waiting(&mut self) {
+        let moves =
+            |control: &Control, number| control.block_has(control.tables.axis(number).letter);
+        let moves_xy = moves(self, 0) || moves(self, 1);
+        let moves_z = moves(self, 2);
+        let mut words = std::mem::take(&mut self.waiting.words);
+        words.retain(|(_, placement, words)| {
+            let due = match placement {
+                Placement::BlockOfItsOwn => true,
+                Placement::NextXyBlock => moves_xy,
+                Placement::NextZBlock => moves_z,
+            };
+            if due {
+                self.block.merge(words);
+            }
+            !due
+        });
+        self.waiting.words = words;
+    }
+}

@@ -1,0 +1,210 @@
+//! Arcs: plane, direction, end, and the center or the radius.
+
+use fil_diag::Result;
+use fil_machine::axes::{AxisSet, Position};
+use fil_machine::letters::IJK;
+use fil_machine::locations::{self as loc, CircleCenter};
+use fil_machine::modes::Plane;
+
+use super::modes;
+use super::motion::{self, Motion};
+use crate::cause::Cause;
+use crate::control::Control;
+use crate::operation::Feed;
+
+/// An arc, or a part of one, in a plane of the machine; lengths in mm or inch.
+#[derive(Clone, Copy, Debug)]
+pub struct PlaneArc {
+    /// The plane.
+    pub plane: Plane,
+    /// Counterclockwise, seen against the plane's normal.
+    pub counterclockwise: bool,
+    /// The center, in the two axes of the plane.
+    pub center: [f64; 2],
+    /// The radius.
+    pub radius: f64,
+    /// Where it begins.
+    pub from: Position,
+    /// Where it ends.
+    pub to: Position,
+    /// Degrees, above 0 and at most 360.
+    pub sweep: f64,
+    /// Word of the record that the end repeats; 0 for none.
+    pub word: u16,
+    /// The CIRCLE record.
+    pub cause: Cause,
+}
+
+/// How many last digits the path may be off where the control reads an arc from
+/// the rounded words, and half of it what start and end may differ in radius.
+const DIGITS: f64 = 3.0;
+
+impl PlaneArc {
+    /// A point in the two axes of the plane.
+    fn flat(&self, position: &Position) -> [f64; 2] {
+        self.plane.axes().map(|number| position[number])
+    }
+}
+
+/// True when the control reads the arc from its rounded words as it is meant: same
+/// sweep, same center, same radius at both ends, within a few last digits.
+///
+/// # Errors
+/// A position that does not fit its address.
+pub fn reads_as_meant(control: &Control, arc: &PlaneArc) -> Result<bool> {
+    let axes = arc.plane.axes().map(|number| control.tables.axis(number));
+    let mut start = arc.flat(&arc.from);
+    let mut end = arc.flat(&arc.to);
+    let mut digit: f64 = 0.0;
+    for index in [0, 1] {
+        start[index] = axes[index].on_tape(start[index])?;
+        end[index] = axes[index].on_tape(end[index])?;
+        digit = digit.max(axes[index].resolution());
+    }
+    let Some((center, finest)) = center_on_tape(control, arc, start, end)? else {
+        return Ok(false);
+    };
+    let allowed = DIGITS * digit.max(finest);
+    let radii = [start, end].map(|point| distance(point, center));
+    let sweep = sweep_on_tape(arc, start, end, center);
+    let close = |one: f64, other: f64| (one - other).abs() <= allowed;
+    Ok(distance(center, arc.center) <= allowed
+        && (radii[0] - radii[1]).abs() <= allowed / 2.0
+        && close(radii[0], arc.radius)
+        && close(sweep.to_radians() * arc.radius, arc.sweep.to_radians() * arc.radius))
+}
+
+fn distance(one: [f64; 2], other: [f64; 2]) -> f64 {
+    (one[0] - other[0]).hypot(one[1] - other[1])
+}
+
+/// Degrees from start to end about a center as a control counts them: a start that
+/// is the end makes a full circle.
+fn sweep_on_tape(arc: &PlaneArc, start: [f64; 2], end: [f64; 2], center: [f64; 2]) -> f64 {
+    if start == end {
+        return 360.0;
+    }
+    let angle = |point: [f64; 2]| (point[1] - center[1]).atan2(point[0] - center[0]).to_degrees();
+    let turned = angle(end) - angle(start);
+    let turned = if arc.counterclockwise { turned } else { -turned };
+    if turned <= 0.0 { turned + 360.0 } else { turned }
+}
+
+/// The center that the rounded words give, and the last digit they are written to;
+/// `None` where there is none.
+fn center_on_tape(
+    control: &Control,
+    arc: &PlaneArc,
+    start: [f64; 2],
+    end: [f64; 2],
+) -> Result<Option<([f64; 2], f64)>> {
+    let addresses = &control.tables.addresses;
+    let form = control.commons.read(loc::CIRCLE_CENTER);
+    if form == CircleCenter::Radius {
+        let letter = control.letter(loc::CIRCLE_RADIUS_ADDRESS, "the radius")?;
+        let Some(format) = addresses.format(letter) else { return Ok(None) };
+        let radius = format.unscale(format.scale(arc.radius)?);
+        let center = center_of_radius(arc, start, end, radius);
+        return Ok(center.map(|center| (center, format.unscale(1))));
+    }
+    let mut center = [0.0; 2];
+    let mut digit: f64 = 0.0;
+    for (index, number) in arc.plane.axes().into_iter().enumerate() {
+        let Some(format) = addresses.format(IJK[number]) else { return Ok(None) };
+        let rounded = |value: f64| format.scale(value).map(|scaled| format.unscale(scaled));
+        let offset = arc.center[index] - start[index];
+        center[index] = match form {
+            CircleCenter::AbsoluteCenter => rounded(arc.center[index])?,
+            _ => start[index] + rounded(offset)?,
+        };
+        digit = digit.max(format.unscale(1));
+    }
+    Ok(Some((center, digit)))
+}
+
+/// The center at a radius from start and end, on the side that the sweep asks for;
+/// `None` where the two are the same or too far apart.
+fn center_of_radius(
+    arc: &PlaneArc,
+    start: [f64; 2],
+    end: [f64; 2],
+    radius: f64,
+) -> Option<[f64; 2]> {
+    let half = distance(start, end) / 2.0;
+    let height = radius * radius - half * half;
+    if half == 0.0 || height < 0.0 {
+        return None;
+    }
+    let (across, along) = ([start[1] - end[1], end[0] - start[0]], 2.0 * half);
+    let left = arc.counterclockwise == (arc.sweep <= 180.0);
+    let height = if left { height.sqrt() } else { -height.sqrt() };
+    Some([0, 1].map(|axis| (start[axis] + end[axis]) / 2.0 + across[axis] / along * height))
+}
+
+/// True when the tape stands where the arc begins: the control counts from there.
+///
+/// # Errors
+/// A position that does not fit its address.
+pub fn starts_on_tape(control: &Control, from: &Position) -> Result<bool> {
+    for number in AxisSet::LINEAR.numbers() {
+        let axis = control.tables.axis(number);
+        let repeated = control.repeats.contains_key(&axis.letter);
+        let stands = axis.is_off() || control.has_value(axis.letter, axis.value(from[number])?);
+        if repeated || !stands {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+/// Writes the block of an arc.
+///
+/// # Errors
+/// A code the machine lacks, a value that does not fit, no feed.
+pub fn write(control: &mut Control, arc: &PlaneArc, feed: Option<&Feed>) -> Result<()> {
+    motion::ready(control)?;
+    let code = if arc.counterclockwise { loc::CIRCLE_CCW_CODE } else { loc::CIRCLE_CW_CODE };
+    let code = control.code(code, "an arc")?;
+    let modal = control.commons.read(loc::CIRCLE_MODAL);
+    control.because(arc.cause, |control| modes::plane(control, arc.plane))?;
+    motion::motion_code(control, code, modal, arc.cause);
+    let end = Motion { position: arc.to, axes: AxisSet::LINEAR, word: arc.word };
+    end_words(control, arc, &end)?;
+    control.because(arc.cause, |control| center_words(control, arc))?;
+    motion::feed_words(control, feed)?;
+    motion::write_motion(control)
+}
+
+/// Adds the axes of the plane, all or those that change, and the third where it does.
+fn end_words(control: &mut Control, arc: &PlaneArc, end: &Motion) -> Result<()> {
+    if control.commons.read(loc::CIRCLE_AXES_MODAL) {
+        motion::axis_words(control, end)?;
+        return Ok(());
+    }
+    for number in arc.plane.axes() {
+        motion::axis_word(control, number, end)?;
+    }
+    motion::axis_words(control, &end.of(AxisSet::of(arc.plane.normal())))?;
+    Ok(())
+}
+
+/// Adds I J K of the plane, or the radius: negative above 180 degrees.
+fn center_words(control: &mut Control, arc: &PlaneArc) -> Result<()> {
+    let form = control.commons.read(loc::CIRCLE_CENTER);
+    if form == CircleCenter::Radius {
+        let letter = control.letter(loc::CIRCLE_RADIUS_ADDRESS, "the radius")?;
+        let radius = if arc.sweep > 180.0 + 1e-6 { -arc.radius } else { arc.radius };
+        return control.word(letter, radius);
+    }
+    for (number, center) in arc.plane.axes().into_iter().zip(arc.center) {
+        let start = control.tables.axis(number).on_tape(arc.from[number])?;
+        let value = match form {
+            CircleCenter::CenterToStartSigned => start - center,
+            CircleCenter::AbsoluteCenter => center,
+            CircleCenter::StartToCenterUnsigned => (center - start).abs(),
+            CircleCenter::StartToCenterSigned | CircleCenter::Radius => center - start,
+        };
+        control.word(IJK[number], value)?;
+    }
+    Ok(())
+}

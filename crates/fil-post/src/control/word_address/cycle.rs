@@ -1,0 +1,170 @@
+//! Canned cycles: G81 to G89 with their levels, pecks, dwell and feed.
+
+use fil_diag::Result;
+use fil_machine::FunctionCode;
+use fil_machine::axes::AxisSet;
+use fil_machine::letters::{F, R};
+use fil_machine::locations::{self as loc, CycleDataModal, CycleDepthOutput, CycleReturnCodes};
+use fil_machine::modes::{FeedMode, Plane};
+use fil_machine::rounding::Rounding;
+
+use super::motion::{self, Motion};
+use super::{dwell, modes};
+use crate::control::Control;
+use crate::operation::Feed;
+use crate::path::cycle::{Cycle, CycleFeed, CycleKind, Hole};
+
+/// The code of a cycle; `None` where the machine has none that does all of it, so that
+/// it must be written as single moves.
+///
+/// A dwell is lost in a cycle that takes none: G81, G73, G83 and G85 do not. Drilling
+/// with a dwell is countersinking (G82).
+pub fn code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
+    let code = control.code_if_any(cycle.kind.locations().0)?;
+    if cycle.dwell == 0.0 || !WITHOUT_DWELL.contains(&code) {
+        return Some(code);
+    }
+    let straight = matches!(
+        cycle.kind,
+        CycleKind::Drill | CycleKind::Thru | CycleKind::Csink | CycleKind::Face
+    );
+    let with_dwell = control.code_if_any(loc::CYCLE_CSINK_CODE).filter(|_| straight);
+    with_dwell.filter(|code| !WITHOUT_DWELL.contains(code))
+}
+
+/// Cycles of the usual controls that take no dwell.
+const WITHOUT_DWELL: [FunctionCode; 4] = [
+    FunctionCode::whole(73),
+    FunctionCode::whole(81),
+    FunctionCode::whole(83),
+    FunctionCode::whole(85),
+];
+
+/// Writes the block of a hole: all words at the first one, later only what has
+/// changed.
+///
+/// # Errors
+/// A code or letter the machine lacks, a value that does not fit.
+pub fn hole(
+    control: &mut Control,
+    cycle: &Cycle,
+    code: FunctionCode,
+    at: &Motion,
+    hole: &Hole,
+) -> Result<()> {
+    let across = at.of(across(hole.along));
+    let data_modal = control.commons.read(loc::CYCLE_DATA_MODAL);
+    let in_force = cycle.in_force == Some(*hole) && control_has_data(control, cycle, hole);
+    if in_force && data_modal != CycleDataModal::EveryPoint {
+        if !motion::axis_words(control, &across)? {
+            for number in AxisSet::LINEAR.numbers().filter(|number| *number != hole.along) {
+                motion::axis_word(control, number, &across)?;
+            }
+        }
+        return motion::write_motion(control);
+    }
+    modes::plane_of_its_own(control, Plane::across(hole.along))?;
+    control.because(cycle.cause, |control| codes(control, code, hole))?;
+    for number in AxisSet::LINEAR.numbers().filter(|number| *number != hole.along) {
+        motion::axis_word(control, number, &across)?;
+    }
+    motion::axis_words(control, &across.of(AxisSet::ROTARY))?;
+    level_words(control, cycle, hole)?;
+    data_words(control, cycle)?;
+    motion::write_motion(control)
+}
+
+/// True when the control still has the words of the last hole: no text has changed
+/// plane, feed, levels or peck since.
+fn control_has_data(control: &Control, cycle: &Cycle, hole: &Hole) -> bool {
+    let step = control.commons.read(loc::CYCLE_STEP_ADDRESS).filter(|_| cycle.step.is_some());
+    let letters = [Some(F), Some(R), step];
+    letters.into_iter().flatten().all(|letter| control.state.has_last(letter))
+        && control.state.plane.is_none_or(|plane| plane == Plane::across(hole.along))
+}
+
+/// Writes the code that ends the control's cycle, if it may be in one.
+///
+/// # Errors
+/// The machine has no such code.
+pub fn cancel(control: &mut Control) -> Result<()> {
+    if control.state.in_cycle != Some(true) {
+        return Ok(());
+    }
+    let waiting = control.block.take();
+    let code = control.code(loc::CYCLE_OFF_CODE, "CYCLE/OFF")?;
+    control.g_of_record(code);
+    control.write_block()?;
+    control.block = waiting;
+    Ok(())
+}
+
+/// After a hole the control stands at this level, whatever its last words were.
+///
+/// # Errors
+/// A level that does not fit its address.
+pub fn stands_at(control: &mut Control, along: usize, level: f64) -> Result<()> {
+    let axis = *control.tables.axis(along);
+    control.commons.set_last_output(axis.letter, axis.value(level)?);
+    control.state.trust(axis.letter);
+    Ok(())
+}
+
+/// All axes but the one the hole runs along.
+fn across(along: usize) -> AxisSet {
+    let others = AxisSet::ALL.numbers().filter(|number| *number != along);
+    others.fold(AxisSet::NONE, |set, number| set.or(AxisSet::of(number)))
+}
+
+/// The level to return to and the cycle.
+fn codes(control: &mut Control, cycle: FunctionCode, hole: &Hole) -> Result<()> {
+    if control.commons.read(loc::CYCLE_RETURN_CODES) == CycleReturnCodes::Yes {
+        let at = if hole.to_initial {
+            loc::CYCLE_RETURN_INITIAL_CODE
+        } else {
+            loc::CYCLE_RETURN_CLEAR_CODE
+        };
+        let code = control.code(at, "the return level")?;
+        control.g(code);
+    }
+    control.g(cycle);
+    Ok(())
+}
+
+/// Bottom and R level: absolute, or as increments from the level before and from R.
+fn level_words(control: &mut Control, cycle: &Cycle, hole: &Hole) -> Result<()> {
+    let axis = *control.tables.axis(hole.along);
+    let value = |level: f64| axis.value(level);
+    let (bottom, clear, start) = (value(hole.bottom)?, value(hole.clear)?, value(hole.initial)?);
+    let (z, r) = match control.commons.read(loc::CYCLE_DEPTH_OUTPUT) {
+        CycleDepthOutput::IncrementalSigned => (bottom - clear, clear - start),
+        CycleDepthOutput::IncrementalUnsigned => ((bottom - clear).abs(), (clear - start).abs()),
+        CycleDepthOutput::Absolute => (bottom, clear),
+    };
+    control.because(cycle.due_to(cycle.words.depth), |control| control.word(axis.letter, z))?;
+    control.because(cycle.due_to(cycle.words.clear), |control| control.word(R, r))
+}
+
+/// Peck, dwell and feed.
+fn data_words(control: &mut Control, cycle: &Cycle) -> Result<()> {
+    if let Some(step) = cycle.step {
+        let letter = control.letter(loc::CYCLE_STEP_ADDRESS, "the peck")?;
+        control.because(cycle.due_to(cycle.words.step), |control| {
+            control.word_rounded(letter, step, Rounding::Rate)
+        })?;
+    }
+    if cycle.dwell > 0.0 {
+        let cause = cycle.due_to(cycle.words.dwell);
+        control.because(cause, |control| dwell::cycle_word(control, cycle.dwell))?;
+    }
+    let (feed, rounding) = match cycle.feed {
+        CycleFeed::Lead(lead) => {
+            let mode = FeedMode::PerRevolution;
+            (Feed { value: lead.value, mode, cause: lead.cause }, Rounding::Lead)
+        }
+        CycleFeed::Feed(feed) if cycle.kind == CycleKind::Tap => (feed, Rounding::Lead),
+        CycleFeed::Feed(feed) => (feed, Rounding::Rate),
+    };
+    motion::feed_mode(control, &feed)?;
+    control.because(feed.cause, |control| control.word_rounded(F, feed.value, rounding))
+}

@@ -1,0 +1,20 @@
+//! A preparatory or auxiliary function by its number (PREFUN, AUXFUN).
+
+use fil_diag::Result;
+use fil_machine::letters::{G, M};
+use fil_machine::{FunctionCode, Letter};
+
+use crate::control::Control;
+
+/// Writes the function in a block of its own; the control learns what it means.
+///
+/// # Errors
+/// A function that the address can't write.
+pub fn write(control: &mut Control, letter: Letter, code: FunctionCode) -> Result<()> {
+    match letter {
+        G => control.g(code),
+        M => control.m(code),
+        _ => control.word(letter, code.value())?,
+    }
+    control.write_block()
+}

@@ -1,0 +1,48 @@
+//! The word-address control (ISO 6983, Fanuc and its relatives): blocks of words,
+//! each a letter and a number. One file an operation.
+
+pub mod arc;
+mod compensation;
+mod coolant;
+pub mod cycle;
+pub mod dwell;
+mod function;
+pub mod modes;
+pub mod motion;
+mod repeat;
+mod spindle;
+mod stop;
+mod text;
+pub mod tool;
+
+use fil_diag::Result;
+
+use super::Control;
+use crate::operation::Operation;
+
+/// Writes an operation that does not depend on the path.
+///
+/// # Errors
+/// A code the machine lacks, a value that does not fit, an operation at a wrong
+/// moment.
+pub fn write(control: &mut Control, operation: Operation) -> Result<()> {
+    match operation {
+        Operation::Dwell(dwell) => dwell::write(control, dwell),
+        Operation::Spindle(spindle) => spindle::write(control, spindle),
+        Operation::Coolant(coolant) => coolant::write(control, coolant),
+        Operation::Compensation(compensation) => compensation::write(control, compensation),
+        Operation::SelectTool(tool) => tool::select(control, tool),
+        Operation::Function(letter, code) => function::write(control, letter, code),
+        Operation::Words(words) => control.write_words(&words),
+        Operation::Repeat(words) => repeat::set(control, words),
+        Operation::Text(text) => text::insert(control, &text),
+        Operation::Message(text) => text::message(control, &text),
+        Operation::Stop(stop) => stop::stop(control, stop),
+        Operation::End(end) => stop::end(control, end),
+        Operation::Skip(on) => control.skip_blocks(on),
+        Operation::Linear(..)
+        | Operation::Arc(..)
+        | Operation::Hole(_)
+        | Operation::ToolChange(_) => unreachable!("the passes take operations that move"),
+    }
+}

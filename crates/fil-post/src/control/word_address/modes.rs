@@ -1,0 +1,112 @@
+//! The modes an operation depends on: said again where the control is not known
+//! to be in them.
+
+use fil_diag::Result;
+use fil_machine::modes::{Plane, Unit};
+use fil_machine::{FunctionCode, locations as loc};
+
+use crate::control::Control;
+use crate::control::program::{plane_code, unit_code};
+use crate::control_state::{Compensation, Distance};
+use crate::errors::PostCode;
+
+/// Brings the control into the modes every motion of the post counts on: unit,
+/// absolute coordinates, no cycle, no compensation but the one asked for.
+///
+/// # Errors
+/// The machine has no code for a mode the control is known not to be in; cutter
+/// compensation that can't be said again in its middle.
+#[inline]
+pub fn require(control: &mut Control, unit: Unit) -> Result<()> {
+    let state = &control.state;
+    let stands = state.unit == Some(unit)
+        && state.distance == Some(Distance::Absolute)
+        && state.in_cycle == Some(false)
+        && state.compensation.is_some();
+    if stands { Ok(()) } else { say_again(control, unit) }
+}
+
+#[cold]
+fn say_again(control: &mut Control, unit: Unit) -> Result<()> {
+    let waiting = control.block.take();
+    let mut missing = Vec::new();
+    if control.state.in_cycle != Some(false) {
+        say(control, control.code_if_any(loc::CYCLE_OFF_CODE));
+    }
+    if control.state.unit != Some(unit) {
+        let wrong = control.state.unit.is_some();
+        if !say(control, control.code_if_any(unit_code(unit))) && wrong {
+            missing.push("the unit");
+        }
+        control.state.unit = Some(unit);
+    }
+    if control.state.distance != Some(Distance::Absolute) {
+        let wrong = control.state.distance.is_some();
+        if !say(control, absolute_code(control)) && wrong {
+            missing.push("absolute coordinates");
+        }
+        control.state.distance = Some(Distance::Absolute);
+    }
+    if control.state.compensation.is_none() {
+        if control.compensation_asked() != Compensation::Off {
+            return PostCode::CompensationLost
+                .err("a text that can't be read stands within cutter compensation");
+        }
+        say(control, control.code_if_any(loc::CUTCOM_OFF_CODE));
+        control.state.compensation = Some(Compensation::Off);
+    }
+    if let Some(what) = missing.first() {
+        return PostCode::NoCode.err(format!("the machine has no code that brings {what} back"));
+    }
+    control.write_block()?;
+    control.state.in_cycle = Some(false);
+    control.block = waiting;
+    Ok(())
+}
+
+/// Adds a code; says whether there is one.
+fn say(control: &mut Control, code: Option<FunctionCode>) -> bool {
+    if let Some(code) = code {
+        control.g_of_record(code);
+    }
+    code.is_some()
+}
+
+/// The code of absolute coordinates; `None` on a machine without it.
+fn absolute_code(control: &Control) -> Option<FunctionCode> {
+    let at_start = control.code_if_any(loc::MODE_POSITION);
+    at_start.and(control.code_if_any(loc::MODE_ABSOLUTE_CODE))
+}
+
+/// Adds a plane selection unless the control is in it.
+///
+/// # Errors
+/// The machine has no code for the plane.
+pub fn plane(control: &mut Control, plane: Plane) -> Result<()> {
+    if control.state.plane != Some(plane) {
+        let code = control.code(plane_code(plane), "this plane")?;
+        control.g(code);
+    }
+    Ok(())
+}
+
+/// Writes a plane selection in a block of its own unless the control is in it; a
+/// machine without planes has only one.
+///
+/// # Errors
+/// The control is in another plane and has no code for this one.
+pub fn plane_of_its_own(control: &mut Control, wanted: Plane) -> Result<()> {
+    control.begin()?;
+    if control.state.plane == Some(wanted) {
+        return Ok(());
+    }
+    let has_code = control.code_if_any(plane_code(wanted)).is_some();
+    if control.state.plane.is_none() && !has_code {
+        return Ok(());
+    }
+    let waiting = control.block.take();
+    plane(control, wanted)?;
+    control.write_block()?;
+    control.block = waiting;
+    Ok(())
+}

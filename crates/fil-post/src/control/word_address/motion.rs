@@ -1,0 +1,295 @@
+//! Straight motions: axis words, the motion function, the feed.
+
+use fil_diag::Result;
+use fil_machine::axes::{AXES, AxisSet, Position};
+use fil_machine::letters::{F, H};
+use fil_machine::modes::FeedMode;
+use fil_machine::setting::CodeAt;
+use fil_machine::{FunctionCode, locations as loc};
+
+use super::modes;
+use crate::cause::Cause;
+use crate::control::Control;
+use crate::control_state::Compensation;
+use crate::errors::PostCode;
+use crate::operation::{Feed, Lead};
+
+/// A motion of the machine's axes.
+#[derive(Clone, Copy, Debug)]
+pub struct Motion {
+    /// Where to: X Y Z in mm or inch, two rotaries in degrees.
+    pub position: Position,
+    /// The axes that may move.
+    pub axes: AxisSet,
+    /// Word of the record that X repeats, Y and Z follow; 0 for none.
+    pub word: u16,
+}
+
+impl Motion {
+    /// The same for some of its axes.
+    pub fn of(&self, axes: AxisSet) -> Motion {
+        Motion { axes: self.axes.and(axes), ..*self }
+    }
+}
+
+/// Which code a rapid motion takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RapidCode {
+    /// That of X and Y.
+    Across,
+    /// That of Z.
+    Along,
+    /// That of the rotary axes.
+    Turning,
+}
+
+/// Writes a rapid motion in one block.
+///
+/// # Errors
+/// A value that does not fit, a missing code, a position outside the travel.
+pub fn rapid(control: &mut Control, motion: &Motion, code: RapidCode, cause: Cause) -> Result<()> {
+    let at = match code {
+        RapidCode::Across => loc::RAPID_CODE_XY,
+        RapidCode::Along => loc::RAPID_CODE_Z,
+        RapidCode::Turning => loc::ROTARY_RAPID_CODE,
+    };
+    let code = control.code(at, "rapid motion")?;
+    ready(control)?;
+    if axis_words(control, motion)? {
+        let modal = control.commons.read(loc::RAPID_MODAL);
+        motion_code(control, code, modal, cause);
+        if control.commons.read(loc::RAPID_REPEAT_FEED) {
+            control.state.doubt(F);
+        }
+        write_motion(control)?;
+    }
+    Ok(())
+}
+
+/// Writes a feed motion in one block.
+///
+/// # Errors
+/// As [`rapid`]; no feed.
+#[inline]
+pub fn feed(control: &mut Control, motion: &Motion, feed: Option<&Feed>) -> Result<()> {
+    ready(control)?;
+    if !axis_words(control, motion)? {
+        return Ok(());
+    }
+    let code = control.code(loc::LINEAR_CODE, "linear motion")?;
+    let modal = control.commons.read(loc::LINEAR_MODAL) != loc::LinearModal::InEveryBlock;
+    let cause = control.block.cause;
+    motion_code(control, code, modal, cause);
+    feed_words(control, feed)?;
+    write_motion(control)
+}
+
+/// Writes one pass of a thread.
+///
+/// # Errors
+/// As [`rapid`]; the machine has no thread code; a lead that the address can't hold.
+pub fn thread(control: &mut Control, motion: &Motion, lead: &Lead) -> Result<()> {
+    ready(control)?;
+    if !axis_words(control, motion)? {
+        return Ok(());
+    }
+    let code = control.code(loc::THREAD_CODE, "a thread")?;
+    motion_code(control, code, false, lead.cause.whole());
+    lead_word(control, lead)?;
+    write_motion(control)?;
+    control.state.doubt(F);
+    Ok(())
+}
+
+/// Adds the lead as F.
+///
+/// # Errors
+/// A lead that the address can't hold.
+pub fn lead_word(control: &mut Control, lead: &Lead) -> Result<()> {
+    control.because(lead.cause, |control| {
+        control.word_rounded(F, lead.value, fil_machine::rounding::Rounding::Lead)
+    })
+}
+
+/// Brings the control into the modes a motion counts on.
+///
+/// # Errors
+/// No unit; and as [`modes::require`].
+#[inline]
+pub fn ready(control: &mut Control) -> Result<()> {
+    if !control.head.started {
+        control.begin()?;
+    }
+    if !control.ended_repeats.is_empty() {
+        super::repeat::doubt_ended(control);
+    }
+    let unit = control.require_unit()?;
+    modes::require(control, unit)
+}
+
+/// The same for a hole: the control may be in the cycle that drills it.
+///
+/// # Errors
+/// As [`ready`].
+pub fn ready_for_hole(control: &mut Control, in_cycle: bool) -> Result<()> {
+    if in_cycle && control.state.in_cycle == Some(true) {
+        control.state.in_cycle = Some(false);
+        let result = ready(control);
+        control.state.in_cycle = Some(true);
+        return result;
+    }
+    ready(control)
+}
+
+/// Adds the words of the axes that move; says whether any does.
+///
+/// # Errors
+/// A value that does not fit its address, or lies outside the travel.
+#[inline]
+pub fn axis_words(control: &mut Control, motion: &Motion) -> Result<bool> {
+    let mut scaled = [0; AXES];
+    let mut changed = AxisSet::NONE;
+    let present = motion.axes.and(control.tables.present());
+    let doubts = control.state.has_doubts();
+    for number in present.numbers() {
+        let axis = control.tables.axis(number);
+        axis.check(motion.position[number])?;
+        if !axis.is_off() {
+            scaled[number] = axis.scaled(motion.position[number])?;
+            let due = axis.changes(scaled[number], &control.commons)
+                || (doubts && !control.state.has_last(axis.letter));
+            if due {
+                changed = changed.or(AxisSet::of(number));
+            }
+        }
+    }
+    if changed.is_empty() {
+        return Ok(false);
+    }
+    let written = if control.commons.read(loc::MOTION_MODAL) { changed } else { present };
+    for number in written.numbers() {
+        if let Some(position) = control.tables.axis(number).tape_position()? {
+            control.block.put(position, scaled[number]);
+        }
+    }
+    if control.block.noting {
+        note_axis_words(control, written, motion.word);
+    }
+    Ok(true)
+}
+
+/// Adds one axis word, whether or not it has changed.
+///
+/// # Errors
+/// As [`axis_words`].
+pub fn axis_word(control: &mut Control, number: usize, motion: &Motion) -> Result<()> {
+    let axis = *control.tables.axis(number);
+    axis.check(motion.position[number])?;
+    if let Some(position) = axis.tape_position()? {
+        let scaled = axis.scaled(motion.position[number])?;
+        control.block.put(position, scaled);
+        if control.block.noting {
+            note_axis_words(control, AxisSet::of(number), motion.word);
+        }
+    }
+    Ok(())
+}
+
+/// Notes which words of the record the words of axes repeat.
+fn note_axis_words(control: &mut Control, written: AxisSet, first: u16) {
+    if first == 0 {
+        return;
+    }
+    for number in written.and(AxisSet::LINEAR).numbers() {
+        if let Ok(Some(position)) = control.tables.axis(number).tape_position() {
+            control.block.note_word(position, first + number as u16);
+        }
+    }
+}
+
+/// Adds a motion function unless the control has it.
+#[inline]
+pub fn motion_code(control: &mut Control, code: FunctionCode, modal: bool, cause: Cause) {
+    control.check_forgotten();
+    if !modal || control.state.motion != Some(code) {
+        control.block.g(code, cause);
+    }
+}
+
+/// Adds the feed mode code and the F word where the control does not have them.
+///
+/// # Errors
+/// No feed was given, or it does not fit its address.
+#[inline]
+pub fn feed_words(control: &mut Control, feed: Option<&Feed>) -> Result<()> {
+    let feed = feed.ok_or_else(|| PostCode::NoFeed.diag("no FEDRAT came before this motion"))?;
+    feed_mode(control, feed)?;
+    control.modal_feed(F, feed)
+}
+
+/// Adds the code of a feed's mode where the control is not in it.
+///
+/// # Errors
+/// The machine has no such code.
+#[inline]
+pub fn feed_mode(control: &mut Control, feed: &Feed) -> Result<()> {
+    if control.state.feed_mode != Some(feed.mode) {
+        let code = control.code(feed_mode_code(feed.mode), "this feed mode")?;
+        control.block.g(code, feed.cause.whole());
+        control.state.doubt(F);
+    }
+    Ok(())
+}
+
+/// Writes a motion block: adds the words that wait for it and those of REPEAT.
+///
+/// # Errors
+/// As [`Control::write_block`].
+#[inline]
+pub fn write_motion(control: &mut Control) -> Result<()> {
+    if !control.waiting.is_empty() {
+        control.take_waiting();
+        length_offset_words(control)?;
+    }
+    let compensated = control.state.compensation != Some(Compensation::Off)
+        || control.compensation_asked() != Compensation::Off;
+    let in_plane = compensated && moves_in_plane(control);
+    if control.repeats.is_empty() {
+        control.write_block()?;
+    } else {
+        super::repeat::write_with_repeats(control)?;
+    }
+    if in_plane {
+        control.state.moved_in_plane();
+    }
+    Ok(())
+}
+
+/// True when the block moves an axis of the plane in force.
+fn moves_in_plane(control: &Control) -> bool {
+    let plane = control.state.plane.unwrap_or(fil_machine::Plane::Xy);
+    plane.axes().into_iter().any(|number| control.block_has(control.tables.axis(number).letter))
+}
+
+/// The length offset with the first Z motion after a tool change.
+fn length_offset_words(control: &mut Control) -> Result<()> {
+    if !control.block_has(control.tables.axis(2).letter) {
+        return Ok(());
+    }
+    if let Some((offset, cause)) = control.waiting.length_offset.take() {
+        let code = control.code(loc::TOOL_LENGTH_CODE, "tool length offset")?;
+        control.because(cause, |control| {
+            control.g_of_record(code);
+            control.word(H, offset as f64)
+        })?;
+    }
+    Ok(())
+}
+
+/// Location of a feed mode's preparatory function.
+fn feed_mode_code(mode: FeedMode) -> CodeAt {
+    match mode {
+        FeedMode::PerMinute => loc::FEED_UPM_CODE,
+        FeedMode::PerRevolution => loc::FEED_UPR_CODE,
+    }
+}

@@ -1,0 +1,51 @@
+//! Texts: INSERT as it is, PPRINT as a comment.
+
+use fil_diag::Result;
+use fil_machine::locations::{self as loc, SeqnoOnText};
+
+use crate::control::Control;
+use crate::control::texts::clean_message;
+use crate::errors::PostCode;
+
+/// Writes the text of an INSERT. The machine's end-of-block character splits it
+/// into several blocks.
+///
+/// # Errors
+/// As [`Control::write_text`].
+pub fn insert(control: &mut Control, text: &str) -> Result<()> {
+    let on_text = control.commons.read(loc::SEQNO_ON_TEXT);
+    let numbered = matches!(on_text, SeqnoOnText::Insert | SeqnoOnText::Both);
+    let end_of_block = control.commons.read(loc::TAPE_END_OF_BLOCK_CHAR);
+    for block in text.split(|c| Some(c) == end_of_block) {
+        let block = block.trim();
+        if !block.is_empty() {
+            control.write_text(block, numbered)?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes a message between the control-out and control-in characters, broken at
+/// the machine's longest message.
+///
+/// # Errors
+/// As [`Control::write_comment`].
+pub fn message(control: &mut Control, text: &str) -> Result<()> {
+    let open = control.commons.read(loc::MESSAGE_OUT_CHAR).unwrap_or('(');
+    let close = control.commons.read(loc::MESSAGE_IN_CHAR).unwrap_or(')');
+    let longest = control.commons.int(loc::MESSAGE_MAX_CHARS).clamp(1, 120) as usize;
+    let on_text = control.commons.read(loc::SEQNO_ON_TEXT);
+    let numbered = matches!(on_text, SeqnoOnText::Pprint | SeqnoOnText::Both);
+    let (clean, changed) = clean_message(text, open, close);
+    if changed {
+        let message =
+            format!("characters that must not reach the tape in `{}`", text.escape_debug());
+        control.warnings.add(PostCode::IgnoredPart, message);
+    }
+    let clean: Vec<char> = clean.chars().collect();
+    for part in clean.chunks(longest) {
+        let part: String = part.iter().collect();
+        control.write_comment(&format!("{open}{part}{close}"), numbered)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,124 @@
+//! Tool change: T and the change code, length offset.
+
+use fil_diag::Result;
+use fil_machine::axes::{AxisSet, Position};
+use fil_machine::letters::{H, T};
+use fil_machine::locations::{self as loc, ToolFormat};
+
+use super::motion::{self, Motion};
+use crate::control::Control;
+use crate::control_state::Compensation;
+use crate::errors::PostCode;
+use crate::operation::ToolChange;
+
+/// Ends what a tool change must not interrupt; says whether the tool is to be
+/// changed at all.
+///
+/// # Errors
+/// Cutter compensation that is still on.
+pub fn prepare(control: &mut Control, wanted: &ToolChange) -> Result<bool> {
+    control.begin()?;
+    super::cycle::cancel(control)?;
+    control.flush_waiting()?;
+    if matches!(control.state.compensation, Some(Compensation::Left | Compensation::Right)) {
+        return PostCode::CompensationOn.err("at a tool change; CUTCOM/OFF must come before it");
+    }
+    let modal = control.commons.read(loc::TOOL_MODAL);
+    Ok(!modal || control.tool != Some(wanted.tool))
+}
+
+/// Changes the tool and calls its length offset.
+///
+/// # Errors
+/// A tool or offset that does not fit, an offset the machine can't call.
+pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
+    let one_word = control.commons.read(loc::TOOL_FORMAT) == ToolFormat::ToolAndOffsetInOneTWord;
+    if one_word {
+        tool_and_offset(control, wanted)?;
+        restate(control);
+    } else {
+        tool_blocks(control, wanted.tool)?;
+        restate(control);
+        control.because(wanted.causes[1], |control| length_offset(control, wanted))?;
+    }
+    control.tool = Some(wanted.tool);
+    Ok(())
+}
+
+/// Names the next tool, on a machine that prepares it.
+///
+/// # Errors
+/// A number that does not fit.
+pub fn select(control: &mut Control, tool: i64) -> Result<()> {
+    if !control.commons.read(loc::TOOL_PRESELECT) {
+        return Ok(());
+    }
+    control.word(T, tool as f64)?;
+    control.write_block()
+}
+
+/// Writes tool and offset in one word, two digits each: T0303.
+fn tool_and_offset(control: &mut Control, wanted: ToolChange) -> Result<()> {
+    const OFFSETS: i64 = 100;
+    if wanted.offset >= OFFSETS {
+        return PostCode::WordForm
+            .err(format!("LOADTL: offset {} has more than two digits", wanted.offset));
+    }
+    control.word(T, (wanted.tool * OFFSETS + wanted.offset) as f64)?;
+    control.write_block()
+}
+
+/// Where axes and motion stand is not known: the change may have moved the machine.
+fn restate(control: &mut Control) {
+    if control.commons.read(loc::TOOL_RESTATE) {
+        for number in control.tables.present().numbers() {
+            control.state.doubt(control.tables.axis(number).letter);
+        }
+        control.state.motion = None;
+    }
+}
+
+/// Writes T and the change code, in one block or two.
+fn tool_blocks(control: &mut Control, tool: i64) -> Result<()> {
+    control.word(T, tool as f64)?;
+    if control.commons.read(loc::TOOL_SEPARATE_BLOCKS) {
+        control.write_block()?;
+    }
+    match control.code_if_any(loc::TOOL_CHANGE_CODE) {
+        Some(code) => control.block.m(code, control.block.cause.whole()),
+        None => control.warn_no_code("a tool change"),
+    }
+    control.write_block()
+}
+
+/// Calls the length offset: with the Z position of the machine (own location
+/// `tool.length_z`) in a block of its own, else with the next Z motion.
+fn length_offset(control: &mut Control, wanted: ToolChange) -> Result<()> {
+    let calls = control.commons.read(loc::TOOL_LENGTH_FROM_TOOL);
+    let Some(code) = control.code_if_any(loc::TOOL_LENGTH_CODE).filter(|_| calls) else {
+        if wanted.offset_given && wanted.offset != wanted.tool {
+            return PostCode::NoCode.err(format!(
+                "LOADTL asks for offset {}, and the machine calls no length offset",
+                wanted.offset
+            ));
+        }
+        return Ok(());
+    };
+    if let Some(cancel) = control.code_if_any(loc::TOOL_LENGTH_CANCEL_CODE) {
+        control.g_of_record(cancel);
+        control.write_block()?;
+    }
+    let Some(z) = control.commons.dbl_opt(loc::TOOL_LENGTH_Z) else {
+        control.waiting.length_offset = Some((wanted.offset, control.block.cause));
+        control.state.doubt(control.tables.axis(2).letter);
+        return Ok(());
+    };
+    let mut position = Position::default();
+    position[2] = z;
+    control.g_of_record(code);
+    motion::axis_word(control, 2, &Motion { position, axes: AxisSet::Z, word: 0 })?;
+    control.word(H, wanted.offset as f64)?;
+    control.write_block()?;
+    control.state.motion = None;
+    Ok(())
+}

@@ -1,0 +1,194 @@
+//! What the preparatory functions of a machine mean: the codes its settings name,
+//! and for texts of others the usual ones (ISO 6983, RS-274).
+
+use fil_machine::modes::{FeedMode, Plane, Unit};
+use fil_machine::setting::CodeAt;
+use fil_machine::{Commons, FunctionCode, locations as loc};
+
+use super::{Compensation, Distance};
+
+/// What a preparatory function does to the state of the control.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Meaning {
+    /// The kind of motion: rapid, line, arc, thread.
+    Motion,
+    /// The plane.
+    Plane(Plane),
+    /// How coordinates count.
+    Distance(Distance),
+    /// The unit.
+    Unit(Unit),
+    /// What F means; `None` for inverse time.
+    FeedMode(Option<FeedMode>),
+    /// Cutter compensation.
+    Compensation(Compensation),
+    /// A canned cycle.
+    Cycle,
+    /// The end of a canned cycle.
+    CycleOff,
+    /// It acts in its block alone, or on what the post does not depend on.
+    OneBlock,
+    /// A turning cycle: it leaves axes, motion and feed elsewhere.
+    Turning,
+    /// The length of the tool: where Z stands in the program is not known.
+    ToolLength,
+    /// It moves the zero, or the axes by a way of its own: where they stand in the
+    /// program is not known.
+    Frame,
+    /// Not known.
+    Unknown,
+}
+
+/// The functions of a machine.
+#[derive(Clone, Debug, Default)]
+pub struct Codes {
+    named: Vec<(FunctionCode, Meaning)>,
+    /// Feeds are G98 and G99: then G90, G92 and G94 are turning cycles.
+    turning: bool,
+    /// The machine has canned cycles that a code ends.
+    has_cycle_off: bool,
+}
+
+impl Codes {
+    /// The functions that the settings name.
+    pub fn from_commons(commons: &Commons) -> Self {
+        let turning = commons.read(loc::FEED_UPM_CODE) == Some(98);
+        let mut codes = Codes {
+            named: Vec::with_capacity(48),
+            turning,
+            has_cycle_off: commons.read(loc::CYCLE_OFF_CODE).is_some(),
+        };
+        let mut name = |at: CodeAt, meaning: Meaning| {
+            let code = commons.read(at).and_then(FunctionCode::of_setting);
+            if let Some(code) = code {
+                codes.named.push((code, meaning));
+            }
+        };
+        for at in MOTIONS {
+            name(at, Meaning::Motion);
+        }
+        for (at, meaning) in MODES {
+            name(at, meaning);
+        }
+        for at in CYCLES {
+            name(at, Meaning::Cycle);
+        }
+        if !turning {
+            name(loc::MODE_ABSOLUTE_CODE, Meaning::Distance(Distance::Absolute));
+            name(loc::MODE_INCREMENTAL_CODE, Meaning::Distance(Distance::Incremental));
+        }
+        codes
+    }
+
+    /// What a code does.
+    #[inline]
+    pub fn meaning(&self, code: FunctionCode) -> Meaning {
+        match self.named.iter().find(|(named, _)| *named == code) {
+            Some((_, meaning)) => *meaning,
+            None => self.usual(code),
+        }
+    }
+
+    /// True when a motion function ends a cycle that no code ends.
+    pub fn motion_ends_cycle(&self) -> bool {
+        !self.has_cycle_off
+    }
+
+    /// What a code does that no setting names.
+    fn usual(&self, code: FunctionCode) -> Meaning {
+        let value = code.value();
+        if value.fract() != 0.0 {
+            return of_tenths(code);
+        }
+        match value as u16 {
+            0..=3 => Meaning::Motion,
+            17 => Meaning::Plane(Plane::Xy),
+            18 => Meaning::Plane(Plane::Zx),
+            19 => Meaning::Plane(Plane::Yz),
+            20 | 70 if !self.turning => Meaning::Unit(Unit::Inch),
+            21 | 71 if !self.turning => Meaning::Unit(Unit::Mm),
+            20 => Meaning::Unit(Unit::Inch),
+            21 => Meaning::Unit(Unit::Mm),
+            40 => Meaning::Compensation(Compensation::Off),
+            41 => Meaning::Compensation(Compensation::Left),
+            42 => Meaning::Compensation(Compensation::Right),
+            32 | 33 => Meaning::Motion,
+            70..=78 | 90 | 92 | 94 if self.turning => Meaning::Turning,
+            73 | 74 | 76 | 81..=89 => Meaning::Cycle,
+            80 => Meaning::CycleOff,
+            90 => Meaning::Distance(Distance::Absolute),
+            91 => Meaning::Distance(Distance::Incremental),
+            93 => Meaning::FeedMode(None),
+            94 => Meaning::FeedMode(Some(FeedMode::PerMinute)),
+            95 => Meaning::FeedMode(Some(FeedMode::PerRevolution)),
+            96..=99 => Meaning::OneBlock,
+            4 | 9 | 61 | 64 => Meaning::OneBlock,
+            43 | 44 | 49 => Meaning::ToolLength,
+            10 | 27..=30 | 50 | 52..=59 | 68 | 69 | 92 => Meaning::Frame,
+            _ => Meaning::Unknown,
+        }
+    }
+}
+
+/// What the codes with a decimal do that controls of today share: high-speed modes,
+/// tool-tip control, work offsets, tilted planes.
+fn of_tenths(code: FunctionCode) -> Meaning {
+    const HIGH_SPEED: FunctionCode = FunctionCode::tenths(51);
+    const TIP: [FunctionCode; 2] = [FunctionCode::tenths(434), FunctionCode::tenths(435)];
+    const FRAMES: [FunctionCode; 5] = [
+        FunctionCode::tenths(531),
+        FunctionCode::tenths(541),
+        FunctionCode::tenths(682),
+        FunctionCode::tenths(683),
+        FunctionCode::tenths(684),
+    ];
+    let offset = (54.0..60.0).contains(&code.value());
+    match code {
+        HIGH_SPEED => Meaning::OneBlock,
+        _ if offset || TIP.contains(&code) || FRAMES.contains(&code) => Meaning::Frame,
+        _ => Meaning::Unknown,
+    }
+}
+
+const MOTIONS: [CodeAt; 7] = [
+    loc::RAPID_CODE_XY,
+    loc::RAPID_CODE_Z,
+    loc::ROTARY_RAPID_CODE,
+    loc::LINEAR_CODE,
+    loc::CIRCLE_CW_CODE,
+    loc::CIRCLE_CCW_CODE,
+    loc::THREAD_CODE,
+];
+
+const MODES: [(CodeAt, Meaning); 18] = [
+    (loc::CIRCLE_PLANE_XY, Meaning::Plane(Plane::Xy)),
+    (loc::CIRCLE_PLANE_ZX, Meaning::Plane(Plane::Zx)),
+    (loc::CIRCLE_PLANE_YZ, Meaning::Plane(Plane::Yz)),
+    (loc::UNITS_METRIC_CODE, Meaning::Unit(Unit::Mm)),
+    (loc::UNITS_INCH_CODE, Meaning::Unit(Unit::Inch)),
+    (loc::FEED_UPM_CODE, Meaning::FeedMode(Some(FeedMode::PerMinute))),
+    (loc::FEED_UPR_CODE, Meaning::FeedMode(Some(FeedMode::PerRevolution))),
+    (loc::CUTCOM_OFF_CODE, Meaning::Compensation(Compensation::Off)),
+    (loc::CUTCOM_LEFT_CODE, Meaning::Compensation(Compensation::Left)),
+    (loc::CUTCOM_RIGHT_CODE, Meaning::Compensation(Compensation::Right)),
+    (loc::CYCLE_OFF_CODE, Meaning::CycleOff),
+    (loc::CYCLE_RETURN_CLEAR_CODE, Meaning::OneBlock),
+    (loc::CYCLE_RETURN_INITIAL_CODE, Meaning::OneBlock),
+    (loc::DWELL_CODE, Meaning::OneBlock),
+    (loc::SPINDLE_CSS_CODE, Meaning::OneBlock),
+    (loc::SPINDLE_RPM_CODE, Meaning::OneBlock),
+    (loc::SPINDLE_MAX_CODE, Meaning::OneBlock),
+    (loc::TOOL_LENGTH_CODE, Meaning::ToolLength),
+];
+
+const CYCLES: [CodeAt; 9] = [
+    loc::CYCLE_DRILL_CODE,
+    loc::CYCLE_CSINK_CODE,
+    loc::CYCLE_DEEP_CODE,
+    loc::CYCLE_BRKCHP_CODE,
+    loc::CYCLE_TAP_CODE,
+    loc::CYCLE_BORE_CODE,
+    loc::CYCLE_REAM_CODE,
+    loc::CYCLE_FACE_CODE,
+    loc::CYCLE_THRU_CODE,
+];

@@ -1,0 +1,369 @@
+//! What the control knows: the modes it is in and the words it has, as the tape
+//! says. This is the only owner of modality.
+//!
+//! It learns from each block at the moment the block goes to the tape, whoever
+//! made it: the post, POSTN, PREFUN, INSERT, the machine's own texts. What can't
+//! be told is unknown (`None`), and whoever depends on it says it again.
+
+mod codes;
+mod text;
+
+pub use codes::{Codes, Meaning};
+
+use fil_machine::address::Addresses;
+use fil_machine::modes::{FeedMode, Plane, Unit};
+use fil_machine::{Commons, FunctionCode, Letter, letters};
+
+use crate::block::Block;
+
+/// How coordinates count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Distance {
+    /// From the zero of the program (G90).
+    Absolute,
+    /// From the point before (G91).
+    Incremental,
+}
+
+/// On which side of the path the cutter runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Compensation {
+    /// On the path (G40).
+    Off,
+    /// Left of the path (G41).
+    Left,
+    /// Right of the path (G42).
+    Right,
+}
+
+/// A set of letters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LetterSet(u32);
+
+impl LetterSet {
+    const ALL: LetterSet = LetterSet(u32::MAX);
+
+    /// True when the letter is in it.
+    #[inline]
+    pub fn has(self, letter: Letter) -> bool {
+        self.0 & 1 << letter.number() != 0
+    }
+
+    /// Adds a letter.
+    #[inline]
+    pub fn add(&mut self, letter: Letter) {
+        self.0 |= 1 << letter.number();
+    }
+
+    /// Takes a letter out.
+    #[inline]
+    pub fn remove(&mut self, letter: Letter) {
+        self.0 &= !(1 << letter.number());
+    }
+
+    /// True when no letter is in it.
+    #[inline]
+    pub fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+}
+
+/// The letters of axes: a control may have any of them.
+const AXIS_LETTERS: [Letter; 9] = [
+    Letter::of(b'X'),
+    Letter::of(b'Y'),
+    Letter::of(b'Z'),
+    Letter::of(b'A'),
+    Letter::of(b'B'),
+    Letter::of(b'C'),
+    Letter::of(b'U'),
+    Letter::of(b'V'),
+    Letter::of(b'W'),
+];
+
+/// The modes of the control and the words it has.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ControlState {
+    /// The code of the last motion.
+    pub motion: Option<FunctionCode>,
+    /// The plane of arcs, cycles and cutter compensation.
+    pub plane: Option<Plane>,
+    /// How coordinates count.
+    pub distance: Option<Distance>,
+    /// The unit of lengths.
+    pub unit: Option<Unit>,
+    /// What F means.
+    pub feed_mode: Option<FeedMode>,
+    /// Cutter compensation.
+    pub compensation: Option<Compensation>,
+    /// A motion has been made since compensation was switched on.
+    pub compensation_begun: bool,
+    /// A canned cycle is in force: each position drills a hole.
+    pub in_cycle: Option<bool>,
+    /// The program has ended: M2, M30.
+    pub ended: bool,
+    /// Letters whose last output value is not what the control has.
+    doubtful: LetterSet,
+    /// State and last output values before the blocks that may be skipped.
+    before_skip: Option<Box<(ControlState, [f64; Letter::COUNT])>>,
+}
+
+impl ControlState {
+    /// What a machine is taken to be in before its program says anything: modes
+    /// that its settings name, no compensation, no cycle.
+    pub fn at_start(feed_mode: FeedMode, plane: Option<Plane>, unit: Option<Unit>) -> Self {
+        ControlState {
+            motion: None,
+            plane,
+            distance: Some(Distance::Absolute),
+            unit,
+            feed_mode: Some(feed_mode),
+            compensation: Some(Compensation::Off),
+            compensation_begun: false,
+            in_cycle: Some(false),
+            ended: false,
+            doubtful: LetterSet::default(),
+            before_skip: None,
+        }
+    }
+
+    /// True when the control is known to have the last output value of a letter.
+    #[inline]
+    pub fn has_last(&self, letter: Letter) -> bool {
+        !self.doubtful.has(letter)
+    }
+
+    /// True when some letter's last output value is in doubt.
+    #[inline]
+    pub fn has_doubts(&self) -> bool {
+        !self.doubtful.is_empty()
+    }
+
+    /// The last output value of a letter is not what the control has.
+    pub fn doubt(&mut self, letter: Letter) {
+        self.doubtful.add(letter);
+    }
+
+    /// The control has the last output value of a letter after all.
+    pub fn trust(&mut self, letter: Letter) {
+        self.doubtful.remove(letter);
+    }
+
+    /// Where the axes stand is not known.
+    pub fn doubt_axes(&mut self) {
+        AXIS_LETTERS.into_iter().for_each(|letter| self.doubt(letter));
+    }
+
+    /// Nothing is known any more.
+    pub fn forget(&mut self) {
+        *self = ControlState {
+            motion: None,
+            plane: None,
+            distance: None,
+            unit: None,
+            feed_mode: None,
+            compensation: None,
+            compensation_begun: self.compensation_begun,
+            in_cycle: None,
+            ended: self.ended,
+            doubtful: LetterSet::ALL,
+            before_skip: self.before_skip.take(),
+        };
+    }
+
+    /// Another program or subprogram begins: it may be called from anywhere.
+    pub fn program_begins(&mut self) {
+        self.ended = false;
+        self.forget();
+    }
+
+    /// Learns from a block of words.
+    #[inline]
+    pub fn learn_block(&mut self, block: &Block, codes: &Codes, addresses: &Addresses) {
+        if !block.g_codes().is_empty() {
+            for (code, _) in block.g_codes() {
+                self.learn_code(*code, codes);
+            }
+        }
+        for (code, _) in block.m_codes() {
+            self.learn_auxiliary(*code);
+        }
+        if !self.doubtful.is_empty() {
+            self.trust_words(block, addresses);
+        }
+        if self.distance != Some(Distance::Absolute) {
+            self.doubt_axes();
+        }
+    }
+
+    /// The control has the words of a block.
+    fn trust_words(&mut self, block: &Block, addresses: &Addresses) {
+        let letters = block.positions().filter_map(|at| addresses.slot(at).letter);
+        letters.for_each(|letter| self.doubtful.remove(letter));
+    }
+
+    /// Learns from words that were written one after the other (POSTN).
+    pub fn learn_words(
+        &mut self,
+        words: impl Iterator<Item = (Letter, f64)> + Clone,
+        codes: &Codes,
+    ) {
+        let mut frame = false;
+        for (letter, value) in words.clone() {
+            match (letter, FunctionCode::of_value(value)) {
+                (letters::G, Some(code)) => {
+                    frame |= codes.meaning(code) == Meaning::Frame;
+                    self.learn_code(code, codes);
+                }
+                (letters::M, Some(code)) => self.learn_auxiliary(code),
+                _ => self.trust(letter),
+            }
+        }
+        let secondary = words.clone().any(|(letter, _)| b"UVW".contains(&letter.byte()));
+        let cycle = self.in_cycle != Some(false);
+        if frame || secondary || cycle || self.distance != Some(Distance::Absolute) {
+            self.doubt_axes();
+        }
+    }
+
+    /// Learns what a preparatory function does.
+    #[inline]
+    pub fn learn_code(&mut self, code: FunctionCode, codes: &Codes) {
+        match codes.meaning(code) {
+            Meaning::Motion => {
+                self.motion = Some(code);
+                if codes.motion_ends_cycle() {
+                    self.in_cycle = Some(false);
+                }
+            }
+            Meaning::Plane(plane) => self.plane = Some(plane),
+            Meaning::Distance(distance) => self.distance = Some(distance),
+            Meaning::Unit(unit) => self.unit = Some(unit),
+            Meaning::FeedMode(mode) => {
+                if self.feed_mode != mode {
+                    self.doubt(letters::F);
+                }
+                self.feed_mode = mode;
+            }
+            Meaning::Compensation(side) => {
+                self.compensation = Some(side);
+                self.compensation_begun = false;
+            }
+            Meaning::Cycle => {
+                self.in_cycle = Some(true);
+                self.motion = None;
+            }
+            Meaning::CycleOff => {
+                self.in_cycle = Some(false);
+                self.motion = None;
+            }
+            Meaning::OneBlock => {}
+            Meaning::Turning => {
+                self.motion = None;
+                self.doubt_axes();
+                self.doubt(letters::F);
+            }
+            Meaning::ToolLength => self.doubt(letters::XYZ[2]),
+            Meaning::Frame => self.doubt_axes(),
+            Meaning::Unknown => self.forget(),
+        }
+    }
+
+    /// Learns what an auxiliary function does. A call of a subprogram may do anything.
+    pub fn learn_auxiliary(&mut self, code: FunctionCode) {
+        const END: [FunctionCode; 2] = [FunctionCode::whole(2), FunctionCode::whole(30)];
+        const CALLS: [FunctionCode; 4] = [
+            FunctionCode::whole(97),
+            FunctionCode::whole(98),
+            FunctionCode::whole(99),
+            FunctionCode::whole(198),
+        ];
+        self.ended |= END.contains(&code);
+        if CALLS.contains(&code) {
+            self.forget();
+        }
+    }
+
+    /// Learns from a text that was written as it is; what can't be read makes all
+    /// unknown.
+    pub fn learn_text(&mut self, text: &str, codes: &Codes) {
+        match text::read(text) {
+            Some(words) => self.learn_text_words(&words, codes),
+            None => self.forget(),
+        }
+    }
+
+    fn learn_text_words(&mut self, words: &text::TextWords, codes: &Codes) {
+        let before = words.skipped.then(|| self.clone());
+        if words.calls_subprogram() {
+            self.forget();
+        }
+        for (letter, value) in &words.words {
+            match (*letter, FunctionCode::of_value(*value)) {
+                (letters::G, Some(code)) => self.learn_code(code, codes),
+                (letters::G | letters::M, None) => self.forget(),
+                (letters::M, Some(code)) => self.learn_auxiliary(code),
+                (letter, _) if AXIS_LETTERS.contains(&letter) => self.doubt_axes(),
+                (letter, _) => self.doubt(letter),
+            }
+        }
+        if let Some(before) = before {
+            self.agree_with(&before);
+        }
+    }
+
+    /// A line has been run in the plane: compensation that was switched on has begun.
+    #[inline]
+    pub fn moved_in_plane(&mut self) {
+        self.compensation_begun = true;
+    }
+
+    /// The blocks from here on may be skipped.
+    pub fn skip_begins(&mut self, commons: &Commons) {
+        let before = (self.clone(), last_values(commons));
+        self.before_skip = Some(Box::new(before));
+    }
+
+    /// The blocks that may be skipped are over: what they changed is unknown.
+    pub fn skip_ends(&mut self, commons: &Commons) {
+        let Some(before) = self.before_skip.take() else { return };
+        let (state, values) = *before;
+        for (letter, (now, then)) in Letter::all().zip(last_values(commons).iter().zip(values)) {
+            if *now != then {
+                self.doubt(letter);
+            }
+        }
+        self.agree_with(&state);
+    }
+
+    /// True while blocks may be skipped.
+    pub fn may_be_skipped(&self) -> bool {
+        self.before_skip.is_some()
+    }
+
+    /// Keeps what is the same in another state; the rest is unknown.
+    fn agree_with(&mut self, other: &ControlState) {
+        fn agree<T: PartialEq>(value: &mut Option<T>, other: &Option<T>) {
+            if *value != *other {
+                *value = None;
+            }
+        }
+        agree(&mut self.motion, &other.motion);
+        agree(&mut self.plane, &other.plane);
+        agree(&mut self.distance, &other.distance);
+        agree(&mut self.unit, &other.unit);
+        agree(&mut self.feed_mode, &other.feed_mode);
+        agree(&mut self.compensation, &other.compensation);
+        agree(&mut self.in_cycle, &other.in_cycle);
+        self.compensation_begun &= other.compensation_begun;
+        self.doubtful.0 |= other.doubtful.0;
+    }
+}
+
+fn last_values(commons: &Commons) -> [f64; Letter::COUNT] {
+    let mut values = [0.0; Letter::COUNT];
+    for (value, letter) in values.iter_mut().zip(Letter::all()) {
+        *value = commons.last_output(letter);
+    }
+    values
+}

@@ -1,0 +1,107 @@
+//! The small reader of texts that others put on the tape: words of a letter and a
+//! number, comments, a skip mark. It is made to say "I can't" rather than guess.
+
+use fil_machine::Letter;
+
+/// The words of a text.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TextWords {
+    /// The control may skip the block.
+    pub skipped: bool,
+    /// Letters and numbers in their order.
+    pub words: Vec<(Letter, f64)>,
+}
+
+impl TextWords {
+    /// True for `L400`, a SINUMERIK control's call of a subprogram: L without a motion
+    /// or cycle that it could repeat.
+    pub fn calls_subprogram(&self) -> bool {
+        let has = |letter: u8| self.words.iter().any(|(word, _)| word.byte() == letter);
+        has(b'L') && !has(b'G') && !has(b'M')
+    }
+}
+
+/// Reads a text; `None` for anything but words, comments and blanks (a variable,
+/// a statement of the control's language, a word without a number).
+pub fn read(text: &str) -> Option<TextWords> {
+    let mut found = TextWords::default();
+    let mut rest = text.trim();
+    if let Some(after) = rest.strip_prefix('/') {
+        found.skipped = true;
+        rest = after.trim_start_matches(|c: char| c.is_ascii_digit());
+    }
+    loop {
+        rest = rest.trim_start();
+        let Some(first) = rest.chars().next() else { return Some(found) };
+        if first == ';' {
+            return Some(found);
+        }
+        if first == '(' {
+            rest = &rest[rest.find(')')? + 1..];
+            continue;
+        }
+        if let Some(after) = assignment(rest) {
+            rest = after;
+            continue;
+        }
+        let letter = Letter::of_character(first)?;
+        let (value, after) = number(rest[1..].trim_start())?;
+        found.words.push((letter, value));
+        rest = after;
+    }
+}
+
+/// What comes after `R101=0.5` or `#101=0.5`: a parameter gets a value, and no mode
+/// and no axis is touched.
+fn assignment(text: &str) -> Option<&str> {
+    let rest = text.strip_prefix(['R', 'r', '#'])?;
+    let digits = rest.find(|c: char| !c.is_ascii_digit()).filter(|digits| *digits > 0)?;
+    let value = rest[digits..].trim_start().strip_prefix('=')?;
+    number(value.trim_start()).map(|(_, after)| after)
+}
+
+/// The number at the start of a text, and what comes after it.
+fn number(text: &str) -> Option<(f64, &str)> {
+    let sign = usize::from(text.starts_with(['+', '-']));
+    let digits = text[sign..].find(|c: char| !c.is_ascii_digit() && c != '.');
+    let end = digits.map_or(text.len(), |length| sign + length);
+    Some((text[..end].parse().ok()?, &text[end..]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn words(text: &str) -> Option<String> {
+        let found = read(text)?;
+        let words = found.words.iter().map(|(letter, value)| format!("{letter}{value}"));
+        Some(words.collect::<Vec<_>>().join(" "))
+    }
+
+    #[test]
+    fn words_are_read_packed_and_apart() {
+        assert_eq!(words("G90G80G40G00").unwrap(), "G90 G80 G40 G0");
+        assert_eq!(words(" g 91 (a G90) x-1.5 ; G20").unwrap(), "G91 X-1.5");
+        assert_eq!(words("N10 M98 P+100").unwrap(), "N10 M98 P100");
+        assert_eq!(words("(only a comment)").unwrap(), "");
+        assert_eq!(words("R101=0.123 R5=-1. #100=5 X1").unwrap(), "X1");
+        assert!(read("/2 M8").unwrap().skipped);
+    }
+
+    #[test]
+    fn what_is_not_words_is_not_read() {
+        for text in [
+            "#100=#101",
+            "R1=R2+1",
+            "G1 X#101",
+            "GOTO 100",
+            "(open",
+            "CYCLE83(1)",
+            "G",
+            "X1=10",
+            "G1.2.3",
+        ] {
+            assert_eq!(read(text), None, "{text}");
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! The one door for records: it hands each handler what the record holds, and
+//! refuses what the handler did not take. No handler can bypass it.
+//!
+//! [`HANDLERS`] is the index: the major word and the function that carries it out.
+
+use fil_cl::record::kind;
+use fil_cl::vocabulary::{Vocabulary, words as w};
+use fil_cl::{Record, WordId};
+use fil_diag::{Diag, Result};
+use nalgebra::{Point3, Vector3};
+
+use crate::errors::PostCode;
+use crate::items::Items;
+use crate::no_effect;
+use crate::operation::Target;
+use crate::post::Post;
+use crate::words as word;
+
+/// The word of a motion record that holds its x.
+pub const POINT: u16 = 6;
+
+/// Number of data words of a motion to a point, and of one with a tool axis.
+const MOTION: [usize; 2] = [5, 8];
+
+/// A tool axis may be this far from length 1, unless MULTAX is on.
+const AXIS_LENGTH: f64 = 0.01;
+
+/// Carries out a record of one major word.
+#[derive(Clone, Copy)]
+pub enum Handler {
+    /// A motion record: its point and tool axis.
+    Point(fn(&mut Post, Target) -> Result<()>),
+    /// A post command: its items.
+    Items(fn(&mut Post, &mut Items) -> Result<()>),
+    /// A word that changes the path or the frame in a way the post does not know.
+    Refused,
+}
+
+use Handler::{Items as I, Point as P, Refused};
+
+/// Major words and their handlers.
+pub const HANDLERS: &[(WordId, Handler)] = &[
+    (w::AUXFUN, I(word::prefun::auxfun)),
+    (w::CALSUB, Refused),
+    (w::CIRCLE, I(word::circle::handle)),
+    (w::COOLNT, I(word::coolnt::handle)),
+    (w::COPY, Refused),
+    (w::CUTCOM, I(word::cutcom::handle)),
+    (w::CUTTER, I(word::cutter::handle)),
+    (w::CYCLE, I(word::cycle::handle)),
+    (w::DEFSUB, Refused),
+    (w::DELAY, I(word::delay::handle)),
+    (w::END, I(word::end::end)),
+    (w::ENDSUB, Refused),
+    (w::FEDRAT, I(word::fedrat::handle)),
+    (w::FINI, I(word::end::fini)),
+    (w::FROM, P(word::from::handle)),
+    (w::GODLTA, I(word::godlta::handle)),
+    (w::GOHOME, I(word::goto::gohome)),
+    (w::GOTO, P(word::goto::handle)),
+    (w::HEAD, Refused),
+    (w::INDEX, Refused),
+    (w::INSERT, I(word::insert::handle)),
+    (w::LOAD, I(word::loadtl::handle)),
+    (w::LOADTL, I(word::loadtl::handle)),
+    (w::MODE, I(word::mode::handle)),
+    (w::MULTAX, I(word::multax::handle)),
+    (w::OP, I(word::op::handle)),
+    (w::OPSKIP, I(word::opskip::handle)),
+    (w::OPSTOP, I(word::stop::opstop)),
+    (w::ORIGIN, Refused),
+    (w::PARTNO, I(word::partno::handle)),
+    (w::POSTN, I(word::postn::handle)),
+    (w::PPRINT, I(word::pprint::handle)),
+    (w::PREFUN, I(word::prefun::prefun)),
+    (w::RAPID, I(word::rapid::handle)),
+    (w::REPEAT, I(word::repeat::handle)),
+    (w::RETRCT, Refused),
+    (w::REWIND, I(word::end::rewind)),
+    (w::ROTABL, Refused),
+    (w::ROTATE, Refused),
+    (w::ROTHED, Refused),
+    (w::SELCTL, I(word::loadtl::select)),
+    (w::SELECT, I(word::loadtl::select)),
+    (w::SEQNO, I(word::seqno::handle)),
+    (w::SET, Refused),
+    (w::SPINDL, I(word::spindl::handle)),
+    (w::STOP, I(word::stop::stop)),
+    (w::THREAD, I(word::thread::handle)),
+    (w::TLAXIS, I(word::multax::tlaxis)),
+    (w::TRACUT, Refused),
+    (w::TRANS, I(word::trans::handle)),
+    (w::TURRET, I(word::loadtl::handle)),
+    (w::UNIT, I(word::units::handle)),
+    (w::UNITS, I(word::units::handle)),
+];
+
+/// The handlers by the index of their major word.
+#[derive(Clone)]
+pub struct Dispatcher {
+    handlers: Vec<Option<Handler>>,
+    /// Names of further words that the machine or the user lists as without effect.
+    without_effect: Vec<String>,
+}
+
+impl Default for Dispatcher {
+    fn default() -> Self {
+        let most = HANDLERS.iter().map(|(word, _)| word.index()).max().unwrap_or(0);
+        let mut handlers = vec![None; most + 1];
+        for (word, handler) in HANDLERS {
+            handlers[word.index()] = Some(*handler);
+        }
+        Dispatcher { handlers, without_effect: Vec::new() }
+    }
+}
+
+impl Dispatcher {
+    /// Lists a major word as without effect, in any case of letters.
+    pub fn ignore(&mut self, word: &str) {
+        self.without_effect.push(word.to_ascii_uppercase());
+    }
+
+    #[inline]
+    fn handler(&self, word: WordId) -> Option<Handler> {
+        self.handlers.get(word.index()).copied().flatten()
+    }
+
+    fn is_without_effect(&self, name: &str) -> bool {
+        no_effect::is_whole_record(name) || self.without_effect.iter().any(|word| word == name)
+    }
+}
+
+/// Carries out a record.
+///
+/// # Errors
+/// Whatever its post word refuses; items that no handler took; a word that neither
+/// the post knows nor a table lists as without effect.
+#[inline]
+pub fn dispatch(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<()> {
+    if record.kind == kind::PSEUDO {
+        return word::pseudo::handle(post, &mut Items::new(record, vocabulary)?);
+    }
+    match post.dispatcher.handler(record.major) {
+        Some(Handler::Point(handle)) => {
+            let target = target(post, record, vocabulary)?;
+            handle(post, target)
+        }
+        Some(Handler::Items(handle)) => {
+            let mut items = Items::new(record, vocabulary)?;
+            handle(post, &mut items)?;
+            items.deny_rest()
+        }
+        Some(Handler::Refused) => Err(refused(record, vocabulary)),
+        None if post.dispatcher.is_without_effect(vocabulary.name(record.major)) => Ok(()),
+        None => Err(unknown(record.major, vocabulary)),
+    }
+}
+
+/// The point of a motion record; without an axis of its own it keeps the last one.
+///
+/// # Errors
+/// A record without a point or with more than a point and an axis; an axis whose
+/// length is not 1 while MULTAX is off.
+#[inline]
+fn target(post: &Post, record: &Record, vocabulary: &Vocabulary) -> Result<Target> {
+    let point = record.point().filter(|_| MOTION.contains(&record.data.len()));
+    let Some(point) = point else { return Err(no_point(record, vocabulary)) };
+    let axis = match record.axis() {
+        Some(axis) => checked_axis(post, Vector3::from(axis))?,
+        None if record.data.len() == MOTION[0] => post.path.axis,
+        None => return Err(no_point(record, vocabulary)),
+    };
+    Ok(Target { point: Point3::from(point), axis, word: POINT })
+}
+
+/// A tool axis that is one.
+///
+/// # Errors
+/// As [`target`].
+fn checked_axis(post: &Post, axis: Vector3<f64>) -> Result<Vector3<f64>> {
+    let length = axis.norm();
+    let near = (length - 1.0).abs() <= AXIS_LENGTH;
+    if near || (post.path.multax && length > AXIS_LENGTH) {
+        return Ok(axis);
+    }
+    PostCode::AxisLength.err(format!("a tool axis of length {length:.4}"))
+}
+
+#[cold]
+fn no_point(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
+    let major = vocabulary.name(record.major);
+    PostCode::WordForm
+        .diag(format!("{major}: a point x, y, z, and no more than its axis, is needed"))
+}
+
+fn refused(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
+    let major = vocabulary.name(record.major);
+    PostCode::WordForm.diag(format!(
+        "{major}: it changes the path or the frame, and the post does not know how; a FIL section \
+         must take it"
+    ))
+}
+
+fn unknown(word: WordId, vocabulary: &Vocabulary) -> Box<Diag> {
+    let mut diag = PostCode::UnknownWord.diag(format!("no handler for {}", vocabulary.name(word)));
+    diag.hint = vocabulary.perhaps_meant(word);
+    diag
+}

@@ -1,0 +1,225 @@
+//! Operations: what a machine is to do, as a machinist would say it.
+//!
+//! The post words make them, in coordinates of the part and with their cause; the
+//! passes in [`path`](crate::path) bring motions to the machine; the
+//! [`control`](crate::control) writes them. No operation knows a G, an M or a
+//! letter of the machine, except the few by which a CL file names them itself
+//! (PREFUN, AUXFUN, POSTN). LinuxCNC's canonical machining functions were the
+//! model for a list that is short and lasts.
+
+use fil_machine::modes::{FeedMode, Plane};
+use fil_machine::{FunctionCode, Letter};
+use nalgebra::{Point3, Vector3};
+
+use crate::cause::Cause;
+use crate::control_state::Compensation;
+
+/// A CL point with its tool axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Target {
+    /// Tool tip in the part frame, mm or inch.
+    pub point: Point3<f64>,
+    /// Tool axis in the part frame, of any length above 0.
+    pub axis: Vector3<f64>,
+    /// Word of the record that holds x, as POSTF(7,n) counts; 0 when the target is
+    /// not a point of the record.
+    pub word: u16,
+}
+
+/// A feed in output units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Feed {
+    /// mm/min, inch/min, mm/rev or inch/rev.
+    pub value: f64,
+    /// How it is meant.
+    pub mode: FeedMode,
+    /// The record that gave it.
+    pub cause: Cause,
+}
+
+/// A lead: how far a thread or a tap goes in one turn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lead {
+    /// mm or inch a revolution.
+    pub value: f64,
+    /// The record that gave it.
+    pub cause: Cause,
+}
+
+/// The kind of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MotionKind {
+    /// As fast as the axes go; with the RAPID record that asked for it.
+    Rapid(Cause),
+    /// At the feed in force.
+    Feed,
+    /// A pass of a thread.
+    Thread(Lead),
+}
+
+/// An arc or helix about an axis, in the part frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arc {
+    /// A point on the axis, mm or inch.
+    pub center: Point3<f64>,
+    /// Unit vector; the arc turns about it by the right-hand rule.
+    pub axis: Vector3<f64>,
+    /// Radius where the record gives it.
+    pub radius: Option<f64>,
+    /// Full turns besides the way from start to end.
+    pub turns: f64,
+    /// The CIRCLE record.
+    pub cause: Cause,
+}
+
+/// How long to dwell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Dwell {
+    /// Seconds.
+    Seconds(f64),
+    /// Turns of the spindle.
+    Revolutions(f64),
+}
+
+/// What a spindle does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spindle {
+    /// Stops.
+    Off,
+    /// Stops at an angle (degrees) where the record gives one.
+    Orient(Option<f64>),
+    /// Takes a range of speeds, 1 to 6.
+    Range(f64),
+    /// Takes a highest speed, turns a minute.
+    Limit(f64),
+    /// Turns.
+    Turn(SpindleTurn),
+}
+
+/// A spindle that turns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpindleTurn {
+    /// Its speed, `None` for the last one.
+    pub speed: Option<SpindleSpeed>,
+    /// Clockwise or not; `None` for the machine's default.
+    pub clockwise: Option<bool>,
+    /// Word of the record that gives the speed, and the one that gives the direction.
+    pub words: [u16; 2],
+}
+
+/// The speed of a spindle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SpindleSpeed {
+    /// Turns a minute.
+    Revolutions(f64),
+    /// Constant surface speed, m/min.
+    Meters(f64),
+    /// Constant surface speed, feet/min.
+    Feet(f64),
+}
+
+/// A kind of coolant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coolant {
+    /// None.
+    Off,
+    /// What the machine calls coolant on.
+    On,
+    /// A jet.
+    Flood,
+    /// A jet at high pressure.
+    FloodHigh,
+    /// A jet at low pressure.
+    FloodLow,
+    /// Mist.
+    Mist,
+    /// Through the tool, at the machine's usual or high pressure.
+    Through,
+    /// Through the tool at low pressure.
+    ThroughLow,
+}
+
+/// Cutter compensation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CutterCompensation {
+    /// Where the cutter runs.
+    pub side: Compensation,
+    /// The plane, where the record says it, and the word that does.
+    pub plane: Option<(Plane, u16)>,
+    /// The offset, and the word that gives it; 0 for one taken from the tool.
+    pub offset: Option<(f64, u16)>,
+    /// The word that gives the side.
+    pub side_word: u16,
+}
+
+/// A tool change.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToolChange {
+    /// Number of the tool.
+    pub tool: i64,
+    /// Number of its offset: that of the record, else that of the tool.
+    pub offset: i64,
+    /// The record gives the offset.
+    pub offset_given: bool,
+    /// The record at the word of the tool, and at that of the offset.
+    pub causes: [Cause; 2],
+}
+
+/// Why the machine waits or ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// For its operator.
+    Always,
+    /// For its operator, when he wants it.
+    Optional,
+}
+
+/// How a program ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// END.
+    Stay,
+    /// REWIND.
+    Rewind,
+    /// The end of the CL file: as REWIND, or END on a machine without it.
+    OfFile,
+}
+
+/// Something the machine does.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Operation {
+    /// A straight motion.
+    Linear(Target, MotionKind),
+    /// An arc to a point.
+    Arc(Arc, Target),
+    /// A hole of the active cycle.
+    Hole(Target),
+    /// A dwell.
+    Dwell(Dwell),
+    /// A spindle.
+    Spindle(Spindle),
+    /// The coolant.
+    Coolant(Coolant),
+    /// Cutter compensation.
+    Compensation(CutterCompensation),
+    /// A tool change.
+    ToolChange(ToolChange),
+    /// The next tool is prepared.
+    SelectTool(i64),
+    /// A function by its number: G or M.
+    Function(Letter, FunctionCode),
+    /// A block of exactly these words, each with its cause.
+    Words(Vec<(Letter, f64, Cause)>),
+    /// Words for each motion from now on; none ends them.
+    Repeat(Vec<(Letter, f64, Cause)>),
+    /// A text as it is.
+    Text(String),
+    /// A message to the operator.
+    Message(String),
+    /// A stop.
+    Stop(Stop),
+    /// Blocks from now on may be skipped, or no longer.
+    Skip(bool),
+    /// The end of the program.
+    End(End),
+}

@@ -1,0 +1,290 @@
+//! Arcs: from the part frame into a plane of the machine, in as many blocks as the
+//! control needs, checked as the control will read them; else short lines.
+
+use fil_diag::Result;
+use fil_machine::axes::Position;
+use fil_machine::locations::{self as loc, CircleCenter, CircleFullCircle};
+use fil_machine::modes::Plane;
+use nalgebra::{Point3, Vector3};
+
+use super::{chords, rotary};
+use crate::control::Function;
+use crate::control::word_address::arc::{self as words, PlaneArc};
+use crate::control::word_address::motion;
+use crate::control_state::Compensation;
+use crate::errors::PostCode;
+use crate::operation::{Arc, Target};
+use crate::post::Post;
+
+/// Radii of start and end may differ by this, mm or inch.
+const RADIUS_TOLERANCE: f64 = 1e-3;
+
+/// End and start of an arc nearer than this make a full circle, mm or inch.
+const SAME_POINT: f64 = 1e-6;
+
+/// Normals that differ less than this from a machine axis lie in its plane.
+const IN_PLANE: f64 = 1e-6;
+
+const FULL: f64 = 360.0;
+
+/// Carries out the arc that ends at `target`.
+///
+/// # Errors
+/// No start point, radii that disagree, an arc in a cycle or as the first motion of
+/// cutter compensation, and all that a motion refuses.
+pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
+    let Some(start) = post.path.point else {
+        return PostCode::ArcStart.err("CIRCLE before any FROM or GOTO");
+    };
+    check_radii(arc, start, target.point)?;
+    refuse_first_under_compensation(post)?;
+    let sweep = sweep(arc, start, target.point);
+    judge_sense(post, arc, start, target.point)?;
+    let turns_axis = target.axis != post.path.axis;
+    let whole = if turns_axis { None } else { in_plane(post, arc, start, sweep, target)? };
+    let Some(whole) = whole else { return chords::carry_out(post, arc, start, sweep, target) };
+    check_travel(post, &whole)?;
+    motion::ready(&mut post.control)?;
+    if !words::starts_on_tape(&post.control, &whole.from)? {
+        return PostCode::ArcStart.err(
+            "the tape does not stand where the arc begins: a text, POSTN or REPEAT has moved the axes",
+        );
+    }
+    let feed = post.path.feed;
+    if usual_step(post, &whole) == Step::Turns
+        && sweep <= FULL
+        && words::reads_as_meant(&post.control, &whole)?
+    {
+        words::write(&mut post.control, &whole, feed.as_ref())?;
+    } else if let Some(parts) = parts(post, &whole)? {
+        for part in parts {
+            words::write(&mut post.control, &part, feed.as_ref())?;
+        }
+    } else {
+        return chords::carry_out(post, arc, start, sweep, target);
+    }
+    post.path.point = Some(target.point);
+    Ok(())
+}
+
+fn check_radii(arc: &Arc, start: Point3<f64>, end: Point3<f64>) -> Result<()> {
+    let radius = |point: Point3<f64>| flat(arc, point).norm();
+    let (at_start, at_end) = (radius(start), radius(end));
+    let given = arc.radius.unwrap_or(at_start);
+    if (at_start - at_end).abs() > RADIUS_TOLERANCE || (given - at_start).abs() > RADIUS_TOLERANCE {
+        return PostCode::ArcRadius.err(format!(
+            "radius {given:.4}, but {at_start:.4} at the start and {at_end:.4} at the end"
+        ));
+    }
+    Ok(())
+}
+
+/// Compensation begins on a straight line: on an arc the control would alarm or
+/// choose a way of its own.
+fn refuse_first_under_compensation(post: &Post) -> Result<()> {
+    let state = &post.control.state;
+    let on = !matches!(state.compensation, Some(Compensation::Off));
+    let waits = post.control.waiting.has(Function::Compensation);
+    if waits || (on && !state.compensation_begun) {
+        return PostCode::CompensationOnArc.err("cutter compensation would begin or end on an arc");
+    }
+    Ok(())
+}
+
+/// The vector from the axis of the arc to a point.
+pub fn flat(arc: &Arc, point: Point3<f64>) -> Vector3<f64> {
+    let from = point - arc.center;
+    from - arc.axis * arc.axis.dot(&from)
+}
+
+/// Angle from start to end about the axis, degrees: above 0, at most 360 and
+/// the full turns on top. A start above the end is one turn, or TIMES turns.
+fn sweep(arc: &Arc, start: Point3<f64>, end: Point3<f64>) -> f64 {
+    let (from, to) = (flat(arc, start), flat(arc, end));
+    if (from - to).norm() < SAME_POINT {
+        return FULL * arc.turns.max(1.0);
+    }
+    let angle = arc.axis.dot(&from.cross(&to)).atan2(from.dot(&to)).to_degrees();
+    let part = if angle <= 0.0 { angle + FULL } else { angle };
+    part + FULL * arc.turns
+}
+
+/// Compares the directions in which the arc begins and ends with its neighbors.
+fn judge_sense(post: &mut Post, arc: &Arc, start: Point3<f64>, end: Point3<f64>) -> Result<()> {
+    let tangent = |point| arc.axis.cross(&flat(arc, point));
+    post.path.course.arc(tangent(start), tangent(end), arc.cause.line)
+}
+
+/// The arc in machine coordinates; `None` when the control can't say it as an arc.
+fn in_plane(
+    post: &mut Post,
+    arc: &Arc,
+    start: Point3<f64>,
+    sweep: f64,
+    target: Target,
+) -> Result<Option<PlaneArc>> {
+    let transformation = post.path.transformation.as_ref();
+    if transformation.is_some_and(|trans| !trans.is_rigid()) {
+        return Ok(None);
+    }
+    let mirrored = transformation.is_some_and(|trans| trans.mirrors());
+    let mut machine = |point: Point3<f64>| {
+        rotary::position_of(post, Target { point, axis: target.axis, word: 0 })
+    };
+    let linear = |position: Position| Vector3::new(position[0], position[1], position[2]);
+    let (center, from) = (linear(machine(arc.center)?), machine(start)?);
+    let tip = linear(machine(arc.center + arc.axis)?);
+    let to = machine(target.point)?;
+    let normal = (tip - center) * if mirrored { -1.0 } else { 1.0 };
+    let found = Plane::ALL.into_iter().find(|plane| normal[plane.normal()].abs() > 1.0 - IN_PLANE);
+    let Some(plane) = found else { return Ok(None) };
+    let radius = flat(arc, start).norm();
+    let most = post.control.commons.dbl_opt(loc::CIRCLE_MAX_RADIUS);
+    let axes = plane.axes();
+    let circles = axes.into_iter().all(|number| post.control.tables.axis(number).keeps_circles());
+    if most.is_some_and(|most| radius > most) || !circles {
+        return Ok(None);
+    }
+    Ok(Some(PlaneArc {
+        plane,
+        counterclockwise: normal[plane.normal()] > 0.0,
+        center: axes.map(|number| center[number]),
+        radius,
+        from,
+        to,
+        sweep,
+        word: rotary::word_of(post, target),
+        cause: arc.cause,
+    }))
+}
+
+/// Refuses an arc that bulges out of the travel between its ends.
+fn check_travel(post: &Post, arc: &PlaneArc) -> Result<()> {
+    let start = start_angle(arc);
+    let turned = if arc.counterclockwise { start } else { -start };
+    let mut next = ((turned / 90.0).floor() + 1.0) * 90.0;
+    while next < turned + arc.sweep.min(FULL) {
+        let angle = if arc.counterclockwise { next } else { -next };
+        let (sine, cosine) = angle.to_radians().sin_cos();
+        for ((number, center), part) in
+            arc.plane.axes().into_iter().zip(arc.center).zip([cosine, sine])
+        {
+            post.control.tables.axis(number).check(center + arc.radius * part)?;
+        }
+        next += 90.0;
+    }
+    Ok(())
+}
+
+/// Angle of the start from the first axis of the plane, degrees.
+fn start_angle(arc: &PlaneArc) -> f64 {
+    let [first, second] = arc.plane.axes();
+    (arc.from[second] - arc.center[1]).atan2(arc.from[first] - arc.center[0]).to_degrees()
+}
+
+/// The parts that the control reads as they are meant: as few as the machine's rules
+/// allow, more where rounding would change them; `None` when no arc does.
+fn parts(post: &Post, arc: &PlaneArc) -> Result<Option<Vec<PlaneArc>>> {
+    let steps: &[Step] = match usual_step(post, arc) {
+        Step::Turns => &[Step::Turns, Step::Halves, Step::Quadrants],
+        Step::Halves => &[Step::Halves, Step::Quadrants],
+        Step::Quadrants => &[Step::Quadrants],
+    };
+    let least = least_angle(post, arc);
+    for step in steps {
+        let parts = divided(arc, &stops(arc, *step, least));
+        let mut meant = true;
+        for part in &parts {
+            meant &= words::reads_as_meant(&post.control, part)?;
+        }
+        if meant {
+            return Ok(Some(parts));
+        }
+    }
+    Ok(None)
+}
+
+/// Degrees of an arc as long as two last digits: a part shorter than that would be
+/// rounded away.
+fn least_angle(post: &Post, arc: &PlaneArc) -> f64 {
+    let digits = arc.plane.axes().map(|number| post.control.tables.axis(number).resolution());
+    (2.0 * digits[0].max(digits[1]) / arc.radius).to_degrees().max(1e-6)
+}
+
+/// Where the blocks of an arc end.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Step {
+    /// After each full turn.
+    Turns,
+    /// After half a turn, so that none is a full circle.
+    Halves,
+    /// At the axes of the plane.
+    Quadrants,
+}
+
+/// What the machine asks for.
+fn usual_step(post: &Post, arc: &PlaneArc) -> Step {
+    let commons = &post.control.commons;
+    let form = commons.read(loc::CIRCLE_CENTER);
+    let limit = commons.int(loc::CIRCLE_MAX_DEGREES);
+    let halves = form == CircleCenter::Radius
+        || commons.read(loc::CIRCLE_FULL_CIRCLE) == CircleFullCircle::Split;
+    if (1..=90).contains(&limit) || form == CircleCenter::StartToCenterUnsigned {
+        Step::Quadrants
+    } else if arc.sweep > FULL - 1e-9 && halves {
+        Step::Halves
+    } else {
+        Step::Turns
+    }
+}
+
+/// Angles from the start, in degrees, at which the blocks of an arc end; no block is
+/// shorter than `least` degrees.
+fn stops(arc: &PlaneArc, step: Step, least: f64) -> Vec<f64> {
+    let mut stops = Vec::new();
+    let start = start_angle(arc);
+    let (mut next, step) = match step {
+        Step::Quadrants => {
+            let turned = if arc.counterclockwise { start } else { -start };
+            (((turned / 90.0).floor() + 1.0) * 90.0 - turned, 90.0)
+        }
+        Step::Halves => {
+            let parts = (arc.sweep / (FULL / 2.0)).ceil().max(2.0);
+            (arc.sweep / parts, arc.sweep / parts)
+        }
+        Step::Turns => (FULL, FULL),
+    };
+    while next < arc.sweep - least {
+        if next > least {
+            stops.push(next);
+        }
+        next += step;
+    }
+    stops.push(arc.sweep);
+    stops
+}
+
+/// The parts of an arc that end at these angles.
+fn divided(arc: &PlaneArc, stops: &[f64]) -> Vec<PlaneArc> {
+    let start = start_angle(arc);
+    let along = arc.plane.normal();
+    let mut parts: Vec<PlaneArc> = Vec::with_capacity(stops.len());
+    let (mut here, mut done) = (arc.from, 0.0);
+    for &stop in stops {
+        let mut next = arc.to;
+        let last = stop >= arc.sweep;
+        if !last {
+            let turned = if arc.counterclockwise { stop } else { -stop };
+            let (sine, cosine) = (start + turned).to_radians().sin_cos();
+            let [first, second] = arc.plane.axes();
+            next[first] = arc.center[0] + arc.radius * cosine;
+            next[second] = arc.center[1] + arc.radius * sine;
+            next[along] = arc.from[along] + (arc.to[along] - arc.from[along]) * stop / arc.sweep;
+        }
+        // The record's point is where the whole arc ends, not a part of it.
+        let word = if last { arc.word } else { 0 };
+        parts.push(PlaneArc { from: here, to: next, sweep: stop - done, word, ..*arc });
+        (here, done) = (next, stop);
+    }
+    parts
+}

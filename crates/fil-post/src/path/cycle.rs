@@ -1,0 +1,147 @@
+//! The canned cycle in force: what its record asks for, and where its holes lie.
+
+use fil_diag::Result;
+use fil_machine::commons::Dbl;
+use fil_machine::locations as loc;
+use fil_machine::setting::CodeAt;
+
+use crate::cause::Cause;
+use crate::control::word_address::cycle as words;
+use crate::operation::{Feed, Lead};
+use crate::post::Post;
+
+/// A kind of cycle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CycleKind {
+    /// Down at feed, up at rapid.
+    Drill,
+    /// Countersink.
+    Csink,
+    /// In pecks, out of the hole after each.
+    Deep,
+    /// In pecks, lifted a little after each.
+    Brkchp,
+    /// Tap.
+    Tap,
+    /// Bore: up at feed.
+    Bore,
+    /// Ream: up at feed.
+    Ream,
+    /// Face.
+    Face,
+    /// Through.
+    Thru,
+}
+
+impl CycleKind {
+    /// Locations of its code and of its usual dwell.
+    pub fn locations(self) -> (CodeAt, Dbl) {
+        match self {
+            CycleKind::Drill => (loc::CYCLE_DRILL_CODE, loc::DWELL_CYCLE_DRILL),
+            CycleKind::Csink => (loc::CYCLE_CSINK_CODE, loc::DWELL_CYCLE_CSINK),
+            CycleKind::Deep => (loc::CYCLE_DEEP_CODE, loc::DWELL_CYCLE_DEEP),
+            CycleKind::Brkchp => (loc::CYCLE_BRKCHP_CODE, loc::DWELL_CYCLE_BRKCHP),
+            CycleKind::Tap => (loc::CYCLE_TAP_CODE, loc::DWELL_CYCLE_TAP),
+            CycleKind::Bore => (loc::CYCLE_BORE_CODE, loc::DWELL_CYCLE_BORE),
+            CycleKind::Ream => (loc::CYCLE_REAM_CODE, loc::DWELL_CYCLE_REAM),
+            CycleKind::Face => (loc::CYCLE_FACE_CODE, loc::DWELL_CYCLE_FACE),
+            CycleKind::Thru => (loc::CYCLE_THRU_CODE, loc::DWELL_CYCLE_THRU),
+        }
+    }
+
+    /// True for the cycles that go down in pecks.
+    pub fn pecks(self) -> bool {
+        matches!(self, CycleKind::Deep | CycleKind::Brkchp)
+    }
+}
+
+/// How fast the tool goes down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CycleFeed {
+    /// At a feed.
+    Feed(Feed),
+    /// By the lead of a tap.
+    Lead(Lead),
+}
+
+/// A cycle in force. Lengths in mm or inch.
+#[derive(Clone, Debug)]
+pub struct Cycle {
+    /// Its kind.
+    pub kind: CycleKind,
+    /// Depth below the hole's start, positive.
+    pub depth: f64,
+    /// R level above the hole's start.
+    pub clear: f64,
+    /// Level above the hole's start to retract to; 0 is the level before the cycle.
+    pub retract: Option<f64>,
+    /// Peck.
+    pub step: Option<f64>,
+    /// Dwell at the bottom, seconds.
+    pub dwell: f64,
+    /// Feed.
+    pub feed: CycleFeed,
+    /// Level of the tool before the cycle along the drilling axis, machine
+    /// coordinates; `None` when it is to be taken from the tape at the next hole.
+    pub initial: Option<f64>,
+    /// The CYCLE record.
+    pub cause: Cause,
+    /// Its words with values.
+    pub words: CycleWords,
+    /// What the control has of the last hole, while it is in the cycle.
+    pub in_force: Option<Hole>,
+}
+
+/// The words of a CYCLE record that hold a value; 0 for one that has none.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CycleWords {
+    /// DEPTH
+    pub depth: u16,
+    /// CLEAR
+    pub clear: u16,
+    /// STEP
+    pub step: u16,
+    /// DWELL
+    pub dwell: u16,
+}
+
+/// A hole along a linear axis of the machine: levels after all transformations but
+/// the output scale.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hole {
+    /// Number of the drilling axis, 0 to 2 for X Y Z.
+    pub along: usize,
+    /// Bottom.
+    pub bottom: f64,
+    /// R level.
+    pub clear: f64,
+    /// Level before the cycle.
+    pub initial: f64,
+    /// Retract to the level before the cycle (G98).
+    pub to_initial: bool,
+}
+
+impl Hole {
+    /// Where the tool stands after the hole.
+    pub fn rest(&self) -> f64 {
+        if self.to_initial { self.initial } else { self.clear }
+    }
+}
+
+impl Cycle {
+    /// The CYCLE record at one of its words.
+    pub fn due_to(&self, word: u16) -> Cause {
+        Cause { word, ..self.cause }
+    }
+}
+
+/// Takes a cycle in place of the one before, or ends it.
+///
+/// # Errors
+/// The machine has no code that ends the cycle the control is in.
+pub fn replace(post: &mut Post, cycle: Option<Cycle>) -> Result<()> {
+    words::cancel(&mut post.control)?;
+    let initial = post.path.cycle.take().and_then(|old| old.initial);
+    post.path.cycle = cycle.map(|cycle| Cycle { initial, ..cycle });
+    Ok(())
+}

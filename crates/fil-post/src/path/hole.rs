@@ -1,0 +1,121 @@
+//! A hole of the active cycle: its levels on the machine, the way above it, and the
+//! control's cycle or single moves.
+
+use fil_diag::Result;
+use fil_machine::axes::{AXES, AxisSet, Position};
+
+use super::cycle::{Cycle, Hole};
+use super::{expand, rapid, rotary};
+use crate::control::word_address::cycle as words;
+use crate::control::word_address::motion::{self, Motion};
+use crate::control_state::Compensation;
+use crate::errors::PostCode;
+use crate::operation::Target;
+use crate::post::Post;
+
+/// Differences below this count as none, mm or inch.
+const SAME: f64 = 1e-6;
+
+/// Levels nearer than this are one level, mm or inch.
+const SAME_LEVEL: f64 = 1e-9;
+
+/// Drills the hole that starts at the target.
+///
+/// # Errors
+/// A hole that runs along no linear axis of the machine, a level outside the travel,
+/// a level to return to that is not known, a value that does not fit.
+pub fn carry_out(post: &mut Post, target: Target) -> Result<()> {
+    let Some(mut cycle) = post.path.cycle.take() else { return Ok(()) };
+    let result = drill(post, &mut cycle, target);
+    post.path.cycle = Some(cycle);
+    post.path.course.interrupt();
+    result
+}
+
+fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
+    if post.control.state.in_cycle != Some(true) {
+        cycle.in_force = None;
+    }
+    if !matches!(post.control.state.compensation, Some(Compensation::Off) | None) {
+        return PostCode::InCycle
+            .err("a hole in cutter compensation; CUTCOM/OFF must come before it");
+    }
+    post.control.flush_waiting()?;
+    motion::ready_for_hole(&mut post.control, cycle.in_force.is_some())?;
+    let (position, mut hole) = locate(post, cycle, target)?;
+    post.path.point = Some(target.point);
+    post.path.axis = target.axis;
+    let word = rotary::word_of(post, target);
+    let start = position[hole.along];
+    raise(post, cycle, &mut hole, start)?;
+    for level in [hole.bottom, hole.clear, hole.initial] {
+        post.control.tables.axis(hole.along).check(level)?;
+    }
+    let at = Motion { position, axes: AxisSet::ALL, word };
+    if let Some(code) = words::code(&post.control, cycle) {
+        words::hole(&mut post.control, cycle, code, &at, &hole)?;
+        cycle.in_force = Some(hole);
+    } else {
+        expand::hole(&mut post.control, cycle, &at, &hole)?;
+    }
+    words::stands_at(&mut post.control, hole.along, hole.rest())
+}
+
+/// Where the hole lies: the position above it, and its levels along the axis that it
+/// runs along.
+fn locate(post: &mut Post, cycle: &Cycle, target: Target) -> Result<(Position, Hole)> {
+    let axis = target.axis.normalize();
+    let offset = |by: f64| Target { point: target.point + axis * by, ..target };
+    let at = rotary::position_of(post, target)?;
+    let bottom = rotary::position_of(post, offset(-cycle.depth))?;
+    let clear = rotary::position_of(post, offset(cycle.clear))?;
+    let differs = |axis: &usize| (at[*axis] - bottom[*axis]).abs() > SAME;
+    let moving: Vec<usize> = (0..AXES).filter(differs).collect();
+    let [along @ 0..=2] = moving[..] else {
+        return PostCode::CycleForm.err("the hole does not run along a linear axis of the machine");
+    };
+    let (bottom, clear) = (bottom[along], clear[along]);
+    Ok((at, Hole { along, bottom, clear, initial: clear, to_initial: false }))
+}
+
+/// Brings the tool up before it goes to the hole, when it stands below the
+/// hole's R level or below the level to return to, and settles that level.
+fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, start: f64) -> Result<()> {
+    let out = if hole.clear >= hole.bottom { 1.0 } else { -1.0 };
+    let above = |one: f64, other: f64| (one - other) * out;
+    let here = post.control.axis_position(hole.along);
+    let initial = cycle.initial.or(here);
+    let wanted = match (cycle.retract, initial) {
+        (Some(0.0), None) => {
+            return PostCode::CycleForm
+                .err("the level before the cycle, to return to, is not known");
+        }
+        (Some(0.0), Some(initial)) if above(initial, hole.clear) > 0.0 => initial,
+        (Some(level), _) if level > 0.0 && above(start + level * out, hole.clear) > 0.0 => {
+            start + level * out
+        }
+        _ => hole.clear,
+    };
+    let below = match here {
+        Some(here) => above(wanted, here) > SAME_LEVEL,
+        None => cycle.retract.is_some(),
+    };
+    let level = if below { wanted } else { initial.unwrap_or(wanted) };
+    if below {
+        words::cancel(&mut post.control)?;
+        cycle.in_force = None;
+        let mut position = Position::default();
+        position[hole.along] = wanted;
+        let motion = Motion { position, axes: AxisSet::of(hole.along), word: 0 };
+        let cause = cycle.cause;
+        post.control.because(cause, |control| rapid::rapid(control, &motion, cause))?;
+    }
+    cycle.initial = Some(level).filter(|_| below || initial.is_some());
+    hole.initial = level;
+    hole.to_initial = match cycle.retract {
+        None => false,
+        Some(0.0) => true,
+        Some(_) => above(level, wanted) >= 0.0 && above(wanted, hole.clear) > SAME_LEVEL,
+    };
+    Ok(())
+}

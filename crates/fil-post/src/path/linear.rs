@@ -1,0 +1,46 @@
+//! Straight motions: rapid, at feed, and as passes of a thread.
+
+use fil_diag::Result;
+use fil_machine::axes::AxisSet;
+
+use super::{rapid, rotary};
+use crate::control::word_address::cycle;
+use crate::control::word_address::motion::{self, Motion};
+use crate::operation::{MotionKind, Target};
+use crate::post::Post;
+
+/// Moves in a straight line.
+///
+/// # Errors
+/// An unreachable tool axis, no feed, a value that does not fit, a missing code.
+#[inline]
+pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()> {
+    if let Some(active) = &mut post.path.cycle {
+        active.initial = None;
+        active.in_force = None;
+        cycle::cancel(&mut post.control)?;
+    }
+    if let (Some(from), false) = (post.path.point, matches!(kind, MotionKind::Rapid(_))) {
+        post.path.course.line(target.point - from)?;
+    } else {
+        post.path.course.interrupt();
+    }
+    let before = post.path.rotary;
+    let position = rotary::position_of(post, target)?;
+    let word = rotary::word_of(post, target);
+    let motion = Motion { position, axes: AxisSet::ALL, word };
+    match kind {
+        MotionKind::Rapid(cause) => rapid::rapid(&mut post.control, &motion, cause)?,
+        MotionKind::Feed => {
+            rotary::refuse_unwinding(before, post.path.rotary)?;
+            motion::feed(&mut post.control, &motion, post.path.feed.as_ref())?;
+        }
+        MotionKind::Thread(lead) => {
+            let motion = motion.of(AxisSet::LINEAR);
+            motion::thread(&mut post.control, &motion, &lead)?;
+        }
+    }
+    post.path.point = Some(target.point);
+    post.path.axis = target.axis;
+    Ok(())
+}

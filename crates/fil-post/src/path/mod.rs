@@ -1,0 +1,105 @@
+//! The passes between post words and control: where the CL file stands, and how
+//! its motions become motions of the machine's axes.
+//!
+//! [`carry_out`] takes each operation the moment a post word makes it: the target
+//! is transformed and solved for the rotary axes, rapids are ordered, arcs and
+//! holes are brought into the machine's planes or taken apart, and the control
+//! writes the blocks. Nothing is held back.
+
+pub mod arc;
+mod chords;
+pub mod cycle;
+mod expand;
+pub mod hole;
+mod linear;
+pub mod rapid;
+pub mod rotary;
+mod sense;
+mod tool_change;
+mod transformation;
+
+use fil_diag::Result;
+use nalgebra::{Point3, Vector3};
+
+use crate::cause::Cause;
+use crate::control::word_address;
+use crate::operation::{Arc, Feed, Lead, Operation};
+use crate::post::Post;
+
+pub use cycle::Cycle;
+pub use transformation::Transformation;
+
+/// Where the CL file stands: point and axis, and what its records asked for.
+#[derive(Clone, Debug)]
+pub struct Path {
+    /// Last CL point, mm or inch, in the part frame.
+    pub point: Option<Point3<f64>>,
+    /// Last CL tool axis.
+    pub axis: Vector3<f64>,
+    /// MULTAX is on: a GOTO may have an axis of any length.
+    pub multax: bool,
+    /// Last rotary positions in degrees; `None` before the first motion.
+    pub rotary: Option<[f64; 2]>,
+    /// RAPID was given, by this record: the next motion is rapid.
+    pub rapid: Option<Cause>,
+    /// Feed of the next feed motion.
+    pub feed: Option<Feed>,
+    /// CIRCLE waits for its end point.
+    pub arc: Option<Arc>,
+    /// The canned cycle that each GOTO carries out.
+    pub cycle: Option<Cycle>,
+    /// A thread is cut by each feed motion.
+    pub thread: Option<Lead>,
+    /// TRANS.
+    pub transformation: Option<Transformation>,
+    /// Diameter of the cutter, mm or inch.
+    pub cutter: Option<f64>,
+    /// How the last feed motion ended, to judge the sense of arcs.
+    pub(crate) course: sense::Course,
+}
+
+impl Default for Path {
+    fn default() -> Self {
+        Path {
+            point: None,
+            axis: Vector3::z(),
+            multax: false,
+            rotary: None,
+            rapid: None,
+            feed: None,
+            arc: None,
+            cycle: None,
+            thread: None,
+            transformation: None,
+            cutter: None,
+            course: sense::Course::default(),
+        }
+    }
+}
+
+impl Path {
+    /// Something comes between two holes or two motions: the level before the cycle is
+    /// the one after it, and the motions tell nothing about each other.
+    pub(crate) fn interrupt(&mut self) {
+        self.course.interrupt();
+        if let Some(cycle) = &mut self.cycle {
+            cycle.initial = None;
+            cycle.in_force = None;
+        }
+    }
+}
+
+/// Carries out an operation: its blocks are on the tape when this returns.
+///
+/// # Errors
+/// Whatever the machine or the control can't do.
+#[inline]
+pub fn carry_out(post: &mut Post, operation: Operation) -> Result<()> {
+    match operation {
+        Operation::Linear(target, kind) => linear::carry_out(post, target, kind),
+        Operation::Arc(arc, target) => arc::carry_out(post, &arc, target),
+        Operation::Hole(target) => hole::carry_out(post, target),
+        Operation::ToolChange(change) => tool_change::change(&mut post.control, change),
+        other => word_address::write(&mut post.control, other),
+    }
+}

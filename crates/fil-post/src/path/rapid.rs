@@ -1,0 +1,43 @@
+//! The order of a rapid motion: XY, rotary, then Z; Z first where it retracts.
+
+use fil_diag::Result;
+use fil_machine::axes::AxisSet;
+use fil_machine::commons::EMPTY;
+use fil_machine::locations::{self as loc, RapidSplit};
+
+use crate::cause::Cause;
+use crate::control::Control;
+use crate::control::word_address::motion::{self, Motion, RapidCode};
+
+/// Makes a rapid motion in the order the machine asks for.
+///
+/// # Errors
+/// As [`motion::rapid`].
+pub fn rapid(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()> {
+    if control.commons.read(loc::RAPID_SPLIT) == RapidSplit::OneBlock {
+        return motion::rapid(control, motion, RapidCode::Across, cause);
+    }
+    let across = (AxisSet::XY, RapidCode::Across);
+    let turning = (AxisSet::ROTARY, RapidCode::Turning);
+    let along = (AxisSet::Z, RapidCode::Along);
+    let order = if motion.axes.has(2) && retracts(control, motion)? {
+        [along, across, turning]
+    } else {
+        [across, turning, along]
+    };
+    let present = control.tables.present();
+    for (group, code) in order {
+        if !group.and(present).is_empty() {
+            motion::rapid(control, &motion.of(group), code, cause)?;
+        }
+    }
+    Ok(())
+}
+
+/// True when Z goes up from the last level on the tape. A level in doubt counts too:
+/// a way up is better made before the way across.
+fn retracts(control: &Control, motion: &Motion) -> Result<bool> {
+    let axis = control.tables.axis(2);
+    let last = control.commons.last_output(axis.letter);
+    Ok(last != EMPTY && axis.value(motion.position[2])? > last)
+}

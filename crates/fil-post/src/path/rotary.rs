@@ -1,0 +1,80 @@
+//! From a point and a tool axis in the part to positions of the machine's axes.
+
+use fil_diag::Result;
+use fil_machine::axes::Position;
+use fil_machine::locations as loc;
+use nalgebra::{Point3, Vector3};
+
+use crate::errors::PostCode;
+use crate::operation::Target;
+use crate::post::Post;
+
+/// Largest turn of a rotary axis in one feed motion, degrees: more would be the
+/// way round that a limit forces.
+const HALF_TURN: f64 = 180.0 + 1e-6;
+
+/// Positions of the axes for a target; the rotary axes are then taken to stand there.
+///
+/// # Errors
+/// The machine can't reach the tool axis.
+#[inline]
+pub fn position_of(post: &mut Post, target: Target) -> Result<Position> {
+    let (point, axis) = transformed(post, target);
+    let chain = post.control.tables.chain();
+    if !chain.has_rotary() && axis == chain.tool.into_inner() {
+        return Ok([point.x, point.y, point.z, 0.0, 0.0]);
+    }
+    let last = post.path.rotary.unwrap_or_else(|| on_tape(post));
+    let angles = chain.solve(axis, last)?;
+    let linear = chain.linear(point, angles);
+    post.path.rotary = Some(angles);
+    Ok([linear.x, linear.y, linear.z, angles[0], angles[1]])
+}
+
+/// Refuses a feed motion in which a rotary axis would go the long way round because
+/// its limits leave no other: the part would be cut on the way.
+///
+/// # Errors
+/// An axis turns by more than half a turn.
+pub fn refuse_unwinding(before: Option<[f64; 2]>, now: Option<[f64; 2]>) -> Result<()> {
+    let (Some(before), Some(now)) = (before, now) else { return Ok(()) };
+    for (from, to) in before.into_iter().zip(now) {
+        if (to - from).abs() > HALF_TURN {
+            return PostCode::Unwinding.err(format!(
+                "a rotary axis would turn from {from:.3} to {to:.3} degrees in a feed motion"
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// The target after TRANS and the input translation (DBLCOM 286–288).
+#[inline]
+pub fn transformed(post: &Post, target: Target) -> (Point3<f64>, Vector3<f64>) {
+    let shift = [loc::INPUT_TRANSLATE_X, loc::INPUT_TRANSLATE_Y, loc::INPUT_TRANSLATE_Z]
+        .map(|location| post.control.commons.dbl_opt(location).unwrap_or(0.0));
+    let (point, axis) = match &post.path.transformation {
+        Some(trans) => (trans.point(target.point), trans.axis(target.axis)),
+        None => (target.point, target.axis),
+    };
+    (point + Vector3::from(shift), axis)
+}
+
+/// Rotary positions the last output values stand for, degrees; 0 where unknown.
+fn on_tape(post: &Post) -> [f64; 2] {
+    [3, 4].map(|number| {
+        let present = post.control.tables.present().has(number);
+        post.control.axis_position(number).filter(|_| present).unwrap_or(0.0)
+    })
+}
+
+/// The word of the record that the axis words of a target repeat; 0 where a rotary
+/// axis or TRANS mixes its coordinates.
+#[inline]
+pub fn word_of(post: &Post, target: Target) -> u16 {
+    let chain = post.control.tables.chain();
+    let mixed = post.path.transformation.is_some()
+        || chain.has_rotary()
+        || target.axis != chain.tool.into_inner();
+    if mixed { 0 } else { target.word }
+}

@@ -1,0 +1,41 @@
+//! Warnings of a run: each code and subject once, and never without end.
+
+use std::collections::HashSet;
+
+use fil_diag::{Code, Diag};
+
+use crate::errors::PostCode;
+
+/// Most warnings of one run.
+const MOST: usize = 1000;
+
+/// The warnings of a run.
+#[derive(Clone, Debug, Default)]
+pub struct Warnings {
+    /// Those not yet taken away.
+    pub list: Vec<Diag>,
+    known: HashSet<(u16, String)>,
+}
+
+impl Warnings {
+    /// Warns once per code and subject; a run that warns without end stops at
+    /// [`MOST`], so that memory does not grow with the CL file.
+    pub fn add(&mut self, code: PostCode, message: String) {
+        self.add_with(code, message, || None);
+    }
+
+    /// The same with a hint made for this case when the warning is a new one.
+    pub fn add_with(
+        &mut self,
+        code: PostCode,
+        message: String,
+        hint: impl FnOnce() -> Option<String>,
+    ) {
+        let code: &'static Code = code.into();
+        if self.known.len() < MOST && self.known.insert((code.number, message.clone())) {
+            let last = self.known.len() == MOST;
+            let note = if last { "; further warnings are not listed" } else { "" };
+            self.list.push(Diag { hint: hint(), ..Diag::new(code, message + note) });
+        }
+    }
+}
