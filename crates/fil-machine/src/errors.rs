@@ -47,6 +47,10 @@ fil_diag::codes! {
         OptionFile = 606, Error, "option file can't be read",
             "An option file is a list of pairs, location and value, under INTCOM, RELCOM and DBLCOM.",
             "Check that the file is an option file (.pNN) and whole.";
+        /// Settings that contradict each other.
+        Contradiction = 607, Error, "settings contradict each other",
+            "A program made with them would be read otherwise than it is meant.",
+            "Correct one of the settings; `filpost machine show` lists them.";
         /// A setting nobody reads.
         UnusedSetting = 651, Warning, "setting without effect",
             "The location is known, but this post does not act on it.",

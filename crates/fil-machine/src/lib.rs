@@ -11,6 +11,7 @@ pub mod address;
 pub mod axes;
 pub mod axis_chain;
 pub mod commons;
+pub mod contradictions;
 pub mod errors;
 pub mod files;
 pub mod function_code;

@@ -318,6 +318,8 @@ impl State {
             .iter()
             .find_map(|unit| record.number_after(*unit))
             .map(|value| self.rate_of(record, value));
+        let tapped = self.lead(record).filter(|_| kind == CycleKind::Tap && record.has(w::TPI));
+        let rate = tapped.map(Rate::PerTurn).or(rate);
         let begins = self.cycle.is_none();
         self.cycle = Some(Cycle {
             kind,
@@ -343,7 +345,19 @@ impl State {
         }])
     }
 
-    /// OP/THREAD and THREAD with a pitch; `None` for forms that leave the passes open.
+    /// The lead of a thread or tap in mm: TPI counts threads an inch.
+    fn lead(&self, record: &Record) -> Option<f64> {
+        let after = |word| record.number_after(word);
+        let lead = match (after(w::TPI), after(w::MMPR), after(w::IPR)) {
+            (Some(threads), ..) => INCH / threads,
+            (_, Some(millimetres), _) => millimetres,
+            (.., Some(inches)) => inches * INCH,
+            _ => return None,
+        };
+        Some(lead).filter(|lead| lead.is_finite() && *lead > 0.0)
+    }
+
+    /// OP/THREAD and THREAD with a lead; `None` for forms that leave the passes open.
     fn thread(&mut self, record: &Record) -> Option<Vec<Wanted>> {
         if record.has(w::NOMORE) || record.has(w::OFF) {
             self.thread = None;
@@ -352,8 +366,7 @@ impl State {
         if record.has(w::AUTO) || (record.major == w::OP && !record.has(w::THREAD)) {
             return None;
         }
-        let pitch = record.number_after(w::TPI).filter(|pitch| *pitch > 0.0)?;
-        self.thread = Some(pitch * self.unit());
+        self.thread = Some(self.lead(record)?);
         Some(Vec::new())
     }
 

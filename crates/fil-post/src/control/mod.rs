@@ -16,6 +16,7 @@ use std::collections::BTreeMap;
 use fil_diag::{Diag, Result};
 use fil_machine::address::no_address;
 use fil_machine::commons::EMPTY;
+use fil_machine::contradictions;
 use fil_machine::letters::{G, M};
 use fil_machine::modes::Unit;
 use fil_machine::rounding::Rounding;
@@ -74,6 +75,7 @@ impl Control {
     /// # Errors
     /// Settings that make no machine.
     pub fn new(commons: Commons) -> Result<Self> {
+        contradictions::check(&commons)?;
         let mut tables = MachineTables::default();
         tables.refresh(&commons, true)?;
         let unit = program::unit_of_machine(&commons);
@@ -104,6 +106,7 @@ impl Control {
     #[inline]
     pub fn refresh(&mut self) -> Result<()> {
         if self.tables.refresh(&self.commons, self.is_metric())? {
+            contradictions::check(&self.commons)?;
             self.codes = Codes::from_commons(&self.commons);
         }
         Ok(())
