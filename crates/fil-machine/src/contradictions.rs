@@ -125,23 +125,24 @@ fn incremental_start(commons: &Commons, found: &mut Vec<Box<Diag>>) {
 }
 
 fn same_positions(commons: &Commons, found: &mut Vec<Box<Diag>>) {
-    let position = |letter: Letter| {
-        TapePosition::numbered(commons.int(Int(u16::from(letter.number()))))
-    };
+    let position =
+        |letter: Letter| TapePosition::numbered(commons.int(Int(u16::from(letter.number()))));
     for letter in Letter::all() {
         let Some(at) = position(letter) else { continue };
         let before = Letter::all().take_while(|other| *other < letter);
         if let Some(other) = before.into_iter().find(|other| position(*other) == Some(at)) {
             let at = at.index();
-            found.push(contradiction(format!("{other} and {letter} are both at tape position {at}")));
+            found.push(contradiction(format!(
+                "{other} and {letter} are both at tape position {at}"
+            )));
         }
     }
 }
 
 /// The letters of rotary axes: neither each other's nor those of X, Y and Z.
 fn axis_letters(commons: &Commons, found: &mut Vec<Box<Diag>>) {
-    let rotary = [loc::ROTARY_PRIMARY_LETTER, loc::ROTARY_SECONDARY_LETTER]
-        .map(|at| commons.read(at));
+    let rotary =
+        [loc::ROTARY_PRIMARY_LETTER, loc::ROTARY_SECONDARY_LETTER].map(|at| commons.read(at));
     for letter in rotary.into_iter().flatten() {
         if letters::XYZ.contains(&letter) {
             found.push(contradiction(format!("{letter} is a linear and a rotary axis")));
@@ -196,7 +197,9 @@ fn ranges(commons: &Commons, found: &mut Vec<Box<Diag>>) {
         if let (Some(low), Some(high)) = (low, high)
             && low > high
         {
-            found.push(contradiction(format!("{what}: the least, {low}, is above the most, {high}")));
+            found.push(contradiction(format!(
+                "{what}: the least, {low}, is above the most, {high}"
+            )));
         }
     };
     let dbl = |at: Dbl| commons.read(at);

@@ -44,10 +44,20 @@ impl PlaneArc {
     fn flat(&self, position: &Position) -> [f64; 2] {
         self.plane.axes().map(|number| position[number])
     }
+
+    /// The point at a share of the way from start to end, in the axes of the plane.
+    fn point_at(&self, share: f64) -> [f64; 2] {
+        let [x, y] = self.flat(&self.from);
+        let [x, y] = [x - self.center[0], y - self.center[1]];
+        let turned = if self.counterclockwise { self.sweep } else { -self.sweep } * share;
+        let (sine, cosine) = turned.to_radians().sin_cos();
+        [self.center[0] + x * cosine - y * sine, self.center[1] + x * sine + y * cosine]
+    }
 }
 
-/// True when the control reads the arc from its rounded words as it is meant: same
-/// sweep, same center, same radius at both ends, within a few last digits.
+/// True when the control reads the arc from its rounded words as it is meant: as long,
+/// through the same points, and at one radius from start to end, within a few last
+/// digits.
 ///
 /// # Errors
 /// A position that does not fit its address.
@@ -65,13 +75,13 @@ pub fn reads_as_meant(control: &Control, arc: &PlaneArc) -> Result<bool> {
         return Ok(false);
     };
     let allowed = DIGITS * digit.max(finest);
-    let radii = [start, end].map(|point| distance(point, center));
+    let [at_start, at_end] = [start, end].map(|point| distance(point, center));
     let sweep = sweep_on_tape(arc, start, end, center);
-    let close = |one: f64, other: f64| (one - other).abs() <= allowed;
-    Ok(distance(center, arc.center) <= allowed
-        && (radii[0] - radii[1]).abs() <= allowed / 2.0
-        && close(radii[0], arc.radius)
-        && close(sweep.to_radians() * arc.radius, arc.sweep.to_radians() * arc.radius))
+    let length = |sweep: f64, radius: f64| sweep.to_radians() * radius;
+    let between = [0.25, 0.5, 0.75].map(|share| distance(arc.point_at(share), center));
+    Ok((at_start - at_end).abs() <= allowed / 2.0
+        && between.into_iter().all(|radius| (radius - at_start).abs() <= allowed)
+        && (length(sweep, at_start) - length(arc.sweep, arc.radius)).abs() <= allowed)
 }
 
 fn distance(one: [f64; 2], other: [f64; 2]) -> f64 {
