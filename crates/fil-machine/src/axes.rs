@@ -152,6 +152,11 @@ impl Axis {
         self.max = max.unwrap_or(f64::INFINITY);
     }
 
+    /// True when the travel is bounded.
+    pub fn is_limited(&self) -> bool {
+        self.min.is_finite() || self.max.is_finite()
+    }
+
     /// Output scale: 2 for diameters.
     pub fn scale(&self) -> f64 {
         self.scale

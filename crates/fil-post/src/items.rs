@@ -38,10 +38,15 @@ impl<'a> Items<'a> {
     }
 
     /// Crosses the first items off: the fixed head of a record.
+    #[inline]
     pub fn skip(&mut self, count: usize) {
-        for at in 0..count.min(MOST) {
-            self.taken |= 1 << at;
-        }
+        self.taken |= first(count);
+    }
+
+    /// True when every item is taken.
+    #[inline]
+    pub fn all_taken(&self) -> bool {
+        self.taken == first(self.len())
     }
 
     /// Number of items, taken or not.
@@ -133,7 +138,12 @@ impl<'a> Items<'a> {
     ///
     /// # Errors
     /// Items are left.
+    #[inline]
     pub fn deny_rest(&self) -> Result<()> {
+        if self.all_taken() { Ok(()) } else { self.deny_left() }
+    }
+
+    fn deny_left(&self) -> Result<()> {
         match self.left() {
             Some(left) => {
                 let mut diag = self.error(format!("no meaning is known for {left}"));
@@ -178,7 +188,7 @@ impl<'a> Items<'a> {
     pub fn circle(&mut self) -> Option<fil_cl::Circle> {
         const HEAD: usize = 12;
         let circle = self.record.circle()?;
-        self.skip(HEAD);
+        self.skip(HEAD.min(self.len()));
         Some(circle)
     }
 
@@ -216,5 +226,15 @@ impl<'a> Items<'a> {
     fn take(&mut self, at: usize) {
         self.taken |= 1 << at;
         self.last = Some(at);
+    }
+}
+
+/// The set of the first items.
+#[inline]
+fn first(count: usize) -> u128 {
+    match count {
+        0 => 0,
+        1..MOST => (1 << count) - 1,
+        _ => u128::MAX,
     }
 }

@@ -36,20 +36,24 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     let Some(start) = post.path.point else {
         return PostCode::ArcStart.err("CIRCLE before any FROM or GOTO");
     };
-    check_radii(arc, start, target.point)?;
+    let ends = [start, target.point].map(|point| flat(arc, point));
+    check_radii(arc, ends)?;
     refuse_first_under_compensation(post)?;
-    let sweep = sweep(arc, start, target.point);
-    judge_sense(post, arc, start, target.point)?;
+    let sweep = sweep(arc, ends);
+    let [begin, end] = ends.map(|end| arc.axis.cross(&end));
+    post.path.course.arc(begin, end, arc.cause.line)?;
     let turns_axis = target.axis != post.path.axis;
     let whole = if turns_axis { None } else { in_plane(post, arc, start, sweep, target)? };
-    let Some(whole) = whole else { return chords::carry_out(post, arc, start, sweep, target) };
+    let Some(mut whole) = whole else { return chords::carry_out(post, arc, start, sweep, target) };
     check_travel(post, &whole)?;
     motion::ready(&mut post.control)?;
-    if !words::starts_on_tape(&post.control, &whole.from)? {
+    let Some(stands) = words::start_on_tape(&post.control, &whole.from) else {
         return PostCode::ArcStart.err(
-            "the tape does not stand where the arc begins: a text, POSTN or REPEAT has moved the axes",
+            "the tape does not stand where the arc begins: a cycle, a text, POSTN or REPEAT has \
+             moved the axes, or no motion came before",
         );
-    }
+    };
+    whole.start = whole.plane.axes().map(|number| stands[number]);
     let feed = post.path.feed;
     if usual_step(post, &whole) == Step::Turns
         && sweep <= FULL
@@ -67,9 +71,8 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     Ok(())
 }
 
-fn check_radii(arc: &Arc, start: Point3<f64>, end: Point3<f64>) -> Result<()> {
-    let radius = |point: Point3<f64>| flat(arc, point).norm();
-    let (at_start, at_end) = (radius(start), radius(end));
+fn check_radii(arc: &Arc, ends: [Vector3<f64>; 2]) -> Result<()> {
+    let [at_start, at_end] = ends.map(|end| end.norm());
     let given = arc.radius.unwrap_or(at_start);
     if (at_start - at_end).abs() > RADIUS_TOLERANCE || (given - at_start).abs() > RADIUS_TOLERANCE {
         return PostCode::ArcRadius.err(format!(
@@ -99,20 +102,13 @@ pub fn flat(arc: &Arc, point: Point3<f64>) -> Vector3<f64> {
 
 /// Angle from start to end about the axis, degrees: above 0, at most 360 and
 /// the full turns on top. A start above the end is one turn, or TIMES turns.
-fn sweep(arc: &Arc, start: Point3<f64>, end: Point3<f64>) -> f64 {
-    let (from, to) = (flat(arc, start), flat(arc, end));
+fn sweep(arc: &Arc, [from, to]: [Vector3<f64>; 2]) -> f64 {
     if (from - to).norm() < SAME_POINT {
         return FULL * arc.turns.max(1.0);
     }
     let angle = arc.axis.dot(&from.cross(&to)).atan2(from.dot(&to)).to_degrees();
     let part = if angle <= 0.0 { angle + FULL } else { angle };
     part + FULL * arc.turns
-}
-
-/// Compares the directions in which the arc begins and ends with its neighbors.
-fn judge_sense(post: &mut Post, arc: &Arc, start: Point3<f64>, end: Point3<f64>) -> Result<()> {
-    let tangent = |point| arc.axis.cross(&flat(arc, point));
-    post.path.course.arc(tangent(start), tangent(end), arc.cause.line)
 }
 
 /// The arc in machine coordinates; `None` when the control can't say it as an arc.
@@ -151,6 +147,7 @@ fn in_plane(
         center: axes.map(|number| center[number]),
         radius,
         from,
+        start: axes.map(|number| from[number]),
         to,
         sweep,
         word: rotary::word_of(post, target),
@@ -160,16 +157,18 @@ fn in_plane(
 
 /// Refuses an arc that bulges out of the travel between its ends.
 fn check_travel(post: &Post, arc: &PlaneArc) -> Result<()> {
+    let axes = arc.plane.axes().map(|number| post.control.tables.axis(number));
+    if !axes.iter().any(|axis| axis.is_limited()) {
+        return Ok(());
+    }
     let start = start_angle(arc);
     let turned = if arc.counterclockwise { start } else { -start };
     let mut next = ((turned / 90.0).floor() + 1.0) * 90.0;
     while next < turned + arc.sweep.min(FULL) {
         let angle = if arc.counterclockwise { next } else { -next };
         let (sine, cosine) = angle.to_radians().sin_cos();
-        for ((number, center), part) in
-            arc.plane.axes().into_iter().zip(arc.center).zip([cosine, sine])
-        {
-            post.control.tables.axis(number).check(center + arc.radius * part)?;
+        for ((axis, center), part) in axes.iter().zip(arc.center).zip([cosine, sine]) {
+            axis.check(center + arc.radius * part)?;
         }
         next += 90.0;
     }
@@ -192,7 +191,7 @@ fn parts(post: &Post, arc: &PlaneArc) -> Result<Option<Vec<PlaneArc>>> {
     };
     let least = least_angle(post, arc);
     for step in steps {
-        let parts = divided(arc, &stops(arc, *step, least));
+        let parts = divided(post, arc, &stops(arc, *step, least))?;
         let mut meant = true;
         for part in &parts {
             meant &= words::reads_as_meant(&post.control, part)?;
@@ -265,17 +264,20 @@ fn stops(arc: &PlaneArc, step: Step, least: f64) -> Vec<f64> {
 }
 
 /// The parts of an arc that end at these angles.
-fn divided(arc: &PlaneArc, stops: &[f64]) -> Vec<PlaneArc> {
-    let start = start_angle(arc);
+///
+/// # Errors
+/// A position that does not fit its address.
+fn divided(post: &Post, arc: &PlaneArc, stops: &[f64]) -> Result<Vec<PlaneArc>> {
+    let angle = start_angle(arc);
     let along = arc.plane.normal();
     let mut parts: Vec<PlaneArc> = Vec::with_capacity(stops.len());
-    let (mut here, mut done) = (arc.from, 0.0);
+    let (mut here, mut start, mut done) = (arc.from, arc.start, 0.0);
     for &stop in stops {
         let mut next = arc.to;
         let last = stop >= arc.sweep;
         if !last {
             let turned = if arc.counterclockwise { stop } else { -stop };
-            let (sine, cosine) = (start + turned).to_radians().sin_cos();
+            let (sine, cosine) = (angle + turned).to_radians().sin_cos();
             let [first, second] = arc.plane.axes();
             next[first] = arc.center[0] + arc.radius * cosine;
             next[second] = arc.center[1] + arc.radius * sine;
@@ -283,8 +285,11 @@ fn divided(arc: &PlaneArc, stops: &[f64]) -> Vec<PlaneArc> {
         }
         // The record's point is where the whole arc ends, not a part of it.
         let word = if last { arc.word } else { 0 };
-        parts.push(PlaneArc { from: here, to: next, sweep: stop - done, word, ..*arc });
+        parts.push(PlaneArc { from: here, start, to: next, sweep: stop - done, word, ..*arc });
+        for (start, number) in start.iter_mut().zip(arc.plane.axes()) {
+            *start = post.control.tables.axis(number).on_tape(next[number])?;
+        }
         (here, done) = (next, stop);
     }
-    parts
+    Ok(parts)
 }

@@ -34,19 +34,11 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         return PostCode::InCycle.err("CIRCLE in an active cycle; CYCLE/OFF must come before it");
     }
     let circle = items.circle().ok_or_else(|| items.error("center and axis are needed"))?;
-    let turns = items.couplet(w::TIMES)?.unwrap_or(0.0);
-    if turns.fract() != 0.0 || !(0.0..=MAX_TURNS).contains(&turns) {
-        return Err(items.error(format!("TIMES must be an integer, not {turns}")));
-    }
     let axis = Vector3::from(circle.axis);
     if axis.norm() < NO_AXIS {
         return Err(items.error("the axis has length zero"));
     }
-    check_direction(items, axis)?;
-    let rest = items.numbers().len();
-    if rest != 0 && rest != OF_THE_TOOL {
-        return Err(items.error(format!("no meaning is known for {rest} more numbers")));
-    }
+    let turns = if items.all_taken() { 0.0 } else { further(items, axis)? };
     post.path.arc = Some(Arc {
         center: Point3::from(circle.center),
         axis: axis.normalize(),
@@ -55,6 +47,21 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         cause: post.control.block.cause,
     });
     Ok(())
+}
+
+/// What may stand behind the radius: turns, a direction, measures of the tool. Gives
+/// the number of full turns.
+fn further(items: &mut Items, axis: Vector3<f64>) -> Result<f64> {
+    let turns = items.couplet(w::TIMES)?.unwrap_or(0.0);
+    if turns.fract() != 0.0 || !(0.0..=MAX_TURNS).contains(&turns) {
+        return Err(items.error(format!("TIMES must be an integer, not {turns}")));
+    }
+    check_direction(items, axis)?;
+    let rest = items.numbers().len();
+    if rest != 0 && rest != OF_THE_TOOL {
+        return Err(items.error(format!("no meaning is known for {rest} more numbers")));
+    }
+    Ok(turns)
 }
 
 /// Refuses a direction word that contradicts the axis, seen from the positive side

@@ -25,6 +25,8 @@ pub struct PlaneArc {
     pub radius: f64,
     /// Where it begins.
     pub from: Position,
+    /// The same in the two axes of the plane, as the tape says it.
+    pub start: [f64; 2],
     /// Where it ends.
     pub to: Position,
     /// Degrees, above 0 and at most 360.
@@ -61,13 +63,44 @@ impl PlaneArc {
 ///
 /// # Errors
 /// A position that does not fit its address.
+#[inline]
 pub fn reads_as_meant(control: &Control, arc: &PlaneArc) -> Result<bool> {
+    if reads_at_a_glance(control, arc) { Ok(true) } else { reads_when_rounded(control, arc) }
+}
+
+/// True for the common arc, whose words leave no doubt: it is written with its center,
+/// as finely as its ends, which lie well apart at its radius. Rounding then moves its
+/// path by a digit or two at most.
+#[inline]
+fn reads_at_a_glance(control: &Control, arc: &PlaneArc) -> bool {
+    if control.commons.read(loc::CIRCLE_CENTER) == CircleCenter::Radius {
+        return false;
+    }
+    let mut digit: f64 = 0.0;
+    for number in arc.plane.axes() {
+        let axis = control.tables.axis(number).resolution();
+        let center = control.tables.addresses.format(IJK[number]);
+        if center.is_none_or(|format| format.unscale(1) > axis) {
+            return false;
+        }
+        digit = digit.max(axis);
+    }
+    let squared = |[x, y]: [f64; 2], [i, j]: [f64; 2]| (x - i).powi(2) + (y - j).powi(2);
+    let end = arc.flat(&arc.to);
+    let round = |point| {
+        let off = squared(point, arc.center) - arc.radius.powi(2);
+        off.abs() <= 1.5 * digit * arc.radius
+    };
+    squared(arc.start, end) > (8.0 * DIGITS * digit).powi(2) && round(arc.start) && round(end)
+}
+
+/// The same from the words as they will be written.
+fn reads_when_rounded(control: &Control, arc: &PlaneArc) -> Result<bool> {
     let axes = arc.plane.axes().map(|number| control.tables.axis(number));
-    let mut start = arc.flat(&arc.from);
+    let start = arc.start;
     let mut end = arc.flat(&arc.to);
     let mut digit: f64 = 0.0;
     for index in [0, 1] {
-        start[index] = axes[index].on_tape(start[index])?;
         end[index] = axes[index].on_tape(end[index])?;
         digit = digit.max(axes[index].resolution());
     }
@@ -151,20 +184,25 @@ fn center_of_radius(
     Some([0, 1].map(|axis| (start[axis] + end[axis]) / 2.0 + across[axis] / along * height))
 }
 
-/// True when the tape stands where the arc begins: the control counts from there.
-///
-/// # Errors
-/// A position that does not fit its address.
-pub fn starts_on_tape(control: &Control, from: &Position) -> Result<bool> {
-    for number in AxisSet::LINEAR.numbers() {
+/// Where the tape stands along X, Y and Z at the start of an arc, mm or inch; `None`
+/// when it does not stand where the arc begins: the control counts from there.
+#[inline]
+pub fn start_on_tape(control: &Control, from: &Position) -> Option<[f64; 3]> {
+    let mut stands = [0.0; 3];
+    for (number, stand) in stands.iter_mut().enumerate() {
         let axis = control.tables.axis(number);
-        let repeated = control.repeats.contains_key(&axis.letter);
-        let stands = axis.is_off() || control.has_value(axis.letter, axis.value(from[number])?);
-        if repeated || !stands {
-            return Ok(false);
+        *stand = match control.last_value(axis.letter) {
+            _ if axis.is_off() => from[number],
+            Some(last) => axis.position(last),
+            None => return None,
+        };
+        // What lies off by more than rounding is another position.
+        let off = (*stand - from[number]).abs() > 0.51 * axis.resolution();
+        if off || (!control.repeats.is_empty() && control.repeats.contains_key(&axis.letter)) {
+            return None;
         }
     }
-    Ok(true)
+    Some(stands)
 }
 
 /// Writes the block of an arc.
@@ -206,8 +244,8 @@ fn center_words(control: &mut Control, arc: &PlaneArc) -> Result<()> {
         let radius = if arc.sweep > 180.0 + 1e-6 { -arc.radius } else { arc.radius };
         return control.word(letter, radius);
     }
-    for (number, center) in arc.plane.axes().into_iter().zip(arc.center) {
-        let start = control.tables.axis(number).on_tape(arc.from[number])?;
+    let starts = arc.start.into_iter().zip(arc.center);
+    for (number, (start, center)) in arc.plane.axes().into_iter().zip(starts) {
         let value = match form {
             CircleCenter::CenterToStartSigned => start - center,
             CircleCenter::AbsoluteCenter => center,
