@@ -56,6 +56,22 @@ pub enum Canon {
     Dwell(f64),
     /// SELECT_TOOL: number of the tool that the next change takes.
     SelectTool(u32),
+    /// SET_SPINDLE_SPEED.
+    SpindleSpeed(f64),
+    /// START_SPINDLE_…: true for counterclockwise.
+    SpindleOn(bool),
+    /// STOP_SPINDLE_TURNING.
+    SpindleOff,
+    /// FLOOD_ON and FLOOD_OFF.
+    Flood(bool),
+    /// MIST_ON and MIST_OFF.
+    Mist(bool),
+    /// PROGRAM_STOP.
+    Stop,
+    /// OPTIONAL_PROGRAM_STOP.
+    OptionalStop,
+    /// COMMENT, without its quotes.
+    Comment(String),
     /// CHANGE_TOOL; its own argument is a place in the tool table, not the tool.
     ChangeTool,
     /// Any other call, by name.
@@ -95,7 +111,11 @@ pub fn run(program: &Path, nc: &str) -> Result<Vec<Call>, String> {
     parse(&interpret(program, &with_line_numbers(nc))?)
 }
 
-fn interpret(program: &Path, nc: &str) -> Result<String, String> {
+/// Runs a program once and gives the text of its canonical calls.
+///
+/// # Errors
+/// As [`run`].
+pub fn interpret(program: &Path, nc: &str) -> Result<String, String> {
     let failed = |error: std::io::Error| format!("{}: {error}", program.display());
     let folder = tempfile::tempdir().map_err(failed)?;
     let file = |name: &str| folder.path().join(name);
@@ -122,9 +142,10 @@ fn interpret(program: &Path, nc: &str) -> Result<String, String> {
     }
 }
 
-/// A tool table with every T of the program, of no length and diameter.
+/// A tool table with every T, D and H of the program, of no length and diameter.
 fn tool_table(nc: &str) -> String {
-    let tools: BTreeSet<u32> = nc.lines().flat_map(|line| words(line, 'T')).collect();
+    let called = |line| ['T', 'D', 'H'].map(|letter| words(line, letter)).into_iter().flatten();
+    let tools: BTreeSet<u32> = nc.lines().flat_map(called).filter(|tool| *tool > 0).collect();
     tools.iter().map(|tool| format!("T{tool} P{tool} D0 Z0\n")).collect()
 }
 
@@ -219,6 +240,15 @@ fn canon(name: &str, arguments: &str) -> Option<Canon> {
         "START_SPEED_FEED_SYNC" => Canon::Synchronised(true),
         "STOP_SPEED_FEED_SYNCH" => Canon::Synchronised(false),
         "DWELL" => Canon::Dwell(number(0)?),
+        "SET_SPINDLE_SPEED" => Canon::SpindleSpeed(number(1)?),
+        "START_SPINDLE_CLOCKWISE" => Canon::SpindleOn(false),
+        "START_SPINDLE_COUNTERCLOCKWISE" => Canon::SpindleOn(true),
+        "STOP_SPINDLE_TURNING" => Canon::SpindleOff,
+        "FLOOD_ON" | "FLOOD_OFF" => Canon::Flood(name.ends_with("ON")),
+        "MIST_ON" | "MIST_OFF" => Canon::Mist(name.ends_with("ON")),
+        "PROGRAM_STOP" => Canon::Stop,
+        "OPTIONAL_PROGRAM_STOP" => Canon::OptionalStop,
+        "COMMENT" => Canon::Comment(arguments.trim_matches('"').to_string()),
         "SELECT_TOOL" => Canon::SelectTool(number(0)? as u32),
         "CHANGE_TOOL" => Canon::ChangeTool,
         _ => Canon::Other(name.to_string()),
@@ -243,7 +273,7 @@ mod tests {
 ";
         let calls = parse(output).unwrap();
         let expect = [
-            (Some(1), Canon::Other("COMMENT".into())),
+            (Some(1), Canon::Comment("feed (mode) set".into())),
             (None, Canon::Plane(Axis::Y)),
             (Some(12), Canon::SelectTool(7)),
             (Some(12), Canon::ChangeTool),

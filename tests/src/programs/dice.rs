@@ -32,6 +32,12 @@ impl<'a> Dice<'a> {
         self.below(times) == 0
     }
 
+    /// A number from `low` up to `high`.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        let share = (self.random() >> 11) as f64 / (1u64 << 53) as f64;
+        low + (high - low) * share
+    }
+
     /// One of a list.
     pub fn pick<'t>(&mut self, list: &[&'t str]) -> &'t str {
         list[self.below(list.len())]

@@ -1,0 +1,90 @@
+//! What random programs may have, and what the post does not write right yet.
+
+/// Something that programs may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Feature {
+    /// Arcs of every size and plane.
+    Arcs,
+    /// Arcs and moves of a few digits.
+    Tiny,
+    /// Drilling cycles.
+    Cycles,
+    /// Rapids, arcs and changes of tool inside cycles.
+    CycleCrossings,
+    /// Cutter compensation.
+    Cutcom,
+    /// Compensation that begins on an arc, or that other things cross.
+    CutcomCrossings,
+    /// Blocks with a skip mark.
+    Skips,
+    /// INSERT, PREFUN, AUXFUN and POSTN that change modes.
+    Texts,
+    /// Texts with a motion.
+    TextMotions,
+    /// REPEAT.
+    Repeats,
+    /// TRANS.
+    Frames,
+    /// GODLTA.
+    Deltas,
+    /// UNITS on the way.
+    UnitChanges,
+    /// More than one tool.
+    Tools,
+    /// Arcs in planes other than XY.
+    OtherPlanes,
+    /// Arcs that rounding turns into others: nearly nothing, nearly half a turn,
+    /// nearly a whole one.
+    FineArcs,
+    /// Arcs by their radius.
+    RadiusForm,
+    /// A dwell in any kind of cycle.
+    CycleDwells,
+    /// Dwells that the format of their address can't hold.
+    RoundedDwells,
+    /// Words of spindle and coolant that wait for a motion.
+    LateWords,
+    /// Other than a rapid after TRANS and CYCLE/OFF.
+    CutsAfterFrames,
+}
+
+/// What the post does not write right yet, and why.
+pub const NOT_YET: &[(Feature, &str)] = &[
+    (Feature::Texts, "texts that change modes are not read"),
+    (Feature::TextMotions, "texts that move are not read"),
+    (Feature::Repeats, "the word of REPEAT stays in force after OFF"),
+    (Feature::Skips, "modes of skipped blocks count as in force"),
+    (Feature::UnitChanges, "positions in the old unit are compared with those in the new one"),
+    (Feature::CycleCrossings, "a rapid or tool change in a cycle leaves a wrong level"),
+    (Feature::CutcomCrossings, "compensation stays on over a tool change"),
+    (Feature::OtherPlanes, "cycles and compensation begin in the plane of the last arc"),
+    (Feature::Tiny, "ends that round together make full circles"),
+    (Feature::FineArcs, "ends that round together make full circles"),
+    (Feature::RadiusForm, "half a turn by its radius is off by what rounding does"),
+    (Feature::CycleDwells, "a dwell is written in cycles whose code has none"),
+    (Feature::RoundedDwells, "a dwell is rounded to whole seconds"),
+    (Feature::LateWords, "of two records that wait for a motion the first one counts"),
+    (Feature::CutsAfterFrames, "an arc may begin at a point that is not on the tape"),
+];
+
+/// Features of statements, and for each in how many programs it comes: once in so many.
+pub(super) const FEATURES: &[(Feature, usize)] = &[
+    (Feature::Arcs, 2),
+    (Feature::Tiny, 3),
+    (Feature::Cycles, 2),
+    (Feature::CycleCrossings, 4),
+    (Feature::Cutcom, 3),
+    (Feature::CutcomCrossings, 8),
+    (Feature::Skips, 4),
+    (Feature::Texts, 3),
+    (Feature::TextMotions, 8),
+    (Feature::Repeats, 6),
+    (Feature::Frames, 4),
+    (Feature::Deltas, 3),
+    (Feature::UnitChanges, 12),
+    (Feature::Tools, 2),
+    (Feature::OtherPlanes, 1),
+    (Feature::FineArcs, 1),
+    (Feature::CycleDwells, 1),
+    (Feature::CutsAfterFrames, 1),
+];

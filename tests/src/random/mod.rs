@@ -1,0 +1,25 @@
+//! Random CL programs for a mill, judged from outside.
+//!
+//! [`make`] draws statements from a seed. [`model`] turns them into CL text and
+//! into what they ask of the machine, from its own idea of what CL means; it
+//! knows nothing of the post. The post makes a program of the text, LinuxCNC's
+//! interpreter runs it ([`machine`]), and [`compare`] puts its steps and the
+//! modes in force beside the expected ones. A program whose blocks may be
+//! skipped is run twice, with those blocks and without them.
+
+pub mod compare;
+mod compare_arc;
+pub mod expected;
+pub mod features;
+mod geometry;
+pub mod machine;
+pub mod make;
+mod make_sections;
+pub mod model;
+mod model_cycle;
+mod model_modes;
+mod model_motion;
+pub mod setup;
+pub mod shrink;
+pub mod statement;
+pub mod verdict;

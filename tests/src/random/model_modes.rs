@@ -1,0 +1,172 @@
+//! Feed, spindle, coolant, tool and compensation, as the model reads them.
+
+use crate::path::Unit;
+
+use super::expected::{Act, Compensation, Coolant, Rate, Turning, Want};
+use super::model::{Model, number};
+use super::setup::Placement;
+use super::statement::{CoolantCommand, CutcomCommand, Feedrate, SpindleCommand};
+
+/// A mode whose word may wait for a motion.
+pub(super) struct Waiting<T> {
+    pub(super) now: Want<T>,
+    pub(super) next: Option<(Want<T>, Placement)>,
+}
+
+impl<T: PartialEq + Clone> Waiting<T> {
+    pub(super) fn new(now: Want<T>) -> Self {
+        Waiting { now, next: None }
+    }
+
+    /// Takes a value, at once or with a motion.
+    pub(super) fn set(&mut self, value: Want<T>, placement: Placement) {
+        if placement == Placement::Own {
+            self.now = value;
+            self.next = None;
+        } else {
+            self.now = self.now.or(&value);
+            self.next = Some((value, placement));
+        }
+    }
+
+    /// A motion across or along Z: what waited for it is in force.
+    pub(super) fn moved(&mut self, across: bool, along: bool) {
+        let due = |placement| match placement {
+            Placement::Own => true,
+            Placement::NextXy => across,
+            Placement::NextZ => along,
+        };
+        if let Some((value, _)) = self.next.take_if(|(_, placement)| due(*placement)) {
+            self.now = value;
+        }
+    }
+}
+
+impl Model<'_> {
+    pub(super) fn rate(&self, feed: Feedrate) -> Rate {
+        Rate { value: feed.value * self.mm(), per_revolution: feed.per_revolution }
+    }
+
+    pub(super) fn feed_unit(&self, feed: Feedrate) -> &'static str {
+        match (self.unit, feed.per_revolution) {
+            (Unit::Mm, false) => "MMPM",
+            (Unit::Mm, true) => "MMPR",
+            (Unit::Inch, false) => "IPM",
+            (Unit::Inch, true) => "IPR",
+        }
+    }
+
+    pub(super) fn feedrate(&mut self, feed: Feedrate) {
+        let unit = self.feed_unit(feed);
+        self.line(&format!("FEDRAT / {}, {unit}", number(feed.value)));
+        self.feed = Want::only(self.rate(feed));
+    }
+
+    /// The value that is in force after a statement: where the block may be left
+    /// out, the value before it too.
+    fn either<T: PartialEq + Clone>(&self, before: &Want<T>, value: T) -> Want<T> {
+        let value = Want::only(value);
+        if self.runs() { value } else { before.or(&value) }
+    }
+
+    pub(super) fn spindle(&mut self, command: SpindleCommand) {
+        let (turning, placement) = match command {
+            SpindleCommand::Turn { speed, ccw } => {
+                let direction = if ccw { "CCLW" } else { "CLW" };
+                self.line(&format!("SPINDL / RPM, {}, {direction}", number(speed)));
+                (Turning::At { speed, ccw }, self.setup.spindle)
+            }
+            SpindleCommand::Off => {
+                self.line("SPINDL / OFF");
+                (Turning::Stopped, Placement::Own)
+            }
+        };
+        let value = self.either(&self.spindle.now, turning);
+        self.spindle.set(value, placement);
+    }
+
+    pub(super) fn coolant(&mut self, command: CoolantCommand) {
+        let (word, flows) = match command {
+            CoolantCommand::On => ("ON", Coolant { flood: true, mist: false }),
+            CoolantCommand::Mist => ("MIST", Coolant { flood: false, mist: true }),
+            CoolantCommand::Off => ("OFF", Coolant { flood: false, mist: false }),
+        };
+        self.line(&format!("COOLNT / {word}"));
+        let off = command == CoolantCommand::Off;
+        let placement = if off { Placement::Own } else { self.setup.coolant };
+        let value = self.either(&self.coolant.now, flows);
+        self.coolant.set(value, placement);
+    }
+
+    pub(super) fn tool(&mut self, tool: u32, offset: Option<u32>) {
+        let osetno = offset.map_or(String::new(), |offset| format!(", OSETNO, {offset}"));
+        self.line(&format!("LOADTL / {tool}{osetno}"));
+        if self.cycle.is_some() {
+            self.may_refuse("a tool change in a cycle");
+        }
+        if self.compensation.now != Want::only(Compensation::Off) {
+            self.may_refuse("a tool change under compensation");
+        }
+        if self.is_skipped() {
+            self.may_refuse("a tool change in skipped blocks");
+            self.tool = None;
+            self.length = Want::Any;
+        } else if self.setup.tool_modal && self.tool == Some(tool) {
+            return;
+        }
+        self.push(Act::Tool(tool));
+        if !self.is_skipped() {
+            self.tool = Some(tool);
+            self.length = Want::only(offset.unwrap_or(tool));
+        }
+        self.spindle = Waiting::new(Want::Any);
+        self.any_coolant();
+        self.lost();
+        self.height_unknown = true;
+    }
+
+    pub(super) fn cutcom(&mut self, command: CutcomCommand) {
+        if self.cycle.is_some() {
+            self.may_refuse("compensation in a cycle");
+        }
+        let value = match command {
+            CutcomCommand::Off => {
+                self.line("CUTCOM / OFF");
+                Compensation::Off
+            }
+            CutcomCommand::On { left, offset } => {
+                let side = if left { "LEFT" } else { "RIGHT" };
+                let given = offset.map_or(String::new(), |offset| format!(", {offset}"));
+                self.line(&format!("CUTCOM / {side}{given}"));
+                let Some(number) = offset.or(self.tool) else {
+                    return self.out.unpredictable = true;
+                };
+                if left { Compensation::Left(number) } else { Compensation::Right(number) }
+            }
+        };
+        if self.is_skipped() {
+            self.may_refuse("compensation in skipped blocks");
+        }
+        self.compensation.set(Want::only(value), self.setup.cutcom);
+    }
+
+    pub(super) fn compensated(&self) -> bool {
+        self.compensation.now != Want::only(Compensation::Off)
+    }
+
+    pub(super) fn compensation_waits(&self) -> bool {
+        self.compensation.next.is_some()
+    }
+
+    pub(super) fn any_compensation(&mut self) {
+        self.compensation = Waiting::new(Want::Any);
+    }
+
+    pub(super) fn any_spindle(&mut self) {
+        self.spindle = Waiting::new(Want::Any);
+    }
+
+    pub(super) fn any_coolant(&mut self) {
+        self.coolant = Waiting::new(Want::Any);
+    }
+}

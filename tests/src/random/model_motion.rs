@@ -1,0 +1,179 @@
+//! Arcs and the texts of scripts, as the model reads them.
+
+use crate::path::{Axis, Point};
+
+use super::expected::{Act, Arc, Rate, Want};
+use super::geometry::{add, axes, principal, times};
+use super::model::{Model, number};
+use super::setup::CenterForm;
+use super::statement::ArcShape;
+
+impl Model<'_> {
+    /// CIRCLE and the GOTO to its end.
+    pub(super) fn arc(&mut self, shape: &ArcShape) {
+        let Some(at) = self.at else { return self.out.unpredictable = true };
+        let start = times(at, 1.0 / self.mm());
+        let (center, end) = ends(shape, start);
+        self.arc_text(shape, center, end);
+        self.doubts(shape);
+        let (center, end) = (times(center, self.mm()), times(end, self.mm()));
+        let [.., along] = axes(shape.normal);
+        let mut normal = [0.0; 3];
+        normal[along] = if shape.ccw { 1.0 } else { -1.0 };
+        let mirrored = self.frame.mirrors();
+        let turned = times(self.frame.direction(normal), if mirrored { -1.0 } else { 1.0 });
+        let Some((normal, ccw)) = principal(turned) else {
+            // Not in a plane of the machine: it must become lines, which no step of
+            // the model describes.
+            return self.out.unpredictable = true;
+        };
+        if !self.is_on_tape() {
+            self.must_refuse("an arc from a point that is not on the tape");
+        }
+        let to = self.frame.apply(end);
+        let from = self.frame.apply(at);
+        let arc = Arc {
+            from,
+            to,
+            center: self.frame.apply(center),
+            normal,
+            ccw,
+            total: shape.total().to_radians(),
+        };
+        self.at = Some(end);
+        let (across, along) = self.moves(to);
+        self.settle(across, along);
+        if self.no_feed() {
+            self.must_refuse("a feed motion without a feed");
+        }
+        self.push(Act::Arc(arc));
+        self.stands(to);
+    }
+
+    /// What a post may rightly refuse in an arc.
+    fn doubts(&mut self, shape: &ArcShape) {
+        let (decimals, _) = self.setup.decimals(self.unit);
+        let digit = 10f64.powi(-decimals);
+        if shape.radius < 10.0 * digit {
+            self.may_refuse("an arc of a few digits");
+        }
+        let near_half = |angle: f64| (angle - 180.0).abs() < 1.0 || angle > 359.0;
+        if self.setup.center == CenterForm::Radius && near_half(shape.sweep) {
+            self.may_refuse("an arc of half a turn by its radius");
+        }
+        if self.cycle.is_some() {
+            self.may_refuse("an arc in a cycle");
+        }
+        if self.compensated() && shape.normal != Axis::Z {
+            self.may_refuse("an arc in another plane under compensation");
+        }
+        if self.compensation_waits() {
+            self.may_refuse("compensation that begins or ends on an arc");
+        }
+        if self.tape.is_none() {
+            self.may_refuse("an arc from a place that is not known");
+        }
+    }
+
+    fn arc_text(&mut self, shape: &ArcShape, center: Point, end: Point) {
+        let [.., along] = axes(shape.normal);
+        let mut axis = ["0.", "0.", "0."];
+        axis[along] = if shape.ccw { "1." } else { "-1." };
+        let [x, y, z] = center.map(number);
+        let [i, j, k] = axis;
+        let times =
+            if shape.times > 0 { format!(", TIMES, {}", shape.times) } else { String::new() };
+        let radius = number(shape.radius);
+        self.line(&format!("CIRCLE / {x}, {y}, {z}, {i}, {j}, {k}, {radius}{times}"));
+        self.goto(end);
+    }
+
+    /// A text that goes to the tape as it is: what it does to the machine.
+    pub(super) fn text(&mut self, text: &str) {
+        if text.starts_with('(') {
+            return;
+        }
+        match text {
+            "G4 P1.5" => return self.push(Act::Dwell(1.5)),
+            "M0" => return self.push(Act::Stop),
+            "G1 X5. F50." => return self.text_motion(&[(0, 5.0)], Some(50.0), false),
+            "G0 Z60." => return self.text_motion(&[(2, 60.0)], None, true),
+            "G53 G0 Z0." => return self.text_motion(&[(2, 0.0)], None, true),
+            _ => {}
+        }
+        if text.contains("G41") {
+            self.may_refuse("a text with compensation");
+            self.any_compensation();
+        }
+        let has = |word: &str| text.split(' ').any(|found| found == word);
+        if self.compensated() && ["G98", "G99", "G80"].into_iter().any(has) {
+            // The interpreter refuses these under compensation.
+            self.out.unpredictable = true;
+        }
+        if ["M3", "M4", "M5"].into_iter().any(has) || text.starts_with('S') {
+            self.any_spindle();
+        }
+        if ["M7", "M8", "M9"].into_iter().any(has) {
+            self.any_coolant();
+        }
+        if self.cycle.is_some() {
+            self.may_refuse("a text in a cycle");
+        }
+    }
+
+    /// A text with a motion: the machine goes there, the CL point stays.
+    fn text_motion(&mut self, to: &[(usize, f64)], feed: Option<f64>, rapid: bool) {
+        self.may_refuse("a text with a motion");
+        let Some(mut target) = self.tape else { return self.out.unpredictable = true };
+        if self.is_skipped() || self.cycle.is_some() || self.compensated() {
+            return self.out.unpredictable = true;
+        }
+        for (axis, value) in to {
+            target[*axis] = value * self.mm();
+        }
+        let kept = self.feed.clone();
+        if let Some(value) = feed {
+            let per_revolution = false;
+            self.feed = Want::only(Rate { value: value * self.mm(), per_revolution });
+        }
+        self.push(if rapid { Act::Rapid(target) } else { Act::Feed(target) });
+        self.feed = kept;
+        self.tape = Some(target);
+    }
+
+    /// POSTN/OUT: letters as numbers, each with its value.
+    pub(super) fn postn(&mut self, words: &[(char, f64)]) {
+        let item = |(letter, value): &(char, f64)| {
+            format!(", {}, {}", u32::from(*letter) - 64, number(*value))
+        };
+        let items: String = words.iter().map(item).collect();
+        self.line(&format!("POSTN / OUT{items}"));
+        let axis = |letter: char| "XYZ".find(letter);
+        let to: Vec<(usize, f64)> =
+            words.iter().filter_map(|(letter, value)| Some((axis(*letter)?, *value))).collect();
+        let value_of = |letter| words.iter().find(|word| word.0 == letter).map(|word| word.1);
+        if to.is_empty() {
+            let text: Vec<String> =
+                words.iter().map(|(letter, value)| format!("{letter}{value}")).collect();
+            return self.text(&text.join(" "));
+        }
+        self.text_motion(&to, value_of('F'), value_of('G') == Some(0.0));
+    }
+}
+
+/// Center and end of an arc that begins at a point.
+pub(super) fn ends(shape: &ArcShape, start: Point) -> (Point, Point) {
+    let [first, second, along] = axes(shape.normal);
+    let place = |angle: f64| {
+        let (sine, cosine) = angle.to_radians().sin_cos();
+        let mut offset = [0.0; 3];
+        offset[first] = shape.radius * cosine;
+        offset[second] = shape.radius * sine;
+        offset
+    };
+    let center = add(start, times(place(shape.start), -1.0));
+    let turn = if shape.ccw { shape.sweep } else { -shape.sweep };
+    let mut end = if shape.sweep == 360.0 { start } else { add(center, place(shape.start + turn)) };
+    end[along] += shape.rise;
+    (center, end)
+}
