@@ -205,6 +205,11 @@ impl<'a> Items<'a> {
         })
     }
 
+    /// Line of the record in the CL file; 0 for one that FIL has made.
+    pub fn line(&self) -> u32 {
+        self.record.line
+    }
+
     /// The major word of the record.
     pub fn major(&self) -> WordId {
         self.record.major

@@ -68,6 +68,8 @@ pub struct Arc {
     pub radius: Option<f64>,
     /// Full turns besides the way from start to end.
     pub turns: f64,
+    /// Line of the CIRCLE in the CL file; 0 for one that FIL has made.
+    pub line: u32,
     /// The CIRCLE record.
     pub cause: Cause,
 }

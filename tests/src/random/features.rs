@@ -49,23 +49,7 @@ pub enum Feature {
 }
 
 /// What the post does not write right yet, and why.
-pub const NOT_YET: &[(Feature, &str)] = &[
-    (Feature::Texts, "texts that change modes are not read"),
-    (Feature::TextMotions, "texts that move are not read"),
-    (Feature::Repeats, "the word of REPEAT stays in force after OFF"),
-    (Feature::Skips, "modes of skipped blocks count as in force"),
-    (Feature::UnitChanges, "positions in the old unit are compared with those in the new one"),
-    (Feature::CycleCrossings, "a rapid or tool change in a cycle leaves a wrong level"),
-    (Feature::CutcomCrossings, "compensation stays on over a tool change"),
-    (Feature::OtherPlanes, "cycles and compensation begin in the plane of the last arc"),
-    (Feature::Tiny, "ends that round together make full circles"),
-    (Feature::FineArcs, "ends that round together make full circles"),
-    (Feature::RadiusForm, "half a turn by its radius is off by what rounding does"),
-    (Feature::CycleDwells, "a dwell is written in cycles whose code has none"),
-    (Feature::RoundedDwells, "a dwell is rounded to whole seconds"),
-    (Feature::LateWords, "of two records that wait for a motion the first one counts"),
-    (Feature::CutsAfterFrames, "an arc may begin at a point that is not on the tape"),
-];
+pub const NOT_YET: &[(Feature, &str)] = &[];
 
 /// Features of statements, and for each in how many programs it comes: once in so many.
 pub(super) const FEATURES: &[(Feature, usize)] = &[

@@ -161,7 +161,7 @@ impl Model<'_> {
     fn feed_out(&self, kind: CycleKind) -> bool {
         match kind {
             CycleKind::Ream | CycleKind::Tap => true,
-            CycleKind::Bore => self.setup.expanded,
+            CycleKind::Bore => self.setup.expanded || self.setup.ready == "linuxcnc-mill",
             _ => false,
         }
     }

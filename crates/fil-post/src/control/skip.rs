@@ -27,7 +27,7 @@ impl Control {
             self.state.skip_begins(&self.commons);
         } else {
             self.tape.skip = None;
-            self.state.skip_ends(&self.commons);
+            self.state.skip_ends(&mut self.commons);
         }
         Ok(())
     }

@@ -11,6 +11,7 @@ mod text;
 pub use codes::{Codes, Meaning};
 
 use fil_machine::address::Addresses;
+use fil_machine::commons::EMPTY;
 use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::{Commons, FunctionCode, Letter, letters};
 
@@ -240,9 +241,8 @@ impl ControlState {
             Meaning::Distance(distance) => self.distance = Some(distance),
             Meaning::Unit(unit) => self.unit = Some(unit),
             Meaning::FeedMode(mode) => {
-                if self.feed_mode != mode {
-                    self.doubt(letters::F);
-                }
+                // Some controls forget F even when the mode stays.
+                self.doubt(letters::F);
                 self.feed_mode = mode;
             }
             Meaning::Compensation(side) => {
@@ -324,13 +324,18 @@ impl ControlState {
         self.before_skip = Some(Box::new(before));
     }
 
-    /// The blocks that may be skipped are over: what they changed is unknown.
-    pub fn skip_ends(&mut self, commons: &Commons) {
+    /// The blocks that may be skipped are over: what they changed is unknown. Of two
+    /// levels of Z the lower one counts as the last value, so that a rapid motion goes
+    /// up before it goes across.
+    pub fn skip_ends(&mut self, commons: &mut Commons) {
         let Some(before) = self.before_skip.take() else { return };
         let (state, values) = *before;
         for (letter, (now, then)) in Letter::all().zip(last_values(commons).iter().zip(values)) {
             if *now != then {
                 self.doubt(letter);
+                if letter == letters::XYZ[2] && then != EMPTY {
+                    commons.set_last_output(letter, now.min(then));
+                }
             }
         }
         self.agree_with(&state);

@@ -27,13 +27,15 @@ pub fn carry_out(
     sweep: f64,
     target: Target,
 ) -> Result<()> {
-    post.warn(PostCode::ArcLines, "an arc was written as short lines".to_string());
     let radius = flat(arc, start).norm();
     let mm = post.control.require_unit()?.in_mm();
     let tolerance =
         post.control.commons.dbl_opt(loc::CIRCLE_CHORD_TOLERANCE).unwrap_or(TOLERANCE) / mm;
     let step = 2.0 * (1.0 - tolerance / radius).clamp(-1.0, 1.0).acos().to_degrees();
     let count = (sweep / step.max(FINEST)).ceil().max(1.0) as u32;
+    if count > 1 {
+        post.warn(PostCode::ArcLines, "an arc was written as short lines".to_string());
+    }
     let from_axis = post.path.axis;
     let from = flat(arc, start);
     let across = arc.axis.cross(&from);

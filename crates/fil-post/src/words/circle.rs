@@ -44,6 +44,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         axis: axis.normalize(),
         radius: circle.radius,
         turns,
+        line: items.line(),
         cause: post.control.block.cause,
     });
     Ok(())

@@ -41,6 +41,18 @@ pub struct PlaneArc {
 /// the rounded words, and half of it what start and end may differ in radius.
 const DIGITS: f64 = 3.0;
 
+/// An arc of a smaller radius, in last digits, is no arc to the controls that refuse
+/// what is nearly a point.
+const LEAST_RADIUS: f64 = 25.0;
+
+/// Ends nearer than this, in last digits, are one point to a control: it would make a
+/// full circle.
+const LEAST_CHORD: f64 = 2.5;
+
+/// A sweep below this, in degrees, is none to some controls; as a line it is off by
+/// 0.2 micrometres at a radius of 10 m.
+const LEAST_SWEEP: f64 = 0.02;
+
 impl PlaneArc {
     /// A point in the two axes of the plane.
     fn flat(&self, position: &Position) -> [f64; 2] {
@@ -91,7 +103,10 @@ fn reads_at_a_glance(control: &Control, arc: &PlaneArc) -> bool {
         let off = squared(point, arc.center) - arc.radius.powi(2);
         off.abs() <= 1.5 * digit * arc.radius
     };
-    squared(arc.start, end) > (8.0 * DIGITS * digit).powi(2) && round(arc.start) && round(end)
+    arc.sweep >= LEAST_SWEEP
+        && squared(arc.start, end) > (8.0 * DIGITS * digit).powi(2)
+        && round(arc.start)
+        && round(end)
 }
 
 /// The same from the words as they will be written.
@@ -108,6 +123,12 @@ fn reads_when_rounded(control: &Control, arc: &PlaneArc) -> Result<bool> {
         return Ok(false);
     };
     let allowed = DIGITS * digit.max(finest);
+    let apart = (start[0] - end[0]).abs().max((start[1] - end[1]).abs());
+    let short = arc.sweep < LEAST_SWEEP || (apart < LEAST_CHORD * digit && arc.sweep < 180.0);
+    let tiny = arc.radius < LEAST_RADIUS * digit || short;
+    if tiny {
+        return Ok(false);
+    }
     let [at_start, at_end] = [start, end].map(|point| distance(point, center));
     let sweep = sweep_on_tape(arc, start, end, center);
     let length = |sweep: f64, radius: f64| sweep.to_radians() * radius;
