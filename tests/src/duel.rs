@@ -5,9 +5,7 @@ use std::sync::Arc;
 
 use fil_cl::{Options, Reader, Record, Vocabulary};
 use fil_diag::Diag;
-use fil_vm::{
-    CommonKind, EMPTY, FilFile, Functions, Host, Limits, LoadOptions, Machine, Site, load,
-};
+use fil_vm::{CommonKind, EMPTY, FilFile, Host, Limits, LoadOptions, Machine, Site, load};
 
 use crate::oracle::{Class, Fault, Oracle, Rec, Value, exact};
 use crate::programs::Case;
@@ -134,7 +132,7 @@ pub fn fight_over(case: &Case, oracle_fil: &str) -> Result<Agreed, String> {
     let records = read(&case.cl, &mut vocab)?;
     let own = records.iter().map(|record| Rec::read(record, &vocab)).collect();
     let mut world = World { records, ..World::default() };
-    let mut machine = Machine::new(Arc::new(module), limits, Functions::new());
+    let mut machine = Machine::new(Arc::new(module), limits, Arc::default());
     let ran = drive(&mut machine, &mut vocab, &mut world);
 
     let program = fil_syntax::parse("case.fil", oracle_fil).program;

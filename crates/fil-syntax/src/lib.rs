@@ -30,3 +30,4 @@ pub use encoding::decode;
 pub use errors::SyntaxCode;
 pub use format::{format, format_bytes};
 pub use parse::{Parsed, parse};
+pub use token::is_statement_word;

@@ -160,6 +160,12 @@ pub(crate) fn statement_word(word: &str) -> Option<Token<'static>> {
     found.map(|(_, token)| *token)
 }
 
+/// True for a word that opens a statement of its own kind, letters in any case.
+pub fn is_statement_word(word: &str) -> bool {
+    statement_word(word).is_some()
+        || ["MACRO", "TEXT"].iter().any(|own| own.eq_ignore_ascii_case(word))
+}
+
 /// The token of an operator between points.
 pub(crate) fn operator(text: &str) -> Token<'static> {
     const OPERATORS: [(&str, Token<'static>); 9] = [

@@ -83,6 +83,10 @@ fil_diag::codes! {
         NotConstant = 222, Error, "value is no constant",
             "DATA/ declares a table before anything runs, so it holds numbers and texts as they are written.",
             "Write DATA/name,v1,v2,… with constants, or reserve an array with RESERV and set it.";
+        /// A name of an added function that can't be taken.
+        FunctionName = 229, Error, "name of an added function",
+            "A function that the embedding program adds has a name of its own: no built-in function, statement, letter or CL word is called so.",
+            "Give the function another name, such as one that begins with the name of your program.";
     }
 }
 

@@ -1,9 +1,14 @@
 //! Functions that the embedding program adds to FIL.
 
+use fil_cl::Vocabulary;
+
+use crate::builtins;
+use crate::compile::names::letter;
 use crate::value::EMPTY;
 
 /// An argument of an added function.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Argument<'a> {
     /// A number; 999999 is EMPTY.
     Number(f64),
@@ -11,7 +16,7 @@ pub enum Argument<'a> {
     Text(&'a str),
 }
 
-impl Argument<'_> {
+impl<'a> Argument<'a> {
     /// The number, where it is one that is not EMPTY.
     pub fn number(self) -> Option<f64> {
         match self {
@@ -19,9 +24,45 @@ impl Argument<'_> {
             _ => None,
         }
     }
+
+    /// The text, where it is one.
+    pub fn text(self) -> Option<&'a str> {
+        match self {
+            Argument::Text(text) => Some(text),
+            Argument::Number(_) => None,
+        }
+    }
 }
 
-type Body = Box<dyn FnMut(&[Argument<'_>]) -> Result<f64, String> + Send>;
+/// What an added function returns.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Returned {
+    /// A number, which must be finite; 999999 is EMPTY.
+    Number(f64),
+    /// A text.
+    Text(String),
+}
+
+impl From<f64> for Returned {
+    fn from(number: f64) -> Self {
+        Returned::Number(number)
+    }
+}
+
+impl From<String> for Returned {
+    fn from(text: String) -> Self {
+        Returned::Text(text)
+    }
+}
+
+impl From<&str> for Returned {
+    fn from(text: &str) -> Self {
+        Returned::Text(text.to_string())
+    }
+}
+
+type Body = Box<dyn Fn(&[Argument<'_>]) -> Result<Returned, String> + Send + Sync>;
 
 struct Function {
     name: String,
@@ -29,7 +70,8 @@ struct Function {
     body: Body,
 }
 
-/// The functions an embedding program adds, by name.
+/// The functions an embedding program adds, by name. They are shared by all
+/// runs of a module, also by runs in other threads.
 #[derive(Default)]
 pub struct Functions {
     list: Vec<Function>,
@@ -41,20 +83,30 @@ impl Functions {
         Functions::default()
     }
 
-    /// Adds a function; a later one of the same name takes its place. An `Err`
-    /// stops the run with that sentence and the FIL place.
-    pub fn add(
+    /// Adds a function. An `Err` stops the run with that sentence and the FIL
+    /// place. A name that can't be taken is refused by [`load`](crate::load).
+    pub fn add<T: Into<Returned>>(
         &mut self,
         name: &str,
         arity: u16,
-        body: impl FnMut(&[Argument<'_>]) -> Result<f64, String> + Send + 'static,
+        body: impl Fn(&[Argument<'_>]) -> Result<T, String> + Send + Sync + 'static,
     ) {
-        let name = name.to_ascii_uppercase();
-        let function = Function { name, arity, body: Box::new(body) };
-        match self.list.iter_mut().find(|known| known.name == function.name) {
-            Some(known) => *known = function,
-            None => self.list.push(function),
-        }
+        let body: Body = Box::new(move |arguments| body(arguments).map(Into::into));
+        self.list.push(Function { name: name.to_ascii_uppercase(), arity, body });
+    }
+
+    /// Why names can't be taken, a sentence each: a script that calls such a
+    /// function would get another one, or none.
+    pub(crate) fn refused_names(&self, vocab: &Vocabulary) -> Vec<String> {
+        let refused = self.list.iter().enumerate().filter_map(|(index, function)| {
+            let name = function.name.as_str();
+            if self.list[..index].iter().any(|other| other.name == name) {
+                return Some(format!("the function {name} is added twice"));
+            }
+            let why = refused_name(name, vocab)?;
+            Some(format!("a function can't be named {name}: {why}"))
+        });
+        refused.collect()
     }
 
     pub(crate) fn find(&self, name: &str) -> Option<(u16, u16)> {
@@ -70,8 +122,12 @@ impl Functions {
         self.list.iter().map(|function| function.arity).collect()
     }
 
-    pub(crate) fn call(&mut self, index: usize, arguments: &[Argument<'_>]) -> Result<f64, String> {
-        match self.list.get_mut(index) {
+    pub(crate) fn call(
+        &self,
+        index: usize,
+        arguments: &[Argument<'_>],
+    ) -> Result<Returned, String> {
+        match self.list.get(index) {
             Some(function) if usize::from(function.arity) == arguments.len() => {
                 (function.body)(arguments)
             }
@@ -81,6 +137,24 @@ impl Functions {
 
     pub(crate) fn name(&self, index: usize) -> &str {
         self.list.get(index).map_or("?", |function| &function.name)
+    }
+}
+
+fn refused_name(name: &str, vocab: &Vocabulary) -> Option<&'static str> {
+    let is_name = name.starts_with(|first: char| first.is_ascii_alphabetic())
+        && name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
+    if !is_name {
+        Some("a name begins with a letter and holds letters, digits and _")
+    } else if builtins::find(name).is_some() {
+        Some("FIL has a function of this name")
+    } else if fil_syntax::is_statement_word(name) {
+        Some("it is a statement of FIL")
+    } else if letter(name).is_some() {
+        Some("the letters A to Z are variables")
+    } else if vocab.find(name).is_some_and(|word| vocab.is_known(word)) {
+        Some("it is a word of the CL vocabulary")
+    } else {
+        None
     }
 }
 

@@ -126,6 +126,12 @@ pub trait Host {
         vocab: &mut Vocabulary,
     ) -> Result<bool, Box<Diag>>;
 
+    /// Asked from time to time while FIL runs, and before each call that leaves
+    /// it: an error stops the run.
+    fn check_cancelled(&mut self) -> Result<(), Box<Diag>> {
+        Ok(())
+    }
+
     /// Takes a warning.
     fn warn(&mut self, diag: Diag);
 

@@ -26,7 +26,7 @@ mod value;
 
 pub use compile::{FilFile, Included, LoadOptions, Loaded, Loader, load};
 pub use disassemble::disassemble;
-pub use functions::{Argument, Functions};
+pub use functions::{Argument, Functions, Returned};
 pub use host::{CommonKind, FileMode, Files, Host, Site};
 pub use lint::MachineFacts;
 pub use machine::{Limits, Machine, Outcome};

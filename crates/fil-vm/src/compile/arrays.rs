@@ -72,6 +72,11 @@ impl<'t> Compiler<'t> {
             self.report(CompileCode::DefinedTwice, span, message);
             return None;
         }
+        if self.added_function(name).is_some() {
+            let message = format!("{name} is a function of the embedding program");
+            self.report(CompileCode::DefinedTwice, span, message);
+            return None;
+        }
         let id = self.index(self.module.arrays.len(), span, "arrays");
         self.module.arrays.push(ArrayShape { name: name.to_string(), start, len, read_only });
         self.names.arrays.insert(name, id);

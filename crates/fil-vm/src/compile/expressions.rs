@@ -82,9 +82,7 @@ impl Compiler<'_> {
             }
         } else if let Some(function) = builtins::find(&name.text) {
             self.builtin(function, args, span, dst);
-        } else if let Some((function, arity)) =
-            self.functions.and_then(|functions| functions.find(&name.text))
-        {
+        } else if let Some((function, arity)) = self.added_function(&name.text) {
             if usize::from(arity) == args.len() {
                 let base = self.arguments(args, span);
                 self.chunk.emit(Op::HostFunction { dst, function, base });
@@ -96,6 +94,11 @@ impl Compiler<'_> {
             let hint = self.function_like(&name.text);
             self.report_with(CompileCode::UnknownFunction, name.span, message, hint);
         }
+    }
+
+    /// Index and number of arguments of a function of the embedding program.
+    pub(super) fn added_function(&self, name: &str) -> Option<(u16, u16)> {
+        self.functions?.find(name)
     }
 
     /// A hint that names the function or array that was perhaps meant.

@@ -118,6 +118,7 @@ pub fn load(
         inside: None,
         noted: Vec::new(),
     };
+    compiler.refuse_functions();
     compiler.run();
     let Compiler { module, mut diags, names, vocab, .. } = compiler;
     let refused = diags.iter().any(Diag::is_error);
@@ -153,6 +154,14 @@ struct Compiler<'t> {
 }
 
 impl<'t> Compiler<'t> {
+    /// Refuses functions of the embedding program whose names can't be taken.
+    fn refuse_functions(&mut self) {
+        let refused = self.functions.map(|functions| functions.refused_names(self.vocab));
+        for message in refused.into_iter().flatten() {
+            self.diags.push(*CompileCode::FunctionName.diag(message));
+        }
+    }
+
     fn run(&mut self) {
         self.collect_names();
         for unit in &self.found.roots {

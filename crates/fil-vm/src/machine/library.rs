@@ -232,6 +232,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
 
     fn spawn(&mut self, registers: &Registers, base: Reg) -> Result<Value, Box<Diag>> {
         self.burn()?;
+        self.host.check_cancelled()?;
         let command = self.text(registers, base)?;
         let command = self.state.texts.get(command);
         match self.host.spawn(command) {

@@ -28,6 +28,10 @@ pub(crate) type Registers = [Slot; 1 << 16];
 /// First register of the temporaries of expressions.
 pub(crate) const FIRST_TEMPORARY: u16 = 0xF000;
 
+/// Fuel that is used before the host is asked whether the run is cancelled: about a
+/// millisecond of a plain loop. The loop counts this fuel anyway, so asking costs nothing.
+const FUEL_BETWEEN_CHECKS: u64 = 1 << 16;
+
 /// What a script may use up before it is stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
@@ -101,7 +105,7 @@ pub struct Machine {
     registers: Box<Registers>,
     state: State,
     limits: Limits,
-    functions: Functions,
+    functions: Arc<Functions>,
 }
 
 /// One run: everything but the registers, which the loop holds on its own.
@@ -109,11 +113,14 @@ struct Vm<'a, H: Host + ?Sized> {
     module: &'a Module,
     state: &'a mut State,
     limits: &'a Limits,
-    functions: &'a mut Functions,
+    functions: &'a Functions,
     record: Option<&'a mut Record>,
     vocab: &'a mut Vocabulary,
     host: &'a mut H,
+    /// Fuel until the host is asked again.
     fuel: u64,
+    /// Fuel of the run beyond that.
+    reserve: u64,
     spot: Spot,
     outcome: Outcome,
     /// POSTF(14) has given 1 in this run.
@@ -122,7 +129,7 @@ struct Vm<'a, H: Host + ?Sized> {
 
 impl Machine {
     /// A machine for a module compiled with the same functions.
-    pub fn new(module: Arc<Module>, limits: Limits, functions: Functions) -> Self {
+    pub fn new(module: Arc<Module>, limits: Limits, functions: Arc<Functions>) -> Self {
         let registers = vec![Slot::UNSET; 1 << 16].into_boxed_slice();
         let Ok(mut registers) = <Box<Registers>>::try_from(registers) else {
             unreachable!("the slice has the length of the array")
@@ -142,11 +149,6 @@ impl Machine {
     /// The module it runs.
     pub fn module(&self) -> &Arc<Module> {
         &self.module
-    }
-
-    /// The embedding program's functions, for the machine of the next run.
-    pub fn into_functions(self) -> Functions {
-        self.functions
     }
 
     /// Runs the global areas of all files; once, before the first record.
@@ -207,11 +209,12 @@ impl Machine {
             module: &self.module,
             state: &mut self.state,
             limits: &self.limits,
-            functions: &mut self.functions,
+            functions: &self.functions,
             record,
             vocab,
             host,
-            fuel: self.limits.fuel,
+            fuel: 0,
+            reserve: self.limits.fuel,
             spot: Spot { chunk, pc: 0 },
             outcome: Outcome::default(),
             at_end: false,

@@ -3,10 +3,10 @@
 use fil_diag::Diag;
 
 use super::report::fault;
-use super::{Registers, Vm};
+use super::{FUEL_BETWEEN_CHECKS, Registers, Vm};
 use crate::builtins::BUILTINS;
 use crate::errors::RunCode;
-use crate::functions::Argument;
+use crate::functions::{Argument, Returned};
 use crate::host::{CommonKind, Host};
 use crate::ops::Reg;
 use crate::value::Value::{self, Number, Text, Unset};
@@ -133,7 +133,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     #[inline]
     pub(super) fn burn(&mut self) -> Result<(), Box<Diag>> {
         if self.fuel == 0 {
-            return Err(self.out_of_fuel());
+            self.refuel()?;
         }
         self.fuel -= 1;
         Ok(())
@@ -141,12 +141,22 @@ impl<H: Host + ?Sized> Vm<'_, H> {
 
     /// Takes fuel for work on a text: a script that copies long texts pays for it.
     pub(super) fn burn_for(&mut self, bytes: usize) -> Result<(), Box<Diag>> {
-        let cost = (bytes / BYTES_A_UNIT) as u64;
-        if self.fuel < cost {
-            return Err(self.out_of_fuel());
+        let mut cost = (bytes / BYTES_A_UNIT) as u64;
+        while self.fuel < cost {
+            cost -= std::mem::take(&mut self.fuel);
+            self.refuel()?;
         }
         self.fuel -= cost;
         Ok(())
+    }
+
+    /// Asks whether the run is cancelled, and gives fuel until the next time.
+    #[cold]
+    fn refuel(&mut self) -> Result<(), Box<Diag>> {
+        self.host.check_cancelled()?;
+        self.fuel = self.reserve.min(FUEL_BETWEEN_CHECKS);
+        self.reserve -= self.fuel;
+        if self.fuel == 0 { Err(self.out_of_fuel()) } else { Ok(()) }
     }
 
     #[cold]
@@ -260,10 +270,11 @@ impl<H: Host + ?Sized> Vm<'_, H> {
 
     pub(super) fn host_function(
         &mut self,
-        registers: &Registers,
+        registers: &mut Registers,
         function: u16,
         base: Reg,
     ) -> Result<Value, Box<Diag>> {
+        self.host.check_cancelled()?;
         let index = usize::from(function);
         let count = self.module.host_arity.get(index).copied().unwrap_or(0);
         let mut values = Vec::with_capacity(usize::from(count));
@@ -279,11 +290,15 @@ impl<H: Host + ?Sized> Vm<'_, H> {
                 Unset => Argument::Number(EMPTY),
             })
             .collect();
-        let name = self.functions.name(index).to_string();
-        match self.functions.call(index, &arguments) {
-            Ok(result) if result.is_finite() => Ok(Number(result)),
-            Ok(result) => Err(fault(RunCode::HostFunction, format!("{name} gives {result}"))),
-            Err(sentence) => Err(fault(RunCode::HostFunction, format!("{name}: {sentence}"))),
+        let functions = self.functions;
+        let name = functions.name(index);
+        match functions.call(index, &arguments) {
+            Ok(Returned::Number(number)) if number.is_finite() => Ok(Number(number)),
+            Ok(Returned::Number(number)) => {
+                RunCode::HostFunction.err(format!("{name} gives {number}"))
+            }
+            Ok(Returned::Text(text)) => self.made(registers, &text),
+            Err(sentence) => RunCode::HostFunction.err(format!("{name}: {sentence}")),
         }
     }
 

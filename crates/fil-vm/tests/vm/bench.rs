@@ -23,6 +23,8 @@ pub struct Mock {
     pub sites: Vec<Site>,
     pub warnings: Vec<Diag>,
     pub tracing: bool,
+    /// How often the machine may still ask whether the run is cancelled.
+    pub patience: Option<u32>,
 }
 
 impl Host for Mock {
@@ -68,6 +70,17 @@ impl Host for Mock {
         to.clone_from(record);
         self.next = number as usize;
         Ok(true)
+    }
+
+    fn check_cancelled(&mut self) -> Result<(), Box<Diag>> {
+        match &mut self.patience {
+            None => Ok(()),
+            Some(0) => fil_vm::errors::RunCode::Refused.err("cancelled"),
+            Some(left) => {
+                *left -= 1;
+                Ok(())
+            }
+        }
     }
 
     fn warn(&mut self, diag: Diag) {
@@ -141,7 +154,7 @@ impl Bench {
         let Loaded { module, warnings } =
             load(&[FilFile { name: "test.fil", text }], &mut vocab, options)
                 .unwrap_or_else(|diags| panic!("{}", lines(&diags)));
-        let machine = Machine::new(Arc::new(module), limits, functions);
+        let machine = Machine::new(Arc::new(module), limits, Arc::new(functions));
         Bench { vocab, machine, host: Mock::default(), warnings }
     }
 

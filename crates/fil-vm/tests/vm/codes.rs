@@ -39,7 +39,8 @@ fn compile_case(number: u16) -> Option<(String, u32)> {
 
 #[test]
 fn every_code_of_the_compiler_has_a_case() {
-    for row in CompileCode::ALL {
+    // A name of an added function stands in no FIL file: values.rs has its test.
+    for row in CompileCode::ALL.iter().filter(|row| row.number != code(CompileCode::FunctionName)) {
         let (text, line) =
             compile_case(row.number).unwrap_or_else(|| panic!("no case for {}", row.name()));
         let text = format!("{text}\nFINI\n");
@@ -165,7 +166,7 @@ fn every_code_of_the_machine_has_a_case() {
         let (text, line) =
             run_case(row.number).unwrap_or_else(|| panic!("no case for {}", row.name()));
         let mut functions = Functions::new();
-        functions.add("FAILF", 1, |_| Err("not today".to_string()));
+        functions.add("FAILF", 1, |_| Err::<f64, _>("not today".to_string()));
         let limits = Limits { fuel: 10_000, call_depth: 1, text_bytes: 1000, ..Limits::default() };
         let mut bench = Bench::with(text, limits, Compat::default(), functions);
         let result = bench.globals().and_then(|()| bench.records("CYCLE / DRILL, 1\n"));

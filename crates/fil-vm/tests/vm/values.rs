@@ -1,6 +1,7 @@
 //! Numbers, texts, EMPTY, letters, arrays, functions.
 
-use fil_vm::{Argument, Compat, Functions, Limits};
+use fil_cl::Vocabulary;
+use fil_vm::{Argument, Compat, FilFile, Functions, Limits, LoadOptions, load};
 
 use crate::bench::{Bench, globals};
 
@@ -131,6 +132,105 @@ fn the_embedding_program_adds_functions() {
         Bench::with("VV=WEIGHF('ABC',10)", Limits::default(), Compat::default(), functions);
     bench.globals().unwrap();
     assert_eq!(bench.number("VV"), 30.0);
+}
+
+/// Runs a program with functions that return a number and a text.
+fn with_functions(text: &str) -> Bench {
+    let mut functions = Functions::new();
+    functions.add("TWICEF", 1, |args| Ok(args[0].number().ok_or("a number")? * 2.0));
+    functions.add("TOOLF", 1, |args| Ok(format!("TOOL {}", args[0].number().unwrap_or(0.0))));
+    let limits = Limits { text_bytes: 1000, ..Limits::default() };
+    let mut bench = Bench::with(text, limits, Compat::default(), functions);
+    bench.globals().unwrap_or_else(|diag| panic!("{diag}"));
+    bench
+}
+
+#[test]
+fn added_functions_return_numbers_and_texts() {
+    let bench = with_functions("VV=TWICEF(4)\nT1=TEXT/TOOLF(VV),'!'\nNN=LNTHF(TOOLF(12))");
+    assert_eq!((bench.number("VV"), bench.number("NN")), (8.0, 7.0));
+    assert_eq!(bench.machine.text("T1"), Some("TOOL 8!"));
+    // A loop of texts makes room for the next ones.
+    with_functions("DO/LA,II=1,1000\nT1=TOOLF(II)\nLA) CONTIN");
+}
+
+#[test]
+fn a_text_of_an_added_function_counts_against_the_limit() {
+    let mut functions = Functions::new();
+    functions.add("LONGF", 0, |_| Ok("x".repeat(2000)));
+    let limits = Limits { text_bytes: 1000, ..Limits::default() };
+    let mut bench = Bench::with("T1=LONGF()", limits, Compat::default(), functions);
+    assert_eq!(bench.globals().unwrap_err().code.name(), "E0306");
+}
+
+/// The codes and messages of loading a program with a function of this name.
+fn named(names: &[&str], text: &str) -> Vec<String> {
+    let mut functions = Functions::new();
+    names.iter().for_each(|name| functions.add(name, 1, |_| Ok(1.0)));
+    let options = LoadOptions { functions: Some(&functions), ..LoadOptions::default() };
+    let text = format!("{text}\nFINI\n");
+    let files = [FilFile { name: "test.fil", text: &text }];
+    match load(&files, &mut Vocabulary::new(), options) {
+        Ok(_) => Vec::new(),
+        Err(diags) => diags.iter().map(|diag| diag.to_string()).collect(),
+    }
+}
+
+#[test]
+fn an_added_function_has_a_name_of_its_own() {
+    let refused = |name| {
+        let said = named(&[name], "");
+        assert_eq!(said.len(), 1, "{name}");
+        said[0].clone()
+    };
+    assert_eq!(
+        refused("sqrtf"),
+        "E0229: a function can't be named SQRTF: FIL has a function of this name"
+    );
+    for name in
+        ["POSTF", "IF", "ELSEIF", "MACRO", "TEXT", "X", "GOTO", "RPM", "", "9F", "A F", "ÄF"]
+    {
+        assert!(refused(name).starts_with("E0229: a function can't be named"), "{name}");
+    }
+    assert_eq!(named(&["LIFEF", "lifef"], ""), ["E0229: the function LIFEF is added twice"]);
+    assert!(named(&["LIFEF", "SHOP_F2"], "VV=LIFEF(1)").is_empty());
+}
+
+#[test]
+fn a_script_does_not_shadow_an_added_function() {
+    assert_eq!(
+        named(&["LIFEF"], "RESERV/LIFEF,3\nVV=LIFEF(1)"),
+        ["E0209 test.fil:1:8: LIFEF is a function of the embedding program"]
+    );
+    let written = named(&["LIFEF"], "PPRINT LIFEF(3)");
+    assert!(written[0].starts_with("E0213 "), "{written:?}");
+}
+
+#[test]
+fn a_loop_is_cancelled_while_it_runs() {
+    for fil in
+        ["LA) XX=1\nJUMPTO/LA", "DO/LA,II=1,99999999\nLA) CONTIN", "LA) TT=LOWT()\nJUMPTO/LA"]
+    {
+        let mut functions = Functions::new();
+        functions.add("LOWT", 0, |_| Ok("a"));
+        let mut bench = Bench::with(fil, Limits::default(), Compat::default(), functions);
+        bench.host.patience = Some(3);
+        let diag = bench.globals().unwrap_err();
+        assert_eq!((diag.message.as_str(), bench.host.patience), ("cancelled", Some(0)), "{fil}");
+    }
+}
+
+#[test]
+fn all_fuel_is_used_before_a_run_is_given_up() {
+    for fuel in [1000, 65_536, 65_537, 200_000] {
+        let limits = Limits { fuel, ..Limits::default() };
+        let loops = |passes| {
+            let text = format!("DO/LA,II=1,{passes}\nLA) CONTIN");
+            Bench::with(&text, limits, Compat::default(), Functions::new()).globals()
+        };
+        assert!(loops(fuel).is_ok(), "{fuel}");
+        assert_eq!(loops(fuel + 1).unwrap_err().code.name(), "E0304", "{fuel}");
+    }
 }
 
 #[test]
