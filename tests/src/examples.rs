@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use filpost::{Clock, Diag, Moment, Post};
+use filpost::{Clock, Diag, Moment, Program};
 
 /// The CL file an example of FIL or of machine.toml runs with.
 pub const PART: &str = "\
@@ -75,8 +75,7 @@ pub fn run(block: &Block<'_>) -> Option<Vec<Diag>> {
         return Some(crate::motions::refusal(&block.text).into_iter().collect());
     }
     let value = |name: &str| marks.iter().find_map(|mark| mark.strip_prefix(name));
-    let mut builder = Post::builder()
-        .cl_name("part.ncl")
+    let mut builder = Program::builder()
         .ready(value("post=").unwrap_or("fanuc-mill"))
         .strict(marks.contains(&"strict"));
     if let Some(fuel) = value("fuel=") {
@@ -110,12 +109,13 @@ pub fn run(block: &Block<'_>) -> Option<Vec<Diag>> {
 }
 
 fn post(builder: filpost::Builder, cl: &str) -> Vec<Diag> {
-    let mut post = match builder.build() {
+    let post = match builder.build() {
         Ok(post) => post,
         Err(error) => return error.diags().to_vec(),
     };
     let mut diags = post.warnings().to_vec();
-    match post.run_seekable(Cursor::new(cl.as_bytes()), &mut Vec::new()) {
+    let run = post.start().cl_name("part.ncl");
+    match run.run_seekable(Cursor::new(cl.as_bytes()), &mut Vec::new()) {
         Ok(report) => diags.extend(report.warnings),
         Err(error) => diags.extend(error.diags().iter().cloned()),
     }
@@ -124,7 +124,7 @@ fn post(builder: filpost::Builder, cl: &str) -> Vec<Diag> {
 
 /// What `filpost check` says of a FIL file for the ready post fanuc-mill.
 pub fn check(fil: &str) -> Vec<Diag> {
-    let post = Post::builder().ready("fanuc-mill").build().expect("the ready post");
+    let post = Program::builder().ready("fanuc-mill").build().expect("the ready post");
     let options = filpost::check::Options { machine: Some(post.commons()), ..Default::default() };
     filpost::check::check(&[("macros.fil", fil)], options)
 }

@@ -23,7 +23,7 @@ use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::Path;
 
-use filpost::{Diag, Post, files, includes};
+use filpost::{Diag, Program, files, includes};
 
 /// What the header of a test says.
 #[derive(Default)]
@@ -78,7 +78,7 @@ pub fn run(path: &Path) -> Result<(), String> {
     let read = |path: &Path| files::read_text(path, None).map_err(|error| error.to_string());
     let text = read(path)?;
     let header = header(&text)?;
-    let mut builder = Post::builder()
+    let mut builder = Program::builder()
         .machine("machine.toml", &read(&folder.join("machine.toml"))?)
         .limits(filpost::Limits { fuel: 100_000, ..filpost::Limits::default() });
     for name in &header.with {
@@ -136,9 +136,13 @@ type Posted = Result<(String, Vec<Diag>), Vec<Diag>>;
 
 fn post(builder: filpost::Builder, cl: &str) -> Posted {
     let refused = |error: filpost::Error| error.diags().to_vec();
-    let mut post = builder.cl_name("part.ncl").build().map_err(refused)?;
+    let post = builder.build().map_err(refused)?;
     let mut nc = Vec::new();
-    let report = post.run_seekable(Cursor::new(cl.as_bytes()), &mut nc).map_err(refused)?;
+    let report = post
+        .start()
+        .cl_name("part.ncl")
+        .run_seekable(Cursor::new(cl.as_bytes()), &mut nc)
+        .map_err(refused)?;
     let warnings = post.warnings().iter().cloned().chain(report.warnings).collect();
     Ok((String::from_utf8_lossy(&nc).into_owned(), warnings))
 }

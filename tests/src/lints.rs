@@ -10,7 +10,7 @@
 use std::path::{Path, PathBuf};
 
 use filpost::check::{self, Options};
-use filpost::{Diag, Post, files};
+use filpost::{Diag, Program, files};
 
 /// Compares the findings of a file with its header, which must list them all.
 ///
@@ -20,11 +20,11 @@ pub fn run(path: &Path) -> Result<(), String> {
     let text = files::read_text(path, None).map_err(|error| error.to_string())?;
     let mut expected = listed(&text);
     let header = |key: &str| text.lines().find_map(|line| line.strip_prefix(key));
-    let post = header("$$ post: ").map(|name| Post::builder().ready(name.trim()).build());
+    let post = header("$$ post: ").map(|name| Program::builder().ready(name.trim()).build());
     let post = post.transpose().map_err(|error| error.to_string())?;
     let options = Options {
         strict: header("$$ strict").is_some(),
-        machine: post.as_ref().map(Post::commons),
+        machine: post.as_ref().map(Program::commons),
         ..Options::default()
     };
     let diags = check::check(&[("a.fil", &text)], options);

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use fil_nc::dialect::Dialect;
 use fil_nc::interpret::interpret;
 use fil_nc::motion::{Compensation, Course, Event, Modes, Move, Rate, Spindle};
-use filpost::{Diag, Post};
+use filpost::{Diag, Program};
 
 /// What the head of a program says.
 #[derive(Debug, Default)]
@@ -59,7 +59,7 @@ impl Head {
     /// Settings that are none.
     pub fn dialect(&self) -> Result<Dialect, String> {
         let name = self.post.as_deref().unwrap_or("fanuc-mill");
-        let mut builder = Post::builder().ready(name);
+        let mut builder = Program::builder().ready(name);
         for setting in &self.settings {
             builder = builder.set(setting);
         }

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use filpost::{Post, case};
+use filpost::{Program, case};
 
 use crate::words::Header;
 use crate::{root, tip_program};
@@ -17,7 +17,7 @@ pub struct NcCase {
     /// The program.
     pub nc: String,
     /// The post that makes it.
-    pub post: Post,
+    pub post: Program,
     /// FIL has a part in it, so that the CL file alone does not say what it does.
     pub fil: bool,
 }
@@ -44,7 +44,7 @@ fn corpus() -> Vec<NcCase> {
             name: format!("corpus/{name}"),
             cl: fs::read(case.folder.join(&case.file.cl)).expect("a CL file"),
             nc,
-            post: case.post().expect("a post"),
+            post: case.program().expect("a post"),
             fil: !case.file.fil.is_empty(),
         })
     });
@@ -61,8 +61,8 @@ fn words() -> Vec<NcCase> {
             // Nothing in a program without its start says the unit.
             return None;
         }
-        let mut post = header.post().ok()?;
-        let nc = run(&mut post, text.as_bytes())?;
+        let post = header.post().ok()?;
+        let nc = run(&post, text.as_bytes())?;
         let name = path.file_stem()?.to_string_lossy().into_owned();
         Some(NcCase {
             name: format!("words/{name}"),
@@ -108,10 +108,10 @@ pub fn posted(path: &Path) -> Vec<NcCase> {
     let cl = fs::read(path).expect("a CL file");
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let through = filpost::ready::READY.iter().filter_map(|ready| {
-        let mut post = Post::builder().ready(ready.name).build().ok()?;
+        let post = Program::builder().ready(ready.name).build().ok()?;
         Some(NcCase {
             name: format!("{}/{name}", ready.name),
-            nc: run(&mut post, &cl)?,
+            nc: run(&post, &cl)?,
             cl: cl.clone(),
             post,
             fil: false,
@@ -121,7 +121,7 @@ pub fn posted(path: &Path) -> Vec<NcCase> {
 }
 
 /// The program; `None` for an input that is to be refused.
-fn run(post: &mut Post, cl: &[u8]) -> Option<String> {
+fn run(post: &Program, cl: &[u8]) -> Option<String> {
     let mut nc = Vec::new();
     post.run(cl, &mut nc).ok()?;
     String::from_utf8(nc).ok()

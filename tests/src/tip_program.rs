@@ -8,7 +8,7 @@
 
 use std::fmt::Write as _;
 
-use filpost::{Builder, Post};
+use filpost::{Builder, Program};
 
 use crate::nc_cases::NcCase;
 use crate::root;
@@ -81,14 +81,15 @@ impl Machine {
     /// The settings of the machine.
     pub fn builder(&self) -> Builder {
         let settings = COMMON.iter().chain(self.settings);
-        settings.fold(Post::builder().ready("fanuc-mill"), |builder, setting| builder.set(setting))
+        settings
+            .fold(Program::builder().ready("fanuc-mill"), |builder, setting| builder.set(setting))
     }
 
     /// The post of the machine.
     ///
     /// # Panics
     /// When it can't be built.
-    pub fn post(&self) -> Post {
+    pub fn post(&self) -> Program {
         self.builder().build().expect("a machine")
     }
 

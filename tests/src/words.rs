@@ -1,6 +1,6 @@
 //! The headers of the files in `tests/words`.
 
-use filpost::{Error, Post};
+use filpost::{Error, Program};
 
 /// Settings that leave nothing of the program but the blocks of its records.
 const BARE: &[&str] = &[
@@ -68,8 +68,8 @@ impl Header {
     ///
     /// # Errors
     /// Settings or FIL that make no post.
-    pub fn post(&self) -> Result<Post, Error> {
-        let mut builder = Post::builder().ready(self.post.as_deref().unwrap_or("fanuc-mill"));
+    pub fn post(&self) -> Result<Program, Error> {
+        let mut builder = Program::builder().ready(self.post.as_deref().unwrap_or("fanuc-mill"));
         let bare = if self.whole { &[] } else { BARE };
         for setting in bare.iter().copied().chain(self.settings.iter().map(String::as_str)) {
             builder = builder.set(setting);

@@ -3,9 +3,8 @@
 
 use std::cell::Cell;
 use std::io::Cursor;
-use std::sync::{Arc, Mutex};
 
-use filpost::{Error, Post, WhatHappened};
+use filpost::{Error, Event, Program};
 use filpost_tests::examples::{Block, blocks};
 use filpost_tests::root;
 use filpost_tests::thread::Thread;
@@ -20,19 +19,18 @@ const SCRIPT: &str = "deep-thread.fil";
 /// Posts a CL file with scripts of the papers; the NC program, and the messages
 /// of the listing.
 fn post(scripts: &[&str], cl: &str) -> Result<(String, Vec<String>), Error> {
-    let messages = Arc::new(Mutex::new(Vec::new()));
-    let held = Arc::clone(&messages);
-    let mut builder = Post::builder().ready("fanuc-lathe").observe(move |event| {
-        if let WhatHappened::Message(text) = event {
-            held.lock().expect("one thread").push(text.to_string());
-        }
-    });
+    let mut builder = Program::builder().ready("fanuc-lathe");
     for script in scripts {
         builder = builder.fil(script, &text_of(script));
     }
     let mut nc = Vec::new();
-    builder.build()?.run_seekable(Cursor::new(cl.as_bytes()), &mut nc)?;
-    let messages = messages.lock().expect("one thread").clone();
+    let mut messages = Vec::new();
+    let run = builder.build()?.start().observe(|event| {
+        if let Event::Message(text) = event {
+            messages.push(text.to_string());
+        }
+    });
+    run.run_seekable(Cursor::new(cl.as_bytes()), &mut nc)?;
     Ok((String::from_utf8(nc).expect("an NC program is text"), messages))
 }
 
@@ -242,8 +240,8 @@ fn a_changed_script_is_found() {
         let changed = script.replacen(old, new, 1);
         assert_ne!(changed, script, "{old} is not there");
         let found = [worm(), two_starts()].iter().any(|thread| {
-            let mut post = Post::builder().ready("fanuc-lathe").fil(SCRIPT, &changed).build();
-            let post = post.as_mut().expect("the script is sound");
+            let post = Program::builder().ready("fanuc-lathe").fil(SCRIPT, &changed).build();
+            let post = post.as_ref().expect("the script is sound");
             let mut nc = Vec::new();
             let ran = post.run_seekable(Cursor::new(thread.cl().as_bytes()), &mut nc);
             ran.is_ok() && judge(thread, &String::from_utf8_lossy(&nc)).is_err()

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use filpost::case::Case;
 use filpost::nc::verify::Allowed;
-use filpost::{Code, Diag, Error, Limits, Post, Severity, all_codes, files, trace};
+use filpost::{CancelToken, Code, Diag, Error, Limits, Program, Severity, all_codes, files, trace};
 use filpost_tests::examples::{self, PART};
 use filpost_tests::{lints, motions, root};
 
@@ -24,6 +24,7 @@ const TESTED_HERE: &[(&str, &str)] = &[
     ("E0215", "e0215_program_too_large"),
     ("W0220", "w0220_and_w0221_findings_of_check"),
     ("W0221", "w0220_and_w0221_findings_of_check"),
+    ("E0229", "e0229_name_of_an_added_function"),
     ("E0305", "e0305_call_depth"),
     ("E0317", "e0317_host_function"),
     ("E0401", "e0401_reading_fails"),
@@ -40,6 +41,8 @@ const TESTED_HERE: &[(&str, &str)] = &[
     ("E0708", "e0707_to_e0710_line_maps"),
     ("E0709", "e0707_to_e0710_line_maps"),
     ("E0710", "e0707_to_e0710_line_maps"),
+    ("E0711", "e0711_cancelled"),
+    ("E0712", "e0712_record_from_memory"),
     ("E0941", "e0941_another_part"),
 ];
 
@@ -186,7 +189,7 @@ fn most_pages_have_examples_that_run() {
 
 /// The codes of building a post with this FIL file.
 fn building(fil: &str) -> Vec<String> {
-    names(&Post::builder().fil("t.fil", fil).build().err().expect("refused"))
+    names(&Program::builder().fil("t.fil", fil).build().expect_err("refused"))
 }
 
 fn names(error: &Error) -> Vec<String> {
@@ -195,7 +198,7 @@ fn names(error: &Error) -> Vec<String> {
 
 /// The code of posting this CL text.
 fn posting(cl: &str) -> String {
-    let mut post = Post::builder().build().expect("the generic mill");
+    let post = Program::builder().build().expect("the generic mill");
     let error = post.run(cl.as_bytes(), &mut Vec::new()).expect_err("refused");
     names(&error).remove(0)
 }
@@ -238,15 +241,38 @@ fn w0220_and_w0221_findings_of_check() {
     let diags = filpost_tests::examples::check(fil);
     let found: Vec<_> = diags.iter().map(|diag| (diag.code.number, diag.places[0].line)).collect();
     assert_eq!(found, [(220, 1), (221, 2)]);
-    let build = Post::builder().fil("t.fil", fil).build().expect("a run does not look for them");
+    let build = Program::builder().fil("t.fil", fil).build().expect("a run does not look for them");
     assert!(build.warnings().is_empty());
+}
+
+#[test]
+fn e0229_name_of_an_added_function() {
+    let built = Program::builder().function("SQRTF", 1, |_| Ok(0.0)).build();
+    assert_eq!(names(&built.expect_err("refused")), ["E0229"]);
+}
+
+#[test]
+fn e0711_cancelled() {
+    let token = CancelToken::new();
+    token.cancel();
+    let post = Program::builder().build().expect("the generic mill");
+    let error = post.start().cancel(&token).run(PART.as_bytes(), Vec::new()).expect_err("refused");
+    assert_eq!(names(&error), ["E0711"]);
+}
+
+#[test]
+fn e0712_record_from_memory() {
+    let post = Program::builder().build().expect("the generic mill");
+    let record = fil_cl::Record::goto([f64::NAN; 3], None);
+    let error = post.run_records(post.vocabulary(), [record], Vec::new()).expect_err("refused");
+    assert_eq!(names(&error), ["E0712"]);
 }
 
 #[test]
 fn e0305_call_depth() {
     let fil = "MA=MACRO\nXX=1\nTERMAC\nMB=MACRO\nCALL/MA\nTERMAC\nCALL/MB\nFINI\n";
     let limits = Limits { call_depth: 1, ..Limits::default() };
-    let mut post = Post::builder().fil("t.fil", fil).limits(limits).build().expect("a post");
+    let post = Program::builder().fil("t.fil", fil).limits(limits).build().expect("a post");
     let error = post.run(PART.as_bytes(), &mut Vec::new()).expect_err("refused");
     assert_eq!(names(&error), ["E0305"]);
     assert_eq!(error.diags()[0].places[0].line, 5);
@@ -255,9 +281,9 @@ fn e0305_call_depth() {
 #[test]
 fn e0317_host_function() {
     let fil = "XX=LIFEF(3)\nFINI\n";
-    let mut post = Post::builder()
+    let post = Program::builder()
         .fil("t.fil", fil)
-        .function("LIFEF", 1, |_| Err("the tool table is not there".into()))
+        .function("LIFEF", 1, |_| Err::<f64, _>("the tool table is not there".into()))
         .build()
         .expect("a post");
     let error = post.run(PART.as_bytes(), &mut Vec::new()).expect_err("refused");
@@ -273,7 +299,7 @@ fn e0401_reading_fails() {
             Err(io::Error::other("the stick was pulled out"))
         }
     }
-    let mut post = Post::builder().build().expect("the generic mill");
+    let post = Program::builder().build().expect("the generic mill");
     let input = Cursor::new("RAPID\n").chain(Failing);
     let error = post.run(input, &mut Vec::new()).expect_err("refused");
     assert_eq!(names(&error), ["E0401"]);
@@ -288,7 +314,7 @@ fn e0403_statement_too_long() {
 fn e0409_stream_goes_back() {
     let fil = "NN=0\nCIMFIL/ON,COOLNT\nNN=NN+1\nIF(NN.EQ.1)DMY=POSTF(15)\nCIMFIL/OFF\nFINI\n";
     let cl = "RAPID\nCOOLNT / ON\nFINI\n";
-    let mut post = Post::builder().fil("t.fil", fil).build().expect("a post");
+    let post = Program::builder().fil("t.fil", fil).build().expect("a post");
     let error = post.run(cl.as_bytes(), &mut Vec::new()).expect_err("refused");
     assert_eq!(names(&error), ["E0409"]);
     assert!(post.run_seekable(Cursor::new(cl), &mut Vec::new()).is_ok());
@@ -298,7 +324,7 @@ fn e0409_stream_goes_back() {
 fn a_section_that_always_goes_back_is_stopped() {
     let fil = "CIMFIL/ON,COOLNT\nDMY=POSTF(15)\nCIMFIL/OFF\nFINI\n";
     let limits = Limits { fuel: 10_000, ..Limits::default() };
-    let mut post = Post::builder().fil("t.fil", fil).limits(limits).build().expect("a post");
+    let post = Program::builder().fil("t.fil", fil).limits(limits).build().expect("a post");
     let cl = Cursor::new("RAPID\nCOOLNT / ON\nFINI\n");
     let error = post.run_seekable(cl, &mut Vec::new()).expect_err("refused");
     assert_eq!(names(&error), ["E0304"]);
@@ -360,7 +386,7 @@ impl Shop {
 }
 
 fn post_file(cl: &Path, nc: &Path) -> Result<filpost::Report, Error> {
-    files::post_file(&mut Post::builder().build().expect("the generic mill"), cl, nc)
+    Program::builder().build().expect("the generic mill").run_files(cl, nc)
 }
 
 #[test]
@@ -428,7 +454,7 @@ fn e0702_read_only_file() {
 #[test]
 fn e0702_full_disk() {
     let full = std::fs::OpenOptions::new().write(true).open("/dev/full").expect("/dev/full");
-    let mut post = Post::builder().build().expect("the generic mill");
+    let post = Program::builder().build().expect("the generic mill");
     let error = post.run(PART.as_bytes(), full).expect_err("refused");
     assert_eq!(names(&error), ["E0702"]);
 }
@@ -439,7 +465,7 @@ fn e0702_disk_full_under_way() {
     let nc = shop.path("out.nc");
     std::fs::write(&nc, OLDER).expect("an older program");
     let result = files::write_whole(&nc, |_| {
-        let mut post = Post::builder().build()?;
+        let post = Program::builder().build()?;
         let mut room = [0u8; 100];
         post.run(PART.as_bytes(), &mut room[..])
     });
@@ -475,11 +501,12 @@ fn e0705_case_file() {
 #[test]
 fn e0941_another_part() {
     let cl = |name: &str| std::fs::read(root().join("tests/cl").join(name)).expect("a CL file");
-    let mut post = Post::builder().build().expect("the generic mill");
+    let post = Program::builder().build().expect("the generic mill");
     let mut nc = Vec::new();
     post.run(cl("holes.ncl.1").as_slice(), &mut nc).expect("a program");
-    let program = filpost::verify::Program { text: &nc, name: "holes.nc" };
+    let program = filpost::verify::NcProgram { text: &nc, name: "holes.nc" };
     let error = post
+        .start()
         .verify(cl("planes.ncl.1").as_slice(), program, Allowed::default())
         .expect_err("refused");
     assert_eq!(names(&error), ["E0941"]);

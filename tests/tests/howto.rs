@@ -11,7 +11,7 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use filpost::{Error, Post};
+use filpost::{Error, Program};
 use filpost_tests::examples::{Block, blocks};
 use filpost_tests::root;
 use libtest_mimic::{Arguments, Failed, Trial};
@@ -89,7 +89,7 @@ fn example(
     settings: Option<Block<'_>>,
     nc: &Block<'_>,
 ) -> Result<(), Failed> {
-    let mut builder = Post::builder().ready(ready).cl_name("part.ncl");
+    let mut builder = Program::builder().ready(ready);
     for setting in settings.iter().flat_map(|block| block.text.lines()) {
         builder = builder.set(setting);
     }
@@ -97,8 +97,10 @@ fn example(
         builder = builder.fil("macros.fil", &fil.text);
     }
     let mut found = Vec::new();
-    let mut post = builder.build().map_err(|error| refused(cl, &error))?;
+    let post = builder.build().map_err(|error| refused(cl, &error))?;
     let report = post
+        .start()
+        .cl_name("part.ncl")
         .run_seekable(Cursor::new(cl.text.as_bytes()), &mut found)
         .map_err(|error| refused(cl, &error))?;
     same(&nc.text, &String::from_utf8_lossy(&found), &format!("the NC of line {}", nc.line))?;

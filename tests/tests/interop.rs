@@ -34,7 +34,7 @@ fn files_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
 
 /// The NC program a ready post makes of a CL file.
 fn post_with(ready: &str, cl: &Path) -> Vec<u8> {
-    let mut post = filpost::Post::builder().ready(ready).build().unwrap();
+    let post = filpost::Program::builder().ready(ready).build().unwrap();
     let mut nc = Vec::new();
     let input = io::BufReader::new(File::open(cl).unwrap());
     post.run(input, &mut nc).unwrap_or_else(|error| panic!("{}: {error}", cl.display()));

@@ -38,7 +38,7 @@ fn ready_programs_are_read_as_linuxcnc_reads_them() {
     files.extend(files_in(&data.join("cl/creo"), ".ncl"));
     let (mut compared, mut steps) = (0, 0);
     for cl in files {
-        let mut post = filpost::Post::builder().ready("linuxcnc-mill").build().unwrap();
+        let post = filpost::Program::builder().ready("linuxcnc-mill").build().unwrap();
         let dialect = Dialect::new(post.commons()).unwrap();
         let mut nc = Vec::new();
         if post.run(fs::File::open(&cl).unwrap(), &mut nc).is_err() {
@@ -124,7 +124,7 @@ fn a_real_program_is_read() {
         println!("skipped: {} is not there", file.display());
         return;
     };
-    let builder = filpost::Post::builder().ready("fanuc-mill");
+    let builder = filpost::Program::builder().ready("fanuc-mill");
     let post = builder.set("units.inch_code=70").set("units.metric_code=71").build().unwrap();
     let events = events(&nc, "real.nc", &Dialect::new(post.commons()).unwrap()).unwrap();
     let count = |wanted: fn(&Event) -> bool| events.iter().filter(|event| wanted(event)).count();
@@ -155,7 +155,7 @@ fn programs_of_the_corpus_have_a_meaning() {
     for case in cases {
         let Some(expect) = &case.file.expect else { continue };
         let nc = fs::read(case.folder.join(expect)).unwrap();
-        let dialect = Dialect::new(case.post().unwrap().commons()).unwrap();
+        let dialect = Dialect::new(case.program().unwrap().commons()).unwrap();
         let folder = case.folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let known = NOT_FOLLOWED.iter().find(|(name, _)| *name == folder).map(|(_, said)| *said);
         let said = events(&nc, "out.nc", &dialect).err().map(|diag| diag.to_string());

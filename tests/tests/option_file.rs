@@ -94,7 +94,7 @@ fn the_imported_machine_posts_a_real_file() {
     ) else {
         return;
     };
-    let mut post = filpost::Post::builder()
+    let post = filpost::Program::builder()
         .option_file("uncx01.p02", &machine)
         .fil("uncx01.f02", &fil)
         .build()

@@ -6,7 +6,7 @@ use std::io::Cursor;
 use filpost::cl::reader::Options;
 use filpost::nc::plot::{CL_COLOUR, Drawing, Stroke, View, html, svg};
 use filpost::plot::{self, Text};
-use filpost::{Post, map};
+use filpost::{Program, map};
 use filpost_tests::{browser, root};
 use serde_json::Value;
 
@@ -43,16 +43,12 @@ FINI
 /// The drawing of [`CL`], posted with [`FIL`], with the notes of its map.
 fn drawing() -> Drawing {
     let fil = FIL.replace("(G)", "7").replace("(X)", "24").replace("(Y)", "25");
-    let mut post = Post::builder()
-        .ready("fanuc-mill")
-        .fil("mill.fil", &fil)
-        .cl_name("part.ncl")
-        .build()
-        .unwrap();
+    let post = Program::builder().ready("fanuc-mill").fil("mill.fil", &fil).build().unwrap();
     let names =
         map::Names { cl: "part.ncl".into(), nc: "out.nc".into(), fil: vec!["mill.fil".into()] };
     let (mut nc, mut lines) = (Vec::new(), Vec::new());
-    post.run_mapped(Cursor::new(CL), &mut nc, &names, &mut lines).unwrap();
+    let run = post.start().cl_name("part.ncl");
+    run.run_mapped(Cursor::new(CL), &mut nc, &names, &mut lines).unwrap();
     let text = Text { name: "out.nc", bytes: &nc };
     let mut drawing = plot::program(text, post.commons()).unwrap();
     let cl = Text { name: "part.ncl", bytes: CL.as_bytes() };
@@ -75,7 +71,7 @@ fn spiral(count: u32) -> Drawing {
         nc.push_str(&format!("G1 X{:.3} Y{:.3}\n", radius * cosine, radius * sine));
     }
     nc.push_str("M30\n");
-    let post = Post::builder().ready("fanuc-mill").build().unwrap();
+    let post = Program::builder().ready("fanuc-mill").build().unwrap();
     plot::program(Text { name: "spiral.nc", bytes: nc.as_bytes() }, post.commons()).unwrap()
 }
 
@@ -126,7 +122,7 @@ fn the_picture_of_the_docs_is_drawn_by_the_code() {
     let folder = root().join("corpus/tutorial");
     let [nc, cl] = ["plate.nc", "plate.ncl"].map(|name| std::fs::read(folder.join(name)).unwrap());
     let case = filpost::case::Case::load(&folder).unwrap();
-    let post = case.post().unwrap();
+    let post = case.program().unwrap();
     let mut drawing = plot::program(Text { name: "plate.nc", bytes: &nc }, post.commons()).unwrap();
     let under = Text { name: "plate.ncl", bytes: &cl };
     plot::lay_under(&mut drawing, under, Options::default(), post.commons()).unwrap();
@@ -144,7 +140,7 @@ fn the_picture_of_the_docs_is_drawn_by_the_code() {
 fn a_turning_table_is_drawn_on_the_part() {
     let folder = root().join("corpus/papers/embos-engraving");
     let case = filpost::case::Case::load(&folder).unwrap();
-    let post = case.post().unwrap();
+    let post = case.program().unwrap();
     let nc = std::fs::read(folder.join("figure-3.nc")).unwrap();
     // The printed program has no end code, and neither has its machine.
     let drawing = plot::program(Text { name: "figure-3.nc", bytes: &nc }, post.commons()).unwrap();
@@ -173,10 +169,10 @@ fn notes_name_the_fil_line() {
 
 #[test]
 fn a_map_of_another_program_is_refused() {
-    let mut post = Post::builder().ready("fanuc-mill").build().unwrap();
+    let post = Program::builder().ready("fanuc-mill").build().unwrap();
     let names = map::Names { cl: "part.ncl".into(), nc: "out.nc".into(), fil: vec![] };
     let (mut nc, mut lines) = (Vec::new(), Vec::new());
-    post.run_mapped(Cursor::new(CL), &mut nc, &names, &mut lines).unwrap();
+    post.start().run_mapped(Cursor::new(CL), &mut nc, &names, &mut lines).unwrap();
     let other = [&nc[..], b"\n"].concat();
     let text = Text { name: "out.nc", bytes: &other };
     let mut drawing = Drawing::default();

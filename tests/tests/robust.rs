@@ -1,6 +1,6 @@
 //! Nothing that comes in may panic, hang, or write a number that is none.
 
-use filpost::{Limits, Post};
+use filpost::{Limits, Program};
 use proptest::prelude::*;
 
 /// Words and numbers a CL record may hold, likely and unlikely ones.
@@ -66,7 +66,7 @@ proptest! {
     #[test]
     fn records_of_any_form_are_posted_or_refused(cl in program(), ready in 0..4usize) {
         let ready = ["fanuc-mill", "fanuc-lathe", "grbl", "linuxcnc-mill"][ready];
-        let mut post = Post::builder().ready(ready).build().unwrap();
+        let post = Program::builder().ready(ready).build().unwrap();
         let mut nc = Vec::new();
         let texts = ["PPRINT", "INSERT", "PARTNO"];
         let has_text = cl.lines().any(|line| texts.iter().any(|text| line.starts_with(text)));
@@ -80,7 +80,7 @@ proptest! {
     #[test]
     fn the_same_input_gives_the_same_bytes(cl in program()) {
         let run = || {
-            let mut post = Post::builder().build().unwrap();
+            let post = Program::builder().build().unwrap();
             let mut nc = Vec::new();
             let result = post.run(cl.as_bytes(), &mut nc);
             (nc, result.map(|report| report.blocks).map_err(|error| error.to_string()))
@@ -92,10 +92,10 @@ proptest! {
     fn any_bytes_as_cl_or_fil_or_machine(bytes in prop::collection::vec(any::<u8>(), 0..600)) {
         let text = String::from_utf8_lossy(&bytes).into_owned();
         let limits = Limits { fuel: 10_000, ..Limits::default() };
-        let built = Post::builder().fil("noise.fil", &text).limits(limits).build();
-        let _ = Post::builder().machine("machine.toml", &text).build();
-        let _ = Post::builder().option_file("uncx01.p01", &text).build();
-        for mut post in built.into_iter().chain(Post::builder().build()) {
+        let built = Program::builder().fil("noise.fil", &text).limits(limits).build();
+        let _ = Program::builder().machine("machine.toml", &text).build();
+        let _ = Program::builder().option_file("uncx01.p01", &text).build();
+        for post in built.into_iter().chain(Program::builder().build()) {
             let _ = post.run(bytes.as_slice(), std::io::sink());
         }
     }
@@ -112,15 +112,19 @@ fn ten_megabytes_of_noise_end_soon() {
     })
     .take(10_000_000)
     .collect();
-    let mut post = Post::builder().build().unwrap();
+    let post = Program::builder().build().unwrap();
     assert!(post.run(noise.as_slice(), std::io::sink()).is_err());
     let text: String = noise.iter().map(|byte| char::from(byte & 0x7f)).collect();
-    assert!(Post::builder().fil("noise.fil", &text).build().is_err());
+    assert!(Program::builder().fil("noise.fil", &text).build().is_err());
     assert!(post.run(text.as_bytes(), std::io::sink()).is_err());
 }
 
 #[test]
-fn a_post_can_go_to_another_thread() {
+fn a_program_is_shared_by_threads_and_its_blocks_move_between_them() {
+    fn is_shared<T: Send + Sync>(_: &T) {}
     fn is_send<T: Send>(_: &T) {}
-    is_send(&Post::builder().build().unwrap());
+    let program = Program::builder().build().unwrap();
+    is_shared(&program);
+    is_send(&program.start().observe(|_| {}));
+    is_send(&program.blocks(&b"FINI"[..]));
 }

@@ -5,7 +5,7 @@ use std::fs;
 use std::sync::{Arc, Mutex};
 
 use filpost::check::{self, Options};
-use filpost::{Argument, Error, Post, case::Case};
+use filpost::{Argument, Error, Program, case::Case};
 use filpost_tests::root;
 use filpost_tests::runout::solve::{Bounds, Placing, Reading, RunOut, Section};
 use filpost_tests::runout::{
@@ -48,12 +48,12 @@ fn four_axes() -> String {
     text("corpus/papers/run-out-parallel/machine.toml")
 }
 
-fn post(machine: &str, script: &str) -> Post {
-    let post = Post::builder().machine("machine.toml", machine).fil("run-out.fil", script);
+fn post(machine: &str, script: &str) -> Program {
+    let post = Program::builder().machine("machine.toml", machine).fil("run-out.fil", script);
     post.build().expect("the post is made")
 }
 
-fn run(post: &mut Post, cl: &str) -> Result<String, Error> {
+fn run(post: &Program, cl: &str) -> Result<String, Error> {
     let mut nc = Vec::new();
     post.run(cl.as_bytes(), &mut nc)?;
     Ok(String::from_utf8(nc).expect("NC is text"))
@@ -101,11 +101,11 @@ fn probe(cylinder: &Cylinder, noise: f64, search: Search, seed: u64) -> [Probed;
 
 /// The worst of all poses of a placing.
 fn worst(machine: &str, script: &str, on: &str, placing: Placing, probed: Probing) -> Residual {
-    let mut post = post(machine, script);
+    let post = post(machine, script);
     let mut worst = Residual::default();
     for (seed, cylinder) in poses(placing) {
         let sections = probe(&cylinder, probed.0, probed.1, seed);
-        let nc = run(&mut post, &cl_file(&sections, on)).expect("the path is posted");
+        let nc = run(&post, &cl_file(&sections, on)).expect("the path is posted");
         worst = worst.worse(residual(&nc, &cylinder));
     }
     worst
@@ -121,7 +121,7 @@ const ROUGH: Probing = (NOISE, Search::Lowest);
 fn without_compensation_the_run_out_is_that_of_the_paper() {
     for placing in PLACINGS {
         for (seed, cylinder) in poses(placing) {
-            let nc = run(&mut post(&five_axes(), &script()), &cl_file(&[], "$$"));
+            let nc = run(&post(&five_axes(), &script()), &cl_file(&[], "$$"));
             let left = residual(&nc.expect("the path is posted"), &cylinder);
             assert!((left.run_out - 0.2).abs() < 0.001, "{placing:?} {seed}: {left:?}");
         }
@@ -201,9 +201,9 @@ fn the_compensation_ends_and_begins_again() {
     let (_, again) = second.split_once("UNITS / MM\n").expect("the CL file has a head");
     let plain = "RUNOUT / OFF\nGOTO / 49, 0, 10, 1, 0, 0\n";
     let both = first.replace("FINI\n", &format!("{plain}{again}"));
-    let mut post = post(&five_axes(), &script());
-    let path = positions(&run(&mut post, &both).expect("the path is posted"));
-    let alone = positions(&run(&mut post, &second).expect("the path is posted"));
+    let post = post(&five_axes(), &script());
+    let path = positions(&run(&post, &both).expect("the path is posted"));
+    let alone = positions(&run(&post, &second).expect("the path is posted"));
     let [x, y, z, b, _] = path[alone.len()];
     assert_eq!([x, y, z, b], [49.0, 0.0, 10.0, 0.0]);
     for (after, alone) in path[alone.len() + 1..].iter().zip(&alone) {
@@ -213,12 +213,12 @@ fn the_compensation_ends_and_begins_again() {
 
 #[test]
 fn the_placing_is_named_in_the_program() {
-    let mut post = post(&five_axes(), &script());
+    let post = post(&five_axes(), &script());
     for placing in PLACINGS {
         let name = format!("(RUN-OUT {} ", format!("{placing:?}").to_uppercase());
         for (seed, cylinder) in poses(placing) {
             let sections = probe(&cylinder, 0.0, Search::FourTouches, seed);
-            let nc = run(&mut post, &cl_file(&sections, ON)).expect("the path is posted");
+            let nc = run(&post, &cl_file(&sections, ON)).expect("the path is posted");
             assert!(nc.contains(&name), "{seed}: no {name} in\n{nc}");
         }
     }
@@ -244,7 +244,7 @@ fn library_and_script_agree_to_a_billionth() {
     let watched = script().replace("  PPRINT/ROTEXT\n", &look);
     let seen = Arc::new(Mutex::new(Vec::new()));
     let into = Arc::clone(&seen);
-    let mut post = Post::builder()
+    let post = Program::builder()
         .machine("machine.toml", &five_axes())
         .fil("run-out.fil", &watched)
         .function("LOOKF", 14, move |arguments| {
@@ -260,7 +260,7 @@ fn library_and_script_agree_to_a_billionth() {
     for placing in PLACINGS {
         for (seed, cylinder) in poses(placing) {
             let probed = probe(&cylinder, NOISE, Search::FourTouches, seed);
-            run(&mut post, &cl_file(&probed, ON)).expect("the path is posted");
+            run(&post, &cl_file(&probed, ON)).expect("the path is posted");
             let found = RunOut::find(&sections(&probed), &Bounds::default()).expect("it is found");
             let mut own: Vec<f64> = found.matrix.transpose().iter().copied().collect();
             own.extend([found.angle, found.distance]);
@@ -275,14 +275,14 @@ fn library_and_script_agree_to_a_billionth() {
 
 #[test]
 fn the_statement_of_the_library_makes_the_same_program() {
-    let mut post = post(&five_axes(), &script());
+    let post = post(&five_axes(), &script());
     for placing in PLACINGS {
         for (seed, cylinder) in poses(placing).take(20) {
             let probed = probe(&cylinder, 0.0, Search::FourTouches, seed);
             let found = RunOut::find(&sections(&probed), &Bounds::default()).expect("it is found");
             assert_eq!(found.placing, placing);
-            let by_script = run(&mut post, &cl_file(&probed, ON)).expect("posted");
-            let by_library = run(&mut post, &cl_file(&[], &found.statement())).expect("posted");
+            let by_script = run(&post, &cl_file(&probed, ON)).expect("posted");
+            let by_library = run(&post, &cl_file(&[], &found.statement())).expect("posted");
             assert_eq!(positions(&by_script), positions(&by_library), "{placing:?} {seed}");
         }
     }
@@ -323,10 +323,10 @@ fn mutations_of_the_script_are_found() {
 
 /// True when a script leaves too much at one of ten poses, or is refused.
 fn shows(script: &str, placing: Placing) -> bool {
-    let mut post = post(&five_axes(), script);
+    let post = post(&five_axes(), script);
     poses(placing).take(10).any(|(seed, cylinder)| {
         let sections = probe(&cylinder, 0.0, Search::FourTouches, seed);
-        match run(&mut post, &cl_file(&sections, ON)) {
+        match run(&post, &cl_file(&sections, ON)) {
             Ok(nc) => {
                 let left = residual(&nc, &cylinder);
                 left.radial > 0.002 || left.place > 0.002 || left.lean > 0.01
@@ -338,11 +338,11 @@ fn shows(script: &str, placing: Placing) -> bool {
 
 #[test]
 fn wrong_signs_in_the_program_are_found() {
-    let mut post = post(&five_axes(), &script());
+    let post = post(&five_axes(), &script());
     let mut random = Random(7);
     let cylinder = pose(Placing::Skew, &mut random);
     let sections = probe(&cylinder, 0.0, Search::FourTouches, 0);
-    let nc = run(&mut post, &cl_file(&sections, ON)).expect("the path is posted");
+    let nc = run(&post, &cl_file(&sections, ON)).expect("the path is posted");
     assert!(residual(&nc, &cylinder).radial < 0.0005);
     for letter in ["X", "Y", "B", "C"] {
         let turned = nc
@@ -443,10 +443,10 @@ fn the_pictures_are_up_to_date() {
     let probed = [20.0, 100.0].map(|height| exact.section(&cylinder, height));
     let mut rough = Probe { noise: NOISE, random: Random(3), search };
     let noisy = SECTIONS.map(|height| rough.section(&cylinder, height));
-    let mut post = post(&five_axes(), &script());
+    let post = post(&five_axes(), &script());
     let [before, after, noisy] =
         [(&[][..], "$$"), (&probed[..], ON), (&noisy[..], ON)].map(|(sections, on)| {
-            let nc = run(&mut post, &cl_file(sections, on)).expect("the path is posted");
+            let nc = run(&post, &cl_file(sections, on)).expect("the path is posted");
             deviations(&nc, &cylinder)
         });
     let folder = root().join("docs/papers");

@@ -4,7 +4,7 @@
 
 use std::io::Cursor;
 
-use filpost::{Diag, Error, Post, check, files, includes};
+use filpost::{Diag, Error, Program, check, files, includes};
 use filpost_tests::screw::mutate::{self, Mutation};
 use filpost_tests::screw::passes::Pass;
 use filpost_tests::screw::section::{Section, Step};
@@ -16,14 +16,13 @@ fn post(job: &Job) -> Result<(String, Vec<Diag>), Error> {
     let script = root().join("fil-scripts/papers/screw.fil");
     let machine = root().join("corpus/papers/screw-trapezoid/machine.toml");
     let text = |path: &std::path::Path| files::read_text(path, None).expect("the file is read");
-    let mut post = Post::builder()
+    let post = Program::builder()
         .machine("machine.toml", &text(&machine))
         .fil(&script.to_string_lossy(), &text(&script))
         .includes(includes::beside(&[script], None))
-        .cl_name("screw.ncl")
         .build()?;
     let mut nc = Vec::new();
-    let report = post.run(Cursor::new(job.cl()), &mut nc)?;
+    let report = post.start().cl_name("screw.ncl").run(Cursor::new(job.cl()), &mut nc)?;
     Ok((String::from_utf8(nc).expect("NC is text"), report.warnings))
 }
 

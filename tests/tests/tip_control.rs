@@ -2,11 +2,11 @@
 
 use fil_nc::verify::{Allowed, Kind, Report, Verdict};
 use filpost::plot::{self, Text};
-use filpost::{Diag, Post};
+use filpost::{Diag, Program};
 use filpost_tests::back_check;
 use filpost_tests::tip_program::{MACHINES, Machine, cases, part};
 
-fn check(post: &Post, cl: &str, nc: &str) -> Result<Report, Box<Diag>> {
+fn check(post: &Program, cl: &str, nc: &str) -> Result<Report, Box<Diag>> {
     back_check::check(post.commons(), cl, nc, Allowed::default())
 }
 

@@ -10,21 +10,21 @@ use filpost::case::{self, Case};
 use filpost::cl::record::motion;
 use filpost::cl::{Record, Vocabulary, Word, reader};
 use filpost::map::{Digest, Entry, MapReader, Names, NcLine};
-use filpost::{Error, Post, files};
+use filpost::{Error, Program, files};
 use filpost_tests::root;
 use proptest::prelude::*;
 
-fn names(post: &Post) -> Names {
+fn names(post: &Program) -> Names {
     Names { cl: "part.ncl".into(), nc: "part.nc".into(), fil: post.fil_files() }
 }
 
 /// The program and its map; `None` for a case that is refused.
 fn mapped(case: &Case) -> Option<(Vec<u8>, Vec<u8>)> {
-    let mut post = case.post().ok()?;
+    let post = case.program().ok()?;
     let cl = files::read(&case.folder.join(&case.file.cl)).ok()?;
     let (mut nc, mut map) = (Vec::new(), Vec::new());
     let names = names(&post);
-    post.run_mapped(Cursor::new(cl), &mut nc, &names, &mut map).ok()?;
+    post.start().run_mapped(Cursor::new(cl), &mut nc, &names, &mut map).ok()?;
     Some((nc, map))
 }
 
@@ -119,11 +119,11 @@ fn an_axis_word_repeats_the_word_it_names() {
     let mut count = 0;
     let entries = std::fs::read_dir(root().join("tests/cl")).expect("CL files");
     for path in entries.map(|entry| entry.expect("an entry").path()) {
-        let mut post = Post::builder().ready("linuxcnc-mill").build().expect("a post");
+        let post = Program::builder().ready("linuxcnc-mill").build().expect("a post");
         let (mut nc, mut map) = (Vec::new(), Vec::new());
         let cl = Cursor::new(files::read(&path).expect("a CL file"));
         let names = names(&post);
-        if post.run_mapped(cl, &mut nc, &names, &mut map).is_err() {
+        if post.start().run_mapped(cl, &mut nc, &names, &mut map).is_err() {
             continue;
         }
         let records = records(&path);
@@ -152,12 +152,12 @@ fn the_example_of_the_page_is_what_is_written() {
     let update = std::env::var_os("FILPOST_UPDATE").is_some_and(|value| value == "1");
     let fil = files::read_text(&folder.join("cover.fil"), None).expect("the FIL file");
     let cl = files::read(&folder.join("cover.ncl")).expect("the CL file");
-    let mut post =
-        Post::builder().ready("fanuc-mill").fil("cover.fil", &fil).build().expect("a post");
+    let post =
+        Program::builder().ready("fanuc-mill").fil("cover.fil", &fil).build().expect("a post");
     let (mut nc, mut map) = (Vec::new(), Vec::new());
     let names =
         Names { cl: "cover.ncl".into(), nc: "cover.nc".into(), fil: vec!["cover.fil".into()] };
-    post.run_mapped(Cursor::new(&cl), &mut nc, &names, &mut map).expect("it is posted");
+    post.start().run_mapped(Cursor::new(&cl), &mut nc, &names, &mut map).expect("it is posted");
     for (name, fresh) in [("cover.nc", &nc), ("cover.nc.map", &map)] {
         let path = folder.join(name);
         if update {

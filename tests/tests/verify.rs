@@ -13,7 +13,7 @@ use std::time::Instant;
 use fil_nc::motion::{Event, Move};
 use fil_nc::verify::{Allowed, Kind, Report, Verdict, compare_programs};
 use filpost::Diag;
-use filpost::verify::{Program, Reference};
+use filpost::verify::{NcProgram, Reference};
 use filpost_tests::back_check;
 use filpost_tests::mutants;
 use filpost_tests::nc_cases::{self, NcCase};
@@ -53,10 +53,11 @@ fn same_as(name: &str, found: &str) {
 #[test]
 fn programs_agree_with_what_they_come_from() {
     let (mut list, mut wrong) = (String::new(), String::new());
-    for mut case in nc_cases::all() {
-        let program = Program { text: case.nc.as_bytes(), name: "out.nc" };
+    for case in nc_cases::all() {
+        let program = NcProgram { text: case.nc.as_bytes(), name: "out.nc" };
         let (report, reference) = case
             .post
+            .start()
             .verify(Cursor::new(&case.cl), program, Allowed::default())
             .unwrap_or_else(|refused| panic!("{}: {refused}", case.name));
         assert_eq!(reference == Reference::SecondRun, case.fil, "{}", case.name);

@@ -5,7 +5,7 @@ use fil_machine::axis_chain::AxisChain;
 use fil_nc::forward::Forward;
 use fil_nc::motion::{Event, Move};
 use fil_nc::verify::{Allowed, Kind, Report, Verdict};
-use filpost::{Commons, Post};
+use filpost::{Commons, Program};
 use filpost_tests::back_check;
 use nalgebra::Point3;
 use proptest::prelude::*;
@@ -51,10 +51,10 @@ fn targets() -> impl Strategy<Value = Vec<Target>> {
     proptest::collection::vec(target(), 1..12)
 }
 
-fn post(rotaries: &[Rotary; 2], pivot: Option<f64>, split: bool) -> Post {
-    let mut builder = Post::builder().ready("fanuc-mill");
+fn post(rotaries: &[Rotary; 2], pivot: Option<f64>, split: bool) -> Program {
+    let mut builder = Program::builder().ready("fanuc-mill");
     let mut set = |key: &str, value: f64| {
-        let builder_now = std::mem::replace(&mut builder, Post::builder());
+        let builder_now = std::mem::replace(&mut builder, Program::builder());
         builder = builder_now.set(&format!("{key}={value}"));
     };
     let names = ["primary", "secondary"];
@@ -171,7 +171,7 @@ fn posted_paths_agree_and_a_changed_last_digit_is_found() {
     let mut faults = Faults::default();
     for _ in 0..PATHS {
         let (rotaries, pivot, split, targets, which) = all.new_tree(&mut runner).unwrap().current();
-        let mut post = post(&rotaries, pivot, split);
+        let post = post(&rotaries, pivot, split);
         let cl = cl(&targets);
         let mut nc = Vec::new();
         if post.run(cl.as_bytes(), &mut nc).is_err() {
@@ -200,7 +200,7 @@ const POINTS: usize = 3;
 
 /// Divides the last line of a program as another post would: the tip on the line, even
 /// shares of the rotary axes, or of the turn of the tool in its plane, everything rounded.
-fn divided(post: &Post, targets: &[Target], nc: &str, in_plane: bool) -> Option<Divided> {
+fn divided(post: &Program, targets: &[Target], nc: &str, in_plane: bool) -> Option<Divided> {
     let machine = AxisChain::from_commons(post.commons()).ok()?;
     let moves = moves(post.commons(), nc);
     let (to, from) = (moves.last()?, moves.get(moves.len().checked_sub(2)?)?);
@@ -320,7 +320,7 @@ fn paths_with_tool_tip_control_agree_and_a_changed_last_digit_is_found() {
     let mut faults = Faults::default();
     for _ in 0..PATHS {
         let (rotaries, pivot, targets, which) = all.new_tree(&mut runner).unwrap().current();
-        let mut post = post(&rotaries, pivot, false);
+        let post = post(&rotaries, pivot, false);
         let cl = cl(&targets);
         let mut plain = Vec::new();
         if post.run(cl.as_bytes(), &mut plain).is_err() {

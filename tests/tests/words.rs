@@ -16,7 +16,7 @@ fn check(path: &Path) -> Result<(), Failed> {
     let text = std::fs::read_to_string(path)?;
     let header = Header::read(&text).map_err(Failed::from)?;
     let mut nc = Vec::new();
-    let result = header.post().and_then(|mut post| post.run(text.as_bytes(), &mut nc));
+    let result = header.post().and_then(|post| post.run(text.as_bytes(), &mut nc));
     match (result, &header.error) {
         (Err(error), Some(expected)) => {
             let diag = &error.diags()[0];

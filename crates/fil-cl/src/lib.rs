@@ -1,6 +1,7 @@
 //! CL records: vocabulary, streaming reader, writer.
 
 pub mod errors;
+mod fault;
 pub mod layout;
 pub mod reader;
 pub mod record;

@@ -8,7 +8,6 @@ use crate::value::EMPTY;
 
 /// An argument of an added function.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum Argument<'a> {
     /// A number; 999999 is EMPTY.
     Number(f64),
@@ -36,7 +35,6 @@ impl<'a> Argument<'a> {
 
 /// What an added function returns.
 #[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum Returned {
     /// A number, which must be finite; 999999 is EMPTY.
     Number(f64),

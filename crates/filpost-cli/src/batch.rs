@@ -16,6 +16,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::args::{Grant, PostArgs};
 use crate::errors::CommandCode;
 use crate::job::{self, Job, Outcome};
+use crate::posts::Posts;
 use crate::{Status, output, post, render, summary};
 
 /// Endings of CL files in a folder, lower case.
@@ -186,6 +187,7 @@ fn real(path: &Path) -> PathBuf {
 /// Runs the jobs on all cores and hands the outcomes out in their order.
 fn each(args: &PostArgs, jobs: &[Job], bar: &ProgressBar, mut take: impl FnMut(&Job, Ended)) {
     let next = AtomicUsize::new(0);
+    let posts = &Posts::new(args);
     let (send, receive) = mpsc::channel();
     thread::scope(|scope| {
         for _ in 0..workers(args, jobs.len()) {
@@ -194,7 +196,7 @@ fn each(args: &PostArgs, jobs: &[Job], bar: &ProgressBar, mut take: impl FnMut(&
                 loop {
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     let Some(job) = jobs.get(index) else { return };
-                    let run = || job::run(args, job, Some(bar));
+                    let run = || job::run(posts, job, Some(bar));
                     let ended = catch_unwind(AssertUnwindSafe(run)).ok();
                     if send.send((index, ended)).is_err() {
                         return;

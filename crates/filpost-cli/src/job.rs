@@ -7,13 +7,14 @@ use std::time::{Duration, Instant};
 
 use filpost::listing::Listing;
 use filpost::map::Names;
-use filpost::{Diag, Error, HeldFiles, Post, Report, files, select};
+use filpost::{Diag, Error, PendingFiles, Program, Report, files, select};
 use indicatif::ProgressBar;
 
 use crate::args::PostArgs;
 use crate::errors::CommandCode;
 use crate::output::{self, Target};
-use crate::setup::{self, Named};
+use crate::posts::{Built, Posts};
+use crate::setup;
 use crate::summary;
 
 /// A CL file and where its results go.
@@ -45,7 +46,7 @@ pub struct Outcome {
 }
 
 /// Posts a CL file; `bar` moves on by the bytes read.
-pub fn run(args: &PostArgs, job: &Job, bar: Option<&ProgressBar>) -> Outcome {
+pub fn run(posts: &Posts<'_>, job: &Job, bar: Option<&ProgressBar>) -> Outcome {
     let start = Instant::now();
     let mut outcome = Outcome {
         title: String::new(),
@@ -54,32 +55,42 @@ pub fn run(args: &PostArgs, job: &Job, bar: Option<&ProgressBar>) -> Outcome {
         result: Ok(Report::default()),
         time: Duration::ZERO,
     };
-    outcome.result = post(args, job, bar, &mut outcome);
+    outcome.result = post(posts, job, bar, &mut outcome);
     outcome.time = start.elapsed();
     outcome
 }
 
 fn post(
-    args: &PostArgs,
+    posts: &Posts<'_>,
     job: &Job,
     bar: Option<&ProgressBar>,
     outcome: &mut Outcome,
 ) -> Result<Report, Error> {
     let mut input = output::open(&job.cl)?;
-    let named = named(args, job, &mut input)?;
-    refuse_over_input(job, &named.inputs)?;
-    (outcome.title, outcome.note) = (named.title.clone(), named.note.clone());
-    let (mut post, listing) = build(args, job, named)?;
+    let args = posts.args();
+    let built = built(posts, job, &mut input)?;
+    refuse_over_input(job, &built.inputs)?;
+    (outcome.title, outcome.note) = (built.title, built.note);
+    let program = built.program;
+    let mut listing = job.listing.as_deref().map(open_listing).transpose()?;
+    let options = setup::cl_options(args.reading.encoding.as_deref())?;
     Target::new(job.output.as_deref()).write(|nc| {
+        let mut run = program.start().cl_name(&output::input_name(&job.cl)).reading(options);
+        if let Some(listing) = &mut listing {
+            run = run.observe(listing.observer());
+        }
         let input = Watched { input, bar, at: 0, furthest: 0 };
-        let (report, held) = match &job.map {
+        let (report, pending) = match &job.map {
             Some(map) => {
-                let names = names(&post, job, map);
-                Target::new(Some(map)).write(|map| post.run_mapped(input, nc, &names, map))?
+                let names = names(&program, job, map);
+                Target::new(Some(map)).write(|map| run.run_mapped(input, nc, &names, map))?
             }
-            None => post.run_held(input, nc)?,
+            None => run.run_pending(input, nc)?,
         };
-        finish(args, listing, &post, &report, held, outcome)?;
+        if let (Some(listing), Some(path)) = (listing, &job.listing) {
+            listing.finish().map_err(|error| files::cant_write(path, &error))?;
+        }
+        finish(args, &program, &report, pending, outcome)?;
         Ok(report)
     })
 }
@@ -87,51 +98,36 @@ fn post(
 /// What is left to do before the program appears under its name.
 fn finish(
     args: &PostArgs,
-    listing: OpenListing,
-    post: &Post,
+    program: &Program,
     report: &Report,
-    held: HeldFiles,
+    pending: PendingFiles,
     outcome: &mut Outcome,
 ) -> Result<(), Error> {
-    if let Some((path, listing)) = listing {
-        listing.finish().map_err(|error| files::cant_write(&path, &error))?;
-    }
-    outcome.warnings = post.warnings().iter().chain(&report.warnings).cloned().collect();
+    outcome.warnings = program.warnings().iter().chain(&report.warnings).cloned().collect();
     deny(args.deny_warnings, outcome.warnings.len())?;
     // Last of all: from here on only the program itself can fail to appear.
-    held.keep()
+    pending.commit()
 }
 
-fn named(args: &PostArgs, job: &Job, input: &mut File) -> Result<Named, Error> {
+/// The post of the job; afterwards the input stands at its start again.
+fn built(posts: &Posts<'_>, job: &Job, input: &mut File) -> Result<Built, Error> {
+    let args = posts.args();
     let beside = job.cl.parent().map(Path::to_path_buf).unwrap_or_default();
     let folders: Vec<PathBuf> =
         std::iter::once(beside).chain(args.post_path.iter().cloned()).collect();
     let name = output::input_name(&job.cl);
-    let named = setup::for_run(&args.chosen, &args.fil, &args.reading, &folders, || {
-        select::machin(&mut *input, &name)
-    });
+    let from = setup::from(&args.chosen, &folders, || select::machin(&mut *input, &name))?;
     input.rewind().map_err(|error| files::cant_read(&job.cl, &error))?;
-    named
+    posts.get(from)
 }
 
-type OpenListing = Option<(PathBuf, Listing<BufWriter<File>>)>;
-
-fn build(args: &PostArgs, job: &Job, named: Named) -> Result<(Post, OpenListing), Error> {
-    let options = setup::cl_options(args.reading.encoding.as_deref())?;
-    let builder = setup::granted(named.builder, &args.grants);
-    let mut builder = builder.cl_name(&output::input_name(&job.cl)).cl_options(options);
-    let mut listing = None;
-    if let Some(path) = &job.listing {
-        let file = File::create(path).map_err(|error| files::cant_write(path, &error))?;
-        let open = Listing::new(BufWriter::new(file));
-        builder = builder.observe(open.observer());
-        listing = Some((path.clone(), open));
-    }
-    Ok((builder.build()?, listing))
+fn open_listing(path: &Path) -> Result<Listing<BufWriter<File>>, Error> {
+    let file = File::create(path).map_err(|error| files::cant_write(path, &error))?;
+    Ok(Listing::new(BufWriter::new(file)))
 }
 
 /// How the map calls the files: as they are seen from its folder.
-fn names(post: &Post, job: &Job, map: &Path) -> Names {
+fn names(program: &Program, job: &Job, map: &Path) -> Names {
     let folder = map.parent().unwrap_or(Path::new(""));
     let seen = |path: &Path| Names::from_folder(folder, path);
     let stream = |path: &Path| path.as_os_str() == "-";
@@ -140,7 +136,7 @@ fn names(post: &Post, job: &Job, map: &Path) -> Names {
         Some(path) if !stream(path) => seen(path),
         _ => output::STANDARD_OUTPUT.to_string(),
     };
-    Names { cl, nc, fil: post.fil_files().iter().map(|name| seen(Path::new(name))).collect() }
+    Names { cl, nc, fil: program.fil_files().iter().map(|name| seen(Path::new(name))).collect() }
 }
 
 /// An input that moves a progress bar.

@@ -17,6 +17,7 @@ mod machine;
 mod output;
 mod plot;
 mod post;
+mod posts;
 mod render;
 mod sarif;
 mod setup;

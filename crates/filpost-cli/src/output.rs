@@ -45,7 +45,7 @@ impl Target {
     /// What `write` returns; E0702 for the target itself.
     pub fn write<T>(
         &self,
-        write: impl FnOnce(&mut dyn Write) -> Result<T, Error>,
+        write: impl FnOnce(&mut (dyn Write + Send)) -> Result<T, Error>,
     ) -> Result<T, Error> {
         match self {
             Target::File(path) => files::write_whole(path, |output| write(output)),
@@ -80,7 +80,7 @@ impl SpoolError {
 
 /// Keeps the result in a nameless file until it is complete, then hands it out.
 fn through_spool<T>(
-    write: impl FnOnce(&mut dyn Write) -> Result<T, Error>,
+    write: impl FnOnce(&mut (dyn Write + Send)) -> Result<T, Error>,
     hand_out: impl FnOnce(&mut File) -> io::Result<()>,
 ) -> Result<T, SpoolError> {
     let spool = tempfile::tempfile().map_err(SpoolError::Io)?;

@@ -6,7 +6,7 @@ use std::path::Path;
 use filpost::map::MapReader;
 use filpost::nc::plot::{Drawing, View, html, svg};
 use filpost::plot::{self, Text};
-use filpost::{Error, Post, files, select};
+use filpost::{Error, Program, files, select};
 
 use crate::args::{PlotArgs, Seen};
 use crate::output::{self, Target};
@@ -59,12 +59,12 @@ pub fn run(args: &PlotArgs) -> Result<Status, Error> {
 /// A program, with the CL file under it and the map's notes where they are given.
 fn program(args: &PlotArgs, nc: Text<'_>) -> Result<Drawing, Error> {
     let cl = args.cl.as_ref().map(|path| Ok((path, read(path)?))).transpose()?;
-    let post = machine(args, cl.as_ref().map(|(path, bytes)| (path.as_path(), &bytes[..])))?;
-    let mut drawing = plot::program(nc, post.commons())?;
+    let program = machine(args, cl.as_ref().map(|(path, bytes)| (path.as_path(), &bytes[..])))?;
+    let mut drawing = plot::program(nc, program.commons())?;
     if let Some((path, bytes)) = &cl {
         let name = output::input_name(path);
         let options = setup::cl_options(args.encoding.as_deref())?;
-        plot::lay_under(&mut drawing, Text { name: &name, bytes }, options, post.commons())?;
+        plot::lay_under(&mut drawing, Text { name: &name, bytes }, options, program.commons())?;
     }
     if let Some(path) = &args.map {
         origins(&mut drawing, nc, path)?;
@@ -84,15 +84,19 @@ fn origins(drawing: &mut Drawing, nc: Text<'_>, path: &Path) -> Result<(), Error
 
 /// The machine of the command line, else the one that the CL file asks for, else the
 /// generic mill.
-fn machine(args: &PlotArgs, cl: Option<(&Path, &[u8])>) -> Result<Post, Error> {
+fn machine(args: &PlotArgs, cl: Option<(&Path, &[u8])>) -> Result<Program, Error> {
     let named = match (setup::named(&args.chosen, args.encoding.as_deref())?, cl) {
         (Some(named), _) => named,
         (None, Some((path, bytes))) => {
             let beside = path.parent().map(Path::to_path_buf).unwrap_or_default();
             let machin = select::machin(std::io::Cursor::new(bytes), &output::input_name(path))?;
-            setup::asked(&args.chosen, machin.as_ref(), &[beside], args.encoding.as_deref())?
+            let choice = select::for_machin(machin.as_ref(), &[beside]);
+            setup::asked(&args.chosen, &choice, machin.as_ref(), args.encoding.as_deref())?
         }
-        (None, None) => setup::asked(&args.chosen, None, &[], None)?,
+        (None, None) => {
+            let choice = select::for_machin(None, &[]);
+            setup::asked(&args.chosen, &choice, None, None)?
+        }
     };
     named.builder.build()
 }

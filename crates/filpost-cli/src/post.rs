@@ -9,6 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::args::PostArgs;
 use crate::job::{self, Job, Outcome};
+use crate::posts::Posts;
 use crate::{Status, batch, output, summary};
 
 /// CL files from this size on get a progress bar, in bytes.
@@ -43,7 +44,7 @@ fn one(args: &PostArgs, cl: &Path) -> Result<Status, Error> {
         map,
     };
     let bar = bar(cl);
-    let outcome = job::run(args, &job, bar.as_ref());
+    let outcome = job::run(&Posts::new(args), &job, bar.as_ref());
     if let Some(bar) = bar {
         bar.finish_and_clear();
     }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use filpost::select::{self, Choice, Machin};
-use filpost::{Builder, Clock, Compat, Error, Post, files, includes, ready};
+use filpost::{Builder, Clock, Compat, Error, Program, files, includes, ready};
 
 use crate::args::{Chosen, ClockSource, Grant, Grants, Reading};
 
@@ -47,32 +47,55 @@ pub fn named(chosen: &Chosen, encoding: Option<&str>) -> Result<Option<Named>, E
         (Some(post), _) if ready::find(post).is_none() && Path::new(post).is_dir() => {
             folder(Path::new(post), encoding)?
         }
-        (Some(post), _) => Named::new(Post::builder().ready(post), post),
+        (Some(post), _) => Named::new(Program::builder().ready(post), post),
         (None, Some(machine)) => machine_file(machine, encoding)?,
         (None, None) => return Ok(None),
     };
     Ok(Some(with_settings(named, &chosen.set)))
 }
 
+/// Where the post of a run comes from; equal ones give the same post.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum From {
+    /// From `-p` or `-m`.
+    CommandLine,
+    /// From what the CL file asks for.
+    ClFile(Choice, Option<Machin>),
+}
+
 /// The post of `filpost post`: what the command line names, else what MACHIN
 /// in the CL file asks for. `machin` is called only in the second case.
 ///
 /// # Errors
-/// Files that can't be read, among them the CL file as far as MACHIN.
+/// A CL file that can't be read as far as MACHIN.
+pub fn from(
+    chosen: &Chosen,
+    folders: &[PathBuf],
+    machin: impl FnOnce() -> Result<Option<Machin>, Error>,
+) -> Result<From, Error> {
+    if chosen.post.is_some() || chosen.machine.is_some() {
+        return Ok(From::CommandLine);
+    }
+    let machin = machin()?;
+    Ok(From::ClFile(select::for_machin(machin.as_ref(), folders), machin))
+}
+
+/// Reads that post with its FIL files.
+///
+/// # Errors
+/// Files that can't be read.
 pub fn for_run(
     chosen: &Chosen,
     fil: &[PathBuf],
     reading: &Reading,
-    folders: &[PathBuf],
-    machin: impl FnOnce() -> Result<Option<Machin>, Error>,
+    from: &From,
 ) -> Result<Named, Error> {
     let encoding = reading.encoding.as_deref();
-    let mut named = match named(chosen, encoding)? {
-        Some(named) => named,
-        None => asked(chosen, machin()?.as_ref(), folders, encoding)?,
+    let mut named = match from {
+        From::CommandLine => named(chosen, encoding)?.unwrap_or_else(generic),
+        From::ClFile(choice, machin) => asked(chosen, choice, machin.as_ref(), encoding)?,
     };
-    let by_machin = chosen.post.is_none() && chosen.machine.is_none();
-    if by_machin && !fil.is_empty() {
+    if *from != From::CommandLine && !fil.is_empty() {
         named.fil.clear();
     }
     named.fil.extend(fil.iter().cloned());
@@ -92,11 +115,16 @@ pub fn for_run(
 /// Files that can't be read.
 pub fn asked(
     chosen: &Chosen,
+    choice: &Choice,
     machin: Option<&Machin>,
-    folders: &[PathBuf],
     encoding: Option<&str>,
 ) -> Result<Named, Error> {
-    Ok(with_settings(asked_for(machin, folders, encoding)?, &chosen.set))
+    Ok(with_settings(asked_for(choice, machin, encoding)?, &chosen.set))
+}
+
+/// The post where nothing names one.
+fn generic() -> Named {
+    Named::new(Program::builder().ready(ready::GENERIC_MILL), ready::GENERIC_MILL)
 }
 
 /// The readings of `--compat`, or the built-in ones.
@@ -125,9 +153,9 @@ fn machine_file(path: &Path, encoding: Option<&str>) -> Result<Named, Error> {
     let text = files::read_text(path, encoding)?;
     let name = path.display().to_string();
     let builder = if is_option_text(path, &text) {
-        Post::builder().option_file(&name, &text)
+        Program::builder().option_file(&name, &text)
     } else {
-        Post::builder().machine(&name, &text)
+        Program::builder().machine(&name, &text)
     };
     let mut named = Named::new(builder, name);
     named.inputs.push(path.to_path_buf());
@@ -157,12 +185,12 @@ fn unused_fil(option_file: &Path) -> Option<String> {
 
 /// The post MACHIN asks for.
 fn asked_for(
+    choice: &Choice,
     machin: Option<&Machin>,
-    folders: &[PathBuf],
     encoding: Option<&str>,
 ) -> Result<Named, Error> {
     let asked = machin.map(|machin| format!("MACHIN/{},{}", machin.name, machin.number));
-    match select::for_machin(machin, folders) {
+    match choice {
         Choice::Ready(name) => {
             let why = match &asked {
                 Some(asked) if machin.is_some_and(|machin| ready::find(&machin.name).is_some()) => {
@@ -171,15 +199,15 @@ fn asked_for(
                 Some(asked) => format!("no post found for {asked}"),
                 None => "the CL file has no MACHIN".into(),
             };
-            Ok(Named::new(Post::builder().ready(name), format!("{name} ({why})")))
+            Ok(Named::new(Program::builder().ready(name), format!("{name} ({why})")))
         }
         Choice::OptionFile { option_file, fil } => {
-            let mut named = machine_file(&option_file, encoding)?;
-            if let Some(fil) = &fil {
+            let mut named = machine_file(option_file, encoding)?;
+            if let Some(fil) = fil {
                 named.title.push_str(&format!(" with {}", fil.display()));
             }
             named.title.push_str(&format!(" (for {})", asked.unwrap_or_default()));
-            named.fil.extend(fil);
+            named.fil.extend(fil.clone());
             Ok(named)
         }
     }

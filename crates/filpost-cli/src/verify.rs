@@ -7,8 +7,8 @@ use filpost::nc::decimals;
 use filpost::nc::verify::{
     Allowed, Between, Deviation, Finding, Peak, Report, Unverified, Verdict,
 };
-use filpost::verify::{Program, Reference};
-use filpost::{Error, Post, files, select};
+use filpost::verify::{NcProgram, Reference};
+use filpost::{Error, Program, files, select};
 use serde_json::{Value, json};
 
 use crate::args::{self, VerifyArgs};
@@ -25,11 +25,13 @@ pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
     output::open(&args.nc)?
         .read_to_end(&mut text)
         .map_err(|error| files::cant_read(&args.nc, &error))?;
-    let mut post = post(args, &mut cl)?;
+    let program = program(args, &mut cl)?;
     let name = output::input_name(&args.nc);
-    let program = Program { text: &text, name: &name };
+    let nc = NcProgram { text: &text, name: &name };
     let allowed = Allowed { tolerance: args.tol, between: args.between };
-    let (report, reference) = post.verify(cl, program, allowed)?;
+    let options = setup::cl_options(args.reading.encoding.as_deref())?;
+    let run = program.start().cl_name(&output::input_name(&args.cl)).reading(options);
+    let (report, reference) = run.verify(cl, nc, allowed)?;
     match args.format {
         args::Report::Json => {
             output::print(format!("{:#}\n", as_json(&report, reference)).as_bytes())?;
@@ -55,21 +57,18 @@ pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
     Ok(if report.verdict() == Verdict::Agrees { Status::Done } else { Status::Failed })
 }
 
-fn post(args: &VerifyArgs, cl: &mut std::fs::File) -> Result<Post, Error> {
+fn program(args: &VerifyArgs, cl: &mut std::fs::File) -> Result<Program, Error> {
     let beside = args.cl.parent().map(Path::to_path_buf).unwrap_or_default();
     let folders: Vec<PathBuf> =
         std::iter::once(beside).chain(args.post_path.iter().cloned()).collect();
     let name = output::input_name(&args.cl);
-    let named = setup::for_run(&args.chosen, &args.fil, &args.reading, &folders, || {
-        select::machin(&mut *cl, &name)
-    })?;
+    let from = setup::from(&args.chosen, &folders, || select::machin(&mut *cl, &name))?;
+    let named = setup::for_run(&args.chosen, &args.fil, &args.reading, &from)?;
     cl.rewind().map_err(|error| files::cant_read(&args.cl, &error))?;
     if let Some(note) = &named.note {
         output::say(&format!("note: {note}"));
     }
-    let options = setup::cl_options(args.reading.encoding.as_deref())?;
-    let builder = setup::granted(named.builder, &args.grants);
-    builder.cl_name(&name).cl_options(options).build()
+    setup::granted(named.builder, &args.grants).build()
 }
 
 /// The finding, and the block it is about.

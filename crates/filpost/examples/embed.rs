@@ -1,7 +1,7 @@
 //! Posts a CL file with one FIL section and a function of this program, and
 //! says of each block what made it.
 
-use filpost::{Argument, Post};
+use filpost::{Argument, Program};
 
 const CL: &str =
     "UNITS / MM\nLOADTL / 3\nFEDRAT / 300, MMPM\nGOTO / 0, 0, 5\nGOTO / 40, 0, 5\nFINI\n";
@@ -21,12 +21,12 @@ fn main() -> Result<(), filpost::Error> {
         Some(_) => Ok(60.0),
         None => Err("a tool number is needed".into()),
     };
-    let mut post = Post::builder()
+    let program = Program::builder()
         .ready("fanuc-mill")
         .fil("life.fil", FIL)
         .function("TLIFEF", 1, tool_life)
         .build()?;
-    for block in post.records(CL.as_bytes()) {
+    for block in program.blocks(CL.as_bytes()) {
         let block = block?;
         println!("{:<36} CL line {}, FIL {:?}", block.text, block.origin.line, block.origin.fil);
     }

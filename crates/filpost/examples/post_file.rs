@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use filpost::{Post, files};
+use filpost::{Program, files};
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -26,10 +26,10 @@ fn main() -> ExitCode {
 }
 
 fn post(cl: &Path, nc: &Path, fil: Option<&Path>) -> Result<(), filpost::Error> {
-    let mut builder = Post::builder().ready("linuxcnc-mill");
+    let mut builder = Program::builder().ready("linuxcnc-mill");
     if let Some(fil) = fil {
         builder = builder.fil(&fil.display().to_string(), &files::read_text(fil, None)?);
     }
-    files::post_file(&mut builder.build()?, cl, nc)?;
+    builder.build()?.run_files(cl, nc)?;
     Ok(())
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use filpost::map::Names;
-use filpost::{Error, Post, files};
+use filpost::{Error, Program, files};
 
 fn main() -> ExitCode {
     let arguments: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
@@ -24,7 +24,7 @@ fn main() -> ExitCode {
 }
 
 fn post(cl: &Path, nc: &Path) -> Result<(), Error> {
-    let mut post = Post::builder().ready("linuxcnc-mill").build()?;
+    let program = Program::builder().ready("linuxcnc-mill").build()?;
     let input = File::open(cl).map_err(|error| files::cant_read(cl, &error))?;
     let mut map = nc.as_os_str().to_owned();
     map.push(".map");
@@ -32,8 +32,8 @@ fn post(cl: &Path, nc: &Path) -> Result<(), Error> {
     let folder = nc.parent().unwrap_or(Path::new(""));
     let seen = |path: &Path| Names::from_folder(folder, path);
     let names = Names { cl: seen(cl), nc: seen(nc), fil: Vec::new() };
-    let (_, held) = files::write_whole(nc, |nc| {
-        files::write_whole(map, |map| post.run_mapped(input, nc, &names, map))
+    let (_, pending) = files::write_whole(nc, |nc| {
+        files::write_whole(map, |map| program.start().run_mapped(input, nc, &names, map))
     })?;
-    held.keep()
+    pending.commit()
 }

@@ -2,14 +2,18 @@
 
 use std::collections::VecDeque;
 use std::io::Read;
+use std::iter::FusedIterator;
 
+use fil_cl::reader::Reader;
 use fil_post::Origin;
 
 use crate::engine::Engine;
 use crate::error::Error;
+use crate::report::Report;
 
 /// A block of the NC program.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Block {
     /// Number of the block in the program, 1-based.
     pub number: u64,
@@ -19,17 +23,26 @@ pub struct Block {
     pub origin: Origin,
 }
 
-/// Iterator over the blocks of a run; ends after the first error.
-pub struct Blocks<'p, R: Read> {
-    engine: Engine<'p, R>,
+/// Iterator over the blocks of a run; ends after the first error. Take it by
+/// `&mut` to ask for the report at the end.
+///
+/// Files that scripts write appear when the last block is handed out.
+pub struct Blocks<'o, R: Read> {
+    engine: Engine<'o, Reader<R>>,
     ready: VecDeque<Block>,
     number: u64,
     over: bool,
 }
 
-impl<'p, R: Read> Blocks<'p, R> {
-    pub(crate) fn new(engine: Engine<'p, R>) -> Self {
+impl<'o, R: Read> Blocks<'o, R> {
+    pub(crate) fn new(engine: Engine<'o, Reader<R>>) -> Self {
         Blocks { engine, ready: VecDeque::new(), number: 0, over: false }
+    }
+
+    /// What the run has to tell so far, its warnings among it; all of it after the
+    /// last block.
+    pub fn report(&self) -> &Report {
+        self.engine.report()
     }
 
     fn take_blocks(&mut self) {
@@ -41,36 +54,31 @@ impl<'p, R: Read> Blocks<'p, R> {
         });
         self.number = number;
     }
+
+    /// Carries out records until there is a block, or the run is over.
+    fn advance(&mut self) -> Result<(), Error> {
+        while self.ready.is_empty() && !self.over {
+            let more = self.engine.step();
+            self.over = !matches!(more, Ok(true));
+            more?;
+            if self.over {
+                self.engine.take_pending().commit()?;
+            }
+            self.take_blocks();
+        }
+        Ok(())
+    }
 }
 
 impl<R: Read> Iterator for Blocks<'_, R> {
     type Item = Result<Block, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        while self.ready.is_empty() && !self.over {
-            match self.engine.step() {
-                Ok(true) => {}
-                Ok(false) => {
-                    self.over = true;
-                    if let Err(error) = self.engine.take_held().keep() {
-                        self.ready.clear();
-                        return Some(Err(error));
-                    }
-                }
-                Err(error) => {
-                    self.over = true;
-                    self.ready.clear();
-                    return Some(Err(error));
-                }
-            }
-            self.take_blocks();
+        match self.advance() {
+            Ok(()) => self.ready.pop_front().map(Ok),
+            Err(error) => Some(Err(error)),
         }
-        self.ready.pop_front().map(Ok)
     }
 }
 
-impl<R: Read> Drop for Blocks<'_, R> {
-    fn drop(&mut self) {
-        self.engine.finish();
-    }
-}
+impl<R: Read> FusedIterator for Blocks<'_, R> {}

@@ -1,24 +1,20 @@
-//! Building a post: machine, FIL files, limits, functions, observers.
+//! Building a program: machine, FIL files, limits, functions, grants.
 
-use std::io::{Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fil_cl::{Vocabulary, reader};
+use fil_cl::Vocabulary;
 use fil_diag::Diag;
 use fil_machine::{Commons, files as settings};
-use fil_vm::{Argument, Compat, FilFile, Functions, Included, Limits, LoadOptions, Loader, Module};
+use fil_vm::{
+    Argument, Compat, FilFile, Functions, Included, Limits, LoadOptions, Loader, Returned,
+};
 
-use crate::blocks::Blocks;
-use crate::engine::Engine;
 use crate::error::{Error, RunCode};
-use crate::files;
 use crate::granted::{Clock, Spawn};
-use crate::map;
-use crate::observe::{Observer, WhatHappened};
+use crate::program::{Program, Shared};
 use crate::ready;
-use crate::report::Report;
-use crate::script_files::{Folders, HeldFiles, real_folder};
+use crate::script_files::{Folders, real_folder};
 
 /// Where the settings of the machine come from.
 enum Machine {
@@ -28,7 +24,8 @@ enum Machine {
     Commons(Box<Commons>),
 }
 
-/// Collects what a post is made of; see [`Post::builder`].
+/// Collects what a program is made of; see [`Program::builder`].
+#[must_use = "a builder makes no program before `build`"]
 pub struct Builder {
     machine: Option<Machine>,
     settings: Vec<String>,
@@ -37,9 +34,6 @@ pub struct Builder {
     compat: Compat,
     strict: bool,
     functions: Functions,
-    observers: Vec<Observer>,
-    cl_name: String,
-    options: reader::Options,
     includes: Option<Includes>,
     clock: Option<Clock>,
     spawn: Option<Spawn>,
@@ -51,6 +45,23 @@ pub struct Builder {
 type Includes = Box<dyn FnMut(&str, &str) -> Result<Included, String> + Send>;
 
 impl Builder {
+    pub(crate) fn new() -> Self {
+        Builder {
+            machine: None,
+            settings: Vec::new(),
+            fil: Vec::new(),
+            limits: Limits::default(),
+            compat: Compat::default(),
+            strict: false,
+            functions: Functions::new(),
+            includes: None,
+            clock: None,
+            spawn: None,
+            read: None,
+            write: None,
+        }
+    }
+
     /// A post inside the crate, by its name in [`ready::READY`].
     pub fn ready(mut self, name: &str) -> Self {
         self.machine = Some(Machine::Ready(name.into()));
@@ -105,21 +116,40 @@ impl Builder {
         self
     }
 
-    /// Adds a FIL function of this program. An `Err` stops the run with that
-    /// sentence and the FIL line.
-    pub fn function(
+    /// Adds a function of your own to FIL. It returns a number or a text
+    /// ([`Returned`]); an `Err` stops the run with that sentence and the FIL line.
+    /// Runs in several threads call it at the same time.
+    ///
+    /// Its name must be its own: one that FIL or the CL vocabulary has is refused
+    /// by [`Builder::build`] (E0229).
+    ///
+    /// ```
+    /// use filpost::Program;
+    ///
+    /// let fil = "CIMFIL/ON,LOADTL\nNAME=TNAMEF(POSTF(7,4))\nPPRINT/NAME\nDMY=POSTF(13)\n\
+    ///            CIMFIL/OFF\nFINI\n";
+    /// let program = Program::builder()
+    ///     .ready("fanuc-mill")
+    ///     .fil("tools.fil", fil)
+    ///     .function("TNAMEF", 1, |arguments| match arguments[0].number() {
+    ///         Some(3.0) => Ok("END MILL 12"),
+    ///         _ => Err("this tool is in no drawer".into()),
+    ///     })
+    ///     .build()?;
+    /// let mut nc = Vec::new();
+    /// program.run("UNITS / MM\nLOADTL / 3\nFINI\n".as_bytes(), &mut nc)?;
+    /// assert!(String::from_utf8_lossy(&nc).contains("(END MILL 12)"));
+    /// let refused = program.run("UNITS / MM\nLOADTL / 4\nFINI\n".as_bytes(), &mut nc);
+    /// assert!(refused.expect_err("refused").to_string().contains("in no drawer"));
+    /// # Ok::<(), filpost::Error>(())
+    /// ```
+    pub fn function<T: Into<Returned>>(
         mut self,
         name: &str,
         arity: u16,
-        body: impl FnMut(&[Argument<'_>]) -> Result<f64, String> + Send + 'static,
+        body: impl Fn(&[Argument<'_>]) -> Result<T, String> + Send + Sync + 'static,
     ) -> Self {
         self.functions.add(name, arity, body);
-        self
-    }
-
-    /// Adds an observer of records, sections and blocks.
-    pub fn observe(mut self, observer: impl FnMut(WhatHappened<'_>) + Send + 'static) -> Self {
-        self.observers.push(Box::new(observer));
         self
     }
 
@@ -157,30 +187,18 @@ impl Builder {
     /// with that sentence and the FIL line. Without it SPAWNF is refused.
     pub fn allow_spawn(
         mut self,
-        run: impl FnMut(&str) -> Result<f64, String> + Send + 'static,
+        run: impl Fn(&str) -> Result<f64, String> + Send + Sync + 'static,
     ) -> Self {
         self.spawn = Some(Box::new(run));
         self
     }
 
-    /// The name of the CL file in messages.
-    pub fn cl_name(mut self, name: &str) -> Self {
-        self.cl_name = name.into();
-        self
-    }
-
-    /// How CL text is read: dialect, encoding of texts, longest statement.
-    pub fn cl_options(mut self, options: reader::Options) -> Self {
-        self.options = options;
-        self
-    }
-
-    /// Builds the post; the machine is the generic mill when none was given.
+    /// Builds the program; the machine is the generic mill when none was given.
     ///
     /// # Errors
-    /// All that is wrong with the machine, or with the FIL files; E0701 for a
-    /// granted folder that is not there.
-    pub fn build(self) -> Result<Post, Error> {
+    /// All that is wrong with the machine, or with the FIL files and the names of
+    /// added functions; E0701 for a granted folder that is not there.
+    pub fn build(self) -> Result<Program, Error> {
         let (mut commons, mut warnings) = commons_of(self.machine)?;
         for setting in &self.settings {
             settings::apply_setting(&mut commons, setting).map_err(Error::setup)?;
@@ -205,20 +223,18 @@ impl Builder {
         )
         .map_err(Error::Setup)?;
         warnings.extend(loaded.warnings);
-        Ok(Post {
+        let shared = Shared {
             prototype,
             module: Arc::new(loaded.module),
             vocabulary,
-            functions: self.functions,
+            functions: Arc::new(self.functions),
             limits: self.limits,
-            observers: self.observers,
-            cl_name: self.cl_name,
-            options: self.options,
             warnings,
             clock: self.clock,
             spawn: self.spawn,
             folders,
-        })
+        };
+        Ok(Program { shared: Arc::new(shared) })
     }
 }
 
@@ -249,147 +265,5 @@ fn commons_of(machine: Option<Machine>) -> Result<(Commons, Vec<Diag>), Error> {
             })?;
             settings::read_toml(post.name, post.machine).map_err(Error::setup)
         }
-    }
-}
-
-/// A machine with its FIL, ready to post any number of CL files. Each run
-/// starts from the same state.
-pub struct Post {
-    /// The post as each run starts with it.
-    pub(crate) prototype: fil_post::Post,
-    pub(crate) module: Arc<Module>,
-    pub(crate) vocabulary: Vocabulary,
-    pub(crate) functions: Functions,
-    pub(crate) limits: Limits,
-    pub(crate) observers: Vec<Observer>,
-    pub(crate) cl_name: String,
-    pub(crate) options: reader::Options,
-    pub(crate) warnings: Vec<Diag>,
-    pub(crate) clock: Option<Clock>,
-    pub(crate) spawn: Option<Spawn>,
-    pub(crate) folders: Option<Arc<Folders>>,
-}
-
-impl Post {
-    /// Starts building a post.
-    pub fn builder() -> Builder {
-        Builder {
-            machine: None,
-            settings: Vec::new(),
-            fil: Vec::new(),
-            limits: Limits::default(),
-            compat: Compat::default(),
-            strict: false,
-            functions: Functions::new(),
-            observers: Vec::new(),
-            cl_name: "CL".into(),
-            options: reader::Options::default(),
-            includes: None,
-            clock: None,
-            spawn: None,
-            read: None,
-            write: None,
-        }
-    }
-
-    /// Warnings of building: settings without effect, forgiven FIL.
-    pub fn warnings(&self) -> &[Diag] {
-        &self.warnings
-    }
-
-    /// The settings.
-    pub fn commons(&self) -> &Commons {
-        &self.prototype.control.commons
-    }
-
-    /// Sets the name of the CL file in messages.
-    pub fn name_cl(&mut self, name: &str) {
-        self.cl_name = name.into();
-    }
-
-    /// Names of the FIL files, by the numbers in [`crate::FilLine::file`].
-    pub fn fil_files(&self) -> Vec<String> {
-        self.module.files.iter().map(|file| file.name.clone()).collect()
-    }
-
-    /// Posts a CL stream. The stream can't go back, so POSTF(15) and (16) are
-    /// refused.
-    ///
-    /// # Errors
-    /// The first thing that is wrong; what was written until then is not a
-    /// program. The writer's own errors come as E0702.
-    pub fn run(&mut self, cl: impl Read, nc: impl Write) -> Result<Report, Error> {
-        let reader = reader::Reader::new(cl, &self.cl_name, self.options);
-        let (report, held) = self.drive(reader, nc, None).0?;
-        held.keep()?;
-        Ok(report)
-    }
-
-    /// Posts a CL file that can go back.
-    ///
-    /// # Errors
-    /// As [`Post::run`].
-    pub fn run_seekable(&mut self, cl: impl Read + Seek, nc: impl Write) -> Result<Report, Error> {
-        let (report, held) = self.run_held(cl, nc)?;
-        held.keep()?;
-        Ok(report)
-    }
-
-    /// The same, with the files of scripts held back until [`HeldFiles::keep`]: for
-    /// a caller that can still refuse the program.
-    ///
-    /// # Errors
-    /// As [`Post::run`].
-    pub fn run_held(
-        &mut self,
-        cl: impl Read + Seek,
-        nc: impl Write,
-    ) -> Result<(Report, HeldFiles), Error> {
-        let reader = reader::Reader::seekable(cl, &self.cl_name, self.options);
-        self.drive(reader, nc, None).0
-    }
-
-    /// The same, with the line map of the run. `names` is how the map calls the
-    /// files; see [`map::Names::from_folder`].
-    ///
-    /// # Errors
-    /// As [`Post::run`]; E0702 for the map.
-    pub fn run_mapped(
-        &mut self,
-        cl: impl Read + Seek,
-        nc: impl Write,
-        names: &map::Names,
-        mut output: impl Write,
-    ) -> Result<(Report, HeldFiles), Error> {
-        let cant = |error| files::cant_read(Path::new(&names.cl), &error);
-        let mut cl = map::Digested::new(cl).map_err(cant)?;
-        let reader = reader::Reader::seekable(&mut cl, &self.cl_name, self.options);
-        let cant_write = |error| files::cant_write(Path::new("the line map"), &error);
-        let module = self.module.clone();
-        let map = map::Writer::new(&mut output, names, &module).map_err(cant_write)?;
-        let (result, map) = self.drive(reader, nc, Some(map));
-        let result = result?;
-        let digest = cl.finish().map_err(cant)?;
-        map.map_or(Ok(()), |map| map.finish(digest)).map_err(cant_write)?;
-        Ok(result)
-    }
-
-    /// The blocks of a CL stream, one by one, each with what made it.
-    pub fn records<R: Read>(&mut self, cl: R) -> Blocks<'_, R> {
-        let reader = reader::Reader::new(cl, &self.cl_name, self.options);
-        Blocks::new(Engine::new(self, reader, true, None))
-    }
-
-    fn drive<'p, R: Read>(
-        &'p mut self,
-        reader: reader::Reader<R>,
-        mut nc: impl Write,
-        map: Option<map::Writer<'p>>,
-    ) -> (Result<(Report, HeldFiles), Error>, Option<map::Writer<'p>>) {
-        let observed = !self.observers.is_empty();
-        let mut engine = Engine::new(self, reader, observed, map);
-        let result = engine.run(&mut nc);
-        engine.finish();
-        (result, engine.take_map())
     }
 }

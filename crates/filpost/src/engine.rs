@@ -1,22 +1,22 @@
 //! One run: records from the reader, through their sections, into the post.
 
-use std::io::{Read, Write};
+use std::io::Write;
 use std::path::Path;
+use std::sync::Arc;
 
-use fil_cl::{Record, Vocabulary, reader::Reader, record::kind};
-use fil_diag::Diag;
+use fil_cl::{Record, Vocabulary, record::kind};
+use fil_diag::Result;
 use fil_post::Origin;
-use fil_vm::{Machine, SectionMode};
+use fil_vm::{Machine, SectionId, SectionMode};
 
-use crate::builder::Post;
 use crate::error::{Error, RunCode};
-use crate::granted::Granted;
+use crate::event::Event;
 use crate::map;
-use crate::observe::WhatHappened;
 use crate::outside::Outside;
 use crate::report::Report;
-use crate::script_files::{HeldFiles, ScriptFiles};
-use crate::source::Source;
+use crate::run::Start;
+use crate::script_files::{PendingFiles, ScriptFiles};
+use crate::source::Records;
 
 /// Bytes of finished blocks that are kept before they go to the writer.
 const FLUSH: usize = 64 * 1024;
@@ -25,17 +25,16 @@ const FLUSH: usize = 64 * 1024;
 /// back each time it runs would never let the run end.
 const FUEL_OF_READING_AGAIN: u64 = 100;
 
-/// A run of a [`Post`].
-pub(crate) struct Engine<'p, R: Read> {
-    outside: Outside<'p, R>,
+/// A run of a [`Program`](crate::Program).
+pub(crate) struct Engine<'o, S> {
+    outside: Outside<'o, S>,
     vocabulary: Vocabulary,
-    machine: Option<Machine>,
+    machine: Machine,
     has_sections: bool,
     /// The last record of the file that was reached, and fuel left to read it
     /// and those before it again.
     furthest: u32,
     fuel: u64,
-    functions_home: &'p mut fil_vm::Functions,
     record: Record,
     started: bool,
     /// Blocks on the tape that observers have seen.
@@ -43,42 +42,24 @@ pub(crate) struct Engine<'p, R: Read> {
     failure: Option<Error>,
 }
 
-impl<'p, R: Read> Engine<'p, R> {
+impl<'o, S: Records> Engine<'o, S> {
     /// A run from the start. `observed`: keep the provenance of blocks; so does
     /// a run with a map.
-    pub(crate) fn new(
-        post: &'p mut Post,
-        reader: Reader<R>,
-        observed: bool,
-        map: Option<map::Writer<'p>>,
-    ) -> Self {
-        let functions = std::mem::take(&mut post.functions);
-        let machine = Machine::new(post.module.clone(), post.limits, functions);
-        let has_sections = !post.module.has_no_section();
-        let mut outside = Outside {
-            source: Source::new(reader, has_sections),
-            module: post.module.clone(),
-            post: post.prototype.clone(),
-            report: Report::default(),
-            observers: &mut post.observers,
-            cl_name: &post.cl_name,
-            ended: false,
-            trace: false,
-            section: None,
-            map,
-            granted: Granted::new(post.clock, post.spawn.as_mut(), post.folders.clone()),
-        };
+    pub(crate) fn new(start: Start<'o>, records: S, observed: bool) -> Self {
+        let shared = Arc::clone(&start.program.shared);
+        let functions = Arc::clone(&shared.functions);
+        let machine = Machine::new(Arc::clone(&shared.module), shared.limits, functions);
+        let mut outside = Outside::new(start, records);
         if observed || outside.map.is_some() {
             outside.post.observe();
         }
         Engine {
             outside,
-            vocabulary: post.vocabulary.clone(),
-            machine: Some(machine),
-            has_sections,
+            vocabulary: shared.vocabulary.clone(),
+            machine,
+            has_sections: !shared.module.has_no_section(),
             furthest: 0,
-            fuel: post.limits.fuel,
-            functions_home: &mut post.functions,
+            fuel: shared.limits.fuel,
             record: Record::default(),
             started: false,
             shown: 0,
@@ -86,15 +67,8 @@ impl<'p, R: Read> Engine<'p, R> {
         }
     }
 
-    /// Gives the embedding program's functions back to the post.
-    pub(crate) fn finish(&mut self) {
-        if let Some(machine) = self.machine.take() {
-            *self.functions_home = machine.into_functions();
-        }
-    }
-
     /// Runs to the end; what the script wrote is not under its names yet.
-    pub(crate) fn run(&mut self, nc: &mut impl Write) -> Result<(Report, HeldFiles), Error> {
+    pub(crate) fn run(&mut self, nc: &mut impl Write) -> Result<(Report, PendingFiles), Error> {
         let observed = !self.outside.observers.is_empty();
         let mut more = true;
         while more {
@@ -107,24 +81,26 @@ impl<'p, R: Read> Engine<'p, R> {
             }
         }
         nc.flush().map_err(write_error)?;
-        let mut report = std::mem::take(&mut self.outside.report);
-        report.records = self.outside.source.records;
-        report.metric = self.outside.post.control.is_metric();
-        report.blocks = self.outside.post.control.tape.count;
-        report.warnings.append(&mut self.outside.post.control.warnings.list);
-        let held = self.take_held();
-        report.script_files = held.paths().map(Path::to_path_buf).collect();
-        Ok((report, held))
+        let pending = self.take_pending();
+        Ok((std::mem::take(&mut self.outside.report), pending))
+    }
+
+    /// What the run has to tell so far.
+    pub(crate) fn report(&self) -> &Report {
+        &self.outside.report
     }
 
     /// The map of the run, to be ended.
-    pub(crate) fn take_map(&mut self) -> Option<map::Writer<'p>> {
+    pub(crate) fn take_map(&mut self) -> Option<map::Writer<'o>> {
         self.outside.map.take()
     }
 
     /// What the script wrote, when the program is complete.
-    pub(crate) fn take_held(&mut self) -> HeldFiles {
-        self.outside.granted.files.take().map(ScriptFiles::into_held).unwrap_or_default()
+    pub(crate) fn take_pending(&mut self) -> PendingFiles {
+        let files = self.outside.granted.files.take();
+        let pending = files.map(ScriptFiles::into_pending).unwrap_or_default();
+        self.outside.report.script_files = pending.paths().map(Path::to_path_buf).collect();
+        pending
     }
 
     /// Carries out the next record; false when the program is complete.
@@ -133,6 +109,7 @@ impl<'p, R: Read> Engine<'p, R> {
             return Err(failure.clone());
         }
         let result = self.advance().map_err(Error::Run);
+        self.outside.note_counts();
         if let Err(error) = &result {
             self.failure = Some(error.clone());
         }
@@ -154,7 +131,7 @@ impl<'p, R: Read> Engine<'p, R> {
             let origin = tape.stacks.origin(block.cause);
             take(&text, &origin);
             for observer in self.outside.observers.iter_mut() {
-                observer(WhatHappened::Block { text: &text, origin: &origin });
+                observer(Event::Block { text: &text, origin: &origin });
             }
         }
         self.shown = noted.blocks.len();
@@ -165,6 +142,7 @@ impl<'p, R: Read> Engine<'p, R> {
         if let Some(noted) = &mut tape.noted {
             noted.clear();
         }
+        self.outside.report.bytes += tape.text.len() as u64;
         tape.text.clear();
         self.shown = 0;
     }
@@ -172,18 +150,18 @@ impl<'p, R: Read> Engine<'p, R> {
     fn flush(&mut self, nc: &mut impl Write) -> Result<(), Error> {
         let tape = &mut self.outside.post.control.tape;
         nc.write_all(&tape.text).map_err(write_error)?;
-        self.outside.report.bytes += tape.text.len() as u64;
         if let Some(map) = &mut self.outside.map {
+            // The map takes the text along.
+            self.outside.report.bytes += tape.text.len() as u64;
             map.blocks(tape);
         }
         self.forget_blocks();
         Ok(())
     }
 
-    fn advance(&mut self) -> Result<bool, Box<Diag>> {
-        let first = !std::mem::replace(&mut self.started, true);
-        if let Some(machine) = self.machine.as_mut().filter(|_| first) {
-            machine.run_globals(&mut self.vocabulary, &mut self.outside)?;
+    fn advance(&mut self) -> Result<bool> {
+        if !std::mem::replace(&mut self.started, true) {
+            self.machine.run_globals(&mut self.vocabulary, &mut self.outside)?;
         }
         if !self.outside.read(&mut self.record, &mut self.vocabulary)? {
             self.outside.end_of_file()?;
@@ -195,28 +173,9 @@ impl<'p, R: Read> Engine<'p, R> {
         } else {
             None
         };
-        match (section, &mut self.machine) {
-            (Some(section), Some(machine)) => {
-                let (number, line) = (self.record.number, self.record.line);
-                self.outside.section = Some(section);
-                let outcome = machine.run_section(
-                    section,
-                    &mut self.record,
-                    &mut self.vocabulary,
-                    &mut self.outside,
-                )?;
-                self.outside.section = None;
-                let mut swallowed = outcome.swallowed();
-                if self.outside.module.compat.section == SectionMode::Process
-                    && !outcome.processed
-                    && !outcome.replaced
-                {
-                    swallowed = false;
-                    self.outside.process(&self.record, &self.vocabulary)?;
-                }
-                self.outside.section_done(section, (number, line), swallowed);
-            }
-            _ => self.outside.process(&self.record, &self.vocabulary)?,
+        match section {
+            Some(section) => self.run_section(section)?,
+            None => self.outside.process(&self.record, &self.vocabulary)?,
         }
         if self.outside.ended {
             self.outside.after_fini(&mut self.record, &mut self.vocabulary)?;
@@ -225,8 +184,31 @@ impl<'p, R: Read> Engine<'p, R> {
         Ok(true)
     }
 
+    /// Runs the section that takes the current record.
+    fn run_section(&mut self, section: SectionId) -> Result<()> {
+        let (number, line) = (self.record.number, self.record.line);
+        self.outside.section = Some(section);
+        let outcome = self.machine.run_section(
+            section,
+            &mut self.record,
+            &mut self.vocabulary,
+            &mut self.outside,
+        )?;
+        self.outside.section = None;
+        let mut swallowed = outcome.swallowed();
+        if self.outside.module.compat.section == SectionMode::Process
+            && !outcome.processed
+            && !outcome.replaced
+        {
+            swallowed = false;
+            self.outside.process(&self.record, &self.vocabulary)?;
+        }
+        self.outside.section_done(section, (number, line), swallowed);
+        Ok(())
+    }
+
     /// Refuses a run that reads the same records again and again.
-    fn watch_progress(&mut self) -> Result<(), Box<Diag>> {
+    fn watch_progress(&mut self) -> Result<()> {
         if self.record.number > self.furthest {
             self.furthest = self.record.number;
             return Ok(());
@@ -237,10 +219,10 @@ impl<'p, R: Read> Engine<'p, R> {
         }
         let message = format!("record {} is read again and again", self.record.number);
         let place = self.outside.place(&self.record, &self.vocabulary);
-        Err(Box::new(Diag::new(fil_vm::errors::RunCode::OutOfFuel, message).at(place)))
+        Err(Box::new(fil_vm::errors::RunCode::OutOfFuel.diag(message).at(place)))
     }
 }
 
 fn write_error(error: std::io::Error) -> Error {
-    Error::Run(Box::new(Diag::new(RunCode::CantWrite, error.to_string())))
+    Error::Run(RunCode::CantWrite.diag(error.to_string()))
 }

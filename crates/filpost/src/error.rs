@@ -4,6 +4,7 @@ use fil_diag::{Code, Diag};
 
 fil_diag::codes! {
     /// Codes of a run and of the files around it.
+    #[non_exhaustive]
     pub enum RunCode {
         /// A file can't be read.
         CantRead = 701, Error, "file can't be read",
@@ -45,6 +46,14 @@ fil_diag::codes! {
         NoMap = 710, Error, "no line map",
             "The map of OUT.nc is looked for as OUT.nc.map, that of a CL or FIL file among the maps in its folder and in the current one.",
             "Post the CL file with --map, or name the map with --map.";
+        /// The embedding program has stopped the run.
+        Cancelled = 711, Error, "run cancelled",
+            "The program around filpost has stopped the run before its end.",
+            "What was written until then is not an NC program; run it again.";
+        /// A record from memory that makes no sense.
+        BadRecord = 712, Error, "record from memory can't be used",
+            "A record that a program hands over is as a statement would make it: words of the program's vocabulary, finite numbers, texts without control characters, motion with its coordinates.",
+            "Make the record with Record::statement, Record::goto or Record::text_command.";
         /// Statements after the end.
         AfterFini = 751, Warning, "records after FINI",
             "FINI ends the program; what comes after it is not posted.",
@@ -63,6 +72,7 @@ fil_diag::codes! {
 /// Why a post could not be built or a run was given up. Nothing that was
 /// written before the error may be used.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub enum Error {
     /// The machine or the FIL files are not right; all that is wrong with them.
     Setup(Vec<Diag>),
@@ -77,6 +87,12 @@ impl Error {
             Error::Setup(diags) => diags,
             Error::Run(diag) => std::slice::from_ref(diag),
         }
+    }
+
+    /// True for a run that a [`CancelToken`](crate::CancelToken) has stopped.
+    pub fn is_cancelled(&self) -> bool {
+        let cancelled: &Code = RunCode::Cancelled.into();
+        self.diags().iter().any(|diag| diag.code == cancelled)
     }
 
     /// An error of building with one diagnostic.

@@ -1,5 +1,5 @@
-//! Posting from file to file: the output appears under its name only when the
-//! whole run went well.
+//! Files: read whole, and written so that they appear under their names only when
+//! all went well.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -8,9 +8,7 @@ use std::path::Path;
 use fil_diag::Diag;
 use tempfile::NamedTempFile;
 
-use crate::builder::Post;
 use crate::error::{Error, RunCode};
-use crate::report::Report;
 
 /// Buffer between the post and the file; blocks that come in pieces of this
 /// size pass it by.
@@ -32,20 +30,6 @@ pub fn read_text(path: &Path, encoding: Option<&str>) -> Result<String, Error> {
     let bytes = read(path)?;
     let (text, _) = fil_syntax::decode(&bytes, encoding).map_err(Error::setup)?;
     Ok(text.into_owned())
-}
-
-/// Posts a CL file into an NC file. On any error there is no file under the
-/// output's name: an older one of that name is left as it was.
-///
-/// # Errors
-/// As [`Post::run`]; E0701 and E0702 for files that can't be read or written.
-pub fn post_file(post: &mut Post, cl: &Path, nc: &Path) -> Result<Report, Error> {
-    let input = File::open(cl).map_err(|error| cant_read(cl, &error))?;
-    if input.metadata().is_ok_and(|found| found.is_dir()) {
-        return Err(cant_read(cl, &io::Error::from(io::ErrorKind::IsADirectory)));
-    }
-    post.name_cl(&cl.display().to_string());
-    write_whole(nc, |output| post.run_seekable(input, output))
 }
 
 /// Writes a file through a neighbour that takes its name at the end.

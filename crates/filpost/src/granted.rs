@@ -9,6 +9,7 @@ use crate::script_files::{Folders, ScriptFiles};
 
 /// Where DATEF and TIMEF get their moment from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Clock {
     /// Always the same, so that the same input gives the same bytes.
     Fixed(Moment),
@@ -17,26 +18,21 @@ pub enum Clock {
 }
 
 /// Runs the command of SPAWNF and gives its status.
-pub(crate) type Spawn = Box<dyn FnMut(&str) -> Result<f64, String> + Send>;
+pub(crate) type Spawn = Box<dyn Fn(&str) -> Result<f64, String> + Send + Sync>;
 
 /// What one run has been granted.
-pub(crate) struct Granted<'p> {
+pub(crate) struct Granted {
     clock: Option<Clock>,
     /// The moment of this run, once it was asked for.
     now: Option<Moment>,
-    spawn: Option<&'p mut Spawn>,
     /// The script's files; `None` where no folder is granted.
     pub files: Option<ScriptFiles>,
 }
 
-impl<'p> Granted<'p> {
+impl Granted {
     /// The grants of a run.
-    pub fn new(
-        clock: Option<Clock>,
-        spawn: Option<&'p mut Spawn>,
-        folders: Option<Arc<Folders>>,
-    ) -> Self {
-        Granted { clock, now: None, spawn, files: folders.map(ScriptFiles::new) }
+    pub fn new(clock: Option<Clock>, folders: Option<Arc<Folders>>) -> Self {
+        Granted { clock, now: None, files: folders.map(ScriptFiles::new) }
     }
 
     /// The moment of the run; `None` without a clock.
@@ -51,10 +47,5 @@ impl<'p> Granted<'p> {
             };
         }
         self.now
-    }
-
-    /// Runs a command; `None` where commands are not granted.
-    pub fn spawn(&mut self, command: &str) -> Option<Result<f64, String>> {
-        self.spawn.as_mut().map(|run| run(command))
     }
 }

@@ -3,37 +3,43 @@
 //! ```
 //! let cl = "PARTNO / 7\nUNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\n\
 //!           FEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n";
-//! let mut post = filpost::Post::builder().ready("fanuc-mill").build()?;
+//! let program = filpost::Program::builder().ready("fanuc-mill").build()?;
 //! let mut nc = Vec::new();
-//! let report = post.run(cl.as_bytes(), &mut nc)?;
+//! let report = program.run(cl.as_bytes(), &mut nc)?;
 //! assert_eq!(report.blocks, 8);
 //! assert!(String::from_utf8(nc)?.contains("G1 G43 X1. Y2. Z3. F200. H1"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`Post::builder`] takes a machine (a ready post, a `machine.toml`, an option
-//! file), FIL files, limits, functions of the embedding program and observers;
-//! [`Post::run`] goes from a reader to a writer, [`Post::records`] gives the
-//! blocks one by one with the CL record and the FIL lines that made them.
+//! [`Program::builder`] takes a machine (a ready post, a `machine.toml`, an option
+//! file), FIL files, limits and functions of the embedding program. A [`Program`]
+//! never changes and is shared by threads. [`Program::run`] takes a CL stream to a
+//! writer, [`Program::blocks`] gives the blocks one by one with the CL record and
+//! the FIL lines that made them, and [`Program::start`] begins a [`Run`] with options:
+//! observers, a [`CancelToken`], the name of the CL file.
 #![deny(missing_docs)]
 
 mod blocks;
 mod builder;
+mod cancel;
 pub mod case;
 pub mod check;
 mod compat;
 mod engine;
 mod error;
+mod event;
 pub mod files;
 mod granted;
 pub mod includes;
 pub mod listing;
 pub mod map;
-mod observe;
+mod memory;
 mod outside;
 pub mod plot;
+mod program;
 pub mod ready;
 mod report;
+mod run;
 mod script_files;
 pub mod select;
 mod source;
@@ -42,13 +48,16 @@ pub mod trace;
 pub mod verify;
 
 pub use blocks::{Block, Blocks};
-pub use builder::{Builder, Post};
+pub use builder::Builder;
+pub use cancel::CancelToken;
 pub use compat::{operation_name, read_compat};
 pub use error::{Error, RunCode, all_codes};
+pub use event::Event;
 pub use granted::Clock;
-pub use observe::{SectionEvent, WhatHappened};
+pub use program::Program;
 pub use report::{Extents, Report};
-pub use script_files::HeldFiles;
+pub use run::Run;
+pub use script_files::PendingFiles;
 pub use statement::statement_text;
 
 pub use fil_cl as cl;
@@ -60,10 +69,15 @@ pub use fil_machine::{
 pub use fil_nc as nc;
 pub use fil_post::{Cause, FilLine, Origin, Stack, dispatch, no_effect};
 pub use fil_syntax as syntax;
-pub use fil_vm::{Argument, Compat, Included, Limits, Moment, SectionMode};
+pub use fil_vm::{Argument, Compat, Included, Limits, Moment, Returned, SectionMode};
 pub use fil_vm::{builtins, postf, statements};
 
 /// The example of the README, run with the documentation tests.
 #[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]
 struct Readme;
+
+/// The examples of the crate's own README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct CrateReadme;

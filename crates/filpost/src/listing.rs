@@ -2,74 +2,73 @@
 //! messages that stay off the tape.
 
 use std::io::{self, Write};
-use std::sync::{Arc, Mutex};
 
-use crate::observe::WhatHappened;
+use crate::event::Event;
 use crate::statement::statement_text;
 
-/// Writes a listing while a run goes; give [`Listing::observer`] to the builder.
+/// Writes a listing while a run goes; give [`Listing::observer`] to the run.
+///
+/// ```
+/// use filpost::{Program, listing::Listing};
+///
+/// let program = Program::builder().ready("fanuc-mill").build()?;
+/// let cl = "UNITS / MM\nLOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n";
+/// let mut listing = Listing::new(Vec::new());
+/// program.start().observe(listing.observer()).run(cl.as_bytes(), std::io::sink())?;
+/// let text = String::from_utf8(listing.finish()?)?;
+/// assert!(text.contains("GOTO") && text.contains("X1. Y2. Z3."), "{text}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Listing<W> {
-    output: Arc<Mutex<Output<W>>>,
-}
-
-struct Output<W> {
     writer: W,
+    /// The first error of the writer; after it nothing more is written.
     failure: Option<io::Error>,
 }
 
-impl<W: Write + Send + 'static> Listing<W> {
+impl<W: Write + Send> Listing<W> {
     /// A listing to a writer.
     pub fn new(writer: W) -> Self {
-        Listing { output: Arc::new(Mutex::new(Output { writer, failure: None })) }
+        Listing { writer, failure: None }
     }
 
     /// The observer that writes it.
-    pub fn observer(&self) -> impl FnMut(WhatHappened<'_>) + Send + 'static {
-        let output = Arc::clone(&self.output);
-        move |event| {
-            if let Ok(mut output) = output.lock() {
-                output.line(&event);
+    pub fn observer(&mut self) -> impl FnMut(Event<'_>) + Send + '_ {
+        |event| {
+            if self.failure.is_none() {
+                self.failure = self.line(&event).err();
             }
         }
     }
 
-    /// Ends the listing.
+    /// Ends the listing and gives the writer back.
     ///
     /// # Errors
     /// The first error of the writer.
-    pub fn finish(self) -> io::Result<()> {
-        let Ok(mut output) = self.output.lock() else { return Ok(()) };
-        match output.failure.take() {
+    pub fn finish(mut self) -> io::Result<W> {
+        match self.failure {
             Some(error) => Err(error),
-            None => output.writer.flush(),
+            None => self.writer.flush().map(|()| self.writer),
         }
     }
-}
 
-impl<W: Write> Output<W> {
-    fn line(&mut self, event: &WhatHappened<'_>) {
-        let written = match event {
-            WhatHappened::Record(record, vocabulary) => {
+    fn line(&mut self, event: &Event<'_>) -> io::Result<()> {
+        let writer = &mut self.writer;
+        match event {
+            Event::Record { record, vocabulary } => {
                 let statement = statement_text(record, vocabulary);
-                writeln!(self.writer, "{:>7} {:>7}  {statement}", record.line, record.number)
+                writeln!(writer, "{:>7} {:>7}  {statement}", record.line, record.number)
             }
-            WhatHappened::Section(event) => {
-                let end = if event.swallowed { ": record swallowed" } else { "" };
-                if event.traced || event.swallowed {
-                    writeln!(self.writer, "{:>17}FIL section {}{end}", "", event.key)
-                } else {
-                    Ok(())
-                }
+            Event::Section { key, swallowed, traced, .. } if *traced || *swallowed => {
+                let end = if *swallowed { ": record swallowed" } else { "" };
+                writeln!(writer, "{:>17}FIL section {key}{end}", "")
             }
-            WhatHappened::Block { text, origin } => {
+            Event::Block { text, origin } => {
                 let fil: Vec<String> =
                     origin.fil.iter().map(|at| format!(" <{}:{}>", at.file, at.line)).collect();
-                writeln!(self.writer, "{:>20}{text}{}", "", fil.concat())
+                writeln!(writer, "{:>20}{text}{}", "", fil.concat())
             }
-            WhatHappened::Message(text) => writeln!(self.writer, "{:>17}{text}", ""),
-        };
-        if let Err(error) = written {
-            self.failure.get_or_insert(error);
+            Event::Message(text) => writeln!(writer, "{:>17}{text}", ""),
+            Event::Section { .. } | Event::Warning(_) => Ok(()),
         }
     }
 }

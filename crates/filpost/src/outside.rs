@@ -1,6 +1,5 @@
 //! What a FIL machine reaches while it runs: records, the post, the report.
 
-use std::io::Read;
 use std::sync::Arc;
 
 use fil_cl::vocabulary::words;
@@ -10,18 +9,23 @@ use fil_machine::locations::MESSAGE_TO_TAPE;
 use fil_post::FilLine;
 use fil_vm::{CommonKind, Files, Host, Module, Moment, SectionId, Site};
 
+use crate::cancel::CancelToken;
 use crate::error::RunCode;
+use crate::event::{Event, Observer};
 use crate::granted::Granted;
 use crate::map;
-use crate::observe::{Observer, SectionEvent, WhatHappened};
+use crate::program::Program;
 use crate::report::{Extents, Report};
-use crate::source::Source;
+use crate::run::Start;
+use crate::source::{Records, Source};
 use crate::statement::statement_text;
 
 /// What a FIL machine reaches while it runs: reader and post.
-pub(crate) struct Outside<'p, R: Read> {
+pub(crate) struct Outside<'o, S> {
+    /// The program of the run.
+    program: Program,
     /// The CL records.
-    pub source: Source<R>,
+    source: Source<S>,
     /// The compiled FIL.
     pub module: Arc<Module>,
     /// The post.
@@ -29,34 +33,59 @@ pub(crate) struct Outside<'p, R: Read> {
     /// What the run has to tell.
     pub report: Report,
     /// The embedding program's observers.
-    pub observers: &'p mut Vec<Observer>,
+    pub observers: Vec<Observer<'o>>,
+    /// What stops the run.
+    cancel: Option<CancelToken>,
     /// Name of the CL file in messages.
-    pub cl_name: &'p str,
+    cl_name: String,
     /// The post has carried out FINI.
     pub ended: bool,
     /// FIL has asked for the development listing.
-    pub trace: bool,
+    trace: bool,
     /// The line map of the run.
-    pub map: Option<map::Writer<'p>>,
+    pub map: Option<map::Writer<'o>>,
     /// The section that runs.
     pub section: Option<SectionId>,
-    /// Clock, commands and files.
-    pub granted: Granted<'p>,
+    /// Clock and files.
+    pub granted: Granted,
 }
 
-impl<R: Read> Outside<'_, R> {
+impl<'o, S: Records> Outside<'o, S> {
+    /// Everything as it is before the first record.
+    pub fn new(start: Start<'o>, records: S) -> Self {
+        let Start { program, cl_name, cancel, observers, map } = start;
+        let shared = &program.shared;
+        let module = Arc::clone(&shared.module);
+        Outside {
+            source: Source::new(records, !module.has_no_section()),
+            module,
+            post: shared.prototype.clone(),
+            report: Report::default(),
+            observers,
+            cancel,
+            cl_name,
+            ended: false,
+            trace: false,
+            map,
+            section: None,
+            granted: Granted::new(shared.clock, shared.folders.clone()),
+            program,
+        }
+    }
+
     /// Reads the next record; what the post writes from now on is due to it.
     pub fn read(
         &mut self,
         record: &mut Record,
         vocabulary: &mut Vocabulary,
     ) -> Result<bool, Box<Diag>> {
+        self.check_cancelled()?;
         let more = self.source.read(record, vocabulary)?;
         if more {
             self.post.control.tape.cause.record = record.number;
             self.post.control.tape.cause.line = record.line;
             for observer in self.observers.iter_mut() {
-                observer(WhatHappened::Record(record, vocabulary));
+                observer(Event::Record { record, vocabulary });
             }
         }
         Ok(more)
@@ -67,16 +96,13 @@ impl<R: Read> Outside<'_, R> {
     pub fn process(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
         if record.major == words::PPRINT && !self.post.control.commons.read(MESSAGE_TO_TAPE) {
             for observer in self.observers.iter_mut() {
-                observer(WhatHappened::Message(record.text.trim_end()));
+                observer(Event::Message(record.text.trim_end()));
             }
         }
-        let known = self.post.control.warnings.list.len();
         let result = self.post.process(record, vocabulary);
-        if result.is_err() || self.post.control.warnings.list.len() > known {
+        if result.is_err() || !self.post.control.warnings.list.is_empty() {
             let place = self.place(record, vocabulary);
-            for warning in &mut self.post.control.warnings.list[known..] {
-                warning.places.push(place.clone());
-            }
+            self.take_warnings(Some(&place));
             // The machine itself adds the FIL line to an error.
             let made_by_fil = self.fil_line(record).is_some();
             result.map_err(|diag| if made_by_fil { diag } else { Box::new(diag.at(place)) })?;
@@ -86,6 +112,29 @@ impl<R: Read> Outside<'_, R> {
         }
         self.ended |= record.kind == kind::FINI;
         Ok(())
+    }
+
+    /// Tells the warnings of the post, which came at this place.
+    fn take_warnings(&mut self, place: Option<&Place>) {
+        for mut warning in std::mem::take(&mut self.post.control.warnings.list) {
+            warning.places.extend(place.cloned());
+            self.tell(warning);
+        }
+    }
+
+    /// Puts a warning into the report and tells the observers.
+    fn tell(&mut self, warning: Diag) {
+        for observer in self.observers.iter_mut() {
+            observer(Event::Warning(&warning));
+        }
+        self.report.warnings.push(warning);
+    }
+
+    /// Notes in the report how far the run has come.
+    pub fn note_counts(&mut self) {
+        self.report.records = self.source.records;
+        self.report.blocks = self.post.control.tape.count;
+        self.report.metric = self.post.control.is_metric();
     }
 
     /// The FIL line that made a record.
@@ -101,7 +150,7 @@ impl<R: Read> Outside<'_, R> {
             return Place::line(file, made.line, statement_text(record, vocabulary));
         }
         let line = if record.line == 0 { self.post.control.tape.cause.line } else { record.line };
-        Place::line(self.cl_name, line, statement_text(record, vocabulary))
+        Place::line(&self.cl_name, line, statement_text(record, vocabulary))
     }
 
     /// Notes what a section did with its record, given by number and line.
@@ -118,12 +167,8 @@ impl<R: Read> Outside<'_, R> {
             }
             *self.report.swallowed.entry(key.to_string()).or_default() += 1;
         }
-        if !self.observers.is_empty() {
-            let traced = self.trace;
-            let event = SectionEvent { key: key.to_string(), record, swallowed, traced };
-            for observer in self.observers.iter_mut() {
-                observer(WhatHappened::Section(&event));
-            }
+        for observer in self.observers.iter_mut() {
+            observer(Event::Section { key, record, swallowed, traced: self.trace });
         }
     }
 
@@ -133,13 +178,13 @@ impl<R: Read> Outside<'_, R> {
     /// A record that waits for its continuation.
     pub fn end_of_file(&mut self) -> Result<(), Box<Diag>> {
         if self.source.records == 0 {
-            let diag = Diag::new(RunCode::NoMotion, format!("{} holds no record", self.cl_name));
-            self.report.warnings.push(diag);
+            self.tell(*RunCode::NoMotion.diag(format!("{} holds no record", self.cl_name)));
         } else if !matches!(self.source.dialect(), Some(Dialect::Nx | Dialect::SolidWorksCam)) {
-            let diag = Diag::new(RunCode::NoFini, format!("{} has no FINI", self.cl_name));
-            self.report.warnings.push(diag);
+            self.tell(*RunCode::NoFini.diag(format!("{} has no FINI", self.cl_name)));
         }
-        self.post.finish()
+        let result = self.post.finish();
+        self.take_warnings(None);
+        result
     }
 
     /// Warns of records after FINI.
@@ -153,14 +198,13 @@ impl<R: Read> Outside<'_, R> {
     ) -> Result<(), Box<Diag>> {
         if self.source.read(record, vocabulary)? {
             let place = self.place(record, vocabulary);
-            let diag = Diag::new(RunCode::AfterFini, "what follows is not posted").at(place);
-            self.report.warnings.push(diag);
+            self.tell(RunCode::AfterFini.diag("what follows is not posted").at(place));
         }
         Ok(())
     }
 }
 
-impl<R: Read> Host for Outside<'_, R> {
+impl<S: Records> Host for Outside<'_, S> {
     fn common(&mut self, kind: CommonKind, location: u32) -> Result<f64, Box<Diag>> {
         self.post.control.commons.get(common_kind(kind), location)
     }
@@ -219,8 +263,12 @@ impl<R: Read> Host for Outside<'_, R> {
         Ok(there)
     }
 
+    fn check_cancelled(&mut self) -> Result<(), Box<Diag>> {
+        self.cancel.as_ref().map_or(Ok(()), CancelToken::check)
+    }
+
     fn warn(&mut self, diag: Diag) {
-        self.report.warnings.push(diag);
+        self.tell(diag);
     }
 
     fn trace(&mut self, on: bool) {
@@ -236,7 +284,7 @@ impl<R: Read> Host for Outside<'_, R> {
     }
 
     fn spawn(&mut self, command: &str) -> Option<Result<f64, String>> {
-        self.granted.spawn(command)
+        self.program.shared.spawn.as_ref().map(|run| run(command))
     }
 
     fn neighbour(

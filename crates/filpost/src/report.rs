@@ -27,6 +27,7 @@ impl Extents {
 
 /// Counts, warnings and extents of a run.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct Report {
     /// CL records read.
     pub records: u64,

@@ -38,11 +38,11 @@ enum Change {
 /// Files a script has written or deleted, not yet under their names. Dropping
 /// this leaves everything as it was.
 #[derive(Debug, Default)]
-pub struct HeldFiles {
+pub struct PendingFiles {
     changes: Vec<(PathBuf, Change)>,
 }
 
-impl HeldFiles {
+impl PendingFiles {
     /// The files that will be written or deleted, in order.
     pub fn paths(&self) -> impl Iterator<Item = &Path> {
         self.changes.iter().map(|(path, _)| path.as_path())
@@ -52,7 +52,7 @@ impl HeldFiles {
     ///
     /// # Errors
     /// E0702 for a file that can't be written or deleted.
-    pub fn keep(mut self) -> Result<(), Error> {
+    pub fn commit(mut self) -> Result<(), Error> {
         for (path, change) in &mut self.changes {
             if let Change::Written(output) = change {
                 output.flush().map_err(|error| files::cant_write(path, &error))?;
@@ -108,18 +108,18 @@ impl Unit {
 pub(crate) struct ScriptFiles {
     folders: Arc<Folders>,
     units: [Option<Unit>; 2],
-    held: HeldFiles,
+    pending: PendingFiles,
 }
 
 impl ScriptFiles {
     /// No file is open and none is written.
     pub fn new(folders: Arc<Folders>) -> Self {
-        ScriptFiles { folders, units: [None, None], held: HeldFiles::default() }
+        ScriptFiles { folders, units: [None, None], pending: PendingFiles::default() }
     }
 
     /// What the script has written, at the end of its run.
-    pub fn into_held(self) -> HeldFiles {
-        self.held
+    pub fn into_pending(self) -> PendingFiles {
+        self.pending
     }
 
     fn open_to_read(&mut self, name: &str) -> Result<Option<Unit>, Box<Diag>> {
@@ -147,7 +147,7 @@ impl ScriptFiles {
                 output.write_all(b"\n").map_err(cant)?;
             }
         }
-        self.held.set(path.clone(), Change::Written(output));
+        self.pending.set(path.clone(), Change::Written(output));
         Ok(Unit::Write { path })
     }
 
@@ -168,7 +168,7 @@ impl ScriptFiles {
     /// what is on the disk; `None` where there is no such file.
     fn content(&mut self, path: &Path) -> Result<Option<Vec<u8>>, Box<Diag>> {
         let cant = |error: io::Error| cant_read(path, &error);
-        let at = match self.held.find(path) {
+        let at = match self.pending.find(path) {
             Some(Change::Deleted) => return Ok(None),
             Some(Change::Written(output)) => {
                 output.flush().map_err(cant)?;
@@ -223,13 +223,13 @@ impl Files for ScriptFiles {
 
     fn delete(&mut self, name: &str) -> Result<bool, Box<Diag>> {
         let path = self.writable(name)?;
-        let there = match self.held.find(&path) {
+        let there = match self.pending.find(&path) {
             Some(Change::Written(_)) => true,
             Some(Change::Deleted) => false,
             None => path.exists(),
         };
         if there {
-            self.held.set(path, Change::Deleted);
+            self.pending.set(path, Change::Deleted);
         }
         Ok(there)
     }
@@ -255,7 +255,7 @@ impl Files for ScriptFiles {
 
     fn write_line(&mut self, unit: usize, line: &str) -> Result<(), Box<Diag>> {
         let Some(Unit::Write { path }) = &self.units[unit] else { return Ok(()) };
-        let Some(Change::Written(output)) = self.held.find(path) else { return Ok(()) };
+        let Some(Change::Written(output)) = self.pending.find(path) else { return Ok(()) };
         let done = output.write_all(line.as_bytes()).and_then(|()| output.write_all(b"\n"));
         done.map_err(|error| cant_write(path, &error))
     }

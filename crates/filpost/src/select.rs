@@ -14,7 +14,7 @@ use crate::ready;
 const LOOK: usize = 200;
 
 /// The post a CL file asks for.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Choice {
     /// A ready post.
     Ready(&'static str),
@@ -28,7 +28,7 @@ pub enum Choice {
 }
 
 /// What a CL file says in `MACHIN/name,n`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Machin {
     /// The name.
     pub name: String,

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use std::io::Read;
 
 use fil_cl::{Record, Vocabulary, reader::Dialect, reader::Reader, record::kind, words};
-use fil_diag::Diag;
+use fil_diag::Result;
 
 /// Records NEXTF looks through for the next motion.
 const LOOK_AHEAD: usize = 1000;
@@ -14,9 +14,41 @@ const LOOK_AHEAD: usize = 1000;
 /// axis of its own I J K are absent.
 pub(crate) type Coordinates = [Option<f64>; 7];
 
-/// The reader with its neighbourhood.
-pub(crate) struct Source<R: Read> {
-    reader: Reader<R>,
+/// Gives the records of a run in their order.
+pub(crate) trait Records {
+    /// Puts the next record into `record`; false at the end.
+    ///
+    /// # Errors
+    /// What is wrong with the record.
+    fn read(&mut self, vocabulary: &mut Vocabulary, record: &mut Record) -> Result<bool>;
+
+    /// Makes record `number` (from 1) the next one.
+    ///
+    /// # Errors
+    /// Records that can't go back; a number that is none.
+    fn seek(&mut self, number: u32) -> Result<()>;
+
+    /// The family of the CL text, once it is known.
+    fn dialect(&self) -> Option<Dialect>;
+}
+
+impl<R: Read> Records for Reader<R> {
+    fn read(&mut self, vocabulary: &mut Vocabulary, record: &mut Record) -> Result<bool> {
+        Reader::read(self, vocabulary, record)
+    }
+
+    fn seek(&mut self, number: u32) -> Result<()> {
+        self.seek_record(number)
+    }
+
+    fn dialect(&self) -> Option<Dialect> {
+        Reader::dialect(self)
+    }
+}
+
+/// The records with their neighbourhood.
+pub(crate) struct Source<S> {
+    reader: S,
     /// Records that were looked at and nobody has read yet.
     ahead: VecDeque<Record>,
     /// The last two motions read, and whether the current record is the last of them.
@@ -29,9 +61,9 @@ pub(crate) struct Source<R: Read> {
     pub records: u64,
 }
 
-impl<R: Read> Source<R> {
+impl<S: Records> Source<S> {
     /// `keeps_motions`: [`Source::previous`] will be asked for.
-    pub fn new(reader: Reader<R>, keeps_motions: bool) -> Self {
+    pub fn new(reader: S, keeps_motions: bool) -> Self {
         Source {
             reader,
             ahead: VecDeque::new(),
@@ -52,11 +84,7 @@ impl<R: Read> Source<R> {
     ///
     /// # Errors
     /// What the reader refuses.
-    pub fn read(
-        &mut self,
-        record: &mut Record,
-        vocabulary: &mut Vocabulary,
-    ) -> Result<bool, Box<Diag>> {
+    pub fn read(&mut self, record: &mut Record, vocabulary: &mut Vocabulary) -> Result<bool> {
         let more = match self.ahead.pop_front() {
             Some(next) => {
                 *record = next;
@@ -77,8 +105,8 @@ impl<R: Read> Source<R> {
     ///
     /// # Errors
     /// A stream that can't go back; a number that is none.
-    pub fn seek(&mut self, number: u32) -> Result<(), Box<Diag>> {
-        self.reader.seek_record(number)?;
+    pub fn seek(&mut self, number: u32) -> Result<()> {
+        self.reader.seek(number)?;
         self.ahead.clear();
         self.motions = [None; 2];
         self.on_motion = false;
@@ -90,7 +118,7 @@ impl<R: Read> Source<R> {
     ///
     /// # Errors
     /// What the reader refuses.
-    pub fn next(&mut self, vocabulary: &mut Vocabulary) -> Result<Option<Coordinates>, Box<Diag>> {
+    pub fn next(&mut self, vocabulary: &mut Vocabulary) -> Result<Option<Coordinates>> {
         let mut rapid = self.rapid;
         for index in 0..LOOK_AHEAD {
             if index == self.ahead.len() {

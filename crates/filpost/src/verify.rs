@@ -14,8 +14,9 @@ use fil_nc::verify::{
     verify,
 };
 
-use crate::builder::Post;
 use crate::error::Error;
+use crate::program::Program;
+use crate::run::Run;
 
 /// What a program is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,74 +29,82 @@ pub enum Reference {
 
 /// An NC program to be checked.
 #[derive(Clone, Copy, Debug)]
-pub struct Program<'a> {
+pub struct NcProgram<'a> {
     /// Its text.
     pub text: &'a [u8],
     /// Its name in messages.
     pub name: &'a str,
 }
 
-impl Post {
-    /// Compares a program with the CL file that it should come from; `allowed` is what
-    /// it may be off by.
+impl Run<'_> {
+    /// Compares an NC program with the CL file that it should come from; `allowed`
+    /// is what it may be off by. A program with FIL runs a second time, with the
+    /// observers and the cancel token of this run.
+    ///
+    /// ```
+    /// use filpost::nc::verify::{Allowed, Verdict};
+    /// use filpost::verify::NcProgram;
+    ///
+    /// let program = filpost::Program::builder().ready("fanuc-mill").build()?;
+    /// let cl = "UNITS / MM\nLOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n".as_bytes();
+    /// let mut nc = Vec::new();
+    /// program.run(cl, &mut nc)?;
+    /// let nc = NcProgram { text: &nc, name: "part.nc" };
+    /// let (report, _) = program.start().verify(cl, nc, Allowed::default())?;
+    /// assert_eq!(report.verdict(), Verdict::Agrees);
+    /// # Ok::<(), filpost::Error>(())
+    /// ```
     ///
     /// # Errors
     /// A program or a CL file that can't be read, a program of another part; what
     /// the second run of a post with FIL refuses.
     pub fn verify(
-        &mut self,
+        self,
         mut cl: impl Read,
-        program: Program<'_>,
+        nc: NcProgram<'_>,
         allowed: Allowed,
     ) -> Result<(Report, Reference), Error> {
-        let dialect = Dialect::new(self.commons()).map_err(Error::Run)?;
-        if self.has_fil() {
+        let dialect = Dialect::new(self.program.commons()).map_err(Error::Run)?;
+        let name = self.name();
+        if !self.program.shared.module.files.is_empty() {
             let mut text = Vec::new();
-            let name = self.cl_name.clone();
             cl.read_to_end(&mut text)
                 .map_err(|error| crate::files::cant_read(name.as_ref(), &error))?;
-            let report = self.against_second_run(text, program, &dialect, allowed)?;
+            let report = self.against_second_run(text, nc, &dialect, allowed)?;
             return Ok((report, Reference::SecondRun));
         }
-        let events = interpret::events(program.text, program.name, &dialect).map_err(Error::Run)?;
+        let events = interpret::events(nc.text, nc.name, &dialect).map_err(Error::Run)?;
         let check = Check {
             cl,
-            cl_name: &self.cl_name,
-            options: self.options,
-            nc: program.text,
+            cl_name: &name,
+            options: self.reading,
+            nc: nc.text,
             events: &events,
-            commons: self.commons(),
+            commons: self.program.commons(),
             allowed,
         };
         Ok((verify(check).map_err(Error::Run)?, Reference::ClFile))
     }
 
-    fn has_fil(&self) -> bool {
-        !self.module.files.is_empty()
-    }
-
     /// Compares with what another run makes; files of scripts are not written. When
     /// that run's own program can't be followed, the blocks are compared.
     fn against_second_run(
-        &mut self,
+        self,
         cl: Vec<u8>,
-        program: Program<'_>,
+        nc: NcProgram<'_>,
         dialect: &Dialect,
         Allowed { tolerance, between }: Allowed,
     ) -> Result<Report, Error> {
+        let program: Program = self.program.clone();
         let mut again = Vec::new();
-        self.run_held(Cursor::new(cl), &mut again)?;
+        self.run_pending(Cursor::new(cl), &mut again)?;
         let compared = match interpret::events(&again, "the second run", dialect) {
-            Ok(again) => {
-                interpret::events(program.text, program.name, dialect).and_then(|events| {
-                    let mut report = compare_programs(&again, &events, tolerance);
-                    look_at_blocks(&events, self.commons(), between, &mut report)?;
-                    Ok(report)
-                })
-            }
-            Err(refused) => {
-                compare_words(&again, (program.text, program.name), &refused, tolerance)
-            }
+            Ok(again) => interpret::events(nc.text, nc.name, dialect).and_then(|events| {
+                let mut report = compare_programs(&again, &events, tolerance);
+                look_at_blocks(&events, program.commons(), between, &mut report)?;
+                Ok(report)
+            }),
+            Err(refused) => compare_words(&again, (nc.text, nc.name), &refused, tolerance),
         };
         let report = compared.map_err(Error::Run)?;
         refuse_another_part(&report).map_err(Error::Run)?;

@@ -3,12 +3,12 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use filpost::{Builder, Clock, Error, Moment, Post, includes};
+use filpost::{Builder, Clock, Error, Moment, Program, includes};
 
 const PART: &str = "UNITS / MM\nRAPID\nGOTO / 1, 2, 3\nFINI\n";
 
 fn with(fil: &str) -> Builder {
-    Post::builder().fil("test.fil", &format!("{fil}\nFINI\n"))
+    Program::builder().fil("test.fil", &format!("{fil}\nFINI\n"))
 }
 
 fn post(builder: Builder) -> Result<String, Error> {
@@ -71,19 +71,19 @@ fn a_folder_that_is_not_there_cannot_be_granted() {
 }
 
 #[test]
-fn a_held_file_appears_when_it_is_kept() {
+fn a_pending_file_appears_when_it_is_committed() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("log.txt");
     std::fs::write(&path, "old\n").expect("a file");
     let fil = "DMY=FILEF(1,WRITE,'log.txt')\nWRITE/1,'new'";
-    let mut post = with(fil).grant_write(folder.path()).build().expect("a post");
-    let (report, held) = post.run_held(Cursor::new(PART), Vec::new()).expect("a run");
+    let post = with(fil).grant_write(folder.path()).build().expect("a post");
+    let (report, pending) = post.start().run_pending(Cursor::new(PART), Vec::new()).expect("a run");
     assert_eq!(report.script_files, [path.canonicalize().expect("the file")]);
     assert_eq!(read(&path), "old\n");
-    drop(held);
+    drop(pending);
     assert_eq!((read(&path).as_str(), names(folder.path()).len()), ("old\n", 1));
-    let (_, held) = post.run_held(Cursor::new(PART), Vec::new()).expect("a run");
-    held.keep().expect("written");
+    let (_, pending) = post.start().run_pending(Cursor::new(PART), Vec::new()).expect("a run");
+    pending.commit().expect("written");
     assert_eq!((read(&path).as_str(), names(folder.path()).len()), ("new\n", 1));
 }
 
@@ -110,14 +110,14 @@ fn files_are_deleted_and_continued_when_the_run_went_well() {
 }
 
 #[test]
-fn the_blocks_one_by_one_keep_files_at_their_end() {
+fn the_blocks_one_by_one_commit_files_at_their_end() {
     let folder = tempfile::tempdir().expect("a folder");
     let fil = "DMY=FILEF(1,WRITE,'a.txt')\nWRITE/1,'new'";
-    let mut post = with(fil).grant_write(folder.path()).build().expect("a post");
-    let blocks = post.records(PART.as_bytes());
+    let post = with(fil).grant_write(folder.path()).build().expect("a post");
+    let blocks = post.blocks(PART.as_bytes());
     drop(blocks);
     assert!(names(folder.path()).is_empty(), "the run was given up");
-    assert!(post.records(PART.as_bytes()).all(|block| block.is_ok()));
+    assert!(post.blocks(PART.as_bytes()).all(|block| block.is_ok()));
     assert_eq!(names(folder.path()), ["a.txt"]);
 }
 
@@ -194,7 +194,7 @@ fn a_link_does_not_lead_includ_out_of_the_folder() {
     let main = folder.join("main.fil");
     let built = |text: &str| {
         std::fs::write(&main, text).expect("a file");
-        Post::builder()
+        Program::builder()
             .fil(&main.display().to_string(), text)
             .includes(includes::beside(std::slice::from_ref(&main), None))
     };

@@ -12,7 +12,6 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use filpost::files::post_file;
 use filpost_tests::cl_file;
 
 type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
@@ -81,12 +80,12 @@ fn main() -> Outcome<()> {
 /// Posts a file with a FIL text or none; the time in seconds.
 fn post(fil: Option<&str>, cl: &Path, nc: &Path) -> Outcome<f64> {
     let start = Instant::now();
-    let mut builder = filpost::Post::builder().ready(POST);
+    let mut builder = filpost::Program::builder().ready(POST);
     if let Some(fil) = fil {
         builder = builder.fil("bench.fil", fil);
     }
-    let mut post = builder.build().map_err(|error| format!("{error:?}"))?;
-    post_file(&mut post, cl, nc).map_err(|error| format!("{error:?}"))?;
+    let post = builder.build().map_err(|error| format!("{error:?}"))?;
+    post.run_files(cl, nc).map_err(|error| format!("{error:?}"))?;
     Ok(start.elapsed().as_secs_f64())
 }
 

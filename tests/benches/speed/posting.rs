@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use filpost::files::{post_file, write_whole};
+use filpost::files::write_whole;
 use filpost::map::Names;
 
 use crate::inputs::Input;
@@ -70,25 +70,25 @@ pub fn post(fil: Option<&str>, cl: &Path, nc: &Path) -> Outcome<()> {
     if let Some(fil) = fil {
         builder = builder.fil("bench.fil", fil);
     }
-    let mut post = builder.build().map_err(|error| format!("{error:?}"))?;
-    post_file(&mut post, cl, nc).map_err(|error| format!("{error:?}"))?;
+    let post = builder.build().map_err(|error| format!("{error:?}"))?;
+    post.run_files(cl, nc).map_err(|error| format!("{error:?}"))?;
     Ok(())
 }
 
 /// Posts a file and writes the line map beside the program.
 fn post_mapped(cl: &Path, nc: &Path) -> Outcome<()> {
-    let mut post = builder().build().map_err(|error| format!("{error:?}"))?;
+    let post = builder().build().map_err(|error| format!("{error:?}"))?;
     let input = File::open(cl)?;
     let map = nc.with_extension("map");
     let written = write_whole(nc, |nc| {
-        write_whole(&map, |map| post.run_mapped(input, nc, &Names::default(), map))
+        write_whole(&map, |map| post.start().run_mapped(input, nc, &Names::default(), map))
     });
     written.map_err(|error| format!("{error:?}"))?;
     Ok(())
 }
 
 fn builder() -> filpost::Builder {
-    filpost::Post::builder().ready("linuxcnc-mill")
+    filpost::Program::builder().ready("linuxcnc-mill")
 }
 
 /// Runs one of the scripts beside this file.

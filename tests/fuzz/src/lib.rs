@@ -14,7 +14,7 @@ use fil_nc::plot::{Drawing, View, nc_trace, svg};
 use fil_nc::text::read_block;
 use fil_nc::verify::Allowed;
 use filpost::map::{Entry, MapReader};
-use filpost::{Builder, Commons, Limits, Post};
+use filpost::{Builder, Commons, Limits, Program};
 use filpost_tests::duel::{fight, reduce};
 use filpost_tests::programs::{Dice, case};
 use filpost_tests::{back_check, tip_program};
@@ -42,17 +42,17 @@ FINI
 
 /// The ready posts, read once.
 static READY: LazyLock<Vec<Commons>> = LazyLock::new(|| {
-    let built = |name: &str| Post::builder().ready(name).build().expect("a ready post is right");
+    let built = |name: &str| Program::builder().ready(name).build().expect("a ready post is right");
     filpost::ready::READY.iter().map(|post| built(post.name).commons().clone()).collect()
 });
 
 fn ready(number: u8) -> Builder {
     let commons = &READY[usize::from(number) % READY.len()];
-    Post::builder().commons(commons.clone()).limits(LIMITS)
+    Program::builder().commons(commons.clone()).limits(LIMITS)
 }
 
 /// Posts a CL file; an error is as good as a result.
-fn post(mut post: Post, cl: &[u8]) {
+fn post(post: &Program, cl: &[u8]) {
     let mut nc = Vec::new();
     if post.run_seekable(std::io::Cursor::new(cl), &mut nc).is_ok() {
         let mut again = Vec::new();
@@ -65,7 +65,7 @@ fn post(mut post: Post, cl: &[u8]) {
 pub fn fil_bytes(data: &[u8]) {
     let Ok((text, _)) = fil_syntax::decode(data, None) else { return };
     if let Ok(built) = ready(1).fil("fuzz.fil", &text).build() {
-        post(built, RECORDS.as_bytes());
+        post(&built, RECORDS.as_bytes());
     }
 }
 
@@ -73,7 +73,7 @@ pub fn fil_bytes(data: &[u8]) {
 pub fn cl_bytes(data: &[u8]) {
     let Some((first, cl)) = data.split_first() else { return };
     if let Ok(built) = ready(*first).build() {
-        post(built, cl);
+        post(&built, cl);
     }
 }
 
@@ -81,14 +81,14 @@ pub fn cl_bytes(data: &[u8]) {
 pub fn machine_bytes(data: &[u8]) {
     let Ok((text, _)) = fil_syntax::decode(data, None) else { return };
     for builder in [
-        Post::builder().machine("machine.toml", &text),
-        Post::builder().option_file("uncx01.p01", &text),
+        Program::builder().machine("machine.toml", &text),
+        Program::builder().option_file("uncx01.p01", &text),
     ] {
         if let Ok(built) = builder.limits(LIMITS).build() {
-            let written = fil_post::settings::write_toml(built.commons());
-            let again = fil_post::settings::read_toml("machine.toml", &written);
+            let written = fil_machine::files::write_toml(built.commons());
+            let again = fil_machine::files::read_toml("machine.toml", &written);
             assert!(again.is_ok(), "what was written can't be read: {again:?}\n{written}");
-            post(built, RECORDS.as_bytes());
+            post(&built, RECORDS.as_bytes());
         }
     }
 }

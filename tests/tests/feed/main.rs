@@ -7,7 +7,7 @@ mod page;
 mod published;
 mod refused;
 
-use filpost::{Diag, Error, Post};
+use filpost::{Diag, Error, Program};
 use filpost_tests::feed::Point;
 use filpost_tests::root;
 
@@ -26,13 +26,13 @@ fn pass_cl() -> String {
 /// NC program and warnings of a CL file, with a script of `fil-scripts/papers/`.
 fn post(script: Option<&str>, cl: &str) -> Result<(String, Vec<Diag>), Error> {
     let machine = read(&format!("{CASE}/machine.toml"));
-    let mut builder = Post::builder().machine("machine.toml", &machine).cl_name("pass.ncl");
+    let mut builder = Program::builder().machine("machine.toml", &machine);
     if let Some(script) = script {
         builder = builder.fil(script, &read(&format!("fil-scripts/papers/{script}")));
     }
-    let mut post = builder.build()?;
+    let post = builder.build()?;
     let mut nc = Vec::new();
-    let report = post.run(cl.as_bytes(), &mut nc)?;
+    let report = post.start().cl_name("pass.ncl").run(cl.as_bytes(), &mut nc)?;
     let warnings = post.warnings().iter().cloned().chain(report.warnings).collect();
     Ok((String::from_utf8(nc).expect("an NC program is text"), warnings))
 }

@@ -38,10 +38,10 @@ fn commons(machine: &Path) -> Result<Commons, Error> {
         Chosen { machine: Some(machine.to_path_buf()), ..Chosen::default() }
     };
     let named = setup::named(&chosen, None)?;
-    let builder = named.map_or_else(filpost::Post::builder, |named| named.builder);
-    let post = builder.build()?;
-    summary::warnings(post.warnings());
-    Ok(post.commons().clone())
+    let builder = named.map_or_else(filpost::Program::builder, |named| named.builder);
+    let program = builder.build()?;
+    summary::warnings(program.warnings());
+    Ok(program.commons().clone())
 }
 
 /// Settings of the table of locations.

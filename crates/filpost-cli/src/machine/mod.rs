@@ -6,7 +6,7 @@ mod schema;
 use std::path::Path;
 
 use filpost::locations::TABLE;
-use filpost::{Commons, Error, Kind, Post, files, ready, settings};
+use filpost::{Commons, Error, Kind, Program, files, ready, settings};
 use serde_json::Value;
 
 use crate::args::{Chosen, MachineArgs, MachineCommand};
@@ -56,16 +56,16 @@ fn show(chosen: &Chosen, prefix: Option<&str>) -> Result<(), Error> {
     let builder = match setup::named(chosen, None)? {
         Some(named) => named.builder,
         None => {
-            let generic = Post::builder().ready(ready::GENERIC_MILL);
+            let generic = Program::builder().ready(ready::GENERIC_MILL);
             chosen.set.iter().fold(generic, |builder, setting| builder.set(setting))
         }
     };
-    let post = builder.build()?;
-    summary::warnings(post.warnings());
+    let program = builder.build()?;
+    summary::warnings(program.warnings());
     let prefix = prefix.unwrap_or("");
     output::print_with(|out| {
         for row in TABLE.iter().filter(|row| row.name.starts_with(prefix)) {
-            let value = explain::shown_value(row, post.commons());
+            let value = explain::shown_value(row, program.commons());
             let used = if row.used { "used" } else { "not used" };
             writeln!(
                 out,
@@ -81,7 +81,7 @@ fn show(chosen: &Chosen, prefix: Option<&str>) -> Result<(), Error> {
         }
         if prefix.is_empty() || "address".starts_with(prefix) {
             for letter in LETTERS {
-                writeln!(out, "{}", address(post.commons(), letter))?;
+                writeln!(out, "{}", address(program.commons(), letter))?;
             }
         }
         Ok(())

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
 use filpost::case::Case;
-use filpost::{Builder, Diag, Error, Post, files, includes};
+use filpost::{Builder, Diag, Error, Program, files, includes};
 
 use crate::args::{Chosen, TestArgs};
 use crate::errors::CommandCode;
@@ -132,7 +132,7 @@ impl Making {
     /// Files that INCLUD reads, under their names relative to the FIL files.
     fn included(&mut self, fil: &[PathBuf]) -> Result<(), Error> {
         let read = Arc::new(Mutex::new(Vec::new()));
-        let mut builder = Post::builder();
+        let mut builder = Program::builder();
         for path in fil {
             let text = files::read_text(path, None)?;
             builder = builder.fil(&path.display().to_string(), &text);

@@ -8,7 +8,7 @@ use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use filpost::case::{self, Case, Outcome};
+use filpost::case::{self, Case, Outcome, Programs};
 use filpost::{Diag, Error, files};
 use indicatif::{ParallelProgressIterator, ProgressBar};
 use rayon::prelude::*;
@@ -45,8 +45,12 @@ pub fn run(args: &TestArgs) -> Result<Status, Error> {
     } else {
         ProgressBar::hidden()
     };
-    let done: Vec<Done> =
-        cases.into_par_iter().progress_with(progress).map(|case| run_case(&folder, case)).collect();
+    let programs = Programs::new();
+    let done: Vec<Done> = cases
+        .into_par_iter()
+        .progress_with(progress)
+        .map(|case| run_case(&folder, case, &programs))
+        .collect();
     let failed = say(&done, args.update)?;
     if let Some(path) = &args.html {
         write(path, &report::html(&done))?;
@@ -57,9 +61,9 @@ pub fn run(args: &TestArgs) -> Result<Status, Error> {
     Ok(if failed == 0 { Status::Done } else { Status::Failed })
 }
 
-fn run_case(root: &Path, case: Case) -> Done {
+fn run_case(root: &Path, case: Case, programs: &Programs) -> Done {
     let start = Instant::now();
-    let outcome = case.outcome();
+    let outcome = case.outcome_with(programs);
     let below = case.folder.strip_prefix(root).unwrap_or(&case.folder);
     let below = if below.as_os_str().is_empty() { &case.folder } else { below };
     let name = below.display().to_string().replace('\\', "/");

@@ -82,9 +82,9 @@ fn failure(done: &Done) -> Markup {
 /// The path of this run over that of the proven program, as far as they can be read
 /// as motion of the case's machine.
 fn plot(done: &Done) -> Option<Markup> {
-    let post = done.case.post().ok()?;
+    let program = done.case.program().ok()?;
     let path = |name: &'static str, text: &str| {
-        plot::program(Text { name, bytes: text.as_bytes() }, post.commons()).ok()
+        plot::program(Text { name, bytes: text.as_bytes() }, program.commons()).ok()
     };
     let mut drawing = path("this run", done.outcome.nc.as_deref()?)?;
     drawing.under = path("proven", done.outcome.wanted.as_deref()?).map(|proven| proven.path);

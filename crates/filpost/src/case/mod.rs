@@ -9,22 +9,22 @@
 //! first warning expected); `origin` and `repairs` for people.
 
 mod outcome;
+mod recipe;
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use fil_diag::Diag;
 use fil_nc::diff;
-use fil_vm::Moment;
 use serde::Deserialize;
 
-use crate::builder::{Builder, Post};
 use crate::error::{Error, RunCode};
 use crate::files;
-use crate::granted::Clock;
-use crate::includes;
+use crate::program::Program;
 
 pub use outcome::{Fresh, Outcome, Verdict};
+pub use recipe::Programs;
+use recipe::Recipe;
 
 /// The text of a `case.toml`.
 #[derive(Clone, Debug, Deserialize)]
@@ -146,53 +146,11 @@ impl Case {
         Ok(Case { folder: folder.to_path_buf(), file })
     }
 
-    /// The post of the case.
+    /// The program of the case.
     ///
     /// # Errors
     /// As [`crate::Builder::build`]; files that can't be read.
-    pub fn post(&self) -> Result<Post, Error> {
-        self.builder()?.build()
-    }
-
-    fn builder(&self) -> Result<Builder, Error> {
-        let text = |name: &str| files::read_text(&self.folder.join(name), None);
-        let mut builder = Post::builder().strict(self.file.strict);
-        if let Some(name) = &self.file.ready {
-            builder = builder.ready(name);
-        }
-        if let Some(name) = &self.file.machine {
-            builder = builder.machine(name, &text(name)?);
-        }
-        if let Some(name) = &self.file.option_file {
-            builder = builder.option_file(name, &text(name)?);
-        }
-        let mut paths = Vec::new();
-        for name in &self.file.fil {
-            let path = self.folder.join(name);
-            builder = builder.fil(&path.display().to_string(), &text(name)?);
-            paths.push(path);
-        }
-        builder = builder.includes(includes::beside(&paths, None));
-        if let Some(folder) = &self.file.read {
-            builder = builder.grant_read(self.folder.join(folder));
-        }
-        if let Some(text) = &self.file.clock {
-            let moment = Moment::parse(text).ok_or_else(|| {
-                let message = format!("clock = '{text}' is no moment as 2026-01-31T12:00:00");
-                Error::setup(Diag::new(RunCode::CaseFile, message))
-            })?;
-            builder = builder.clock(Clock::Fixed(moment));
-        }
-        for setting in &self.file.set {
-            builder = builder.set(setting);
-        }
-        if let Some(name) = &self.file.compat {
-            let compat = crate::read_compat(name, &text(name)?).map_err(Error::setup)?;
-            builder = builder.compat(compat);
-        }
-        if let Some(fuel) = self.file.fuel {
-            builder = builder.limits(crate::Limits { fuel, ..crate::Limits::default() });
-        }
-        Ok(builder.cl_name(&self.file.cl))
+    pub fn program(&self) -> Result<Program, Error> {
+        Recipe::of(self)?.build()
     }
 }

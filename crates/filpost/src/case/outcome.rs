@@ -1,17 +1,17 @@
 //! A case run and compared.
 
-use std::io::{self, Cursor, Write};
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex};
 
 use fil_diag::Diag;
 use fil_nc::diff;
 use similar::TextDiff;
 
-use super::Case;
+use super::{Case, Programs};
 use crate::error::Error;
 use crate::files;
 use crate::listing::Listing;
+use crate::program::Program;
 
 /// Sentences about a difference that are shown.
 const MOST: usize = 20;
@@ -60,23 +60,6 @@ struct Ran {
     warnings: Vec<Diag>,
 }
 
-/// A listing kept in memory.
-#[derive(Clone, Default)]
-struct Held(Arc<Mutex<Vec<u8>>>);
-
-impl Write for Held {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        if let Ok(mut held) = self.0.lock() {
-            held.extend_from_slice(bytes);
-        }
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-}
-
 impl Outcome {
     fn failed(why: impl Into<String>) -> Outcome {
         Outcome { failure: Some(why.into()), ..Outcome::default() }
@@ -99,9 +82,9 @@ impl Case {
     /// Posts the case's CL file. The second part are all warnings.
     ///
     /// # Errors
-    /// As [`Case::post`] and [`crate::Post::run`].
+    /// As [`Case::program`] and [`crate::Run::run`].
     pub fn run(&self) -> Result<(Vec<u8>, Vec<Diag>), Error> {
-        self.run_whole().map(|ran| (ran.nc, ran.warnings))
+        self.run_whole(&self.program()?).map(|ran| (ran.nc, ran.warnings))
     }
 
     /// Runs the case and compares; with `update` the expected files are written anew.
@@ -119,7 +102,17 @@ impl Case {
 
     /// Runs the case and compares what it wrote with what is expected.
     pub fn outcome(&self) -> Outcome {
-        match (self.run_whole(), &self.file.expect_error) {
+        self.outcome_of(self.program())
+    }
+
+    /// The same, with a program that other cases may use as well.
+    pub fn outcome_with(&self, programs: &Programs) -> Outcome {
+        self.outcome_of(programs.get(self))
+    }
+
+    fn outcome_of(&self, program: Result<Program, Error>) -> Outcome {
+        let ran = program.and_then(|program| self.run_whole(&program));
+        match (ran, &self.file.expect_error) {
             (Err(error), Some(code)) => self
                 .expect_code(code, error.diags(), true)
                 .map_or_else(Outcome::default, |missing| {
@@ -131,20 +124,18 @@ impl Case {
         }
     }
 
-    fn run_whole(&self) -> Result<Ran, Error> {
-        let mut builder = self.builder()?;
-        let held = Held::default();
-        let listing = self.file.listing.as_ref().map(|_| Listing::new(held.clone()));
-        if let Some(listing) = &listing {
-            builder = builder.observe(listing.observer());
-        }
-        let mut post = builder.build()?;
+    fn run_whole(&self, program: &Program) -> Result<Ran, Error> {
         let cl = files::read(&self.folder.join(&self.file.cl))?;
-        let mut nc = Vec::new();
-        let report = post.run_seekable(Cursor::new(cl), &mut nc)?;
-        let warnings = post.warnings().iter().cloned().chain(report.warnings).collect();
-        let text = held.0.lock().map(|text| text.clone()).unwrap_or_default();
-        Ok(Ran { nc, listing: listing.map(|_| text), warnings })
+        let (mut nc, mut listing) = (Vec::new(), Listing::new(Vec::new()));
+        let mut run = program.start().cl_name(&self.file.cl);
+        if self.file.listing.is_some() {
+            run = run.observe(listing.observer());
+        }
+        let report = run.run_seekable(Cursor::new(cl), &mut nc)?;
+        let warnings = program.warnings().iter().cloned().chain(report.warnings).collect();
+        // A listing in memory can't fail.
+        let listing = self.file.listing.as_ref().and_then(|_| listing.finish().ok());
+        Ok(Ran { nc, listing, warnings })
     }
 
     /// What is missing, when none of the diagnostics has this code at the place expected.

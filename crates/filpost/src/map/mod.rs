@@ -23,7 +23,7 @@
 //! without FIL. `_` stands for a text, `/` for the block-delete character, `#` for a
 //! sequence number.
 //!
-//! [`Post::run_mapped`](crate::Post::run_mapped) writes a map, [`MapReader`]
+//! [`Run::run_mapped`](crate::Run::run_mapped) writes a map, [`MapReader`]
 //! reads one, block by block; neither needs memory for the length of the file.
 
 mod digest;

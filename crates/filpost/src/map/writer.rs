@@ -38,7 +38,7 @@ pub(crate) struct Writer<'w> {
 }
 
 struct Output<'w> {
-    output: &'w mut dyn Write,
+    output: &'w mut (dyn Write + Send),
     /// The first error; after it nothing more is written.
     failure: Option<io::Error>,
 }
@@ -48,7 +48,11 @@ impl<'w> Writer<'w> {
     ///
     /// # Errors
     /// The system gives no thread.
-    pub fn new(output: &'w mut dyn Write, names: &Names, module: &Module) -> io::Result<Self> {
+    pub fn new(
+        output: &'w mut (dyn Write + Send),
+        names: &Names,
+        module: &Module,
+    ) -> io::Result<Self> {
         let (to, given) = mpsc::sync_channel(WAITING);
         let (back, from) = mpsc::channel();
         let named = thread::Builder::new().name("line map".into());

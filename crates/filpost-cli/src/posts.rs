@@ -1,0 +1,64 @@
+//! The posts of several jobs: each is read and compiled once, and all threads share
+//! it.
+
+use std::collections::HashMap;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use filpost::{Error, Program};
+
+use crate::args::PostArgs;
+use crate::setup::{self, From};
+
+/// A post that is ready to run.
+#[derive(Clone)]
+pub struct Built {
+    /// Machine and FIL.
+    pub program: Program,
+    /// What the summary calls it.
+    pub title: String,
+    /// Something the user should know about the choice.
+    pub note: Option<String>,
+    /// All files it was read from.
+    pub inputs: Vec<PathBuf>,
+}
+
+/// A post that one job builds while others may wait for it.
+type Cell = Arc<OnceLock<Result<Built, Error>>>;
+
+/// The posts of a command.
+pub struct Posts<'a> {
+    args: &'a PostArgs,
+    built: Mutex<HashMap<From, Cell>>,
+}
+
+impl<'a> Posts<'a> {
+    /// No post is built yet.
+    pub fn new(args: &'a PostArgs) -> Self {
+        Posts { args, built: Mutex::default() }
+    }
+
+    /// The options of the command.
+    pub fn args(&self) -> &'a PostArgs {
+        self.args
+    }
+
+    /// The post of a job.
+    ///
+    /// # Errors
+    /// Files that can't be read, and what is wrong with them; the same error for
+    /// each job that asks for the post.
+    pub fn get(&self, from: From) -> Result<Built, Error> {
+        // Nothing is left half done in the table, whoever panicked.
+        let mut built = self.built.lock().unwrap_or_else(PoisonError::into_inner);
+        let cell = Arc::clone(built.entry(from.clone()).or_default());
+        drop(built);
+        cell.get_or_init(|| build(self.args, &from)).clone()
+    }
+}
+
+fn build(args: &PostArgs, from: &From) -> Result<Built, Error> {
+    let named = setup::for_run(&args.chosen, &args.fil, &args.reading, from)?;
+    let program = setup::granted(named.builder, &args.grants).build()?;
+    Ok(Built { program, title: named.title, note: named.note, inputs: named.inputs })
+}

@@ -1,0 +1,74 @@
+//! Records that a program hands over from memory.
+
+use fil_cl::reader::Dialect;
+use fil_cl::{ClCode, Record, Vocabulary};
+use fil_diag::{Diag, Place, Result};
+
+use crate::error::{Error, RunCode};
+use crate::program::Program;
+use crate::source::Records;
+
+/// Hands out records that are already there, after a look at each.
+pub(crate) struct Memory<I> {
+    records: I,
+    /// The words of the records, until the run takes them.
+    vocabulary: Option<Vocabulary>,
+    /// How messages call the records.
+    name: String,
+    number: u32,
+}
+
+impl<I: Iterator<Item = Record>> Memory<I> {
+    /// # Errors
+    /// E0712 for a vocabulary that does not begin with that of the program: its
+    /// numbers would mean other words.
+    pub fn new(
+        records: I,
+        vocabulary: Vocabulary,
+        program: &Program,
+        name: &str,
+    ) -> Result<Self, Error> {
+        if !vocabulary.extends(&program.shared.vocabulary) {
+            let message = "the vocabulary of the records is not that of the program";
+            let hint = "Start from Program::vocabulary of the program that runs them.";
+            return Err(Error::Run(Box::new(Diag::new(RunCode::BadRecord, message).hint(hint))));
+        }
+        Ok(Memory { records, vocabulary: Some(vocabulary), name: name.to_string(), number: 0 })
+    }
+}
+
+impl<I: Iterator<Item = Record>> Records for Memory<I> {
+    fn read(&mut self, vocabulary: &mut Vocabulary, record: &mut Record) -> Result<bool> {
+        if let Some(words) = self.vocabulary.take() {
+            *vocabulary = words;
+        }
+        let Some(next) = self.records.next() else { return Ok(false) };
+        *record = next;
+        self.number = self.number.saturating_add(1);
+        record.number = self.number;
+        if record.line == 0 {
+            record.line = self.number;
+        }
+        match record.fault(vocabulary) {
+            None => Ok(true),
+            Some(fault) => {
+                let diag = RunCode::BadRecord.diag(format!("record {}: {fault}", record.number));
+                // What it names may be no word, so it is not shown.
+                Err(Box::new(diag.at(Place::line(&self.name, record.line, ""))))
+            }
+        }
+    }
+
+    fn seek(&mut self, number: u32) -> Result<()> {
+        let message = format!("record {number} is asked for after record {}", self.number);
+        Err(Box::new(ClCode::NotSeekable.diag(message).at(Place::line(
+            &self.name,
+            self.number,
+            "",
+        ))))
+    }
+
+    fn dialect(&self) -> Option<Dialect> {
+        None
+    }
+}

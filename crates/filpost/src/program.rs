@@ -1,0 +1,185 @@
+//! A program: a machine with its FIL, ready to run.
+
+use std::fmt;
+use std::io::{Read, Seek, Write};
+use std::path::Path;
+use std::sync::Arc;
+
+use fil_cl::{Record, Vocabulary};
+use fil_diag::Diag;
+use fil_machine::Commons;
+use fil_vm::{Functions, Limits, Module};
+
+use crate::blocks::Blocks;
+use crate::builder::Builder;
+use crate::error::Error;
+use crate::granted::{Clock, Spawn};
+use crate::report::Report;
+use crate::run::Run;
+use crate::script_files::Folders;
+
+/// A machine with its compiled FIL, ready to post any number of CL files.
+///
+/// It never changes: each run starts from the same state. Clones share one
+/// program, in as many threads as you like.
+///
+/// ```
+/// use filpost::Program;
+///
+/// let program = Program::builder().ready("fanuc-mill").build()?;
+/// let cl = "UNITS / MM\nLOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n";
+/// let threads: Vec<_> = (0..2)
+///     .map(|_| {
+///         let program = program.clone();
+///         std::thread::spawn(move || {
+///             let mut nc = Vec::new();
+///             program.run(cl.as_bytes(), &mut nc).map(|_| nc)
+///         })
+///     })
+///     .collect();
+/// for thread in threads {
+///     let nc = thread.join().expect("no panic")?;
+///     assert!(String::from_utf8_lossy(&nc).contains("G1 G43 X1. Y2. Z3. F200. H1"));
+/// }
+/// # Ok::<(), filpost::Error>(())
+/// ```
+#[derive(Clone)]
+pub struct Program {
+    pub(crate) shared: Arc<Shared>,
+}
+
+/// What the clones of a program share.
+pub(crate) struct Shared {
+    /// The post as each run starts with it.
+    pub prototype: fil_post::Post,
+    pub module: Arc<Module>,
+    /// The published words, and those that FIL names.
+    pub vocabulary: Vocabulary,
+    pub functions: Arc<Functions>,
+    pub limits: Limits,
+    /// Warnings of building.
+    pub warnings: Vec<Diag>,
+    pub clock: Option<Clock>,
+    pub spawn: Option<Spawn>,
+    pub folders: Option<Arc<Folders>>,
+}
+
+impl Program {
+    /// Starts building a program.
+    ///
+    /// ```
+    /// let fil = "CIMFIL/ON,LOADTL\nOPSTOP\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
+    /// let program = filpost::Program::builder()
+    ///     .ready("fanuc-mill")
+    ///     .set("rapid.split=0")
+    ///     .fil("opstop.fil", fil)
+    ///     .build()?;
+    /// assert!(program.warnings().is_empty());
+    /// # Ok::<(), filpost::Error>(())
+    /// ```
+    pub fn builder() -> Builder {
+        Builder::new()
+    }
+
+    /// Starts a run: its options first, then its input.
+    ///
+    /// ```
+    /// use filpost::{Event, Program};
+    ///
+    /// let program = Program::builder().ready("fanuc-mill").build()?;
+    /// let cl = "UNITS / MM\nLOADTL / 1\nPPRINT / FIRST SIDE\nFINI\n";
+    /// let mut messages = Vec::new();
+    /// let report = program
+    ///     .start()
+    ///     .cl_name("part.ncl")
+    ///     .observe(|event| {
+    ///         if let Event::Message(text) = event {
+    ///             messages.push(text.trim().to_string());
+    ///         }
+    ///     })
+    ///     .run(cl.as_bytes(), std::io::sink())?;
+    /// assert_eq!(report.records, 4);
+    /// # Ok::<(), filpost::Error>(())
+    /// ```
+    pub fn start<'o>(&self) -> Run<'o> {
+        Run::new(self.clone())
+    }
+
+    /// Posts a CL stream without any options; see [`Run::run`].
+    ///
+    /// ```
+    /// let program = filpost::Program::builder().ready("fanuc-mill").build()?;
+    /// let cl = "UNITS / MM\nLOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n";
+    /// let mut nc = Vec::new();
+    /// let report = program.run(cl.as_bytes(), &mut nc)?;
+    /// assert_eq!((report.records, report.bytes), (5, nc.len() as u64));
+    /// # Ok::<(), filpost::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Run::run`].
+    pub fn run(&self, cl: impl Read, nc: impl Write) -> Result<Report, Error> {
+        self.start().run(cl, nc)
+    }
+
+    /// Posts a CL stream that can go back; see [`Run::run_seekable`].
+    ///
+    /// # Errors
+    /// As [`Run::run`].
+    pub fn run_seekable(&self, cl: impl Read + Seek, nc: impl Write) -> Result<Report, Error> {
+        self.start().run_seekable(cl, nc)
+    }
+
+    /// Posts a CL file into an NC file; see [`Run::run_files`].
+    ///
+    /// # Errors
+    /// As [`Run::run_files`].
+    pub fn run_files(&self, cl: &Path, nc: &Path) -> Result<Report, Error> {
+        self.start().run_files(cl, nc)
+    }
+
+    /// Posts records from memory; see [`Run::run_records`].
+    ///
+    /// # Errors
+    /// As [`Run::run_records`].
+    pub fn run_records(
+        &self,
+        vocabulary: Vocabulary,
+        records: impl IntoIterator<Item = Record>,
+        nc: impl Write,
+    ) -> Result<Report, Error> {
+        self.start().run_records(vocabulary, records, nc)
+    }
+
+    /// The blocks of a CL stream, one by one; see [`Run::blocks`].
+    pub fn blocks<R: Read>(&self, cl: R) -> Blocks<'static, R> {
+        self.start().blocks(cl)
+    }
+
+    /// Warnings of building: settings without effect, forgiven FIL.
+    pub fn warnings(&self) -> &[Diag] {
+        &self.shared.warnings
+    }
+
+    /// The settings of the machine.
+    pub fn commons(&self) -> &Commons {
+        &self.shared.prototype.control.commons
+    }
+
+    /// The words of this program, for records from memory: a word that a record
+    /// names is looked up or added here, and [`Run::run_records`] takes the result.
+    pub fn vocabulary(&self) -> Vocabulary {
+        self.shared.vocabulary.clone()
+    }
+
+    /// Names of the FIL files, by the numbers in [`crate::FilLine::file`].
+    pub fn fil_files(&self) -> Vec<String> {
+        self.shared.module.files.iter().map(|file| file.name.clone()).collect()
+    }
+}
+
+impl fmt::Debug for Program {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Program").field("fil_files", &self.fil_files()).finish_non_exhaustive()
+    }
+}

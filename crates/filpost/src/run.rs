@@ -1,0 +1,259 @@
+//! One run: its options, then the CL stream it takes through the program.
+
+use std::fs::File;
+use std::io::{self, Read, Seek, Write};
+use std::path::Path;
+
+use fil_cl::reader::{self, Reader};
+use fil_cl::{Record, Vocabulary};
+
+use crate::blocks::Blocks;
+use crate::cancel::CancelToken;
+use crate::engine::Engine;
+use crate::error::Error;
+use crate::event::{Event, Observer};
+use crate::files;
+use crate::map;
+use crate::memory::Memory;
+use crate::program::Program;
+use crate::report::Report;
+use crate::script_files::PendingFiles;
+use crate::source::Records;
+
+/// A run that has not begun: options first, then one of the methods that take a
+/// CL stream. Options that are left out are those of [`Program::run`].
+///
+/// ```
+/// use filpost::{CancelToken, Program};
+///
+/// let program = Program::builder().ready("fanuc-mill").build()?;
+/// let token = CancelToken::new();
+/// let cl = "UNITS / MM\nLOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n";
+/// let mut blocks = 0;
+/// let report = program
+///     .start()
+///     .cl_name("part.ncl")
+///     .cancel(&token)
+///     .observe(|event| blocks += u64::from(matches!(event, filpost::Event::Block { .. })))
+///     .run(cl.as_bytes(), std::io::sink())?;
+/// assert_eq!(report.blocks, blocks);
+/// # Ok::<(), filpost::Error>(())
+/// ```
+#[must_use = "a run does nothing before it takes a CL stream"]
+pub struct Run<'o> {
+    pub(crate) program: Program,
+    cl_name: Option<String>,
+    pub(crate) reading: reader::Options,
+    cancel: Option<CancelToken>,
+    observers: Vec<Observer<'o>>,
+}
+
+/// What an engine needs of a run besides its records.
+pub(crate) struct Start<'o> {
+    pub program: Program,
+    pub cl_name: String,
+    pub cancel: Option<CancelToken>,
+    pub observers: Vec<Observer<'o>>,
+    pub map: Option<map::Writer<'o>>,
+}
+
+impl<'o> Run<'o> {
+    pub(crate) fn new(program: Program) -> Self {
+        Run {
+            program,
+            cl_name: None,
+            reading: reader::Options::default(),
+            cancel: None,
+            observers: Vec::new(),
+        }
+    }
+
+    /// The name of the CL file in messages.
+    pub fn cl_name(mut self, name: &str) -> Self {
+        self.cl_name = Some(name.into());
+        self
+    }
+
+    /// How CL text is read: dialect, encoding of texts, longest statement.
+    pub fn reading(mut self, options: reader::Options) -> Self {
+        self.reading = options;
+        self
+    }
+
+    /// A switch that stops the run.
+    pub fn cancel(mut self, token: &CancelToken) -> Self {
+        self.cancel = Some(token.clone());
+        self
+    }
+
+    /// Adds an observer: it is called for each event, in the thread of the run.
+    /// It may borrow what lives longer than the run.
+    pub fn observe(mut self, observer: impl FnMut(Event<'_>) + Send + 'o) -> Self {
+        self.observers.push(Box::new(observer));
+        self
+    }
+
+    /// Posts a CL stream. The stream can't go back, so POSTF(15) and (16) are
+    /// refused.
+    ///
+    /// # Errors
+    /// The first thing that is wrong; what was written until then is not a
+    /// program. The writer's own errors come as E0702.
+    pub fn run(self, cl: impl Read, nc: impl Write) -> Result<Report, Error> {
+        let reader = Reader::new(cl, &self.name(), self.reading);
+        commit(self.drive(reader, None, nc).0)
+    }
+
+    /// Posts a CL stream that can go back.
+    ///
+    /// # Errors
+    /// As [`Run::run`].
+    pub fn run_seekable(self, cl: impl Read + Seek, nc: impl Write) -> Result<Report, Error> {
+        commit(self.run_pending(cl, nc))
+    }
+
+    /// The same, with the files of scripts pending until [`PendingFiles::commit`]:
+    /// for a caller that can still refuse the program.
+    ///
+    /// # Errors
+    /// As [`Run::run`].
+    pub fn run_pending(
+        self,
+        cl: impl Read + Seek,
+        nc: impl Write,
+    ) -> Result<(Report, PendingFiles), Error> {
+        let reader = Reader::seekable(cl, &self.name(), self.reading);
+        self.drive(reader, None, nc).0
+    }
+
+    /// Posts a CL file into an NC file. On any error there is no file under the
+    /// output's name: an older one of that name is left as it was.
+    ///
+    /// ```no_run
+    /// let program = filpost::Program::builder().ready("fanuc-mill").build()?;
+    /// program.run_files("part.ncl".as_ref(), "part.nc".as_ref())?;
+    /// # Ok::<(), filpost::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Run::run`]; E0701 and E0702 for files that can't be read or written.
+    pub fn run_files(mut self, cl: &Path, nc: &Path) -> Result<Report, Error> {
+        let input = File::open(cl).map_err(|error| files::cant_read(cl, &error))?;
+        if input.metadata().is_ok_and(|found| found.is_dir()) {
+            return Err(files::cant_read(cl, &io::Error::from(io::ErrorKind::IsADirectory)));
+        }
+        self.cl_name.get_or_insert_with(|| cl.display().to_string());
+        files::write_whole(nc, |output| self.run_seekable(input, output))
+    }
+
+    /// Posts records from memory, in their order. They can't go back.
+    ///
+    /// `vocabulary` is [`Program::vocabulary`] with the words that the records add.
+    /// The records are numbered from 1; one without a line gets its number as its
+    /// line.
+    ///
+    /// ```
+    /// use filpost::cl::{Record, Word, words};
+    ///
+    /// let program = filpost::Program::builder().ready("fanuc-mill").build()?;
+    /// let mut vocabulary = program.vocabulary();
+    /// let mut word = |name| Word::Minor(vocabulary.intern(name));
+    /// let mut units = Record::command(words::UNITS);
+    /// units.data.push(word("MM"));
+    /// let mut feed = Record::command(words::FEDRAT);
+    /// feed.data.extend([Word::Number(200.0), word("MMPM")]);
+    /// let path = (0..3).map(|x| Record::goto([f64::from(x), 0.0, 5.0], None));
+    /// let records = [units, feed].into_iter().chain(path);
+    /// let mut nc = Vec::new();
+    /// program.run_records(vocabulary, records, &mut nc)?;
+    /// assert!(String::from_utf8_lossy(&nc).contains("X2."));
+    /// # Ok::<(), filpost::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Run::run`]; E0712 for a record that no statement can make, and for
+    /// a vocabulary of another program.
+    pub fn run_records(
+        self,
+        vocabulary: Vocabulary,
+        records: impl IntoIterator<Item = Record>,
+        nc: impl Write,
+    ) -> Result<Report, Error> {
+        let memory = Memory::new(records.into_iter(), vocabulary, &self.program, &self.name())?;
+        commit(self.drive(memory, None, nc).0)
+    }
+
+    /// Posts a CL stream and writes the line map of the run. `names` is how the
+    /// map calls the files; see [`map::Names::from_folder`].
+    ///
+    /// # Errors
+    /// As [`Run::run`]; E0702 for the map.
+    pub fn run_mapped(
+        self,
+        cl: impl Read + Seek,
+        nc: impl Write,
+        names: &map::Names,
+        output: &'o mut (dyn Write + Send),
+    ) -> Result<(Report, PendingFiles), Error> {
+        let cant = |error| files::cant_read(Path::new(&names.cl), &error);
+        let mut cl = map::Digested::new(cl).map_err(cant)?;
+        let reader = Reader::seekable(&mut cl, &self.name(), self.reading);
+        let cant_write = |error| files::cant_write(Path::new("the line map"), &error);
+        let module = &self.program.shared.module;
+        let map = map::Writer::new(output, names, module).map_err(cant_write)?;
+        let (result, map) = self.drive(reader, Some(map), nc);
+        let result = result?;
+        let digest = cl.finish().map_err(cant)?;
+        map.map_or(Ok(()), |map| map.finish(digest)).map_err(cant_write)?;
+        Ok(result)
+    }
+
+    /// The blocks of a CL stream, one by one, each with what made it.
+    ///
+    /// ```
+    /// let program = filpost::Program::builder().ready("fanuc-mill").build()?;
+    /// let cl = "UNITS / MM\nLOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n";
+    /// let mut blocks = program.blocks(cl.as_bytes());
+    /// for block in &mut blocks {
+    ///     let block = block?;
+    ///     println!("{:<30} CL line {}", block.text, block.origin.line);
+    /// }
+    /// assert_eq!(blocks.report().records, 5);
+    /// assert!(blocks.report().warnings.is_empty());
+    /// # Ok::<(), filpost::Error>(())
+    /// ```
+    pub fn blocks<R: Read>(self, cl: R) -> Blocks<'o, R> {
+        let reader = Reader::new(cl, &self.name(), self.reading);
+        Blocks::new(Engine::new(self.begin(None), reader, true))
+    }
+
+    /// The name of the CL file in messages.
+    pub(crate) fn name(&self) -> String {
+        self.cl_name.clone().unwrap_or_else(|| "CL".into())
+    }
+
+    fn begin(self, map: Option<map::Writer<'o>>) -> Start<'o> {
+        let cl_name = self.name();
+        let Run { program, cancel, observers, .. } = self;
+        Start { program, cl_name, cancel, observers, map }
+    }
+
+    fn drive(
+        self,
+        records: impl Records,
+        map: Option<map::Writer<'o>>,
+        mut nc: impl Write,
+    ) -> (Result<(Report, PendingFiles), Error>, Option<map::Writer<'o>>) {
+        let observed = !self.observers.is_empty();
+        let mut engine = Engine::new(self.begin(map), records, observed);
+        let result = engine.run(&mut nc);
+        (result, engine.take_map())
+    }
+}
+
+/// Gives the files of scripts their names.
+fn commit(done: Result<(Report, PendingFiles), Error>) -> Result<Report, Error> {
+    let (report, pending) = done?;
+    pending.commit()?;
+    Ok(report)
+}
