@@ -64,7 +64,7 @@ pub fn blocks(page: &str) -> Vec<Block<'_>> {
 /// `fil` runs with [`PART`] on the ready post fanuc-mill, `cl` on the same
 /// post, `toml` is a machine.toml that [`PART`] is posted with. Marks:
 /// `strict`, `check` (the warnings of `filpost check`), `fuel=N`, `post=NAME`,
-/// `option-file`, `compat`, `read` (the folder `tests/language/with` is granted),
+/// `set=KEY=VALUE` (a setting on top, any number of them), `option-file`, `compat`, `read` (the folder `tests/language/with` is granted),
 /// `clock` (a fixed one). `nc` is an NC program for fanuc-mill.
 pub fn run(block: &Block<'_>) -> Option<Vec<Diag>> {
     let (language, marks) = block.words.split_first()?;
@@ -78,6 +78,9 @@ pub fn run(block: &Block<'_>) -> Option<Vec<Diag>> {
     let mut builder = Program::builder()
         .ready(value("post=").unwrap_or("fanuc-mill"))
         .strict(marks.contains(&"strict"));
+    for setting in marks.iter().filter_map(|mark| mark.strip_prefix("set=")) {
+        builder = builder.set(setting);
+    }
     if let Some(fuel) = value("fuel=") {
         let fuel = fuel.parse().expect("fuel is a number");
         builder = builder.limits(filpost::Limits { fuel, ..filpost::Limits::default() });

@@ -1,9 +1,11 @@
 //! The reference in `docs/reference/`: a page for each statement, function, form
-//! of TEXT/ and POSTF number, made from the tables `filpost explain` reads.
+//! of TEXT/ and POSTF number, and one for the words without effect, made from the
+//! tables that the program itself reads.
 //! `FILPOST_UPDATE=1` writes the pages anew.
 
 use std::collections::BTreeMap;
 
+use fil_post::no_effect;
 use filpost::builtins::BUILTINS;
 use filpost::postf::{Grade, POSTF};
 use filpost::statements::STATEMENTS;
@@ -29,6 +31,21 @@ fn sentence(text: &str) -> String {
 
 fn page(title: &str, form: &str, doc: &str, rest: &str) -> String {
     format!("# {title}\n\n```text\n{form}\n```\n\n{}\n\n{}\n", sentence(doc), rest.trim_end())
+}
+
+/// The words and items that change nothing, with the reason of each.
+fn no_effect_page() -> String {
+    let mut page = String::from(
+        "# Words without effect\n\nThese words and items of CL records are known and change nothing in \
+         the NC program. Any other word that the post has no handler for is refused \
+         ([E0513](../errors/E0513.md)), and any other item that a handler does not take refuses its \
+         record ([E0506](../errors/E0506.md)).\n\n| word | item | reason |\n|---|---|---|\n",
+    );
+    for row in no_effect::rows() {
+        let item = if row.item == "*" { "the whole record" } else { row.item };
+        page.push_str(&format!("| {} | {item} | {} |\n", row.major, row.reason));
+    }
+    page
 }
 
 /// File name without ending, and text, of every page; the index among them.
@@ -70,6 +87,8 @@ fn pages() -> BTreeMap<String, String> {
         let text = page(&title, &call, row.doc, &rest);
         add(&mut index, format!("POSTF-{}", row.number), &title, text);
     }
+    index.push_str("\n## CL records\n\n- [Words without effect](no-effect.md)\n");
+    pages.insert("no-effect".into(), no_effect_page());
     pages.insert("README".into(), index);
     pages
 }

@@ -124,7 +124,7 @@ fn the_script_says_for_how_many_points_the_subprogram_has_no_feed() {
     let mut on_the_way_down = Vec::new();
     for radius in [0.5, 1.0, 1.4, 2.0, 3.0, 9.0] {
         let mut cl = String::from(
-            "FROM / 40, 0, 9\nSPINDL / RPM, 1000\nFEDCTL / ON, RADIUS, 5, STOCK, 0.25\nRAPID\n",
+            "UNITS / MM\nFROM / 40, 0, 9\nSPINDL / RPM, 1000\nFEDCTL / ON, RADIUS, 5, STOCK, 0.25\nRAPID\n",
         );
         for k in 0..=30 {
             let (sin, cos) = (f64::from(k) * 5.5 - 85.0).to_radians().sin_cos();

@@ -92,11 +92,11 @@ fn moves_that_have_no_angle_or_no_radius() {
     let there_and_back = format!("{ninth}GOTO / 10.5000, 0.0000, -18.8290\n");
     let (found, _) = refusal("feed-ahead.fil", &changed(ninth, &there_and_back));
     assert_eq!(found, "E0325 THE PATH TURNS BACK ON ITSELF");
-    let one = "SPINDL/RPM,500\nFEDRAT/5,MMPM\nFEDCTL/ON,RADIUS,5,STOCK,0.2\nRAPID\n\
+    let one = "UNITS/MM\nSPINDL/RPM,500\nFEDRAT/5,MMPM\nFEDCTL/ON,RADIUS,5,STOCK,0.2\nRAPID\n\
                GOTO/0,0,0\nGOTO/1,0,0\nRAPID\nGOTO/1,0,9\nFINI\n";
     let (found, _) = refusal("feed-ahead.fil", one);
     assert_eq!(found, "E0325 A PASS OF ONE CUT HAS NO RADIUS: THREE POINTS ARE NEEDED");
-    let small = "SPINDL/RPM,500\nFEDRAT/5,MMPM\nFEDCTL/ON,RADIUS,0.4,STOCK,0.2\nRAPID\n\
+    let small = "UNITS/MM\nSPINDL/RPM,500\nFEDRAT/5,MMPM\nFEDCTL/ON,RADIUS,0.4,STOCK,0.2\nRAPID\n\
                  GOTO/0.5,0,0\nGOTO/0,0,-0.5\nGOTO/-0.5,0,0\nRAPID\nGOTO/0,0,9\nFINI\n";
     let (found, _) = refusal("feed-ahead.fil", small);
     assert_eq!(
