@@ -1,7 +1,7 @@
 //! The one door from the judges of this member to the post: a CL text and a
 //! machine go in, the program or the refusal comes out.
 
-use filpost::{Diag, Error, Post};
+use filpost::{Diag, Error, Program};
 
 /// What is posted: a CL text with the machine it is for.
 #[derive(Clone, Debug, Default)]
@@ -56,19 +56,19 @@ pub struct Refused {
 /// # Errors
 /// What the post refuses.
 pub fn post(job: &Job) -> Result<Posted, Refused> {
-    let mut post = build(job).map_err(refused)?;
-    let mut warnings: Vec<String> = post.warnings().iter().map(Diag::to_string).collect();
+    let program = build(job).map_err(refused)?;
+    let mut warnings: Vec<String> = program.warnings().iter().map(Diag::to_string).collect();
     let mut nc = Vec::new();
-    let report = post.run(job.cl.as_bytes(), &mut nc).map_err(refused)?;
+    let report = program.run(job.cl.as_bytes(), &mut nc).map_err(refused)?;
     warnings.extend(report.warnings.iter().map(Diag::to_string));
     Ok(Posted { nc: String::from_utf8_lossy(&nc).into_owned(), warnings })
 }
 
-fn build(job: &Job) -> Result<Post, Error> {
+fn build(job: &Job) -> Result<Program, Error> {
     let mut builder = match &job.machine {
-        Machine::Ready(name) => Post::builder().ready(name),
-        Machine::Toml(text) => Post::builder().machine("machine.toml", text),
-        Machine::OptionFile(text) => Post::builder().option_file("uncx01.p01", text),
+        Machine::Ready(name) => Program::builder().ready(name),
+        Machine::Toml(text) => Program::builder().machine("machine.toml", text),
+        Machine::OptionFile(text) => Program::builder().option_file("uncx01.p01", text),
     };
     for setting in &job.settings {
         builder = builder.set(setting);
