@@ -44,7 +44,10 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     post.path.course.arc(begin, end, arc.line)?;
     let turns_axis = target.axis != post.path.axis;
     let whole = if turns_axis { None } else { in_plane(post, arc, start, sweep, target)? };
-    let Some(mut whole) = whole else { return chords::carry_out(post, arc, start, sweep, target) };
+    let Some(mut whole) = whole else {
+        post.warn(PostCode::ArcLines, "an arc was written as short lines".to_string());
+        return chords::carry_out(post, arc, start, sweep, target);
+    };
     check_travel(post, &whole)?;
     motion::ready(&mut post.control)?;
     let Some(stands) = words::start_on_tape(&post.control, &whole.from) else {
@@ -65,6 +68,7 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
             words::write(&mut post.control, &part, feed.as_ref())?;
         }
     } else {
+        // An arc of a few last digits: as lines it is within rounding.
         return chords::carry_out(post, arc, start, sweep, target);
     }
     post.path.point = Some(target.point);

@@ -5,7 +5,6 @@ use fil_machine::locations as loc;
 
 use super::arc::flat;
 use super::linear;
-use crate::errors::PostCode;
 use crate::operation::{Arc, MotionKind, Target};
 use crate::post::Post;
 use nalgebra::Point3;
@@ -33,9 +32,6 @@ pub fn carry_out(
         post.control.commons.dbl_opt(loc::CIRCLE_CHORD_TOLERANCE).unwrap_or(TOLERANCE) / mm;
     let step = 2.0 * (1.0 - tolerance / radius).clamp(-1.0, 1.0).acos().to_degrees();
     let count = (sweep / step.max(FINEST)).ceil().max(1.0) as u32;
-    if count > 1 {
-        post.warn(PostCode::ArcLines, "an arc was written as short lines".to_string());
-    }
     let from_axis = post.path.axis;
     let from = flat(arc, start);
     let across = arc.axis.cross(&from);
