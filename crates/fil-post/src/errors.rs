@@ -6,7 +6,7 @@ fil_diag::codes! {
         /// Motion without position.
         ArcStart = 503, Error, "arc without a start point",
             "An arc starts where the motion before it ended, and no motion came before.",
-            "Put a GOTO or FROM before the CIRCLE.";
+            "Put a GOTO before the CIRCLE, after all that moves the axes otherwise.";
         /// Radii disagree.
         ArcRadius = 504, Error, "the radii of the arc disagree",
             "Start and end of an arc must lie at the same distance from its center.",

@@ -3,6 +3,7 @@
 use fil_diag::Result;
 use fil_machine::address::{Addresses, no_address};
 use fil_machine::letters::{G, M, N};
+use fil_machine::number::NumberFormat;
 use fil_machine::rounding::Rounding;
 use fil_machine::word_text::WordText;
 use fil_machine::{Commons, Letter, locations as loc};
@@ -38,6 +39,12 @@ pub struct Tape {
     /// The next blocks carry the block-delete character, for this cause.
     pub skip: Option<Cause>,
     sequence: Sequence,
+}
+
+/// How POSTN rounds: P in whole numbers names an offset or a program.
+fn as_given(letter: Letter, format: &NumberFormat) -> Rounding {
+    let names = letter.byte() == b'P' && format.decimals == 0;
+    if names { Rounding::Exact } else { Rounding::of(letter) }
 }
 
 impl Tape {
@@ -94,7 +101,7 @@ impl Tape {
                 code.put(&slot.format, &mut text);
                 last.push((letter, code.value()));
             } else {
-                let scaled = Rounding::of(letter).scale(value, &slot.format);
+                let scaled = as_given(letter, &slot.format).scale(value, &slot.format);
                 let scaled = scaled.map_err(|diag| named(diag, letter))?;
                 slot.format.put(scaled, &mut text);
                 last.push((letter, slot.format.unscale(scaled)));

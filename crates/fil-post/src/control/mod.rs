@@ -26,7 +26,7 @@ use fil_machine::{Commons, FunctionCode, Letter};
 
 use crate::block::Block;
 use crate::cause::Cause;
-use crate::control_state::{Codes, Compensation, ControlState};
+use crate::control_state::{Codes, Compensation, ControlState, Meaning};
 use crate::errors::PostCode;
 use crate::operation::Feed;
 use crate::tape::Tape;
@@ -60,8 +60,6 @@ pub struct Control {
     pub head: ProgramHead,
     /// The last spindle speed, turns a minute or surface speed.
     pub speed: Option<f64>,
-    /// The tool in the spindle, as the last tool change named it.
-    pub tool: Option<i64>,
     /// The compensation the CL file asks for.
     asked: Compensation,
     /// Unit of the CL file and of the program; `None` before anything says it.
@@ -93,7 +91,6 @@ impl Control {
             block: Block::default(),
             head: ProgramHead::default(),
             speed: None,
-            tool: None,
             asked: Compensation::Off,
             unit,
         })
@@ -125,7 +122,7 @@ impl Control {
     #[inline]
     pub fn require_unit(&self) -> Result<Unit> {
         self.unit.ok_or_else(|| {
-            PostCode::NoUnit.diag("a length or feed comes before anything says mm or inch")
+            PostCode::NoUnit.diag("a word with a number comes before anything says mm or inch")
         })
     }
 
@@ -144,6 +141,11 @@ impl Control {
     #[inline]
     pub fn code_if_any(&self, at: CodeAt) -> Option<FunctionCode> {
         self.commons.read(at).and_then(FunctionCode::of_setting)
+    }
+
+    /// What a preparatory function does on this machine.
+    pub fn meaning(&self, code: FunctionCode) -> Meaning {
+        self.codes.meaning(code)
     }
 
     /// The letter a setting names.

@@ -29,6 +29,8 @@ pub struct ProgramHead {
     pub cause: Cause,
     /// The start of the program has been written.
     pub started: bool,
+    /// The end of the tape has been written.
+    pub closed: bool,
 }
 
 /// The one unit a machine takes; `None` when the CL file chooses.
@@ -122,9 +124,30 @@ pub fn end(control: &mut Control, code: Option<FunctionCode>) -> Result<()> {
         control.m(code);
     }
     control.write_block()?;
-    control.because(Cause::default(), |control| tape_mark(control, loc::TAPE_END_CHAR))?;
+    close(control)?;
     control.state.ended = true;
     Ok(())
+}
+
+/// Closes the tape of a program that a text, POSTN or AUXFUN has ended; warns of end
+/// blocks that the machine wants before its end.
+///
+/// # Errors
+/// As a line on the tape.
+pub fn close_ended(control: &mut Control) -> Result<()> {
+    if control.head.closed {
+        return Ok(());
+    }
+    if !user_blocks::END.read(&control.commons).is_empty() {
+        let message = "the end blocks of the machine: the program was ended before them";
+        control.warnings.add(PostCode::IgnoredPart, message.to_string());
+    }
+    close(control)
+}
+
+fn close(control: &mut Control) -> Result<()> {
+    control.head.closed = true;
+    control.because(Cause::default(), |control| tape_mark(control, loc::TAPE_END_CHAR))
 }
 
 /// Adds the mode codes a control must be in. A machine with start blocks of

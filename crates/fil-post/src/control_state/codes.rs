@@ -26,6 +26,8 @@ pub enum Meaning {
     Cycle,
     /// The end of a canned cycle.
     CycleOff,
+    /// The level a cycle returns to.
+    ReturnLevel,
     /// It acts in its block alone, or on what the post does not depend on.
     OneBlock,
     /// A turning cycle: it leaves axes, motion and feed elsewhere.
@@ -172,8 +174,8 @@ const MODES: [(CodeAt, Meaning); 18] = [
     (loc::CUTCOM_LEFT_CODE, Meaning::Compensation(Compensation::Left)),
     (loc::CUTCOM_RIGHT_CODE, Meaning::Compensation(Compensation::Right)),
     (loc::CYCLE_OFF_CODE, Meaning::CycleOff),
-    (loc::CYCLE_RETURN_CLEAR_CODE, Meaning::OneBlock),
-    (loc::CYCLE_RETURN_INITIAL_CODE, Meaning::OneBlock),
+    (loc::CYCLE_RETURN_CLEAR_CODE, Meaning::ReturnLevel),
+    (loc::CYCLE_RETURN_INITIAL_CODE, Meaning::ReturnLevel),
     (loc::DWELL_CODE, Meaning::OneBlock),
     (loc::SPINDLE_CSS_CODE, Meaning::OneBlock),
     (loc::SPINDLE_RPM_CODE, Meaning::OneBlock),

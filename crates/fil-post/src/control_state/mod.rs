@@ -69,6 +69,9 @@ impl LetterSet {
     }
 }
 
+/// The usual tool change, which may move the axes.
+const TOOL_CHANGE: FunctionCode = FunctionCode::whole(6);
+
 /// The letters of axes: a control may have any of them.
 const AXIS_LETTERS: [Letter; 9] = [
     Letter::of(b'X'),
@@ -101,6 +104,8 @@ pub struct ControlState {
     pub compensation_begun: bool,
     /// A canned cycle is in force: each position drills a hole.
     pub in_cycle: Option<bool>,
+    /// The tool in the spindle.
+    pub tool: Option<i64>,
     /// The program has ended: M2, M30.
     pub ended: bool,
     /// Letters whose last output value is not what the control has.
@@ -122,6 +127,7 @@ impl ControlState {
             compensation: Some(Compensation::Off),
             compensation_begun: false,
             in_cycle: Some(false),
+            tool: None,
             ended: false,
             doubtful: LetterSet::default(),
             before_skip: None,
@@ -166,6 +172,7 @@ impl ControlState {
             compensation: None,
             compensation_begun: self.compensation_begun,
             in_cycle: None,
+            tool: None,
             ended: self.ended,
             doubtful: LetterSet::ALL,
             before_skip: self.before_skip.take(),
@@ -216,7 +223,11 @@ impl ControlState {
                     frame |= codes.meaning(code) == Meaning::Frame;
                     self.learn_code(code, codes);
                 }
-                (letters::M, Some(code)) => self.learn_auxiliary(code),
+                (letters::M, Some(code)) => {
+                    frame |= code == TOOL_CHANGE;
+                    self.learn_auxiliary(code);
+                }
+                (letters::T, _) => self.tool = None,
                 _ => self.trust(letter),
             }
         }
@@ -258,6 +269,7 @@ impl ControlState {
                 self.motion = None;
             }
             Meaning::OneBlock => {}
+            Meaning::ReturnLevel => self.doubt(letters::R),
             Meaning::Turning => {
                 self.motion = None;
                 self.doubt_axes();
@@ -279,6 +291,9 @@ impl ControlState {
             FunctionCode::whole(198),
         ];
         self.ended |= END.contains(&code);
+        if code == TOOL_CHANGE {
+            self.tool = None;
+        }
         if CALLS.contains(&code) {
             self.forget();
         }
@@ -302,7 +317,13 @@ impl ControlState {
             match (*letter, FunctionCode::of_value(*value)) {
                 (letters::G, Some(code)) => self.learn_code(code, codes),
                 (letters::G | letters::M, None) => self.forget(),
-                (letters::M, Some(code)) => self.learn_auxiliary(code),
+                (letters::M, Some(code)) => {
+                    if code == TOOL_CHANGE {
+                        self.doubt_axes();
+                    }
+                    self.learn_auxiliary(code);
+                }
+                (letters::T, _) => self.tool = None,
                 (letter, _) if AXIS_LETTERS.contains(&letter) => self.doubt_axes(),
                 (letter, _) => self.doubt(letter),
             }
@@ -360,6 +381,7 @@ impl ControlState {
         agree(&mut self.feed_mode, &other.feed_mode);
         agree(&mut self.compensation, &other.compensation);
         agree(&mut self.in_cycle, &other.in_cycle);
+        agree(&mut self.tool, &other.tool);
         self.compensation_begun &= other.compensation_begun;
         self.doubtful.0 |= other.doubtful.0;
     }

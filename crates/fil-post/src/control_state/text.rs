@@ -34,7 +34,8 @@ pub fn read(text: &str) -> Option<TextWords> {
         rest = rest.trim_start();
         let Some(first) = rest.chars().next() else { return Some(found) };
         if first == ';' {
-            return Some(found);
+            // A comment on some controls, the end of a block on others.
+            return rest[1..].trim().is_empty().then_some(found);
         }
         if first == '(' {
             rest = &rest[rest.find(')')? + 1..];
@@ -81,7 +82,8 @@ mod tests {
     #[test]
     fn words_are_read_packed_and_apart() {
         assert_eq!(words("G90G80G40G00").unwrap(), "G90 G80 G40 G0");
-        assert_eq!(words(" g 91 (a G90) x-1.5 ; G20").unwrap(), "G91 X-1.5");
+        assert_eq!(words(" g 91 (a G90) x-1.5 ;").unwrap(), "G91 X-1.5");
+        assert_eq!(words("M8;G91"), None);
         assert_eq!(words("N10 M98 P+100").unwrap(), "N10 M98 P100");
         assert_eq!(words("(only a comment)").unwrap(), "");
         assert_eq!(words("R101=0.123 R5=-1. #100=5 X1").unwrap(), "X1");

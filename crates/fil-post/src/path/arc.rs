@@ -107,7 +107,8 @@ pub fn flat(arc: &Arc, point: Point3<f64>) -> Vector3<f64> {
 /// Angle from start to end about the axis, degrees: above 0, at most 360 and
 /// the full turns on top. A start above the end is one turn, or TIMES turns.
 fn sweep(arc: &Arc, [from, to]: [Vector3<f64>; 2]) -> f64 {
-    if (from - to).norm() < SAME_POINT {
+    let same = if arc.turns > 0.0 { RADIUS_TOLERANCE } else { SAME_POINT };
+    if (from - to).norm() < same {
         return FULL * arc.turns.max(1.0);
     }
     let angle = arc.axis.dot(&from.cross(&to)).atan2(from.dot(&to)).to_degrees();

@@ -17,6 +17,11 @@ const NUMBERS: i64 = 10_000;
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let name = items.text().to_string();
     items.deny_rest()?;
+    if post.control.head.started {
+        let message = "PARTNO: the program has begun before it".to_string();
+        post.warn(PostCode::IgnoredPart, message);
+        return Ok(());
+    }
     let number = whole_number(&name);
     let head = &mut post.control.head;
     let taken = post.control.commons.read(fil_machine::locations::PROGRAM_NUMBER).is_some()

@@ -49,10 +49,11 @@ fn usual_plane(control: &Control) -> Plane {
 /// Adds the offset: that of the record, else the number of the tool.
 fn offset_word(control: &mut Control, given: Option<(f64, u16)>) -> Result<()> {
     let from_tool = control.commons.read(loc::TOOL_DIAMETER_FROM_TOOL);
-    let of_tool = control.tool.filter(|_| from_tool).map(|tool| (tool as f64, 0));
+    let of_tool = control.state.tool.filter(|_| from_tool).map(|tool| (tool as f64, 0));
     let Some((offset, word)) = given.or(of_tool) else {
         if from_tool {
-            return PostCode::WordForm.err("CUTCOM: no offset number, and no tool is loaded");
+            return PostCode::WordForm
+                .err("CUTCOM: no offset number, and the tool in the spindle is not known");
         }
         return Ok(());
     };

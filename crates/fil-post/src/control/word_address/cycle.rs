@@ -78,7 +78,8 @@ pub fn hole(
 /// plane, feed, levels or peck since.
 fn control_has_data(control: &Control, cycle: &Cycle, hole: &Hole) -> bool {
     let step = control.commons.read(loc::CYCLE_STEP_ADDRESS).filter(|_| cycle.step.is_some());
-    let letters = [Some(F), Some(R), step];
+    let dwell = control.commons.read(loc::CYCLE_DWELL_ADDRESS).filter(|_| cycle.dwell > 0.0);
+    let letters = [Some(F), Some(R), step, dwell];
     letters.into_iter().flatten().all(|letter| control.state.has_last(letter))
         && control.state.plane.is_none_or(|plane| plane == Plane::across(hole.along))
 }

@@ -5,8 +5,8 @@ use fil_diag::Result;
 use fil_machine::modes::{Plane, Unit};
 use fil_machine::{FunctionCode, locations as loc};
 
-use crate::control::Control;
 use crate::control::program::{plane_code, unit_code};
+use crate::control::{Control, Function};
 use crate::control_state::{Compensation, Distance};
 use crate::errors::PostCode;
 
@@ -48,7 +48,8 @@ fn say_again(control: &mut Control, unit: Unit) -> Result<()> {
         control.state.distance = Some(Distance::Absolute);
     }
     if control.state.compensation.is_none() {
-        if control.compensation_asked() != Compensation::Off {
+        let begun = !control.waiting.has(Function::Compensation);
+        if begun && control.compensation_asked() != Compensation::Off {
             return PostCode::CompensationLost
                 .err("a text that can't be read stands within cutter compensation");
         }

@@ -3,6 +3,7 @@
 use fil_diag::Result;
 use fil_machine::letters::S;
 use fil_machine::locations as loc;
+use fil_machine::rounding::Rounding;
 use fil_machine::setting::CodeAt;
 
 use crate::control::{Control, Function};
@@ -30,7 +31,7 @@ pub fn write(control: &mut Control, spindle: Spindle) -> Result<()> {
         Spindle::Off => off(control),
         Spindle::Orient(angle) => {
             if let Some(angle) = angle {
-                control.word(S, angle)?;
+                control.word_rounded(S, angle, Rounding::Exact)?;
             }
             place(control, loc::SPINDLE_ORIENT_CODE, "SPINDL/ORIENT")
         }

@@ -28,6 +28,9 @@ pub fn stop(control: &mut Control, stop: Stop) -> Result<()> {
 /// The machine has no such code; and as [`program::end`].
 pub fn end(control: &mut Control, end: End) -> Result<()> {
     if control.state.ended {
+        if end == End::OfFile {
+            return program::close_ended(control);
+        }
         if end == End::Rewind {
             let message = "REWIND: the program has ended before".to_string();
             control.warnings.add(PostCode::IgnoredPart, message);

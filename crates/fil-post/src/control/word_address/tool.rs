@@ -24,7 +24,7 @@ pub fn prepare(control: &mut Control, wanted: &ToolChange) -> Result<bool> {
         return PostCode::CompensationOn.err("at a tool change; CUTCOM/OFF must come before it");
     }
     let modal = control.commons.read(loc::TOOL_MODAL);
-    Ok(!modal || control.tool != Some(wanted.tool))
+    Ok(!modal || control.state.tool != Some(wanted.tool))
 }
 
 /// Changes the tool and calls its length offset.
@@ -41,7 +41,7 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
         restate(control);
         control.because(wanted.causes[1], |control| length_offset(control, wanted))?;
     }
-    control.tool = Some(wanted.tool);
+    control.state.tool = Some(wanted.tool);
     Ok(())
 }
 
