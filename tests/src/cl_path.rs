@@ -1,4 +1,5 @@
-//! The tool path a CL file asks for, read without any post.
+//! The tool path a CL file asks for, as the checker of `fil-nc` reads it without any post, in
+//! the form in which LinuxCNC's is read.
 //!
 //! Covers what a three-axis mill without cutter compensation by the control
 //! does: rapid and feed motions, arcs about a principal axis, drilling cycles
@@ -7,183 +8,81 @@
 
 use std::io::Read;
 
-use fil_cl::record::{kind, motion};
-use fil_cl::{Circle, Options, Reader, Record, Vocabulary, Word, WordId, words as w};
+use fil_cl::Options;
+use fil_nc::forward::Pose;
+use fil_nc::motion::{Compensation, Rate};
+use fil_nc::verify::{self, ClPath, Wanted};
 
 use crate::path::{Action, Arc, Axis, Hole, Point, Step, ToolPath, Unit};
-
-/// Statements that move the tool or the frame in a way not covered here.
-const NOT_COVERED: [WordId; 14] = [
-    w::TRANS,
-    w::TRACUT,
-    w::ORIGIN,
-    w::COPY,
-    w::INDEX,
-    w::ROTABL,
-    w::ROTATE,
-    w::ROTHED,
-    w::GOHOME,
-    w::THREAD,
-    w::OP,
-    w::CALSUB,
-    w::INSERT,
-    w::NURBS,
-];
 
 /// How far an axis may be from a principal one.
 const STRAIGHT: f64 = 1e-6;
 
-/// A drilling cycle that is on.
-#[derive(Clone, Copy)]
-struct Cycle {
-    depth: f64,
-    clear: f64,
-    rate: Option<f64>,
-}
-
-/// What statements leave for the later ones.
-#[derive(Default)]
-struct State {
-    unit: Option<Unit>,
-    point: Point,
-    /// RAPID holds for the next motion only.
-    rapid: bool,
-    rate: Option<f64>,
-    circle: Option<Circle>,
-    cycle: Option<Cycle>,
-    /// The last cycle, for CYCLE/ON.
-    last_cycle: Option<Cycle>,
-}
-
-/// The path of a CL text; `name` is what messages show.
+/// The path of a CL text, in mm; `name` is what messages show.
 ///
 /// # Errors
 /// A CL text that cannot be read, and a statement this module does not cover.
 pub fn cl_path(input: impl Read, name: &str) -> Result<ToolPath, String> {
-    let mut vocab = Vocabulary::new();
-    let mut reader = Reader::new(input, name, Options::default());
-    let (mut record, mut state, mut steps) = (Record::default(), State::default(), Vec::new());
-    while reader.read(&mut vocab, &mut record).map_err(|diag| diag.to_string())? {
-        let action =
-            state.take(&record).map_err(|reason| format!("CL line {}: {reason}", record.line))?;
-        steps.extend(action.map(|action| Step { line: record.line, action }));
+    let mut steps = Vec::new();
+    for step in ClPath::new(input, name, Options::default(), [0.0; 3]) {
+        let verify::Step { line, what } = step.map_err(|diag| diag.to_string())?;
+        let action = action(&what).map_err(|reason| format!("CL line {line}: {reason}"))?;
+        steps.extend(action.map(|action| Step { line, action }));
     }
-    Ok(ToolPath { unit: state.unit, steps })
+    Ok(ToolPath { unit: Some(Unit::Mm), steps })
 }
 
-impl State {
-    fn take(&mut self, record: &Record) -> Result<Option<Action>, String> {
-        match record.kind {
-            kind::MOTION => return self.motion(record),
-            kind::SURFACE => self.circle = record.circle(),
-            kind::PSEUDO => {}
-            _ if NOT_COVERED.contains(&record.major) => {
-                return Err("the statement is not covered by this comparison".to_string());
-            }
-            _ => return self.command(record),
+fn action(what: &Wanted) -> Result<Option<Action>, String> {
+    Ok(Some(match what {
+        Wanted::Rapid(pose) => Action::Rapid(tip(pose)?),
+        Wanted::Feed(pose, rate) => Action::Feed(tip(pose)?, minute(*rate)),
+        Wanted::Arc(arc, rate) => Action::Arc(self::arc(arc)?, minute(*rate)),
+        Wanted::Hole(hole) => {
+            let [x, y, z] = tip(&hole.start)?;
+            let clearance = z + hole.clear.unwrap_or(0.0);
+            let hole_at = Hole { at: [x, y], bottom: z - hole.depth, clearance };
+            Action::Hole(hole_at, minute(hole.rate))
         }
-        Ok(None)
-    }
-
-    fn command(&mut self, record: &Record) -> Result<Option<Action>, String> {
-        match record.major {
-            w::UNITS if record.has(w::INCHES) => self.unit = Some(Unit::Inch),
-            w::UNITS if record.has(w::MM) => self.unit = Some(Unit::Mm),
-            w::RAPID => self.rapid = true,
-            w::FEDRAT => self.rate = self.minute_rate(record, first_number(record)),
-            w::CYCLE => self.cycle(record)?,
-            w::CUTCOM if !record.has(w::OFF) => {
-                return Err("cutter compensation is not covered".to_string());
-            }
-            w::LOADTL | w::TURRET => return Ok(first_number(record).map(tool)),
-            w::LOAD => return Ok(record.number_after(w::TOOL).map(tool)),
-            _ => {}
+        Wanted::Tool { number, .. } => Action::Tool(*number),
+        Wanted::Thread(..) | Wanted::Insert(_) | Wanted::Unknown { .. } => {
+            return Err(format!("{what:?} is not covered by this comparison"));
         }
-        Ok(None)
-    }
-
-    /// A rate in path units a minute; `None` for the other kinds of feed.
-    fn minute_rate(&self, record: &Record, value: Option<f64>) -> Option<f64> {
-        let unit = self.unit?;
-        let given = match () {
-            () if record.has(w::MMPM) => Unit::Mm,
-            () if record.has(w::IPM) => Unit::Inch,
-            () => return None,
-        };
-        value.map(|value| value * given.in_mm() / unit.in_mm())
-    }
-
-    fn cycle(&mut self, record: &Record) -> Result<(), String> {
-        self.cycle = if record.has(w::OFF) {
-            None
-        } else if record.has(w::ON) {
-            self.last_cycle
-        } else {
-            let number = |one, other| record.number_after(one).or(record.number_after(other));
-            let depth = number(w::DEPTH, w::FEDTO).ok_or("a cycle without DEPTH")?;
-            let clear = number(w::RAPTO, w::CLEAR).unwrap_or(0.0);
-            let rate = self.minute_rate(record, number(w::MMPM, w::IPM));
-            Some(Cycle { depth: depth.abs(), clear, rate })
-        };
-        self.last_cycle = self.cycle.or(self.last_cycle);
-        Ok(())
-    }
-
-    fn motion(&mut self, record: &Record) -> Result<Option<Action>, String> {
-        let mut to = record.point().ok_or("a motion without a point")?;
-        if record.axis().is_some_and(|axis| (axis[2] - 1.0).abs() > STRAIGHT) {
-            return Err("the tool axis is not Z".to_string());
+        Wanted::Compensation(side, _) if *side != Compensation::Off => {
+            return Err("cutter compensation is not covered".to_string());
         }
-        if record.sub == motion::GODLTA {
-            to = std::array::from_fn(|i| self.point[i] + to[i]);
-        }
-        self.point = to;
-        if record.sub == motion::FROM {
-            return Ok(None);
-        }
-        let rapid = std::mem::take(&mut self.rapid);
-        match (self.circle.take(), self.cycle, rapid) {
-            (None, None, true) => Ok(Some(Action::Rapid(to))),
-            (None, None, false) => Ok(Some(Action::Feed(to, self.rate))),
-            (Some(circle), None, false) => Ok(Some(Action::Arc(arc(&circle, to)?, self.rate))),
-            (None, Some(cycle), false) => {
-                let hole = Hole {
-                    at: [to[0], to[1]],
-                    bottom: to[2] - cycle.depth,
-                    clearance: to[2] + cycle.clear,
-                };
-                Ok(Some(Action::Hole(hole, cycle.rate)))
-            }
-            _ => Err("RAPID, CIRCLE and CYCLE hold for one and the same motion".to_string()),
-        }
-    }
+        _ => return Ok(None),
+    }))
 }
 
-fn tool(number: f64) -> Action {
-    Action::Tool(number as u32)
-}
-
-fn first_number(record: &Record) -> Option<f64> {
-    record.data.iter().find_map(|word| match word {
-        Word::Number(value) => Some(*value),
+/// A rate in mm a minute; `None` for the other kinds of feed.
+fn minute(rate: Option<Rate>) -> Option<f64> {
+    match rate {
+        Some(Rate::PerMinute(rate)) => Some(rate),
         _ => None,
-    })
+    }
 }
 
-/// The arc of Creo's CIRCLE: right-hand rule about its axis, next point is the end.
-fn arc(circle: &Circle, to: Point) -> Result<Arc, String> {
-    let along = |axis: usize| {
-        let length = circle.axis.iter().map(|part| part * part).sum::<f64>().sqrt();
-        circle.axis[axis].abs() > length * (1.0 - STRAIGHT)
-    };
-    let (index, normal) = match () {
-        () if along(0) => (0, Axis::X),
-        () if along(1) => (1, Axis::Y),
-        () if along(2) => (2, Axis::Z),
-        () => return Err("the axis of the circle is not X, Y or Z".to_string()),
-    };
-    let ccw = circle.axis[index] > 0.0;
-    Ok(Arc { to, centre: circle.center, normal, ccw, turns: 1 })
+/// The tip of an upright tool.
+fn tip(pose: &Pose) -> Result<Point, String> {
+    if (pose.axis.z - 1.0).abs() > STRAIGHT {
+        return Err("the tool axis is not Z".to_string());
+    }
+    Ok(pose.tip.coords.into())
+}
+
+fn arc(arc: &verify::Arc) -> Result<Arc, String> {
+    let along = (0..3).find(|axis| arc.normal[*axis].abs() > 1.0 - STRAIGHT);
+    let index = along.ok_or("the axis of the circle is not X, Y or Z")?;
+    if arc.sweep > 360.0 {
+        return Err("more than one turn is not covered".to_string());
+    }
+    Ok(Arc {
+        to: tip(&arc.end)?,
+        centre: arc.centre.coords.into(),
+        normal: [Axis::X, Axis::Y, Axis::Z][index],
+        ccw: arc.normal[index] > 0.0,
+        turns: 1,
+    })
 }
 
 #[cfg(test)]
@@ -223,10 +122,11 @@ mod tests {
     #[test]
     fn what_is_not_covered_is_refused() {
         for text in [
-            "TRANS / 1., 0., 0.\n",
+            "TRACUT / 1., 0., 0.\n",
             "CUTCOM / LEFT\n",
+            "INSERT / G91\n",
             "GOTO / 0., 0., 0., 1., 0., 0.\n",
-            "CIRCLE / 0., 0., 0., 0., 1., 1., 1.\nGOTO / 0., 0., 0.\n",
+            "GOTO / 1., 0., 0.\nCIRCLE / 0., 0., 0., 0., 0.6, 0.8, 1.\nGOTO / 0., 0., 0.\n",
             "CYCLE / DRILL, 3.5, 50.\n",
         ] {
             assert!(steps(text).is_err(), "{text}");

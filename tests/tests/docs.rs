@@ -295,3 +295,34 @@ fn files_named_by_the_architecture_are_there() {
         }
     }
 }
+
+/// The page of the dialects has a row for each of them that says how it is recognized.
+#[test]
+fn the_page_of_dialects_has_them_all() {
+    use filpost::cl::dialect::{ClDialect, Sign};
+    use filpost::cl::vocabulary::Vocabulary;
+
+    let page = read("docs/dialects.md");
+    let vocabulary = Vocabulary::new();
+    for dialect in ClDialect::ALL {
+        let row = page
+            .lines()
+            .find(|line| line.starts_with(&format!("| `{dialect}` |")))
+            .unwrap_or_else(|| panic!("no row of {dialect}"));
+        let rules = dialect.rules();
+        for sign in rules.signs {
+            let spelled = match sign {
+                Sign::Word(word) => vocabulary.name(*word),
+                Sign::Name(text) | Sign::Prefix(text) | Sign::Text(_, text) => text,
+                Sign::Pseudo => "`$$->`",
+                // Without blanks in the table, so only its first letters are looked for.
+                Sign::Comment(text) => &text.trim_start_matches('*')[..3],
+            };
+            assert!(row.to_lowercase().contains(&spelled.to_lowercase()), "{dialect}: {spelled}");
+        }
+        let circle = rules.circle.map_or("none".to_string(), |form| form.spell_counts());
+        assert!(row.contains(&format!("| {circle}")), "{dialect}: {circle}");
+        let ends = if rules.writes_fini { "| yes |" } else { "| no |" };
+        assert!(row.ends_with(ends), "{dialect}");
+    }
+}

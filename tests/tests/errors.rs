@@ -34,6 +34,7 @@ const TESTED_HERE: &[(&str, &str)] = &[
     ("E0411", "e0411_too_many_words"),
     ("E0412", "e0412_and_e0413_writing_cl"),
     ("E0413", "e0412_and_e0413_writing_cl"),
+    ("E0414", "e0414_last_line_without_an_end"),
     ("E0701", "e0701_missing_file"),
     ("E0702", "e0702_absent_folder"),
     ("E0705", "e0705_case_file"),
@@ -354,6 +355,12 @@ fn e0412_and_e0413_writing_cl() {
     record.data = vec![fil_cl::Word::Number(f64::NAN)];
     let diag = fil_cl::Writer::new(Vec::new()).write(&record, &vocabulary).expect_err("refused");
     assert_eq!(diag.code.name(), "E0412");
+}
+
+#[test]
+fn e0414_last_line_without_an_end() {
+    assert_eq!(posting("UNITS / MM\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3."), "E0414");
+    assert_eq!(posting("INSERT G0 X1"), "E0414");
 }
 
 /// A folder with the part, and what the output is when an older program lies there.

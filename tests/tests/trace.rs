@@ -8,7 +8,7 @@ use std::path::Path;
 
 use filpost::case::{self, Case};
 use filpost::cl::record::motion;
-use filpost::cl::{Record, Vocabulary, Word, reader};
+use filpost::cl::{ClDialect, Record, Vocabulary, Word, reader};
 use filpost::map::{Digest, Entry, MapReader, Names, NcLine};
 use filpost::{Error, Program, files};
 use filpost_tests::root;
@@ -46,9 +46,10 @@ fn cases() -> Vec<Case> {
 }
 
 /// The records of a CL file by number.
-fn records(path: &Path) -> HashMap<u32, Record> {
+fn records(path: &Path, dialect: Option<ClDialect>) -> HashMap<u32, Record> {
     let text = files::read(path).expect("a CL file");
-    let mut reader = reader::Reader::new(&text[..], "part.ncl", reader::Options::default());
+    let options = reader::Options { dialect, ..reader::Options::default() };
+    let mut reader = reader::Reader::new(&text[..], "part.ncl", options);
     let (mut vocabulary, mut record) = (Vocabulary::new(), Record::default());
     let mut found = HashMap::new();
     while let Ok(true) = reader.read(&mut vocabulary, &mut record) {
@@ -99,7 +100,7 @@ fn each_line_is_cut_into_its_words() {
 fn each_cause_is_a_record_of_the_cl_file() {
     for case in cases() {
         let Some((_, map)) = mapped(&case) else { continue };
-        let records = records(&case.folder.join(&case.file.cl));
+        let records = records(&case.folder.join(&case.file.cl), case.file.dialect);
         for line in lines(&map) {
             let causes = line.words.iter().map(|word| word.cause).chain([line.cause]);
             for cause in causes.filter(|cause| cause.record != 0) {
@@ -126,7 +127,7 @@ fn an_axis_word_repeats_the_word_it_names() {
         if post.start().run_mapped(cl, &mut nc, &names, &mut map).is_err() {
             continue;
         }
-        let records = records(&path);
+        let records = records(&path, None);
         let text = String::from_utf8(nc).expect("UTF-8");
         for (line, text) in lines(&map).iter().zip(text.lines()) {
             for word in line.words.iter().filter(|word| ['X', 'Y', 'Z'].contains(&word.letter)) {

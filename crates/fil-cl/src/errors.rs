@@ -58,5 +58,29 @@ fil_diag::codes! {
         WriteFailed = 413, Error, "CL file cannot be written",
             "The operating system refused to write on.",
             "Check the disk space and the permissions.";
+        /// A last line that has no end.
+        LineCutOff = 414, Error, "last line may be cut off",
+            "The file ends without a line end, in a statement that may go on: more digits, more \
+             items or more text may be lost.",
+            "Compare the end of the file with the CAM system's; end the line where it is whole.";
+        /// Signs of two CAM systems in one text.
+        TwoDialects = 415, Error, "text of two dialects",
+            "Dialects differ in the sense of arcs, so a text must not be read half by one and \
+             half by another.",
+            "Choose the dialect with --dialect.";
+        /// Values that could be a tool axis, one point or several.
+        UnclearPoints = 416, Error, "points are not clear",
+            "Six values of a GOTO are a point and a tool axis of length 1; several points in one \
+             GOTO are read only where they can be nothing else.",
+            "Write each point in a GOTO of its own.";
+        /// A CIRCLE of another dialect.
+        ForeignArc = 417, Error, "arc is not in a form of the dialect",
+            "The axis of a CIRCLE means the opposite sense in some dialects; the number of its \
+             values shows which it is from.",
+            "Choose the dialect of the CAM system with --dialect.";
+        /// A statement that lacks an item.
+        MissingItem = 418, Error, "item is missing",
+            "The statement says nothing without the item; it is perhaps in a line that got lost.",
+            "Check the statement; a statement goes on in the next line when its line ends in $.";
     }
 }

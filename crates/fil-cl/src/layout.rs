@@ -3,10 +3,16 @@
 //! The same for a statement of the CL file and for one a script makes, so that
 //! both look alike to whoever counts words.
 
+use fil_diag::Diag;
+
 use crate::errors::ClCode;
 use crate::record::{CIRCLE_SURFACE, CUTTER_SUB, Circle, Record, Word, kind, mode, motion};
 use crate::vocabulary::WordId;
 use crate::words;
+
+/// How far the length of a tool axis or of a circle's axis may be from 1: CL files round to
+/// three decimals at the coarsest, which changes the length by less.
+const UNIT_TOLERANCE: f64 = 1e-3;
 
 /// Why items do not make a record.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,6 +23,32 @@ pub struct ShapeError {
     pub message: String,
     /// Index of the item at fault; the number of items when one is missing.
     pub item: usize,
+}
+
+impl std::fmt::Display for ShapeError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "item {}: {}", self.item + 1, self.message)
+    }
+}
+
+impl std::error::Error for ShapeError {}
+
+impl From<ShapeError> for Box<Diag> {
+    fn from(error: ShapeError) -> Self {
+        error.code.diag(error.message)
+    }
+}
+
+/// True for a vector of length 1, as far as CL files are exact.
+#[inline]
+pub(crate) fn is_unit(vector: [f64; 3]) -> bool {
+    (length(vector) - 1.0).abs() <= UNIT_TOLERANCE
+}
+
+/// The length of a vector.
+#[inline]
+pub(crate) fn length(vector: [f64; 3]) -> f64 {
+    vector.iter().map(|part| part * part).sum::<f64>().sqrt()
 }
 
 /// True for the words whose statement is free text to its end.
@@ -32,6 +64,64 @@ pub fn takes_text(major: WordId) -> bool {
             | words::TPRINT
             | words::TOOL_PATH
     )
+}
+
+/// True for the known words whose statement says nothing without items.
+pub(crate) fn needs_items(major: WordId) -> bool {
+    matches!(
+        major,
+        words::CUTTER
+            | words::TLAXIS
+            | words::FEDRAT
+            | words::SPINDL
+            | words::COOLNT
+            | words::LOADTL
+            | words::LOAD
+            | words::SELCTL
+            | words::SELECT
+            | words::TURRET
+            | words::TOOLNO
+            | words::CYCLE
+            | words::CUTCOM
+            | words::DELAY
+            | words::MACHIN
+            | words::UNITS
+            | words::UNIT
+            | words::PREFUN
+            | words::AUXFUN
+            | words::SEQNO
+            | words::MODE
+            | words::OP
+            | words::THREAD
+            | words::TRANS
+            | words::TRACUT
+            | words::REPEAT
+            | words::POSTN
+            | words::ROTATE
+            | words::ROTABL
+            | words::ROTHED
+            | words::HEAD
+            | words::OPSKIP
+            | words::SET
+            | words::LINTOL
+            | words::ARCSLP
+            | words::CALSUB
+            | words::ORIGIN
+            | words::COUPLE
+            | words::PITCH
+            | words::CLEARP
+            | words::TLDATA
+            | words::MSYS
+            | words::TRNTYP
+            | words::INTOL
+            | words::OUTTOL
+    )
+}
+
+/// True for the words whose items may be texts: names of a machine, and words that are not
+/// in the vocabulary of this crate.
+pub(crate) fn takes_texts_as_items(major: WordId) -> bool {
+    major == words::MACHIN || major.index() >= words::NAMES_AND_CLASSES.len()
 }
 
 /// What is said of motion that is given by geometry.
@@ -133,6 +223,35 @@ impl Record {
             _ => (kind::POST, 0),
         };
         Ok(())
+    }
+
+    /// Checks three values that must be a tool axis or the axis of a circle; to be called on
+    /// the items, before [`Record::arrange`].
+    pub(crate) fn check_axis(&self) -> Result<(), ShapeError> {
+        let is_axis = match self.major {
+            words::GOTO | words::FROM => self.leading_numbers() == 6,
+            words::CIRCLE => self.leading_numbers() >= 6,
+            _ => false,
+        };
+        let [_, _, _, Word::Number(i), Word::Number(j), Word::Number(k), ..] = self.data[..] else {
+            return Ok(());
+        };
+        if !is_axis || is_unit([i, j, k]) {
+            return Ok(());
+        }
+        let length = length([i, j, k]);
+        Err(match self.major {
+            words::CIRCLE => {
+                bad_point(format!("the axis of the circle has length {length:.4}, not 1"), 3)
+            }
+            _ => ShapeError {
+                code: ClCode::UnclearPoints,
+                message: format!(
+                    "the last three values are no tool axis: length {length:.4}, not 1"
+                ),
+                item: 3,
+            },
+        })
     }
 
     fn arrange_motion(&mut self, sub: u32, counts: &[usize]) -> Result<(), ShapeError> {

@@ -1,5 +1,7 @@
 //! CL records: vocabulary, streaming reader, writer.
 
+mod build;
+pub mod dialect;
 pub mod errors;
 mod fault;
 pub mod layout;
@@ -9,9 +11,11 @@ pub mod vocabulary;
 pub mod words;
 pub mod writer;
 
+pub use build::{Item, RecordBuilder};
+pub use dialect::{ClDialect, Evidence, Recognized};
 pub use errors::ClCode;
 pub use layout::ShapeError;
-pub use reader::{Dialect, Options, Reader};
+pub use reader::{Options, Reader};
 pub use record::{Circle, Record, Word, WordView};
 pub use vocabulary::{Vocabulary, WordId};
 pub use writer::Writer;

@@ -24,6 +24,13 @@ macro_rules! words {
     (@name $id:ident $name:literal) => { $name };
 }
 
+/// True for the name of a word of this list that opens statements, in any case.
+pub(crate) fn is_major_name(name: &[u8]) -> bool {
+    NAMES_AND_CLASSES
+        .iter()
+        .any(|(known, class)| class & MAJOR != 0 && known.as_bytes().eq_ignore_ascii_case(name))
+}
+
 /// A word used both as the major word of a statement and inside one.
 const EITHER: u8 = MAJOR | MINOR;
 

@@ -32,7 +32,7 @@ impl<W: Write> Writer<W> {
     ///
     /// # Errors
     /// The record has no text form (a number that is not finite, a text that would
-    /// read as something else, a single empty slot), or the output fails.
+    /// read as something else, an empty slot at the end), or the output fails.
     pub fn write(&mut self, record: &Record, vocab: &Vocabulary) -> Result<(), Box<Diag>> {
         self.line.clear();
         if record.kind == kind::PSEUDO {
@@ -60,8 +60,7 @@ impl<W: Write> Writer<W> {
             return Err(unwritable("a text statement with other words than one text"));
         };
         let text = record.text_of(word);
-        let open = text.ends_with('$') && !text.ends_with("$$");
-        if open || text.contains(char::is_control) || text.ends_with([' ', '\t']) {
+        if text.contains(char::is_control) || text.ends_with([' ', '\t']) {
             return Err(unwritable("a text that a line cannot hold"));
         }
         self.line.push_str(" / ");
@@ -75,8 +74,8 @@ impl<W: Write> Writer<W> {
             self.line.push_str(if is_bare(record) { " " } else { " / " });
             return Ok(());
         }
-        if matches!(data, [Word::Empty]) {
-            return Err(unwritable("a single empty slot"));
+        if data.last() == Some(&Word::Empty) {
+            return Err(unwritable("an empty slot at the end"));
         }
         self.line.push_str(" /");
         let mut start = 0;

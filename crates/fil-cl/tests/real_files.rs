@@ -5,13 +5,18 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
 use fil_cl::record::kind;
-use fil_cl::{Options, Reader, Record, Vocabulary, Writer, words};
+use fil_cl::{Circle, ClCode, ClDialect, Options, Reader, Record, Vocabulary, Writer, words};
+use fil_diag::Code;
 
 /// The files of a family; none, with the reason printed, where they are absent.
 fn files(family: &str) -> Vec<PathBuf> {
+    files_in(&format!("cl/{family}"))
+}
+
+fn files_in(folder: &str) -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let data = std::env::var_os("FILPOST_DATA").map_or(root.join("../shared/data"), PathBuf::from);
-    let folder = data.join("cl").join(family);
+    let folder = data.join(folder);
     let Ok(entries) = fs::read_dir(&folder) else {
         println!("skipped: no folder {}", folder.display());
         return Vec::new();
@@ -100,10 +105,7 @@ fn arcs_of_nx_are_short() {
             if three[1].has(words::TIMES) {
                 continue;
             }
-            let from = |p: [f64; 3]| [p[0] - circle.center[0], p[1] - circle.center[1]];
-            let (a, b) = (from(start), from(end));
-            let turn = (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]);
-            let sweep = (turn * circle.axis[2]).rem_euclid(std::f64::consts::TAU);
+            let sweep = sweep(&circle, start, end);
             assert!(sweep < 3.2, "{}:{} {sweep}", path.display(), three[1].line);
         }
     }
@@ -143,4 +145,97 @@ fn other_files_are_read_or_refused() {
             _ => {}
         }
     }
+}
+
+/// The dialect of each file by its folder, and the names of files that are others.
+#[test]
+fn dialects_of_files() {
+    let generic = [
+        "upside_down.cl",
+        "upside_down.pp",
+        "4_toolchange_empty-to-mill.aptsource",
+        "4_toolchange_mill-to-turn.aptsource",
+        "5_rotabl_rotabl.aptsource",
+        "PathPointsFile.cls",
+    ];
+    for (folder, dialect) in [
+        ("cl/creo", ClDialect::Creo),
+        ("cl/nx", ClDialect::Nx),
+        ("cl/solidworks-cam", ClDialect::SolidWorksCam),
+        ("cl/other", ClDialect::Ncl),
+        ("cl-more/camworks", ClDialect::CamWorks),
+        ("cl-more/catia", ClDialect::Catia),
+        ("cl-more/nx", ClDialect::Nx),
+        ("cl-more/other", ClDialect::Nx),
+        ("cl-more/solidworks-cam", ClDialect::SolidWorksCam),
+    ] {
+        for path in files_in(folder) {
+            let name = path.file_name().unwrap().to_string_lossy().into_owned();
+            let expected = match name.as_str() {
+                "Plane_1.cldata" => ClDialect::Ffcam,
+                "catia_help_lathe_LT.aptsource" => ClDialect::Catia,
+                name if generic.contains(&name) => ClDialect::Generic,
+                _ => dialect,
+            };
+            let file = File::open(&path).unwrap();
+            let mut reader = Reader::new(file, &name, Options::default());
+            let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
+            let refused = loop {
+                match reader.read(&mut vocab, &mut record) {
+                    Ok(true) => {}
+                    Ok(false) => break None,
+                    Err(diag) => break Some(diag),
+                }
+            };
+            assert_eq!(reader.recognized().dialect, expected, "{name}");
+            // Arcs by geometry, a missing comma, binary data and a part program are refused;
+            // nothing else.
+            let allowed = match folder {
+                "cl-more/catia" => ClCode::UncomputedMotion,
+                "cl-more/camworks" => ClCode::BadNumber,
+                "cl/other" if name.ends_with(".cl") => ClCode::BinaryData,
+                _ => ClCode::BadWord,
+            };
+            let allowed: &Code = allowed.into();
+            match refused {
+                Some(diag) if *diag.code == *allowed && folder != "cl-more/nx" => {}
+                Some(diag) => panic!("{diag}"),
+                None => assert!(!name.ends_with(".cl") && !name.ends_with(".pp"), "{name}"),
+            }
+        }
+    }
+}
+
+/// The arcs of CAMWorks are the shorter way round when the word decides, though all their
+/// axes are the same.
+#[test]
+fn words_decide_the_arcs_of_camworks() {
+    for path in files_in("cl-more/camworks") {
+        let text = fs::read_to_string(&path).unwrap();
+        // Some of its cycles lack a comma.
+        let motions: Vec<&str> = text.lines().filter(|line| !line.starts_with("CYCLE")).collect();
+        let text = motions.join("\n") + "\n";
+        let mut reader = Reader::new(text.as_bytes(), "clt", Options::default());
+        let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
+        let mut records = Vec::new();
+        while reader.read(&mut vocab, &mut record).unwrap_or_else(|diag| panic!("{diag}")) {
+            records.push(record.clone());
+        }
+        let mut senses = [0, 0];
+        for three in records.windows(3) {
+            let Some(circle) = three[1].circle() else { continue };
+            let (Some(start), Some(end)) = (three[0].point(), three[2].point()) else { continue };
+            assert!(sweep(&circle, start, end) < 3.2, "line {}", three[1].line);
+            senses[usize::from(circle.axis[2] > 0.0)] += 1;
+        }
+        assert!(senses.iter().all(|count| *count > 0), "{senses:?}");
+    }
+}
+
+/// Angle of an arc in the XY plane by the right-hand rule, radians; 0 for a full circle.
+fn sweep(circle: &Circle, start: [f64; 3], end: [f64; 3]) -> f64 {
+    let from = |p: [f64; 3]| [p[0] - circle.center[0], p[1] - circle.center[1]];
+    let (a, b) = (from(start), from(end));
+    let turn = (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]);
+    (turn * circle.axis[2]).rem_euclid(std::f64::consts::TAU)
 }

@@ -78,13 +78,13 @@ fn cut_off_statements() {
     check("RAPID\nGOTO / 1.0, 2.0,  $\n", ClCode::OpenContinuation, 2, 19, "$");
     check("GOTO / 1.0, 2.0,$", ClCode::OpenContinuation, 1, 17, "$");
     check("GOTO / 1.0,$\n$$-> END / \n", ClCode::OpenContinuation, 1, 12, "$");
-    check("PPRINT / HELLO $\n", ClCode::OpenContinuation, 1, 16, "$");
+    check("$$-> CSYS / 1,$\n", ClCode::OpenContinuation, 1, 15, "$");
 }
 
 #[test]
 fn binary_data() {
     check("RAPID\nGOTO / 1.0, 2\0, 3\n", ClCode::BinaryData, 2, 14, "\0");
-    check("PPRINT / A\x07\n", ClCode::BinaryData, 1, 11, "\x07");
+    check("PPRINT / A\0\n", ClCode::BinaryData, 1, 11, "\0");
     let wide: Vec<u8> = "GOTO/1,2,3\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
     assert_eq!(refuse(&wide).code.number, 402);
     assert_eq!(refuse(&vec![0; 3 << 20]).code.number, 402);
@@ -193,7 +193,6 @@ fn records_without_a_text_form() {
     record.data = vec![record.store_text("(a b)")];
     refused(record);
     refused(Record::text_command(words::PPRINT, "two\nlines"));
-    refused(Record::text_command(words::PPRINT, "open $"));
     refused(Record::command(words::PPRINT));
 }
 
@@ -208,5 +207,51 @@ fn an_output_that_fails() {
 #[test]
 fn numbers_of_the_codes_are_in_order() {
     let numbers: Vec<_> = ClCode::ALL.iter().map(|code| code.number).collect();
-    assert_eq!(numbers, (401..=413).collect::<Vec<u16>>());
+    assert_eq!(numbers, (401..=418).collect::<Vec<u16>>());
+}
+
+#[test]
+fn items_that_are_missing() {
+    check("FEDRAT\n", ClCode::MissingItem, 1, 1, "FEDRAT");
+    check("RAPID\n  spindl/ \n", ClCode::MissingItem, 2, 1, "  spindl/");
+    check("CYCLE / DEEP, DEPTH,\n", ClCode::MissingItem, 1, 20, ",");
+    check("SPINDL/RPM, , \nRAPID\n", ClCode::MissingItem, 1, 13, ",");
+    check("GOTO/1,2,\n3\n", ClCode::MissingItem, 1, 9, ",");
+}
+
+#[test]
+fn a_last_line_without_an_end() {
+    check("RAPID\nGOTO / 1.0, 2.0, 3.", ClCode::LineCutOff, 2, 18, "3.");
+    check("RAPID\nGOTO/1,2,3  ", ClCode::LineCutOff, 2, 10, "3");
+    check("FEDRAT/400,MMP", ClCode::LineCutOff, 1, 12, "MMP");
+    check("INSERT M3", ClCode::LineCutOff, 1, 8, "M3");
+    check("$$-> CUTTER / 3.0", ClCode::LineCutOff, 1, 15, "3.0");
+    for whole in ["FINI", "GOTO/1,2,3\nRAPID/", "SPINDL / OFF", "FEDRAT/400,MMPM", "$$-> END / "] {
+        let mut reader = Reader::new(whole.as_bytes(), "x", Options::default());
+        let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
+        while reader.read(&mut vocab, &mut record).unwrap_or_else(|diag| panic!("{diag}")) {}
+    }
+    // The end sign of DOS says that the text is whole.
+    let mut reader = Reader::new(&b"GOTO/1,2,3\x1A\x1A"[..], "x", Options::default());
+    assert!(reader.read(&mut Vocabulary::new(), &mut Record::default()).unwrap());
+}
+
+#[test]
+fn hidden_characters_in_names() {
+    check("RAPID\u{A0}\n", ClCode::BadWord, 1, 1, "RAPID\u{A0}");
+    check("RAPID\n\u{FEFF}GOTO/1,2,3\n", ClCode::BadWord, 2, 1, "\u{FEFF}GOTO");
+    check("FEDRAT/400,\u{A0}MMPM\n", ClCode::BadWord, 1, 12, "\u{A0}MMPM");
+    check("SPINDL/\u{200B}ON\n", ClCode::BadWord, 1, 8, "\u{200B}ON");
+    // A Cyrillic letter that looks like C, and a Greek one that looks like O.
+    check("\u{421}YCLE/DRILL\n", ClCode::BadWord, 1, 1, "\u{421}YCLE");
+    check("SPINDL/\u{39F}FF\n", ClCode::BadWord, 1, 8, "\u{39F}FF");
+}
+
+#[test]
+fn line_ends_that_are_none() {
+    check("$$ header\rGOTO/1,2,3\rFINI\r", ClCode::BinaryData, 1, 10, "\r");
+    check("RAPID $$ slow\rGOTO/1,2,3\n", ClCode::BinaryData, 1, 14, "\r");
+    check("PPRINT / A\rGOTO/1,2,3\n", ClCode::BinaryData, 1, 11, "\r");
+    check("GOTO/1,2,$\n$$ c\rRAPID\n3\n", ClCode::BinaryData, 2, 5, "\r");
+    check("RAPID\x1A\nGOTO/1,2,3\n", ClCode::BinaryData, 1, 6, "\x1A");
 }

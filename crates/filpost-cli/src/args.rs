@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use filpost::Moment;
+use filpost::cl::ClDialect;
 
 /// Posts CL files with FIL macros into NC programs.
 #[derive(Debug, Parser)]
@@ -76,6 +77,14 @@ pub struct Reading {
     pub encoding: Option<String>,
 }
 
+/// How CL text is read.
+#[derive(Debug, Default, ClapArgs)]
+pub struct ClReading {
+    /// Dialect of the CL file, a name of `filpost cl --dialects`; recognized when left out
+    #[arg(long, value_name = "NAME")]
+    pub dialect: Option<ClDialect>,
+}
+
 /// `filpost post`
 #[derive(Debug, ClapArgs)]
 pub struct PostArgs {
@@ -89,6 +98,8 @@ pub struct PostArgs {
     pub fil: Vec<PathBuf>,
     #[command(flatten)]
     pub reading: Reading,
+    #[command(flatten)]
+    pub cl_reading: ClReading,
     #[command(flatten)]
     pub grants: Grants,
     /// The NC file; standard output when left out or -
@@ -201,7 +212,14 @@ pub struct FmtArgs {
 #[derive(Debug, ClapArgs)]
 pub struct ClArgs {
     /// The CL file; - reads standard input
-    pub cl: PathBuf,
+    #[arg(required_unless_present = "dialects")]
+    pub cl: Option<PathBuf>,
+    /// List the dialects of CL text instead: their names, how they are recognized, and what
+    /// they mean
+    #[arg(long, conflicts_with_all = ["cl", "words", "dialect", "encoding"])]
+    pub dialects: bool,
+    #[command(flatten)]
+    pub cl_reading: ClReading,
     /// Write JSON
     #[arg(long)]
     pub json: bool,
@@ -255,6 +273,8 @@ pub struct VerifyArgs {
     #[command(flatten)]
     pub reading: Reading,
     #[command(flatten)]
+    pub cl_reading: ClReading,
+    #[command(flatten)]
     pub grants: Grants,
     /// A folder to look in for the option file that MACHIN names (may be given again)
     #[arg(long, value_name = "DIR")]
@@ -291,6 +311,8 @@ pub struct PlotArgs {
     /// Views of an SVG; all of them when left out
     #[arg(long, value_enum, value_name = "VIEWS", value_delimiter = ',')]
     pub view: Vec<Seen>,
+    #[command(flatten)]
+    pub cl_reading: ClReading,
     /// Encoding of the CL file's texts (utf-8, cp1251, koi8-r, …); guessed when left out
     #[arg(long, value_name = "LABEL")]
     pub encoding: Option<String>,
@@ -350,6 +372,9 @@ pub struct TestArgs {
     /// The CL file of the case
     #[arg(long, value_name = "PART", requires = "init")]
     pub cl: Option<PathBuf>,
+    /// The dialect of that CL file, where it is not recognized
+    #[arg(long, value_name = "NAME", requires = "init")]
+    pub dialect: Option<ClDialect>,
     /// The proven NC program of the case
     #[arg(long, value_name = "NC", requires = "init")]
     pub nc: Option<PathBuf>,
@@ -379,6 +404,8 @@ pub struct TraceArgs {
     /// How the answer is written
     #[arg(long, value_enum, default_value_t = AnswerFormat::Text)]
     pub format: AnswerFormat,
+    #[command(flatten)]
+    pub cl_reading: ClReading,
     /// Most lines of the NC program that are shown; all are counted
     #[arg(long, value_name = "N", default_value_t = 20)]
     pub most: usize,

@@ -264,6 +264,7 @@ fn tell(job: &Job, ended: &Ended) {
 /// A row of the table at the end.
 struct Row {
     cl: String,
+    dialect: String,
     result: String,
     warnings: usize,
     time: Duration,
@@ -275,7 +276,15 @@ impl Row {
         let cl = job.cl.display().to_string();
         let Some(outcome) = ended else {
             let result = "internal fault".to_string();
-            return Row { cl, result, warnings: 0, time: Duration::ZERO, status: Status::Fault };
+            let dialect = String::new();
+            return Row {
+                cl,
+                dialect,
+                result,
+                warnings: 0,
+                time: Duration::ZERO,
+                status: Status::Fault,
+            };
         };
         let (result, status) = match &outcome.result {
             Ok(report) => (summary::counted(report.blocks, "block"), Status::Done),
@@ -284,7 +293,9 @@ impl Row {
                 (format!("refused, {code}"), Status::Failed)
             }
         };
-        Row { cl, result, warnings: outcome.warnings.len(), time: outcome.time, status }
+        let dialect = outcome.result.as_ref().ok().and_then(|report| report.dialect);
+        let dialect = dialect.map_or(String::new(), |found| found.dialect.to_string());
+        Row { cl, dialect, result, warnings: outcome.warnings.len(), time: outcome.time, status }
     }
 }
 
@@ -293,10 +304,12 @@ fn table(rows: &[Row], time: Duration) {
     let widest = |of: fn(&Row) -> &str| rows.iter().map(|row| of(row).chars().count()).max();
     let name = widest(|row| &row.cl).unwrap_or(0);
     let result = widest(|row| &row.result).unwrap_or(0);
+    let dialect = widest(|row| &row.dialect).unwrap_or(0);
     for row in rows {
         output::say(&format!(
-            "{:name$}  {:>result$}  {:>12}  {:>8.2} s",
+            "{:name$}  {:dialect$}  {:>result$}  {:>12}  {:>8.2} s",
             row.cl,
+            row.dialect,
             row.result,
             summary::counted(row.warnings as u64, "warning"),
             row.time.as_secs_f64()

@@ -4,21 +4,24 @@ use std::collections::BTreeMap;
 use std::io::{self, BufWriter, Write};
 
 use filpost::cl::record::{kind, motion};
-use filpost::cl::{Record, Vocabulary, WordView, reader::Reader};
+use filpost::cl::{Evidence, Recognized, Record, Vocabulary, WordView, reader::Reader};
 use filpost::{Error, Extents, statement_text};
 use serde_json::{Value, json};
 
 use crate::args::ClArgs;
-use crate::{Status, output, setup, summary};
+use crate::{Status, dialects, output, setup, summary};
 
 /// Shows the records of a CL file.
 ///
 /// # Errors
 /// A CL file that can't be read.
 pub fn run(args: &ClArgs) -> Result<Status, Error> {
-    let input = output::open(&args.cl)?;
-    let options = setup::cl_options(args.encoding.as_deref())?;
-    let mut reader = Reader::new(input, &output::input_name(&args.cl), options);
+    let Some(cl) = &args.cl else {
+        return dialects::list(args.json);
+    };
+    let input = output::open(cl)?;
+    let options = setup::cl_options(args.encoding.as_deref(), &args.cl_reading)?;
+    let mut reader = Reader::new(input, &output::input_name(cl), options);
     let (mut vocabulary, mut record) = (Vocabulary::new(), Record::default());
     let mut show = Show {
         output: BufWriter::new(io::stdout().lock()),
@@ -30,7 +33,7 @@ pub fn run(args: &ClArgs) -> Result<Status, Error> {
     while reader.read(&mut vocabulary, &mut record).map_err(Error::Run)? {
         show.record(&record, &vocabulary).map_err(|error| output::stdout_error(&error))?;
     }
-    show.foot().map_err(|error| output::stdout_error(&error))?;
+    show.foot(reader.recognized()).map_err(|error| output::stdout_error(&error))?;
     Ok(Status::Done)
 }
 
@@ -115,19 +118,21 @@ impl<W: Write> Show<W> {
         Ok(())
     }
 
-    fn foot(&mut self) -> io::Result<()> {
+    fn foot(&mut self, dialect: Recognized) -> io::Result<()> {
         let counts = self.totals.by_count();
         if self.json {
             let counts: Value = counts.iter().map(|(name, count)| json!([name, count])).collect();
             let extents = self.totals.extents.map(|box_| json!({"min": box_.min, "max": box_.max}));
             writeln!(
                 self.output,
-                "\n],\n\"counts\":{counts},\n\"extents\":{}}}",
+                "\n],\n\"dialect\":{},\n\"counts\":{counts},\n\"extents\":{}}}",
+                json_dialect(dialect),
                 extents.unwrap_or(Value::Null)
             )?;
             return self.output.flush();
         }
-        writeln!(self.output, "\n{}", summary::counted(self.totals.records, "record"))?;
+        let records = summary::counted(self.totals.records, "record");
+        writeln!(self.output, "\n{records}, dialect {dialect}")?;
         for (name, count) in counts {
             writeln!(self.output, "{count:>9}  {name}")?;
         }
@@ -139,6 +144,16 @@ impl<W: Write> Show<W> {
             }
         }
         self.output.flush()
+    }
+}
+
+/// Name of the dialect, and the line that told it.
+fn json_dialect(found: Recognized) -> Value {
+    let name = found.dialect.name();
+    match found.evidence {
+        Evidence::Chosen => json!({"name": name, "chosen": true}),
+        Evidence::Sign { line } => json!({"name": name, "line": line}),
+        _ => json!({"name": name}),
     }
 }
 

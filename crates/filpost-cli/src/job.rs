@@ -5,6 +5,7 @@ use std::io::{self, BufWriter, Read, Seek};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use filpost::cl::reader::Options;
 use filpost::listing::Listing;
 use filpost::map::Names;
 use filpost::{Diag, Error, PendingFiles, Program, Report, files, select};
@@ -73,7 +74,7 @@ fn post(
     (outcome.title, outcome.note) = (built.title, built.note);
     let program = built.program;
     let mut listing = job.listing.as_deref().map(open_listing).transpose()?;
-    let options = setup::cl_options(args.reading.encoding.as_deref())?;
+    let options = options(args)?;
     Target::new(job.output.as_deref()).write(|nc| {
         let mut run = program.start().cl_name(&output::input_name(&job.cl)).reading(options);
         if let Some(listing) = &mut listing {
@@ -116,9 +117,15 @@ fn built(posts: &Posts<'_>, job: &Job, input: &mut File) -> Result<Built, Error>
     let folders: Vec<PathBuf> =
         std::iter::once(beside).chain(args.post_path.iter().cloned()).collect();
     let name = output::input_name(&job.cl);
-    let from = setup::from(&args.chosen, &folders, || select::machin(&mut *input, &name))?;
+    let options = options(args)?;
+    let from =
+        setup::from(&args.chosen, &folders, || select::machin(&mut *input, &name, options))?;
     input.rewind().map_err(|error| files::cant_read(&job.cl, &error))?;
     posts.get(from)
+}
+
+fn options(args: &PostArgs) -> Result<Options, Error> {
+    setup::cl_options(args.reading.encoding.as_deref(), &args.cl_reading)
 }
 
 fn open_listing(path: &Path) -> Result<Listing<BufWriter<File>>, Error> {

@@ -3,6 +3,7 @@
 use std::io::{Read, Write};
 use std::path::Path;
 
+use filpost::cl::reader::Options;
 use filpost::map::MapReader;
 use filpost::nc::plot::{Drawing, View, html, svg};
 use filpost::plot::{self, Text};
@@ -37,11 +38,7 @@ pub fn run(args: &PlotArgs) -> Result<Status, Error> {
         output::say(&format!("error: {name} is a CL file; --cl and --map go with an NC program"));
         return Ok(Status::Usage);
     }
-    let drawing = if is_cl {
-        plot::cl_file(text, setup::cl_options(args.encoding.as_deref())?)?
-    } else {
-        program(args, text)?
-    };
+    let drawing = if is_cl { plot::cl_file(text, options(args)?)? } else { program(args, text)? };
     let picture = match form {
         Form::Svg => svg(&drawing, &views(&args.view)),
         Form::Html => html(&drawing),
@@ -56,6 +53,10 @@ pub fn run(args: &PlotArgs) -> Result<Status, Error> {
     Ok(Status::Done)
 }
 
+fn options(args: &PlotArgs) -> Result<Options, Error> {
+    setup::cl_options(args.encoding.as_deref(), &args.cl_reading)
+}
+
 /// A program, with the CL file under it and the map's notes where they are given.
 fn program(args: &PlotArgs, nc: Text<'_>) -> Result<Drawing, Error> {
     let cl = args.cl.as_ref().map(|path| Ok((path, read(path)?))).transpose()?;
@@ -63,8 +64,8 @@ fn program(args: &PlotArgs, nc: Text<'_>) -> Result<Drawing, Error> {
     let mut drawing = plot::program(nc, program.commons())?;
     if let Some((path, bytes)) = &cl {
         let name = output::input_name(path);
-        let options = setup::cl_options(args.encoding.as_deref())?;
-        plot::lay_under(&mut drawing, Text { name: &name, bytes }, options, program.commons())?;
+        let text = Text { name: &name, bytes };
+        plot::lay_under(&mut drawing, text, options(args)?, program.commons())?;
     }
     if let Some(path) = &args.map {
         origins(&mut drawing, nc, path)?;
@@ -89,7 +90,8 @@ fn machine(args: &PlotArgs, cl: Option<(&Path, &[u8])>) -> Result<Program, Error
         (Some(named), _) => named,
         (None, Some((path, bytes))) => {
             let beside = path.parent().map(Path::to_path_buf).unwrap_or_default();
-            let machin = select::machin(std::io::Cursor::new(bytes), &output::input_name(path))?;
+            let name = output::input_name(path);
+            let machin = select::machin(std::io::Cursor::new(bytes), &name, options(args)?)?;
             let choice = select::for_machin(machin.as_ref(), &[beside]);
             setup::asked(&args.chosen, &choice, machin.as_ref(), args.encoding.as_deref())?
         }

@@ -46,7 +46,7 @@ fn grouped<'a>(warnings: impl IntoIterator<Item = &'a Diag>) -> Vec<(&'a Diag, u
     groups
 }
 
-/// The line at the end of a run: post, blocks, warnings, extents, time.
+/// The line at the end of a run: post, blocks, warnings, extents, dialect, time.
 pub fn line(post: &str, report: &Report, warnings: usize, time: Duration) -> String {
     let mut line = format!(
         "{post}: {}, {}",
@@ -59,6 +59,9 @@ pub fn line(post: &str, report: &Report, warnings: usize, time: Duration) -> Str
             line.push_str(&format!(", {name} {} to {}", length(min), length(max)));
         }
         line.push_str(if report.metric { " mm" } else { " inch" });
+    }
+    if let Some(dialect) = &report.dialect {
+        line.push_str(&format!(", dialect {dialect}"));
     }
     line.push_str(&format!(", {:.2} s", time.as_secs_f64()));
     line

@@ -3,6 +3,7 @@
 use std::io::{Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
+use filpost::cl::reader::Options;
 use filpost::nc::decimals;
 use filpost::nc::verify::{
     Allowed, Between, Deviation, Finding, Peak, Report, Unverified, Verdict,
@@ -29,8 +30,7 @@ pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
     let name = output::input_name(&args.nc);
     let nc = NcProgram { text: &text, name: &name };
     let allowed = Allowed { tolerance: args.tol, between: args.between };
-    let options = setup::cl_options(args.reading.encoding.as_deref())?;
-    let run = program.start().cl_name(&output::input_name(&args.cl)).reading(options);
+    let run = program.start().cl_name(&output::input_name(&args.cl)).reading(options(args)?);
     let (report, reference) = run.verify(cl, nc, allowed)?;
     match args.format {
         args::Report::Json => {
@@ -57,12 +57,17 @@ pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
     Ok(if report.verdict() == Verdict::Agrees { Status::Done } else { Status::Failed })
 }
 
+fn options(args: &VerifyArgs) -> Result<Options, Error> {
+    setup::cl_options(args.reading.encoding.as_deref(), &args.cl_reading)
+}
+
 fn program(args: &VerifyArgs, cl: &mut std::fs::File) -> Result<Program, Error> {
     let beside = args.cl.parent().map(Path::to_path_buf).unwrap_or_default();
     let folders: Vec<PathBuf> =
         std::iter::once(beside).chain(args.post_path.iter().cloned()).collect();
     let name = output::input_name(&args.cl);
-    let from = setup::from(&args.chosen, &folders, || select::machin(&mut *cl, &name))?;
+    let options = options(args)?;
+    let from = setup::from(&args.chosen, &folders, || select::machin(&mut *cl, &name, options))?;
     let named = setup::for_run(&args.chosen, &args.fil, &args.reading, &from)?;
     cl.rewind().map_err(|error| files::cant_read(&args.cl, &error))?;
     if let Some(note) = &named.note {

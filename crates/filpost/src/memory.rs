@@ -1,7 +1,6 @@
 //! Records that a program hands over from memory.
 
-use fil_cl::reader::Dialect;
-use fil_cl::{ClCode, Record, Vocabulary};
+use fil_cl::{ClCode, Recognized, Record, Vocabulary};
 use fil_diag::{Diag, Place, Result};
 
 use crate::error::{Error, RunCode};
@@ -68,7 +67,7 @@ impl<I: Iterator<Item = Record>> Records for Memory<I> {
         ))))
     }
 
-    fn dialect(&self) -> Option<Dialect> {
+    fn recognized(&self) -> Option<Recognized> {
         None
     }
 }

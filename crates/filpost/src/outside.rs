@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use fil_cl::vocabulary::words;
-use fil_cl::{Record, Vocabulary, reader::Dialect, record::kind};
+use fil_cl::{Record, Vocabulary, record::kind};
 use fil_diag::{Diag, Place};
 use fil_machine::locations::MESSAGE_TO_TAPE;
 use fil_post::FilLine;
@@ -135,6 +135,7 @@ impl<'o, S: Records> Outside<'o, S> {
         self.report.records = self.source.records;
         self.report.blocks = self.post.control.tape.count;
         self.report.metric = self.post.control.is_metric();
+        self.report.dialect = self.source.recognized();
     }
 
     /// The FIL line that made a record.
@@ -179,7 +180,7 @@ impl<'o, S: Records> Outside<'o, S> {
     pub fn end_of_file(&mut self) -> Result<(), Box<Diag>> {
         if self.source.records == 0 {
             self.tell(*RunCode::NoMotion.diag(format!("{} holds no record", self.cl_name)));
-        } else if !matches!(self.source.dialect(), Some(Dialect::Nx | Dialect::SolidWorksCam)) {
+        } else if self.source.recognized().is_none_or(|found| found.dialect.rules().writes_fini) {
             self.tell(*RunCode::NoFini.diag(format!("{} has no FINI", self.cl_name)));
         }
         let result = self.post.finish();

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use fil_cl::Recognized;
 use fil_diag::Diag;
 
 /// Smallest box around the CL points of a run, in CL units.
@@ -39,6 +40,8 @@ pub struct Report {
     pub warnings: Vec<Diag>,
     /// The CL file is in mm (else inch).
     pub metric: bool,
+    /// The dialect of the CL text, and why it was taken; `None` for records from memory.
+    pub dialect: Option<Recognized>,
     /// The box around the path.
     pub extents: Option<Extents>,
     /// Records that a section took without any effect on the post, by section.

@@ -42,7 +42,7 @@ pub struct Machin {
 /// A CL file that can't be read as far as MACHIN.
 pub fn choose(cl: &Path, folders: &[PathBuf]) -> Result<Choice, Error> {
     let input = File::open(cl).map_err(|error| files::cant_read(cl, &error))?;
-    let machin = machin(input, &cl.display().to_string())?;
+    let machin = machin(input, &cl.display().to_string(), reader::Options::default())?;
     let beside = cl.parent().map(Path::to_path_buf).unwrap_or_default();
     let folders: Vec<PathBuf> = std::iter::once(beside).chain(folders.iter().cloned()).collect();
     Ok(for_machin(machin.as_ref(), &folders))
@@ -68,12 +68,17 @@ pub fn for_machin(machin: Option<&Machin>, folders: &[PathBuf]) -> Choice {
     Choice::Ready(if lathe { ready::GENERIC_LATHE } else { ready::GENERIC_MILL })
 }
 
-/// The first MACHIN among the first records; `name` is what messages show.
+/// The first MACHIN among the first records; `name` is what messages show, `options` say
+/// how the text is read.
 ///
 /// # Errors
 /// A CL text that can't be read as far as MACHIN.
-pub fn machin(input: impl Read, name: &str) -> Result<Option<Machin>, Error> {
-    let mut reader = reader::Reader::new(input, name, reader::Options::default());
+pub fn machin(
+    input: impl Read,
+    name: &str,
+    options: reader::Options,
+) -> Result<Option<Machin>, Error> {
+    let mut reader = reader::Reader::new(input, name, options);
     let (mut vocabulary, mut record) = (Vocabulary::new(), Record::default());
     for _ in 0..LOOK {
         let more = reader.read(&mut vocabulary, &mut record).map_err(Error::Run)?;

@@ -4,7 +4,7 @@
 use std::collections::VecDeque;
 use std::io::Read;
 
-use fil_cl::{Record, Vocabulary, reader::Dialect, reader::Reader, record::kind, words};
+use fil_cl::{Recognized, Record, Vocabulary, reader::Reader, record::kind, words};
 use fil_diag::Result;
 
 /// Records NEXTF looks through for the next motion.
@@ -28,8 +28,9 @@ pub(crate) trait Records {
     /// Records that can't go back; a number that is none.
     fn seek(&mut self, number: u32) -> Result<()>;
 
-    /// The family of the CL text, once it is known.
-    fn dialect(&self) -> Option<Dialect>;
+    /// The dialect of a CL text, as far as it was read; `None` for records that come from
+    /// no text.
+    fn recognized(&self) -> Option<Recognized>;
 }
 
 impl<R: Read> Records for Reader<R> {
@@ -41,8 +42,8 @@ impl<R: Read> Records for Reader<R> {
         self.seek_record(number)
     }
 
-    fn dialect(&self) -> Option<Dialect> {
-        Reader::dialect(self)
+    fn recognized(&self) -> Option<Recognized> {
+        Some(Reader::recognized(self))
     }
 }
 
@@ -75,9 +76,9 @@ impl<S: Records> Source<S> {
         }
     }
 
-    /// The family of the CL text, once it is known.
-    pub fn dialect(&self) -> Option<Dialect> {
-        self.reader.dialect()
+    /// The dialect of the CL text, as far as it was read.
+    pub fn recognized(&self) -> Option<Recognized> {
+        self.reader.recognized()
     }
 
     /// Reads the next record; false at the end.

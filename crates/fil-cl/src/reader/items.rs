@@ -3,11 +3,12 @@
 use std::io::Read;
 use std::ops::Range;
 
-use fil_diag::Diag;
+use fil_diag::Result;
 
-use super::Reader;
+use super::names::disguise;
 use super::number::{fixed_point, number};
 use super::statement::{decoded, is_blank};
+use super::{Reader, is_control};
 use crate::errors::ClCode;
 use crate::layout::{UNCOMPUTED, is_uncomputed, takes_text};
 use crate::record::{Record, Word};
@@ -75,15 +76,15 @@ impl<R: Read> Reader<R> {
         vocab: &mut Vocabulary,
         record: &mut Record,
         pseudo: bool,
-    ) -> Result<(), Box<Diag>> {
-        self.check_bytes()?;
-        let slash = memchr::memchr(b'/', &self.statement.joined);
+    ) -> Result<()> {
+        self.refuse_bytes(is_control)?;
+        self.item_ranges.clear();
+        let slash = memchr::memchr(b'/', &self.statement.joined).or_else(|| self.comma_as_slash());
         let length = self.statement.joined.len();
         let major = trim(&self.statement.joined, 0..slash.unwrap_or(length));
         record.major = self.parse_major(vocab, major, pseudo)?;
         let known = vocab.is_known(record.major);
         let rules = Rules { lenient: pseudo || !known, free_names: record.major == words::MACHIN };
-        self.item_ranges.clear();
         let Some(slash) = slash else { return Ok(()) };
         if trim(&self.statement.joined, slash + 1..length).is_empty() {
             return Ok(());
@@ -105,6 +106,14 @@ impl<R: Read> Reader<R> {
         Ok(())
     }
 
+    /// The first comma, where the dialect writes it in place of the slash.
+    fn comma_as_slash(&self) -> Option<usize> {
+        let comma = memchr::memchr(b',', &self.statement.joined)?;
+        let name = self.statement.joined[..comma].trim_ascii();
+        let mut words = self.rules().comma_words.iter();
+        words.any(|word| name.eq_ignore_ascii_case(word.as_bytes())).then_some(comma)
+    }
+
     /// The major word. Blanks within it mean nothing where the word is known
     /// without them; of `TLON,GOFWD` the first word tells.
     fn parse_major(
@@ -112,11 +121,10 @@ impl<R: Read> Reader<R> {
         vocab: &mut Vocabulary,
         range: Range<usize>,
         pseudo: bool,
-    ) -> Result<WordId, Box<Diag>> {
+    ) -> Result<WordId> {
         let text = &self.statement.joined[range.clone()];
         let name = text.split(|byte| *byte == b',').next().unwrap_or(text).trim_ascii_end();
-        let is_whole = range.end == self.statement.joined.len();
-        let refuse = |code, message| Err(self.diag(code, message, range));
+        let refuse = |code, message| Err(self.diag(code, message, range.clone()));
         if !is_major(name) {
             return refuse(ClCode::BadWord, "no major word");
         }
@@ -124,16 +132,19 @@ impl<R: Read> Reader<R> {
         let known = if has_blank { without_blanks(vocab, name) } else { None };
         let id = match known {
             Some(id) => id,
-            _ if has_blank && is_whole && !pseudo => {
-                return refuse(ClCode::BadWord, "several words and no slash");
+            _ if has_blank && !pseudo => {
+                return refuse(
+                    ClCode::BadWord,
+                    "several words where a slash or a comma is missing",
+                );
             }
-            _ => self.intern(vocab, name),
+            _ => self.intern(vocab, name, range.clone(), pseudo)?,
         };
         if is_uncomputed(id) && !pseudo {
             return refuse(ClCode::UncomputedMotion, UNCOMPUTED);
         }
         if name.len() < text.len() {
-            return refuse(ClCode::BadWord, "a comma before the slash");
+            return refuse(ClCode::BadWord, "a comma where the slash should be");
         }
         Ok(id)
     }
@@ -144,7 +155,7 @@ impl<R: Read> Reader<R> {
         record: &mut Record,
         range: Range<usize>,
         rules: Rules,
-    ) -> Result<Word, Box<Diag>> {
+    ) -> Result<Word> {
         let item = &self.statement.joined[range.clone()];
         let Some(first) = item.first().copied() else { return Ok(Word::Empty) };
         let numeric = first.is_ascii_digit() || matches!(first, b'+' | b'-' | b'.');
@@ -152,7 +163,7 @@ impl<R: Read> Reader<R> {
             return Ok(Word::Number(value));
         }
         if is_name(vocab, item, rules.free_names) {
-            return Ok(Word::Minor(self.intern(vocab, item)));
+            return Ok(Word::Minor(self.intern(vocab, item, range, rules.lenient)?));
         }
         if rules.lenient {
             return Ok(record.store_text(&decoded(item, self.options.decode)));
@@ -163,11 +174,23 @@ impl<R: Read> Reader<R> {
         Err(self.diag(code, &format!("'{shown}' is not {what}"), range))
     }
 
-    fn intern(&self, vocab: &mut Vocabulary, name: &[u8]) -> WordId {
+    /// The id of a name; one that only looks like another word is refused unless the
+    /// statement is one that nobody acts on.
+    fn intern(
+        &self,
+        vocab: &mut Vocabulary,
+        name: &[u8],
+        range: Range<usize>,
+        lenient: bool,
+    ) -> Result<WordId> {
         if name.is_ascii() {
-            return vocab.intern_bytes(name);
+            return Ok(vocab.intern_bytes(name));
         }
-        vocab.intern(&decoded(name, self.options.decode))
+        let name = decoded(name, self.options.decode);
+        match disguise(vocab, &name).filter(|_| !lenient) {
+            None => Ok(vocab.intern(&name)),
+            Some(message) => Err(self.diag(ClCode::BadWord, &message, range)),
+        }
     }
 }
 

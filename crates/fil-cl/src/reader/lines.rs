@@ -6,6 +6,12 @@ use std::ops::Range;
 /// Bytes asked for at once.
 const CHUNK: usize = 256 * 1024;
 
+/// The byte order mark of UTF-8.
+const MARK: &[u8] = b"\xEF\xBB\xBF";
+
+/// What DOS writes at the end of a text.
+const END_SIGN: u8 = 0x1A;
+
 /// Why there is no next line.
 pub(super) enum LineError {
     /// The input failed.
@@ -31,6 +37,8 @@ pub(super) struct Lines<R> {
     line: u32,
     at_end: bool,
     limit: usize,
+    /// The line given last is the last one and has neither line end nor end sign.
+    is_open: bool,
 }
 
 impl<R: Read> Lines<R> {
@@ -45,18 +53,19 @@ impl<R: Read> Lines<R> {
             line: 1,
             at_end: false,
             limit,
+            is_open: false,
         }
     }
 
-    /// The first bytes of the input, up to `size`; to be called before any line.
-    pub(super) fn peek(&mut self, size: usize) -> io::Result<&[u8]> {
-        while self.end < size && !self.at_end {
+    /// Passes over the byte order mark of UTF-8; to be called before any line.
+    pub(super) fn skip_mark(&mut self) -> io::Result<()> {
+        while self.end < MARK.len() && !self.at_end {
             self.fill()?;
         }
-        if self.base == 0 && self.next == 0 && self.unread().starts_with(b"\xEF\xBB\xBF") {
-            self.next = 3;
+        if self.base == 0 && self.next == 0 && self.unread().starts_with(MARK) {
+            self.next = MARK.len();
         }
-        Ok(&self.buffer[self.next..self.end.min(size).max(self.next)])
+        Ok(())
     }
 
     /// What is in the buffer and not yet given out.
@@ -83,25 +92,37 @@ impl<R: Read> Lines<R> {
         loop {
             let from = self.mark + searched;
             if let Some(at) = memchr::memchr(b'\n', &self.buffer[from..self.end]) {
-                return Ok(Some(self.give(from + at, 1)));
+                return Ok(Some(self.give(from + at, from + at + 1)));
             }
             searched = self.end - self.mark;
             if searched > self.limit {
                 return Err(LineError::TooLong);
             }
             if self.at_end {
-                let is_empty = self.next == self.end;
-                return Ok(if is_empty { None } else { Some(self.give(self.end, 0)) });
+                return Ok(self.give_last());
             }
             self.fill().map_err(LineError::Io)?;
         }
     }
 
-    fn give(&mut self, end: usize, line_end: usize) -> Range<usize> {
+    fn give(&mut self, end: usize, next: usize) -> Range<usize> {
         let line = self.next - self.mark..end - self.mark;
-        self.next = end + line_end;
+        self.next = next;
         self.line = self.line.saturating_add(1);
         line
+    }
+
+    /// A last line that has no line end.
+    fn give_last(&mut self) -> Option<Range<usize>> {
+        let line = &self.buffer[self.next..self.end];
+        let signs = line.iter().rev().take_while(|byte| **byte == END_SIGN).count();
+        self.is_open = signs == 0 && !line.is_empty();
+        (!line.is_empty()).then(|| self.give(self.end - signs, self.end))
+    }
+
+    /// True when the line given last may have been cut off.
+    pub(super) fn is_open(&self) -> bool {
+        self.is_open
     }
 
     /// The bytes of a line of the statement under way.
@@ -132,7 +153,7 @@ impl<R: Read> Lines<R> {
     /// Forgets the buffer; the input now stands at `offset`, in line `line`.
     pub(super) fn restart(&mut self, offset: u64, line: u32) {
         (self.end, self.mark, self.next) = (0, 0, 0);
-        (self.base, self.line, self.at_end) = (offset, line, false);
+        (self.base, self.line, self.at_end, self.is_open) = (offset, line, false, false);
     }
 
     /// Reads on, moving what is still needed to the front or growing the buffer.

@@ -4,26 +4,31 @@
 //! each point. Memory does not depend on the length of the input: a chunk
 //! buffer, one statement, and a checkpoint for every some thousand records.
 
-mod dialect;
+mod arc;
+mod complete;
 mod items;
 mod lines;
+mod names;
 mod number;
+mod points;
 mod repeated;
 mod seek;
 mod statement;
 
 use std::io::Read;
+use std::ops::Range;
 
-use fil_diag::{Diag, Place};
+use fil_diag::{Diag, Place, Result};
 
+use crate::dialect::{ClDialect, DialectRules, Recognition, Recognized};
 use crate::errors::ClCode;
 use crate::record::{Record, Word, kind};
 use crate::vocabulary::Vocabulary;
 use crate::words;
 
-pub use dialect::Dialect;
 pub(crate) use items::reads_as_text;
 use lines::{LineError, Lines};
+use points::Pending;
 use repeated::Repeated;
 use seek::Seeking;
 use statement::{Form, GatherError, Statement};
@@ -31,8 +36,8 @@ use statement::{Form, GatherError, Statement};
 /// How a CL text is to be read.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
-    /// The family; `None`: told from the first lines.
-    pub dialect: Option<Dialect>,
+    /// The dialect; `None`: as the signs in the text say, see [`Reader::recognized`].
+    pub dialect: Option<ClDialect>,
     /// Turns bytes that are not UTF-8 into text.
     pub decode: fn(&[u8]) -> String,
     /// Longest statement in bytes, continuation lines included.
@@ -50,28 +55,13 @@ pub fn latin1(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| char::from(*byte)).collect()
 }
 
-/// Bytes looked at to tell the family.
-const HEAD: usize = 16 * 1024;
-
-/// How far the length of a tool axis may be from 1 where six values of a GOTO
-/// could as well be two points: CL files round to six decimals.
-const AXIS_TOLERANCE: f64 = 1e-4;
-
 /// What a statement leaves for the later ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Modal {
     multax: bool,
     axis: Option<[f64; 3]>,
-}
-
-/// The points of a GOTO not yet handed out.
-#[derive(Default)]
-struct Pending {
-    values: Vec<f64>,
-    next: usize,
-    /// Values of one point: 3 or 6.
-    group: usize,
-    line: u32,
+    /// A CIRCLE waits for its end.
+    in_arc: bool,
 }
 
 /// Reads the records of a CL text one after the other.
@@ -80,18 +70,18 @@ pub struct Reader<R> {
     statement: Statement,
     repeated: Repeated,
     /// Start and end of each item in the statement, to point at it.
-    item_ranges: Vec<std::ops::Range<usize>>,
+    item_ranges: Vec<Range<usize>>,
     pending: Pending,
     modal: Modal,
     file: String,
     options: Options,
-    /// Known after the first bytes are read.
-    dialect: Option<Dialect>,
+    recognition: Recognition,
     /// Number of the last record read.
     number: u32,
     seeking: Seeking<R>,
     /// The reader does not go on after an error.
     failed: Option<Box<Diag>>,
+    started: bool,
 }
 
 impl<R: Read> Reader<R> {
@@ -106,10 +96,11 @@ impl<R: Read> Reader<R> {
             modal: Modal::default(),
             file: file_name.to_string(),
             options,
-            dialect: options.dialect,
+            recognition: Recognition::new(options.dialect),
             number: 0,
             seeking: Seeking::none(),
             failed: None,
+            started: false,
         }
     }
 
@@ -117,13 +108,13 @@ impl<R: Read> Reader<R> {
     /// at the end of the input.
     ///
     /// # Errors
-    /// What is wrong with the statement, with its place. After an error every
+    /// What is wrong with the statement, with its span. After an error every
     /// further call gives the same error.
-    pub fn read(&mut self, vocab: &mut Vocabulary, record: &mut Record) -> Result<bool, Box<Diag>> {
+    pub fn read(&mut self, vocab: &mut Vocabulary, record: &mut Record) -> Result<bool> {
         if let Some(diag) = &self.failed {
             return Err(diag.clone());
         }
-        let result = self.read_wanted(vocab, record);
+        let result = self.read_expected(vocab, record);
         if let Err(diag) = &result {
             self.failed = Some(diag.clone());
         }
@@ -135,49 +126,42 @@ impl<R: Read> Reader<R> {
         self.number
     }
 
-    /// The family of the text; `None` before the first record is read, unless
-    /// the options name it.
-    pub fn dialect(&self) -> Option<Dialect> {
-        self.dialect
+    /// The dialect by which the text is read, and why. It is settled at the end of the text;
+    /// before that a sign may still come, as long as nothing was read that its dialect reads
+    /// otherwise.
+    pub fn recognized(&self) -> Recognized {
+        self.recognition.found()
     }
 
     /// Reads on to the record [`Reader::seek_record`] asked for.
-    fn read_wanted(
-        &mut self,
-        vocab: &mut Vocabulary,
-        record: &mut Record,
-    ) -> Result<bool, Box<Diag>> {
+    fn read_expected(&mut self, vocab: &mut Vocabulary, record: &mut Record) -> Result<bool> {
         while self.read_next(vocab, record)? {
-            if record.number >= self.seeking.wanted {
-                self.seeking.wanted = 0;
+            if record.number >= self.seeking.target {
+                self.seeking.target = 0;
                 return Ok(true);
             }
         }
-        if self.seeking.wanted > self.number {
-            let message = format!("record {} of {} records", self.seeking.wanted, self.number);
+        if self.seeking.target > self.number {
+            let message = format!("record {} of {} records", self.seeking.target, self.number);
             let place = Place::line(&self.file, self.lines.line(), "");
             return Err(Box::new(Diag::new(ClCode::NoSuchRecord, message).at(place)));
         }
         Ok(false)
     }
 
-    fn read_next(
-        &mut self,
-        vocab: &mut Vocabulary,
-        record: &mut Record,
-    ) -> Result<bool, Box<Diag>> {
+    fn read_next(&mut self, vocab: &mut Vocabulary, record: &mut Record) -> Result<bool> {
         if self.pending.next < self.pending.values.len() {
             self.next_pending(record);
             return Ok(true);
         }
-        let dialect = match self.dialect {
-            Some(dialect) => dialect,
-            None => self.detect()?,
-        };
+        if !self.started {
+            self.lines.skip_mark().map_err(|error| self.read_failed(&error))?;
+            self.started = true;
+        }
         if self.seeking.is_due(self.number) {
             self.seeking.keep(self.number, self.lines.offset(), self.lines.line(), self.modal);
         }
-        if self.read_plain_goto(dialect, record) || self.read_repeated(record) {
+        if self.read_plain_goto(record) || self.read_repeated(record) {
             return Ok(true);
         }
         let Some(form) = self.gather()? else { return Ok(false) };
@@ -188,14 +172,19 @@ impl<R: Read> Reader<R> {
             Form::Text(major) => self.take_text(record, major)?,
             Form::Pseudo => {
                 self.parse_items(vocab, record, true)?;
+                self.watch(|recognition, place| recognition.pseudo(place))?;
                 record.kind = kind::PSEUDO;
                 record.sub = 0;
             }
             Form::Plain => {
                 self.parse_items(vocab, record, false)?;
-                self.finish(dialect, record)?;
+                let major = record.major;
+                self.watch(|recognition, place| recognition.statement(major, vocab, place))?;
+                self.check_complete(vocab, record)?;
+                self.finish(record)?;
             }
         }
+        self.check_end(vocab, record)?;
         let lines = self.lines.line().saturating_sub(self.statement.line);
         self.repeated.keep(self.lines.taken(), lines, record);
         self.count(record);
@@ -207,31 +196,17 @@ impl<R: Read> Reader<R> {
         record.number = self.number;
     }
 
-    fn detect(&mut self) -> Result<Dialect, Box<Diag>> {
-        match self.lines.peek(HEAD) {
-            Ok(head) => Ok(*self.dialect.insert(Dialect::detect(head))),
-            Err(error) => Err(self.read_failed(&error)),
-        }
+    fn rules(&self) -> &'static DialectRules {
+        self.recognition.rules()
     }
 
-    /// The short way for the most frequent statement: `GOTO / x, y, z[, i, j, k]`
-    /// in one line, with numbers in fixed point. Anything else is left to the
-    /// long way, which gives the same record.
-    #[inline]
-    fn read_plain_goto(&mut self, dialect: Dialect, record: &mut Record) -> bool {
-        let mut values = [0.0; 6];
-        let Some((count, length)) = items::plain_goto(self.lines.unread(), &mut values) else {
-            return false;
-        };
-        let [x, y, z, i, j, k] = values;
-        let axis = [i, j, k];
-        if count == 6 && !self.is_axis(dialect, axis) {
-            return false;
-        }
-        record.line = self.take_lines(length, 1);
-        let axis = if count == 6 { Some(axis) } else { None };
-        self.give_point(dialect, record, [x, y, z], axis);
-        true
+    /// Shows the statement to the recognition of the dialect.
+    fn watch(&mut self, look: impl FnOnce(&mut Recognition, &dyn Fn() -> Place)) -> Result<()> {
+        let whole = 0..self.statement.joined.len();
+        let (statement, lines) = (&self.statement, &self.lines);
+        let place = || statement.place(lines, &self.file, &self.options, whole.clone());
+        look(&mut self.recognition, &place);
+        self.recognition.refusal().map_or(Ok(()), Err)
     }
 
     /// Takes a whole statement; gives the number of its first line.
@@ -249,146 +224,80 @@ impl<R: Read> Reader<R> {
             return false;
         };
         record.line = self.take_lines(length, lines);
+        self.modal.in_arc |= record.kind == kind::SURFACE;
         self.count(record);
         true
     }
 
-    /// True when the last three of six values are a tool axis, not a second point.
-    fn is_axis(&self, dialect: Dialect, axis: [f64; 3]) -> bool {
-        let length = axis.iter().map(|part| part * part).sum::<f64>().sqrt();
-        self.modal.multax || dialect.writes_axes() || (length - 1.0).abs() < AXIS_TOLERANCE
-    }
-
-    /// Makes `record` a GOTO; a tool axis left out is the last one where the
-    /// family means that.
-    #[inline]
-    fn give_point(
-        &mut self,
-        dialect: Dialect,
-        record: &mut Record,
-        point: [f64; 3],
-        axis: Option<[f64; 3]>,
-    ) {
-        if axis.is_some() {
-            self.modal.axis = axis;
+    fn gather(&mut self) -> Result<Option<Form>> {
+        let recognition = &mut self.recognition;
+        let gathered =
+            self.statement.gather(&mut self.lines, recognition, &self.file, &self.options);
+        if let Some(refused) = self.recognition.refusal() {
+            return Err(refused);
         }
-        let kept = if dialect.keeps_axis(self.modal.multax) { self.modal.axis } else { None };
-        record.fill_goto(&point, axis.or(kept).as_ref());
-        self.count(record);
-    }
-
-    fn next_pending(&mut self, record: &mut Record) {
-        let Pending { values, next, group, line } = &mut self.pending;
-        let mut point = [0.0; 6];
-        point[..*group].copy_from_slice(&values[*next..*next + *group]);
-        *next += *group;
-        record.line = *line;
-        let [x, y, z, i, j, k] = point;
-        let axis = if *group == 6 { Some([i, j, k]) } else { None };
-        let dialect = self.dialect.unwrap_or(Dialect::Creo);
-        self.give_point(dialect, record, [x, y, z], axis);
-    }
-
-    fn gather(&mut self) -> Result<Option<Form>, Box<Diag>> {
-        match self.statement.gather(&mut self.lines) {
+        match gathered {
             Ok(form) => Ok(form),
-            Err(GatherError::Open(at)) => {
-                Err(self.diag(ClCode::OpenContinuation, "nothing follows the $", at..at + 1))
-            }
+            Err(GatherError::Refused(diag)) => Err(diag),
             Err(GatherError::Line(LineError::Io(error))) => Err(self.read_failed(&error)),
             Err(GatherError::Line(LineError::TooLong)) => Err(self.too_long()),
         }
     }
 
-    fn take_text(&mut self, record: &mut Record, major: crate::WordId) -> Result<(), Box<Diag>> {
-        self.check_bytes()?;
+    /// Makes the record of a text statement. Control characters stay in the text: whoever
+    /// writes it must refuse them, and a comment that is written nowhere may have them.
+    fn take_text(&mut self, record: &mut Record, major: crate::WordId) -> Result<()> {
+        self.refuse_bytes(is_nul)?;
+        self.item_ranges.clear();
         match std::str::from_utf8(&self.statement.joined) {
             Ok(text) => record.text.push_str(text),
             Err(_) => record.text.push_str(&(self.options.decode)(&self.statement.joined)),
         }
         record.data.push(Word::Text { start: 0, len: record.text.len() as u32 });
         (record.major, record.kind, record.sub) = (major, kind::POST, 0);
-        Ok(())
+        self.watch(|recognition, place| recognition.text(major, &record.text, place))
     }
 
-    /// From items to words, with what the family means by them.
-    fn finish(&mut self, dialect: Dialect, record: &mut Record) -> Result<(), Box<Diag>> {
-        if record.major == words::CIRCLE && dialect.turns_circles() {
-            for word in record.data.iter_mut().skip(3).take(3) {
-                if let Word::Number(part) = word {
-                    *part = 0.0 - *part;
-                }
-            }
-        }
-        if record.major == words::GOTO {
-            self.split_points(dialect, record);
+    /// From items to words, with what the dialect means by them.
+    fn finish(&mut self, record: &mut Record) -> Result<()> {
+        match record.major {
+            words::CIRCLE => self.turn_circle(record)?,
+            words::GOTO => self.split_points(record)?,
+            words::FROM => self.check_axis(record)?,
+            _ => {}
         }
         if let Err(error) = record.arrange() {
-            let whole = 0..self.statement.joined.len();
-            let range = self.item_ranges.get(error.item).or(self.item_ranges.last());
-            let range = range.cloned().unwrap_or(whole);
+            let range = self.item_range(error.item);
             return Err(self.diag(error.code, &error.message, range));
         }
         match record.major {
             words::MULTAX => self.modal.multax = !record.has(words::OFF),
-            words::GOTO | words::FROM => self.keep_axis(dialect, record),
+            words::GOTO | words::FROM => self.keep_axis(record),
             _ => {}
         }
         Ok(())
     }
 
-    /// Takes all points but the first out of a GOTO with several.
-    fn split_points(&mut self, dialect: Dialect, record: &mut Record) {
-        self.pending.values.clear();
-        self.pending.next = 0;
-        for word in &record.data {
-            let Word::Number(value) = word else {
-                self.pending.values.clear();
-                return;
-            };
-            self.pending.values.push(*value);
-        }
-        let values = &self.pending.values;
-        let group = match values.len() {
-            3 => 3,
-            6 if self.is_axis(dialect, [values[3], values[4], values[5]]) => 6,
-            _ if self.modal.multax => 6,
-            _ => 3,
-        };
-        if values.is_empty() || !values.len().is_multiple_of(group) {
-            self.pending.values.clear();
-            return;
-        }
-        record.data.truncate(group);
-        self.pending.next = group;
-        self.pending.group = group;
-        self.pending.line = record.line;
+    /// Where an item stands in the joined statement; the last one when there are not so
+    /// many, the whole statement when there is none.
+    fn item_range(&self, item: usize) -> Range<usize> {
+        let range = self.item_ranges.get(item).or(self.item_ranges.last());
+        range.cloned().unwrap_or(0..self.statement.joined.len())
     }
 
-    fn keep_axis(&mut self, dialect: Dialect, record: &mut Record) {
-        match (record.axis(), self.modal.axis) {
-            (Some(axis), _) => self.modal.axis = Some(axis),
-            (None, Some(axis)) if dialect.keeps_axis(self.modal.multax) => {
-                record.data.extend_from_slice(&axis.map(Word::Number));
-            }
-            (None, _) => {}
-        }
-    }
-
-    /// Refuses control characters in the statement.
-    fn check_bytes(&self) -> Result<(), Box<Diag>> {
+    /// Refuses bytes of the statement.
+    fn refuse_bytes(&self, refused: fn(u8) -> bool) -> Result<()> {
         let bytes = &self.statement.joined;
         // Looking at all bytes is faster than stopping at the first.
-        if !bytes.iter().fold(false, |found, byte| found | is_control(*byte)) {
+        if !bytes.iter().fold(false, |found, byte| found | refused(*byte)) {
             return Ok(());
         }
-        let at = bytes.iter().position(|byte| is_control(*byte)).unwrap_or(0);
-        let message = format!("byte {:#04x} in the line", bytes[at]);
-        Err(self.diag(ClCode::BinaryData, &message, at..at + 1))
+        let at = bytes.iter().position(|byte| refused(*byte)).unwrap_or(0);
+        Err(self.diag(ClCode::BinaryData, &control(bytes[at]), at..at + 1))
     }
 
     /// A diagnostic at a range of the joined statement.
-    fn diag(&self, code: ClCode, message: &str, range: std::ops::Range<usize>) -> Box<Diag> {
+    fn diag(&self, code: ClCode, message: &str, range: Range<usize>) -> Box<Diag> {
         let place = self.statement.place(&self.lines, &self.file, &self.options, range);
         Box::new(Diag::new(code, message).at(place))
     }
@@ -401,8 +310,8 @@ impl<R: Read> Reader<R> {
     fn too_long(&self) -> Box<Diag> {
         let bytes = self.lines.statement();
         let (code, at, message) = match bytes.iter().position(|byte| is_control(*byte)) {
-            Some(at) if bytes[at] != b'\n' && bytes[at] != b'\r' => {
-                (ClCode::BinaryData, at, format!("byte {:#04x} in the line", bytes[at]))
+            Some(at) if bytes[at] != b'\n' && !bytes[at..].starts_with(b"\r\n") => {
+                (ClCode::BinaryData, at, control(bytes[at]))
             }
             _ => {
                 let limit = self.options.statement_limit;
@@ -418,4 +327,17 @@ impl<R: Read> Reader<R> {
 /// True for a byte no CL text has; tabs are blanks.
 fn is_control(byte: u8) -> bool {
     (byte < b' ' && byte != b'\t') || byte == 0x7F
+}
+
+/// True for the byte that a text has in an encoding of two bytes a letter, or in binary data.
+fn is_nul(byte: u8) -> bool {
+    byte == 0
+}
+
+/// What is said of a control character.
+fn control(byte: u8) -> String {
+    match byte {
+        b'\r' => "a carriage return without a line feed".to_string(),
+        _ => format!("byte {byte:#04x} in the line"),
+    }
 }

@@ -33,12 +33,12 @@ pub(super) struct Seeking<R> {
     due: u32,
     spacing: u32,
     /// Number of the record to read on to; 0 when it is the next one.
-    pub(super) wanted: u32,
+    pub(super) target: u32,
 }
 
 impl<R> Seeking<R> {
     pub(super) fn none() -> Self {
-        Seeking { go: None, checkpoints: Vec::new(), due: 0, spacing: SPACING, wanted: 0 }
+        Seeking { go: None, checkpoints: Vec::new(), due: 0, spacing: SPACING, target: 0 }
     }
 
     /// True when the state after record `number` is worth a checkpoint.
@@ -86,7 +86,7 @@ impl<R: Read> Reader<R> {
         if n == 0 {
             return Err(Box::new(Diag::new(ClCode::NoSuchRecord, "record 0").at(here)));
         }
-        self.seeking.wanted = n;
+        self.seeking.target = n;
         let before = self.seeking.checkpoints.partition_point(|point| point.number < n);
         let Some(point) = before.checked_sub(1).map(|at| self.seeking.checkpoints[at]) else {
             return Ok(());
@@ -98,8 +98,7 @@ impl<R: Read> Reader<R> {
             return Err(self.read_failed(&error));
         }
         self.lines.restart(point.offset, point.line);
-        self.pending.values.clear();
-        self.pending.next = 0;
+        self.pending.clear();
         self.modal = point.modal;
         self.number = point.number;
         self.failed = None;

@@ -1,11 +1,14 @@
 //! One statement: its physical lines joined, and the way back to them.
 
 use std::io::Read;
+use std::ops::Range;
 
-use fil_diag::Place;
+use fil_diag::{Diag, Place};
 
 use super::Options;
 use super::lines::{LineError, Lines};
+use crate::dialect::{DialectRules, Recognition};
+use crate::errors::ClCode;
 use crate::vocabulary::WordId;
 use crate::words;
 
@@ -23,8 +26,14 @@ pub(super) enum Form {
 /// Why no statement could be gathered.
 pub(super) enum GatherError {
     Line(LineError),
-    /// The `$` at this place is followed by nothing; position in the joined text.
-    Open(usize),
+    /// A continuation that nothing follows, a line end that is none.
+    Refused(Box<Diag>),
+}
+
+impl From<LineError> for GatherError {
+    fn from(error: LineError) -> Self {
+        GatherError::Line(error)
+    }
 }
 
 /// A piece of the joined text that comes from one physical line.
@@ -32,11 +41,27 @@ struct Piece {
     /// Where it starts in the joined text.
     joined: usize,
     /// The physical line, within the statement's bytes.
-    line: std::ops::Range<usize>,
+    line: Range<usize>,
     /// Where the piece starts in that line.
     column: usize,
     /// Number of the line.
     number: u32,
+}
+
+/// How the next line continues a statement.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Join {
+    /// Between two items.
+    Between,
+    /// Anywhere, within an item too.
+    Within,
+}
+
+/// What an excerpt needs besides the line.
+#[derive(Clone, Copy)]
+struct Context<'a> {
+    file: &'a str,
+    options: &'a Options,
 }
 
 /// The statement under way. Its buffers are used again for the next one.
@@ -47,6 +72,9 @@ pub(super) struct Statement {
     pub(super) line: u32,
     pieces: Vec<Piece>,
 }
+
+/// How a pseudo-comment of Creo begins.
+const PSEUDO: &[u8] = b"$$->";
 
 /// Words whose statement is free text.
 const TEXT_WORDS: [(&[u8], WordId); 8] = [
@@ -68,65 +96,132 @@ impl Statement {
         Statement { joined: Vec::new(), line: 0, pieces: Vec::new() }
     }
 
-    /// Gathers the next statement; `None` at the end of the input.
+    /// Gathers the next statement; `None` at the end of the input. Comments are shown to
+    /// the recognition of the dialect.
     pub(super) fn gather<R: Read>(
         &mut self,
         lines: &mut Lines<R>,
+        recognition: &mut Recognition,
+        file: &str,
+        options: &Options,
     ) -> Result<Option<Form>, GatherError> {
+        let context = Context { file, options };
         loop {
             self.joined.clear();
             self.pieces.clear();
             lines.begin();
             self.line = lines.line();
-            let Some(line) = lines.next_line().map_err(GatherError::Line)? else {
-                return Ok(None);
-            };
+            let Some(line) = next_line(lines, context)? else { return Ok(None) };
             let bytes = lines.bytes(line.clone());
+            if is_comment(bytes) {
+                self.comment(lines, line, recognition, context)?;
+                continue;
+            }
             let (form, start) = opening(bytes);
-            let Some(piece) = content(bytes, start, form) else { continue };
-            self.add(bytes, line, start, piece, self.line);
-            while self.takes_next(form) {
-                self.join_next(lines, form)?;
+            let Some(end) = content(bytes, start, form) else { continue };
+            self.add(bytes, line, start, end, self.line);
+            while let Some(join) = self.continuation(lines, form, recognition.rules()) {
+                self.join_next(lines, form, join, context)?;
             }
             return Ok(Some(form));
         }
     }
 
-    /// Removes a continuation sign from the end of the joined text.
-    fn takes_next(&mut self, form: Form) -> bool {
-        let is_comment = matches!(form, Form::Text(_)) && self.joined.ends_with(b"$$");
-        let open = self.joined.ends_with(b"$") && !is_comment;
-        if open {
-            self.joined.pop();
+    /// Looks at a comment and passes over the lines it goes on in.
+    fn comment<R: Read>(
+        &mut self,
+        lines: &mut Lines<R>,
+        mut line: Range<usize>,
+        recognition: &mut Recognition,
+        context: Context<'_>,
+    ) -> Result<(), GatherError> {
+        let mut number = self.line;
+        loop {
+            let bytes = trim_end(lines.bytes(line.clone()));
+            let place = || excerpt(context.file, number, bytes, 0..bytes.len(), context.options);
+            if is_comment(bytes) {
+                recognition.comment(bytes.trim_ascii_start(), place);
+            } else if is_statement(bytes) {
+                let message = "a comment goes on here, and the line reads as a statement";
+                return refuse(ClCode::OpenContinuation, message.to_string(), place());
+            }
+            if !breaks_at(bytes, recognition.rules()) {
+                return Ok(());
+            }
+            number = lines.line();
+            match next_line(lines, context)? {
+                Some(next) => line = next,
+                None => return Ok(()),
+            }
         }
-        open
+    }
+
+    /// Whether the statement goes on in the next line, and how; the sign is taken away.
+    fn continuation<R: Read>(
+        &mut self,
+        lines: &Lines<R>,
+        form: Form,
+        rules: &DialectRules,
+    ) -> Option<Join> {
+        let before = self.joined.strip_suffix(b"$")?;
+        let last = self.pieces.last()?;
+        let join = if breaks_at(trim_end(lines.bytes(last.line.clone())), rules) {
+            Join::Within
+        } else {
+            let goes_on = match form {
+                Form::Plain => true,
+                // Creo continues a list of values; a name may end in the sign.
+                Form::Pseudo => before.trim_ascii_end().ends_with(b","),
+                Form::Text(_) => false,
+            };
+            goes_on.then_some(Join::Between)?
+        };
+        self.joined.pop();
+        Some(join)
     }
 
     /// Appends the next line that says something.
-    fn join_next<R: Read>(&mut self, lines: &mut Lines<R>, form: Form) -> Result<(), GatherError> {
+    fn join_next<R: Read>(
+        &mut self,
+        lines: &mut Lines<R>,
+        form: Form,
+        join: Join,
+        context: Context<'_>,
+    ) -> Result<(), GatherError> {
+        let is_text = matches!(form, Form::Text(_));
         loop {
             let number = lines.line();
-            let open = GatherError::Open(self.joined.len());
-            let line = lines.next_line().map_err(GatherError::Line)?.ok_or(open)?;
+            let Some(line) = next_line(lines, context)? else {
+                return self.open(lines, "nothing follows the $", context);
+            };
             let bytes = lines.bytes(line.clone());
-            if bytes.starts_with(b"$$->") {
-                return Err(GatherError::Open(self.joined.len()));
+            if is_pseudo(bytes) || is_text && is_statement(bytes) {
+                return self.open(lines, "the line after the $ is a statement of its own", context);
             }
-            if let Some(piece) = content(bytes, 0, form) {
-                self.add(bytes, line, 0, piece, number);
+            if let Some(end) = content(bytes, 0, form) {
+                if join == Join::Between {
+                    // Two items never become one where a comma is missing.
+                    self.joined.push(b' ');
+                }
+                self.add(bytes, line, 0, end, number);
                 return Ok(());
             }
         }
     }
 
-    fn add(
-        &mut self,
-        bytes: &[u8],
-        line: std::ops::Range<usize>,
-        column: usize,
-        end: usize,
-        number: u32,
-    ) {
+    /// Refuses a `$` that nothing follows.
+    fn open<R: Read>(
+        &self,
+        lines: &Lines<R>,
+        message: &str,
+        context: Context<'_>,
+    ) -> Result<(), GatherError> {
+        let at = self.joined.len();
+        let place = self.place(lines, context.file, context.options, at..at + 1);
+        refuse(ClCode::OpenContinuation, message.to_string(), place)
+    }
+
+    fn add(&mut self, bytes: &[u8], line: Range<usize>, column: usize, end: usize, number: u32) {
         self.pieces.push(Piece { joined: self.joined.len(), line, column, number });
         self.joined.extend_from_slice(&bytes[column..end]);
     }
@@ -137,7 +232,7 @@ impl Statement {
         lines: &Lines<R>,
         file: &str,
         options: &Options,
-        range: std::ops::Range<usize>,
+        range: Range<usize>,
     ) -> Place {
         let index = self.pieces.partition_point(|piece| piece.joined <= range.start);
         let Some(piece) = self.pieces.get(index.saturating_sub(1)) else {
@@ -155,7 +250,7 @@ pub(super) fn excerpt(
     file: &str,
     number: u32,
     bytes: &[u8],
-    span: std::ops::Range<usize>,
+    span: Range<usize>,
     options: &Options,
 ) -> Place {
     let cut = bytes.len().min(EXCERPT.max(span.end.min(span.start + EXCERPT)));
@@ -177,26 +272,82 @@ pub(super) fn decoded(bytes: &[u8], decode: fn(&[u8]) -> String) -> String {
     }
 }
 
+/// The next line; one with a carriage return inside is refused, because in a file of such
+/// line ends a comment would take all that follows with it.
+fn next_line<R: Read>(
+    lines: &mut Lines<R>,
+    context: Context<'_>,
+) -> Result<Option<Range<usize>>, GatherError> {
+    let number = lines.line();
+    let Some(line) = lines.next_line()? else { return Ok(None) };
+    let bytes = trim_end(lines.bytes(line.clone()));
+    if let Some(at) = memchr::memchr(b'\r', bytes) {
+        let place = excerpt(context.file, number, bytes, at..at + 1, context.options);
+        return refuse(ClCode::BinaryData, super::control(b'\r'), place);
+    }
+    Ok(Some(line))
+}
+
+fn refuse<T>(code: ClCode, message: String, place: Place) -> Result<T, GatherError> {
+    Err(GatherError::Refused(Box::new(Diag::new(code, message).at(place))))
+}
+
+fn is_pseudo(line: &[u8]) -> bool {
+    line.trim_ascii_start().starts_with(PSEUDO)
+}
+
+fn is_comment(line: &[u8]) -> bool {
+    line.trim_ascii_start().starts_with(b"$$") && !is_pseudo(line)
+}
+
+/// True when a line ends in the `$` by which the dialect breaks any line. Bytes that are
+/// no UTF-8 are one character each.
+fn breaks_at(line: &[u8], rules: &DialectRules) -> bool {
+    let Some(column) = rules.break_column else { return false };
+    let length = || std::str::from_utf8(line).map_or(line.len(), |text| text.chars().count());
+    line.ends_with(b"$") && length() == column
+}
+
+/// True when a line reads as a statement of its own: it is a comment, or a known major
+/// word stands alone or before a slash.
+fn is_statement(line: &[u8]) -> bool {
+    let line = trim_end(line).trim_ascii_start();
+    let end = memchr::memchr(b'/', line).unwrap_or(line.len());
+    line.starts_with(b"$$") || words::is_major_name(line[..end].trim_ascii_end())
+}
+
 /// The form of a statement by its first line, and where its text starts there.
 fn opening(line: &[u8]) -> (Form, usize) {
-    if line.starts_with(b"$$->") {
-        return (Form::Pseudo, 4);
-    }
     let blanks = line.len() - line.trim_ascii_start().len();
     let rest = &line[blanks..];
+    if rest.starts_with(PSEUDO) {
+        return (Form::Pseudo, blanks + PSEUDO.len());
+    }
     let first = rest.first().map(u8::to_ascii_uppercase);
     for (name, id) in TEXT_WORDS {
-        if first != Some(name[0])
-            || rest.len() < name.len()
-            || !rest[..name.len()].eq_ignore_ascii_case(name)
+        if first == Some(name[0])
+            && let Some(length) = begins_with(rest, name)
+            && let Some(text) = text_start(rest, length)
         {
-            continue;
-        }
-        if let Some(text) = text_start(rest, name.len()) {
             return (Form::Text(id), blanks + text);
         }
     }
     (Form::Plain, 0)
+}
+
+/// Length of the text word at the start of a line, in any case; where the name has a blank
+/// there may be several.
+fn begins_with(line: &[u8], name: &[u8]) -> Option<usize> {
+    let mut at = 0;
+    for letter in name {
+        if *letter == b' ' {
+            let blanks = line[at..].iter().take_while(|byte| is_blank(**byte)).count();
+            at += (blanks > 0).then_some(blanks)?;
+        } else {
+            at += usize::from(line.get(at)?.eq_ignore_ascii_case(letter).then_some(true)?);
+        }
+    }
+    Some(at)
 }
 
 /// Where the free text starts after a text word of `length` bytes: past one
@@ -231,8 +382,8 @@ pub(super) fn is_blank(byte: u8) -> bool {
     byte == b' ' || byte == b'\t'
 }
 
-/// Without trailing blanks, carriage return and the end-of-file sign of DOS.
+/// Without trailing blanks and carriage returns.
 pub(super) fn trim_end(line: &[u8]) -> &[u8] {
-    let end = line.iter().rposition(|byte| !matches!(byte, b' ' | b'\t' | b'\r' | 0x1A));
+    let end = line.iter().rposition(|byte| !matches!(byte, b' ' | b'\t' | b'\r'));
     &line[..end.map_or(0, |at| at + 1)]
 }

@@ -63,6 +63,9 @@ impl Making {
         let cl = args.cl.as_deref().unwrap_or(Path::new(""));
         let nc = args.nc.as_deref().unwrap_or(Path::new(""));
         let _ = writeln!(text, "cl = {}", quoted(&self.copy(cl)?));
+        if let Some(dialect) = args.dialect {
+            let _ = writeln!(text, "dialect = {}", quoted(dialect.name()));
+        }
         let mut fil = args.fil.clone();
         self.machine(&args.chosen, &mut fil, &mut text)?;
         let names: Vec<String> =

@@ -36,3 +36,54 @@ fn records_are_shown_with_numbered_words() {
     assert_eq!(found["records"][5]["words"][5], 1.0);
     assert_eq!(found["extents"]["max"], serde_json::json!([1.0, 2.0, 3.0]));
 }
+
+const ARC: &str = "UNITS/MM\nLOADTL/1\nSPINDL/RPM,900,CLW\nFEDRAT/200,MMPM\nGOTO/5,0,0\n\
+    CIRCLE/0,0,0,0,0,1,5,.06,.5,10,1\nGOTO/0,-5,0\nFINI\n";
+
+#[test]
+fn the_dialect_is_said_and_chosen() {
+    let place = Place::new().with("part.cls", ARC).with("part.ncl", SMALL);
+    let generic = place.run(&["cl", "part.ncl"]);
+    assert!(generic.out.contains("7 records, dialect generic (no CAM system"), "{}", generic.out);
+    let chosen = place.run(&["cl", "part.cls", "--dialect", "NX", "--json"]);
+    let found: serde_json::Value = serde_json::from_str(&chosen.out).expect("JSON");
+    assert_eq!(found["dialect"], serde_json::json!({"name": "nx", "chosen": true}));
+    for command in [&["cl", "part.cls"][..], &["post", "part.cls"], &["plot", "part.cls"]] {
+        let refused = place.run(command);
+        assert_eq!(refused.status, 1, "{refused:?}");
+        assert!(refused.err.contains("E0417"), "{refused:?}");
+        assert!(refused.err.contains("--dialect nx"), "{refused:?}");
+        let ran = place.run(&[command, &["--dialect", "nx"]].concat());
+        assert_eq!(ran.status, 0, "{ran:?}");
+    }
+    let wrong = place.run(&["post", "part.ncl", "--dialect", "klingon"]);
+    assert_eq!(wrong.status, 2);
+    assert!(wrong.err.contains("solidworks-cam"), "{}", wrong.err);
+}
+
+#[test]
+fn a_program_is_verified_by_the_dialect_that_made_it() {
+    let place = Place::new().with("part.cls", ARC);
+    let posted = place.run(&["post", "part.cls", "--dialect", "nx", "-o", "part.nc"]);
+    assert_eq!(posted.status, 0, "{posted:?}");
+    assert!(posted.err.contains("dialect nx (chosen)"), "{}", posted.err);
+    assert!(place.text("part.nc").expect("a program").contains("G2 X0. Y-5."));
+    let verify =
+        |dialect: &str| place.run(&["verify", "part.cls", "part.nc", "--dialect", dialect]);
+    assert_eq!(verify("nx").status, 0, "{:?}", verify("nx"));
+    assert_eq!(verify("generic").status, 1);
+}
+
+#[test]
+fn the_dialects_are_listed() {
+    let place = Place::new();
+    let text = place.run(&["cl", "--dialects"]);
+    assert_eq!(text.status, 0);
+    assert!(text.out.contains("nx: Siemens NX CLSF"), "{}", text.out);
+    assert!(text.out.contains("recognized  by TOOL PATH, TLDATA"), "{}", text.out);
+    let json = place.run(&["cl", "--dialects", "--json"]);
+    let rows: serde_json::Value = serde_json::from_str(&json.out).expect("JSON");
+    let names: Vec<_> = rows.as_array().expect("rows").iter().map(|row| &row["name"]).collect();
+    assert_eq!(names.len(), filpost::cl::ClDialect::ALL.len());
+    assert_eq!(place.run(&["cl"]).status, 2);
+}

@@ -1,7 +1,7 @@
 //! Regression cases: a folder with `case.toml`, a CL file, a post and the NC
 //! program it must give.
 //!
-//! `case.toml`: `cl`; `ready`, `machine` (machine.toml) or `option_file`; `fil` (a file or a
+//! `case.toml`: `cl`; `dialect` (of the CL file, where it is not recognized); `ready`, `machine` (machine.toml) or `option_file`; `fil` (a file or a
 //! list); `set` (list of `key=value`); `compat`; `strict`; `read` (a folder for scripts);
 //! `clock`; `expect` (NC file) or `expect_error` (code); `listing` (its expected text);
 //! `tolerance`, `ignore`, `diameter` (how the NC programs are compared; letter by letter
@@ -14,9 +14,10 @@ mod recipe;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use fil_cl::ClDialect;
 use fil_diag::Diag;
 use fil_nc::diff;
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 
 use crate::error::{Error, RunCode};
 use crate::files;
@@ -32,6 +33,9 @@ use recipe::Recipe;
 pub struct CaseFile {
     /// The CL file.
     pub cl: String,
+    /// The dialect of the CL file, by its name.
+    #[serde(default, deserialize_with = "dialect")]
+    pub dialect: Option<ClDialect>,
     /// A ready post.
     pub ready: Option<String>,
     /// A `machine.toml`.
@@ -81,6 +85,12 @@ pub struct CaseFile {
     /// What was repaired against the print.
     #[serde(default)]
     pub repairs: Vec<String>,
+}
+
+/// A dialect by its name.
+fn dialect<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<ClDialect>, D::Error> {
+    let name = String::deserialize(deserializer)?;
+    name.parse().map(Some).map_err(serde::de::Error::custom)
 }
 
 impl CaseFile {

@@ -3,6 +3,7 @@
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
+use fil_cl::reader;
 use fil_diag::Diag;
 use fil_nc::diff;
 use similar::TextDiff;
@@ -127,7 +128,9 @@ impl Case {
     fn run_whole(&self, program: &Program) -> Result<Ran, Error> {
         let cl = files::read(&self.folder.join(&self.file.cl))?;
         let (mut nc, mut listing) = (Vec::new(), Listing::new(Vec::new()));
-        let mut run = program.start().cl_name(&self.file.cl);
+        let reading =
+            reader::Options { dialect: self.file.dialect, ..reader::Options::default() };
+        let mut run = program.start().cl_name(&self.file.cl).reading(reading);
         if self.file.listing.is_some() {
             run = run.observe(listing.observer());
         }

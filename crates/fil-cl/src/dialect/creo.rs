@@ -1,0 +1,21 @@
+//! PTC Creo and Pro/ENGINEER (`.ncl`).
+//!
+//! PTC documents CIRCLE with the right-hand rule and its radius, and a GOTO with many points
+//! for an arc that is written as points.
+
+use super::{ArcSense, AxisRule, CircleForm, DialectRules, Sign};
+
+pub(super) const RULES: DialectRules = DialectRules {
+    name: "creo",
+    title: "PTC Creo, Pro/ENGINEER (.ncl)",
+    signs: &[Sign::Comment("*PRO/CLFILE"), Sign::Pseudo],
+    circle: Some(CircleForm { counts: &[4, 7], sense: ArcSense::RightHand }),
+    axis: AxisRule::AsWritten,
+    packed_points: true,
+    break_column: None,
+    trailing_comma: false,
+    comma_words: &[],
+    writes_units: true,
+    writes_fini: true,
+    without_effect: &[],
+};

@@ -1,0 +1,249 @@
+//! The dialects of CL text, one file for each CAM system.
+//!
+//! Statements, items and numbers are the same in all of them. What differs stands in a
+//! table, [`DialectRules`]: how a text is recognized, which way its circles turn, what the
+//! values of a GOTO mean, where its writer breaks lines. A new dialect is a new file with
+//! its `RULES`, a variant of [`ClDialect`] and a row in [`ClDialect::ALL`].
+
+mod camworks;
+mod catia;
+mod creo;
+mod ffcam;
+mod generic;
+mod ncl;
+mod nx;
+mod recognition;
+mod solidworks_cam;
+
+use crate::vocabulary::WordId;
+
+pub(crate) use recognition::Recognition;
+pub use recognition::{Evidence, Recognized};
+
+/// Which system wrote a CL text.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ClDialect {
+    /// No particular system: APT words and right-hand circles.
+    Generic,
+    /// PTC Creo, Pro/ENGINEER (`.ncl`).
+    Creo,
+    /// Siemens NX CLSF (`.cls`, `.clsf`).
+    Nx,
+    /// Dassault CATIA V5 APT (`.aptsource`).
+    Catia,
+    /// SolidWorks CAM APT (`.apt`).
+    SolidWorksCam,
+    /// CAMWorks CLT (`.clt`).
+    CamWorks,
+    /// Makino FFCAM (`.cldata`).
+    Ffcam,
+    /// NCCS NCL (`.as`).
+    Ncl,
+}
+
+/// How a dialect is recognized and what its statements mean.
+#[derive(Debug)]
+pub struct DialectRules {
+    /// The name by which it is chosen.
+    pub name: &'static str,
+    /// The system and its file.
+    pub title: &'static str,
+    /// What only this system writes.
+    pub signs: &'static [Sign],
+    /// Its CIRCLE statements; `None` where they are not documented.
+    pub circle: Option<CircleForm>,
+    /// The tool axis of a GOTO with three values.
+    pub axis: AxisRule,
+    /// True where a GOTO may hold many points.
+    pub packed_points: bool,
+    /// Length in characters at which the writer breaks any line, comments and texts too,
+    /// with `$` as the last character. Elsewhere `$` stands between items, and one in a
+    /// text belongs to the text.
+    pub break_column: Option<usize>,
+    /// True where a list of items may end in a comma.
+    pub trailing_comma: bool,
+    /// Major words that are followed by a comma in place of the slash.
+    pub comma_words: &'static [&'static str],
+    /// True where each file says its unit.
+    pub writes_units: bool,
+    /// True where each file ends in FINI.
+    pub writes_fini: bool,
+    /// Major words that inform and do nothing, with the reason.
+    pub without_effect: &'static [(&'static str, &'static str)],
+}
+
+/// What shows that a text is of a dialect. Case and blanks mean nothing.
+#[derive(Clone, Copy, Debug)]
+pub enum Sign {
+    /// A `$$` comment that begins with this text, without blanks and in upper case.
+    Comment(&'static str),
+    /// A pseudo-comment `$$-> KEY / …`.
+    Pseudo,
+    /// A statement with this major word.
+    Word(WordId),
+    /// A statement whose major word has this name and no meaning in other dialects.
+    Name(&'static str),
+    /// A statement whose major word begins so.
+    Prefix(&'static str),
+    /// A text statement that holds this word.
+    Text(WordId, &'static str),
+}
+
+/// The CIRCLE statements of a dialect.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CircleForm {
+    /// How many numbers stand before the first word.
+    pub counts: &'static [usize],
+    /// Which way round the axis means.
+    pub sense: ArcSense,
+}
+
+impl CircleForm {
+    /// How many numbers it has, as `4, 6 or 7`.
+    pub fn spell_counts(&self) -> String {
+        let counts: Vec<String> = self.counts.iter().map(usize::to_string).collect();
+        match counts.split_last() {
+            Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
+            _ => counts.concat(),
+        }
+    }
+}
+
+/// Which way round an arc goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ArcSense {
+    /// Counterclockwise seen against the axis.
+    RightHand,
+    /// Clockwise seen against the axis.
+    LeftHand,
+    /// As the word CLOCKWISE or COUNTERCLOCKWISE says, seen against the axis.
+    ByWord,
+}
+
+/// The tool axis of a GOTO that gives none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AxisRule {
+    /// None: what TLAXIS, MULTAX and the post hold.
+    AsWritten,
+    /// The last one.
+    Modal,
+    /// The last one while MULTAX is on.
+    ModalInMultax,
+    /// Z: an axis is written whenever it is another one.
+    Upright,
+}
+
+impl ClDialect {
+    /// All dialects.
+    pub const ALL: &'static [ClDialect] = &[
+        ClDialect::Generic,
+        ClDialect::Creo,
+        ClDialect::Nx,
+        ClDialect::Catia,
+        ClDialect::SolidWorksCam,
+        ClDialect::CamWorks,
+        ClDialect::Ffcam,
+        ClDialect::Ncl,
+    ];
+
+    /// The table of the dialect.
+    pub const fn rules(self) -> &'static DialectRules {
+        match self {
+            ClDialect::Generic => &generic::RULES,
+            ClDialect::Creo => &creo::RULES,
+            ClDialect::Nx => &nx::RULES,
+            ClDialect::Catia => &catia::RULES,
+            ClDialect::SolidWorksCam => &solidworks_cam::RULES,
+            ClDialect::CamWorks => &camworks::RULES,
+            ClDialect::Ffcam => &ffcam::RULES,
+            ClDialect::Ncl => &ncl::RULES,
+        }
+    }
+
+    /// The name by which it is chosen.
+    pub const fn name(self) -> &'static str {
+        self.rules().name
+    }
+
+    /// The dialect of a name, in any case.
+    ///
+    /// ```
+    /// use fil_cl::ClDialect;
+    ///
+    /// assert_eq!(ClDialect::named("nx"), Some(ClDialect::Nx));
+    /// assert_eq!(ClDialect::named("surfcam"), None);
+    /// ```
+    pub fn named(name: &str) -> Option<ClDialect> {
+        Self::ALL.iter().copied().find(|dialect| dialect.name().eq_ignore_ascii_case(name))
+    }
+
+    /// Why a major word does nothing in this dialect; `None` for a word that acts or is
+    /// not known.
+    pub fn without_effect(self, major: &str) -> Option<&'static str> {
+        let rows = self.rules().without_effect.iter();
+        rows.clone().find(|(word, _)| word.eq_ignore_ascii_case(major)).map(|(_, reason)| *reason)
+    }
+
+    /// The dialects in which a CIRCLE may have so many numbers.
+    pub(crate) fn with_circles_of(numbers: usize) -> impl Iterator<Item = ClDialect> {
+        let has = move |dialect: &ClDialect| {
+            dialect.rules().circle.is_some_and(|form| form.counts.contains(&numbers))
+        };
+        Self::ALL.iter().copied().filter(has)
+    }
+}
+
+impl std::fmt::Display for ClDialect {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl std::str::FromStr for ClDialect {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        ClDialect::named(name).ok_or_else(|| {
+            let names: Vec<&str> = Self::ALL.iter().map(|dialect| dialect.name()).collect();
+            format!("no dialect `{name}`; there are {}", names.join(", "))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_lower_case_and_lead_back() {
+        for dialect in ClDialect::ALL {
+            let name = dialect.name();
+            assert!(name.bytes().all(|byte| byte.is_ascii_lowercase() || byte == b'-'), "{name}");
+            assert_eq!(name.parse(), Ok(*dialect));
+            assert_eq!(ClDialect::named(&name.to_uppercase()), Some(*dialect));
+        }
+        let wrong = "fanuc".parse::<ClDialect>().unwrap_err();
+        assert!(wrong.contains("solidworks-cam"), "{wrong}");
+    }
+
+    #[test]
+    fn each_dialect_but_the_generic_one_has_signs() {
+        for dialect in ClDialect::ALL {
+            let signs = dialect.rules().signs.len();
+            assert_eq!(signs == 0, *dialect == ClDialect::Generic, "{dialect}");
+        }
+    }
+
+    #[test]
+    fn words_without_effect_have_a_reason() {
+        assert!(ClDialect::Nx.without_effect("paint").is_some());
+        assert_eq!(ClDialect::Creo.without_effect("PAINT"), None);
+        for dialect in ClDialect::ALL {
+            for (word, reason) in dialect.rules().without_effect {
+                assert_eq!(dialect.without_effect(word), Some(*reason));
+                assert!(!reason.is_empty() && word.to_uppercase() == *word, "{word}");
+            }
+        }
+    }
+}

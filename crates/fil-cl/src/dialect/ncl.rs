@@ -1,0 +1,22 @@
+//! NCCS NCL (`.as`).
+//!
+//! The tool axis is modal while MULTAX is on. Arcs are written as points; what a CIRCLE
+//! would mean is not documented.
+
+use super::{AxisRule, DialectRules, Sign};
+use crate::words as w;
+
+pub(super) const RULES: DialectRules = DialectRules {
+    name: "ncl",
+    title: "NCCS NCL (.as)",
+    signs: &[Sign::Text(w::REMARK, "NCLCAM")],
+    circle: None,
+    axis: AxisRule::ModalInMultax,
+    packed_points: false,
+    break_column: None,
+    trailing_comma: false,
+    comma_words: &[],
+    writes_units: false,
+    writes_fini: true,
+    without_effect: &[],
+};

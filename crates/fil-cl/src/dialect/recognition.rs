@@ -1,0 +1,196 @@
+//! Which dialect a text has: by what only one system writes, never by a guess.
+//!
+//! The text is watched as it is read, without a limit of bytes or lines: comments, blanks and
+//! case turn nothing. Until a sign comes it is read as generic. A sign of a second system is
+//! refused, and so is a sign that comes after a statement that its dialect reads otherwise.
+
+use std::fmt;
+
+use fil_diag::{Diag, Place};
+
+use super::{ArcSense, AxisRule, ClDialect, DialectRules, Sign};
+use crate::errors::ClCode;
+use crate::vocabulary::{Vocabulary, WordId};
+
+/// A dialect, and why it is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Recognized {
+    /// The dialect.
+    pub dialect: ClDialect,
+    /// What it is taken for.
+    pub evidence: Evidence,
+}
+
+/// Why a text is taken for one of a dialect.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Evidence {
+    /// The caller chose it.
+    Chosen,
+    /// This line has something that only its system writes.
+    Sign {
+        /// Number of the line, 1-based.
+        line: u32,
+    },
+    /// There is no sign of any system.
+    NoSign,
+}
+
+impl fmt::Display for Recognized {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.evidence {
+            Evidence::Chosen => write!(f, "{} (chosen)", self.dialect),
+            Evidence::Sign { line } => write!(f, "{} (told by line {line})", self.dialect),
+            Evidence::NoSign => write!(f, "{} (no CAM system recognized)", self.dialect),
+        }
+    }
+}
+
+/// What a dialect decided while the text was read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Used {
+    /// Line of the first CIRCLE; 0 before it.
+    pub(crate) circle: u32,
+    /// Line of the first tool axis; 0 before it.
+    pub(crate) axis: u32,
+}
+
+/// Watches the statements of a text for signs.
+pub(crate) struct Recognition {
+    found: Recognized,
+    rules: &'static DialectRules,
+    /// The line of the sign, for messages.
+    sign: Option<Place>,
+    /// A contradiction not yet raised.
+    refused: Option<Box<Diag>>,
+    pub(crate) used: Used,
+}
+
+impl Recognition {
+    /// Starts with the dialect that was chosen, if one was.
+    pub(crate) fn new(chosen: Option<ClDialect>) -> Self {
+        let found = match chosen {
+            Some(dialect) => Recognized { dialect, evidence: Evidence::Chosen },
+            None => Recognized { dialect: ClDialect::Generic, evidence: Evidence::NoSign },
+        };
+        let rules = found.dialect.rules();
+        Recognition { found, rules, sign: None, refused: None, used: Used::default() }
+    }
+
+    /// What the text is taken for by now.
+    pub(crate) fn found(&self) -> Recognized {
+        self.found
+    }
+
+    /// The rules to read by.
+    #[inline]
+    pub(crate) fn rules(&self) -> &'static DialectRules {
+        self.rules
+    }
+
+    /// A contradiction between the signs seen so far.
+    pub(crate) fn refusal(&mut self) -> Option<Box<Diag>> {
+        self.refused.take()
+    }
+
+    /// Looks at a comment line, which begins with `$$`.
+    pub(crate) fn comment(&mut self, line: &[u8], place: impl FnOnce() -> Place) {
+        let text = compact(line.strip_prefix(b"$$").unwrap_or(line));
+        self.watch(place, |sign| match sign {
+            Sign::Comment(begin) => text.starts_with(begin.as_bytes()),
+            _ => false,
+        });
+    }
+
+    /// Looks at a pseudo-comment.
+    pub(crate) fn pseudo(&mut self, place: impl FnOnce() -> Place) {
+        self.watch(place, |sign| matches!(sign, Sign::Pseudo));
+    }
+
+    /// Looks at the major word of a statement.
+    pub(crate) fn statement(
+        &mut self,
+        major: WordId,
+        vocabulary: &Vocabulary,
+        place: impl FnOnce() -> Place,
+    ) {
+        self.watch(place, |sign| match sign {
+            Sign::Word(word) => *word == major,
+            Sign::Name(name) => vocabulary.name(major) == *name,
+            Sign::Prefix(begin) => vocabulary.name(major).starts_with(begin),
+            _ => false,
+        });
+    }
+
+    /// Looks at a text statement.
+    pub(crate) fn text(&mut self, major: WordId, text: &str, place: impl FnOnce() -> Place) {
+        let holds =
+            |word: &str| text.split([' ', '\t', ',']).any(|part| part.eq_ignore_ascii_case(word));
+        self.watch(place, |sign| match sign {
+            Sign::Word(word) => *word == major,
+            Sign::Text(word, part) => *word == major && holds(part),
+            _ => false,
+        });
+    }
+
+    /// Takes the dialect that has a sign which is there.
+    fn watch(&mut self, place: impl FnOnce() -> Place, is_there: impl Fn(&Sign) -> bool) {
+        if self.found.evidence == Evidence::Chosen {
+            return;
+        }
+        let has = |dialect: &&ClDialect| dialect.rules().signs.iter().any(&is_there);
+        let Some(dialect) = ClDialect::ALL.iter().find(has).copied() else { return };
+        if dialect != self.found.dialect && self.refused.is_none() {
+            self.take(dialect, place());
+        }
+    }
+
+    fn take(&mut self, dialect: ClDialect, place: Place) {
+        if let Some(sign) = &self.sign {
+            let message = format!(
+                "line {} shows that the text is from {}, this line that it is from {dialect}",
+                sign.line, self.found.dialect
+            );
+            let hint = format!(
+                "give the files one by one, or choose with --dialect {} or --dialect {dialect}",
+                self.found.dialect
+            );
+            let diag = Diag::new(ClCode::TwoDialects, message).at(place).hint(hint);
+            self.refused = Some(Box::new(diag.at(sign.clone())));
+        } else if let Some(line) = self.read_otherwise(dialect.rules()) {
+            let message = format!(
+                "this line shows that the text is from {dialect}, after line {line} was read as {}",
+                self.found.dialect
+            );
+            let hint =
+                format!("choose with --dialect {dialect} or --dialect {}", self.found.dialect);
+            self.refused =
+                Some(Box::new(Diag::new(ClCode::TwoDialects, message).at(place).hint(hint)));
+        } else {
+            self.found = Recognized { dialect, evidence: Evidence::Sign { line: place.line } };
+            self.rules = dialect.rules();
+            self.sign = Some(place);
+        }
+    }
+
+    /// Line of a statement read by now that other rules read otherwise.
+    fn read_otherwise(&self, rules: &DialectRules) -> Option<u32> {
+        let sense = |rules: &DialectRules| rules.circle.map(|form| form.sense);
+        let turns = self.used.circle > 0 && sense(rules) != Some(ArcSense::RightHand);
+        let tilts = self.used.axis > 0 && rules.axis != AxisRule::AsWritten;
+        match () {
+            () if turns => Some(self.used.circle),
+            () if tilts => Some(self.used.axis),
+            () => None,
+        }
+    }
+}
+
+/// Longest beginning of a comment that is looked at, in bytes.
+const BEGINNING: usize = 32;
+
+/// The beginning of a comment without blanks, in upper case.
+fn compact(text: &[u8]) -> Vec<u8> {
+    let letters = text.iter().filter(|byte| !byte.is_ascii_whitespace());
+    letters.take(BEGINNING).map(u8::to_ascii_uppercase).collect()
+}

@@ -1,0 +1,94 @@
+//! CIRCLE as the dialect means it.
+
+use std::io::Read;
+
+use fil_diag::Result;
+
+use super::Reader;
+use crate::dialect::{ArcSense, ClDialect};
+use crate::errors::ClCode;
+use crate::record::{Record, Word};
+use crate::words;
+
+impl<R: Read> Reader<R> {
+    /// Turns the axis of a circle so that the right-hand rule holds. A circle that is not
+    /// in a form of the dialect is refused: it is perhaps one of another dialect, whose
+    /// axis has the opposite sense.
+    pub(super) fn turn_circle(&mut self, record: &mut Record) -> Result<()> {
+        let count = record.data.iter().take_while(|word| matches!(word, Word::Number(_))).count();
+        let Some(form) = self.rules().circle else {
+            let message = format!("arcs of {} are not written as CIRCLE", self.dialect());
+            return self.foreign_circle(&message, count);
+        };
+        if !form.counts.contains(&count) {
+            let message =
+                format!("{count} numbers, where {} has {}", self.dialect(), form.spell_counts());
+            return self.foreign_circle(&message, count);
+        }
+        self.check_axis(record)?;
+        if self.is_turned(record, form.sense, count)? {
+            for word in record.data.iter_mut().skip(3).take(3) {
+                if let Word::Number(part) = word {
+                    *part = 0.0 - *part;
+                }
+            }
+        }
+        if self.recognition.used.circle == 0 {
+            self.recognition.used.circle = record.line;
+        }
+        self.modal.in_arc = true;
+        Ok(())
+    }
+
+    /// True when the axis must be turned for the right-hand rule. A word that contradicts
+    /// the axis is refused.
+    fn is_turned(&self, record: &Record, sense: ArcSense, count: usize) -> Result<bool> {
+        let turned = sense == ArcSense::LeftHand;
+        match (record.has(words::CLOCKWISE), record.has(words::COUNTERCLOCKWISE)) {
+            (false, false) if sense == ArcSense::ByWord => {
+                self.foreign_circle("CLOCKWISE or COUNTERCLOCKWISE is needed", count)?;
+            }
+            (false, false) => {}
+            (true, true) => self.foreign_circle("CLOCKWISE and COUNTERCLOCKWISE", count)?,
+            (clockwise, _) if sense == ArcSense::ByWord => return Ok(clockwise),
+            (clockwise, _) if clockwise != (points_down(record) != turned) => {
+                let word = if clockwise { "CLOCKWISE" } else { "COUNTERCLOCKWISE" };
+                let message =
+                    format!("{word}, but the axis says the opposite in {}", self.dialect());
+                self.foreign_circle(&message, count)?;
+            }
+            _ => {}
+        }
+        Ok(turned)
+    }
+
+    /// Refuses a form that the dialect does not have: it is one of others, or of none.
+    fn foreign_circle(&self, message: &str, count: usize) -> Result<()> {
+        let range = self.item_range(count.saturating_sub(1));
+        let others: Vec<String> = ClDialect::with_circles_of(count)
+            .filter(|other| *other != self.dialect())
+            .map(|other| format!("--dialect {other}"))
+            .collect();
+        if others.is_empty() {
+            return Err(self.diag(ClCode::BadPoint, message, range));
+        }
+        let mut diag = self.diag(ClCode::ForeignArc, message, range);
+        diag.hint = Some(format!("such a CIRCLE is one of {}", others.join(", ")));
+        Err(diag)
+    }
+
+    fn dialect(&self) -> ClDialect {
+        self.recognition.found().dialect
+    }
+}
+
+/// True when the largest part of a circle's axis is negative: seen from the positive side
+/// of the principal axis, the right-hand rule then means clockwise.
+fn points_down(record: &Record) -> bool {
+    let part = |word: &Word| match word {
+        Word::Number(part) => *part,
+        _ => 0.0,
+    };
+    let parts = record.data.iter().skip(3).take(3).map(part);
+    parts.max_by(|a, b| a.abs().total_cmp(&b.abs())).is_some_and(|largest| largest < 0.0)
+}

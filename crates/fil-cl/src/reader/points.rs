@@ -1,0 +1,188 @@
+//! GOTO and FROM: values to points and tool axes.
+
+use std::io::Read;
+
+use fil_diag::Result;
+
+use super::{Reader, items};
+use crate::dialect::AxisRule;
+use crate::errors::ClCode;
+use crate::layout::{is_unit, length};
+use crate::record::{Record, Word};
+
+/// The points of a GOTO not yet handed out.
+#[derive(Default)]
+pub(super) struct Pending {
+    pub(super) values: Vec<f64>,
+    pub(super) next: usize,
+    /// Values of one point: 3 or 6.
+    group: usize,
+    line: u32,
+}
+
+impl Pending {
+    pub(super) fn clear(&mut self) {
+        self.values.clear();
+        self.next = 0;
+    }
+}
+
+impl<R: Read> Reader<R> {
+    /// The short way for the most frequent statement: `GOTO / x, y, z[, i, j, k]`
+    /// in one line, with numbers in fixed point. Anything else is left to the
+    /// long way, which gives the same record.
+    #[inline]
+    pub(super) fn read_plain_goto(&mut self, record: &mut Record) -> bool {
+        let mut values = [0.0; 6];
+        let Some((count, length)) = items::plain_goto(self.lines.unread(), &mut values) else {
+            return false;
+        };
+        let [x, y, z, i, j, k] = values;
+        let axis = [i, j, k];
+        if count == 6 && !is_unit(axis) {
+            return false;
+        }
+        record.line = self.take_lines(length, 1);
+        let axis = if count == 6 { Some(axis) } else { None };
+        self.give_point(record, [x, y, z], axis);
+        true
+    }
+
+    /// Makes `record` a GOTO; a tool axis left out is the one the dialect means.
+    #[inline]
+    fn give_point(&mut self, record: &mut Record, point: [f64; 3], axis: Option<[f64; 3]>) {
+        if axis.is_some() {
+            self.keep(axis, record.line);
+        }
+        self.modal.in_arc = false;
+        let axis = if self.modal.axis.is_none() { None } else { axis.or(self.axis_left_out()) };
+        record.fill_goto(&point, axis.as_ref());
+        self.count(record);
+    }
+
+    /// Hands out the next point of a GOTO with several.
+    pub(super) fn next_pending(&mut self, record: &mut Record) {
+        let Pending { values, next, group, line } = &mut self.pending;
+        let mut point = [0.0; 6];
+        point[..*group].copy_from_slice(&values[*next..*next + *group]);
+        *next += *group;
+        record.line = *line;
+        let [x, y, z, i, j, k] = point;
+        let axis = if *group == 6 { Some([i, j, k]) } else { None };
+        self.give_point(record, [x, y, z], axis);
+    }
+
+    /// Takes all points but the first out of a GOTO with several.
+    ///
+    /// Six values are a point and a tool axis, which has length 1. Two points in one GOTO
+    /// look the same, so six other values are refused. More than six are points where the
+    /// dialect documents that, and points with tool axes while MULTAX is on.
+    pub(super) fn split_points(&mut self, record: &mut Record) -> Result<()> {
+        self.pending.clear();
+        for word in &record.data {
+            let Word::Number(value) = word else {
+                // What is no number is refused when the record is arranged.
+                self.pending.clear();
+                return Ok(());
+            };
+            self.pending.values.push(*value);
+        }
+        let count = self.pending.values.len();
+        let group = match count {
+            6 => {
+                self.check_axis(record)?;
+                6
+            }
+            _ if count <= 3 || !self.rules().packed_points => count,
+            _ if self.modal.multax && count.is_multiple_of(6) => {
+                self.check_axes()?;
+                6
+            }
+            _ if !self.modal.multax && count.is_multiple_of(3) => {
+                self.check_points()?;
+                3
+            }
+            _ => count,
+        };
+        if count == group {
+            // One point, or a number of values that is refused when the record is arranged.
+            self.pending.clear();
+            return Ok(());
+        }
+        record.data.truncate(group);
+        self.pending.next = group;
+        self.pending.group = group;
+        self.pending.line = record.line;
+        Ok(())
+    }
+
+    /// Refuses a tool axis or a circle's axis that is no unit vector.
+    pub(super) fn check_axis(&self, record: &Record) -> Result<()> {
+        let Err(error) = record.check_axis() else { return Ok(()) };
+        Err(self.diag(error.code, &error.message, self.three_items(error.item)))
+    }
+
+    /// Refuses points with tool axes that are none.
+    fn check_axes(&self) -> Result<()> {
+        let values = &self.pending.values;
+        let axis = |at: &usize| [values[*at], values[*at + 1], values[*at + 2]];
+        let mut places = (3..values.len()).step_by(6);
+        let Some(at) = places.find(|at| !is_unit(axis(at))) else { return Ok(()) };
+        let length = length(axis(&at));
+        let message = format!("a tool axis of length {length:.4}, not 1");
+        Err(self.diag(ClCode::UnclearPoints, &message, self.three_items(at)))
+    }
+
+    /// Refuses a list of points that could be points with tool axes, or that lie on an arc.
+    fn check_points(&self) -> Result<()> {
+        let values = &self.pending.values;
+        let axes = values.chunks(6).all(|six| six.len() == 6 && is_unit([six[3], six[4], six[5]]));
+        let message = match () {
+            () if axes => "points, or points with tool axes while MULTAX is off",
+            () if self.modal.in_arc => "several points after a CIRCLE: which is its end?",
+            () => return Ok(()),
+        };
+        Err(self.diag(ClCode::UnclearPoints, message, self.all_items()))
+    }
+
+    fn three_items(&self, first: usize) -> std::ops::Range<usize> {
+        self.item_range(first).start..self.item_range(first + 2).end
+    }
+
+    fn all_items(&self) -> std::ops::Range<usize> {
+        self.item_range(0).start..self.item_range(usize::MAX).end
+    }
+
+    /// Keeps the tool axis of a motion, or adds the one that the dialect means.
+    pub(super) fn keep_axis(&mut self, record: &mut Record) {
+        self.modal.in_arc = false;
+        match record.axis() {
+            Some(axis) => self.keep(Some(axis), record.line),
+            None => {
+                if let Some(axis) = self.axis_left_out() {
+                    record.data.extend_from_slice(&axis.map(Word::Number));
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn keep(&mut self, axis: Option<[f64; 3]>, line: u32) {
+        self.modal.axis = axis;
+        if self.recognition.used.axis == 0 {
+            self.recognition.used.axis = line;
+        }
+    }
+
+    /// The tool axis of a motion that gives none.
+    fn axis_left_out(&self) -> Option<[f64; 3]> {
+        match self.rules().axis {
+            AxisRule::AsWritten => None,
+            AxisRule::Modal => self.modal.axis,
+            AxisRule::ModalInMultax if self.modal.multax => self.modal.axis,
+            AxisRule::ModalInMultax => None,
+            // A file of three axes shows none, so that its records stay as short as they were.
+            AxisRule::Upright => self.modal.axis.map(|_| [0.0, 0.0, 1.0]),
+        }
+    }
+}

@@ -1,0 +1,351 @@
+//! How a dialect is recognized, and what it changes.
+
+use fil_cl::{ClCode, ClDialect, Evidence, Options, Reader, Record, Vocabulary, Word, words};
+use fil_diag::{Code, Diag};
+
+/// All records, and the dialect found with its evidence.
+fn read(text: &str, dialect: Option<ClDialect>) -> Result<(Vec<Record>, String), Box<Diag>> {
+    let options = Options { dialect, ..Options::default() };
+    let mut reader = Reader::new(text.as_bytes(), "t", options);
+    let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
+    let mut records = Vec::new();
+    while reader.read(&mut vocab, &mut record)? {
+        records.push(record.clone());
+    }
+    Ok((records, reader.recognized().to_string()))
+}
+
+fn records(text: &str, dialect: ClDialect) -> Vec<Record> {
+    read(text, Some(dialect)).unwrap_or_else(|diag| panic!("{dialect}: {diag}")).0
+}
+
+fn recognized(text: &str) -> String {
+    read(text, None).unwrap_or_else(|diag| panic!("{diag}")).1
+}
+
+fn refused(text: &str, dialect: Option<ClDialect>, code: ClCode) -> Box<Diag> {
+    let diag = read(text, dialect).expect_err("refused");
+    let code: &Code = code.into();
+    assert_eq!(diag.code, code, "{text:?}: {diag}");
+    diag
+}
+
+const SIGNS: [(&str, &str); 12] = [
+    ("$$*          Pro/CLfile  Version 8.0 - 8.0.3.0\n", "creo (told by line 1)"),
+    ("$$-> FEATNO / 32\n", "creo (told by line 1)"),
+    ("TOOL PATH/A,TOOL,B\n", "nx (told by line 1)"),
+    ("PAINT/PATH\n", "nx (told by line 1)"),
+    ("$$     CATIA APT VERSION 1.0\n", "catia (told by line 1)"),
+    ("$$*CATIA0\n", "catia (told by line 1)"),
+    ("CATMAT/1.,0.,part\n", "catia (told by line 1)"),
+    ("CSI_SET_FLUTE_LENGTH/2.\n", "solidworks-cam (told by line 1)"),
+    ("OPFEATSTART/Drill1-Hole1\n", "camworks (told by line 1)"),
+    ("PPRINT/APTCL-SPEC,MAKINO-FF,1\n", "ffcam (told by line 1)"),
+    ("REMARK a.as 27-APR-2021 NCLCAM 2020.00\n", "ncl (told by line 1)"),
+    ("PARTNO / X\nUNITS / MM\n", "generic (no CAM system recognized)"),
+];
+
+#[test]
+fn signs() {
+    for (sign, expected) in SIGNS {
+        assert_eq!(recognized(sign), expected, "{sign}");
+    }
+}
+
+/// Case, blanks, tabs, byte order marks and line ends are no part of a sign.
+#[test]
+fn layout_turns_no_sign() {
+    for (sign, expected) in SIGNS {
+        for changed in [
+            sign.to_lowercase(),
+            format!("  {sign}"),
+            format!("\t{sign}"),
+            format!("\u{FEFF}{sign}"),
+            sign.replace('\n', "  \r\n"),
+            sign.replace('/', " / "),
+            sign.replace(' ', "   "),
+        ] {
+            assert_eq!(recognized(&changed), expected, "{changed:?}");
+        }
+    }
+}
+
+/// However long the header, the first sign counts.
+#[test]
+fn comments_turn_no_sign() {
+    let header = "$$ a shop's header, and PAINT/PATH in it\n".repeat(2000);
+    for (sign, expected) in SIGNS {
+        let text = format!("{header}{sign}");
+        let expected = expected.replace("line 1", "line 2001");
+        assert_eq!(recognized(&text), expected, "{sign}");
+    }
+    let blank = "\n".repeat(20_000);
+    assert_eq!(recognized(&format!("{blank}END-OF-PATH\n")), "nx (told by line 20001)");
+}
+
+#[test]
+fn words_in_texts_and_items_are_no_signs() {
+    for text in [
+        "PPRINT / TOOL PATH/A\n",
+        "PPRINT / $$-> FEATNO / 1\n",
+        "PARTNO / PAINT/PATH\n",
+        "REMARK not by NCLCAMX\n",
+        "$$ written for a CATIA APT VERSION 1.0\n",
+        "$$ PAINT/PATH\n",
+        "CYCLE / DRILL, PAINT, 1.\n",
+    ] {
+        assert_eq!(recognized(text), "generic (no CAM system recognized)", "{text}");
+    }
+}
+
+#[test]
+fn a_sign_may_come_late_as_long_as_nothing_hangs_on_it() {
+    let late = "UNITS/MM\nGOTO/1,2,3\nPAINT/PATH\nCIRCLE/0,0,3,0,0,-1,1,.06,.5,40,1\nGOTO/0,1,3\n";
+    let (records, found) = read(late, None).unwrap();
+    assert_eq!(found, "nx (told by line 3)");
+    assert_eq!(records[3].circle().unwrap().axis, [0.0, 0.0, 1.0]);
+    // The right-hand rule held for the arc before, and holds in Creo's files.
+    let creo = "GOTO/1,0,0\nCIRCLE/0,0,0,0,0,1,1\nGOTO/0,1,0\n$$-> END /\n";
+    assert_eq!(recognized(creo), "creo (told by line 4)");
+}
+
+#[test]
+fn two_systems_in_one_text() {
+    let diag = refused("$$-> END /\nPAINT/PATH\n", None, ClCode::TwoDialects);
+    let lines: Vec<u32> = diag.places.iter().map(|place| place.line).collect();
+    assert_eq!(lines, [2, 1]);
+    assert!(diag.hint.as_ref().unwrap().contains("--dialect nx"), "{diag:?}");
+    let text = "$$*CATIA0\nRAPID\nTRNTYP/WORLD,0,0,0\n";
+    refused(text, None, ClCode::TwoDialects);
+    let (_, found) = read(text, Some(ClDialect::Generic)).unwrap();
+    assert_eq!(found, "generic (chosen)");
+    let arc = "GOTO/1,0,0\nCIRCLE/0,0,0,0,0,1,1\nGOTO/0,1,0\nPAINT/PATH\n";
+    let diag = refused(arc, None, ClCode::TwoDialects);
+    assert_eq!((diag.places[0].line, diag.places.len()), (4, 1));
+    let axis = "GOTO/1,0,0,0,1,0\nGOTO/0,1,0\nPAINT/PATH\n";
+    refused(axis, None, ClCode::TwoDialects);
+}
+
+#[test]
+fn evidence_is_data() {
+    let mut reader = Reader::new(&b"RAPID\nPAINT/PATH\n"[..], "t", Options::default());
+    assert_eq!(reader.recognized().evidence, Evidence::NoSign);
+    let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
+    while reader.read(&mut vocab, &mut record).unwrap() {}
+    assert_eq!(reader.recognized().dialect, ClDialect::Nx);
+    assert_eq!(reader.recognized().evidence, Evidence::Sign { line: 2 });
+}
+
+/// Going back re-reads by the rules that were found, and finds no contradiction.
+#[test]
+fn going_back_keeps_the_dialect() {
+    let text = "PAINT/PATH\nGOTO/1,0,0,0,1,0\nGOTO/2,0,0\nPAINT/PATH\n";
+    let input = std::io::Cursor::new(text);
+    let mut reader = Reader::seekable(input, "t", Options::default());
+    let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
+    while reader.read(&mut vocab, &mut record).unwrap() {}
+    reader.seek_record(3).unwrap();
+    assert!(reader.read(&mut vocab, &mut record).unwrap());
+    assert_eq!(record.axis(), Some([0.0, 1.0, 0.0]));
+    assert_eq!(reader.recognized().to_string(), "nx (told by line 1)");
+}
+
+const TEXT_WORDS: [&str; 7] =
+    ["PPRINT", "INSERT", "PARTNO", "LETTER", "REMARK", "TITLES", "TPRINT"];
+
+/// A text never takes the next statement with it, whatever it ends in.
+#[test]
+fn a_dollar_at_the_end_of_a_text_is_text() {
+    for dialect in ClDialect::ALL {
+        for word in TEXT_WORDS {
+            for ending in ["$", " $", "$$", ",$", ",  $", "$ $"] {
+                let text = format!("{word} / G1 X5{ending}\nGOTO / 1, 2, 3\n");
+                let found = records(&text, *dialect);
+                assert_eq!(found.len(), 2, "{dialect}: {text}");
+                assert_eq!(found[0].text, format!("G1 X5{ending}"));
+                assert_eq!(found[1].point(), Some([1.0, 2.0, 3.0]));
+            }
+        }
+    }
+}
+
+/// A line cut at column 72 by CATIA, and the one after it.
+fn cut(begin: &str, letter: &str, rest: &str) -> String {
+    let fill = 71 - begin.chars().count();
+    format!("{begin}{}$\n{rest}\n", letter.repeat(fill))
+}
+
+#[test]
+fn catia_cuts_texts_at_its_column() {
+    let text = cut("TPRINT/", "x", "yz") + "RAPID\n";
+    let found = records(&text, ClDialect::Catia);
+    assert_eq!(found.len(), 2);
+    assert_eq!(found[0].text, "x".repeat(64) + "yz");
+    // Letters count, not bytes.
+    let found = records(&cut("TPRINT/", "é", "yz"), ClDialect::Catia);
+    assert_eq!(found[0].text, "é".repeat(64) + "yz");
+    // A statement is never taken for the rest of a text.
+    for next in ["RAPID", "GOTO  /  1., 2., 3.", "$$ a comment", "  FEDRAT/100.,MMPM"] {
+        refused(&cut("TPRINT/", "x", next), Some(ClDialect::Catia), ClCode::OpenContinuation);
+    }
+    // In other dialects the same line ends there.
+    let found = records(&(cut("TPRINT/", "x", "RAPID") + "RAPID\n"), ClDialect::Creo);
+    assert_eq!((found.len(), found[0].text.ends_with("x$")), (3, true));
+}
+
+#[test]
+fn catia_cuts_comments_and_numbers_at_its_column() {
+    let text = cut("$$ OPERATION NAME : ", "x", "Horizontale") + "RAPID\n";
+    assert_eq!(records(&text, ClDialect::Catia).len(), 1);
+    let next = cut("$$ ", "x", "GOTO/1.,2.,3.");
+    refused(&next, Some(ClDialect::Catia), ClCode::OpenContinuation);
+    // A comment that ends in $ elsewhere is over.
+    assert_eq!(records("$$ 5$\nRAPID\n", ClDialect::Catia).len(), 1);
+    assert_eq!(records("$$ 5$\nRAPID\n", ClDialect::Creo).len(), 1);
+    let number = cut("GOTO  /   ", "0", "00.500000,    2.,3.");
+    let found = records(&number, ClDialect::Catia);
+    assert_eq!(found[0].point(), Some([0.5, 2.0, 3.0]));
+    refused(&number, Some(ClDialect::Creo), ClCode::BadNumber);
+}
+
+/// Without a comma two items stay two, wherever the line ends.
+#[test]
+fn a_continuation_joins_no_numbers() {
+    for dialect in ClDialect::ALL {
+        for text in ["GOTO/1,2,3$\n4,5,6\n", "GOTO/1,2,3 $\n4\n", "FEDRAT/10$\n0,MMPM\n"] {
+            refused(text, Some(*dialect), ClCode::BadNumber);
+        }
+        refused("CYCLE/DEEP,DEPTH,3$\nSTEP,1\n", Some(*dialect), ClCode::BadNumber);
+        refused("COOLNT/ON$\nRAPID\n", Some(*dialect), ClCode::BadWord);
+        refused("RAPID $\nGOTO/1,2,3\n", Some(*dialect), ClCode::BadWord);
+    }
+}
+
+#[test]
+fn a_name_in_a_pseudo_comment_may_end_in_a_dollar() {
+    let found = records("$$-> MFGNO / PART$\nGOTO / 1, 2, 3\n", ClDialect::Creo);
+    assert_eq!(found.len(), 2);
+    assert_eq!(found[0].text, "PART$");
+}
+
+#[test]
+fn arcs_of_one_dialect_are_no_arcs_of_another() {
+    let creo = "CIRCLE/0,0,0,0,0,1,5\n";
+    let nx = "CIRCLE/0,0,0,0,0,1,5,.06,.5,40,1\n";
+    let solidworks = "CIRCLE/0,0,0,0,0,1.\n";
+    let camworks = "CIRCLE/0,0,0,0,0,1.,5.,CLOCKWISE\n";
+    let read_by = |text: &str| -> Vec<&str> {
+        let can = |dialect: &&ClDialect| read(text, Some(**dialect)).is_ok();
+        ClDialect::ALL.iter().filter(can).map(|dialect| dialect.name()).collect()
+    };
+    assert_eq!(read_by(creo), ["generic", "creo", "solidworks-cam"]);
+    assert_eq!(read_by(nx), ["nx", "ffcam"]);
+    assert_eq!(read_by(solidworks), ["generic", "solidworks-cam"]);
+    assert_eq!(read_by(camworks), ["camworks"]);
+    let diag = refused(nx, None, ClCode::ForeignArc);
+    let hint = diag.hint.as_ref().unwrap();
+    assert!(hint.contains("--dialect nx") && hint.contains("--dialect ffcam"), "{hint}");
+    refused(creo, Some(ClDialect::Catia), ClCode::ForeignArc);
+}
+
+#[test]
+fn the_word_decides_in_camworks() {
+    let axis = |word: &str| {
+        let text = format!("CIRCLE/ 0.,0.,0.,0.,0.,1.,5.,{word} \n");
+        records(&text, ClDialect::CamWorks)[0].circle().unwrap().axis
+    };
+    assert_eq!(axis("CLOCKWISE"), [0.0, 0.0, -1.0]);
+    assert_eq!(axis("COUNTERCLOCKWISE"), [0.0, 0.0, 1.0]);
+    for text in ["CIRCLE/0,0,0,0,0,1,5\n", "CIRCLE/0,0,0,0,0,1,5,CLOCKWISE,COUNTERCLOCKWISE\n"] {
+        assert!(read(text, Some(ClDialect::CamWorks)).is_err(), "{text}");
+    }
+}
+
+/// Elsewhere a word must say what the axis says.
+#[test]
+fn a_word_against_the_axis() {
+    for (axis, word) in [("0,0,1", "COUNTERCLOCKWISE"), ("0,0,-1", "CLOCKWISE")] {
+        let nx = |word: &str| format!("CIRCLE/0,0,0,{axis},5,.06,.5,10,1,{word}\n");
+        let creo = |word: &str| format!("CIRCLE/0,0,0,{axis},5,{word}\n");
+        let other = if word == "CLOCKWISE" { "COUNTERCLOCKWISE" } else { "CLOCKWISE" };
+        assert!(read(&creo(word), Some(ClDialect::Creo)).is_ok(), "{axis} {word}");
+        refused(&creo(other), Some(ClDialect::Creo), ClCode::ForeignArc);
+        assert!(read(&nx(other), Some(ClDialect::Nx)).is_ok(), "{axis} {word}");
+        refused(&nx(word), Some(ClDialect::Nx), ClCode::ForeignArc);
+    }
+    let axis = "CIRCLE/0,0,0,-1,0,0,5,COUNTERCLOCKWISE\n";
+    refused(axis, Some(ClDialect::Generic), ClCode::ForeignArc);
+}
+
+#[test]
+fn the_axis_left_out() {
+    let text = "MULTAX/ON\nGOTO/1,2,3,0,1,0\nGOTO/4,5,6\nMULTAX/OFF\nGOTO/7,8,9\n";
+    let axes = |dialect: ClDialect| -> Vec<Option<[f64; 3]>> {
+        let found = records(text, dialect);
+        [2, 4].iter().map(|at| found[*at].axis()).collect()
+    };
+    let (kept, up) = (Some([0.0, 1.0, 0.0]), Some([0.0, 0.0, 1.0]));
+    for dialect in ClDialect::ALL {
+        let expected = match dialect {
+            ClDialect::Nx | ClDialect::Ffcam => [kept, kept],
+            ClDialect::Ncl => [kept, None],
+            ClDialect::SolidWorksCam => [up, up],
+            _ => [None, None],
+        };
+        assert_eq!(axes(*dialect), expected, "{dialect}");
+    }
+    let flat = records("GOTO/1,2,3\nGOTO/4,5,6\n", ClDialect::SolidWorksCam);
+    assert!(flat.iter().all(|record| record.axis().is_none()), "no axis where the file has none");
+}
+
+#[test]
+fn several_points_in_one_goto() {
+    let nine = "GOTO/1,2,3,4,5,6,7,8,9\n";
+    for dialect in ClDialect::ALL {
+        let is_read = read(nine, Some(*dialect)).is_ok();
+        assert_eq!(is_read, *dialect == ClDialect::Creo, "{dialect}");
+        let six = "GOTO/1,2,3,4,5,6\n";
+        let diag = refused(six, Some(*dialect), ClCode::UnclearPoints);
+        assert_eq!(&diag.places[0].excerpt[diag.places[0].span.clone()], "4,5,6");
+        refused(&format!("MULTAX/ON\n{six}"), Some(*dialect), ClCode::UnclearPoints);
+    }
+    for text in [
+        "GOTO/1,2,3,0,0,1,4,5,6,0,1,0\n",
+        "CIRCLE/0,0,0,0,0,1,5\nGOTO/1,2,3,4,5,6,7,8,9\n",
+        "CIRCLE/0,0,0,0,0,1,5\nGOTO/5,0,0\nCIRCLE/0,0,0,0,0,1,5\nGOTO/1,2,3,4,5,6,7,8,9\n",
+        "MULTAX/ON\nGOTO/1,2,3,0,0,1,4,5,6,0,1,1\n",
+    ] {
+        refused(text, Some(ClDialect::Creo), ClCode::UnclearPoints);
+    }
+    refused("MULTAX/ON\nGOTO/1,2,3,4,5,6,7,8,9\n", Some(ClDialect::Creo), ClCode::BadPoint);
+}
+
+#[test]
+fn axes_that_are_none() {
+    for axis in ["0,0,0", "0,0,0.999", "1,1,1", "0,0,2", "0,1E200,0", "0.1,0.1,0.1"] {
+        for dialect in ClDialect::ALL {
+            for word in ["GOTO", "FROM"] {
+                let text = format!("{word}/1,2,3,{axis}\n");
+                refused(&text, Some(*dialect), ClCode::UnclearPoints);
+            }
+        }
+        refused(&format!("CIRCLE/1,2,3,{axis},5\n"), None, ClCode::BadPoint);
+    }
+}
+
+#[test]
+fn empty_items() {
+    let found = records("LOADTL/3,ADJUST,,TURN\n", ClDialect::Catia);
+    assert_eq!(found[0].data[2], Word::Empty);
+    assert_eq!(found[0].data[3], Word::Minor(words::TURN));
+    let comma = "CUTTER/ 10.,0.,5.,3.,31.,0.,130.,\n";
+    for dialect in ClDialect::ALL {
+        refused("GOTO/1,,3\n", Some(*dialect), ClCode::BadPoint);
+        let trailing = matches!(dialect, ClDialect::CamWorks | ClDialect::Catia);
+        assert_eq!(read(comma, Some(*dialect)).is_ok(), trailing, "{dialect}");
+    }
+    let found = records("CHANNEL,1\nCHANNEL,\n", ClDialect::Catia);
+    assert_eq!((found[0].data.len(), found[1].data.len()), (1, 0));
+    assert_eq!(found[0].data[0], Word::Number(1.0));
+    refused("CHANNEL,1\n", None, ClCode::BadWord);
+}
