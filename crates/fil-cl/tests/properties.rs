@@ -80,6 +80,48 @@ fn pseudo() -> impl Strategy<Value = Record> {
     })
 }
 
+fn dialect() -> impl Strategy<Value = Option<ClDialect>> {
+    prop::option::of(prop::sample::select(ClDialect::ALL))
+}
+
+/// Pieces of statements, some of them so long that CATIA would cut their line.
+fn pieces() -> impl Strategy<Value = Vec<&'static str>> {
+    const PIECES: &[&str] = &[
+        "GOTO",
+        "CIRCLE",
+        "MULTAX",
+        "PPRINT",
+        "TOOL PATH",
+        "$$-> ",
+        "$$",
+        "$",
+        "/",
+        ",",
+        " ",
+        "\n",
+        "\r\n",
+        "1",
+        "-2.5",
+        "1e5",
+        ".",
+        "ON",
+        "12.3.4",
+        "\u{444}",
+        "=",
+        "(",
+        "1STPECK",
+        "CHANNEL",
+        "$$*CATIA0\n",
+        "PAINT/A\n",
+        "GOTO/0,0,1,0,0,1\n",
+        "CIRCLE/0,0,0,0,0,1,5\n",
+        "RAPID\n",
+        "PPRINT/xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx$\n",
+        "$$ xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx$\n",
+    ];
+    prop::collection::vec(prop::sample::select(PIECES), 0..60)
+}
+
 fn records() -> impl Strategy<Value = Vec<Record>> {
     let record = prop_oneof![
         3 => (point(), prop::option::of(axis())).prop_map(|(p, a)| Record::goto(p, a)),
@@ -108,18 +150,61 @@ proptest! {
     }
 
     #[test]
-    fn any_bytes_are_read_or_refused(bytes in prop::collection::vec(any::<u8>(), 0..2000)) {
-        let _ = read_all(&bytes, &mut Vocabulary::new());
+    fn any_bytes_are_read_or_refused(
+        bytes in prop::collection::vec(any::<u8>(), 0..2000),
+        dialect in dialect(),
+    ) {
+        let options = Options { dialect, ..Options::default() };
+        let _ = read_as(&bytes, &mut Vocabulary::new(), options);
     }
 
     #[test]
-    fn any_text_of_cl_pieces_is_read_or_refused(
-        pieces in prop::collection::vec(prop::sample::select(&[
-            "GOTO", "CIRCLE", "MULTAX", "PPRINT", "TOOL PATH", "$$-> ", "$$", "$", "/", ",", " ",
-            "\n", "\r\n", "1", "-2.5", "1e5", ".", "ON", "12.3.4", "\u{444}", "=", "(", "1STPECK",
-        ][..]), 0..60)
+    fn any_text_of_cl_pieces_is_read_or_refused(pieces in pieces(), dialect in dialect()) {
+        let options = Options { dialect, ..Options::default() };
+        let _ = read_as(pieces.concat().as_bytes(), &mut Vocabulary::new(), options);
+    }
+
+    /// The line ends of DOS give the same records.
+    #[test]
+    fn line_ends_change_nothing(pieces in pieces(), dialect in dialect()) {
+        let options = Options { dialect, ..Options::default() };
+        let plain = pieces.concat().replace('\r', "") + "\n";
+        let dos = plain.replace('\n', "\r\n");
+        let read = |text: &str| read_as(text.as_bytes(), &mut Vocabulary::new(), options).ok();
+        prop_assert_eq!(read(&plain), read(&dos));
+    }
+
+    /// A statement with a text is a record of its own, and the statements after it are read.
+    #[test]
+    fn a_text_takes_nothing_with_it(text in "[ -~]{0,60}", dialect in dialect()) {
+        let options = Options { dialect, ..Options::default() };
+        let cl = format!("INSERT / {text}\nGOTO / 1, 2, 3\n");
+        let records = read_as(cl.as_bytes(), &mut Vocabulary::new(), options).unwrap();
+        prop_assert_eq!(records.len(), 2);
+        prop_assert_eq!(&records[0].text, text.trim_end());
+    }
+
+    /// All points of all GOTO statements come out, or the text is refused.
+    #[test]
+    fn no_value_of_a_goto_is_lost(
+        values in prop::collection::vec(prop_oneof![Just("0"), Just("1"), Just("-0.5")], 1..20),
+        multax in any::<bool>(),
+        dialect in dialect(),
     ) {
-        let _ = read_all(pieces.concat().as_bytes(), &mut Vocabulary::new());
+        let options = Options { dialect, ..Options::default() };
+        let mode = if multax { "MULTAX/ON\n" } else { "" };
+        let cl = format!("{mode}GOTO/{}\n", values.join(","));
+        let Ok(records) = read_as(cl.as_bytes(), &mut Vocabulary::new(), options) else {
+            return Ok(());
+        };
+        let found: Vec<Word> = records
+            .iter()
+            .filter(|record| record.kind == fil_cl::record::kind::MOTION)
+            .flat_map(|record| record.data[2..].to_vec())
+            .collect();
+        let expected: Vec<Word> =
+            values.iter().map(|value| Word::Number(value.parse().unwrap())).collect();
+        prop_assert_eq!(found, expected);
     }
 
     /// The short way for GOTO and the long way make the same records.

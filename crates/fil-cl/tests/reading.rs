@@ -111,7 +111,8 @@ fn pseudo_comments_are_data_also_when_continued() {
 fn text_statements_keep_their_text() {
     let (records, _) = read(
         "PARTNO / MFG0004\nPARTNO test      \nPPRINT/ COST $$ 5, SEE A/B\nINSERT G4 X1/2\n\
-         TOOL PATH/9_K,TOOL,FACE MILL\ninsert /  two blanks\nPPRINT\nPPRINT / one $\nINSERT G1 $$\n",
+         TOOL PATH/9_K,TOOL,FACE MILL\ninsert /  two blanks\nPPRINT\nPPRINT / one $\nINSERT G1 $$\nINSERT //M30\n\
+         INSERT / /M30\nINSERT/M30\n",
     );
     let texts: Vec<_> = records.iter().map(|record| record.text.as_str()).collect();
     assert_eq!(
@@ -126,6 +127,9 @@ fn text_statements_keep_their_text() {
             "",
             "one $",
             "G1 $$",
+            "/M30",
+            "/M30",
+            "M30",
         ]
     );
     assert_eq!(records[4].major, words::TOOL_PATH);

@@ -51,6 +51,7 @@ fn bad_words() {
     check("this is prose\n", ClCode::BadWord, 1, 1, "this is prose");
     check("PTE   =PT/TE\n", ClCode::BadWord, 1, 1, "PTE   =PT");
     check("/ 1, 2\n", ClCode::BadWord, 1, 1, "");
+    check("INSERT /M30\n", ClCode::BadWord, 1, 9, "M30");
     check("PPRINT,X/5\n", ClCode::BadWord, 1, 1, "PPRINT,X");
 }
 

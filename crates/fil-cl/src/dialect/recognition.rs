@@ -64,6 +64,8 @@ pub(crate) struct Recognition {
     /// A contradiction not yet raised.
     refused: Option<Box<Diag>>,
     pub(crate) used: Used,
+    /// The rules are others than before.
+    changed: bool,
 }
 
 impl Recognition {
@@ -74,7 +76,14 @@ impl Recognition {
             None => Recognized { dialect: ClDialect::Generic, evidence: Evidence::NoSign },
         };
         let rules = found.dialect.rules();
-        Recognition { found, rules, sign: None, refused: None, used: Used::default() }
+        Recognition {
+            found,
+            rules,
+            sign: None,
+            refused: None,
+            used: Used::default(),
+            changed: false,
+        }
     }
 
     /// What the text is taken for by now.
@@ -91,6 +100,11 @@ impl Recognition {
     /// A contradiction between the signs seen so far.
     pub(crate) fn refusal(&mut self) -> Option<Box<Diag>> {
         self.refused.take()
+    }
+
+    /// True once after the rules have become others.
+    pub(crate) fn take_changed(&mut self) -> bool {
+        std::mem::take(&mut self.changed)
     }
 
     /// Looks at a comment line, which begins with `$$`.
@@ -169,6 +183,7 @@ impl Recognition {
         } else {
             self.found = Recognized { dialect, evidence: Evidence::Sign { line: place.line } };
             self.rules = dialect.rules();
+            self.changed = true;
             self.sign = Some(place);
         }
     }

@@ -40,7 +40,7 @@ impl<R: Read> Reader<R> {
             Some(Word::Minor(id)) => vocab.is_known(*id),
             Some(_) => false,
         };
-        if is_whole && self.pending.values.is_empty() {
+        if is_whole {
             return Ok(());
         }
         let whole = 0..self.statement.joined.len();

@@ -185,6 +185,9 @@ impl<R: Read> Reader<R> {
             }
         }
         self.check_end(vocab, record)?;
+        if self.recognition.take_changed() {
+            self.repeated = Repeated::default();
+        }
         let lines = self.lines.line().saturating_sub(self.statement.line);
         self.repeated.keep(self.lines.taken(), lines, record);
         self.count(record);
@@ -249,6 +252,12 @@ impl<R: Read> Reader<R> {
     fn take_text(&mut self, record: &mut Record, major: crate::WordId) -> Result<()> {
         self.refuse_bytes(is_nul)?;
         self.item_ranges.clear();
+        if major == words::INSERT && self.statement.has_skip_mark(&self.lines) {
+            let message = "INSERT /text: does the text begin with the slash?";
+            let hint = "Write INSERT / text, or INSERT //text for a block with a skip mark.";
+            let diag = self.diag(ClCode::BadWord, message, 0..self.statement.joined.len());
+            return Err(Box::new(diag.hint(hint)));
+        }
         match std::str::from_utf8(&self.statement.joined) {
             Ok(text) => record.text.push_str(text),
             Err(_) => record.text.push_str(&(self.options.decode)(&self.statement.joined)),

@@ -221,6 +221,15 @@ impl Statement {
         refuse(ClCode::OpenContinuation, message.to_string(), place)
     }
 
+    /// True when the text follows a slash at once that has a blank before it: the slash is
+    /// either the one of the statement or the first character of the text.
+    pub(super) fn has_skip_mark<R: Read>(&self, lines: &Lines<R>) -> bool {
+        let Some(piece) = self.pieces.first() else { return false };
+        let before = &lines.bytes(piece.line.clone())[..piece.column];
+        let text = self.joined.first().is_some_and(|byte| *byte != b'/');
+        text && matches!(before, [.., b' ' | b'\t', b'/'])
+    }
+
     fn add(&mut self, bytes: &[u8], line: Range<usize>, column: usize, end: usize, number: u32) {
         self.pieces.push(Piece { joined: self.joined.len(), line, column, number });
         self.joined.extend_from_slice(&bytes[column..end]);
