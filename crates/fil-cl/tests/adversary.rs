@@ -111,7 +111,7 @@ fn what_is_refused() {
         ("INSERT /M30", 406),
         ("PPRINT,X", 406),
         // Lines.
-        ("GOTO/1,2,3 $", 406),
+        ("GOTO/1,2,3 $", 405),
         ("$$ a comment\rGOTO/1,2,3", 402),
         ("RAPID $$ a comment\rGOTO/1,2,3", 402),
         ("PPRINT A\rGOTO/1,2,3", 402),

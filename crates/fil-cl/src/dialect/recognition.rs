@@ -66,6 +66,10 @@ pub(crate) struct Recognition {
     pub(crate) used: Used,
     /// The rules are others than before.
     changed: bool,
+    /// What shows a dialect.
+    signs: Vec<(&'static Sign, ClDialect)>,
+    /// Major words that were looked at, by the index of their ids.
+    looked_at: Vec<bool>,
 }
 
 impl Recognition {
@@ -76,6 +80,10 @@ impl Recognition {
             None => Recognized { dialect: ClDialect::Generic, evidence: Evidence::NoSign },
         };
         let rules = found.dialect.rules();
+        let signs_of = |dialect: &ClDialect| {
+            let dialect = *dialect;
+            dialect.rules().signs.iter().map(move |sign| (sign, dialect))
+        };
         Recognition {
             found,
             rules,
@@ -83,6 +91,8 @@ impl Recognition {
             refused: None,
             used: Used::default(),
             changed: false,
+            signs: ClDialect::ALL.iter().flat_map(signs_of).collect(),
+            looked_at: Vec::new(),
         }
     }
 
@@ -121,17 +131,24 @@ impl Recognition {
         self.watch(place, |sign| matches!(sign, Sign::Pseudo));
     }
 
-    /// Looks at the major word of a statement.
+    /// Looks at the major word of a statement: once, because nothing else of it is a sign.
     pub(crate) fn statement(
         &mut self,
         major: WordId,
         vocabulary: &Vocabulary,
         place: impl FnOnce() -> Place,
     ) {
+        if self.looked_at.len() <= major.index() {
+            self.looked_at.resize(major.index() + 1, false);
+        }
+        if std::mem::replace(&mut self.looked_at[major.index()], true) {
+            return;
+        }
+        let name = vocabulary.name(major);
         self.watch(place, |sign| match sign {
             Sign::Word(word) => *word == major,
-            Sign::Name(name) => vocabulary.name(major) == *name,
-            Sign::Prefix(begin) => vocabulary.name(major).starts_with(begin),
+            Sign::Name(known) => name == *known,
+            Sign::Prefix(begin) => name.starts_with(begin),
             _ => false,
         });
     }
@@ -152,8 +169,8 @@ impl Recognition {
         if self.found.evidence == Evidence::Chosen {
             return;
         }
-        let has = |dialect: &&ClDialect| dialect.rules().signs.iter().any(&is_there);
-        let Some(dialect) = ClDialect::ALL.iter().find(has).copied() else { return };
+        let found = self.signs.iter().find(|(sign, _)| is_there(sign));
+        let Some(dialect) = found.map(|(_, dialect)| *dialect) else { return };
         if dialect != self.found.dialect && self.refused.is_none() {
             self.take(dialect, place());
         }
