@@ -77,6 +77,8 @@ pub struct Commons {
     rel: Vec<f64>,
     dbl: Vec<f64>,
     generation: u32,
+    /// Major words whose records the machine passes over.
+    without_effect: Vec<String>,
 }
 
 impl Commons {
@@ -87,6 +89,7 @@ impl Commons {
             rel: vec![EMPTY; REL_LOCATIONS + 1],
             dbl: vec![EMPTY; DBL_LOCATIONS + 1],
             generation: 0,
+            without_effect: Vec::new(),
         }
     }
 
@@ -122,6 +125,19 @@ impl Commons {
     pub fn rel_opt(&self, location: Rel) -> Option<f64> {
         let value = self.rel[location.0 as usize];
         (value != EMPTY).then_some(value)
+    }
+
+    /// Major words that this machine lists as without effect, in capitals.
+    pub fn words_without_effect(&self) -> &[String] {
+        &self.without_effect
+    }
+
+    /// Lists a major word as without effect, in any case of letters.
+    pub fn list_without_effect(&mut self, word: &str) {
+        let word = word.trim().to_ascii_uppercase();
+        if !self.without_effect.contains(&word) {
+            self.without_effect.push(word);
+        }
     }
 
     /// Generation of the settings; the last output values do not count.

@@ -99,8 +99,6 @@ pub const HANDLERS: &[(WordId, Handler)] = &[
 #[derive(Clone)]
 pub struct Dispatcher {
     handlers: Vec<Option<Handler>>,
-    /// Names of further words that the machine or the user lists as without effect.
-    without_effect: Vec<String>,
 }
 
 impl Default for Dispatcher {
@@ -110,23 +108,14 @@ impl Default for Dispatcher {
         for (word, handler) in HANDLERS {
             handlers[word.index()] = Some(*handler);
         }
-        Dispatcher { handlers, without_effect: Vec::new() }
+        Dispatcher { handlers }
     }
 }
 
 impl Dispatcher {
-    /// Lists a major word as without effect, in any case of letters.
-    pub fn ignore(&mut self, word: &str) {
-        self.without_effect.push(word.to_ascii_uppercase());
-    }
-
     #[inline]
     fn handler(&self, word: WordId) -> Option<Handler> {
         self.handlers.get(word.index()).copied().flatten()
-    }
-
-    fn is_without_effect(&self, name: &str) -> bool {
-        no_effect::is_whole_record(name) || self.without_effect.iter().any(|word| word == name)
     }
 }
 
@@ -151,9 +140,15 @@ pub fn dispatch(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Re
             items.deny_rest()
         }
         Some(Handler::Refused) => Err(refused(record, vocabulary)),
-        None if post.dispatcher.is_without_effect(vocabulary.name(record.major)) => Ok(()),
+        None if is_without_effect(post, vocabulary.name(record.major)) => Ok(()),
         None => Err(unknown(record.major, vocabulary)),
     }
+}
+
+/// True for a word that the table of the post, or the machine, lists as without effect.
+fn is_without_effect(post: &Post, name: &str) -> bool {
+    let listed = post.control.commons.words_without_effect();
+    no_effect::is_whole_record(name) || listed.iter().any(|word| word == name)
 }
 
 /// The point of a motion record; without an axis of its own it keeps the last one.

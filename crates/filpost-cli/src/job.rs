@@ -118,8 +118,7 @@ fn built(posts: &Posts<'_>, job: &Job, input: &mut File) -> Result<Built, Error>
         std::iter::once(beside).chain(args.post_path.iter().cloned()).collect();
     let name = output::input_name(&job.cl);
     let options = options(args)?;
-    let from =
-        setup::from(&args.chosen, &folders, || select::machin(&mut *input, &name, options))?;
+    let from = setup::from(&args.chosen, &folders, || select::machin(&mut *input, &name, options))?;
     input.rewind().map_err(|error| files::cant_read(&job.cl, &error))?;
     posts.get(from)
 }

@@ -173,7 +173,9 @@ fn many_sections(sections: usize) -> String {
 /// Start-up of the command.
 fn start_up(folder: &Path) -> Outcome<()> {
     let Some(command) = children::command() else {
-        println!("\nstart-up: skipped, `cargo build --profile dist -p filpost-cli` makes the command");
+        println!(
+            "\nstart-up: skipped, `cargo build --profile dist -p filpost-cli` makes the command"
+        );
         return Ok(());
     };
     let cl = folder.join("tiny.ncl");

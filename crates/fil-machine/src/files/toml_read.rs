@@ -3,7 +3,7 @@
 //! Keys are the names of the table of locations (`rapid.split = 1`), or
 //! `int.1870 = 1`, `rel.11 = 1.0`, `dbl.486 = 2.0`; `[address.X]` holds `slot`,
 //! `format`, `spec` and `char` of a letter; `blocks.start` and `blocks.end` are
-//! lists of texts. A flag takes true or false, a letter or character a text of
+//! lists of texts, and so is `words.without_effect`, the major words that pass. A flag takes true or false, a letter or character a text of
 //! one character, and every setting takes `"none"` for absent.
 
 use fil_diag::suggest::did_you_mean;
@@ -17,6 +17,9 @@ use crate::errors::MachineCode;
 use crate::letter::Letter;
 use crate::locations::{self as loc, Location, default_commons};
 use crate::user_blocks::{self, BLOCK_INTEGERS, MAX_BLOCKS};
+
+/// Most words that a machine lists as without effect.
+const MOST_WORDS: usize = 1000;
 
 /// What a `machine.toml` may say about itself without it being a setting.
 const ABOUT: &[&str] = &["name", "description", "origin"];
@@ -105,11 +108,16 @@ impl<'a> TomlReader<'a> {
     ) -> Result<()> {
         match name {
             "blocks.start" => {
-                user_blocks::START.store(commons, &self.texts(value)?);
+                user_blocks::START.store(commons, &self.texts(value, MAX_BLOCKS.into())?);
                 return Ok(());
             }
             "blocks.end" => {
-                user_blocks::END.store(commons, &self.texts(value)?);
+                user_blocks::END.store(commons, &self.texts(value, MAX_BLOCKS.into())?);
+                return Ok(());
+            }
+            "words.without_effect" => {
+                let words = self.texts(value, MOST_WORDS)?;
+                words.iter().for_each(|word| commons.list_without_effect(word));
                 return Ok(());
             }
             _ => {}
@@ -181,8 +189,8 @@ impl<'a> TomlReader<'a> {
         })
     }
 
-    /// The texts of `blocks.start` or `blocks.end`.
-    fn texts(&self, value: &Spanned<DeValue>) -> Result<Vec<String>> {
+    /// A list of texts: `blocks.start`, `words.without_effect`.
+    fn texts(&self, value: &Spanned<DeValue>, most: usize) -> Result<Vec<String>> {
         let longest = usize::from(BLOCK_INTEGERS) * 2;
         let wrong = |span: Range<usize>, message: String| {
             self.at(span, Diag::new(MachineCode::SettingValue, message))
@@ -190,8 +198,8 @@ impl<'a> TomlReader<'a> {
         let DeValue::Array(items) = value.get_ref() else {
             return Err(wrong(value.span(), "a list of texts is needed here".into()));
         };
-        if items.len() > usize::from(MAX_BLOCKS) {
-            return Err(wrong(value.span(), format!("at most {MAX_BLOCKS} blocks fit")));
+        if items.len() > most {
+            return Err(wrong(value.span(), format!("at most {most} texts fit")));
         }
         items
             .iter()

@@ -23,6 +23,9 @@ pub fn write_toml(commons: &Commons) -> String {
             let _ = writeln!(out, "blocks.{name} = {blocks:?}");
         }
     }
+    if !commons.words_without_effect().is_empty() {
+        let _ = writeln!(out, "words.without_effect = {:?}", commons.words_without_effect());
+    }
     unnamed(commons, &defaults, &mut out);
     out
 }

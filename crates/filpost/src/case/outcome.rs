@@ -128,8 +128,7 @@ impl Case {
     fn run_whole(&self, program: &Program) -> Result<Ran, Error> {
         let cl = files::read(&self.folder.join(&self.file.cl))?;
         let (mut nc, mut listing) = (Vec::new(), Listing::new(Vec::new()));
-        let reading =
-            reader::Options { dialect: self.file.dialect, ..reader::Options::default() };
+        let reading = reader::Options { dialect: self.file.dialect, ..reader::Options::default() };
         let mut run = program.start().cl_name(&self.file.cl).reading(reading);
         if self.file.listing.is_some() {
             run = run.observe(listing.observer());
