@@ -4,7 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use fil_cl::{Options, Reader, Record, Vocabulary};
-use fil_diag::Diag;
+use fil_diag::{Code, Diag};
+use fil_syntax::SyntaxCode;
+use fil_vm::errors::CompileCode;
 use fil_vm::{CommonKind, EMPTY, FilFile, Host, Limits, LoadOptions, Machine, Site, load};
 
 use crate::oracle::{Class, Fault, Oracle, Rec, Value, exact};
@@ -121,7 +123,11 @@ pub fn fight(case: &Case) -> Result<Agreed, String> {
 pub fn fight_over(case: &Case, oracle_fil: &str) -> Result<Agreed, String> {
     let mut vocab = Vocabulary::new();
     let limits = Limits { fuel: FUEL, ..Limits::default() };
-    let options = LoadOptions { limits, ..LoadOptions::default() };
+    // Both read alike what a user would have to allow.
+    let syntax = SyntaxCode::ALLOWABLE.iter().map(|code| <&Code>::from(*code));
+    let compile = CompileCode::ALLOWABLE.iter().map(|code| <&Code>::from(*code));
+    let allow: Vec<&'static Code> = syntax.chain(compile).collect();
+    let options = LoadOptions { limits, allow: &allow, ..LoadOptions::default() };
     let module = match load(&[FilFile { name: "case.fil", text: &case.fil }], &mut vocab, options) {
         Ok(loaded) => loaded.module,
         Err(diags) => {

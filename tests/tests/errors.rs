@@ -44,6 +44,7 @@ const TESTED_HERE: &[(&str, &str)] = &[
     ("E0710", "e0707_to_e0710_line_maps"),
     ("E0711", "e0711_cancelled"),
     ("E0712", "e0712_record_from_memory"),
+    ("E0713", "e0713_codes_that_stand"),
     ("E0941", "e0941_another_part"),
 ];
 
@@ -503,6 +504,35 @@ fn e0705_case_file() {
     let error = Case::load(folder.path()).expect_err("refused");
     assert_eq!(names(&error), ["E0705"]);
     assert_eq!(error.diags()[0].places[0].line, 3);
+}
+
+#[test]
+fn e0713_codes_that_stand() {
+    for name in ["E0501", "E0201", "E9999", "W151", ""] {
+        let diag = filpost::allowable(name).expect_err("it can't be allowed");
+        assert_eq!(diag.code.name(), "E0713", "{name}");
+    }
+    for name in ["E0223", "e0122", "W0151", "w0551"] {
+        let code = filpost::allowable(name).expect("it can be allowed");
+        assert!(code.name().eq_ignore_ascii_case(name));
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("case.toml"), "cl = 'a'\norigin = 'x'\nallow = ['E0501']\n")
+        .expect("a case");
+    let case = Case::load(folder.path()).expect("a case");
+    assert_eq!(names(&case.program().err().expect("refused")), ["E0713"]);
+}
+
+#[test]
+fn a_case_allows_codes() {
+    let folder = root().join("corpus/errors/E0223-if-around-13");
+    let mut case = Case::load(&folder).expect("a case");
+    case.file.allow = vec!["E0223".into()];
+    let post = case.program().expect("the block is closed");
+    let warnings: Vec<String> = post.warnings().iter().map(|diag| diag.code.name()).collect();
+    assert_eq!(warnings, ["W0150"]);
+    case.file.allow.push("W0150".into());
+    assert!(case.program().expect("the block is closed").warnings().is_empty());
 }
 
 #[test]

@@ -43,6 +43,8 @@ struct Entry {
     hash: u32,
     class: u8,
     public: bool,
+    /// A word of [`words`] or of a post family, and not of an APT processor alone.
+    of_posts: bool,
     code: f64,
 }
 
@@ -72,7 +74,8 @@ impl Vocabulary {
             own_codes: HashMap::new(),
         };
         for (name, class) in words::NAMES_AND_CLASSES {
-            vocabulary.insert(Cow::Borrowed(name), hash(name.as_bytes()), *class);
+            let id = vocabulary.insert(Cow::Borrowed(name), hash(name.as_bytes()), *class);
+            vocabulary.entries[id.index()].of_posts = true;
         }
         for line in PUBLISHED.lines().filter(|line| !line.starts_with('#')) {
             vocabulary.publish(line);
@@ -152,6 +155,12 @@ impl Vocabulary {
         self.entries[id.index()].class != 0
     }
 
+    /// True for a word that statements for posts use. The tables also have words of the
+    /// language of APT processors, which mean nothing in a CL file.
+    pub fn is_of_posts(&self, id: WordId) -> bool {
+        self.entries[id.index()].of_posts
+    }
+
     /// The word a code stands for where a minor word is due. Of several words
     /// with the code a minor word is taken before a major one, and a word of
     /// [`words`] before another.
@@ -205,7 +214,8 @@ impl Vocabulary {
 
     fn insert(&mut self, name: Cow<'static, str>, hash: u32, class: u8) -> WordId {
         let id = WordId(self.entries.len() as u32);
-        self.entries.push(Entry { name, hash, class, public: false, code: 0.0 });
+        let of_posts = false;
+        self.entries.push(Entry { name, hash, class, public: false, of_posts, code: 0.0 });
         if self.entries.len() * 2 > self.slots.len() {
             self.grow();
         } else {
@@ -247,7 +257,8 @@ impl Vocabulary {
         let (Some(name), Some(class)) = (columns.next(), columns.next()) else { return };
         let mut next = || columns.next().and_then(|column| column.trim().parse::<u32>().ok());
         let (apt360, aptac, postworks, ncl, gpost) = (next(), next(), next(), next(), next());
-        let Some(code) = gpost.or(postworks).or(aptac).or(apt360).or(ncl) else { return };
+        let of_posts = gpost.or(postworks);
+        let Some(code) = of_posts.or(aptac).or(apt360).or(ncl) else { return };
         let hash = hash(name.as_bytes());
         let id = match self.lookup(name.as_bytes(), hash) {
             Some(id) => id,
@@ -260,6 +271,7 @@ impl Vocabulary {
             _ => MAJOR | MINOR,
         };
         entry.public = true;
+        entry.of_posts |= of_posts.is_some();
         entry.code = f64::from(code);
     }
 }

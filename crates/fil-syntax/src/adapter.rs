@@ -29,6 +29,8 @@ pub(crate) struct Shared {
     pub(crate) stop: Cell<bool>,
     /// The first thing after FINI.
     pub(crate) after_fini: Cell<Option<Span>>,
+    /// The first CIMFIL/ after FINI.
+    pub(crate) section_after_fini: Cell<Option<Span>>,
     /// The first free text with a `;` inside is at this span; one a statement.
     pub(crate) semicolons: Cell<Option<Span>>,
 }
@@ -107,15 +109,25 @@ impl<'s, 'c> Adapter<'s, 'c> {
         self.lexer.span().end
     }
 
-    /// FINI ends the text; what follows is not read, its place is kept.
+    /// FINI ends the text; what follows is not read, but looked through for a section.
     fn note_rest(&mut self) {
         self.ended = true;
-        for raw in self.lexer.by_ref() {
-            if !matches!(raw, Ok(Raw::Newline | Raw::Semicolon)) {
-                let range = self.lexer.span();
-                self.shared.after_fini.set(Some(Span::new(range.start, range.end)));
+        let mut at_start = true;
+        while let Some(raw) = self.lexer.next() {
+            let is_end = matches!(raw, Ok(Raw::Newline | Raw::Semicolon));
+            let range = self.lexer.span();
+            let span = Span::new(range.start, range.end);
+            if !is_end && self.shared.after_fini.get().is_none() {
+                self.shared.after_fini.set(Some(span));
+            }
+            if at_start
+                && raw == Ok(Raw::Name)
+                && statement_word(self.lexer.slice()) == Some(Token::Cimfil)
+            {
+                self.shared.section_after_fini.set(Some(span));
                 return;
             }
+            at_start = is_end;
         }
     }
 

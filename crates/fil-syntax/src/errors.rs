@@ -87,10 +87,22 @@ fil_diag::codes! {
         WrongEncoding = 121, Error, "text is not in this encoding",
             "Some bytes mean nothing in the encoding that was asked for.",
             "Name another encoding, or leave it out to have it guessed.";
+        /// `;` within free text, and a statement behind it.
+        StatementInText = 122, Error, "statement inside a text",
+            "The text after this word runs to the end of the line, so what looks like a statement behind the semicolon is text and would not run.",
+            "Put the statement on a line of its own, or the text between apostrophes.";
+        /// Sections after FINI.
+        SectionAfterFini = 123, Error, "section after FINI",
+            "FINI ends the file, so the section is not read and its records would go to the post unchanged.",
+            "Move FINI to the end of the file, or remove what follows it.";
+        /// `-A**B`
+        SignBeforePower = 124, Error, "sign before a power",
+            "Here a sign binds closer than **, other than in most languages, so -A**2 is the square of A.",
+            "Write (-A)**B or -(A**B) to say which is meant.";
         /// CIMFIL/OFF closes an open block.
         ClosedBySection = 150, Warning, "block closed by CIMFIL/OFF",
             "The block was still open at the end of its section and is taken to end there.",
-            "Add the missing ENDIF, ENDCAS or labelled statement.";
+            "Add the missing ENDIF or ENDCAS.";
         /// SIMFIL for CIMFIL.
         Misspelled = 151, Warning, "SIMFIL read as CIMFIL",
             "SIMFIL is a known misprint of CIMFIL.",
@@ -103,13 +115,21 @@ fil_diag::codes! {
         AfterFini = 153, Warning, "text after FINI",
             "FINI ends the file; what follows is not read.",
             "Remove what follows, or move FINI to the end.";
-        /// `-A**B`
-        SignBeforePower = 154, Warning, "sign before a power",
-            "In FIL a sign binds closer than **, other than in most languages.",
-            "Write (-A)**B or -(A**B) to say which is meant.";
         /// `;` within free text.
         SemicolonInText = 155, Warning, "semicolon is part of the text",
             "The text after this word runs to the end of the line, so the semicolon does not end the statement.",
             "Put a statement that follows on a line of its own, or the text between apostrophes.";
+    }
+}
+
+impl SyntaxCode {
+    /// Errors that a user can allow by their code: the text has a tree, but another
+    /// reading of it is as likely as ours.
+    pub const ALLOWABLE: &'static [SyntaxCode] =
+        &[SyntaxCode::StatementInText, SyntaxCode::SectionAfterFini, SyntaxCode::SignBeforePower];
+
+    /// True for the codes of [`SyntaxCode::ALLOWABLE`].
+    pub fn is_allowable(code: &fil_diag::Code) -> bool {
+        Self::ALLOWABLE.iter().any(|own| <&fil_diag::Code>::from(*own) == code)
     }
 }

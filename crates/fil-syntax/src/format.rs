@@ -13,6 +13,7 @@ mod wrap;
 
 use fil_diag::Diag;
 
+use crate::errors::SyntaxCode;
 use crate::parse::{MAX_FILE, parse};
 use crate::print::print;
 use crate::tree::Program;
@@ -31,7 +32,8 @@ const STEP: usize = 2;
 /// A byte order mark is dropped. `file` is the name that diagnostics carry.
 ///
 /// # Errors
-/// The diagnostics of a text that can't be read; warnings are no hindrance.
+/// The diagnostics of a text that can't be read; warnings and what a user can allow
+/// don't matter here.
 pub fn format(file: &str, source: &str) -> Result<String, Vec<Diag>> {
     let source = source.strip_prefix('\u{feff}').unwrap_or(source);
     let program = read(file, source)?;
@@ -42,7 +44,8 @@ pub fn format(file: &str, source: &str) -> Result<String, Vec<Diag>> {
 
 fn read(file: &str, source: &str) -> Result<Program, Vec<Diag>> {
     let parsed = parse(file, source);
-    if parsed.diags.iter().any(Diag::is_error) { Err(parsed.diags) } else { Ok(parsed.program) }
+    let refused = |diag: &Diag| diag.is_error() && !SyntaxCode::is_allowable(diag.code);
+    if parsed.diags.iter().any(refused) { Err(parsed.diags) } else { Ok(parsed.program) }
 }
 
 /// How the lines of a text end: as its first one does.

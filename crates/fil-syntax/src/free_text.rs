@@ -97,6 +97,24 @@ fn line_text(rest: &str) -> Option<Found<'_>> {
     Some(Found { text: start..start + text.len(), kind: Kind::Line, rest })
 }
 
+/// What stands behind a `;` of a free text where that looks like a statement: a word
+/// alone or with what can follow one in a statement.
+pub(crate) fn statement_behind_semicolon(text: &str) -> Option<&str> {
+    text.split(';').skip(1).map(str::trim).find(|part| looks_like_statement(part))
+}
+
+fn looks_like_statement(text: &str) -> bool {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let word_end = text.find(|c| !is_part(c)).unwrap_or(text.len());
+    let (word, rest) = text.split_at(word_end);
+    if !word.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_') {
+        return false;
+    }
+    let takes_text = FREE_TEXT_WORDS.iter().any(|name| name.eq_ignore_ascii_case(word));
+    let rest = rest.trim_start();
+    takes_text || rest.is_empty() || rest.starts_with(['/', '=', '(', ')'])
+}
+
 fn skip_blanks(text: &str, from: usize) -> usize {
     from + text[from..].find(|c| c != ' ' && c != '\t').unwrap_or(text.len() - from)
 }
@@ -115,6 +133,27 @@ mod tests {
         assert_eq!(text_after("insert", "/G5 P1\r\n"), Some("G5 P1"));
         assert_eq!(text_after("PPRINT", " == OP 10 =="), Some("== OP 10 =="));
         assert_eq!(text_after("INCLUD", "/sub\\a.fil ; X"), Some("sub\\a.fil"));
+    }
+
+    #[test]
+    fn a_statement_behind_a_semicolon_is_told_from_a_remark() {
+        const STATEMENTS: [&str; 7] = [
+            "DMY=POSTF(13)",
+            "COOLNT/OFF",
+            "stop",
+            "IF (A)XX=1",
+            "L1) CONTIN",
+            "PPRINT done",
+            "T(1)=2",
+        ];
+        for statement in STATEMENTS {
+            for text in [format!("A 5 ; {statement}"), format!("A; 1 mm;{statement}; x 1")] {
+                assert_eq!(statement_behind_semicolon(&text), Some(statement));
+            }
+        }
+        for text in ["TOOL 5; 10 mm", "G4 P1; (wait)", "A;", "no statement", "A; to be checked"] {
+            assert_eq!(statement_behind_semicolon(text), None, "{text}");
+        }
     }
 
     #[test]

@@ -7,7 +7,7 @@ use crate::errors::SyntaxCode;
 use crate::grammar::FileParser;
 use crate::reader::Reader;
 use crate::structure;
-use crate::tree::{Program, Span};
+use crate::tree::Program;
 
 /// The largest file, in bytes.
 pub(crate) const MAX_FILE: usize = 64 << 20;
@@ -42,9 +42,7 @@ pub fn parse(file: &str, source: &str) -> Parsed {
     let _ = FileParser::new().parse(&mut reader, tokens);
     let statements = std::mem::take(&mut reader.flats);
     let program = structure::nest(&mut reader, statements);
-    if let Some(span) = shared.after_fini.get() {
-        report_rest(&mut reader, span);
-    }
+    report_rest(&mut reader, &shared);
     let mut diags = reader.diags;
     let closing = diags.split_off(diags.len().min(crate::reader::MAX_DIAGS));
     diags.sort_by_key(|diag| diag.places.first().map(|place| (place.line, place.span.start)));
@@ -52,8 +50,12 @@ pub fn parse(file: &str, source: &str) -> Parsed {
     Parsed { program, diags }
 }
 
-fn report_rest(reader: &mut Reader<'_>, span: Span) {
-    reader.report(SyntaxCode::AfterFini, "what follows FINI is not read", span);
+fn report_rest(reader: &mut Reader<'_>, shared: &Shared) {
+    if let Some(span) = shared.section_after_fini.get() {
+        reader.report(SyntaxCode::SectionAfterFini, "this section after FINI is not read", span);
+    } else if let Some(span) = shared.after_fini.get() {
+        reader.report(SyntaxCode::AfterFini, "what follows FINI is not read", span);
+    }
 }
 
 /// Refuses what cannot be a FIL file by its mere size.

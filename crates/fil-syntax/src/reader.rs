@@ -8,6 +8,7 @@ use lalrpop_util::{ErrorRecovery, ParseError};
 use crate::adapter::Shared;
 use crate::errors::SyntaxCode;
 use crate::flat::{Flat, FlatKind};
+use crate::free_text;
 use crate::message;
 use crate::token::Token;
 use crate::tree::{Name, Span};
@@ -103,8 +104,22 @@ impl<'a> Reader<'a> {
         self.unreadable |= matches!(kind, FlatKind::Refused);
         self.flats.push(Flat { label, kind, span });
         if let Some(text) = self.shared.semicolons.take() {
-            let message = "the text runs to the end of the line, the semicolon included";
-            self.report(SyntaxCode::SemicolonInText, message, text);
+            self.report_semicolon(text);
+        }
+    }
+
+    /// A semicolon in free text: harmless in a text for people, not where a statement
+    /// stands behind it.
+    fn report_semicolon(&mut self, text: Span) {
+        match free_text::statement_behind_semicolon(self.text(text)) {
+            Some(statement) => {
+                let message = format!("{} is part of the text", message::quote(statement));
+                self.report(SyntaxCode::StatementInText, message, text);
+            }
+            None => {
+                let message = "the text runs to the end of the line, the semicolon included";
+                self.report(SyntaxCode::SemicolonInText, message, text);
+            }
         }
     }
 

@@ -19,6 +19,7 @@ pub(crate) fn nest(reader: &mut Reader<'_>, statements: Vec<Flat>) -> Program {
         area: Area::Global,
         body: Vec::new(),
         frames: Vec::new(),
+        left_open: Vec::new(),
         finished: false,
         too_deep: false,
     };
@@ -64,6 +65,8 @@ struct Nester<'r, 'a> {
     body: Vec<Stmt>,
     /// Open blocks, the innermost last.
     frames: Vec<Frame>,
+    /// Opening lines of the blocks that the end of the section closed.
+    left_open: Vec<Span>,
     finished: bool,
     /// Blocks got too deep and nesting was given up, which also bounds the time
     /// it takes to look through the open ones.
@@ -219,20 +222,40 @@ impl Nester<'_, '_> {
             self.unbalanced(SyntaxCode::StrayWord, message, span, None);
             return false;
         };
-        self.close_inside(at + 1, SyntaxCode::UnclosedBlock, word, span);
+        self.close_inside(at + 1, word, span);
         true
     }
 
     /// Reports and closes all blocks but the outer `keep`, because of a word
     /// they should have been closed before.
-    fn close_inside(&mut self, keep: usize, code: SyntaxCode, word: &str, span: Span) {
+    fn close_inside(&mut self, keep: usize, word: &str, span: Span) {
         while self.frames.len() > keep {
-            if let Some(frame) = self.frames.last().filter(|frame| !frame.reported) {
-                let message = format!("{} is not closed", frame.kind.describe());
-                let (opened, other) = (frame.span, format!("still open at {word}"));
-                self.unbalanced(code, message, opened, Some((other, span)));
-            }
+            self.report_open(SyntaxCode::UnclosedBlock, word, span);
             self.close_last();
+        }
+    }
+
+    /// Closes the blocks of a section that ends, and gives the opening lines of those
+    /// that may end there. A DO may not: without its label its last statement is
+    /// unknown, and with it how often the others run.
+    fn close_by_section(&mut self, span: Span) -> Vec<Span> {
+        let mut left_open = Vec::new();
+        while let Some(frame) = self.frames.last() {
+            let is_do = matches!(frame.kind, FrameKind::Do { .. });
+            let code = if is_do { SyntaxCode::UnclosedBlock } else { SyntaxCode::ClosedBySection };
+            left_open.extend((!is_do).then_some(frame.span));
+            self.report_open(code, "CIMFIL/OFF", span);
+            self.close_last();
+        }
+        left_open
+    }
+
+    /// Reports the innermost block, still open at a word, unless that is done.
+    fn report_open(&mut self, code: SyntaxCode, word: &str, span: Span) {
+        if let Some(frame) = self.frames.last().filter(|frame| !frame.reported) {
+            let message = format!("{} is not closed", frame.kind.describe());
+            let (opened, other) = (frame.span, format!("still open at {word}"));
+            self.unbalanced(code, message, opened, Some((other, span)));
         }
     }
 
@@ -246,7 +269,7 @@ impl Nester<'_, '_> {
     fn open_area(&mut self, area: Area, label: Option<Name>, span: Span) {
         self.no_label(label);
         let word = if matches!(area, Area::Macro { .. }) { "MACRO" } else { "CIMFIL/ON" };
-        self.close_inside(0, SyntaxCode::UnclosedBlock, word, span);
+        self.close_inside(0, word, span);
         if let Some(opened) = self.area.span() {
             self.unbalanced(
                 SyntaxCode::NestedArea,
@@ -264,7 +287,7 @@ impl Nester<'_, '_> {
             let message = "CIMFIL/OFF without CIMFIL/ON";
             return self.unbalanced(SyntaxCode::StrayWord, message.to_string(), span, None);
         }
-        self.close_inside(0, SyntaxCode::ClosedBySection, "CIMFIL/OFF", span);
+        self.left_open = self.close_by_section(span);
         self.add_label(label, span);
         self.close_area(span);
     }
@@ -274,7 +297,7 @@ impl Nester<'_, '_> {
             let message = "TERMAC without MACRO";
             return self.unbalanced(SyntaxCode::StrayWord, message.to_string(), span, None);
         }
-        self.close_inside(0, SyntaxCode::UnclosedBlock, "TERMAC", span);
+        self.close_inside(0, "TERMAC", span);
         self.add_label(label, span);
         self.close_area(span);
     }
@@ -285,7 +308,8 @@ impl Nester<'_, '_> {
             Area::Global => {}
             Area::Section { key, span } => {
                 let span = Span { start: span.start, end: end.end };
-                self.items.push(Item::Section(Section { key, body, span }));
+                let left_open = std::mem::take(&mut self.left_open);
+                self.items.push(Item::Section(Section { key, body, left_open, span }));
             }
             Area::Macro { name, params, span } => {
                 let span = Span { start: span.start, end: end.end };
@@ -301,7 +325,7 @@ impl Nester<'_, '_> {
     }
 
     fn close_everything(&mut self, word: &str, span: Span) {
-        self.close_inside(0, SyntaxCode::UnclosedBlock, word, span);
+        self.close_inside(0, word, span);
         if let Some(opened) = self.area.span() {
             let message = format!("this {} is not closed", self.area.noun());
             let place = Some((format!("still open at {word}"), span));

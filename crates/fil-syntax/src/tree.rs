@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 /// A byte range in the source text.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Span {
     /// First byte.
     pub start: u32,
@@ -61,6 +61,8 @@ pub struct Section {
     pub key: SectionKey,
     /// Its statements.
     pub body: Vec<Stmt>,
+    /// Opening lines of the IF and CASE blocks that CIMFIL/OFF had to close.
+    pub left_open: Vec<Span>,
     /// From CIMFIL/ON to CIMFIL/OFF.
     pub span: Span,
 }

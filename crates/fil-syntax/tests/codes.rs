@@ -113,6 +113,8 @@ fn e0112_unclosed_block() {
     raises("IF(A)THEN\nFINI", 112, 1, 1);
     raises("CASE/A\nWHEN/1\nIF(B)THEN\nENDCAS\nFINI", 112, 3, 1);
     raises("M=MACRO\nDO/L,I=1,5\nTERMAC\nFINI", 112, 2, 1);
+    raises("CIMFIL/ON,OP\nDO/L,I=1,2\nCIMFIL/OFF\nFINI", 112, 2, 1);
+    raises("CIMFIL/ON,OP\nIF(A)THEN\nDO/L,I=1,2\nENDIF\nCIMFIL/OFF\nFINI", 112, 3, 1);
     let both = parse("t.fil", "CASE/A\nWHEN/1\nIF(B)THEN\nENDCAS\nFINI").diags.remove(0);
     assert_eq!((both.places[1].line, both.places[1].label.as_str()), (4, "still open at ENDCAS"));
 }
@@ -168,9 +170,23 @@ fn e0119_wrong_label() {
 }
 
 #[test]
+fn e0122_statement_in_text() {
+    raises("PPRINT STOP; COOLNT/OFF\nFINI", 122, 1, 8);
+    raises("IF(A)INSERT M6 ;DMY=POSTF(13)\nFINI", 122, 1, 13);
+    assert_eq!(message("PPRINT A; X=1\nFINI"), "\"X=1\" is part of the text");
+}
+
+#[test]
+fn e0123_section_after_fini() {
+    raises("FINI\nA=1\n cimfil/ON,CYCLE\nCIMFIL/OFF\n", 123, 3, 2);
+    raises("FINI\nA=1; SIMFIL /ON,OP\n", 123, 2, 6);
+    raises("FINI\nthe word CIMFIL in a sentence\n", 153, 2, 1);
+}
+
+#[test]
 fn w0150_closed_by_section() {
     raises("CIMFIL/ON,OP\nIF(A)THEN\nB=1\nCIMFIL/OFF\nFINI", 150, 2, 1);
-    raises("CIMFIL/ON,OP\nDO/L,I=1,2\nCIMFIL/OFF\nFINI", 150, 2, 1);
+    raises("CIMFIL/ON,OP\nCASE/A\nWHEN/1\nB=1\nCIMFIL/OFF\nFINI", 150, 2, 1);
 }
 
 #[test]
@@ -190,14 +206,14 @@ fn w0153_after_fini() {
 }
 
 #[test]
-fn w0154_sign_before_power() {
-    raises("A=-B**2\nFINI", 154, 1, 3);
+fn e0124_sign_before_power() {
+    raises("A=-B**2\nFINI", 124, 1, 3);
     assert!(parse("t.fil", "A=(-B)**2 ; C=-(B**2) ; D=2**-B\nFINI").diags.is_empty());
 }
 
 #[test]
 fn w0155_semicolon_in_text() {
-    raises("PPRINT STOP; COOLNT/OFF\nFINI", 155, 1, 8);
+    raises("PPRINT STOP; wait 5 s\nFINI", 155, 1, 8);
     assert!(parse("t.fil", "PPRINT/'STOP'; COOLNT/OFF\nFINI").diags.is_empty());
 }
 

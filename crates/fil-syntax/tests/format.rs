@@ -50,9 +50,14 @@ fn blocks_are_indented() {
 #[test]
 fn a_section_ends_the_blocks_left_open_in_it() {
     comes_out(
-        "SIMFIL/ON,OP\nIF(A)THEN\nDO/L,I=1,2\nB=1\nCIMFIL/OFF\nA=1\nFINI",
-        "SIMFIL/ON,OP\n  IF (A) THEN\n    DO/L,I=1,2\n      B = 1\nCIMFIL/OFF\nA = 1\nFINI\n",
+        "SIMFIL/ON,OP\nIF(A)THEN\nCASE/C\nWHEN/1\nB=1\nCIMFIL/OFF\nA=1\nFINI",
+        "SIMFIL/ON,OP\n  IF (A) THEN\n    CASE/C\n    WHEN/1\n      B = 1\nCIMFIL/OFF\nA = 1\nFINI\n",
     );
+}
+
+#[test]
+fn what_a_user_can_allow_is_no_hindrance() {
+    comes_out("A=-B**2\nPPRINT STOP; A=1\nFINI", "A = -B**2\nPPRINT STOP; A=1\nFINI\n");
 }
 
 #[test]

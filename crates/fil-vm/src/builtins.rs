@@ -40,6 +40,22 @@ pub enum Kind {
     NamedCommon,
 }
 
+impl Kind {
+    /// Which argument of such a function is a word or name as it is written.
+    pub(crate) fn word_argument(self) -> Option<usize> {
+        match self {
+            Kind::WordCode
+            | Kind::Couplet
+            | Kind::HasWord
+            | Kind::NextMotion
+            | Kind::PreviousMotion
+            | Kind::Size => Some(0),
+            Kind::File => Some(1),
+            _ => None,
+        }
+    }
+}
+
 /// A built-in function, a form of TEXT/ or a statement.
 pub struct Builtin {
     /// Its name; `TEXT/` stands before that of a form.

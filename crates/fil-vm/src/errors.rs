@@ -83,15 +83,58 @@ fil_diag::codes! {
         NotConstant = 222, Error, "value is no constant",
             "DATA/ declares a table before anything runs, so it holds numbers and texts as they are written.",
             "Write DATA/name,v1,v2,… with constants, or reserve an array with RESERV and set it.";
+        /// CIMFIL/OFF closes a block that sends the record on.
+        OpenAroundRecord = 223, Error, "block left open around the record",
+            "The section sends its record on inside a block without its end: with the end in another line the record would be sent on another way too, and without it records are lost.",
+            "Add the missing ENDIF or ENDCAS where the block ends.";
+        /// A variable where a word of the same name can be meant.
+        NameOrWord = 224, Error, "variable or word",
+            "A statement sets this name, so its value stands here; but a post word takes a word of this name, and that would be lost.",
+            "Give the variable a name that is no word of the vocabulary.";
+        /// A word that is read as a variable.
+        WordAsValue = 225, Error, "word read as a variable",
+            "Nothing sets this name, so it is EMPTY here and equals no word of a record.",
+            "Write ICODEF(word) for the code of a word.";
+        /// A post word that is most likely another statement.
+        OtherStatement = 226, Error, "not a statement of FIL",
+            "The word is misspelt, is of another language, or is one that filpost does not carry out; as a record it would only reach the post.",
+            "Compare it with the statements of FIL.";
+        /// A macro that only the vendor's post calls.
+        ReservedMacro = 227, Error, "macro that the post does not call",
+            "The vendor's post calls macros of this name to edit what it writes; filpost does not, so its blocks would not be edited.",
+            "Do its work in sections, or remove the macro.";
+        /// A section whose key fits no record.
+        NeverMatches = 228, Error, "section that takes no record",
+            "No record has these words or numbers where the key names them, so the section would never run.",
+            "Name a major word, the minor words right behind it, or a type and subtype of CLDATA.";
         /// A name of an added function that can't be taken.
         FunctionName = 229, Error, "name of an added function",
             "A function that the embedding program adds has a name of its own: no built-in function, statement, letter or CL word is called so.",
             "Give the function another name, such as one that begins with the name of your program.";
+        /// A name in a list of texts that would be written as it stands.
+        NameInText = 247, Error, "name without a value in a text",
+            "A list of texts joins values; a name that nothing sets has none.",
+            "Check its spelling, or put it between apostrophes.";
     }
 }
 
+impl CompileCode {
+    /// Errors that a user can allow by their code: the script can be run, but may have
+    /// been meant otherwise.
+    pub const ALLOWABLE: &'static [CompileCode] = &[
+        CompileCode::OpenAroundRecord,
+        CompileCode::NameOrWord,
+        CompileCode::WordAsValue,
+        CompileCode::OtherStatement,
+        CompileCode::ReservedMacro,
+        CompileCode::NeverMatches,
+        CompileCode::NameInText,
+    ];
+}
+
 fil_diag::codes! {
-    /// What a check finds in FIL that would run; only looked for on request.
+    /// What a check finds in FIL that would run. A run looks for misspelt words that
+    /// decide what runs (W0242, W0244, W0246) as well, all others only a check.
     pub enum LintCode {
         /// A section with a way that sends nothing.
         Swallows = 220, Warning, "section can swallow its record",
@@ -153,6 +196,22 @@ fil_diag::codes! {
         MisspeltWord = 242, Warning, "word is perhaps misspelt",
             "The word is in no vocabulary and differs little from one that is.",
             "Correct the word; if it is one of your own, allow it with a comment.";
+        /// A variable with the name of a word.
+        NameIsWord = 243, Warning, "variable has the name of a word",
+            "Where a post word is meant to take this word, it takes the value of the variable.",
+            "Give the variable a name that is no word of the vocabulary.";
+        /// A section for a word that opens no statement.
+        SectionNeverRuns = 244, Warning, "section may never run",
+            "No CL file that is known of has a statement that begins with this word.",
+            "Check its spelling; if it is a word of your own, allow it with a comment.";
+        /// A post word that the post does not carry out.
+        NoHandler = 245, Warning, "the post does not carry out this word",
+            "The statement makes a record that the post has no handler for.",
+            "Write what the machine is to do with words the post knows, or with POSTN/OUT.";
+        /// ICODEF of a word in no vocabulary.
+        UnknownWord = 246, Warning, "word in no vocabulary",
+            "Only records of CL files that have this very word can have its code.",
+            "Check its spelling; if it is a word of your own, allow it with a comment.";
     }
 }
 

@@ -5,9 +5,11 @@
 //! for each CL record that has one. It does no I/O: everything outside goes
 //! through [`Host`].
 
+mod allow;
 mod arithmetic;
 pub mod builtins;
 mod compile;
+mod constant;
 mod disassemble;
 pub mod errors;
 mod functions;
@@ -18,13 +20,17 @@ mod machine;
 mod matcher;
 mod module;
 mod moment;
+mod open_blocks;
 mod ops;
 pub mod postf;
+pub mod resolve;
 pub mod statements;
 mod texts;
+mod tree;
 mod value;
 
-pub use compile::{FilFile, Included, LoadOptions, Loaded, Loader, load};
+pub use allow::is_allowable;
+pub use compile::{Analysis, FilFile, Included, LoadOptions, Loaded, Loader, analyze, load};
 pub use disassemble::disassemble;
 pub use functions::{Argument, Functions, Returned};
 pub use host::{CommonKind, FileMode, Files, Host, Site};

@@ -17,6 +17,38 @@ pub struct Statement {
     pub example: &'static str,
 }
 
+/// The words statements begin with; a post word that differs little from one of them
+/// is most likely a misspelt statement.
+pub(crate) const WORDS: &[&str] = &[
+    "CALL", "CASE", "CIMFIL", "CONTIN", "DATA", "ELSE", "ELSEIF", "ENDCAS", "ENDIF", "ERROR",
+    "FINI", "INCLUD", "JUMPTO", "POSTN", "PRINT", "REDEF", "REPEAT", "RESERV", "TERMAC", "WHEN",
+    "WRITE",
+];
+
+/// Statements that filpost does not carry out, or that are written otherwise, with what
+/// to write. Sent to the post as records they would do nothing.
+pub(crate) const ELSEWHERE: &[(&str, &str)] = &[
+    ("CONTINUE", "write CONTIN"),
+    ("ELIF", "write ELSEIF(condition)THEN"),
+    ("ENDCASE", "write ENDCAS"),
+    ("ENDDO", "a DO ends with the statement that bears its label: label) CONTIN"),
+    ("ENDMAC", "write TERMAC"),
+    ("ENDWHILE", "loops are DO/label,… or JUMPTO/label"),
+    ("EXIT", "write JUMPTO/label"),
+    ("LOOPND", "loops are DO/label,… or JUMPTO/label"),
+    ("LOOPST", "loops are DO/label,… or JUMPTO/label"),
+    ("OTHER", "the part of a CASE for all that is left is WHEN/OTHER"),
+    ("OTHERWISE", "the part of a CASE for all that is left is WHEN/OTHER"),
+    ("READ", "FILEF opens a file, name=TEXT/READ,unit reads a line of it"),
+    (
+        "REPLAC",
+        "filpost does not carry out REPLAC; POSTF(8,n,value) changes a record, POSTN/OUT writes a block",
+    ),
+    ("RETURN", "write JUMPTO/label to a label before CIMFIL/OFF or TERMAC"),
+    ("SYN", "filpost does not carry out SYN; write the word itself"),
+    ("THEN", "THEN stands behind the condition, on the same line: IF(condition)THEN"),
+];
+
 /// All statements but post words, which have a table of their own in the post.
 pub const STATEMENTS: &[Statement] = &[
     Statement {

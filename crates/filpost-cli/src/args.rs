@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
-use filpost::Moment;
 use filpost::cl::ClDialect;
+use filpost::{Code, Moment};
 
 /// Posts CL files with FIL macros into NC programs.
 #[derive(Debug, Parser)]
@@ -72,6 +72,9 @@ pub struct Reading {
     /// Refuse extensions of filpost, so that a script stays portable
     #[arg(long)]
     pub strict: bool,
+    /// Allow a warning, or an error of FIL that may be meant, by its code (may be given again)
+    #[arg(long, value_name = "CODE", value_parser = allowable)]
+    pub allow: Vec<&'static Code>,
     /// Encoding of all input texts (utf-8, cp1251, koi8-r, …); guessed when left out
     #[arg(long, value_name = "LABEL")]
     pub encoding: Option<String>,
@@ -83,6 +86,10 @@ pub struct ClReading {
     /// Dialect of the CL file, a name of `filpost cl --dialects`; recognized when left out
     #[arg(long, value_name = "NAME")]
     pub dialect: Option<ClDialect>,
+}
+
+fn allowable(name: &str) -> Result<&'static Code, String> {
+    filpost::allowable(name).map_err(|diag| diag.message)
 }
 
 /// `filpost post`

@@ -59,6 +59,7 @@ fn check_group(
     let options = Options {
         compat: compat.clone(),
         strict: args.reading.strict,
+        allow: &args.reading.allow,
         includes: Some(&mut includes),
         machine,
     };

@@ -104,7 +104,9 @@ fn finish(
     pending: PendingFiles,
     outcome: &mut Outcome,
 ) -> Result<(), Error> {
-    outcome.warnings = program.warnings().iter().chain(&report.warnings).cloned().collect();
+    let warnings = program.warnings().iter().chain(&report.warnings);
+    let allowed = |diag: &&Diag| args.reading.allow.contains(&diag.code);
+    outcome.warnings = warnings.filter(|diag| !allowed(diag)).cloned().collect();
     deny(args.deny_warnings, outcome.warnings.len())?;
     // Last of all: from here on only the program itself can fail to appear.
     pending.commit()

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use fil_cl::Vocabulary;
-use fil_diag::Diag;
+use fil_diag::{Code, Diag};
 use fil_machine::{Commons, files as settings};
 use fil_vm::{
     Argument, Compat, FilFile, Functions, Included, Limits, LoadOptions, Loader, Returned,
@@ -33,6 +33,7 @@ pub struct Builder {
     limits: Limits,
     compat: Compat,
     strict: bool,
+    allow: Vec<&'static Code>,
     functions: Functions,
     includes: Option<Includes>,
     clock: Option<Clock>,
@@ -53,6 +54,7 @@ impl Builder {
             limits: Limits::default(),
             compat: Compat::default(),
             strict: false,
+            allow: Vec::new(),
             functions: Functions::new(),
             includes: None,
             clock: None,
@@ -113,6 +115,14 @@ impl Builder {
     /// Refuses extensions of filpost, so that scripts stay portable.
     pub fn strict(mut self, strict: bool) -> Self {
         self.strict = strict;
+        self
+    }
+
+    /// Allows a code in all FIL files: a warning is not given, and an error of a script
+    /// that can run but may have been meant otherwise does not stop the build. See
+    /// [`crate::allowable`]; other errors are not allowed by it.
+    pub fn allow(mut self, code: &'static Code) -> Self {
+        self.allow.push(code);
         self
     }
 
@@ -216,6 +226,7 @@ impl Builder {
                 compat: self.compat,
                 limits: self.limits,
                 strict: self.strict,
+                allow: &self.allow,
                 functions: Some(&self.functions),
                 loader: includes.as_mut().map(|loader| loader as Loader<'_>),
                 ..LoadOptions::default()

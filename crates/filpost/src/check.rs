@@ -1,7 +1,7 @@
 //! Checking FIL files without a CL file.
 
-use fil_cl::Vocabulary;
-use fil_diag::Diag;
+use fil_cl::{Vocabulary, WordId};
+use fil_diag::{Code, Diag};
 use fil_machine::Letter;
 use fil_machine::address::Addresses;
 use fil_machine::commons::{Commons, LAST_OUTPUT};
@@ -26,6 +26,8 @@ pub struct Options<'a> {
     pub compat: Compat,
     /// Refuse extensions of filpost.
     pub strict: bool,
+    /// Codes that are allowed in all files, see [`crate::allowable`].
+    pub allow: &'a [&'static Code],
     /// Gives the files that INCLUD names; without it INCLUD is refused.
     pub includes: Option<Includes<'a>>,
     /// The machine; without it what depends on one is not looked at.
@@ -47,28 +49,27 @@ pub fn check(files: &[(&str, &str)], options: Options<'_>) -> Vec<Diag> {
     let facts = MachineFacts {
         name_of_common: Some(&name_of_common),
         writes_letter: options.machine.map(|_| &writes as &dyn Fn(u8) -> bool),
+        carries_out: Some(&carries_out),
     };
     let mut includes = options.includes;
     let load = LoadOptions {
         compat: options.compat,
         strict: options.strict,
         lint: true,
+        allow: options.allow,
         facts,
         loader: includes.as_mut().map(|loader| loader as Includes<'_>),
         ..LoadOptions::default()
     };
-    let mut diags = match fil_vm::load(&files, &mut Vocabulary::new(), load) {
+    match fil_vm::load(&files, &mut Vocabulary::new(), load) {
         Ok(loaded) => loaded.warnings,
         Err(diags) => diags,
-    };
-    let given = |name: &str| files.iter().position(|file| file.name == name);
-    diags.sort_by_cached_key(|diag| {
-        diag.places.first().map(|place| {
-            let order = given(&place.file).unwrap_or(files.len());
-            (order, place.file.clone(), place.line, place.span.start, diag.code.number)
-        })
-    });
-    diags
+    }
+}
+
+/// True for a word that a file of the post carries out.
+fn carries_out(word: WordId) -> bool {
+    fil_post::dispatch::HANDLERS.iter().any(|(known, _)| *known == word)
 }
 
 /// The name of a common location: that of its setting, or its use in a table

@@ -54,6 +54,10 @@ fil_diag::codes! {
         BadRecord = 712, Error, "record from memory can't be used",
             "A record that a program hands over is as a statement would make it: words of the program's vocabulary, finite numbers, texts without control characters, motion with its coordinates.",
             "Make the record with Record::statement, Record::goto or Record::text_command.";
+        /// A code that can't be allowed.
+        CannotAllow = 713, Error, "code can't be allowed",
+            "Warnings can be allowed by their code, and errors of FIL scripts that can run but may have been meant otherwise.",
+            "Correct what the error names.";
         /// Statements after the end.
         AfterFini = 751, Warning, "records after FINI",
             "FINI ends the program; what comes after it is not posted.",

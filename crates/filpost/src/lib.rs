@@ -19,6 +19,7 @@
 //! observers, a [`CancelToken`], the name of the CL file.
 #![deny(missing_docs)]
 
+mod allow;
 mod blocks;
 mod builder;
 mod cancel;
@@ -47,6 +48,7 @@ mod statement;
 pub mod trace;
 pub mod verify;
 
+pub use allow::allowable;
 pub use blocks::{Block, Blocks};
 pub use builder::Builder;
 pub use cancel::CancelToken;

@@ -286,6 +286,7 @@ fn item() -> BoxedStrategy<Item> {
         (prop_oneof![words, types], body()).prop_map(|(key, body)| Item::Section(Section {
             key,
             body,
+            left_open: Vec::new(),
             span: SPAN
         })),
         (name(), params, body()).prop_map(|(name, params, body)| {

@@ -10,32 +10,36 @@ use crate::ops::{Op, Reg};
 
 impl<'t> Compiler<'t> {
     /// An array of `RESERV/name,size`.
-    pub(super) fn declare_array(&mut self, name: &'t Name, size: &'t Expr) {
+    pub(super) fn declare_array(&mut self, name: &'t str, span: Span, size: &'t Expr) {
         let given = self.constant(size).filter(|n| *n >= 1.0 && n.fract() == 0.0);
-        let Some(len) = given else {
-            let message = format!("the size of {} is no constant of 1 or more", name.text);
-            self.report(CompileCode::BadArraySize, size.span, message);
-            return;
-        };
         // A number too large for usize is too large for the limit as well.
-        self.add_array(&name.text, name.span, len as usize, false, size.span);
+        self.add_array(name, span, given.unwrap_or_default() as usize, false, size.span);
+        if given.is_none() {
+            let message = format!("the size of {name} is no constant of 1 or more");
+            self.report(CompileCode::BadArraySize, size.span, message);
+        }
     }
 
-    /// A table of `DATA/name,v1,v2,…`.
-    pub(super) fn declare_data(&mut self, word: &'t Name, args: &'t [Expr]) {
+    /// The form of a `DATA/` statement; its table is declared before anything runs.
+    pub(super) fn check_data(&mut self, word: &Name, args: &[Expr]) {
         if self.refuse_extension("DATA/", word.span) {
             return;
         }
-        let [Expr { kind: ExprKind::Name(name), span }, values @ ..] = args else {
-            self.report(CompileCode::NotConstant, word.span, "DATA/ takes a name and values");
-            return;
-        };
-        if values.is_empty() {
-            self.wrong_count("DATA/", "a name and one value or more", args.len(), word.span);
-            return;
+        match args {
+            [Expr { kind: ExprKind::Name(_), .. }, _, ..] => {}
+            [Expr { kind: ExprKind::Name(_), .. }] => {
+                self.wrong_count("DATA/", "a name and one value or more", args.len(), word.span);
+            }
+            _ => {
+                let message = "DATA/ takes a name and values";
+                self.report(CompileCode::NotConstant, word.span, message);
+            }
         }
-        let added = self.add_array(name, *span, values.len(), true, *span);
-        let Some(start) = added else { return };
+    }
+
+    /// A table of `DATA/name,v1,v2,…`.
+    pub(super) fn declare_data(&mut self, name: &'t str, span: Span, values: &'t [Expr]) {
+        let start = self.add_array(name, span, values.len(), true, span);
         for (offset, value) in values.iter().enumerate() {
             let constant = match &value.kind {
                 ExprKind::Text(text) => Some(Constant::Text(text.clone())),
@@ -51,7 +55,8 @@ impl<'t> Compiler<'t> {
         }
     }
 
-    /// Adds an array and gives its first element; `None` after an error.
+    /// Adds an array and gives its first element. One that does not fit has no elements,
+    /// so that the arrays behind it keep their numbers.
     fn add_array(
         &mut self,
         name: &'t str,
@@ -59,35 +64,28 @@ impl<'t> Compiler<'t> {
         len: usize,
         read_only: bool,
         size: Span,
-    ) -> Option<usize> {
+    ) -> usize {
         let start = self.module.arrays.last().map_or(0, |array| array.start + array.len);
         let room = self.limits.array_elements.saturating_sub(start);
         if len > room {
             let message = format!("{name} passes the limit; {room} elements are left");
             self.report(CompileCode::BadArraySize, size, message);
-            return None;
-        }
-        if self.names.arrays.contains_key(name) {
-            let message = format!("the array {name} is reserved already");
-            self.report(CompileCode::DefinedTwice, span, message);
-            return None;
         }
         if self.added_function(name).is_some() {
             let message = format!("{name} is a function of the embedding program");
             self.report(CompileCode::DefinedTwice, span, message);
-            return None;
         }
-        let id = self.index(self.module.arrays.len(), span, "arrays");
+        self.index(self.module.arrays.len(), span, "arrays");
+        let len = if len > room { 0 } else { len };
         self.module.arrays.push(ArrayShape { name: name.to_string(), start, len, read_only });
-        self.names.arrays.insert(name, id);
-        Some(start)
+        start
     }
 
     /// The array that an assignment changes; `None` after an error.
     pub(super) fn writable_array(&mut self, name: &Name) -> Option<u16> {
-        let Some(array) = self.names.arrays.get(name.text.as_str()).copied() else {
+        let Some(array) = self.slots.names.array(&name.text) else {
             let message = format!("{} is no array; RESERV reserves one", name.text);
-            let hint = did_you_mean(&name.text, self.names.arrays.keys().copied());
+            let hint = did_you_mean(&name.text, self.slots.names.array_names());
             self.report_with(CompileCode::UnknownFunction, name.span, message, hint);
             return None;
         };
@@ -106,9 +104,9 @@ impl<'t> Compiler<'t> {
             self.report(CompileCode::WordExpected, span, message);
             return;
         };
-        match self.names.arrays.get(name.as_str()) {
+        match self.slots.names.array(name) {
             Some(array) => {
-                let len = self.module.arrays[usize::from(*array)].len;
+                let len = self.module.arrays[usize::from(array)].len;
                 let src = self.number(len as f64, span);
                 self.chunk.emit(Op::Move { dst, src });
             }

@@ -1,13 +1,12 @@
 //! Jumps, IF, DO and CASE.
 
-use fil_diag::suggest::did_you_mean;
 use fil_syntax::tree::{Expr, Name, Span, Stmt, StmtKind, Target, When};
 
 use super::Compiler;
 use super::chunk::{Label, NamedLabel};
-use super::names::inner_bodies;
 use crate::errors::CompileCode;
 use crate::ops::Op;
+use crate::tree::inner_bodies;
 
 impl Compiler<'_> {
     /// Finds the labels of a chunk before its code is made: jumps go forward too.
@@ -16,10 +15,7 @@ impl Compiler<'_> {
             if let Some(name) = &stmt.label {
                 let label = self.chunk.label();
                 let known = NamedLabel { label, loops: loops.clone() };
-                if self.chunk.named.insert(name.text.clone(), known).is_some() {
-                    let message = format!("the label {} stands here already", name.text);
-                    self.report(CompileCode::LabelTwice, name.span, message);
-                }
+                self.chunk.named.insert(name.text.clone(), known);
             }
             let is_loop = matches!(stmt.kind, StmtKind::Do { .. });
             if is_loop {
@@ -42,14 +38,10 @@ impl Compiler<'_> {
         }
     }
 
-    /// The label a jump from here may go to; `None` after an error.
+    /// The label a jump from here may go to; `None` where there is none, which has been
+    /// reported.
     fn destination(&mut self, name: &Name) -> Option<Label> {
-        let Some(named) = self.chunk.named.get(&name.text) else {
-            let message = format!("there is no label {} here", name.text);
-            let hint = did_you_mean(&name.text, self.chunk.named.keys().map(String::as_str));
-            self.report_with(CompileCode::UnknownLabel, name.span, message, hint);
-            return None;
-        };
+        let named = self.chunk.named.get(&name.text)?;
         let label = named.label;
         if !self.chunk.loops.starts_with(&named.loops) {
             let message = format!("{} lies inside a DO that this jump is outside of", name.text);

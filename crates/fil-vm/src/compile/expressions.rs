@@ -1,13 +1,11 @@
 //! Expressions.
 
-use fil_diag::suggest::did_you_mean;
 use fil_syntax::tree::{BinaryOp, Expr, ExprKind, Name, Span, UnaryOp};
 
 use super::Compiler;
 use super::conditions::is_logical;
 use crate::builtins;
 use crate::errors::CompileCode;
-use crate::functions::Functions;
 use crate::ops::{Op, Reg};
 
 impl Compiler<'_> {
@@ -72,7 +70,7 @@ impl Compiler<'_> {
 
     /// `NAME(args)`: an array element or a function.
     fn call(&mut self, name: &Name, args: &[Expr], span: Span, dst: Reg) {
-        if let Some(array) = self.names.arrays.get(name.text.as_str()).copied() {
+        if let Some(array) = self.slots.names.array(&name.text) {
             match args {
                 [index] => {
                     let index = self.expression(index);
@@ -89,23 +87,13 @@ impl Compiler<'_> {
             } else {
                 self.wrong_count(&name.text, &format!("{arity} arguments"), args.len(), span);
             }
-        } else {
-            let message = format!("{} is neither a function nor an array", name.text);
-            let hint = self.function_like(&name.text);
-            self.report_with(CompileCode::UnknownFunction, name.span, message, hint);
         }
+        // What is neither has been reported.
     }
 
     /// Index and number of arguments of a function of the embedding program.
     pub(super) fn added_function(&self, name: &str) -> Option<(u16, u16)> {
         self.functions?.find(name)
-    }
-
-    /// A hint that names the function or array that was perhaps meant.
-    fn function_like(&self, name: &str) -> Option<String> {
-        let built_in = builtins::BUILTINS.iter().map(|builtin| builtin.name);
-        let added = self.functions.into_iter().flat_map(Functions::names);
-        did_you_mean(name, built_in.chain(self.names.arrays.keys().copied()).chain(added))
     }
 
     /// Values in consecutive registers; gives the first.

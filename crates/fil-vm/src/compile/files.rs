@@ -122,6 +122,6 @@ fn inclusions(body: &[Stmt], wanted: &mut Vec<(String, Span)>) {
         if let StmtKind::Includ { file } = &stmt.kind {
             wanted.push((file.clone(), stmt.span));
         }
-        super::names::inner_bodies(stmt, &mut |inner| inclusions(inner, wanted));
+        crate::tree::inner_bodies(stmt, &mut |inner| inclusions(inner, wanted));
     }
 }

@@ -1,19 +1,18 @@
 //! Macros: definition, call, and the refusal of recursion.
 
-use fil_diag::suggest::did_you_mean;
 use fil_syntax::tree::{Expr, Macro, Name, Span};
 
 use super::Compiler;
 use crate::errors::CompileCode;
 use crate::ops::Op;
+use crate::resolve::MacroEntry;
 
 impl<'t> Compiler<'t> {
     pub(super) fn macro_definition(&mut self, definition: &'t Macro) {
-        let own = |info: &super::names::MacroInfo<'_>| std::ptr::eq(info.definition, definition);
-        let Some(id) = self.names.macros.iter().position(own) else { return };
-        let info = &self.names.macros[id];
-        let params = definition.params.iter().zip(&info.params);
-        self.names.params = params.map(|((name, _), reg)| (name.text.as_str(), *reg)).collect();
+        let own = |entry: &MacroEntry<'_>| std::ptr::eq(entry.definition, definition);
+        let Some(id) = self.slots.names.macros.iter().position(own) else { return };
+        let params = definition.params.iter().zip(&self.slots.macros[id]);
+        self.slots.params = params.map(|((name, _), reg)| (name.text.as_str(), *reg)).collect();
         self.inside = Some(id as u16);
         let title = format!("macro {}", definition.name.text);
         let chunk = self.build_chunk(title, definition.span, |this| {
@@ -22,21 +21,18 @@ impl<'t> Compiler<'t> {
         });
         self.module.macros[id] = chunk;
         self.inside = None;
-        self.names.params.clear();
+        self.slots.params.clear();
     }
 
     pub(super) fn call_macro(&mut self, name: &Name, args: &[(Option<Name>, Expr)], span: Span) {
-        let Some(id) = self.names.macro_ids.get(name.text.as_str()).copied() else {
-            let message = format!("there is no macro {}", name.text);
-            let hint = did_you_mean(&name.text, self.names.macro_ids.keys().copied());
-            self.report_with(CompileCode::UnknownMacro, name.span, message, hint);
-            return;
-        };
+        // A macro that is not there has been reported.
+        let Some(id) = self.slots.names.macro_id(&name.text) else { return };
         if let Some(caller) = self.inside {
             self.calls[usize::from(caller)].push((id, self.unit, span));
         }
-        let info = &self.names.macros[usize::from(id)];
-        let (definition, unit, registers) = (info.definition, info.unit, info.params.clone());
+        let entry = &self.slots.names.macros[usize::from(id)];
+        let (definition, unit) = (entry.definition, entry.unit);
+        let registers = self.slots.macros[usize::from(id)].clone();
         let mut given = vec![false; registers.len()];
         for (position, (arg_name, value)) in args.iter().enumerate() {
             let index = match arg_name {
@@ -71,9 +67,9 @@ impl<'t> Compiler<'t> {
 
     /// A default belongs to the macro's file and sees no parameters of the caller.
     fn default_value(&mut self, default: &'t Expr, unit: usize, dst: u16) {
-        let params = std::mem::take(&mut self.names.params);
+        let params = std::mem::take(&mut self.slots.params);
         self.within(unit, |this| this.expression_into(default, dst));
-        self.names.params = params;
+        self.slots.params = params;
     }
 
     /// Parameters have one place each, so no macro may run inside itself.
@@ -106,7 +102,7 @@ impl<'t> Compiler<'t> {
     }
 
     fn report_recursion(&mut self, id: usize, unit: usize, span: Span) {
-        let name = &self.names.macros[id].definition.name.text;
+        let name = &self.slots.names.macros[id].definition.name.text;
         let message = format!("this call leads back into {name}");
         self.within(unit, |this| this.report(CompileCode::RecursiveMacro, span, message));
     }

@@ -13,23 +13,26 @@ mod functions;
 mod macros;
 pub(crate) mod names;
 mod posts;
-mod sections;
+pub(crate) mod sections;
 mod statements;
 mod texts;
 
 use fil_cl::Vocabulary;
-use fil_diag::Diag;
+use fil_diag::{Code, Diag};
 use fil_syntax::tree::{Item, Program, Span};
 
+use crate::allow::Allowed;
 use crate::errors::CompileCode;
 use crate::functions::Functions;
 use crate::lint::{self, MachineFacts};
 use crate::machine::Limits;
-use crate::module::Module;
+use crate::module::{File, Module};
+use crate::open_blocks;
 use crate::postf::Compat;
+use crate::resolve::{self, Resolution};
 use chunk::ChunkBuilder;
 use files::{Includes, Unit};
-use names::Names;
+use names::Slots;
 
 /// A FIL file to load.
 #[derive(Clone, Copy, Debug)]
@@ -64,6 +67,8 @@ pub struct LoadOptions<'a> {
     pub strict: bool,
     /// Look for what would run but is most likely not meant, see [`LintCode`](crate::errors::LintCode).
     pub lint: bool,
+    /// Codes that are allowed in all files, see [`is_allowable`](crate::is_allowable).
+    pub allow: &'a [&'static Code],
     /// What the lints may ask about the machine.
     pub facts: MachineFacts<'a>,
     /// Functions of the embedding program.
@@ -77,25 +82,59 @@ pub struct LoadOptions<'a> {
 pub struct Loaded {
     /// The compiled files.
     pub module: Module,
-    /// Warnings, in the order of the files.
+    /// Warnings, in the order of the files and their lines.
     pub warnings: Vec<Diag>,
+}
+
+/// All that is known of FIL files, also of such that can't run.
+#[derive(Debug)]
+pub struct Analysis {
+    /// The files, those that INCLUD has brought in among them.
+    pub files: Vec<File>,
+    /// Their names, as far as the files could be read.
+    pub resolution: Resolution,
+    /// The compiled files; `None` when there are errors.
+    pub module: Option<Module>,
+    /// Errors and warnings, in the order of the files and their lines.
+    pub diags: Vec<Diag>,
 }
 
 /// Reads and compiles FIL files, in this order, into one name space.
 ///
 /// The module names words by their ids, so it must run with `vocab` or a clone
-/// of it. With an error anywhere there is no module; all diagnostics come back.
+/// of it.
+///
+/// # Errors
+/// With an error anywhere there is no module; all diagnostics come back.
 pub fn load(
     files: &[FilFile<'_>],
     vocab: &mut Vocabulary,
     options: LoadOptions<'_>,
 ) -> Result<Loaded, Vec<Diag>> {
-    let LoadOptions { compat, limits, strict, lint, facts, functions, loader } = options;
+    let Analysis { module, diags, .. } = analyze(files, vocab, options);
+    match module {
+        Some(module) => Ok(Loaded { module, warnings: diags }),
+        None => Err(diags),
+    }
+}
+
+/// As [`load`], and with the names of all files, for an editor.
+pub fn analyze(
+    files: &[FilFile<'_>],
+    vocab: &mut Vocabulary,
+    options: LoadOptions<'_>,
+) -> Analysis {
+    let LoadOptions { compat, limits, strict, lint, allow, facts, functions, loader } = options;
     let mut includes = Includes::new(loader);
     for file in files {
         includes.read(file.name, file.text);
     }
-    let (units, found, diags) = includes.finish();
+    let (units, found, mut diags) = includes.finish();
+    let allowed = Allowed::new(allow, lint, &units);
+    let input = resolve::Input { units: &units, found: &found, vocabulary: vocab, functions };
+    let (resolution, names, unresolved) = resolve::resolve(input);
+    diags.extend(unresolved);
+    let slots = Slots::new(names, resolution.symbols.len());
     let module = Module {
         files: units.iter().map(|unit| unit.file.clone()).collect(),
         compat,
@@ -110,7 +149,7 @@ pub fn load(
         limits,
         functions,
         module,
-        names: Names::default(),
+        slots,
         diags,
         unit: 0,
         chunk: ChunkBuilder::default(),
@@ -120,16 +159,42 @@ pub fn load(
     };
     compiler.refuse_functions();
     compiler.run();
-    let Compiler { module, mut diags, names, vocab, .. } = compiler;
+    let Compiler { module, mut diags, slots: Slots { names, .. }, vocab, .. } = compiler;
+    let search = open_blocks::Search {
+        units: &units,
+        found: &found,
+        names: &names,
+        compat: &module.compat,
+        vocabulary: vocab,
+    };
+    open_blocks::refuse(search, &allowed, &mut diags);
+    diags.extend(resolve::findings::find(&resolution, &units, vocab));
+    diags.retain(|diag| !allowed.allows(diag));
     let refused = diags.iter().any(Diag::is_error);
     if lint && !refused {
-        let program = lint::Program { units: &units, found: &found, module: &module, names };
-        diags.extend(lint::warnings(program, vocab, facts));
+        let program = lint::Program {
+            units: &units,
+            found: &found,
+            module: &module,
+            names: &names,
+            resolution: &resolution,
+        };
+        let findings = lint::warnings(program, vocab, facts);
+        diags.extend(findings.into_iter().filter(|diag| !allowed.allows(diag)));
     }
-    if lint {
-        lint::drop_allowed(&mut diags, &units);
-    }
-    if refused { Err(diags) } else { Ok(Loaded { module, warnings: diags }) }
+    sort(&mut diags, &units);
+    let files = module.files.clone();
+    Analysis { files, resolution, module: (!refused).then_some(module), diags }
+}
+
+/// Puts diagnostics into the order of the files and their lines.
+fn sort(diags: &mut [Diag], units: &[Unit]) {
+    diags.sort_by_key(|diag| {
+        diag.places.first().map(|place| {
+            let file = units.iter().position(|unit| unit.file.name == place.file);
+            (file, place.line, place.span.start)
+        })
+    });
 }
 
 struct Compiler<'t> {
@@ -140,7 +205,7 @@ struct Compiler<'t> {
     limits: Limits,
     functions: Option<&'t Functions>,
     module: Module,
-    names: Names<'t>,
+    slots: Slots<'t>,
     diags: Vec<Diag>,
     /// The unit that is being compiled; also the index of its file.
     unit: usize,
@@ -163,7 +228,7 @@ impl<'t> Compiler<'t> {
     }
 
     fn run(&mut self) {
-        self.collect_names();
+        self.declare();
         for unit in &self.found.roots {
             self.global_area(*unit);
         }

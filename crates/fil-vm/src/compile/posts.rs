@@ -21,7 +21,7 @@ impl Compiler<'_> {
     pub(super) fn post_text(&mut self, word: &Name, text: &str) {
         let name = text.trim().to_ascii_uppercase();
         if let Some((called, _)) = name.strip_suffix(')').and_then(|call| call.split_once('('))
-            && (self.names.arrays.contains_key(called)
+            && (self.slots.names.array(called).is_some()
                 || builtins::find(called).is_some()
                 || self.added_function(called).is_some())
         {

@@ -71,7 +71,7 @@ impl Compiler<'_> {
 }
 
 /// A key as FIL writes it.
-fn written(key: &SectionKey) -> String {
+pub(crate) fn written(key: &SectionKey) -> String {
     match key {
         SectionKey::Words { major, minors } => {
             let words = std::iter::once(major).chain(minors);

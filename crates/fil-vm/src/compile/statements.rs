@@ -48,8 +48,7 @@ impl Compiler<'_> {
         match &stmt.kind {
             StmtKind::Assign { target, value } => self.assign(target, value),
             StmtKind::Text { target, args } => self.assign_text(target, args, stmt.span),
-            // The table was declared before anything runs.
-            StmtKind::Post { word, .. } if word.text == "DATA" => {}
+            StmtKind::Post { word, args } if word.text == "DATA" => self.check_data(word, args),
             StmtKind::Post { word, args } if word.text == "WRITE" => self.write_line(word, args),
             StmtKind::Post { word, args } if word.text == "ERROR" => {
                 self.message(Library::Refuse, word, args);
@@ -107,7 +106,7 @@ impl Compiler<'_> {
     /// A letter that gets another value than its number no longer names its address.
     pub(super) fn warn_of_letter(&mut self, target: &Target, value: Option<&Expr>) {
         let name = &target.name.text;
-        if self.names.params.contains_key(name.as_str()) {
+        if self.is_param(name) {
             return;
         }
         let Some(number) = letter(name) else { return };

@@ -6,8 +6,9 @@ use fil_syntax::tree::{Expr, ExprKind, StmtKind};
 
 use super::context::Context;
 use super::flow::Action;
-use super::walk::{calls, constant};
+use super::walk::calls;
 use crate::compile::names::letter;
+use crate::constant::constant;
 use crate::errors::LintCode;
 use crate::postf::PostfOp;
 

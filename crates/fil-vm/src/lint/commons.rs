@@ -1,7 +1,8 @@
 //! W0236: common locations that nothing is known of.
 
 use super::context::Context;
-use super::walk::{calls, constant};
+use super::walk::calls;
+use crate::constant::constant;
 use crate::errors::LintCode;
 use crate::host::CommonKind;
 use crate::postf::PostfOp;

@@ -10,8 +10,10 @@ use super::flow::{Action, Graph};
 use super::walk::{self, Use};
 use super::{MachineFacts, Program};
 use crate::compile::names::letter;
+use crate::constant::constant;
 use crate::errors::LintCode;
 use crate::postf::PostfOp;
+use crate::resolve::Location;
 
 /// What a body of statements belongs to.
 #[derive(Clone, Copy)]
@@ -95,6 +97,11 @@ impl<'t> Context<'t> {
         Diag::new(code, message).at(self.program.units[unit].file.place(span))
     }
 
+    /// A finding about a symbol.
+    pub fn at(&self, code: LintCode, location: Location, message: String) -> Diag {
+        self.diag(code, location.file, location.span, message)
+    }
+
     /// Keeps a finding.
     pub fn report(&mut self, code: LintCode, unit: usize, span: Span, message: String) {
         let diag = self.diag(code, unit, span, message);
@@ -111,7 +118,7 @@ impl<'t> Context<'t> {
 
     /// True for a name that some statement sets.
     pub fn is_assigned(&self, name: &str) -> bool {
-        self.program.names.assigned.contains(name)
+        self.program.names.is_assigned(name)
     }
 
     /// Every name that an action of a body reads as a variable of the whole
@@ -139,7 +146,8 @@ impl<'t> Context<'t> {
         if let Action::Plain(Stmt { kind: StmtKind::PostText { word, text }, .. }) = action {
             // PPRINT with the name of a variable shows its value.
             let upper = text.trim().to_ascii_uppercase();
-            if let Some(name) = self.program.names.assigned.get(upper.as_str())
+            if let Some((name, global)) = self.program.names.globals.get_key_value(upper.as_str())
+                && global.assigned
                 && !is_own(name)
             {
                 visit(name, word.span);
@@ -152,7 +160,7 @@ impl<'t> Context<'t> {
         if name != "POSTF" {
             return None;
         }
-        self.program.module.compat.operation(walk::constant(args.first()?)?)
+        self.program.module.compat.operation(constant(args.first()?)?)
     }
 }
 

@@ -4,7 +4,7 @@ use fil_syntax::tree::StmtKind;
 
 use super::context::Context;
 use super::flow::{Action, ENTRY};
-use super::walk::constant;
+use crate::constant::constant;
 use crate::errors::LintCode;
 
 /// Warns at the statement that leads back, and at a DO with step 0.

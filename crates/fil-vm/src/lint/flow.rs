@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use fil_syntax::tree::{Expr, Item, Name, Span, Stmt, StmtKind, When};
 
-use super::walk::constant;
 use crate::compile::files::{Found, Unit};
+use crate::constant::constant;
 
 /// What a node of the graph does.
 #[derive(Clone, Copy, Debug)]
@@ -61,8 +61,6 @@ pub(crate) struct Graph<'t> {
     pub labels: Vec<LabelUse<'t>>,
     /// Jumps to labels.
     pub jumps: Vec<LabelUse<'t>>,
-    /// Labels that end a DO.
-    pub loop_ends: Vec<&'t str>,
 }
 
 /// Entry of each graph.
@@ -214,10 +212,7 @@ impl<'t> Builder<'t> {
                 self.jump(jump, label);
                 Vec::new()
             }
-            StmtKind::Do { label, body, .. } => {
-                self.graph.loop_ends.push(&label.text);
-                self.do_loop(stmt, body, from)
-            }
+            StmtKind::Do { body, .. } => self.do_loop(stmt, body, from),
             StmtKind::Case { subject, whens, other } => {
                 let decide = self.node(Action::Decide(subject), stmt.span, &from);
                 self.case(decide, whens, other)

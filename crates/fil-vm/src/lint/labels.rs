@@ -1,24 +1,23 @@
 //! W0234 and W0235: labels that nothing names, and jumps into blocks.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 use super::context::Context;
 use crate::errors::LintCode;
+use crate::resolve::SymbolKind;
 
 /// Warns of both; a jump into a DO is an error of the compiler.
 pub(super) fn look(context: &mut Context<'_>) {
     let mut found = Vec::new();
+    let labels = context.program.resolution.of_kind(SymbolKind::Label);
+    for label in labels.filter(|label| label.uses.is_empty()) {
+        for definition in &label.definitions {
+            let message = format!("nothing jumps to {}", label.name);
+            found.push(context.at(LintCode::UnusedLabel, *definition, message));
+        }
+    }
     for body in &context.bodies {
         let graph = &body.graph;
-        let jumps = graph.jumps.iter().map(|jump| jump.name.text.as_str());
-        let used: HashSet<&str> = jumps.chain(graph.loop_ends.iter().copied()).collect();
-        for label in &graph.labels {
-            if !used.contains(label.name.text.as_str()) {
-                let message = format!("nothing jumps to {}", label.name.text);
-                let span = label.name.span;
-                found.push(context.diag(LintCode::UnusedLabel, label.unit, span, message));
-            }
-        }
         let blocks: HashMap<&str, &[u32]> = graph
             .labels
             .iter()

@@ -5,7 +5,6 @@
 //! caller says with [`MachineFacts`].
 
 mod addresses;
-mod allow;
 mod commons;
 mod context;
 mod early;
@@ -24,14 +23,13 @@ mod words;
 
 use std::collections::HashSet;
 
-use fil_cl::Vocabulary;
+use fil_cl::{Vocabulary, WordId};
 use fil_diag::Diag;
 
 use crate::compile::files::{Found, Unit};
-use crate::compile::names::Names;
 use crate::host::CommonKind;
 use crate::module::Module;
-use allow::Allowed;
+use crate::resolve::{Names, Resolution};
 use context::Context;
 
 /// Gives the name of a common location, or `None` where nothing is known of it.
@@ -44,6 +42,8 @@ pub struct MachineFacts<'a> {
     pub name_of_common: Option<NameOfCommon<'a>>,
     /// True for a letter, 1 to 26, that the machine writes.
     pub writes_letter: Option<&'a dyn Fn(u8) -> bool>,
+    /// True for a major word that the post carries out.
+    pub carries_out: Option<&'a dyn Fn(WordId) -> bool>,
 }
 
 /// What a program is made of once it is compiled.
@@ -54,8 +54,10 @@ pub(crate) struct Program<'t> {
     pub found: &'t Found,
     /// Its code.
     pub module: &'t Module,
-    /// Its names.
-    pub names: Names<'t>,
+    /// Its names as the compiler sees them.
+    pub names: &'t Names<'t>,
+    /// Where they are defined and used.
+    pub resolution: &'t Resolution,
 }
 
 /// The lints that look at trees, in the order of their findings.
@@ -94,19 +96,4 @@ pub(crate) fn warnings(
         seen.insert((diag.code.number, at, diag.message.clone()))
     });
     diags
-}
-
-/// Takes out the warnings that comments of their files allow.
-pub(crate) fn drop_allowed(diags: &mut Vec<Diag>, units: &[Unit]) {
-    if diags.is_empty() {
-        return;
-    }
-    let allowed: Vec<(&str, Allowed)> = units
-        .iter()
-        .map(|unit| (unit.file.name.as_str(), Allowed::read(&unit.file.text)))
-        .collect();
-    diags.retain(|diag| {
-        let file = diag.places.first().map(|place| place.file.as_str());
-        !allowed.iter().any(|(name, allowed)| Some(*name) == file && allowed.allows(diag))
-    });
 }

@@ -6,7 +6,8 @@ use fil_syntax::tree::{BinaryOp, Expr, ExprKind, SectionKey, Stmt, StmtKind};
 
 use super::context::{Body, Context, Owner};
 use super::flow::{Action, ENTRY};
-use super::walk::{calls, constant, expressions};
+use super::walk::{calls, expressions};
+use crate::constant::constant;
 use crate::errors::LintCode;
 use crate::postf::PostfOp;
 

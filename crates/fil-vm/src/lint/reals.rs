@@ -6,8 +6,9 @@ use fil_syntax::tree::{BinaryOp, Expr, ExprKind, StmtKind};
 
 use super::context::{Context, Owner};
 use super::flow::Action;
-use super::walk::{constant, expressions};
+use super::walk::expressions;
 use crate::builtins::{self, BUILTINS, Kind};
+use crate::constant::constant;
 use crate::errors::LintCode;
 use crate::library::Library;
 

@@ -3,9 +3,9 @@
 use fil_syntax::tree::{Expr, ExprKind, Span, Stmt, StmtKind, When};
 
 use super::context::{Context, Owner};
-use super::walk::code;
-use crate::compile::names::inner_bodies;
+use crate::constant::code;
 use crate::errors::LintCode;
+use crate::tree::inner_bodies;
 
 /// A value of a WHEN that is the same in every run.
 #[derive(PartialEq)]

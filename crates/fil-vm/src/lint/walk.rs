@@ -1,7 +1,6 @@
 //! Walking over expressions: values, words and constants.
 
-use fil_cl::Vocabulary;
-use fil_syntax::tree::{BinaryOp, Expr, ExprKind, Name, Stmt, StmtKind, Target, UnaryOp};
+use fil_syntax::tree::{Expr, ExprKind, Name, Stmt, StmtKind, Target};
 
 use super::flow::Action;
 use crate::builtins::{self, BUILTINS, Kind};
@@ -85,17 +84,8 @@ fn arguments_use(function: &Name) -> Use {
 }
 
 /// Which argument of a function is a word or name as it is written.
-pub(crate) fn word_argument(function: &Name) -> Option<usize> {
-    match BUILTINS[builtins::find(&function.text)?].kind {
-        Kind::WordCode
-        | Kind::Couplet
-        | Kind::HasWord
-        | Kind::NextMotion
-        | Kind::PreviousMotion
-        | Kind::Size => Some(0),
-        Kind::File => Some(1),
-        _ => None,
-    }
+fn word_argument(function: &Name) -> Option<usize> {
+    BUILTINS[builtins::find(&function.text)?].kind.word_argument()
 }
 
 /// Every function call or array element an action evaluates.
@@ -121,38 +111,5 @@ pub(crate) fn sets(action: Action<'_>) -> Option<&str> {
             _ => None,
         },
         _ => None,
-    }
-}
-
-/// The value of an expression of numbers.
-pub(crate) fn constant(expr: &Expr) -> Option<f64> {
-    match &expr.kind {
-        ExprKind::Number(number) => Some(*number),
-        ExprKind::Unary { op: UnaryOp::Minus, operand } => Some(-constant(operand)?),
-        ExprKind::Unary { op: UnaryOp::Plus, operand } => constant(operand),
-        ExprKind::Binary { op, left, right } => {
-            let (left, right) = (constant(left)?, constant(right)?);
-            match op {
-                BinaryOp::Add => Some(left + right),
-                BinaryOp::Sub => Some(left - right),
-                BinaryOp::Mul => Some(left * right),
-                BinaryOp::Div => Some(left / right),
-                _ => None,
-            }
-        }
-        _ => None,
-    }
-}
-
-/// The same with ICODEF of a word.
-pub(crate) fn code(expr: &Expr, vocabulary: &Vocabulary) -> Option<f64> {
-    match &expr.kind {
-        ExprKind::Call { name, args } if name.text == "ICODEF" => match args.as_slice() {
-            [Expr { kind: ExprKind::Name(word), .. }] => {
-                vocabulary.find(word).map(|id| vocabulary.code(id))
-            }
-            _ => None,
-        },
-        _ => constant(expr),
     }
 }

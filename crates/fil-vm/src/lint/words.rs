@@ -1,71 +1,79 @@
-//! W0242: words that are in no vocabulary and near one that is.
+//! W0242 to W0246: words that are in no vocabulary or have no effect, and variables
+//! with the name of a word.
 
-use std::collections::HashSet;
-
-use fil_syntax::tree::{ExprKind, Name, SectionKey, Span, StmtKind};
+use fil_cl::WordId;
 
 use super::context::Context;
-use super::flow::Action;
-use super::walk::{calls, word_argument};
-use crate::builtins;
 use crate::compile::names::letter;
 use crate::errors::LintCode;
+use crate::resolve::{Role, Symbol, SymbolKind};
 
-/// Warns of keys of sections and of words in post words. A word that the
-/// program asks for elsewhere is one of its own.
+/// Warns of words, by how they are used.
 pub(super) fn look(context: &mut Context<'_>) {
-    let own = own_words(context);
-    let mut found = Vec::new();
-    let mut note = |unit: usize, word: &str, span: Span| {
-        let hint =
-            context.vocabulary.find(word).and_then(|id| context.vocabulary.perhaps_meant(id));
-        if let Some(hint) = hint {
-            let message = format!("{word} is in no vocabulary");
-            found.push(context.diag(LintCode::MisspeltWord, unit, span, message).hint(hint));
-        }
-    };
-    for (unit, section) in context.sections() {
-        if let SectionKey::Words { major, minors } = &section.key {
-            std::iter::once(major).chain(minors).for_each(|word| note(unit, &word.text, word.span));
+    let resolution = context.program.resolution;
+    for symbol in &resolution.symbols {
+        match symbol.kind {
+            SymbolKind::Word => word(context, symbol),
+            SymbolKind::Variable => name_is_word(context, symbol),
+            _ => {}
         }
     }
-    for body in &context.bodies {
-        for node in &body.graph.nodes {
-            let Action::Plain(stmt) = node.action else { continue };
-            let StmtKind::Post { word, args } = &stmt.kind else { continue };
-            if builtins::is_statement(&word.text) {
-                continue;
-            }
-            note(node.unit, &word.text, word.span);
-            for arg in args {
-                if let ExprKind::Name(name) = &arg.kind
-                    && letter(name).is_none()
-                    && !context.is_assigned(name)
-                    && !own.contains(name.as_str())
-                {
-                    note(node.unit, name, arg.span);
-                }
-            }
-        }
-    }
-    context.diags.extend(found);
 }
 
-/// Words that functions ask for, as in ICODEF(EMBOSL), and parameters.
-fn own_words<'t>(context: &Context<'t>) -> HashSet<&'t str> {
-    let mut words = HashSet::new();
-    for body in &context.bodies {
-        for node in &body.graph.nodes {
-            calls(node.action, &mut |name: &Name, args, _| {
-                let word = word_argument(name).and_then(|index| args.get(index));
-                if let Some(ExprKind::Name(word)) = word.map(|arg| &arg.kind) {
-                    words.insert(word.as_str());
-                }
-            });
-        }
-        if let super::context::Owner::Macro(definition) = body.owner {
-            words.extend(definition.params.iter().map(|(param, _)| param.text.as_str()));
+fn word(context: &mut Context<'_>, symbol: &Symbol) {
+    let Some(id) = context.vocabulary.find(&symbol.name) else { return };
+    let hint = context.vocabulary.perhaps_meant(id);
+    let asked = symbol.uses.iter().find(|used| used.role == Role::Asked);
+    // A word that functions ask for is one of the program's own.
+    let is_own = asked.is_some();
+    if let Some(asked) = asked.filter(|_| !context.vocabulary.is_known(id) && hint.is_none()) {
+        let message = format!("{} is in no vocabulary", symbol.name);
+        context.diags.push(context.at(LintCode::UnknownWord, asked.location, message));
+    }
+    for used in &symbol.uses {
+        let found = match used.role {
+            Role::Key => section_word(context, symbol, id),
+            Role::Major | Role::Minor if hint.is_some() && !is_own => {
+                Some((LintCode::MisspeltWord, format!("{} is in no vocabulary", symbol.name)))
+            }
+            Role::Major => no_handler(context, symbol, id),
+            _ => None,
+        };
+        if let Some((code, message)) = found {
+            let mut diag = context.at(code, used.location, message);
+            if code == LintCode::MisspeltWord {
+                diag.hint.clone_from(&hint);
+            }
+            context.diags.push(diag);
         }
     }
-    words
+}
+
+/// A section for a word that begins no statement.
+fn section_word(context: &Context<'_>, symbol: &Symbol, id: WordId) -> Option<(LintCode, String)> {
+    let vocabulary = context.vocabulary;
+    let message = if vocabulary.is_major(id) || vocabulary.perhaps_meant(id).is_some() {
+        return None;
+    } else if vocabulary.is_known(id) {
+        format!("{} is a minor word, which begins no record", symbol.name)
+    } else {
+        format!("{} is in no vocabulary", symbol.name)
+    };
+    Some((LintCode::SectionNeverRuns, message))
+}
+
+fn no_handler(context: &Context<'_>, symbol: &Symbol, id: WordId) -> Option<(LintCode, String)> {
+    let carries_out = context.facts.carries_out?;
+    let message = format!("the post has no handler for {}", symbol.name);
+    (!carries_out(id)).then_some((LintCode::NoHandler, message))
+}
+
+fn name_is_word(context: &mut Context<'_>, symbol: &Symbol) {
+    let vocabulary = context.vocabulary;
+    let is_word = vocabulary.find(&symbol.name).is_some_and(|word| vocabulary.is_of_posts(word));
+    let Some(first) = symbol.definitions.first() else { return };
+    if is_word && letter(&symbol.name).is_none() {
+        let message = format!("{} is a word of the vocabulary", symbol.name);
+        context.diags.push(context.at(LintCode::NameIsWord, *first, message));
+    }
 }

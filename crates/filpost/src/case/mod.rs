@@ -2,7 +2,7 @@
 //! program it must give.
 //!
 //! `case.toml`: `cl`; `dialect` (of the CL file, where it is not recognized); `ready`, `machine` (machine.toml) or `option_file`; `fil` (a file or a
-//! list); `set` (list of `key=value`); `compat`; `strict`; `read` (a folder for scripts);
+//! list); `set` (list of `key=value`); `compat`; `strict`; `allow`; `read` (a folder for scripts);
 //! `clock`; `expect` (NC file) or `expect_error` (code); `listing` (its expected text);
 //! `tolerance`, `ignore`, `diameter` (how the NC programs are compared; letter by letter
 //! when none is given); `expect_warnings`; `expect_at` (`file:line` of the error or of the
@@ -57,6 +57,9 @@ pub struct CaseFile {
     /// Refuse extensions.
     #[serde(default)]
     pub strict: bool,
+    /// Codes that are allowed.
+    #[serde(default)]
+    pub allow: Vec<String>,
     /// The expected NC program.
     pub expect: Option<String>,
     /// The expected listing.

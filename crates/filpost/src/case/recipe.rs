@@ -28,6 +28,7 @@ pub(super) struct Recipe {
     settings: Vec<String>,
     compat: Option<Named>,
     strict: bool,
+    allow: Vec<String>,
     read: Option<PathBuf>,
     clock: Option<String>,
     fuel: Option<u64>,
@@ -57,6 +58,7 @@ impl Recipe {
             settings: file.set.clone(),
             compat: file.compat.as_ref().map(text).transpose()?,
             strict: file.strict,
+            allow: file.allow.clone(),
             read: file.read.as_ref().map(|folder| case.folder.join(folder)),
             clock: file.clock.clone(),
             fuel: file.fuel,
@@ -69,6 +71,9 @@ impl Recipe {
     /// As [`Builder::build`].
     pub fn build(&self) -> Result<Program, Error> {
         let mut builder = Program::builder().strict(self.strict);
+        for name in &self.allow {
+            builder = builder.allow(crate::allowable(name).map_err(Error::setup)?);
+        }
         if let Some(name) = &self.ready {
             builder = builder.ready(name);
         }

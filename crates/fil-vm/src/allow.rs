@@ -1,0 +1,186 @@
+//! What users allow by its code: in a comment of the FIL file,
+//! `$$ filpost: allow W0231` at the end of a line or on the line before and
+//! `$$ filpost: allow-file W0231` at the top, or for the whole load.
+
+use std::cell::OnceCell;
+use std::collections::HashMap;
+
+use fil_diag::{Code, Diag, Severity};
+use fil_syntax::SyntaxCode;
+
+use crate::compile::files::Unit;
+use crate::errors::{CompileCode, LintCode};
+
+/// True for a code that can be allowed: every warning, and errors of FIL that can run
+/// but may have been meant otherwise.
+pub fn is_allowable(code: &Code) -> bool {
+    code.severity == Severity::Warning
+        || SyntaxCode::is_allowable(code)
+        || CompileCode::ALLOWABLE.iter().any(|own| <&Code>::from(*own) == code)
+}
+
+/// What is allowed in a load: by its caller for all files, by comments in each.
+pub(crate) struct Allowed<'a> {
+    codes: &'a [&'static Code],
+    /// The load is a check, which gives no warning that a comment allows. A run gives
+    /// those that say how it reads the script.
+    checks: bool,
+    files: Vec<File<'a>>,
+}
+
+/// A file whose comments are read once they are asked for.
+struct File<'a> {
+    name: &'a str,
+    text: &'a str,
+    comments: OnceCell<Comments>,
+}
+
+impl<'a> Allowed<'a> {
+    /// What is allowed in these files.
+    pub fn new(codes: &'a [&'static Code], checks: bool, units: &'a [Unit]) -> Self {
+        let files = units.iter().map(|unit| File::new(&unit.file.name, &unit.file.text));
+        Allowed { codes, checks, files: files.collect() }
+    }
+
+    /// True for a diagnostic that is allowed; never for an error that can't be.
+    pub fn allows(&self, diag: &Diag) -> bool {
+        if !is_allowable(diag.code) {
+            return false;
+        }
+        if self.codes.contains(&diag.code) {
+            return true;
+        }
+        let is_finding = LintCode::ALL.iter().any(|code| code == diag.code);
+        if !self.checks && !diag.is_error() && !is_finding {
+            return false;
+        }
+        let name = diag.places.first().map(|place| place.file.as_str());
+        let mut files = self.files.iter().filter(|file| Some(file.name) == name);
+        files.any(|file| file.comments().allow(diag))
+    }
+}
+
+impl<'a> File<'a> {
+    fn new(name: &'a str, text: &'a str) -> Self {
+        File { name, text, comments: OnceCell::new() }
+    }
+
+    fn comments(&self) -> &Comments {
+        self.comments.get_or_init(|| Comments::read(self.text))
+    }
+}
+
+/// What the comments of a file allow, by the names of the codes.
+#[derive(Default)]
+struct Comments {
+    everywhere: Vec<String>,
+    lines: HashMap<u32, Vec<String>>,
+}
+
+impl Comments {
+    /// Reads the comments of a text.
+    fn read(text: &str) -> Self {
+        let mut allowed = Comments::default();
+        let mut waiting: Vec<String> = Vec::new();
+        let mut at_top = true;
+        for (number, line) in (1..).zip(text.lines()) {
+            let (code, comment) = split(line);
+            let is_code = !code.trim().is_empty();
+            at_top &= !is_code;
+            let (whole_file, mut codes) = comment.and_then(codes).unwrap_or_default();
+            if whole_file && at_top {
+                allowed.everywhere.append(&mut codes);
+            } else if !whole_file {
+                waiting.append(&mut codes);
+            }
+            if is_code && !waiting.is_empty() {
+                allowed.lines.insert(number, std::mem::take(&mut waiting));
+            }
+        }
+        allowed
+    }
+
+    fn allow(&self, diag: &Diag) -> bool {
+        let Some(place) = diag.places.first() else { return false };
+        let name = diag.code.name();
+        self.everywhere.contains(&name)
+            || self.lines.get(&place.line).is_some_and(|codes| codes.contains(&name))
+    }
+}
+
+/// A line before and behind the `$$` that opens its comment.
+fn split(line: &str) -> (&str, Option<&str>) {
+    let mut in_text = false;
+    for (at, byte) in line.bytes().enumerate() {
+        match byte {
+            b'\'' => in_text = !in_text,
+            b'$' if !in_text && line[at..].starts_with("$$") => {
+                return (&line[..at], Some(&line[at + 2..]));
+            }
+            _ => {}
+        }
+    }
+    (line, None)
+}
+
+/// The codes a comment allows, and whether it is for the whole file.
+fn codes(comment: &str) -> Option<(bool, Vec<String>)> {
+    let mut words = comment.split([' ', '\t', ',']).filter(|word| !word.is_empty());
+    let is_ours = words.next()?.eq_ignore_ascii_case("filpost:");
+    let verb = words.next().filter(|_| is_ours)?;
+    let whole_file = verb.eq_ignore_ascii_case("allow-file");
+    if !whole_file && !verb.eq_ignore_ascii_case("allow") {
+        return None;
+    }
+    let is_code = |word: &String| {
+        let digits = word.strip_prefix(['W', 'E']).unwrap_or_default();
+        !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
+    };
+    let names = words.map(str::to_ascii_uppercase).take_while(is_code);
+    Some((whole_file, names.collect()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fil_diag::Place;
+
+    fn diag(code: impl Into<&'static Code>, line: u32) -> Diag {
+        Diag::new(code, "").at(Place::line("a.fil", line, ""))
+    }
+
+    fn allows(text: &str, line: u32) -> bool {
+        Comments::read(text).allow(&diag(LintCode::UnusedLabel, line))
+    }
+
+    fn allowed(codes: &[&'static Code], text: &str, diag: &Diag) -> bool {
+        Allowed { codes, checks: false, files: vec![File::new("a.fil", text)] }.allows(diag)
+    }
+
+    #[test]
+    fn at_the_end_of_the_line_or_before_it() {
+        assert!(allows("XX=1\nLA) XX=2 $$ filpost: allow W0234\n", 2));
+        assert!(allows("$$ filpost: allow W0220, W0234 because\n\n$$ next\nLA) XX=2\n", 4));
+        assert!(!allows("LA) XX=1 $$ filpost: allow W0234\nLB) XX=2\n", 2));
+        assert!(!allows("LA) XX=1 $$ filpost: allow W0235\n", 1));
+        assert!(!allows("LA) XX='$$ filpost: allow W0234'\n", 1));
+    }
+
+    #[test]
+    fn for_the_file_only_at_its_top() {
+        assert!(allows("$$ a post\n$$ FILPOST: ALLOW-FILE W0234\nXX=1\nLA) XX=2\n", 4));
+        assert!(!allows("XX=1\n$$ filpost: allow-file W0234\nLA) XX=2\n", 3));
+    }
+
+    #[test]
+    fn only_errors_of_scripts_that_can_run_are_allowed() {
+        let open = diag(CompileCode::OpenAroundRecord, 1);
+        assert!(allowed(&[], "IF(A)THEN $$ filpost: allow E0223\n", &open));
+        assert!(!allowed(&[], "IF(A)THEN $$ filpost: allow W0223\n", &open));
+        assert!(allowed(&[open.code], "", &open));
+        let own = diag(CompileCode::OwnReading, 1);
+        assert!(!allowed(&[], "X=POSTF(5) $$ filpost: allow W0218\n", &own), "a run says it");
+        let label = diag(CompileCode::UnknownLabel, 1);
+        assert!(!allowed(&[label.code], "JUMPTO/LA $$ filpost: allow E0201\n", &label));
+    }
+}

@@ -1,0 +1,153 @@
+//! What the symbols tell once the vocabulary holds all words of the scripts: words
+//! read as values, macros and sections that never run.
+
+use fil_cl::Vocabulary;
+use fil_cl::layout::takes_text;
+use fil_cl::record::{kind, motion};
+use fil_cl::vocabulary::words as w;
+use fil_diag::{Code, Diag};
+use fil_syntax::tree::{Item, SectionKey};
+
+use super::{Location, Resolution, Role, Symbol, SymbolKind};
+use crate::compile::files::Unit;
+use crate::errors::{CompileCode, LintCode};
+
+/// Macros that the vendor's post calls itself.
+const RESERVED: [&str; 5] = ["_REPOS", "_OUTPTP", "_OUTPUT", "_MCDWT", "_LSTWT"];
+
+/// Words that CL files have only behind `$$->`, which no section sees.
+const PSEUDO_WORDS: [&str; 4] = ["MFGNO", "FEATNO", "CSYS", "CUTCOM_GEOMETRY_TYPE"];
+
+/// Types of records that the reader makes, with their subtypes where they are few.
+const TYPES: [(u32, &[u32]); 6] = [
+    (kind::POST, &[]),
+    (kind::SURFACE, &[]),
+    (kind::MOTION, &[motion::FROM, motion::GODLTA, motion::GOTO]),
+    (kind::CUTTER, &[]),
+    (kind::MODE, &[]),
+    (kind::FINI, &[]),
+];
+
+/// The findings of every load.
+pub(crate) fn find(resolution: &Resolution, units: &[Unit], vocabulary: &Vocabulary) -> Vec<Diag> {
+    let mut findings = Findings { units, vocabulary, diags: Vec::new() };
+    for symbol in &resolution.symbols {
+        match symbol.kind {
+            SymbolKind::Variable if symbol.definitions.is_empty() => findings.word_as_value(symbol),
+            SymbolKind::Macro => findings.reserved_macro(symbol),
+            SymbolKind::Word => findings.misspelt(symbol),
+            _ => {}
+        }
+    }
+    for (file, unit) in units.iter().enumerate() {
+        for item in &unit.program.items {
+            if let Item::Section(section) = item {
+                findings.section(file, &section.key);
+            }
+        }
+    }
+    findings.diags
+}
+
+struct Findings<'a> {
+    units: &'a [Unit],
+    vocabulary: &'a Vocabulary,
+    diags: Vec<Diag>,
+}
+
+impl Findings<'_> {
+    fn add(&mut self, code: impl Into<&'static Code>, at: Location, message: String) -> &mut Diag {
+        let place = self.units[at.file].file.place(at.span);
+        self.diags.push(Diag::new(code, message).at(place));
+        self.diags.last_mut().expect("it was just pushed")
+    }
+
+    /// A word of the vocabulary that is read as a variable is EMPTY, and so is any name
+    /// in a WHEN that nothing sets: both are meant as words.
+    fn word_as_value(&mut self, symbol: &Symbol) {
+        let name = &symbol.name;
+        let is_word =
+            self.vocabulary.find(name).is_some_and(|word| self.vocabulary.is_of_posts(word));
+        for used in &symbol.uses {
+            if used.role == Role::When
+                || (is_word && matches!(used.role, Role::Read | Role::Argument))
+            {
+                let message =
+                    format!("nothing sets {name}, so its value is EMPTY and not the word");
+                let diag = self.add(CompileCode::WordAsValue, used.location, message);
+                diag.hint = Some(match name.as_str() {
+                    "OTHERS" | "ELSE" | "DEFAULT" => {
+                        "the part for all that is left is WHEN/OTHER".into()
+                    }
+                    _ => format!("ICODEF({name}) is the code of the word"),
+                });
+            }
+        }
+    }
+
+    fn reserved_macro(&mut self, symbol: &Symbol) {
+        let Some(at) = symbol.definitions.first() else { return };
+        if RESERVED.contains(&symbol.name.as_str()) {
+            let message = format!("filpost does not call {}", symbol.name);
+            self.add(CompileCode::ReservedMacro, *at, message);
+        }
+    }
+
+    /// A word that is near a known one where it decides what runs: in the key of a
+    /// section, or where a function asks for it. Far from all it is one of the user.
+    fn misspelt(&mut self, symbol: &Symbol) {
+        let word = self.vocabulary.find(&symbol.name);
+        let Some(hint) = word.and_then(|word| self.vocabulary.perhaps_meant(word)) else { return };
+        let mut asked = false;
+        for used in &symbol.uses {
+            let code = match used.role {
+                Role::Key | Role::MinorKey => LintCode::MisspeltWord,
+                Role::Asked if !std::mem::replace(&mut asked, true) => LintCode::UnknownWord,
+                _ => continue,
+            };
+            let message = format!("{} is in no vocabulary", symbol.name);
+            self.add(code, used.location, message).hint = Some(hint.clone());
+        }
+    }
+
+    fn section(&mut self, file: usize, key: &SectionKey) {
+        match key {
+            SectionKey::Types { kind, sub, span } => {
+                let at = Location { file, span: *span };
+                let subs = TYPES.iter().find(|(known, _)| known == kind).map(|(_, subs)| *subs);
+                match (subs, sub) {
+                    (None, _) => {
+                        let message = format!("no record has the type {kind}");
+                        self.add(CompileCode::NeverMatches, at, message);
+                    }
+                    (Some(subs), Some(sub)) if !subs.is_empty() && !subs.contains(sub) => {
+                        let message = format!("no record of the type {kind} has the subtype {sub}");
+                        self.add(CompileCode::NeverMatches, at, message);
+                    }
+                    _ => {}
+                }
+            }
+            SectionKey::Words { major, minors } => {
+                let at = Location { file, span: major.span };
+                let word = self.vocabulary.find(&major.text);
+                if major.text == "ALL" {
+                    let message = "CIMFIL/ON,ALL is not known to take every record".to_string();
+                    self.add(CompileCode::NeverMatches, at, message).hint = Some(
+                        "write a section for each word, or CIMFIL/ON,2000 and CIMFIL/ON,5000"
+                            .into(),
+                    );
+                } else if PSEUDO_WORDS.contains(&major.text.as_str()) {
+                    let message = format!("CL files have {} behind $$-> only", major.text);
+                    self.add(LintCode::SectionNeverRuns, at, message);
+                } else if let (Some(minor), Some(word)) = (minors.first(), word)
+                    && (takes_text(word)
+                        || matches!(word, w::GOTO | w::FROM | w::GODLTA | w::CIRCLE))
+                {
+                    let at = Location { file, span: minor.span };
+                    let message = format!("no word follows {} in a record", major.text);
+                    self.add(CompileCode::NeverMatches, at, message);
+                }
+            }
+        }
+    }
+}
