@@ -5,6 +5,7 @@ mod bytecode;
 mod codes;
 mod control;
 mod macros;
+mod names;
 mod noise;
 mod papers;
 mod postf;

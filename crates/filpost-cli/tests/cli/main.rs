@@ -1,5 +1,6 @@
 //! The command as its users meet it: outputs, exit statuses, files left behind.
 
+mod allow;
 mod batch;
 mod cases;
 mod check;

@@ -42,7 +42,7 @@ fn wrong_usage_has_its_own_status() {
 fn messages_look_as_they_should() {
     let place = Place::new()
         .with("form.ncl", WRONG)
-        .with("open.fil", "CIMFIL/ON,COOLNT\nIF(AA.EQ.1) THEN\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n")
+        .with("open.fil", "CIMFIL/ON,COOLNT\nIF(AA.EQ.1) THEN\nOPSTOP\nCIMFIL/OFF\nFINI\n")
         .with("stack.fil", "CIMFIL/ON,SPINDL\nBB=SQRTF(0-1)\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n")
         .with("part.ncl", SMALL);
     insta::assert_snapshot!("refused_record", place.run(&["post", "form.ncl"]).err);
