@@ -51,6 +51,10 @@ pub fn parse(file: &str, source: &str) -> Parsed {
 }
 
 fn report_rest(reader: &mut Reader<'_>, shared: &Shared) {
+    // A FINI in a statement that could not be read is perhaps no end.
+    if reader.unreadable {
+        return;
+    }
     if let Some(span) = shared.section_after_fini.get() {
         reader.report(SyntaxCode::SectionAfterFini, "this section after FINI is not read", span);
     } else if let Some(span) = shared.after_fini.get() {

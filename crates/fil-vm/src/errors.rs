@@ -212,6 +212,10 @@ fil_diag::codes! {
         UnknownWord = 246, Warning, "word in no vocabulary",
             "Only records of CL files that have this very word can have its code.",
             "Check its spelling; if it is a word of your own, allow it with a comment.";
+        /// ELSE right behind a one-line IF.
+        LooseElse = 248, Warning, "ELSE behind an IF of one line",
+            "A one-line IF has no ELSE, so this one belongs to the IF around it.",
+            "Write IF(condition)THEN … ELSE … ENDIF where the inner IF is meant, else put a CONTIN before the ELSE.";
     }
 }
 
@@ -332,7 +336,7 @@ mod tests {
     #[test]
     fn numbers_stay_in_their_range_and_are_unique() {
         let tables =
-            [(CompileCode::ALL, 201..230), (LintCode::ALL, 220..300), (RunCode::ALL, 301..400)];
+            [(CompileCode::ALL, 201..300), (LintCode::ALL, 220..300), (RunCode::ALL, 301..400)];
         for (codes, range) in tables {
             for pair in codes.windows(2) {
                 assert!(pair[0].number < pair[1].number);

@@ -4,9 +4,9 @@
 //! either way that is safe enough; where the block holds POSTF(13) the missing end
 //! decides which records reach the post, and nobody knows where it was to stand.
 
-use fil_cl::Vocabulary;
 use fil_cl::record::kind;
 use fil_cl::vocabulary::words as w;
+use fil_cl::{Vocabulary, WordId};
 use fil_diag::{Code, Diag};
 use fil_syntax::SyntaxCode;
 use fil_syntax::tree::{Expr, ExprKind, Item, Section, SectionKey, Span, Stmt, StmtKind};
@@ -79,7 +79,7 @@ impl Search<'_> {
             return sent;
         }
         match &stmt.kind {
-            StmtKind::Post { word, .. } if self.is_word_of(key, &word.text) => {
+            StmtKind::Post { word, .. } if self.sends_on(key, &word.text) => {
                 return Some(word.text.clone());
             }
             StmtKind::Call { name, .. } => {
@@ -121,24 +121,33 @@ impl Search<'_> {
         }
     }
 
-    /// True for a post word that makes a record of the kind the section takes.
-    fn is_word_of(&self, key: &SectionKey, word: &str) -> bool {
-        let of_motion = |word| matches!(word, w::GOTO | w::FROM | w::GODLTA | w::CIRCLE);
+    /// True for a post word that does the work of the record the section takes, and for
+    /// END, which may be meant to end the block.
+    fn sends_on(&self, key: &SectionKey, word: &str) -> bool {
         match (key, self.vocabulary.find(word)) {
+            (_, Some(w::END)) => true,
             (SectionKey::Words { major, .. }, _) if major.text == word => true,
             (SectionKey::Words { major, .. }, Some(word)) => {
-                // A motion is sent on by any word that moves.
-                of_motion(word) && self.vocabulary.find(&major.text).is_some_and(of_motion)
+                let major = self.vocabulary.find(&major.text);
+                ALIKE.iter().any(|alike| {
+                    alike.contains(&word) && major.is_some_and(|major| alike.contains(&major))
+                })
             }
             (SectionKey::Types { kind: kind::POST, .. }, Some(word)) => !is_own_output(word),
-            (SectionKey::Types { .. }, Some(word)) => of_motion(word),
+            (SectionKey::Types { .. }, Some(word)) => ALIKE[0].contains(&word),
             (_, None) => false,
         }
     }
 }
 
+/// Words of which each can do the work of the others: motions, tool changes.
+const ALIKE: [&[WordId]; 2] = [
+    &[w::GOTO, w::FROM, w::GODLTA, w::CIRCLE],
+    &[w::LOADTL, w::LOAD, w::TURRET, w::TOOLNO, w::SELCTL, w::SELECT],
+];
+
 /// Words that write of their own, whatever record is current.
-fn is_own_output(word: fil_cl::WordId) -> bool {
+fn is_own_output(word: WordId) -> bool {
     matches!(word, w::POSTN | w::REPEAT | w::PPRINT | w::INSERT | w::TRANS)
 }
 

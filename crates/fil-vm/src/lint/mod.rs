@@ -11,6 +11,7 @@ mod early;
 mod endless;
 pub(crate) mod flow;
 mod labels;
+mod loose_else;
 mod positions;
 mod reals;
 mod same_when;
@@ -67,6 +68,7 @@ const LINTS: &[fn(&mut Context<'_>)] = &[
     early::look,
     unreachable::look,
     same_when::look,
+    loose_else::look,
     labels::look,
     commons::look,
     reals::look,

@@ -3,7 +3,7 @@
 
 use fil_cl::Vocabulary;
 use fil_cl::layout::takes_text;
-use fil_cl::record::{kind, motion};
+use fil_cl::record::{CIRCLE_SURFACE, CUTTER_SUB, kind, mode, motion};
 use fil_cl::vocabulary::words as w;
 use fil_diag::{Code, Diag};
 use fil_syntax::tree::{Item, SectionKey};
@@ -18,14 +18,15 @@ const RESERVED: [&str; 5] = ["_REPOS", "_OUTPTP", "_OUTPUT", "_MCDWT", "_LSTWT"]
 /// Words that CL files have only behind `$$->`, which no section sees.
 const PSEUDO_WORDS: [&str; 4] = ["MFGNO", "FEATNO", "CSYS", "CUTCOM_GEOMETRY_TYPE"];
 
-/// Types of records that the reader makes, with their subtypes where they are few.
+/// Types of records that the reader makes, with their subtypes; that of a post command
+/// is the code of its major word.
 const TYPES: [(u32, &[u32]); 6] = [
     (kind::POST, &[]),
-    (kind::SURFACE, &[]),
+    (kind::SURFACE, &[CIRCLE_SURFACE]),
     (kind::MOTION, &[motion::FROM, motion::GODLTA, motion::GOTO]),
-    (kind::CUTTER, &[]),
-    (kind::MODE, &[]),
-    (kind::FINI, &[]),
+    (kind::CUTTER, &[CUTTER_SUB]),
+    (kind::MODE, &[mode::TLAXIS, mode::MULTAX]),
+    (kind::FINI, &[0]),
 ];
 
 /// The findings of every load.
@@ -110,6 +111,13 @@ impl Findings<'_> {
         }
     }
 
+    fn has_subtype(&self, kind: u32, subs: &[u32], sub: u32) -> bool {
+        match kind {
+            kind::POST => self.vocabulary.minor_with_code(f64::from(sub)).is_some(),
+            _ => subs.contains(&sub),
+        }
+    }
+
     fn section(&mut self, file: usize, key: &SectionKey) {
         match key {
             SectionKey::Types { kind, sub, span } => {
@@ -120,7 +128,7 @@ impl Findings<'_> {
                         let message = format!("no record has the type {kind}");
                         self.add(CompileCode::NeverMatches, at, message);
                     }
-                    (Some(subs), Some(sub)) if !subs.is_empty() && !subs.contains(sub) => {
+                    (Some(subs), Some(sub)) if !self.has_subtype(*kind, subs, *sub) => {
                         let message = format!("no record of the type {kind} has the subtype {sub}");
                         self.add(CompileCode::NeverMatches, at, message);
                     }
