@@ -512,7 +512,7 @@ fn e0713_codes_that_stand() {
         let diag = filpost::allowable(name).expect_err("it can't be allowed");
         assert_eq!(diag.code.name(), "E0713", "{name}");
     }
-    for name in ["E0223", "e0122", "W0151", "w0551"] {
+    for name in ["E0223", "e0122", "W0151", "w0552"] {
         let code = filpost::allowable(name).expect("it can be allowed");
         assert!(code.name().eq_ignore_ascii_case(name));
     }

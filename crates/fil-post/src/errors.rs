@@ -34,7 +34,7 @@ fil_diag::codes! {
         /// No unit.
         NoUnit = 514, Error, "the unit is not known",
             "A length or feed means nothing before the CL file, the machine or the user says mm or inch.",
-            "Put UNITS / MM or UNITS / INCHES first, give --units, or set units.mode of the machine.";
+            "Put UNITS / MM or UNITS / INCHES first, or say the unit of the machine: --set units.mode=2 is mm, 1 is inch.";
         /// UNITS in mid-file.
         UnitChange = 515, Error, "the unit changes in mid-file",
             "Positions, feeds and limits given before would be read in the other unit.",
@@ -86,7 +86,7 @@ fil_diag::codes! {
         /// Unknown major word.
         UnknownWord = 513, Error, "unknown word",
             "The post has no handler for this major word, and no table lists it as without effect. A misspelt GOTO would lose a motion.",
-            "Check its spelling, write a FIL section for it, or list it under words.without_effect in machine.toml or a compat file.";
+            "Check its spelling, write a FIL section for it, or list it under words.without_effect in machine.toml.";
         /// Unknown minor word or ignored part.
         IgnoredPart = 552, Warning, "part of the record has no effect",
             "The post acts on the record but not on this part of it.",
