@@ -7,7 +7,7 @@ use std::path::Path;
 use std::{env, ops::Range};
 
 use filpost_tests::programs::Dice;
-use filpost_tests::random::make::{Program, program, program_of};
+use filpost_tests::random::make::{Program, program};
 use filpost_tests::random::shrink::shrink;
 use filpost_tests::random::verdict::{Verdict, cl_text, judge, judge_changed, nc_text};
 use filpost_tests::rs274;
@@ -28,15 +28,12 @@ struct Tally {
     differ: BTreeMap<String, Vec<u64>>,
 }
 
-/// Makes the program of a seed.
-type Maker = fn(u64) -> Program;
-
-fn tally(rs274: &Path, seeds: Range<u64>, make: Maker) -> Tally {
+fn tally(rs274: &Path, seeds: Range<u64>) -> Tally {
     let mut tally = Tally::default();
     let mut first = seeds.start;
     while first < seeds.end {
         let last = (first + BATCH).min(seeds.end);
-        let programs: Vec<Program> = (first..last).map(make).collect();
+        let programs: Vec<Program> = (first..last).map(program).collect();
         for (seed, verdict) in (first..).zip(judge(rs274, &programs)) {
             match verdict {
                 Verdict::Agrees => tally.agree += 1,
@@ -53,8 +50,8 @@ fn tally(rs274: &Path, seeds: Range<u64>, make: Maker) -> Tally {
 }
 
 /// A program made small, with all that explains it.
-fn story(rs274: &Path, seed: u64, make: Maker) -> String {
-    let small = shrink(rs274, &make(seed));
+fn story(rs274: &Path, seed: u64) -> String {
+    let small = shrink(rs274, &program(seed));
     let verdict = judge(rs274, std::slice::from_ref(&small)).pop();
     let setup = &small.setup;
     format!(
@@ -67,9 +64,9 @@ fn story(rs274: &Path, seed: u64, make: Maker) -> String {
     )
 }
 
-fn agree(rs274: &Path, seeds: Range<u64>, make: Maker) {
+fn agree(rs274: &Path, seeds: Range<u64>) {
     let count = seeds.end - seeds.start;
-    let tally = tally(rs274, seeds, make);
+    let tally = tally(rs274, seeds);
     let refused: u64 = tally.refused.values().sum();
     println!(
         "{count} programs: {} agree, {refused} refused {:?}, {} unpredictable",
@@ -83,7 +80,7 @@ fn agree(rs274: &Path, seeds: Range<u64>, make: Maker) {
         .values()
         .filter_map(|seeds| seeds.first())
         .take(STORIES)
-        .map(|seed| story(rs274, *seed, make))
+        .map(|seed| story(rs274, *seed))
         .collect();
     assert!(stories.is_empty(), "{}", stories.join("\n"));
     assert!(tally.agree * 10 > count * 6, "too few programs are posted to prove anything");
@@ -180,13 +177,5 @@ fn seeds() -> Range<u64> {
 #[test]
 fn random_programs_do_what_their_cl_says() {
     let Some(rs274) = rs274::program() else { return };
-    agree(&rs274, seeds(), program);
-}
-
-/// With what [`NOT_YET`](filpost_tests::random::features::NOT_YET) leaves out.
-#[test]
-#[ignore = "the post does not write all of it right yet"]
-fn random_programs_of_all_features() {
-    let Some(rs274) = rs274::program() else { return };
-    agree(&rs274, seeds(), |seed| program_of(seed, &|_| true));
+    agree(&rs274, seeds());
 }

@@ -7,7 +7,7 @@ use crate::path::Point;
 
 use super::compare::{Comparer, Difference, spell};
 use super::expected::Arc;
-use super::geometry::axes;
+use super::geometry::{axes, distance};
 use super::machine::{NcAct, NcStep};
 
 /// How far an arc has come.
@@ -46,26 +46,15 @@ impl<'e> Sweep<'e> {
         let Some(found) = machine.peek() else {
             return if short && there { Ok(None) } else { self.missing(machine, None) };
         };
+        let turned = match self.turned_by(found, machine) {
+            Ok(turned) => turned,
+            // The whole arc is less than a digit, and the step is the next one's.
+            Err(_) if short && there => return Ok(None),
+            Err(difference) => return Err(difference),
+        };
         if short && there && !self.ends_at_end(found, machine) {
-            // The whole arc is less than a digit.
             return Ok(None);
         }
-        let turned = match &found.act {
-            NcAct::Feed(to) => self.line(*to, machine)?,
-            NcAct::Arc { to, center, normal, ccw, turns } => {
-                if *normal != self.arc.normal || *ccw != self.arc.ccw {
-                    let what = format!("arc about {normal:?}, counterclockwise {ccw}");
-                    return machine.fail("arc sense", what);
-                }
-                self.part(*to, *center, *turns, machine)?
-            }
-            other => {
-                if short && there {
-                    return Ok(None);
-                }
-                return self.missing(machine, Some(other));
-            }
-        };
         self.done += turned;
         if self.done > self.arc.total + noise {
             let (done, total) = (self.done.to_degrees(), self.arc.total.to_degrees());
@@ -74,11 +63,22 @@ impl<'e> Sweep<'e> {
         Ok(Some(found))
     }
 
-    fn missing<'a>(
-        &self,
-        machine: &Comparer<'a>,
-        found: Option<&NcAct>,
-    ) -> Result<Option<&'a NcStep>, Difference> {
+    /// The angle that a step of the machine makes.
+    fn turned_by(&self, found: &NcStep, machine: &Comparer<'_>) -> Result<f64, Difference> {
+        match &found.act {
+            NcAct::Feed(to) => self.line(*to, machine),
+            NcAct::Arc { to, center, normal, ccw, turns } => {
+                if *normal != self.arc.normal || *ccw != self.arc.ccw {
+                    let what = format!("arc about {normal:?}, counterclockwise {ccw}");
+                    return machine.fail("arc sense", what);
+                }
+                self.part(*to, *center, *turns, machine)
+            }
+            other => self.missing(machine, Some(other)),
+        }
+    }
+
+    fn missing<T>(&self, machine: &Comparer<'_>, found: Option<&NcAct>) -> Result<T, Difference> {
         let (done, total) = (self.done.to_degrees(), self.arc.total.to_degrees());
         let what = format!("{found:?} after {done:.4} of {total:.4} degrees of an arc");
         machine.fail("arc", what)
@@ -104,11 +104,27 @@ impl<'e> Sweep<'e> {
             && *ccw == self.arc.ccw
             && short
             && self.ends_at_end(found, machine)
+            && distance(self.flat(*center), self.flat(self.arc.center))
+                < 10.0 * machine.tolerance.curve
     }
 
-    /// The whole circle is a few digits: only that the tool stays there is asked.
+    /// A point without its coordinate along the normal.
+    fn flat(&self, mut point: Point) -> Point {
+        let [.., along] = axes(self.arc.normal);
+        point[along] = 0.0;
+        point
+    }
+
+    /// The arc is so short or small that a step may be of the next one.
+    pub(super) fn is_doubtful(&self, machine: &Comparer<'_>) -> bool {
+        let short = self.arc.total <= 2.0 * self.noise(machine);
+        machine.near(machine.at, self.arc.to) && (short || self.is_small(machine))
+    }
+
+    /// The whole circle is a few digits, or less than a chord may be off: only that
+    /// the tool stays there is asked.
     fn is_small(&self, machine: &Comparer<'_>) -> bool {
-        self.radius < 6.0 * machine.tolerance.end
+        self.radius < (6.0 * machine.tolerance.end).max(machine.tolerance.chord / 2.0)
     }
 
     fn next_of_small<'a>(
@@ -116,10 +132,17 @@ impl<'e> Sweep<'e> {
         machine: &Comparer<'a>,
     ) -> Result<Option<&'a NcStep>, Difference> {
         let there = machine.near(machine.at, self.arc.to);
-        if there && self.done >= self.arc.total - PI / 2.0 {
+        if there && self.done > 0.0 && self.done >= self.arc.total - PI / 2.0 {
             return Ok(None);
         }
         match machine.peek() {
+            Some(NcStep { act: NcAct::Feed(to), .. })
+                if there
+                    && (self.done > 0.0
+                        || self.arc.total < PI && !machine.near(*to, self.arc.to)) =>
+            {
+                Ok(None)
+            }
             Some(found) if self.is_inside(found, machine) && self.done < self.arc.total + PI => {
                 // Its ends are rounded so much that they tell no angle.
                 self.done += PI / 2.0;
@@ -146,7 +169,9 @@ impl<'e> Sweep<'e> {
         };
         match &found.act {
             NcAct::Feed(to) => near(*to),
-            NcAct::Arc { to, center, normal, .. } if *normal == self.arc.normal => {
+            NcAct::Arc { to, center, normal, ccw, .. }
+                if *normal == self.arc.normal && *ccw == self.arc.ccw =>
+            {
                 let [first, second, _] = axes(self.arc.normal);
                 let radius = (to[first] - center[first]).hypot(to[second] - center[second]);
                 near(*to) && radius <= limit
@@ -242,7 +267,7 @@ impl<'e> Sweep<'e> {
             - self.radius;
         let rise = self.arc.to[along] - self.arc.from[along];
         let height = self.arc.from[along] + rise * (done / self.arc.total).clamp(0.0, 1.0);
-        let slack = rise.abs() * self.noise(machine) / self.arc.total;
+        let slack = 3.0 * rise.abs() * self.noise(machine) / self.arc.total;
         let high = (point[along] - height).abs();
         if off.abs() > limit || high > limit + slack {
             let what = format!("{} is {off:.4} beside and {high:.4} over the arc", spell(point));

@@ -107,10 +107,21 @@ pub struct Hole {
     pub back: [f64; 2],
     /// Dwell at the bottom, seconds; `None` where the control decides.
     pub dwell: Option<f64>,
-    /// The tool comes out at feed.
-    pub feed_out: bool,
-    /// The control turns the spindle on the way (tapping, boring).
-    pub spindle_moves: bool,
+    /// How the tool comes out.
+    pub out: WayOut,
+}
+
+/// How a tool comes out of its hole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WayOut {
+    /// At rapid.
+    Rapid,
+    /// At feed.
+    Feed,
+    /// At feed, or at rapid with the spindle stopped.
+    Bored,
+    /// At feed, with the spindle turned round on the way.
+    Tapped,
 }
 
 /// An arc or helix from where the tool is.

@@ -111,11 +111,11 @@ fn run_batch(rs274: &Path, tapes: &[Tape<'_>]) -> Result<Vec<Vec<NcStep>>, Strin
             text.push_str(&format!("N{lines} {line}\n"));
         }
         starts.push(lines);
-        let mut arc_code = None;
+        let mut motion_code = None;
         for line in tape.nc.lines() {
             lines += 1;
             let block = for_interpreter(line, tape.skipping);
-            let block = with_lone_arc_code(&block, &mut arc_code);
+            let block = with_lone_code(&block, &mut motion_code);
             if !block.is_empty() {
                 text.push_str(&format!("N{lines} {block}"));
             }
@@ -171,17 +171,18 @@ fn for_interpreter(line: &str, skipping: bool) -> String {
     }
 }
 
-/// The interpreter refuses G2 and G3 in a block without axes, where other controls
-/// take them for the blocks that follow. So the code goes into the next block that
-/// has axes and no motion code of its own.
-fn with_lone_arc_code(block: &str, waiting: &mut Option<u32>) -> String {
+/// The interpreter refuses G2 and G3, and G1 before any F, in a block without axes,
+/// where other controls take them for the blocks that follow. So the code goes into
+/// the next block that moves and has no motion code of its own.
+fn with_lone_code(block: &str, waiting: &mut Option<u32>) -> String {
     const MOTIONS: [u32; 16] = [0, 1, 2, 3, 33, 73, 76, 80, 81, 82, 83, 84, 85, 86, 88, 89];
     let codes = words(block, 'G');
     let motion = codes.iter().copied().find(|code| MOTIONS.contains(code));
-    let moves = ['X', 'Y', 'Z'].into_iter().any(|letter| block.contains(letter));
+    let moves =
+        ['X', 'Y', 'Z', 'I', 'J', 'K', 'R'].into_iter().any(|letter| block.contains(letter));
     let lone = !block.chars().any(|c| c.is_ascii_alphabetic() && c != 'G');
     match (motion, *waiting) {
-        (Some(code @ (2 | 3)), _) if lone => {
+        (Some(code @ (1..=3)), _) if lone => {
             *waiting = Some(code);
             let others = codes.iter().filter(|other| **other != code);
             others.map(|other| format!("G{other} ")).collect::<String>().trim().to_string()

@@ -4,7 +4,7 @@
 use crate::path::{Axis, Point, Unit};
 use crate::programs::Dice;
 
-use super::features::{FEATURES, Feature, NOT_YET};
+use super::features::{FEATURES, Feature};
 use super::geometry::add;
 use super::model_motion::ends;
 use super::setup::Setup;
@@ -32,19 +32,13 @@ const PREFUNS: &[u32] = &[91, 90, 18, 19, 17, 2, 3, 0, 1, 95, 80, 98, 99];
 const POSTNS: &[&[(char, f64)]] =
     &[&[('G', 91.0)], &[('G', 18.0)], &[('G', 2.0)], &[('F', 77.0)], &[('G', 1.0), ('F', 33.0)]];
 
-/// Draws a program without what [`NOT_YET`] names.
+/// Draws a program.
 pub fn program(seed: u64) -> Program {
-    let allowed = |feature: Feature| NOT_YET.iter().all(|(other, _)| *other != feature);
-    program_of(seed, &allowed)
-}
-
-/// Draws a program of the features that are allowed.
-pub fn program_of(seed: u64, allowed: &dyn Fn(Feature) -> bool) -> Program {
     let mut dice = Dice::from_seed(seed);
-    let setup = Setup::random(&mut dice, allowed);
+    let setup = Setup::random(&mut dice);
     let features: Vec<Feature> = FEATURES
         .iter()
-        .filter(|(feature, times)| dice.once_in(*times) && allowed(*feature))
+        .filter(|(_, times)| dice.once_in(*times))
         .map(|(feature, _)| *feature)
         .collect();
     let mut maker = Maker::new(dice, setup, features);
@@ -177,7 +171,9 @@ impl Maker {
             7 | 8 if self.has(Feature::Cutcom) => self.contour(),
             9 if self.has(Feature::Tools) => self.change_tool(),
             10 if self.has(Feature::Frames) && !self.compensated => self.frame(),
-            11 if self.has(Feature::UnitChanges) => self.change_unit(),
+            11 if self.has(Feature::UnitChanges) && self.setup.ready == "fanuc-mill" => {
+                self.change_unit()
+            }
             12 if self.has(Feature::Skips) => self.skipped(),
             _ => self.milling(),
         }
@@ -241,8 +237,8 @@ impl Maker {
 
     pub(super) fn arc_of(&mut self, radius: f64) {
         let normal = match self.dice.below(4) {
-            0 if !self.compensated && self.has(Feature::OtherPlanes) => Axis::X,
-            1 if !self.compensated && self.has(Feature::OtherPlanes) => Axis::Y,
+            0 if !self.compensated => Axis::X,
+            1 if !self.compensated => Axis::Y,
             _ => Axis::Z,
         };
         // No arc goes further than the table of the machine.

@@ -142,7 +142,7 @@ impl Maker {
         let angle = if self.dice.once_in(2) { 90.0 } else { self.dice.between(0.0, 360.0) };
         let trans = match self.dice.below(4) {
             0 => Trans::Shift(shift),
-            1 if self.has(Feature::OtherPlanes) => Trans::Matrix {
+            1 => Trans::Matrix {
                 about: if self.dice.once_in(2) { Axis::X } else { Axis::Y },
                 angle: 90.0,
                 mirror: self.dice.once_in(3),

@@ -19,6 +19,7 @@ pub mod model;
 mod model_cycle;
 mod model_modes;
 mod model_motion;
+mod senses;
 pub mod setup;
 pub mod shrink;
 pub mod statement;

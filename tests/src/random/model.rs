@@ -8,6 +8,7 @@ use crate::path::{Point, Unit};
 use super::expected::{Act, Compensation, Coolant, Expected, Modes, Rate, Step, Turning, Want};
 use super::geometry::{Frame, add, distance, times};
 use super::model_modes::Waiting;
+use super::senses::has_arc_against_neighbours;
 use super::setup::Setup;
 use super::statement::{Statement, Trans};
 
@@ -55,6 +56,12 @@ pub fn expect(setup: &Setup, statements: &[Statement], world: World) -> Expected
         model.take(statement);
     }
     model.line("FINI");
+    if model.compensated() || model.compensation_waits() {
+        model.may_refuse("compensation that is on at the end");
+    }
+    if has_arc_against_neighbours(&model.out.steps) {
+        model.may_refuse("an arc that runs back from both its neighbours");
+    }
     model.out
 }
 
@@ -117,6 +124,9 @@ impl<'s> Model<'s> {
             Statement::Cutcom(command) => self.cutcom(*command),
             Statement::Skip(on) => {
                 self.line(if *on { "OPSKIP / ON" } else { "OPSKIP / OFF" });
+                if self.height_unknown || self.something_waits() {
+                    self.may_refuse("a word would stand on the other side of OPSKIP");
+                }
                 self.skipping = *on;
             }
             Statement::Cycle(shape) => self.cycle(shape),
@@ -262,6 +272,10 @@ impl<'s> Model<'s> {
 
     pub(super) fn is_skipped(&self) -> bool {
         self.skipping
+    }
+
+    fn something_waits(&self) -> bool {
+        self.spindle.waits() || self.coolant.waits() || self.compensation.waits()
     }
 
     /// Whether a motion goes across, and whether along Z.

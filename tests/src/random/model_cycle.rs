@@ -2,7 +2,7 @@
 
 use crate::path::Point;
 
-use super::expected::{Act, Hole, Rate, Turning, Want};
+use super::expected::{Act, Hole, Rate, Turning, Want, WayOut};
 use super::geometry::times;
 use super::model::{Model, number};
 use super::statement::{CycleKind, CycleShape};
@@ -113,16 +113,16 @@ impl Model<'_> {
             step: cycle.step.filter(|_| cycle.kind.pecks()),
             back: cycle.back(machine[2], clear),
             dwell: self.dwell_at_bottom(cycle),
-            feed_out: self.feed_out(cycle.kind),
-            spindle_moves: matches!(cycle.kind, CycleKind::Tap | CycleKind::Bore),
+            out: match cycle.kind {
+                CycleKind::Tap => WayOut::Tapped,
+                CycleKind::Bore => WayOut::Bored,
+                CycleKind::Ream => WayOut::Feed,
+                _ => WayOut::Rapid,
+            },
         };
         let feed = cycle.feed.clone();
-        let clockwise = |turning: &Turning| matches!(turning, Turning::At { ccw: false, .. });
-        let may_not = |turning: &Turning| !clockwise(turning);
-        if cycle.kind == CycleKind::Tap && self.spindle.now.accepts(may_not) {
-            // The interpreter taps with the spindle clockwise.
-            self.out.unpredictable = true;
-        }
+        let kind = cycle.kind;
+        self.spindle_of(kind);
         if self.height_unknown {
             self.may_refuse("a hole from a height that is not known");
         }
@@ -133,6 +133,19 @@ impl Model<'_> {
         self.feed = outer;
         let back = self.cycle.as_ref().map(|cycle| cycle.back(machine[2], clear));
         self.after_hole(machine, back);
+    }
+
+    /// The interpreter bores with the spindle turning, and taps with it clockwise.
+    fn spindle_of(&mut self, kind: CycleKind) {
+        let wrong = |turning: &Turning| match (kind, turning) {
+            (CycleKind::Tap, Turning::At { ccw, .. }) => *ccw,
+            (CycleKind::Tap | CycleKind::Bore, Turning::Stopped) => true,
+            _ => false,
+        };
+        let asks = matches!(kind, CycleKind::Tap | CycleKind::Bore);
+        if asks && (self.spindle.now == Want::Any || self.spindle.now.accepts(wrong)) {
+            self.out.unpredictable = true;
+        }
     }
 
     /// Where the tool stands after a hole, as far as the CL tells.
@@ -156,13 +169,5 @@ impl Model<'_> {
     /// Cycles that the control ends with a dwell as asked.
     fn dwell_at_bottom(&self, cycle: &Active) -> Option<f64> {
         (cycle.kind != CycleKind::Tap).then(|| cycle.dwell.unwrap_or(0.0))
-    }
-
-    fn feed_out(&self, kind: CycleKind) -> bool {
-        match kind {
-            CycleKind::Ream | CycleKind::Tap => true,
-            CycleKind::Bore => self.setup.expanded || self.setup.ready == "linuxcnc-mill",
-            _ => false,
-        }
     }
 }

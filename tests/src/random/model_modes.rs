@@ -10,7 +10,7 @@ use super::statement::{CoolantCommand, CutcomCommand, Feedrate, SpindleCommand};
 /// A mode whose word may wait for a motion.
 pub(super) struct Waiting<T> {
     pub(super) now: Want<T>,
-    pub(super) next: Option<(Want<T>, Placement)>,
+    next: Option<(Want<T>, Placement)>,
 }
 
 impl<T: PartialEq + Clone> Waiting<T> {
@@ -27,6 +27,11 @@ impl<T: PartialEq + Clone> Waiting<T> {
             self.now = self.now.or(&value);
             self.next = Some((value, placement));
         }
+    }
+
+    /// A value waits for a motion.
+    pub(super) fn waits(&self) -> bool {
+        self.next.is_some()
     }
 
     /// A motion across or along Z: what waited for it is in force.
@@ -155,7 +160,7 @@ impl Model<'_> {
     }
 
     pub(super) fn compensation_waits(&self) -> bool {
-        self.compensation.next.is_some()
+        self.compensation.waits()
     }
 
     pub(super) fn any_compensation(&mut self) {

@@ -27,7 +27,7 @@ impl Model<'_> {
             // the model describes.
             return self.out.unpredictable = true;
         };
-        if !self.is_on_tape() {
+        if self.runs() && !self.is_on_tape() {
             self.must_refuse("an arc from a point that is not on the tape");
         }
         let to = self.frame.apply(end);
@@ -94,7 +94,7 @@ impl Model<'_> {
             return;
         }
         match text {
-            "G4 P1.5" => return self.push(Act::Dwell(1.5)),
+            "G4 P1.5" => return self.push(Act::Dwell(1.5 / self.setup.dwell_factor)),
             "M0" => return self.push(Act::Stop),
             "G1 X5. F50." => return self.text_motion(&[(0, 5.0)], Some(50.0), false),
             "G0 Z60." => return self.text_motion(&[(2, 60.0)], None, true),
@@ -106,7 +106,8 @@ impl Model<'_> {
             self.any_compensation();
         }
         let has = |word: &str| text.split(' ').any(|found| found == word);
-        if self.compensated() && ["G98", "G99", "G80"].into_iter().any(has) {
+        let refused = ["G98", "G99", "G80", "G17", "G18", "G19", "G54"];
+        if self.compensated() && refused.into_iter().any(has) {
             // The interpreter refuses these under compensation.
             self.out.unpredictable = true;
         }
@@ -115,6 +116,9 @@ impl Model<'_> {
         }
         if ["M7", "M8", "M9"].into_iter().any(has) {
             self.any_coolant();
+        }
+        if ["G54", "G91", "G90"].into_iter().any(has) {
+            self.may_refuse("a text that may move the frame");
         }
         if self.cycle.is_some() {
             self.may_refuse("a text in a cycle");
@@ -133,8 +137,10 @@ impl Model<'_> {
         }
         let kept = self.feed.clone();
         if let Some(value) = feed {
-            let per_revolution = false;
-            self.feed = Want::only(Rate { value: value * self.mm(), per_revolution });
+            // A minute or a revolution: as the blocks before it left it.
+            let value = value * self.mm();
+            let rates = [false, true].map(|per_revolution| Rate { value, per_revolution });
+            self.feed = Want::OneOf(rates.to_vec());
         }
         self.push(if rapid { Act::Rapid(target) } else { Act::Feed(target) });
         self.feed = kept;

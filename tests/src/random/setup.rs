@@ -4,8 +4,6 @@
 use crate::path::Unit;
 use crate::programs::Dice;
 
-use super::features::Feature;
-
 /// How arcs are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CenterForm {
@@ -62,13 +60,18 @@ const NO_CYCLES: [&str; 9] =
     ["drill", "csink", "deep", "tap", "bore", "ream", "thru", "face", "brkchp"];
 
 impl Setup {
-    /// Draws a machine that needs only what is allowed.
-    pub fn random(dice: &mut Dice<'static>, allowed: &dyn Fn(Feature) -> bool) -> Self {
-        let ready = dice.pick(&["linuxcnc-mill", "linuxcnc-mill", "fanuc-mill"]);
+    /// Draws a machine.
+    pub fn random(dice: &mut Dice<'static>) -> Self {
+        // The interpreter prints four decimals, which are all of these machines' digits.
+        let unit = if dice.once_in(4) { Unit::Inch } else { Unit::Mm };
+        let ready = match unit {
+            Unit::Inch => "fanuc-mill",
+            Unit::Mm => dice.pick(&["linuxcnc-mill", "fanuc-mill"]),
+        };
         let mut setup = Setup {
             ready,
             settings: Vec::new(),
-            unit: if dice.once_in(4) { Unit::Inch } else { Unit::Mm },
+            unit,
             center: CenterForm::FromStart,
             split: true,
             expanded: false,
@@ -79,15 +82,14 @@ impl Setup {
             dwell_factor: if ready == "fanuc-mill" { 1000.0 } else { 1.0 },
             hostile: dice.once_in(2),
         };
-        let whole_seconds = ready == "fanuc-mill" && dice.once_in(6);
-        if whole_seconds && allowed(Feature::RoundedDwells) {
+        if ready == "fanuc-mill" && dice.once_in(6) {
             // Seconds, of which the format holds whole ones only.
             setup.set("dwell.upm_factor=1");
             setup.dwell_factor = 1.0;
         }
         setup.set("rapid.repeat_feed=0");
-        setup.arcs(dice, allowed);
-        setup.placements(dice, allowed);
+        setup.arcs(dice);
+        setup.placements(dice);
         setup.forms(dice);
         setup
     }
@@ -96,9 +98,8 @@ impl Setup {
     pub fn decimals(&self, unit: Unit) -> (i32, i32) {
         match (self.ready, unit) {
             ("fanuc-mill", Unit::Mm) => (3, 2),
-            ("fanuc-mill", Unit::Inch) => (4, 3),
             (_, Unit::Mm) => (4, 2),
-            (_, Unit::Inch) => (5, 3),
+            (_, Unit::Inch) => (4, 3),
         }
     }
 
@@ -111,9 +112,9 @@ impl Setup {
         self.settings.push(setting.into());
     }
 
-    fn arcs(&mut self, dice: &mut Dice<'static>, allowed: &dyn Fn(Feature) -> bool) {
+    fn arcs(&mut self, dice: &mut Dice<'static>) {
         self.center = match dice.below(4) {
-            0 if allowed(Feature::RadiusForm) => CenterForm::Radius,
+            0 => CenterForm::Radius,
             1 => CenterForm::Absolute,
             _ => CenterForm::FromStart,
         };
@@ -125,18 +126,15 @@ impl Setup {
                 CenterForm::Absolute => 4,
             }
         ));
-        if dice.once_in(3) && allowed(Feature::FineArcs) {
-            self.set("circle.max_degrees=90");
-        }
+        self.choose(dice, 3, "circle.max_degrees=90");
         self.choose(dice, 3, "circle.full_circle=0");
         self.choose(dice, 3, "circle.modal=1");
         self.choose(dice, 3, "circle.axes_modal=0");
     }
 
-    fn placements(&mut self, dice: &mut Dice<'static>, allowed: &dyn Fn(Feature) -> bool) {
+    fn placements(&mut self, dice: &mut Dice<'static>) {
         let mut place = |key: &str, setup: &mut Setup| {
-            let late = dice.once_in(3) && allowed(Feature::LateWords);
-            let number = if late { 2 + dice.below(2) } else { 1 };
+            let number = if dice.once_in(3) { 2 + dice.below(2) } else { 1 };
             setup.set(format!("{key}={number}"));
             [Placement::Own, Placement::NextXy, Placement::NextZ][number - 1]
         };

@@ -104,6 +104,7 @@ fn reads_at_a_glance(control: &Control, arc: &PlaneArc) -> bool {
         off.abs() <= 1.5 * digit * arc.radius
     };
     arc.sweep >= LEAST_SWEEP
+        && arc.radius >= LEAST_RADIUS * digit
         && squared(arc.start, end) > (8.0 * DIGITS * digit).powi(2)
         && round(arc.start)
         && round(end)
