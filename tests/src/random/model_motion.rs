@@ -46,8 +46,20 @@ impl Model<'_> {
         if self.no_feed() {
             self.must_refuse("a feed motion without a feed");
         }
+        if self.is_nearly_a_point(&arc) {
+            self.out.unpredictable = true;
+        }
         self.push(Act::Arc(arc));
         self.stands(to);
+    }
+
+    /// True for an arc of so few last digits that a post may write it as lines, which
+    /// lie beside it by as much as it is high.
+    fn is_nearly_a_point(&self, arc: &Arc) -> bool {
+        let (decimals, _) = self.setup.decimals(self.unit);
+        let digit = 0.1f64.powi(decimals) * self.mm();
+        let away = [0, 1, 2].map(|axis| (arc.from[axis] - arc.center[axis]).powi(2));
+        away.iter().sum::<f64>().sqrt() < 40.0 * digit
     }
 
     /// What a post may rightly refuse in an arc.
