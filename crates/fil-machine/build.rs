@@ -117,9 +117,13 @@ impl<'a> Row<'a> {
             self.name, self.kind, self.number, self.meaning
         )
         .unwrap();
-        writeln!(out, "#[derive(Clone, Copy, Debug, PartialEq, Eq)]\npub enum {name} {{").unwrap();
+        let has_default = choices.iter().any(|(number, ..)| *number == self.default);
+        let default = if has_default { ", Default" } else { "" };
+        writeln!(out, "#[derive(Clone, Copy, Debug, PartialEq, Eq{default})]\npub enum {name} {{")
+            .unwrap();
         for (number, variant, meaning) in &choices {
-            writeln!(out, "    /// {number}: {meaning}\n    {variant} = {number},").unwrap();
+            let mark = if *number == self.default { "    #[default]\n" } else { "" };
+            writeln!(out, "    /// {number}: {meaning}\n{mark}    {variant} = {number},").unwrap();
         }
         writeln!(out, "}}\n\nimpl FromNumber for {name} {{").unwrap();
         writeln!(
@@ -131,13 +135,6 @@ impl<'a> Row<'a> {
             writeln!(out, "            {number} => Some({name}::{variant}),").unwrap();
         }
         writeln!(out, "            _ => None,\n        }}\n    }}\n}}\n").unwrap();
-        if let Some((_, variant, _)) = choices.iter().find(|(number, ..)| *number == self.default) {
-            writeln!(
-                out,
-                "impl Default for {name} {{\n    fn default() -> Self {{\n        {name}::{variant}\n    }}\n}}\n"
-            )
-            .unwrap();
-        }
     }
 
     fn table_entry(&self, out: &mut String) {

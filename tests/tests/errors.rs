@@ -520,7 +520,7 @@ fn e0713_codes_that_stand() {
     std::fs::write(folder.path().join("case.toml"), "cl = 'a'\norigin = 'x'\nallow = ['E0501']\n")
         .expect("a case");
     let case = Case::load(folder.path()).expect("a case");
-    assert_eq!(names(&case.program().err().expect("refused")), ["E0713"]);
+    assert_eq!(names(&case.program().expect_err("refused")), ["E0713"]);
 }
 
 #[test]

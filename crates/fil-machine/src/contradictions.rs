@@ -81,13 +81,13 @@ const NOT_NEGATIVE: &[(Dbl, &str)] = &[
 /// The first contradiction, with the settings that make it.
 pub fn check(commons: &Commons) -> Result<()> {
     match all(commons).into_iter().next() {
-        Some(diag) => Err(diag),
+        Some(diag) => Err(Box::new(diag)),
         None => Ok(()),
     }
 }
 
 /// All contradictions of the settings.
-pub fn all(commons: &Commons) -> Vec<Box<Diag>> {
+pub fn all(commons: &Commons) -> Vec<Diag> {
     let mut found = Vec::new();
     for group in DIFFERENT {
         same_codes(commons, group, &mut found);
@@ -101,11 +101,11 @@ pub fn all(commons: &Commons) -> Vec<Box<Diag>> {
     found
 }
 
-fn contradiction(message: String) -> Box<Diag> {
-    MachineCode::Contradiction.diag(message)
+fn contradiction(message: String) -> Diag {
+    Diag::new(MachineCode::Contradiction, message)
 }
 
-fn same_codes(commons: &Commons, group: &[(CodeAt, &str)], found: &mut Vec<Box<Diag>>) {
+fn same_codes(commons: &Commons, group: &[(CodeAt, &str)], found: &mut Vec<Diag>) {
     for (index, (at, what)) in group.iter().enumerate() {
         let Some(code) = commons.read(*at) else { continue };
         let other = group[..index].iter().find(|(other, _)| commons.read(*other) == Some(code));
@@ -115,7 +115,7 @@ fn same_codes(commons: &Commons, group: &[(CodeAt, &str)], found: &mut Vec<Box<D
     }
 }
 
-fn incremental_start(commons: &Commons, found: &mut Vec<Box<Diag>>) {
+fn incremental_start(commons: &Commons, found: &mut Vec<Diag>) {
     let position = commons.read(loc::MODE_POSITION);
     if position.is_some() && position == commons.read(loc::MODE_INCREMENTAL_CODE) {
         found.push(contradiction(
@@ -124,7 +124,7 @@ fn incremental_start(commons: &Commons, found: &mut Vec<Box<Diag>>) {
     }
 }
 
-fn same_positions(commons: &Commons, found: &mut Vec<Box<Diag>>) {
+fn same_positions(commons: &Commons, found: &mut Vec<Diag>) {
     let position =
         |letter: Letter| TapePosition::numbered(commons.int(Int(u16::from(letter.number()))));
     for letter in Letter::all() {
@@ -140,7 +140,7 @@ fn same_positions(commons: &Commons, found: &mut Vec<Box<Diag>>) {
 }
 
 /// The letters of rotary axes: neither each other's nor those of X, Y and Z.
-fn axis_letters(commons: &Commons, found: &mut Vec<Box<Diag>>) {
+fn axis_letters(commons: &Commons, found: &mut Vec<Diag>) {
     let rotary =
         [loc::ROTARY_PRIMARY_LETTER, loc::ROTARY_SECONDARY_LETTER].map(|at| commons.read(at));
     for letter in rotary.into_iter().flatten() {
@@ -155,7 +155,7 @@ fn axis_letters(commons: &Commons, found: &mut Vec<Box<Diag>>) {
 
 /// Letters of words that may stand in a block together: different, and neither an
 /// axis nor a function.
-fn word_letters(commons: &Commons, found: &mut Vec<Box<Diag>>) {
+fn word_letters(commons: &Commons, found: &mut Vec<Diag>) {
     let of = |at: LetterAt| commons.read(at);
     let taken = |letter: Letter| {
         letters::XYZ.contains(&letter) || [letters::G, letters::M, letters::N].contains(&letter)
@@ -178,7 +178,7 @@ fn word_letters(commons: &Commons, found: &mut Vec<Box<Diag>>) {
     }
 }
 
-fn numbers(commons: &Commons, found: &mut Vec<Box<Diag>>) {
+fn numbers(commons: &Commons, found: &mut Vec<Diag>) {
     for (at, what) in POSITIVE {
         if let Some(value) = commons.read(*at).filter(|value| *value <= 0.0) {
             found.push(contradiction(format!("{what} is {value}, it must be above zero")));
@@ -192,7 +192,7 @@ fn numbers(commons: &Commons, found: &mut Vec<Box<Diag>>) {
 }
 
 /// Lowest and highest values that are the wrong way round.
-fn ranges(commons: &Commons, found: &mut Vec<Box<Diag>>) {
+fn ranges(commons: &Commons, found: &mut Vec<Diag>) {
     let mut range = |low: Option<f64>, high: Option<f64>, what: &str| {
         if let (Some(low), Some(high)) = (low, high)
             && low > high

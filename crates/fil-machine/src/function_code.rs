@@ -81,9 +81,9 @@ impl FunctionCode {
             text.put(b'0' + tenth as u8);
             text.put(b'.');
         }
-        let before = text.len();
+        let before = text.width();
         text.put_number(u64::from(self.tenths / 10));
-        while format.leading && text.len() - before < usize::from(format.whole) {
+        while format.leading && text.width() - before < usize::from(format.whole) {
             text.put(b'0');
         }
     }

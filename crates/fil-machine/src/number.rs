@@ -204,7 +204,7 @@ impl NumberFormat {
             width = width.saturating_sub(1);
         }
         text.put_number(rest);
-        while self.leading && text.len() < width {
+        while self.leading && text.width() < width {
             text.put(b'0');
         }
     }

@@ -23,6 +23,13 @@ pub struct WordText {
     start: usize,
 }
 
+impl Default for WordText {
+    #[inline]
+    fn default() -> Self {
+        WordText::new()
+    }
+}
+
 impl WordText {
     /// Nothing yet.
     #[inline]
@@ -30,9 +37,9 @@ impl WordText {
         WordText { bytes: [0; END + CHUNK], start: END }
     }
 
-    /// Length in bytes.
+    /// Number of characters.
     #[inline]
-    pub fn len(&self) -> usize {
+    pub fn width(&self) -> usize {
         END - self.start
     }
 
