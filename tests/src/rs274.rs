@@ -108,19 +108,25 @@ pub fn installed() -> Option<PathBuf> {
 /// What the interpreter says against the program, or why it could not be run.
 pub fn run(program: &Path, nc: &str) -> Result<Vec<Call>, String> {
     interpret(program, nc)?;
-    parse(&interpret(program, &with_line_numbers(nc))?)
+    let tools = tool_table(nc, &['T']);
+    parse(&interpret_with(program, &with_line_numbers(nc), &tools)?)
 }
 
-/// Runs a program once and gives the text of its canonical calls.
+/// Runs a program once and gives the text of its canonical calls; every T, D and H is in
+/// the tool table.
 ///
 /// # Errors
 /// As [`run`].
 pub fn interpret(program: &Path, nc: &str) -> Result<String, String> {
+    interpret_with(program, nc, &tool_table(nc, &['T', 'D', 'H']))
+}
+
+fn interpret_with(program: &Path, nc: &str, tools: &str) -> Result<String, String> {
     let failed = |error: std::io::Error| format!("{}: {error}", program.display());
     let folder = tempfile::tempdir().map_err(failed)?;
     let file = |name: &str| folder.path().join(name);
     fs::write(file("in.ngc"), nc).map_err(failed)?;
-    fs::write(file("tools.tbl"), tool_table(nc)).map_err(failed)?;
+    fs::write(file("tools.tbl"), tools).map_err(failed)?;
     let output = Command::new(program)
         .current_dir(folder.path())
         // The interpreter keeps its tools in a file of the home folder: runs side by
@@ -142,9 +148,9 @@ pub fn interpret(program: &Path, nc: &str) -> Result<String, String> {
     }
 }
 
-/// A tool table with every T, D and H of the program, of no length and diameter.
-fn tool_table(nc: &str) -> String {
-    let called = |line| ['T', 'D', 'H'].map(|letter| words(line, letter)).into_iter().flatten();
+/// A tool table with the numbers behind these letters, of no length and diameter.
+fn tool_table(nc: &str, letters: &[char]) -> String {
+    let called = |line| letters.iter().flat_map(move |letter| words(line, *letter));
     let tools: BTreeSet<u32> = nc.lines().flat_map(called).filter(|tool| *tool > 0).collect();
     tools.iter().map(|tool| format!("T{tool} P{tool} D0 Z0\n")).collect()
 }
@@ -305,7 +311,7 @@ mod tests {
     fn blocks_get_the_number_of_their_line() {
         let nc = "%\nO100\nN10G0X1\n/N20 G1 Y2\n(T9)\nT3M6\n";
         assert_eq!(with_line_numbers(nc), "%\nO100\nN3 G0X1\n/N4  G1 Y2\nN5 (T9)\nN6 T3M6\n");
-        assert_eq!(tool_table(nc), "T3 P3 D0 Z0\n");
+        assert_eq!(tool_table(nc, &['T']), "T3 P3 D0 Z0\n");
     }
 
     #[test]

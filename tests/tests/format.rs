@@ -33,6 +33,16 @@ fn find(folder: &Path, found: &mut Vec<PathBuf>) {
 
 /// The bytecode of a text without line numbers, and the codes of its warnings;
 /// or the codes it is refused with.
+/// The same without the warning that judges how a script is laid out: formatting answers it.
+fn without_layout(
+    compiled: Result<(String, Vec<String>), Vec<String>>,
+) -> Result<(String, Vec<String>), Vec<String>> {
+    compiled.map(|(code, mut warnings)| {
+        warnings.retain(|warning| !warning.starts_with("W0248"));
+        (code, warnings)
+    })
+}
+
 fn compiled(path: &Path, text: &str) -> Result<(String, Vec<String>), Vec<String>> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let mut loader = |_: &str, name: &str| {
@@ -80,8 +90,8 @@ fn every_script_does_the_same_when_formatted() {
             continue;
         };
         assert_eq!(format(&name, &formatted).ok().as_ref(), Some(&formatted), "{name}");
-        let before = compiled(&path, &text);
-        assert_eq!(compiled(&path, &formatted), before, "{name}");
+        let before = without_layout(compiled(&path, &text));
+        assert_eq!(without_layout(compiled(&path, &formatted)), before, "{name}");
         compiling += usize::from(before.is_ok());
         changed += usize::from(formatted != text);
     }

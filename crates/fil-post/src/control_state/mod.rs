@@ -250,7 +250,12 @@ impl ControlState {
             }
             Meaning::Plane(plane) => self.plane = Some(plane),
             Meaning::Distance(distance) => self.distance = Some(distance),
-            Meaning::Unit(unit) => self.unit = Some(unit),
+            Meaning::Unit(unit) => {
+                if self.unit != Some(unit) {
+                    self.doubtful = LetterSet::ALL;
+                }
+                self.unit = Some(unit);
+            }
             Meaning::FeedMode(mode) => {
                 // Some controls forget F even when the mode stays.
                 self.doubt(letters::F);

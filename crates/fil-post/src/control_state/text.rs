@@ -35,7 +35,7 @@ pub fn read(text: &str) -> Option<TextWords> {
         let Some(first) = rest.chars().next() else { return Some(found) };
         if first == ';' {
             // A comment on some controls, the end of a block on others.
-            return rest[1..].trim().is_empty().then_some(found);
+            return (!names_function(&rest[1..])).then_some(found);
         }
         if first == '(' {
             rest = &rest[rest.find(')')? + 1..];
@@ -50,6 +50,12 @@ pub fn read(text: &str) -> Option<TextWords> {
         found.words.push((letter, value));
         rest = after;
     }
+}
+
+/// True for a text with something like G91 or M98 in it.
+fn names_function(text: &str) -> bool {
+    let mut pairs = text.chars().zip(text.chars().skip(1));
+    pairs.any(|(letter, next)| "GMgm".contains(letter) && next.is_ascii_digit())
 }
 
 /// What comes after `R101=0.5` or `#101=0.5`: a parameter gets a value, and no mode
@@ -83,6 +89,7 @@ mod tests {
     fn words_are_read_packed_and_apart() {
         assert_eq!(words("G90G80G40G00").unwrap(), "G90 G80 G40 G0");
         assert_eq!(words(" g 91 (a G90) x-1.5 ;").unwrap(), "G91 X-1.5");
+        assert_eq!(words("M3 S1000 ; spindle on").unwrap(), "M3 S1000");
         assert_eq!(words("M8;G91"), None);
         assert_eq!(words("N10 M98 P+100").unwrap(), "N10 M98 P100");
         assert_eq!(words("(only a comment)").unwrap(), "");
