@@ -96,7 +96,11 @@ impl<'c> Settings<'c> {
             self.allowed(half(letter) / self.scale(common) * unit)
         };
         let axes = [0, 1, 2].map(|common| (letters::XYZ[common], common));
-        let scaled = |common: usize| (self.scale(common) != 1.0).then_some(2.0 * unit);
+        // A diameter is rounded once, after it is doubled.
+        let scaled = |common: usize| {
+            let diameter = common == 0 && self.scale(common) == 2.0;
+            (self.scale(common) != 1.0 && !diameter).then_some(2.0 * unit)
+        };
         let rotary = [0, 1].map(|index| match &self.forward.rotaries()[index] {
             Some(axis) => of_axis(axis.letter, axis.axis + 3, 1.0),
             None => 0.0,
