@@ -3,7 +3,7 @@
 //!
 //! All settings live in the [`commons::Commons`]; the table of [`locations`] names
 //! and types them. [`address`] and [`axes`] are what the commons say about the
-//! letters and the axis words of a block, [`kinematics`] is the chain of rotary
+//! letters and the axis words of a block, [`axis_chain`] is the chain of rotary
 //! axes. [`files`] reads and writes `machine.toml` and option files. Nothing here
 //! knows CL records, FIL or NC programs.
 

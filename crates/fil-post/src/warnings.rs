@@ -19,7 +19,7 @@ pub struct Warnings {
 
 impl Warnings {
     /// Warns once per code and subject; a run that warns without end stops at
-    /// [`MOST`], so that memory does not grow with the CL file.
+    /// a thousand, so that memory does not grow with the CL file.
     pub fn add(&mut self, code: PostCode, message: String) {
         self.add_with(code, message, || None);
     }
