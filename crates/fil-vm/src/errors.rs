@@ -115,6 +115,10 @@ fil_diag::codes! {
         NameInText = 247, Error, "name without a value in a text",
             "A list of texts joins values; a name that nothing sets has none.",
             "Check its spelling, or put it between apostrophes.";
+        /// A letter where its number is hardly meant.
+        LetterAsValue = 251, Error, "letter as a value",
+            "A to Z are the numbers 1 to 26, the addresses of POSTN and REPEAT; as a value such a number is hardly meant.",
+            "Give the value a name of two letters or more. LASTF(X) is the last X written, POSTF(7,6) the X of a point.";
     }
 }
 
@@ -128,6 +132,7 @@ impl CompileCode {
         CompileCode::OtherStatement,
         CompileCode::ReservedMacro,
         CompileCode::NeverMatches,
+        CompileCode::LetterAsValue,
         CompileCode::NameInText,
     ];
 }
@@ -216,6 +221,14 @@ fil_diag::codes! {
         LooseElse = 248, Warning, "ELSE behind an IF of one line",
             "A one-line IF has no ELSE, so this one belongs to the IF around it.",
             "Write IF(condition)THEN … ELSE … ENDIF where the inner IF is meant, else put a CONTIN before the ELSE.";
+        /// A letter in an expression.
+        LetterInExpression = 249, Warning, "letter in an expression",
+            "No statement sets this letter, so it is the number of its address, 1 to 26.",
+            "Give the value a name of two letters or more.";
+        /// A WHEN without statements before another one.
+        EmptyWhen = 250, Warning, "WHEN without statements",
+            "No part of a CASE runs on into the next one, so nothing runs for these values.",
+            "Write WHEN/a,b where one part is for several values, or CONTIN where nothing is to run.";
     }
 }
 

@@ -35,6 +35,7 @@ pub(crate) const ELSEWHERE: &[(&str, &str)] = &[
     ("ENDMAC", "write TERMAC"),
     ("ENDWHILE", "loops are DO/label,… or JUMPTO/label"),
     ("EXIT", "write JUMPTO/label"),
+    ("JUMP", "write JUMPTO/label"),
     ("LOOPND", "loops are DO/label,… or JUMPTO/label"),
     ("LOOPST", "loops are DO/label,… or JUMPTO/label"),
     ("OTHER", "the part of a CASE for all that is left is WHEN/OTHER"),

@@ -1,4 +1,5 @@
-//! W0233: a WHEN for a value that an earlier WHEN takes.
+//! W0233 and W0250: a WHEN for a value that an earlier WHEN takes, and one without
+//! statements before another.
 
 use fil_syntax::tree::{Expr, ExprKind, Span, Stmt, StmtKind, When};
 
@@ -14,9 +15,9 @@ enum Value<'t> {
     Text(&'t str),
 }
 
-/// Warns of the second WHEN.
+/// Warns of the second WHEN, and of the empty one.
 pub(super) fn look(context: &mut Context<'_>) {
-    let mut found: Vec<(usize, Span)> = Vec::new();
+    let mut found: Vec<(usize, LintCode, Span)> = Vec::new();
     for (number, unit) in context.program.units.iter().enumerate() {
         for item in &unit.program.items {
             if let fil_syntax::tree::Item::Stmt(stmt) = item {
@@ -32,16 +33,28 @@ pub(super) fn look(context: &mut Context<'_>) {
         };
         statements(context, body.unit, statements_of, &mut found);
     }
-    for (unit, span) in found {
-        let message = "an earlier WHEN of this CASE takes this value".to_string();
-        context.report(LintCode::SameWhen, unit, span, message);
+    for (unit, code, span) in found {
+        let message = match code {
+            LintCode::EmptyWhen => "no statement stands between this WHEN and the next",
+            _ => "an earlier WHEN of this CASE takes this value",
+        };
+        context.report(code, unit, span, message.to_string());
     }
 }
 
-fn statements(context: &Context<'_>, unit: usize, body: &[Stmt], found: &mut Vec<(usize, Span)>) {
+fn statements(
+    context: &Context<'_>,
+    unit: usize,
+    body: &[Stmt],
+    found: &mut Vec<(usize, LintCode, Span)>,
+) {
     for stmt in body {
         if let StmtKind::Case { whens, .. } = &stmt.kind {
-            found.extend(doubles(context, whens).into_iter().map(|span| (unit, span)));
+            let doubles = doubles(context, whens).into_iter();
+            found.extend(doubles.map(|span| (unit, LintCode::SameWhen, span)));
+            let followed = whens.split_last().map_or(&[][..], |(_, followed)| followed);
+            let empty = followed.iter().filter(|when| when.body.is_empty());
+            found.extend(empty.map(|when| (unit, LintCode::EmptyWhen, when.span)));
         }
         inner_bodies(stmt, &mut |inner| statements(context, unit, inner, found));
     }

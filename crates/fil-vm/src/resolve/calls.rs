@@ -81,6 +81,9 @@ impl<'t> Resolver<'t, '_> {
             _ => args,
         };
         let written = kind.word_argument();
+        // POSTF(3,3,355+X), LASTF(X)
+        let outer = self.takes_letters;
+        self.takes_letters |= matches!(kind, Kind::Postf | Kind::LastWritten);
         for (index, arg) in args.iter().enumerate() {
             match (&arg.kind, written == Some(index)) {
                 (ExprKind::Name(name), true) => match kind {
@@ -98,6 +101,7 @@ impl<'t> Resolver<'t, '_> {
                 (_, false) => self.expression(arg, Role::Read),
             }
         }
+        self.takes_letters = outer;
     }
 
     /// What follows TEXT/: a form with its minor word, or values to join.

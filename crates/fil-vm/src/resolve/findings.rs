@@ -9,6 +9,7 @@ use fil_diag::{Code, Diag};
 use fil_syntax::tree::{Item, SectionKey};
 
 use super::{Location, Resolution, Role, Symbol, SymbolKind};
+use crate::builtins;
 use crate::compile::files::Unit;
 use crate::errors::{CompileCode, LintCode};
 
@@ -67,19 +68,21 @@ impl Findings<'_> {
     /// in a WHEN that nothing sets: both are meant as words.
     fn word_as_value(&mut self, symbol: &Symbol) {
         let name = &symbol.name;
-        let is_word =
-            self.vocabulary.find(name).is_some_and(|word| self.vocabulary.is_of_posts(word));
+        let is_function = builtins::find(name).is_some();
+        let word = self.vocabulary.find(name);
+        let is_word = is_function || word.is_some_and(|word| self.vocabulary.is_of_posts(word));
         for used in &symbol.uses {
             if used.role == Role::When
-                || (is_word && matches!(used.role, Role::Read | Role::Argument))
+                || (is_word && matches!(used.role, Role::Read | Role::Operand | Role::Argument))
             {
-                let message =
-                    format!("nothing sets {name}, so its value is EMPTY and not the word");
+                let what = if is_function { "a result of the function" } else { "the word" };
+                let message = format!("nothing sets {name}, so its value is EMPTY and not {what}");
                 let diag = self.add(CompileCode::WordAsValue, used.location, message);
                 diag.hint = Some(match name.as_str() {
                     "OTHERS" | "ELSE" | "DEFAULT" => {
                         "the part for all that is left is WHEN/OTHER".into()
                     }
+                    _ if is_function => format!("a function is called with brackets: {name}(…)"),
                     _ => format!("ICODEF({name}) is the code of the word"),
                 });
             }

@@ -37,6 +37,9 @@ impl<'t> Resolver<'t, '_> {
         self.refuse_other_statement(word, major);
         let is_text = major.is_some_and(takes_text);
         for (index, arg) in args.iter().enumerate() {
+            if !is_address(major, index) {
+                self.refuse_letters(arg);
+            }
             match &arg.kind {
                 ExprKind::Name(name) if !self.is_variable(name) => {
                     self.word(name, arg.span, Role::Minor);
@@ -44,9 +47,7 @@ impl<'t> Resolver<'t, '_> {
                 }
                 ExprKind::Name(name) => {
                     self.expression(arg, if is_text { Role::Text } else { Role::Read });
-                    if is_text {
-                        self.refuse_letter(name, arg.span);
-                    } else if self.is_word_too(major, args, index, name) {
+                    if !is_text && self.is_word_too(major, args, index, name) {
                         let message =
                             format!("{name} is a variable here and a word of {}", word.text);
                         self.report(CompileCode::NameOrWord, arg.span, message);
@@ -73,9 +74,7 @@ impl<'t> Resolver<'t, '_> {
     pub(super) fn joined(&mut self, values: &'t [Expr]) {
         for value in values {
             self.expression(value, Role::Text);
-            if let ExprKind::Name(name) = &value.kind {
-                self.refuse_letter(name, value.span);
-            }
+            self.refuse_letters(value);
         }
     }
 
@@ -127,11 +126,22 @@ impl<'t> Resolver<'t, '_> {
         }
     }
 
-    /// A letter that is nowhere set is a number, which a text hardly means.
-    fn refuse_letter(&mut self, name: &str, span: Span) {
-        if let Some(number) = letter(name).filter(|_| !self.is_assigned(name)) {
-            let message = format!("{name} stands for the number {number} here");
-            self.report(CompileCode::NameInText, span, message);
+    /// A letter that nothing sets is the number of an address, which is hardly meant in a
+    /// value that goes to the post. Functions may be asked for an address.
+    fn refuse_letters(&mut self, value: &Expr) {
+        match &value.kind {
+            ExprKind::Name(name) => {
+                if let Some(number) = letter(name).filter(|_| !self.is_assigned(name)) {
+                    let message = format!("{name} stands for the number {number} here");
+                    self.report(CompileCode::LetterAsValue, value.span, message);
+                }
+            }
+            ExprKind::Unary { operand, .. } => self.refuse_letters(operand),
+            ExprKind::Binary { left, right, .. } => {
+                self.refuse_letters(left);
+                self.refuse_letters(right);
+            }
+            ExprKind::Number(_) | ExprKind::Text(_) | ExprKind::Call { .. } => {}
         }
     }
 
@@ -159,5 +169,14 @@ impl<'t> Resolver<'t, '_> {
             Some(w::CIRCLE | w::TRANS | w::TRACUT) => !is_quantity,
             _ => !is_quantity || args.get(index + 1).is_some_and(is_value),
         }
+    }
+}
+
+/// True for an item that is the number of an address: POSTN/OUT,G,1 and REPEAT/Z,5.
+fn is_address(major: Option<WordId>, index: usize) -> bool {
+    match major {
+        Some(w::POSTN) => index % 2 == 1,
+        Some(w::REPEAT) => index % 2 == 0,
+        _ => false,
     }
 }

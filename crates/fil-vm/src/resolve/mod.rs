@@ -67,6 +67,8 @@ pub enum SymbolKind {
 pub enum Role {
     /// Its value is read.
     Read,
+    /// It is an operand of an expression.
+    Operand,
     /// It is a value of a WHEN by itself.
     When,
     /// It is an argument of CALL by itself.
@@ -240,6 +242,7 @@ pub(crate) fn resolve<'t>(input: Input<'t, '_>) -> (Resolution, Names<'t>, Vec<D
         parameters: Vec::new(),
         scope: Scope::default(),
         unit: 0,
+        takes_letters: false,
         visited: vec![false; input.units.len()],
         again: false,
         diags: Vec::new(),
@@ -275,6 +278,8 @@ struct Resolver<'t, 'v> {
     unit: usize,
     /// Files that have been walked before.
     visited: Vec<bool>,
+    /// An argument is walked where a letter is meant as the number of its address.
+    takes_letters: bool,
     /// Statements of this file have been walked before: an INCLUD brings them a second time.
     again: bool,
     diags: Vec<Diag>,

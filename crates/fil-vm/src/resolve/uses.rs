@@ -206,12 +206,16 @@ impl<'t> Resolver<'t, '_> {
                 self.used(symbol, expr.span, role);
             }
             ExprKind::Call { name, args } => self.call(name, args),
-            ExprKind::Unary { operand, .. } => self.expression(operand, Role::Read),
+            ExprKind::Unary { operand, .. } => self.expression(operand, self.operand()),
             ExprKind::Binary { left, right, .. } => {
-                self.expression(left, Role::Read);
-                self.expression(right, Role::Read);
+                self.expression(left, self.operand());
+                self.expression(right, self.operand());
             }
         }
+    }
+
+    fn operand(&self) -> Role {
+        if self.takes_letters { Role::Read } else { Role::Operand }
     }
 
     fn label(&mut self, name: &'t str) -> SymbolId {

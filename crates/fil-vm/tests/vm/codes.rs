@@ -41,6 +41,7 @@ fn compile_case(number: u16) -> Option<(String, u32)> {
         226 => ("XX=1\nCONTINUE", 2),
         227 => ("_MCDWT=MACRO\nRAPID\nTERMAC", 1),
         228 => ("CIMFIL/ON,ALL\nRAPID\nCIMFIL/OFF", 1),
+        251 => ("XX=1\nGOTO/X,XX,XX", 2),
         247 => ("INSERT/'G4 P',PAUS", 1),
         _ => return None,
     };
@@ -130,6 +131,8 @@ fn lint_case(number: u16) -> Option<(&'static str, u32)> {
         243 => ("RPM=3000", 1),
         244 => ("CIMFIL/ON,DRILL\nRAPID\nCIMFIL/OFF", 1),
         245 => ("XX=1\nCHUCK/1", 2),
+        249 => ("XX=1\nYY=XX*X", 2),
+        250 => ("CASE/1\nWHEN/2\nWHEN/3\nRAPID\nENDCAS", 2),
         248 => ("IF(1.EQ.1)THEN\nIF(2.EQ.2)RAPID\nELSE\nRAPID\nENDIF", 2),
         246 => ("IF(ICODEF(EMBOSL).EQ.1)RAPID", 1),
         _ => return None,

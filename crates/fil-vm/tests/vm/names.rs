@@ -69,25 +69,27 @@ fn names_are_found_where_they_are_defined_and_used() {
     let analysis = analysis(MAIN);
     assert!(analysis.module.is_some(), "{:?}", analysis.diags);
     let found = |kind, name| lines(&analysis, named(&analysis.resolution, kind, name));
-    use Role::{Argument, Asked, Call, Jump, LoopEnd, MinorKey, Parameter, Read, SetElement};
+    use Role::{
+        Argument, Asked, Call, Jump, LoopEnd, MinorKey, Operand, Parameter, Read, SetElement,
+    };
     assert_eq!(found(SymbolKind::Array, "TAB"), (vec![1], vec![(14, SetElement)]));
     assert_eq!(found(SymbolKind::Table, "SIZES"), (vec![2], vec![(13, Read)]));
     let loop_variable = (vec![13], vec![(14, Read), (14, Read), (16, Argument)]);
     assert_eq!(found(SymbolKind::Variable, "NN"), loop_variable);
     // The macro TELL, which has no such parameter, reads the variable; PPRINT its value.
-    let dia = (vec![3], vec![(4, Argument), (-1, Read), (16, Argument), (19, Read)]);
+    let dia = (vec![3], vec![(4, Argument), (-1, Operand), (16, Argument), (19, Read)]);
     assert_eq!(found(SymbolKind::Variable, "DIA"), dia);
-    assert_eq!(found(SymbolKind::Parameter, "DIA"), (vec![4], vec![(-1, Read)]));
+    assert_eq!(found(SymbolKind::Parameter, "DIA"), (vec![4], vec![(-1, Operand)]));
     assert_eq!(found(SymbolKind::Parameter, "TALL"), (vec![4], vec![(16, Parameter)]));
     assert_eq!(found(SymbolKind::Macro, "SHOW"), (vec![4], vec![(16, Call)]));
     assert_eq!(found(SymbolKind::Label, "LA"), (vec![15], vec![(13, LoopEnd)]));
     assert_eq!(found(SymbolKind::Label, "OUT"), (vec![10], vec![(9, Jump)]));
-    assert_eq!(found(SymbolKind::Letter, "X"), (vec![], vec![(14, Read)]));
+    assert_eq!(found(SymbolKind::Letter, "X"), (vec![], vec![(14, Operand)]));
     assert_eq!(found(SymbolKind::Word, "RPM"), (vec![], vec![(3, Asked)]));
     assert_eq!(found(SymbolKind::Word, "DEEP"), (vec![], vec![(12, MinorKey)]));
     assert_eq!(found(SymbolKind::Word, "OPSTOP"), (vec![], vec![(-1, Role::Major)]));
     assert_eq!(found(SymbolKind::Word, "CLW"), (vec![], vec![(18, Role::Minor)]));
-    assert_eq!(found(SymbolKind::Variable, "RPM"), (vec![3], vec![(18, Read)]));
+    assert_eq!(found(SymbolKind::Variable, "RPM"), (vec![3], vec![(18, Operand)]));
     assert_eq!(found(SymbolKind::Function, "SQRTF"), (vec![], vec![(14, Call)]));
     assert_eq!(found(SymbolKind::Section, "CYCLE,DEEP"), (vec![12], vec![]));
 }
@@ -150,7 +152,7 @@ fn names_are_resolved_in_a_file_with_errors() {
     let analysis = analysis("XX=1\nYY=)\nIF(XX.EQ.1)THEN\nCALL/NOSUCH,XX\nJUMPTO/NOWHR\nFINI\n");
     assert!(analysis.module.is_none());
     let found = |kind, name| lines(&analysis, named(&analysis.resolution, kind, name));
-    let uses = vec![(3, Role::Read), (4, Role::Argument)];
+    let uses = vec![(3, Role::Operand), (4, Role::Argument)];
     assert_eq!(found(SymbolKind::Variable, "XX"), (vec![1], uses));
     assert_eq!(found(SymbolKind::Label, "NOWHR"), (vec![], vec![(5, Role::Jump)]));
     let codes: Vec<u16> = analysis.diags.iter().map(|diag| diag.code.number).collect();
