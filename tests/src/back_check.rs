@@ -5,7 +5,7 @@ use fil_nc::dialect::Dialect;
 use fil_nc::interpret;
 use fil_nc::motion::Event;
 use fil_nc::verify::{Allowed, Check, Report, verify};
-use filpost::{Commons, Diag};
+use filpost::{Commons, Diag, Unit};
 
 /// What a program does on a machine.
 ///
@@ -15,7 +15,8 @@ pub fn events(commons: &Commons, nc: &str) -> Result<Vec<Event>, Box<Diag>> {
     interpret::events(nc.as_bytes(), "out.nc", &Dialect::new(commons)?)
 }
 
-/// Compares a program that does this with a CL file.
+/// Compares a program that does this with a CL file; one without UNITS is in the unit
+/// of the machine.
 ///
 /// # Errors
 /// As [`verify`].
@@ -26,7 +27,8 @@ pub fn compare(
     allowed: Allowed,
 ) -> Result<Report, Box<Diag>> {
     let (cl_name, options) = ("part.ncl", Options::default());
-    verify(Check { cl, cl_name, options, nc, events, commons, allowed })
+    let unit = Unit::of_machine(commons);
+    verify(Check { cl, cl_name, options, unit, nc, events, commons, allowed })
 }
 
 /// Follows a program and compares it with a CL file.

@@ -10,7 +10,9 @@ use std::path::{Path, PathBuf};
 
 use filpost::case::Case;
 use filpost::nc::verify::Allowed;
-use filpost::{CancelToken, Code, Diag, Error, Limits, Program, Severity, all_codes, files, trace};
+use filpost::{
+    CancelToken, Code, Diag, Error, Limits, Program, Severity, Unit, all_codes, files, trace,
+};
 use filpost_tests::examples::{self, PART};
 use filpost_tests::{lints, motions, root};
 
@@ -45,6 +47,9 @@ const TESTED_HERE: &[(&str, &str)] = &[
     ("E0711", "e0711_cancelled"),
     ("E0712", "e0712_record_from_memory"),
     ("E0713", "e0713_codes_that_stand"),
+    ("E0714", "e0714_machin_names_no_post"),
+    ("E0715", "e0715_units_contradict"),
+    ("E0940", "e0940_unit_not_known"),
     ("E0941", "e0941_another_part"),
 ];
 
@@ -533,6 +538,48 @@ fn a_case_allows_codes() {
     assert_eq!(warnings, ["W0150"]);
     case.file.allow.push("W0150".into());
     assert!(case.program().expect("the block is closed").warnings().is_empty());
+}
+
+#[test]
+fn e0714_machin_names_no_post() {
+    let asked = filpost::select::asked(
+        "MACHIN / UNCX01, 7\n".as_bytes(),
+        "part.ncl",
+        fil_cl::reader::Options::default(),
+    );
+    let refused = filpost::select::choose(&asked.expect("MACHIN"), &[]).expect_err("refused");
+    assert_eq!(names(&refused), ["E0714"]);
+}
+
+#[test]
+fn e0715_units_contradict() {
+    let given = |program: &Program, unit, cl: &str| {
+        program.start().units(unit).run(cl.as_bytes(), Vec::new()).map_err(|error| names(&error))
+    };
+    let mill = Program::builder().build().expect("the generic mill");
+    let part = PART.replace("UNITS / MM\n", "");
+    assert!(given(&mill, Unit::Inch, &part).is_ok() && given(&mill, Unit::Mm, PART).is_ok());
+    assert_eq!(given(&mill, Unit::Inch, PART).expect_err("refused"), ["E0715"]);
+    let metric = Program::builder().set("units.mode=2").build().expect("a metric mill");
+    assert!(given(&metric, Unit::Mm, &part).is_ok());
+    assert_eq!(given(&metric, Unit::Inch, &part).expect_err("refused"), ["E0715"]);
+}
+
+#[test]
+fn e0940_unit_not_known() {
+    let post = Program::builder().build().expect("the generic mill");
+    let mut nc = Vec::new();
+    post.run(PART.as_bytes(), &mut nc).expect("a program");
+    let cl = PART.replace("UNITS / MM\n", "");
+    let checked = |unit: Option<Unit>| {
+        let run = unit.map_or(post.start(), |unit| post.start().units(unit));
+        let nc = filpost::verify::NcProgram { text: &nc, name: "part.nc" };
+        run.verify(cl.as_bytes(), nc, Allowed::default())
+    };
+    assert_eq!(names(&checked(None).expect_err("refused")), ["E0940"]);
+    let verdict = |unit| checked(Some(unit)).expect("a report").0.verdict();
+    assert_eq!(verdict(Unit::Mm), filpost::nc::verify::Verdict::Agrees);
+    assert_eq!(verdict(Unit::Inch), filpost::nc::verify::Verdict::Differs);
 }
 
 #[test]

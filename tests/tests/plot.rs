@@ -5,7 +5,7 @@ use std::io::Cursor;
 
 use filpost::cl::reader::Options;
 use filpost::nc::plot::{CL_COLOUR, Drawing, Stroke, View, html, svg};
-use filpost::plot::{self, Text};
+use filpost::plot::{self, ClText, Text};
 use filpost::{Program, map};
 use filpost_tests::{browser, root};
 use serde_json::Value;
@@ -40,6 +40,11 @@ CIMFIL/OFF
 FINI
 ";
 
+/// A CL file that says its unit itself.
+fn cl_text(text: Text<'_>) -> ClText<'_> {
+    ClText { text, options: Options::default(), unit: None }
+}
+
 /// The drawing of [`CL`], posted with [`FIL`], with the notes of its map.
 fn drawing() -> Drawing {
     let fil = FIL.replace("(G)", "7").replace("(X)", "24").replace("(Y)", "25");
@@ -52,7 +57,7 @@ fn drawing() -> Drawing {
     let text = Text { name: "out.nc", bytes: &nc };
     let mut drawing = plot::program(text, post.commons()).unwrap();
     let cl = Text { name: "part.ncl", bytes: CL.as_bytes() };
-    plot::lay_under(&mut drawing, cl, Options::default(), post.commons()).unwrap();
+    plot::lay_under(&mut drawing, cl_text(cl), post.commons()).unwrap();
     let reader = map::MapReader::new("out.nc.map", Cursor::new(lines)).unwrap();
     plot::add_origins(&mut drawing, text, reader, &mut |name| match name {
         "part.ncl" => Some(CL.into()),
@@ -125,7 +130,7 @@ fn the_picture_of_the_docs_is_drawn_by_the_code() {
     let post = case.program().unwrap();
     let mut drawing = plot::program(Text { name: "plate.nc", bytes: &nc }, post.commons()).unwrap();
     let under = Text { name: "plate.ncl", bytes: &cl };
-    plot::lay_under(&mut drawing, under, Options::default(), post.commons()).unwrap();
+    plot::lay_under(&mut drawing, cl_text(under), post.commons()).unwrap();
     let picture = svg(&drawing, &View::ALL);
     let file = root().join("docs/plot.svg");
     if std::env::var_os("FILPOST_UPDATE").is_some_and(|value| value == "1") {

@@ -1,5 +1,8 @@
 //! Modes of a control that settings and programs share: unit, plane, kind of feed.
 
+use crate::commons::Commons;
+use crate::locations::{UNITS_MODE, UnitsMode};
+
 /// Unit of lengths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unit {
@@ -13,6 +16,16 @@ pub enum Unit {
 pub const INCH: f64 = 25.4;
 
 impl Unit {
+    /// The one unit that a machine takes (`units.mode`); `None` where the CL file
+    /// chooses.
+    pub fn of_machine(commons: &Commons) -> Option<Unit> {
+        match commons.read(UNITS_MODE) {
+            UnitsMode::Inch => Some(Unit::Inch),
+            UnitsMode::Metric => Some(Unit::Mm),
+            UnitsMode::AsTheClFile => None,
+        }
+    }
+
     /// True for millimetres.
     #[inline]
     pub fn is_metric(self) -> bool {

@@ -59,6 +59,10 @@ fil_diag::codes! {
         BadCall = 914, Error, "a subprogram call that can't be followed",
             "The motions of the subprogram are part of the path.",
             "Check the number, and that the subprogram is in this file and ends with M99.";
+        /// A CL file whose unit nobody says.
+        NoUnit = 940, Error, "the unit of the CL file is not known",
+            "Lengths mean nothing before the CL file, the machine or the user says mm or inch.",
+            "Put UNITS / MM or UNITS / INCHES first, give --units, or set units.mode of the machine.";
         /// A program that has next to nothing in common with the CL file.
         AnotherPart = 941, Error, "a program of another part",
             "Fewer than one in ten motions of the CL file are in the program; a list of all differences would say nothing.",

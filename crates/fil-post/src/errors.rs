@@ -34,7 +34,7 @@ fil_diag::codes! {
         /// No unit.
         NoUnit = 514, Error, "the unit is not known",
             "A length or feed means nothing before the CL file, the machine or the user says mm or inch.",
-            "Put UNITS / MM or UNITS / INCHES first, or say the unit of the machine: --set units.mode=2 is mm, 1 is inch.";
+            "Put UNITS / MM or UNITS / INCHES first, give --units mm or --units inch, or set units.mode of the machine (1 inch, 2 mm).";
         /// UNITS in mid-file.
         UnitChange = 515, Error, "the unit changes in mid-file",
             "Positions, feeds and limits given before would be read in the other unit.",

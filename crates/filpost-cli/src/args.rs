@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use filpost::cl::ClDialect;
-use filpost::{Code, Moment};
+use filpost::{Code, Moment, Unit};
 
 /// Posts CL files with FIL macros into NC programs.
 #[derive(Debug, Parser)]
@@ -92,6 +92,18 @@ fn allowable(name: &str) -> Result<&'static Code, String> {
     filpost::allowable(name).map_err(|diag| diag.message)
 }
 
+/// The unit of the CL file.
+#[derive(Clone, Copy, Debug, Default, ClapArgs)]
+pub struct Units {
+    /// The unit of a CL file that has no UNITS statement: mm or inch
+    #[arg(long, value_name = "UNIT", value_parser = unit)]
+    pub units: Option<Unit>,
+}
+
+fn unit(name: &str) -> Result<Unit, String> {
+    filpost::unit_named(name).ok_or_else(|| "write mm or inch".to_string())
+}
+
 /// `filpost post`
 #[derive(Debug, ClapArgs)]
 pub struct PostArgs {
@@ -107,6 +119,8 @@ pub struct PostArgs {
     pub reading: Reading,
     #[command(flatten)]
     pub cl_reading: ClReading,
+    #[command(flatten)]
+    pub units: Units,
     #[command(flatten)]
     pub grants: Grants,
     /// The NC file; standard output when left out or -
@@ -223,10 +237,12 @@ pub struct ClArgs {
     pub cl: Option<PathBuf>,
     /// List the dialects of CL text instead: their names, how they are recognized, and what
     /// they mean
-    #[arg(long, conflicts_with_all = ["cl", "words", "dialect", "encoding"])]
+    #[arg(long, conflicts_with_all = ["cl", "words", "dialect", "encoding", "units"])]
     pub dialects: bool,
     #[command(flatten)]
     pub cl_reading: ClReading,
+    #[command(flatten)]
+    pub units: Units,
     /// Write JSON
     #[arg(long)]
     pub json: bool,
@@ -282,6 +298,8 @@ pub struct VerifyArgs {
     #[command(flatten)]
     pub cl_reading: ClReading,
     #[command(flatten)]
+    pub units: Units,
+    #[command(flatten)]
     pub grants: Grants,
     /// A folder to look in for the option file that MACHIN names (may be given again)
     #[arg(long, value_name = "DIR")]
@@ -306,6 +324,8 @@ pub struct PlotArgs {
     /// The machine that the program is for
     #[command(flatten)]
     pub chosen: Chosen,
+    #[command(flatten)]
+    pub units: Units,
     /// A CL file whose path is drawn under that of the program
     #[arg(long, value_name = "PART")]
     pub cl: Option<PathBuf>,
@@ -388,6 +408,9 @@ pub struct TestArgs {
     /// The post of the case
     #[command(flatten)]
     pub chosen: Chosen,
+    /// The unit of the case's CL file, where it has no UNITS statement: mm or inch
+    #[arg(long, value_name = "UNIT", value_parser = unit, requires = "init")]
+    pub units: Option<Unit>,
     /// A FIL file of the case (may be given again)
     #[arg(short, long, value_name = "FILE", requires = "init")]
     pub fil: Vec<PathBuf>,

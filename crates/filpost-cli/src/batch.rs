@@ -268,6 +268,8 @@ struct Row {
     result: String,
     warnings: usize,
     time: Duration,
+    /// The unit and the post.
+    by: String,
     status: Status,
 }
 
@@ -276,16 +278,13 @@ impl Row {
         let cl = job.cl.display().to_string();
         let Some(outcome) = ended else {
             let result = "internal fault".to_string();
-            let dialect = String::new();
-            return Row {
-                cl,
-                dialect,
-                result,
-                warnings: 0,
-                time: Duration::ZERO,
-                status: Status::Fault,
-            };
+            let (time, dialect, by) = (Duration::ZERO, String::new(), String::new());
+            return Row { cl, dialect, result, warnings: 0, time, by, status: Status::Fault };
         };
+        let mut by = outcome.title.clone();
+        if let Ok(Some((unit, source))) = outcome.result.as_ref().map(|report| report.unit) {
+            by = format!("{unit} ({source}), {by}");
+        }
         let (result, status) = match &outcome.result {
             Ok(report) => (summary::counted(report.blocks, "block"), Status::Done),
             Err(error) => {
@@ -295,7 +294,8 @@ impl Row {
         };
         let dialect = outcome.result.as_ref().ok().and_then(|report| report.dialect);
         let dialect = dialect.map_or(String::new(), |found| found.dialect.to_string());
-        Row { cl, dialect, result, warnings: outcome.warnings.len(), time: outcome.time, status }
+        let (warnings, time) = (outcome.warnings.len(), outcome.time);
+        Row { cl, dialect, result, warnings, time, by, status }
     }
 }
 
@@ -307,12 +307,13 @@ fn table(rows: &[Row], time: Duration) {
     let dialect = widest(|row| &row.dialect).unwrap_or(0);
     for row in rows {
         output::say(&format!(
-            "{:name$}  {:dialect$}  {:>result$}  {:>12}  {:>8.2} s",
+            "{:name$}  {:dialect$}  {:>result$}  {:>12}  {:>8.2} s  {}",
             row.cl,
             row.dialect,
             row.result,
             summary::counted(row.warnings as u64, "warning"),
-            row.time.as_secs_f64()
+            row.time.as_secs_f64(),
+            row.by,
         ));
     }
     let failed = rows.iter().filter(|row| row.status != Status::Done).count();

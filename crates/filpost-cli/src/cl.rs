@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::io::{self, BufWriter, Write};
 
 use filpost::cl::record::{kind, motion};
-use filpost::cl::{Evidence, Recognized, Record, Vocabulary, WordView, reader::Reader};
-use filpost::{Error, Extents, statement_text};
+use filpost::cl::{Evidence, Recognized, Record, Vocabulary, WordView, reader::Reader, words};
+use filpost::{Error, Extents, Unit, statement_text};
 use serde_json::{Value, json};
 
 use crate::args::ClArgs;
@@ -27,7 +27,7 @@ pub fn run(args: &ClArgs) -> Result<Status, Error> {
         output: BufWriter::new(io::stdout().lock()),
         words: args.words,
         json: args.json,
-        totals: Totals::default(),
+        totals: Totals { given: args.units.units, ..Totals::default() },
     };
     show.head().map_err(|error| output::stdout_error(&error))?;
     while reader.read(&mut vocabulary, &mut record).map_err(Error::Run)? {
@@ -42,6 +42,10 @@ pub fn run(args: &ClArgs) -> Result<Status, Error> {
 struct Totals {
     records: u64,
     words: BTreeMap<String, u64>,
+    /// The unit of `--units`.
+    given: Option<Unit>,
+    /// The units that UNITS has said.
+    said: Vec<Unit>,
     point: Option<[f64; 3]>,
     extents: Option<Extents>,
 }
@@ -54,6 +58,12 @@ impl Totals {
             Some(count) => *count += 1,
             None => drop(self.words.insert(name.to_string(), 1)),
         }
+        if record.major == words::UNITS {
+            let unit = if record.has(words::INCHES) { Unit::Inch } else { Unit::Mm };
+            if !self.said.contains(&unit) {
+                self.said.push(unit);
+            }
+        }
         let Some(mut point) = record.point() else { return };
         if record.kind == kind::MOTION && record.sub == motion::GODLTA {
             let Some(last) = self.point else { return };
@@ -64,6 +74,28 @@ impl Totals {
         for (axis, value) in point.into_iter().enumerate() {
             found.min[axis] = found.min[axis].min(value);
             found.max[axis] = found.max[axis].max(value);
+        }
+    }
+
+    /// The unit, and who says it: no file is taken to be in mm.
+    fn unit(&self) -> String {
+        match (&self.said[..], self.given) {
+            ([], None) => "not said".into(),
+            ([], Some(given)) => format!("{given} (--units)"),
+            ([said], None) => format!("{said} (UNITS)"),
+            ([said], Some(given)) if *said == given => format!("{said} (UNITS)"),
+            ([said], Some(given)) => format!("{said} (UNITS), not {given} as given"),
+            _ => "changes within the file".into(),
+        }
+    }
+
+    /// The unit where it is one; null where it is not said, or changes.
+    fn unit_json(&self) -> Value {
+        match (&self.said[..], self.given) {
+            ([], Some(unit)) => json!(unit.to_string()),
+            ([unit], None) => json!(unit.to_string()),
+            ([said], Some(given)) if *said == given => json!(said.to_string()),
+            _ => Value::Null,
         }
     }
 
@@ -104,14 +136,14 @@ impl<W: Write> Show<W> {
                 "statement": statement,
             });
             if self.words {
-                object["words"] = words(record, vocabulary).map(json_word).collect();
+                object["words"] = words_of(record, vocabulary).map(json_word).collect();
             }
             let comma = if first { "" } else { "," };
             return write!(self.output, "{comma}\n{object}");
         }
         writeln!(self.output, "{:>7} {:>7}  {statement}", record.line, record.number)?;
         if self.words {
-            for (index, word) in words(record, vocabulary).enumerate() {
+            for (index, word) in words_of(record, vocabulary).enumerate() {
                 writeln!(self.output, "{:>20}  {}", index + 1, word_text(word))?;
             }
         }
@@ -125,8 +157,9 @@ impl<W: Write> Show<W> {
             let extents = self.totals.extents.map(|box_| json!({"min": box_.min, "max": box_.max}));
             writeln!(
                 self.output,
-                "\n],\n\"dialect\":{},\n\"counts\":{counts},\n\"extents\":{}}}",
+                "\n],\n\"dialect\":{},\n\"counts\":{counts},\n\"unit\":{},\n\"extents\":{}}}",
                 json_dialect(dialect),
+                self.totals.unit_json(),
                 extents.unwrap_or(Value::Null)
             )?;
             return self.output.flush();
@@ -136,6 +169,7 @@ impl<W: Write> Show<W> {
         for (name, count) in counts {
             writeln!(self.output, "{count:>9}  {name}")?;
         }
+        writeln!(self.output, "{:>9}  {}", "unit", self.totals.unit())?;
         if let Some(extents) = &self.totals.extents {
             for (axis, name) in ["X", "Y", "Z"].iter().enumerate() {
                 let (min, max) = (extents.min[axis], extents.max[axis]);
@@ -158,7 +192,7 @@ fn json_dialect(found: Recognized) -> Value {
 }
 
 /// The words of a record, word 1 first.
-fn words<'a>(
+fn words_of<'a>(
     record: &'a Record,
     vocabulary: &'a Vocabulary,
 ) -> impl Iterator<Item = (WordView<'a>, bool)> {

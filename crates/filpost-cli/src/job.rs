@@ -77,6 +77,9 @@ fn post(
     let options = options(args)?;
     Target::new(job.output.as_deref()).write(|nc| {
         let mut run = program.start().cl_name(&output::input_name(&job.cl)).reading(options);
+        if let Some(unit) = args.units.units {
+            run = run.units(unit);
+        }
         if let Some(listing) = &mut listing {
             run = run.observe(listing.observer());
         }
@@ -115,12 +118,10 @@ fn finish(
 /// The post of the job; afterwards the input stands at its start again.
 fn built(posts: &Posts<'_>, job: &Job, input: &mut File) -> Result<Built, Error> {
     let args = posts.args();
-    let beside = job.cl.parent().map(Path::to_path_buf).unwrap_or_default();
-    let folders: Vec<PathBuf> =
-        std::iter::once(beside).chain(args.post_path.iter().cloned()).collect();
+    let folders = select::beside_first(&job.cl, &args.post_path);
     let name = output::input_name(&job.cl);
     let options = options(args)?;
-    let from = setup::from(&args.chosen, &folders, || select::machin(&mut *input, &name, options))?;
+    let from = setup::from(&args.chosen, &folders, || select::asked(&mut *input, &name, options))?;
     input.rewind().map_err(|error| files::cant_read(&job.cl, &error))?;
     posts.get(from)
 }

@@ -6,11 +6,12 @@ use std::path::Path;
 use filpost::cl::reader::Options;
 use filpost::map::MapReader;
 use filpost::nc::plot::{Drawing, View, html, svg};
-use filpost::plot::{self, Text};
+use filpost::plot::{self, ClText, Text};
 use filpost::{Error, Program, files, select};
 
 use crate::args::{PlotArgs, Seen};
 use crate::output::{self, Target};
+use crate::setup::From;
 use crate::{Status, post, setup};
 
 /// What is drawn, by the ending of the output file.
@@ -38,7 +39,12 @@ pub fn run(args: &PlotArgs) -> Result<Status, Error> {
         output::say(&format!("error: {name} is a CL file; --cl and --map go with an NC program"));
         return Ok(Status::Usage);
     }
-    let drawing = if is_cl { plot::cl_file(text, options(args)?)? } else { program(args, text)? };
+    let (drawing, machine) = if is_cl {
+        (plot::cl_file(cl_text(args, text)?)?, None)
+    } else {
+        let (drawing, title) = program(args, text)?;
+        (drawing, Some(title))
+    };
     let picture = match form {
         Form::Svg => svg(&drawing, &views(&args.view)),
         Form::Html => html(&drawing),
@@ -49,7 +55,8 @@ pub fn run(args: &PlotArgs) -> Result<Status, Error> {
         write(&mut out).map_err(|error| files::cant_write(&path, &error))
     })?;
     let motions = crate::summary::counted(drawing.path.pieces.len() as u64, "motion");
-    output::say(&format!("{name}: {motions} drawn"));
+    let machine = machine.map_or(String::new(), |title| format!(" on {title}"));
+    output::say(&format!("{name}: {motions} drawn{machine}"));
     Ok(Status::Done)
 }
 
@@ -57,15 +64,22 @@ fn options(args: &PlotArgs) -> Result<Options, Error> {
     setup::cl_options(args.encoding.as_deref(), &args.cl_reading)
 }
 
-/// A program, with the CL file under it and the map's notes where they are given.
-fn program(args: &PlotArgs, nc: Text<'_>) -> Result<Drawing, Error> {
+/// A CL file with how it is read.
+fn cl_text<'t>(args: &PlotArgs, text: Text<'t>) -> Result<ClText<'t>, Error> {
+    Ok(ClText { text, options: options(args)?, unit: args.units.units })
+}
+
+/// A program, with the CL file under it and the map's notes where they are given; and
+/// what its machine is called.
+fn program(args: &PlotArgs, nc: Text<'_>) -> Result<(Drawing, String), Error> {
     let cl = args.cl.as_ref().map(|path| Ok((path, read(path)?))).transpose()?;
-    let program = machine(args, cl.as_ref().map(|(path, bytes)| (path.as_path(), &bytes[..])))?;
+    let (program, title) =
+        machine(args, cl.as_ref().map(|(path, bytes)| (path.as_path(), &bytes[..])))?;
     let mut drawing = plot::program(nc, program.commons())?;
     if let Some((path, bytes)) = &cl {
         let name = output::input_name(path);
-        let text = Text { name: &name, bytes };
-        plot::lay_under(&mut drawing, text, options(args)?, program.commons())?;
+        let cl = cl_text(args, Text { name: &name, bytes })?;
+        plot::lay_under(&mut drawing, cl, program.commons())?;
     }
     if let Some(path) = &args.map {
         origins(&mut drawing, nc, path)?;
@@ -74,7 +88,7 @@ fn program(args: &PlotArgs, nc: Text<'_>) -> Result<Drawing, Error> {
     {
         output::say(&format!("note: the map beside the program is not used: {error}"));
     }
-    Ok(drawing)
+    Ok((drawing, title))
 }
 
 fn origins(drawing: &mut Drawing, nc: Text<'_>, path: &Path) -> Result<(), Error> {
@@ -84,23 +98,21 @@ fn origins(drawing: &mut Drawing, nc: Text<'_>, path: &Path) -> Result<(), Error
 }
 
 /// The machine of the command line, else the one that the CL file asks for, else the
-/// generic mill.
-fn machine(args: &PlotArgs, cl: Option<(&Path, &[u8])>) -> Result<Program, Error> {
-    let named = match (setup::named(&args.chosen, args.encoding.as_deref())?, cl) {
-        (Some(named), _) => named,
-        (None, Some((path, bytes))) => {
-            let beside = path.parent().map(Path::to_path_buf).unwrap_or_default();
-            let name = output::input_name(path);
-            let machin = select::machin(std::io::Cursor::new(bytes), &name, options(args)?)?;
-            let choice = select::for_machin(machin.as_ref(), &[beside]);
-            setup::asked(&args.chosen, &choice, machin.as_ref(), args.encoding.as_deref())?
+/// generic mill; and what it is called.
+fn machine(args: &PlotArgs, cl: Option<(&Path, &[u8])>) -> Result<(Program, String), Error> {
+    let encoding = args.encoding.as_deref();
+    let named = match cl {
+        Some((path, bytes)) => {
+            let folders = select::beside_first(path, &[]);
+            let options = options(args)?;
+            let from = setup::from(&args.chosen, &folders, || {
+                select::asked(bytes, &output::input_name(path), options)
+            })?;
+            setup::machine(&args.chosen, encoding, &from)?
         }
-        (None, None) => {
-            let choice = select::for_machin(None, &[]);
-            setup::asked(&args.chosen, &choice, None, None)?
-        }
+        None => setup::machine(&args.chosen, encoding, &From::CommandLine)?,
     };
-    named.builder.build()
+    Ok((named.builder.build()?, named.title))
 }
 
 fn form(output: Option<&Path>) -> Option<Form> {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use filpost::select::{self, Choice, Machin};
+use filpost::select::{self, Asked, Choice, Machin};
 use filpost::{Builder, Clock, Compat, Error, Program, files, includes, ready};
 
 use crate::args::{Chosen, ClReading, ClockSource, Grant, Grants, Reading};
@@ -18,12 +18,46 @@ pub struct Named {
     pub note: Option<String>,
     /// All files it was read from.
     pub inputs: Vec<PathBuf>,
+    /// FIL files of the post.
     fil: Vec<PathBuf>,
+    /// The FIL file beside an option file.
+    partner: Option<PathBuf>,
+    /// Why it was chosen.
+    why: Option<String>,
 }
 
 impl Named {
     fn new(builder: Builder, title: impl Into<String>) -> Named {
-        Named { builder, title: title.into(), note: None, inputs: Vec::new(), fil: Vec::new() }
+        Named {
+            builder,
+            title: title.into(),
+            note: None,
+            inputs: Vec::new(),
+            fil: Vec::new(),
+            partner: None,
+            why: None,
+        }
+    }
+
+    /// Adds the FIL files of `-f`; they take the place of the one beside an option
+    /// file, which the summary then names.
+    fn take_fil(&mut self, given: &[PathBuf]) {
+        match &self.partner {
+            Some(partner) if given.is_empty() => {
+                self.title.push_str(&format!(" with {}", partner.display()));
+                self.fil.push(partner.clone());
+            }
+            Some(partner) => {
+                let same = |path: &PathBuf| path.canonicalize().ok() == partner.canonicalize().ok();
+                let note = format!("{} is not used: -f names the FIL files", partner.display());
+                self.note = (!given.iter().any(same)).then_some(note);
+            }
+            None => {}
+        }
+        if let Some(why) = &self.why {
+            self.title.push_str(&format!(" ({why})"));
+        }
+        self.fil.extend(given.iter().cloned());
     }
 
     /// Adds the FIL files and lets INCLUD read files beside them.
@@ -63,24 +97,42 @@ pub enum From {
     ClFile(Choice, Option<Machin>),
 }
 
-/// The post of `filpost post`: what the command line names, else what MACHIN
-/// in the CL file asks for. `machin` is called only in the second case.
+/// Where the post of a CL file comes from: what the command line names, else what
+/// MACHIN asks for. `asked` looks into the CL file; it is called only in the second
+/// case.
 ///
 /// # Errors
-/// A CL file that can't be read as far as MACHIN.
+/// A CL file that can't be read as far as MACHIN; E0714 for one that names no post.
 pub fn from(
     chosen: &Chosen,
     folders: &[PathBuf],
-    machin: impl FnOnce() -> Result<Option<Machin>, Error>,
+    asked: impl FnOnce() -> Result<Asked, Error>,
 ) -> Result<From, Error> {
     if chosen.post.is_some() || chosen.machine.is_some() {
         return Ok(From::CommandLine);
     }
-    let machin = machin()?;
-    Ok(From::ClFile(select::for_machin(machin.as_ref(), folders), machin))
+    let asked = asked()?;
+    Ok(From::ClFile(select::choose(&asked, folders)?, asked.machin))
 }
 
-/// Reads that post with its FIL files.
+/// Reads a post without its FIL files, with the settings of the command line.
+///
+/// # Errors
+/// Files that can't be read.
+pub fn machine(chosen: &Chosen, encoding: Option<&str>, from: &From) -> Result<Named, Error> {
+    match from {
+        From::CommandLine => {
+            let named = named(chosen, encoding)?;
+            Ok(named.unwrap_or_else(|| with_settings(generic(), &chosen.set)))
+        }
+        From::ClFile(choice, machin) => {
+            let named = asked_for(choice, machin.as_ref(), encoding)?;
+            Ok(with_settings(named, &chosen.set))
+        }
+    }
+}
+
+/// Reads a post with its FIL files: those of `-f`, else those that belong to it.
 ///
 /// # Errors
 /// Files that can't be read.
@@ -91,17 +143,8 @@ pub fn for_run(
     from: &From,
 ) -> Result<Named, Error> {
     let encoding = reading.encoding.as_deref();
-    let mut named = match from {
-        From::CommandLine => named(chosen, encoding)?.unwrap_or_else(generic),
-        From::ClFile(choice, machin) => asked(chosen, choice, machin.as_ref(), encoding)?,
-    };
-    if *from != From::CommandLine && !fil.is_empty() {
-        named.fil.clear();
-    }
-    named.fil.extend(fil.iter().cloned());
-    if named.fil.is_empty() {
-        named.note = named.note.or_else(|| unused_fil(chosen.machine.as_deref()?));
-    }
+    let mut named = machine(chosen, encoding, from)?;
+    named.take_fil(fil);
     let mut named = named.with_fil(encoding)?;
     named.builder = named.builder.strict(reading.strict);
     for code in &reading.allow {
@@ -112,22 +155,10 @@ pub fn for_run(
     Ok(named)
 }
 
-/// The post that MACHIN asks for, with the settings of the command line.
-///
-/// # Errors
-/// Files that can't be read.
-pub fn asked(
-    chosen: &Chosen,
-    choice: &Choice,
-    machin: Option<&Machin>,
-    encoding: Option<&str>,
-) -> Result<Named, Error> {
-    Ok(with_settings(asked_for(choice, machin, encoding)?, &chosen.set))
-}
-
 /// The post where nothing names one.
 fn generic() -> Named {
-    Named::new(Program::builder().ready(ready::GENERIC_MILL), ready::GENERIC_MILL)
+    let title = format!("{} (no post is named)", ready::GENERIC_MILL);
+    Named::new(Program::builder().ready(ready::GENERIC_MILL), title)
 }
 
 /// The readings of `--compat`, or the built-in ones.
@@ -151,17 +182,20 @@ fn folder(folder: &Path, encoding: Option<&str>) -> Result<Named, Error> {
     Ok(named)
 }
 
-/// A `machine.toml` or an option file, told by its ending or its text.
+/// A `machine.toml` or an option file, told by its ending or its text. The FIL file
+/// beside an option file belongs to it: both have the machine's name and number.
 fn machine_file(path: &Path, encoding: Option<&str>) -> Result<Named, Error> {
     let text = files::read_text(path, encoding)?;
     let name = path.display().to_string();
-    let builder = if is_option_text(path, &text) {
+    let is_option_file = is_option_text(path, &text);
+    let builder = if is_option_file {
         Program::builder().option_file(&name, &text)
     } else {
         Program::builder().machine(&name, &text)
     };
     let mut named = Named::new(builder, name);
     named.inputs.push(path.to_path_buf());
+    named.partner = select::fil_beside(path).filter(|_| is_option_file);
     Ok(named)
 }
 
@@ -180,39 +214,30 @@ fn is_option_text(path: &Path, text: &str) -> bool {
     numbered || text.lines().take(10).any(|line| line.trim_start().starts_with("INTCOM:"))
 }
 
-/// A word about the FIL file beside an option file that is given without one.
-fn unused_fil(option_file: &Path) -> Option<String> {
-    let fil = select::fil_beside(option_file)?;
-    Some(format!("{0} beside the option file is not used; give it with -f {0}", fil.display()))
-}
-
-/// The post MACHIN asks for.
+/// The post that a CL file asks for.
 fn asked_for(
     choice: &Choice,
     machin: Option<&Machin>,
     encoding: Option<&str>,
 ) -> Result<Named, Error> {
-    let asked = machin.map(|machin| format!("MACHIN/{},{}", machin.name, machin.number));
+    let asked = machin.map(Machin::to_string).unwrap_or_default();
     match choice {
         Choice::Ready(name) => {
-            let why = match &asked {
-                Some(asked) if machin.is_some_and(|machin| ready::find(&machin.name).is_some()) => {
-                    format!("for {asked}")
-                }
-                Some(asked) => format!("no post found for {asked}"),
-                None => "the CL file has no MACHIN".into(),
-            };
-            Ok(Named::new(Program::builder().ready(name), format!("{name} ({why})")))
+            Ok(Named::new(Program::builder().ready(name), format!("{name} (for {asked})")))
         }
-        Choice::OptionFile { option_file, fil } => {
+        Choice::OptionFile { option_file, .. } => {
             let mut named = machine_file(option_file, encoding)?;
-            if let Some(fil) = fil {
-                named.title.push_str(&format!(" with {}", fil.display()));
-            }
-            named.title.push_str(&format!(" (for {})", asked.unwrap_or_default()));
-            named.fil.extend(fil.clone());
+            named.why = Some(format!("for {asked}"));
             Ok(named)
         }
+        Choice::Generic { name, turning, .. } => {
+            let mut why = "the CL file has no MACHIN".to_string();
+            if let Some(word) = turning {
+                why.push_str(&format!("; {word} says turning"));
+            }
+            Ok(Named::new(Program::builder().ready(name), format!("{name} ({why})")))
+        }
+        _ => unreachable!("select knows no other choice"),
     }
 }
 

@@ -58,7 +58,10 @@ pub fn line(post: &str, report: &Report, warnings: usize, time: Duration) -> Str
             let (min, max) = (extents.min[axis], extents.max[axis]);
             line.push_str(&format!(", {name} {} to {}", length(min), length(max)));
         }
-        line.push_str(if report.metric { " mm" } else { " inch" });
+    }
+    if let Some((unit, source)) = report.unit {
+        let separator = if report.extents.is_some() { " " } else { ", " };
+        line.push_str(&format!("{separator}{unit} ({source})"));
     }
     if let Some(dialect) = &report.dialect {
         line.push_str(&format!(", dialect {dialect}"));

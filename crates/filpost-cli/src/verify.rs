@@ -1,7 +1,6 @@
 //! `filpost verify`
 
 use std::io::{Read, Seek, Write};
-use std::path::{Path, PathBuf};
 
 use filpost::cl::reader::Options;
 use filpost::nc::decimals;
@@ -26,12 +25,16 @@ pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
     output::open(&args.nc)?
         .read_to_end(&mut text)
         .map_err(|error| files::cant_read(&args.nc, &error))?;
-    let program = program(args, &mut cl)?;
+    let (program, title) = program(args, &mut cl)?;
     let name = output::input_name(&args.nc);
     let nc = NcProgram { text: &text, name: &name };
     let allowed = Allowed { tolerance: args.tol, between: args.between };
-    let run = program.start().cl_name(&output::input_name(&args.cl)).reading(options(args)?);
+    let mut run = program.start().cl_name(&output::input_name(&args.cl)).reading(options(args)?);
+    if let Some(unit) = args.units.units {
+        run = run.units(unit);
+    }
     let (report, reference) = run.verify(cl, nc, allowed)?;
+    output::say(&format!("machine: {title}"));
     match args.format {
         args::Report::Json => {
             output::print(format!("{:#}\n", as_json(&report, reference)).as_bytes())?;
@@ -61,19 +64,18 @@ fn options(args: &VerifyArgs) -> Result<Options, Error> {
     setup::cl_options(args.reading.encoding.as_deref(), &args.cl_reading)
 }
 
-fn program(args: &VerifyArgs, cl: &mut std::fs::File) -> Result<Program, Error> {
-    let beside = args.cl.parent().map(Path::to_path_buf).unwrap_or_default();
-    let folders: Vec<PathBuf> =
-        std::iter::once(beside).chain(args.post_path.iter().cloned()).collect();
+/// The post that the program should come from, and what it is called.
+fn program(args: &VerifyArgs, cl: &mut std::fs::File) -> Result<(Program, String), Error> {
+    let folders = select::beside_first(&args.cl, &args.post_path);
     let name = output::input_name(&args.cl);
     let options = options(args)?;
-    let from = setup::from(&args.chosen, &folders, || select::machin(&mut *cl, &name, options))?;
+    let from = setup::from(&args.chosen, &folders, || select::asked(&mut *cl, &name, options))?;
     let named = setup::for_run(&args.chosen, &args.fil, &args.reading, &from)?;
     cl.rewind().map_err(|error| files::cant_read(&args.cl, &error))?;
     if let Some(note) = &named.note {
         output::say(&format!("note: {note}"));
     }
-    setup::granted(named.builder, &args.grants).build()
+    Ok((setup::granted(named.builder, &args.grants).build()?, named.title))
 }
 
 /// The finding, and the block it is about.

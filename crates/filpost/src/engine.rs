@@ -161,6 +161,7 @@ impl<'o, S: Records> Engine<'o, S> {
 
     fn advance(&mut self) -> Result<bool> {
         if !std::mem::replace(&mut self.started, true) {
+            self.outside.begin()?;
             self.machine.run_globals(&mut self.vocabulary, &mut self.outside)?;
         }
         if !self.outside.read(&mut self.record, &mut self.vocabulary)? {

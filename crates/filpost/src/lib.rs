@@ -46,6 +46,7 @@ pub mod select;
 mod source;
 mod statement;
 pub mod trace;
+mod units;
 pub mod verify;
 
 pub use allow::allowable;
@@ -61,6 +62,7 @@ pub use report::{Extents, Report};
 pub use run::Run;
 pub use script_files::PendingFiles;
 pub use statement::statement_text;
+pub use units::{UnitSource, unit_named};
 
 pub use fil_cl as cl;
 pub use fil_diag::suggest;

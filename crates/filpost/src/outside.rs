@@ -5,6 +5,7 @@ use std::sync::Arc;
 use fil_cl::vocabulary::words;
 use fil_cl::{Record, Vocabulary, record::kind};
 use fil_diag::{Diag, Place};
+use fil_machine::Unit;
 use fil_machine::locations::MESSAGE_TO_TAPE;
 use fil_post::FilLine;
 use fil_vm::{CommonKind, Files, Host, Module, Moment, SectionId, Site};
@@ -19,6 +20,7 @@ use crate::report::{Extents, Report};
 use crate::run::Start;
 use crate::source::{Records, Source};
 use crate::statement::statement_text;
+use crate::units::{self, UnitSource};
 
 /// What a FIL machine reaches while it runs: reader and post.
 pub(crate) struct Outside<'o, S> {
@@ -34,6 +36,8 @@ pub(crate) struct Outside<'o, S> {
     pub report: Report,
     /// The embedding program's observers.
     pub observers: Vec<Observer<'o>>,
+    /// The unit that whoever started the run has said.
+    units: Option<Unit>,
     /// What stops the run.
     cancel: Option<CancelToken>,
     /// Name of the CL file in messages.
@@ -53,7 +57,7 @@ pub(crate) struct Outside<'o, S> {
 impl<'o, S: Records> Outside<'o, S> {
     /// Everything as it is before the first record.
     pub fn new(start: Start<'o>, records: S) -> Self {
-        let Start { program, cl_name, cancel, observers, map } = start;
+        let Start { program, cl_name, units, cancel, observers, map } = start;
         let shared = &program.shared;
         let module = Arc::clone(&shared.module);
         Outside {
@@ -62,6 +66,7 @@ impl<'o, S: Records> Outside<'o, S> {
             post: shared.prototype.clone(),
             report: Report::default(),
             observers,
+            units,
             cancel,
             cl_name,
             ended: false,
@@ -71,6 +76,18 @@ impl<'o, S: Records> Outside<'o, S> {
             granted: Granted::new(shared.clock, shared.folders.clone()),
             program,
         }
+    }
+
+    /// Tells the post the unit that the CL file need not say.
+    ///
+    /// # Errors
+    /// E0715 for a unit that the machine does not take.
+    pub fn begin(&mut self) -> Result<(), Box<Diag>> {
+        self.report.unit = units::known_before(self.units, &self.post.control.commons)?;
+        if let Some((unit, _)) = self.report.unit {
+            self.post.assume_unit(unit);
+        }
+        Ok(())
     }
 
     /// Reads the next record; what the post writes from now on is due to it.
@@ -100,6 +117,7 @@ impl<'o, S: Records> Outside<'o, S> {
             }
         }
         let result = self.post.process(record, vocabulary);
+        let result = result.and_then(|()| self.note_unit(record));
         if result.is_err() || !self.post.control.warnings.list.is_empty() {
             let place = self.place(record, vocabulary);
             self.take_warnings(Some(&place));
@@ -112,6 +130,19 @@ impl<'o, S: Records> Outside<'o, S> {
         }
         self.ended |= record.kind == kind::FINI;
         Ok(())
+    }
+
+    /// Notes the unit after a UNITS statement.
+    ///
+    /// # Errors
+    /// E0715 for another unit than the one that was given.
+    fn note_unit(&mut self, record: &Record) -> Result<(), Box<Diag>> {
+        if !matches!(record.major, words::UNITS | words::UNIT) {
+            return Ok(());
+        }
+        let said = self.post.unit();
+        self.report.unit = said.map(|unit| (unit, UnitSource::Statement));
+        units::check_statement(self.units, said)
     }
 
     /// Tells the warnings of the post, which came at this place.
@@ -134,7 +165,6 @@ impl<'o, S: Records> Outside<'o, S> {
     pub fn note_counts(&mut self) {
         self.report.records = self.source.records;
         self.report.blocks = self.post.control.tape.count;
-        self.report.metric = self.post.control.is_metric();
         self.report.dialect = self.source.recognized();
     }
 

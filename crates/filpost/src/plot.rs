@@ -3,14 +3,16 @@
 use std::io::{Read, Seek};
 
 use fil_cl::reader::Options;
+use fil_machine::Unit;
 use fil_machine::commons::{Commons, Kind};
 use fil_nc::dialect::Dialect;
 use fil_nc::forward::Forward;
 use fil_nc::interpret::events;
-use fil_nc::plot::{Drawing, Note, cl_trace, nc_trace};
+use fil_nc::plot::{Drawing, Note, Trace, cl_trace, nc_trace};
 
 use crate::error::Error;
 use crate::map::{Digest, Entry, MapReader};
+use crate::units;
 
 /// Lines looked at to tell a CL file from an NC program.
 const FIRST_LINES: usize = 50;
@@ -22,6 +24,24 @@ pub struct Text<'a> {
     pub name: &'a str,
     /// The text, in whatever encoding.
     pub bytes: &'a [u8],
+}
+
+/// A CL file to be drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct ClText<'a> {
+    /// The file.
+    pub text: Text<'a>,
+    /// How it is read.
+    pub options: Options,
+    /// Its unit, where it does not say it itself.
+    pub unit: Option<Unit>,
+}
+
+impl ClText<'_> {
+    fn trace(&self, shift: [f64; 3]) -> Result<Trace, Error> {
+        let Text { name, bytes } = self.text;
+        cl_trace(bytes, name, self.options, self.unit, shift).map_err(Error::Run)
+    }
 }
 
 /// True when a text is a CL file: it has comments with `$$`, or statements with a
@@ -54,9 +74,10 @@ pub fn program(nc: Text<'_>, commons: &Commons) -> Result<Drawing, Error> {
 /// The path of a CL file.
 ///
 /// # Errors
-/// What the CL reader refuses.
-pub fn cl_file(cl: Text<'_>, options: Options) -> Result<Drawing, Error> {
-    let path = cl_trace(cl.bytes, cl.name, options, [0.0; 3]).map_err(Error::Run)?;
+/// What the CL reader refuses; a file whose unit nobody says.
+pub fn cl_file(cl: ClText<'_>) -> Result<Drawing, Error> {
+    let path = cl.trace([0.0; 3])?;
+    let cl = cl.text;
     let notes = notes(cl.bytes);
     Ok(Drawing { title: cl.name.to_string(), path, notes, ..Drawing::default() })
 }
@@ -65,21 +86,22 @@ pub fn cl_file(cl: Text<'_>, options: Options) -> Result<Drawing, Error> {
 /// settings.
 ///
 /// # Errors
-/// What the CL reader refuses.
+/// What the CL reader refuses; a file whose unit nobody says, or says twice.
 pub fn lay_under(
     drawing: &mut Drawing,
-    cl: Text<'_>,
-    options: Options,
+    mut cl: ClText<'_>,
     commons: &Commons,
 ) -> Result<(), Error> {
+    let known = units::known_before(cl.unit, commons).map_err(Error::Run)?;
+    cl.unit = known.map(|(unit, _)| unit);
     let shift = ["input.translate_x", "input.translate_y", "input.translate_z"].map(|key| {
         let row = fil_machine::locations::Location::named(key);
         let value = row.and_then(|row| commons.get(Kind::Dbl, row.number.into()).ok());
         value.filter(|value| *value != fil_machine::commons::EMPTY).unwrap_or(0.0)
     });
-    drawing.under = Some(cl_trace(cl.bytes, cl.name, options, shift).map_err(Error::Run)?);
+    drawing.under = Some(cl.trace(shift)?);
     drawing.under_name = "CL file";
-    drawing.under_notes = notes(cl.bytes);
+    drawing.under_notes = notes(cl.text.bytes);
     Ok(())
 }
 

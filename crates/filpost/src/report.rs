@@ -5,6 +5,9 @@ use std::path::PathBuf;
 
 use fil_cl::Recognized;
 use fil_diag::Diag;
+use fil_machine::Unit;
+
+use crate::units::UnitSource;
 
 /// Smallest box around the CL points of a run, in CL units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,10 +41,11 @@ pub struct Report {
     pub bytes: u64,
     /// Warnings, in the order they were found.
     pub warnings: Vec<Diag>,
-    /// The CL file is in mm (else inch).
-    pub metric: bool,
     /// The dialect of the CL text, and why it was taken; `None` for records from memory.
     pub dialect: Option<Recognized>,
+    /// The unit of CL file and program, and who has said it; `None` where nothing
+    /// did, so that there is no motion.
+    pub unit: Option<(Unit, UnitSource)>,
     /// The box around the path.
     pub extents: Option<Extents>,
     /// Records that a section took without any effect on the post, by section.

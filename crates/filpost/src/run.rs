@@ -6,6 +6,7 @@ use std::path::Path;
 
 use fil_cl::reader::{self, Reader};
 use fil_cl::{Record, Vocabulary};
+use fil_machine::Unit;
 
 use crate::blocks::Blocks;
 use crate::cancel::CancelToken;
@@ -44,6 +45,7 @@ pub struct Run<'o> {
     pub(crate) program: Program,
     cl_name: Option<String>,
     pub(crate) reading: reader::Options,
+    pub(crate) units: Option<Unit>,
     cancel: Option<CancelToken>,
     observers: Vec<Observer<'o>>,
 }
@@ -52,6 +54,7 @@ pub struct Run<'o> {
 pub(crate) struct Start<'o> {
     pub program: Program,
     pub cl_name: String,
+    pub units: Option<Unit>,
     pub cancel: Option<CancelToken>,
     pub observers: Vec<Observer<'o>>,
     pub map: Option<map::Writer<'o>>,
@@ -63,6 +66,7 @@ impl<'o> Run<'o> {
             program,
             cl_name: None,
             reading: reader::Options::default(),
+            units: None,
             cancel: None,
             observers: Vec::new(),
         }
@@ -77,6 +81,25 @@ impl<'o> Run<'o> {
     /// How CL text is read: dialect, encoding of texts, longest statement.
     pub fn reading(mut self, options: reader::Options) -> Self {
         self.reading = options;
+        self
+    }
+
+    /// The unit of a CL file that has no UNITS statement. Without it such a file
+    /// needs a machine that takes one unit only. A UNITS statement that says another
+    /// unit is refused (E0715).
+    ///
+    /// ```
+    /// use filpost::{Program, Unit, UnitSource};
+    ///
+    /// let program = Program::builder().ready("fanuc-mill").build()?;
+    /// let cl = "LOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n".as_bytes();
+    /// assert!(program.run(cl, std::io::sink()).is_err());
+    /// let report = program.start().units(Unit::Mm).run(cl, std::io::sink())?;
+    /// assert_eq!(report.unit, Some((Unit::Mm, UnitSource::Given)));
+    /// # Ok::<(), filpost::Error>(())
+    /// ```
+    pub fn units(mut self, unit: Unit) -> Self {
+        self.units = Some(unit);
         self
     }
 
@@ -234,8 +257,8 @@ impl<'o> Run<'o> {
 
     fn begin(self, map: Option<map::Writer<'o>>) -> Start<'o> {
         let cl_name = self.name();
-        let Run { program, cancel, observers, .. } = self;
-        Start { program, cl_name, cancel, observers, map }
+        let Run { program, units, cancel, observers, .. } = self;
+        Start { program, cl_name, units, cancel, observers, map }
     }
 
     fn drive(

@@ -17,6 +17,7 @@ use fil_nc::verify::{
 use crate::error::Error;
 use crate::program::Program;
 use crate::run::Run;
+use crate::units;
 
 /// What a program is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,10 +75,12 @@ impl Run<'_> {
             return Ok((report, Reference::SecondRun));
         }
         let events = interpret::events(nc.text, nc.name, &dialect).map_err(Error::Run)?;
+        let known = units::known_before(self.units, self.program.commons()).map_err(Error::Run)?;
         let check = Check {
             cl,
             cl_name: &name,
             options: self.reading,
+            unit: known.map(|(unit, _)| unit),
             nc: nc.text,
             events: &events,
             commons: self.program.commons(),

@@ -117,19 +117,20 @@ fn tolerance(points: &[Point]) -> f64 {
     (Extent::of(points).map_or(0.0, |extent| extent.size()) * FINENESS).max(LEAST)
 }
 
-/// The trace of a CL file; `name` is for messages, `shift` the machine's translation
-/// of the input.
+/// The trace of a CL file; `name` is for messages, `unit` that of a file which does not
+/// say it itself, `shift` the machine's translation of the input.
 ///
 /// # Errors
-/// What the CL reader refuses.
+/// What the CL reader refuses; a file whose unit nobody says.
 pub fn cl_trace(
     cl: impl Read,
     name: &str,
     options: Options,
+    unit: Option<fil_machine::Unit>,
     shift: [f64; 3],
 ) -> Result<Trace, Box<Diag>> {
     let mut steps = Vec::new();
-    for step in ClPath::new(cl, name, options, shift) {
+    for step in ClPath::new(cl, name, options, shift).in_unit(unit) {
         steps.push(step?);
     }
     let ends: Vec<Point> =

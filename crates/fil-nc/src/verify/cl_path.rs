@@ -9,15 +9,17 @@ use std::io::Read;
 
 use fil_cl::record::{kind, mode, motion};
 use fil_cl::{Circle, Options, Reader, Record, Vocabulary, Word, WordId, words as w};
-use fil_diag::Diag;
+use fil_diag::{Diag, Place};
+use fil_machine::Unit;
 use nalgebra::{Matrix3x4, Point3, Vector3};
 
 use super::statements::{
     compensation, coolant, numbers, numbers_beside, spindle, statement, whole,
 };
 use super::wanted::{Arc, CycleKind, Effect, Hole, Step, Wanted};
+use crate::errors::NcCode;
 use crate::forward::Pose;
-use crate::motion::{INCH, Rate, unit};
+use crate::motion::{INCH, Rate};
 
 /// What X is multiplied by when it is a diameter.
 const DIAMETER: f64 = 2.0;
@@ -42,6 +44,9 @@ const ENDS_THE_PATH: [WordId; 11] = [
     w::DEFSUB,
     w::ENDSUB,
 ];
+
+/// Statements besides motion that hold lengths or feeds.
+const MEASURES: [WordId; 6] = [w::FEDRAT, w::CYCLE, w::THREAD, w::OP, w::LINTOL, w::GOHOME];
 
 /// Statements that write words of the user's own.
 const OWN_WORDS: [WordId; 2] = [w::POSTN, w::REPEAT];
@@ -86,7 +91,8 @@ struct Matrix {
 
 /// What statements leave for the later ones; lengths in CL units.
 struct State {
-    metric: bool,
+    /// `None` before anything has said it.
+    unit: Option<Unit>,
     point: Option<Point3<f64>>,
     axis: Vector3<f64>,
     rapid: bool,
@@ -101,6 +107,8 @@ struct State {
 /// Goes through a CL file.
 pub struct ClPath<R> {
     reader: Reader<R>,
+    /// Name of the CL file in messages.
+    name: String,
     vocabulary: Vocabulary,
     record: Record,
     state: State,
@@ -114,10 +122,11 @@ impl<R: Read> ClPath<R> {
     pub fn new(input: R, name: &str, options: Options, shift: [f64; 3]) -> Self {
         ClPath {
             reader: Reader::new(input, name, options),
+            name: name.to_string(),
             vocabulary: Vocabulary::new(),
             record: Record::default(),
             state: State {
-                metric: true,
+                unit: None,
                 point: None,
                 axis: Vector3::z(),
                 rapid: false,
@@ -133,6 +142,14 @@ impl<R: Read> ClPath<R> {
         }
     }
 
+    /// The unit of a CL file that does not say it itself.
+    pub fn in_unit(mut self, unit: Option<Unit>) -> Self {
+        self.state.unit = unit;
+        self.ready
+            .extend(unit.map(|unit| Step { line: 0, what: Wanted::Metric(unit.is_metric()) }));
+        self
+    }
+
     /// Reads on until a step is ready; false at the end.
     fn fill(&mut self) -> Result<bool, Box<Diag>> {
         while self.ready.is_empty() {
@@ -145,11 +162,27 @@ impl<R: Read> ClPath<R> {
                 return Ok(true);
             }
             let line = self.record.line;
+            self.require_unit()?;
             let steps = self.state.take(&self.record, &self.vocabulary);
             self.over = steps.iter().any(|what| matches!(what, Wanted::End));
             self.ready.extend(steps.into_iter().map(|what| Step { line, what }));
         }
         Ok(true)
+    }
+}
+
+impl<R: Read> ClPath<R> {
+    /// Refuses lengths and feeds before anything has said the unit.
+    fn require_unit(&self) -> Result<(), Box<Diag>> {
+        let record = &self.record;
+        let measures =
+            matches!(record.kind, kind::MOTION | kind::SURFACE) || MEASURES.contains(&record.major);
+        if self.state.unit.is_some() || !measures {
+            return Ok(());
+        }
+        let message = "a length or feed comes before anything says mm or inch";
+        let place = Place::line(&self.name, record.line, statement(record, &self.vocabulary));
+        Err(Box::new(NcCode::NoUnit.diag(message).at(place)))
     }
 }
 
@@ -204,8 +237,9 @@ impl State {
         };
         match record.major {
             w::UNITS | w::UNIT => {
-                self.metric = !record.has(w::INCHES);
-                vec![Wanted::Metric(self.metric)]
+                let unit = if record.has(w::INCHES) { Unit::Inch } else { Unit::Mm };
+                self.unit = Some(unit);
+                vec![Wanted::Metric(unit.is_metric())]
             }
             w::RAPID => {
                 self.rapid = true;
@@ -253,7 +287,7 @@ impl State {
 
     /// Length of a CL unit in mm.
     fn unit(&self) -> f64 {
-        unit(self.metric)
+        self.unit.map_or(1.0, Unit::in_mm)
     }
 
     /// A feed; per minute in the unit of the file when none is named.

@@ -31,7 +31,7 @@ use std::io::Read;
 
 use fil_cl::Options;
 use fil_diag::Diag;
-use fil_machine::Commons;
+use fil_machine::{Commons, Unit};
 
 use crate::errors::NcCode;
 use crate::motion::Event;
@@ -53,6 +53,8 @@ pub struct Check<'a, R> {
     pub cl_name: &'a str,
     /// How it is read.
     pub options: Options,
+    /// Its unit, where it does not say it itself.
+    pub unit: Option<Unit>,
     /// The text of the program.
     pub nc: &'a [u8],
     /// What the program does.
@@ -81,6 +83,7 @@ pub struct Allowed {
 pub fn verify<R: Read>(check: Check<'_, R>) -> Result<Report, Box<Diag>> {
     let settings = Settings::new(check.commons, check.allowed.tolerance)?;
     let path = ClPath::new(check.cl, check.cl_name, check.options, settings.input_shift());
+    let path = path.in_unit(check.unit);
     let own = OwnBlocks::new(check.nc, &settings.own_blocks());
     let watch = Watch::new(check.allowed.between);
     let report = walk::Walk::new(path, check.events, own, &settings, watch).all()?;

@@ -76,7 +76,7 @@ impl Control {
         contradictions::check(&commons)?;
         let mut tables = MachineTables::default();
         tables.refresh(&commons, true)?;
-        let unit = program::unit_of_machine(&commons);
+        let unit = Unit::of_machine(&commons);
         let state = program::state_at_start(&commons, unit);
         Ok(Control {
             codes: Codes::from_commons(&commons),

@@ -5,7 +5,6 @@
 //! the end code, tape end character.
 
 use fil_diag::Result;
-use fil_machine::locations::UnitsMode;
 use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::setting::{CharacterAt, CodeAt};
 use fil_machine::{Commons, FunctionCode, locations as loc, user_blocks};
@@ -31,15 +30,6 @@ pub struct ProgramHead {
     pub started: bool,
     /// The end of the tape has been written.
     pub closed: bool,
-}
-
-/// The one unit a machine takes; `None` when the CL file chooses.
-pub fn unit_of_machine(commons: &Commons) -> Option<Unit> {
-    match commons.read(loc::UNITS_MODE) {
-        UnitsMode::Inch => Some(Unit::Inch),
-        UnitsMode::Metric => Some(Unit::Mm),
-        UnitsMode::AsTheClFile => None,
-    }
 }
 
 /// What the control is taken to be in before the program says anything.

@@ -4,7 +4,7 @@ use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 use fil_machine::modes::Unit;
 
-use crate::control::program::{self, unit_code};
+use crate::control::program::unit_code;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::post::Post;
@@ -21,7 +21,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         None => return Err(items.error("MM or INCHES is needed")),
     };
     items.deny_rest()?;
-    if program::unit_of_machine(&post.control.commons).is_some_and(|only| only != unit) {
+    if Unit::of_machine(&post.control.commons).is_some_and(|only| only != unit) {
         return Err(items.error("the machine takes the other unit only (units.mode)"));
     }
     if post.control.unit == Some(unit) {

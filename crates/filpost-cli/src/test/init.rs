@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
 use filpost::case::Case;
-use filpost::{Builder, Diag, Error, Program, files, includes};
+use filpost::{Builder, Diag, Error, Program, files, includes, select};
 
 use crate::args::{Chosen, TestArgs};
 use crate::errors::CommandCode;
@@ -73,6 +73,9 @@ impl Making {
         self.included(&fil)?;
         list(&mut text, "fil", &names);
         list(&mut text, "set", &args.chosen.set);
+        if let Some(unit) = args.units {
+            let _ = writeln!(text, "units = {}", quoted(&unit.to_string()));
+        }
         let _ = writeln!(text, "expect = {}", quoted(&self.copy(nc)?));
         if let Some(step) = args.tol {
             let _ = writeln!(text, "tolerance = {step:?}");
@@ -102,7 +105,11 @@ impl Making {
                 let _ = writeln!(text, "ready = {}", quoted(ready));
                 return Ok(());
             }
-            (None, Some(path)) if setup::is_option_file(path)? => ("option_file", path.clone()),
+            (None, Some(path)) if setup::is_option_file(path)? => {
+                // `post` takes the FIL file beside it where no other is given.
+                fil.extend(select::fil_beside(path).filter(|_| fil.is_empty()));
+                ("option_file", path.clone())
+            }
             (None, Some(path)) => ("machine", path.clone()),
             (None, None) => return Ok(()),
         };

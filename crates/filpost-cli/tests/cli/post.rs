@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::support::{NC, Place, SMALL};
+use crate::support::{NC, Place, Ran, SMALL};
 
 #[test]
 fn the_post_comes_from_machin() {
@@ -10,9 +10,77 @@ fn the_post_comes_from_machin() {
     let place = Place::new().with("part.ncl", machin("LINUXCNC-MILL, 1"));
     let ran = place.run(&["post", "part.ncl"]);
     assert!(ran.err.contains("linuxcnc-mill (for MACHIN/LINUXCNC-MILL,1)"), "{ran:?}");
-    let turned = machin("UNCL01, 3").replace("1, 2, 3", "1, 0, 3");
-    let lathe = place.with("lathe.ncl", turned).run(&["post", "lathe.ncl"]);
-    assert!(lathe.err.contains("fanuc-lathe (no post found for MACHIN/UNCL01,3)"), "{lathe:?}");
+    let ran = place.with("none.ncl", SMALL).run(&["post", "none.ncl"]);
+    assert!(ran.err.contains("fanuc-mill (the CL file has no MACHIN)"), "{ran:?}");
+    assert!(ran.err.contains(" mm (UNITS), "), "{ran:?}");
+}
+
+#[test]
+fn a_machin_that_names_no_post_is_refused_unless_one_is_named() {
+    let turned = SMALL.replace("1, 2, 3", "1, 0, 3");
+    let place = Place::new().with("lathe.ncl", format!("MACHIN / UNCL01, 3\n{turned}"));
+    let post = ["post", "lathe.ncl", "-o", "out.nc"];
+    let refused = place.run(&post);
+    assert_eq!(refused.status, 1, "{refused:?}");
+    for said in ["E0714", "MACHIN/UNCL01,3", "UNCL01.p03 in the current folder", "fanuc-lathe"] {
+        assert!(refused.err.contains(said), "{said}: {}", refused.err);
+    }
+    assert_eq!(place.files(), ["lathe.ncl"]);
+    for command in
+        [&["verify", "lathe.ncl", "lathe.ncl"][..], &["post", "lathe.ncl", "-f", "x.fil"]]
+    {
+        let ran = place.run(command);
+        assert!(ran.status == 1 && ran.err.contains("E0714"), "{ran:?}");
+    }
+    let named = place.run(&[&post[..], &["-p", "fanuc-lathe"]].concat());
+    assert_eq!(named.status, 0, "{named:?}");
+}
+
+#[test]
+fn a_file_without_machin_that_turns_takes_the_generic_lathe() {
+    let cl = SMALL.replace("1, 2, 3", "1, 0, 3").replace("LOADTL / 1", "TURRET / 1");
+    let place = Place::new().with("turned.ncl", cl);
+    let ran = place.run(&["post", "turned.ncl"]);
+    let title = "fanuc-lathe (the CL file has no MACHIN; TURRET says turning)";
+    assert!(ran.err.contains(title), "{ran:?}");
+}
+
+#[test]
+fn a_file_without_units_needs_them_said() {
+    let unitless = SMALL.replace("UNITS / MM\n", "");
+    let place =
+        Place::new().with("part.ncl", &unitless).with("inch.ncl", SMALL.replace("MM", "INCHES"));
+    let post = |more: &[&str]| place.run(&[&["post", "part.ncl", "-o", "out.nc"], more].concat());
+    let refused = post(&[]);
+    assert!(refused.status == 1 && refused.err.contains("E0514"), "{refused:?}");
+    assert!(refused.err.contains("--units"), "{}", refused.err);
+    assert_eq!(place.text("out.nc"), None);
+    let mm = post(&["--units", "mm"]);
+    assert!(mm.status == 0 && mm.err.contains(" mm (--units), "), "{mm:?}");
+    assert_eq!(place.text("out.nc").as_deref(), Some(NC));
+    let inch = post(&["--units", "inch"]);
+    assert!(inch.status == 0 && inch.err.contains(" inch (--units), "), "{inch:?}");
+    assert!(place.text("out.nc").is_some_and(|nc| nc.contains("G20")));
+    let machine = post(&["--set", "units.mode=1"]);
+    assert!(machine.status == 0 && machine.err.contains(" inch (units.mode), "), "{machine:?}");
+    assert_eq!(post(&["--units", "furlong"]).status, 2);
+    let both = place.run(&["post", "inch.ncl", "--units", "mm"]);
+    assert!(both.status == 1 && both.err.contains("E0715"), "{both:?}");
+    let machine = post(&["--set", "units.mode=1", "--units", "mm"]);
+    assert!(machine.status == 1 && machine.err.contains("E0715"), "{machine:?}");
+    assert_eq!(post(&["--units", "mm"]).status, 0);
+    let verify = |more: &[&str]| place.run(&[&["verify", "part.ncl", "out.nc"], more].concat());
+    let open = verify(&[]);
+    assert!(open.status == 1 && open.err.contains("E0940"), "{open:?}");
+    assert_eq!(verify(&["--units", "mm"]).status, 0);
+    assert_eq!(verify(&["--units", "inch"]).status, 1);
+    let plot = place.run(&["plot", "part.ncl"]);
+    assert!(plot.status == 1 && plot.err.contains("E0940"), "{plot:?}");
+    assert_eq!(place.run(&["plot", "part.ncl", "--units", "mm"]).status, 0);
+    let unit = |more: &[&str]| place.run(&[&["cl", "part.ncl"], more].concat()).out;
+    assert!(unit(&[]).contains("unit  not said"), "{}", unit(&[]));
+    assert!(unit(&["--units", "inch"]).contains("unit  inch (--units)"));
+    assert!(place.run(&["cl", "inch.ncl"]).out.contains("unit  inch (UNITS)"));
 }
 
 #[test]
@@ -28,9 +96,22 @@ fn an_option_file_is_found_with_its_fil() {
     let ran = place.run(&["post", "part.ncl", "--post-path", "posts"]);
     assert_eq!(ran.status, 0, "{ran:?}");
     assert!(ran.err.contains("mypost.p02 with "), "{}", ran.err);
-    assert!(ran.out.contains("M8") || ran.out.contains("M08"), "{}", ran.out);
-    let alone = place.run(&["post", "part.ncl", "-m", "posts/mypost.p02"]);
-    assert!(alone.err.contains("MYPOST.F02 beside the option file is not used"), "{alone:?}");
+    let flood = |ran: &Ran| ran.out.contains("M8") || ran.out.contains("M08");
+    assert!(flood(&ran), "{}", ran.out);
+    let named = place.run(&["post", "part.ncl", "-m", "posts/mypost.p02"]);
+    assert!(named.err.contains("posts/mypost.p02 with posts/MYPOST.F02:"), "{named:?}");
+    assert_eq!(named.out, ran.out);
+    let other = "CIMFIL/ON,SPINDL\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
+    let place = place.with("other.fil", other);
+    for chosen in [["-m", "posts/mypost.p02"], ["--post-path", "posts"]] {
+        let ran = place.run(&[&["post", "part.ncl", "-f", "other.fil"], &chosen[..]].concat());
+        assert!(!flood(&ran), "{}", ran.out);
+        let note = "MYPOST.F02 is not used: -f names the FIL files";
+        assert!(ran.status == 0 && ran.err.contains(note), "{ran:?}");
+    }
+    let same = ["post", "part.ncl", "-m", "posts/mypost.p02", "-f", "posts/MYPOST.F02"];
+    let same = place.run(&same);
+    assert!(flood(&same) && !same.err.contains("is not used"), "{same:?}");
 }
 
 #[test]
@@ -169,7 +250,8 @@ fn real_files_are_posted() {
         return;
     }
     let place = Place::new();
-    let ran = place.run(&["post", &cl.display().to_string(), "-o", "op010.tap"]);
+    let ran =
+        place.run(&["post", &cl.display().to_string(), "-p", "fanuc-mill", "-o", "op010.tap"]);
     assert_eq!(ran.status, 0, "{ran:?}");
     let nc = place.text("op010.tap").expect("the program");
     assert!(nc.contains("G20") && nc.contains("S1000 M3"), "{nc}");

@@ -3,7 +3,7 @@
 //!
 //! `case.toml`: `cl`; `dialect` (of the CL file, where it is not recognized); `ready`, `machine` (machine.toml) or `option_file`; `fil` (a file or a
 //! list); `set` (list of `key=value`); `compat`; `strict`; `allow`; `read` (a folder for scripts);
-//! `clock`; `expect` (NC file) or `expect_error` (code); `listing` (its expected text);
+//! `clock`; `units` (of a CL file without UNITS); `expect` (NC file) or `expect_error` (code); `listing` (its expected text);
 //! `tolerance`, `ignore`, `diameter` (how the NC programs are compared; letter by letter
 //! when none is given); `expect_warnings`; `expect_at` (`file:line` of the error or of the
 //! first warning expected); `origin` and `repairs` for people.
@@ -16,12 +16,15 @@ use std::path::{Path, PathBuf};
 
 use fil_cl::ClDialect;
 use fil_diag::Diag;
+use fil_machine::Unit;
 use fil_nc::diff;
+use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
 use crate::error::{Error, RunCode};
 use crate::files;
 use crate::program::Program;
+use crate::units::unit_named;
 
 pub use outcome::{Fresh, Outcome, Verdict};
 pub use recipe::Programs;
@@ -64,6 +67,9 @@ pub struct CaseFile {
     pub expect: Option<String>,
     /// The expected listing.
     pub listing: Option<String>,
+    /// The unit of a CL file without UNITS: `mm` or `inch`.
+    #[serde(default, deserialize_with = "unit")]
+    pub units: Option<Unit>,
     /// Largest difference of a length or an angle that is none; with it, or with
     /// `ignore`, programs are compared as a control reads them.
     pub tolerance: Option<f64>,
@@ -93,7 +99,7 @@ pub struct CaseFile {
 /// A dialect by its name.
 fn dialect<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<ClDialect>, D::Error> {
     let name = String::deserialize(deserializer)?;
-    name.parse().map(Some).map_err(serde::de::Error::custom)
+    name.parse().map(Some).map_err(D::Error::custom)
 }
 
 impl CaseFile {
@@ -111,6 +117,13 @@ impl CaseFile {
         }
         Ok(diff::Options { tolerance, ignore, diameter: self.diameter, ..Default::default() })
     }
+}
+
+/// A unit by its name.
+fn unit<'d, D: Deserializer<'d>>(deserializer: D) -> Result<Option<Unit>, D::Error> {
+    let name = String::deserialize(deserializer)?;
+    let wrong = || D::Error::custom(format!("units is mm or inch, not `{name}`"));
+    unit_named(&name).map(Some).ok_or_else(wrong)
 }
 
 /// A case folder.

@@ -130,6 +130,9 @@ impl Case {
         let (mut nc, mut listing) = (Vec::new(), Listing::new(Vec::new()));
         let reading = reader::Options { dialect: self.file.dialect, ..reader::Options::default() };
         let mut run = program.start().cl_name(&self.file.cl).reading(reading);
+        if let Some(unit) = self.file.units {
+            run = run.units(unit);
+        }
         if self.file.listing.is_some() {
             run = run.observe(listing.observer());
         }
