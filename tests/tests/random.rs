@@ -73,7 +73,8 @@ fn agree(rs274: &Path, seeds: Range<u64>) {
         tally.agree, tally.refused, tally.unpredictable,
     );
     for (class, seeds) in &tally.differ {
-        println!("{} differ: {class}", seeds.len());
+        let first = &seeds[..seeds.len().min(10)];
+        println!("{} differ: {class}, seeds {first:?}", seeds.len());
     }
     let stories: Vec<String> = tally
         .differ

@@ -41,6 +41,8 @@ pub(super) struct Model<'s> {
     pub(super) spindle: Waiting<Turning>,
     pub(super) coolant: Waiting<Coolant>,
     pub(super) compensation: Waiting<Compensation>,
+    /// No straight motion across has come since compensation was called.
+    pub(super) compensation_is_fresh: bool,
     pub(super) length: Want<u32>,
     repeats_feed: bool,
     pub(super) cycle: Option<super::model_cycle::Active>,
@@ -81,6 +83,7 @@ impl<'s> Model<'s> {
             spindle: Waiting::new(Want::Any),
             coolant: Waiting::new(Want::Any),
             compensation: Waiting::new(Want::only(Compensation::Off)),
+            compensation_is_fresh: false,
             length: Want::Any,
             repeats_feed: false,
             cycle: None,
@@ -228,7 +231,7 @@ impl<'s> Model<'s> {
         }
         let (across, along) = self.moves(machine);
         // In the first part of a split rapid one of the two still waits.
-        let in_parts = self.setup.split && rapid && across && along;
+        let in_parts = self.setup.split && rapid && self.has_parts(machine);
         if !in_parts {
             self.settle(across, along);
         }
@@ -236,6 +239,7 @@ impl<'s> Model<'s> {
             self.must_refuse("a feed motion without a feed");
         }
         self.push(if rapid { Act::Rapid(machine) } else { Act::Feed(machine) });
+        self.compensation_is_fresh &= !across;
         if in_parts {
             self.settle(across, along);
         }
@@ -285,6 +289,12 @@ impl<'s> Model<'s> {
         (moves(0) || moves(1), moves(2))
     }
 
+    /// A motion may need a part across and one along Z, of a last digit at least.
+    fn has_parts(&self, to: Point) -> bool {
+        let Some(from) = self.tape else { return true };
+        (to[0] != from[0] || to[1] != from[1]) && to[2] != from[2]
+    }
+
     /// What waits for a motion is in force when it moves.
     pub(super) fn settle(&mut self, across: bool, along: bool) {
         self.spindle.moved(across, along);
@@ -325,11 +335,11 @@ impl<'s> Model<'s> {
         self.frame = Frame::new(trans, self.mm());
     }
 
-    /// True when the machine stands where the CL point lies in the frame in force.
-    pub(super) fn is_on_tape(&self) -> bool {
+    /// How far the machine stands from where the CL point lies in the frame in force.
+    pub(super) fn off_tape(&self) -> f64 {
         match (self.at, self.tape) {
-            (Some(at), Some(tape)) => distance(self.frame.apply(at), tape) < 1e-6,
-            _ => false,
+            (Some(at), Some(tape)) => distance(self.frame.apply(at), tape),
+            _ => f64::INFINITY,
         }
     }
 }

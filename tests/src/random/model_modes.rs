@@ -152,6 +152,7 @@ impl Model<'_> {
         if self.is_skipped() {
             self.may_refuse("compensation in skipped blocks");
         }
+        self.compensation_is_fresh = true;
         self.compensation.set(Want::only(value), self.setup.cutcom);
     }
 

@@ -27,8 +27,8 @@ impl Model<'_> {
             // the model describes.
             return self.out.unpredictable = true;
         };
-        if self.runs() && !self.is_on_tape() {
-            self.must_refuse("an arc from a point that is not on the tape");
+        if self.runs() {
+            self.check_start();
         }
         let to = self.frame.apply(end);
         let from = self.frame.apply(at);
@@ -53,13 +53,28 @@ impl Model<'_> {
         self.stands(to);
     }
 
+    /// The center counts from where the tape stands. A motion of less than a last digit
+    /// may have left no block, so that much it may stand off.
+    fn check_start(&mut self) {
+        let off = self.off_tape();
+        if off > self.last_digit() {
+            self.must_refuse("an arc from a point that is not on the tape");
+        } else if off > 1e-6 {
+            self.may_refuse("an arc from nearly a point on the tape");
+        }
+    }
+
+    /// The last digit of an axis word, mm.
+    fn last_digit(&self) -> f64 {
+        let (decimals, _) = self.setup.decimals(self.unit);
+        0.1f64.powi(decimals) * self.mm()
+    }
+
     /// True for an arc of so few last digits that a post may write it as lines, which
     /// lie beside it by as much as it is high.
     fn is_nearly_a_point(&self, arc: &Arc) -> bool {
-        let (decimals, _) = self.setup.decimals(self.unit);
-        let digit = 0.1f64.powi(decimals) * self.mm();
         let away = [0, 1, 2].map(|axis| (arc.from[axis] - arc.center[axis]).powi(2));
-        away.iter().sum::<f64>().sqrt() < 40.0 * digit
+        away.iter().sum::<f64>().sqrt() < 40.0 * self.last_digit()
     }
 
     /// What a post may rightly refuse in an arc.
@@ -79,7 +94,7 @@ impl Model<'_> {
         if self.compensated() && shape.normal != Axis::Z {
             self.may_refuse("an arc in another plane under compensation");
         }
-        if self.compensation_waits() {
+        if self.compensation_waits() || self.compensation_is_fresh {
             self.may_refuse("compensation that begins or ends on an arc");
         }
         if self.tape.is_none() {

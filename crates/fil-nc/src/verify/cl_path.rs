@@ -30,6 +30,10 @@ const WORK_OFFSETS: [f64; 6] = [54.0, 55.0, 56.0, 57.0, 58.0, 59.0];
 /// Start and end of an arc nearer than this make a full circle, in CL units.
 const SAME_POINT: f64 = 1e-6;
 
+/// With TIMES an end that lacks less than this of the start closes the last full turn:
+/// so much may rounded points differ, mm or inch.
+const CLOSES: f64 = 1e-3;
+
 /// Statements that move the tool or the frame by rules that are not public.
 const ENDS_THE_PATH: [WordId; 11] = [
     w::TRACUT,
@@ -484,12 +488,7 @@ impl State {
             end: Pose { tip: end, axis },
             sweep: 0.0,
         };
-        let sweep = if (bare.spoke(start) - bare.spoke(end)).norm() < SAME_POINT {
-            360.0 * waiting.turns.max(1.0)
-        } else {
-            let angle = bare.angle_of(end);
-            (if angle == 0.0 { 360.0 } else { angle }) + 360.0 * waiting.turns
-        };
+        let sweep = full_sweep(&bare, waiting.turns);
         self.point = Some(end);
         self.axis = axis;
         vec![Wanted::Arc(self.in_frame(&Arc { sweep, ..bare }), self.rate)]
@@ -524,5 +523,20 @@ impl State {
         };
         let axis = axis.try_normalize(1e-9).unwrap_or(axis);
         Pose { tip: Point3::from((point.coords + self.shift) * self.unit()), axis }
+    }
+}
+
+/// Degrees of an arc from its start to its end, with its full turns.
+fn full_sweep(arc: &Arc, turns: f64) -> f64 {
+    let apart = (arc.spoke(arc.start) - arc.spoke(arc.end.tip)).norm();
+    if turns == 0.0 && apart < SAME_POINT {
+        return 360.0;
+    }
+    let angle = arc.angle_of(arc.end.tip);
+    let lacks = turns > 0.0 && apart < CLOSES && angle > 180.0;
+    match angle {
+        0.0 => 360.0 * turns.max(1.0),
+        _ if lacks => angle - 360.0 + 360.0 * turns,
+        _ => angle + 360.0 * turns,
     }
 }

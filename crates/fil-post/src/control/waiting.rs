@@ -2,6 +2,7 @@
 //! tool length.
 
 use fil_diag::Result;
+use fil_machine::axes::AxisSet;
 use fil_machine::locations::Placement;
 
 use super::Control;
@@ -84,10 +85,12 @@ impl Control {
         Ok(())
     }
 
-    /// Adds the words that wait for the motion in the block.
-    pub(crate) fn take_waiting(&mut self) {
-        let moves =
-            |control: &Control, number| control.block_has(control.tables.axis(number).letter);
+    /// Adds the words that wait for the motion in the block; `turning` are the axes that
+    /// it moves with or without a word: those of an arc, whose end may be its start.
+    pub(crate) fn take_waiting(&mut self, turning: AxisSet) {
+        let moves = |control: &Control, number| {
+            turning.has(number) || control.block_has(control.tables.axis(number).letter)
+        };
         let moves_xy = moves(self, 0) || moves(self, 1);
         let moves_z = moves(self, 2);
         let mut words = std::mem::take(&mut self.waiting.words);

@@ -105,14 +105,16 @@ pub fn flat(arc: &Arc, point: Point3<f64>) -> Vector3<f64> {
 }
 
 /// Angle from start to end about the axis, degrees: above 0, at most 360 and
-/// the full turns on top. A start above the end is one turn, or TIMES turns.
+/// the full turns on top. A start above the end is one turn, or TIMES turns, of which
+/// rounded points may lack a little.
 fn sweep(arc: &Arc, [from, to]: [Vector3<f64>; 2]) -> f64 {
-    let same = if arc.turns > 0.0 { RADIUS_TOLERANCE } else { SAME_POINT };
-    if (from - to).norm() < same {
-        return FULL * arc.turns.max(1.0);
+    let apart = (from - to).norm();
+    if arc.turns == 0.0 && apart < SAME_POINT {
+        return FULL;
     }
     let angle = arc.axis.dot(&from.cross(&to)).atan2(from.dot(&to)).to_degrees();
-    let part = if angle <= 0.0 { angle + FULL } else { angle };
+    let whole_turns = arc.turns > 0.0 && apart < RADIUS_TOLERANCE;
+    let part = if angle <= 0.0 && !whole_turns { angle + FULL } else { angle };
     part + FULL * arc.turns
 }
 

@@ -242,7 +242,8 @@ pub fn write(control: &mut Control, arc: &PlaneArc, feed: Option<&Feed>) -> Resu
     end_words(control, arc, &end)?;
     control.because(arc.cause, |control| center_words(control, arc))?;
     motion::feed_words(control, feed)?;
-    motion::write_motion(control)
+    let [first, second] = arc.plane.axes();
+    motion::write_turning(control, AxisSet::of(first).or(AxisSet::of(second)))
 }
 
 /// Adds the axes of the plane, all or those that change, and the third where it does.

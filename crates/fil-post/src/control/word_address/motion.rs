@@ -247,8 +247,18 @@ pub fn feed_mode(control: &mut Control, feed: &Feed) -> Result<()> {
 /// As [`Control::write_block`].
 #[inline]
 pub fn write_motion(control: &mut Control) -> Result<()> {
+    write_turning(control, AxisSet::NONE)
+}
+
+/// The same for an arc, which moves the axes of its plane even where its end is its
+/// start and no word names them.
+///
+/// # Errors
+/// As [`Control::write_block`].
+#[inline]
+pub fn write_turning(control: &mut Control, turning: AxisSet) -> Result<()> {
     if !control.waiting.is_empty() {
-        control.take_waiting();
+        control.take_waiting(turning);
         length_offset_words(control)?;
     }
     let compensated = control.state.compensation != Some(Compensation::Off)
