@@ -23,6 +23,7 @@ pub mod programs;
 pub mod random;
 pub mod rs274;
 pub mod runout;
+pub mod same_events;
 pub mod screw;
 pub mod sinumerik;
 pub mod thread;

@@ -10,7 +10,7 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use fil_nc::motion::{Event, Move};
+use fil_nc::motion::Event;
 use fil_nc::verify::{Allowed, Kind, Report, Verdict, compare_programs};
 use filpost::Diag;
 use filpost::verify::{NcProgram, Reference};
@@ -18,6 +18,7 @@ use filpost_tests::back_check;
 use filpost_tests::mutants;
 use filpost_tests::nc_cases::{self, NcCase};
 use filpost_tests::root;
+use filpost_tests::same_events;
 
 /// Share of the faults that change what the machine does which must be found.
 const FOUND: f64 = 0.99;
@@ -90,7 +91,7 @@ enum Fate {
 
 fn fate(case: &NcCase, original: &[Event], nc: &str) -> Fate {
     let Ok(found) = events(case, nc) else { return Fate::Refused };
-    if bare(&found) == bare(original) {
+    if same_events::same(&found, original) {
         return Fate::Same;
     }
     let report = if case.fil {
@@ -102,32 +103,6 @@ fn fate(case: &NcCase, original: &[Event], nc: &str) -> Fate {
         Ok(report) if report.verdict() != Verdict::Differs => Fate::Missed,
         _ => Fate::Reported,
     }
-}
-
-/// What the machine does, without the lines that make it and without motions of no
-/// length that change nothing.
-fn bare(events: &[Event]) -> Vec<Event> {
-    let mut before: Option<Move> = None;
-    let mut bare = Vec::new();
-    for event in events {
-        bare.push(match *event {
-            Event::Move(found) => {
-                let found = Move { line: 0, in_cycle: false, ..found };
-                let still = |old: Move| {
-                    let same = Move { course: old.course, rate: old.rate, ..found };
-                    found.arc.is_none() && same == Move { arc: None, ..old }
-                };
-                if before.replace(found).is_some_and(still) {
-                    continue;
-                }
-                Event::Move(found)
-            }
-            Event::ToolChange { tool, modes, .. } => Event::ToolChange { line: 0, tool, modes },
-            Event::Dwell { seconds, .. } => Event::Dwell { line: 0, seconds },
-            Event::End { modes, .. } => Event::End { line: 0, modes },
-        });
-    }
-    bare
 }
 
 #[test]

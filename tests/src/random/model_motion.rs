@@ -97,7 +97,7 @@ impl Model<'_> {
         if self.compensation_waits() || self.compensation_is_fresh {
             self.may_refuse("compensation that begins or ends on an arc");
         }
-        if self.tape.is_none() {
+        if self.tape.is_none() || self.height_unknown {
             self.may_refuse("an arc from a place that is not known");
         }
     }
@@ -125,7 +125,12 @@ impl Model<'_> {
             "M0" => return self.push(Act::Stop),
             "G1 X5. F50." => return self.text_motion(&[(0, 5.0)], Some(50.0), false),
             "G0 Z60." => return self.text_motion(&[(2, 60.0)], None, true),
-            "G53 G0 Z0." => return self.text_motion(&[(2, 0.0)], None, true),
+            "G53 G0 Z0." => {
+                self.text_motion(&[(2, 0.0)], None, true);
+                // Where that is in the frame of the program nobody knows.
+                self.height_unknown = true;
+                return;
+            }
             _ => {}
         }
         if text.contains("G41") {

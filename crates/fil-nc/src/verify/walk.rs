@@ -244,10 +244,13 @@ impl<'a, C: Steps> Walk<'a, C> {
         self.next += 1;
     }
 
+    /// Goes nowhere. An axis that was not known before may have come from anywhere.
     pub(super) fn is_still(&self, found: &Move) -> bool {
         let at = self.at_as(found);
         let same = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= STILL);
+        let found_out = found.known.iter().zip(self.known).any(|(found, known)| *found && !known);
         found.arc.is_none()
+            && !found_out
             && same(&found.to.linear, &at.linear)
             && same(&found.to.rotary, &at.rotary)
     }
@@ -311,7 +314,8 @@ impl<'a, C: Steps> Walk<'a, C> {
         let at = self.at_as(found);
         let differs = |n: usize| {
             let way = (found.to.linear[n] - at.linear[n]).abs();
-            way > STILL || (found.known[n] && !self.known[n])
+            let turns = found.arc.is_some_and(|arc| arc.normal != n);
+            turns || way > STILL || (found.known[n] && !self.known[n])
         };
         let moved = Moved { xy: differs(0) || differs(1), z: differs(2) };
         let cuts = matches!(found.course, Course::Feed | Course::Thread);

@@ -210,13 +210,15 @@ impl ControlState {
         letters.for_each(|letter| self.doubtful.remove(letter));
     }
 
-    /// Learns from words that were written one after the other (POSTN).
+    /// Learns from words that were written one after the other (POSTN). In a cycle they
+    /// may have changed its data.
     pub fn learn_words(
         &mut self,
         words: impl Iterator<Item = (Letter, f64)> + Clone,
         codes: &Codes,
     ) {
         let mut frame = false;
+        let cycle = self.in_cycle != Some(false);
         for (letter, value) in words.clone() {
             match (letter, FunctionCode::of_value(value)) {
                 (letters::G, Some(code)) => {
@@ -228,12 +230,16 @@ impl ControlState {
                     self.learn_auxiliary(code);
                 }
                 (letters::T, _) => self.tool = None,
+                _ if cycle => self.doubt(letter),
                 _ => self.trust(letter),
             }
         }
-        let secondary = words.clone().any(|(letter, _)| b"UVW".contains(&letter.byte()));
-        let cycle = self.in_cycle != Some(false);
-        if frame || secondary || cycle || self.distance != Some(Distance::Absolute) {
+        let has =
+            |letters: &[u8]| words.clone().any(|(letter, _)| letters.contains(&letter.byte()));
+        let cycle = cycle || self.in_cycle != Some(false);
+        // In a cycle a position drills, and its level can be one too.
+        let drills = cycle && has(b"XYZABCR");
+        if frame || drills || has(b"UVW") || self.distance != Some(Distance::Absolute) {
             self.doubt_axes();
         }
     }
@@ -246,6 +252,9 @@ impl ControlState {
                 self.motion = Some(code);
                 if codes.motion_ends_cycle() {
                     self.in_cycle = Some(false);
+                } else if self.in_cycle == Some(true) {
+                    // Some controls leave the cycle, some don't.
+                    self.in_cycle = None;
                 }
             }
             Meaning::Plane(plane) => self.plane = Some(plane),
