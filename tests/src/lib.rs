@@ -5,6 +5,7 @@ pub mod browser;
 pub mod cl_file;
 pub mod cl_path;
 pub mod compare;
+pub mod counts;
 pub mod duel;
 pub mod event_path;
 pub mod examples;

@@ -1,7 +1,10 @@
 //! The one door from the judges of this member to the post: a CL text and a
 //! machine go in, the program or the refusal comes out.
 
-use filpost::{Diag, Error, Program};
+use std::collections::BTreeMap;
+use std::io::Cursor;
+
+use filpost::{Commons, Diag, Error, Event, Program, cl};
 
 /// What is posted: a CL text with the machine it is for.
 #[derive(Clone, Debug, Default)]
@@ -34,12 +37,17 @@ impl Default for Machine {
 }
 
 /// A program and what was said about it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Posted {
     /// The NC program.
     pub nc: String,
-    /// Warnings, those of building first, as code and message.
+    /// Warnings, those of building first, as code and message without their places.
     pub warnings: Vec<String>,
+    /// What stays off the tape and stands in the listing only.
+    pub messages: Vec<String>,
+    /// CL lines of the records for which a FIL section was run, and of those that it
+    /// read on to.
+    pub sections: Vec<usize>,
 }
 
 /// Why there is no program.
@@ -56,27 +64,79 @@ pub struct Refused {
 /// # Errors
 /// What the post refuses.
 pub fn post(job: &Job) -> Result<Posted, Refused> {
-    let program = build(job).map_err(refused)?;
-    let mut warnings: Vec<String> = program.warnings().iter().map(Diag::to_string).collect();
-    let mut nc = Vec::new();
-    let report = program.run(job.cl.as_bytes(), &mut nc).map_err(refused)?;
-    warnings.extend(report.warnings.iter().map(Diag::to_string));
-    Ok(Posted { nc: String::from_utf8_lossy(&nc).into_owned(), warnings })
+    Prepared::new(job)?.post(&job.cl)
 }
 
-fn build(job: &Job) -> Result<Program, Error> {
-    let mut builder = match &job.machine {
-        Machine::Ready(name) => Program::builder().ready(name),
-        Machine::Toml(text) => Program::builder().machine("machine.toml", text),
-        Machine::OptionFile(text) => Program::builder().option_file("uncx01.p01", text),
-    };
-    for setting in &job.settings {
-        builder = builder.set(setting);
+/// A machine with its scripts, for many CL texts.
+pub struct Prepared {
+    program: Program,
+    reading: cl::reader::Options,
+}
+
+impl Prepared {
+    /// A machine with its scripts.
+    pub fn of(program: Program) -> Self {
+        Prepared { program, reading: cl::reader::Options::default() }
     }
-    for (name, text) in &job.fil {
-        builder = builder.fil(name, text);
+
+    /// Reads CL texts in a dialect; `None` recognizes it.
+    pub fn with_dialect(mut self, dialect: Option<cl::ClDialect>) -> Self {
+        self.reading.dialect = dialect;
+        self
     }
-    builder.build()
+
+    /// The machine and the scripts of a job.
+    ///
+    /// # Errors
+    /// Settings or scripts that make no post.
+    fn new(job: &Job) -> Result<Self, Refused> {
+        let mut builder = match &job.machine {
+            Machine::Ready(name) => Program::builder().ready(name),
+            Machine::Toml(text) => Program::builder().machine("machine.toml", text),
+            Machine::OptionFile(text) => Program::builder().option_file("uncx01.p01", text),
+        };
+        for setting in &job.settings {
+            builder = builder.set(setting);
+        }
+        for (name, text) in &job.fil {
+            builder = builder.fil(name, text);
+        }
+        builder.build().map(Prepared::of).map_err(refused)
+    }
+
+    /// The settings of the machine.
+    pub fn commons(&self) -> &Commons {
+        self.program.commons()
+    }
+
+    /// Posts a CL text.
+    ///
+    /// # Errors
+    /// What the post refuses.
+    pub fn post(&self, cl: &str) -> Result<Posted, Refused> {
+        let mut posted = Posted::default();
+        let mut nc = Vec::new();
+        let mut lines = BTreeMap::new();
+        let run = self.program.start().reading(self.reading).observe(|event| match event {
+            Event::Record { record, .. } => {
+                lines.insert(record.number, record.line as usize);
+            }
+            Event::Section { record, .. } => {
+                posted.sections.extend(lines.range(record..).map(|l| l.1))
+            }
+            Event::Message(text) => posted.messages.push(text.to_string()),
+            _ => {}
+        });
+        let report = run.run_seekable(Cursor::new(cl), &mut nc).map_err(refused)?;
+        posted.warnings =
+            self.program.warnings().iter().chain(&report.warnings).map(said).collect();
+        posted.nc = String::from_utf8_lossy(&nc).into_owned();
+        Ok(posted)
+    }
+}
+
+fn said(diag: &Diag) -> String {
+    format!("{}: {}", diag.code.name(), diag.message)
 }
 
 fn refused(error: Error) -> Refused {

@@ -18,7 +18,7 @@ const BARE: &[&str] = &[
 ];
 
 /// What the header of a file in `tests/words` says.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Header {
     /// A ready post.
     pub post: Option<String>,

@@ -155,7 +155,7 @@ fn is_without_effect(post: &Post, name: &str) -> bool {
 ///
 /// # Errors
 /// A record without a point or with more than a point and an axis; an axis whose
-/// length is not 1 while MULTAX is off.
+/// length is not 1 unless MULTAX is on; any but 0,0,1 after MULTAX/OFF.
 #[inline]
 fn target(post: &Post, record: &Record, vocabulary: &Vocabulary) -> Result<Target> {
     let point = record.point().filter(|_| MOTION.contains(&record.data.len()));
@@ -175,10 +175,14 @@ fn target(post: &Post, record: &Record, vocabulary: &Vocabulary) -> Result<Targe
 fn checked_axis(post: &Post, axis: Vector3<f64>) -> Result<Vector3<f64>> {
     let length = axis.norm();
     let near = (length - 1.0).abs() <= AXIS_LENGTH;
-    if near || (post.path.multax && length > AXIS_LENGTH) {
-        return Ok(axis);
+    let on = post.path.multax == Some(true);
+    if !(near || (on && length > AXIS_LENGTH)) {
+        return PostCode::AxisLength.err(format!("a tool axis of length {length:.4}"));
     }
-    PostCode::AxisLength.err(format!("a tool axis of length {length:.4}"))
+    if post.path.multax == Some(false) && (axis - Vector3::z()).amax() > AXIS_LENGTH {
+        return PostCode::AxisLength.err("a tool axis other than 0,0,1 after MULTAX/OFF");
+    }
+    Ok(axis)
 }
 
 #[cold]

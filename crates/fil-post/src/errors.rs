@@ -77,7 +77,7 @@ fil_diag::codes! {
             "Retract before it, or give the axis more travel.";
         /// Length of a tool axis.
         AxisLength = 525, Error, "not a tool axis",
-            "A tool axis has length 1; six values of another length may be two points.",
+            "A tool axis has length 1; six values of another length may be two points. After MULTAX / OFF there is none but 0,0,1.",
             "Check the GOTO; MULTAX / ON allows axes of any length but zero.";
         /// A part on both sides of a skip mark.
         SkippedPart = 526, Error, "part of a command stands in blocks that may be skipped",

@@ -11,11 +11,17 @@ use std::sync::OnceLock;
 pub struct NoEffect {
     /// The major word.
     pub major: &'static str,
-    /// A minor word or the name of a number; `*` for the whole record.
+    /// `*` for the whole record; a minor word with its number; numbers by where they
+    /// stand in the record, and their name: `numbers 8 to 11: tolerances`.
     pub item: &'static str,
+    /// The item says what holds without it: it may be left out, but not be another.
+    pub left_out_only: bool,
     /// Why it has no effect.
     pub reason: &'static str,
 }
+
+/// The change of an item that is only without effect when it is left out.
+const LEFT_OUT: &str = "left out";
 
 const SOURCE: &str = include_str!("../data/no-effect.tsv");
 
@@ -23,8 +29,9 @@ const SOURCE: &str = include_str!("../data/no-effect.tsv");
 pub fn rows() -> impl Iterator<Item = NoEffect> {
     SOURCE.lines().filter(|line| !line.starts_with('#')).skip(1).filter_map(|line| {
         let mut fields = line.split('\t');
-        let (major, item, reason) = (fields.next()?, fields.next()?, fields.next()?);
-        Some(NoEffect { major, item, reason })
+        let (major, item) = (fields.next()?, fields.next()?);
+        let left_out_only = fields.next()? == LEFT_OUT;
+        Some(NoEffect { major, item, left_out_only, reason: fields.next()? })
     })
 }
 

@@ -36,8 +36,9 @@ pub struct Path {
     pub point: Option<Point3<f64>>,
     /// Last CL tool axis.
     pub axis: Vector3<f64>,
-    /// MULTAX is on: a GOTO may have an axis of any length.
-    pub multax: bool,
+    /// MULTAX is on: a GOTO may have an axis of any length. Off: it may have none but
+    /// 0,0,1. `None` before the file has said it.
+    pub multax: Option<bool>,
     /// Last rotary positions in degrees; `None` before the first motion.
     pub rotary: Option<[f64; 2]>,
     /// RAPID was given, by this record: the next motion is rapid.
@@ -63,7 +64,7 @@ impl Default for Path {
         Path {
             point: None,
             axis: Vector3::z(),
-            multax: false,
+            multax: None,
             rotary: None,
             rapid: None,
             feed: None,

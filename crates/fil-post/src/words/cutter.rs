@@ -5,13 +5,17 @@ use fil_diag::Result;
 use crate::items::Items;
 use crate::post::Post;
 
+/// Measures of an APT cutter behind the diameter: corner radius, center of the corner,
+/// two angles, height.
+const MEASURES: usize = 6;
+
 /// Remembers the diameter; the other measures of an APT cutter do not change the
 /// program.
 ///
 /// # Errors
-/// No number.
+/// No number, or what is no measure of a cutter.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     post.path.cutter = Some(items.required("the diameter")?);
-    items.numbers();
-    Ok(())
+    let _measures: Vec<f64> = std::iter::from_fn(|| items.number()).take(MEASURES).collect();
+    items.deny_rest()
 }

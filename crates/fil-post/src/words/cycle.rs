@@ -97,11 +97,25 @@ fn kind(items: &mut Items) -> Result<CycleKind> {
 }
 
 /// The R level above the hole's start: RAPTO or CLEAR, else the machine's.
-fn clearance(post: &Post, items: &mut Items, at: &mut u16) -> Result<f64> {
+///
+/// # Errors
+/// A RAPTO below CLEAR: the tool stays at the R level between holes.
+fn clearance(post: &mut Post, items: &mut Items, at: &mut u16) -> Result<f64> {
     let rapto = optional(items, &[w::RAPTO], at)?;
     let clear = items.couplet(w::CLEAR)?;
-    if rapto.is_none() && clear.is_some() {
-        *at = items.last_word();
+    match (rapto, clear) {
+        (Some(rapto), Some(clear)) if rapto < clear => {
+            return PostCode::CycleForm.err(format!(
+                "RAPTO {rapto} is the R level, and the tool would pass between the holes below \
+                 CLEAR {clear}"
+            ));
+        }
+        (Some(rapto), Some(clear)) if rapto > clear => {
+            let message = format!("CYCLE: CLEAR {clear}; RAPTO {rapto} is the R level");
+            post.warn(PostCode::IgnoredPart, message);
+        }
+        (None, Some(_)) => *at = items.last_word(),
+        _ => {}
     }
     let usual = post.control.commons.dbl_opt(loc::CYCLE_AUTO_CLEARANCE);
     Ok(rapto.or(clear).or(usual).unwrap_or(0.0))

@@ -11,15 +11,15 @@ use crate::post::Post;
 /// Shortest tool axis that has a direction.
 const SHORTEST: f64 = 1e-9;
 
-/// OFF brings the axis back to 0,0,1; ON lets a GOTO have an axis of any length.
+/// OFF brings the axis back to 0,0,1, and no GOTO may have another; ON lets a GOTO have
+/// an axis of any length.
 ///
 /// # Errors
 /// Any other form.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
-    let off = items.flag(w::OFF);
-    items.flag(w::ON);
+    let off = items.any_of(&[w::OFF, w::ON]) == Some(w::OFF);
     items.deny_rest()?;
-    post.path.multax = !off;
+    post.path.multax = Some(!off);
     if off {
         post.path.axis = Vector3::z();
     }

@@ -23,7 +23,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     }
     items.any_of(&[w::TURN, w::FACE]);
     let lead = thread::lead(post, items)?;
-    if items.couplet(w::MULTRD)?.is_some_and(|starts| starts > 1.0) {
+    if items.couplet(w::MULTRD)?.is_some_and(|starts| starts != 1.0) {
         return Err(items.error("a thread of several starts needs a FIL section"));
     }
     for word in [w::DEPTH, w::CUTS, w::FINCUT, w::CUTANG] {

@@ -14,6 +14,10 @@ use crate::control_state::Compensation;
 use crate::errors::PostCode;
 use crate::operation::{Feed, Lead};
 
+/// A smaller motion along an axis whose words are off the tape is none, mm, inch or
+/// degrees.
+const OFF_THE_TAPE: f64 = 1e-3;
+
 /// A motion of the machine's axes.
 #[derive(Clone, Copy, Debug)]
 pub struct Motion {
@@ -154,7 +158,9 @@ pub fn axis_words(control: &mut Control, motion: &Motion) -> Result<bool> {
     for number in present.numbers() {
         let axis = control.tables.axis(number);
         axis.check(motion.position[number])?;
-        if !axis.is_off() {
+        if axis.is_off() {
+            warn_off_the_tape(control, number, motion.position[number]);
+        } else {
             scaled[number] = axis.scaled(motion.position[number])?;
             let due = axis.changes(scaled[number], &control.commons)
                 || (doubts && !control.state.has_last(axis.letter));
@@ -176,6 +182,19 @@ pub fn axis_words(control: &mut Control, motion: &Motion) -> Result<bool> {
         note_axis_words(control, written, motion.word);
     }
     Ok(true)
+}
+
+/// Warns of a motion along an axis whose words are off the tape: the machine would not
+/// make it.
+#[cold]
+fn warn_off_the_tape(control: &mut Control, number: usize, position: f64) {
+    let at = control.axis_position(number).unwrap_or(0.0);
+    if (position - at).abs() > OFF_THE_TAPE {
+        let letter = control.tables.axis(number).letter;
+        let message =
+            format!("{letter} is off the tape, and the path goes to {letter}{position:.3}");
+        control.warnings.add(PostCode::IgnoredPart, message);
+    }
 }
 
 /// Adds one axis word, whether or not it has changed.

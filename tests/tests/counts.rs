@@ -1,0 +1,136 @@
+//! Everything counts: an item of a record that is changed must change the program
+//! or what is said about it, or the table of things without effect has the row; and
+//! so must a setting of the machine.
+
+use std::collections::{BTreeMap, HashMap};
+use std::env;
+
+use filpost::locations::{Location, TABLE};
+use filpost_tests::counts::corpus::{Part, parts};
+use filpost_tests::counts::excuse::Setting;
+use filpost_tests::counts::settings::{Pair, unseen};
+use filpost_tests::counts::statement::{Change, Statement, statements};
+use filpost_tests::counts::trial::Window;
+use filpost_tests::posting::Prepared;
+
+/// Statements of one form that are tried in the normal run.
+const SAMPLE: usize = 2;
+
+/// What was tried and what was not noticed.
+#[derive(Default)]
+struct Tally {
+    tried: usize,
+    excused: usize,
+    of_sections: usize,
+    /// Statements in texts that the post refuses as they are.
+    refused: usize,
+    /// Changes that nothing notices: how often, and where first.
+    quiet: BTreeMap<String, (usize, String)>,
+}
+
+/// One of so many settings is tried in the normal run.
+const SETTINGS_SAMPLE: usize = 8;
+
+/// FILPOST_COUNTS=all tries every statement and every setting, and not a sample.
+fn all() -> bool {
+    env::var("FILPOST_COUNTS").is_ok_and(|value| value == "all")
+}
+
+/// Tries the statements of a file; `seen` counts those of one form.
+fn try_part(part: &Part, seen: &mut HashMap<String, usize>, tally: &mut Tally) {
+    let statements = statements(&part.cl);
+    let machine = part.machine(None).expect("the post of a part");
+    for (at, statement) in statements.iter().enumerate() {
+        let count = seen.entry(statement.shape()).or_default();
+        *count += 1;
+        if statement.major.is_empty() || (*count > SAMPLE && !all()) {
+            continue;
+        }
+        let Some(window) = Window::new(&machine, &statements, at) else {
+            tally.refused += 1;
+            continue;
+        };
+        if window.is_of_a_section() {
+            tally.of_sections += 1;
+            continue;
+        }
+        let setting = Setting { all: &statements, at, commons: machine.commons() };
+        let place = format!("{} line {}: {}", part.name, statement.line, statement.text);
+        tally.try_statement(&window, &machine, setting, &place);
+    }
+}
+
+impl Tally {
+    /// Tries all changes of a statement.
+    fn try_statement(
+        &mut self,
+        window: &Window<'_>,
+        machine: &Prepared,
+        setting: Setting<'_>,
+        place: &str,
+    ) {
+        let statement = &setting.all[setting.at];
+        for (index, change, noticed) in window.tried(machine) {
+            self.tried += 1;
+            if noticed {
+                continue;
+            }
+            let ignored = statement.is_text() && window.is_ignored();
+            if ignored || setting.excuse(index, change).is_some() {
+                self.excused += 1;
+                continue;
+            }
+            let name = name(statement, index, change);
+            self.quiet.entry(name).or_insert_with(|| (0, place.to_string())).0 += 1;
+        }
+    }
+}
+
+/// The class of a change: `Other 5 of CYCLE DEPTH`.
+fn name(statement: &Statement, index: usize, change: Change) -> String {
+    let major = &statement.major;
+    if index >= statement.items.len() {
+        return format!("{change:?} of {major}");
+    }
+    match statement.word_before(index) {
+        Some(word) => format!("{change:?} number of {major} {word}"),
+        None if statement.is_number(index) => format!("{change:?} number {} of {major}", index + 1),
+        None if statement.is_text() => format!("{change:?} text of {major}"),
+        None => format!("{change:?} {} of {major}", statement.item(index)),
+    }
+}
+
+#[test]
+fn changed_items_are_noticed() {
+    let (mut tally, mut seen) = (Tally::default(), HashMap::new());
+    for part in parts() {
+        try_part(&part, &mut seen, &mut tally);
+    }
+    println!(
+        "{} changes tried, {} without effect by the table; {} statements for sections, {} in texts \
+         that are refused",
+        tally.tried, tally.excused, tally.of_sections, tally.refused
+    );
+    for (name, (count, place)) in &tally.quiet {
+        println!("{count} times: {name}, first in {place}");
+    }
+    assert!(tally.quiet.is_empty(), "{} kinds of changes are not noticed", tally.quiet.len());
+    assert!(tally.tried > 1000, "too few changes to prove anything");
+}
+
+/// Settings that other rooms than the post act on, and what they do there.
+const NOT_OF_THE_POST: [&str; 1] = [
+    // Says to `verify` how a program with tool-tip control begins.
+    "rotary.tip_control",
+];
+
+#[test]
+fn changed_settings_are_noticed() {
+    let mut pairs: Vec<Pair> = parts().into_iter().filter_map(Pair::new).collect();
+    assert!(pairs.len() >= 8, "too few pairs to prove anything");
+    let rows = TABLE.iter().filter(|row| row.used && !NOT_OF_THE_POST.contains(&row.name));
+    let rows: Vec<&Location> = rows.step_by(if all() { 1 } else { SETTINGS_SAMPLE }).collect();
+    let quiet: Vec<String> = rows.iter().flat_map(|row| unseen(&mut pairs, row)).collect();
+    println!("{} settings tried on {} pairs", rows.len(), pairs.len());
+    assert!(quiet.is_empty(), "{} values are not noticed:\n{}", quiet.len(), quiet.join("\n"));
+}
