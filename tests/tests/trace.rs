@@ -196,6 +196,35 @@ fn a_map_that_was_cut_off_is_refused_wherever_it_was_cut() {
     }
 }
 
+/// A map whose lines say something else, with a last line that agrees with them.
+fn sealed(map: &[u8]) -> Vec<u8> {
+    let text = map.strip_suffix(b"\n").unwrap_or(map);
+    let start = text.iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);
+    let lines = &map[..start];
+    let Ok(mut last) = serde_json::from_slice::<serde_json::Value>(&map[start..]) else {
+        return map.to_vec();
+    };
+    last["map"] = serde_json::to_value(Digest::of(lines)).expect("numbers and texts");
+    [lines, last.to_string().as_bytes(), b"\n"].concat()
+}
+
+#[test]
+fn a_map_that_was_edited_is_refused_wherever_it_was_edited() {
+    let map = example();
+    let last = map[..map.len() - 1].iter().rposition(|byte| *byte == b'\n').expect("lines") + 1;
+    for at in 0..last {
+        let mut edited = map.clone();
+        edited[at] = if edited[at] == b'1' { b'2' } else { b'1' };
+        let error = read_all(&edited).expect_err("it was edited");
+        assert_eq!(error.diags()[0].code.name(), "E0707", "{at}");
+    }
+    let map = String::from_utf8(map).expect("text");
+    let moved = map.replacen("[1,1,", "[2,1,", 1);
+    let error = read_all(moved.as_bytes()).expect_err("it was edited");
+    assert!(error.diags()[0].message.starts_with("the map was edited"), "{error}");
+    assert!(read_all(&sealed(moved.as_bytes())).is_ok(), "the same with a hash that agrees");
+}
+
 /// A form that was not written out, a place before the first line of the CL file, and
 /// what is no line of a map are refused where they stand.
 #[test]
@@ -209,7 +238,7 @@ fn lines_that_tell_nothing_are_refused() {
         ("12.5", "this is no line of a line map"),
     ] {
         let broken = map.replacen("\n12\n", &format!("\n{line}\n"), 1);
-        let error = read_all(broken.as_bytes()).expect_err(line);
+        let error = read_all(&sealed(broken.as_bytes())).expect_err(line);
         let diag = &error.diags()[0];
         assert_eq!((diag.code.name().as_str(), diag.message.as_str()), ("E0707", said), "{line}");
         assert_eq!(diag.places[0].line as usize, at + 1, "{line}");
@@ -228,5 +257,6 @@ proptest! {
         let at = at % map.len();
         if more { map.insert(at, byte) } else { map[at] = byte }
         let _ = read_all(&map);
+        let _ = read_all(&sealed(&map));
     }
 }

@@ -13,7 +13,7 @@ use fil_nc::motion::Event;
 use fil_nc::plot::{Drawing, View, nc_trace, svg};
 use fil_nc::text::read_block;
 use fil_nc::verify::Allowed;
-use filpost::map::{Entry, MapReader};
+use filpost::map::{Digest, Entry, MapReader};
 use filpost::{Builder, Commons, Limits, Program};
 use filpost_tests::duel::{fight, reduce};
 use filpost_tests::programs::{Dice, case};
@@ -181,6 +181,17 @@ fn compare(nc: &[u8]) {
 
 /// Any bytes as a line map.
 pub fn map_bytes(data: &[u8]) {
+    read_map(data);
+    // The same with a last line whose hash agrees, so that what it says is read.
+    let [file, lines] = [&b""[..], data].map(|bytes| {
+        let Digest { bytes, hash } = Digest::of(bytes);
+        format!("{{\"bytes\":{bytes},\"hash\":\"{hash}\"}}")
+    });
+    let last = format!("{{\"lines\":0,\"cl\":{file},\"nc\":{file},\"map\":{lines}}}\n");
+    read_map(&[data, last.as_bytes()].concat());
+}
+
+fn read_map(data: &[u8]) {
     let Ok(mut map) = MapReader::new("fuzz.map", std::io::Cursor::new(data)) else { return };
     while let Some(Ok(entry)) = map.next() {
         let Entry::Line(line) = entry else { continue };

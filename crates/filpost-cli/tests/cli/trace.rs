@@ -169,7 +169,7 @@ fn maps_that_are_missing_or_broken_are_refused() {
     let place = posted();
     let map = place.text("part.tap.map").expect("the map");
     let last = map.trim_end().rfind('\n').expect("lines");
-    let version = map.replace("\"filpost-map\":2", "\"filpost-map\":9");
+    let version = map.replace("\"filpost-map\":3", "\"filpost-map\":9");
     for broken in [&map[..last], &map[..last + 20], "", "{}", "hello\n", &version] {
         let place = posted().with("part.tap.map", broken);
         let ran = place.run(&["trace", "part.tap:6"]);

@@ -40,6 +40,8 @@ pub(super) struct End {
     pub cl: Digest,
     /// The NC program.
     pub nc: Digest,
+    /// The lines of the map before this one.
+    pub map: Digest,
 }
 
 /// A FIL call stack.

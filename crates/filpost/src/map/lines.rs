@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::digest::{Digest, Digesting};
 use super::forms::Forms;
-use super::line::{StackLine, TakenLine};
+use super::line::{End, StackLine, TakenLine};
 use super::reader::Taken;
 use super::words;
 
@@ -46,9 +46,18 @@ pub(super) struct Lines {
     /// Lines of the NC program so far.
     nc_lines: u64,
     nc: Digesting,
+    /// The map itself, up to here.
+    map: Digesting,
 }
 
 impl Lines {
+    /// Begins after the first line of a map.
+    pub fn after(header: &[u8]) -> Self {
+        let mut lines = Lines::default();
+        lines.map.add(header);
+        lines
+    }
+
     /// Makes the lines of a batch.
     pub fn write(&mut self, batch: &mut Batch) {
         let Batch { text, noted, stacks, taken, lines } = batch;
@@ -64,11 +73,12 @@ impl Lines {
             self.block(block, noted, lines);
         }
         self.nc.add(text);
+        self.map.add(lines);
     }
 
-    /// Number of lines of the NC program, and its digest.
-    pub fn end(&self) -> (u64, Digest) {
-        (self.nc_lines, self.nc.digest())
+    /// The last line of the map.
+    pub fn end(&self, cl: Digest) -> End {
+        End { lines: self.nc_lines, cl, nc: self.nc.digest(), map: self.map.digest() }
     }
 
     fn block(&mut self, block: &BlockInfo, noted: &Noted, lines: &mut Vec<u8>) {

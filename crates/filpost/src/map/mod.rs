@@ -2,9 +2,9 @@
 //! of it.
 //!
 //! A map is a text of JSON lines. The first line says what the run read and
-//! wrote; the last line holds the digests of the CL file and of the NC program,
-//! so that a map that was cut off, or one of another run, is refused. Between
-//! them stand, in any number:
+//! wrote; the last line holds the digests of the CL file, of the NC program and of the
+//! lines before it, so that a map that was cut off or edited, or one of another run, is
+//! refused. Between them stand, in any number:
 //!
 //! - `[lines,records,"words"]`: a line of the NC program: by how much the line and
 //!   the number of its CL record come after those of the line before, and its
@@ -43,4 +43,4 @@ pub use words::Word;
 pub(crate) use writer::Writer;
 
 /// The version of the format that is written, and the only one that is read.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;

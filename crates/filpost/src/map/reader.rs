@@ -143,13 +143,16 @@ impl MapReader<File> {
 }
 
 impl<R: Read + Seek> MapReader<R> {
-    /// Reads the first and the last line of a map; `name` is what messages show.
+    /// Reads the first and the last line of a map, and all of it once for its hash;
+    /// `name` is what messages show.
     ///
     /// # Errors
-    /// E0707: it was cut off, is of another version, or is no map.
+    /// E0707: it was cut off or edited, is of another version, or is no map.
     pub fn new(name: &str, mut input: R) -> Result<Self, Error> {
         let cant = |error: io::Error| files::cant_read(Path::new(name), &error);
-        let last = last_line(&mut input).map_err(cant)?;
+        let (last, start) = last_line(&mut input).map_err(cant)?;
+        input.rewind().map_err(cant)?;
+        let lines = Digest::of_reader((&mut input).take(start)).map_err(cant)?;
         input.rewind().map_err(cant)?;
         let none = || MapFile { name: String::new(), digest: Digest::of(b"") };
         let mut reader = MapReader {
@@ -178,6 +181,11 @@ impl<R: Read + Seek> MapReader<R> {
         }
         let end: End = parse(&last)
             .ok_or_else(|| reader.broken("the map was cut off: its last line is missing"))?;
+        if end.map != lines {
+            let message = "the map was edited: its last line has another length or hash of the \
+                           lines before it";
+            return Err(reader.broken(message));
+        }
         reader.cl = MapFile { name: header.cl, digest: end.cl };
         reader.nc = MapFile { name: header.nc, digest: end.nc };
         let fil = header.fil.into_iter();
@@ -342,13 +350,13 @@ fn parse<'a, T: Deserialize<'a>>(line: &'a [u8]) -> Option<T> {
     serde_json::from_slice(line).ok()
 }
 
-/// The last line of an input, if it is a short one.
-fn last_line(input: &mut (impl Read + Seek)) -> io::Result<Vec<u8>> {
+/// The last line of an input, if it is a short one, and where it begins.
+fn last_line(input: &mut (impl Read + Seek)) -> io::Result<(Vec<u8>, u64)> {
     let length = input.seek(SeekFrom::End(0))?;
-    input.seek(SeekFrom::Start(length.saturating_sub(TAIL)))?;
+    let from = input.seek(SeekFrom::Start(length.saturating_sub(TAIL)))?;
     let mut tail = Vec::new();
     input.take(TAIL).read_to_end(&mut tail)?;
     let text = tail.strip_suffix(b"\n").unwrap_or(&tail);
     let start = text.iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);
-    Ok(text[start..].to_vec())
+    Ok((text[start..].to_vec(), from + start as u64))
 }

@@ -11,7 +11,7 @@ use fil_vm::Module;
 
 use super::VERSION;
 use super::digest::Digest;
-use super::line::{End, FilFile, Header};
+use super::line::{FilFile, Header};
 use super::lines::{Batch, Lines, object};
 use super::names::Names;
 use super::reader::Taken;
@@ -33,8 +33,8 @@ pub(crate) struct Writer<'w> {
     to: SyncSender<Batch>,
     /// Where they come back from, with their lines.
     from: Receiver<Batch>,
-    /// Ends with the number of lines and the digest of the NC program.
-    thread: JoinHandle<(u64, Digest)>,
+    /// Ends with what it knows of the program and the map.
+    thread: JoinHandle<Lines>,
 }
 
 struct Output<'w> {
@@ -56,9 +56,12 @@ impl<'w> Writer<'w> {
         let (to, given) = mpsc::sync_channel(WAITING);
         let (back, from) = mpsc::channel();
         let named = thread::Builder::new().name("line map".into());
-        let thread = named.spawn(move || make_lines(&given, &back))?;
+        let mut first = Vec::new();
+        object(&header(names, module), &mut first);
         let mut output = Output { output, failure: None };
-        output.object(&header(names, module));
+        output.write(&first);
+        let lines = Lines::after(&first);
+        let thread = named.spawn(move || make_lines(lines, &given, &back))?;
         Ok(Writer { output, batch: Batch::default(), stacks: 0, to, from, thread })
     }
 
@@ -91,8 +94,10 @@ impl<'w> Writer<'w> {
         drop(self.to);
         self.from.iter().for_each(|done| self.output.write(&done.lines));
         let ended = self.thread.join();
-        let (lines, nc) = ended.unwrap_or_else(|panicked| panic::resume_unwind(panicked));
-        self.output.object(&End { lines, cl, nc });
+        let lines = ended.unwrap_or_else(|panicked| panic::resume_unwind(panicked));
+        let mut last = Vec::new();
+        object(&lines.end(cl), &mut last);
+        self.output.write(&last);
         self.output.failure.map_or_else(|| self.output.output.flush(), Err)
     }
 
@@ -116,23 +121,16 @@ impl Output<'_> {
             self.failure = self.output.write_all(lines).err();
         }
     }
-
-    fn object(&mut self, line: &impl serde::Serialize) {
-        let mut lines = Vec::new();
-        object(line, &mut lines);
-        self.write(&lines);
-    }
 }
 
 /// Makes the lines of the batches that come, until no more come.
-fn make_lines(given: &Receiver<Batch>, back: &Sender<Batch>) -> (u64, Digest) {
-    let mut lines = Lines::default();
+fn make_lines(mut lines: Lines, given: &Receiver<Batch>, back: &Sender<Batch>) -> Lines {
     for mut batch in given {
         lines.write(&mut batch);
         // A run that failed does not wait for its map.
         let _ = back.send(batch);
     }
-    lines.end()
+    lines
 }
 
 fn header(names: &Names, module: &Module) -> Header {
