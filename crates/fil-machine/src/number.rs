@@ -104,14 +104,11 @@ impl NumberFormat {
     ///
     /// # Errors
     /// As [`NumberFormat::scale`]; a value that the format would round.
+    #[inline]
     pub fn exact(&self, value: f64) -> Result<i64> {
         let scaled = self.scale(value)?;
         if (self.unscale(scaled) - value).abs() > EXACT * value.abs().max(1.0) {
-            return MachineCode::Inexact.err(format!(
-                "{value} would be written as {}, with {} digits after the point",
-                self.unscale(scaled),
-                self.decimals
-            ));
+            return Err(self.inexact(value, scaled));
         }
         Ok(scaled)
     }
@@ -121,16 +118,31 @@ impl NumberFormat {
     ///
     /// # Errors
     /// As [`NumberFormat::scale`]; a value that rounding would change by more.
+    #[inline]
     pub fn within(&self, value: f64, share: f64) -> Result<i64> {
         let scaled = self.scale(value)?;
         if (self.unscale(scaled) - value).abs() > share * value.abs() {
-            return MachineCode::Inexact.err(format!(
-                "{value} would be written as {}, off by more than {} %",
-                self.unscale(scaled),
-                share * 100.0
-            ));
+            return Err(self.changed(value, scaled, share));
         }
         Ok(scaled)
+    }
+
+    #[cold]
+    fn inexact(&self, value: f64, scaled: i64) -> Box<Diag> {
+        MachineCode::Inexact.diag(format!(
+            "{value} would be written as {}, with {} digits after the point",
+            self.unscale(scaled),
+            self.decimals
+        ))
+    }
+
+    #[cold]
+    fn changed(&self, value: f64, scaled: i64, share: f64) -> Box<Diag> {
+        MachineCode::Inexact.diag(format!(
+            "{value} would be written as {}, off by more than {} %",
+            self.unscale(scaled),
+            share * 100.0
+        ))
     }
 
     #[cold]

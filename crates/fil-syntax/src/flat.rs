@@ -1,6 +1,6 @@
 //! Statements as the grammar reads them, before blocks are nested.
 
-use crate::tree::{Expr, Name, SectionKey, Span, StmtKind, Target};
+use crate::tree::{DoRange, Expr, Name, SectionKey, Span, StmtKind, Target};
 
 /// A statement line.
 #[derive(Debug)]
@@ -27,7 +27,7 @@ pub(crate) enum FlatKind {
     /// `ENDIF`
     EndIf,
     /// `DO/label,var=from,to,step`
-    Do { label: Name, variable: Target, from: Expr, to: Expr, step: Option<Expr> },
+    Do { label: Name, variable: Target, range: Box<DoRange> },
     /// `CASE/x`
     Case(Expr),
     /// `WHEN/v,…`

@@ -1,7 +1,7 @@
 //! Blocks while they are open.
 
 use crate::flat::FlatKind;
-use crate::tree::{Expr, Name, Span, Stmt, StmtKind, Target, When};
+use crate::tree::{DoRange, Expr, Name, Span, Stmt, StmtKind, Target, When};
 
 /// An open block.
 pub(crate) struct Frame {
@@ -25,9 +25,7 @@ pub(crate) enum FrameKind {
     Do {
         label: Name,
         variable: Target,
-        from: Expr,
-        to: Expr,
-        step: Option<Expr>,
+        range: Box<DoRange>,
     },
     Case {
         subject: Expr,
@@ -139,8 +137,8 @@ impl Frame {
                 StmtKind::If { arms, otherwise: None }
             }
             FrameKind::If { arms, condition: None } => StmtKind::If { arms, otherwise: Some(body) },
-            FrameKind::Do { label, variable, from, to, step } => {
-                StmtKind::Do { label, variable, from, to, step, body }
+            FrameKind::Do { label, variable, range } => {
+                StmtKind::Do { label, variable, range, body }
             }
             FrameKind::Case { subject, mut whens, part } => {
                 let other = match part {

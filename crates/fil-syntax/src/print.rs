@@ -87,10 +87,10 @@ fn write_block(out: &mut String, kind: &StmtKind) -> fmt::Result {
             }
             writeln!(out, "ENDIF")
         }
-        StmtKind::Do { label, variable, from, to, step, body } => {
-            let (variable, from, to) = (target(variable), expr(from), expr(to));
+        StmtKind::Do { label, variable, range, body } => {
+            let (variable, from, to) = (target(variable), expr(&range.from), expr(&range.to));
             write!(out, "DO/{},{variable}={from},{to}", label.text)?;
-            step.iter().try_for_each(|step| write!(out, ",{}", expr(step)))?;
+            range.step.iter().try_for_each(|step| write!(out, ",{}", expr(step)))?;
             out.push('\n');
             write_body(out, body)
         }
@@ -118,7 +118,8 @@ fn simple(kind: &StmtKind) -> String {
         StmtKind::Post { word, args } if args.is_empty() => word.text.clone(),
         StmtKind::Post { word, args } => format!("{}/{}", word.text, list(args)),
         StmtKind::PostText { word, text } => format!("{}/{text}", word.text),
-        StmtKind::IfSign { value, labels: [a, b, c] } => {
+        StmtKind::IfSign { value, labels } => {
+            let [a, b, c] = &**labels;
             format!("IF({}) {},{},{}", expr(value), a.text, b.text, c.text)
         }
         StmtKind::Jump { label } => format!("JUMPTO/{}", label.text),

@@ -81,9 +81,9 @@ impl Nester<'_, '_> {
             FlatKind::Plain(kind) => self.add(Stmt { label, kind, span }),
             FlatKind::Refused => self.add(Stmt { label, kind: StmtKind::Contin, span }),
             FlatKind::If(condition) => self.open(FrameKind::if_then(condition), label, span),
-            FlatKind::Do { label: end, variable, from, to, step } => {
+            FlatKind::Do { label: end, variable, range } => {
                 let shared = self.shares_label(&end);
-                let kind = FrameKind::Do { label: end, variable, from, to, step };
+                let kind = FrameKind::Do { label: end, variable, range };
                 self.open(kind, label, span);
                 if let Some(frame) = self.frames.last_mut() {
                     frame.reported |= shared;

@@ -162,7 +162,7 @@ pub enum StmtKind {
         /// The value whose sign decides.
         value: Expr,
         /// Labels for negative, zero and positive.
-        labels: [Name; 3],
+        labels: Box<[Name; 3]>,
     },
     /// `JUMPTO/label`.
     Jump {
@@ -175,12 +175,8 @@ pub enum StmtKind {
         label: Name,
         /// The loop variable.
         variable: Target,
-        /// First value.
-        from: Expr,
-        /// Last value.
-        to: Expr,
-        /// Step; 1 when left out.
-        step: Option<Expr>,
+        /// The values it takes; a box keeps statements small.
+        range: Box<DoRange>,
         /// The statements of the loop.
         body: Vec<Stmt>,
     },
@@ -226,6 +222,24 @@ pub enum StmtKind {
     Contin,
     /// `FINI`: the end of the file.
     Fini,
+}
+
+/// The values that the variable of a DO takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DoRange {
+    /// First value.
+    pub from: Expr,
+    /// Last value.
+    pub to: Expr,
+    /// Step; 1 when left out.
+    pub step: Option<Expr>,
+}
+
+impl DoRange {
+    /// Its expressions in the order of the statement.
+    pub fn values(&self) -> impl Iterator<Item = &Expr> {
+        [&self.from, &self.to].into_iter().chain(&self.step)
+    }
 }
 
 /// One `WHEN/` part.

@@ -34,7 +34,7 @@ pub(crate) fn expressions<'t>(stmt: &'t Stmt, visit: &mut dyn FnMut(&'t Expr)) {
         StmtKind::IfOne { condition: value, .. } | StmtKind::IfSign { value, .. } => {
             all(&mut [value].into_iter());
         }
-        StmtKind::Do { from, to, step, .. } => all(&mut [from, to].into_iter().chain(step)),
+        StmtKind::Do { range, .. } => all(&mut range.values()),
         StmtKind::Case { subject, whens, .. } => {
             let values = whens.iter().flat_map(|when| &when.values);
             all(&mut [subject].into_iter().chain(values));

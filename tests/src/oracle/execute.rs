@@ -94,7 +94,8 @@ impl Oracle<'_> {
                     return self.statement(then, None);
                 }
             }
-            StmtKind::IfSign { value, labels: [negative, zero, positive] } => {
+            StmtKind::IfSign { value, labels } => {
+                let [negative, zero, positive] = &**labels;
                 let value = self.number(value)?;
                 let label = if value < 0.0 {
                     negative
@@ -148,12 +149,12 @@ impl Oracle<'_> {
 
     /// DO: the test comes first; start, end and step are settled once.
     fn repeat(&mut self, stmt: &Stmt) -> Result<Flow, Fault> {
-        let StmtKind::Do { variable, from, to, step, body, .. } = &stmt.kind else {
+        let StmtKind::Do { variable, range, body, .. } = &stmt.kind else {
             return Ok(Flow::Next);
         };
-        let from = self.number(from)?;
-        let to = self.number(to)?;
-        let step = match step {
+        let from = self.number(&range.from)?;
+        let to = self.number(&range.to)?;
+        let step = match &range.step {
             Some(step) => self.number(step)?,
             None => 1.0,
         };

@@ -199,10 +199,13 @@ impl Control {
     pub(crate) fn modal_feed(&mut self, letter: Letter, feed: &Feed) -> Result<()> {
         let addresses = &self.tables.addresses;
         let Some(position) = addresses.required(letter)? else { return Ok(()) };
+        let known = self.state.has_last(letter);
+        if known && self.commons.last_output(letter) == feed.value {
+            return Ok(());
+        }
         let format = &addresses.slot(position).format;
         let scaled = Rounding::Rate.scale(feed.value, format);
         let scaled = scaled.map_err(|diag| crate::block::named(diag, letter))?;
-        let known = self.state.has_last(letter);
         if !known || format.unscale(scaled) != self.commons.last_output(letter) {
             self.block.put(position, scaled);
             self.block.note_cause(position, feed.cause);

@@ -1,7 +1,7 @@
 //! Makes trees as the parser could have made them.
 
 use fil_syntax::tree::{
-    BinaryOp, Expr, ExprKind, Item, Macro, Name, Program, Section, SectionKey, Span, Stmt,
+    BinaryOp, DoRange, Expr, ExprKind, Item, Macro, Name, Program, Section, SectionKey, Span, Stmt,
     StmtKind, Target, UnaryOp, When,
 };
 use proptest::prelude::*;
@@ -192,7 +192,7 @@ fn stmt() -> BoxedStrategy<Stmt> {
             then: Box::new(Stmt { label: None, kind, span: SPAN }),
         }),
         1 => (expr(), label(), label(), label())
-            .prop_map(|(value, a, b, c)| StmtKind::IfSign { value, labels: [a, b, c] }),
+            .prop_map(|(value, a, b, c)| StmtKind::IfSign { value, labels: Box::new([a, b, c]) }),
         1 => text().prop_map(|file| StmtKind::Includ { file }),
     ];
     let leaf = (prop::option::of(label()), simple).prop_map(|(label, kind)| Stmt {
@@ -238,7 +238,7 @@ fn loop_over(
     let label = Name { text: String::new(), span: SPAN };
     let last = Stmt { label: Some(label.clone()), kind: StmtKind::Contin, span: SPAN };
     body.push(last);
-    StmtKind::Do { label, variable, from, to, step, body }
+    StmtKind::Do { label, variable, range: Box::new(DoRange { from, to, step }), body }
 }
 
 /// Gives every DO and its last statement a label that nothing else has.

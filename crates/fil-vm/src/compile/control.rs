@@ -1,6 +1,6 @@
 //! Jumps, IF, DO and CASE.
 
-use fil_syntax::tree::{Expr, Name, Span, Stmt, StmtKind, Target, When};
+use fil_syntax::tree::{DoRange, Expr, Name, Span, Stmt, StmtKind, Target, When};
 
 use super::Compiler;
 use super::chunk::{Label, NamedLabel};
@@ -114,8 +114,7 @@ impl Compiler<'_> {
         &mut self,
         stmt: &Stmt,
         variable: &Target,
-        [from, to]: [&Expr; 2],
-        step: Option<&Expr>,
+        range: &DoRange,
         body: &[Stmt],
     ) {
         if variable.index.is_some() {
@@ -128,15 +127,15 @@ impl Compiler<'_> {
         let var = self.variable(&variable.name.text, variable.name.span);
         // Last value and step are settled before the loop and kept beside each other.
         let base = self.reserve(2, stmt.span);
-        self.expression_into(to, base);
-        match step {
+        self.expression_into(&range.to, base);
+        match &range.step {
             Some(step) => self.expression_into(step, base + 1),
             None => {
                 let src = self.number(1.0, stmt.span);
                 self.chunk.emit(Op::Move { dst: base + 1, src });
             }
         }
-        self.expression_into(from, var);
+        self.expression_into(&range.from, var);
         let (exit, again) = (self.chunk.label(), self.chunk.label());
         self.chunk.emit_to(exit, |exit| Op::DoEnter { var, base, exit });
         self.chunk.place(again);

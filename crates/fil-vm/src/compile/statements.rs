@@ -62,8 +62,8 @@ impl Compiler<'_> {
             StmtKind::IfOne { condition, then } => self.if_one(condition, then),
             StmtKind::IfSign { value, labels } => self.if_sign(value, labels),
             StmtKind::Jump { label } => self.jump(label),
-            StmtKind::Do { variable, from, to, step, body, .. } => {
-                self.do_loop(stmt, variable, [from, to], step.as_ref(), body);
+            StmtKind::Do { variable, range, body, .. } => {
+                self.do_loop(stmt, variable, range, body);
             }
             StmtKind::Case { subject, whens, other } => {
                 self.case(subject, whens, other.as_deref());

@@ -38,5 +38,8 @@ pub(super) fn look(context: &mut Context<'_>) {
 }
 
 fn has_step_zero(kind: &StmtKind) -> bool {
-    matches!(kind, StmtKind::Do { step: Some(step), .. } if constant(step) == Some(0.0))
+    match kind {
+        StmtKind::Do { range, .. } => range.step.as_ref().and_then(constant) == Some(0.0),
+        _ => false,
+    }
 }

@@ -295,9 +295,9 @@ impl<'t> Builder<'t> {
 
 /// True for a DO of constants that makes at least one pass.
 fn surely_runs(stmt: &Stmt) -> bool {
-    let StmtKind::Do { from, to, step, .. } = &stmt.kind else { return false };
-    let step = step.as_ref().map_or(Some(1.0), constant);
-    match (constant(from), constant(to), step) {
+    let StmtKind::Do { range, .. } = &stmt.kind else { return false };
+    let step = range.step.as_ref().map_or(Some(1.0), constant);
+    match (constant(&range.from), constant(&range.to), step) {
         (Some(from), Some(to), Some(step)) if step > 0.0 => from <= to,
         (Some(from), Some(to), Some(step)) if step < 0.0 => from >= to,
         _ => false,

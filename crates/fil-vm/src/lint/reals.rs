@@ -99,8 +99,8 @@ fn assignments<'t>(context: &Context<'t>) -> Assignments<'t> {
                 StmtKind::Text { target, .. } => {
                     assignments.push((&target.name.text, vec![None]));
                 }
-                StmtKind::Do { variable, from, step, .. } => {
-                    let values = [Some(from), step.as_ref()].into_iter().flatten().map(Some);
+                StmtKind::Do { variable, range, .. } => {
+                    let values = [&range.from].into_iter().chain(&range.step).map(Some);
                     assignments.push((&variable.name.text, values.collect()));
                 }
                 StmtKind::Call { name, args } => {

@@ -45,9 +45,7 @@ fn statement<'t>(stmt: &'t Stmt, visit: &mut dyn FnMut(&'t Expr, Use)) {
         StmtKind::Post { args, .. } => {
             args.iter().for_each(|arg| within(arg, Use::PostArgument, visit));
         }
-        StmtKind::Do { from, to, step, .. } => {
-            [from, to].into_iter().chain(step).for_each(value);
-        }
+        StmtKind::Do { range, .. } => range.values().for_each(value),
         StmtKind::Call { args, .. } => args.iter().for_each(|(_, arg)| value(arg)),
         _ => {}
     }

@@ -175,8 +175,8 @@ impl<'t> Resolver<'t, '_> {
 /// True for an item that is the number of an address: POSTN/OUT,G,1 and REPEAT/Z,5.
 fn is_address(major: Option<WordId>, index: usize) -> bool {
     match major {
-        Some(w::POSTN) => index % 2 == 1,
-        Some(w::REPEAT) => index % 2 == 0,
+        Some(w::POSTN) => !index.is_multiple_of(2),
+        Some(w::REPEAT) => index.is_multiple_of(2),
         _ => false,
     }
 }

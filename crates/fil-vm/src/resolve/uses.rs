@@ -146,12 +146,10 @@ impl<'t> Resolver<'t, '_> {
                 labels.iter().for_each(|label| self.label_used(label, Role::Jump));
             }
             StmtKind::Jump { label } => self.label_used(label, Role::Jump),
-            StmtKind::Do { label, variable, from, to, step, body } => {
+            StmtKind::Do { label, variable, range, body } => {
                 self.label_used(label, Role::LoopEnd);
                 self.target(variable);
-                for value in [from, to].into_iter().chain(step) {
-                    self.expression(value, Role::Read);
-                }
+                range.values().for_each(|value| self.expression(value, Role::Read));
                 self.statements(body);
             }
             StmtKind::Case { subject, whens, other } => {
