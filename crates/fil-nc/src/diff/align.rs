@@ -1,6 +1,6 @@
 //! Which block of one program stands for which block of the other.
 
-use similar::{Algorithm, DiffOp, capture_diff_slices_by_key};
+use imara_diff::{Algorithm, Diff, InternedInput};
 
 use super::Options;
 use super::pair;
@@ -14,42 +14,44 @@ const LARGEST_TABLE: usize = 250_000;
 /// `1 - 2 * ALONE` of their words stay alone.
 const ALONE: f64 = 0.45;
 
+/// A pair of blocks, or one alone.
+type Pair = [Option<usize>; 2];
+
 /// Pairs of indices, in order.
-pub(super) fn align(
-    first: &Program,
-    second: &Program,
-    options: &Options,
-) -> Vec<[Option<usize>; 2]> {
+pub(super) fn align(first: &Program, second: &Program, options: &Options) -> Vec<Pair> {
     let (one, two) = (&first.lines, &second.lines);
+    let mut input = InternedInput::default();
+    input.update_before(one.iter().map(|line| line.token));
+    input.update_after(two.iter().map(|line| line.token));
+    let mut changes = Diff::compute(Algorithm::Myers, &input);
+    changes.postprocess_no_heuristic(&input);
     let mut pairs = Vec::with_capacity(one.len().max(two.len()));
-    for op in capture_diff_slices_by_key(Algorithm::Myers, one, two, |line| line.token) {
-        match op {
-            DiffOp::Equal { old_index, new_index, len } => {
-                pairs.extend((0..len).map(|at| [Some(old_index + at), Some(new_index + at)]));
-            }
-            DiffOp::Delete { old_index, old_len, .. } => {
-                pairs.extend((old_index..old_index + old_len).map(|at| [Some(at), None]));
-            }
-            DiffOp::Insert { new_index, new_len, .. } => {
-                pairs.extend((new_index..new_index + new_len).map(|at| [None, Some(at)]));
-            }
-            DiffOp::Replace { old_index, old_len, new_index, new_len } => {
-                let (old, new) = (&one[old_index..][..old_len], &two[new_index..][..new_len]);
-                let replaced = if old_len * new_len <= LARGEST_TABLE {
-                    by_likeness(old, new, options)
-                } else {
-                    in_order(old_len, new_len)
-                };
-                pairs.extend(replaced.into_iter().map(|[old, new]| {
-                    [old.map(|at| at + old_index), new.map(|at| at + new_index)]
-                }));
-            }
-        }
+    let (mut old_at, mut new_at) = (0, 0);
+    for hunk in changes.hunks() {
+        let old = hunk.before.start as usize..hunk.before.end as usize;
+        let new = hunk.after.start as usize..hunk.after.end as usize;
+        pairs.extend((old_at..old.start).zip(new_at..).map(|(old, new)| [Some(old), Some(new)]));
+        (old_at, new_at) = (old.end, new.end);
+        pairs.extend(
+            replaced(&one[old.clone()], &two[new.clone()], options)
+                .into_iter()
+                .map(|pair| [pair[0].map(|at| at + old.start), pair[1].map(|at| at + new.start)]),
+        );
     }
+    pairs.extend((old_at..one.len()).zip(new_at..).map(|(old, new)| [Some(old), Some(new)]));
     pairs
 }
 
-fn in_order(old: usize, new: usize) -> Vec<[Option<usize>; 2]> {
+/// Pairs two runs of blocks of which none is the same.
+fn replaced(old: &[Line], new: &[Line], options: &Options) -> Vec<Pair> {
+    if old.len() * new.len() <= LARGEST_TABLE {
+        by_likeness(old, new, options)
+    } else {
+        in_order(old.len(), new.len())
+    }
+}
+
+fn in_order(old: usize, new: usize) -> Vec<Pair> {
     (0..old.max(new))
         .map(|at| [Some(at).filter(|at| *at < old), Some(at).filter(|at| *at < new)])
         .collect()
@@ -57,7 +59,7 @@ fn in_order(old: usize, new: usize) -> Vec<[Option<usize>; 2]> {
 
 /// The cheapest pairing of two short runs of blocks (Needleman and Wunsch): a
 /// pair costs the share of words that differ.
-fn by_likeness(old: &[Line], new: &[Line], options: &Options) -> Vec<[Option<usize>; 2]> {
+fn by_likeness(old: &[Line], new: &[Line], options: &Options) -> Vec<Pair> {
     let width = new.len() + 1;
     let mut cost = vec![0.0; (old.len() + 1) * width];
     for i in (0..=old.len()).rev() {
