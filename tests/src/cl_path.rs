@@ -105,7 +105,8 @@ mod tests {
 
     #[test]
     fn a_circle_turns_about_its_axis() {
-        let text = "GOTO / 1., 0., 0.\nCIRCLE / 0., 0., 0., 0., 0., -1., 1.\nGOTO / 0., -1., 0.\n";
+        let text = "UNITS / MM\nGOTO / 1., 0., 0.\nCIRCLE / 0., 0., 0., 0., 0., -1., 1.\n\
+                    GOTO / 0., -1., 0.\n";
         let Action::Arc(arc, None) = steps(text).unwrap()[1] else { panic!("no arc") };
         assert_eq!((arc.to, arc.normal, arc.ccw), ([0.0, -1.0, 0.0], Axis::Z, false));
     }
