@@ -53,18 +53,23 @@ impl Host for World {
         Ok(self.commons.get(&place(kind, location)).copied().unwrap_or(EMPTY))
     }
 
-    fn set_common(&mut self, kind: CommonKind, at: u32, value: f64) -> Result<(), Box<Diag>> {
+    fn set_common(
+        &mut self,
+        kind: CommonKind,
+        at: u32,
+        value: f64,
+    ) -> Result<Option<Box<Diag>>, Box<Diag>> {
         let place = place(kind, at);
         self.commons.insert(place, value);
         self.events.push(format!("set {place:?} {}", exact(value)));
-        Ok(())
+        Ok(None)
     }
 
-    fn clear_common(&mut self, kind: CommonKind, at: u32) -> Result<(), Box<Diag>> {
+    fn clear_common(&mut self, kind: CommonKind, at: u32) -> Result<Option<Box<Diag>>, Box<Diag>> {
         let place = place(kind, at);
         self.commons.remove(&place);
         self.events.push(format!("clear {place:?}"));
-        Ok(())
+        Ok(None)
     }
 
     fn command(

@@ -577,6 +577,9 @@ fn e0940_unit_not_known() {
         run.verify(cl.as_bytes(), nc, Allowed::default())
     };
     assert_eq!(names(&checked(None).expect_err("refused")), ["E0940"]);
+    let nc = filpost::verify::NcProgram { text: &nc, name: "part.nc" };
+    let other = post.start().units(Unit::Inch).verify(PART.as_bytes(), nc, Allowed::default());
+    assert_eq!(names(&other.expect_err("UNITS says mm")), ["E0940"]);
     let verdict = |unit| checked(Some(unit)).expect("a report").0.verdict();
     assert_eq!(verdict(Unit::Mm), filpost::nc::verify::Verdict::Agrees);
     assert_eq!(verdict(Unit::Inch), filpost::nc::verify::Verdict::Differs);

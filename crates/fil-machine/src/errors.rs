@@ -51,9 +51,13 @@ fil_diag::codes! {
         Contradiction = 607, Error, "settings contradict each other",
             "A program made with them would be read otherwise than it is meant.",
             "Correct one of the settings; `filpost machine show` lists them.";
+        /// The option file of a lathe.
+        LatheOptionFile = 608, Error, "option file of a lathe",
+            "An option file holds what differs from the vendor's own machine, and what the vendor's lathe is has never been published. Read over a mill it would be another machine.",
+            "Set the lathe by name: a machine.toml that begins with the settings of `filpost machine show -p fanuc-lathe`.";
         /// A setting nobody reads.
         UnusedSetting = 651, Warning, "setting without effect",
-            "The location is known, but this post does not act on it.",
+            "A value in this location is kept, and nothing reads it: the program is the same without it.",
             "Remove the setting, or do its work in a FIL section.";
         /// Import of a value we can't be sure of.
         DoubtfulImport = 652, Warning, "imported value of uncertain meaning",

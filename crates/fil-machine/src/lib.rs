@@ -21,6 +21,7 @@ pub mod modes;
 pub mod number;
 pub mod rounding;
 pub mod setting;
+pub mod stored;
 pub mod tables;
 pub mod user_blocks;
 pub mod word_text;

@@ -44,7 +44,17 @@ impl Location {
 
     /// The row of a location, if it has a name.
     pub fn numbered(kind: Kind, number: u32) -> Option<&'static Location> {
-        TABLE.iter().find(|row| row.kind == kind && u32::from(row.number) == number)
+        static ROWS: OnceLock<[Vec<Option<&'static Location>>; 3]> = OnceLock::new();
+        let rows = ROWS.get_or_init(|| {
+            [Kind::Int, Kind::Rel, Kind::Dbl].map(|kind| {
+                let mut rows = vec![None; kind.size() + 1];
+                for row in TABLE.iter().filter(|row| row.kind == kind) {
+                    rows[usize::from(row.number)] = Some(row);
+                }
+                rows
+            })
+        });
+        rows[kind as usize].get(number as usize).copied().flatten()
     }
 
     /// The choices as pairs of value and meaning.

@@ -96,11 +96,21 @@ pub trait Host {
     /// Value of a common location; 999999 where it is EMPTY.
     fn common(&mut self, kind: CommonKind, location: u32) -> Result<f64, Box<Diag>>;
 
-    /// Stores in a common location. EMPTY comes as [`Host::clear_common`].
-    fn set_common(&mut self, kind: CommonKind, location: u32, value: f64) -> Result<(), Box<Diag>>;
+    /// Stores in a common location; a warning that comes back gets the FIL place. EMPTY
+    /// comes as [`Host::clear_common`].
+    fn set_common(
+        &mut self,
+        kind: CommonKind,
+        location: u32,
+        value: f64,
+    ) -> Result<Option<Box<Diag>>, Box<Diag>>;
 
-    /// Makes a common location EMPTY.
-    fn clear_common(&mut self, kind: CommonKind, location: u32) -> Result<(), Box<Diag>>;
+    /// Makes a common location EMPTY; a warning as from [`Host::set_common`].
+    fn clear_common(
+        &mut self,
+        kind: CommonKind,
+        location: u32,
+    ) -> Result<Option<Box<Diag>>, Box<Diag>>;
 
     /// Acts on a record: a post word in FIL, or the current record on POSTF(13).
     fn command(

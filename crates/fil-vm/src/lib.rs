@@ -34,7 +34,7 @@ pub use compile::{Analysis, FilFile, Included, LoadOptions, Loaded, Loader, anal
 pub use disassemble::disassemble;
 pub use functions::{Argument, Functions, Returned};
 pub use host::{CommonKind, FileMode, Files, Host, Site};
-pub use lint::MachineFacts;
+pub use lint::{MachineFacts, StoringInCommon};
 pub use machine::{Limits, Machine, Outcome};
 pub use module::{File, Module, SectionId};
 pub use moment::Moment;

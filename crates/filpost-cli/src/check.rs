@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use filpost::check::{self, Options};
-use filpost::{Commons, Compat, Diag, Error, files, includes};
+use filpost::{Commons, Compat, Diag, Error, Program, files, includes};
 
 use crate::args::{CheckArgs, Format};
 use crate::{Status, json, output, render, sarif, setup, summary};
@@ -14,15 +14,12 @@ use crate::{Status, json, output, render, sarif, setup, summary};
 /// Files that can't be read or written.
 pub fn run(args: &CheckArgs) -> Result<Status, Error> {
     let compat = setup::compat(&args.reading)?;
-    let machine = match setup::named(&args.chosen, args.reading.encoding.as_deref())? {
-        Some(named) => Some(named.builder.build()?.commons().clone()),
-        None => None,
-    };
+    let machine = machine(args)?;
     let groups =
         if args.together { args.files.chunks(args.files.len()) } else { args.files.chunks(1) };
-    let mut diags = Vec::new();
+    let mut diags = machine.as_ref().map_or_else(Vec::new, |machine| machine.warnings().to_vec());
     for group in groups {
-        diags.extend(check_group(args, group, &compat, machine.as_ref())?);
+        diags.extend(check_group(args, group, &compat, machine.as_ref().map(Program::commons))?);
     }
     match args.format {
         Format::Text => {
@@ -40,6 +37,15 @@ pub fn run(args: &CheckArgs) -> Result<Status, Error> {
     }
     let wrong = diags.iter().any(Diag::is_error) || (args.deny_warnings && !diags.is_empty());
     Ok(if wrong { Status::Failed } else { Status::Done })
+}
+
+/// The machine of `-p`, `-m` and `--set`, with its own warnings.
+///
+/// # Errors
+/// Files that can't be read; all that is wrong with the machine.
+fn machine(args: &CheckArgs) -> Result<Option<Program>, Error> {
+    let named = setup::named(&args.chosen, args.reading.encoding.as_deref())?;
+    named.map(|named| named.builder.build()).transpose()
 }
 
 fn check_group(

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use fil_cl::Vocabulary;
 use fil_diag::{Code, Diag};
-use fil_machine::{Commons, files as settings};
+use fil_machine::{Commons, contradictions, files as settings};
 use fil_vm::{
     Argument, Compat, FilFile, Functions, Included, Limits, LoadOptions, Loader, Returned,
 };
@@ -22,6 +22,18 @@ enum Machine {
     Toml { name: String, text: String },
     OptionFile { name: String, text: String },
     Commons(Box<Commons>),
+}
+
+impl Machine {
+    /// What messages call it.
+    fn name(&self) -> Option<String> {
+        match self {
+            Machine::Ready(name)
+            | Machine::Toml { name, .. }
+            | Machine::OptionFile { name, .. } => Some(name.clone()),
+            Machine::Commons(_) => None,
+        }
+    }
 }
 
 /// Collects what a program is made of; see [`Program::builder`].
@@ -206,15 +218,11 @@ impl Builder {
     /// Builds the program; the machine is the generic mill when none was given.
     ///
     /// # Errors
-    /// All that is wrong with the machine, or with the FIL files and the names of
-    /// added functions; E0701 for a granted folder that is not there.
+    /// All that is wrong with the machine, the settings on top, the FIL files and the
+    /// names of added functions; E0701 for a granted folder that is not there.
     pub fn build(self) -> Result<Program, Error> {
-        let (mut commons, mut warnings) = commons_of(self.machine)?;
-        for setting in &self.settings {
-            settings::apply_setting(&mut commons, setting).map_err(Error::setup)?;
-        }
         let folders = folders(self.read.as_deref(), self.write.as_deref())?;
-        let prototype = fil_post::Post::new(commons).map_err(Error::setup)?;
+        let post = post(self.machine, &self.settings);
         let mut vocabulary = Vocabulary::new();
         let files: Vec<FilFile<'_>> =
             self.fil.iter().map(|(name, text)| FilFile { name, text }).collect();
@@ -231,8 +239,14 @@ impl Builder {
                 loader: includes.as_mut().map(|loader| loader as Loader<'_>),
                 ..LoadOptions::default()
             },
-        )
-        .map_err(Error::Setup)?;
+        );
+        let ((prototype, mut warnings), loaded) = match (post, loaded) {
+            (Ok(post), Ok(loaded)) => (post, loaded),
+            (post, loaded) => {
+                let errors = [post.err(), loaded.err()];
+                return Err(Error::Setup(errors.into_iter().flatten().flatten().collect()));
+            }
+        };
         warnings.extend(loaded.warnings);
         let shared = Shared {
             prototype,
@@ -259,22 +273,54 @@ fn folders(read: Option<&Path>, write: Option<&Path>) -> Result<Option<Arc<Folde
     Ok(any.then(|| Arc::new(folders)))
 }
 
-fn commons_of(machine: Option<Machine>) -> Result<(Commons, Vec<Diag>), Error> {
+/// The post of a machine with settings on top, and the warnings of both.
+///
+/// # Errors
+/// All that is wrong with them; settings that contradict each other, where each alone
+/// is right.
+fn post(
+    machine: Option<Machine>,
+    on_top: &[String],
+) -> Result<(fil_post::Post, Vec<Diag>), Vec<Diag>> {
     let machine = machine.unwrap_or(Machine::Ready(ready::GENERIC_MILL.into()));
+    let name = machine.name();
+    let (mut commons, mut warnings) = commons_of(machine)?;
+    let mut errors = Vec::new();
+    for setting in on_top {
+        match settings::apply_setting(&mut commons, setting) {
+            Ok(said) => warnings.extend(said),
+            Err(wrong) => errors.extend(wrong),
+        }
+    }
+    if errors.is_empty() {
+        let found = contradictions::all(&commons).into_iter();
+        errors.extend(found.map(|diag| match &name {
+            Some(name) => diag.note(format!("in the settings of {name}")),
+            None => diag,
+        }));
+    }
+    if !errors.is_empty() {
+        return Err(errors);
+    }
+    let post = fil_post::Post::new(commons).map_err(|diag| vec![*diag])?;
+    Ok((post, warnings))
+}
+
+fn commons_of(machine: Machine) -> Result<(Commons, Vec<Diag>), Vec<Diag>> {
     match machine {
         Machine::Commons(commons) => Ok((*commons, Vec::new())),
-        Machine::Toml { name, text } => settings::read_toml(&name, &text).map_err(Error::setup),
-        Machine::OptionFile { name, text } => settings::read_option_file(&name, &text)
-            .map(|file| (file.commons, file.warnings))
-            .map_err(Error::setup),
+        Machine::Toml { name, text } => settings::read_toml(&name, &text),
+        Machine::OptionFile { name, text } => {
+            settings::read_option_file(&name, &text).map(|file| (file.commons, file.warnings))
+        }
         Machine::Ready(name) => {
             let post = ready::find(&name).ok_or_else(|| {
                 let names: Vec<&str> = ready::READY.iter().map(|post| post.name).collect();
                 let diag = Diag::new(RunCode::NoReadyPost, format!("no ready post `{name}`"))
                     .hint(format!("there are {}", names.join(", ")));
-                Error::setup(diag)
+                vec![diag]
             })?;
-            settings::read_toml(post.name, post.machine).map_err(Error::setup)
+            settings::read_toml(post.name, post.machine)
         }
     }
 }

@@ -6,6 +6,7 @@ use fil_machine::Letter;
 use fil_machine::address::Addresses;
 use fil_machine::commons::{Commons, LAST_OUTPUT};
 use fil_machine::locations::Location;
+use fil_machine::stored;
 use fil_vm::{CommonKind, Compat, FilFile, LoadOptions, MachineFacts};
 
 use crate::outside::common_kind;
@@ -48,6 +49,7 @@ pub fn check(files: &[(&str, &str)], options: Options<'_>) -> Vec<Diag> {
     };
     let facts = MachineFacts {
         name_of_common: Some(&name_of_common),
+        storing: options.machine.map(|_| &storing as fil_vm::StoringInCommon<'_>),
         writes_letter: options.machine.map(|_| &writes as &dyn Fn(u8) -> bool),
         carries_out: Some(&carries_out),
     };
@@ -70,6 +72,15 @@ pub fn check(files: &[(&str, &str)], options: Options<'_>) -> Vec<Diag> {
 /// True for a word that a file of the post carries out.
 fn carries_out(word: WordId) -> bool {
     fil_post::dispatch::HANDLERS.iter().any(|(known, _)| *known == word)
+}
+
+/// What is wrong with storing a value, as a run would say it.
+fn storing(kind: CommonKind, number: u32, value: Option<f64>) -> Option<Diag> {
+    let kind = common_kind(kind);
+    if let Some(Err(diag)) = value.map(|value| stored::check(kind, number, value)) {
+        return Some(*diag);
+    }
+    (!stored::acts(kind, number)).then(|| stored::without_effect(&[(kind, number)]))
 }
 
 /// The name of a common location: that of its setting, or its use in a table

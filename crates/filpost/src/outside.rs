@@ -1,12 +1,14 @@
 //! What a FIL machine reaches while it runs: records, the post, the report.
 
+use std::collections::HashSet;
 use std::sync::Arc;
 
 use fil_cl::vocabulary::words;
 use fil_cl::{Record, Vocabulary, record::kind};
 use fil_diag::{Diag, Place};
-use fil_machine::Unit;
+use fil_machine::commons::EMPTY;
 use fil_machine::locations::MESSAGE_TO_TAPE;
+use fil_machine::{Kind, Unit, stored};
 use fil_post::FilLine;
 use fil_vm::{CommonKind, Files, Host, Module, Moment, SectionId, Site};
 
@@ -48,6 +50,8 @@ pub(crate) struct Outside<'o, S> {
     trace: bool,
     /// The line map of the run.
     pub map: Option<map::Writer<'o>>,
+    /// Locations without effect that FIL has set.
+    idle: HashSet<(Kind, u32)>,
     /// The section that runs.
     pub section: Option<SectionId>,
     /// Clock and files.
@@ -72,6 +76,7 @@ impl<'o, S: Records> Outside<'o, S> {
             ended: false,
             trace: false,
             map,
+            idle: HashSet::new(),
             section: None,
             granted: Granted::new(shared.clock, shared.folders.clone()),
             program,
@@ -240,12 +245,25 @@ impl<S: Records> Host for Outside<'_, S> {
         self.post.control.commons.get(common_kind(kind), location)
     }
 
-    fn set_common(&mut self, kind: CommonKind, location: u32, value: f64) -> Result<(), Box<Diag>> {
-        self.post.control.commons.set(common_kind(kind), location, value)
+    fn set_common(
+        &mut self,
+        kind: CommonKind,
+        location: u32,
+        value: f64,
+    ) -> Result<Option<Box<Diag>>, Box<Diag>> {
+        let kind = common_kind(kind);
+        stored::check(kind, location, value)?;
+        self.post.control.commons.set(kind, location, value)?;
+        let is_first = !stored::acts(kind, location) && self.idle.insert((kind, location));
+        Ok(is_first.then(|| Box::new(stored::without_effect(&[(kind, location)]))))
     }
 
-    fn clear_common(&mut self, kind: CommonKind, location: u32) -> Result<(), Box<Diag>> {
-        self.post.control.commons.set(common_kind(kind), location, fil_machine::commons::EMPTY)
+    fn clear_common(
+        &mut self,
+        kind: CommonKind,
+        location: u32,
+    ) -> Result<Option<Box<Diag>>, Box<Diag>> {
+        self.set_common(kind, location, EMPTY)
     }
 
     fn command(

@@ -11,6 +11,10 @@ use crate::commons::{Commons, EMPTY, Kind};
 use crate::errors::MachineCode;
 use crate::letter::Letter;
 use crate::locations::{Location, default_commons};
+use crate::stored;
+
+/// How the machines of lathes are called, before their number.
+const LATHE: &str = "UNCL";
 
 /// An imported option file.
 #[derive(Clone, Debug)]
@@ -58,57 +62,177 @@ const VENDOR_DEFAULTS: &[(Kind, u32, f64)] = &[
 /// Letters a mill has where the file does not say otherwise.
 const VENDOR_LETTERS: &[u8] = b"NGXYZIJKRFSTDHM";
 
-/// Reads an option file.
+/// Errors after which the rest of a file is not read: it is no option file.
+const MOST_ERRORS: usize = 50;
+
+/// Lines before the first list: the header and the title.
+const HEAD: u32 = 2;
+
+/// Reads the option file of a mill.
 ///
 /// # Errors
-/// A line that is not a pair, a location out of range, a list without end, or
-/// a file without the three lists.
-pub fn read_option_file(file: &str, text: &str) -> Result<OptionFile> {
-    let mut commons = vendor_commons();
-    let mut warnings = Vec::new();
-    let mut list = None;
-    let mut lists = 0;
-    let mut title = String::new();
+/// All that is wrong: the file of a lathe, whose defaults nobody has published; lines
+/// that are no pairs, locations out of range, lists that are missing, come twice or
+/// have no end.
+pub fn read_option_file(file: &str, text: &str) -> Result<OptionFile, Vec<Diag>> {
+    let mut reader = Reader {
+        file,
+        commons: vendor_commons(),
+        title: String::new(),
+        open: None,
+        lists: Vec::new(),
+        idle: Vec::new(),
+        first_idle: None,
+        warnings: Vec::new(),
+        errors: Vec::new(),
+    };
+    if let Err(diag) = refuse_a_lathe(file, text) {
+        return Err(vec![*diag]);
+    }
     for (number, line) in (1u32..).zip(text.lines()) {
-        let line = line.trim_end_matches('\r');
-        let refuse = |message: &str| {
-            Box::new(
-                Diag::new(MachineCode::OptionFile, message).at(Place::line(file, number, line)),
-            )
-        };
-        if number == 2 {
-            title = line.trim().to_string();
+        let line = line.trim_end();
+        if let Err(diag) = reader.line(number, line) {
+            reader.errors.push(diag.at(Place::line(file, number, line)));
+        }
+        if reader.errors.len() == MOST_ERRORS {
+            return Err(reader.errors);
+        }
+    }
+    reader.end(text)
+}
+
+/// Refuses the file of a lathe: what it leaves out has the values of the vendor's
+/// lathe, and those are not published. The name of the file and its first line say it.
+///
+/// # Errors
+/// E0608
+fn refuse_a_lathe(file: &str, text: &str) -> Result<()> {
+    let name = file.rsplit(['/', '\\']).next().unwrap_or(file).to_ascii_uppercase();
+    let head = text.lines().next().unwrap_or_default();
+    let says = |text: &str, family: &str| {
+        let mut rest = text.split(family).skip(1);
+        rest.any(|rest| rest.starts_with(|next: char| next.is_ascii_digit()))
+    };
+    if says(&name, LATHE) {
+        let diag = MachineCode::LatheOptionFile
+            .diag(format!("its name says that this is the option file of a lathe ({LATHE})"));
+        return Err(Box::new(diag.at(Place::line(file, 1, head))));
+    }
+    if says(&head.to_ascii_uppercase(), LATHE) {
+        let diag = MachineCode::LatheOptionFile
+            .diag(format!("the first line says that this is the option file of a lathe ({LATHE})"));
+        return Err(Box::new(diag.at(Place::line(file, 1, head))));
+    }
+    Ok(())
+}
+
+/// A list of pairs that is being read.
+#[derive(Clone, Copy)]
+struct OpenList {
+    kind: Kind,
+    /// The line of its head.
+    line: u32,
+}
+
+/// What has been read so far.
+struct Reader<'a> {
+    file: &'a str,
+    commons: Commons,
+    title: String,
+    open: Option<OpenList>,
+    /// The lists that were begun.
+    lists: Vec<Kind>,
+    /// Locations that the post does not act on.
+    idle: Vec<(Kind, u32)>,
+    first_idle: Option<Place>,
+    warnings: Vec<Diag>,
+    errors: Vec<Diag>,
+}
+
+impl Reader<'_> {
+    fn line(&mut self, number: u32, line: &str) -> Result<(), Diag> {
+        let refuse = |message: String| Err(*MachineCode::OptionFile.diag(message));
+        if number == HEAD {
+            self.title = line.trim().to_string();
         }
         if let Some(kind) = list_start(line) {
-            if list.is_some() {
-                return Err(refuse("the list before this one has no end (location 0)"));
-            }
-            list = Some(kind);
-            lists += 1;
-            continue;
+            let name = kind.name();
+            let before = self.open.replace(OpenList { kind, line: number });
+            let is_again = self.lists.contains(&kind);
+            self.lists.push(kind);
+            return match before {
+                Some(before) => {
+                    refuse(format!("the list {} has no end (location 0)", before.kind.name()))
+                }
+                None if is_again => refuse(format!("a second list {name}")),
+                None => Ok(()),
+            };
         }
-        let Some(kind) = list else { continue };
         if line.trim().is_empty() {
-            continue;
+            return Ok(());
         }
-        let (location, value) =
-            pair(line).ok_or_else(|| refuse("a location and a value are needed"))?;
-        if location == 0 {
-            list = None;
-            continue;
+        let Some(OpenList { kind, .. }) = self.open else {
+            return match number > HEAD {
+                true => refuse("this line is in no list".into()),
+                false => Ok(()),
+            };
+        };
+        match pair(line) {
+            None => refuse("a location and a value are needed".into()),
+            Some((0, value)) if value != 0.0 => {
+                refuse(format!("location 0 ends the list, and has no value {value}"))
+            }
+            Some((0, _)) => {
+                self.open = None;
+                Ok(())
+            }
+            Some((location, value)) => self.pair(kind, location, value, number, line),
         }
-        commons
-            .set(kind, location, value)
-            .map_err(|diag| Box::new(diag.as_ref().clone().at(Place::line(file, number, line))))?;
-        warnings.extend(doubt(kind, location, value, Place::line(file, number, line)));
     }
-    if list.is_some() || lists == 0 {
-        return Err(Box::new(
-            Diag::new(MachineCode::OptionFile, "the file ends before its lists do")
-                .at(Place::line(file, text.lines().count().max(1) as u32, "")),
-        ));
+
+    fn pair(
+        &mut self,
+        kind: Kind,
+        location: u32,
+        value: f64,
+        number: u32,
+        line: &str,
+    ) -> Result<(), Diag> {
+        self.commons.set(kind, location, value).map_err(|diag| *diag)?;
+        let place = || Place::line(self.file, number, line);
+        self.warnings.extend(doubt(kind, location, value).map(|diag| diag.at(place())));
+        let value = self.commons.get(kind, location).unwrap_or(value);
+        if stored::is_idle(kind, location, value) {
+            self.first_idle.get_or_insert_with(place);
+            self.idle.push((kind, location));
+        }
+        Ok(())
     }
-    Ok(OptionFile { title, commons, warnings })
+
+    /// What the whole file makes.
+    fn end(mut self, text: &str) -> Result<OptionFile, Vec<Diag>> {
+        let last = text.lines().count().max(1) as u32;
+        if let Some(OpenList { kind, line }) = self.open {
+            let message = format!("the file ends before its list {} does", kind.name());
+            let head = Place::line(self.file, line, "").label("the list begins here");
+            let diag = *MachineCode::OptionFile.diag(message);
+            self.errors.push(diag.at(Place::line(self.file, last, "")).at(head));
+        }
+        for kind in [Kind::Int, Kind::Rel, Kind::Dbl] {
+            if !self.lists.contains(&kind) {
+                let message = format!("the file has no list {}", kind.name());
+                let diag = *MachineCode::OptionFile.diag(message);
+                self.errors.push(diag.at(Place::line(self.file, last, "")));
+            }
+        }
+        if !self.errors.is_empty() {
+            return Err(self.errors);
+        }
+        if let Some(place) = self.first_idle {
+            self.warnings.push(stored::without_effect(&self.idle).at(place));
+        }
+        Ok(OptionFile { title: self.title, commons: self.commons, warnings: self.warnings })
+    }
 }
 
 fn vendor_commons() -> Commons {
@@ -145,19 +269,15 @@ fn pair(line: &str) -> Option<(u32, f64)> {
 }
 
 /// A warning where a stored value has a meaning we gave its number ourselves.
-fn doubt(kind: Kind, location: u32, value: f64, place: Place) -> Option<Diag> {
+fn doubt(kind: Kind, location: u32, value: f64) -> Option<Diag> {
     let row = Location::numbered(kind, location)?;
     let ours = row.evidence == "own" && location < 9001;
-    let strange = !row.choices.is_empty()
-        && value != EMPTY
-        && value != f64::from(crate::commons::NA)
-        && row.choice_list().iter().all(|(choice, _)| *choice != value);
+    let strange = stored::check(kind, location, value).is_err();
     (row.used && (ours || strange)).then(|| {
         Diag::new(
             MachineCode::DoubtfulImport,
             format!("{} {location} (`{}`) = {value}: meaning not published", kind.name(), row.name),
         )
-        .at(place)
     })
 }
 
@@ -179,15 +299,59 @@ mod tests {
         assert_eq!(file.commons.int(crate::commons::Int(13)), 53);
     }
 
+    /// Codes and lines of all that is wrong.
+    fn errors(file: &str, text: &str) -> Vec<(String, u32)> {
+        let diags = read_option_file(file, text).unwrap_err();
+        diags.iter().map(|diag| (diag.code.name(), diag.places[0].line)).collect()
+    }
+
     #[test]
-    fn a_broken_file_is_refused_with_its_line() {
-        let error = |text: &str| {
-            let diag = read_option_file("f", text).unwrap_err();
-            (diag.code.name(), diag.places[0].line)
-        };
-        assert_eq!(error(&SMALL.replace("13     53", "13     x")), ("E0606".into(), 4));
-        assert_eq!(error(&SMALL.replace("13     53", "13000 1")), ("E0601".into(), 4));
-        assert_eq!(error("nothing\nhere\n"), ("E0606".into(), 2));
-        assert_eq!(error(&SMALL[..SMALL.len() - 15]).0, "E0606");
+    fn a_broken_file_is_refused_with_its_lines() {
+        let one = |text: &str| errors("uncx01.p09", text).remove(0);
+        assert_eq!(one(&SMALL.replace("13     53", "13     x")), ("E0606".into(), 4));
+        assert_eq!(one(&SMALL.replace("13     53", "13000 1")), ("E0601".into(), 4));
+        assert_eq!(one(&SMALL.replace("13     53", "0 7")), ("E0606".into(), 4));
+        assert_eq!(one(&SMALL.replace("13     53", "0 0")), ("E0606".into(), 5));
+        assert_eq!(one(&SMALL.replace("RELCOM", "DBLCOM")), ("E0606".into(), 10));
+        let broken = SMALL.replace("13     53", "13     x").replace("1831      2", "1831 2 3");
+        let found = errors("uncx01.p09", &broken);
+        assert_eq!(found, [("E0606".into(), 4), ("E0606".into(), 6)]);
+        assert_eq!(errors("f", "nothing\nhere\n").len(), 3);
+        let junk = format!("UNCX01\nTEST\nINTCOM:\n{}", "x\n".repeat(10_000));
+        assert_eq!(errors("f", &junk).len(), MOST_ERRORS);
+    }
+
+    /// Wherever the text is cut, the file is refused: a setting would be missing.
+    #[test]
+    fn a_file_that_is_cut_is_refused() {
+        let whole = SMALL.trim_end_matches(['0', ' ', '\r', '\n']).len();
+        for end in 0..whole {
+            assert!(read_option_file("uncx01.p09", &SMALL[..end]).is_err(), "{:?}", &SMALL[..end]);
+        }
+    }
+
+    #[test]
+    fn a_lathes_file_is_refused() {
+        let lathe = SMALL.replace("UNCX01.P09", "UNCL01.P09");
+        assert_eq!(errors("uncx01.p09", &lathe), [("E0608".into(), 1)]);
+        for file in ["posts/uncl01.p09", "C:\\posts\\UNCL01.P09"] {
+            let refused = read_option_file(file, SMALL).unwrap_err();
+            assert_eq!(refused[0].code.name(), "E0608", "{file}");
+        }
+        assert!(read_option_file("uncl/uncx01.p09", SMALL).is_ok());
+        assert!(read_option_file("uncle.p09", SMALL).is_ok());
+    }
+
+    #[test]
+    fn what_does_not_act_is_named_once() {
+        let text = SMALL.replace("13     53", "2025 1\r\n2026 2\r\n1842 32\r\n3000 -32767");
+        let file = read_option_file("uncx01.p09", &text).unwrap();
+        let said: Vec<String> = file.warnings.iter().map(ToString::to_string).collect();
+        assert_eq!(
+            said,
+            [
+                "W0651 uncx01.p09:4:1: the post does not act on INTCOM 2025 to 2026, tape.opskip_char"
+            ]
+        );
     }
 }

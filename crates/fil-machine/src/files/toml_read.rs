@@ -6,17 +6,24 @@
 //! lists of texts, and so is `words.without_effect`, the major words that pass. A flag takes true or false, a letter or character a text of
 //! one character, and every setting takes `"none"` for absent.
 
+use std::borrow::Cow;
+use std::ops::Range;
+
 use fil_diag::suggest::did_you_mean;
 use fil_diag::{Diag, LineIndex, Result};
-use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use crate::address::OFF;
 use crate::commons::{Commons, EMPTY, Kind};
 use crate::errors::MachineCode;
 use crate::letter::Letter;
 use crate::locations::{self as loc, Location, default_commons};
+use crate::stored;
 use crate::user_blocks::{self, BLOCK_INTEGERS, MAX_BLOCKS};
+
+/// The tape position of a letter that the machine does not have.
+const NO_POSITION: u32 = OFF as u32;
 
 /// Most words that a machine lists as without effect.
 const MOST_WORDS: usize = 1000;
@@ -24,79 +31,117 @@ const MOST_WORDS: usize = 1000;
 /// What a `machine.toml` may say about itself without it being a setting.
 const ABOUT: &[&str] = &["name", "description", "origin"];
 
-/// Reads a `machine.toml` over the default machine.
+/// Reads a `machine.toml` over the default machine. The second part of the result
+/// are warnings: settings the post does not act on.
 ///
 /// # Errors
-/// Text that is not TOML, an unknown key, a value of the wrong kind. The
-/// second part of the result are warnings: settings the post does not act on.
-pub fn read_toml(file: &str, text: &str) -> Result<(Commons, Vec<Diag>)> {
-    let mut reader = TomlReader::new(file, text);
-    let table = DeTable::parse(text).map_err(|error| {
-        let range = error.span().unwrap_or(0..0);
-        reader.at(range, Diag::new(MachineCode::MachineSyntax, error.message().to_string()))
-    })?;
+/// All that is wrong: text that is not TOML, unknown keys, values of the wrong kind.
+pub fn read_toml(file: &str, text: &str) -> Result<(Commons, Vec<Diag>), Vec<Diag>> {
     let mut commons = default_commons();
-    reader.table(&mut commons, table.get_ref(), "")?;
-    reader.one_letter_a_position(&mut commons)?;
-    Ok((commons, reader.unused_settings()))
+    let warnings = read_over(&mut commons, file, text)?;
+    Ok((commons, warnings))
 }
 
-/// Sets one setting from text, as `--set key=value` gives it.
+/// Sets one setting from text, as `--set key=value` gives it; a value that is no TOML
+/// is a text. The result are warnings, as those of [`read_toml`].
 ///
 /// # Errors
 /// As [`read_toml`].
-pub fn apply_setting(commons: &mut Commons, setting: &str) -> Result<()> {
-    let quoted = setting.split_once('=').map(|(key, value)| format!("{key}={value:?}"));
-    let sources = [Some(setting.to_string()), quoted];
-    let mut result = Ok(());
-    for source in sources.into_iter().flatten() {
-        let mut reader = TomlReader::new("--set", &source);
-        result = match DeTable::parse(&source) {
-            Ok(table) => reader
-                .table(commons, table.get_ref(), "")
-                .and_then(|()| reader.one_letter_a_position(commons)),
-            Err(error) => {
-                Err(Box::new(Diag::new(MachineCode::MachineSyntax, error.message().to_string())))
-            }
-        };
-        if result.is_ok() {
-            break;
-        }
+pub fn apply_setting(commons: &mut Commons, setting: &str) -> Result<Vec<Diag>, Vec<Diag>> {
+    let is_toml = DeTable::parse(setting).is_ok();
+    let quoted = setting.split_once('=').filter(|_| !is_toml);
+    let quoted = quoted.map(|(key, value)| format!("{key}={value:?}"));
+    read_over(commons, "--set", quoted.as_deref().unwrap_or(setting))
+}
+
+/// Reads settings over those that are there.
+fn read_over(commons: &mut Commons, file: &str, text: &str) -> Result<Vec<Diag>, Vec<Diag>> {
+    let mut reader = TomlReader::new(file, text);
+    let (table, broken) = DeTable::parse_recoverable(text);
+    for error in &broken {
+        let diag = MachineCode::MachineSyntax.diag(error.message());
+        reader.refuse(error.span().unwrap_or(0..0), *diag);
     }
-    result
+    // What the rest of a broken text means is not sure.
+    if broken.is_empty() {
+        reader.table(commons, table.get_ref(), "");
+        reader.one_letter_a_position(commons);
+    }
+    reader.finish()
+}
+
+/// A setting of the text.
+struct Said {
+    key: Range<usize>,
+    kind: Kind,
+    number: u32,
+    value: f64,
 }
 
 struct TomlReader<'a> {
     file: &'a str,
     text: &'a str,
     index: LineIndex,
-    /// Settings the post does not act on: where, and their names.
-    unused: Vec<(usize, Range<usize>, &'static str)>,
+    /// All that is wrong so far, with the places.
+    errors: Vec<(usize, Diag)>,
+    /// All settings that were said.
+    said: Vec<Said>,
     /// Letters that are named, with their tape position and where that is said.
     named: Vec<(u8, u32, Range<usize>)>,
 }
 
 impl<'a> TomlReader<'a> {
     fn new(file: &'a str, text: &'a str) -> Self {
-        let index = LineIndex::new(text);
-        TomlReader { file, text, index, unused: Vec::new(), named: Vec::new() }
+        TomlReader {
+            file,
+            text,
+            index: LineIndex::new(text),
+            errors: Vec::new(),
+            said: Vec::new(),
+            named: Vec::new(),
+        }
     }
 
-    fn table(&mut self, commons: &mut Commons, table: &DeTable, prefix: &str) -> Result<()> {
-        for (key, value) in table.iter() {
+    /// Notes something that is wrong.
+    fn refuse(&mut self, range: Range<usize>, diag: Diag) {
+        let start = range.start;
+        self.errors.push((start, *self.at(range, diag)));
+    }
+
+    /// Takes a result; an error is noted with its place.
+    fn noted<T>(&mut self, range: Range<usize>, result: Result<T>) -> Option<T> {
+        match result {
+            Ok(value) => Some(value),
+            Err(diag) if diag.places.is_empty() => {
+                self.refuse(range, *diag);
+                None
+            }
+            Err(diag) => {
+                self.errors.push((range.start, *diag));
+                None
+            }
+        }
+    }
+
+    /// A table of settings. The letters come last: they look where the others have put them.
+    fn table(&mut self, commons: &mut Commons, table: &DeTable, prefix: &str) {
+        let is_letters = |key: &str| prefix.is_empty() && key == "address";
+        let (letters, others): (Vec<_>, Vec<_>) =
+            table.iter().partition(|(key, _)| is_letters(key.get_ref()));
+        for (key, value) in others.into_iter().chain(letters) {
             let name = match prefix {
                 "" => key.get_ref().to_string(),
                 prefix => format!("{prefix}.{}", key.get_ref()),
             };
             if prefix == "address" {
-                self.address(commons, key, value)?;
+                self.address(commons, key, value);
             } else if let DeValue::Table(inner) = value.get_ref() {
-                self.table(commons, inner, &name)?;
+                self.table(commons, inner, &name);
             } else if !(prefix.is_empty() && ABOUT.contains(&name.as_str())) {
-                self.setting(commons, &name, key.span(), value)?;
+                let result = self.setting(commons, &name, key.span(), value);
+                self.noted(value.span(), result);
             }
         }
-        Ok(())
     }
 
     fn setting(
@@ -123,10 +168,8 @@ impl<'a> TomlReader<'a> {
             _ => {}
         }
         if let Some((kind, number)) = numbered(name) {
-            let value_of = self.plain_number(value)?;
-            return commons
-                .set(kind, number, value_of)
-                .map_err(|diag| self.at(value.span(), *diag));
+            let number_said = self.plain_number(value)?;
+            return self.store(commons, (kind, number), number_said, key);
         }
         let Some(location) = Location::named(name) else {
             let mut diag = Diag::new(MachineCode::UnknownSetting, format!("no setting `{name}`"));
@@ -134,12 +177,30 @@ impl<'a> TomlReader<'a> {
             return Err(self.at(key, diag));
         };
         let number = self.value(location, value)?;
-        if !location.used && number != location.default_value() {
-            self.unused.push((key.start, key.clone(), location.name));
+        self.store(commons, (location.kind, location.number.into()), number, key)
+    }
+
+    /// Stores a value that its location can hold. A location may be said by its name and
+    /// by its number, but not twice with different values.
+    fn store(
+        &mut self,
+        commons: &mut Commons,
+        (kind, number): (Kind, u32),
+        value: f64,
+        key: Range<usize>,
+    ) -> Result<()> {
+        stored::check(kind, number, value)?;
+        let same = |said: &&Said| (said.kind, said.number) == (kind, number);
+        if let Some(before) = self.said.iter().find(same).filter(|before| before.value != value) {
+            let title = stored::title(kind, number);
+            let message = format!("{title} is set to {} and to {value}", before.value);
+            let place = self.index.place(self.file, self.text, before.key.clone());
+            let diag = Diag::new(MachineCode::Contradiction, message);
+            return Err(Box::new(self.at(key, diag).at(place.label("set here first"))));
         }
-        commons
-            .set(location.kind, u32::from(location.number), number)
-            .map_err(|diag| self.at(value.span(), *diag))
+        commons.set(kind, number, value)?;
+        self.said.push(Said { key, kind, number, value });
+        Ok(())
     }
 
     /// The number a value stands for, by the unit of its location.
@@ -161,18 +222,11 @@ impl<'a> TomlReader<'a> {
             DeValue::Integer(_) | DeValue::Float(_) => Some(self.plain_number(value)?),
             _ => None,
         };
-        let allowed =
-            |number: &f64| choices.is_empty() || choices.iter().any(|(choice, _)| choice == number);
-        number.filter(allowed).ok_or_else(|| {
-            let mut diag = Diag::new(
-                MachineCode::SettingValue,
-                format!("`{}` does not take this value (unit {})", location.name, location.unit),
-            );
-            if !choices.is_empty() {
-                diag = diag.hint(format!("choose one of {}", location.choices.replace('|', ", ")));
-            }
-            self.at(value.span(), diag)
-        })
+        let number = number.ok_or_else(|| {
+            self.at(value.span(), *stored::wrong_value(location, &self.text[value.span()]))
+        })?;
+        let checked = stored::check(location.kind, location.number.into(), number);
+        checked.map_err(|diag| self.at(value.span(), *diag)).map(|()| number)
     }
 
     fn plain_number(&self, value: &Spanned<DeValue>) -> Result<f64> {
@@ -219,39 +273,19 @@ impl<'a> TomlReader<'a> {
     fn address(
         &mut self,
         commons: &mut Commons,
-        key: &Spanned<std::borrow::Cow<'_, str>>,
+        key: &Spanned<Cow<'_, str>>,
         value: &Spanned<DeValue>,
-    ) -> Result<()> {
+    ) {
+        let unknown = |message: &str| Diag::new(MachineCode::UnknownSetting, message);
         let name = key.get_ref().as_bytes();
         let (&[name], DeValue::Table(fields)) = (name, value.get_ref()) else {
-            let diag =
-                Diag::new(MachineCode::UnknownSetting, "an address is a letter with a table");
-            return Err(self.at(key.span(), diag));
+            return self.refuse(key.span(), unknown("an address is a letter with a table"));
         };
         if !name.is_ascii_uppercase() {
-            let diag = Diag::new(MachineCode::UnknownSetting, "addresses are the letters A to Z");
-            return Err(self.at(key.span(), diag));
+            return self.refuse(key.span(), unknown("addresses are the letters A to Z"));
         }
-        let index = u32::from(Letter::of(name).number());
-        let mut set = |location: u32, number: f64, span: Range<usize>| {
-            commons.set(Kind::Int, location, number).map_err(|diag| self.at(span, *diag))
-        };
-        let slot = match fields.get("slot") {
-            Some(slot) => Some((self.plain_number(slot)?, slot.span())),
-            None => None,
-        };
-        if let Some((number, span)) = &slot {
-            if !(1.0..=53.0).contains(number) {
-                let diag =
-                    Diag::new(MachineCode::SettingValue, "tape positions are 1 to 52, 53 is none");
-                return Err(self.at(span.clone(), diag));
-            }
-            set(index, *number, span.clone())?;
-        }
-        let slot = slot.map_or_else(
-            || commons.get(Kind::Int, index).map(|number| number as u32),
-            |(number, _)| Ok(number as u32),
-        )?;
+        let position = self.position(commons, name, fields.get("slot"));
+        let Some(position) = self.noted(key.span(), position) else { return };
         for (field, value) in fields.iter() {
             let base = match field.get_ref().as_ref() {
                 "slot" => continue,
@@ -259,55 +293,86 @@ impl<'a> TomlReader<'a> {
                 "spec" => 158,
                 "char" => 52,
                 other => {
-                    let diag =
-                        Diag::new(MachineCode::UnknownSetting, format!("no field `{other}`"));
-                    return Err(self.at(field.span(), diag));
+                    self.refuse(field.span(), unknown(&format!("no field `{other}`")));
+                    continue;
                 }
             };
             let number = match value.get_ref() {
                 DeValue::String(text) if base == 52 && text.len() == 1 => {
-                    f64::from(text.as_bytes()[0])
+                    Ok(f64::from(text.as_bytes()[0]))
                 }
-                _ => self.plain_number(value)?,
+                _ => self.plain_number(value),
             };
-            commons
-                .set(Kind::Int, base + slot.min(53), number)
-                .map_err(|diag| self.at(value.span(), *diag))?;
+            let at = (Kind::Int, base + position.min(NO_POSITION));
+            let set = number.and_then(|number| self.store(commons, at, number, field.span()));
+            self.noted(value.span(), set);
         }
-        if fields.get("char").is_none() && slot < 53 {
-            commons.set(Kind::Int, 52 + slot, f64::from(name))?;
+        if fields.get("char").is_none() && position < NO_POSITION {
+            let set = commons.set(Kind::Int, 52 + position, f64::from(name));
+            self.noted(key.span(), set);
         }
-        self.named.push((name, slot, fields.get("slot").map_or(key.span(), |slot| slot.span())));
-        Ok(())
+        let said = fields.get("slot").map_or(key.span(), Spanned::span);
+        self.named.push((name, position, said));
+    }
+
+    /// The tape position of a letter: the one given, else the one it has.
+    fn position(
+        &mut self,
+        commons: &mut Commons,
+        name: u8,
+        slot: Option<&Spanned<DeValue>>,
+    ) -> Result<u32> {
+        let index = u32::from(Letter::of(name).number());
+        let Some(slot) = slot else {
+            return commons.get(Kind::Int, index).map(|number| number as u32);
+        };
+        let number = self.plain_number(slot)?;
+        let set = self.store(commons, (Kind::Int, index), number, slot.span());
+        set.map_err(
+            |diag| if diag.places.is_empty() { self.at(slot.span(), *diag) } else { diag },
+        )?;
+        Ok(number as u32)
     }
 
     /// Two letters at one tape position would be written as one of them. A letter
     /// the file does not name gives way: the machine does not have it.
-    fn one_letter_a_position(&self, commons: &mut Commons) -> Result<()> {
-        for (at, (name, slot, span)) in self.named.iter().enumerate().filter(|(_, l)| l.1 < 53) {
-            if let Some((other, ..)) = self.named[..at].iter().find(|other| other.1 == *slot) {
+    fn one_letter_a_position(&mut self, commons: &mut Commons) {
+        let named = std::mem::take(&mut self.named);
+        for (at, (name, slot, span)) in named.iter().enumerate() {
+            if *slot >= NO_POSITION {
+                continue;
+            }
+            if let Some((other, ..)) = named[..at].iter().find(|other| other.1 == *slot) {
                 let (one, other) = (char::from(*other), char::from(*name));
                 let message = format!("{one} and {other} are both at tape position {slot}");
-                let diag = Diag::new(MachineCode::SettingValue, message);
-                return Err(self.at(span.clone(), diag));
+                self.refuse(span.clone(), Diag::new(MachineCode::SettingValue, message));
+                continue;
             }
             for other in (b'A'..=b'Z').filter(|other| other != name) {
                 let index = u32::from(Letter::of(other).number());
-                if commons.get(Kind::Int, index)? == f64::from(*slot) {
-                    commons.set(Kind::Int, index, EMPTY)?;
+                if commons.get(Kind::Int, index).is_ok_and(|held| held == f64::from(*slot)) {
+                    let given = commons.set(Kind::Int, index, EMPTY);
+                    self.noted(span.clone(), given);
                 }
             }
         }
-        Ok(())
     }
 
-    /// One warning for all settings the post does not act on.
-    fn unused_settings(mut self) -> Vec<Diag> {
-        self.unused.sort_by_key(|(start, ..)| *start);
-        let Some((_, first, _)) = self.unused.first().cloned() else { return Vec::new() };
-        let names: Vec<&str> = self.unused.iter().map(|(.., name)| *name).collect();
-        let message = format!("the post does not act on {}", names.join(", "));
-        vec![*self.at(first, Diag::new(MachineCode::UnusedSetting, message))]
+    /// All errors in the order of the text, else one warning for all settings the
+    /// post does not act on.
+    fn finish(mut self) -> Result<Vec<Diag>, Vec<Diag>> {
+        if !self.errors.is_empty() {
+            self.errors.sort_by_key(|(start, _)| *start);
+            return Err(self.errors.into_iter().map(|(_, diag)| diag).collect());
+        }
+        self.said.sort_by_key(|said| said.key.start);
+        let idle = |said: &&Said| stored::is_idle(said.kind, said.number, said.value);
+        let idle: Vec<&Said> = self.said.iter().filter(idle).collect();
+        let Some(first) = idle.first() else { return Ok(Vec::new()) };
+        let locations: Vec<(Kind, u32)> =
+            idle.iter().map(|said| (said.kind, said.number)).collect();
+        let diag = stored::without_effect(&locations);
+        Ok(vec![*self.at(first.key.clone(), diag)])
     }
 
     fn at(&self, range: Range<usize>, diag: Diag) -> Box<Diag> {
@@ -333,21 +398,21 @@ mod tests {
     use crate::commons::Int;
 
     fn error(text: &str) -> (String, String) {
-        let diag = read_toml("machine.toml", text).unwrap_err();
-        (diag.code.name(), diag.places[0].to_string())
+        let diags = read_toml("machine.toml", text).unwrap_err();
+        (diags[0].code.name(), diags[0].places[0].to_string())
     }
 
     #[test]
     fn names_numbers_letters_and_texts_reach_the_commons() {
         let text = "name = 'mill'\n[rapid]\nsplit = 0\n[cycle]\nstep_address = 'Q'\n\
-                    [tape]\nstart_char = 'none'\n[int]\n1861 = 7\n[dbl]\n486 = 2.0\n\
+                    [tape]\nstart_char = 'none'\n[int]\n1924 = 3\n[dbl]\n486 = 2.0\n\
                     [blocks]\nstart = ['G90G80', 'G40']\n[address.Y]\nslot = 53\n";
         let (commons, warnings) = read_toml("machine.toml", text).unwrap();
         assert!(warnings.is_empty(), "{warnings:?}");
         assert_eq!(commons.read(loc::RAPID_SPLIT), loc::RapidSplit::OneBlock);
         assert_eq!(commons.read(loc::CYCLE_STEP_ADDRESS), Some(Letter::of(b'Q')));
         assert_eq!(commons.read(loc::TAPE_START_CHAR), None);
-        assert_eq!(commons.int(Int(1861)), 7);
+        assert_eq!(commons.int(Int(1924)), 3);
         assert_eq!(commons.dbl(loc::SCALE_X), 2.0);
         assert_eq!(commons.int(Int(25)), 53);
         assert_eq!(user_blocks::START.read(&commons), ["G90G80", "G40"]);
@@ -361,6 +426,63 @@ mod tests {
         assert_eq!(error("[scale]\nx = 'a'"), ("E0605".into(), "machine.toml:2:5".into()));
         assert_eq!(error("int.10000 = 1"), ("E0601".into(), "machine.toml:1:13".into()));
         assert_eq!(error("[address.x]\nslot = 1"), ("E0604".into(), "machine.toml:1:10".into()));
+    }
+
+    #[test]
+    fn all_that_is_wrong_is_said_at_once() {
+        let text = "rapid.spilt = 1\nrapid.split = 9\nint.1870 = 8\nint.1861 = 0.5\n\
+                    [address]\nX = { slot = 0, format = 99999, colour = 1 }\n\
+                    K = { slot = 8 }\nM = { slot = 8 }\n";
+        let diags = read_toml("machine.toml", text).unwrap_err();
+        let found: Vec<(String, u32)> =
+            diags.iter().map(|diag| (diag.code.name(), diag.places[0].line)).collect();
+        let code = |code: &str| code.to_string();
+        assert_eq!(
+            found,
+            [
+                (code("E0604"), 1),
+                (code("E0605"), 2),
+                (code("E0605"), 3),
+                (code("E0602"), 4),
+                (code("E0605"), 6),
+                (code("E0605"), 8),
+            ],
+            "{diags:?}"
+        );
+        let broken = read_toml("machine.toml", "a = \nb = 1\nc = ]\n").unwrap_err();
+        assert_eq!(broken.len(), 2, "{broken:?}");
+    }
+
+    #[test]
+    fn a_location_is_not_set_twice() {
+        for (twice, place) in [
+            ("int.1870 = 0\nrapid.split = 1\n", "machine.toml:2:7"),
+            ("int.24 = 7\n[address.X]\nslot = 9\n", "machine.toml:3:8"),
+            ("int.5001 = 1\nint.05001 = 2\n", "machine.toml:1:5"),
+        ] {
+            let (code, at) = error(twice);
+            assert_eq!((&code[..], &at[..]), ("E0607", place), "{twice}");
+        }
+        assert!(read_toml("m", "int.1870 = 0\nrapid.split = 0\n").is_ok());
+        let (commons, _) = read_toml("m", "int.24 = 30\n[address.X]\nformat = 2222\n").unwrap();
+        assert_eq!(commons.int(Int(135)), 2222);
+    }
+
+    #[test]
+    fn a_number_is_checked_as_its_name_is() {
+        for wrong in ["int.1870 = 9", "int.24 = 0", "int.9003 = 40", "address.X.spec = 7"] {
+            assert_eq!(error(wrong).0, "E0605", "{wrong}");
+        }
+        let mut commons = default_commons();
+        for wrong in ["int.1870=9", "rapid.split=9", "int.1870=Q", "rapid.split=none of it"] {
+            let diags = apply_setting(&mut commons, wrong).unwrap_err();
+            assert_eq!(diags[0].code.name(), "E0605", "{wrong}");
+        }
+        let warnings = apply_setting(&mut commons, "int.5001=1").unwrap();
+        assert_eq!(
+            warnings[0].to_string(),
+            "W0651 --set:1:5: the post does not act on INTCOM 5001"
+        );
     }
 
     #[test]

@@ -89,7 +89,7 @@ mod tests {
 
     #[test]
     fn what_is_written_reads_back() {
-        let text = "rapid.split = 0\nscale.x = 2.0\nint.1861 = 7\ncycle.off_code = 'none'\n\
+        let text = "rapid.split = 0\nscale.x = 2.0\nint.5001 = 7\ncycle.off_code = 'none'\n\
                     [address.Y]\nslot = 53\n[blocks]\nend = ['M5', 'G1 Z1.0']\n";
         let (commons, _) = read_toml("m", text).unwrap();
         let written = write_toml(&commons);

@@ -113,6 +113,8 @@ pub struct ClPath<R> {
     reader: Reader<R>,
     /// Name of the CL file in messages.
     name: String,
+    /// The unit that the user or the machine says.
+    given: Option<Unit>,
     vocabulary: Vocabulary,
     record: Record,
     state: State,
@@ -127,6 +129,7 @@ impl<R: Read> ClPath<R> {
         ClPath {
             reader: Reader::new(input, name, options),
             name: name.to_string(),
+            given: None,
             vocabulary: Vocabulary::new(),
             record: Record::default(),
             state: State {
@@ -149,6 +152,7 @@ impl<R: Read> ClPath<R> {
     /// The unit of a CL file that does not say it itself.
     pub fn in_unit(mut self, unit: Option<Unit>) -> Self {
         self.state.unit = unit;
+        self.given = unit;
         self.ready
             .extend(unit.map(|unit| Step { line: 0, what: Wanted::Metric(unit.is_metric()) }));
         self
@@ -167,12 +171,18 @@ impl<R: Read> ClPath<R> {
             }
             let line = self.record.line;
             self.require_unit()?;
+            self.refuse_other_unit()?;
             let steps = self.state.take(&self.record, &self.vocabulary);
             self.over = steps.iter().any(|what| matches!(what, Wanted::End));
             self.ready.extend(steps.into_iter().map(|what| Step { line, what }));
         }
         Ok(true)
     }
+}
+
+/// The unit of a UNITS statement.
+fn said(record: &Record) -> Unit {
+    if record.has(w::INCHES) { Unit::Inch } else { Unit::Mm }
 }
 
 impl<R: Read> ClPath<R> {
@@ -184,9 +194,26 @@ impl<R: Read> ClPath<R> {
         if self.state.unit.is_some() || !measures {
             return Ok(());
         }
-        let message = "a length or feed comes before anything says mm or inch";
+        Err(self.no_unit("a length or feed comes before anything says mm or inch"))
+    }
+
+    /// Refuses a UNITS statement that says another unit than the one that was given.
+    fn refuse_other_unit(&self) -> Result<(), Box<Diag>> {
+        let record = &self.record;
+        let is_units = record.kind == kind::POST && matches!(record.major, w::UNITS | w::UNIT);
+        match self.given.filter(|given| is_units && *given != said(record)) {
+            Some(given) => {
+                Err(self.no_unit(&format!("{given} is given, and UNITS says {}", said(record))))
+            }
+            None => Ok(()),
+        }
+    }
+
+    #[cold]
+    fn no_unit(&self, message: &str) -> Box<Diag> {
+        let record = &self.record;
         let place = Place::line(&self.name, record.line, statement(record, &self.vocabulary));
-        Err(Box::new(NcCode::NoUnit.diag(message).at(place)))
+        Box::new(NcCode::NoUnit.diag(message).at(place))
     }
 }
 
@@ -241,7 +268,7 @@ impl State {
         };
         match record.major {
             w::UNITS | w::UNIT => {
-                let unit = if record.has(w::INCHES) { Unit::Inch } else { Unit::Mm };
+                let unit = said(record);
                 self.unit = Some(unit);
                 vec![Wanted::Metric(unit.is_metric())]
             }

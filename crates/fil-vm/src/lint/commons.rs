@@ -47,7 +47,7 @@ pub(super) fn look(context: &mut Context<'_>) {
 }
 
 /// Type and location of POSTF(1/2/3,type,location,…), both constant.
-fn location(args: &[fil_syntax::tree::Expr]) -> Option<(CommonKind, &'static str, u32)> {
+pub(super) fn location(args: &[fil_syntax::tree::Expr]) -> Option<(CommonKind, &'static str, u32)> {
     let [_, kind, location, ..] = args else { return None };
     let (kind, location) = (constant(kind)?, constant(location)?);
     let (_, kind, title) = KINDS.iter().find(|(number, ..)| *number == kind)?;

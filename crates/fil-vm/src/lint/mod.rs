@@ -15,6 +15,7 @@ mod loose_else;
 mod positions;
 mod reals;
 mod same_when;
+mod storing;
 mod swallow;
 mod unreachable;
 mod unset;
@@ -36,11 +37,17 @@ use context::Context;
 /// Gives the name of a common location, or `None` where nothing is known of it.
 pub type NameOfCommon<'a> = &'a dyn Fn(CommonKind, u32) -> Option<String>;
 
+/// What is wrong with storing a value in a common location: the value where it is
+/// constant, `None` where only a run knows it. The finding has no place yet.
+pub type StoringInCommon<'a> = &'a dyn Fn(CommonKind, u32, Option<f64>) -> Option<Diag>;
+
 /// What the lints may ask about the machine; what is left out is not looked at.
 #[derive(Clone, Copy, Default)]
 pub struct MachineFacts<'a> {
     /// Names of common locations.
     pub name_of_common: Option<NameOfCommon<'a>>,
+    /// Findings about stored values.
+    pub storing: Option<StoringInCommon<'a>>,
     /// True for a letter, 1 to 26, that the machine writes.
     pub writes_letter: Option<&'a dyn Fn(u8) -> bool>,
     /// True for a major word that the post carries out.
@@ -71,6 +78,7 @@ const LINTS: &[fn(&mut Context<'_>)] = &[
     loose_else::look,
     labels::look,
     commons::look,
+    storing::look,
     reals::look,
     endless::look,
     addresses::look,

@@ -61,16 +61,18 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             PostfOp::SetCommon => {
                 let (kind, location) = self.common_address(registers, base)?;
                 let value = self.number(registers, base.wrapping_add(2))?;
-                if value == EMPTY {
-                    self.host.clear_common(kind, location)?;
+                let warning = if value == EMPTY {
+                    self.host.clear_common(kind, location)?
                 } else {
-                    self.host.set_common(kind, location, value)?;
-                }
+                    self.host.set_common(kind, location, value)?
+                };
+                self.warn_of(warning);
                 Ok(DONE)
             }
             PostfOp::ClearCommon => {
                 let (kind, location) = self.common_address(registers, base)?;
-                self.host.clear_common(kind, location)?;
+                let warning = self.host.clear_common(kind, location)?;
+                self.warn_of(warning);
                 Ok(DONE)
             }
             PostfOp::Empty => Ok(Number(EMPTY)),

@@ -43,7 +43,20 @@ impl<H: Host + ?Sized> Vm<'_, H> {
     /// Warns of something at the place the machine is at.
     #[cold]
     pub(super) fn warning(&mut self, code: RunCode, message: String) {
-        let mut diag = Diag::new(code, message).at(self.place(self.spot));
+        self.warn_here(Diag::new(code, message));
+    }
+
+    /// Gives a warning of the host the place the machine is at.
+    #[inline]
+    pub(super) fn warn_of(&mut self, warning: Option<Box<Diag>>) {
+        if let Some(diag) = warning {
+            self.warn_here(*diag);
+        }
+    }
+
+    #[cold]
+    fn warn_here(&mut self, diag: Diag) {
+        let mut diag = diag.at(self.place(self.spot));
         self.add_calls(&mut diag);
         self.add_record(&mut diag);
         self.host.warn(diag);

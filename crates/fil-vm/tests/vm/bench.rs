@@ -32,14 +32,23 @@ impl Host for Mock {
         Ok(self.commons.get(&(kind, location)).copied().unwrap_or(999_999.0))
     }
 
-    fn set_common(&mut self, kind: CommonKind, at: u32, value: f64) -> Result<(), Box<Diag>> {
+    fn set_common(
+        &mut self,
+        kind: CommonKind,
+        at: u32,
+        value: f64,
+    ) -> Result<Option<Box<Diag>>, Box<Diag>> {
         self.commons.insert((kind, at), value);
-        Ok(())
+        Ok(None)
     }
 
-    fn clear_common(&mut self, kind: CommonKind, location: u32) -> Result<(), Box<Diag>> {
+    fn clear_common(
+        &mut self,
+        kind: CommonKind,
+        location: u32,
+    ) -> Result<Option<Box<Diag>>, Box<Diag>> {
         self.commons.remove(&(kind, location));
-        Ok(())
+        Ok(None)
     }
 
     fn command(

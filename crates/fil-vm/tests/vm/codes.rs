@@ -145,6 +145,7 @@ fn findings(text: &str) -> Vec<fil_diag::Diag> {
     let files = [FilFile { name: "case.fil", text: &text }];
     let facts = MachineFacts {
         carries_out: Some(&|word| word != fil_cl::words::CHUCK),
+        storing: None,
         name_of_common: Some(&|kind, number| {
             (kind == CommonKind::Dbl && number == 7).then(|| "seven".to_string())
         }),
@@ -264,14 +265,14 @@ fn an_error_of_the_host_gets_the_fil_place() {
             kind: fil_vm::CommonKind,
             at: u32,
             value: f64,
-        ) -> Result<(), Box<fil_diag::Diag>> {
+        ) -> Result<Option<Box<fil_diag::Diag>>, Box<fil_diag::Diag>> {
             self.0.set_common(kind, at, value)
         }
         fn clear_common(
             &mut self,
             kind: fil_vm::CommonKind,
             at: u32,
-        ) -> Result<(), Box<fil_diag::Diag>> {
+        ) -> Result<Option<Box<fil_diag::Diag>>, Box<fil_diag::Diag>> {
             self.0.clear_common(kind, at)
         }
         fn command(

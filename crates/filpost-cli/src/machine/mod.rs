@@ -42,7 +42,7 @@ pub fn run(args: &MachineArgs) -> Result<Status, Error> {
 fn import(file: &Path, output: Option<&Path>, encoding: Option<&str>) -> Result<(), Error> {
     let name = file.display().to_string();
     let text = files::read_text(file, encoding)?;
-    let imported = settings::read_option_file(&name, &text).map_err(Error::Run)?;
+    let imported = settings::read_option_file(&name, &text).map_err(Error::Setup)?;
     let title = Value::String(imported.title).to_string();
     let toml = format!("name = {title}\n\n{}", settings::write_toml(&imported.commons));
     Target::new(output).write(|writer| {

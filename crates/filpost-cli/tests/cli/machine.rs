@@ -4,8 +4,8 @@ use crate::support::{Place, SMALL};
 
 #[test]
 fn an_option_file_becomes_a_machine() {
-    let option_file =
-        "OPTION FILE\nMY \"MILL\"\n INTCOM:(LOCATION,VALUE)\n 1870      0\n   0      0\n";
+    let option_file = "OPTION FILE\nMY \"MILL\"\n INTCOM:(LOCATION,VALUE)\n 1870      0\n   0      0\n \
+         RELCOM:\n 0 0\n DBLCOM:\n 0 0\n";
     let place = Place::new().with("uncx01.p07", option_file).with("part.ncl", SMALL);
     let ran = place.run(&["machine", "import", "uncx01.p07", "-o", "machine.toml"]);
     assert_eq!(ran.status, 0, "{ran:?}");
@@ -18,6 +18,34 @@ fn an_option_file_becomes_a_machine() {
     let show = place.run(&["machine", "show", "-m", "machine.toml", "rapid."]);
     assert!(show.out.contains("rapid.split                  0 (one block)"), "{}", show.out);
     assert!(!show.out.contains("cycle."), "{}", show.out);
+}
+
+#[test]
+fn all_that_is_wrong_with_a_machine_is_said_at_once() {
+    let toml = "rapid.spilt = 1\nint.1870 = 9\n[address]\nX = { slot = 0 }\n";
+    let option_file = "UNCX01.P07\nMILL\nINTCOM:\n470\n12000 1\n0 0\nRELCOM:\n0 0\n";
+    let place = Place::new()
+        .with("machine.toml", toml)
+        .with("uncx01.p07", option_file)
+        .with("bad.fil", "AA=(1\nFINI\n")
+        .with("part.ncl", SMALL);
+    let set = ["--set", "linear.code=Q"];
+    for command in [&["post", "part.ncl"][..], &["machine", "show"], &["check", "bad.fil"]] {
+        let ran = place.run(&[command, &["-m", "machine.toml"]].concat());
+        for said in ["machine.toml:1:7", "machine.toml:2:12", "machine.toml:4:14", "rapid.split"] {
+            assert!(ran.status == 1 && ran.err.contains(said), "{said}: {}", ran.err);
+        }
+    }
+    let ran = place.run(&[&["post", "part.ncl", "-f", "bad.fil"][..], &set].concat());
+    assert!(ran.err.contains("--set:1:") && ran.err.contains("bad.fil:1"), "{}", ran.err);
+    let ran = place.run(&["machine", "import", "uncx01.p07"]);
+    for said in ["uncx01.p07:4", "uncx01.p07:5", "the file has no list DBLCOM"] {
+        assert!(ran.status == 1 && ran.err.contains(said), "{said}: {}", ran.err);
+    }
+    let two = ["--set", "circle.cw_code=3", "--set", "feed.upm_factor=-1"];
+    let ran = place.run(&[&["post", "part.ncl", "-p", "fanuc-mill"][..], &two].concat());
+    assert_eq!(ran.err.matches("E0607").count(), 2, "{}", ran.err);
+    assert!(ran.err.contains("in the settings of fanuc-mill"), "{}", ran.err);
 }
 
 #[test]

@@ -85,7 +85,8 @@ fn a_file_without_units_needs_them_said() {
 
 #[test]
 fn an_option_file_is_found_with_its_fil() {
-    let option_file = "OPTION FILE\nMINE\n INTCOM:(LOCATION,VALUE)\n   0      0\n";
+    let option_file =
+        "OPTION FILE\nMINE\n INTCOM:(LOCATION,VALUE)\n   0      0\n RELCOM:\n 0\n DBLCOM:\n 0\n";
     let fil = "CIMFIL/ON,SPINDL\nDMY=POSTF(13)\nPOSTN/OUT,M,8\nCIMFIL/OFF\nFINI\n";
     let cl = format!("MACHIN / MYPOST, 2\n{SMALL}");
     let place = Place::new().with("part.ncl", cl);
