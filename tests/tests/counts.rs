@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::env;
 
 use filpost::locations::{Location, TABLE};
+use filpost::no_effect::{self, NoEffect};
 use filpost_tests::counts::corpus::{Part, parts};
 use filpost_tests::counts::excuse::Setting;
 use filpost_tests::counts::settings::{Pair, unseen};
@@ -21,6 +22,8 @@ const SAMPLE: usize = 2;
 struct Tally {
     tried: usize,
     excused: usize,
+    /// Rows of the table that excuse something.
+    rows: Vec<NoEffect>,
     of_sections: usize,
     /// Statements in texts that the post refuses as they are.
     refused: usize,
@@ -76,12 +79,17 @@ impl Tally {
                 continue;
             }
             let ignored = statement.is_text() && window.is_ignored();
-            if ignored || setting.excuse(index, change).is_some() {
-                self.excused += 1;
-                continue;
+            match setting.excuse(index, change) {
+                _ if ignored => self.excused += 1,
+                Some(excuse) => {
+                    self.excused += 1;
+                    self.rows.extend(excuse.row());
+                }
+                None => {
+                    let name = name(statement, index, change);
+                    self.quiet.entry(name).or_insert_with(|| (0, place.to_string())).0 += 1;
+                }
             }
-            let name = name(statement, index, change);
-            self.quiet.entry(name).or_insert_with(|| (0, place.to_string())).0 += 1;
         }
     }
 }
@@ -113,6 +121,11 @@ fn changed_items_are_noticed() {
     );
     for (name, (count, place)) in &tally.quiet {
         println!("{count} times: {name}, first in {place}");
+    }
+    if all() {
+        let of_items = no_effect::rows().filter(|row| row.item != "*");
+        let needless: Vec<NoEffect> = of_items.filter(|row| !tally.rows.contains(row)).collect();
+        assert!(needless.is_empty(), "rows that no file needs: {needless:#?}");
     }
     assert!(tally.quiet.is_empty(), "{} kinds of changes are not noticed", tally.quiet.len());
     assert!(tally.tried > 1000, "too few changes to prove anything");

@@ -13,6 +13,25 @@ const ARROW: &str = "$$->";
 /// An arc of a smaller radius than this, mm, is a point in the last digit.
 const LAST_DIGIT: f64 = 0.001;
 
+/// Why a change may pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Excuse {
+    /// A row of the table of things without effect.
+    Row(NoEffect),
+    /// Another reason.
+    Other(&'static str),
+}
+
+impl Excuse {
+    /// The row, if it is one.
+    pub fn row(self) -> Option<NoEffect> {
+        match self {
+            Excuse::Row(row) => Some(row),
+            Excuse::Other(_) => None,
+        }
+    }
+}
+
 /// A statement among those of its file, on its machine.
 #[derive(Clone, Copy)]
 pub struct Setting<'a> {
@@ -29,16 +48,16 @@ impl Setting<'_> {
         &self.all[self.at]
     }
 
-    /// The reason that the table of things without effect, or the machine, gives; or
+    /// The row of the table of things without effect; that the machine lists the word; or
     /// why the statement as a whole can't act where it is.
-    pub fn excuse(&self, index: usize, change: Change) -> Option<&'static str> {
+    pub fn excuse(&self, index: usize, change: Change) -> Option<Excuse> {
         let statement = self.statement();
         let listed = self.commons.words_without_effect();
-        if listed.iter().any(|word| *word == statement.major) {
-            return Some("the machine lists the word as without effect");
+        if listed.contains(&statement.major) {
+            return Some(Excuse::Other("the machine lists the word as without effect"));
         }
         let row = no_effect::rows().find(|row| self.covers(row, index, change));
-        row.map(|row| row.reason).or_else(|| self.dead())
+        row.map(Excuse::Row).or_else(|| self.dead().map(Excuse::Other))
     }
 
     /// True when a row of the table says that the change has no effect.

@@ -74,7 +74,7 @@ fn statement(text: String, line: usize) -> Statement {
     let major = major.to_string();
     let items = match TEXTS.contains(&&major[..]) {
         true if text[rest..].trim().is_empty() => Vec::new(),
-        true => vec![rest..text.len()],
+        true => std::iter::once(rest..text.len()).collect(),
         false => items(&text, rest),
     };
     Statement { text, major, in_comment, items, line }

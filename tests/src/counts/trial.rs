@@ -8,6 +8,9 @@ use super::statement::{AT_THE_END, Change, OF_AN_ITEM, Statement};
 /// A text of at most so many statements is posted as a whole.
 const WHOLE: usize = 40;
 
+/// A longer text is never posted as a whole.
+const LONGEST: usize = 1000;
+
 /// Motions before the statement that stay in the text.
 const MOTIONS_BEFORE: usize = 4;
 
@@ -24,17 +27,31 @@ pub struct Window<'a> {
 }
 
 impl<'a> Window<'a> {
-    /// The text around statement `at`; `None` when the post refuses it as it is.
+    /// The text around statement `at`: the whole text also where all shorter ones are
+    /// refused and it is not too long; `None` when the post refuses it as it is.
     pub fn new(machine: &Prepared, all: &'a [Statement], at: usize) -> Option<Self> {
-        let whole = all.len() <= WHOLE;
-        let counts = if whole { &[usize::MAX][..] } else { &AFTER };
-        let before = if whole { lines(&all[..at]) } else { before(&all[..at]) };
-        counts.iter().find_map(|count| {
-            let after = after(&all[at + 1..], *count);
-            let text = format!("{before}{}\n{after}", all[at].text);
-            let outcome = machine.post(&text).ok()?;
-            Some(Window { before: before.clone(), statement: &all[at], after, outcome })
-        })
+        let whole = || Self::of(machine, lines(&all[..at]), all, at, usize::MAX);
+        if all.len() <= WHOLE {
+            return whole();
+        }
+        let before = before(&all[..at]);
+        AFTER
+            .iter()
+            .find_map(|count| Self::of(machine, before.clone(), all, at, *count))
+            .or_else(|| if all.len() <= LONGEST { whole() } else { None })
+    }
+
+    fn of(
+        machine: &Prepared,
+        before: String,
+        all: &'a [Statement],
+        at: usize,
+        count: usize,
+    ) -> Option<Self> {
+        let after = after(&all[at + 1..], count);
+        let text = format!("{before}{}\n{after}", all[at].text);
+        let outcome = machine.post(&text).ok()?;
+        Some(Window { before, statement: &all[at], after, outcome })
     }
 
     /// True when a FIL section was run for the record of the statement.
