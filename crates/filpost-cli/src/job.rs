@@ -15,7 +15,7 @@ use crate::args::PostArgs;
 use crate::errors::CommandCode;
 use crate::output::{self, Target};
 use crate::posts::{Built, Posts};
-use crate::setup;
+use crate::setup::{self, From};
 use crate::summary;
 
 /// A CL file and where its results go.
@@ -69,7 +69,7 @@ fn post(
 ) -> Result<Report, Error> {
     let mut input = output::open(&job.cl)?;
     let args = posts.args();
-    let built = built(posts, job, &mut input)?;
+    let (built, from) = built(posts, job, &mut input)?;
     refuse_over_input(job, &built.inputs)?;
     (outcome.title, outcome.note) = (built.title, built.note);
     let program = built.program;
@@ -94,6 +94,9 @@ fn post(
         if let (Some(listing), Some(path)) = (listing, &job.listing) {
             listing.finish().map_err(|error| files::cant_write(path, &error))?;
         }
+        if let From::ClFile(_, machin) = &from {
+            select::confirm(machin.as_ref(), &report, &output::input_name(&job.cl))?;
+        }
         finish(args, &program, &report, pending, outcome)?;
         Ok(report)
     })
@@ -115,15 +118,16 @@ fn finish(
     pending.commit()
 }
 
-/// The post of the job; afterwards the input stands at its start again.
-fn built(posts: &Posts<'_>, job: &Job, input: &mut File) -> Result<Built, Error> {
+/// The post of the job, and where it comes from; afterwards the input stands at its
+/// start again.
+fn built(posts: &Posts<'_>, job: &Job, input: &mut File) -> Result<(Built, From), Error> {
     let args = posts.args();
     let folders = select::beside_first(&job.cl, &args.post_path);
     let name = output::input_name(&job.cl);
     let options = options(args)?;
     let from = setup::from(&args.chosen, &folders, || select::asked(&mut *input, &name, options))?;
     input.rewind().map_err(|error| files::cant_read(&job.cl, &error))?;
-    posts.get(from)
+    Ok((posts.get(from.clone())?, from))
 }
 
 fn options(args: &PostArgs) -> Result<Options, Error> {

@@ -20,6 +20,7 @@ use crate::map;
 use crate::program::Program;
 use crate::report::{Extents, Report};
 use crate::run::Start;
+use crate::select;
 use crate::source::{Records, Source};
 use crate::statement::statement_text;
 use crate::units::{self, UnitSource};
@@ -106,11 +107,24 @@ impl<'o, S: Records> Outside<'o, S> {
         if more {
             self.post.control.tape.cause.record = record.number;
             self.post.control.tape.cause.line = record.line;
+            if record.major == words::MACHIN {
+                self.note_machine(record, vocabulary);
+            }
             for observer in self.observers.iter_mut() {
                 observer(Event::Record { record, vocabulary });
             }
         }
         Ok(more)
+    }
+
+    /// Notes the machine that a MACHIN record names.
+    #[cold]
+    fn note_machine(&mut self, record: &Record, vocabulary: &Vocabulary) {
+        let machines = &mut self.report.machines;
+        let Ok(machin) = select::machin(record, vocabulary) else { return };
+        if record.kind == kind::POST && machines.iter().all(|(known, _)| *known != machin) {
+            machines.push((machin, record.line));
+        }
     }
 
     /// The post carries out a record; what it says gets the place in the CL file,

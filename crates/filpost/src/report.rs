@@ -7,6 +7,7 @@ use fil_cl::Recognized;
 use fil_diag::Diag;
 use fil_machine::Unit;
 
+use crate::select::Machin;
 use crate::units::UnitSource;
 
 /// Smallest box around the CL points of a run, in CL units.
@@ -46,6 +47,8 @@ pub struct Report {
     /// The unit of CL file and program, and who has said it; `None` where nothing
     /// did, so that there is no motion.
     pub unit: Option<(Unit, UnitSource)>,
+    /// The machines that MACHIN records name, each once, with the CL line.
+    pub machines: Vec<(Machin, u32)>,
     /// The box around the path.
     pub extents: Option<Extents>,
     /// Records that a section took without any effect on the post, by section.

@@ -9,6 +9,7 @@ use fil_diag::{Diag, Place};
 
 use crate::error::{Error, RunCode};
 use crate::ready;
+use crate::report::Report;
 use crate::statement::statement_text;
 
 /// Records looked at for MACHIN, and at least those before the first motion.
@@ -113,6 +114,22 @@ fn no_post(machin: &Machin, place: Option<Place>, folders: &[PathBuf]) -> Box<Di
     Box::new(diag)
 }
 
+/// Refuses a run that met another MACHIN than the one its post was chosen for: one that
+/// comes late in the file, or a second machine.
+///
+/// # Errors
+/// E0714
+pub fn confirm(chosen_for: Option<&Machin>, report: &Report, cl_name: &str) -> Result<(), Error> {
+    let other = report.machines.iter().find(|(machin, _)| Some(machin) != chosen_for);
+    let Some((machin, line)) = other else { return Ok(()) };
+    let was = match chosen_for {
+        Some(first) => format!("the post was chosen for {first}"),
+        None => "a generic post was chosen: no MACHIN stands before the motions".to_string(),
+    };
+    let diag = RunCode::NoPost.diag(format!("{machin} comes too late; {was}"));
+    Err(Error::Run(Box::new(diag.at(Place::line(cl_name, *line, machin.to_string())))))
+}
+
 /// What the first records of a CL text say; `name` is what messages show, `options` say
 /// how the text is read.
 ///
@@ -146,7 +163,7 @@ pub fn asked(input: impl Read, name: &str, options: reader::Options) -> Result<A
 }
 
 /// The name and number of a MACHIN record; the text is what is wrong with them.
-fn machin(record: &Record, vocabulary: &Vocabulary) -> Result<Machin, String> {
+pub(crate) fn machin(record: &Record, vocabulary: &Vocabulary) -> Result<Machin, String> {
     let name = match record.data.first() {
         Some(Word::Minor(word)) => vocabulary.name(*word).to_string(),
         Some(word @ Word::Text { .. }) => record.text_of(*word).trim().to_string(),

@@ -257,3 +257,22 @@ fn real_files_are_posted() {
     let nc = place.text("op010.tap").expect("the program");
     assert!(nc.contains("G20") && nc.contains("S1000 M3"), "{nc}");
 }
+
+/// The post is chosen before the run, from the first records.
+#[test]
+fn a_late_or_second_machin_is_refused() {
+    let motions = "GOTO / 1, 2, 3\nGOTO / 4, 5, 6\n".repeat(200);
+    let head = "UNITS / MM\nFEDRAT / 100, MMPM\n";
+    let late = format!("{head}{motions}MACHIN / GRBL, 1\nFINI\n");
+    let second = format!("MACHIN / FANUC-MILL, 1\n{head}GOTO / 1, 2, 3\nMACHIN / GRBL, 1\nFINI\n");
+    let twice = second.replace("GRBL", "FANUC-MILL");
+    let place = Place::new().with("late.ncl", &late).with("second.ncl", &second);
+    let place = place.with("twice.ncl", &twice);
+    for (cl, at) in [("late.ncl", "late.ncl:403"), ("second.ncl", "second.ncl:5")] {
+        let ran = place.run(&["post", cl, "-o", "out.nc"]);
+        assert!(ran.status == 1 && ran.err.contains("E0714") && ran.err.contains(at), "{ran:?}");
+        assert!(place.text("out.nc").is_none());
+        assert_eq!(place.run(&["post", cl, "-p", "fanuc-mill", "-o", "chosen.nc"]).status, 0);
+    }
+    assert_eq!(place.run(&["post", "twice.ncl", "-o", "out.nc"]).status, 0);
+}
