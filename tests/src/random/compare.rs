@@ -5,6 +5,7 @@ use crate::path::{Point, Unit};
 
 use super::compare_arc::Sweep;
 use super::expected::{Act, Hole, Modes, Rate, Step, Turning, WayOut};
+use super::geometry::distance;
 use super::machine::{NcAct, NcStep};
 use super::setup::{CenterForm, Setup};
 
@@ -46,6 +47,8 @@ pub struct Tolerance {
     pub chord: f64,
     /// A feed.
     pub rate: f64,
+    /// The lead of a thread.
+    pub lead: f64,
 }
 
 impl Tolerance {
@@ -60,6 +63,7 @@ impl Tolerance {
             curve: (2.5 * digit + 2.0 * PRINTED) * unit.in_mm() + radius_form,
             chord: (1.5 * digit + PRINTED) * unit.in_mm() + 0.0055,
             rate: (0.51 * 10f64.powi(-of_feed) + 0.6 * PRINTED) * unit.in_mm(),
+            lead: 0.51 * 10f64.powi(-of_feed) * unit.in_mm(),
         }
     }
 }
@@ -133,6 +137,7 @@ impl<'a> Comparer<'a> {
                 }
                 Ok(())
             }
+            Act::Thread { to, lead } => self.thread(*to, *lead, step),
             Act::Hole(hole) => self.hole(hole, step),
             Act::Tool(tool) => self.exactly(&NcAct::Tool(*tool), "tool"),
             Act::Dwell(seconds) => self.dwell(*seconds),
@@ -212,8 +217,12 @@ impl<'a> Comparer<'a> {
 
     fn feed(&mut self, to: Point, step: &Step) -> Outcome {
         let there = self.near(self.at, to);
+        // Rounding to the nearest digit never leads away from the point.
+        let leads_there = |end: Point| {
+            self.near(end, to) && (!there || distance(end, to) <= distance(self.at, to))
+        };
         match self.peek() {
-            Some(found) if matches!(found.act, NcAct::Feed(end) if self.near(end, to)) => {
+            Some(found) if matches!(found.act, NcAct::Feed(end) if leads_there(end)) => {
                 if !there {
                     self.modes(&step.modes, found, true)?;
                 }
@@ -224,6 +233,24 @@ impl<'a> Comparer<'a> {
             found => {
                 let found = found.map(|step| &step.act);
                 self.fail("feed", format!("{found:?} in place of a feed to {}", spell(to)))
+            }
+        }
+    }
+
+    fn thread(&mut self, to: Point, lead: f64, step: &Step) -> Outcome {
+        match self.peek() {
+            Some(NcStep { act: NcAct::Thread { to: end, lead: found }, .. })
+                if self.near(*end, to) && (found - lead).abs() <= self.tolerance.lead =>
+            {
+                self.modes(&step.modes, &self.found[self.next], false)?;
+                self.consume();
+                Ok(())
+            }
+            _ if self.near(self.at, to) => Ok(()),
+            found => {
+                let found = found.map(|step| &step.act);
+                let what = format!("{found:?} in place of a thread of {lead} to {}", spell(to));
+                self.fail("thread", what)
             }
         }
     }
@@ -389,11 +416,19 @@ impl<'a> Comparer<'a> {
             (Turning::At { speed, ccw }, Turning::At { speed: other, ccw: way }) => {
                 (speed - other).abs() <= 0.5001 && *ccw == way
             }
+            (Turning::Surface { speed, ccw }, Turning::Surface { speed: other, ccw: way }) => {
+                (speed - other).abs() <= 0.5001 && *ccw == way
+            }
             _ => false,
         };
         if !wanted.spindle.accepts(same_turn) {
             let what = format!("spindle {:?}, should be {:?}", found.spindle, wanted.spindle);
             return self.fail("spindle", what);
+        }
+        let surface = matches!(found.spindle, Turning::Surface { .. });
+        if surface && !wanted.limit.accepts(|limit| *limit == found.limit) {
+            let what = format!("spindle limit {}, should be {:?}", found.limit, wanted.limit);
+            return self.fail("spindle limit", what);
         }
         if !wanted.coolant.accepts(|coolant| *coolant == found.coolant) {
             let what = format!("{:?}, should be {:?}", found.coolant, wanted.coolant);
@@ -402,6 +437,12 @@ impl<'a> Comparer<'a> {
         if !wanted.compensation.accepts(|side| *side == found.compensation) {
             let what = format!("{:?}, should be {:?}", found.compensation, wanted.compensation);
             return self.fail("compensation", what);
+        }
+        // A lathe takes its offset with the tool, a mill with the first motion in Z.
+        let counts = feeding || self.setup.turns();
+        if counts && !wanted.length.accepts(|length| *length == found.length) {
+            let what = format!("length offset {}, should be {:?}", found.length, wanted.length);
+            return self.fail("length offset", what);
         }
         if !feeding {
             return Ok(());
@@ -413,10 +454,6 @@ impl<'a> Comparer<'a> {
         if !wanted.feed.accepts(same_rate) {
             let what = format!("{:?}, should be {:?}", found.feed, wanted.feed);
             return self.fail("feed rate", what);
-        }
-        if !wanted.length.accepts(|length| *length == found.length) {
-            let what = format!("length offset {}, should be {:?}", found.length, wanted.length);
-            return self.fail("length offset", what);
         }
         Ok(())
     }

@@ -55,6 +55,13 @@ pub enum Turning {
         /// Counterclockwise.
         ccw: bool,
     },
+    /// It turns so that the surface goes by at one speed.
+    Surface {
+        /// Metres a minute, or feet in a program in inches.
+        speed: f64,
+        /// Counterclockwise.
+        ccw: bool,
+    },
 }
 
 /// What flows.
@@ -90,6 +97,8 @@ pub struct Modes {
     pub compensation: Want<Compensation>,
     /// Number of the length offset; of no account in a rapid.
     pub length: Want<u32>,
+    /// Highest speed of the spindle while a surface speed is in force.
+    pub limit: Want<f64>,
 }
 
 /// A hole: rapid to it, feed to the bottom, back.
@@ -150,6 +159,13 @@ pub enum Act {
     Feed(Point),
     /// Arc at feed.
     Arc(Arc),
+    /// Pass of a thread.
+    Thread {
+        /// End.
+        to: Point,
+        /// How far it goes in one turn.
+        lead: f64,
+    },
     /// Hole of a cycle.
     Hole(Hole),
     /// Tool change.

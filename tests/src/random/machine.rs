@@ -30,6 +30,13 @@ pub enum NcAct {
         /// Full turns besides the arc to the end.
         turns: u32,
     },
+    /// Pass of a thread.
+    Thread {
+        /// End.
+        to: Point,
+        /// How far it goes in one turn.
+        lead: f64,
+    },
     /// Tool change.
     Tool(u32),
     /// Dwell in seconds.
@@ -44,7 +51,10 @@ impl NcAct {
     /// Where a motion ends.
     pub fn end(&self) -> Option<Point> {
         match self {
-            NcAct::Rapid(to) | NcAct::Feed(to) | NcAct::Arc { to, .. } => Some(*to),
+            NcAct::Rapid(to)
+            | NcAct::Feed(to)
+            | NcAct::Arc { to, .. }
+            | NcAct::Thread { to, .. } => Some(*to),
             _ => None,
         }
     }
@@ -69,6 +79,8 @@ pub struct NcStep {
     pub compensation: Compensation,
     /// Number of the length offset; 0 for none.
     pub length: u32,
+    /// Highest speed of the spindle; 0 for none.
+    pub limit: f64,
 }
 
 /// A program as a run of the interpreter takes it.
@@ -285,6 +297,7 @@ impl<'a> Reading<'a> {
             coolant: self.coolant,
             compensation: self.compensation,
             length: self.length,
+            limit: 0.0,
         }
     }
 

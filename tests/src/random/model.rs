@@ -44,6 +44,9 @@ pub(super) struct Model<'s> {
     /// No straight motion across has come since compensation was called.
     pub(super) compensation_is_fresh: bool,
     pub(super) length: Want<u32>,
+    pub(super) limit: Want<f64>,
+    /// Lead of the thread that feed motions are passes of.
+    pub(super) thread: Option<f64>,
     repeats_feed: bool,
     pub(super) cycle: Option<super::model_cycle::Active>,
     pub(super) out: Expected,
@@ -85,6 +88,8 @@ impl<'s> Model<'s> {
             compensation: Waiting::new(Want::only(Compensation::Off)),
             compensation_is_fresh: false,
             length: Want::Any,
+            limit: Want::Any,
+            thread: None,
             repeats_feed: false,
             cycle: None,
             out: Expected::default(),
@@ -185,6 +190,15 @@ impl<'s> Model<'s> {
                 self.may_refuse("the unit changes on the way");
                 self.units(*unit);
             }
+            Statement::Thread(lead) => {
+                let unit = if self.unit == Unit::Mm { "MMPR" } else { "IPR" };
+                self.line(&format!("THREAD / {unit}, {}", number(*lead)));
+                self.thread = Some(lead * self.mm());
+            }
+            Statement::ThreadOff => {
+                self.line("THREAD / OFF");
+                self.thread = None;
+            }
         }
     }
 
@@ -235,10 +249,15 @@ impl<'s> Model<'s> {
         if !in_parts {
             self.settle(across, along);
         }
-        if !rapid && self.no_feed() {
+        let act = match self.thread {
+            _ if rapid => Act::Rapid(machine),
+            Some(lead) => Act::Thread { to: machine, lead },
+            None => Act::Feed(machine),
+        };
+        if matches!(act, Act::Feed(_)) && self.no_feed() {
             self.must_refuse("a feed motion without a feed");
         }
-        self.push(if rapid { Act::Rapid(machine) } else { Act::Feed(machine) });
+        self.push(act);
         self.compensation_is_fresh &= !across;
         if in_parts {
             self.settle(across, along);
@@ -315,6 +334,7 @@ impl<'s> Model<'s> {
             coolant: self.coolant.now.clone(),
             compensation: self.compensation.now.clone(),
             length: self.length.clone(),
+            limit: self.limit.clone(),
         };
         let height_unknown = self.height_unknown;
         self.out.steps.push(Step { act, modes, line: self.line, height_unknown });
@@ -325,7 +345,7 @@ impl<'s> Model<'s> {
         let cuts = matches!(act, Act::Feed(_) | Act::Arc(_) | Act::Hole(_));
         let per_revolution = feed.accepts(|rate| rate.per_revolution);
         let may_stand = self.spindle.now.accepts(|turning| *turning == Turning::Stopped);
-        if cuts && per_revolution && may_stand {
+        if cuts && per_revolution && may_stand && !self.setup.turns() {
             self.out.unpredictable = true;
         }
     }

@@ -65,6 +65,7 @@ impl Model<'_> {
         let unit = self.feed_unit(feed);
         self.line(&format!("FEDRAT / {}, {unit}", number(feed.value)));
         self.feed = Want::only(self.rate(feed));
+        self.thread = None;
     }
 
     /// The value that is in force after a statement: where the block may be left
@@ -80,6 +81,17 @@ impl Model<'_> {
                 let direction = if ccw { "CCLW" } else { "CLW" };
                 self.line(&format!("SPINDL / RPM, {}, {direction}", number(speed)));
                 (Turning::At { speed, ccw }, self.setup.spindle)
+            }
+            SpindleCommand::Surface { speed, ccw, limit } => {
+                let direction = if ccw { "CCLW" } else { "CLW" };
+                let unit = if self.unit == Unit::Mm { "SMM" } else { "SFM" };
+                let most =
+                    limit.map_or(String::new(), |limit| format!(", MAXRPM, {}", number(limit)));
+                self.line(&format!("SPINDL / {unit}, {}{most}, {direction}", number(speed)));
+                if let Some(limit) = limit {
+                    self.limit = self.either(&self.limit, limit);
+                }
+                (Turning::Surface { speed, ccw }, self.setup.spindle)
             }
             SpindleCommand::Off => {
                 self.line("SPINDL / OFF");
@@ -124,6 +136,7 @@ impl Model<'_> {
             self.tool = Some(tool);
             self.length = Want::only(offset.unwrap_or(tool));
         }
+        self.thread = None;
         self.spindle = Waiting::new(Want::Any);
         self.any_coolant();
         self.lost();

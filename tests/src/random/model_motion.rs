@@ -143,7 +143,7 @@ impl Model<'_> {
             // The interpreter refuses these under compensation.
             self.out.unpredictable = true;
         }
-        if ["M3", "M4", "M5"].into_iter().any(has) || text.starts_with('S') {
+        if ["M3", "M4", "M5", "G96", "G97"].into_iter().any(has) || text.starts_with('S') {
             self.any_spindle();
         }
         if ["M7", "M8", "M9"].into_iter().any(has) {

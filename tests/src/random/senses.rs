@@ -37,7 +37,7 @@ fn back(a: Point, b: Point) -> bool {
 
 fn end(act: &Act) -> Option<Point> {
     match act {
-        Act::Rapid(to) | Act::Feed(to) => Some(*to),
+        Act::Rapid(to) | Act::Feed(to) | Act::Thread { to, .. } => Some(*to),
         Act::Arc(arc) => Some(arc.to),
         Act::Hole(hole) => Some([hole.at[0], hole.at[1], hole.clear]),
         _ => None,

@@ -94,10 +94,51 @@ impl Setup {
         setup
     }
 
+    /// Draws a lathe.
+    pub fn lathe(dice: &mut Dice<'static>) -> Self {
+        let unit = if dice.once_in(4) { Unit::Inch } else { Unit::Mm };
+        let mut setup = Setup {
+            ready: "fanuc-lathe",
+            settings: Vec::new(),
+            unit,
+            center: CenterForm::FromStart,
+            split: false,
+            expanded: true,
+            spindle: Placement::Own,
+            coolant: Placement::Own,
+            cutcom: Placement::NextXy,
+            tool_modal: false,
+            dwell_factor: 1000.0,
+            hostile: dice.once_in(2),
+        };
+        if dice.once_in(3) {
+            setup.center = CenterForm::Radius;
+            setup.set("circle.center=3");
+        }
+        setup.choose(dice, 3, "circle.max_degrees=90");
+        setup.choose(dice, 3, "circle.full_circle=0");
+        setup.choose(dice, 3, "circle.axes_modal=0");
+        if setup.choose(dice, 3, "cutcom.with_motion=0") {
+            setup.cutcom = Placement::Own;
+        }
+        setup.choose(dice, 4, "linear.modal=1");
+        setup.choose(dice, 4, "motion.modal=0");
+        setup.choose(dice, 4, "rapid.repeat_feed=1");
+        setup.tool_modal = setup.choose(dice, 5, "tool.modal=1");
+        setup
+    }
+
+    /// It is a lathe.
+    pub fn turns(&self) -> bool {
+        self.ready == "fanuc-lathe"
+    }
+
     /// Decimals of the axis words and of F.
     pub fn decimals(&self, unit: Unit) -> (i32, i32) {
         match (self.ready, unit) {
             ("fanuc-mill", Unit::Mm) => (3, 2),
+            ("fanuc-lathe", Unit::Mm) => (3, 3),
+            ("fanuc-lathe", Unit::Inch) => (4, 4),
             (_, Unit::Mm) => (4, 2),
             (_, Unit::Inch) => (4, 3),
         }
@@ -105,7 +146,7 @@ impl Setup {
 
     /// A dwell that the format of its address can't hold.
     pub fn rounds_dwell(&self, seconds: f64) -> bool {
-        self.ready == "fanuc-mill" && (seconds * self.dwell_factor).fract() != 0.0
+        self.ready != "linuxcnc-mill" && (seconds * self.dwell_factor).fract() != 0.0
     }
 
     fn set(&mut self, setting: impl Into<String>) {

@@ -69,6 +69,10 @@ pub enum Statement {
     Message(&'static str),
     /// UNITS.
     Units(Unit),
+    /// THREAD with its lead, in CL units.
+    Thread(f64),
+    /// THREAD/OFF.
+    ThreadOff,
 }
 
 /// An arc from where the tool is, in CL units and degrees.
@@ -124,6 +128,15 @@ pub enum SpindleCommand {
         speed: f64,
         /// CCLW.
         ccw: bool,
+    },
+    /// SMM or SFM, speed and direction, with MAXRPM or not.
+    Surface {
+        /// Metres or feet a minute.
+        speed: f64,
+        /// CCLW.
+        ccw: bool,
+        /// Highest speed, turns a minute.
+        limit: Option<f64>,
     },
     /// OFF.
     Off,

@@ -8,6 +8,7 @@ use crate::posting::{self, Job, Machine, Posted, Refused};
 
 use super::compare::{Difference, Tolerance, compare};
 use super::expected::Expected;
+use super::lathe;
 use super::machine::{self, NcStep, Tape, without_number};
 use super::make::Program;
 use super::model::{World, expect};
@@ -80,9 +81,17 @@ pub fn judge_changed(
             }));
         }
     }
-    let mut runs = machine::run(rs274, &tapes).into_iter();
+    let mut runs = run(rs274, &tapes).into_iter();
     let both = programs.iter().zip(&cases);
     both.map(|(program, case)| verdict(program, case, &mut runs)).collect()
+}
+
+/// A mill is LinuxCNC's interpreter, a lathe is our own; the programs are of one kind.
+fn run(rs274: &Path, tapes: &[Tape<'_>]) -> Vec<Result<Vec<NcStep>, String>> {
+    match tapes.first() {
+        Some(first) if first.setup.turns() => tapes.iter().map(lathe::run).collect(),
+        _ => machine::run(rs274, tapes),
+    }
 }
 
 fn case(program: &Program) -> Case {
