@@ -2,6 +2,7 @@
 
 use fil_diag::Result;
 use fil_machine::commons::Dbl;
+use fil_machine::modes::FeedMode;
 use fil_machine::{Letter, locations as loc};
 
 use crate::control::Control;
@@ -48,6 +49,11 @@ fn in_revolutions(control: &mut Control, turns: f64) -> Result<f64> {
     let Some(factor) = factor else {
         return PostCode::NoCode.err("the machine can't dwell in revolutions");
     };
+    // Code and letter are those of a dwell in seconds: the feed mode tells them apart.
+    if control.state.feed_mode != Some(FeedMode::PerRevolution) {
+        return PostCode::NoCode
+            .err("a dwell in revolutions where the feed is not one a revolution would be seconds");
+    }
     Ok(within(control, turns, (loc::DWELL_UPR_MIN, loc::DWELL_UPR_MAX)) * factor)
 }
 
