@@ -37,10 +37,10 @@ fn page(title: &str, form: &str, doc: &str, rest: &str) -> String {
 fn no_effect_page() -> String {
     let mut page = String::from(
         "# Words without effect\n\nThese words and items of CL records are known and change nothing in \
-         the NC program; a word that may be left out says what holds without it. Any other word that the post has no handler for is refused \
-         ([E0513](../errors/E0513.md)), and any other item that a handler does not take refuses its \
-         record ([E0506](../errors/E0506.md)). A test changes and leaves out every item of many CL files: \
-         what changes nothing stands here.\n\n| word | item | reason |\n|---|---|---|\n",
+         the NC program; a word that may be left out says what holds without it. Any other word \
+         that the post has no handler for is refused ([E0513](../errors/E0513.md)), and any other \
+         item that a handler does not take refuses its record ([E0506](../errors/E0506.md)). A test \
+         changes and leaves out every item of many CL files: what changes nothing stands here.\n\n| word | item | reason |\n|---|---|---|\n",
     );
     for row in no_effect::rows() {
         let item = if row.item == "*" { "the whole record" } else { row.item };
