@@ -82,5 +82,14 @@ fil_diag::codes! {
         MissingItem = 418, Error, "item is missing",
             "The statement says nothing without the item; it is perhaps in a line that got lost.",
             "Check the statement; a statement goes on in the next line when its line ends in $.";
+        /// A text that may be a block or a note.
+        UnclearText = 419, Error, "text is a block or a note",
+            "The system writes notes for people and blocks for the tape with INSERT; a note on the \
+             tape would move the machine, and a block left out would be missing.",
+            "Write a note as PPRINT / text, and a block of words with a G or an M.";
+        /// A unit that the statement does not settle.
+        UnclearUnit = 420, Error, "unit is not clear",
+            "The system writes the same word in files of either unit.",
+            "Name the unit in the statement.";
     }
 }

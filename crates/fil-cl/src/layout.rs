@@ -195,6 +195,7 @@ impl Record {
         self.kind = kind::MOTION;
         self.sub = motion::GOTO;
         self.major = words::GOTO;
+        self.inert = false;
         self.text.clear();
         self.data.clear();
         let [x, y, z] = point.map(Word::Number);

@@ -4,6 +4,7 @@ mod build;
 pub mod dialect;
 pub mod errors;
 mod fault;
+mod forms;
 pub mod layout;
 pub mod reader;
 pub mod record;

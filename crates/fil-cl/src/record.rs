@@ -91,6 +91,9 @@ pub struct Record {
     pub text: String,
     /// Line of the CL file where the statement starts, 1-based; 0 for a record made by FIL.
     pub line: u32,
+    /// The dialect it comes from gives it no effect on the machine: sections see it, the post
+    /// passes over it.
+    pub inert: bool,
 }
 
 /// What a word of a record shows to a reader of the listing.
@@ -133,6 +136,7 @@ impl Default for Record {
             data: Vec::new(),
             text: String::new(),
             line: 0,
+            inert: false,
         }
     }
 }

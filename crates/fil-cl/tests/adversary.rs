@@ -126,7 +126,7 @@ fn what_is_refused() {
         ("CIRCLE/0,0,0,0,0,5", 407),
         ("CIRCLE/0,0,0,0,0", 407),
         ("PAINT/A\n$$-> END /", 415),
-        ("INDIRV/1,0,0", 408),
+        ("INDIRV/1,0,0", 418),
     ] {
         let text = format!("RAPID\n{text}\nRAPID\nFINI\n");
         assert_eq!(read(&text), Err(code), "{text:?}");

@@ -159,10 +159,10 @@ fn a_dollar_at_the_end_of_a_text_is_text() {
     for dialect in ClDialect::ALL {
         for word in TEXT_WORDS {
             for ending in ["$", " $", "$$", ",$", ",  $", "$ $"] {
-                let text = format!("{word} / G1 X5{ending}\nGOTO / 1, 2, 3\n");
+                let text = format!("{word} / A NOTE{ending}\nGOTO / 1, 2, 3\n");
                 let found = records(&text, *dialect);
                 assert_eq!(found.len(), 2, "{dialect}: {text}");
-                assert_eq!(found[0].text, format!("G1 X5{ending}"));
+                assert_eq!(found[0].text, format!("A NOTE{ending}"));
                 assert_eq!(found[1].point(), Some([1.0, 2.0, 3.0]));
             }
         }
@@ -335,7 +335,7 @@ fn axes_that_are_none() {
 
 #[test]
 fn empty_items() {
-    let found = records("LOADTL/3,ADJUST,,TURN\n", ClDialect::Catia);
+    let found = records("TDATA/3,ADJUST,,TURN\n", ClDialect::Catia);
     assert_eq!(found[0].data[2], Word::Empty);
     assert_eq!(found[0].data[3], Word::Minor(words::TURN));
     let comma = "CUTTER/ 10.,0.,5.,3.,31.,0.,130.,\n";

@@ -177,7 +177,7 @@ proptest! {
     /// A statement with a text is a record of its own, and the statements after it are read.
     #[test]
     fn a_text_takes_nothing_with_it(text in "[ -~]{0,60}", dialect in dialect()) {
-        let options = Options { dialect, ..Options::default() };
+        let options = Options { dialect, raw: true, ..Options::default() };
         let cl = format!("INSERT / {text}\nGOTO / 1, 2, 3\n");
         let records = read_as(cl.as_bytes(), &mut Vocabulary::new(), options).unwrap();
         prop_assert_eq!(records.len(), 2);

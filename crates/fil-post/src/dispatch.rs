@@ -86,6 +86,8 @@ pub const HANDLERS: &[(WordId, Handler)] = &[
     (w::SET, Refused),
     (w::SPINDL, I(word::spindl::handle)),
     (w::STOP, I(word::stop::stop)),
+    (w::SWITCH, Refused),
+    (w::SYNC, Refused),
     (w::THREAD, I(word::thread::handle)),
     (w::TLAXIS, I(word::multax::tlaxis)),
     (w::TRACUT, Refused),
@@ -128,6 +130,9 @@ impl Dispatcher {
 pub fn dispatch(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<()> {
     if record.kind == kind::PSEUDO {
         return word::pseudo::handle(post, &mut Items::new(record, vocabulary)?);
+    }
+    if record.inert {
+        return Ok(());
     }
     match post.dispatcher.handler(record.major) {
         Some(Handler::Point(handle)) => {

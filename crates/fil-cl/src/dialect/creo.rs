@@ -10,6 +10,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     title: "PTC Creo, Pro/ENGINEER (.ncl)",
     signs: &[Sign::Comment("*PRO/CLFILE"), Sign::Pseudo],
     circle: Some(CircleForm { counts: &[4, 7], sense: ArcSense::RightHand }),
+    geometry: true,
     axis: AxisRule::AsWritten,
     packed_points: true,
     break_column: None,
@@ -17,5 +18,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     comma_words: &[],
     writes_units: true,
     writes_fini: true,
+    rewrite: None,
+    rewrite_text: None,
     without_effect: &[],
 };

@@ -10,6 +10,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     title: "APT and ISO 4343, no CAM system recognized",
     signs: &[],
     circle: Some(CircleForm { counts: &[4, 6, 7], sense: ArcSense::RightHand }),
+    geometry: true,
     axis: AxisRule::AsWritten,
     packed_points: false,
     break_column: None,
@@ -17,5 +18,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     comma_words: &[],
     writes_units: false,
     writes_fini: true,
+    rewrite: None,
+    rewrite_text: None,
     without_effect: &[],
 };

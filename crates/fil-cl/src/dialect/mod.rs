@@ -15,6 +15,7 @@ mod nx;
 mod recognition;
 mod solidworks_cam;
 
+use crate::forms::{Rewrite, RewriteText};
 use crate::vocabulary::WordId;
 
 pub(crate) use recognition::Recognition;
@@ -53,6 +54,8 @@ pub struct DialectRules {
     pub signs: &'static [Sign],
     /// Its CIRCLE statements; `None` where they are not documented.
     pub circle: Option<CircleForm>,
+    /// True where arcs are computed that TLON and HELICAL give by geometry.
+    pub geometry: bool,
     /// The tool axis of a GOTO with three values.
     pub axis: AxisRule,
     /// True where a GOTO may hold many points.
@@ -69,6 +72,10 @@ pub struct DialectRules {
     pub writes_units: bool,
     /// True where each file ends in FINI.
     pub writes_fini: bool,
+    /// Brings its statements to the form of Creo, where they differ.
+    pub(crate) rewrite: Option<Rewrite>,
+    /// The same for text statements.
+    pub(crate) rewrite_text: Option<RewriteText>,
     /// Major words that inform and do nothing, with the reason.
     pub without_effect: &'static [(&'static str, &'static str)],
 }
@@ -132,6 +139,18 @@ pub enum AxisRule {
     ModalInMultax,
     /// Z: an axis is written whenever it is another one.
     Upright,
+}
+
+impl DialectRules {
+    /// True where statements are those of Creo, or no system is known.
+    pub(crate) fn is_creo_form(&self) -> bool {
+        matches!(self.name, "creo" | "generic")
+    }
+
+    /// True for a major word that informs and does nothing.
+    pub(crate) fn is_without_effect(&self, major: &str) -> bool {
+        self.without_effect.iter().any(|(word, _)| word.eq_ignore_ascii_case(major))
+    }
 }
 
 impl ClDialect {

@@ -11,6 +11,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     title: "NCCS NCL (.as)",
     signs: &[Sign::Text(w::REMARK, "NCLCAM")],
     circle: None,
+    geometry: false,
     axis: AxisRule::ModalInMultax,
     packed_points: false,
     break_column: None,
@@ -18,5 +19,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     comma_words: &[],
     writes_units: false,
     writes_fini: true,
+    rewrite: None,
+    rewrite_text: None,
     without_effect: &[],
 };

@@ -2,9 +2,11 @@
 //!
 //! The axis of a circle is opposite to the right-hand rule: read so, all arcs of the files
 //! seen but one are the shorter way round, and read the other way none. The tool axis is
-//! written when it changes.
+//! written when it changes. FEDTO of a cycle is counted upwards from the hole's start,
+//! RTRCTO,AUTO goes back to where the tool was before the cycle, and CYCLE/ON changes values.
 
 use super::{ArcSense, AxisRule, CircleForm, DialectRules, Sign};
+use crate::forms::{FormError, Outcome, Written, cycle};
 use crate::words as w;
 
 pub(super) const RULES: DialectRules = DialectRules {
@@ -18,6 +20,7 @@ pub(super) const RULES: DialectRules = DialectRules {
         Sign::Word(w::END_OF_PATH),
     ],
     circle: Some(CircleForm { counts: &[11], sense: ArcSense::LeftHand }),
+    geometry: false,
     axis: AxisRule::Modal,
     packed_points: false,
     break_column: None,
@@ -25,10 +28,21 @@ pub(super) const RULES: DialectRules = DialectRules {
     comma_words: &[],
     writes_units: false,
     writes_fini: false,
+    rewrite: Some(rewrite),
+    rewrite_text: None,
     without_effect: &[
         ("PAINT", "colors and speed of the display"),
         ("TLDATA", "measures of the tool, for information"),
+        ("MSYS", "frame of the part; the points are given in it"),
         ("TOOL PATH", "name of the operation and of its tool"),
         ("END-OF-PATH", "end of the operation"),
     ],
 };
+
+fn rewrite(written: &mut Written<'_>) -> Result<Outcome, FormError> {
+    if written.record.major != w::CYCLE {
+        return Ok(Outcome::Free);
+    }
+    cycle::couplets(written)?;
+    Ok(Outcome::Bound)
+}

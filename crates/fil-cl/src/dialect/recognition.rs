@@ -96,6 +96,11 @@ impl Recognition {
         }
     }
 
+    /// The same dialect and sign at the beginning of the text.
+    pub(crate) fn begun_again(self) -> Self {
+        Recognition { used: Used::default(), changed: false, looked_at: Vec::new(), ..self }
+    }
+
     /// What the text is taken for by now.
     pub(crate) fn found(&self) -> Recognized {
         self.found

@@ -1,9 +1,12 @@
 //! SolidWorks CAM APT (`.apt`).
 //!
 //! A circle has no radius and turns by the right-hand rule: four files agree with the
-//! programs that came with them. A GOTO writes its tool axis whenever it is not Z.
+//! programs that came with them. A GOTO writes its tool axis whenever it is not Z. INSERT holds
+//! notes about tools and stock, and blocks that a user has added.
 
 use super::{ArcSense, AxisRule, CircleForm, DialectRules, Sign};
+use crate::forms::{FormError, Outcome, Written, free_text};
+use crate::record::Word;
 use crate::words as w;
 
 pub(super) const RULES: DialectRules = DialectRules {
@@ -11,6 +14,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     title: "SolidWorks CAM APT (.apt)",
     signs: &[Sign::Word(w::TRNTYP), Sign::Prefix("CSI_SET_")],
     circle: Some(CircleForm { counts: &[6, 7], sense: ArcSense::RightHand }),
+    geometry: false,
     axis: AxisRule::Upright,
     packed_points: false,
     break_column: None,
@@ -18,8 +22,21 @@ pub(super) const RULES: DialectRules = DialectRules {
     comma_words: &[],
     writes_units: true,
     writes_fini: true,
+    rewrite: Some(rewrite),
+    rewrite_text: Some(free_text::insert_or_note),
     without_effect: &[
         ("CSI_SET_FLUTE_LENGTH", "length of the tool's flutes, for information"),
         ("CSI_SET_EXTENSION_LENGTH", "length of the tool out of its holder, for information"),
     ],
 };
+
+/// TRNTYP/WORLD says that the points are those of the part, as in all other systems; what
+/// another frame would mean is not public.
+fn rewrite(written: &mut Written<'_>) -> Result<Outcome, FormError> {
+    let record = &mut written.record;
+    if record.major == w::TRNTYP {
+        record.inert = record.data.first() == Some(&Word::Minor(w::WORLD))
+            && record.data[1..].iter().all(|word| *word == Word::Number(0.0));
+    }
+    Ok(Outcome::Free)
+}

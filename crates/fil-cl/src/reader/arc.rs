@@ -33,6 +33,9 @@ impl<R: Read> Reader<R> {
                 }
             }
         }
+        if !self.options.raw && !matches!(self.dialect(), ClDialect::Generic | ClDialect::Creo) {
+            bring_to_seven(record, count);
+        }
         if self.recognition.used.circle == 0 {
             self.recognition.used.circle = record.line;
         }
@@ -80,6 +83,19 @@ impl<R: Read> Reader<R> {
     fn dialect(&self) -> ClDialect {
         self.recognition.found().dialect
     }
+}
+
+/// Numbers of a CIRCLE in Creo's form: center, axis, radius.
+const NUMBERS: usize = 7;
+
+/// Leaves what Creo's form has, and TIMES: tolerances and sizes of the tool tell nothing of
+/// the arc, and a direction that was checked says what the axis says now.
+fn bring_to_seven(record: &mut Record, count: usize) {
+    if count > NUMBERS {
+        record.data.drain(NUMBERS..count);
+    }
+    let directions = [words::CLOCKWISE, words::COUNTERCLOCKWISE].map(Word::Minor);
+    record.data.retain(|word| !directions.contains(word));
 }
 
 /// True when the largest part of a circle's axis is negative: seen from the positive side

@@ -68,6 +68,19 @@ impl<R: Read> Lines<R> {
         Ok(())
     }
 
+    /// Reads on until so many bytes lie in the buffer, or all there are.
+    pub(super) fn fill_to(&mut self, bytes: usize) -> io::Result<()> {
+        while self.end - self.next < bytes && !self.at_end {
+            self.fill()?;
+        }
+        Ok(())
+    }
+
+    /// Gives the next line this number.
+    pub(super) fn count_from(&mut self, line: u32) {
+        self.line = line;
+    }
+
     /// What is in the buffer and not yet given out.
     #[inline]
     pub(super) fn unread(&self) -> &[u8] {

@@ -4,8 +4,10 @@
 //! each point. Memory does not depend on the length of the input: a chunk
 //! buffer, one statement, and a checkpoint for every some thousand records.
 
+mod ahead;
 mod arc;
 mod complete;
+mod form;
 mod items;
 mod lines;
 mod names;
@@ -22,12 +24,14 @@ use fil_diag::{Diag, Place, Result};
 
 use crate::dialect::{ClDialect, DialectRules, Recognition, Recognized};
 use crate::errors::ClCode;
+use crate::forms::{FormState, Outcome};
 use crate::record::{Record, Word, kind};
 use crate::vocabulary::Vocabulary;
 use crate::words;
 
 pub(crate) use items::reads_as_text;
 use lines::{LineError, Lines};
+pub(crate) use number::number as plain_number;
 use points::Pending;
 use repeated::Repeated;
 use seek::Seeking;
@@ -42,11 +46,13 @@ pub struct Options {
     pub decode: fn(&[u8]) -> String,
     /// Longest statement in bytes, continuation lines included.
     pub statement_limit: usize,
+    /// True to give statements as they are written, and not in the form of Creo.
+    pub raw: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { dialect: None, decode: latin1, statement_limit: 1 << 20 }
+        Options { dialect: None, decode: latin1, statement_limit: 1 << 20, raw: false }
     }
 }
 
@@ -55,13 +61,29 @@ pub fn latin1(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| char::from(*byte)).collect()
 }
 
+/// Statements before which all must have come that was announced.
+const ENDS_AN_ANNOUNCEMENT: [crate::WordId; 8] = [
+    words::GOTO,
+    words::FROM,
+    words::GODLTA,
+    words::GOHOME,
+    words::CIRCLE,
+    words::FINI,
+    words::END,
+    words::REWIND,
+];
+
 /// What a statement leaves for the later ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Modal {
     multax: bool,
     axis: Option<[f64; 3]>,
+    /// Where the tool stands, for motions given by geometry.
+    point: Option<[f64; 3]>,
     /// A CIRCLE waits for its end.
     in_arc: bool,
+    /// What the forms of the dialect keep.
+    forms: FormState,
 }
 
 /// Reads the records of a CL text one after the other.
@@ -72,6 +94,8 @@ pub struct Reader<R> {
     /// Start and end of each item in the statement, to point at it.
     item_ranges: Vec<Range<usize>>,
     pending: Pending,
+    /// Records that the last statement made besides its own, the last one first.
+    made: Vec<Record>,
     modal: Modal,
     file: String,
     options: Options,
@@ -82,6 +106,8 @@ pub struct Reader<R> {
     /// The reader does not go on after an error.
     failed: Option<Box<Diag>>,
     started: bool,
+    /// It only looks for signs ahead of another reader.
+    is_scout: bool,
 }
 
 impl<R: Read> Reader<R> {
@@ -93,6 +119,7 @@ impl<R: Read> Reader<R> {
             repeated: Repeated::default(),
             item_ranges: Vec::new(),
             pending: Pending::default(),
+            made: Vec::new(),
             modal: Modal::default(),
             file: file_name.to_string(),
             options,
@@ -101,6 +128,7 @@ impl<R: Read> Reader<R> {
             seeking: Seeking::none(),
             failed: None,
             started: false,
+            is_scout: false,
         }
     }
 
@@ -154,20 +182,46 @@ impl<R: Read> Reader<R> {
             self.next_pending(record);
             return Ok(true);
         }
+        if let Some(made) = self.made.pop() {
+            *record = made;
+            self.count(record);
+            return Ok(true);
+        }
         if !self.started {
             self.lines.skip_mark().map_err(|error| self.read_failed(&error))?;
+            self.recognize_ahead();
             self.started = true;
         }
         if self.seeking.is_due(self.number) {
             self.seeking.keep(self.number, self.lines.offset(), self.lines.line(), self.modal);
         }
-        if self.read_plain_goto(record) || self.read_repeated(record) {
-            return Ok(true);
+        loop {
+            if self.read_plain_goto(record) || self.read_repeated(record) {
+                return Ok(true);
+            }
+            match self.read_statement(vocab, record)? {
+                None => return Ok(false),
+                Some(Outcome::Nothing) => {}
+                Some(_) => return Ok(true),
+            }
         }
-        let Some(form) = self.gather()? else { return Ok(false) };
+    }
+
+    /// Reads a statement; `None` at the end of the input.
+    fn read_statement(
+        &mut self,
+        vocab: &mut Vocabulary,
+        record: &mut Record,
+    ) -> Result<Option<Outcome>> {
+        let Some(form) = self.gather()? else {
+            self.refuse_expected()?;
+            return Ok(None);
+        };
         record.text.clear();
         record.data.clear();
+        record.inert = false;
         record.line = self.statement.line;
+        let mut outcome = Outcome::Free;
         match form {
             Form::Text(major) => self.take_text(record, major)?,
             Form::Pseudo => {
@@ -176,22 +230,31 @@ impl<R: Read> Reader<R> {
                 record.kind = kind::PSEUDO;
                 record.sub = 0;
             }
+            Form::Plain if self.names_geometry() => outcome = self.read_geometry(record)?,
             Form::Plain => {
                 self.parse_items(vocab, record, false)?;
                 let major = record.major;
                 self.watch(|recognition, place| recognition.statement(major, vocab, place))?;
                 self.check_complete(vocab, record)?;
-                self.finish(record)?;
+                outcome = self.rewrite(vocab, record)?;
+                if matches!(outcome, Outcome::Free | Outcome::Bound) {
+                    self.finish(record)?;
+                }
             }
         }
         self.check_end(vocab, record)?;
         if self.recognition.take_changed() {
             self.repeated = Repeated::default();
         }
-        let lines = self.lines.line().saturating_sub(self.statement.line);
-        self.repeated.keep(self.lines.taken(), lines, record);
+        if outcome == Outcome::Nothing {
+            return Ok(Some(outcome));
+        }
+        if outcome == Outcome::Free {
+            let lines = self.lines.line().saturating_sub(self.statement.line);
+            self.repeated.keep(self.lines.taken(), lines, record);
+        }
         self.count(record);
-        Ok(true)
+        Ok(Some(outcome))
     }
 
     fn count(&mut self, record: &mut Record) {
@@ -264,11 +327,15 @@ impl<R: Read> Reader<R> {
         }
         record.data.push(Word::Text { start: 0, len: record.text.len() as u32 });
         (record.major, record.kind, record.sub) = (major, kind::POST, 0);
-        self.watch(|recognition, place| recognition.text(major, &record.text, place))
+        self.watch(|recognition, place| recognition.text(major, &record.text, place))?;
+        self.rewrite_text(record)
     }
 
     /// From items to words, with what the dialect means by them.
     fn finish(&mut self, record: &mut Record) -> Result<()> {
+        if ENDS_AN_ANNOUNCEMENT.contains(&record.major) {
+            self.refuse_expected()?;
+        }
         match record.major {
             words::CIRCLE => self.turn_circle(record)?,
             words::GOTO => self.split_points(record)?,
@@ -282,6 +349,8 @@ impl<R: Read> Reader<R> {
         match record.major {
             words::MULTAX => self.modal.multax = !record.has(words::OFF),
             words::GOTO | words::FROM => self.keep_axis(record),
+            // Where these lead is a matter of the post.
+            words::GODLTA | words::GOHOME => self.modal.point = None,
             _ => {}
         }
         Ok(())

@@ -80,7 +80,7 @@ fn eight_digits(bytes: [u8; 8]) -> Option<u64> {
 
 /// A whole item as a number: sign, digits, point, exponent with E or D.
 /// `None` when it is none or not finite.
-pub(super) fn number(item: &[u8]) -> Option<f64> {
+pub(crate) fn number(item: &[u8]) -> Option<f64> {
     if let Some((value, end)) = fixed_point(item)
         && end == item.len()
     {

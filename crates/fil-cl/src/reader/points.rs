@@ -39,7 +39,7 @@ impl<R: Read> Reader<R> {
         };
         let [x, y, z, i, j, k] = values;
         let axis = [i, j, k];
-        if count == 6 && !is_unit(axis) {
+        if count == 6 && !is_unit(axis) || self.modal.forms.expects.is_some() {
             return false;
         }
         record.line = self.take_lines(length, 1);
@@ -55,6 +55,7 @@ impl<R: Read> Reader<R> {
             self.keep(axis, record.line);
         }
         self.modal.in_arc = false;
+        self.modal.point = Some(point);
         let axis = if self.modal.axis.is_none() { None } else { axis.or(self.axis_left_out()) };
         record.fill_goto(&point, axis.as_ref());
         self.count(record);
@@ -156,6 +157,7 @@ impl<R: Read> Reader<R> {
     /// Keeps the tool axis of a motion, or adds the one that the dialect means.
     pub(super) fn keep_axis(&mut self, record: &mut Record) {
         self.modal.in_arc = false;
+        self.modal.point = record.point();
         match record.axis() {
             Some(axis) => self.keep(Some(axis), record.line),
             None => {

@@ -71,7 +71,7 @@ impl Repeated {
 
 /// Makes `to` what `from` is; its buffers are used again.
 fn copy(from: &Record, to: &mut Record) {
-    (to.kind, to.sub, to.major) = (from.kind, from.sub, from.major);
+    (to.kind, to.sub, to.major, to.inert) = (from.kind, from.sub, from.major, from.inert);
     to.data.clear();
     to.data.extend_from_slice(&from.data);
     to.text.clear();

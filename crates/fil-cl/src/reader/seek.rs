@@ -99,6 +99,7 @@ impl<R: Read> Reader<R> {
         }
         self.lines.restart(point.offset, point.line);
         self.pending.clear();
+        self.made.clear();
         self.modal = point.modal;
         self.number = point.number;
         self.failed = None;

@@ -40,8 +40,7 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     check_radii(arc, ends)?;
     refuse_first_under_compensation(post)?;
     let sweep = sweep(arc, ends);
-    let [begin, end] = ends.map(|end| arc.axis.cross(&end));
-    post.path.course.arc(begin, end, arc.line)?;
+    post.path.course.arc(ends.map(|end| arc.axis.cross(&end)), sweep, arc.line)?;
     let turns_axis = target.axis != post.path.axis;
     let whole = if turns_axis { None } else { in_plane(post, arc, start, sweep, target)? };
     let Some(mut whole) = whole else {

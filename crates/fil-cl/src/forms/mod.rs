@@ -1,0 +1,131 @@
+//! Statements of the dialects, brought to the form that Creo writes.
+//!
+//! The reader hands each statement to the function of its dialect after the items are read
+//! and before they become words. The function changes the items, or takes the statement in
+//! when it says nothing by itself. What it cannot bring to that form for certain it refuses,
+//! or leaves as it is for a section to take or the post to refuse.
+
+pub(crate) mod arc;
+pub(crate) mod common;
+pub(crate) mod cycle;
+pub(crate) mod free_text;
+pub(crate) mod geometry;
+pub(crate) mod vector;
+
+use crate::errors::ClCode;
+use crate::forms::cycle::Cycle;
+use crate::layout::ShapeError;
+use crate::record::{Record, Word};
+use crate::vocabulary::{Vocabulary, WordId};
+
+/// What became of a statement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Outcome {
+    /// A record that depends on no other statement and leaves nothing for later ones.
+    Free,
+    /// A record that does.
+    Bound,
+    /// A record that is made already, of several statements.
+    Made,
+    /// No record: the statement is part of a later one, or repeats what was said.
+    Nothing,
+}
+
+/// Why a statement is refused.
+#[derive(Debug)]
+pub(crate) struct FormError {
+    pub(crate) code: ClCode,
+    pub(crate) message: String,
+    /// Index of the item at fault.
+    pub(crate) item: usize,
+    pub(crate) hint: Option<&'static str>,
+}
+
+impl FormError {
+    pub(crate) fn new(code: ClCode, item: usize, message: impl Into<String>) -> Self {
+        FormError { code, message: message.into(), item, hint: None }
+    }
+
+    pub(crate) fn hint(mut self, hint: &'static str) -> Self {
+        self.hint = Some(hint);
+        self
+    }
+}
+
+impl From<ShapeError> for FormError {
+    fn from(error: ShapeError) -> Self {
+        FormError::new(error.code, error.item, error.message)
+    }
+}
+
+/// What statements of a dialect leave for later ones.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct FormState {
+    /// What was announced and must come before the next motion.
+    pub(crate) expects: Option<&'static str>,
+    /// INDIRV: how the next motion departs.
+    pub(crate) direction: Option<[f64; 3]>,
+    /// PSIS: the normal of the plane of arcs.
+    pub(crate) normal: Option<[f64; 3]>,
+    /// TLAXIS.
+    pub(crate) tool_axis: Option<[f64; 3]>,
+    /// A unit of millimetres was named.
+    pub(crate) is_metric: bool,
+    /// A unit of inches was named.
+    pub(crate) is_inch: bool,
+    /// Number and offset of the tool.
+    pub(crate) tool: Option<[f64; 2]>,
+    /// The point of the tool that the path is for.
+    pub(crate) output_point: Option<f64>,
+    /// The next tool has been described.
+    pub(crate) is_described: bool,
+    /// The cycle in force.
+    pub(crate) cycle: Option<Cycle>,
+    /// The highest speed of the spindle.
+    pub(crate) highest_speed: Option<f64>,
+    /// CHANNEL: the spindle or turret that the file is for.
+    pub(crate) channel: Option<Word>,
+    /// The program has ended.
+    pub(crate) has_ended: bool,
+}
+
+/// A statement under way to its record: the items stand in `record.data`.
+pub(crate) struct Written<'a> {
+    pub(crate) record: &'a mut Record,
+    pub(crate) vocabulary: &'a mut Vocabulary,
+    pub(crate) state: &'a mut FormState,
+}
+
+/// Brings a statement of a dialect to the form of Creo.
+pub(crate) type Rewrite = fn(&mut Written<'_>) -> Result<Outcome, FormError>;
+
+/// Brings a text statement of a dialect to the form of Creo.
+pub(crate) type RewriteText = fn(&mut Record) -> Result<(), FormError>;
+
+impl Written<'_> {
+    /// The name of a minor word; empty for another item and past the end.
+    pub(crate) fn name(&self, item: usize) -> &str {
+        match self.record.data.get(item) {
+            Some(Word::Minor(word)) => self.vocabulary.name(*word),
+            _ => "",
+        }
+    }
+
+    /// Makes the items a minor word and couplets.
+    pub(crate) fn set_couplets(&mut self, first: WordId, couplets: &[(WordId, f64)]) {
+        let data = &mut self.record.data;
+        data.clear();
+        data.push(Word::Minor(first));
+        for (word, value) in couplets {
+            data.extend([Word::Minor(*word), Word::Number(*value)]);
+        }
+    }
+
+    /// The number that an item is.
+    pub(crate) fn number(&self, item: usize) -> Option<f64> {
+        match self.record.data.get(item) {
+            Some(Word::Number(value)) => Some(*value),
+            _ => None,
+        }
+    }
+}
