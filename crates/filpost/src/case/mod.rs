@@ -10,6 +10,7 @@
 
 mod outcome;
 mod recipe;
+mod unified;
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};

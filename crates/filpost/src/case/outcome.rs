@@ -6,9 +6,8 @@ use std::path::{Path, PathBuf};
 use fil_cl::reader;
 use fil_diag::Diag;
 use fil_nc::diff;
-use imara_diff::{Algorithm, BasicLineDiffPrinter, Diff, InternedInput, UnifiedDiffConfig};
 
-use super::{Case, Programs};
+use super::{Case, Programs, unified};
 use crate::error::Error;
 use crate::files;
 use crate::listing::Listing;
@@ -228,7 +227,7 @@ impl Outcome {
         sentences: &[String],
     ) {
         let text = String::from_utf8_lossy(found);
-        let changes = unified(name, wanted, &text);
+        let changes = unified::difference(name, wanted, &text);
         let failure = self.failure.get_or_insert_default();
         failure.push_str(&changes);
         for sentence in sentences.iter().take(MOST) {
@@ -240,16 +239,6 @@ impl Outcome {
         }
         self.fresh.push(Fresh { path, text: found.to_vec(), changes });
     }
-}
-
-/// The lines that an expected file and this run do not share.
-fn unified(name: &str, wanted: &str, found: &str) -> String {
-    let input = InternedInput::new(wanted, found);
-    let mut changes = Diff::compute(Algorithm::Myers, &input);
-    changes.postprocess_no_heuristic(&input);
-    let printer = BasicLineDiffPrinter(&input.interner);
-    let hunks = changes.unified_diff(&printer, UnifiedDiffConfig::default(), &input);
-    format!("--- {name}\n+++ this run\n{hunks}")
 }
 
 /// The text of an expected file; empty when it is not there yet.
