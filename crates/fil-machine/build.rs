@@ -78,6 +78,17 @@ impl<'a> Row<'a> {
         shared.map_or_else(|| camel_case(self.name), |(_, name)| name.to_string())
     }
 
+    /// The variant of `ValueUnit`.
+    fn value_unit(&self) -> String {
+        match self.unit {
+            "-" => "Plain".into(),
+            "deg" => "Degrees".into(),
+            "mm/min" => "MmPerMinute".into(),
+            "s" => "Seconds".into(),
+            other => camel_case(other),
+        }
+    }
+
     fn constant(&self, out: &mut String) {
         let Row { kind, number, name, meaning, .. } = self;
         let constant = name.to_uppercase().replace('.', "_");
@@ -138,14 +149,15 @@ impl<'a> Row<'a> {
     }
 
     fn table_entry(&self, out: &mut String) {
-        let Row { number, name, unit, choices, meaning, evidence, used, .. } = self;
+        let Row { number, name, choices, meaning, used, .. } = self;
+        let (unit, evidence) = (self.value_unit(), camel_case(self.evidence));
         let default: f64 = self.default.parse().expect("numeric default");
         let common = self.common();
         writeln!(
             out,
             "    Location {{ kind: Kind::{common}, number: {number}, name: {name:?}, \
-             unit: {unit:?}, default: {default:?}, choices: {choices:?}, \
-             meaning: {meaning:?}, evidence: {evidence:?}, used: {used} }},",
+             unit: ValueUnit::{unit}, default: {default:?}, choices: {choices:?}, \
+             meaning: {meaning:?}, evidence: Evidence::{evidence}, used: {used} }},",
         )
         .unwrap();
     }

@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 use std::sync::OnceLock;
 
 use filpost::builtins::BUILTINS;
-use filpost::locations::TABLE;
+use filpost::locations::{Evidence, TABLE};
 use filpost::postf::{Grade, POSTF};
 use filpost::{cl::Vocabulary, dispatch, operation_name, ready};
 use filpost_tests::examples::{Block, blocks, run};
@@ -253,13 +253,13 @@ fn compat_counts_the_common_locations() {
     groups.dedup();
     for group in groups {
         let of_group = || TABLE.iter().filter(move |row| row.name.split('.').next() == Some(group));
-        let count = |evidence: &str| of_group().filter(|row| row.evidence == evidence).count();
+        let count = |evidence| of_group().filter(|row| row.evidence == evidence).count();
         let used = of_group().filter(|row| row.used).count();
         let row = format!(
             "| `{group}` | {} | {} | {} | {used} of {} |",
-            count("report"),
-            count("inferred"),
-            count("own"),
+            count(Evidence::Report),
+            count(Evidence::Inferred),
+            count(Evidence::Own),
             of_group().count()
         );
         assert!(page.lines().any(|line| line == row), "no row {row}");

@@ -24,6 +24,7 @@ pub mod setting;
 pub mod stored;
 pub mod tables;
 pub mod user_blocks;
+mod value_unit;
 pub mod word_text;
 
 pub use commons::{Commons, Kind};

@@ -12,6 +12,8 @@ use crate::commons::{Commons, Dbl, EMPTY, Int, Kind, Rel};
 use crate::letter::Letter;
 use crate::setting::{CharacterAt, Choice, CodeAt, Flag, FromNumber, LetterAt, OptionalChoice};
 
+pub use crate::value_unit::{Evidence, ValueUnit};
+
 /// One row of the table.
 #[derive(Debug, PartialEq)]
 pub struct Location {
@@ -21,16 +23,16 @@ pub struct Location {
     pub number: u16,
     /// Key in `machine.toml`.
     pub name: &'static str,
-    /// Unit of the value (`mm`, `deg`, `code`, `flag`, `choice`, …).
-    pub unit: &'static str,
+    /// What the value counts.
+    pub unit: ValueUnit,
     /// Value when nothing sets it.
     pub default: f64,
     /// `1=one thing|2=another` for flags and choices.
     pub choices: &'static str,
     /// What it is, in a sentence.
     pub meaning: &'static str,
-    /// Where we know it from: report, paper, inferred, own.
-    pub evidence: &'static str,
+    /// Where we know it from.
+    pub evidence: Evidence,
     /// The post acts on it.
     pub used: bool,
 }

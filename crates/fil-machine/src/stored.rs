@@ -10,7 +10,7 @@ use crate::address::OFF;
 use crate::commons::{EMPTY, Kind, LAST_OUTPUT, NA};
 use crate::errors::MachineCode;
 use crate::letter::Letter;
-use crate::locations::Location;
+use crate::locations::{Location, ValueUnit};
 use crate::user_blocks;
 
 /// The tables of letters and tape positions: their last locations, and what they hold.
@@ -81,11 +81,13 @@ fn takes(row: &Location, value: f64) -> bool {
         return true;
     }
     match row.unit {
-        "flag" => [0.0, 1.0, 71.0, 72.0].contains(&value),
+        ValueUnit::Flag => [0.0, 1.0, 71.0, 72.0].contains(&value),
         // A letter of a real file that is none is 53, 0 or the code 0 less 64.
-        "letter" => Letter::numbered(value as i32).is_some() || [53.0, 0.0, -64.0].contains(&value),
-        "char" => is_character(value),
-        "code" => value >= 0.0,
+        ValueUnit::Letter => {
+            Letter::numbered(value as i32).is_some() || [53.0, 0.0, -64.0].contains(&value)
+        }
+        ValueUnit::Char => is_character(value),
+        ValueUnit::Code => value >= 0.0,
         _ => choices.is_empty(),
     }
 }

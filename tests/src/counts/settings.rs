@@ -3,7 +3,7 @@
 
 use filpost::Commons;
 use filpost::commons::EMPTY;
-use filpost::locations::Location;
+use filpost::locations::{Location, ValueUnit};
 
 use crate::posting::Posted;
 
@@ -28,13 +28,13 @@ pub fn trials(row: &Location) -> Vec<Trial> {
         return choices.iter().map(|(value, _)| trial(&value.to_string())).collect();
     }
     let values: &[&str] = match row.unit {
-        "letter" => &["W", "none"],
-        "char" => &["%", "<"],
-        "code" => &["61", "none"],
-        "count" => &["3", "7"],
-        "-" => &["16705", "16962"],
-        "deg" => &["12.5", "90"],
-        "rpm" => &["50", "5000"],
+        ValueUnit::Letter => &["W", "none"],
+        ValueUnit::Char => &["%", "<"],
+        ValueUnit::Code => &["61", "none"],
+        ValueUnit::Count => &["3", "7"],
+        ValueUnit::Plain => &["16705", "16962"],
+        ValueUnit::Degrees => &["12.5", "90"],
+        ValueUnit::Rpm => &["50", "5000"],
         _ => &["0.25", "12.5"],
     };
     values.iter().copied().map(trial).collect()

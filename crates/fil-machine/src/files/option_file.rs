@@ -10,7 +10,7 @@ use fil_diag::{Diag, Place, Result};
 use crate::commons::{Commons, EMPTY, Kind};
 use crate::errors::MachineCode;
 use crate::letter::Letter;
-use crate::locations::{Location, default_commons};
+use crate::locations::{Evidence, Location, default_commons};
 use crate::stored;
 
 /// How the machines of lathes are called, before their number.
@@ -271,7 +271,7 @@ fn pair(line: &str) -> Option<(u32, f64)> {
 /// A warning where a stored value has a meaning we gave its number ourselves.
 fn doubt(kind: Kind, location: u32, value: f64) -> Option<Diag> {
     let row = Location::numbered(kind, location)?;
-    let ours = row.evidence == "own" && location < 9001;
+    let ours = row.evidence == Evidence::Own && location < 9001;
     let strange = stored::check(kind, location, value).is_err();
     (row.used && (ours || strange)).then(|| {
         Diag::new(

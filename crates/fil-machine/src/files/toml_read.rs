@@ -18,7 +18,7 @@ use crate::address::OFF;
 use crate::commons::{Commons, EMPTY, Kind};
 use crate::errors::MachineCode;
 use crate::letter::Letter;
-use crate::locations::{self as loc, Location, default_commons};
+use crate::locations::{self as loc, Location, ValueUnit, default_commons};
 use crate::stored;
 use crate::user_blocks::{self, BLOCK_INTEGERS, MAX_BLOCKS};
 
@@ -208,11 +208,11 @@ impl<'a> TomlReader<'a> {
         let choices = location.choice_list();
         let number = match value.get_ref() {
             DeValue::String(text) if text == "none" => return Ok(EMPTY),
-            DeValue::String(text) if text.len() == 1 && location.unit == "letter" => {
+            DeValue::String(text) if text.len() == 1 && location.unit == ValueUnit::Letter => {
                 let letter = text.chars().next().and_then(Letter::of_character);
                 letter.map(|letter| f64::from(letter.number()))
             }
-            DeValue::String(text) if text.len() == 1 && location.unit == "char" => {
+            DeValue::String(text) if text.len() == 1 && location.unit == ValueUnit::Char => {
                 Some(f64::from(text.as_bytes()[0]))
             }
             DeValue::Boolean(flag) => {

@@ -1,6 +1,6 @@
 //! The JSON schema of `machine.toml`.
 
-use filpost::locations::{Location, TABLE};
+use filpost::locations::{Location, TABLE, ValueUnit};
 use serde_json::{Map, Value, json};
 
 /// The JSON schema of `machine.toml`, from the table of locations.
@@ -50,7 +50,7 @@ fn setting(row: &Location) -> Value {
     if choices.iter().any(|(_, meaning)| matches!(*meaning, "yes" | "no")) {
         forms.push(json!({"type": "boolean"}));
     }
-    if matches!(row.unit, "letter" | "char") {
+    if matches!(row.unit, ValueUnit::Letter | ValueUnit::Char) {
         forms.push(json!({"type": "string", "minLength": 1, "maxLength": 1}));
     }
     if choices.is_empty() {
