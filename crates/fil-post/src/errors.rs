@@ -37,8 +37,12 @@ fil_diag::codes! {
             "Put UNITS / MM or UNITS / INCHES first, give --units mm or --units inch, or set units.mode of the machine (1 inch, 2 mm).";
         /// UNITS in mid-file.
         UnitChange = 515, Error, "the unit changes in mid-file",
-            "Positions, feeds and limits given before would be read in the other unit.",
+            "Positions, feeds and limits given before would be read in the other unit; and of two statements that differ one is wrong.",
             "Keep one unit in a CL file.";
+        /// Units that contradict each other.
+        Units = 715, Error, "units contradict each other",
+            "The unit that was given with --units, what the CL file says and what the machine takes must be the same.",
+            "Leave out --units where the CL file says UNITS, or correct units.mode of the machine.";
         /// Blocks after the end.
         AfterEnd = 516, Error, "block after the end of the program",
             "The control stops at M2 or M30 and never reads what comes after it.",

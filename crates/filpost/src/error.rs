@@ -62,10 +62,6 @@ fil_diag::codes! {
         NoPost = 714, Error, "MACHIN names no post",
             "A program for another machine is worse than none, so a CL file that names its machine is posted for no other.",
             "Put the option file beside the CL file, name its folder with --post-path, or choose a post with -p or -m.";
-        /// Units that contradict each other.
-        Units = 715, Error, "units contradict each other",
-            "The unit that was given with --units, what the CL file says and what the machine takes must be the same.",
-            "Leave out --units where the CL file says UNITS, or correct units.mode of the machine.";
         /// Statements after the end.
         AfterFini = 751, Warning, "records after FINI",
             "FINI ends the program; what comes after it is not posted.",

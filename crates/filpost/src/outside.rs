@@ -136,7 +136,9 @@ impl<'o, S: Records> Outside<'o, S> {
             }
         }
         let result = self.post.process(record, vocabulary);
-        let result = result.and_then(|()| self.note_unit(record));
+        if matches!(record.major, words::UNITS | words::UNIT) {
+            self.report.unit = self.post.unit().map(|unit| (unit, UnitSource::Statement));
+        }
         if result.is_err() || !self.post.control.warnings.list.is_empty() {
             let place = self.place(record, vocabulary);
             self.take_warnings(Some(&place));
@@ -149,19 +151,6 @@ impl<'o, S: Records> Outside<'o, S> {
         }
         self.ended |= record.kind == kind::FINI;
         Ok(())
-    }
-
-    /// Notes the unit after a UNITS statement.
-    ///
-    /// # Errors
-    /// E0715 for another unit than the one that was given.
-    fn note_unit(&mut self, record: &Record) -> Result<(), Box<Diag>> {
-        if !matches!(record.major, words::UNITS | words::UNIT) {
-            return Ok(());
-        }
-        let said = self.post.unit();
-        self.report.unit = said.map(|unit| (unit, UnitSource::Statement));
-        units::check_statement(self.units, said)
     }
 
     /// Tells the warnings of the post, which came at this place.

@@ -2,8 +2,7 @@
 
 use fil_diag::Result;
 use fil_machine::{Commons, Unit};
-
-use crate::error::RunCode;
+use fil_post::errors::PostCode;
 
 /// Who has said the unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -45,23 +44,10 @@ pub(crate) fn known_before(
     commons: &Commons,
 ) -> Result<Option<(Unit, UnitSource)>> {
     match (given, Unit::of_machine(commons)) {
-        (Some(given), Some(machine)) if given != machine => RunCode::Units
+        (Some(given), Some(machine)) if given != machine => PostCode::Units
             .err(format!("{given} is given, and the machine takes {machine} only (units.mode)")),
         (_, Some(machine)) => Ok(Some((machine, UnitSource::Machine))),
         (Some(given), None) => Ok(Some((given, UnitSource::Given))),
         (None, None) => Ok(None),
-    }
-}
-
-/// Refuses a UNITS statement that says another unit than the one that was given.
-///
-/// # Errors
-/// E0715
-pub(crate) fn check_statement(given: Option<Unit>, said: Option<Unit>) -> Result<()> {
-    match given.zip(said) {
-        Some((given, said)) if given != said => {
-            RunCode::Units.err(format!("UNITS says {said}, and {given} is given"))
-        }
-        _ => Ok(()),
     }
 }

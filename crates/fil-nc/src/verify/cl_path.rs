@@ -113,8 +113,8 @@ pub struct ClPath<R> {
     reader: Reader<R>,
     /// Name of the CL file in messages.
     name: String,
-    /// The unit that the user or the machine says.
-    given: Option<Unit>,
+    /// The user or the machine says the unit.
+    given: bool,
     vocabulary: Vocabulary,
     record: Record,
     state: State,
@@ -129,7 +129,7 @@ impl<R: Read> ClPath<R> {
         ClPath {
             reader: Reader::new(input, name, options),
             name: name.to_string(),
-            given: None,
+            given: false,
             vocabulary: Vocabulary::new(),
             record: Record::default(),
             state: State {
@@ -152,7 +152,7 @@ impl<R: Read> ClPath<R> {
     /// The unit of a CL file that does not say it itself.
     pub fn in_unit(mut self, unit: Option<Unit>) -> Self {
         self.state.unit = unit;
-        self.given = unit;
+        self.given = unit.is_some();
         self.ready
             .extend(unit.map(|unit| Step { line: 0, what: Wanted::Metric(unit.is_metric()) }));
         self
@@ -197,13 +197,15 @@ impl<R: Read> ClPath<R> {
         Err(self.no_unit("a length or feed comes before anything says mm or inch"))
     }
 
-    /// Refuses a UNITS statement that says another unit than the one that was given.
+    /// Refuses a UNITS statement that says another unit than the one that was given, or
+    /// that an earlier one said.
     fn refuse_other_unit(&self) -> Result<(), Box<Diag>> {
         let record = &self.record;
         let is_units = record.kind == kind::POST && matches!(record.major, w::UNITS | w::UNIT);
-        match self.given.filter(|given| is_units && *given != said(record)) {
-            Some(given) => {
-                Err(self.no_unit(&format!("{given} is given, and UNITS says {}", said(record))))
+        match self.state.unit.filter(|known| is_units && *known != said(record)) {
+            Some(known) => {
+                let how = if self.given { "is given" } else { "came before" };
+                Err(self.no_unit(&format!("{known} {how}, and UNITS says {}", said(record))))
             }
             None => Ok(()),
         }

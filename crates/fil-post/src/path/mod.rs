@@ -19,6 +19,7 @@ mod tool_change;
 mod transformation;
 
 use fil_diag::Result;
+use fil_machine::Unit;
 use nalgebra::{Point3, Vector3};
 
 use crate::cause::Cause;
@@ -32,6 +33,8 @@ pub use transformation::Transformation;
 /// Where the CL file stands: point and axis, and what its records asked for.
 #[derive(Clone, Debug)]
 pub struct Path {
+    /// What UNITS has said; the unit may be known without it.
+    pub stated_unit: Option<Unit>,
     /// Last CL point, mm or inch, in the part frame.
     pub point: Option<Point3<f64>>,
     /// Last CL tool axis.
@@ -62,6 +65,7 @@ pub struct Path {
 impl Default for Path {
     fn default() -> Self {
         Path {
+            stated_unit: None,
             point: None,
             axis: Vector3::z(),
             multax: None,

@@ -12,8 +12,8 @@ use crate::post::Post;
 /// Sets the unit; once the program has started, its code is written at once.
 ///
 /// # Errors
-/// Neither MM nor INCHES, a unit the machine does not take, or another unit after
-/// lengths or feeds were given in the first.
+/// Neither MM nor INCHES; another unit than the machine takes, the user gave or an
+/// earlier UNITS said.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let unit = match items.any_of(&[w::MM, w::INCHES]) {
         Some(w::MM) => Unit::Mm,
@@ -21,14 +21,10 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         None => return Err(items.error("MM or INCHES is needed")),
     };
     items.deny_rest()?;
-    if Unit::of_machine(&post.control.commons).is_some_and(|only| only != unit) {
-        return Err(items.error("the machine takes the other unit only (units.mode)"));
-    }
+    refuse_other(post, unit)?;
+    post.path.stated_unit = Some(unit);
     if post.control.unit == Some(unit) {
         return Ok(());
-    }
-    if post.control.unit.is_some() && post.has_lengths() {
-        return PostCode::UnitChange.err("lengths or feeds came before it in the other unit");
     }
     post.control.unit = Some(unit);
     post.control.refresh()?;
@@ -39,4 +35,27 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         return post.control.write_block();
     }
     Ok(())
+}
+
+/// Refuses another unit than the one that is known already. Without any length before
+/// it nothing tells which of the two is meant.
+fn refuse_other(post: &Post, unit: Unit) -> Result<()> {
+    if let Some(only) = Unit::of_machine(&post.control.commons).filter(|only| *only != unit) {
+        let message = format!("UNITS says {unit}, and the machine takes {only} only (units.mode)");
+        let diag = PostCode::Units.diag(message);
+        return Err(Box::new(diag.hint(
+            "Post it for a machine that takes this unit, or correct units.mode of the machine (1 inch, 2 mm).",
+        )));
+    }
+    match (post.path.stated_unit, post.control.unit) {
+        (Some(stated), _) if stated != unit => {
+            let lengths = if post.has_lengths() { "lengths or feeds" } else { "UNITS" };
+            PostCode::UnitChange
+                .err(format!("{lengths} came before it in the other unit ({stated})"))
+        }
+        (None, Some(given)) if given != unit => {
+            PostCode::Units.err(format!("UNITS says {unit}, and {given} is given"))
+        }
+        _ => Ok(()),
+    }
 }
