@@ -42,6 +42,7 @@ fn all() -> bool {
 /// Tries the statements of a file; `seen` counts those of one form.
 fn try_part(part: &Part, seen: &mut HashMap<String, usize>, tally: &mut Tally) {
     let statements = statements(&part.cl);
+    let inert = part.inert_lines();
     let machine = part.machine(None).expect("the post of a part");
     for (at, statement) in statements.iter().enumerate() {
         let count = seen.entry(statement.shape()).or_default();
@@ -57,7 +58,8 @@ fn try_part(part: &Part, seen: &mut HashMap<String, usize>, tally: &mut Tally) {
             tally.of_sections += 1;
             continue;
         }
-        let setting = Setting { all: &statements, at, commons: machine.commons() };
+        let inert = inert.contains(&statement.line);
+        let setting = Setting { all: &statements, at, commons: machine.commons(), inert };
         let place = format!("{} line {}: {}", part.name, statement.line, statement.text);
         tally.try_statement(&window, &machine, setting, &place);
     }

@@ -1,9 +1,12 @@
 //! The CL files whose items are changed, each with its machine.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 use filpost::case::Case;
+use filpost::cl::reader::{Options, Reader};
+use filpost::cl::{Record, Vocabulary};
 use filpost::{Error, Program, case};
 
 use crate::posting::Prepared;
@@ -55,6 +58,19 @@ impl Part {
                 builder.build().map(Prepared::of)
             }
         }
+    }
+
+    /// Lines of the statements that the dialect reads as without effect.
+    pub fn inert_lines(&self) -> HashSet<usize> {
+        let (mut words, mut record) = (Vocabulary::new(), Record::default());
+        let mut reader = Reader::new(self.cl.as_bytes(), &self.name, Options::default());
+        let mut lines = HashSet::new();
+        while reader.read(&mut words, &mut record).is_ok_and(|more| more) {
+            if record.inert {
+                lines.insert(record.line as usize);
+            }
+        }
+        lines
     }
 
     /// True when the post makes a program of it.

@@ -41,6 +41,8 @@ pub struct Setting<'a> {
     pub at: usize,
     /// The machine.
     pub commons: &'a Commons,
+    /// The dialect of the file reads it as a statement without effect.
+    pub inert: bool,
 }
 
 impl Setting<'_> {
@@ -55,6 +57,16 @@ impl Setting<'_> {
         let listed = self.commons.words_without_effect();
         if listed.contains(&statement.major) {
             return Some(Excuse::Other("the machine lists the word as without effect"));
+        }
+        if self.inert {
+            return Some(Excuse::Other("the dialect reads it as without effect"));
+        }
+        let no_time = change == Change::DropCouplet
+            && statement.items.len() > index + 1
+            && statement.item(index) == "DWELL"
+            && statement.item(index + 1).parse() == Ok(0.0);
+        if no_time {
+            return Some(Excuse::Other("a dwell of no time"));
         }
         let row = no_effect::rows().find(|row| self.covers(row, index, change));
         row.map(Excuse::Row).or_else(|| self.dead().map(Excuse::Other))
@@ -164,7 +176,7 @@ mod tests {
     use crate::counts::statement::statements;
 
     fn setting<'a>(all: &'a [Statement], at: usize, commons: &'a Commons) -> Setting<'a> {
-        Setting { all, at, commons }
+        Setting { all, at, commons, inert: false }
     }
 
     #[test]

@@ -244,11 +244,11 @@ impl<'a, C: Steps> Walk<'a, C> {
         self.next += 1;
     }
 
-    /// Goes nowhere. An axis that was not known before may have come from anywhere.
+    /// Goes nowhere. X, Y or Z that was not known before may have come from anywhere.
     pub(super) fn is_still(&self, found: &Move) -> bool {
         let at = self.at_as(found);
         let same = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= STILL);
-        let found_out = found.known.iter().zip(self.known).any(|(found, known)| *found && !known);
+        let found_out = (0..3).any(|n| found.known[n] && !self.known[n]);
         found.arc.is_none()
             && !found_out
             && same(&found.to.linear, &at.linear)

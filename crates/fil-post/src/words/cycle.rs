@@ -132,8 +132,8 @@ fn step(post: &mut Post, items: &mut Items, kind: CycleKind, at: &mut u16) -> Re
     if !step.is_some_and(|step| step > 0.0) {
         return PostCode::CycleForm.err("STEP must be above zero");
     }
-    if first.is_some() && first != step {
-        let message = "CYCLE: the first peck is as deep as the others".to_string();
+    if let Some(first) = first.filter(|first| Some(*first) != step) {
+        let message = format!("CYCLE: the first peck is as deep as the others, and not {first}");
         post.warn(PostCode::IgnoredPart, message);
     }
     Ok(step)
