@@ -4,10 +4,12 @@
 //! frame after TRANS and the input translation, in mm. A statement whose effect is
 //! not known from the CL file alone becomes [`Wanted::Unknown`].
 
+mod path;
+
 use std::collections::VecDeque;
 use std::io::Read;
 
-use fil_cl::record::{kind, mode, motion};
+use fil_cl::record::{kind, mode};
 use fil_cl::{Circle, Options, Reader, Record, Vocabulary, Word, WordId, words as w};
 use fil_diag::{Diag, Place};
 use fil_machine::Unit;
@@ -16,9 +18,8 @@ use nalgebra::{Matrix3x4, Point3, Vector3};
 use super::statements::{
     compensation, coolant, numbers, numbers_beside, spindle, statement, whole,
 };
-use super::wanted::{Arc, CycleKind, Effect, Hole, Step, Wanted};
+use super::wanted::{CycleKind, Effect, Step, Wanted};
 use crate::errors::NcCode;
-use crate::forward::Pose;
 use crate::motion::{INCH, Rate};
 
 /// What X is multiplied by when it is a diameter.
@@ -26,13 +27,6 @@ const DIAMETER: f64 = 2.0;
 
 /// Preparatory functions of work offsets on every control.
 const WORK_OFFSETS: [f64; 6] = [54.0, 55.0, 56.0, 57.0, 58.0, 59.0];
-
-/// Start and end of an arc nearer than this make a full circle, in CL units.
-const SAME_POINT: f64 = 1e-6;
-
-/// With TIMES an end that lacks less than this of the start closes the last full turn:
-/// so much may rounded points differ, mm or inch.
-const CLOSES: f64 = 1e-3;
 
 /// Statements that move the tool or the frame by rules that are not public.
 const ENDS_THE_PATH: [WordId; 11] = [
@@ -435,137 +429,5 @@ impl State {
         }
         self.thread = Some(self.lead(record)?);
         Some(Vec::new())
-    }
-
-    fn motion(&mut self, record: &Record, vocabulary: &Vocabulary) -> Vec<Wanted> {
-        let axis = record.axis().map_or(self.axis, Vector3::from);
-        let point = match (record.sub, record.point(), &numbers(record)[..]) {
-            (motion::GODLTA, _, [along]) => self.point.map(|point| point + self.axis * *along),
-            (motion::GODLTA, Some(by), _) => self.point.map(|point| point + Vector3::from(by)),
-            (_, Some(point), _) => Some(Point3::from(point)),
-            _ => None,
-        };
-        let Some(point) = point else {
-            let what = statement(record, vocabulary);
-            return vec![Wanted::Unknown { what, effect: Effect::Path }];
-        };
-        if record.sub == motion::FROM {
-            self.point = Some(point);
-            self.axis = axis;
-            return Vec::new();
-        }
-        if record.sub == motion::GODLTA {
-            return self.line_to(point, axis);
-        }
-        match (self.circle.take(), self.cycle) {
-            (Some(waiting), _) => self.arc_to(&waiting, point, axis),
-            (None, Some(cycle)) if !self.rapid => {
-                self.point = Some(point);
-                self.axis = axis;
-                vec![Wanted::Hole(self.hole(&cycle, self.pose(point, axis)))]
-            }
-            _ => self.line_to(point, axis),
-        }
-    }
-
-    fn line_to(&mut self, point: Point3<f64>, axis: Vector3<f64>) -> Vec<Wanted> {
-        self.point = Some(point);
-        self.axis = axis;
-        let pose = self.pose(point, axis);
-        vec![match self.thread {
-            _ if std::mem::take(&mut self.rapid) => Wanted::Rapid(pose),
-            Some(pitch) => Wanted::Thread(pose, pitch),
-            None => Wanted::Feed(pose, self.rate),
-        }]
-    }
-
-    fn hole(&self, cycle: &Cycle, start: Pose) -> Hole {
-        let unit = self.unit();
-        let mm = |length: Option<f64>| length.map(|length| length * unit);
-        Hole {
-            start,
-            kind: cycle.kind,
-            depth: cycle.depth * unit,
-            clear: mm(cycle.clear),
-            retract: mm(cycle.retract),
-            step: mm(cycle.step),
-            dwell: cycle.dwell,
-            rate: cycle.rate,
-        }
-    }
-
-    /// The arc by the right-hand rule from the last point to this one; TIMES are
-    /// full turns besides. In a frame that keeps no circles it is not followed.
-    fn arc_to(&mut self, waiting: &Waiting, end: Point3<f64>, axis: Vector3<f64>) -> Vec<Wanted> {
-        self.rapid = false;
-        let keeps_circles = self.matrix.as_ref().is_none_or(|matrix| {
-            let turn = matrix.rows.fixed_columns::<3>(0).into_owned();
-            (turn.transpose() * turn - nalgebra::Matrix3::identity()).amax() < 1e-6
-        });
-        let normal = Vector3::from(waiting.circle.axis);
-        let (Some(start), Some(normal)) = (self.point, normal.try_normalize(1e-9)) else {
-            return vec![Wanted::Unknown { what: "CIRCLE".to_string(), effect: Effect::Path }];
-        };
-        if !keeps_circles {
-            let what = "an arc in a frame that makes no circle of it".to_string();
-            return vec![Wanted::Unknown { what, effect: Effect::Path }];
-        }
-        let bare = Arc {
-            centre: Point3::from(waiting.circle.center),
-            normal,
-            start,
-            end: Pose { tip: end, axis },
-            sweep: 0.0,
-        };
-        let sweep = full_sweep(&bare, waiting.turns);
-        self.point = Some(end);
-        self.axis = axis;
-        vec![Wanted::Arc(self.in_frame(&Arc { sweep, ..bare }), self.rate)]
-    }
-
-    /// The arc as TRANS places it; a mirror turns its sense.
-    fn in_frame(&self, arc: &Arc) -> Arc {
-        let place = |point: Point3<f64>| self.pose(point, Vector3::z()).tip;
-        let (centre, ahead) = (place(arc.centre), place(arc.centre + arc.normal));
-        let mirrored = self.matrix.as_ref().is_some_and(|matrix| {
-            matrix.rows.fixed_columns::<3>(0).into_owned().determinant() < 0.0
-        });
-        let normal = (ahead - centre).normalize() * if mirrored { -1.0 } else { 1.0 };
-        Arc {
-            centre,
-            normal,
-            start: place(arc.start),
-            end: self.pose(arc.end.tip, arc.end.axis),
-            sweep: arc.sweep,
-        }
-    }
-
-    /// A point and a tool axis after TRANS, in mm.
-    fn pose(&self, point: Point3<f64>, axis: Vector3<f64>) -> Pose {
-        let (point, axis) = match &self.matrix {
-            Some(Matrix { rows, turns_axis }) => {
-                let turned = rows.fixed_columns::<3>(0) * axis;
-                let point = Point3::from(rows * point.to_homogeneous());
-                (point, if *turns_axis { turned } else { axis })
-            }
-            None => (point, axis),
-        };
-        let axis = axis.try_normalize(1e-9).unwrap_or(axis);
-        Pose { tip: Point3::from((point.coords + self.shift) * self.unit()), axis }
-    }
-}
-
-/// Degrees of an arc from its start to its end, with its full turns.
-fn full_sweep(arc: &Arc, turns: f64) -> f64 {
-    let apart = (arc.spoke(arc.start) - arc.spoke(arc.end.tip)).norm();
-    if turns == 0.0 && apart < SAME_POINT {
-        return 360.0;
-    }
-    let angle = arc.angle_of(arc.end.tip);
-    let lacks = turns > 0.0 && apart < CLOSES && angle > 180.0;
-    match angle {
-        0.0 => 360.0 * turns.max(1.0),
-        _ if lacks => angle - 360.0 + 360.0 * turns,
-        _ => angle + 360.0 * turns,
     }
 }
