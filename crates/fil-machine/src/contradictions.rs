@@ -4,10 +4,11 @@
 use fil_diag::{Diag, Result};
 
 use crate::address::TapePosition;
+use crate::axis_chain::AxisChain;
 use crate::commons::{Commons, Dbl, Int, Rel};
 use crate::errors::MachineCode;
 use crate::letter::{Letter, letters};
-use crate::locations as loc;
+use crate::locations::{self as loc, ToolChangeBlock};
 use crate::setting::{CodeAt, LetterAt};
 
 /// Codes of which no two may be the same: one motion, mode or command each.
@@ -96,6 +97,7 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     same_positions(commons, &mut found);
     axis_letters(commons, &mut found);
     word_letters(commons, &mut found);
+    absent_axes(commons, &mut found);
     numbers(commons, &mut found);
     ranges(commons, &mut found);
     found
@@ -178,6 +180,27 @@ fn word_letters(commons: &Commons, found: &mut Vec<Diag>) {
     }
 }
 
+/// Settings of rotary axes that the machine does not have. A zero is what files of
+/// machines without the axis hold.
+fn absent_axes(commons: &Commons, found: &mut Vec<Diag>) {
+    let Ok(chain) = AxisChain::from_commons(commons) else { return };
+    let has = |axis: usize| chain.rotaries.iter().flatten().any(|rotary| rotary.axis == axis);
+    let goes = commons.read(loc::TOOL_CHANGE_BLOCK) == ToolChangeBlock::XyzAndRotary;
+    let positions = loc::CHANGE_POSITION[3..].iter().filter(|_| goes);
+    let shifts = [loc::OUTPUT_TRANSLATE_A, loc::OUTPUT_TRANSLATE_B, loc::OUTPUT_TRANSLATE_C];
+    let named = positions.map(|at| ("tool.change", *at)).enumerate();
+    let named = named.chain(shifts.map(|at| ("output.translate", at)).into_iter().enumerate());
+    for (axis, (what, at)) in named.filter(|(axis, _)| !has(*axis)) {
+        if let Some(value) = commons.dbl_opt(at).filter(|value| *value != 0.0) {
+            let letter = ['a', 'b', 'c'][axis];
+            found.push(contradiction(format!(
+                "{what}_{letter} is {value}, and the machine has no axis {}",
+                letter.to_ascii_uppercase()
+            )));
+        }
+    }
+}
+
 fn numbers(commons: &Commons, found: &mut Vec<Diag>) {
     for (at, what) in POSITIVE {
         if let Some(value) = commons.read(*at).filter(|value| *value <= 0.0) {
@@ -227,6 +250,18 @@ mod tests {
     }
 
     #[test]
+    fn positions_of_axes_that_the_machine_has_are_taken() {
+        let axis = "rotary.primary_kind=1\nrotary.primary_letter=B\nrotary.primary_axis=2";
+        for setting in ["tool.change_block=2\ntool.change_b=10", "output.translate_b=5"] {
+            let mut commons = default_commons();
+            for part in axis.lines().chain(setting.lines()) {
+                apply_setting(&mut commons, part).unwrap();
+            }
+            assert!(check(&commons).is_ok(), "{setting}");
+        }
+    }
+
+    #[test]
     fn contradictions_are_found() {
         for setting in [
             "circle.cw_code=3",
@@ -238,6 +273,8 @@ mod tests {
             "cycle.dwell_address=Q",
             "rotary.primary_letter=X",
             "spindle.stop_code=3",
+            "tool.change_block=2\ntool.change_b=10",
+            "output.translate_c=5",
         ] {
             let mut commons = default_commons();
             for part in setting.lines() {

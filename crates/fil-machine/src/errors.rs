@@ -32,8 +32,8 @@ fil_diag::codes! {
             "INTCOM holds whole numbers, and no common holds what is not finite.",
             "Check the value that is stored.";
         /// machine.toml syntax.
-        MachineSyntax = 603, Error, "machine.toml can't be read",
-            "The file is not valid TOML.",
+        MachineSyntax = 603, Error, "machine settings can't be read",
+            "A machine.toml, and each `--set key=value`, must be valid TOML.",
             "Correct the line shown.";
         /// Unknown key.
         UnknownSetting = 604, Error, "unknown machine setting",

@@ -1,7 +1,7 @@
 //! One CL file on its way to one NC program.
 
 use std::fs::File;
-use std::io::{self, BufWriter, Read, Seek};
+use std::io::{self, BufWriter, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -75,7 +75,7 @@ fn post(
     let program = built.program;
     let mut listing = job.listing.as_deref().map(open_listing).transpose()?;
     let options = options(args)?;
-    Target::new(job.output.as_deref()).write(|nc| {
+    let work = |nc: &mut (dyn Write + Send), map: Option<&mut (dyn Write + Send)>| {
         let mut run = program.start().cl_name(&output::input_name(&job.cl)).reading(options);
         if let Some(unit) = args.units.units {
             run = run.units(unit);
@@ -84,22 +84,36 @@ fn post(
             run = run.observe(listing.observer());
         }
         let input = Watched { input, bar, at: 0, furthest: 0 };
-        let (report, pending) = match &job.map {
-            Some(map) => {
-                let names = names(&program, job, map);
-                Target::new(Some(map)).write(|map| run.run_mapped(input, nc, &names, map))?
+        let (report, pending) = match (map, &job.map) {
+            (Some(map), Some(path)) => {
+                run.run_mapped(input, nc, &names(&program, job, path), map)?
             }
-            None => run.run_pending(input, nc)?,
+            _ => run.run_pending(input, nc)?,
         };
         if let (Some(listing), Some(path)) = (listing, &job.listing) {
             listing.finish().map_err(|error| files::cant_write(path, &error))?;
         }
-        if let From::ClFile(_, machin) = &from {
-            select::confirm(machin.as_ref(), &report, &output::input_name(&job.cl))?;
-        }
+        confirm(job, &from, &report)?;
         finish(args, &program, &report, pending, outcome)?;
         Ok(report)
+    };
+    // The map takes its name after all that can refuse the run.
+    Target::new(job.output.as_deref()).write(|nc| match &job.map {
+        Some(path) => Target::new(Some(path)).write(|map| work(nc, Some(map))),
+        None => work(nc, None),
     })
+}
+
+/// Refuses a program for another machine than a late MACHIN names; its listing goes too.
+fn confirm(job: &Job, from: &From, report: &Report) -> Result<(), Error> {
+    let name = output::input_name(&job.cl);
+    let confirmed = setup::confirm(from, || Ok(report.machines.clone()), &name);
+    if let (Err(_), Some(listing)) = (&confirmed, &job.listing)
+        && !is_device(listing)
+    {
+        std::fs::remove_file(listing).map_err(|error| files::cant_write(listing, &error))?;
+    }
+    confirmed
 }
 
 /// What is left to do before the program appears under its name.
@@ -114,7 +128,7 @@ fn finish(
     let allowed = |diag: &&Diag| args.reading.allow.contains(&diag.code);
     outcome.warnings = warnings.filter(|diag| !allowed(diag)).cloned().collect();
     deny(args.deny_warnings, outcome.warnings.len())?;
-    // Last of all: from here on only the program itself can fail to appear.
+    // Last of all: from here on only the program and its map can fail to appear.
     pending.commit()
 }
 

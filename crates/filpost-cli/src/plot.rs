@@ -105,9 +105,10 @@ fn machine(args: &PlotArgs, cl: Option<(&Path, &[u8])>) -> Result<(Program, Stri
         Some((path, bytes)) => {
             let folders = select::beside_first(path, &[]);
             let options = options(args)?;
-            let from = setup::from(&args.chosen, &folders, || {
-                select::asked(bytes, &output::input_name(path), options)
-            })?;
+            let name = output::input_name(path);
+            let from =
+                setup::from(&args.chosen, &folders, || select::asked(bytes, &name, options))?;
+            setup::confirm(&from, || select::machines(bytes, &name, options), &name)?;
             setup::machine(&args.chosen, encoding, &from)?
         }
         None => setup::machine(&args.chosen, encoding, &From::CommandLine)?,

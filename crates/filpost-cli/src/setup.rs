@@ -115,6 +115,22 @@ pub fn from(
     Ok(From::ClFile(select::choose(&asked, folders)?, asked.machin))
 }
 
+/// Refuses a CL file with another MACHIN than the one that its post was chosen for.
+/// `machines` are those that it names; called only where the file chose the post.
+///
+/// # Errors
+/// E0714
+pub fn confirm(
+    from: &From,
+    machines: impl FnOnce() -> Result<Vec<(Machin, u32)>, Error>,
+    cl_name: &str,
+) -> Result<(), Error> {
+    match from {
+        From::CommandLine => Ok(()),
+        From::ClFile(_, machin) => select::confirm(machin.as_ref(), &machines()?, cl_name),
+    }
+}
+
 /// Reads a post without its FIL files, with the settings of the command line.
 ///
 /// # Errors

@@ -71,7 +71,10 @@ fn program(args: &VerifyArgs, cl: &mut std::fs::File) -> Result<(Program, String
     let options = options(args)?;
     let from = setup::from(&args.chosen, &folders, || select::asked(&mut *cl, &name, options))?;
     let named = setup::for_run(&args.chosen, &args.fil, &args.reading, &from)?;
-    cl.rewind().map_err(|error| files::cant_read(&args.cl, &error))?;
+    let cant_rewind = |error| files::cant_read(&args.cl, &error);
+    cl.rewind().map_err(cant_rewind)?;
+    setup::confirm(&from, || select::machines(&mut *cl, &name, options), &name)?;
+    cl.rewind().map_err(cant_rewind)?;
     if let Some(note) = &named.note {
         output::say(&format!("note: {note}"));
     }

@@ -108,23 +108,13 @@ impl<'o, S: Records> Outside<'o, S> {
             self.post.control.tape.cause.record = record.number;
             self.post.control.tape.cause.line = record.line;
             if record.major == words::MACHIN {
-                self.note_machine(record, vocabulary);
+                select::note(&mut self.report.machines, record, vocabulary);
             }
             for observer in self.observers.iter_mut() {
                 observer(Event::Record { record, vocabulary });
             }
         }
         Ok(more)
-    }
-
-    /// Notes the machine that a MACHIN record names.
-    #[cold]
-    fn note_machine(&mut self, record: &Record, vocabulary: &Vocabulary) {
-        let machines = &mut self.report.machines;
-        let Ok(machin) = select::machin(record, vocabulary) else { return };
-        if record.kind == kind::POST && machines.iter().all(|(known, _)| *known != machin) {
-            machines.push((machin, record.line));
-        }
     }
 
     /// The post carries out a record; what it says gets the place in the CL file,

@@ -9,7 +9,6 @@ use fil_diag::{Diag, Place};
 
 use crate::error::{Error, RunCode};
 use crate::ready;
-use crate::report::Report;
 use crate::statement::statement_text;
 
 /// Records looked at for MACHIN, and at least those before the first motion.
@@ -114,13 +113,18 @@ fn no_post(machin: &Machin, place: Option<Place>, folders: &[PathBuf]) -> Box<Di
     Box::new(diag)
 }
 
-/// Refuses a run that met another MACHIN than the one its post was chosen for: one that
-/// comes late in the file, or a second machine.
+/// Refuses a CL file with another MACHIN than the one its post was chosen for: one that
+/// comes late in the file, or a second machine. `machines` are those of
+/// [`Report::machines`](crate::Report::machines) or of [`machines`].
 ///
 /// # Errors
 /// E0714
-pub fn confirm(chosen_for: Option<&Machin>, report: &Report, cl_name: &str) -> Result<(), Error> {
-    let other = report.machines.iter().find(|(machin, _)| Some(machin) != chosen_for);
+pub fn confirm(
+    chosen_for: Option<&Machin>,
+    machines: &[(Machin, u32)],
+    cl_name: &str,
+) -> Result<(), Error> {
+    let other = machines.iter().find(|(machin, _)| Some(machin) != chosen_for);
     let Some((machin, line)) = other else { return Ok(()) };
     let was = match chosen_for {
         Some(first) => format!("the post was chosen for {first}"),
@@ -162,8 +166,40 @@ pub fn asked(input: impl Read, name: &str, options: reader::Options) -> Result<A
     Ok(asked)
 }
 
+/// The machines that the MACHIN records of a whole CL text name, each once, with the
+/// line.
+///
+/// # Errors
+/// A CL text that can't be read.
+pub fn machines(
+    input: impl Read,
+    name: &str,
+    options: reader::Options,
+) -> Result<Vec<(Machin, u32)>, Error> {
+    let mut reader = reader::Reader::new(input, name, options);
+    let (mut vocabulary, mut record) = (Vocabulary::new(), Record::default());
+    let mut machines = Vec::new();
+    while record.kind != kind::FINI
+        && reader.read(&mut vocabulary, &mut record).map_err(Error::Run)?
+    {
+        note(&mut machines, &record, &vocabulary);
+    }
+    Ok(machines)
+}
+
+/// Adds the machine of a MACHIN record, unless it is known.
+pub(crate) fn note(machines: &mut Vec<(Machin, u32)>, record: &Record, vocabulary: &Vocabulary) {
+    if record.kind != kind::POST || record.major != w::MACHIN {
+        return;
+    }
+    let Ok(machin) = machin(record, vocabulary) else { return };
+    if machines.iter().all(|(known, _)| *known != machin) {
+        machines.push((machin, record.line));
+    }
+}
+
 /// The name and number of a MACHIN record; the text is what is wrong with them.
-pub(crate) fn machin(record: &Record, vocabulary: &Vocabulary) -> Result<Machin, String> {
+fn machin(record: &Record, vocabulary: &Vocabulary) -> Result<Machin, String> {
     let name = match record.data.first() {
         Some(Word::Minor(word)) => vocabulary.name(*word).to_string(),
         Some(word @ Word::Text { .. }) => record.text_of(*word).trim().to_string(),

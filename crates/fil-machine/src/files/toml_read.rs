@@ -31,6 +31,12 @@ const MOST_WORDS: usize = 1000;
 /// What a `machine.toml` may say about itself without it being a setting.
 const ABOUT: &[&str] = &["name", "description", "origin"];
 
+/// What messages call the text of a single setting.
+const OPTION: &str = "--set";
+
+/// How a single setting is written.
+const OPTION_FORM: &str = "Write --set key=value, as in --set rapid.split=1.";
+
 /// Reads a `machine.toml` over the default machine. The second part of the result
 /// are warnings: settings the post does not act on.
 ///
@@ -51,7 +57,7 @@ pub fn apply_setting(commons: &mut Commons, setting: &str) -> Result<Vec<Diag>, 
     let is_toml = DeTable::parse(setting).is_ok();
     let quoted = setting.split_once('=').filter(|_| !is_toml);
     let quoted = quoted.map(|(key, value)| format!("{key}={value:?}"));
-    read_over(commons, "--set", quoted.as_deref().unwrap_or(setting))
+    read_over(commons, OPTION, quoted.as_deref().unwrap_or(setting))
 }
 
 /// Reads settings over those that are there.
@@ -59,7 +65,8 @@ fn read_over(commons: &mut Commons, file: &str, text: &str) -> Result<Vec<Diag>,
     let mut reader = TomlReader::new(file, text);
     let (table, broken) = DeTable::parse_recoverable(text);
     for error in &broken {
-        let diag = MachineCode::MachineSyntax.diag(error.message());
+        let mut diag = MachineCode::MachineSyntax.diag(error.message());
+        diag.hint = (file == OPTION).then(|| OPTION_FORM.to_string());
         reader.refuse(error.span().unwrap_or(0..0), *diag);
     }
     // What the rest of a broken text means is not sure.
@@ -304,7 +311,8 @@ impl<'a> TomlReader<'a> {
                 _ => self.plain_number(value),
             };
             let at = (Kind::Int, base + position.min(NO_POSITION));
-            let set = number.and_then(|number| self.store(commons, at, number, field.span()));
+            let name = (char::from(name), field.get_ref().as_ref());
+            let set = number.and_then(|number| self.cell(commons, name, at, number, field.span()));
             self.noted(value.span(), set);
         }
         if fields.get("char").is_none() && position < NO_POSITION {
@@ -313,6 +321,23 @@ impl<'a> TomlReader<'a> {
         }
         let said = fields.get("slot").map_or(key.span(), Spanned::span);
         self.named.push((name, position, said));
+    }
+
+    /// Stores a field of an address; one that can't hold the value is named as it is
+    /// written, `address.X.slot`, and not by its number.
+    fn cell(
+        &mut self,
+        commons: &mut Commons,
+        (letter, field): (char, &str),
+        at: (Kind, u32),
+        value: f64,
+        key: Range<usize>,
+    ) -> Result<()> {
+        stored::check(at.0, at.1, value).map_err(|mut diag| {
+            diag.message = format!("`address.{letter}.{field}` can't be {value}");
+            diag
+        })?;
+        self.store(commons, at, value, key)
     }
 
     /// The tape position of a letter: the one given, else the one it has.
@@ -327,7 +352,8 @@ impl<'a> TomlReader<'a> {
             return commons.get(Kind::Int, index).map(|number| number as u32);
         };
         let number = self.plain_number(slot)?;
-        let set = self.store(commons, (Kind::Int, index), number, slot.span());
+        let at = (Kind::Int, index);
+        let set = self.cell(commons, (char::from(name), "slot"), at, number, slot.span());
         set.map_err(
             |diag| if diag.places.is_empty() { self.at(slot.span(), *diag) } else { diag },
         )?;
@@ -500,6 +526,21 @@ mod tests {
     fn a_setting_without_effect_warns() {
         let (_, warnings) = read_toml("m", "[list]\npages = true").unwrap();
         assert_eq!(warnings[0].code.name(), "W0651");
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_single_setting_is_said_in_its_words() {
+        let refused = |setting| apply_setting(&mut default_commons(), setting).unwrap_err();
+        let cut_off = &refused("rapid.split")[0];
+        assert_eq!(cut_off.code.name(), "E0603");
+        assert!(cut_off.hint.as_ref().is_some_and(|hint| hint.contains("--set key=value")));
+        for (setting, key) in
+            [("address.X.slot=0", "`address.X.slot`"), ("address.X.char=7", "`address.X.char`")]
+        {
+            let wrong = &refused(setting)[0];
+            assert_eq!(wrong.code.name(), "E0605");
+            assert!(wrong.message.contains(key), "{wrong}");
+        }
     }
 
     #[test]

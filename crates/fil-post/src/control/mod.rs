@@ -28,7 +28,7 @@ use crate::block::Block;
 use crate::cause::Cause;
 use crate::control_state::{Codes, Compensation, ControlState, Meaning};
 use crate::errors::PostCode;
-use crate::operation::Feed;
+use crate::operation::{Feed, SpindleSpeed};
 use crate::tape::Tape;
 use crate::warnings::Warnings;
 
@@ -58,8 +58,10 @@ pub struct Control {
     pub block: Block,
     /// Number and name of the program.
     pub head: ProgramHead,
-    /// The last spindle speed, turns a minute or surface speed.
-    pub speed: Option<f64>,
+    /// The last spindle speed, as it was asked for.
+    pub speed: Option<SpindleSpeed>,
+    /// The spindle range that SPINDL/RANGE chose, from 0.
+    pub range: Option<usize>,
     /// The compensation the CL file asks for.
     asked: Compensation,
     /// Unit of the CL file and of the program; `None` before anything says it.
@@ -91,6 +93,7 @@ impl Control {
             block: Block::default(),
             head: ProgramHead::default(),
             speed: None,
+            range: None,
             asked: Compensation::Off,
             unit,
         })

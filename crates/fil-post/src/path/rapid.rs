@@ -17,14 +17,28 @@ pub fn rapid(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()>
     if control.commons.read(loc::RAPID_SPLIT) == RapidSplit::OneBlock {
         return motion::rapid(control, motion, RapidCode::Across, cause);
     }
+    let z_first = motion.axes.has(2) && retracts(control, motion)?;
+    split(control, motion, z_first, cause)
+}
+
+/// Makes a rapid motion to a position of the machine, as [`rapid`] does; from a level of
+/// Z that is not known Z goes first, since nothing may turn or go across beside the part.
+///
+/// # Errors
+/// As [`motion::rapid`].
+pub fn to_machine_position(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()> {
+    let known = control.commons.last_output(control.tables.axis(2).letter) != EMPTY;
+    if known || control.commons.read(loc::RAPID_SPLIT) == RapidSplit::OneBlock {
+        return rapid(control, motion, cause);
+    }
+    split(control, motion, true, cause)
+}
+
+fn split(control: &mut Control, motion: &Motion, z_first: bool, cause: Cause) -> Result<()> {
     let across = (AxisSet::XY, RapidCode::Across);
     let turning = (AxisSet::ROTARY, RapidCode::Turning);
     let along = (AxisSet::Z, RapidCode::Along);
-    let order = if motion.axes.has(2) && retracts(control, motion)? {
-        [along, across, turning]
-    } else {
-        [across, turning, along]
-    };
+    let order = if z_first { [along, across, turning] } else { [across, turning, along] };
     let present = control.tables.present();
     for (group, code) in order {
         if !group.and(present).is_empty() {

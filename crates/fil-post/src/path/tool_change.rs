@@ -41,5 +41,5 @@ fn go_to_change_position(control: &mut Control, cause: Cause) -> Result<()> {
             moving = moving.or(AxisSet::of(number));
         }
     }
-    rapid::rapid(control, &Motion { position, axes: moving, word: 0 }, cause)
+    rapid::to_machine_position(control, &Motion { position, axes: moving, word: 0 }, cause)
 }

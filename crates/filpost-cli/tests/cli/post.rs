@@ -272,7 +272,19 @@ fn a_late_or_second_machin_is_refused() {
         let ran = place.run(&["post", cl, "-o", "out.nc"]);
         assert!(ran.status == 1 && ran.err.contains("E0714") && ran.err.contains(at), "{ran:?}");
         assert!(place.text("out.nc").is_none());
+        let all = ["post", cl, "-o", "out.nc", "--map", "out.map", "--listing", "out.lst"];
+        assert!(place.run(&all).err.contains("E0714"));
+        assert!(["out.nc", "out.map", "out.lst"].iter().all(|file| place.text(file).is_none()));
         assert_eq!(place.run(&["post", cl, "-p", "fanuc-mill", "-o", "chosen.nc"]).status, 0);
+        for other in [["verify", cl, "chosen.nc"], ["plot", "chosen.nc", &format!("--cl={cl}")]] {
+            let ran = place.run(&other);
+            assert!(
+                ran.status == 1 && ran.err.contains("E0714") && ran.err.contains(at),
+                "{ran:?}"
+            );
+            let chosen = place.run(&[&other[..], &["-p", "fanuc-mill"]].concat());
+            assert_eq!(chosen.status, 0, "{chosen:?}");
+        }
     }
     assert_eq!(place.run(&["post", "twice.ncl", "-o", "out.nc"]).status, 0);
 }

@@ -62,7 +62,10 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
     control.block.cause.word = speed_word;
     match (turn.speed, control.speed) {
         (Some(speed), _) => speed_words(control, speed)?,
-        (None, Some(speed)) => control.word(S, speed)?,
+        (None, Some(speed)) => {
+            let value = value_of(control, speed);
+            control.word(S, value)?;
+        }
         (None, None) => {}
     }
     control.block.cause.word = direction_word;
@@ -83,22 +86,32 @@ fn speed_words(control: &mut Control, speed: SpindleSpeed) -> Result<()> {
     if let Some(code) = code {
         control.g_of_record(code);
     }
-    // Meters a minute in a metric program, feet a minute in inches.
-    let value = match (speed, control.is_metric()) {
+    control.speed = Some(speed);
+    let value = value_of(control, speed);
+    control.word(S, value)
+}
+
+/// What S says: turns a minute within the range, or a surface speed, which counts meters
+/// a minute in a metric program and feet in one in inches.
+fn value_of(control: &mut Control, speed: SpindleSpeed) -> f64 {
+    match (speed, control.is_metric()) {
         (SpindleSpeed::Revolutions(asked), _) => within_range(control, asked),
         (SpindleSpeed::Meters(value), true) | (SpindleSpeed::Feet(value), false) => value,
         (SpindleSpeed::Feet(value), true) => value * FOOT,
         (SpindleSpeed::Meters(value), false) => value / FOOT,
-    };
-    control.speed = Some(value);
-    control.word(S, value)
+    }
 }
 
-/// Brings a speed within the ranges of the machine, with a warning.
+/// Brings a speed within the range that was chosen, else within the ranges of the
+/// machine, with a warning.
 fn within_range(control: &mut Control, speed: f64) -> f64 {
     let commons = &control.commons;
     let ranges = commons.int(loc::SPINDLE_RANGES).clamp(1, 6) as usize;
-    let limits = loc::RANGE_SPEEDS[..ranges].iter();
+    let open = match control.range {
+        Some(chosen) => chosen..chosen + 1,
+        None => 0..ranges,
+    };
+    let limits = loc::RANGE_SPEEDS[open].iter();
     let low = limits.clone().filter_map(|(min, _)| commons.rel_opt(*min)).reduce(f64::min);
     let tops: Option<Vec<f64>> = limits.map(|(_, max)| commons.rel_opt(*max)).collect();
     let high = tops.and_then(|tops| tops.into_iter().reduce(f64::max));
@@ -116,6 +129,7 @@ fn select_range(control: &mut Control, range: f64) -> Result<()> {
         return PostCode::WordForm.err(format!("SPINDL: there is no spindle range {range}"));
     };
     let code = control.code(RANGE_CODES[index], "this spindle range")?;
+    control.range = Some(index);
     control.m(code);
     control.write_block()
 }
