@@ -1,4 +1,4 @@
-; note: A negative radius goes the long way round. The centre lies left of the chord of a short G3.
+; note: A negative radius goes the long way round. The center lies left of the chord of a short G3.
 ; expect: rapid X10 Y0 Z0
 ; expect: arc ccw X0 Y10 Z0 I0 J0 90deg F100
 ; expect: rapid X10 Y0 Z0

@@ -78,7 +78,7 @@ fn arc(arc: &verify::Arc) -> Result<Arc, String> {
     }
     Ok(Arc {
         to: tip(&arc.end)?,
-        centre: arc.centre.coords.into(),
+        center: arc.center.coords.into(),
         normal: [Axis::X, Axis::Y, Axis::Z][index],
         ccw: arc.normal[index] > 0.0,
         turns: 1,

@@ -3,7 +3,7 @@
 //! A post may split a rapid in two (X and Y above, then Z, or Z first on the way
 //! up), drop a motion to where the tool already is, and go to a fixed point of
 //! the machine. All else must agree: order, kind and end of each motion, plane,
-//! sense and centre of arcs, feed rates, tools, and the holes.
+//! sense and center of arcs, feed rates, tools, and the holes.
 
 mod holes;
 #[cfg(test)]
@@ -18,8 +18,8 @@ use crate::path::{Action, Arc, Point, Step, ToolPath, Unit};
 pub struct Tolerance {
     /// Coordinates of an end point.
     pub end: f64,
-    /// Coordinates of a centre: start point and I J K are both rounded.
-    pub centre: f64,
+    /// Coordinates of a center: start point and I J K are both rounded.
+    pub center: f64,
     /// Feed rate.
     pub rate: f64,
 }
@@ -45,8 +45,8 @@ impl Tolerance {
     /// Half of the last decimal usual in this unit (3 for mm, 4 for inch), and a bit.
     pub fn of(unit: Unit) -> Tolerance {
         match unit {
-            Unit::Mm => Tolerance { end: 0.0006, centre: 0.0012, rate: 0.06 },
-            Unit::Inch => Tolerance { end: 0.00006, centre: 0.00012, rate: 0.006 },
+            Unit::Mm => Tolerance { end: 0.0006, center: 0.0012, rate: 0.06 },
+            Unit::Inch => Tolerance { end: 0.00006, center: 0.00012, rate: 0.006 },
         }
     }
 }
@@ -277,10 +277,10 @@ impl<'a> Walk<'a> {
         if wanted.turns != found.turns {
             self.report(format!("arc of {} turns, should be {}", found.turns, wanted.turns));
         }
-        let off = |axis: usize| (wanted.centre[axis] - found.centre[axis]).abs();
-        if wanted.normal.plane().into_iter().any(|axis| off(axis) > self.tolerance.centre) {
-            let (found, wanted) = (spell(found.centre), spell(wanted.centre));
-            self.report(format!("arc with centre {found}, should be {wanted}"));
+        let off = |axis: usize| (wanted.center[axis] - found.center[axis]).abs();
+        if wanted.normal.plane().into_iter().any(|axis| off(axis) > self.tolerance.center) {
+            let (found, wanted) = (spell(found.center), spell(wanted.center));
+            self.report(format!("arc with center {found}, should be {wanted}"));
         }
     }
 

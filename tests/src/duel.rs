@@ -7,7 +7,7 @@ use fil_cl::{Options, Reader, Record, Vocabulary};
 use fil_diag::{Code, Diag};
 use fil_syntax::SyntaxCode;
 use fil_vm::errors::CompileCode;
-use fil_vm::{CommonKind, EMPTY, FilFile, Host, Limits, LoadOptions, Machine, Site, load};
+use fil_vm::{CommonKind, EMPTY, FilFile, Host, Interpreter, Limits, LoadOptions, Site, load};
 
 use crate::oracle::{Class, Fault, Oracle, Rec, Value, exact};
 use crate::programs::Case;
@@ -109,7 +109,7 @@ impl Host for World {
 }
 
 fn line(diag: &Diag) -> u32 {
-    diag.places.first().map_or(0, |place| place.line)
+    diag.spans.first().map_or(0, |place| place.line)
 }
 
 /// Runs a case on both.
@@ -143,7 +143,7 @@ pub fn fight_over(case: &Case, oracle_fil: &str) -> Result<Agreed, String> {
     let records = read(&case.cl, &mut vocab)?;
     let own = records.iter().map(|record| Rec::read(record, &vocab)).collect();
     let mut world = World { records, ..World::default() };
-    let mut machine = Machine::new(Arc::new(module), limits, Arc::default());
+    let mut machine = Interpreter::new(Arc::new(module), limits, Arc::default());
     let ran = drive(&mut machine, &mut vocab, &mut world);
 
     let program = fil_syntax::parse("case.fil", oracle_fil).program;
@@ -163,7 +163,7 @@ fn read(cl: &str, vocab: &mut Vocabulary) -> Result<Vec<Record>, String> {
 }
 
 fn drive(
-    machine: &mut Machine,
+    machine: &mut Interpreter,
     vocab: &mut Vocabulary,
     world: &mut World,
 ) -> Result<(), Box<Diag>> {
@@ -188,7 +188,7 @@ fn compare(
     wanted: Result<(), Fault>,
     world: &World,
     oracle: &Oracle<'_>,
-    machine: &Machine,
+    machine: &Interpreter,
 ) -> Result<Agreed, String> {
     let events = &world.events;
     let ran = ran.map_err(|diag| (diag.code.number, line(&diag), diag.to_string()));
@@ -244,7 +244,7 @@ fn warnings(real: &Warnings, wanted: &Warnings, except: u32) -> Result<(), Strin
     Err(format!("warnings\n machine {real:?}\n oracle  {wanted:?}"))
 }
 
-fn values(oracle: &Oracle<'_>, machine: &Machine) -> Result<(), String> {
+fn values(oracle: &Oracle<'_>, machine: &Interpreter) -> Result<(), String> {
     for (name, wanted) in oracle.values() {
         let text = machine.text(name).map(|text| Value::Text(text.to_string()));
         let real = machine.number(name).map(Value::Number).or(text);

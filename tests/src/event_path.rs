@@ -41,7 +41,7 @@ fn action(motion: &Move) -> Action {
         (_, None) => Action::Feed(to, rate),
         (_, Some(arc)) => {
             let normal = [Axis::X, Axis::Y, Axis::Z][arc.normal];
-            let arc = Arc { to, centre: arc.centre, normal, ccw: arc.ccw, turns: 1 };
+            let arc = Arc { to, center: arc.center, normal, ccw: arc.ccw, turns: 1 };
             Action::Arc(arc, rate)
         }
     }
@@ -85,7 +85,7 @@ fn same(own: &Action, other: &Action, tolerance: f64) -> bool {
                 .normal
                 .plane()
                 .iter()
-                .all(|axis| (a.centre[*axis] - b.centre[*axis]).abs() < tolerance);
+                .all(|axis| (a.center[*axis] - b.center[*axis]).abs() < tolerance);
             point(&a.to, &b.to)
                 && in_plane
                 && (a.normal, a.ccw, a.turns) == (b.normal, b.ccw, b.turns)

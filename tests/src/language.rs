@@ -181,7 +181,7 @@ fn judge(header: &Header, file: &str, result: Posted) -> Result<(), String> {
 
 /// `E0301 at 5`; a place in another file keeps that file's name.
 fn at(diag: &Diag, file: &str) -> String {
-    match diag.places.first() {
+    match diag.spans.first() {
         None => diag.code.name(),
         Some(place) if place.file == file => format!("{} at {}", diag.code.name(), place.line),
         Some(place) => {

@@ -49,7 +49,7 @@ pub fn found(diags: &[Diag]) -> Vec<String> {
     diags
         .iter()
         .map(|diag| {
-            let line = diag.places.first().map_or(0, |place| place.line);
+            let line = diag.spans.first().map_or(0, |place| place.line);
             format!("{} at {line}", diag.code.name())
         })
         .collect()

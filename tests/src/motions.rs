@@ -126,10 +126,10 @@ pub fn check(path: &Path) -> Result<(), String> {
     let head = Head::read(&text)?;
     let (found, refused) = lines(&text, &head.dialect()?);
     let said = refused.map(|diag| {
-        let place = diag.places.first();
+        let place = diag.spans.first();
         let mut said = format!("{} at {}", diag.code.name(), place.map_or(0, |place| place.line));
         if head.error.as_ref().is_some_and(|error| error.contains(':')) {
-            said += &format!(":{}", place.map_or(0, fil_diag::Place::column));
+            said += &format!(":{}", place.map_or(0, fil_diag::TextSpan::column));
         }
         (said, diag)
     });
@@ -172,7 +172,7 @@ fn motion_line(motion: &Move) -> String {
     }
     if let Some(arc) = motion.arc {
         for axis in [(arc.normal + 1) % 3, (arc.normal + 2) % 3] {
-            line += &format!(" {}{}", ["I", "J", "K"][axis], number(arc.centre[axis]));
+            line += &format!(" {}{}", ["I", "J", "K"][axis], number(arc.center[axis]));
         }
         line += &format!(" {}deg", number(arc.angle));
     }

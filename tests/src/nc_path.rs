@@ -93,7 +93,7 @@ impl State {
     }
 
     fn arc(&self, canon: &Canon) -> Result<Arc, String> {
-        let Canon::Arc { end, centre, turns, height, rotary } = canon else {
+        let Canon::Arc { end, center, turns, height, rotary } = canon else {
             return Err("not an arc".to_string());
         };
         stands(rotary)?;
@@ -106,7 +106,7 @@ impl State {
         };
         Ok(Arc {
             to: on_plane(end),
-            centre: on_plane(centre),
+            center: on_plane(center),
             normal: self.plane,
             ccw: *turns > 0,
             turns: turns.unsigned_abs(),
@@ -148,7 +148,7 @@ mod tests {
     fn arcs_of_each_plane_have_their_axes() {
         let arc = Canon::Arc {
             end: [1.0, 2.0],
-            centre: [3.0, 4.0],
+            center: [3.0, 4.0],
             turns: -1,
             height: 5.0,
             rotary: [0.0; 3],

@@ -28,8 +28,8 @@ pub enum Axis {
 pub struct Arc {
     /// End point.
     pub to: Point,
-    /// Centre; the coordinate along `normal` means nothing.
-    pub centre: Point,
+    /// Center; the coordinate along `normal` means nothing.
+    pub center: Point,
     /// Normal of the plane.
     pub normal: Axis,
     /// Counterclockwise when seen against the normal.
@@ -128,7 +128,7 @@ impl Action {
             Action::Reference(to) => Action::Reference(point(to)),
             Action::Feed(to, f) => Action::Feed(point(to), rate(f)),
             Action::Arc(arc, f) => {
-                Action::Arc(Arc { to: point(arc.to), centre: point(arc.centre), ..arc }, rate(f))
+                Action::Arc(Arc { to: point(arc.to), center: point(arc.center), ..arc }, rate(f))
             }
             Action::Hole(hole, f) => {
                 let hole = Hole {

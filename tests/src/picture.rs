@@ -62,8 +62,8 @@ impl Picture {
     }
 
     /// A circle, radius in millimetres of the drawing.
-    pub fn circle(&mut self, centre: [f64; 2], radius: f64, pen: Pen) {
-        self.items.push(Item::Circle(centre, radius, pen));
+    pub fn circle(&mut self, center: [f64; 2], radius: f64, pen: Pen) {
+        self.items.push(Item::Circle(center, radius, pen));
     }
 
     /// A text whose middle is at a point.
@@ -89,8 +89,8 @@ impl Picture {
                 Item::Line(points, pen, fill) => {
                     document.add(stroke(points.iter().map(|p| place(*p)), pen, *fill))
                 }
-                Item::Circle(centre, radius, pen) => {
-                    let [x, y] = place(*centre);
+                Item::Circle(center, radius, pen) => {
+                    let [x, y] = place(*center);
                     document.add(
                         Circle::new()
                             .set("cx", x)
@@ -139,7 +139,7 @@ impl Picture {
         for item in &self.items {
             match item {
                 Item::Line(points, ..) => points.iter().for_each(|p| take(*p, 0.0)),
-                Item::Circle(centre, radius, _) => take(*centre, *radius),
+                Item::Circle(center, radius, _) => take(*center, *radius),
                 Item::Text(at, _) => take(*at, 0.0),
             }
         }

@@ -31,8 +31,8 @@ pub enum Canon {
     Arc {
         /// End point on the plane's two axes.
         end: [f64; 2],
-        /// Centre on the plane's two axes.
-        centre: [f64; 2],
+        /// Center on the plane's two axes.
+        center: [f64; 2],
         /// Turns begun, positive for counterclockwise.
         turns: i32,
         /// End point along the plane's normal.
@@ -226,8 +226,8 @@ fn canon(name: &str, arguments: &str) -> Option<Canon> {
         "STRAIGHT_FEED" => Canon::Feed(numbers()?.try_into().ok()?),
         "ARC_FEED" => {
             let [e1, e2, c1, c2, turns, height, a, b, c] = numbers()?.try_into().ok()?;
-            let (end, centre, rotary) = ([e1, e2], [c1, c2], [a, b, c]);
-            Canon::Arc { end, centre, turns: turns as i32, height, rotary }
+            let (end, center, rotary) = ([e1, e2], [c1, c2], [a, b, c]);
+            Canon::Arc { end, center, turns: turns as i32, height, rotary }
         }
         "RIGID_TAP" => Canon::Tap(numbers()?.try_into().ok()?),
         "SELECT_PLANE" => Canon::Plane(match arguments {
@@ -288,7 +288,7 @@ mod tests {
                 Some(123_456),
                 Canon::Arc {
                     end: [3.0, 2.0],
-                    centre: [2.0, 2.1],
+                    center: [2.0, 2.1],
                     turns: -1,
                     height: 0.5,
                     rotary: [0.0; 3],

@@ -59,7 +59,7 @@ fn joined(events: Vec<Event>) -> Vec<Event> {
             && let (Some(arc), Some(part)) = (&mut before.arc, &found.arc)
             && arc.normal == part.normal
             && arc.ccw == part.ccw
-            && near(arc.centre, part.centre)
+            && near(arc.center, part.center)
             && before.to.linear[arc.normal] == found.to.linear[arc.normal]
             && (Move { to: found.to, arc: found.arc, ..*before }) == *found
         {
@@ -86,11 +86,11 @@ fn alike(one: &Event, other: &Event) -> bool {
 /// Two arcs to one end, whose centers and lengths are the same: a center that is moved
 /// turns both spokes, so the length changes by twice that.
 fn same_arc(one: &Arc, other: &Arc, made: &Move) -> bool {
-    let [first, second] = one.plane().map(|n| made.to.linear[n] - one.centre[n]);
+    let [first, second] = one.plane().map(|n| made.to.linear[n] - one.center[n]);
     let length = (one.angle - other.angle).abs().to_radians() * first.hypot(second);
     one.normal == other.normal
         && one.ccw == other.ccw
-        && near(one.centre, other.centre)
+        && near(one.center, other.center)
         && length <= 2.0 * APART
 }
 

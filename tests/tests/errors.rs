@@ -246,7 +246,7 @@ fn e0215_program_too_large() {
 fn w0220_and_w0221_findings_of_check() {
     let fil = "CIMFIL/ON,CYCLE\nIF(POSTF(7,4).EQ.MISSNG)DMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
     let diags = filpost_tests::examples::check(fil);
-    let found: Vec<_> = diags.iter().map(|diag| (diag.code.number, diag.places[0].line)).collect();
+    let found: Vec<_> = diags.iter().map(|diag| (diag.code.number, diag.spans[0].line)).collect();
     assert_eq!(found, [(220, 1), (221, 2)]);
     let build = Program::builder().fil("t.fil", fil).build().expect("a run does not look for them");
     assert!(build.warnings().is_empty());
@@ -282,7 +282,7 @@ fn e0305_call_depth() {
     let post = Program::builder().fil("t.fil", fil).limits(limits).build().expect("a post");
     let error = post.run(PART.as_bytes(), &mut Vec::new()).expect_err("refused");
     assert_eq!(names(&error), ["E0305"]);
-    assert_eq!(error.diags()[0].places[0].line, 5);
+    assert_eq!(error.diags()[0].spans[0].line, 5);
 }
 
 #[test]
@@ -421,7 +421,7 @@ fn e0707_to_e0710_line_maps() {
     let options =
         trace::Options { most: 1, cl: filpost::cl::reader::Options::default(), encoding: None };
     let ask = |file: &Path, line, map: &Path| {
-        let place = trace::Place { file: file.to_path_buf(), line, column: None };
+        let place = trace::FilePosition { file: file.to_path_buf(), line, column: None };
         trace::trace(&place, map, &options)
     };
     assert!(ask(&nc, 1, &map).is_ok());
@@ -508,7 +508,7 @@ fn e0705_case_file() {
         .expect("a case");
     let error = Case::load(folder.path()).expect_err("refused");
     assert_eq!(names(&error), ["E0705"]);
-    assert_eq!(error.diags()[0].places[0].line, 3);
+    assert_eq!(error.diags()[0].spans[0].line, 3);
 }
 
 #[test]

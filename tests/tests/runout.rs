@@ -23,7 +23,7 @@ const ECCENTRIC: f64 = 0.1;
 const NOISE: f64 = 0.001;
 
 const ON: &str = "RUNOUT / ON";
-/// Two centres that are each wrong by 1.5 microns look 3 microns apart.
+/// Two centers that are each wrong by 1.5 microns look 3 microns apart.
 const ON_NOISY: &str = "RUNOUT / TOLER, 0.003\nRUNOUT / ON";
 
 fn text(name: &str) -> String {

@@ -58,10 +58,10 @@ fn sections() -> Vec<(&'static str, Section)> {
 
 /// An arc of radius 8 with its lowest point at Z 18.
 fn round_bottom() -> Section {
-    let centre = [8.0, 26.0];
+    let center = [8.0, 26.0];
     let half = (64.0_f64 - 1.0).sqrt();
-    let to = [centre[0] + half, 25.0];
-    Section { from: [centre[0] - half, 25.0], steps: vec![Step::Arc { to, centre, hollow: true }] }
+    let to = [center[0] + half, 25.0];
+    Section { from: [center[0] - half, 25.0], steps: vec![Step::Arc { to, center, hollow: true }] }
 }
 
 /// Proves one job: its passes, what they leave and cut, the choice of the cutters, and

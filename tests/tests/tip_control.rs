@@ -1,6 +1,6 @@
 //! Programs with tool-tip control, written from the CL file without the post.
 
-use fil_nc::verify::{Allowed, Kind, Report, Verdict};
+use fil_nc::verify::{Allowed, FindingKind, Report, Verdict};
 use filpost::plot::{self, Text};
 use filpost::{Diag, Program};
 use filpost_tests::back_check;
@@ -53,25 +53,35 @@ fn faults_are_said_in_a_machinists_words() {
         check(&machine.post(), &part(), &nc.replacen(old, new, 1))
     };
     for (old, new, kind, said) in [
-        ("X30.5", "X31.5", Kind::Position, "X off by 1 (X31.5 in place of X30.5)"),
-        ("Z5.855", "Z5.854", Kind::Position, "Z deeper by 0.0006 (Z5.854 in place of Z5.8546)"),
-        ("A24.518", "A24.618", Kind::Axis, "the tool is tilted 0.1002 degrees away from its axis"),
+        ("X30.5", "X31.5", FindingKind::Position, "X off by 1 (X31.5 in place of X30.5)"),
+        (
+            "Z5.855",
+            "Z5.854",
+            FindingKind::Position,
+            "Z deeper by 0.0006 (Z5.854 in place of Z5.8546)",
+        ),
+        (
+            "A24.518",
+            "A24.618",
+            FindingKind::Axis,
+            "the tool is tilted 0.1002 degrees away from its axis",
+        ),
         (
             "A24.518",
             "A-24.518",
-            Kind::Axis,
+            FindingKind::Axis,
             "the tool is tilted 49.0358 degrees away from its axis",
         ),
-        ("F420.0", "F42.0", Kind::Feed, "feed 42 mm/min, it should be 420 mm/min"),
-        ("H15", "H5", Kind::Tool, "length offset 5 is on, it should be 15"),
+        ("F420.0", "F42.0", FindingKind::Feed, "feed 42 mm/min, it should be 420 mm/min"),
+        ("H15", "H5", FindingKind::Tool, "length offset 5 is on, it should be 15"),
         (
             "G43.4 H15",
             "G43 H15",
-            Kind::Position,
+            FindingKind::Position,
             "X off by 35.4535 (X31.251 in place of X-4.2025), Y off by 34.6006 (Y-14.499 in place of Y20.1016), Z higher by 0.2951 (Z48.75 in place of Z48.4549)",
         ),
-        ("G49\nM30", "M30", Kind::Tool, "tool-tip control is on, it should be off"),
-        ("M8\n", "M9\n", Kind::Coolant, "coolant is off, it should be on"),
+        ("G49\nM30", "M30", FindingKind::Tool, "tool-tip control is on, it should be off"),
+        ("M8\n", "M9\n", FindingKind::Coolant, "coolant is off, it should be on"),
     ] {
         let report = first(old, new);
         let report = report.unwrap_or_else(|diag| panic!("{new}: {diag}"));
@@ -86,7 +96,7 @@ fn faults_are_said_in_a_machinists_words() {
         ("G49\nT6", "T6", "E0905", (21, 1)),
     ] {
         let refused = first(old, new).expect_err(new);
-        let at = &refused.places[0];
+        let at = &refused.spans[0];
         assert_eq!((refused.code.name(), (at.line, at.column())), (code.into(), place), "{new}");
     }
 }
@@ -129,7 +139,7 @@ fn tables_that_are_turned_first() {
     let nc = turned_first(&nc, "H15", "X31.251 Y-14.499 Z48.75", "C125.048 A20.123");
     let nc = turned_first(&nc, "H6", "X-18.203 Y4.407 Z57.3", "C-62.619 A17.445");
     let refused = check(&machine.post(), &part(), &nc).expect_err("turned tables");
-    assert_eq!((refused.code.name(), refused.places[0].line), ("E0905".into(), 8), "{nc}");
+    assert_eq!((refused.code.name(), refused.spans[0].line), ("E0905".into(), 8), "{nc}");
     let post = machine.builder().set("rotary.tip_control=1").build().expect("a machine");
     let report = check(&post, &part(), &nc).expect("a report");
     assert_eq!(report.verdict(), Verdict::Agrees, "{:#?}\n{nc}", report.findings);
@@ -177,6 +187,9 @@ fn the_travel_of_the_axes_is_looked_at_in_both_forms() {
         report.findings.iter().map(|f| (f.kind, f.cl_line, axis(&f.message))).collect::<Vec<_>>()
     };
     let found = outside("table-and-head-tip");
-    assert!(found.len() > 5 && found.iter().all(|(kind, ..)| *kind == Kind::Limit), "{found:?}");
+    assert!(
+        found.len() > 5 && found.iter().all(|(kind, ..)| *kind == FindingKind::Limit),
+        "{found:?}"
+    );
     assert_eq!(found, outside("table-and-head-axes"));
 }

@@ -241,7 +241,7 @@ fn lines_that_tell_nothing_are_refused() {
         let error = read_all(&sealed(broken.as_bytes())).expect_err(line);
         let diag = &error.diags()[0];
         assert_eq!((diag.code.name().as_str(), diag.message.as_str()), ("E0707", said), "{line}");
-        assert_eq!(diag.places[0].line as usize, at + 1, "{line}");
+        assert_eq!(diag.spans[0].line as usize, at + 1, "{line}");
     }
 }
 

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use fil_nc::motion::Event;
-use fil_nc::verify::{Allowed, Kind, Report, Verdict, compare_programs};
+use fil_nc::verify::{Allowed, FindingKind, Report, Verdict, compare_programs};
 use filpost::Diag;
 use filpost::verify::{NcProgram, Reference};
 use filpost_tests::back_check;
@@ -136,17 +136,27 @@ fn findings_are_a_machinists_words() {
     let cases = nc_cases::posted(&cl);
     let case = cases.iter().find(|case| case.name.starts_with("fanuc-mill")).expect("a program");
     for (old, new, kind, said) in [
-        ("Z-7.25", "Z-7.55", Kind::Cycle, "the hole is deeper by 0.3 (Z-7.55 in place of Z-7.25)"),
-        ("X25.", "X26.", Kind::Position, "X off by 1 (X26 in place of X25)"),
-        ("M3", "M4", Kind::Spindle, "the spindle is counterclockwise, it should be clockwise"),
-        ("S2500", "S250", Kind::Speed, "the spindle has S250, it should be 2500"),
-        ("F120.", "F1200.", Kind::Feed, "feed 1200 mm/min, it should be 120 mm/min"),
-        ("T12", "T13", Kind::Tool, "changes to tool 13, it should be tool 12"),
-        ("H12", "H1", Kind::Tool, "length offset 1 is on, it should be 12"),
-        ("Q4.", "Q5.", Kind::Cycle, "the hole is deeper by 1 (Z-3.5 in place of Z-2.5)"),
-        ("P500", "P50", Kind::Dwell, "dwell of 0.05 s, it should be 0.5 s"),
-        ("\nN80 X12.5", "\n", Kind::Missing, "no hole at X12.5 Y0"),
-        ("M8", "M9", Kind::Coolant, "coolant is off, it should be on"),
+        (
+            "Z-7.25",
+            "Z-7.55",
+            FindingKind::Cycle,
+            "the hole is deeper by 0.3 (Z-7.55 in place of Z-7.25)",
+        ),
+        ("X25.", "X26.", FindingKind::Position, "X off by 1 (X26 in place of X25)"),
+        (
+            "M3",
+            "M4",
+            FindingKind::Spindle,
+            "the spindle is counterclockwise, it should be clockwise",
+        ),
+        ("S2500", "S250", FindingKind::Speed, "the spindle has S250, it should be 2500"),
+        ("F120.", "F1200.", FindingKind::Feed, "feed 1200 mm/min, it should be 120 mm/min"),
+        ("T12", "T13", FindingKind::Tool, "changes to tool 13, it should be tool 12"),
+        ("H12", "H1", FindingKind::Tool, "length offset 1 is on, it should be 12"),
+        ("Q4.", "Q5.", FindingKind::Cycle, "the hole is deeper by 1 (Z-3.5 in place of Z-2.5)"),
+        ("P500", "P50", FindingKind::Dwell, "dwell of 0.05 s, it should be 0.5 s"),
+        ("\nN80 X12.5", "\n", FindingKind::Missing, "no hole at X12.5 Y0"),
+        ("M8", "M9", FindingKind::Coolant, "coolant is off, it should be on"),
     ] {
         assert!(case.nc.contains(old), "{old}:\n{}", case.nc);
         let report = check(case, &case.nc.replacen(old, new, 1)).expect("a report");
@@ -163,9 +173,9 @@ fn inverse_time_is_compared_with_a_feed() {
     let case = cases.iter().find(named).expect("a program");
     let report = check(case, &case.nc.replace("F13.47", "F26.94")).expect("a report");
     let said = "feed 26.94 blocks a minute, which is 800.1213 mm/min on this way of 29.7001, it should be 400 mm/min";
-    let found: Vec<(Kind, &str)> =
+    let found: Vec<(FindingKind, &str)> =
         report.findings.iter().map(|found| (found.kind, found.message.as_str())).collect();
-    assert_eq!(found, [(Kind::Feed, said)], "{}", listed(&report));
+    assert_eq!(found, [(FindingKind::Feed, said)], "{}", listed(&report));
 }
 
 /// Programs that are none of this machine or not of this part.
@@ -188,7 +198,7 @@ fn bad_programs_are_refused() {
         assert_eq!(refused.code.name(), code, "{refused}\n{nc}");
     }
     let inch = check(case, &case.nc.replacen("G21", "G20", 1)).expect("a report");
-    assert_eq!(inch.findings[0].kind, Kind::Units, "{}", listed(&inch));
+    assert_eq!(inch.findings[0].kind, FindingKind::Units, "{}", listed(&inch));
 }
 
 /// A program that is cut off anywhere before its end is never taken as right.

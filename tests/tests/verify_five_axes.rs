@@ -4,7 +4,7 @@
 use fil_machine::axis_chain::AxisChain;
 use fil_nc::forward::Forward;
 use fil_nc::motion::{Event, Move};
-use fil_nc::verify::{Allowed, Kind, Report, Verdict};
+use fil_nc::verify::{Allowed, FindingKind, Report, Verdict};
 use filpost::{Commons, Program};
 use filpost_tests::back_check;
 use nalgebra::Point3;
@@ -304,7 +304,7 @@ fn divided_lines_agree_and_a_point_left_out_is_found() {
         let limit = max * 1.2;
         let allowed = Allowed { tolerance: None, between: Some(limit) };
         let report = check_allowed(commons, &cl, &divided.without_one, allowed).unwrap();
-        let found = report.findings.iter().any(|finding| finding.kind == Kind::Between);
+        let found = report.findings.iter().any(|finding| finding.kind == FindingKind::Between);
         assert_eq!(found, dense > limit, "{dense} {limit}\n{seen}");
         lines += 1;
         worse += usize::from(found);

@@ -20,7 +20,7 @@ fn check(path: &Path) -> Result<(), Failed> {
     match (result, &header.error) {
         (Err(error), Some(expected)) => {
             let diag = &error.diags()[0];
-            let line = diag.places.iter().find(|place| place.file == "CL").map(|place| place.line);
+            let line = diag.spans.iter().find(|place| place.file == "CL").map(|place| place.line);
             let found = format!("{} at {}", diag.code.name(), line.unwrap_or(0));
             same(&found, expected).map_err(|failed| format!("{failed:?}\n{error}").into())
         }

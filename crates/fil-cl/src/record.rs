@@ -117,7 +117,7 @@ pub enum WordView<'a> {
 /// An arc as CIRCLE gives it: right-hand rule, +axis is counterclockwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Circle {
-    /// Centre, in the unit of the CL file.
+    /// Center, in the unit of the CL file.
     pub center: [f64; 3],
     /// Axis as written, not normalised.
     pub axis: [f64; 3],

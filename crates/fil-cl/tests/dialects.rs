@@ -112,7 +112,7 @@ fn a_sign_may_come_late_as_long_as_nothing_hangs_on_it() {
 #[test]
 fn two_systems_in_one_text() {
     let diag = refused("$$-> END /\nPAINT/PATH\n", None, ClCode::TwoDialects);
-    let lines: Vec<u32> = diag.places.iter().map(|place| place.line).collect();
+    let lines: Vec<u32> = diag.spans.iter().map(|place| place.line).collect();
     assert_eq!(lines, [2, 1]);
     assert!(diag.hint.as_ref().unwrap().contains("--dialect nx"), "{diag:?}");
     let text = "$$*CATIA0\nRAPID\nTRNTYP/WORLD,0,0,0\n";
@@ -121,7 +121,7 @@ fn two_systems_in_one_text() {
     assert_eq!(found, "generic (chosen)");
     let arc = "GOTO/1,0,0\nCIRCLE/0,0,0,0,0,1,1\nGOTO/0,1,0\nPAINT/PATH\n";
     let diag = refused(arc, None, ClCode::TwoDialects);
-    assert_eq!((diag.places[0].line, diag.places.len()), (4, 1));
+    assert_eq!((diag.spans[0].line, diag.spans.len()), (4, 1));
     let axis = "GOTO/1,0,0,0,1,0\nGOTO/0,1,0\nPAINT/PATH\n";
     refused(axis, None, ClCode::TwoDialects);
 }
@@ -306,7 +306,7 @@ fn several_points_in_one_goto() {
         assert_eq!(is_read, *dialect == ClDialect::Creo, "{dialect}");
         let six = "GOTO/1,2,3,4,5,6\n";
         let diag = refused(six, Some(*dialect), ClCode::UnclearPoints);
-        assert_eq!(&diag.places[0].excerpt[diag.places[0].span.clone()], "4,5,6");
+        assert_eq!(&diag.spans[0].excerpt[diag.spans[0].span.clone()], "4,5,6");
         refused(&format!("MULTAX/ON\n{six}"), Some(*dialect), ClCode::UnclearPoints);
     }
     for text in [

@@ -104,7 +104,7 @@ fn cycles_of_camworks() {
     // The comma that one version of the system forgets.
     let lost = "DRILL,G98,6.,PECKING,5.,2.,MMPM,100.,3.,25. 25. DWELL,0.";
     let diag = refused(&cycle(lost), ClCode::BadNumber);
-    assert_eq!(&diag.places[0].excerpt[diag.places[0].span.clone()], "25. 25. DWELL");
+    assert_eq!(&diag.spans[0].excerpt[diag.spans[0].span.clone()], "25. 25. DWELL");
 }
 
 #[test]

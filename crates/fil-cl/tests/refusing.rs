@@ -28,7 +28,7 @@ fn check(input: &str, code: ClCode, line: u32, column: usize, marked: &str) {
     let diag = refuse(input.as_bytes());
     let code: &Code = code.into();
     assert_eq!(diag.code, code, "{input:?}: {diag}");
-    let place = &diag.places[0];
+    let place = &diag.spans[0];
     assert_eq!((place.line, place.column()), (line, column), "{input:?}: {diag}");
     assert_eq!(&place.excerpt[place.span.clone()], marked, "{input:?}");
 }
@@ -95,8 +95,8 @@ fn binary_data() {
 fn long_statements() {
     let line = format!("RAPID\nPPRINT / {}", "x".repeat(2 << 20));
     let diag = refuse(line.as_bytes());
-    assert_eq!((diag.code.number, diag.places[0].line), (403, 2));
-    assert!(diag.places[0].excerpt.len() < 1000);
+    assert_eq!((diag.code.number, diag.spans[0].line), (403, 2));
+    assert!(diag.spans[0].excerpt.len() < 1000);
     let continued = "CYCLE / $\n".repeat(200_000);
     assert_eq!(refuse(continued.as_bytes()).code.number, 403);
 }
@@ -106,7 +106,7 @@ fn too_many_words() {
     let text: String = (0..60_000).map(|n| format!("W{n}/1\n")).collect();
     let diag = refuse(text.as_bytes());
     assert_eq!(diag.code.number, 411);
-    assert!(diag.places[0].line > 40_000);
+    assert!(diag.spans[0].line > 40_000);
 }
 
 #[test]
@@ -148,7 +148,7 @@ fn an_input_that_fails() {
         }
     };
     assert_eq!((error.code.number, error.message.as_str()), (401, "disk on fire"));
-    assert_eq!((reader.record_number(), error.places[0].line), (4000, 4001));
+    assert_eq!((reader.record_number(), error.spans[0].line), (4000, 4001));
 }
 
 #[test]
@@ -158,7 +158,7 @@ fn a_stream_does_not_go_back() {
     reader.read(&mut vocab, &mut record).unwrap();
     reader.read(&mut vocab, &mut record).unwrap();
     let diag = reader.seek_record(1).unwrap_err();
-    assert_eq!((diag.code.number, diag.places[0].line), (409, 2));
+    assert_eq!((diag.code.number, diag.spans[0].line), (409, 2));
 }
 
 #[test]

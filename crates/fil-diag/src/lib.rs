@@ -4,10 +4,10 @@
 //! what `filpost explain` prints, what `docs/errors/` is checked against and
 //! what a [`Diag`] points to. Rendering is the command's business alone.
 
-mod place;
 pub mod suggest;
+mod text_span;
 
-pub use place::{LineIndex, Place};
+pub use text_span::{LineIndex, TextSpan};
 
 /// What a fallible function of any room gives: a value, or the diagnostic that
 /// stops the run.
@@ -57,7 +57,7 @@ pub struct Diag {
     /// What is wrong here, with the names and numbers of this case.
     pub message: String,
     /// Where; the first place is the primary one.
-    pub places: Vec<Place>,
+    pub spans: Vec<TextSpan>,
     /// A hint made for this case; the code's own hint stands in when `None`.
     pub hint: Option<String>,
     /// Further lines: the FIL stack, the CL record with its numbered words.
@@ -70,15 +70,15 @@ impl Diag {
         Diag {
             code: code.into(),
             message: message.into(),
-            places: Vec::new(),
+            spans: Vec::new(),
             hint: None,
             notes: Vec::new(),
         }
     }
 
     /// Adds a place; the first one added is the primary one.
-    pub fn at(mut self, place: Place) -> Self {
-        self.places.push(place);
+    pub fn at(mut self, place: TextSpan) -> Self {
+        self.spans.push(place);
         self
     }
 
@@ -109,7 +109,7 @@ impl std::fmt::Display for Diag {
     /// One line: `E0123 file:line:column: message`.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}", self.code.name())?;
-        if let Some(place) = self.places.first() {
+        if let Some(place) = self.spans.first() {
             write!(f, " {place}")?;
         }
         write!(f, ": {}", self.message)

@@ -37,7 +37,7 @@ impl Moving {
         let mut point =
             Moving { middle: at(0.5), away: 0.5 * way.norm(), speed: way.norm(), bend: 0.0 };
         if let Some(arc) = arc {
-            let spoke = at(0.0) - Vector3::from(arc.centre);
+            let spoke = at(0.0) - Vector3::from(arc.center);
             let [first, second] = arc.plane();
             let radius = spoke[first].hypot(spoke[second]);
             let swept = arc.angle.to_radians();
@@ -49,14 +49,14 @@ impl Moving {
     }
 
     /// The point when a rotary axis turns it from one angle to another (degrees).
-    fn turned(self, axis: &Rotary, centre: Vector3<f64>, [from, to]: [f64; 2]) -> Self {
-        let arm = self.middle - centre;
+    fn turned(self, axis: &Rotary, center: Vector3<f64>, [from, to]: [f64; 2]) -> Self {
+        let arm = self.middle - center;
         let radius = axis.direction.cross(&arm).norm();
         let reach = radius + self.away;
         let angle = (to - from).abs().to_radians();
         let half = Rotation3::from_axis_angle(&axis.direction, (0.5 * (from + to)).to_radians());
         Moving {
-            middle: centre + half * arm,
+            middle: center + half * arm,
             away: self.away + radius * (0.5 * angle).min(2.0),
             speed: self.speed + angle * reach,
             bend: self.bend + 2.0 * angle * self.speed + angle * angle * reach,
@@ -82,12 +82,12 @@ pub fn of_tip(forward: &Forward, from: &Position, to: &Position, arc: Option<&Ar
         return point.bend;
     }
     let tool = forward.tool();
-    let turn = |point: Moving, carries: Carries, centred: bool| {
+    let turn = |point: Moving, carries: Carries, centered: bool| {
         // From the tool to the part: the secondary axis first.
         [1, 0].into_iter().fold(point, |point, n| match &forward.rotaries()[n] {
             Some(axis) if axis.carries == carries => {
-                let centre = if centred { axis.center.coords } else { Vector3::zeros() };
-                point.turned(axis, centre, [from.rotary[n], to.rotary[n]])
+                let center = if centered { axis.center.coords } else { Vector3::zeros() };
+                point.turned(axis, center, [from.rotary[n], to.rotary[n]])
             }
             _ => point,
         })

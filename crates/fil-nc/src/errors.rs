@@ -35,14 +35,14 @@ fil_diag::codes! {
         NoFeed = 908, Error, "a motion at feed without a feed",
             "The control would stop, or run at the last feed of another program.",
             "Write an F word; a change of the feed mode asks for a new one.";
-        /// An arc without centre and radius, or without a known start.
-        NoCentre = 909, Error, "an arc without a centre",
-            "Centre or radius, and the start of the arc, are needed to know its path.",
+        /// An arc without center and radius, or without a known start.
+        NoCenter = 909, Error, "an arc without a center",
+            "Center or radius, and the start of the arc, are needed to know its path.",
             "Write I, J, K or the radius, and both axes of the plane before the first arc.";
         /// Start and end at different radii.
         ArcRadii = 910, Error, "an arc whose start and end have different radii",
-            "There is no circle through both about this centre; a word of the block is wrong or lost.",
-            "Check the plane, the end point and the centre.";
+            "There is no circle through both about this center; a word of the block is wrong or lost.",
+            "Check the plane, the end point and the center.";
         /// A function without a word it needs.
         MissingWord = 911, Error, "a function without a word that it needs",
             "The control would stop, or use the value of an earlier block.",

@@ -119,9 +119,9 @@ impl Forward {
             let turned = (arc.angle * share * if arc.ccw { 1.0 } else { -1.0 }).to_radians();
             let (sine, cosine) = turned.sin_cos();
             let arm =
-                [from.linear[first] - arc.centre[first], from.linear[second] - arc.centre[second]];
-            at.linear[first] = arc.centre[first] + arm[0] * cosine - arm[1] * sine;
-            at.linear[second] = arc.centre[second] + arm[0] * sine + arm[1] * cosine;
+                [from.linear[first] - arc.center[first], from.linear[second] - arc.center[second]];
+            at.linear[first] = arc.center[first] + arm[0] * cosine - arm[1] * sine;
+            at.linear[second] = arc.center[second] + arm[0] * sine + arm[1] * cosine;
         }
         at
     }

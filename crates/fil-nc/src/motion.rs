@@ -50,8 +50,8 @@ pub enum Rate {
 /// An arc or helix about a principal axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
-    /// Centre, mm; the coordinate along the normal is that of the start.
-    pub centre: [f64; 3],
+    /// Center, mm; the coordinate along the normal is that of the start.
+    pub center: [f64; 3],
     /// Index of the axis that is the plane's normal: 2 for the XY plane.
     pub normal: usize,
     /// Counterclockwise when seen against the normal.
@@ -68,7 +68,7 @@ impl Arc {
 
     /// Length from its start to its end, mm.
     pub fn length(&self, from: [f64; 3], to: [f64; 3]) -> f64 {
-        let [first, second] = self.plane().map(|axis| from[axis] - self.centre[axis]);
+        let [first, second] = self.plane().map(|axis| from[axis] - self.center[axis]);
         let round = self.angle.to_radians() * first.hypot(second);
         round.hypot(to[self.normal] - from[self.normal])
     }

@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use fil_diag::{Diag, Place};
+use fil_diag::{Diag, TextSpan};
 
 use crate::errors::NcCode;
 
@@ -192,7 +192,7 @@ impl Scan<'_> {
         let shown = &tail[..(self.at + 1 - start).clamp(1, tail.len().max(1)).min(tail.len())];
         let shown = String::from_utf8_lossy(shown).trim_end().to_string();
         let from = String::from_utf8_lossy(head).len();
-        let mut place = Place::line(self.name, self.line, String::from_utf8_lossy(self.text));
+        let mut place = TextSpan::line(self.name, self.line, String::from_utf8_lossy(self.text));
         place.span = from..(from + shown.len()).min(place.excerpt.len());
         Box::new(Diag::new(code, format!("`{shown}`")).at(place))
     }
@@ -247,7 +247,7 @@ mod tests {
         ] {
             let diag = read_block(text.as_bytes(), "test", 3).unwrap_err();
             assert_eq!(diag.code.name(), code, "{text}");
-            assert_eq!(diag.places[0].column(), column, "{text}");
+            assert_eq!(diag.spans[0].column(), column, "{text}");
         }
     }
 

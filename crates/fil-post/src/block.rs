@@ -15,9 +15,9 @@ use crate::cause::Cause;
 /// by whoever puts them here, except for the rounding of the address format.
 #[derive(Clone, Debug)]
 pub struct Block {
-    /// What the words put from now on are due to.
+    /// The cause of the words put from now on.
     pub cause: Cause,
-    /// Keep what each word is due to; off by default because it costs time.
+    /// Keep the cause of each word; off by default because it costs time.
     pub noting: bool,
     present: u64,
     scaled: [i64; SLOTS],

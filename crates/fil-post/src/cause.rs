@@ -1,4 +1,4 @@
-//! What blocks and words are due to: a CL record and, where FIL wrote it, the
+//! What blocks and words are caused by: a CL record and, where FIL wrote it, the
 //! FIL lines.
 
 use std::collections::HashMap;
@@ -23,7 +23,7 @@ pub struct Origin {
     pub fil: Vec<FilLine>,
 }
 
-/// What a word or a block is due to, without memory of its own. The default is
+/// The cause of a word or a block, without memory of its own. The default is
 /// the machine: its settings ask for the word, no record does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cause {

@@ -1,4 +1,4 @@
-//! What finished blocks and their words are due to, noted while they are written.
+//! What finished blocks and their words are caused by, noted while they are written.
 
 use std::ops::Range;
 
@@ -22,7 +22,7 @@ pub struct BlockInfo {
     pub cause: Cause,
     /// Range of its words in [`Noted::words`].
     pub words: Range<usize>,
-    /// Range in [`Noted::others`] of what they are due to.
+    /// Range in [`Noted::others`] of their causes.
     pub others: Range<usize>,
 }
 
@@ -43,7 +43,7 @@ impl WordInfo {
         self.0 as u8
     }
 
-    /// Which record it is due to.
+    /// Which record it is caused by.
     pub fn due_to(self) -> DueTo {
         match (self.0 >> 8) as u8 {
             0 => DueTo::Block,
@@ -64,7 +64,7 @@ impl WordInfo {
     }
 }
 
-/// The record that a word of a block is due to.
+/// The record that a word of a block is caused by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DueTo {
     /// The one that made the block.
@@ -77,7 +77,7 @@ pub enum DueTo {
     Other,
 }
 
-/// The blocks on a tape, what they and their words are due to.
+/// The blocks on a tape, what they and their words are caused by.
 #[derive(Clone, Debug, Default)]
 pub struct Noted {
     /// The blocks, in order.
@@ -90,7 +90,7 @@ pub struct Noted {
 }
 
 impl Noted {
-    /// Notes the next word of a block that is due to `block`.
+    /// Notes the next word of a block that is caused by `block`.
     pub fn word(&mut self, letter: u8, start: usize, cause: Cause, block: Cause) {
         let due_to = if cause.is_of_the_record(block) {
             if cause.made_by_fil { DueTo::Fil } else { DueTo::Block }
@@ -111,7 +111,7 @@ impl Noted {
         self.blocks.push(BlockInfo { range, cause, words, others });
     }
 
-    /// The words of a block, each with what it is due to.
+    /// The words of a block, each with its cause.
     pub fn words_of(&self, block: &BlockInfo) -> impl Iterator<Item = (WordInfo, Cause)> {
         let made = block.cause;
         let mut others = self.others[block.others.clone()].iter();

@@ -30,7 +30,7 @@ pub struct Tape {
     /// The finished blocks within `text` and their words, when observed; see
     /// [`Post::observe`](crate::Post::observe).
     pub noted: Option<Noted>,
-    /// What the blocks written next are due to.
+    /// The cause of the blocks written next.
     pub cause: Cause,
     /// The FIL call stacks that causes name.
     pub stacks: Stacks,
@@ -78,7 +78,7 @@ impl Tape {
     }
 
     /// Writes words in the order given, whatever the tape order; all of them,
-    /// whether or not their values have changed. Each comes with what it is due to.
+    /// whether or not their values have changed. Each comes with its cause.
     ///
     /// # Errors
     /// The machine has no such address, or a value does not fit it.
@@ -127,7 +127,7 @@ impl Tape {
     }
 
     /// Writes a text as a block, with or without a sequence number, and with
-    /// what it is due to.
+    /// its cause.
     ///
     /// # Errors
     /// As [`Tape::block`].

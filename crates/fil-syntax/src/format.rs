@@ -17,7 +17,7 @@ use crate::errors::SyntaxCode;
 use crate::parse::{MAX_FILE, parse};
 use crate::print::print;
 use crate::tree::Program;
-use blocks::{Blocks, Place};
+use blocks::{Blocks, Depth};
 pub use bytes::format_bytes;
 use collect::{Above, Layout, Line, Rest, Statement};
 
@@ -77,16 +77,16 @@ struct Writer {
 impl Writer {
     /// Statements that share a line, with what stands above and behind them.
     fn line(&mut self, line: &Line<'_>) {
-        let places: Vec<Place> =
+        let depths: Vec<Depth> =
             line.statements.iter().map(|statement| self.blocks.place(statement)).collect();
-        let first = places.first().copied().unwrap_or_default();
+        let first = depths.first().copied().unwrap_or_default();
         self.above(&line.above, first.comment * STEP);
         let indent = first.statement * STEP;
         match together(&line.statements, indent) {
             Some(text) => self.lines(indent, vec![text]),
             None => {
-                for (statement, place) in line.statements.iter().zip(&places) {
-                    let indent = place.statement * STEP;
+                for (statement, depth) in line.statements.iter().zip(&depths) {
+                    let indent = depth.statement * STEP;
                     self.lines(indent, wrap::lines(&pieces::pieces(statement), indent));
                 }
             }

@@ -10,12 +10,12 @@ use crate::token::{FREE_TEXT_WORDS, Token};
 pub(crate) struct Found<'s> {
     /// The text, or an empty range where a quoted one follows.
     pub(crate) text: Range<usize>,
-    kind: Kind,
+    kind: TextKind,
     rest: &'s str,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Kind {
+enum TextKind {
     /// The rest of the line.
     Line,
     /// A file name after `/`.
@@ -29,13 +29,13 @@ impl<'s> Found<'s> {
     pub(crate) fn tokens(&self) -> Vec<(Token<'s>, Range<usize>)> {
         let slice = &self.rest[self.text.clone()];
         match self.kind {
-            Kind::Line => vec![(Token::FreeText(slice), self.text.clone())],
-            Kind::File => {
+            TextKind::Line => vec![(Token::FreeText(slice), self.text.clone())],
+            TextKind::File => {
                 let slash = self.rest.find('/').unwrap_or(0);
                 let file = (Token::FileName(slice), self.text.clone());
                 vec![(Token::Slash, slash..slash + 1), file]
             }
-            Kind::QuotedWithoutSlash => vec![(Token::Slash, self.text.clone())],
+            TextKind::QuotedWithoutSlash => vec![(Token::Slash, self.text.clone())],
         }
     }
 
@@ -46,7 +46,7 @@ impl<'s> Found<'s> {
 
     /// True for a line of text in which a `;` might be meant to end the statement.
     pub(crate) fn holds_semicolon(&self) -> bool {
-        self.kind == Kind::Line && self.rest[self.text.clone()].contains(';')
+        self.kind == TextKind::Line && self.rest[self.text.clone()].contains(';')
     }
 }
 
@@ -68,7 +68,7 @@ fn file_name(rest: &str) -> Option<Found<'_>> {
     let start = skip_blanks(rest, slash + 1);
     let length = rest[start..].find([' ', '\t', '\r', '\n', ';', '$', '\'']);
     let end = length.map_or(rest.len(), |length| start + length);
-    (end > start).then_some(Found { text: start..end, kind: Kind::File, rest })
+    (end > start).then_some(Found { text: start..end, kind: TextKind::File, rest })
 }
 
 /// The text runs to the end of the line or to a comment. `WORD =` without a
@@ -91,10 +91,10 @@ fn line_text(rest: &str) -> Option<Found<'_>> {
         return None;
     }
     if text.starts_with('\'') {
-        let found = Found { text: start..start, kind: Kind::QuotedWithoutSlash, rest };
+        let found = Found { text: start..start, kind: TextKind::QuotedWithoutSlash, rest };
         return (!slash).then_some(found);
     }
-    Some(Found { text: start..start + text.len(), kind: Kind::Line, rest })
+    Some(Found { text: start..start + text.len(), kind: TextKind::Line, rest })
 }
 
 /// What stands behind a `;` of a free text where that looks like a statement: a word

@@ -1,6 +1,6 @@
 //! The way from text to tree.
 
-use fil_diag::{Diag, Place};
+use fil_diag::{Diag, TextSpan};
 
 use crate::adapter::{Adapter, Shared};
 use crate::errors::SyntaxCode;
@@ -45,7 +45,7 @@ pub fn parse(file: &str, source: &str) -> Parsed {
     report_rest(&mut reader, &shared);
     let mut diags = reader.diags;
     let closing = diags.split_off(diags.len().min(crate::reader::MAX_DIAGS));
-    diags.sort_by_key(|diag| diag.places.first().map(|place| (place.line, place.span.start)));
+    diags.sort_by_key(|diag| diag.spans.first().map(|place| (place.line, place.span.start)));
     diags.extend(closing);
     Parsed { program, diags }
 }
@@ -66,7 +66,7 @@ fn report_rest(reader: &mut Reader<'_>, shared: &Shared) {
 fn beyond_limits(file: &str, source: &str) -> Option<Diag> {
     if source.len() > MAX_FILE {
         let message = format!("the file has {} bytes", source.len());
-        return Some(Diag::new(SyntaxCode::FileTooLarge, message).at(Place::line(
+        return Some(Diag::new(SyntaxCode::FileTooLarge, message).at(TextSpan::line(
             file,
             1,
             String::new(),
@@ -75,6 +75,6 @@ fn beyond_limits(file: &str, source: &str) -> Option<Diag> {
     let (index, line) = source.split('\n').enumerate().find(|(_, line)| line.len() > MAX_LINE)?;
     let head: String = line.chars().take(MAX_EXCERPT).collect();
     let message = format!("the line has {} bytes", line.len());
-    let place = Place::line(file, index as u32 + 1, head);
+    let place = TextSpan::line(file, index as u32 + 1, head);
     Some(Diag::new(SyntaxCode::TooLong, message).at(place))
 }

@@ -2,7 +2,7 @@
 
 use std::convert::Infallible;
 
-use fil_diag::{Diag, LineIndex, Place};
+use fil_diag::{Diag, LineIndex, TextSpan};
 use lalrpop_util::{ErrorRecovery, ParseError};
 
 use crate::adapter::Shared;
@@ -52,7 +52,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The place of a span.
-    pub(crate) fn place(&self, span: Span) -> Place {
+    pub(crate) fn place(&self, span: Span) -> TextSpan {
         self.lines.place(self.file, self.source, span.range())
     }
 
@@ -75,7 +75,7 @@ impl<'a> Reader<'a> {
         } else if !self.shared.stop.replace(true) {
             let message = format!("more than {MAX_DIAGS} messages, reading stopped here");
             let place =
-                diag.places.into_iter().next().unwrap_or_else(|| self.place(self.end_span()));
+                diag.spans.into_iter().next().unwrap_or_else(|| self.place(self.end_span()));
             self.diags.push(Diag::new(SyntaxCode::TooManyErrors, message).at(place));
         }
     }

@@ -8,7 +8,7 @@ fn raises(source: &str, code: u16, line: u32, column: usize) {
     let found: Vec<_> = diags
         .iter()
         .map(|diag| {
-            let place = diag.places.first().expect("a place");
+            let place = diag.spans.first().expect("a place");
             (diag.code.number, place.line, place.column())
         })
         .collect();
@@ -88,7 +88,7 @@ fn e0109_too_many_errors() {
     let diags = parse("t.fil", &"A=(\n".repeat(5000)).diags;
     assert_eq!(diags.len(), 101);
     assert!(diags[..100].iter().all(|diag| diag.code.number == 101));
-    assert_eq!((diags[100].code.number, diags[100].places[0].line), (109, 101));
+    assert_eq!((diags[100].code.number, diags[100].spans[0].line), (109, 101));
 }
 
 #[test]
@@ -116,7 +116,7 @@ fn e0112_unclosed_block() {
     raises("CIMFIL/ON,OP\nDO/L,I=1,2\nCIMFIL/OFF\nFINI", 112, 2, 1);
     raises("CIMFIL/ON,OP\nIF(A)THEN\nDO/L,I=1,2\nENDIF\nCIMFIL/OFF\nFINI", 112, 3, 1);
     let both = parse("t.fil", "CASE/A\nWHEN/1\nIF(B)THEN\nENDCAS\nFINI").diags.remove(0);
-    assert_eq!((both.places[1].line, both.places[1].label.as_str()), (4, "still open at ENDCAS"));
+    assert_eq!((both.spans[1].line, both.spans[1].label.as_str()), (4, "still open at ENDCAS"));
 }
 
 #[test]

@@ -152,7 +152,7 @@ fn what_follows_fini_is_left_alone() {
 #[test]
 fn a_text_with_errors_is_refused() {
     let diags = format("t.fil", "A=1\nB=(\nFINI").expect_err("an error");
-    assert_eq!((diags[0].code.number, diags[0].places[0].line), (101, 2));
+    assert_eq!((diags[0].code.number, diags[0].spans[0].line), (101, 2));
 }
 
 #[test]

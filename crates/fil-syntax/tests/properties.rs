@@ -117,7 +117,7 @@ proptest! {
         let text = parts.concat();
         let parsed = parse("t.fil", &text);
         for diag in &parsed.diags {
-            for place in &diag.places {
+            for place in &diag.spans {
                 prop_assert!(place.excerpt.get(place.span.clone()).is_some());
             }
         }

@@ -54,7 +54,7 @@ impl<'a> Allowed<'a> {
         if !self.checks && !diag.is_error() && !is_finding {
             return false;
         }
-        let name = diag.places.first().map(|place| place.file.as_str());
+        let name = diag.spans.first().map(|place| place.file.as_str());
         let mut files = self.files.iter().filter(|file| Some(file.name) == name);
         files.any(|file| file.comments().allow(diag))
     }
@@ -101,7 +101,7 @@ impl Comments {
     }
 
     fn allow(&self, diag: &Diag) -> bool {
-        let Some(place) = diag.places.first() else { return false };
+        let Some(place) = diag.spans.first() else { return false };
         let name = diag.code.name();
         self.everywhere.contains(&name)
             || self.lines.get(&place.line).is_some_and(|codes| codes.contains(&name))
@@ -143,10 +143,10 @@ fn codes(comment: &str) -> Option<(bool, Vec<String>)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fil_diag::Place;
+    use fil_diag::TextSpan;
 
     fn diag(code: impl Into<&'static Code>, line: u32) -> Diag {
-        Diag::new(code, "").at(Place::line("a.fil", line, ""))
+        Diag::new(code, "").at(TextSpan::line("a.fil", line, ""))
     }
 
     fn allows(text: &str, line: u32) -> bool {

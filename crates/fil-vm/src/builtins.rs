@@ -9,7 +9,7 @@ use crate::postf::Grade;
 
 /// What the compiler does with a built-in function.
 #[derive(Clone, Copy)]
-pub enum Kind {
+pub enum FunctionKind {
     /// A function of that many numbers.
     Numbers(u16, fn(&[f64]) -> Option<f64>),
     /// A function of two numbers, applied in turn to two or more.
@@ -40,17 +40,17 @@ pub enum Kind {
     NamedCommon,
 }
 
-impl Kind {
+impl FunctionKind {
     /// Which argument of such a function is a word or name as it is written.
     pub(crate) fn word_argument(self) -> Option<usize> {
         match self {
-            Kind::WordCode
-            | Kind::Couplet
-            | Kind::HasWord
-            | Kind::NextMotion
-            | Kind::PreviousMotion
-            | Kind::Size => Some(0),
-            Kind::File => Some(1),
+            FunctionKind::WordCode
+            | FunctionKind::Couplet
+            | FunctionKind::HasWord
+            | FunctionKind::NextMotion
+            | FunctionKind::PreviousMotion
+            | FunctionKind::Size => Some(0),
+            FunctionKind::File => Some(1),
             _ => None,
         }
     }
@@ -69,7 +69,7 @@ pub struct Builtin {
     /// True for an extension of filpost, refused under `--strict`.
     pub extension: bool,
     /// What the compiler does with it.
-    pub kind: Kind,
+    pub kind: FunctionKind,
 }
 
 impl Builtin {
@@ -77,7 +77,7 @@ impl Builtin {
     pub fn call(&self) -> String {
         let (name, arguments) = (self.name, self.arguments);
         match self.kind {
-            Kind::Statement => format!("{name}/{arguments}"),
+            FunctionKind::Statement => format!("{name}/{arguments}"),
             _ if !name.contains('/') => format!("{name}({arguments})"),
             _ if arguments.is_empty() => name.to_string(),
             _ => format!("{name},{arguments}"),
@@ -89,7 +89,7 @@ const fn function(
     name: &'static str,
     arguments: &'static str,
     grade: Grade,
-    kind: Kind,
+    kind: FunctionKind,
     doc: &'static str,
 ) -> Builtin {
     Builtin { name, arguments, doc, grade, extension: false, kind }
@@ -98,14 +98,14 @@ const fn function(
 const fn extension(
     name: &'static str,
     arguments: &'static str,
-    kind: Kind,
+    kind: FunctionKind,
     doc: &'static str,
 ) -> Builtin {
     Builtin { name, arguments, doc, grade: Grade::Own, extension: true, kind }
 }
 
+use FunctionKind::{Fold, Numbers};
 use Grade::{Inferred, Own, Published};
-use Kind::{Fold, Numbers};
 
 /// All of them. A function of numbers gives `None`, or a result that
 /// is not finite, outside of its domain.
@@ -227,229 +227,249 @@ pub const BUILTINS: &[Builtin] = &[
         "LNTHF",
         "t",
         Own,
-        Kind::Library(Library::Length, 1, 1),
+        FunctionKind::Library(Library::Length, 1, 1),
         "number of characters of a text",
     ),
     function(
         "INDXF",
         "t,x[,from]",
         Own,
-        Kind::Library(Library::Position, 2, 3),
+        FunctionKind::Library(Library::Position, 2, 3),
         "position of the first x in t, at or after character `from`; 0 when there is none",
     ),
     function(
         "CMPF",
         "t1,t2",
         Own,
-        Kind::Library(Library::Compare, 2, 2),
+        FunctionKind::Library(Library::Compare, 2, 2),
         "order of two texts by their character codes: -1, 0 or 1",
     ),
-    function("CMPRF", "t1,t2", Own, Kind::Library(Library::Compare, 2, 2), "the same as CMPF"),
+    function(
+        "CMPRF",
+        "t1,t2",
+        Own,
+        FunctionKind::Library(Library::Compare, 2, 2),
+        "the same as CMPF",
+    ),
     function(
         "ICHARF",
         "t[,n]",
         Own,
-        Kind::Library(Library::CharacterCode, 1, 2),
+        FunctionKind::Library(Library::CharacterCode, 1, 2),
         "code of character n of a text (Unicode, so ASCII for the usual letters); n is 1 when left out",
     ),
     function(
         "SCALF",
         "t",
         Own,
-        Kind::Library(Library::ToNumber, 1, 1),
+        FunctionKind::Library(Library::ToNumber, 1, 1),
         "the number a text holds, blanks around it allowed; any other text is refused",
     ),
     function(
         "TEXTF",
         "x[,width[,decimals]][,rules]",
         Own,
-        Kind::Library(Library::ToText, 1, 3),
+        FunctionKind::Library(Library::ToText, 1, 3),
         "a number as text; the same as TEXT/CONVF",
     ),
     function(
         "CONVF",
         "x[,width[,decimals]][,rules]",
         Own,
-        Kind::Library(Library::ToText, 1, 3),
+        FunctionKind::Library(Library::ToText, 1, 3),
         "a number as text; the same as TEXT/CONVF",
     ),
     function(
         "TEXT/CLW",
         "",
         Own,
-        Kind::Library(Library::RecordText, 0, 0),
+        FunctionKind::Library(Library::RecordText, 0, 0),
         "text of the current record, which must be one of text (PARTNO, PPRINT, INSERT, …)",
     ),
     function(
         "TEXT/PART",
         "t,from[,to]",
         Own,
-        Kind::Library(Library::Part, 2, 3),
+        FunctionKind::Library(Library::Part, 2, 3),
         "characters `from` to `to` of a text, to its end when `to` is left out; `to` = `from` - 1 gives the empty text",
     ),
     function(
         "TEXT/RANGE",
         "t,from[,to]",
         Own,
-        Kind::Library(Library::Part, 2, 3),
+        FunctionKind::Library(Library::Part, 2, 3),
         "the same as TEXT/PART",
     ),
     function(
         "TEXT/REPEAT",
         "t,n",
         Own,
-        Kind::Library(Library::Repeat, 2, 2),
+        FunctionKind::Library(Library::Repeat, 2, 2),
         "a text n times, one after the other",
     ),
     function(
         "TEXT/LAST",
         "t,n",
         Own,
-        Kind::Library(Library::Last, 2, 2),
+        FunctionKind::Library(Library::Last, 2, 2),
         "the last n characters of a text",
     ),
     function(
         "TEXT/OMIT",
         "t,x",
         Own,
-        Kind::Library(Library::Omit, 2, 2),
+        FunctionKind::Library(Library::Omit, 2, 2),
         "a text without any x in it",
     ),
     function(
         "TEXT/MODIFY",
         "t,old,new",
         Own,
-        Kind::Library(Library::Modify, 3, 3),
+        FunctionKind::Library(Library::Modify, 3, 3),
         "a text with `new` in the place of each `old`",
     ),
-    function("TEXT/UP", "t", Own, Kind::Library(Library::Upper, 1, 1), "a text in upper case"),
-    function("TEXT/LOW", "t", Own, Kind::Library(Library::Lower, 1, 1), "a text in lower case"),
+    function(
+        "TEXT/UP",
+        "t",
+        Own,
+        FunctionKind::Library(Library::Upper, 1, 1),
+        "a text in upper case",
+    ),
+    function(
+        "TEXT/LOW",
+        "t",
+        Own,
+        FunctionKind::Library(Library::Lower, 1, 1),
+        "a text in lower case",
+    ),
     function(
         "TEXT/CONVI",
         "n[,width][,rules]",
         Own,
-        Kind::Library(Library::WholeToText, 1, 2),
+        FunctionKind::Library(Library::WholeToText, 1, 2),
         "a whole number as text, right in its width; rules: PLUS, ZEROS; too narrow a width is refused",
     ),
     function(
         "TEXT/CONVF",
         "x[,width[,decimals]][,rules]",
         Own,
-        Kind::Library(Library::ToText, 1, 3),
+        FunctionKind::Library(Library::ToText, 1, 3),
         "a number as text, right in its width (0: as wide as it is), shortest without `decimals`, else rounded half away from zero; rules: PLUS + before positive numbers, ZEROS zeros in place of blanks in front, TRIM no zeros at the end, POINT a point in every number, NOLEAD no zero before the point",
     ),
     function(
         "TEXT/READ",
         "unit",
         Own,
-        Kind::Library(Library::ReadLine, 1, 1),
+        FunctionKind::Library(Library::ReadLine, 1, 1),
         "the next line of a file open for reading; needs a folder granted",
     ),
     function(
         "FILEF",
         "unit,op[,name]",
         Own,
-        Kind::File,
+        FunctionKind::File,
         "acts on an outside file; op: READ, WRITE, APPEND (open the file), CLOSE, REWIND, DELETE, END (1 when no line is left to read); 0, or 1 when READ or DELETE finds no such file; units 1 and 2; needs a folder granted",
     ),
     function(
         "SPAWNF",
         "'command'",
         Own,
-        Kind::Library(Library::Spawn, 1, 1),
+        FunctionKind::Library(Library::Spawn, 1, 1),
         "has the embedding program run a command, where it allows that, and gives its status",
     ),
     function(
         "DATEF",
         "[n]",
         Own,
-        Kind::Library(Library::Date, 0, 1),
+        FunctionKind::Library(Library::Date, 0, 1),
         "date as text, 2026-01-31, or its year (1), month (2) or day (3); needs a clock granted",
     ),
     function(
         "TIMEF",
         "[n]",
         Own,
-        Kind::Library(Library::Time, 0, 1),
+        FunctionKind::Library(Library::Time, 0, 1),
         "time as text, 12:30:00, or its hour (1), minute (2) or second (3); needs a clock granted",
     ),
     function(
         "ICODEF",
         "word",
         Published,
-        Kind::WordCode,
+        FunctionKind::WordCode,
         "integer code of a vocabulary word, of user words too",
     ),
     function(
         "POSTF",
         "n,…",
         Published,
-        Kind::Postf,
+        FunctionKind::Postf,
         "post interface; see the table of POSTF numbers",
     ),
     extension(
         "COUPLF",
         "word[,default]",
-        Kind::Couplet,
+        FunctionKind::Couplet,
         "the number after a minor word in the current record",
     ),
     extension(
         "HASF",
         "word",
-        Kind::HasWord,
+        FunctionKind::HasWord,
         "1 when the current record has that minor word, else 0",
     ),
     extension(
         "NEXTF",
         "word",
-        Kind::NextMotion,
+        FunctionKind::NextMotion,
         "X, Y, Z, I, J or K of the next motion, without consuming it; RAPID: 1 when it is a rapid move, else 0",
     ),
     extension(
         "PREVF",
         "word",
-        Kind::PreviousMotion,
+        FunctionKind::PreviousMotion,
         "X, Y, Z, I, J or K of the previous motion; RAPID: 1 when it was a rapid move, else 0",
     ),
-    extension("LASTF", "letter", Kind::LastWritten, "last value written for a letter"),
-    extension("COMF", "'name'", Kind::NamedCommon, "a common location by its name"),
-    extension("SIZEF", "name", Kind::Size, "number of elements of an array or data table"),
+    extension("LASTF", "letter", FunctionKind::LastWritten, "last value written for a letter"),
+    extension("COMF", "'name'", FunctionKind::NamedCommon, "a common location by its name"),
+    extension("SIZEF", "name", FunctionKind::Size, "number of elements of an array or data table"),
     extension(
         "DATA",
         "name,v1,v2,…",
-        Kind::Statement,
+        FunctionKind::Statement,
         "declares a table of numbers and texts that is read as name(i) and can't be changed",
     ),
     extension(
         "WRITE",
         "unit,v1,v2,…",
-        Kind::Statement,
+        FunctionKind::Statement,
         "writes texts and numbers, one after the other, as a line of a file open for writing",
     ),
     extension(
         "ERROR",
         "item,…",
-        Kind::Statement,
+        FunctionKind::Statement,
         "refuses the input: the run ends with E0325, whose message is the texts and numbers one after the other, and there is no NC program",
     ),
     extension(
         "WARN",
         "item,…",
-        Kind::Statement,
+        FunctionKind::Statement,
         "adds the warning W0326, whose message is the texts and numbers one after the other; the run goes on",
     ),
 ];
 
 /// True for the word of a statement of our own.
 pub(crate) fn is_statement(word: &str) -> bool {
-    let is_it = |builtin: &Builtin| builtin.name == word && matches!(builtin.kind, Kind::Statement);
+    let is_it =
+        |builtin: &Builtin| builtin.name == word && matches!(builtin.kind, FunctionKind::Statement);
     BUILTINS.iter().any(is_it)
 }
 
 /// The index of a built-in function or of a form, `TEXT/UP`, in [`BUILTINS`].
 pub(crate) fn find(name: &str) -> Option<usize> {
-    let is_it =
-        |builtin: &Builtin| builtin.name == name && !matches!(builtin.kind, Kind::Statement);
+    let is_it = |builtin: &Builtin| {
+        builtin.name == name && !matches!(builtin.kind, FunctionKind::Statement)
+    };
     BUILTINS.iter().position(is_it)
 }
 

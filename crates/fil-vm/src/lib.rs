@@ -1,7 +1,7 @@
 //! FIL compiler and virtual machine.
 //!
 //! [`load`] reads FIL files into a [`Module`]: register bytecode with every
-//! name resolved. A [`Machine`] runs its global area once and then a section
+//! name resolved. A [`Interpreter`] runs its global area once and then a section
 //! for each CL record that has one. It does no I/O: everything outside goes
 //! through [`Host`].
 
@@ -35,7 +35,7 @@ pub use disassemble::disassemble;
 pub use functions::{Argument, Functions, Returned};
 pub use host::{CommonKind, FileMode, Files, Host, Site};
 pub use lint::{MachineFacts, StoringInCommon};
-pub use machine::{Limits, Machine, Outcome};
+pub use machine::{Interpreter, Limits, Outcome};
 pub use module::{File, Module, SectionId};
 pub use moment::Moment;
 pub use postf::{Compat, PostfOp, SectionMode};

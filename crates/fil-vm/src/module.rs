@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use fil_cl::{Record, Vocabulary, WordId};
-use fil_diag::{LineIndex, Place};
+use fil_diag::{LineIndex, TextSpan};
 use fil_syntax::tree::Span;
 
 use crate::library::LibraryCall;
@@ -42,7 +42,7 @@ impl File {
     }
 
     /// The place of a span of this file.
-    pub fn place(&self, span: Span) -> Place {
+    pub fn place(&self, span: Span) -> TextSpan {
         self.lines.place(&self.name, &self.text, span.range())
     }
 }
@@ -187,7 +187,7 @@ impl Module {
     }
 
     /// Where a section stands.
-    pub fn section_place(&self, section: SectionId) -> Place {
+    pub fn section_place(&self, section: SectionId) -> TextSpan {
         let section = &self.sections[usize::from(section.0)];
         self.files[usize::from(section.file)].place(section.span)
     }
@@ -204,7 +204,7 @@ impl Module {
     }
 
     /// The place of a statement.
-    pub(crate) fn place(&self, statement: &Statement) -> Place {
+    pub(crate) fn place(&self, statement: &Statement) -> TextSpan {
         self.files[usize::from(statement.file)].place(statement.span)
     }
 }

@@ -37,11 +37,11 @@ pub(crate) fn refuse(search: Search<'_>, allowed: &Allowed<'_>, diags: &mut [Dia
                 }
                 let is_it = |diag: &&mut Diag| {
                     diag.code == <&Code>::from(SyntaxCode::ClosedBySection)
-                        && diag.places.first() == error.places.first()
+                        && diag.spans.first() == error.spans.first()
                 };
                 if let Some(warning) = diags.iter_mut().find(is_it) {
                     error.message = format!("{}, and {sent} stands in it", warning.message);
-                    error.places.clone_from(&warning.places);
+                    error.spans.clone_from(&warning.spans);
                     *warning = error;
                 }
             }

@@ -9,7 +9,7 @@ pub fn findings(diags: &[Diag]) -> Value {
 }
 
 fn finding(diag: &Diag) -> Value {
-    let place = diag.places.first();
+    let place = diag.spans.first();
     json!({
         "code": diag.code.name(),
         "severity": match diag.code.severity {
@@ -20,7 +20,7 @@ fn finding(diag: &Diag) -> Value {
         "message": diag.message,
         "file": place.map(|place| &place.file),
         "line": place.map(|place| place.line),
-        "column": place.map(filpost::Place::column),
+        "column": place.map(filpost::TextSpan::column),
         "hint": diag.hint.as_deref().unwrap_or(diag.code.hint),
         "notes": diag.notes,
     })

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::io::IsTerminal;
 
-use filpost::{Diag, Place, Severity};
+use filpost::{Diag, Severity, TextSpan};
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode,
     SourceSpan, SpanContents,
@@ -69,7 +69,7 @@ struct Shown {
 
 /// The diagnostic at its first line, and then its places in other lines.
 fn all_shown(diag: &Diag) -> Vec<Shown> {
-    let first = diag.places.first();
+    let first = diag.spans.first();
     let severity = match diag.code.severity {
         Severity::Warning => miette::Severity::Warning,
         Severity::Error => miette::Severity::Error,
@@ -81,7 +81,7 @@ fn all_shown(diag: &Diag) -> Vec<Shown> {
         label.set_label((!first.label.is_empty()).then(|| clean(&first.label)));
     }
     let mut list = vec![shown];
-    for place in diag.places.iter().skip(1) {
+    for place in diag.spans.iter().skip(1) {
         let message = if place.label.is_empty() { "see here" } else { &place.label };
         list.push(Shown::new(miette::Severity::Advice, clean(message), Some(place)));
     }
@@ -89,7 +89,7 @@ fn all_shown(diag: &Diag) -> Vec<Shown> {
 }
 
 impl Shown {
-    fn new(severity: miette::Severity, message: String, place: Option<&Place>) -> Shown {
+    fn new(severity: miette::Severity, message: String, place: Option<&TextSpan>) -> Shown {
         let (mut source, mut labels) = (None, Vec::new());
         if let Some(place) = place {
             let (text, span) = shown_excerpt(place);
@@ -104,7 +104,7 @@ impl Shown {
 
 /// The excerpt as it is shown, and the place within it: control characters
 /// are replaced, a long line is cut around the place.
-fn shown_excerpt(place: &Place) -> (String, std::ops::Range<usize>) {
+fn shown_excerpt(place: &TextSpan) -> (String, std::ops::Range<usize>) {
     let (mut text, mut from, mut to) = (String::new(), None, None);
     let count = place.excerpt.chars().count();
     let at = place.excerpt.get(..place.span.start).map_or(0, |head| head.chars().count());

@@ -1,6 +1,6 @@
 //! Diagnostics as SARIF 2.1.0, the form that code hosts and editors read.
 
-use filpost::{Code, Diag, Place, Severity};
+use filpost::{Code, Diag, Severity, TextSpan};
 use serde_json::{Value, json};
 
 /// The schema of the form.
@@ -41,7 +41,7 @@ fn rule(code: &Code) -> Value {
 
 fn result(diag: &Diag, rules: &[&Code]) -> Value {
     let hint = diag.hint.as_deref().map_or_else(String::new, |hint| format!(" ({hint})"));
-    let (first, others) = diag.places.split_first().map_or((None, &[][..]), |(f, o)| (Some(f), o));
+    let (first, others) = diag.spans.split_first().map_or((None, &[][..]), |(f, o)| (Some(f), o));
     let mut result = json!({
         "ruleId": diag.code.name(),
         "ruleIndex": rules.iter().position(|code| *code == diag.code),
@@ -56,7 +56,7 @@ fn result(diag: &Diag, rules: &[&Code]) -> Value {
 }
 
 /// A place; columns count characters from 1 and end behind the last one.
-fn location(place: &Place) -> Value {
+fn location(place: &TextSpan) -> Value {
     let marked = place.excerpt.get(place.span.clone()).unwrap_or_default();
     let column = place.column();
     json!({

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use filpost::trace::{self, Answer, Asked, Line, LineWord, Made, Options, Place};
+use filpost::trace::{self, Answer, Asked, FilePosition, Line, LineWord, Made, Options};
 use filpost::{Diag, Error};
 
 use crate::args::{AnswerFormat, TraceArgs};
@@ -15,7 +15,7 @@ use crate::{Status, output, render, setup, summary};
 /// # Errors
 /// A question or a map that can't be used.
 pub fn run(args: &TraceArgs) -> Result<Status, Error> {
-    let Some(place) = Place::parse(&args.place) else {
+    let Some(place) = FilePosition::parse(&args.place) else {
         let message = format!("{} names no line", args.place);
         render::to_stderr(&Diag::new(CommandCode::NoLine, message));
         return Ok(Status::Usage);
@@ -75,9 +75,9 @@ fn head(text: &mut String, answer: &Answer) {
         let _ = writeln!(text, "  taken by the section {section} without any effect on the post");
     }
     let made = match answer.in_all {
-        0 => "no line of the program is due to it".to_string(),
-        1 => "1 line of the program is due to it".to_string(),
-        count => format!("{count} lines of the program are due to it"),
+        0 => "no line of the program is caused by it".to_string(),
+        1 => "1 line of the program is caused by it".to_string(),
+        count => format!("{count} lines of the program are caused by it"),
     };
     let _ = writeln!(text, "  {made}");
 }
@@ -132,7 +132,7 @@ fn record(made: &Made) -> String {
     format!("record {}, {}:{}{statement}", made.record, made.cl, made.line)
 }
 
-/// What a word is due to, as seen from its block; the statement of a record is
+/// The cause of a word, as seen from its block; the statement of a record is
 /// told once.
 fn due(word: &LineWord, block: &Made, told: &mut BTreeSet<u32>) -> String {
     if word.made.by_machine() {

@@ -7,11 +7,11 @@ use tempfile::TempDir;
 const CL: &str = "PARTNO / 7\nUNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\nRAPID\nGOTO / 0, 0, 5\n\
                   FEDRAT / 200, MMPM\nGOTO / 0, 0, 0\nGOTO / 30, 10, 0\nFINI\n";
 
-struct Place(TempDir);
+struct Folder(TempDir);
 
-impl Place {
-    fn new() -> Place {
-        let place = Place(TempDir::new().expect("a folder for the test"));
+impl Folder {
+    fn new() -> Folder {
+        let place = Folder(TempDir::new().expect("a folder for the test"));
         place.write("a part.ncl", CL);
         place
     }
@@ -39,7 +39,7 @@ fn text(bytes: &[u8]) -> String {
 
 #[test]
 fn a_cl_file_becomes_an_svg_on_standard_output() {
-    let place = Place::new();
+    let place = Folder::new();
     let output = place.run(&["plot", "a part.ncl", "--view", "xy"]);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     let picture = text(&output.stdout);
@@ -50,7 +50,7 @@ fn a_cl_file_becomes_an_svg_on_standard_output() {
 
 #[test]
 fn a_program_becomes_a_page_with_its_cl_file_and_its_map() {
-    let place = Place::new();
+    let place = Folder::new();
     let posted = place.run(&["post", "a part.ncl", "-o", "out.nc", "--map=out.nc.map"]);
     assert_eq!(posted.status.code(), Some(0), "{}", text(&posted.stderr));
     let output = place.run(&["plot", "out.nc", "--cl", "a part.ncl", "-o", "path.html"]);
@@ -62,7 +62,7 @@ fn a_program_becomes_a_page_with_its_cl_file_and_its_map() {
 
 #[test]
 fn a_map_of_another_run_is_refused_when_named_and_left_out_when_found() {
-    let place = Place::new();
+    let place = Folder::new();
     place.run(&["post", "a part.ncl", "-o", "out.nc", "--map=out.nc.map"]);
     let other = place.read("out.nc").expect("the program").replace("X30.", "X31.");
     place.write("out.nc", &other);
@@ -77,7 +77,7 @@ fn a_map_of_another_run_is_refused_when_named_and_left_out_when_found() {
 
 #[test]
 fn a_program_of_another_dialect_is_refused_and_nothing_written() {
-    let place = Place::new();
+    let place = Folder::new();
     place.write("out.nc", "G0 X1. Y1.\nG65 P9810 X5.\nM30\n");
     let output = place.run(&["plot", "out.nc", "-p", "fanuc-mill", "-o", "path.svg"]);
     assert_eq!(output.status.code(), Some(1));
@@ -87,7 +87,7 @@ fn a_program_of_another_dialect_is_refused_and_nothing_written() {
 
 #[test]
 fn options_of_a_program_do_not_go_with_a_cl_file() {
-    let place = Place::new();
+    let place = Folder::new();
     let output = place.run(&["plot", "a part.ncl", "--cl", "a part.ncl"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(text(&output.stderr).contains("is a CL file"), "{}", text(&output.stderr));
@@ -95,7 +95,7 @@ fn options_of_a_program_do_not_go_with_a_cl_file() {
 
 #[test]
 fn a_picture_of_no_known_kind_is_wrong_usage() {
-    let place = Place::new();
+    let place = Folder::new();
     let output = place.run(&["plot", "a part.ncl", "-o", "path.png"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(text(&output.stderr).contains(".svg or .html"), "{}", text(&output.stderr));

@@ -98,7 +98,7 @@ mod tests {
     fn mistakes_have_their_place() {
         let at = |text: &str| {
             let diag = read_compat("c", text).unwrap_err();
-            format!("{} {}", diag.code.name(), diag.places[0])
+            format!("{} {}", diag.code.name(), diag.spans[0])
         };
         assert_eq!(at("[postf]\n13 = 'fly'"), "E0704 c:2:6");
         assert_eq!(at("sections = 'take'"), "E0704 c:1:1");

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use fil_cl::{Record, Vocabulary, record::kind};
 use fil_diag::Result;
 use fil_post::Origin;
-use fil_vm::{Machine, SectionId, SectionMode};
+use fil_vm::{Interpreter, SectionId, SectionMode};
 
 use crate::error::{Error, RunCode};
 use crate::event::Event;
@@ -29,7 +29,7 @@ const FUEL_OF_READING_AGAIN: u64 = 100;
 pub(crate) struct Engine<'o, S> {
     outside: Outside<'o, S>,
     vocabulary: Vocabulary,
-    machine: Machine,
+    machine: Interpreter,
     has_sections: bool,
     /// The last record of the file that was reached, and fuel left to read it
     /// and those before it again.
@@ -48,7 +48,7 @@ impl<'o, S: Records> Engine<'o, S> {
     pub(crate) fn new(start: Start<'o>, records: S, observed: bool) -> Self {
         let shared = Arc::clone(&start.program.shared);
         let functions = Arc::clone(&shared.functions);
-        let machine = Machine::new(Arc::clone(&shared.module), shared.limits, functions);
+        let machine = Interpreter::new(Arc::clone(&shared.module), shared.limits, functions);
         let mut outside = Outside::new(start, records);
         if observed || outside.map.is_some() {
             outside.post.observe();

@@ -66,7 +66,7 @@ pub use units::{UnitSource, unit_named};
 
 pub use fil_cl as cl;
 pub use fil_diag::suggest;
-pub use fil_diag::{Code, Diag, Place, Severity};
+pub use fil_diag::{Code, Diag, Severity, TextSpan};
 pub use fil_machine::{
     Commons, Kind, Letter, Unit, address, commons, files as settings, locations,
 };

@@ -1,7 +1,7 @@
 //! Records that a program hands over from memory.
 
 use fil_cl::{ClCode, Recognized, Record, Vocabulary};
-use fil_diag::{Diag, Place, Result};
+use fil_diag::{Diag, Result, TextSpan};
 
 use crate::error::{Error, RunCode};
 use crate::program::Program;
@@ -53,14 +53,14 @@ impl<I: Iterator<Item = Record>> Records for Memory<I> {
             Some(fault) => {
                 let diag = RunCode::BadRecord.diag(format!("record {}: {fault}", record.number));
                 // What it names may be no word, so it is not shown.
-                Err(Box::new(diag.at(Place::line(&self.name, record.line, ""))))
+                Err(Box::new(diag.at(TextSpan::line(&self.name, record.line, ""))))
             }
         }
     }
 
     fn seek(&mut self, number: u32) -> Result<()> {
         let message = format!("record {number} is asked for after record {}", self.number);
-        Err(Box::new(ClCode::NotSeekable.diag(message).at(Place::line(
+        Err(Box::new(ClCode::NotSeekable.diag(message).at(TextSpan::line(
             &self.name,
             self.number,
             "",

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use fil_cl::vocabulary::words;
 use fil_cl::{Record, Vocabulary, record::kind};
-use fil_diag::{Diag, Place};
+use fil_diag::{Diag, TextSpan};
 use fil_machine::commons::EMPTY;
 use fil_machine::locations::MESSAGE_TO_TAPE;
 use fil_machine::{Kind, Unit, stored};
@@ -96,7 +96,7 @@ impl<'o, S: Records> Outside<'o, S> {
         Ok(())
     }
 
-    /// Reads the next record; what the post writes from now on is due to it.
+    /// Reads the next record; what the post writes from now on is caused by it.
     pub fn read(
         &mut self,
         record: &mut Record,
@@ -144,9 +144,9 @@ impl<'o, S: Records> Outside<'o, S> {
     }
 
     /// Tells the warnings of the post, which came at this place.
-    fn take_warnings(&mut self, place: Option<&Place>) {
+    fn take_warnings(&mut self, place: Option<&TextSpan>) {
         for mut warning in std::mem::take(&mut self.post.control.warnings.list) {
-            warning.places.extend(place.cloned());
+            warning.spans.extend(place.cloned());
             self.tell(warning);
         }
     }
@@ -173,13 +173,13 @@ impl<'o, S: Records> Outside<'o, S> {
     }
 
     /// Where a record stands: in the CL file, or in FIL for one that FIL has made.
-    pub fn place(&self, record: &Record, vocabulary: &Vocabulary) -> Place {
+    pub fn place(&self, record: &Record, vocabulary: &Vocabulary) -> TextSpan {
         if let Some(made) = self.fil_line(record) {
             let file = &self.module.files[usize::from(made.file)].name;
-            return Place::line(file, made.line, statement_text(record, vocabulary));
+            return TextSpan::line(file, made.line, statement_text(record, vocabulary));
         }
         let line = if record.line == 0 { self.post.control.tape.cause.line } else { record.line };
-        Place::line(&self.cl_name, line, statement_text(record, vocabulary))
+        TextSpan::line(&self.cl_name, line, statement_text(record, vocabulary))
     }
 
     /// Notes what a section did with its record, given by number and line.

@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use fil_cl::{Record, Vocabulary, Word, reader, record::kind, words as w};
-use fil_diag::{Diag, Place};
+use fil_diag::{Diag, TextSpan};
 
 use crate::error::{Error, RunCode};
 use crate::ready;
@@ -57,7 +57,7 @@ pub struct Asked {
     /// The first word that only a lathe has.
     pub turning: Option<String>,
     /// Where MACHIN stands.
-    place: Option<Place>,
+    place: Option<TextSpan>,
 }
 
 impl std::fmt::Display for Machin {
@@ -96,7 +96,7 @@ pub fn choose(asked: &Asked, folders: &[PathBuf]) -> Result<Choice, Error> {
 }
 
 /// E0714 with all that was looked for.
-fn no_post(machin: &Machin, place: Option<Place>, folders: &[PathBuf]) -> Box<Diag> {
+fn no_post(machin: &Machin, place: Option<TextSpan>, folders: &[PathBuf]) -> Box<Diag> {
     let file = file_name(&machin.name, 'p', machin.number);
     let folders: Vec<String> = folders
         .iter()
@@ -109,7 +109,7 @@ fn no_post(machin: &Machin, place: Option<Place>, folders: &[PathBuf]) -> Box<Di
     let mut diag = Diag::new(RunCode::NoPost, format!("there is no post for {machin}"))
         .note(format!("looked for the option file {file} in {}", folders.join(", ")))
         .note(format!("looked for {} among the ready posts {}", machin.name, names.join(", ")));
-    diag.places.extend(place);
+    diag.spans.extend(place);
     Box::new(diag)
 }
 
@@ -131,7 +131,7 @@ pub fn confirm(
         None => "a generic post was chosen: no MACHIN stands before the motions".to_string(),
     };
     let diag = RunCode::NoPost.diag(format!("{machin} comes too late; {was}"));
-    Err(Error::Run(Box::new(diag.at(Place::line(cl_name, *line, machin.to_string())))))
+    Err(Error::Run(Box::new(diag.at(TextSpan::line(cl_name, *line, machin.to_string())))))
 }
 
 /// What the first records of a CL text say; `name` is what messages show, `options` say
@@ -153,7 +153,7 @@ pub fn asked(input: impl Read, name: &str, options: reader::Options) -> Result<A
             most = LOOK;
         }
         if record.kind == kind::POST && record.major == w::MACHIN {
-            let place = Place::line(name, record.line, statement_text(&record, &vocabulary));
+            let place = TextSpan::line(name, record.line, statement_text(&record, &vocabulary));
             asked.machin = Some(machin(&record, &vocabulary).map_err(|message| {
                 Error::Run(Box::new(Diag::new(RunCode::NoPost, message).at(place.clone())))
             })?);

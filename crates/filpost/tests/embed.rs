@@ -130,7 +130,7 @@ fn a_loop_of_fil_is_cancelled_with_its_line() {
     ] {
         let (error, time) = cancelled(fil);
         assert!(error.is_cancelled(), "{fil}: {error}");
-        assert_eq!(error.diags()[0].places[0].file, "loop.fil", "{fil}");
+        assert_eq!(error.diags()[0].spans[0].file, "loop.fil", "{fil}");
         assert!(time < Duration::from_secs(5), "{fil}: {time:?}");
     }
 }
@@ -172,7 +172,7 @@ fn a_function_returns_numbers_and_texts_and_refuses() {
     assert!(text.contains("(SIX)") && text.contains("(MORE)"), "{text}");
     let error = nc(&built("XX=PICKF(3)\nFINI\n").expect("a program"), PART).expect_err("refused");
     assert_eq!(codes(&error), ["E0317"]);
-    assert_eq!((error.diags()[0].places[0].line, error.is_cancelled()), (1, false));
+    assert_eq!((error.diags()[0].spans[0].line, error.is_cancelled()), (1, false));
 }
 
 /// A writer with room for some bytes.
@@ -313,7 +313,7 @@ fn records_from_memory_are_named_by_their_numbers() {
     let run = program.start().cl_name("path of the robot");
     let error = run.run_records(vocabulary, list, io::sink()).expect_err("beyond the limits");
     assert_eq!(codes(&error), ["E0501"]);
-    let place = &error.diags()[0].places[0];
+    let place = &error.diags()[0].spans[0];
     assert_eq!((place.file.as_str(), place.line), ("path of the robot", 7));
     // Going back is for CL files.
     let fil = "CIMFIL/ON,SPINDL\nDMY=POSTF(15)\nCIMFIL/OFF\nFINI\n";

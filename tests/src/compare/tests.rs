@@ -9,8 +9,8 @@ fn path(actions: Vec<Action>) -> ToolPath {
 }
 
 fn arc(to: Point, ccw: bool) -> Action {
-    let centre = [15.0, 0.0, 0.0];
-    Action::Arc(Arc { to, centre, normal: Axis::Z, ccw, turns: 1 }, Some(100.0))
+    let center = [15.0, 0.0, 0.0];
+    Action::Arc(Arc { to, center, normal: Axis::Z, ccw, turns: 1 }, Some(100.0))
 }
 
 fn feed(to: Point) -> Action {
@@ -91,10 +91,10 @@ fn a_turned_arc_is_reported() {
 }
 
 #[test]
-fn a_moved_centre_is_reported() {
-    let centre = [15.0, 0.01, 0.0];
-    let moved = Arc { to: [20.0, 0.0, 0.0], centre, normal: Axis::Z, ccw: true, turns: 1 };
-    one(|nc| nc[5] = Action::Arc(moved, None), "arc with centre X15.0000 Y0.0100", 4, 6);
+fn a_moved_center_is_reported() {
+    let center = [15.0, 0.01, 0.0];
+    let moved = Arc { to: [20.0, 0.0, 0.0], center, normal: Axis::Z, ccw: true, turns: 1 };
+    one(|nc| nc[5] = Action::Arc(moved, None), "arc with center X15.0000 Y0.0100", 4, 6);
 }
 
 #[test]

@@ -329,8 +329,8 @@ impl<'a> Reading<'a> {
         match canon {
             Canon::Traverse(to) => return Ok(Some(NcAct::Rapid(self.point(to)))),
             Canon::Feed(to) => return Ok(Some(NcAct::Feed(self.point(to)))),
-            Canon::Arc { end, centre, turns, height, .. } => {
-                return Ok(Some(self.arc(*end, *centre, *turns, *height)));
+            Canon::Arc { end, center, turns, height, .. } => {
+                return Ok(Some(self.arc(*end, *center, *turns, *height)));
             }
             Canon::Tap(_) => return Err("rigid tapping is not in these programs".to_string()),
             Canon::ChangeTool => return Ok(Some(NcAct::Tool(self.selected))),

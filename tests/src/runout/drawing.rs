@@ -31,11 +31,11 @@ fn from_above(picture: &mut Picture, middle: [f64; 2], number: usize, section: &
         let (sine, cosine) = c.to_radians().sin_cos();
         [middle[0] + radius * cosine, middle[1] + radius * sine]
     };
-    let centre = at(eccentric, cmax);
+    let center = at(eccentric, cmax);
     picture.circle(middle, RADIUS, TABLE);
     cross(picture, middle, 6.0, TABLE);
-    picture.circle(centre, RADIUS, PART);
-    picture.circle(centre, 1.5, PART);
+    picture.circle(center, RADIUS, PART);
+    picture.circle(center, 1.5, PART);
     picture.line(&[at(RADIUS - eccentric, cmin), at(RADIUS + eccentric, cmax)], PROBE);
     for (radius, c, name) in [(RADIUS - eccentric, cmin, "MIN"), (RADIUS + eccentric, cmax, "MAX")]
     {
@@ -47,7 +47,7 @@ fn from_above(picture: &mut Picture, middle: [f64; 2], number: usize, section: &
         picture.text([middle[0], -RADIUS - 29.0 - 9.0 * line], &text);
     };
     let (sine, cosine) = (cmax + 90.0).to_radians().sin_cos();
-    let beside = [centre[0] + 9.0 * cosine, centre[1] + 9.0 * sine - 2.0];
+    let beside = [center[0] + 9.0 * cosine, center[1] + 9.0 * sine - 2.0];
     picture.text(beside, &format!("P{number}"));
     picture.text([middle[0], RADIUS + 30.0], &format!("Section {number}, Z{height}"));
     label(picture, 0.0, format!("MIN {min:.2} at C{cmin:.1}"));

@@ -2,7 +2,7 @@
 //!
 //! A part clamped on a C table stands beside the table axis and leans. A probe finds,
 //! in two sections of a cylinder of the part, the least and the largest reading with
-//! their C positions; from these come the centres P1 and P2, the place of the line
+//! their C positions; from these come the centers P1 and P2, the place of the line
 //! P1P2 relative to the table axis, and a 3x4 matrix that takes points of the CL file
 //! onto the part as it stands. The method and the formulas (1) to (6) are those of
 //! P. Hadjiiski, Ts. Kaldashev and O. Karakostopulo, Mashinostroene i mashinoznanie 19;
@@ -52,7 +52,7 @@ pub struct Section {
 /// What is believed of the readings, and what counts as zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
-    /// How well a centre is probed, mm: a smaller lean between the sections is none,
+    /// How well a center is probed, mm: a smaller lean between the sections is none,
     /// and axes that pass at a smaller distance intersect.
     pub tolerance: f64,
     /// Largest run-out of a section, largest less least reading, mm.
@@ -135,8 +135,8 @@ impl std::error::Error for RunOutError {}
 /// How a part stands, and the matrix that follows it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunOut {
-    /// P1 and P2, the centres of the sections, mm.
-    pub centres: [Point3<f64>; 2],
+    /// P1 and P2, the centers of the sections, mm.
+    pub centers: [Point3<f64>; 2],
     /// Direction cosines (2) of the part's axis; it points up.
     pub direction: Unit<Vector3<f64>>,
     /// Angle (3) between the axes, degrees.
@@ -160,10 +160,10 @@ impl RunOut {
         if !(bounds.tolerance.is_finite() && bounds.tolerance > 0.0) {
             return Err(RunOutError::Number);
         }
-        let centres = [centre(1, &sections[0], bounds)?, centre(2, &sections[1], bounds)?];
-        let mut along = centres[1] - centres[0];
+        let centers = [center(1, &sections[0], bounds)?, center(2, &sections[1], bounds)?];
+        let mut along = centers[1] - centers[0];
         if along.z == 0.0 {
-            return Err(RunOutError::SameHeight(centres[0].z));
+            return Err(RunOutError::SameHeight(centers[0].z));
         }
         along *= along.z.signum();
         let table = Vector3::z();
@@ -177,17 +177,17 @@ impl RunOut {
             return Err(RunOutError::TooSteep(angle));
         }
         if across.norm() <= bounds.tolerance {
-            return Ok(Self::parallel(centres, along, angle));
+            return Ok(Self::parallel(centers, along, angle));
         }
-        let distance = (centres[0].coords.dot(&across) / across.norm()).abs();
+        let distance = (centers[0].coords.dot(&across) / across.norm()).abs();
         let intersect = distance <= bounds.tolerance;
-        let origin = centres[0] - along * (centres[0].z / along.z);
+        let origin = centers[0] - along * (centers[0].z / along.z);
         let direction = Unit::new_normalize(along);
         let (fi, psi) = ((-direction.y).atan2(direction.z), direction.x.asin());
         let turn = Rotation3::from_axis_angle(&Vector3::x_axis(), fi)
             * Rotation3::from_axis_angle(&Vector3::y_axis(), psi);
         Ok(RunOut {
-            centres,
+            centers,
             direction,
             angle,
             distance,
@@ -197,11 +197,11 @@ impl RunOut {
     }
 
     /// What is left of the lean can't be told from the error of the probe.
-    fn parallel(centres: [Point3<f64>; 2], along: Vector3<f64>, angle: f64) -> Self {
-        let mut middle = nalgebra::center(&centres[0], &centres[1]).coords;
+    fn parallel(centers: [Point3<f64>; 2], along: Vector3<f64>, angle: f64) -> Self {
+        let mut middle = nalgebra::center(&centers[0], &centers[1]).coords;
         middle.z = 0.0;
         RunOut {
-            centres,
+            centers,
             direction: Unit::new_normalize(along),
             angle,
             distance: middle.norm(),
@@ -235,9 +235,9 @@ impl RunOut {
     }
 }
 
-/// The centre of a section: half the run-out towards the largest reading. What the two
+/// The center of a section: half the run-out towards the largest reading. What the two
 /// positions lack to half a turn is shared between them.
-fn centre(number: usize, section: &Section, bounds: &Bounds) -> Result<Point3<f64>, RunOutError> {
+fn center(number: usize, section: &Section, bounds: &Bounds) -> Result<Point3<f64>, RunOutError> {
     let Section { height, least, largest } = *section;
     if ![height, least.value, least.c, largest.value, largest.c].iter().all(|n| n.is_finite()) {
         return Err(RunOutError::Number);
@@ -287,8 +287,8 @@ mod tests {
     fn the_matrix_takes_the_nominal_axis_to_the_line() {
         let found = find(section(20.0, [0.06, -0.02]), section(100.0, [0.03, 0.08])).unwrap();
         assert_eq!(found.placing, Placing::Skew);
-        for centre in found.centres {
-            let back = found.point(Point3::new(0.0, 0.0, centre.z / found.direction.z));
+        for center in found.centers {
+            let back = found.point(Point3::new(0.0, 0.0, center.z / found.direction.z));
             let off = (back - found.point(Point3::origin())).cross(&found.direction);
             assert!(off.norm() < 1e-12);
         }

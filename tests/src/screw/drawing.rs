@@ -81,15 +81,15 @@ fn roughing(picture: &mut Picture, job: &Job, tools: &[(&Cutter, [f64; 2])], shi
     }
 }
 
-/// The balls, and the path of their centres.
+/// The balls, and the path of their centers.
 fn finishing(picture: &mut Picture, tools: &[(&Cutter, [f64; 2])], shift: f64) {
-    let centre =
+    let center =
         |(cutter, tip): &(&Cutter, [f64; 2])| [tip[0] + shift, tip[1] + cutter.diameter / 2.0];
     for tool in tools {
-        picture.circle(centre(tool), tool.0.diameter / 2.0, THIN);
-        picture.circle(centre(tool), 0.08, CUT);
+        picture.circle(center(tool), tool.0.diameter / 2.0, THIN);
+        picture.circle(center(tool), 0.08, CUT);
     }
-    picture.line(&tools.iter().map(centre).collect::<Vec<_>>(), LIMIT);
+    picture.line(&tools.iter().map(center).collect::<Vec<_>>(), LIMIT);
 }
 
 /// The surface of the blank unrolled, X to the right and A upward, with the first

@@ -3,7 +3,7 @@
 //! angle it lies in the cutter.
 
 use super::passes::Pass;
-use super::section::{Place, plus};
+use super::section::{Point, plus};
 use super::{Cutter, Job};
 
 /// Further than this from the cutter in the plane of the axis nothing is cut, mm.
@@ -43,7 +43,7 @@ pub fn reaches(job: &Job, passes: &[Pass], height: f64, spacing: f64) -> bool {
 }
 
 /// The cutters of one kind with the places of their tips.
-fn tools<'j>(job: &'j Job, passes: &[Pass], ball: bool) -> Vec<(&'j Cutter, Place)> {
+fn tools<'j>(job: &'j Job, passes: &[Pass], ball: bool) -> Vec<(&'j Cutter, Point)> {
     let all = passes.iter().filter_map(|pass| Some((job.cutter(pass.tool)?, pass.place(job))));
     all.filter(|(cutter, _)| cutter.ball == ball).collect()
 }
@@ -62,15 +62,15 @@ fn deepen(cut: impl Fn(f64) -> bool, from: f64) -> f64 {
 }
 
 /// True when a pass cuts a point of the section.
-fn cuts(job: &Job, cutter: &Cutter, tip: Place, point: Place) -> bool {
+fn cuts(job: &Job, cutter: &Cutter, tip: Point, point: Point) -> bool {
     let radius = cutter.diameter / 2.0;
     let lead = job.pitch / std::f64::consts::TAU;
     let [along, high] = [point[0] - tip[0], point[1]];
     if cutter.ball {
-        let centre = tip[1] + radius;
+        let center = tip[1] + radius;
         let gap = |turn: f64| {
-            (along - lead * turn).powi(2) + high * high + centre * centre
-                - 2.0 * high * centre * turn.cos()
+            (along - lead * turn).powi(2) + high * high + center * center
+                - 2.0 * high * center * turn.cos()
         };
         let near = gap(0.0) < (radius + REACH).powi(2);
         return near && gap(lowest(gap, 1.0)) < radius * radius;

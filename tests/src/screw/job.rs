@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::section::{Place, Section, Step};
+use super::section::{Point, Section, Step};
 
 /// A cutter of the list.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,14 +117,14 @@ impl Job {
                 _ => return Err(format!("`{line}` is no statement of a job")),
             }
         }
-        let mut centre = None;
+        let mut center = None;
         for (index, (place, hollow)) in points.into_iter().enumerate() {
-            match (hollow, centre.take()) {
-                (Some(hollow), _) => centre = Some((place, hollow)),
+            match (hollow, center.take()) {
+                (Some(hollow), _) => center = Some((place, hollow)),
                 (None, _) if index == 0 => job.section.from = place,
                 (None, None) => job.section.steps.push(Step::Line(place)),
-                (None, Some((centre, hollow))) => {
-                    job.section.steps.push(Step::Arc { to: place, centre, hollow });
+                (None, Some((center, hollow))) => {
+                    job.section.steps.push(Step::Arc { to: place, center, hollow });
                 }
             }
         }
@@ -174,7 +174,7 @@ impl Items<'_> {
         self.0.iter().position(|item| *item == name).map_or(0.0, |at| self.number(at + 1))
     }
 
-    fn place(&self) -> Place {
+    fn place(&self) -> Point {
         [self.number(0), self.number(2)]
     }
 }

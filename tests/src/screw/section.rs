@@ -5,20 +5,20 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 /// X and Z, mm.
-pub type Place = [f64; 2];
+pub type Point = [f64; 2];
 
 /// The way from a point of the section to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
     /// A straight line.
-    Line(Place),
-    /// An arc about a centre; `hollow` when the centre lies on the side of the
+    Line(Point),
+    /// An arc about a center; `hollow` when the center lies on the side of the
     /// groove.
     Arc {
         /// End.
-        to: Place,
-        /// Centre.
-        centre: Place,
+        to: Point,
+        /// Center.
+        center: Point,
         /// The arc is a hollow, not a hump.
         hollow: bool,
     },
@@ -28,47 +28,47 @@ pub enum Step {
 #[derive(Clone, Debug)]
 pub struct Section {
     /// First point.
-    pub from: Place,
+    pub from: Point,
     /// The rest.
     pub steps: Vec<Step>,
 }
 
 impl Step {
     /// Where it ends.
-    pub fn to(&self) -> Place {
+    pub fn to(&self) -> Point {
         match self {
             Step::Line(to) | Step::Arc { to, .. } => *to,
         }
     }
 
     /// Point at a share of the way, and the unit normal into the groove.
-    fn at(&self, from: Place, share: f64) -> (Place, Place) {
+    fn at(&self, from: Point, share: f64) -> (Point, Point) {
         match *self {
             Step::Line(to) => {
                 let way = minus(to, from);
                 let length = norm(way);
                 (plus(from, way, share), [-way[1] / length, way[0] / length])
             }
-            Step::Arc { to, centre, hollow } => {
-                let (start, sweep) = angles(from, to, centre, hollow);
+            Step::Arc { to, center, hollow } => {
+                let (start, sweep) = angles(from, to, center, hollow);
                 let angle = start + sweep * share;
                 let out = [angle.cos(), angle.sin()];
-                let point = plus(centre, out, norm(minus(from, centre)));
+                let point = plus(center, out, norm(minus(from, center)));
                 (point, if hollow { [-out[0], -out[1]] } else { out })
             }
         }
     }
 
-    fn length(&self, from: Place) -> f64 {
+    fn length(&self, from: Point) -> f64 {
         match *self {
             Step::Line(to) => norm(minus(to, from)),
-            Step::Arc { to, centre, hollow } => {
-                norm(minus(from, centre)) * angles(from, to, centre, hollow).1.abs()
+            Step::Arc { to, center, hollow } => {
+                norm(minus(from, center)) * angles(from, to, center, hollow).1.abs()
             }
         }
     }
 
-    fn distance(&self, from: Place, point: Place) -> f64 {
+    fn distance(&self, from: Point, point: Point) -> f64 {
         let to = self.to();
         let ends = norm(minus(point, from)).min(norm(minus(point, to)));
         match *self {
@@ -81,12 +81,12 @@ impl Step {
                     ends
                 }
             }
-            Step::Arc { centre, hollow, .. } => {
-                let (start, sweep) = angles(from, to, centre, hollow);
-                let out = minus(point, centre);
+            Step::Arc { center, hollow, .. } => {
+                let (start, sweep) = angles(from, to, center, hollow);
+                let out = minus(point, center);
                 let turned = (out[1].atan2(out[0]) - start) * sweep.signum();
                 if turned.rem_euclid(TAU) <= sweep.abs() {
-                    (norm(out) - norm(minus(from, centre))).abs()
+                    (norm(out) - norm(minus(from, center))).abs()
                 } else {
                     ends
                 }
@@ -96,8 +96,8 @@ impl Step {
 }
 
 /// Start angle and signed sweep of an arc: a hollow turns counterclockwise.
-fn angles(from: Place, to: Place, centre: Place, hollow: bool) -> (f64, f64) {
-    let angle = |p: Place| (p[1] - centre[1]).atan2(p[0] - centre[0]);
+fn angles(from: Point, to: Point, center: Point, hollow: bool) -> (f64, f64) {
+    let angle = |p: Point| (p[1] - center[1]).atan2(p[0] - center[0]);
     let (start, end) = (angle(from), angle(to));
     let sweep = if hollow { (end - start).rem_euclid(TAU) } else { -(start - end).rem_euclid(TAU) };
     (start, sweep)
@@ -105,14 +105,14 @@ fn angles(from: Place, to: Place, centre: Place, hollow: bool) -> (f64, f64) {
 
 impl Section {
     /// A section of straight lines.
-    pub fn lines(points: &[Place]) -> Self {
+    pub fn lines(points: &[Point]) -> Self {
         let steps = points[1..].iter().map(|point| Step::Line(*point)).collect();
         Section { from: points[0], steps }
     }
 
     /// Straight lines whose inner corners are rounded with a radius each, 0 for a
     /// sharp one.
-    pub fn rounded(points: &[Place], radii: &[f64]) -> Self {
+    pub fn rounded(points: &[Point], radii: &[f64]) -> Self {
         let mut section = Section { from: points[0], steps: Vec::new() };
         for (corner, radius) in points.windows(3).zip(radii) {
             let [before, at, after] = [corner[0], corner[1], corner[2]];
@@ -125,10 +125,10 @@ impl Section {
             let (first, last) =
                 (plus(at, back, radius / half.tan()), plus(at, on, radius / half.tan()));
             let middle = unit([back[0] + on[0], back[1] + on[1]]);
-            let centre = plus(at, middle, radius / half.sin());
+            let center = plus(at, middle, radius / half.sin());
             let hollow = back[1] * on[0] - back[0] * on[1] > 0.0;
             section.steps.push(Step::Line(first));
-            section.steps.push(Step::Arc { to: last, centre, hollow });
+            section.steps.push(Step::Arc { to: last, center, hollow });
         }
         section.steps.push(Step::Line(points[points.len() - 1]));
         section
@@ -148,13 +148,13 @@ impl Section {
     pub fn cl(&self) -> String {
         let mut text = format!("GOTO / {}, 0, {}\n", self.from[0], self.from[1]);
         for (from, step) in self.parts() {
-            if let Step::Arc { centre, hollow, .. } = step {
+            if let Step::Arc { center, hollow, .. } = step {
                 let turn = if *hollow { -1 } else { 1 };
-                let radius = norm(minus(from, *centre));
+                let radius = norm(minus(from, *center));
                 let _ = writeln!(
                     text,
                     "CIRCLE / {}, 0, {}, 0, {turn}, 0, {radius}",
-                    centre[0], centre[1]
+                    center[0], center[1]
                 );
             }
             let _ = writeln!(text, "GOTO / {}, 0, {}", step.to()[0], step.to()[1]);
@@ -163,24 +163,24 @@ impl Section {
     }
 
     /// Each step with its start.
-    fn parts(&self) -> impl Iterator<Item = (Place, &Step)> {
+    fn parts(&self) -> impl Iterator<Item = (Point, &Step)> {
         let starts = std::iter::once(self.from).chain(self.steps.iter().map(Step::to));
         starts.zip(&self.steps)
     }
 
     /// Distance of a point from the section.
-    pub fn distance(&self, point: Place) -> f64 {
+    pub fn distance(&self, point: Point) -> f64 {
         self.parts().map(|(from, step)| step.distance(from, point)).fold(f64::INFINITY, f64::min)
     }
 
     /// Distance of a point from the section, negative in the finished part.
-    pub fn signed(&self, point: Place) -> f64 {
+    pub fn signed(&self, point: Point) -> f64 {
         let distance = self.distance(point);
         if point[1] < self.height(point[0]) { -distance } else { distance }
     }
 
     /// Points of the section about `spacing` apart with their normals into the groove.
-    pub fn samples(&self, spacing: f64) -> Vec<(Place, Place)> {
+    pub fn samples(&self, spacing: f64) -> Vec<(Point, Point)> {
         let mut samples = Vec::new();
         for (from, step) in self.parts() {
             let count = (step.length(from) / spacing).ceil().max(1.0);
@@ -193,41 +193,41 @@ impl Section {
 
     /// Height of the finished part at an X: the section, and the surface beside it.
     pub fn height(&self, x: f64) -> f64 {
-        let spans = |from: Place, to: Place| from[0] <= x && x < to[0];
+        let spans = |from: Point, to: Point| from[0] <= x && x < to[0];
         let Some((from, step)) = self.parts().find(|(from, step)| spans(*from, step.to())) else {
             return self.top();
         };
         match *step {
             Step::Line(to) => from[1] + (to[1] - from[1]) * (x - from[0]) / (to[0] - from[0]),
-            Step::Arc { centre, hollow, .. } => {
-                let out = minus(from, centre);
-                let rise = (dot(out, out) - (x - centre[0]).powi(2)).max(0.0).sqrt();
-                if hollow { centre[1] - rise } else { centre[1] + rise }
+            Step::Arc { center, hollow, .. } => {
+                let out = minus(from, center);
+                let rise = (dot(out, out) - (x - center[0]).powi(2)).max(0.0).sqrt();
+                if hollow { center[1] - rise } else { center[1] + rise }
             }
         }
     }
 }
 
 /// Length.
-pub fn norm(a: Place) -> f64 {
+pub fn norm(a: Point) -> f64 {
     a[0].hypot(a[1])
 }
 
 /// Difference.
-pub fn minus(a: Place, b: Place) -> Place {
+pub fn minus(a: Point, b: Point) -> Point {
     [a[0] - b[0], a[1] - b[1]]
 }
 
 /// `a` and `share` times `b`.
-pub fn plus(a: Place, b: Place, share: f64) -> Place {
+pub fn plus(a: Point, b: Point, share: f64) -> Point {
     [a[0] + b[0] * share, a[1] + b[1] * share]
 }
 
-fn dot(a: Place, b: Place) -> f64 {
+fn dot(a: Point, b: Point) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-fn unit(a: Place) -> Place {
+fn unit(a: Point) -> Point {
     let length = norm(a);
     [a[0] / length, a[1] / length]
 }

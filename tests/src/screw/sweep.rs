@@ -2,7 +2,7 @@
 //! mill is a rectangle, a ball a circle, both open above.
 
 use super::passes::Pass;
-use super::section::{Place, Section, plus};
+use super::section::{Point, Section, plus};
 use super::{Cutter, Job};
 
 /// Tolerance of the checks: a µm.
@@ -30,7 +30,7 @@ pub struct Report {
 pub fn check(job: &Job, passes: &[Pass]) -> Result<Report, String> {
     let mut report = Report::default();
     let mut finishing = false;
-    let mut tools: [Vec<(&Cutter, Place)>; 2] = [Vec::new(), Vec::new()];
+    let mut tools: [Vec<(&Cutter, Point)>; 2] = [Vec::new(), Vec::new()];
     for pass in passes {
         let cutter = job.cutter(pass.tool).ok_or("an unknown cutter")?;
         if finishing && !cutter.ball {
@@ -96,12 +96,12 @@ pub fn check_levels(job: &Job, passes: &[Pass]) -> Result<(), String> {
 }
 
 /// Least distance of a cutter from the finished part, negative inside of it.
-fn clearance(section: &Section, cutter: &Cutter, tip: Place) -> f64 {
+fn clearance(section: &Section, cutter: &Cutter, tip: Point) -> f64 {
     let radius = cutter.diameter / 2.0;
     if cutter.ball {
-        let centre = [tip[0], tip[1] + radius];
-        let inside = section.height(centre[0]) > centre[1];
-        return if inside { -radius } else { section.distance(centre) - radius };
+        let center = [tip[0], tip[1] + radius];
+        let inside = section.height(center[0]) > center[1];
+        return if inside { -radius } else { section.distance(center) - radius };
     }
     let bottom =
         (0..=400).map(|share| [tip[0] + radius * (f64::from(share) / 200.0 - 1.0), tip[1]]);
@@ -113,7 +113,7 @@ fn clearance(section: &Section, cutter: &Cutter, tip: Place) -> f64 {
 }
 
 /// How far the stock that is left reaches from the section, columns along X.
-fn left(section: &Section, tools: &[(&Cutter, Place)]) -> f64 {
+fn left(section: &Section, tools: &[(&Cutter, Point)]) -> f64 {
     let [first, last] = section.ends();
     let count = ((last - first) / COLUMN).ceil() as usize;
     let column = |index: usize| {
@@ -125,13 +125,13 @@ fn left(section: &Section, tools: &[(&Cutter, Place)]) -> f64 {
 }
 
 /// Z of what tools leave at an X.
-pub fn surface(section: &Section, tools: &[(&Cutter, Place)], x: f64) -> f64 {
+pub fn surface(section: &Section, tools: &[(&Cutter, Point)], x: f64) -> f64 {
     let cut = tools.iter().filter_map(|(cutter, tip)| bottom(cutter, *tip, x));
     cut.fold(section.top(), f64::min)
 }
 
 /// Z of the lower side of a cutter at an X.
-fn bottom(cutter: &Cutter, tip: Place, x: f64) -> Option<f64> {
+fn bottom(cutter: &Cutter, tip: Point, x: f64) -> Option<f64> {
     let radius = cutter.diameter / 2.0;
     let across = x - tip[0];
     if across.abs() > radius {
@@ -153,7 +153,7 @@ pub fn width(job: &Job, level: f64) -> f64 {
 }
 
 /// True when a ball reaches each point that lies `height` from the section: some
-/// place of its centre covers the point and cuts nothing.
+/// place of its center covers the point and cuts nothing.
 pub fn ball_reaches(section: &Section, radius: f64, height: f64) -> bool {
     section.samples(0.02).into_iter().all(|(point, normal)| {
         let point = plus(point, normal, height);
@@ -161,8 +161,8 @@ pub fn ball_reaches(section: &Section, radius: f64, height: f64) -> bool {
             return true;
         }
         let free = |angle: f64| {
-            let centre = plus(point, [angle.cos(), angle.sin()], radius - 1e-9);
-            if centre[1] < section.height(centre[0]) { 0.0 } else { section.distance(centre) }
+            let center = plus(point, [angle.cos(), angle.sin()], radius - 1e-9);
+            if center[1] < section.height(center[0]) { 0.0 } else { section.distance(center) }
         };
         let best = |middle: f64, step: f64| {
             let angles = (-180..=180).map(|index| middle + f64::from(index) * step);

@@ -84,15 +84,15 @@ fn colour(contact: &Contact) -> &'static str {
 
 /// The section of the groove with the ball on the wall and on the floor.
 fn profile(picture: &mut Picture, points: &[Point], contacts: &[Contact]) {
-    let centre = |point: &Point| [point[0], point[2] + LISTING.ball];
+    let center = |point: &Point| [point[0], point[2] + LISTING.ball];
     for (ends, contact) in points.windows(2).zip(contacts) {
-        picture.line(&[centre(&ends[0]), centre(&ends[1])], Pen::full(colour(contact), 3.0));
+        picture.line(&[center(&ends[0]), center(&ends[1])], Pen::full(colour(contact), 3.0));
     }
     // What the ball touches lies a radius from the path, at right angles to it.
     let touched: Vec<Point2> = points
         .windows(2)
         .map(|ends| {
-            let (from, to) = (centre(&ends[0]), centre(&ends[1]));
+            let (from, to) = (center(&ends[0]), center(&ends[1]));
             let [dx, dz] = [to[0] - from[0], to[1] - from[1]];
             let radius = LISTING.ball / dx.hypot(dz);
             [(from[0] + to[0]) / 2.0 - dz * radius, (from[1] + to[1]) / 2.0 + dx * radius]
@@ -100,12 +100,12 @@ fn profile(picture: &mut Picture, points: &[Point], contacts: &[Contact]) {
         .collect();
     picture.line(&touched, Pen::full("black", 1.5));
     for index in [3, 15] {
-        picture.circle(centre(&points[index]), LISTING.ball, GROUND);
+        picture.circle(center(&points[index]), LISTING.ball, GROUND);
     }
     for (at, name) in [
         ([0.0, 6.0], "section of the groove"),
         ([0.0, 0.0], "path of the ball's"),
-        ([0.0, -2.0], "centre: blue on"),
+        ([0.0, -2.0], "center: blue on"),
         ([0.0, -4.0], "the wall, red"),
         ([0.0, -6.0], "on the floor"),
     ] {

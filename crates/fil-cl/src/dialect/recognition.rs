@@ -6,7 +6,7 @@
 
 use std::fmt;
 
-use fil_diag::{Diag, Place};
+use fil_diag::{Diag, TextSpan};
 
 use super::{ArcSense, AxisRule, ClDialect, DialectRules, Sign};
 use crate::errors::ClCode;
@@ -60,7 +60,7 @@ pub(crate) struct Recognition {
     found: Recognized,
     rules: &'static DialectRules,
     /// The line of the sign, for messages.
-    sign: Option<Place>,
+    sign: Option<TextSpan>,
     /// A contradiction not yet raised.
     refused: Option<Box<Diag>>,
     pub(crate) used: Used,
@@ -123,7 +123,7 @@ impl Recognition {
     }
 
     /// Looks at a comment line, which begins with `$$`.
-    pub(crate) fn comment(&mut self, line: &[u8], place: impl FnOnce() -> Place) {
+    pub(crate) fn comment(&mut self, line: &[u8], place: impl FnOnce() -> TextSpan) {
         let text = compact(line.strip_prefix(b"$$").unwrap_or(line));
         self.watch(place, |sign| match sign {
             Sign::Comment(begin) => text.starts_with(begin.as_bytes()),
@@ -132,7 +132,7 @@ impl Recognition {
     }
 
     /// Looks at a pseudo-comment.
-    pub(crate) fn pseudo(&mut self, place: impl FnOnce() -> Place) {
+    pub(crate) fn pseudo(&mut self, place: impl FnOnce() -> TextSpan) {
         self.watch(place, |sign| matches!(sign, Sign::Pseudo));
     }
 
@@ -141,7 +141,7 @@ impl Recognition {
         &mut self,
         major: WordId,
         vocabulary: &Vocabulary,
-        place: impl FnOnce() -> Place,
+        place: impl FnOnce() -> TextSpan,
     ) {
         if self.looked_at.len() <= major.index() {
             self.looked_at.resize(major.index() + 1, false);
@@ -159,7 +159,7 @@ impl Recognition {
     }
 
     /// Looks at a text statement.
-    pub(crate) fn text(&mut self, major: WordId, text: &str, place: impl FnOnce() -> Place) {
+    pub(crate) fn text(&mut self, major: WordId, text: &str, place: impl FnOnce() -> TextSpan) {
         let holds =
             |word: &str| text.split([' ', '\t', ',']).any(|part| part.eq_ignore_ascii_case(word));
         self.watch(place, |sign| match sign {
@@ -170,7 +170,7 @@ impl Recognition {
     }
 
     /// Takes the dialect that has a sign which is there.
-    fn watch(&mut self, place: impl FnOnce() -> Place, is_there: impl Fn(&Sign) -> bool) {
+    fn watch(&mut self, place: impl FnOnce() -> TextSpan, is_there: impl Fn(&Sign) -> bool) {
         if self.found.evidence == Evidence::Chosen {
             return;
         }
@@ -181,7 +181,7 @@ impl Recognition {
         }
     }
 
-    fn take(&mut self, dialect: ClDialect, place: Place) {
+    fn take(&mut self, dialect: ClDialect, place: TextSpan) {
         if let Some(sign) = &self.sign {
             let message = format!(
                 "line {} shows that the text is from {}, this line that it is from {dialect}",

@@ -20,7 +20,7 @@ mod statement;
 use std::io::Read;
 use std::ops::Range;
 
-use fil_diag::{Diag, Place, Result};
+use fil_diag::{Diag, Result, TextSpan};
 
 use crate::dialect::{ClDialect, DialectRules, Recognition, Recognized};
 use crate::errors::ClCode;
@@ -171,7 +171,7 @@ impl<R: Read> Reader<R> {
         }
         if self.seeking.target > self.number {
             let message = format!("record {} of {} records", self.seeking.target, self.number);
-            let place = Place::line(&self.file, self.lines.line(), "");
+            let place = TextSpan::line(&self.file, self.lines.line(), "");
             return Err(Box::new(Diag::new(ClCode::NoSuchRecord, message).at(place)));
         }
         Ok(false)
@@ -267,7 +267,7 @@ impl<R: Read> Reader<R> {
     }
 
     /// Shows the statement to the recognition of the dialect.
-    fn watch(&mut self, look: impl FnOnce(&mut Recognition, &dyn Fn() -> Place)) -> Result<()> {
+    fn watch(&mut self, look: impl FnOnce(&mut Recognition, &dyn Fn() -> TextSpan)) -> Result<()> {
         let whole = 0..self.statement.joined.len();
         let (statement, lines) = (&self.statement, &self.lines);
         let place = || statement.place(lines, &self.file, &self.options, whole.clone());
@@ -381,7 +381,7 @@ impl<R: Read> Reader<R> {
     }
 
     fn read_failed(&self, error: &std::io::Error) -> Box<Diag> {
-        let place = Place::line(&self.file, self.lines.line(), "");
+        let place = TextSpan::line(&self.file, self.lines.line(), "");
         Box::new(Diag::new(ClCode::ReadFailed, error.to_string()).at(place))
     }
 

@@ -2,7 +2,7 @@
 
 use std::io::{Read, Result as IoResult, Seek, SeekFrom};
 
-use fil_diag::{Diag, Place};
+use fil_diag::{Diag, TextSpan};
 
 use super::{Modal, Options, Reader};
 use crate::errors::ClCode;
@@ -78,7 +78,7 @@ impl<R: Read> Reader<R> {
     /// # Errors
     /// The input is a stream, `n` is 0, or the input cannot be moved.
     pub fn seek_record(&mut self, n: u32) -> Result<(), Box<Diag>> {
-        let here = Place::line(&self.file, self.statement.line.max(1), "");
+        let here = TextSpan::line(&self.file, self.statement.line.max(1), "");
         let Some(go) = self.seeking.go else {
             let message = format!("record {n} is asked for after record {}", self.number);
             return Err(Box::new(Diag::new(ClCode::NotSeekable, message).at(here)));

@@ -3,7 +3,7 @@
 use std::io::Read;
 use std::ops::Range;
 
-use fil_diag::{Diag, Place};
+use fil_diag::{Diag, TextSpan};
 
 use super::Options;
 use super::lines::{LineError, Lines};
@@ -242,10 +242,10 @@ impl Statement {
         file: &str,
         options: &Options,
         range: Range<usize>,
-    ) -> Place {
+    ) -> TextSpan {
         let index = self.pieces.partition_point(|piece| piece.joined <= range.start);
         let Some(piece) = self.pieces.get(index.saturating_sub(1)) else {
-            return Place::line(file, self.line, "");
+            return TextSpan::line(file, self.line, "");
         };
         let bytes = trim_end(lines.bytes(piece.line.clone()));
         let start = (piece.column + range.start - piece.joined).min(bytes.len());
@@ -261,14 +261,14 @@ pub(super) fn excerpt(
     bytes: &[u8],
     span: Range<usize>,
     options: &Options,
-) -> Place {
+) -> TextSpan {
     let cut = bytes.len().min(EXCERPT.max(span.end.min(span.start + EXCERPT)));
     let decode = |part: &[u8]| decoded(part, options.decode);
     let head = decode(&bytes[..span.start]);
     let marked = decode(&bytes[span.start..span.end.min(cut)]);
     let tail = decode(&bytes[span.end.min(cut)..cut]);
     let span = head.len()..head.len() + marked.len();
-    let mut place = Place::line(file, number, head + &marked + &tail);
+    let mut place = TextSpan::line(file, number, head + &marked + &tail);
     place.span = span;
     place
 }
@@ -297,7 +297,7 @@ fn next_line<R: Read>(
     Ok(Some(line))
 }
 
-fn refuse<T>(code: ClCode, message: String, place: Place) -> Result<T, GatherError> {
+fn refuse<T>(code: ClCode, message: String, place: TextSpan) -> Result<T, GatherError> {
     Err(GatherError::Refused(Box::new(Diag::new(code, message).at(place))))
 }
 

@@ -5,7 +5,7 @@
 //! differs from the vendor's own defaults is stored; the defaults that a report
 //! shows and the file leaves out are set here first.
 
-use fil_diag::{Diag, Place, Result};
+use fil_diag::{Diag, Result, TextSpan};
 
 use crate::commons::{Commons, EMPTY, Kind};
 use crate::errors::MachineCode;
@@ -92,7 +92,7 @@ pub fn read_option_file(file: &str, text: &str) -> Result<OptionFile, Vec<Diag>>
     for (number, line) in (1u32..).zip(text.lines()) {
         let line = line.trim_end();
         if let Err(diag) = reader.line(number, line) {
-            reader.errors.push(diag.at(Place::line(file, number, line)));
+            reader.errors.push(diag.at(TextSpan::line(file, number, line)));
         }
         if reader.errors.len() == MOST_ERRORS {
             return Err(reader.errors);
@@ -116,12 +116,12 @@ fn refuse_a_lathe(file: &str, text: &str) -> Result<()> {
     if says(&name, LATHE) {
         let diag = MachineCode::LatheOptionFile
             .diag(format!("its name says that this is the option file of a lathe ({LATHE})"));
-        return Err(Box::new(diag.at(Place::line(file, 1, head))));
+        return Err(Box::new(diag.at(TextSpan::line(file, 1, head))));
     }
     if says(&head.to_ascii_uppercase(), LATHE) {
         let diag = MachineCode::LatheOptionFile
             .diag(format!("the first line says that this is the option file of a lathe ({LATHE})"));
-        return Err(Box::new(diag.at(Place::line(file, 1, head))));
+        return Err(Box::new(diag.at(TextSpan::line(file, 1, head))));
     }
     Ok(())
 }
@@ -144,7 +144,7 @@ struct Reader<'a> {
     lists: Vec<Kind>,
     /// Locations that the post does not act on.
     idle: Vec<(Kind, u32)>,
-    first_idle: Option<Place>,
+    first_idle: Option<TextSpan>,
     warnings: Vec<Diag>,
     errors: Vec<Diag>,
 }
@@ -199,7 +199,7 @@ impl Reader<'_> {
         line: &str,
     ) -> Result<(), Diag> {
         self.commons.set(kind, location, value).map_err(|diag| *diag)?;
-        let place = || Place::line(self.file, number, line);
+        let place = || TextSpan::line(self.file, number, line);
         self.warnings.extend(doubt(kind, location, value).map(|diag| diag.at(place())));
         let value = self.commons.get(kind, location).unwrap_or(value);
         if stored::is_idle(kind, location, value) {
@@ -214,15 +214,15 @@ impl Reader<'_> {
         let last = text.lines().count().max(1) as u32;
         if let Some(OpenList { kind, line }) = self.open {
             let message = format!("the file ends before its list {} does", kind.name());
-            let head = Place::line(self.file, line, "").label("the list begins here");
+            let head = TextSpan::line(self.file, line, "").label("the list begins here");
             let diag = *MachineCode::OptionFile.diag(message);
-            self.errors.push(diag.at(Place::line(self.file, last, "")).at(head));
+            self.errors.push(diag.at(TextSpan::line(self.file, last, "")).at(head));
         }
         for kind in [Kind::Int, Kind::Rel, Kind::Dbl] {
             if !self.lists.contains(&kind) {
                 let message = format!("the file has no list {}", kind.name());
                 let diag = *MachineCode::OptionFile.diag(message);
-                self.errors.push(diag.at(Place::line(self.file, last, "")));
+                self.errors.push(diag.at(TextSpan::line(self.file, last, "")));
             }
         }
         if !self.errors.is_empty() {
@@ -302,7 +302,7 @@ mod tests {
     /// Codes and lines of all that is wrong.
     fn errors(file: &str, text: &str) -> Vec<(String, u32)> {
         let diags = read_option_file(file, text).unwrap_err();
-        diags.iter().map(|diag| (diag.code.name(), diag.places[0].line)).collect()
+        diags.iter().map(|diag| (diag.code.name(), diag.spans[0].line)).collect()
     }
 
     #[test]

@@ -119,7 +119,7 @@ impl<'a> TomlReader<'a> {
     fn noted<T>(&mut self, range: Range<usize>, result: Result<T>) -> Option<T> {
         match result {
             Ok(value) => Some(value),
-            Err(diag) if diag.places.is_empty() => {
+            Err(diag) if diag.spans.is_empty() => {
                 self.refuse(range, *diag);
                 None
             }
@@ -354,9 +354,7 @@ impl<'a> TomlReader<'a> {
         let number = self.plain_number(slot)?;
         let at = (Kind::Int, index);
         let set = self.cell(commons, (char::from(name), "slot"), at, number, slot.span());
-        set.map_err(
-            |diag| if diag.places.is_empty() { self.at(slot.span(), *diag) } else { diag },
-        )?;
+        set.map_err(|diag| if diag.spans.is_empty() { self.at(slot.span(), *diag) } else { diag })?;
         Ok(number as u32)
     }
 
@@ -425,7 +423,7 @@ mod tests {
 
     fn error(text: &str) -> (String, String) {
         let diags = read_toml("machine.toml", text).unwrap_err();
-        (diags[0].code.name(), diags[0].places[0].to_string())
+        (diags[0].code.name(), diags[0].spans[0].to_string())
     }
 
     #[test]
@@ -461,7 +459,7 @@ mod tests {
                     K = { slot = 8 }\nM = { slot = 8 }\n";
         let diags = read_toml("machine.toml", text).unwrap_err();
         let found: Vec<(String, u32)> =
-            diags.iter().map(|diag| (diag.code.name(), diag.places[0].line)).collect();
+            diags.iter().map(|diag| (diag.code.name(), diag.spans[0].line)).collect();
         let code = |code: &str| code.to_string();
         assert_eq!(
             found,

@@ -38,16 +38,16 @@ impl Scale {
     }
 }
 
-/// How an arc names its centre.
+/// How an arc names its center.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CentreForm {
-    /// From the start to the centre.
+pub enum CenterForm {
+    /// From the start to the center.
     FromStart,
-    /// From the centre to the start.
-    FromCentre,
-    /// The centre's own coordinates.
+    /// From the center to the start.
+    FromCenter,
+    /// The center's own coordinates.
     Absolute,
-    /// From the start to the centre without signs; arcs stay within a quadrant.
+    /// From the start to the center without signs; arcs stay within a quadrant.
     Unsigned,
 }
 
@@ -96,7 +96,7 @@ pub struct Dialect {
     pub(crate) start: [Option<f64>; 5],
     pub(crate) plane: usize,
     pub(crate) feed_mode: FeedMode,
-    pub(crate) centre: CentreForm,
+    pub(crate) center: CenterForm,
     pub(crate) depth: DepthForm,
     pub(crate) tool_call: ToolCall,
     /// Letters of special words, 1 to 26.
@@ -184,11 +184,11 @@ impl Dialect {
             feed_mode: functions.feed_mode(settings.code("feed.mode")),
             functions,
             auxiliaries: Auxiliaries::new(&settings),
-            centre: match settings.code("circle.center") {
-                Some(2) => CentreForm::FromCentre,
-                Some(4) => CentreForm::Absolute,
-                Some(5) => CentreForm::Unsigned,
-                _ => CentreForm::FromStart,
+            center: match settings.code("circle.center") {
+                Some(2) => CenterForm::FromCenter,
+                Some(4) => CenterForm::Absolute,
+                Some(5) => CenterForm::Unsigned,
+                _ => CenterForm::FromStart,
             },
             depth: match settings.code("cycle.depth_output") {
                 Some(2) => DepthForm::Increments,

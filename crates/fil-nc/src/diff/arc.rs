@@ -1,4 +1,4 @@
-//! Arcs compared as geometry: a centre and a radius that give the same path are
+//! Arcs compared as geometry: a center and a radius that give the same path are
 //! the same, however they are written.
 
 use std::f64::consts::TAU;
@@ -18,7 +18,7 @@ const SAME: f64 = 1e-9;
 
 /// An arc in its plane.
 struct Arc {
-    centre: [f64; 2],
+    center: [f64; 2],
     radius: f64,
     /// Direction of the start, radians.
     from: f64,
@@ -30,7 +30,7 @@ impl Arc {
     /// The point after a share of the way.
     fn point(&self, share: f64) -> [f64; 2] {
         let angle = self.from + self.sweep * share;
-        [self.centre[0] + self.radius * angle.cos(), self.centre[1] + self.radius * angle.sin()]
+        [self.center[0] + self.radius * angle.cos(), self.center[1] + self.radius * angle.sin()]
     }
 }
 
@@ -47,7 +47,7 @@ pub(super) fn deviation(one: &Line, two: &Line, options: &Options) -> Option<f64
         let ([x1, y1], [x2, y2]) = (one.point(share), two.point(share));
         (x1 - x2).hypot(y1 - y2)
     };
-    // The ends are words of their own; between them the centre shows.
+    // The ends are words of their own; between them the center shows.
     Some((1..SAMPLES).map(apart).fold(0.0, f64::max) - end_difference(&one, &two))
         .map(|d| d.max(0.0))
 }
@@ -74,16 +74,16 @@ fn arc(line: &Line, options: &Options) -> Option<Arc> {
     }
     let word = |letter: u8| line.block.word(letter).map(|word| word.number.value());
     let offsets = [u, v].map(|axis| word(b"IJK"[axis]));
-    let centre = match (offsets, word(b'R')) {
-        ([None, None], Some(radius)) => centre_of_radius(start, end, radius, ccw)?,
+    let center = match (offsets, word(b'R')) {
+        ([None, None], Some(radius)) => center_of_radius(start, end, radius, ccw)?,
         ([None, None], None) => return None,
-        (offsets, _) if line.after.absolute_centres() => [offsets[0]?, offsets[1]?],
+        (offsets, _) if line.after.absolute_centers() => [offsets[0]?, offsets[1]?],
         (offsets, _) => {
             [start[0] + offsets[0].unwrap_or(0.0), start[1] + offsets[1].unwrap_or(0.0)]
         }
     };
-    let from_centre = |point: [f64; 2]| [point[0] - centre[0], point[1] - centre[1]];
-    let (s, e) = (from_centre(start), from_centre(end));
+    let from_center = |point: [f64; 2]| [point[0] - center[0], point[1] - center[1]];
+    let (s, e) = (from_center(start), from_center(end));
     let radius = s[0].hypot(s[1]);
     if (e[0].hypot(e[1]) - radius).abs() > ROUND * radius {
         return None;
@@ -99,11 +99,11 @@ fn arc(line: &Line, options: &Options) -> Option<Arc> {
     while !ccw && sweep >= 0.0 {
         sweep -= TAU;
     }
-    Some(Arc { centre, radius, from, sweep })
+    Some(Arc { center, radius, from, sweep })
 }
 
-/// Centre of an arc given by its radius; a negative one goes the long way.
-fn centre_of_radius(start: [f64; 2], end: [f64; 2], radius: f64, ccw: bool) -> Option<[f64; 2]> {
+/// Center of an arc given by its radius; a negative one goes the long way.
+fn center_of_radius(start: [f64; 2], end: [f64; 2], radius: f64, ccw: bool) -> Option<[f64; 2]> {
     let chord = [end[0] - start[0], end[1] - start[1]];
     let length = chord[0].hypot(chord[1]);
     let height = radius * radius - length * length / 4.0;

@@ -43,9 +43,9 @@ const ELSEWHERE: [i64; 3] = [280, 300, 530];
 /// Tool-tip control (`G43.4`, `G43.5`): coordinates are those of the tip in the part.
 const TIP_CONTROL: [i64; 2] = [434, 435];
 
-/// Absolute arc centres (`G90.1`) and those from the start (`G91.1`).
-const ABSOLUTE_CENTRES: i64 = 901;
-const CENTRES_FROM_START: i64 = 911;
+/// Absolute arc centers (`G90.1`) and those from the start (`G91.1`).
+const ABSOLUTE_CENTERS: i64 = 901;
+const CENTERS_FROM_START: i64 = 911;
 
 /// What is in force at some place of a program.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -55,7 +55,7 @@ pub(super) struct Modal {
     values: [Option<f64>; 26],
     /// Bottom of the holes of the cycle in force.
     depth: Option<f64>,
-    absolute_centres: bool,
+    absolute_centers: bool,
 }
 
 /// Code of a function in tenths.
@@ -116,9 +116,9 @@ impl Modal {
         self.g[DISTANCE] == Some(910)
     }
 
-    /// Arc centres are coordinates of the program.
-    pub fn absolute_centres(&self) -> bool {
-        self.absolute_centres
+    /// Arc centers are coordinates of the program.
+    pub fn absolute_centers(&self) -> bool {
+        self.absolute_centers
     }
 
     /// The two axes of the plane and its normal, as indices of X, Y, Z.
@@ -176,8 +176,8 @@ impl Modal {
         match (letter, group(letter, code), code) {
             (b'G', Some(group), _) => self.g[group] = Some(code),
             (b'M', Some(group), _) => self.m[group] = Some(code),
-            (b'G', None, ABSOLUTE_CENTRES) => self.absolute_centres = true,
-            (b'G', None, CENTRES_FROM_START) => self.absolute_centres = false,
+            (b'G', None, ABSOLUTE_CENTERS) => self.absolute_centers = true,
+            (b'G', None, CENTERS_FROM_START) => self.absolute_centers = false,
             _ => {}
         }
     }

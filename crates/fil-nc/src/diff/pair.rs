@@ -12,8 +12,8 @@ const MEASURES: &[u8] = b"XYZABCUVWIJKRQ";
 /// Letters that mean something else without a point on many controls.
 const POINTED: &[u8] = b"XYZABCUVWIJKRQF";
 
-/// Letters that say where an arc's centre is.
-const CENTRE: &[u8] = b"IJKR";
+/// Letters that say where an arc's center is.
+const CENTER: &[u8] = b"IJKR";
 
 /// Words of equal value may differ by this much, from decimal to binary.
 const EXACT: f64 = 1e-9;
@@ -122,7 +122,7 @@ pub(super) fn compare(one: &Line, two: &Line, options: &Options, found: &mut Fou
     compare_functions(pair, b'M', options, found);
     let arcs = arc::deviation(one, two, options);
     for (letter, index) in pair.addresses() {
-        if arcs.is_some() && index.is_none() && CENTRE.contains(&letter) {
+        if arcs.is_some() && index.is_none() && CENTER.contains(&letter) {
             continue;
         }
         compare_address(pair, letter, index, options, found);

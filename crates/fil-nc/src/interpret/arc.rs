@@ -1,9 +1,9 @@
-//! Arcs and helices: centre or radius, sense, sweep.
+//! Arcs and helices: center or radius, sense, sweep.
 
 use super::Fault;
 use super::state::{Axes, State};
 use super::words::{Words, letter};
-use crate::dialect::CentreForm;
+use crate::dialect::CenterForm;
 use crate::errors::NcCode;
 use crate::motion::{Arc, Course};
 
@@ -19,8 +19,8 @@ const INCH_TOLERANCE: f64 = 0.013;
 /// Ends nearer than this are one point, mm.
 const SAME_POINT: f64 = 1e-7;
 
-/// Letters of the centre, by axis.
-const CENTRE: [u8; 3] = [letter(b'I'), letter(b'J'), letter(b'K')];
+/// Letters of the center, by axis.
+const CENTER: [u8; 3] = [letter(b'I'), letter(b'J'), letter(b'K')];
 
 /// The two axes of a plane, in the order that makes its normal right-handed.
 fn plane_axes(normal: usize) -> [usize; 2] {
@@ -35,25 +35,25 @@ impl State<'_> {
         let (to, known) = self.target(&axes);
         let plane = plane_axes(self.plane);
         if plane.iter().any(|axis| !self.known[*axis]) {
-            return Err(Fault::new(NcCode::NoCentre, "it is not known where the arc begins"));
+            return Err(Fault::new(NcCode::NoCenter, "it is not known where the arc begins"));
         }
-        let (centre, angle) = match words.take(self.dialect.radius)? {
+        let (center, angle) = match words.take(self.dialect.radius)? {
             Some(radius) => self.about_radius(plane, &to, radius * self.unit(), ccw)?,
             None => {
-                let centre = self.centre(words, plane, &to, ccw)?;
-                (centre, sweep(plane, centre, &self.at, &to, ccw))
+                let center = self.center(words, plane, &to, ccw)?;
+                (center, sweep(plane, center, &self.at, &to, ccw))
             }
         };
         let mut point = [0.0; 3];
         point[self.plane] = self.at[self.plane];
-        (point[plane[0]], point[plane[1]]) = (centre[0], centre[1]);
-        let arc = Arc { centre: point, normal: self.plane, ccw, angle };
+        (point[plane[0]], point[plane[1]]) = (center[0], center[1]);
+        let arc = Arc { center: point, normal: self.plane, ccw, angle };
         self.travel((to, known), Course::Feed, Some(rate), Some(arc));
         Ok(())
     }
 
-    /// The centre that I, J, K name.
-    fn centre(
+    /// The center that I, J, K name.
+    fn center(
         &self,
         words: &mut Words,
         plane: [usize; 2],
@@ -62,27 +62,27 @@ impl State<'_> {
     ) -> Result<[f64; 2], Fault> {
         let mut given = [None; 2];
         for (value, axis) in given.iter_mut().zip(plane) {
-            *value = words.take(CENTRE[axis])?.map(|value| value * self.unit());
+            *value = words.take(CENTER[axis])?.map(|value| value * self.unit());
         }
         if given == [None; 2] {
-            return Err(Fault::new(NcCode::NoCentre, "neither a centre nor a radius is given"));
+            return Err(Fault::new(NcCode::NoCenter, "neither a center nor a radius is given"));
         }
         let start = plane.map(|axis| self.at[axis]);
         let by = given.map(|value| value.unwrap_or(0.0));
-        let centre = match self.dialect.centre {
-            CentreForm::FromStart => [start[0] + by[0], start[1] + by[1]],
-            CentreForm::FromCentre => [start[0] - by[0], start[1] - by[1]],
-            CentreForm::Absolute => match given {
+        let center = match self.dialect.center {
+            CenterForm::FromStart => [start[0] + by[0], start[1] + by[1]],
+            CenterForm::FromCenter => [start[0] - by[0], start[1] - by[1]],
+            CenterForm::Absolute => match given {
                 [Some(first), Some(second)] => [first, second],
-                _ => return Err(Fault::new(NcCode::NoCentre, "the centre needs both coordinates")),
+                _ => return Err(Fault::new(NcCode::NoCenter, "the center needs both coordinates")),
             },
-            CentreForm::Unsigned => self.unsigned(plane, by, to, ccw)?,
+            CenterForm::Unsigned => self.unsigned(plane, by, to, ccw)?,
         };
-        self.check_radii(plane, centre, to)?;
-        Ok(centre)
+        self.check_radii(plane, center, to)?;
+        Ok(center)
     }
 
-    /// Of the four centres without signs the one that makes an arc within a quadrant.
+    /// Of the four centers without signs the one that makes an arc within a quadrant.
     fn unsigned(
         &self,
         plane: [usize; 2],
@@ -95,16 +95,16 @@ impl State<'_> {
         signs
             .map(|sign| [start[0] + sign[0] * by[0], start[1] + sign[1] * by[1]])
             .into_iter()
-            .find(|centre| {
-                self.check_radii(plane, *centre, to).is_ok()
-                    && sweep(plane, *centre, &self.at, to, ccw) < 90.1
+            .find(|center| {
+                self.check_radii(plane, *center, to).is_ok()
+                    && sweep(plane, *center, &self.at, to, ccw) < 90.1
             })
-            .ok_or_else(|| Fault::new(NcCode::ArcRadii, "no signs of the centre make an arc"))
+            .ok_or_else(|| Fault::new(NcCode::ArcRadii, "no signs of the center make an arc"))
     }
 
-    fn check_radii(&self, plane: [usize; 2], centre: [f64; 2], to: &Axes) -> Result<(), Fault> {
+    fn check_radii(&self, plane: [usize; 2], center: [f64; 2], to: &Axes) -> Result<(), Fault> {
         let radius =
-            |point: &Axes| (point[plane[0]] - centre[0]).hypot(point[plane[1]] - centre[1]);
+            |point: &Axes| (point[plane[0]] - center[0]).hypot(point[plane[1]] - center[1]);
         let (start, end) = (radius(&self.at), radius(to));
         let tolerance = if self.metric { RADIUS_TOLERANCE } else { INCH_TOLERANCE };
         if (start - end).abs() > tolerance || start < SAME_POINT {
@@ -114,7 +114,7 @@ impl State<'_> {
         Ok(())
     }
 
-    /// Centre and sweep of an arc of a radius; a negative one goes the long way.
+    /// Center and sweep of an arc of a radius; a negative one goes the long way.
     fn about_radius(
         &self,
         plane: [usize; 2],
@@ -126,7 +126,7 @@ impl State<'_> {
         let chord = [to[plane[0]] - start[0], to[plane[1]] - start[1]];
         let length = chord[0].hypot(chord[1]);
         if length < SAME_POINT {
-            return Err(Fault::new(NcCode::NoCentre, "a radius can't make a full circle"));
+            return Err(Fault::new(NcCode::NoCenter, "a radius can't make a full circle"));
         }
         let tolerance = if self.metric { RADIUS_TOLERANCE } else { INCH_TOLERANCE };
         if length / 2.0 > radius.abs() + tolerance {
@@ -134,19 +134,19 @@ impl State<'_> {
             return Err(Fault::new(NcCode::ArcRadii, message));
         }
         let height = (radius * radius - length * length / 4.0).max(0.0).sqrt();
-        // Left of the chord lies the centre of a short counterclockwise arc.
+        // Left of the chord lies the center of a short counterclockwise arc.
         let side = if ccw == (radius > 0.0) { height } else { -height };
-        let centre = [
+        let center = [
             start[0] + chord[0] / 2.0 - chord[1] / length * side,
             start[1] + chord[1] / 2.0 + chord[0] / length * side,
         ];
-        Ok((centre, sweep(plane, centre, &self.at, to, ccw)))
+        Ok((center, sweep(plane, center, &self.at, to, ccw)))
     }
 }
 
-/// Degrees from start to end about the centre, above 0; 360 when they are one point.
-fn sweep(plane: [usize; 2], centre: [f64; 2], from: &Axes, to: &Axes, ccw: bool) -> f64 {
-    let arm = |point: &Axes| [point[plane[0]] - centre[0], point[plane[1]] - centre[1]];
+/// Degrees from start to end about the center, above 0; 360 when they are one point.
+fn sweep(plane: [usize; 2], center: [f64; 2], from: &Axes, to: &Axes, ccw: bool) -> f64 {
+    let arm = |point: &Axes| [point[plane[0]] - center[0], point[plane[1]] - center[1]];
     let (a, b) = (arm(from), arm(to));
     if (a[0] - b[0]).hypot(a[1] - b[1]) < SAME_POINT {
         return FULL;

@@ -103,8 +103,8 @@ impl State<'_> {
             return self.hole(words);
         }
         let arc = matches!(self.motion, Some(Function::Arc { .. }));
-        let centre = [b'I', b'J', b'K'].map(letter).iter().any(|letter| words.has(*letter));
-        let moves = words.has_axes(self.dialect) || (arc && centre);
+        let center = [b'I', b'J', b'K'].map(letter).iter().any(|letter| words.has(*letter));
+        let moves = words.has_axes(self.dialect) || (arc && center);
         if !moves {
             return self.feed_word(words);
         }

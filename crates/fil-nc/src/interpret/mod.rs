@@ -19,7 +19,7 @@ mod tests;
 
 use std::ops::Range;
 
-use fil_diag::{Diag, Place};
+use fil_diag::{Diag, TextSpan};
 
 use crate::dialect::Dialect;
 use crate::errors::NcCode;
@@ -45,7 +45,7 @@ impl Fault {
     }
 
     fn place(self, name: &str, line: u32, text: &[u8]) -> Box<Diag> {
-        let mut place = Place::line(name, line, String::from_utf8_lossy(text).trim_end());
+        let mut place = TextSpan::line(name, line, String::from_utf8_lossy(text).trim_end());
         if let Some(range) = self.range {
             let before = |end: usize| String::from_utf8_lossy(&text[..end.min(text.len())]).len();
             let end = place.excerpt.len();

@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use fil_diag::{Diag, Place};
+use fil_diag::{Diag, TextSpan};
 
 use super::Fault;
 use super::block::Outcome;
@@ -252,7 +252,7 @@ impl<'a> Program<'a> {
         let last = self.lines.len().saturating_sub(1);
         let text = if self.lines.is_empty() { &[][..] } else { self.line(last) };
         let text = String::from_utf8_lossy(text).into_owned();
-        Box::new(Diag::new(NcCode::CutOff, message).at(Place::line(
+        Box::new(Diag::new(NcCode::CutOff, message).at(TextSpan::line(
             self.name,
             last as u32 + 1,
             text,

@@ -69,7 +69,7 @@ proptest! {
         let text = words.join(" ");
         for dialect in dialects() {
             if let Err(diag) = events(text.as_bytes(), "test", &dialect) {
-                prop_assert!(!diag.places.is_empty());
+                prop_assert!(!diag.spans.is_empty());
             }
         }
     }

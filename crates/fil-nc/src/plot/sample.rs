@@ -45,8 +45,8 @@ pub(super) fn arc_step(radius: f64, tolerance: f64) -> f64 {
 
 fn radius(arc: &Arc, from: &Position) -> f64 {
     let [first, second] = arc.plane();
-    let centre = arc.centre;
-    (from.linear[first] - centre[first]).hypot(from.linear[second] - centre[second])
+    let center = arc.center;
+    (from.linear[first] - center[first]).hypot(from.linear[second] - center[second])
 }
 
 /// The tool tip in the part frame.

@@ -2,7 +2,7 @@
 
 use super::ahead::Steps;
 use super::lines::{RAPID_PARTS, is_line};
-use super::report::Kind;
+use super::report::FindingKind;
 use super::say::shape;
 use super::walk::{LOOK_AHEAD, Walk};
 use super::wanted::{Step, Wanted};
@@ -153,7 +153,7 @@ impl<C: Steps> Walk<'_, C> {
         if found.in_cycle && self.gap(&found.to, &pose).closed() {
             let what = self.spell_move(&found);
             let message = format!("{what} by a cycle that the CL file does not ask for here");
-            self.find(Kind::Extra, Some(step.line), Some(found.line), message);
+            self.find(FindingKind::Extra, Some(step.line), Some(found.line), message);
         }
         for index in self.next..=chosen {
             if let Event::Move(part) = self.nc[index] {
@@ -190,7 +190,7 @@ impl<C: Steps> Walk<'_, C> {
             () => return false,
         };
         let message = format!("the program {said}; nothing more was compared");
-        self.find(Kind::Units, Some(cl_line), Some(found.line), message);
+        self.find(FindingKind::Units, Some(cl_line), Some(found.line), message);
         self.over = true;
         true
     }
@@ -205,17 +205,17 @@ impl<C: Steps> Walk<'_, C> {
                     let what = self.spell_move(&found);
                     let what = if found.in_cycle { "cycle".to_string() } else { what };
                     let message = format!("the CL file asks for no {what} here");
-                    self.find(Kind::Extra, Some(cl_line), Some(found.line), message);
+                    self.find(FindingKind::Extra, Some(cl_line), Some(found.line), message);
                     self.stand_through(self.unit_end(self.next));
                 }
                 Event::ToolChange { line, tool, .. } => {
                     let message = format!("the CL file asks for no change to tool {tool} here");
-                    self.find(Kind::Tool, Some(cl_line), Some(line), message);
+                    self.find(FindingKind::Tool, Some(cl_line), Some(line), message);
                     self.next += 1;
                 }
                 Event::Dwell { line, .. } => {
                     let message = "the CL file asks for no dwell here".to_string();
-                    self.find(Kind::Extra, Some(cl_line), Some(line), message);
+                    self.find(FindingKind::Extra, Some(cl_line), Some(line), message);
                     self.next += 1;
                 }
                 Event::End { .. } => return,

@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::ahead::Steps;
 use super::between::Asked;
-use super::report::Kind;
+use super::report::FindingKind;
 use super::say::short;
 use super::walk::Walk;
 use super::wanted::{Arc, Step, Wanted};
@@ -72,7 +72,7 @@ impl<C: Steps> Walk<'_, C> {
         None
     }
 
-    /// The angle an arc block sweeps, when its centre, plane and sense are right.
+    /// The angle an arc block sweeps, when its center, plane and sense are right.
     fn on_arc(&self, arc: &Arc, from: &Position, found: &Move, part: &motion::Arc) -> Option<f64> {
         let frame = self.settings.forward.frame_of(&found.to);
         let mut normal = Vector3::zeros();
@@ -80,23 +80,23 @@ impl<C: Steps> Walk<'_, C> {
         if (frame.turn * normal - arc.normal).norm() > PARALLEL {
             return None;
         }
-        let centre = frame.linear(arc.centre);
-        let off = |n: usize| (part.centre[n] - centre[n]).abs();
+        let center = frame.linear(arc.center);
+        let off = |n: usize| (part.center[n] - center[n]).abs();
         let in_plane = |n: &usize| *n != part.normal;
         let radius = if self.settings.writes_radius() {
-            let given = distance(part.centre, from.linear, part.normal);
+            let given = distance(part.center, from.linear, part.normal);
             (given - arc.radius()).abs() <= self.slack.radius
         } else {
-            (0..3).filter(in_plane).all(|n| off(n) <= self.centre_slack(n))
+            (0..3).filter(in_plane).all(|n| off(n) <= self.center_slack(n))
         };
         radius.then_some(part.angle)
     }
 
-    /// The centre is written from the start as it is rounded on the tape. When
+    /// The center is written from the start as it is rounded on the tape. When
     /// the machine turns besides, the arc lies as its rounded angles have it.
-    fn centre_slack(&self, n: usize) -> f64 {
+    fn center_slack(&self, n: usize) -> f64 {
         let turned = if self.settings.forward.has_rotary() { self.slack.linear[n] } else { 0.0 };
-        self.slack.centre[n] + turned
+        self.slack.center[n] + turned
     }
 
     /// The angle a straight line sweeps, when it stays within the chord tolerance.
@@ -162,21 +162,21 @@ impl<C: Steps> Walk<'_, C> {
             };
             format!("the arc is {is}, it should be {should}")
         } else {
-            let centre = frame.linear(arc.centre);
+            let center = frame.linear(arc.center);
             let off: Vec<String> = (0..3)
                 .filter(|n| *n != part.normal)
-                .map(|n| (n, part.centre[n] - centre[n]))
-                .filter(|(n, off)| off.abs() > self.slack.centre[*n])
+                .map(|n| (n, part.center[n] - center[n]))
+                .filter(|(n, off)| off.abs() > self.slack.center[*n])
                 .map(|(n, off)| format!("{} by {}", ["X", "Y", "Z"][n], short(off)))
                 .collect();
             if off.is_empty() {
                 let (is, should) = (short(part.angle), short(arc.sweep));
                 format!("the arc sweeps {is} degrees, it should be {should}")
             } else {
-                format!("the centre of the arc is off in {}", off.join(" and "))
+                format!("the center of the arc is off in {}", off.join(" and "))
             }
         };
-        self.find(Kind::Arc, Some(step.line), Some(found.line), message);
+        self.find(FindingKind::Arc, Some(step.line), Some(found.line), message);
     }
 }
 

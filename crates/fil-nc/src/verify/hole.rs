@@ -1,7 +1,7 @@
 //! Holes of the path against canned cycles, or single moves, of the program.
 
 use super::ahead::Steps;
-use super::report::Kind;
+use super::report::FindingKind;
 use super::say::short;
 use super::walk::Walk;
 use super::wanted::{CycleKind, Hole};
@@ -70,7 +70,7 @@ impl<C: Steps> Walk<'_, C> {
     fn drill_at(&mut self, cl_line: u32, hole: &Hole, levels: Levels, plunge: &Move) {
         let first = self.next;
         if let Err((line, message)) = self.drill(cl_line, hole, levels, plunge.modes.spindle) {
-            self.find(Kind::Cycle, Some(cl_line), Some(line), message);
+            self.find(FindingKind::Cycle, Some(cl_line), Some(line), message);
             self.leave_hole(first, plunge);
         }
     }

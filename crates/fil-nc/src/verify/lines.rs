@@ -2,7 +2,7 @@
 
 use super::ahead::Steps;
 use super::between::Asked;
-use super::report::Kind;
+use super::report::FindingKind;
 use super::say::short;
 use super::walk::{STILL, Walk};
 use crate::forward::Pose;
@@ -52,7 +52,7 @@ impl<C: Steps> Walk<'_, C> {
         let moved = |n: usize| !same(to[n], at[n]);
         let arrived = |n: usize| same(to[n], end.linear[n]);
         let mut say = |message: String| {
-            self.find(Kind::Order, Some(cl_line), Some(part.line), message);
+            self.find(FindingKind::Order, Some(cl_line), Some(part.line), message);
         };
         if (0..3).any(|n| moved(n) && !arrived(n) && known[n]) {
             let [x, y, z] = to.map(short);
@@ -102,7 +102,7 @@ impl<C: Steps> Walk<'_, C> {
                 let axis = ["X", "Y", "Z"][n];
                 let message =
                     format!("{axis}{} lies outside the travel {min} to {max}", short(value));
-                self.find(Kind::Limit, Some(cl_line), Some(found.line), message);
+                self.find(FindingKind::Limit, Some(cl_line), Some(found.line), message);
             }
         }
         for n in 0..2 {
@@ -114,7 +114,7 @@ impl<C: Steps> Walk<'_, C> {
                 let letter = axis.letter.character();
                 let message =
                     format!("{letter}{} lies outside the travel of the axis", short(value));
-                self.find(Kind::Limit, Some(cl_line), Some(found.line), message);
+                self.find(FindingKind::Limit, Some(cl_line), Some(found.line), message);
             }
         }
     }

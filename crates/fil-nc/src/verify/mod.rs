@@ -41,7 +41,7 @@ use blocks::OwnBlocks;
 pub use between::{Between, Peak, look_at_blocks};
 pub use cl_path::ClPath;
 pub use programs::{compare_programs, compare_words};
-pub use report::{Deviation, Finding, Kind, Report, Unverified, Verdict};
+pub use report::{Deviation, Finding, FindingKind, Report, Unverified, Verdict};
 pub use settings::{Due, Settings, Slack};
 pub use wanted::{Arc, CoolantKind, CycleKind, Effect, Hole, Step, Wanted};
 

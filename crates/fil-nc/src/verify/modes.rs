@@ -3,7 +3,7 @@
 //! A post may let a word wait for a motion of certain axes. Until then both the
 //! state before and the state asked for are right; after it only the latter is.
 
-use super::report::Kind;
+use super::report::FindingKind;
 use super::settings::{Due, Settings};
 use super::wanted::{CoolantKind, Effect, Wanted};
 use crate::motion::{Compensation, Modes, Spindle};
@@ -85,7 +85,7 @@ pub(super) struct Expected {
     /// The length offset seen last.
     offset_on: Option<u32>,
     /// What was wrong at the last motion, so that it is said once.
-    said: Vec<(Kind, String)>,
+    said: Vec<(FindingKind, String)>,
 }
 
 impl Expected {
@@ -167,19 +167,19 @@ impl Expected {
         modes: &Modes,
         changes: bool,
         speed_slack: f64,
-    ) -> Vec<(Kind, String)> {
+    ) -> Vec<(FindingKind, String)> {
         self.flush();
         let mut wrong = self.wrong(modes, Doing::Standing, speed_slack);
         // A change may bring its own offset along; one that waits needs a motion.
-        wrong.retain(|(kind, _)| *kind != Kind::Tool || !(changes || self.offset_waits()));
+        wrong.retain(|(kind, _)| *kind != FindingKind::Tool || !(changes || self.offset_waits()));
         if modes.tip_control {
             let said = "tool-tip control is on, it should be off";
-            wrong.push((Kind::Tool, said.to_string()));
+            wrong.push((FindingKind::Tool, said.to_string()));
         }
         self.news(wrong)
     }
 
-    fn news(&mut self, wrong: Vec<(Kind, String)>) -> Vec<(Kind, String)> {
+    fn news(&mut self, wrong: Vec<(FindingKind, String)>) -> Vec<(FindingKind, String)> {
         let news = wrong.iter().filter(|one| !self.said.contains(one)).cloned().collect();
         self.said = wrong;
         news
@@ -200,7 +200,7 @@ impl Expected {
         moved: Moved,
         cuts: bool,
         speed_slack: f64,
-    ) -> Vec<(Kind, String)> {
+    ) -> Vec<(FindingKind, String)> {
         self.offset.moved(moved);
         self.compensation.moved(moved);
         self.spindle.moved(moved);
@@ -219,21 +219,23 @@ impl Expected {
 
     /// A motion with a new tool is over: what is wrong when its length offset is
     /// not yet on.
-    pub(super) fn settle(&mut self) -> Option<(Kind, String)> {
+    pub(super) fn settle(&mut self) -> Option<(FindingKind, String)> {
         let (must, _) = self.offset.next?;
         self.offset.flush();
-        let one = (Kind::Tool, said_of_offset(self.offset_on, must));
+        let one = (FindingKind::Tool, said_of_offset(self.offset_on, must));
         (self.offset_on != must && !self.said.contains(&one)).then(|| {
             self.said.push(one.clone());
             one
         })
     }
 
-    fn wrong(&self, modes: &Modes, doing: Doing, speed_slack: f64) -> Vec<(Kind, String)> {
+    fn wrong(&self, modes: &Modes, doing: Doing, speed_slack: f64) -> Vec<(FindingKind, String)> {
         let mut wrong = Vec::new();
         if let Some(tool) = self.tool.filter(|tool| *tool != modes.tool) {
-            wrong
-                .push((Kind::Tool, format!("tool {} moves, it should be tool {tool}", modes.tool)));
+            wrong.push((
+                FindingKind::Tool,
+                format!("tool {} moves, it should be tool {tool}", modes.tool),
+            ));
         }
         // Between the change and the new offset, and at the end, the old one may be given up.
         // Tool-tip control has an offset, whether one is asked for or not.
@@ -242,16 +244,16 @@ impl Expected {
         let may_give_up = self.offset.next.is_some() || doing == Doing::Standing;
         let given_up = may_give_up && modes.length_offset.is_none();
         if let Some(must) = self.offset.refuses(offset).filter(|_| !given_up) {
-            wrong.push((Kind::Tool, said_of_offset(modes.length_offset, must)));
+            wrong.push((FindingKind::Tool, said_of_offset(modes.length_offset, must)));
         }
         let found = (modes.compensation, modes.compensation_offset);
         if let Some(must) = self.compensation.refuses(|may| may == found) {
-            wrong.push((Kind::Compensation, said_of_compensation(found, must)));
+            wrong.push((FindingKind::Compensation, said_of_compensation(found, must)));
         }
         let spindle = |may: Option<Spindle>| may.is_none_or(|may| may == modes.spindle);
         if let Some(Some(must)) = self.spindle.refuses(spindle) {
             wrong.push((
-                Kind::Spindle,
+                FindingKind::Spindle,
                 said_of_spindle(modes.spindle, must, doing == Doing::Cutting),
             ));
         }
@@ -262,7 +264,10 @@ impl Expected {
         };
         if let Some(Some(must)) = self.speed.refuses(speed) {
             let found = modes.speed.map_or("no speed".to_string(), |speed| format!("S{speed}"));
-            wrong.push((Kind::Speed, format!("the spindle has {found}, it should be {must}")));
+            wrong.push((
+                FindingKind::Speed,
+                format!("the spindle has {found}, it should be {must}"),
+            ));
         }
         if let Some(must) = self.coolant.refuses(|may| may == modes.coolant) {
             let said = if must {
@@ -270,13 +275,13 @@ impl Expected {
             } else {
                 "coolant is on, it should be off"
             };
-            wrong.push((Kind::Coolant, said.to_string()));
+            wrong.push((FindingKind::Coolant, said.to_string()));
         }
         if let Some(must) = self.fixture.filter(|must| *must != modes.fixture) {
             let name =
                 |fixture: Option<u32>| fixture.map_or("none".to_string(), |g| format!("G{g}"));
             let (found, must) = (name(modes.fixture), name(must));
-            wrong.push((Kind::Fixture, format!("work offset {found}, it should be {must}")));
+            wrong.push((FindingKind::Fixture, format!("work offset {found}, it should be {must}")));
         }
         wrong
     }

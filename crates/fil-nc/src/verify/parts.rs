@@ -7,7 +7,7 @@ use super::ahead::Steps;
 use super::between::Asked;
 use super::between::way::Way;
 use super::lines::is_line;
-use super::report::Kind;
+use super::report::FindingKind;
 use super::say::short;
 use super::walk::Walk;
 use crate::forward::Pose;
@@ -55,11 +55,12 @@ impl<C: Steps> Walk<'_, C> {
         let Some(parts) = self.parts_to(pose) else { return false };
         for (line, fault) in &parts.faults {
             let (kind, message) = match fault {
-                Fault::Tip(off) => {
-                    (Kind::Position, format!("on the way the tip is {} off its line", short(*off)))
-                }
+                Fault::Tip(off) => (
+                    FindingKind::Position,
+                    format!("on the way the tip is {} off its line", short(*off)),
+                ),
                 Fault::Axis => {
-                    (Kind::Axis, "on the way the tool is not between its ends".to_string())
+                    (FindingKind::Axis, "on the way the tool is not between its ends".to_string())
                 }
             };
             self.find(kind, Some(cl_line), Some(*line), message);

@@ -8,7 +8,7 @@
 
 use fil_diag::Diag;
 
-use super::report::{Finding, Kind, Report, Unverified};
+use super::report::{Finding, FindingKind, Report, Unverified};
 use super::say::{sense, short, way};
 use crate::diff;
 use crate::motion::{Course, Event, Modes, Move, Rate};
@@ -60,7 +60,7 @@ pub fn compare_words(
             "its lines were compared as text"
         }
     };
-    let line = refused.places.first().map_or(0, |place| place.line);
+    let line = refused.spans.first().map_or(0, |place| place.line);
     let why = &refused.message;
     let what = format!("the program from line {line} on can't be followed ({why}); {compared}");
     report.unverified.push(Unverified { cl_line: None, what });
@@ -85,7 +85,7 @@ fn compare_lines(wanted: &[u8], found: &[u8], report: &mut Report) {
 }
 
 fn block(nc_line: Option<u32>, message: String) -> Finding {
-    Finding { kind: Kind::Block, cl_line: None, nc_line, message }
+    Finding { kind: FindingKind::Block, cl_line: None, nc_line, message }
 }
 
 struct Pair<'a> {
@@ -187,7 +187,7 @@ impl Pair<'_> {
                 };
                 if !same {
                     let message = format!("dwell of {}, it should be {}", dwell(*b), dwell(*a));
-                    self.find(Kind::Dwell, *line, message);
+                    self.find(FindingKind::Dwell, *line, message);
                 }
             }
             _ => {}
@@ -203,7 +203,7 @@ impl Pair<'_> {
         };
         if !same {
             let message = format!("feed {}, it should be {}", rate(b.rate), rate(a.rate));
-            self.find(Kind::Feed, b.line, message);
+            self.find(FindingKind::Feed, b.line, message);
         }
     }
 
@@ -214,8 +214,8 @@ impl Pair<'_> {
             () if wanted.ccw != found.ccw => {
                 format!("{}, it should be {}", sense(found), sense(wanted))
             }
-            () if !(0..3).all(|n| self.near(wanted.centre[n], found.centre[n])) => {
-                "the centre of the arc is elsewhere".to_string()
+            () if !(0..3).all(|n| self.near(wanted.center[n], found.center[n])) => {
+                "the center of the arc is elsewhere".to_string()
             }
             () if !self.near(wanted.angle, found.angle) => {
                 format!(
@@ -226,44 +226,44 @@ impl Pair<'_> {
             }
             () => return,
         };
-        self.find(Kind::Arc, b.line, message);
+        self.find(FindingKind::Arc, b.line, message);
     }
 
     fn modes(&mut self, line: u32, a: &Modes, b: &Modes) {
         let checks = [
             (
                 a.tool != b.tool,
-                Kind::Tool,
+                FindingKind::Tool,
                 format!("tool {} moves, it should be tool {}", b.tool, a.tool),
             ),
             (
                 a.length_offset != b.length_offset,
-                Kind::Tool,
+                FindingKind::Tool,
                 "another length offset is on".to_string(),
             ),
             (
                 a.tip_control != b.tip_control,
-                Kind::Tool,
+                FindingKind::Tool,
                 "tool-tip control is not as it should be".to_string(),
             ),
             (
                 (a.compensation, a.compensation_offset) != (b.compensation, b.compensation_offset),
-                Kind::Compensation,
+                FindingKind::Compensation,
                 "cutter compensation is not as it should be".to_string(),
             ),
             (
                 a.spindle != b.spindle,
-                Kind::Spindle,
+                FindingKind::Spindle,
                 format!("the spindle is {:?}, it should be {:?}", b.spindle, a.spindle)
                     .to_lowercase(),
             ),
-            (a.speed != b.speed, Kind::Speed, "the spindle has another speed".to_string()),
+            (a.speed != b.speed, FindingKind::Speed, "the spindle has another speed".to_string()),
             (
                 a.coolant != b.coolant,
-                Kind::Coolant,
+                FindingKind::Coolant,
                 "the coolant is not as it should be".to_string(),
             ),
-            (a.fixture != b.fixture, Kind::Fixture, "another work offset is on".to_string()),
+            (a.fixture != b.fixture, FindingKind::Fixture, "another work offset is on".to_string()),
         ];
         for (differs, kind, message) in checks {
             let said = self.report.findings.iter().any(|f| f.kind == kind && f.message == message);
@@ -276,12 +276,12 @@ impl Pair<'_> {
     fn other(&mut self, wanted: &Event, found: &Event) {
         let kind = match (wanted, found) {
             (Event::Move(a), Event::Move(b)) => match (a.course, b.course) {
-                (Course::Feed, Course::Rapid) => Kind::RapidForFeed,
-                (Course::Rapid, Course::Feed) => Kind::FeedForRapid,
-                _ => Kind::Position,
+                (Course::Feed, Course::Rapid) => FindingKind::RapidForFeed,
+                (Course::Rapid, Course::Feed) => FindingKind::FeedForRapid,
+                _ => FindingKind::Position,
             },
-            (Event::ToolChange { .. }, _) | (_, Event::ToolChange { .. }) => Kind::Tool,
-            _ => Kind::Missing,
+            (Event::ToolChange { .. }, _) | (_, Event::ToolChange { .. }) => FindingKind::Tool,
+            _ => FindingKind::Missing,
         };
         let message = format!("{}, it should be {}", spell(found), spell(wanted));
         self.find(kind, line_of(found), message);
@@ -289,15 +289,20 @@ impl Pair<'_> {
 
     fn missing(&mut self, at: usize) {
         let message = format!("no {}", spell(&self.wanted[at]));
-        self.report.find(Finding { kind: Kind::Missing, cl_line: None, nc_line: None, message });
+        self.report.find(Finding {
+            kind: FindingKind::Missing,
+            cl_line: None,
+            nc_line: None,
+            message,
+        });
     }
 
     fn extra(&mut self, at: usize) {
         let message = format!("no {} should be here", spell(&self.found[at]));
-        self.find(Kind::Extra, line_of(&self.found[at]), message);
+        self.find(FindingKind::Extra, line_of(&self.found[at]), message);
     }
 
-    fn find(&mut self, kind: Kind, line: u32, message: String) {
+    fn find(&mut self, kind: FindingKind, line: u32, message: String) {
         self.report.find(Finding { kind, cl_line: None, nc_line: Some(line), message });
     }
 }

@@ -1,7 +1,7 @@
 //! The feed of a motion.
 
 use super::ahead::Steps;
-use super::report::Kind;
+use super::report::FindingKind;
 use super::say::{short, spell_rate};
 use super::walk::Walk;
 use crate::motion::{Move, Position, Rate};
@@ -39,7 +39,7 @@ impl<C: Steps> Walk<'_, C> {
         if !agrees {
             let found_rate = found.rate.map_or("none".to_string(), spell_rate);
             let message = format!("feed {found_rate}, it should be {}", spell_rate(wanted));
-            self.find(Kind::Feed, Some(cl_line), Some(found.line), message);
+            self.find(FindingKind::Feed, Some(cl_line), Some(found.line), message);
         }
     }
 
@@ -65,7 +65,7 @@ impl<C: Steps> Walk<'_, C> {
             short(way),
             short(rate)
         );
-        self.find(Kind::Feed, Some(cl_line), Some(found.line), message);
+        self.find(FindingKind::Feed, Some(cl_line), Some(found.line), message);
     }
 
     /// How far the tip goes in the part, mm: straight, or along an arc of the program; and

@@ -6,8 +6,8 @@ use super::between::Between;
 
 /// What a finding is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Kind {
-    /// The end of a motion, a depth, an arc's centre.
+pub enum FindingKind {
+    /// The end of a motion, a depth, an arc's center.
     Position,
     /// The direction of the tool.
     Axis,
@@ -55,33 +55,33 @@ pub enum Kind {
     End,
 }
 
-impl Kind {
+impl FindingKind {
     /// The word for it in JSON.
     pub fn name(self) -> &'static str {
         match self {
-            Kind::Position => "position",
-            Kind::Axis => "tool-axis",
-            Kind::Arc => "arc",
-            Kind::RapidForFeed => "rapid-for-feed",
-            Kind::FeedForRapid => "feed-for-rapid",
-            Kind::Thread => "thread",
-            Kind::Missing => "missing",
-            Kind::Extra => "extra",
-            Kind::Order => "order-of-axes",
-            Kind::Feed => "feed",
-            Kind::Spindle => "spindle",
-            Kind::Speed => "speed",
-            Kind::Coolant => "coolant",
-            Kind::Tool => "tool",
-            Kind::Compensation => "compensation",
-            Kind::Fixture => "work-offset",
-            Kind::Cycle => "cycle",
-            Kind::Dwell => "dwell",
-            Kind::Between => "between",
-            Kind::Limit => "limit",
-            Kind::Units => "units",
-            Kind::Block => "block",
-            Kind::End => "end",
+            FindingKind::Position => "position",
+            FindingKind::Axis => "tool-axis",
+            FindingKind::Arc => "arc",
+            FindingKind::RapidForFeed => "rapid-for-feed",
+            FindingKind::FeedForRapid => "feed-for-rapid",
+            FindingKind::Thread => "thread",
+            FindingKind::Missing => "missing",
+            FindingKind::Extra => "extra",
+            FindingKind::Order => "order-of-axes",
+            FindingKind::Feed => "feed",
+            FindingKind::Spindle => "spindle",
+            FindingKind::Speed => "speed",
+            FindingKind::Coolant => "coolant",
+            FindingKind::Tool => "tool",
+            FindingKind::Compensation => "compensation",
+            FindingKind::Fixture => "work-offset",
+            FindingKind::Cycle => "cycle",
+            FindingKind::Dwell => "dwell",
+            FindingKind::Between => "between",
+            FindingKind::Limit => "limit",
+            FindingKind::Units => "units",
+            FindingKind::Block => "block",
+            FindingKind::End => "end",
         }
     }
 }
@@ -90,7 +90,7 @@ impl Kind {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     /// What it is about.
-    pub kind: Kind,
+    pub kind: FindingKind,
     /// Line of the CL file, where one asks for it.
     pub cl_line: Option<u32>,
     /// Line of the NC program, where one does it.

@@ -2,7 +2,7 @@
 
 use super::ahead::Steps;
 use super::gap::Gap;
-use super::report::Kind;
+use super::report::FindingKind;
 use super::walk::Walk;
 use super::wanted::{Step, Wanted};
 use crate::decimals;
@@ -19,17 +19,19 @@ impl<C: Steps> Walk<'_, C> {
         let what = self.spell_move(found);
         let (kind, should) = match (&step.what, way) {
             (Wanted::Rapid(_), (Course::Rapid, _)) => return,
-            (Wanted::Rapid(_), (Course::Feed, _)) => (Kind::FeedForRapid, "a rapid"),
+            (Wanted::Rapid(_), (Course::Feed, _)) => (FindingKind::FeedForRapid, "a rapid"),
             (Wanted::Feed(..), (Course::Feed, false)) => return,
-            (Wanted::Feed(..), (Course::Rapid, _)) => (Kind::RapidForFeed, "a line at feed"),
-            (Wanted::Feed(..), (Course::Feed, true)) => (Kind::Arc, "a straight line"),
+            (Wanted::Feed(..), (Course::Rapid, _)) => (FindingKind::RapidForFeed, "a line at feed"),
+            (Wanted::Feed(..), (Course::Feed, true)) => (FindingKind::Arc, "a straight line"),
             (Wanted::Thread(..), (Course::Thread, _)) => return,
-            (Wanted::Thread(..), (Course::Rapid, _)) => (Kind::RapidForFeed, "a thread pass"),
-            (Wanted::Thread(..), _) => (Kind::Thread, "a thread pass"),
-            (Wanted::Arc(..), (Course::Rapid, _)) => (Kind::RapidForFeed, "an arc at feed"),
-            (Wanted::Arc(..), (_, false)) => (Kind::Arc, "an arc"),
+            (Wanted::Thread(..), (Course::Rapid, _)) => {
+                (FindingKind::RapidForFeed, "a thread pass")
+            }
+            (Wanted::Thread(..), _) => (FindingKind::Thread, "a thread pass"),
+            (Wanted::Arc(..), (Course::Rapid, _)) => (FindingKind::RapidForFeed, "an arc at feed"),
+            (Wanted::Arc(..), (_, false)) => (FindingKind::Arc, "an arc"),
             (Wanted::Arc(..), _) => return self.say_arc(step, found),
-            (_, (Course::Thread, _)) => (Kind::Thread, "a motion without lead"),
+            (_, (Course::Thread, _)) => (FindingKind::Thread, "a motion without lead"),
             _ => return,
         };
         let message = format!("{what}, it should be {should}");
@@ -51,7 +53,7 @@ impl<C: Steps> Walk<'_, C> {
         let unknown = !self.is_known(&found.known);
         if let Some(angle) = gap.turned {
             let message = format!("the tool is tilted {} degrees away from its axis", short(angle));
-            return self.find(Kind::Axis, Some(cl_line), Some(found.line), message);
+            return self.find(FindingKind::Axis, Some(cl_line), Some(found.line), message);
         }
         let parts: Vec<String> = (0..3)
             .filter(|n| gap.excess[*n])
@@ -61,7 +63,7 @@ impl<C: Steps> Walk<'_, C> {
             (true, _) => "moves before all axes have been given a position".to_string(),
             (false, _) => parts.join(", "),
         };
-        self.find(Kind::Position, Some(cl_line), Some(found.line), message);
+        self.find(FindingKind::Position, Some(cl_line), Some(found.line), message);
     }
 
     pub(super) fn spell_step(&self, wanted: &Wanted) -> String {

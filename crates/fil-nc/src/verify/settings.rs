@@ -46,7 +46,7 @@ pub struct Slack {
     /// Primary and secondary rotary axis, degrees.
     pub rotary: [f64; 2],
     /// I, J, K, mm.
-    pub centre: [f64; 3],
+    pub center: [f64; 3],
     /// Radius of an arc, mm.
     pub radius: f64,
     /// Feed, mm/min or mm a turn.
@@ -109,7 +109,7 @@ impl<'c> Settings<'c> {
             linear: axes.map(|(letter, common)| of_axis(letter, common, unit)),
             rounded: axes.map(|(letter, common)| Some(half(letter) * scaled(common)?)),
             rotary,
-            centre: letters::IJK.map(|letter| self.allowed(half(letter) * unit)),
+            center: letters::IJK.map(|letter| self.allowed(half(letter) * unit)),
             radius: self.allowed(half(letters::R) * unit),
             feed: half(letters::F) * unit / self.feed_factor() + DUST,
             inverse: half(letters::F) + DUST,

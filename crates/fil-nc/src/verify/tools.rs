@@ -2,7 +2,7 @@
 
 use super::ahead::Steps;
 use super::lines::RAPID_PARTS;
-use super::report::Kind;
+use super::report::FindingKind;
 use super::say::short;
 use super::walk::{LOOK_AHEAD, Walk};
 use crate::motion::{Course, Event, Position};
@@ -20,7 +20,7 @@ impl<C: Steps> Walk<'_, C> {
             Some(left_out) => self.extra(left_out, cl_line),
             None => {
                 let message = format!("no change to tool {number}");
-                self.find(Kind::Tool, Some(cl_line), None, message);
+                self.find(FindingKind::Tool, Some(cl_line), None, message);
                 return self.modes.change_tool(number, offset, self.settings);
             }
         }
@@ -29,13 +29,13 @@ impl<C: Steps> Walk<'_, C> {
             self.check_standing(cl_line, line, &modes, true);
             if tool != number {
                 let message = format!("changes to tool {tool}, it should be tool {number}");
-                self.find(Kind::Tool, Some(cl_line), Some(line), message);
+                self.find(FindingKind::Tool, Some(cl_line), Some(line), message);
             }
             let at_once = self.settings.calls_tools_with_offset();
             let taken = modes.length_offset.unwrap_or(0);
             if at_once && taken != offset {
                 let message = format!("length offset {taken} is taken up, it should be {offset}");
-                self.find(Kind::Tool, Some(cl_line), Some(line), message);
+                self.find(FindingKind::Tool, Some(cl_line), Some(line), message);
             }
         }
         self.modes.change_tool(number, offset, self.settings);
@@ -90,7 +90,7 @@ impl<C: Steps> Walk<'_, C> {
             }
             None => {
                 let message = "no motion to the tool change position".to_string();
-                self.find(Kind::Missing, Some(cl_line), None, message);
+                self.find(FindingKind::Missing, Some(cl_line), None, message);
             }
         }
     }
@@ -109,7 +109,7 @@ impl<C: Steps> Walk<'_, C> {
             }
             None => {
                 let message = format!("the length offset is not called at Z{}", short(level));
-                self.find(Kind::Tool, Some(cl_line), None, message);
+                self.find(FindingKind::Tool, Some(cl_line), None, message);
             }
         }
     }

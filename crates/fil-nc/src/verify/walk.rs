@@ -10,7 +10,7 @@ use super::between::Watch;
 use super::blocks::OwnBlocks;
 use super::gap::Gap;
 use super::modes::{Expected, Moved};
-use super::report::{Finding, Kind, Report, Unverified};
+use super::report::{Finding, FindingKind, Report, Unverified};
 use super::say::{Shape, short};
 use super::settings::{Settings, Slack};
 use super::wanted::{Effect, Step, Wanted};
@@ -103,7 +103,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         if !self.over && ended {
             self.own.missing().into_iter().for_each(|text| {
                 self.report.find(Finding {
-                    kind: Kind::Block,
+                    kind: FindingKind::Block,
                     cl_line: None,
                     nc_line: None,
                     message: format!("the block `{text}` of the settings is not there"),
@@ -115,7 +115,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         if report.findings.is_empty() && report.matched < report.compared {
             let missing = report.compared - report.matched;
             report.find(Finding {
-                kind: Kind::Missing,
+                kind: FindingKind::Missing,
                 cl_line: None,
                 nc_line: None,
                 message: format!("{missing} motions are not made as the CL file asks"),
@@ -153,7 +153,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             if let Event::Move(found) = event {
                 found.to.linear[0] *= change;
                 if let Some(arc) = &mut found.arc {
-                    arc.centre[0] *= change;
+                    arc.center[0] *= change;
                 }
             }
         }
@@ -190,7 +190,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             match self.detour(step) {
                 Detour::Missing => {
                     let what = self.spell_step(&step.what);
-                    self.find(Kind::Missing, Some(step.line), None, format!("no {what}"));
+                    self.find(FindingKind::Missing, Some(step.line), None, format!("no {what}"));
                     return false;
                 }
                 Detour::Extra(count) => self.extra(count, step.line),
@@ -225,7 +225,12 @@ impl<'a, C: Steps> Walk<'a, C> {
                 Some(Event::Move(found)) if found.course == Course::Machine => {
                     self.stand(&found);
                     let message = "goes to a point of the machine that neither the CL file nor the settings ask for";
-                    self.find(Kind::Extra, Some(cl_line), Some(found.line), message.to_string());
+                    self.find(
+                        FindingKind::Extra,
+                        Some(cl_line),
+                        Some(found.line),
+                        message.to_string(),
+                    );
                 }
                 Some(Event::Move(found)) if self.is_still(&found) => {
                     self.take(cl_line, &found);
@@ -365,7 +370,7 @@ impl<'a, C: Steps> Walk<'a, C> {
 
     pub(super) fn find(
         &mut self,
-        kind: Kind,
+        kind: FindingKind,
         cl_line: Option<u32>,
         nc_line: Option<u32>,
         message: String,
@@ -376,7 +381,7 @@ impl<'a, C: Steps> Walk<'a, C> {
     pub(super) fn dwell(&mut self, cl_line: u32, wanted: Option<f64>) {
         self.pass(cl_line);
         let Some(Event::Dwell { line, seconds }) = self.nc.get(self.next).copied() else {
-            return self.find(Kind::Missing, Some(cl_line), None, "no dwell".to_string());
+            return self.find(FindingKind::Missing, Some(cl_line), None, "no dwell".to_string());
         };
         self.next += 1;
         let wanted = wanted.map(|wanted| self.settings.dwell_within(wanted));
@@ -400,14 +405,14 @@ impl<'a, C: Steps> Walk<'a, C> {
                 None => "turns of the spindle".to_string(),
             };
             let message = format!("dwell of {}, it should be {}", spell(found), spell(wanted));
-            self.find(Kind::Dwell, Some(cl_line), Some(nc_line), message);
+            self.find(FindingKind::Dwell, Some(cl_line), Some(nc_line), message);
         }
     }
 
     pub(super) fn insert(&mut self, cl_line: u32, text: &str) {
         if !self.own.insert(text) {
             let message = format!("the block `{text}` of INSERT is not there");
-            self.find(Kind::Block, Some(cl_line), None, message);
+            self.find(FindingKind::Block, Some(cl_line), None, message);
         }
     }
 
@@ -437,12 +442,12 @@ impl<'a, C: Steps> Walk<'a, C> {
                 self.check_standing(cl_line, line, &modes, false);
                 if !self.settings.has_end_code() && !self.own.has(line) {
                     let message = "the program ends here, the settings have no code for it";
-                    self.find(Kind::End, Some(cl_line), Some(line), message.to_string());
+                    self.find(FindingKind::End, Some(cl_line), Some(line), message.to_string());
                 }
             }
             None if self.settings.has_end_code() => {
                 let message = "the program has no end".to_string();
-                self.find(Kind::End, Some(cl_line), None, message);
+                self.find(FindingKind::End, Some(cl_line), None, message);
             }
             _ => {}
         }
@@ -461,7 +466,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         };
         let motions = if missing == 1 { "motion is" } else { "motions are" };
         let message = format!("the program ends here; {missing} {motions} missing");
-        self.find(Kind::Missing, Some(step.line), nc_line, message);
+        self.find(FindingKind::Missing, Some(step.line), nc_line, message);
         self.over = true;
     }
 }

@@ -109,7 +109,7 @@ pub enum CoolantKind {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
     /// A point of its axis.
-    pub centre: Point3<f64>,
+    pub center: Point3<f64>,
     /// Unit vector; the arc is counterclockwise seen against it.
     pub normal: Vector3<f64>,
     /// Where it begins.
@@ -148,7 +148,7 @@ pub enum CycleKind {
 pub struct Hole {
     /// Where the hole begins.
     pub start: Pose,
-    /// Kind of cycle.
+    /// FindingKind of cycle.
     pub kind: CycleKind,
     /// Depth below the start, above 0.
     pub depth: f64,
@@ -179,7 +179,7 @@ impl Wanted {
 impl Arc {
     /// The vector from the arc's axis to a point.
     pub fn spoke(&self, point: Point3<f64>) -> Vector3<f64> {
-        let from = point - self.centre;
+        let from = point - self.center;
         from - self.normal * self.normal.dot(&from)
     }
 

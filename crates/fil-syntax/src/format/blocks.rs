@@ -5,7 +5,7 @@ use crate::token::Token;
 
 /// Levels of indentation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Place {
+pub(super) struct Depth {
     /// Of the statement.
     pub(super) statement: usize,
     /// Of comments above it: those above the end of a block belong to its body.
@@ -41,7 +41,7 @@ enum Effect {
 
 impl Blocks {
     /// The place of the next statement.
-    pub(super) fn place(&mut self, statement: &Statement<'_>) -> Place {
+    pub(super) fn place(&mut self, statement: &Statement<'_>) -> Depth {
         let tokens: Vec<_> = statement.tokens.iter().map(|placed| placed.1).collect();
         let (label, tokens) = match tokens.as_slice() {
             [Token::Label(label), rest @ ..] => (Some(normal(label)), rest),
@@ -51,25 +51,25 @@ impl Blocks {
         match effect(tokens) {
             Effect::Opens(block) => {
                 self.open.push(block);
-                Place { statement: depth, comment: depth }
+                Depth { statement: depth, comment: depth }
             }
             Effect::Parts => {
                 let outside = depth.saturating_sub(1);
-                Place { statement: outside, comment: outside }
+                Depth { statement: outside, comment: outside }
             }
             Effect::Ends => {
                 self.open.pop();
                 self.end_loop(label.as_deref());
-                Place { statement: depth.saturating_sub(1), comment: depth }
+                Depth { statement: depth.saturating_sub(1), comment: depth }
             }
             Effect::EndsArea => {
                 self.open.clear();
-                Place { statement: 0, comment: 1 }
+                Depth { statement: 0, comment: 1 }
             }
             Effect::Nothing => {
                 let ended = self.end_loop(label.as_deref());
                 let marks_end = ended && matches!(tokens, [Token::Contin]);
-                Place { statement: depth - usize::from(marks_end), comment: depth }
+                Depth { statement: depth - usize::from(marks_end), comment: depth }
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Files as they lie on the disk: their encoding and byte order mark are kept.
 
 use encoding_rs::Encoding;
-use fil_diag::{Diag, Place};
+use fil_diag::{Diag, TextSpan};
 
 use super::format;
 use crate::encoding::{decode, encode};
@@ -20,7 +20,7 @@ pub fn format_bytes(
     bytes: &[u8],
     encoding: Option<&str>,
 ) -> Result<Vec<u8>, Vec<Diag>> {
-    let at_start = |diag: Diag| vec![diag.at(Place::line(file, 1, String::new()))];
+    let at_start = |diag: Diag| vec![diag.at(TextSpan::line(file, 1, String::new()))];
     let (text, name) = decode(bytes, encoding).map_err(at_start)?;
     let formatted = format(file, &text)?;
     if formatted == text {

@@ -3,7 +3,7 @@
 use fil_syntax::tree::{Expr, ExprKind, Span};
 
 use super::Compiler;
-use crate::builtins::{BUILTINS, Builtin, Kind};
+use crate::builtins::{BUILTINS, Builtin, FunctionKind};
 use crate::errors::CompileCode;
 use crate::ops::{Op, Reg};
 use crate::postf::{Grade, PostfOp};
@@ -20,11 +20,11 @@ impl Compiler<'_> {
         }
         let function = function as u16;
         match (builtin.kind, args) {
-            (Kind::Numbers(arity, _), args) if usize::from(arity) == args.len() => {
+            (FunctionKind::Numbers(arity, _), args) if usize::from(arity) == args.len() => {
                 let base = self.arguments(args, span);
                 self.chunk.emit(Op::Function { dst, function, base });
             }
-            (Kind::Fold(_), [first, rest @ ..]) if !rest.is_empty() => {
+            (FunctionKind::Fold(_), [first, rest @ ..]) if !rest.is_empty() => {
                 let base = self.temporaries(2, span);
                 self.expression_into(first, base);
                 for (index, arg) in rest.iter().enumerate() {
@@ -33,21 +33,21 @@ impl Compiler<'_> {
                     self.chunk.emit(Op::Function { dst, function, base });
                 }
             }
-            (Kind::Library(library, least, most), args) => {
+            (FunctionKind::Library(library, least, most), args) => {
                 self.library(builtin, library, (least, most), args, span, dst);
             }
-            (Kind::File, args) => self.file_function(args, span, dst),
-            (Kind::Size, args) => self.array_size(args, span, dst),
-            (Kind::Postf, [number, args @ ..]) => self.postf(number, args, span, dst),
-            (Kind::LastWritten, [letter]) => {
+            (FunctionKind::File, args) => self.file_function(args, span, dst),
+            (FunctionKind::Size, args) => self.array_size(args, span, dst),
+            (FunctionKind::Postf, [number, args @ ..]) => self.postf(number, args, span, dst),
+            (FunctionKind::LastWritten, [letter]) => {
                 let letter = self.expression(letter);
                 self.chunk.emit(Op::LastWritten { dst, letter });
             }
-            (Kind::NamedCommon, [name]) => {
+            (FunctionKind::NamedCommon, [name]) => {
                 let name = self.expression(name);
                 self.chunk.emit(Op::NamedCommon { dst, name });
             }
-            (Kind::Couplet, [word, default @ ..]) if default.len() <= 1 => {
+            (FunctionKind::Couplet, [word, default @ ..]) if default.len() <= 1 => {
                 let Some(word) = self.word(builtin, word) else { return };
                 let op = match default.first() {
                     Some(default) => {
@@ -58,18 +58,18 @@ impl Compiler<'_> {
                 };
                 self.chunk.emit(op);
             }
-            (Kind::HasWord, [word]) => {
+            (FunctionKind::HasWord, [word]) => {
                 if let Some(word) = self.word(builtin, word) {
                     self.chunk.emit(Op::HasWord { dst, word });
                 }
             }
-            (kind @ (Kind::NextMotion | Kind::PreviousMotion), [word]) => {
+            (kind @ (FunctionKind::NextMotion | FunctionKind::PreviousMotion), [word]) => {
                 let coordinate = match &word.kind {
                     ExprKind::Name(name) => COORDINATES.iter().position(|known| known == name),
                     _ => None,
                 };
                 match coordinate {
-                    Some(word) if matches!(kind, Kind::NextMotion) => {
+                    Some(word) if matches!(kind, FunctionKind::NextMotion) => {
                         self.chunk.emit(Op::NextMotion { dst, word: word as u16 });
                     }
                     Some(word) => self.chunk.emit(Op::PreviousMotion { dst, word: word as u16 }),
@@ -80,7 +80,7 @@ impl Compiler<'_> {
                 }
             }
             // A constant unless its argument is no word.
-            (Kind::WordCode, [_]) => {
+            (FunctionKind::WordCode, [_]) => {
                 self.report(
                     CompileCode::WordExpected,
                     span,

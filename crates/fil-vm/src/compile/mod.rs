@@ -190,7 +190,7 @@ pub fn analyze(
 /// Puts diagnostics into the order of the files and their lines.
 fn sort(diags: &mut [Diag], units: &[Unit]) {
     diags.sort_by_key(|diag| {
-        diag.places.first().map(|place| {
+        diag.spans.first().map(|place| {
             let file = units.iter().position(|unit| unit.file.name == place.file);
             (file, place.line, place.span.start)
         })

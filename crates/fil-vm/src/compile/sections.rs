@@ -60,7 +60,7 @@ impl Compiler<'_> {
         let message = format!("CIMFIL/ON,{key} takes the same records as CIMFIL/ON,{}", first.key);
         self.report(CompileCode::SectionTwice, section.span, message);
         if let Some(diag) = self.diags.last_mut() {
-            diag.places.push(first_place);
+            diag.spans.push(first_place);
         }
     }
 

@@ -13,7 +13,7 @@ use crate::compile::names::letter;
 use crate::constant::constant;
 use crate::errors::LintCode;
 use crate::postf::PostfOp;
-use crate::resolve::Location;
+use crate::resolve::FileSpan;
 
 /// What a body of statements belongs to.
 #[derive(Clone, Copy)]
@@ -98,7 +98,7 @@ impl<'t> Context<'t> {
     }
 
     /// A finding about a symbol.
-    pub fn at(&self, code: LintCode, location: Location, message: String) -> Diag {
+    pub fn at(&self, code: LintCode, location: FileSpan, message: String) -> Diag {
         self.diag(code, location.file, location.span, message)
     }
 

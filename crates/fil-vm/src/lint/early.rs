@@ -44,7 +44,7 @@ pub(super) fn look(context: &mut Context<'_>) {
             let place = called(context.bodies[body].owner);
             let message = format!("{name} may have no value here, on a way through {place}");
             let diag = context.diag(LintCode::ReadEarly, unit, span, message);
-            if !found.iter().any(|known| known.code == diag.code && known.places == diag.places) {
+            if !found.iter().any(|known| known.code == diag.code && known.spans == diag.spans) {
                 found.push(diag);
             }
         };

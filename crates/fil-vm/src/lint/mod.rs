@@ -101,7 +101,7 @@ pub(crate) fn warnings(
     // A file that two others include is looked at in both places.
     let mut seen = HashSet::new();
     diags.retain(|diag| {
-        let place = diag.places.first();
+        let place = diag.spans.first();
         let at = place.map(|place| (place.file.clone(), place.line, place.span.start));
         seen.insert((diag.code.number, at, diag.message.clone()))
     });

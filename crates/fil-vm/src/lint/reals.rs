@@ -7,7 +7,7 @@ use fil_syntax::tree::{BinaryOp, Expr, ExprKind, StmtKind};
 use super::context::{Context, Owner};
 use super::flow::Action;
 use super::walk::expressions;
-use crate::builtins::{self, BUILTINS, Kind};
+use crate::builtins::{self, BUILTINS, FunctionKind};
 use crate::constant::constant;
 use crate::errors::LintCode;
 use crate::library::Library;
@@ -164,8 +164,11 @@ fn call(name: &str, args: &[Expr], names: &Names<'_>) -> Exactness {
     }
     let Some(builtin) = builtins::find(name).map(|index| &BUILTINS[index]) else { return Given };
     match builtin.kind {
-        Kind::WordCode | Kind::HasWord | Kind::Size | Kind::File => Whole,
-        Kind::Library(
+        FunctionKind::WordCode
+        | FunctionKind::HasWord
+        | FunctionKind::Size
+        | FunctionKind::File => Whole,
+        FunctionKind::Library(
             Library::Length | Library::Position | Library::Compare | Library::CharacterCode,
             ..,
         ) => Whole,
@@ -173,7 +176,7 @@ fn call(name: &str, args: &[Expr], names: &Names<'_>) -> Exactness {
         _ if PASS_ON.contains(&name) => {
             args.iter().map(|arg| exactness(arg, names)).max().unwrap_or_default()
         }
-        Kind::Numbers(..) | Kind::Fold(_) => Computed,
+        FunctionKind::Numbers(..) | FunctionKind::Fold(_) => Computed,
         _ => Given,
     }
 }

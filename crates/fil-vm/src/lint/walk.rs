@@ -3,7 +3,7 @@
 use fil_syntax::tree::{Expr, ExprKind, Name, Stmt, StmtKind, Target};
 
 use super::flow::Action;
-use crate::builtins::{self, BUILTINS, Kind};
+use crate::builtins::{self, BUILTINS, FunctionKind};
 
 /// How an expression is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,7 +76,7 @@ pub(crate) fn within<'t>(expr: &'t Expr, used: Use, visit: &mut dyn FnMut(&'t Ex
 /// Functions of texts take words such as TRIM among their arguments.
 fn arguments_use(function: &Name) -> Use {
     match builtins::find(&function.text).map(|index| BUILTINS[index].kind) {
-        Some(Kind::Library(..)) => Use::PostArgument,
+        Some(FunctionKind::Library(..)) => Use::PostArgument,
         _ => Use::Value,
     }
 }

@@ -3,7 +3,7 @@
 use fil_diag::Diag;
 
 use super::{Registers, Vm};
-use crate::builtins::{BUILTINS, Kind};
+use crate::builtins::{BUILTINS, FunctionKind};
 use crate::host::Host;
 use crate::ops::{Op, Reg, Target};
 use crate::value::Slot;
@@ -102,8 +102,8 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         base: Reg,
     ) -> Result<Value, Box<Diag>> {
         let (arity, body) = match BUILTINS[usize::from(function)].kind {
-            Kind::Numbers(arity, body) => (arity, body),
-            Kind::Fold(body) => (2, body),
+            FunctionKind::Numbers(arity, body) => (arity, body),
+            FunctionKind::Fold(body) => (2, body),
             _ => unreachable!("the compiler writes functions of numbers here"),
         };
         self.function(registers, function, base, arity, body)

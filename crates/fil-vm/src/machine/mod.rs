@@ -100,7 +100,7 @@ struct State {
 
 /// Runs a [`Module`]. The values of its names last from run to run.
 #[derive(Debug)]
-pub struct Machine {
+pub struct Interpreter {
     module: Arc<Module>,
     registers: Box<Registers>,
     state: State,
@@ -127,7 +127,7 @@ struct Vm<'a, H: Host + ?Sized> {
     at_end: bool,
 }
 
-impl Machine {
+impl Interpreter {
     /// A machine for a module compiled with the same functions.
     pub fn new(module: Arc<Module>, limits: Limits, functions: Arc<Functions>) -> Self {
         let registers = vec![Slot::UNSET; 1 << 16].into_boxed_slice();
@@ -143,7 +143,7 @@ impl Machine {
         for (element, constant) in &module.data {
             state.arrays[*element] = loaded(&mut state.texts, constant);
         }
-        Machine { module, registers, state, limits, functions }
+        Interpreter { module, registers, state, limits, functions }
     }
 
     /// The module it runs.

@@ -62,14 +62,14 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         self.host.warn(diag);
     }
 
-    fn place(&self, spot: Spot) -> fil_diag::Place {
+    fn place(&self, spot: Spot) -> fil_diag::TextSpan {
         self.module.place(self.module.statement(spot.chunk, spot.pc))
     }
 
     /// Completes an error with the FIL place, the calls, the record and the values.
     #[cold]
     pub(super) fn locate(&self, registers: &Registers, mut diag: Box<Diag>) -> Box<Diag> {
-        diag.places.push(self.place(self.spot));
+        diag.spans.push(self.place(self.spot));
         self.add_calls(&mut diag);
         self.add_record(&mut diag);
         let statement = self.module.statement(self.spot.chunk, self.spot.pc);

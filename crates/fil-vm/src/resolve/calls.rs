@@ -4,7 +4,7 @@ use fil_diag::suggest::did_you_mean;
 use fil_syntax::tree::{Expr, ExprKind, Name, Span};
 
 use super::{Resolver, Role, SymbolId, SymbolKind};
-use crate::builtins::{self, BUILTINS, Kind};
+use crate::builtins::{self, BUILTINS, FunctionKind};
 use crate::constant::constant;
 use crate::errors::CompileCode;
 use crate::functions::Functions;
@@ -15,7 +15,7 @@ use crate::value::Shown;
 pub(super) struct Callee {
     symbol: SymbolId,
     /// The kind of a built-in function or statement.
-    kind: Option<Kind>,
+    kind: Option<FunctionKind>,
 }
 
 impl<'t> Resolver<'t, '_> {
@@ -35,7 +35,9 @@ impl<'t> Resolver<'t, '_> {
             Some(kind) => self.arguments(kind, args),
             None => args.iter().for_each(|arg| self.expression(arg, Role::Read)),
         }
-        if let (Some(Kind::Postf), Some(number)) = (callee.kind, args.first().and_then(constant)) {
+        if let (Some(FunctionKind::Postf), Some(number)) =
+            (callee.kind, args.first().and_then(constant))
+        {
             self.postf(number, args[0].span);
         }
         if self.symbols[callee.symbol].kind == SymbolKind::Unknown {
@@ -57,12 +59,12 @@ impl<'t> Resolver<'t, '_> {
     pub(super) fn statement_word(&mut self, word: &'t Name) {
         let callee = match self.callees.get(word.text.as_str()) {
             Some(known) => *known,
-            None => self.new_callee(&word.text, Some(Kind::Statement)),
+            None => self.new_callee(&word.text, Some(FunctionKind::Statement)),
         };
         self.used(callee.symbol, word.span, Role::Call);
     }
 
-    fn new_callee(&mut self, name: &'t str, built_in: Option<Kind>) -> Callee {
+    fn new_callee(&mut self, name: &'t str, built_in: Option<FunctionKind>) -> Callee {
         let added = self.input.functions.and_then(|functions| functions.find(name)).is_some();
         let kind = match (built_in, added) {
             (Some(_), _) => SymbolKind::Function,
@@ -75,23 +77,23 @@ impl<'t> Resolver<'t, '_> {
     }
 
     /// Arguments of a built-in function: some take a word or a name as it is written.
-    fn arguments(&mut self, kind: Kind, args: &'t [Expr]) {
+    fn arguments(&mut self, kind: FunctionKind, args: &'t [Expr]) {
         let args = match kind {
-            Kind::Library(library, ..) => library.rules(args).0,
+            FunctionKind::Library(library, ..) => library.rules(args).0,
             _ => args,
         };
         let written = kind.word_argument();
         // POSTF(3,3,355+X), LASTF(X)
         let outer = self.takes_letters;
-        self.takes_letters |= matches!(kind, Kind::Postf | Kind::LastWritten);
+        self.takes_letters |= matches!(kind, FunctionKind::Postf | FunctionKind::LastWritten);
         for (index, arg) in args.iter().enumerate() {
             match (&arg.kind, written == Some(index)) {
                 (ExprKind::Name(name), true) => match kind {
-                    Kind::Size => {
+                    FunctionKind::Size => {
                         let symbol = self.global(name).symbol;
                         self.used(symbol, arg.span, Role::Read);
                     }
-                    Kind::WordCode | Kind::Couplet | Kind::HasWord => {
+                    FunctionKind::WordCode | FunctionKind::Couplet | FunctionKind::HasWord => {
                         self.word(name, arg.span, Role::Asked);
                     }
                     // Words of FILEF, NEXTF and PREVF alone.

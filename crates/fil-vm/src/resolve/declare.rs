@@ -3,7 +3,7 @@
 
 use fil_syntax::tree::{Expr, ExprKind, Item, Macro, Span, Stmt, StmtKind};
 
-use super::{ArrayEntry, ArraySize, Location, MacroEntry, Resolver, SymbolKind};
+use super::{ArrayEntry, ArraySize, FileSpan, MacroEntry, Resolver, SymbolKind};
 use crate::builtins;
 use crate::errors::CompileCode;
 use crate::tree::inner_bodies;
@@ -86,7 +86,7 @@ impl<'t> Resolver<'t, '_> {
         let (symbol, known) = (global.symbol, global.macro_id);
         global.macro_id = Some(id);
         self.symbols[symbol].kind = SymbolKind::Macro;
-        self.symbols[symbol].extent = Some(Location { file: self.unit, span: definition.span });
+        self.symbols[symbol].extent = Some(FileSpan { file: self.unit, span: definition.span });
         self.define(symbol, name.span);
         if known.is_some() {
             let message = format!("the macro {} is defined already", name.text);

@@ -8,7 +8,7 @@ use fil_cl::vocabulary::words as w;
 use fil_diag::{Code, Diag};
 use fil_syntax::tree::{Item, SectionKey};
 
-use super::{Location, Resolution, Role, Symbol, SymbolKind};
+use super::{FileSpan, Resolution, Role, Symbol, SymbolKind};
 use crate::builtins;
 use crate::compile::files::Unit;
 use crate::errors::{CompileCode, LintCode};
@@ -58,7 +58,7 @@ struct Findings<'a> {
 }
 
 impl Findings<'_> {
-    fn add(&mut self, code: impl Into<&'static Code>, at: Location, message: String) -> &mut Diag {
+    fn add(&mut self, code: impl Into<&'static Code>, at: FileSpan, message: String) -> &mut Diag {
         let place = self.units[at.file].file.place(at.span);
         self.diags.push(Diag::new(code, message).at(place));
         self.diags.last_mut().expect("it was just pushed")
@@ -124,7 +124,7 @@ impl Findings<'_> {
     fn section(&mut self, file: usize, key: &SectionKey) {
         match key {
             SectionKey::Types { kind, sub, span } => {
-                let at = Location { file, span: *span };
+                let at = FileSpan { file, span: *span };
                 let subs = TYPES.iter().find(|(known, _)| known == kind).map(|(_, subs)| *subs);
                 match (subs, sub) {
                     (None, _) => {
@@ -139,7 +139,7 @@ impl Findings<'_> {
                 }
             }
             SectionKey::Words { major, minors } => {
-                let at = Location { file, span: major.span };
+                let at = FileSpan { file, span: major.span };
                 let word = self.vocabulary.find(&major.text);
                 if major.text == "ALL" {
                     let message = "CIMFIL/ON,ALL is not known to take every record".to_string();
@@ -154,7 +154,7 @@ impl Findings<'_> {
                     && (takes_text(word)
                         || matches!(word, w::GOTO | w::FROM | w::GODLTA | w::CIRCLE))
                 {
-                    let at = Location { file, span: minor.span };
+                    let at = FileSpan { file, span: minor.span };
                     let message = format!("no word follows {} in a record", major.text);
                     self.add(CompileCode::NeverMatches, at, message);
                 }

@@ -24,7 +24,7 @@ pub type SymbolId = usize;
 
 /// A span of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Location {
+pub struct FileSpan {
     /// Index of the file, in the order they were read ([`Module::files`](crate::Module)).
     pub file: usize,
     /// Where it stands there, in bytes behind a byte order mark.
@@ -101,7 +101,7 @@ pub enum Role {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Use {
     /// Where.
-    pub location: Location,
+    pub location: FileSpan,
     /// How.
     pub role: Role,
 }
@@ -116,10 +116,10 @@ pub struct Symbol {
     /// The macro of a parameter; the section or macro of a label.
     pub owner: Option<SymbolId>,
     /// A whole section or macro, from its first line to its last.
-    pub extent: Option<Location>,
+    pub extent: Option<FileSpan>,
     /// Statements that give it a value or a meaning. A variable has one for each
     /// statement that sets it, a name that nothing sets has none.
-    pub definitions: Vec<Location>,
+    pub definitions: Vec<FileSpan>,
     /// All other places, in the order of the files and of their bodies.
     pub uses: Vec<Use>,
 }
@@ -127,7 +127,7 @@ pub struct Symbol {
 impl Symbol {
     /// True where the symbol is defined or used at a byte of a file.
     fn covers(&self, file: usize, byte: u32) -> bool {
-        let is_it = |location: &Location| {
+        let is_it = |location: &FileSpan| {
             location.file == file && (location.span.start..=location.span.end).contains(&byte)
         };
         self.definitions.iter().any(is_it) || self.uses.iter().any(|used| is_it(&used.location))
@@ -298,8 +298,8 @@ impl<'t> Resolver<'t, '_> {
         self.symbols.len() - 1
     }
 
-    fn location(&self, span: Span) -> Location {
-        Location { file: self.unit, span }
+    fn location(&self, span: Span) -> FileSpan {
+        FileSpan { file: self.unit, span }
     }
 
     fn define(&mut self, symbol: SymbolId, span: Span) {

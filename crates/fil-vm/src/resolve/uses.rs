@@ -5,7 +5,7 @@ use fil_syntax::tree::{
     Expr, ExprKind, Item, Macro, Name, Section, SectionKey, Span, Stmt, StmtKind, Target,
 };
 
-use super::{Location, Resolver, Role, Scope, SymbolId, SymbolKind};
+use super::{FileSpan, Resolver, Role, Scope, SymbolId, SymbolKind};
 use crate::compile::sections::written;
 use crate::errors::CompileCode;
 
@@ -60,7 +60,7 @@ impl<'t> Resolver<'t, '_> {
 
     fn section(&mut self, section: &'t Section) {
         let symbol = self.symbol(written(&section.key), SymbolKind::Section);
-        self.symbols[symbol].extent = Some(Location { file: self.unit, span: section.span });
+        self.symbols[symbol].extent = Some(FileSpan { file: self.unit, span: section.span });
         match &section.key {
             SectionKey::Words { major, minors } => {
                 let end = minors.last().map_or(major.span, |minor| minor.span).end;

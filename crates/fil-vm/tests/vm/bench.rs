@@ -6,8 +6,8 @@ use std::sync::Arc;
 use fil_cl::{Options, Reader, Record, Vocabulary, WordView};
 use fil_diag::Diag;
 use fil_vm::{
-    CommonKind, Compat, FilFile, Functions, Host, Limits, LoadOptions, Loaded, Machine, Outcome,
-    Site, load,
+    CommonKind, Compat, FilFile, Functions, Host, Interpreter, Limits, LoadOptions, Loaded,
+    Outcome, Site, load,
 };
 
 /// What the machine asked of its host.
@@ -138,7 +138,7 @@ pub fn show(record: &Record, vocab: &Vocabulary) -> String {
 /// A machine with its host.
 pub struct Bench {
     pub vocab: Vocabulary,
-    pub machine: Machine,
+    pub machine: Interpreter,
     pub host: Mock,
     /// Warnings of the compiler.
     pub warnings: Vec<Diag>,
@@ -163,7 +163,7 @@ impl Bench {
         let Loaded { module, warnings } =
             load(&[FilFile { name: "test.fil", text }], &mut vocab, options)
                 .unwrap_or_else(|diags| panic!("{}", lines(&diags)));
-        let machine = Machine::new(Arc::new(module), limits, Arc::new(functions));
+        let machine = Interpreter::new(Arc::new(module), limits, Arc::new(functions));
         Bench { vocab, machine, host: Mock::default(), warnings }
     }
 

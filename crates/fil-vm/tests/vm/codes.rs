@@ -64,7 +64,7 @@ fn every_code_of_the_compiler_has_a_case() {
             Ok(loaded) => loaded.warnings,
             Err(diags) => diags,
         };
-        let found: Vec<_> = diags.iter().map(|d| (d.code.number, d.places[0].line)).collect();
+        let found: Vec<_> = diags.iter().map(|d| (d.code.number, d.spans[0].line)).collect();
         assert_eq!(found, [(row.number, line)], "{}: {diags:?}", row.name());
     }
 }
@@ -161,7 +161,7 @@ fn every_lint_has_a_case_and_can_be_allowed() {
         let (text, line) =
             lint_case(row.number).unwrap_or_else(|| panic!("no case for {}", row.name()));
         let diags = findings(text);
-        let found: Vec<_> = diags.iter().map(|d| (d.code.number, d.places[0].line)).collect();
+        let found: Vec<_> = diags.iter().map(|d| (d.code.number, d.spans[0].line)).collect();
         assert_eq!(found, [(row.number, line)], "{}: {diags:?}", row.name());
         let allowed = format!("$$ filpost: allow-file {}\n{text}", row.name());
         assert!(findings(&allowed).is_empty(), "{}", row.name());
@@ -235,7 +235,7 @@ fn every_code_of_the_machine_has_a_case() {
             Ok(_) => std::mem::take(&mut bench.host.warnings),
             Err(diag) => vec![*diag],
         };
-        let found: Vec<_> = diags.iter().map(|d| (d.code.number, d.places[0].line)).collect();
+        let found: Vec<_> = diags.iter().map(|d| (d.code.number, d.spans[0].line)).collect();
         assert_eq!(found, [(row.number, line)], "{}: {diags:?}", row.name());
     }
 }

@@ -140,5 +140,5 @@ fn a_loop_inside_case_inside_if_keeps_its_lines() {
         "VV=2\nIF(VV.EQ.2)THEN\nCASE/VV\nWHEN/2\nDO/LA,II=1,3\nXX=1/(II-3)\nLA) CONTIN\nENDCAS\nENDIF",
     );
     let diag = bench.globals().unwrap_err();
-    assert_eq!((diag.code.number, diag.places[0].line), (301, 6));
+    assert_eq!((diag.code.number, diag.spans[0].line), (301, 6));
 }

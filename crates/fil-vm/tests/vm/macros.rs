@@ -24,7 +24,7 @@ fn macros_call_macros_and_the_stack_is_told() {
          DD=1\nCALL/OUTER\nDD=0\nCALL/OUTER",
     );
     let diag = bench.globals().unwrap_err();
-    assert_eq!(diag.places[0].line, 3);
+    assert_eq!(diag.spans[0].line, 3);
     assert_eq!(
         diag.notes,
         [

@@ -52,7 +52,7 @@ fn named<'r>(resolution: &'r Resolution, kind: SymbolKind, name: &str) -> &'r Sy
 
 /// Lines of definitions and of uses; of the second file with a minus.
 fn lines(analysis: &Analysis, symbol: &Symbol) -> (Vec<i64>, Vec<(i64, Role)>) {
-    let line = |location: &fil_vm::resolve::Location| {
+    let line = |location: &fil_vm::resolve::FileSpan| {
         let file = &analysis.files[location.file];
         let text = &file.text[location.span.range()];
         assert_eq!(text.to_uppercase(), symbol.name, "a span is that of the name");

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use fil_cl::{Record, Vocabulary};
-use fil_vm::{FilFile, Limits, LoadOptions, Machine, load};
+use fil_vm::{FilFile, Interpreter, Limits, LoadOptions, load};
 use proptest::prelude::*;
 
 use crate::bench::Mock;
@@ -96,7 +96,7 @@ proptest! {
         let Ok(loaded) = load(&files, &mut vocab, LoadOptions { lint: true, ..LoadOptions::default() }) else {
             return Ok(());
         };
-        let mut machine = Machine::new(Arc::new(loaded.module), limits, Arc::default());
+        let mut machine = Interpreter::new(Arc::new(loaded.module), limits, Arc::default());
         let mut host = Mock::default();
         let mut record = Record::command(fil_cl::words::CYCLE);
         host.records = vec![Record::goto([1.0, 2.0, 3.0], None); 3];

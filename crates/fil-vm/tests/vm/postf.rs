@@ -134,7 +134,7 @@ fn a_site_gives_numbers_their_operation() {
 #[test]
 fn own_readings_are_noted_once() {
     let bench = Bench::new(&cycle("V1=POSTF(5)\nV2=POSTF(5)\nV3=POSTF(4)"));
-    let noted: Vec<_> = bench.warnings.iter().map(|d| (d.code.number, d.places[0].line)).collect();
+    let noted: Vec<_> = bench.warnings.iter().map(|d| (d.code.number, d.spans[0].line)).collect();
     assert_eq!(noted, [(218, 2), (218, 4)]);
 }
 

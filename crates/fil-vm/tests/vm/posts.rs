@@ -24,7 +24,7 @@ fn motions_have_their_own_layout() {
             "CIRCLE 0 4 7 - - 1 2 3 0 0 1 5"
         ]
     );
-    assert_eq!(fails("GOTO/1,2", "").places[0].line, 1);
+    assert_eq!(fails("GOTO/1,2", "").spans[0].line, 1);
 }
 
 #[test]

@@ -36,7 +36,7 @@ fn a_key_of_numbers_and_one_of_the_word_are_the_same() {
     let fil = "CIMFIL/ON,GOTO\nCIMFIL/OFF\nCIMFIL/ON,5000,5\nCIMFIL/OFF\nFINI\n";
     let diags = compile(fil).unwrap_err();
     assert_eq!(diags[0].code.number, 210);
-    assert_eq!(diags[0].places.iter().map(|place| place.line).collect::<Vec<_>>(), [3, 1]);
+    assert_eq!(diags[0].spans.iter().map(|place| place.line).collect::<Vec<_>>(), [3, 1]);
 }
 
 #[test]

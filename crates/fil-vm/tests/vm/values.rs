@@ -31,7 +31,7 @@ fn a_name_never_set_is_empty_with_one_warning_for_each_place() {
     assert_eq!(bench.number("RR"), 1.0);
     assert_eq!(bench.number("VV"), 999_999.0);
     assert_eq!(bench.warned(), [309, 309]);
-    assert_eq!(bench.host.warnings[0].places[0].line, 2);
+    assert_eq!(bench.host.warnings[0].spans[0].line, 2);
     let bench = globals("VV=999999\nIF(VV.EQ.999999)RR=1");
     assert!(bench.warned().is_empty(), "set to EMPTY on purpose");
 }
@@ -64,7 +64,7 @@ fn long_texts_cost_fuel() {
     let program = "T1=TEXT/REPEAT,'X',10000\nT2=TEXT/UP,T1\nT2=TEXT/UP,T1\nT2=TEXT/UP,T1";
     let mut bench = Bench::with(program, limits, Compat::default(), Functions::new());
     let diag = bench.globals().unwrap_err();
-    assert_eq!((diag.code.number, diag.places[0].line), (304, 4));
+    assert_eq!((diag.code.number, diag.spans[0].line), (304, 4));
 }
 
 #[test]

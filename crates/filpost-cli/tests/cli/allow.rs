@@ -1,13 +1,13 @@
 //! `--allow CODE`
 
-use crate::support::{Place, SMALL};
+use crate::support::{Folder, SMALL};
 
 /// Sends LOADTL on inside a block without its end.
 const OPEN: &str = "CIMFIL/ON,LOADTL\nIF(POSTF(7,4).EQ.1)THEN\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
 
 #[test]
 fn a_block_open_around_the_record_is_refused_until_it_is_allowed() {
-    let place = Place::new().with("part.ncl", SMALL).with("post.fil", OPEN);
+    let place = Folder::new().with("part.ncl", SMALL).with("post.fil", OPEN);
     let post = ["post", "part.ncl", "-f", "post.fil", "-o", "part.nc"];
     let refused = place.run(&post);
     assert!(refused.status == 1 && refused.err.contains("E0223"), "{refused:?}");
@@ -29,7 +29,7 @@ fn a_block_open_around_the_record_is_refused_until_it_is_allowed() {
 fn an_allowed_warning_is_none_to_deny() {
     let fil = "SIMFIL/ON,COOLNT\nAA=NOSUCH\nCIMFIL/OFF\nFINI\n";
     let cl = SMALL.replace("FINI", "COOLNT / ON\nFINI");
-    let place = Place::new().with("part.ncl", cl).with("post.fil", fil);
+    let place = Folder::new().with("part.ncl", cl).with("post.fil", fil);
     let post = ["post", "part.ncl", "-f", "post.fil", "--deny-warnings"];
     assert_eq!(place.run(&post).status, 1);
     let one = place.run(&[&post[..], &["--allow", "W0151"]].concat());
@@ -41,7 +41,7 @@ fn an_allowed_warning_is_none_to_deny() {
 
 #[test]
 fn an_error_that_stands_is_wrong_usage() {
-    let place = Place::new().with("post.fil", OPEN);
+    let place = Folder::new().with("post.fil", OPEN);
     for code in ["E0501", "E9999", "nonsense"] {
         let ran = place.run(&["check", "post.fil", "--allow", code]);
         assert_eq!(ran.status, 2, "{ran:?}");

@@ -1,6 +1,6 @@
 //! `filpost post` with many CL files
 
-use crate::support::{NC, Place, SMALL, WRONG};
+use crate::support::{Folder, NC, SMALL, WRONG};
 
 /// A part of its own for a number.
 fn part(number: usize) -> String {
@@ -9,8 +9,8 @@ fn part(number: usize) -> String {
     SMALL.replace("GOTO / 1, 2, 3\n", &goto)
 }
 
-fn many(count: usize) -> Place {
-    let place = Place::new().folder("cl");
+fn many(count: usize) -> Folder {
+    let place = Folder::new().folder("cl");
     (1..=count)
         .fold(place, |place, number| place.with(&format!("cl/op{number:02}.ncl"), part(number)))
 }
@@ -66,7 +66,7 @@ fn a_part_that_is_refused_does_not_stop_the_others() {
 #[test]
 fn names_that_would_meet_are_refused_before_anything_is_written() {
     let place =
-        Place::new().folder("a").folder("b").with("a/op.ncl", SMALL).with("b/op.ncl", SMALL);
+        Folder::new().folder("a").folder("b").with("a/op.ncl", SMALL).with("b/op.ncl", SMALL);
     let ran = place.run(&["post", "a/op.ncl", "b/op.ncl", "-o", "nc"]);
     assert!(ran.status == 1 && ran.err.contains("E0802"), "{ran:?}");
     assert_eq!(place.files(), ["a", "b"], "nothing is written");

@@ -1,16 +1,16 @@
 //! `filpost test` as its users meet it: reports, tolerances, cases made.
 
-use crate::support::{NC, Place, SMALL};
+use crate::support::{Folder, NC, SMALL};
 
 const CASE: &str = "cl = 'part.ncl'\nready = 'fanuc-mill'\nexpect = 'part.nc'\norigin = 'ours'\n";
 
-fn place(files: &[(&str, &str)]) -> Place {
-    files.iter().fold(Place::new(), |place, (name, text)| place.with(name, text))
+fn place(files: &[(&str, &str)]) -> Folder {
+    files.iter().fold(Folder::new(), |place, (name, text)| place.with(name, text))
 }
 
 /// Ten cases of which the seventh fails.
-fn ten_cases() -> Place {
-    let mut place = Place::new();
+fn ten_cases() -> Folder {
+    let mut place = Folder::new();
     for number in 0..10 {
         let nc = if number == 7 { NC.replace("Z3.", "Z3.5") } else { NC.to_string() };
         for (name, text) in [("part.ncl", SMALL), ("case.toml", CASE), ("part.nc", &nc)] {

@@ -1,10 +1,10 @@
 //! `filpost check`
 
-use crate::support::Place;
+use crate::support::Folder;
 
 #[test]
 fn fil_is_checked_without_cl() {
-    let place = Place::new()
+    let place = Folder::new()
         .with("good.fil", "CIMFIL/ON,COOLNT\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n")
         .with("swallow.fil", "CIMFIL/ON,COOLNT\nAA=1\nCIMFIL/OFF\nFINI\n")
         .with("bad.fil", "AA=(1\nJUMPTO/ZZ\nFINI\n");
@@ -26,7 +26,7 @@ fn fil_is_checked_without_cl() {
 #[test]
 fn settings_are_checked_with_the_machine() {
     let fil = "DMY=POSTF(2,1,1870,9)\nDMY=POSTF(2,1,1842,32)\nDMY=POSTF(2,1,1842,33)\nFINI\n";
-    let place = Place::new().with("post.fil", fil).with("machine.toml", "list.pages = true\n");
+    let place = Folder::new().with("post.fil", fil).with("machine.toml", "list.pages = true\n");
     let alone = place.run(&["check", "post.fil"]);
     assert!(alone.status == 0 && !alone.err.contains("W0651"), "{}", alone.err);
     let with = place.run(&["check", "post.fil", "-m", "machine.toml"]);

@@ -1,6 +1,6 @@
 //! `filpost cl`
 
-use crate::support::{Place, SMALL};
+use crate::support::{Folder, SMALL};
 
 #[test]
 fn code_pages_are_told_apart_or_named() {
@@ -12,21 +12,21 @@ fn code_pages_are_told_apart_or_named() {
     for (bytes, label) in
         [(cp1251, None), (koi8, None), (cp1251, Some("cp1251")), (koi8, Some("koi8-r"))]
     {
-        let place = Place::new().with("part.ncl", cl(bytes));
+        let place = Folder::new().with("part.ncl", cl(bytes));
         let mut arguments = vec!["cl", "part.ncl"];
         arguments.extend(label.iter().flat_map(|label| ["--encoding", label]));
         let ran = place.run(&arguments);
         assert!(ran.out.contains("PARTNO / ДЕТАЛЬ"), "{label:?} {ran:?}");
     }
     let ran =
-        Place::new().with("part.ncl", SMALL).run(&["post", "part.ncl", "--encoding", "klingon"]);
+        Folder::new().with("part.ncl", SMALL).run(&["post", "part.ncl", "--encoding", "klingon"]);
     assert_eq!(ran.status, 1);
     assert!(ran.err.contains("E0120"), "{}", ran.err);
 }
 
 #[test]
 fn records_are_shown_with_numbered_words() {
-    let place = Place::new().with("part.ncl", SMALL);
+    let place = Folder::new().with("part.ncl", SMALL);
     let text = place.run(&["cl", "part.ncl", "--words"]);
     assert!(text.out.contains("GOTO / 1.0, 2.0, 3.0\n"), "{}", text.out);
     assert!(text.out.contains(&format!("{:>20}  2\n", 7)), "word 7 of the GOTO is y: {}", text.out);
@@ -42,7 +42,7 @@ const ARC: &str = "UNITS/MM\nLOADTL/1\nSPINDL/RPM,900,CLW\nFEDRAT/200,MMPM\nGOTO
 
 #[test]
 fn the_dialect_is_said_and_chosen() {
-    let place = Place::new().with("part.cls", ARC).with("part.ncl", SMALL);
+    let place = Folder::new().with("part.cls", ARC).with("part.ncl", SMALL);
     let generic = place.run(&["cl", "part.ncl"]);
     assert!(generic.out.contains("7 records, dialect generic (no CAM system"), "{}", generic.out);
     let chosen = place.run(&["cl", "part.cls", "--dialect", "NX", "--json"]);
@@ -63,7 +63,7 @@ fn the_dialect_is_said_and_chosen() {
 
 #[test]
 fn a_program_is_verified_by_the_dialect_that_made_it() {
-    let place = Place::new().with("part.cls", ARC);
+    let place = Folder::new().with("part.cls", ARC);
     let posted = place.run(&["post", "part.cls", "--dialect", "nx", "-o", "part.nc"]);
     assert_eq!(posted.status, 0, "{posted:?}");
     assert!(posted.err.contains("dialect nx (chosen)"), "{}", posted.err);
@@ -76,7 +76,7 @@ fn a_program_is_verified_by_the_dialect_that_made_it() {
 
 #[test]
 fn the_dialects_are_listed() {
-    let place = Place::new();
+    let place = Folder::new();
     let text = place.run(&["cl", "--dialects"]);
     assert_eq!(text.status, 0);
     assert!(text.out.contains("nx: Siemens NX CLSF"), "{}", text.out);

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use crate::support::Place;
+use crate::support::Folder;
 
 /// Where each code is seen: a file of these tests and the test in it.
 const TESTED: &[(&str, &str, &str)] = &[
@@ -19,7 +19,7 @@ const TESTED: &[(&str, &str, &str)] = &[
 
 /// What `filpost explain` says of each code there is, by its name.
 fn codes() -> BTreeMap<String, String> {
-    let place = Place::new();
+    let place = Folder::new();
     let explained = (801..900).filter_map(|number| {
         let ran = place.run(&["explain", &format!("0{number}")]);
         let name = ran.out.split_whitespace().next()?.to_string();

@@ -1,11 +1,11 @@
 //! `filpost diff` as its users meet it.
 
-use crate::support::{Place, Ran};
+use crate::support::{Folder, Ran};
 
 const RIGHT: &str = "%\nN10 G1 X1. Z-4.7 F200.\nM30\n%\n";
 
 fn diff(first: &[u8], second: &[u8], more: &[&str]) -> Ran {
-    let place = Place::new().with("a b.nc", first).with("new.nc", second);
+    let place = Folder::new().with("a b.nc", first).with("new.nc", second);
     place.run(&[&["diff", "a b.nc", "new.nc"], more].concat())
 }
 

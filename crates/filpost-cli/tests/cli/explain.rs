@@ -1,10 +1,10 @@
 //! `filpost explain`
 
-use crate::support::Place;
+use crate::support::Folder;
 
 #[test]
 fn subjects_are_explained() {
-    let place = Place::new();
+    let place = Folder::new();
     for (subject, expected) in [
         ("E0501", "value does not fit its address"),
         ("W0753", "CL file without records"),
@@ -30,7 +30,7 @@ fn subjects_are_explained() {
 
 #[test]
 fn every_code_is_explained() {
-    let place = Place::new();
+    let place = Folder::new();
     for code in filpost::all_codes() {
         let ran = place.run(&["explain", &code.name()]);
         assert!(ran.status == 0 && ran.out.contains(code.reason), "{}: {ran:?}", code.name());

@@ -2,16 +2,16 @@
 
 use std::path::Path;
 
-use crate::support::{Place, Ran};
+use crate::support::{Folder, Ran};
 
 const MESSY: &str = "cimfil/on,goto\nx=postf(13)\ncimfil/off\nfini";
 const TIDY: &str = "CIMFIL/ON,GOTO\n  X = POSTF(13)\nCIMFIL/OFF\nFINI\n";
 
-fn folder(files: &[(&str, &[u8])]) -> Place {
-    files.iter().fold(Place::new(), |place, (name, bytes)| place.with(name, bytes))
+fn folder(files: &[(&str, &[u8])]) -> Folder {
+    files.iter().fold(Folder::new(), |place, (name, bytes)| place.with(name, bytes))
 }
 
-fn fmt(place: &Place, arguments: &[&str], input: &[u8]) -> Ran {
+fn fmt(place: &Folder, arguments: &[&str], input: &[u8]) -> Ran {
     place.run_with_input(&[&["fmt"], arguments].concat(), input)
 }
 

@@ -1,12 +1,12 @@
 //! `filpost machine`, and the manual page
 
-use crate::support::{Place, SMALL};
+use crate::support::{Folder, SMALL};
 
 #[test]
 fn an_option_file_becomes_a_machine() {
     let option_file = "OPTION FILE\nMY \"MILL\"\n INTCOM:(LOCATION,VALUE)\n 1870      0\n   0      0\n \
          RELCOM:\n 0 0\n DBLCOM:\n 0 0\n";
-    let place = Place::new().with("uncx01.p07", option_file).with("part.ncl", SMALL);
+    let place = Folder::new().with("uncx01.p07", option_file).with("part.ncl", SMALL);
     let ran = place.run(&["machine", "import", "uncx01.p07", "-o", "machine.toml"]);
     assert_eq!(ran.status, 0, "{ran:?}");
     let text = place.text("machine.toml").expect("the machine");
@@ -24,7 +24,7 @@ fn an_option_file_becomes_a_machine() {
 fn all_that_is_wrong_with_a_machine_is_said_at_once() {
     let toml = "rapid.spilt = 1\nint.1870 = 9\n[address]\nX = { slot = 0 }\n";
     let option_file = "UNCX01.P07\nMILL\nINTCOM:\n470\n12000 1\n0 0\nRELCOM:\n0 0\n";
-    let place = Place::new()
+    let place = Folder::new()
         .with("machine.toml", toml)
         .with("uncx01.p07", option_file)
         .with("bad.fil", "AA=(1\nFINI\n")
@@ -50,7 +50,7 @@ fn all_that_is_wrong_with_a_machine_is_said_at_once() {
 
 #[test]
 fn the_schema_knows_every_setting() {
-    let ran = Place::new().run(&["machine", "schema"]);
+    let ran = Folder::new().run(&["machine", "schema"]);
     let schema: serde_json::Value = serde_json::from_str(&ran.out).expect("JSON");
     for row in filpost::locations::TABLE {
         let path: String = row.name.split('.').map(|part| format!("/properties/{part}")).collect();
@@ -61,7 +61,7 @@ fn the_schema_knows_every_setting() {
 #[test]
 fn two_machines_differ_by_name_letter_and_number() {
     let toml = "linear.code = 11\n[address]\nQ = { slot = 53 }\n[int]\n2999 = 7\n";
-    let place = Place::new().with("machine.toml", toml);
+    let place = Folder::new().with("machine.toml", toml);
     let ran = place.run(&["machine", "diff", "fanuc-mill", "machine.toml"]);
     let out = &ran.out;
     assert_eq!(ran.status, 1, "{out}{}", ran.err);
@@ -76,17 +76,17 @@ fn two_machines_differ_by_name_letter_and_number() {
 
 #[test]
 fn a_machine_is_like_itself() {
-    let ran = Place::new().run(&["machine", "diff", "grbl", "grbl"]);
+    let ran = Folder::new().run(&["machine", "diff", "grbl", "grbl"]);
     assert_eq!(ran.out, "the machines have the same settings\n");
     assert_eq!(ran.status, 0);
-    let absent = Place::new().run(&["machine", "diff", "grbl", "nowhere.toml"]);
+    let absent = Folder::new().run(&["machine", "diff", "grbl", "nowhere.toml"]);
     assert_eq!(absent.status, 1);
     assert!(absent.err.contains("E0703"));
 }
 
 #[test]
 fn the_manual_page_names_the_commands() {
-    let page = Place::new().run(&["man"]).out;
+    let page = Folder::new().run(&["man"]).out;
     assert!(page.contains(".TH filpost 1"), "{page}");
     assert!(page.contains("filpost\\-post"), "{page}");
 }

@@ -1,10 +1,10 @@
 //! Messages and exit statuses of all commands.
 
-use crate::support::{Place, Ran, SMALL, WRONG};
+use crate::support::{Folder, Ran, SMALL, WRONG};
 
 #[test]
 fn colours_only_where_they_are_wanted() {
-    let place = Place::new().with("part.ncl", WRONG);
+    let place = Folder::new().with("part.ncl", WRONG);
     for (name, value) in [("NO_COLOR", "1"), ("TERM", "xterm-256color")] {
         let output = place.command(&["post", "part.ncl"]).env(name, value).output();
         let ran = Ran::of(output.expect("the command starts"));
@@ -15,14 +15,14 @@ fn colours_only_where_they_are_wanted() {
 #[test]
 fn messages_cannot_steer_the_terminal() {
     let cl = "UNITS / MM\nCYCLE / SIDE\u{1b}[2JWAYS, 3\nFINI\n";
-    let ran = Place::new().with("part.ncl", cl).run(&["post", "part.ncl"]);
+    let ran = Folder::new().with("part.ncl", cl).run(&["post", "part.ncl"]);
     assert_eq!(ran.status, 1, "{ran:?}");
     assert!(!ran.err.contains('\u{1b}'), "{:?}", ran.err);
 }
 
 #[test]
 fn wrong_usage_has_its_own_status() {
-    let place = Place::new();
+    let place = Folder::new();
     for arguments in [
         &[][..],
         &["fly"],
@@ -40,7 +40,7 @@ fn wrong_usage_has_its_own_status() {
 
 #[test]
 fn messages_look_as_they_should() {
-    let place = Place::new()
+    let place = Folder::new()
         .with("form.ncl", WRONG)
         .with("open.fil", "CIMFIL/ON,COOLNT\nIF(AA.EQ.1) THEN\nOPSTOP\nCIMFIL/OFF\nFINI\n")
         .with("stack.fil", "CIMFIL/ON,SPINDL\nBB=SQRTF(0-1)\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n")

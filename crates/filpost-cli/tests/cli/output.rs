@@ -1,10 +1,10 @@
 //! Where programs and messages go: streams, files, devices; what is left after an error.
 
-use crate::support::{NC, Place, Ran, SMALL, WRONG};
+use crate::support::{Folder, NC, Ran, SMALL, WRONG};
 
 #[test]
 fn nc_goes_to_standard_output_and_messages_to_standard_error() {
-    let ran = Place::new().with("part.ncl", SMALL).run(&["post", "part.ncl"]);
+    let ran = Folder::new().with("part.ncl", SMALL).run(&["post", "part.ncl"]);
     assert_eq!((ran.status, ran.out.as_str()), (0, NC), "{ran:?}");
     assert_eq!(ran.err.lines().count(), 1, "{}", ran.err);
     assert!(ran.err.starts_with("fanuc-mill (the CL file has no MACHIN): 8 blocks, 0 warnings"));
@@ -12,7 +12,7 @@ fn nc_goes_to_standard_output_and_messages_to_standard_error() {
 
 #[test]
 fn nc_goes_to_the_named_file() {
-    let place = Place::new().with("part.ncl", SMALL);
+    let place = Folder::new().with("part.ncl", SMALL);
     let ran = place.run(&["post", "part.ncl", "-o", "part.tap"]);
     assert_eq!((ran.status, ran.out.as_str()), (0, ""), "{ran:?}");
     assert_eq!(place.text("part.tap").as_deref(), Some(NC));
@@ -21,7 +21,7 @@ fn nc_goes_to_the_named_file() {
 
 #[test]
 fn streams_can_stand_for_files() {
-    let place = Place::new();
+    let place = Folder::new();
     for arguments in
         [&["post", "-"][..], &["post", "-", "-o", "-"], &["post", "-p", "fanuc-mill", "-"]]
     {
@@ -34,7 +34,7 @@ fn streams_can_stand_for_files() {
 
 #[test]
 fn a_refused_part_leaves_nothing_behind() {
-    let place = Place::new().with("part.ncl", WRONG).with("old.tap", "old");
+    let place = Folder::new().with("part.ncl", WRONG).with("old.tap", "old");
     for target in ["new.tap", "old.tap"] {
         let ran = place.run(&["post", "part.ncl", "-o", target]);
         assert_eq!((ran.status, ran.out.as_str()), (1, ""), "{ran:?}");
@@ -47,7 +47,7 @@ fn a_refused_part_leaves_nothing_behind() {
 
 #[test]
 fn denied_warnings_leave_nothing_behind() {
-    let place = Place::new().with("part.ncl", SMALL.replace("FINI\n", ""));
+    let place = Folder::new().with("part.ncl", SMALL.replace("FINI\n", ""));
     let allowed = place.run(&["post", "part.ncl"]);
     assert_eq!(allowed.status, 0, "{allowed:?}");
     assert!(allowed.err.contains("W0752") && allowed.err.contains("1 warning"), "{}", allowed.err);
@@ -59,7 +59,7 @@ fn denied_warnings_leave_nothing_behind() {
 
 #[test]
 fn line_ends_marks_and_names_of_all_kinds() {
-    let place = Place::new()
+    let place = Folder::new()
         .with("with spaces.ncl", SMALL.replace('\n', "\r\n"))
         .with("деталь.ncl", format!("\u{feff}{SMALL}"));
     for name in ["with spaces.ncl", "деталь.ncl"] {
@@ -71,7 +71,7 @@ fn line_ends_marks_and_names_of_all_kinds() {
 
 #[test]
 fn files_that_cannot_be_read_or_written_are_named() {
-    let place = Place::new().with("part.ncl", SMALL).with("file", "");
+    let place = Folder::new().with("part.ncl", SMALL).with("file", "");
     let missing = place.run(&["post", "nowhere.ncl", "-o", "x.tap"]);
     assert!(missing.status == 1 && missing.err.contains("E0701"), "{missing:?}");
     assert!(missing.err.contains("nowhere.ncl"), "{missing:?}");
@@ -86,7 +86,7 @@ fn files_that_cannot_be_read_or_written_are_named() {
 #[test]
 fn a_read_only_folder_is_refused() {
     use std::os::unix::fs::PermissionsExt;
-    let place = Place::new().with("part.ncl", SMALL);
+    let place = Folder::new().with("part.ncl", SMALL);
     let folder = place.0.path().join("locked");
     std::fs::create_dir(&folder).expect("a folder");
     std::fs::set_permissions(&folder, std::fs::Permissions::from_mode(0o555)).expect("rights");
@@ -101,7 +101,7 @@ fn a_read_only_folder_is_refused() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_an_error() {
-    let place = Place::new().with("part.ncl", SMALL);
+    let place = Folder::new().with("part.ncl", SMALL);
     let named = place.run(&["post", "part.ncl", "-o", "/dev/full"]);
     assert!(named.status == 1 && named.err.contains("E0702"), "{named:?}");
     let full = std::fs::File::options().write(true).open("/dev/full").expect("the device");
@@ -116,7 +116,7 @@ fn a_full_disk_is_an_error() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_device_stays_a_device() {
-    let place = Place::new().with("part.ncl", SMALL);
+    let place = Folder::new().with("part.ncl", SMALL);
     let ran = place.run(&["post", "part.ncl", "-o", "/dev/null"]);
     assert_eq!(ran.status, 0, "{ran:?}");
     let null = std::fs::metadata("/dev/null").expect("the device");
@@ -126,7 +126,7 @@ fn a_device_stays_a_device() {
 #[cfg(unix)]
 #[test]
 fn a_closed_pipe_is_an_error() {
-    let place = Place::new().with("part.ncl", SMALL);
+    let place = Folder::new().with("part.ncl", SMALL);
     for arguments in [&["post", "part.ncl"][..], &["cl", "part.ncl"], &["machine", "show"]] {
         let mut command = place.command(arguments);
         let (reader, writer) = std::io::pipe().expect("a pipe");
@@ -140,7 +140,7 @@ fn a_closed_pipe_is_an_error() {
 #[cfg(unix)]
 #[test]
 fn a_link_stays_a_link() {
-    let place = Place::new().with("part.ncl", SMALL).with("real.tap", "old");
+    let place = Folder::new().with("part.ncl", SMALL).with("real.tap", "old");
     std::os::unix::fs::symlink("real.tap", place.0.path().join("link.tap")).expect("a link");
     let ran = place.run(&["post", "part.ncl", "-o", "link.tap"]);
     assert_eq!(ran.status, 0, "{ran:?}");
@@ -150,7 +150,7 @@ fn a_link_stays_a_link() {
 
 #[test]
 fn an_output_never_replaces_an_input() {
-    let place = Place::new().with("part.ncl", SMALL).with("post.fil", "FINI\n");
+    let place = Folder::new().with("part.ncl", SMALL).with("post.fil", "FINI\n");
     for arguments in [
         &["-o", "part.ncl"][..],
         &["-o", "./part.ncl"],

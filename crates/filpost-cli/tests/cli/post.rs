@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use crate::support::{NC, Place, Ran, SMALL};
+use crate::support::{Folder, NC, Ran, SMALL};
 
 #[test]
 fn the_post_comes_from_machin() {
     let machin = |name: &str| format!("MACHIN / {name}\n{SMALL}");
-    let place = Place::new().with("part.ncl", machin("LINUXCNC-MILL, 1"));
+    let place = Folder::new().with("part.ncl", machin("LINUXCNC-MILL, 1"));
     let ran = place.run(&["post", "part.ncl"]);
     assert!(ran.err.contains("linuxcnc-mill (for MACHIN/LINUXCNC-MILL,1)"), "{ran:?}");
     let ran = place.with("none.ncl", SMALL).run(&["post", "none.ncl"]);
@@ -18,7 +18,7 @@ fn the_post_comes_from_machin() {
 #[test]
 fn a_machin_that_names_no_post_is_refused_unless_one_is_named() {
     let turned = SMALL.replace("1, 2, 3", "1, 0, 3");
-    let place = Place::new().with("lathe.ncl", format!("MACHIN / UNCL01, 3\n{turned}"));
+    let place = Folder::new().with("lathe.ncl", format!("MACHIN / UNCL01, 3\n{turned}"));
     let post = ["post", "lathe.ncl", "-o", "out.nc"];
     let refused = place.run(&post);
     assert_eq!(refused.status, 1, "{refused:?}");
@@ -39,7 +39,7 @@ fn a_machin_that_names_no_post_is_refused_unless_one_is_named() {
 #[test]
 fn a_file_without_machin_that_turns_takes_the_generic_lathe() {
     let cl = SMALL.replace("1, 2, 3", "1, 0, 3").replace("LOADTL / 1", "TURRET / 1");
-    let place = Place::new().with("turned.ncl", cl);
+    let place = Folder::new().with("turned.ncl", cl);
     let ran = place.run(&["post", "turned.ncl"]);
     let title = "fanuc-lathe (the CL file has no MACHIN; TURRET says turning)";
     assert!(ran.err.contains(title), "{ran:?}");
@@ -49,7 +49,7 @@ fn a_file_without_machin_that_turns_takes_the_generic_lathe() {
 fn a_file_without_units_needs_them_said() {
     let unitless = SMALL.replace("UNITS / MM\n", "");
     let place =
-        Place::new().with("part.ncl", &unitless).with("inch.ncl", SMALL.replace("MM", "INCHES"));
+        Folder::new().with("part.ncl", &unitless).with("inch.ncl", SMALL.replace("MM", "INCHES"));
     let post = |more: &[&str]| place.run(&[&["post", "part.ncl", "-o", "out.nc"], more].concat());
     let refused = post(&[]);
     assert!(refused.status == 1 && refused.err.contains("E0514"), "{refused:?}");
@@ -89,7 +89,7 @@ fn an_option_file_is_found_with_its_fil() {
         "OPTION FILE\nMINE\n INTCOM:(LOCATION,VALUE)\n   0      0\n RELCOM:\n 0\n DBLCOM:\n 0\n";
     let fil = "CIMFIL/ON,SPINDL\nDMY=POSTF(13)\nPOSTN/OUT,M,8\nCIMFIL/OFF\nFINI\n";
     let cl = format!("MACHIN / MYPOST, 2\n{SMALL}");
-    let place = Place::new().with("part.ncl", cl);
+    let place = Folder::new().with("part.ncl", cl);
     let folder = place.0.path().join("posts");
     std::fs::create_dir(&folder).expect("a folder");
     std::fs::write(folder.join("mypost.p02"), option_file).expect("a file");
@@ -117,7 +117,7 @@ fn an_option_file_is_found_with_its_fil() {
 
 #[test]
 fn a_post_folder_and_settings_on_top() {
-    let place = Place::new().with("part.ncl", SMALL);
+    let place = Folder::new().with("part.ncl", SMALL);
     let folder = place.0.path().join("mine");
     std::fs::create_dir(&folder).expect("a folder");
     std::fs::write(folder.join("machine.toml"), "seqno.increment = 5\n").expect("a file");
@@ -139,7 +139,7 @@ fn a_post_folder_and_settings_on_top() {
 
 #[test]
 fn the_listing_shows_records_and_blocks() {
-    let place = Place::new().with("part.ncl", SMALL);
+    let place = Folder::new().with("part.ncl", SMALL);
     let ran = place.run(&["post", "part.ncl", "--listing", "part.lst"]);
     assert_eq!(ran.out, NC);
     let listing = place.text("part.lst").expect("a listing");
@@ -150,7 +150,7 @@ fn the_listing_shows_records_and_blocks() {
 fn a_message_goes_to_the_tape_or_to_the_listing() {
     let fil = "CIMFIL/ON,SPINDL\nPPRINT/'ON TAPE'\nDMY=POSTF(2,1,484,0)\nPPRINT/'  IN LISTING'\n\
                DMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
-    let place = Place::new().with("part.ncl", SMALL).with("post.fil", fil);
+    let place = Folder::new().with("part.ncl", SMALL).with("post.fil", fil);
     let ran = place.run(&["post", "part.ncl", "-f", "post.fil", "--listing", "part.lst"]);
     assert!(ran.out.contains("(ON TAPE)") && !ran.out.contains("IN LISTING"), "{}", ran.out);
     let listing = place.text("part.lst").expect("a listing");
@@ -161,7 +161,7 @@ fn a_message_goes_to_the_tape_or_to_the_listing() {
 #[test]
 fn the_same_warning_is_shown_once() {
     let fil = "CIMFIL/ON,SPINDL\nAA=ZZ+0\nAA=ZZ+1\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
-    let place = Place::new().with("part.ncl", SMALL).with("post.fil", fil);
+    let place = Folder::new().with("part.ncl", SMALL).with("post.fil", fil);
     let ran = place.run(&["post", "part.ncl", "-f", "post.fil"]);
     assert_eq!(ran.err.matches("ZZ was never set").count(), 1, "{}", ran.err);
     assert!(ran.err.contains("this warning came 2 times"), "{}", ran.err);
@@ -172,7 +172,7 @@ fn the_same_warning_is_shown_once() {
 fn a_script_reaches_files_and_a_clock_only_when_granted() {
     let fil = "DMY=FILEF(1,READ,'tools.txt')\nT1=TEXT/READ,1\nDMY=FILEF(1,CLOSE)\n\
                DMY=FILEF(1,WRITE,'log.txt')\nWRITE/1,T1,' ',DATEF()\nFINI\n";
-    let place = Place::new().with("part.ncl", SMALL).with("log.fil", fil);
+    let place = Folder::new().with("part.ncl", SMALL).with("log.fil", fil);
     for folder in ["in", "out"] {
         std::fs::create_dir(place.0.path().join(folder)).expect("a folder");
     }
@@ -210,7 +210,7 @@ fn a_script_reaches_files_and_a_clock_only_when_granted() {
 #[test]
 fn denied_warnings_keep_the_files_of_scripts_back() {
     let fil = "DMY=FILEF(1,WRITE,'log.txt')\nWRITE/1,'DONE'\nFINI\n";
-    let place = Place::new().with("part.ncl", SMALL.replace("FINI\n", "")).with("log.fil", fil);
+    let place = Folder::new().with("part.ncl", SMALL.replace("FINI\n", "")).with("log.fil", fil);
     let post = ["post", "part.ncl", "-f", "log.fil", "-o", "part.tap", "--grant", "write=."];
     let denied = place.run(&[&post[..], &["--deny-warnings"]].concat());
     assert!(denied.status == 1 && denied.err.contains("E0801"), "{denied:?}");
@@ -221,7 +221,7 @@ fn denied_warnings_keep_the_files_of_scripts_back() {
 
 #[test]
 fn includ_counts_from_the_including_file() {
-    let place = Place::new().with("part.ncl", SMALL);
+    let place = Folder::new().with("part.ncl", SMALL);
     std::fs::create_dir_all(place.0.path().join("post/lib")).expect("folders");
     let place = place
         .with("secret.fil", "PPRINT/'SECRET'\n")
@@ -250,7 +250,7 @@ fn real_files_are_posted() {
         println!("skipped: {} is not there", cl.display());
         return;
     }
-    let place = Place::new();
+    let place = Folder::new();
     let ran =
         place.run(&["post", &cl.display().to_string(), "-p", "fanuc-mill", "-o", "op010.tap"]);
     assert_eq!(ran.status, 0, "{ran:?}");
@@ -266,7 +266,7 @@ fn a_late_or_second_machin_is_refused() {
     let late = format!("{head}{motions}MACHIN / GRBL, 1\nFINI\n");
     let second = format!("MACHIN / FANUC-MILL, 1\n{head}GOTO / 1, 2, 3\nMACHIN / GRBL, 1\nFINI\n");
     let twice = second.replace("GRBL", "FANUC-MILL");
-    let place = Place::new().with("late.ncl", &late).with("second.ncl", &second);
+    let place = Folder::new().with("late.ncl", &late).with("second.ncl", &second);
     let place = place.with("twice.ncl", &twice);
     for (cl, at) in [("late.ncl", "late.ncl:403"), ("second.ncl", "second.ncl:5")] {
         let ran = place.run(&["post", cl, "-o", "out.nc"]);

@@ -16,14 +16,14 @@ pub const NC: &str = "%\nO0007 (7)\nN10 G21 G90 G94 G17\nN20 T1 M6\nN30 S900 M3\
                   N40 G1 G43 X1. Y2. Z3. F200. H1\nN50 M30\n%\n";
 
 /// A folder with the files of a test.
-pub struct Place(pub TempDir);
+pub struct Folder(pub TempDir);
 
-impl Place {
-    pub fn new() -> Place {
-        Place(TempDir::new().expect("a folder for the test"))
+impl Folder {
+    pub fn new() -> Folder {
+        Folder(TempDir::new().expect("a folder for the test"))
     }
 
-    pub fn with(self, name: &str, text: impl AsRef<[u8]>) -> Place {
+    pub fn with(self, name: &str, text: impl AsRef<[u8]>) -> Folder {
         let path = self.0.path().join(name);
         std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder for the test");
         std::fs::write(path, text).expect("a file for the test");
@@ -60,7 +60,7 @@ impl Place {
         std::fs::read(self.0.path().join(name)).expect("the file is there")
     }
 
-    pub fn folder(self, name: &str) -> Place {
+    pub fn folder(self, name: &str) -> Folder {
         std::fs::create_dir_all(self.0.path().join(name)).expect("a folder for the test");
         self
     }

@@ -1,11 +1,11 @@
 //! `filpost test`
 
-use crate::support::{NC, Place, Ran, SMALL};
+use crate::support::{Folder, NC, Ran, SMALL};
 
 #[test]
 fn cases_are_run_and_brought_up_to_date() {
     let case = "cl = 'part.ncl'\nready = 'fanuc-mill'\nexpect = 'part.tap'\norigin = 'own'\n";
-    let place = Place::new().with("part.ncl", SMALL).with("case.toml", case).with("part.tap", NC);
+    let place = Folder::new().with("part.ncl", SMALL).with("case.toml", case).with("part.tap", NC);
     let last = |ran: &Ran| ran.out.lines().last().unwrap_or("").to_string();
     let good = place.run(&["test"]);
     assert_eq!((good.status, last(&good).as_str()), (0, "1 passed, 0 failed"));
@@ -21,6 +21,6 @@ fn cases_are_run_and_brought_up_to_date() {
 
 #[test]
 fn a_test_run_without_cases_fails() {
-    let ran = Place::new().run(&["test"]);
+    let ran = Folder::new().run(&["test"]);
     assert!(ran.status == 1 && ran.err.contains("E0803"), "{ran:?}");
 }

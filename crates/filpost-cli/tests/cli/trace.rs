@@ -1,6 +1,6 @@
 //! `filpost post --map` and `filpost trace`
 
-use crate::support::{Place, Ran, SMALL, WRONG};
+use crate::support::{Folder, Ran, SMALL, WRONG};
 
 const CL: &str = "PARTNO / 7\nUNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\nFEDRAT / 200, MMPM\n\
                   REPEAT / 13, 8\nCOOLNT / FLOOD\nRAPID\nGOTO / 1, 2, 3\nGOTO / 4, 5, 6\n\
@@ -11,14 +11,14 @@ const FIL: &str = "EXTRA = MACRO/AA\nPOSTN/OUT,M,AA\nTERMAC\nCIMFIL/ON,SPINDL\nD
                    CALL/EXTRA,AA=8\nCIMFIL/OFF\nCIMFIL/ON,COOLNT\nBB=1\nCIMFIL/OFF\nFINI\n";
 
 /// A folder with a part, its FIL, its program and the map.
-fn posted() -> Place {
-    let place = Place::new().with("part.ncl", CL).with("m.fil", FIL);
+fn posted() -> Folder {
+    let place = Folder::new().with("part.ncl", CL).with("m.fil", FIL);
     let ran = place.run(&["post", "part.ncl", "-f", "m.fil", "-o", "part.tap", "--map"]);
     assert_eq!(ran.status, 0, "{ran:?}");
     place
 }
 
-fn trace(place: &Place, question: &str) -> Ran {
+fn trace(place: &Folder, question: &str) -> Ran {
     let ran = place.run(&["trace", question]);
     assert_eq!((ran.status, ran.err.as_str()), (0, ""), "{question}: {ran:?}");
     ran
@@ -73,7 +73,7 @@ fn a_map_is_the_same_wherever_the_files_lie() {
     let maps: Vec<_> = (0..2)
         .map(|_| {
             let place =
-                Place::new().folder("cl").folder("nc").with("cl/part.ncl", CL).with("m.fil", FIL);
+                Folder::new().folder("cl").folder("nc").with("cl/part.ncl", CL).with("m.fil", FIL);
             let path = |name: &str| place.0.path().join(name).display().to_string();
             let (cl, fil, nc) = (path("cl/part.ncl"), path("m.fil"), path("nc/part.tap"));
             let ran = place.run(&["post", &cl, "-f", &fil, "-o", &nc, "--map"]);
@@ -100,7 +100,7 @@ fn the_program_is_the_same_with_a_map() {
 
 #[test]
 fn a_map_has_the_name_that_is_given() {
-    let place = Place::new().with("part.ncl", SMALL);
+    let place = Folder::new().with("part.ncl", SMALL);
     let ran = place.run(&["post", "part.ncl", "--map", "other.map"]);
     assert_eq!(ran.status, 0, "{ran:?}");
     let place = place.with("part 1.tap", &ran.out);
@@ -112,7 +112,7 @@ fn a_map_has_the_name_that_is_given() {
 
 #[test]
 fn a_map_replaces_no_other_file() {
-    let place = Place::new().with("part.ncl", SMALL).with("other.ncl", SMALL);
+    let place = Folder::new().with("part.ncl", SMALL).with("other.ncl", SMALL);
     let ran = place.run(&["post", "--map", "other.ncl", "part.ncl", "-o", "part.tap"]);
     assert!(ran.status == 1 && ran.err.contains("E0802"), "{ran:?}");
     assert_eq!(place.text("other.ncl").as_deref(), Some(SMALL));
@@ -125,7 +125,7 @@ fn a_map_replaces_no_other_file() {
 
 #[test]
 fn a_refused_part_leaves_no_map() {
-    let place = Place::new().with("part.ncl", WRONG);
+    let place = Folder::new().with("part.ncl", WRONG);
     assert_eq!(place.run(&["post", "part.ncl", "-o", "part.tap", "--map"]).status, 1);
     let lint = place.run(&["post", "part.ncl", "-o", "part.tap", "--map", "no-folder/x.map"]);
     assert_eq!(lint.status, 1);
@@ -161,7 +161,7 @@ fn files_that_are_gone_are_named() {
 
 #[test]
 fn maps_that_are_missing_or_broken_are_refused() {
-    let place = Place::new().with("part.ncl", SMALL).with("part.tap", "%\n");
+    let place = Folder::new().with("part.ncl", SMALL).with("part.tap", "%\n");
     for question in ["part.tap:1", "part.ncl:1", "nowhere.tap:1"] {
         let ran = place.run(&["trace", question]);
         assert!(ran.status == 1 && ran.err.contains("E0710"), "{question}: {ran:?}");

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::support::{Place, Ran};
+use crate::support::{Folder, Ran};
 
 /// A table about X turns by 90 degrees while the tool goes along a line, so that its
 /// tip makes a quarter circle of radius 100: off by 100 (1 - cos 45) = 29.2893.
@@ -28,7 +28,7 @@ const TABLE: [&str; 8] = [
 ];
 
 fn verify(cl: &str, nc: &str, machine: &[&str], more: &[&str]) -> Ran {
-    let place = Place::new().with("part.ncl", cl).with("part.nc", nc);
+    let place = Folder::new().with("part.ncl", cl).with("part.nc", nc);
     place.run(&[&["verify", "part.ncl", "part.nc"], machine, more].concat())
 }
 
@@ -142,7 +142,7 @@ fn a_line_of_three_axes_may_stand_in_parts() {
 
 #[test]
 fn a_program_with_fil_is_looked_at_block_by_block() {
-    let place = Place::new()
+    let place = Folder::new()
         .with("part.ncl", PART)
         .with("post.fil", "CIMFIL/ON,STOP\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n");
     let run = |command: &[&str]| place.run(&[command, &TABLE, &["-f", "post.fil"]].concat());

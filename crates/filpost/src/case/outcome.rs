@@ -251,7 +251,7 @@ fn expected(path: &Path) -> Result<String, Error> {
 
 /// The primary place of a diagnostic as `file:line`, the file without its folder.
 fn place_in_case(diag: &Diag) -> Option<String> {
-    let place = diag.places.first()?;
+    let place = diag.spans.first()?;
     let file = Path::new(&place.file).file_name()?.to_string_lossy();
     Some(format!("{file}:{}", place.line))
 }

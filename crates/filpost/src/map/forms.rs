@@ -37,7 +37,7 @@ struct Head {
     length: usize,
 }
 
-/// What a word is due to, as seen from the record of its block.
+/// The cause of a word, as seen from the record of its block.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct Other {
     from_block: Distance,
@@ -105,8 +105,8 @@ impl Distance {
 mod tests {
     use super::*;
 
-    /// Blocks of records that follow each other, each with a word due to itself and,
-    /// where given, one due to a record so far before it.
+    /// Blocks of records that follow each other, each with a word caused by itself and,
+    /// where given, one caused by a record so far before it.
     fn numbers(blocks: &[(u16, Option<u32>)]) -> Vec<Option<u32>> {
         let (mut forms, mut last) = (Forms::default(), Cause::default());
         let mut found = Vec::new();

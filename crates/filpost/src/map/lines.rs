@@ -39,7 +39,7 @@ impl Batch {
 #[derive(Default)]
 pub(super) struct Lines {
     forms: Forms,
-    /// What the last block is due to.
+    /// The cause of the last block.
     last: Cause,
     /// Number of the last stack.
     stack: u32,

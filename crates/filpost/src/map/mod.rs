@@ -17,9 +17,9 @@
 //!
 //! The words of a block are separated by blanks: `X7:6` is an X of 7 bytes (the
 //! blank after it counts) that repeats word 6 of the block's record, `G3` one due
-//! to that record as a whole, `M3*5` one due to word 5 of the record that a FIL
+//! to that record as a whole, `M3*5` one caused by word 5 of the record that a FIL
 //! statement made, `G4@` one that the machine's settings ask for, `F5:4@-2,-1,0`
-//! one due to word 4 of the record before, two lines before that of the block,
+//! one caused by word 4 of the record before, two lines before that of the block,
 //! without FIL. `_` stands for a text, `/` for the block-delete character, `#` for a
 //! sequence number.
 //!

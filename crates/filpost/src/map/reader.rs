@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 
-use fil_diag::{Diag, Place};
+use fil_diag::{Diag, TextSpan};
 use fil_post::{Cause, FilLine, Stack};
 use serde::Deserialize;
 
@@ -103,7 +103,7 @@ pub struct MapReader<R> {
     stacks: Vec<Stack>,
     /// The lines of blocks that were written out, to be repeated.
     forms: Vec<Form>,
-    /// What the last block is due to.
+    /// The cause of the last block.
     last: Cause,
     /// Lines of the program that the last line promises, and those read.
     nc_lines: u64,
@@ -117,7 +117,7 @@ pub struct MapReader<R> {
 struct Form(i64, i64, String, #[serde(default)] u32);
 
 impl Form {
-    /// What a block of this form is due to, and its words, when it comes after a
+    /// What a block of this form is caused by, and its words, when it comes after a
     /// block with the cause `last`; `None` for what no map says.
     fn after(&self, last: Cause) -> Option<(Cause, Vec<Word>)> {
         let Form(lines, records, words, stack) = self;
@@ -327,7 +327,7 @@ impl<R: Read + Seek> MapReader<R> {
     fn broken(&self, message: &str) -> Error {
         const SHOWN: usize = 200;
         let line = String::from_utf8_lossy(&self.line[..self.line.len().min(SHOWN)]);
-        let place = Place::line(&self.name, self.number.max(1), line.trim_end());
+        let place = TextSpan::line(&self.name, self.number.max(1), line.trim_end());
         Error::setup(Diag::new(RunCode::MapFile, message).at(place))
     }
 }

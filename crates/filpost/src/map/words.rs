@@ -13,7 +13,7 @@ pub struct Word {
     pub letter: char,
     /// Byte range in the block, with the blank that follows.
     pub range: Range<usize>,
-    /// What it is due to.
+    /// Its cause.
     pub cause: Cause,
 }
 
@@ -24,7 +24,7 @@ impl Word {
     }
 }
 
-/// Writes the words of a block, of which each comes with what it is due to; the
+/// Writes the words of a block, of which each comes with its cause; the
 /// text of the block is so many bytes long.
 pub(super) fn write(
     words: impl Iterator<Item = (WordInfo, Cause)>,
@@ -57,7 +57,7 @@ pub(super) fn write(
     }
 }
 
-/// What words of a letter are due to unless they say otherwise.
+/// What words of a letter are caused by unless they say otherwise.
 fn usual(letter: u8, block: Cause) -> Cause {
     if letter == SEQUENCE { Cause::default() } else { block }
 }

@@ -109,7 +109,7 @@ pub struct LineWord {
     pub value: Option<String>,
     /// The word counts in a record that a FIL statement made.
     pub made_by_fil: bool,
-    /// What it is due to.
+    /// Its cause.
     pub made: Made,
 }
 

@@ -5,7 +5,7 @@
 //! about files that have changed since.
 
 mod answer;
-mod place;
+mod position;
 mod records;
 mod run_files;
 
@@ -18,7 +18,7 @@ use fil_diag::Diag;
 use fil_post::Cause;
 
 pub use answer::{Answer, Asked, Line, LineWord, Made, Record, Step, Taken};
-pub use place::{Place, map_of};
+pub use position::{FilePosition, map_of};
 
 use crate::error::{Error, RunCode};
 use crate::map::{Entry, MapReader, NcLine};
@@ -41,7 +41,7 @@ pub struct Options {
 /// # Errors
 /// E0707 for a map that can't be used, E0708 for files of another run, E0709
 /// for a line that is not there, E0701 for files that can't be read.
-pub fn trace(place: &Place, map: &Path, options: &Options) -> Result<Answer, Error> {
+pub fn trace(place: &FilePosition, map: &Path, options: &Options) -> Result<Answer, Error> {
     let mut map = Map { reader: MapReader::open(map)?, path: map };
     let files = RunFiles::find(&map.reader, map.path, place, options)?;
     let mut answer = Answer {
@@ -80,7 +80,7 @@ struct Found {
 
 impl Map<'_> {
     /// The line asked for, or the word at its column.
-    fn nc_line(&mut self, place: &Place, files: &RunFiles) -> Result<Found, Error> {
+    fn nc_line(&mut self, place: &FilePosition, files: &RunFiles) -> Result<Found, Error> {
         if place.line == 0 || place.line > self.reader.nc_lines() {
             return Err(no_line(place, self.reader.nc_lines()));
         }
@@ -96,7 +96,7 @@ impl Map<'_> {
     /// What the record at a line of the CL file has made.
     fn of_record(
         &mut self,
-        place: &Place,
+        place: &FilePosition,
         options: &Options,
         answer: &mut Answer,
     ) -> Result<Found, Error> {
@@ -111,7 +111,7 @@ impl Map<'_> {
     /// What a line of FIL has made or had a part in.
     fn of_fil_line(
         &mut self,
-        place: &Place,
+        place: &FilePosition,
         file: u16,
         files: &RunFiles,
         options: &Options,
@@ -220,7 +220,7 @@ impl Map<'_> {
 }
 
 /// The line asked for, or its word at the column asked for.
-fn asked(mut line: NcLine, place: &Place, files: &RunFiles) -> Result<Found, Error> {
+fn asked(mut line: NcLine, place: &FilePosition, files: &RunFiles) -> Result<Found, Error> {
     if let Some(column) = place.column {
         let byte = files.nc_byte(place.line, column)?;
         let word = byte.and_then(|byte| line.word_at(byte)).cloned();
@@ -234,7 +234,7 @@ fn column_of(text: &str, byte: usize) -> usize {
     text.get(..byte).map_or(byte, |head| head.chars().count()) + 1
 }
 
-fn no_line(place: &Place, lines: u64) -> Error {
+fn no_line(place: &FilePosition, lines: u64) -> Error {
     let message = match lines {
         0 => format!("{} has no line", place.file.display()),
         _ => format!("{} has the lines 1 to {lines}, and no {}", place.file.display(), place.line),
@@ -242,13 +242,13 @@ fn no_line(place: &Place, lines: u64) -> Error {
     Error::setup(Diag::new(RunCode::NoSuchLine, message))
 }
 
-fn no_column(place: &Place, column: u64) -> Error {
+fn no_column(place: &FilePosition, column: u64) -> Error {
     let file = place.file.display();
     let message = format!("line {} of {file} has no word at column {column}", place.line);
     Error::setup(Diag::new(RunCode::NoSuchLine, message))
 }
 
-fn refuse_column(place: &Place) -> Result<(), Error> {
+fn refuse_column(place: &FilePosition) -> Result<(), Error> {
     match place.column {
         Some(_) => {
             let message = "a column is understood of a line of the NC program only";

@@ -9,7 +9,7 @@ use fil_cl::record::WordView;
 use fil_cl::{Vocabulary, reader};
 
 use super::answer::Record;
-use super::{Place, no_line};
+use super::{FilePosition, no_line};
 use crate::error::Error;
 use crate::files;
 use crate::statement::statement_text;
@@ -44,7 +44,7 @@ pub(super) fn read(
 /// E0709 for a line that is not there, E0701.
 pub(super) fn at_line(
     path: &Path,
-    place: &Place,
+    place: &FilePosition,
     options: &reader::Options,
 ) -> Result<Option<Record>, Error> {
     let lines = count_lines(path)?;

@@ -7,7 +7,7 @@ use std::path::{Component, Path, PathBuf};
 
 use fil_diag::Diag;
 
-use super::{Options, Place};
+use super::{FilePosition, Options};
 use crate::error::{Error, RunCode};
 use crate::files;
 use crate::map::{Digest, MapFile, MapReader};
@@ -49,7 +49,7 @@ impl RunFiles {
     pub fn find(
         map: &MapReader<File>,
         at: &Path,
-        place: &Place,
+        place: &FilePosition,
         options: &Options,
     ) -> Result<RunFiles, Error> {
         let folder = at.parent().unwrap_or(Path::new(""));

@@ -13,7 +13,7 @@ use fil_machine::Commons;
 use nalgebra::{Point3, Vector3};
 
 use super::ahead::Steps;
-use super::report::{Finding, Kind, Report};
+use super::report::{Finding, FindingKind, Report};
 use super::say::short;
 use super::walk::{STILL, Walk};
 use super::wanted::Arc;
@@ -179,7 +179,7 @@ pub fn look_at_blocks(
         let off = between.add(&forward, &last.to, found, &asked, limit);
         if let Some(limit) = limit.filter(|limit| off > *limit) {
             let message = said(off, limit);
-            let (kind, nc_line) = (Kind::Between, Some(found.line));
+            let (kind, nc_line) = (FindingKind::Between, Some(found.line));
             report.find(Finding { kind, cl_line: None, nc_line, message });
         }
     }
@@ -222,7 +222,7 @@ impl<C: Steps> Walk<'_, C> {
         let off = between.add(forward, &self.at, found, asked, self.watch.limit);
         if let Some(limit) = self.watch.limit.filter(|limit| off > *limit) {
             let message = said(off, limit);
-            self.find(Kind::Between, Some(cl_line), Some(found.line), message);
+            self.find(FindingKind::Between, Some(cl_line), Some(found.line), message);
         }
     }
 }

@@ -126,7 +126,7 @@ fn an_arc_is_no_distance_from_itself() {
     let forward = machine([rotary(Carries::Table, Z, [0.0; 3]), None], None);
     let (from, to) = (at([40.0, 0.0, 3.0], [0.0; 2]), at([40.0, 0.0, 3.0], [70.0, 0.0]));
     let arc = wanted::Arc {
-        centre: Point3::new(0.0, 0.0, -8.0),
+        center: Point3::new(0.0, 0.0, -8.0),
         normal: Vector3::z(),
         start: forward.pose(&from).tip,
         end: forward.pose(&to),
@@ -144,7 +144,7 @@ fn a_helix_is_followed_turn_by_turn() {
     let forward = machine([rotary(Carries::Table, Z, [0.0; 3]), None], None);
     let (from, to) = (at([20.0, 0.0, 3.0], [0.0; 2]), at([20.0, 0.0, -9.0], [720.0, 0.0]));
     let arc = wanted::Arc {
-        centre: Point3::origin(),
+        center: Point3::origin(),
         normal: Vector3::z(),
         start: forward.pose(&from).tip,
         end: forward.pose(&to),
@@ -205,9 +205,9 @@ fn ends() -> impl Strategy<Value = (Position, Position)> {
 
 /// An arc of an NC block that begins at a point.
 fn arc_from(start: [f64; 3], normal: usize, angle: f64) -> motion::Arc {
-    let mut centre = start;
-    centre[(normal + 1) % 3] += 12.0;
-    motion::Arc { centre, normal, ccw: angle > 0.0, angle: angle.abs() }
+    let mut center = start;
+    center[(normal + 1) % 3] += 12.0;
+    motion::Arc { center, normal, ccw: angle > 0.0, angle: angle.abs() }
 }
 
 /// Distance of a point from a segment, by its three cases.
@@ -286,7 +286,7 @@ proptest! {
         };
         let end = Pose { tip: on(sweep), axis: Vector3::z() };
         let arc =
-            wanted::Arc { centre: start - spoke, normal: Vector3::z(), start, end, sweep };
+            wanted::Arc { center: start - spoke, normal: Vector3::z(), start, end, sweep };
         let points: Vec<Point3<f64>> = (0..=1_000).map(|n| on(sweep * f64::from(n) / 1e3)).collect();
         let tip = |share| forward.pose(&forward.along(&from, &to, None, share)).tip;
         let nearest = |tip: Point3<f64>| {

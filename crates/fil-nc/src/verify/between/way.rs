@@ -26,7 +26,7 @@ pub(crate) enum Way {
 /// An arc or helix: a spoke that turns about a normal and rises along it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Turn {
-    centre: Point3<f64>,
+    center: Point3<f64>,
     normal: Vector3<f64>,
     spoke: Vector3<f64>,
     /// Swept angle, radians.
@@ -56,7 +56,7 @@ impl Way {
     /// A part (degrees) of an arc of the CL file.
     pub(crate) fn arc(arc: &wanted::Arc, [from, to]: [f64; 2]) -> Self {
         Way::Arc(Turn {
-            centre: arc.centre + arc.normal * arc.normal.dot(&(arc.start - arc.centre)),
+            center: arc.center + arc.normal * arc.normal.dot(&(arc.start - arc.center)),
             normal: arc.normal,
             spoke: arc.spoke(arc.start),
             sweep: arc.sweep.to_radians(),
@@ -75,8 +75,8 @@ impl Way {
             return Way::line(Point3::from(from), Point3::from(to));
         };
         let sweep = from.angle(&to);
-        let centre = Point3::origin();
-        Way::Arc(Turn { centre, normal, spoke: from, sweep, rise: 0.0, part: [0.5 * sweep; 2] })
+        let center = Point3::origin();
+        Way::Arc(Turn { center, normal, spoke: from, sweep, rise: 0.0, part: [0.5 * sweep; 2] })
     }
 
     /// Where on the way a point is at a share of the motion.
@@ -113,7 +113,7 @@ impl Turn {
     /// The place of the arc at the same angle about its normal, or an end: the nearest of
     /// those in the turn that the motion should be in, and in those beside it.
     fn foot(&self, point: Point3<f64>, share: f64) -> Foot {
-        let from = point - self.centre;
+        let from = point - self.center;
         let aside = self.normal.cross(&self.spoke);
         let angle = aside.dot(&from).atan2(self.spoke.dot(&from));
         let expected = self.part[0] + (self.part[1] - self.part[0]) * share;
@@ -121,7 +121,7 @@ impl Turn {
         let feet = [0.0, -1.0, 1.0].map(|turn| {
             let along = (angle + (turns + turn) * TAU).clamp(0.0, self.sweep);
             let rise = self.normal * (self.rise * along / self.sweep.max(f64::MIN_POSITIVE));
-            let place = self.centre + self.spoke * along.cos() + aside * along.sin() + rise;
+            let place = self.center + self.spoke * along.cos() + aside * along.sin() + rise;
             Foot { point, distance: (place - point).norm(), along }
         });
         feet.into_iter().min_by(|a, b| a.distance.total_cmp(&b.distance)).unwrap_or(feet[0])

@@ -11,7 +11,7 @@ use std::io::Read;
 
 use fil_cl::record::{kind, mode};
 use fil_cl::{Circle, Options, Reader, Record, Vocabulary, Word, WordId, words as w};
-use fil_diag::{Diag, Place};
+use fil_diag::{Diag, TextSpan};
 use fil_machine::Unit;
 use nalgebra::{Matrix3x4, Point3, Vector3};
 
@@ -208,7 +208,7 @@ impl<R: Read> ClPath<R> {
     #[cold]
     fn no_unit(&self, message: &str) -> Box<Diag> {
         let record = &self.record;
-        let place = Place::line(&self.name, record.line, statement(record, &self.vocabulary));
+        let place = TextSpan::line(&self.name, record.line, statement(record, &self.vocabulary));
         Box::new(NcCode::NoUnit.diag(message).at(place))
     }
 }

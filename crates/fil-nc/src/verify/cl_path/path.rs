@@ -91,7 +91,7 @@ impl State {
             return vec![Wanted::Unknown { what, effect: Effect::Path }];
         }
         let bare = Arc {
-            centre: Point3::from(waiting.circle.center),
+            center: Point3::from(waiting.circle.center),
             normal,
             start,
             end: Pose { tip: end, axis },
@@ -106,13 +106,13 @@ impl State {
     /// The arc as TRANS places it; a mirror turns its sense.
     fn in_frame(&self, arc: &Arc) -> Arc {
         let place = |point: Point3<f64>| self.pose(point, Vector3::z()).tip;
-        let (centre, ahead) = (place(arc.centre), place(arc.centre + arc.normal));
+        let (center, ahead) = (place(arc.center), place(arc.center + arc.normal));
         let mirrored = self.matrix.as_ref().is_some_and(|matrix| {
             matrix.rows.fixed_columns::<3>(0).into_owned().determinant() < 0.0
         });
-        let normal = (ahead - centre).normalize() * if mirrored { -1.0 } else { 1.0 };
+        let normal = (ahead - center).normalize() * if mirrored { -1.0 } else { 1.0 };
         Arc {
-            centre,
+            center,
             normal,
             start: place(arc.start),
             end: self.pose(arc.end.tip, arc.end.axis),

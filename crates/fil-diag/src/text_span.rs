@@ -6,7 +6,7 @@ use std::ops::Range;
 /// A place in a file. It carries the text of its line, so that whoever renders
 /// it need not read the file again (CL files are streamed and may be huge).
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct TextSpan {
     /// Name of the file as the user gave it.
     pub file: String,
     /// Line number, 1-based.
@@ -19,11 +19,11 @@ pub struct Place {
     pub label: String,
 }
 
-impl Place {
+impl TextSpan {
     /// A place that covers a whole line of text.
     pub fn line(file: impl Into<String>, line: u32, excerpt: impl Into<String>) -> Self {
         let excerpt = excerpt.into();
-        Place { file: file.into(), line, span: 0..excerpt.len(), excerpt, label: String::new() }
+        TextSpan { file: file.into(), line, span: 0..excerpt.len(), excerpt, label: String::new() }
     }
 
     /// Sets the label.
@@ -38,13 +38,13 @@ impl Place {
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for TextSpan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}:{}", self.file, self.line, self.column())
     }
 }
 
-/// Start offsets of the lines of a text, to turn byte ranges into [`Place`]s.
+/// Start offsets of the lines of a text, to turn byte ranges into [`TextSpan`]s.
 #[derive(Clone, Debug)]
 pub struct LineIndex {
     starts: Vec<usize>,
@@ -65,14 +65,14 @@ impl LineIndex {
     }
 
     /// The place of a byte range; a range over several lines is cut to its first line.
-    pub fn place(&self, file: &str, text: &str, range: Range<usize>) -> Place {
+    pub fn place(&self, file: &str, text: &str, range: Range<usize>) -> TextSpan {
         let line = self.line(range.start);
         let start = self.starts[line as usize - 1];
         let end = self.starts.get(line as usize).map_or(text.len(), |next| next - 1);
         let excerpt = text[start..end].trim_end_matches('\r');
         let from = (range.start - start).min(excerpt.len());
         let to = range.end.saturating_sub(start).clamp(from, excerpt.len());
-        Place {
+        TextSpan {
             file: file.to_string(),
             line,
             span: from..to,

@@ -11,7 +11,7 @@ use crate::map::MapReader;
 
 /// A line of a file, or a place in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct FilePosition {
     /// The file.
     pub file: PathBuf,
     /// The line, from 1.
@@ -20,14 +20,14 @@ pub struct Place {
     pub column: Option<u64>,
 }
 
-impl Place {
+impl FilePosition {
     /// Reads `FILE:LINE` or `FILE:LINE:COLUMN`. The name may hold colons of its
     /// own: of two ways to read it that counts whose file is there. `None` when
     /// no line stands at the end.
-    pub fn parse(text: &str) -> Option<Place> {
+    pub fn parse(text: &str) -> Option<FilePosition> {
         let (head, last) = numbered(text)?;
-        let short = Place { file: head.into(), line: last, column: None };
-        let long = numbered(head).map(|(file, line)| Place {
+        let short = FilePosition { file: head.into(), line: last, column: None };
+        let long = numbered(head).map(|(file, line)| FilePosition {
             file: file.into(),
             line,
             column: Some(last),
@@ -109,7 +109,7 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> Option<(String, u64, Option<u64>)> {
-        let place = Place::parse(text)?;
+        let place = FilePosition::parse(text)?;
         Some((place.file.display().to_string(), place.line, place.column))
     }
 
