@@ -57,8 +57,11 @@ fn corpus() -> Vec<NcCase> {
 /// what lies elsewhere, name functions that no machine of the suite has, or dwell in turns,
 /// which the interpreter reads as seconds.
 const NOT_FROM_CL: &[&str] = &[
+    "auxfun-6-leaves-the-axes-open",
     "circle-smaller-than-the-last-digit",
     "circle-whose-ends-round-together",
+    "cycle-bottom-changed-by-a-text",
+    "cycle-kind-changed-by-prefun",
     "delay-in-revolutions",
     "goto-along-an-axis-off-the-tape-warns",
     "insert-of-a-call-may-have-done-anything",
@@ -71,6 +74,7 @@ const NOT_FROM_CL: &[&str] = &[
     "program-start-blocks-that-leave-the-other-unit",
     "repeat-off-leaves-no-axis-elsewhere",
     "repeat-off-leaves-no-feed-in-force",
+    "repeat-off-warns-of-what-stays",
 ];
 
 /// Files of `tests/words` that are posted.

@@ -18,8 +18,20 @@ const DIFFERENT: &[&[(CodeAt, &str)]] = &[
         (loc::LINEAR_CODE, "linear motion"),
         (loc::CIRCLE_CW_CODE, "clockwise arcs"),
         (loc::CIRCLE_CCW_CODE, "counterclockwise arcs"),
+        (loc::THREAD_CODE, "a thread"),
         (loc::DWELL_CODE, "a dwell"),
         (loc::CYCLE_OFF_CODE, "the end of a cycle"),
+    ],
+    &[(loc::SPINDLE_CSS_CODE, "surface speed"), (loc::SPINDLE_RPM_CODE, "revolutions a minute")],
+    &[
+        (loc::CYCLE_DRILL_CODE, "drilling"),
+        (loc::CYCLE_TAP_CODE, "tapping"),
+        (loc::CYCLE_DEEP_CODE, "deep drilling"),
+    ],
+    &[
+        (loc::CYCLE_DRILL_CODE, "drilling"),
+        (loc::CYCLE_TAP_CODE, "tapping"),
+        (loc::CYCLE_BRKCHP_CODE, "chip breaking"),
     ],
     &[(loc::RAPID_CODE_Z, "rapid motion of Z"), (loc::LINEAR_CODE, "linear motion")],
     &[(loc::ROTARY_RAPID_CODE, "rapid turns"), (loc::LINEAR_CODE, "linear motion")],
@@ -47,6 +59,7 @@ const DIFFERENT: &[&[(CodeAt, &str)]] = &[
         (loc::SPINDLE_CW_CODE, "the spindle clockwise"),
         (loc::SPINDLE_CCW_CODE, "the spindle counterclockwise"),
         (loc::SPINDLE_STOP_CODE, "the spindle's stop"),
+        (loc::SPINDLE_ORIENT_CODE, "the spindle's orientation"),
         (loc::TOOL_CHANGE_CODE, "a tool change"),
         (loc::PROGRAM_STOP_CODE, "a stop"),
         (loc::PROGRAM_OPSTOP_CODE, "an optional stop"),
@@ -54,9 +67,62 @@ const DIFFERENT: &[&[(CodeAt, &str)]] = &[
         (loc::PROGRAM_REWIND_CODE, "the end with rewind"),
         (loc::COOLANT_OFF_CODE, "coolant off"),
     ],
-    &[(loc::COOLANT_OFF_CODE, "coolant off"), (loc::COOLANT_FLOOD_CODE, "flood coolant")],
-    &[(loc::COOLANT_OFF_CODE, "coolant off"), (loc::COOLANT_MIST_CODE, "mist coolant")],
 ];
+
+/// Preparatory functions by the mode they set: no code may be of two modes.
+const MODES: &[(&str, &[CodeAt])] = &[
+    (
+        "a motion",
+        &[
+            loc::RAPID_CODE_XY,
+            loc::RAPID_CODE_Z,
+            loc::ROTARY_RAPID_CODE,
+            loc::LINEAR_CODE,
+            loc::CIRCLE_CW_CODE,
+            loc::CIRCLE_CCW_CODE,
+        ],
+    ),
+    ("a plane", &[loc::CIRCLE_PLANE_XY, loc::CIRCLE_PLANE_ZX, loc::CIRCLE_PLANE_YZ]),
+    ("a unit", &[loc::UNITS_METRIC_CODE, loc::UNITS_INCH_CODE]),
+    ("a feed mode", &[loc::FEED_UPM_CODE, loc::FEED_UPR_CODE]),
+    ("cutter compensation", &[loc::CUTCOM_OFF_CODE, loc::CUTCOM_LEFT_CODE, loc::CUTCOM_RIGHT_CODE]),
+    ("the tool length", &[loc::TOOL_LENGTH_CODE]),
+    ("a speed mode", &[loc::SPINDLE_CSS_CODE, loc::SPINDLE_RPM_CODE]),
+    ("a dwell", &[loc::DWELL_CODE]),
+    ("the end of a cycle", &[loc::CYCLE_OFF_CODE]),
+    (
+        "a cycle",
+        &[
+            loc::CYCLE_DRILL_CODE,
+            loc::CYCLE_CSINK_CODE,
+            loc::CYCLE_DEEP_CODE,
+            loc::CYCLE_BRKCHP_CODE,
+            loc::CYCLE_TAP_CODE,
+            loc::CYCLE_BORE_CODE,
+            loc::CYCLE_REAM_CODE,
+            loc::CYCLE_FACE_CODE,
+            loc::CYCLE_THRU_CODE,
+        ],
+    ),
+];
+
+/// Commands of M that no coolant may share.
+const COMMANDS: &[(CodeAt, &str)] = &[
+    (loc::SPINDLE_CW_CODE, "the spindle clockwise"),
+    (loc::SPINDLE_CCW_CODE, "the spindle counterclockwise"),
+    (loc::SPINDLE_STOP_CODE, "the spindle's stop"),
+    (loc::SPINDLE_ORIENT_CODE, "the spindle's orientation"),
+    (loc::TOOL_CHANGE_CODE, "a tool change"),
+    (loc::PROGRAM_STOP_CODE, "a stop"),
+    (loc::PROGRAM_OPSTOP_CODE, "an optional stop"),
+    (loc::PROGRAM_END_CODE, "the end of the program"),
+    (loc::PROGRAM_REWIND_CODE, "the end with rewind"),
+    (loc::COOLANT_OFF_CODE, "coolant off"),
+];
+
+/// Coolants; two may share a code.
+const COOLANTS: &[(CodeAt, &str)] =
+    &[(loc::COOLANT_FLOOD_CODE, "flood coolant"), (loc::COOLANT_MIST_CODE, "mist coolant")];
 
 /// Numbers that must be above zero where they are given.
 const POSITIVE: &[(Dbl, &str)] = &[
@@ -93,7 +159,11 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     for group in DIFFERENT {
         same_codes(commons, group, &mut found);
     }
+    codes_of_two_modes(commons, &mut found);
+    coolants(commons, &mut found);
     incremental_start(commons, &mut found);
+    start_modes(commons, &mut found);
+    arc_sizes(commons, &mut found);
     same_positions(commons, &mut found);
     axis_letters(commons, &mut found);
     word_letters(commons, &mut found);
@@ -114,6 +184,63 @@ fn same_codes(commons: &Commons, group: &[(CodeAt, &str)], found: &mut Vec<Diag>
         if let Some((_, other)) = other {
             found.push(contradiction(format!("code {code} is both {other} and {what}")));
         }
+    }
+}
+
+fn codes_of_two_modes(commons: &Commons, found: &mut Vec<Diag>) {
+    for (index, (what, group)) in MODES.iter().enumerate() {
+        for code in group.iter().filter_map(|at| commons.read(*at)) {
+            let has = |group: &[CodeAt]| group.iter().any(|at| commons.read(*at) == Some(code));
+            if let Some((other, _)) = MODES[..index].iter().find(|(_, group)| has(group)) {
+                found.push(contradiction(format!("G{code} is both {other} and {what}")));
+            }
+        }
+    }
+}
+
+fn coolants(commons: &Commons, found: &mut Vec<Diag>) {
+    for (at, what) in COOLANTS {
+        let code = commons.read(*at);
+        let other =
+            COMMANDS.iter().find(|(other, _)| code.is_some() && commons.read(*other) == code);
+        if let (Some(code), Some((_, other))) = (code, other) {
+            found.push(contradiction(format!("code {code} is both {other} and {what}")));
+        }
+    }
+}
+
+/// The modes that the program says at its start are among the machine's.
+fn start_modes(commons: &Commons, found: &mut Vec<Diag>) {
+    let modes: [(&str, CodeAt, &[CodeAt]); 3] = [
+        (
+            "mode.position",
+            loc::MODE_POSITION,
+            &[loc::MODE_ABSOLUTE_CODE, loc::MODE_INCREMENTAL_CODE],
+        ),
+        ("feed.mode", loc::FEED_MODE, &[loc::FEED_UPM_CODE, loc::FEED_UPR_CODE]),
+        (
+            "circle.plane",
+            loc::CIRCLE_PLANE,
+            &[loc::CIRCLE_PLANE_XY, loc::CIRCLE_PLANE_ZX, loc::CIRCLE_PLANE_YZ],
+        ),
+    ];
+    for (name, at, codes) in modes {
+        let Some(code) = commons.read(at) else { continue };
+        let mut known = codes.iter().filter_map(|at| commons.read(*at)).peekable();
+        if known.peek().is_some() && !known.any(|known| known == code) {
+            found.push(contradiction(format!("{name} is {code}, which is no code of this mode")));
+        }
+    }
+}
+
+/// Arcs end at a quadrant or at a full circle.
+fn arc_sizes(commons: &Commons, found: &mut Vec<Diag>) {
+    if let Some(degrees) = commons.read(loc::CIRCLE_MAX_DEGREES)
+        && degrees != 90
+        && degrees != 360
+    {
+        let message = format!("circle.max_degrees is {degrees}; it can be 90 or 360");
+        found.push(contradiction(message));
     }
 }
 
@@ -159,9 +286,8 @@ fn axis_letters(commons: &Commons, found: &mut Vec<Diag>) {
 /// axis nor a function.
 fn word_letters(commons: &Commons, found: &mut Vec<Diag>) {
     let of = |at: LetterAt| commons.read(at);
-    let taken = |letter: Letter| {
-        letters::XYZ.contains(&letter) || [letters::G, letters::M, letters::N].contains(&letter)
-    };
+    let taken =
+        |letter: Letter| letters::XYZ.contains(&letter) || b"FGHMNST".contains(&letter.byte());
     let named = [
         (loc::CYCLE_STEP_ADDRESS, "the peck"),
         (loc::CYCLE_DWELL_ADDRESS, "the dwell of a cycle"),
@@ -169,7 +295,8 @@ fn word_letters(commons: &Commons, found: &mut Vec<Diag>) {
         (loc::CUTCOM_ADDRESS, "the cutter offset"),
     ];
     for (at, what) in named {
-        if let Some(letter) = of(at).filter(|letter| taken(*letter)) {
+        let is_offset = |letter: &Letter| what == "the cutter offset" && letter.byte() == b'H';
+        if let Some(letter) = of(at).filter(|letter| taken(*letter) && !is_offset(letter)) {
             found.push(contradiction(format!("{letter} is {what} and something else")));
         }
     }
@@ -273,6 +400,18 @@ mod tests {
             "cycle.dwell_address=Q",
             "rotary.primary_letter=X",
             "spindle.stop_code=3",
+            "spindle.orient_code=3",
+            "coolant.mist_code=3",
+            "cycle.off_code=81",
+            "cycle.drill_code=17",
+            "cycle.deep_code=81",
+            "spindle.css_code=97\nspindle.rpm_code=97",
+            "thread.code=0",
+            "tool.length_code=40",
+            "mode.position=89",
+            "circle.plane=20",
+            "circle.max_degrees=45",
+            "circle.radius_address=H",
             "tool.change_block=2\ntool.change_b=10",
             "output.translate_c=5",
         ] {

@@ -103,9 +103,12 @@ impl NumberFormat {
     /// tool, an offset).
     ///
     /// # Errors
-    /// As [`NumberFormat::scale`]; a value that the format would round.
+    /// As [`NumberFormat::scale`]; a value that the format would round; one below zero.
     #[inline]
     pub fn exact(&self, value: f64) -> Result<i64> {
+        if value < 0.0 {
+            return Err(self.negative(value));
+        }
         let scaled = self.scale(value)?;
         if (self.unscale(scaled) - value).abs() > EXACT * value.abs().max(1.0) {
             return Err(self.inexact(value, scaled));
@@ -125,6 +128,12 @@ impl NumberFormat {
             return Err(self.changed(value, scaled, share));
         }
         Ok(scaled)
+    }
+
+    #[cold]
+    fn negative(&self, value: f64) -> Box<Diag> {
+        MachineCode::Overflow
+            .diag(format!("{value}: a number that names something is not negative"))
     }
 
     #[cold]

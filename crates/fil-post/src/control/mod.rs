@@ -18,7 +18,7 @@ use fil_machine::address::no_address;
 use fil_machine::commons::EMPTY;
 use fil_machine::contradictions;
 use fil_machine::letters::{G, M};
-use fil_machine::modes::Unit;
+use fil_machine::modes::{Plane, Unit};
 use fil_machine::rounding::Rounding;
 use fil_machine::setting::{CodeAt, LetterAt};
 use fil_machine::tables::MachineTables;
@@ -34,6 +34,14 @@ use crate::warnings::Warnings;
 
 pub use program::ProgramHead;
 pub use waiting::{Function, Waiting};
+
+/// What the control knew before words or texts of others.
+#[derive(Clone, Copy, Debug)]
+pub struct BeforeOthers {
+    compensated: bool,
+    plane: Option<Plane>,
+    tool_changes: u32,
+}
 
 /// The output side of the post.
 #[derive(Clone)]
@@ -252,9 +260,10 @@ impl Control {
         }
         self.refuse_after_end()?;
         self.tape.words(words, &self.tables.addresses, &mut self.commons)?;
+        let before = self.before_others()?;
         let letters = words.iter().map(|(letter, value, _)| (*letter, *value));
         self.state.learn_words(letters, &self.codes);
-        Ok(())
+        self.refuse_in_compensation(before)
     }
 
     /// Writes a text as a block; the control learns from it what it can read.
@@ -270,8 +279,49 @@ impl Control {
         self.refuse_after_end()?;
         texts::check(text)?;
         self.put_line(text, numbered)?;
+        let before = self.before_others()?;
         self.state.learn_text(text, &self.codes);
-        Ok(())
+        self.refuse_in_compensation(before)
+    }
+
+    /// What the control knows before words or texts that the post has not made.
+    ///
+    /// # Errors
+    /// As [`Control::begin`].
+    pub fn before_others(&mut self) -> Result<BeforeOthers> {
+        self.begin()?;
+        Ok(BeforeOthers {
+            compensated: self.is_compensated(),
+            plane: self.state.plane,
+            tool_changes: self.state.tool_changes,
+        })
+    }
+
+    /// Refuses a tool change or another plane that they brought within cutter
+    /// compensation.
+    ///
+    /// # Errors
+    /// They did.
+    pub fn refuse_in_compensation(&self, before: BeforeOthers) -> Result<()> {
+        if !before.compensated {
+            return Ok(());
+        }
+        if self.state.tool_changes != before.tool_changes {
+            return PostCode::CompensationOn
+                .err("at a tool change; CUTCOM/OFF must come before it");
+        }
+        match (before.plane, self.state.plane) {
+            (Some(one), Some(other)) if one != other => {
+                PostCode::CompensationOn.err("at a change of the plane")
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Cutter compensation is on, or waits for its motion.
+    pub fn is_compensated(&self) -> bool {
+        matches!(self.state.compensation, Some(Compensation::Left | Compensation::Right))
+            || self.compensation_asked() != Compensation::Off
     }
 
     /// Writes a comment, which the control does not read.

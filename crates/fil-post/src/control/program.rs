@@ -86,6 +86,10 @@ fn write_start(control: &mut Control) -> Result<()> {
     program_number(control)?;
     let blocks = user_blocks::START.read(&control.commons);
     let own_start = !blocks.is_empty();
+    if own_start && control.commons.read(loc::UNITS_MODE) == loc::UnitsMode::AsTheClFile {
+        // A machine of both units: texts that say none leave it in any.
+        control.state.unit = None;
+    }
     for block in blocks {
         control.write_text(&block, true)?;
     }

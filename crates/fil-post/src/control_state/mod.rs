@@ -70,7 +70,7 @@ impl LetterSet {
 }
 
 /// The usual tool change, which may move the axes.
-const TOOL_CHANGE: FunctionCode = FunctionCode::whole(6);
+pub const TOOL_CHANGE: FunctionCode = FunctionCode::whole(6);
 
 /// The letters of axes: a control may have any of them.
 const AXIS_LETTERS: [Letter; 9] = [
@@ -104,6 +104,10 @@ pub struct ControlState {
     pub compensation_begun: bool,
     /// A canned cycle is in force: each position drills a hole.
     pub in_cycle: Option<bool>,
+    /// The code of the last canned cycle.
+    pub cycle: Option<FunctionCode>,
+    /// Tool changes so far.
+    pub tool_changes: u32,
     /// The tool in the spindle.
     pub tool: Option<i64>,
     /// The program has ended: M2, M30.
@@ -127,6 +131,8 @@ impl ControlState {
             compensation: Some(Compensation::Off),
             compensation_begun: false,
             in_cycle: Some(false),
+            cycle: None,
+            tool_changes: 0,
             tool: None,
             ended: false,
             doubtful: LetterSet::default(),
@@ -172,6 +178,8 @@ impl ControlState {
             compensation: None,
             compensation_begun: self.compensation_begun,
             in_cycle: None,
+            cycle: None,
+            tool_changes: self.tool_changes,
             tool: None,
             ended: self.ended,
             doubtful: LetterSet::ALL,
@@ -276,6 +284,7 @@ impl ControlState {
             }
             Meaning::Cycle => {
                 self.in_cycle = Some(true);
+                self.cycle = Some(code);
                 self.motion = None;
             }
             Meaning::CycleOff => {
@@ -307,6 +316,7 @@ impl ControlState {
         self.ended |= END.contains(&code);
         if code == TOOL_CHANGE {
             self.tool = None;
+            self.tool_changes += 1;
         }
         if CALLS.contains(&code) {
             self.forget();
@@ -395,6 +405,7 @@ impl ControlState {
         agree(&mut self.feed_mode, &other.feed_mode);
         agree(&mut self.compensation, &other.compensation);
         agree(&mut self.in_cycle, &other.in_cycle);
+        agree(&mut self.cycle, &other.cycle);
         agree(&mut self.tool, &other.tool);
         self.compensation_begun &= other.compensation_begun;
         self.doubtful.0 |= other.doubtful.0;

@@ -58,6 +58,9 @@ fn offset_word(control: &mut Control, given: Option<(f64, u16)>) -> Result<()> {
         return Ok(());
     };
     let letter = control.letter(loc::CUTCOM_ADDRESS, "the offset's address")?;
+    if given.is_some() {
+        control.require_letter(letter)?;
+    }
     control.block.cause.word = word;
     control.word(letter, offset)
 }

@@ -54,7 +54,7 @@ pub fn hole(
 ) -> Result<()> {
     let across = at.of(across(hole.along));
     let data_modal = control.commons.read(loc::CYCLE_DATA_MODAL);
-    let in_force = cycle.in_force == Some(*hole) && control_has_data(control, cycle, hole);
+    let in_force = cycle.in_force == Some(*hole) && control_has_data(control, cycle, code, hole);
     if in_force && data_modal != CycleDataModal::EveryPoint {
         if !motion::axis_words(control, &across)? {
             for number in AxisSet::LINEAR.numbers().filter(|number| *number != hole.along) {
@@ -75,12 +75,14 @@ pub fn hole(
 }
 
 /// True when the control still has the words of the last hole: no text has changed
-/// plane, feed, levels or peck since.
-fn control_has_data(control: &Control, cycle: &Cycle, hole: &Hole) -> bool {
+/// cycle, plane, feed, levels or peck since.
+fn control_has_data(control: &Control, cycle: &Cycle, code: FunctionCode, hole: &Hole) -> bool {
     let step = control.commons.read(loc::CYCLE_STEP_ADDRESS).filter(|_| cycle.step.is_some());
     let dwell = control.commons.read(loc::CYCLE_DWELL_ADDRESS).filter(|_| cycle.dwell > 0.0);
-    let letters = [Some(F), Some(R), step, dwell];
-    letters.into_iter().flatten().all(|letter| control.state.has_last(letter))
+    let bottom = control.tables.axis(hole.along).letter;
+    let letters = [Some(F), Some(R), Some(bottom), step, dwell];
+    control.state.cycle == Some(code)
+        && letters.into_iter().flatten().all(|letter| control.state.has_last(letter))
         && control.state.plane.is_none_or(|plane| plane == Plane::across(hole.along))
 }
 

@@ -82,9 +82,12 @@ fn absolute_code(control: &Control) -> Option<FunctionCode> {
 /// Adds a plane selection unless the control is in it.
 ///
 /// # Errors
-/// The machine has no code for the plane.
+/// The machine has no code for the plane; cutter compensation that is on.
 pub fn plane(control: &mut Control, plane: Plane) -> Result<()> {
     if control.state.plane != Some(plane) {
+        if control.state.plane.is_some() && control.is_compensated() {
+            return PostCode::CompensationOn.err("at a change of the plane");
+        }
         let code = control.code(plane_code(plane), "this plane")?;
         control.g(code);
     }

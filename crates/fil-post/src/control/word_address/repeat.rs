@@ -5,7 +5,7 @@ use fil_machine::{FunctionCode, Letter, letters};
 
 use crate::cause::Cause;
 use crate::control::Control;
-use crate::control_state::Meaning;
+use crate::control_state::{Meaning, TOOL_CHANGE};
 use crate::errors::PostCode;
 
 /// Sets the words, or ends all of them. What they left on the tape is not where the
@@ -15,6 +15,7 @@ use crate::errors::PostCode;
 /// A letter the machine does not write, or a function that changes a mode.
 pub fn set(control: &mut Control, words: Vec<(Letter, f64, Cause)>) -> Result<()> {
     if words.is_empty() {
+        warn_of_what_stays(control);
         control.ended_repeats.extend(std::mem::take(&mut control.repeats).into_keys());
         return Ok(());
     }
@@ -27,9 +28,48 @@ pub fn set(control: &mut Control, words: Vec<(Letter, f64, Cause)>) -> Result<()
     Ok(())
 }
 
-/// Refuses a function that changes a mode: the post would count on the old one.
+/// Letters that change nothing about a motion; F means something else in a cycle.
+const BESIDE_MOTION: &[u8] = b"DEFHMNOST";
+
+/// Letters whose word stays in force when REPEAT ends, until the program says another.
+const STAYING: &[u8] = b"DHMST";
+
+/// REPEAT/OFF ends the repetition, not what the last words said.
+fn warn_of_what_stays(control: &mut Control) {
+    let staying: Vec<String> = control
+        .repeats
+        .iter()
+        .filter(|(letter, _)| STAYING.contains(&letter.byte()))
+        .map(|(letter, (value, _))| format!("{letter}{value}"))
+        .collect();
+    if !staying.is_empty() {
+        let message = format!("REPEAT/OFF: {} stays in force", staying.join(" "));
+        control.warnings.add(PostCode::IgnoredPart, message);
+    }
+}
+
+/// Refuses a word that would bend an arc or drill another hole.
+fn refuse_in_arc_or_cycle(control: &Control, letter: Letter) -> Result<()> {
+    let in_cycle = control.state.in_cycle != Some(false)
+        || control.block.g_codes().iter().any(|(code, _)| control.meaning(*code) == Meaning::Cycle);
+    let centers = b"IJKR".map(Letter::of);
+    let arc = centers.into_iter().any(|center| control.block_has(center));
+    let beside = BESIDE_MOTION.contains(&letter.byte()) && !(in_cycle && letter == letters::F);
+    if (in_cycle || arc) && !beside {
+        let what = if in_cycle { "a cycle" } else { "an arc" };
+        return PostCode::WordForm.err(format!("REPEAT: {letter} means something else in {what}"));
+    }
+    Ok(())
+}
+
+/// Refuses a function that changes a mode or the tool: the post would count on the old
+/// one.
 fn refuse_mode(control: &Control, letter: Letter, value: f64) -> Result<()> {
-    let meaning = FunctionCode::of_value(value).map(|code| control.meaning(code));
+    let function = FunctionCode::of_value(value);
+    if letter == letters::M && function == Some(TOOL_CHANGE) {
+        return PostCode::WordForm.err("REPEAT: M6 in each motion would change the tool");
+    }
+    let meaning = function.map(|code| control.meaning(code));
     if letter == letters::G && meaning != Some(Meaning::OneBlock) {
         return PostCode::WordForm
             .err(format!("REPEAT: G{value} in each motion would change a mode"));
@@ -54,6 +94,7 @@ pub fn write_with_repeats(control: &mut Control) -> Result<()> {
     let mut kept = Vec::new();
     for (letter, (value, cause)) in control.repeats.clone() {
         if !control.block_has(letter) {
+            refuse_in_arc_or_cycle(control, letter)?;
             kept.push((letter, control.commons.last_output(letter)));
             control.because(cause, |control| control.word(letter, value))?;
         }
