@@ -36,22 +36,28 @@ fn pages() -> Vec<(String, String)> {
     pages
 }
 
-/// The command, built once.
+/// The command, built once: as the tests of the whole workspace build it, so that they
+/// have it already.
 fn filpost() -> &'static Path {
     static BINARY: OnceLock<PathBuf> = OnceLock::new();
     BINARY.get_or_init(|| {
         let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
         let built = Command::new(cargo)
-            .args(["build", "-q", "-p", "filpost-cli", "--message-format=json"])
+            .args(["test", "-q", "--workspace", "--test", "cli", "--no-run"])
+            .arg("--message-format=json")
             .current_dir(root())
             .output()
             .expect("cargo runs");
         assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
         let messages = String::from_utf8_lossy(&built.stdout).into_owned();
-        let marker = "\"executable\":\"";
-        let start = messages.rfind(marker).expect("an executable") + marker.len();
-        let rest = &messages[start..];
-        PathBuf::from(rest[..rest.find('"').expect("its end")].replace("\\\\", "\\"))
+        let messages = messages.lines().filter_map(|line| serde_json::from_str(line).ok());
+        let mut binaries = messages.filter_map(|message: serde_json::Value| {
+            let is_command = message["target"]["name"] == "filpost"
+                && message["target"]["kind"] == serde_json::json!(["bin"])
+                && message["profile"]["test"] == false;
+            message["executable"].as_str().filter(|_| is_command).map(PathBuf::from)
+        });
+        binaries.next().expect("the command is built for its tests")
     })
 }
 
