@@ -55,33 +55,12 @@ const DIFFERENT: &[&[(CodeAt, &str)]] = &[
         (loc::CYCLE_RETURN_INITIAL_CODE, "return to the level before"),
         (loc::CYCLE_RETURN_CLEAR_CODE, "return to the R level"),
     ],
-    &[
-        (loc::SPINDLE_CW_CODE, "the spindle clockwise"),
-        (loc::SPINDLE_CCW_CODE, "the spindle counterclockwise"),
-        (loc::SPINDLE_STOP_CODE, "the spindle's stop"),
-        (loc::SPINDLE_ORIENT_CODE, "the spindle's orientation"),
-        (loc::TOOL_CHANGE_CODE, "a tool change"),
-        (loc::PROGRAM_STOP_CODE, "a stop"),
-        (loc::PROGRAM_OPSTOP_CODE, "an optional stop"),
-        (loc::PROGRAM_END_CODE, "the end of the program"),
-        (loc::PROGRAM_REWIND_CODE, "the end with rewind"),
-        (loc::COOLANT_OFF_CODE, "coolant off"),
-    ],
+    COMMANDS,
 ];
 
 /// Preparatory functions by the mode they set: no code may be of two modes.
 const MODES: &[(&str, &[CodeAt])] = &[
-    (
-        "a motion",
-        &[
-            loc::RAPID_CODE_XY,
-            loc::RAPID_CODE_Z,
-            loc::ROTARY_RAPID_CODE,
-            loc::LINEAR_CODE,
-            loc::CIRCLE_CW_CODE,
-            loc::CIRCLE_CCW_CODE,
-        ],
-    ),
+    ("a motion", &loc::MOTION_CODES),
     ("a plane", &[loc::CIRCLE_PLANE_XY, loc::CIRCLE_PLANE_ZX, loc::CIRCLE_PLANE_YZ]),
     ("a unit", &[loc::UNITS_METRIC_CODE, loc::UNITS_INCH_CODE]),
     ("a feed mode", &[loc::FEED_UPM_CODE, loc::FEED_UPR_CODE]),
@@ -90,23 +69,10 @@ const MODES: &[(&str, &[CodeAt])] = &[
     ("a speed mode", &[loc::SPINDLE_CSS_CODE, loc::SPINDLE_RPM_CODE]),
     ("a dwell", &[loc::DWELL_CODE]),
     ("the end of a cycle", &[loc::CYCLE_OFF_CODE]),
-    (
-        "a cycle",
-        &[
-            loc::CYCLE_DRILL_CODE,
-            loc::CYCLE_CSINK_CODE,
-            loc::CYCLE_DEEP_CODE,
-            loc::CYCLE_BRKCHP_CODE,
-            loc::CYCLE_TAP_CODE,
-            loc::CYCLE_BORE_CODE,
-            loc::CYCLE_REAM_CODE,
-            loc::CYCLE_FACE_CODE,
-            loc::CYCLE_THRU_CODE,
-        ],
-    ),
+    ("a cycle", &loc::CYCLE_CODES),
 ];
 
-/// Commands of M that no coolant may share.
+/// Commands of M, which no coolant may share either.
 const COMMANDS: &[(CodeAt, &str)] = &[
     (loc::SPINDLE_CW_CODE, "the spindle clockwise"),
     (loc::SPINDLE_CCW_CODE, "the spindle counterclockwise"),

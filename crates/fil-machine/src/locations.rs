@@ -122,6 +122,23 @@ fn default_format(letter: u8) -> (i32, i32) {
     }
 }
 
+/// Codes of motions, without that of a thread, which may be a cycle of its own.
+pub const MOTION_CODES: [CodeAt; 6] =
+    [RAPID_CODE_XY, RAPID_CODE_Z, ROTARY_RAPID_CODE, LINEAR_CODE, CIRCLE_CW_CODE, CIRCLE_CCW_CODE];
+
+/// Codes of the canned cycles.
+pub const CYCLE_CODES: [CodeAt; 9] = [
+    CYCLE_DRILL_CODE,
+    CYCLE_CSINK_CODE,
+    CYCLE_DEEP_CODE,
+    CYCLE_BRKCHP_CODE,
+    CYCLE_TAP_CODE,
+    CYCLE_BORE_CODE,
+    CYCLE_REAM_CODE,
+    CYCLE_FACE_CODE,
+    CYCLE_THRU_CODE,
+];
+
 /// Least and greatest X, Y, Z of the machine, mm.
 pub const LINEAR_LIMITS: [(Dbl, Dbl); 3] =
     [(LIMITS_X_MIN, LIMITS_X_MAX), (LIMITS_Y_MIN, LIMITS_Y_MAX), (LIMITS_Z_MIN, LIMITS_Z_MAX)];

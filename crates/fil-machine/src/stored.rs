@@ -82,7 +82,7 @@ fn takes(row: &Location, value: f64) -> bool {
     }
     match row.unit {
         ValueUnit::Flag => [0.0, 1.0, 71.0, 72.0].contains(&value),
-        // A letter of a real file that is none is 53, 0 or the code 0 less 64.
+        // Real files write 53, 0 or -64 (the code 0 less 64) for an absent letter.
         ValueUnit::Letter => {
             Letter::numbered(value as i32).is_some() || [53.0, 0.0, -64.0].contains(&value)
         }
@@ -95,7 +95,7 @@ fn takes(row: &Location, value: f64) -> bool {
 /// Refuses a number that a location can't hold.
 ///
 /// # Errors
-/// E0605 for a number that is none of the choices, no letter, no character, no code.
+/// E0605 for a number outside the choices, and for an invalid letter, character or code.
 pub fn check(kind: Kind, number: u32, value: f64) -> Result<()> {
     // Absent; or a fraction, which INTCOM refuses itself.
     let is_absent = value == EMPTY || (kind == Kind::Int && value == f64::from(NA));

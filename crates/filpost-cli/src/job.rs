@@ -202,8 +202,8 @@ fn deny(denied: bool, warnings: usize) -> Result<(), Error> {
     Err(Error::Run(Box::new(Diag::new(CommandCode::Denied, message))))
 }
 
-/// Refuses an output that is one of the inputs, or another output; and a map
-/// over a file that is none.
+/// Refuses an output that is one of the inputs, or another output. A map never
+/// overwrites a file that is not a map.
 fn refuse_over_input(job: &Job, inputs: &[PathBuf]) -> Result<(), Error> {
     let mut taken: Vec<PathBuf> = inputs.iter().filter_map(|path| real(path)).collect();
     taken.extend(real(&job.cl));

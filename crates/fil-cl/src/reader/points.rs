@@ -123,7 +123,7 @@ impl<R: Read> Reader<R> {
         Err(self.diag(error.code, &error.message, self.three_items(error.item)))
     }
 
-    /// Refuses points with tool axes that are none.
+    /// Refuses a tool axis of another length than 1.
     fn check_axes(&self) -> Result<()> {
         let values = &self.pending.values;
         let axis = |at: &usize| [values[*at], values[*at + 1], values[*at + 2]];

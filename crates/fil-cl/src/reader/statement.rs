@@ -26,7 +26,7 @@ pub(super) enum Form {
 /// Why no statement could be gathered.
 pub(super) enum GatherError {
     Line(LineError),
-    /// A continuation that nothing follows, a line end that is none.
+    /// A continuation at the end of the file, an invalid line end.
     Refused(Box<Diag>),
 }
 

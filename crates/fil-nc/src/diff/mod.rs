@@ -24,8 +24,8 @@ pub use say::sentence;
 /// What is compared, and how exactly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// Largest difference of a length (in the unit of the programs) or an angle
-    /// (degrees) that is none.
+    /// Largest deviation of a length (in the unit of the programs) or an angle
+    /// (degrees) treated as equal.
     pub tolerance: f64,
     /// What is not looked at.
     pub ignore: Ignore,

@@ -320,8 +320,7 @@ impl Control {
 
     /// Cutter compensation is on, or waits for its motion.
     pub fn is_compensated(&self) -> bool {
-        matches!(self.state.compensation, Some(Compensation::Left | Compensation::Right))
-            || self.compensation_asked() != Compensation::Off
+        self.state.compensates() || self.compensation_asked() != Compensation::Off
     }
 
     /// Writes a comment, which the control does not read.

@@ -11,7 +11,7 @@ use fil_machine::{Commons, FunctionCode, locations as loc, user_blocks};
 
 use super::Control;
 use crate::cause::Cause;
-use crate::control_state::{Compensation, ControlState};
+use crate::control_state::ControlState;
 use crate::errors::PostCode;
 
 /// Program numbers have at most four digits.
@@ -81,15 +81,14 @@ pub fn start(control: &mut Control) -> Result<()> {
 
 /// The blocks at the start; the machine's settings ask for them.
 fn write_start(control: &mut Control) -> Result<()> {
-    control.state = state_at_start(&control.commons, control.unit);
-    tape_mark(control, loc::TAPE_START_CHAR)?;
-    program_number(control)?;
     let blocks = user_blocks::START.read(&control.commons);
     let own_start = !blocks.is_empty();
-    if own_start && control.commons.read(loc::UNITS_MODE) == loc::UnitsMode::AsTheClFile {
-        // A machine of both units: texts that say none leave it in any.
-        control.state.unit = None;
-    }
+    // Texts that say no unit leave a machine of both units in any.
+    let of_both = control.commons.read(loc::UNITS_MODE) == loc::UnitsMode::AsTheClFile;
+    let unit = control.unit.filter(|_| !(own_start && of_both));
+    control.state = state_at_start(&control.commons, unit);
+    tape_mark(control, loc::TAPE_START_CHAR)?;
+    program_number(control)?;
     for block in blocks {
         control.write_text(&block, true)?;
     }
@@ -111,7 +110,7 @@ pub fn end(control: &mut Control, code: Option<FunctionCode>) -> Result<()> {
     for block in user_blocks::END.read(&control.commons) {
         control.because(Cause::default(), |control| control.write_text(&block, true))?;
     }
-    if matches!(control.state.compensation, Some(Compensation::Left | Compensation::Right)) {
+    if control.state.compensates() {
         return PostCode::CompensationOn.err("at the end of the program");
     }
     if let Some(code) = code {

@@ -66,13 +66,13 @@ impl Codes {
                 codes.named.push((code, meaning));
             }
         };
-        for at in MOTIONS {
+        for at in loc::MOTION_CODES.into_iter().chain([loc::THREAD_CODE]) {
             name(at, Meaning::Motion);
         }
         for (at, meaning) in MODES {
             name(at, meaning);
         }
-        for at in CYCLES {
+        for at in loc::CYCLE_CODES {
             name(at, Meaning::Cycle);
         }
         if !turning {
@@ -152,16 +152,6 @@ fn of_tenths(code: FunctionCode) -> Meaning {
     }
 }
 
-const MOTIONS: [CodeAt; 7] = [
-    loc::RAPID_CODE_XY,
-    loc::RAPID_CODE_Z,
-    loc::ROTARY_RAPID_CODE,
-    loc::LINEAR_CODE,
-    loc::CIRCLE_CW_CODE,
-    loc::CIRCLE_CCW_CODE,
-    loc::THREAD_CODE,
-];
-
 const MODES: [(CodeAt, Meaning); 18] = [
     (loc::CIRCLE_PLANE_XY, Meaning::Plane(Plane::Xy)),
     (loc::CIRCLE_PLANE_ZX, Meaning::Plane(Plane::Zx)),
@@ -181,16 +171,4 @@ const MODES: [(CodeAt, Meaning); 18] = [
     (loc::SPINDLE_RPM_CODE, Meaning::OneBlock),
     (loc::SPINDLE_MAX_CODE, Meaning::OneBlock),
     (loc::TOOL_LENGTH_CODE, Meaning::ToolLength),
-];
-
-const CYCLES: [CodeAt; 9] = [
-    loc::CYCLE_DRILL_CODE,
-    loc::CYCLE_CSINK_CODE,
-    loc::CYCLE_DEEP_CODE,
-    loc::CYCLE_BRKCHP_CODE,
-    loc::CYCLE_TAP_CODE,
-    loc::CYCLE_BORE_CODE,
-    loc::CYCLE_REAM_CODE,
-    loc::CYCLE_FACE_CODE,
-    loc::CYCLE_THRU_CODE,
 ];

@@ -162,6 +162,11 @@ impl ControlState {
         self.doubtful.remove(letter);
     }
 
+    /// Cutter compensation is on.
+    pub fn compensates(&self) -> bool {
+        matches!(self.compensation, Some(Compensation::Left | Compensation::Right))
+    }
+
     /// Where the axes stand is not known.
     pub fn doubt_axes(&mut self) {
         AXIS_LETTERS.into_iter().for_each(|letter| self.doubt(letter));

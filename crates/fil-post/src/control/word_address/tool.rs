@@ -7,7 +7,6 @@ use fil_machine::locations::{self as loc, ToolFormat};
 
 use super::motion::{self, Motion};
 use crate::control::Control;
-use crate::control_state::Compensation;
 use crate::errors::PostCode;
 use crate::operation::ToolChange;
 
@@ -20,7 +19,7 @@ pub fn prepare(control: &mut Control, wanted: &ToolChange) -> Result<bool> {
     control.begin()?;
     super::cycle::cancel(control)?;
     control.flush_waiting()?;
-    if matches!(control.state.compensation, Some(Compensation::Left | Compensation::Right)) {
+    if control.state.compensates() {
         return PostCode::CompensationOn.err("at a tool change; CUTCOM/OFF must come before it");
     }
     let modal = control.commons.read(loc::TOOL_MODAL);
