@@ -107,6 +107,7 @@ pub struct Axis {
     translate: f64,
     /// The tape holds diameters.
     diameter: bool,
+    resolution: f64,
     min: f64,
     max: f64,
 }
@@ -121,13 +122,15 @@ impl Axis {
         commons: &Commons,
     ) -> Self {
         let scale = commons.dbl_opt(SCALE[common]).unwrap_or(1.0);
+        let format = addresses.format(letter).copied().unwrap_or_default();
         Axis {
             letter,
             output: addresses.output(letter),
-            format: addresses.format(letter).copied().unwrap_or_default(),
+            format,
             scale,
             translate: commons.dbl_opt(TRANSLATE[common]).unwrap_or(0.0),
             diameter: common == 0 && scale == DIAMETER,
+            resolution: format.unscale(1) / scale.abs(),
             min: f64::NEG_INFINITY,
             max: f64::INFINITY,
         }
@@ -142,6 +145,7 @@ impl Axis {
             return MachineCode::SettingValue.err("lathe.diameter and scale.x would both change X");
         }
         self.scale = DIAMETER;
+        self.resolution /= DIAMETER;
         self.diameter = true;
         Ok(())
     }
@@ -207,8 +211,9 @@ impl Axis {
 
     /// Smallest step of the machine position that the tape can say, mm, inch or
     /// degrees.
+    #[inline]
     pub fn resolution(&self) -> f64 {
-        self.format.unscale(1) / self.scale.abs()
+        self.resolution
     }
 
     /// The tape position for a word of this axis; `None` when its output is off.

@@ -139,6 +139,9 @@ pub const CYCLE_CODES: [CodeAt; 9] = [
     CYCLE_THRU_CODE,
 ];
 
+/// What is added to X, Y and Z of each point of the input.
+pub const INPUT_TRANSLATE: [Dbl; 3] = [INPUT_TRANSLATE_X, INPUT_TRANSLATE_Y, INPUT_TRANSLATE_Z];
+
 /// Least and greatest X, Y, Z of the machine, mm.
 pub const LINEAR_LIMITS: [(Dbl, Dbl); 3] =
     [(LIMITS_X_MIN, LIMITS_X_MAX), (LIMITS_Y_MIN, LIMITS_Y_MAX), (LIMITS_Z_MIN, LIMITS_Z_MAX)];

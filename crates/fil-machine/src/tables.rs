@@ -2,6 +2,7 @@
 //! axis chain. The tables are made anew when a setting or the unit has changed.
 
 use fil_diag::Result;
+use nalgebra::Vector3;
 
 use crate::address::Addresses;
 use crate::axes::{Axis, AxisSet, linear_letters};
@@ -18,6 +19,7 @@ pub struct MachineTables {
     axes: Vec<Axis>,
     chain: AxisChain,
     present: AxisSet,
+    input_shift: Vector3<f64>,
     made_for: Option<(u32, bool)>,
 }
 
@@ -45,6 +47,8 @@ impl MachineTables {
             .map(|(common, letter)| Axis::new(letter, common, &self.addresses, commons))
             .collect();
         self.present = AxisSet::LINEAR;
+        self.input_shift =
+            Vector3::from(loc::INPUT_TRANSLATE.map(|at| commons.dbl_opt(at).unwrap_or(0.0)));
         for (index, rotary) in self.chain.rotaries.iter().enumerate() {
             let (letter, common) = match rotary {
                 Some(rotary) => (rotary.letter, rotary.axis + 3),
@@ -95,5 +99,11 @@ impl MachineTables {
     #[inline]
     pub fn present(&self) -> AxisSet {
         self.present
+    }
+
+    /// What is added to each point of the input, mm or inch (DBLCOM 286 to 288).
+    #[inline]
+    pub fn input_shift(&self) -> Vector3<f64> {
+        self.input_shift
     }
 }

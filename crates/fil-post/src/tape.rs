@@ -190,10 +190,10 @@ impl Tape {
         self.sequence.since_last = 0;
         let increment =
             self.sequence.increment.or(commons.dbl_opt(loc::SEQNO_INCREMENT)).unwrap_or(1.0);
-        let first = increment + commons.dbl_opt(loc::SEQNO_START_OFFSET).unwrap_or(0.0);
-        let mut number = self.sequence.next.unwrap_or(first);
+        let first = || increment + commons.dbl_opt(loc::SEQNO_START_OFFSET).unwrap_or(0.0);
+        let mut number = self.sequence.next.unwrap_or_else(first);
         if commons.dbl_opt(loc::SEQNO_MAX).is_some_and(|max| number > max) {
-            number = first;
+            number = first();
         }
         self.sequence.next = Some(number + increment);
         let slot = addresses.slot(position);

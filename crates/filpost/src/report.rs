@@ -24,8 +24,13 @@ impl Extents {
     pub(crate) fn add(extents: &mut Option<Extents>, point: [f64; 3]) {
         let found = extents.get_or_insert(Extents { min: point, max: point });
         for (axis, value) in point.into_iter().enumerate() {
-            found.min[axis] = found.min[axis].min(value);
-            found.max[axis] = found.max[axis].max(value);
+            // A point of a CL file is finite.
+            if value < found.min[axis] {
+                found.min[axis] = value;
+            }
+            if value > found.max[axis] {
+                found.max[axis] = value;
+            }
         }
     }
 }

@@ -106,6 +106,9 @@ pub struct Reader<R> {
     /// The reader does not go on after an error.
     failed: Option<Box<Diag>>,
     started: bool,
+    /// The next record comes from the next line: none waits, none is looked for, nothing was
+    /// refused. One question in place of five for each GOTO.
+    at_line: bool,
     /// It only looks for signs ahead of another reader.
     is_scout: bool,
 }
@@ -128,6 +131,7 @@ impl<R: Read> Reader<R> {
             seeking: Seeking::none(),
             failed: None,
             started: false,
+            at_line: false,
             is_scout: false,
         }
     }
@@ -138,7 +142,16 @@ impl<R: Read> Reader<R> {
     /// # Errors
     /// What is wrong with the statement, with its span. After an error every
     /// further call gives the same error.
+    #[inline]
     pub fn read(&mut self, vocab: &mut Vocabulary, record: &mut Record) -> Result<bool> {
+        if self.at_line && !self.seeking.is_due(self.number) && self.read_plain_goto(record) {
+            return Ok(true);
+        }
+        self.read_any(vocab, record)
+    }
+
+    /// Reads a record of any kind.
+    fn read_any(&mut self, vocab: &mut Vocabulary, record: &mut Record) -> Result<bool> {
         if let Some(diag) = &self.failed {
             return Err(diag.clone());
         }
@@ -146,6 +159,11 @@ impl<R: Read> Reader<R> {
         if let Err(diag) = &result {
             self.failed = Some(diag.clone());
         }
+        self.at_line = result.is_ok()
+            && self.started
+            && self.pending.is_empty()
+            && self.made.is_empty()
+            && self.seeking.target == 0;
         result
     }
 
@@ -178,7 +196,7 @@ impl<R: Read> Reader<R> {
     }
 
     fn read_next(&mut self, vocab: &mut Vocabulary, record: &mut Record) -> Result<bool> {
-        if self.pending.next < self.pending.values.len() {
+        if !self.pending.is_empty() {
             self.next_pending(record);
             return Ok(true);
         }

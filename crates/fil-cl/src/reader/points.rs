@@ -13,14 +13,19 @@ use crate::record::{Record, Word};
 /// The points of a GOTO not yet handed out.
 #[derive(Default)]
 pub(super) struct Pending {
-    pub(super) values: Vec<f64>,
-    pub(super) next: usize,
+    values: Vec<f64>,
+    next: usize,
     /// Values of one point: 3 or 6.
     group: usize,
     line: u32,
 }
 
 impl Pending {
+    /// True when all points are handed out.
+    pub(super) fn is_empty(&self) -> bool {
+        self.next == self.values.len()
+    }
+
     pub(super) fn clear(&mut self) {
         self.values.clear();
         self.next = 0;

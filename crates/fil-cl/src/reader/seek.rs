@@ -87,6 +87,7 @@ impl<R: Read> Reader<R> {
             return Err(Box::new(Diag::new(ClCode::NoSuchRecord, "record 0").at(here)));
         }
         self.seeking.target = n;
+        self.at_line = false;
         let before = self.seeking.checkpoints.partition_point(|point| point.number < n);
         let Some(point) = before.checked_sub(1).map(|at| self.seeking.checkpoints[at]) else {
             return Ok(());

@@ -80,8 +80,7 @@ impl<'c> Settings<'c> {
 
     /// Translation of the input, CL units.
     pub fn input_shift(&self) -> [f64; 3] {
-        [loc::INPUT_TRANSLATE_X, loc::INPUT_TRANSLATE_Y, loc::INPUT_TRANSLATE_Z]
-            .map(|at| self.commons.dbl_opt(at).unwrap_or(0.0))
+        loc::INPUT_TRANSLATE.map(|at| self.commons.dbl_opt(at).unwrap_or(0.0))
     }
 
     /// The last digits of the addresses in a program in mm or inch.

@@ -37,12 +37,13 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
         return PostCode::ArcStart.err("CIRCLE before any FROM or GOTO");
     };
     let ends = [start, target.point].map(|point| flat(arc, point));
-    check_radii(arc, ends)?;
+    let radius = check_radii(arc, ends)?;
     refuse_first_under_compensation(post)?;
     let sweep = sweep(arc, ends);
     post.path.course.arc(ends.map(|end| arc.axis.cross(&end)), sweep, arc.line)?;
     let turns_axis = target.axis != post.path.axis;
-    let whole = if turns_axis { None } else { in_plane(post, arc, start, sweep, target)? };
+    let whole =
+        if turns_axis { None } else { in_plane(post, arc, start, (radius, sweep), target)? };
     let Some(mut whole) = whole else {
         post.warn(PostCode::ArcLines, "an arc was written as short lines".to_string());
         return chords::carry_out(post, arc, start, sweep, target);
@@ -74,7 +75,8 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     Ok(())
 }
 
-fn check_radii(arc: &Arc, ends: [Vector3<f64>; 2]) -> Result<()> {
+/// Gives the radius at the start.
+fn check_radii(arc: &Arc, ends: [Vector3<f64>; 2]) -> Result<f64> {
     let [at_start, at_end] = ends.map(|end| end.norm());
     let given = arc.radius.unwrap_or(at_start);
     if (at_start - at_end).abs() > RADIUS_TOLERANCE || (given - at_start).abs() > RADIUS_TOLERANCE {
@@ -82,7 +84,7 @@ fn check_radii(arc: &Arc, ends: [Vector3<f64>; 2]) -> Result<()> {
             "radius {given:.4}, but {at_start:.4} at the start and {at_end:.4} at the end"
         ));
     }
-    Ok(())
+    Ok(at_start)
 }
 
 /// Compensation begins on a straight line: on an arc the control would alarm or
@@ -122,7 +124,7 @@ fn in_plane(
     post: &mut Post,
     arc: &Arc,
     start: Point3<f64>,
-    sweep: f64,
+    (radius, sweep): (f64, f64),
     target: Target,
 ) -> Result<Option<PlaneArc>> {
     let transformation = post.path.transformation.as_ref();
@@ -130,17 +132,21 @@ fn in_plane(
         return Ok(None);
     }
     let mirrored = transformation.is_some_and(|trans| trans.mirrors());
+    let is_fixed = transformation.is_none() && !post.control.tables.chain().has_rotary();
     let mut machine = |point: Point3<f64>| {
         rotary::position_of(post, Target { point, axis: target.axis, word: 0 })
     };
     let linear = |position: Position| Vector3::new(position[0], position[1], position[2]);
     let (center, from) = (linear(machine(arc.center)?), machine(start)?);
-    let tip = linear(machine(arc.center + arc.axis)?);
+    let normal = if is_fixed {
+        arc.axis
+    } else {
+        let tip = linear(machine(arc.center + arc.axis)?);
+        (tip - center) * if mirrored { -1.0 } else { 1.0 }
+    };
     let to = machine(target.point)?;
-    let normal = (tip - center) * if mirrored { -1.0 } else { 1.0 };
     let found = Plane::ALL.into_iter().find(|plane| normal[plane.normal()].abs() > 1.0 - IN_PLANE);
     let Some(plane) = found else { return Ok(None) };
-    let radius = flat(arc, start).norm();
     let most = post.control.commons.dbl_opt(loc::CIRCLE_MAX_RADIUS);
     let axes = plane.axes();
     let circles = axes.into_iter().all(|number| post.control.tables.axis(number).keeps_circles());

@@ -2,7 +2,6 @@
 
 use fil_diag::Result;
 use fil_machine::axes::Position;
-use fil_machine::locations as loc;
 use nalgebra::{Point3, Vector3};
 
 use crate::errors::PostCode;
@@ -51,13 +50,11 @@ pub fn refuse_unwinding(before: Option<[f64; 2]>, now: Option<[f64; 2]>) -> Resu
 /// The target after TRANS and the input translation (DBLCOM 286–288).
 #[inline]
 pub fn transformed(post: &Post, target: Target) -> (Point3<f64>, Vector3<f64>) {
-    let shift = [loc::INPUT_TRANSLATE_X, loc::INPUT_TRANSLATE_Y, loc::INPUT_TRANSLATE_Z]
-        .map(|location| post.control.commons.dbl_opt(location).unwrap_or(0.0));
     let (point, axis) = match &post.path.transformation {
         Some(trans) => (trans.point(target.point), trans.axis(target.axis)),
         None => (target.point, target.axis),
     };
-    (point + Vector3::from(shift), axis)
+    (point + post.control.tables.input_shift(), axis)
 }
 
 /// Rotary positions the last output values stand for, degrees; 0 where unknown.

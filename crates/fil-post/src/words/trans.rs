@@ -54,8 +54,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
 }
 
 fn translate(post: &mut Post, by: [f64; 3]) -> Result<()> {
-    let at = [loc::INPUT_TRANSLATE_X, loc::INPUT_TRANSLATE_Y, loc::INPUT_TRANSLATE_Z];
-    for (location, value) in at.into_iter().zip(by) {
+    for (location, value) in loc::INPUT_TRANSLATE.into_iter().zip(by) {
         post.control.commons.set(Kind::Dbl, u32::from(location.0), value)?;
     }
     Ok(())
