@@ -1,6 +1,6 @@
 //! The back-check of programs that a test holds in memory.
 
-use fil_cl::Options;
+use fil_cl::{Options, Reader};
 use fil_nc::dialect::Dialect;
 use fil_nc::interpret;
 use fil_nc::motion::Event;
@@ -26,9 +26,10 @@ pub fn compare(
     (nc, events): (&[u8], &[Event]),
     allowed: Allowed,
 ) -> Result<Report, Box<Diag>> {
-    let (cl_name, options) = ("part.ncl", Options::default());
+    let cl_name = "part.ncl";
+    let cl = Reader::new(cl, cl_name, Options::default());
     let unit = Unit::of_machine(commons);
-    verify(Check { cl, cl_name, options, unit, nc, events, commons, allowed })
+    verify(Check { cl, cl_name, unit, nc, events, commons, allowed })
 }
 
 /// Follows a program and compares it with a CL file.

@@ -8,7 +8,7 @@
 
 use std::io::Read;
 
-use fil_cl::Options;
+use fil_cl::{Options, Reader};
 use fil_nc::forward::Pose;
 use fil_nc::motion::{Compensation, Rate};
 use fil_nc::verify::{self, ClPath, Wanted};
@@ -22,9 +22,9 @@ const STRAIGHT: f64 = 1e-6;
 ///
 /// # Errors
 /// A CL text that cannot be read, and a statement this module does not cover.
-pub fn cl_path(input: impl Read, name: &str) -> Result<ToolPath, String> {
+pub fn cl_path(input: impl Read + Send, name: &str) -> Result<ToolPath, String> {
     let mut steps = Vec::new();
-    for step in ClPath::new(input, name, Options::default(), [0.0; 3]) {
+    for step in ClPath::new(Reader::new(input, name, Options::default()), name, [0.0; 3]) {
         let verify::Step { line, what } = step.map_err(|diag| diag.to_string())?;
         let action = action(&what).map_err(|reason| format!("CL line {line}: {reason}"))?;
         steps.extend(action.map(|action| Step { line, action }));

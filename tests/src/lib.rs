@@ -23,11 +23,8 @@ pub mod posting;
 pub mod programs;
 pub mod random;
 pub mod rs274;
-pub mod runout;
 pub mod same_events;
-pub mod screw;
 pub mod sinumerik;
-pub mod thread;
 pub mod tip_program;
 pub mod words;
 

@@ -232,7 +232,7 @@ proptest! {
         while reader.read(&mut vocab, &mut record).unwrap() {
             straight.push(record.clone());
         }
-        let mut reader = Reader::seekable(Cursor::new(text), "s", Options::default());
+        let mut reader = Reader::seekable(Cursor::new(text.as_str()), "s", Options::default());
         for number in wanted {
             reader.seek_record(number).unwrap();
             prop_assert!(reader.read(&mut vocab, &mut record).unwrap());

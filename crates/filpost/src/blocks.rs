@@ -1,7 +1,6 @@
 //! The blocks of a run, one by one.
 
 use std::collections::VecDeque;
-use std::io::Read;
 use std::iter::FusedIterator;
 
 use fil_cl::reader::Reader;
@@ -27,15 +26,15 @@ pub struct Block {
 /// `&mut` to ask for the report at the end.
 ///
 /// Files that scripts write appear when the last block is handed out.
-pub struct Blocks<'o, R: Read> {
-    engine: Engine<'o, Reader<R>>,
+pub struct Blocks<'o> {
+    engine: Engine<'o, Reader<'o>>,
     ready: VecDeque<Block>,
     number: u64,
     over: bool,
 }
 
-impl<'o, R: Read> Blocks<'o, R> {
-    pub(crate) fn new(engine: Engine<'o, Reader<R>>) -> Self {
+impl<'o> Blocks<'o> {
+    pub(crate) fn new(engine: Engine<'o, Reader<'o>>) -> Self {
         Blocks { engine, ready: VecDeque::new(), number: 0, over: false }
     }
 
@@ -70,7 +69,7 @@ impl<'o, R: Read> Blocks<'o, R> {
     }
 }
 
-impl<R: Read> Iterator for Blocks<'_, R> {
+impl Iterator for Blocks<'_> {
     type Item = Result<Block, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
@@ -81,4 +80,4 @@ impl<R: Read> Iterator for Blocks<'_, R> {
     }
 }
 
-impl<R: Read> FusedIterator for Blocks<'_, R> {}
+impl FusedIterator for Blocks<'_> {}

@@ -68,7 +68,7 @@ impl<'o, S: Records> Engine<'o, S> {
     }
 
     /// Runs to the end; what the script wrote is not under its names yet.
-    pub(crate) fn run(&mut self, nc: &mut impl Write) -> Result<(Report, PendingFiles), Error> {
+    pub(crate) fn run(&mut self, nc: &mut dyn Write) -> Result<(Report, PendingFiles), Error> {
         let observed = !self.outside.observers.is_empty();
         let mut more = true;
         while more {
@@ -147,7 +147,7 @@ impl<'o, S: Records> Engine<'o, S> {
         self.shown = 0;
     }
 
-    fn flush(&mut self, nc: &mut impl Write) -> Result<(), Error> {
+    fn flush(&mut self, nc: &mut dyn Write) -> Result<(), Error> {
         let tape = &mut self.outside.post.control.tape;
         nc.write_all(&tape.text).map_err(write_error)?;
         if let Some(map) = &mut self.outside.map {

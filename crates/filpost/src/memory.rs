@@ -8,8 +8,8 @@ use crate::program::Program;
 use crate::source::Records;
 
 /// Hands out records that are already there, after a look at each.
-pub(crate) struct Memory<I> {
-    records: I,
+pub(crate) struct Memory<'r> {
+    records: Box<dyn Iterator<Item = Record> + 'r>,
     /// The words of the records, until the run takes them.
     vocabulary: Option<Vocabulary>,
     /// How messages call the records.
@@ -17,12 +17,12 @@ pub(crate) struct Memory<I> {
     number: u32,
 }
 
-impl<I: Iterator<Item = Record>> Memory<I> {
+impl<'r> Memory<'r> {
     /// # Errors
     /// E0712 for a vocabulary that does not begin with that of the program: its
     /// numbers would mean other words.
     pub fn new(
-        records: I,
+        records: impl Iterator<Item = Record> + 'r,
         vocabulary: Vocabulary,
         program: &Program,
         name: &str,
@@ -32,11 +32,16 @@ impl<I: Iterator<Item = Record>> Memory<I> {
             let hint = "Start from Program::vocabulary of the program that runs them.";
             return Err(Error::Run(Box::new(Diag::new(RunCode::BadRecord, message).hint(hint))));
         }
-        Ok(Memory { records, vocabulary: Some(vocabulary), name: name.to_string(), number: 0 })
+        Ok(Memory {
+            records: Box::new(records),
+            vocabulary: Some(vocabulary),
+            name: name.to_string(),
+            number: 0,
+        })
     }
 }
 
-impl<I: Iterator<Item = Record>> Records for Memory<I> {
+impl Records for Memory<'_> {
     fn read(&mut self, vocabulary: &mut Vocabulary, record: &mut Record) -> Result<bool> {
         if let Some(words) = self.vocabulary.take() {
             *vocabulary = words;

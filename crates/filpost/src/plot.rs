@@ -2,7 +2,7 @@
 
 use std::io::{Read, Seek};
 
-use fil_cl::reader::Options;
+use fil_cl::reader::{Options, Reader};
 use fil_machine::Unit;
 use fil_machine::commons::{Commons, Kind};
 use fil_nc::dialect::Dialect;
@@ -40,7 +40,8 @@ pub struct ClText<'a> {
 impl ClText<'_> {
     fn trace(&self, shift: [f64; 3]) -> Result<Trace, Error> {
         let Text { name, bytes } = self.text;
-        cl_trace(bytes, name, self.options, self.unit, shift).map_err(Error::Run)
+        let reader = Reader::new(bytes, name, self.options);
+        cl_trace(reader, name, self.unit, shift).map_err(Error::Run)
     }
 }
 

@@ -118,7 +118,7 @@ impl Program {
     ///
     /// # Errors
     /// As [`Run::run`].
-    pub fn run(&self, cl: impl Read, nc: impl Write) -> Result<Report, Error> {
+    pub fn run(&self, cl: impl Read + Send, nc: impl Write) -> Result<Report, Error> {
         self.start().run(cl, nc)
     }
 
@@ -126,7 +126,11 @@ impl Program {
     ///
     /// # Errors
     /// As [`Run::run`].
-    pub fn run_seekable(&self, cl: impl Read + Seek, nc: impl Write) -> Result<Report, Error> {
+    pub fn run_seekable(
+        &self,
+        cl: impl Read + Seek + Send,
+        nc: impl Write,
+    ) -> Result<Report, Error> {
         self.start().run_seekable(cl, nc)
     }
 
@@ -152,7 +156,7 @@ impl Program {
     }
 
     /// The blocks of a CL stream, one by one; see [`Run::blocks`].
-    pub fn blocks<R: Read>(&self, cl: R) -> Blocks<'static, R> {
+    pub fn blocks<'o>(&self, cl: impl Read + Send + 'o) -> Blocks<'o> {
         self.start().blocks(cl)
     }
 

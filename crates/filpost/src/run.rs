@@ -122,16 +122,20 @@ impl<'o> Run<'o> {
     /// # Errors
     /// The first thing that is wrong; what was written until then is not a
     /// program. The writer's own errors come as E0702.
-    pub fn run(self, cl: impl Read, nc: impl Write) -> Result<Report, Error> {
+    pub fn run(self, cl: impl Read + Send, mut nc: impl Write) -> Result<Report, Error> {
         let reader = Reader::new(cl, &self.name(), self.reading);
-        commit(self.drive(reader, None, nc).0)
+        commit(self.post(reader, None, &mut nc).0)
     }
 
     /// Posts a CL stream that can go back.
     ///
     /// # Errors
     /// As [`Run::run`].
-    pub fn run_seekable(self, cl: impl Read + Seek, nc: impl Write) -> Result<Report, Error> {
+    pub fn run_seekable(
+        self,
+        cl: impl Read + Seek + Send,
+        nc: impl Write,
+    ) -> Result<Report, Error> {
         commit(self.run_pending(cl, nc))
     }
 
@@ -142,11 +146,11 @@ impl<'o> Run<'o> {
     /// As [`Run::run`].
     pub fn run_pending(
         self,
-        cl: impl Read + Seek,
-        nc: impl Write,
+        cl: impl Read + Seek + Send,
+        mut nc: impl Write,
     ) -> Result<(Report, PendingFiles), Error> {
         let reader = Reader::seekable(cl, &self.name(), self.reading);
-        self.drive(reader, None, nc).0
+        self.post(reader, None, &mut nc).0
     }
 
     /// Posts a CL file into an NC file. On any error there is no file under the
@@ -200,10 +204,10 @@ impl<'o> Run<'o> {
         self,
         vocabulary: Vocabulary,
         records: impl IntoIterator<Item = Record>,
-        nc: impl Write,
+        mut nc: impl Write,
     ) -> Result<Report, Error> {
         let memory = Memory::new(records.into_iter(), vocabulary, &self.program, &self.name())?;
-        commit(self.drive(memory, None, nc).0)
+        self.post_memory(memory, &mut nc)
     }
 
     /// Posts a CL stream and writes the line map of the run. `names` is how the
@@ -213,8 +217,8 @@ impl<'o> Run<'o> {
     /// As [`Run::run`]; E0702 for the map.
     pub fn run_mapped(
         self,
-        cl: impl Read + Seek,
-        nc: impl Write,
+        cl: impl Read + Seek + Send,
+        mut nc: impl Write,
         names: &map::Names,
         output: &'o mut (dyn Write + Send),
     ) -> Result<(Report, PendingFiles), Error> {
@@ -224,7 +228,7 @@ impl<'o> Run<'o> {
         let cant_write = |error| files::cant_write(Path::new("the line map"), &error);
         let module = &self.program.shared.module;
         let map = map::Writer::new(output, names, module).map_err(cant_write)?;
-        let (result, map) = self.drive(reader, Some(map), nc);
+        let (result, map) = self.post(reader, Some(map), &mut nc);
         let result = result?;
         let digest = cl.finish().map_err(cant)?;
         map.map_or(Ok(()), |map| map.finish(digest)).map_err(cant_write)?;
@@ -245,7 +249,7 @@ impl<'o> Run<'o> {
     /// assert!(blocks.report().warnings.is_empty());
     /// # Ok::<(), filpost::Error>(())
     /// ```
-    pub fn blocks<R: Read>(self, cl: R) -> Blocks<'o, R> {
+    pub fn blocks(self, cl: impl Read + Send + 'o) -> Blocks<'o> {
         let reader = Reader::new(cl, &self.name(), self.reading);
         Blocks::new(Engine::new(self.begin(None), reader, true))
     }
@@ -261,18 +265,36 @@ impl<'o> Run<'o> {
         Start { program, cl_name, units, cancel, observers, map }
     }
 
+    /// Posts what a reader gives. The methods above are compiled for each kind of input
+    /// and output, so they do no more than hand both over.
+    fn post(
+        self,
+        reader: Reader<'_>,
+        map: Option<map::Writer<'o>>,
+        nc: &mut dyn Write,
+    ) -> Done<'o> {
+        self.drive(reader, map, nc)
+    }
+
+    fn post_memory(self, memory: Memory<'_>, nc: &mut dyn Write) -> Result<Report, Error> {
+        commit(self.drive(memory, None, nc).0)
+    }
+
     fn drive(
         self,
         records: impl Records,
         map: Option<map::Writer<'o>>,
-        mut nc: impl Write,
-    ) -> (Result<(Report, PendingFiles), Error>, Option<map::Writer<'o>>) {
+        nc: &mut dyn Write,
+    ) -> Done<'o> {
         let observed = !self.observers.is_empty();
         let mut engine = Engine::new(self.begin(map), records, observed);
-        let result = engine.run(&mut nc);
+        let result = engine.run(nc);
         (result, engine.take_map())
     }
 }
+
+/// What a run gives: its report and the files of scripts, and the map to be ended.
+type Done<'o> = (Result<(Report, PendingFiles), Error>, Option<map::Writer<'o>>);
 
 /// Gives the files of scripts their names.
 fn commit(done: Result<(Report, PendingFiles), Error>) -> Result<Report, Error> {

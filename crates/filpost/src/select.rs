@@ -140,8 +140,15 @@ pub fn confirm(
 /// # Errors
 /// A CL text that can't be read so far; E0714 for a MACHIN without a name, or with
 /// a number that no machine has.
-pub fn asked(input: impl Read, name: &str, options: reader::Options) -> Result<Asked, Error> {
-    let mut reader = reader::Reader::new(input, name, options);
+pub fn asked(
+    input: impl Read + Send,
+    name: &str,
+    options: reader::Options,
+) -> Result<Asked, Error> {
+    asked_of(reader::Reader::new(input, name, options), name)
+}
+
+fn asked_of(mut reader: reader::Reader<'_>, name: &str) -> Result<Asked, Error> {
     let (mut vocabulary, mut record) = (Vocabulary::new(), Record::default());
     let mut asked = Asked::default();
     let mut most = LOOK_WITHOUT_MOTION;
@@ -172,11 +179,14 @@ pub fn asked(input: impl Read, name: &str, options: reader::Options) -> Result<A
 /// # Errors
 /// A CL text that can't be read.
 pub fn machines(
-    input: impl Read,
+    input: impl Read + Send,
     name: &str,
     options: reader::Options,
 ) -> Result<Vec<(Machin, u32)>, Error> {
-    let mut reader = reader::Reader::new(input, name, options);
+    machines_of(reader::Reader::new(input, name, options))
+}
+
+fn machines_of(mut reader: reader::Reader<'_>) -> Result<Vec<(Machin, u32)>, Error> {
     let (mut vocabulary, mut record) = (Vocabulary::new(), Record::default());
     let mut machines = Vec::new();
     while record.kind != kind::FINI

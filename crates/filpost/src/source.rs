@@ -2,7 +2,6 @@
 //! motions before and after the current record.
 
 use std::collections::VecDeque;
-use std::io::Read;
 
 use fil_cl::{Recognized, Record, Vocabulary, reader::Reader, record::kind, words};
 use fil_diag::Result;
@@ -33,7 +32,7 @@ pub(crate) trait Records {
     fn recognized(&self) -> Option<Recognized>;
 }
 
-impl<R: Read> Records for Reader<R> {
+impl Records for Reader<'_> {
     fn read(&mut self, vocabulary: &mut Vocabulary, record: &mut Record) -> Result<bool> {
         Reader::read(self, vocabulary, record)
     }

@@ -7,6 +7,7 @@
 
 use std::io::{Cursor, Read};
 
+use fil_cl::Reader;
 use fil_nc::dialect::Dialect;
 use fil_nc::interpret;
 use fil_nc::verify::{
@@ -61,7 +62,16 @@ impl Run<'_> {
     /// the second run of a post with FIL refuses.
     pub fn verify(
         self,
-        mut cl: impl Read,
+        mut cl: impl Read + Send,
+        nc: NcProgram<'_>,
+        allowed: Allowed,
+    ) -> Result<(Report, Reference), Error> {
+        self.against(&mut cl, nc, allowed)
+    }
+
+    fn against(
+        self,
+        cl: &mut (dyn Read + Send),
         nc: NcProgram<'_>,
         allowed: Allowed,
     ) -> Result<(Report, Reference), Error> {
@@ -77,9 +87,8 @@ impl Run<'_> {
         let events = interpret::events(nc.text, nc.name, &dialect).map_err(Error::Run)?;
         let known = units::known_before(self.units, self.program.commons()).map_err(Error::Run)?;
         let check = Check {
-            cl,
+            cl: Reader::new(cl, &name, self.reading),
             cl_name: &name,
-            options: self.reading,
             unit: known.map(|(unit, _)| unit),
             nc: nc.text,
             events: &events,

@@ -1,8 +1,6 @@
 //! A look at the beginning of a text, so that its first statements are read by the rules of a
 //! dialect whose sign comes after them.
 
-use std::io::Read;
-
 use super::{Options, Reader};
 use crate::dialect::Evidence;
 use crate::record::Record;
@@ -12,7 +10,7 @@ use crate::vocabulary::Vocabulary;
 /// read that its dialect reads otherwise.
 const AHEAD: usize = 64 * 1024;
 
-impl<R: Read> Reader<R> {
+impl Reader<'_> {
     /// Takes the dialect whose sign stands in the first bytes. What is wrong with their
     /// statements, and an input that fails, is said when they are read.
     pub(super) fn recognize_ahead(&mut self) {

@@ -1,7 +1,5 @@
 //! CIRCLE as the dialect means it.
 
-use std::io::Read;
-
 use fil_diag::Result;
 
 use super::Reader;
@@ -10,7 +8,7 @@ use crate::errors::ClCode;
 use crate::record::{Record, Word};
 use crate::words;
 
-impl<R: Read> Reader<R> {
+impl Reader<'_> {
     /// Turns the axis of a circle so that the right-hand rule holds. A circle that is not
     /// in a form of the dialect is refused: it is perhaps one of another dialect, whose
     /// axis has the opposite sense.

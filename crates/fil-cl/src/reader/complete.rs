@@ -1,7 +1,5 @@
 //! Is the statement all there?
 
-use std::io::Read;
-
 use fil_diag::Result;
 
 use super::Reader;
@@ -10,7 +8,7 @@ use crate::layout::needs_items;
 use crate::record::{Record, Word};
 use crate::vocabulary::Vocabulary;
 
-impl<R: Read> Reader<R> {
+impl Reader<'_> {
     /// Refuses a known word without the items it needs, and a list that ends in a comma
     /// where the dialect writes none: the line after it was perhaps lost.
     pub(super) fn check_complete(&self, vocab: &Vocabulary, record: &Record) -> Result<()> {

@@ -1,7 +1,5 @@
 //! The forms of the dialect, applied to a statement.
 
-use std::io::Read;
-
 use fil_diag::{Diag, Result};
 
 use super::Reader;
@@ -16,7 +14,7 @@ use crate::words;
 /// The axes of the part.
 const UNITS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-impl<R: Read> Reader<R> {
+impl Reader<'_> {
     /// Brings a statement to the form of Creo, unless it is asked for as written.
     pub(super) fn rewrite(
         &mut self,

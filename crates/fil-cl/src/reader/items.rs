@@ -1,6 +1,5 @@
 //! The items of a statement.
 
-use std::io::Read;
 use std::ops::Range;
 
 use fil_diag::Result;
@@ -70,7 +69,7 @@ struct Rules {
     free_names: bool,
 }
 
-impl<R: Read> Reader<R> {
+impl Reader<'_> {
     /// Sets the major word and the items of the gathered statement.
     pub(super) fn parse_items(
         &mut self,

@@ -1,6 +1,6 @@
 //! Lines out of a chunk buffer, without a copy for each line.
 
-use std::io::{self, Read};
+use std::io::{self, Read, Seek, SeekFrom};
 use std::ops::Range;
 
 /// Bytes asked for at once.
@@ -12,6 +12,29 @@ const MARK: &[u8] = b"\xEF\xBB\xBF";
 /// What DOS writes at the end of a text.
 const END_SIGN: u8 = 0x1A;
 
+/// What can go back, too.
+pub(super) trait ReadSeek: Read + Seek {}
+
+impl<R: Read + Seek> ReadSeek for R {}
+
+/// Where the bytes come from. They are asked for a chunk at a time, so that one reader
+/// for all inputs costs nothing.
+pub(super) enum Input<'r> {
+    /// A stream, which cannot go back.
+    Stream(Box<dyn Read + Send + 'r>),
+    /// A file, which can.
+    File(Box<dyn ReadSeek + Send + 'r>),
+}
+
+impl Input<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        match self {
+            Input::Stream(input) => input.read(buffer),
+            Input::File(input) => input.read(buffer),
+        }
+    }
+}
+
 /// Why there is no next line.
 pub(super) enum LineError {
     /// The input failed.
@@ -22,8 +45,8 @@ pub(super) enum LineError {
 
 /// The lines of an input. The bytes from the last [`Lines::begin`] on stay in
 /// the buffer, so that a statement can be shown whole when it is wrong.
-pub(super) struct Lines<R> {
-    pub(super) input: R,
+pub(super) struct Lines<'r> {
+    input: Input<'r>,
     buffer: Vec<u8>,
     /// End of what is read into the buffer.
     end: usize,
@@ -41,8 +64,8 @@ pub(super) struct Lines<R> {
     is_open: bool,
 }
 
-impl<R: Read> Lines<R> {
-    pub(super) fn new(input: R, limit: usize) -> Self {
+impl<'r> Lines<'r> {
+    pub(super) fn new(input: Input<'r>, limit: usize) -> Self {
         Lines {
             input,
             buffer: Vec::new(),
@@ -163,10 +186,19 @@ impl<R: Read> Lines<R> {
         self.base + self.next as u64
     }
 
-    /// Forgets the buffer; the input now stands at `offset`, in line `line`.
-    pub(super) fn restart(&mut self, offset: u64, line: u32) {
+    /// True when the input can go back.
+    pub(super) fn can_go_back(&self) -> bool {
+        matches!(self.input, Input::File(_))
+    }
+
+    /// Goes to an offset in the input, where line `line` begins, and forgets the buffer.
+    pub(super) fn go_to(&mut self, offset: u64, line: u32) -> io::Result<()> {
+        if let Input::File(input) = &mut self.input {
+            input.seek(SeekFrom::Start(offset))?;
+        }
         (self.end, self.mark, self.next) = (0, 0, 0);
         (self.base, self.line, self.at_end, self.is_open) = (offset, line, false, false);
+        Ok(())
     }
 
     /// Reads on, moving what is still needed to the front or growing the buffer.

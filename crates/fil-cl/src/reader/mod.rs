@@ -30,7 +30,7 @@ use crate::vocabulary::Vocabulary;
 use crate::words;
 
 pub(crate) use items::reads_as_text;
-use lines::{LineError, Lines};
+use lines::{Input, LineError, Lines};
 pub(crate) use number::number as plain_number;
 use points::Pending;
 use repeated::Repeated;
@@ -87,8 +87,8 @@ struct Modal {
 }
 
 /// Reads the records of a CL text one after the other.
-pub struct Reader<R> {
-    lines: Lines<R>,
+pub struct Reader<'r> {
+    lines: Lines<'r>,
     statement: Statement,
     repeated: Repeated,
     /// Start and end of each item in the statement, to point at it.
@@ -102,7 +102,7 @@ pub struct Reader<R> {
     recognition: Recognition,
     /// Number of the last record read.
     number: u32,
-    seeking: Seeking<R>,
+    seeking: Seeking,
     /// The reader does not go on after an error.
     failed: Option<Box<Diag>>,
     started: bool,
@@ -113,10 +113,15 @@ pub struct Reader<R> {
     is_scout: bool,
 }
 
-impl<R: Read> Reader<R> {
+impl<'r> Reader<'r> {
     /// A reader of a stream, which cannot go back. `file_name` is what messages show.
-    pub fn new(input: R, file_name: &str, options: Options) -> Self {
+    pub fn new(input: impl Read + Send + 'r, file_name: &str, options: Options) -> Self {
+        Reader::of(Input::Stream(Box::new(input)), file_name, options)
+    }
+
+    fn of(input: Input<'r>, file_name: &str, options: Options) -> Self {
         Reader {
+            seeking: Seeking::new(matches!(input, Input::File(_))),
             lines: Lines::new(input, options.statement_limit),
             statement: Statement::new(),
             repeated: Repeated::default(),
@@ -128,7 +133,6 @@ impl<R: Read> Reader<R> {
             options,
             recognition: Recognition::new(options.dialect),
             number: 0,
-            seeking: Seeking::none(),
             failed: None,
             started: false,
             at_line: false,

@@ -1,7 +1,5 @@
 //! GOTO and FROM: values to points and tool axes.
 
-use std::io::Read;
-
 use fil_diag::Result;
 
 use super::{Reader, items};
@@ -32,7 +30,7 @@ impl Pending {
     }
 }
 
-impl<R: Read> Reader<R> {
+impl Reader<'_> {
     /// The short way for the most frequent statement: `GOTO / x, y, z[, i, j, k]`
     /// in one line, with numbers in fixed point. Anything else is left to the
     /// long way, which gives the same record.

@@ -1,9 +1,10 @@
 //! Going back in a file, with sparse checkpoints.
 
-use std::io::{Read, Result as IoResult, Seek, SeekFrom};
+use std::io::{Read, Seek};
 
 use fil_diag::{Diag, TextSpan};
 
+use super::lines::Input;
 use super::{Modal, Options, Reader};
 use crate::errors::ClCode;
 
@@ -25,26 +26,25 @@ struct Checkpoint {
 }
 
 /// What a reader needs to go back.
-pub(super) struct Seeking<R> {
-    /// Moves the input to an offset; `None` for a stream.
-    go: Option<fn(&mut R, u64) -> IoResult<u64>>,
+pub(super) struct Seeking {
     checkpoints: Vec<Checkpoint>,
-    /// Number of the first record that is due a checkpoint.
+    /// Number of the first record that is due a checkpoint; none of a stream is.
     due: u32,
     spacing: u32,
     /// Number of the record to read on to; 0 when it is the next one.
     pub(super) target: u32,
 }
 
-impl<R> Seeking<R> {
-    pub(super) fn none() -> Self {
-        Seeking { go: None, checkpoints: Vec::new(), due: 0, spacing: SPACING, target: 0 }
+impl Seeking {
+    pub(super) fn new(can_go_back: bool) -> Self {
+        let due = if can_go_back { 0 } else { u32::MAX };
+        Seeking { checkpoints: Vec::new(), due, spacing: SPACING, target: 0 }
     }
 
     /// True when the state after record `number` is worth a checkpoint.
     #[inline]
     pub(super) fn is_due(&self, number: u32) -> bool {
-        number >= self.due && self.go.is_some()
+        number >= self.due
     }
 
     /// Keeps a checkpoint.
@@ -62,16 +62,18 @@ impl<R> Seeking<R> {
     }
 }
 
-impl<R: Read + Seek> Reader<R> {
+impl<'r> Reader<'r> {
     /// A reader of a file, which can go back. The input must stand at its start.
-    pub fn seekable(input: R, file_name: &str, options: Options) -> Self {
-        let mut reader = Reader::new(input, file_name, options);
-        reader.seeking.go = Some(|input, offset| input.seek(SeekFrom::Start(offset)));
-        reader
+    pub fn seekable(
+        input: impl Read + Seek + Send + 'r,
+        file_name: &str,
+        options: Options,
+    ) -> Self {
+        Reader::of(Input::File(Box::new(input)), file_name, options)
     }
 }
 
-impl<R: Read> Reader<R> {
+impl Reader<'_> {
     /// Makes record `n` (from 1) the next one to be read. A record past the end
     /// shows as an error of the next [`Reader::read`].
     ///
@@ -79,10 +81,10 @@ impl<R: Read> Reader<R> {
     /// The input is a stream, `n` is 0, or the input cannot be moved.
     pub fn seek_record(&mut self, n: u32) -> Result<(), Box<Diag>> {
         let here = TextSpan::line(&self.file, self.statement.line.max(1), "");
-        let Some(go) = self.seeking.go else {
+        if !self.lines.can_go_back() {
             let message = format!("record {n} is asked for after record {}", self.number);
             return Err(Box::new(Diag::new(ClCode::NotSeekable, message).at(here)));
-        };
+        }
         if n == 0 {
             return Err(Box::new(Diag::new(ClCode::NoSuchRecord, "record 0").at(here)));
         }
@@ -95,10 +97,9 @@ impl<R: Read> Reader<R> {
         if self.failed.is_none() && (point.number..n).contains(&self.number) {
             return Ok(());
         }
-        if let Err(error) = go(&mut self.lines.input, point.offset) {
+        if let Err(error) = self.lines.go_to(point.offset, point.line) {
             return Err(self.read_failed(&error));
         }
-        self.lines.restart(point.offset, point.line);
         self.pending.clear();
         self.made.clear();
         self.modal = point.modal;
@@ -114,8 +115,7 @@ mod tests {
 
     #[test]
     fn checkpoints_stay_few_however_long_the_file() {
-        let mut seeking = Seeking::<std::fs::File>::none();
-        seeking.go = Some(|_, offset| Ok(offset));
+        let mut seeking = Seeking::new(true);
         while seeking.due < u32::MAX {
             let number = seeking.due;
             assert!(seeking.is_due(number));

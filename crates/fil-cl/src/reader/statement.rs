@@ -1,6 +1,5 @@
 //! One statement: its physical lines joined, and the way back to them.
 
-use std::io::Read;
 use std::ops::Range;
 
 use fil_diag::{Diag, TextSpan};
@@ -98,9 +97,9 @@ impl Statement {
 
     /// Gathers the next statement; `None` at the end of the input. Comments are shown to
     /// the recognition of the dialect.
-    pub(super) fn gather<R: Read>(
+    pub(super) fn gather(
         &mut self,
-        lines: &mut Lines<R>,
+        lines: &mut Lines<'_>,
         recognition: &mut Recognition,
         file: &str,
         options: &Options,
@@ -128,9 +127,9 @@ impl Statement {
     }
 
     /// Looks at a comment and passes over the lines it goes on in.
-    fn comment<R: Read>(
+    fn comment(
         &mut self,
-        lines: &mut Lines<R>,
+        lines: &mut Lines<'_>,
         mut line: Range<usize>,
         recognition: &mut Recognition,
         context: Context<'_>,
@@ -157,9 +156,9 @@ impl Statement {
     }
 
     /// Whether the statement goes on in the next line, and how; the sign is taken away.
-    fn continuation<R: Read>(
+    fn continuation(
         &mut self,
-        lines: &Lines<R>,
+        lines: &Lines<'_>,
         form: Form,
         rules: &DialectRules,
     ) -> Option<Join> {
@@ -181,9 +180,9 @@ impl Statement {
     }
 
     /// Appends the next line that says something.
-    fn join_next<R: Read>(
+    fn join_next(
         &mut self,
-        lines: &mut Lines<R>,
+        lines: &mut Lines<'_>,
         form: Form,
         join: Join,
         context: Context<'_>,
@@ -210,9 +209,9 @@ impl Statement {
     }
 
     /// Refuses a `$` that nothing follows.
-    fn open<R: Read>(
+    fn open(
         &self,
-        lines: &Lines<R>,
+        lines: &Lines<'_>,
         message: &str,
         context: Context<'_>,
     ) -> Result<(), GatherError> {
@@ -223,7 +222,7 @@ impl Statement {
 
     /// True when the text follows a slash at once that has a blank before it: the slash is
     /// either the one of the statement or the first character of the text.
-    pub(super) fn has_skip_mark<R: Read>(&self, lines: &Lines<R>) -> bool {
+    pub(super) fn has_skip_mark(&self, lines: &Lines<'_>) -> bool {
         let Some(piece) = self.pieces.first() else { return false };
         let before = &lines.bytes(piece.line.clone())[..piece.column];
         let text = self.joined.first().is_some_and(|byte| *byte != b'/');
@@ -236,9 +235,9 @@ impl Statement {
     }
 
     /// The place of a range of the joined text, cut to the line it starts in.
-    pub(super) fn place<R: Read>(
+    pub(super) fn place(
         &self,
-        lines: &Lines<R>,
+        lines: &Lines<'_>,
         file: &str,
         options: &Options,
         range: Range<usize>,
@@ -283,8 +282,8 @@ pub(super) fn decoded(bytes: &[u8], decode: fn(&[u8]) -> String) -> String {
 
 /// The next line; one with a carriage return inside is refused, because in a file of such
 /// line ends a comment would take all that follows with it.
-fn next_line<R: Read>(
-    lines: &mut Lines<R>,
+fn next_line(
+    lines: &mut Lines<'_>,
     context: Context<'_>,
 ) -> Result<Option<Range<usize>>, GatherError> {
     let number = lines.line();

@@ -1,8 +1,6 @@
 //! Programs and CL files to traces.
 
-use std::io::Read;
-
-use fil_cl::Options;
+use fil_cl::Reader;
 use fil_diag::Diag;
 use nalgebra::{Point3, Rotation3, Unit};
 
@@ -123,14 +121,13 @@ fn tolerance(points: &[Point]) -> f64 {
 /// # Errors
 /// What the CL reader refuses; a file whose unit nobody says.
 pub fn cl_trace(
-    cl: impl Read,
+    cl: Reader<'_>,
     name: &str,
-    options: Options,
     unit: Option<fil_machine::Unit>,
     shift: [f64; 3],
 ) -> Result<Trace, Box<Diag>> {
     let mut steps = Vec::new();
-    for step in ClPath::new(cl, name, options, shift).in_unit(unit) {
+    for step in ClPath::new(cl, name, shift).in_unit(unit) {
         steps.push(step?);
     }
     let ends: Vec<Point> =

@@ -27,9 +27,7 @@ mod tools;
 mod walk;
 mod wanted;
 
-use std::io::Read;
-
-use fil_cl::Options;
+use fil_cl::Reader;
 use fil_diag::Diag;
 use fil_machine::{Commons, Unit};
 
@@ -46,13 +44,11 @@ pub use settings::{Due, Settings, Slack};
 pub use wanted::{Arc, CoolantKind, CycleKind, Effect, Hole, Step, Wanted};
 
 /// The inputs of a back-check.
-pub struct Check<'a, R> {
+pub struct Check<'a> {
     /// The CL file.
-    pub cl: R,
+    pub cl: Reader<'a>,
     /// Its name in messages.
     pub cl_name: &'a str,
-    /// How it is read.
-    pub options: Options,
     /// Its unit, where it does not say it itself.
     pub unit: Option<Unit>,
     /// The text of the program.
@@ -80,9 +76,9 @@ pub struct Allowed {
 /// # Errors
 /// A CL file that can't be read, a machine that makes no sense, a program that has
 /// next to nothing in common with the CL file.
-pub fn verify<R: Read>(check: Check<'_, R>) -> Result<Report, Box<Diag>> {
+pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
     let settings = Settings::new(check.commons, check.allowed.tolerance)?;
-    let path = ClPath::new(check.cl, check.cl_name, check.options, settings.input_shift());
+    let path = ClPath::new(check.cl, check.cl_name, settings.input_shift());
     let path = path.in_unit(check.unit);
     let own = OwnBlocks::new(check.nc, &settings.own_blocks());
     let watch = Watch::new(check.allowed.between);

@@ -7,10 +7,9 @@
 mod path;
 
 use std::collections::VecDeque;
-use std::io::Read;
 
 use fil_cl::record::{kind, mode};
-use fil_cl::{Circle, Options, Reader, Record, Vocabulary, Word, WordId, words as w};
+use fil_cl::{Circle, Reader, Record, Vocabulary, Word, WordId, words as w};
 use fil_diag::{Diag, TextSpan};
 use fil_machine::Unit;
 use nalgebra::{Matrix3x4, Point3, Vector3};
@@ -103,8 +102,8 @@ struct State {
 }
 
 /// Goes through a CL file.
-pub struct ClPath<R> {
-    reader: Reader<R>,
+pub struct ClPath<'r> {
+    reader: Reader<'r>,
     /// Name of the CL file in messages.
     name: String,
     /// The user or the machine says the unit.
@@ -116,12 +115,12 @@ pub struct ClPath<R> {
     over: bool,
 }
 
-impl<R: Read> ClPath<R> {
+impl<'r> ClPath<'r> {
     /// The path of a CL text; `name` is what messages show, `shift` the machine's
     /// translation of the input.
-    pub fn new(input: R, name: &str, options: Options, shift: [f64; 3]) -> Self {
+    pub fn new(reader: Reader<'r>, name: &str, shift: [f64; 3]) -> Self {
         ClPath {
-            reader: Reader::new(input, name, options),
+            reader,
             name: name.to_string(),
             given: false,
             vocabulary: Vocabulary::new(),
@@ -179,7 +178,7 @@ fn said(record: &Record) -> Unit {
     if record.has(w::INCHES) { Unit::Inch } else { Unit::Mm }
 }
 
-impl<R: Read> ClPath<R> {
+impl ClPath<'_> {
     /// Refuses lengths and feeds before anything has said the unit.
     fn require_unit(&self) -> Result<(), Box<Diag>> {
         let record = &self.record;
@@ -213,7 +212,7 @@ impl<R: Read> ClPath<R> {
     }
 }
 
-impl<R: Read> Iterator for ClPath<R> {
+impl Iterator for ClPath<'_> {
     type Item = Result<Step, Box<Diag>>;
 
     fn next(&mut self) -> Option<Self::Item> {

@@ -1,7 +1,7 @@
 //! The pictures of the page on run-out.
 
 use super::{Cylinder, Probed, RADIUS};
-use crate::picture::{Pen, Picture};
+use filpost_tests::picture::{Pen, Picture};
 
 /// How many times larger the run-out is drawn in the sections.
 const LARGER: f64 = 150.0;

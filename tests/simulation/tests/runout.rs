@@ -6,12 +6,12 @@ use std::sync::{Arc, Mutex};
 
 use filpost::check::{self, Options};
 use filpost::{Argument, Error, Program, case::Case};
-use filpost_tests::root;
-use filpost_tests::runout::solve::{Bounds, Placing, Reading, RunOut, Section};
-use filpost_tests::runout::{
+use filpost_simulation::runout::solve::{Bounds, Placing, Reading, RunOut, Section};
+use filpost_simulation::runout::{
     Cylinder, Probe, Probed, Random, Residual, SECTIONS, Search, TURNS, cl_file, deviations,
     drawing, positions, residual, tool,
 };
+use filpost_tests::root;
 use nalgebra::{Point3, Unit, Vector3};
 
 const PLACINGS: [Placing; 3] = [Placing::Parallel, Placing::Intersecting, Placing::Skew];

@@ -2,7 +2,7 @@
 
 use super::Thread;
 use super::cycles::{Cycle, Pass, Program};
-use crate::picture::{Pen, Picture};
+use filpost_tests::picture::{Pen, Picture};
 
 const STOCK: &str = "#e4e4e4";
 const CHIP: &str = "#cfe0f4";

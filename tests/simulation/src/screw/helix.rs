@@ -72,22 +72,36 @@ fn cuts(job: &Job, cutter: &Cutter, tip: Point, point: Point) -> bool {
             (along - lead * turn).powi(2) + high * high + center * center
                 - 2.0 * high * center * turn.cos()
         };
-        let near = gap(0.0) < (radius + REACH).powi(2);
+        let near = gap(0.0) < (radius + REACH).powi(2)
+            && (high - center).abs() < radius
+            && along.abs() < radius + lead;
         return near && gap(lowest(gap, 1.0)) < radius * radius;
     }
     if high <= tip[1] || along.abs() > radius + REACH {
         return false;
     }
     let gap = |turn: f64| (along - lead * turn).powi(2) + (high * turn.sin()).powi(2);
-    gap(lowest(gap, (tip[1] / high).acos())) < radius * radius
+    let range = (tip[1] / high).acos();
+    along.abs() < radius + lead * range && gap(lowest(gap, range)) < radius * radius
 }
 
-/// Where a function with one valley within `-range` to `range` is lowest.
+/// Where a function with one valley within `-range` to `range` is lowest: by sections of
+/// the golden ratio, each of which asks for one value.
 fn lowest(value: impl Fn(f64) -> f64, range: f64) -> f64 {
+    const SHARE: f64 = 0.618_033_988_749_895;
     let (mut low, mut high) = (-range, range);
+    let [mut first, mut second] = [high - 2.0 * range * SHARE, low + 2.0 * range * SHARE];
+    let [mut at_first, mut at_second] = [value(first), value(second)];
     for _ in 0..32 {
-        let (first, second) = (low + (high - low) * 0.382, low + (high - low) * 0.618);
-        if value(first) < value(second) { high = second } else { low = first }
+        if at_first < at_second {
+            (high, second, at_second) = (second, first, at_first);
+            first = high - (high - low) * SHARE;
+            at_first = value(first);
+        } else {
+            (low, first, at_first) = (first, second, at_second);
+            second = low + (high - low) * SHARE;
+            at_second = value(second);
+        }
     }
     (low + high) / 2.0
 }

@@ -5,12 +5,12 @@ use std::cell::Cell;
 use std::io::Cursor;
 
 use filpost::{Error, Event, Program};
+use filpost_simulation::thread::Thread;
+use filpost_simulation::thread::random::{odd_threads, threads};
+use filpost_simulation::thread::section::{self, Cut};
+use filpost_simulation::thread::{cycles, drawing};
 use filpost_tests::examples::{Block, blocks};
 use filpost_tests::root;
-use filpost_tests::thread::Thread;
-use filpost_tests::thread::random::{odd_threads, threads};
-use filpost_tests::thread::section::{self, Cut};
-use filpost_tests::thread::{cycles, drawing};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 

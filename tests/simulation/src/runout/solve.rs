@@ -13,7 +13,7 @@
 //! machine whose probe stands on the side of +X.
 //!
 //! ```
-//! use filpost_tests::runout::solve::{Bounds, Placing, Reading, RunOut, Section};
+//! use filpost_simulation::runout::solve::{Bounds, Placing, Reading, RunOut, Section};
 //! let section = |height| Section {
 //!     height,
 //!     least: Reading { value: 49.9, c: 270.0 },
@@ -22,7 +22,7 @@
 //! let found = RunOut::find(&[section(20.0), section(80.0)], &Bounds::default())?;
 //! assert_eq!(found.placing, Placing::Parallel);
 //! assert!((found.distance - 0.1).abs() < 1e-12);
-//! # Ok::<(), filpost_tests::runout::solve::RunOutError>(())
+//! # Ok::<(), filpost_simulation::runout::solve::RunOutError>(())
 //! ```
 
 use std::fmt;

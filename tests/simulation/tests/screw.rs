@@ -5,10 +5,10 @@
 use std::io::Cursor;
 
 use filpost::{Diag, Error, Program, check, files, includes};
-use filpost_tests::screw::mutate::{self, Mutation};
-use filpost_tests::screw::passes::Pass;
-use filpost_tests::screw::section::{Section, Step};
-use filpost_tests::screw::{Job, drawing, helix, passes, sweep};
+use filpost_simulation::screw::mutate::{self, Mutation};
+use filpost_simulation::screw::passes::Pass;
+use filpost_simulation::screw::section::{Section, Step};
+use filpost_simulation::screw::{Job, drawing, helix, passes, sweep};
 use filpost_tests::{examples, root};
 
 /// The NC program of a job and the warnings.

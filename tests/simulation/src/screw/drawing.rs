@@ -3,7 +3,7 @@
 use super::passes::Pass;
 use super::section::plus;
 use super::{Cutter, Job, sweep};
-use crate::picture::{Pen, Picture};
+use filpost_tests::picture::{Pen, Picture};
 
 const THIN: Pen = Pen::full("#999", 1.0);
 const PART: Pen = Pen::full("black", 2.0);
