@@ -16,7 +16,7 @@ pub use build::{Item, RecordBuilder};
 pub use dialect::{ClDialect, Evidence, Recognized};
 pub use errors::ClCode;
 pub use layout::ShapeError;
-pub use reader::{Options, Reader};
+pub use reader::{Options, Reader, SplineCounts};
 pub use record::{Circle, Record, Word, WordView};
 pub use vocabulary::{Vocabulary, WordId};
 pub use writer::Writer;

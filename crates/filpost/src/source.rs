@@ -3,7 +3,7 @@
 
 use std::collections::VecDeque;
 
-use fil_cl::{Recognized, Record, Vocabulary, reader::Reader, record::kind, words};
+use fil_cl::{Recognized, Record, SplineCounts, Vocabulary, reader::Reader, record::kind, words};
 use fil_diag::Result;
 
 /// Records NEXTF looks through for the next motion.
@@ -30,6 +30,9 @@ pub(crate) trait Records {
     /// The dialect of a CL text, as far as it was read; `None` for records that come from
     /// no text.
     fn recognized(&self) -> Option<Recognized>;
+
+    /// The splines that were read as lines so far.
+    fn splines(&self) -> SplineCounts;
 }
 
 impl Records for Reader<'_> {
@@ -43,6 +46,10 @@ impl Records for Reader<'_> {
 
     fn recognized(&self) -> Option<Recognized> {
         Some(Reader::recognized(self))
+    }
+
+    fn splines(&self) -> SplineCounts {
+        Reader::splines(self)
     }
 }
 
@@ -78,6 +85,11 @@ impl<S: Records> Source<S> {
     /// The dialect of the CL text, as far as it was read.
     pub fn recognized(&self) -> Option<Recognized> {
         self.reader.recognized()
+    }
+
+    /// The splines that were read as lines so far.
+    pub fn splines(&self) -> SplineCounts {
+        self.reader.splines()
     }
 
     /// Reads the next record; false at the end.
