@@ -49,7 +49,7 @@ const TESTED_HERE: &[(&str, &str)] = &[
     ("E0713", "e0713_codes_that_stand"),
     ("E0714", "e0714_machin_names_no_post"),
     ("E0715", "e0715_units_contradict"),
-    ("W0757", "w0757_choice_against_the_signs"),
+    ("E0716", "e0716_changed_as_written"),
     ("E0940", "e0940_unit_not_known"),
     ("E0941", "e0941_another_part"),
 ];
@@ -567,6 +567,28 @@ fn e0715_units_contradict() {
 }
 
 #[test]
+fn e0716_changed_as_written() {
+    let posted = |fil: &str, raw: bool| {
+        let fil =
+            format!("$$ filpost: allow-file W0218\nCIMFIL/ON,FEDRAT\n{fil}CIMFIL/OFF\nFINI\n");
+        let post = Program::builder().fil("macros.fil", &fil).build().expect("a post");
+        let reading = filpost::cl::Options { raw, ..Default::default() };
+        let cl =
+            "PAINT/PATH\nUNITS/MM\nLOAD/TOOL,1\nSPINDL/RPM,900,CLW\nFEDRAT/MMPM,250.\nGOTO/1,2,3\n";
+        let mut nc = Vec::new();
+        let ran = post.start().reading(reading).run(cl.as_bytes(), &mut nc);
+        ran.map(|_| String::from_utf8(nc).expect("ASCII")).map_err(|error| names(&error))
+    };
+    let changed = "DMY=POSTF(8,5,POSTF(7,5)*0.8)\nDMY=POSTF(13)\n";
+    assert_eq!(posted(changed, true).expect_err("refused"), ["E0716"]);
+    let anew = "FEDRAT/(POSTF(7,5)*0.8),MMPM\n";
+    assert!(posted(anew, true).expect("a program").contains("F200."));
+    assert!(posted("DMY=POSTF(13)\n", true).expect("a program").contains("F250."));
+    let other = changed.replace("8,5,POSTF(7,5)", "8,4,POSTF(7,4)");
+    assert!(posted(&other, false).expect("a program").contains("F200."));
+}
+
+#[test]
 fn e0940_unit_not_known() {
     let post = Program::builder().build().expect("the generic mill");
     let mut nc = Vec::new();
@@ -605,20 +627,4 @@ fn e0941_another_part() {
 fn severities_and_letters_agree() {
     let letter = |code: &Code| if code.severity == Severity::Error { 'E' } else { 'W' };
     assert!(all_codes().iter().all(|code| code.name().starts_with(letter(code))));
-}
-
-#[test]
-fn w0757_choice_against_the_signs() {
-    let mill = Program::builder().ready("fanuc-mill").build().expect("a ready post");
-    let text =
-        "TOOL PATH/ROUGH,TOOL,MILL_10\nUNITS/MM\nFEDRAT/100.0,MMPM\nGOTO/1.0,2.0,3.0\nFINI\n";
-    let post = |dialect| {
-        let options = filpost::cl::Options { dialect, ..Default::default() };
-        let mut nc = Vec::new();
-        mill.start().reading(options).run(text.as_bytes(), &mut nc).expect("it is posted").warnings
-    };
-    let chosen = post(Some(filpost::cl::ClDialect::Creo));
-    let codes: Vec<String> = chosen.iter().map(|diag| diag.code.name()).collect();
-    assert_eq!((codes, chosen[0].spans[0].line), (vec!["W0757".to_string()], 1));
-    assert!(post(None).is_empty());
 }

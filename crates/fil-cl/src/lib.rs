@@ -1,6 +1,7 @@
 //! CL records: vocabulary, streaming reader, writer.
 
 mod build;
+mod convert;
 pub mod dialect;
 pub mod errors;
 mod fault;
@@ -13,10 +14,11 @@ pub mod words;
 pub mod writer;
 
 pub use build::{Item, RecordBuilder};
+pub use convert::{Converted, to_ncl};
 pub use dialect::{ClDialect, Evidence, Recognized};
 pub use errors::ClCode;
 pub use layout::ShapeError;
-pub use reader::{Options, Reader, SplineCounts};
+pub use reader::{Meaning, Options, Reader};
 pub use record::{Circle, Record, Word, WordView};
 pub use vocabulary::{Vocabulary, WordId};
 pub use writer::Writer;

@@ -1,6 +1,7 @@
 //! A CL record and its words as FIL counts them.
 
 use crate::vocabulary::{Vocabulary, WordId};
+use crate::words;
 
 /// CLDATA record types: word 2 of a record.
 pub mod kind {
@@ -301,6 +302,23 @@ impl Record {
             _ => None,
         };
         Some(Circle { center: self.numbers(9)?, axis: self.numbers(12)?, radius })
+    }
+
+    /// Diameter of the tool that the record describes, in the unit of the CL file: the first
+    /// value of CUTTER and of Creo's `$$-> CUTTER`, and TLDATA of a mill or drill of NX.
+    pub fn tool_diameter(&self) -> Option<f64> {
+        let values = match (self.major, self.data.first()) {
+            (words::CUTTER, _) => &self.data[..],
+            (words::TLDATA, Some(Word::Minor(words::MILL | words::DRILL))) => {
+                let kind = self.data.iter().take_while(|word| matches!(word, Word::Minor(_)));
+                &self.data[kind.count()..]
+            }
+            _ => return None,
+        };
+        match values.first() {
+            Some(Word::Number(diameter)) => Some(*diameter),
+            _ => None,
+        }
     }
 
     /// True when word 3 is the code of the major word, not a subtype.

@@ -24,6 +24,11 @@ macro_rules! words {
     (@name $id:ident $name:literal) => { $name };
 }
 
+/// The name of a word of this list; empty for another.
+pub(crate) fn name(word: WordId) -> &'static str {
+    NAMES_AND_CLASSES.get(word.index()).map_or("", |(name, _)| name)
+}
+
 /// True for the name of a word of this list that opens statements, in any case.
 pub(crate) fn is_major_name(name: &[u8]) -> bool {
     NAMES_AND_CLASSES

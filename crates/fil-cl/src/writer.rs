@@ -15,6 +15,10 @@ use crate::words;
 /// Columns Creo fills before it continues a statement in the next line.
 const WIDTH: usize = 71;
 
+/// Sizes of numbers that are written without an exponent; any other has more digits than a
+/// line should hold, and none comes from a machine.
+const PLAIN: std::ops::Range<f64> = 1e-15..1e16;
+
 /// Writes records so that the reader makes the same records of them again.
 pub struct Writer<W> {
     output: W,
@@ -44,6 +48,22 @@ impl<W: Write> Writer<W> {
         } else {
             self.items(record, vocab)?;
         }
+        self.end_line()
+    }
+
+    /// Writes a text statement as a comment, which no reader takes for a statement.
+    ///
+    /// # Errors
+    /// As [`Writer::write`].
+    pub(crate) fn comment(&mut self, record: &Record, vocab: &Vocabulary) -> Result<(), Box<Diag>> {
+        self.line.clear();
+        self.line.push_str("$$ ");
+        self.line.push_str(vocab.name(record.major));
+        self.free_text(record)?;
+        self.end_line()
+    }
+
+    fn end_line(&mut self) -> Result<(), Box<Diag>> {
         self.line.push('\n');
         self.output
             .write_all(self.line.as_bytes())
@@ -60,7 +80,7 @@ impl<W: Write> Writer<W> {
             return Err(unwritable("a text statement with other words than one text"));
         };
         let text = record.text_of(word);
-        if text.contains(char::is_control) || text.ends_with([' ', '\t']) {
+        if text.contains(['\n', '\r', '\0']) || text.ends_with([' ', '\t']) {
             return Err(unwritable("a text that a line cannot hold"));
         }
         self.line.push_str(" / ");
@@ -98,13 +118,23 @@ impl<W: Write> Writer<W> {
         Ok(())
     }
 
+    /// The shortest digits that read back exactly, with a point: Creo writes no exponent.
+    fn number(&mut self, value: f64) {
+        if value != 0.0 && !PLAIN.contains(&value.abs()) {
+            return write!(self.item, "{value:?}").unwrap_or_default();
+        }
+        write!(self.item, "{value}").unwrap_or_default();
+        if value.fract() == 0.0 {
+            self.item.push_str(".0");
+        }
+    }
+
     fn format(&mut self, record: &Record, word: Word, vocab: &Vocabulary) -> Result<(), Box<Diag>> {
         match word {
             Word::Number(value) if !value.is_finite() => {
                 return Err(unwritable("a number that is not finite"));
             }
-            // Debug prints the shortest digits that read back exactly, with a point.
-            Word::Number(value) => write!(self.item, "{value:?}").unwrap_or_default(),
+            Word::Number(value) => self.number(value),
             Word::Minor(id) => self.item.push_str(vocab.name(id)),
             Word::Text { .. } => {
                 let text = record.text_of(word);

@@ -273,7 +273,7 @@ fn cycles_and_order_of_nx() {
     let ffcam = "PPRINT/APTCL-SPEC,MAKINO-FF,1\nUNITS/MM\nSET/MODE,ABSOL\nFEDRAT/PERMIN,141\n";
     assert_eq!(forms(ffcam)[2], "FEDRAT / 141.0, MMPM");
     let inches = ffcam.replace("MM\n", "INCHES\n");
-    assert_eq!(forms(&inches)[2], "FEDRAT / 141.0, UPM");
+    assert_eq!(forms(&inches)[2], "FEDRAT / 141.0, IPM");
     for (text, inert) in [
         ("SET/MODE,ABSOL", true),
         ("SET/MODE,INCR", false),

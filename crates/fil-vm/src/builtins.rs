@@ -34,6 +34,8 @@ pub enum FunctionKind {
     NextMotion,
     /// PREVF
     PreviousMotion,
+    /// TOOLF
+    ToolData,
     /// LASTF
     LastWritten,
     /// COMF
@@ -49,6 +51,7 @@ impl FunctionKind {
             | FunctionKind::HasWord
             | FunctionKind::NextMotion
             | FunctionKind::PreviousMotion
+            | FunctionKind::ToolData
             | FunctionKind::Size => Some(0),
             FunctionKind::File => Some(1),
             _ => None,
@@ -428,6 +431,12 @@ pub const BUILTINS: &[Builtin] = &[
         "word",
         FunctionKind::PreviousMotion,
         "X, Y, Z, I, J or K of the previous motion; RAPID: 1 when it was a rapid move, else 0",
+    ),
+    extension(
+        "TOOLF",
+        "word",
+        FunctionKind::ToolData,
+        "DIAMTR: diameter of the tool in use as the CL file gives it, by CUTTER, `$$-> CUTTER` or TLDATA before or behind the tool change; EMPTY where it gives none",
     ),
     extension("LASTF", "letter", FunctionKind::LastWritten, "last value written for a letter"),
     extension("COMF", "'name'", FunctionKind::NamedCommon, "a common location by its name"),

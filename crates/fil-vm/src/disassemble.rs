@@ -85,6 +85,7 @@ fn show(module: &Module, op: Op) -> String {
         Op::LastWritten { dst, letter } => format!("{} = last {}", n(dst), n(letter)),
         Op::NamedCommon { dst, name } => format!("{} = common {}", n(dst), n(name)),
         Op::NextMotion { dst, word } => format!("{} = next coordinate {word}", n(dst)),
+        Op::ToolDiameter { dst } => format!("{} = diameter of the tool", n(dst)),
         Op::PreviousMotion { dst, word } => format!("{} = previous coordinate {word}", n(dst)),
         Op::Post { template } => post(module, template),
         Op::Call { macro_id } => {

@@ -169,6 +169,12 @@ pub trait Host {
         None
     }
 
+    /// Diameter of the tool in use, in the unit of the CL file, without consuming anything;
+    /// `None` where the CL file gives none.
+    fn tool_diameter(&mut self, _vocab: &mut Vocabulary) -> Result<Option<f64>, Box<Diag>> {
+        Ok(None)
+    }
+
     /// Coordinate 0 to 5 (X Y Z I J K) of the next or previous motion, or with 6
     /// whether it is a rapid move (1 or 0), without consuming anything; `None`
     /// where there is none.

@@ -79,6 +79,8 @@ pub enum Op {
     NextMotion { dst: Reg, word: u16 },
     /// `dst = PREVF(word)`
     PreviousMotion { dst: Reg, word: u16 },
+    /// `dst = TOOLF(DIAMTR)`
+    ToolDiameter { dst: Reg },
     /// Sends the post word of that template.
     Post { template: u16 },
     /// Runs a macro; its parameters are set already.

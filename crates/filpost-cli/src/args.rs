@@ -88,6 +88,15 @@ pub struct ClReading {
     pub dialect: Option<ClDialect>,
 }
 
+/// In which form sections see the records of the CL file.
+#[derive(Clone, Copy, Debug, Default, ClapArgs)]
+pub struct RawRecords {
+    /// Give records as the CAM system has written them, not in the form of Creo; the post still
+    /// carries out what they mean
+    #[arg(long)]
+    pub raw_records: bool,
+}
+
 fn allowable(name: &str) -> Result<&'static Code, String> {
     filpost::allowable(name).map_err(|diag| diag.message)
 }
@@ -119,6 +128,8 @@ pub struct PostArgs {
     pub reading: Reading,
     #[command(flatten)]
     pub cl_reading: ClReading,
+    #[command(flatten)]
+    pub raw: RawRecords,
     #[command(flatten)]
     pub units: Units,
     #[command(flatten)]
@@ -237,12 +248,20 @@ pub struct ClArgs {
     pub cl: Option<PathBuf>,
     /// List the dialects of CL text instead: their names, how they are recognized, and what
     /// they mean
-    #[arg(long, conflicts_with_all = ["cl", "words", "dialect", "encoding", "units"])]
+    #[arg(long, conflicts_with_all = ["cl", "words", "dialect", "encoding", "units", "raw_records"])]
     pub dialects: bool,
     #[command(flatten)]
     pub cl_reading: ClReading,
     #[command(flatten)]
+    pub raw: RawRecords,
+    #[command(flatten)]
     pub units: Units,
+    /// Write the file as a CL file of Creo, whatever system it is from
+    #[arg(long, value_enum, value_name = "FORM", conflicts_with_all = ["dialects", "json", "words", "raw_records"])]
+    pub to: Option<ClForm>,
+    /// The file of --to; standard output when left out or -
+    #[arg(short, long, value_name = "OUT", requires = "to")]
+    pub output: Option<PathBuf>,
     /// Write JSON
     #[arg(long)]
     pub json: bool,
@@ -252,6 +271,13 @@ pub struct ClArgs {
     /// Encoding of the texts (utf-8, cp1251, koi8-r, …); guessed when left out
     #[arg(long, value_name = "LABEL")]
     pub encoding: Option<String>,
+}
+
+/// The form that `filpost cl --to` writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ClForm {
+    /// PTC Creo
+    Ncl,
 }
 
 /// `filpost diff`
@@ -297,6 +323,8 @@ pub struct VerifyArgs {
     pub reading: Reading,
     #[command(flatten)]
     pub cl_reading: ClReading,
+    #[command(flatten)]
+    pub raw: RawRecords,
     #[command(flatten)]
     pub units: Units,
     #[command(flatten)]
@@ -436,6 +464,8 @@ pub struct TraceArgs {
     pub format: AnswerFormat,
     #[command(flatten)]
     pub cl_reading: ClReading,
+    #[command(flatten)]
+    pub raw: RawRecords,
     /// Most lines of the NC program that are shown; all are counted
     #[arg(long, value_name = "N", default_value_t = 20)]
     pub most: usize,

@@ -4,14 +4,12 @@ use std::collections::BTreeMap;
 use std::io::{self, BufWriter, Write};
 
 use filpost::cl::record::{kind, motion};
-use filpost::cl::{
-    Evidence, Recognized, Record, SplineCounts, Vocabulary, WordView, reader::Reader, words,
-};
+use filpost::cl::{Evidence, Recognized, Record, Vocabulary, WordView, reader::Reader, words};
 use filpost::{Error, Extents, Unit, statement_text};
 use serde_json::{Value, json};
 
 use crate::args::ClArgs;
-use crate::{Status, dialects, output, setup, summary};
+use crate::{Status, convert, dialects, output, setup, summary};
 
 /// Shows the records of a CL file.
 ///
@@ -21,8 +19,11 @@ pub fn run(args: &ClArgs) -> Result<Status, Error> {
     let Some(cl) = &args.cl else {
         return dialects::list(args.json);
     };
+    if args.to.is_some() {
+        return convert::run(args, cl);
+    }
     let input = output::open(cl)?;
-    let options = setup::cl_options(args.encoding.as_deref(), &args.cl_reading)?;
+    let options = setup::cl_options(args.encoding.as_deref(), &args.cl_reading, args.raw)?;
     let mut reader = Reader::new(input, &output::input_name(cl), options);
     let (mut vocabulary, mut record) = (Vocabulary::new(), Record::default());
     let mut show = Show {
@@ -35,8 +36,7 @@ pub fn run(args: &ClArgs) -> Result<Status, Error> {
     while reader.read(&mut vocabulary, &mut record).map_err(Error::Run)? {
         show.record(&record, &vocabulary).map_err(|error| output::stdout_error(&error))?;
     }
-    show.foot(reader.recognized(), reader.splines())
-        .map_err(|error| output::stdout_error(&error))?;
+    show.foot(reader.recognized()).map_err(|error| output::stdout_error(&error))?;
     Ok(Status::Done)
 }
 
@@ -153,7 +153,7 @@ impl<W: Write> Show<W> {
         Ok(())
     }
 
-    fn foot(&mut self, dialect: Recognized, splines: SplineCounts) -> io::Result<()> {
+    fn foot(&mut self, dialect: Recognized) -> io::Result<()> {
         let counts = self.totals.by_count();
         if self.json {
             let counts: Value = counts.iter().map(|(name, count)| json!([name, count])).collect();
@@ -169,9 +169,6 @@ impl<W: Write> Show<W> {
         }
         let records = summary::counted(self.totals.records, "record");
         writeln!(self.output, "\n{records}, dialect {dialect}")?;
-        if splines.splines > 0 {
-            writeln!(self.output, "{}", summary::splines(&splines))?;
-        }
         for (name, count) in counts {
             writeln!(self.output, "{count:>9}  {name}")?;
         }

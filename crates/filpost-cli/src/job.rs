@@ -145,7 +145,7 @@ fn built(posts: &Posts<'_>, job: &Job, input: &mut File) -> Result<(Built, From)
 }
 
 fn options(args: &PostArgs) -> Result<Options, Error> {
-    setup::cl_options(args.reading.encoding.as_deref(), &args.cl_reading)
+    setup::cl_options(args.reading.encoding.as_deref(), &args.cl_reading, args.raw)
 }
 
 fn open_listing(path: &Path) -> Result<Listing<BufWriter<File>>, Error> {

@@ -7,6 +7,7 @@ mod args;
 mod batch;
 mod check;
 mod cl;
+mod convert;
 mod dialects;
 mod diff;
 mod errors;

@@ -9,7 +9,7 @@ use filpost::nc::plot::{Drawing, View, html, svg};
 use filpost::plot::{self, ClText, Text};
 use filpost::{Error, Program, files, select};
 
-use crate::args::{PlotArgs, Seen};
+use crate::args::{PlotArgs, RawRecords, Seen};
 use crate::output::{self, Target};
 use crate::setup::From;
 use crate::{Status, post, setup};
@@ -61,7 +61,7 @@ pub fn run(args: &PlotArgs) -> Result<Status, Error> {
 }
 
 fn options(args: &PlotArgs) -> Result<Options, Error> {
-    setup::cl_options(args.encoding.as_deref(), &args.cl_reading)
+    setup::cl_options(args.encoding.as_deref(), &args.cl_reading, RawRecords::default())
 }
 
 /// A CL file with how it is read.

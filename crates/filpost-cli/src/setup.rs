@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use filpost::select::{self, Asked, Choice, Machin};
 use filpost::{Builder, Clock, Compat, Error, Program, files, includes, ready};
 
-use crate::args::{Chosen, ClReading, ClockSource, Grant, Grants, Reading};
+use crate::args::{Chosen, ClReading, ClockSource, Grant, Grants, RawRecords, Reading};
 
 /// A post named by a command line, not yet built.
 pub struct Named {
@@ -283,20 +283,22 @@ pub fn granted(mut builder: Builder, grants: &Grants) -> Builder {
 /// function, which can't carry it along.
 static ENCODING: OnceLock<String> = OnceLock::new();
 
-/// How CL text is read under `--encoding` and `--dialect`.
+/// How CL text is read under `--encoding`, `--dialect` and `--raw-records`.
 ///
 /// # Errors
 /// A label that names no encoding.
 pub fn cl_options(
     encoding: Option<&str>,
     reading: &ClReading,
+    raw: RawRecords,
 ) -> Result<filpost::cl::reader::Options, Error> {
     if let Some(label) = encoding {
         filpost::syntax::decode(b"", Some(label)).map_err(|diag| Error::Run(Box::new(diag)))?;
         ENCODING.get_or_init(|| label.to_string());
     }
     let dialect = reading.dialect;
-    Ok(filpost::cl::reader::Options { dialect, decode: decode_cl, ..Default::default() })
+    let raw = raw.raw_records;
+    Ok(filpost::cl::reader::Options { dialect, decode: decode_cl, raw, ..Default::default() })
 }
 
 /// A text of the CL file that is not UTF-8; bytes that mean nothing in the

@@ -26,7 +26,7 @@ pub fn run(args: &TraceArgs) -> Result<Status, Error> {
     };
     let options = Options {
         most: args.most,
-        cl: setup::cl_options(args.encoding.as_deref(), &args.cl_reading)?,
+        cl: setup::cl_options(args.encoding.as_deref(), &args.cl_reading, args.raw)?,
         encoding: args.encoding.clone(),
     };
     let answer = trace::trace(&place, &map, &options)?;

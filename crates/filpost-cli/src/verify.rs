@@ -61,7 +61,7 @@ pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
 }
 
 fn options(args: &VerifyArgs) -> Result<Options, Error> {
-    setup::cl_options(args.reading.encoding.as_deref(), &args.cl_reading)
+    setup::cl_options(args.reading.encoding.as_deref(), &args.cl_reading, args.raw)
 }
 
 /// The post that the program should come from, and what it is called.

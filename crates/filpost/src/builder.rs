@@ -5,9 +5,11 @@ use std::sync::Arc;
 
 use fil_cl::Vocabulary;
 use fil_diag::{Code, Diag};
+use fil_machine::locations::INPUT_CREO_RECORDS;
 use fil_machine::{Commons, contradictions, files as settings};
 use fil_vm::{
-    Argument, Compat, FilFile, Functions, Included, Limits, LoadOptions, Loader, Returned,
+    Argument, Compat, FilFile, Functions, Included, Limits, LoadOptions, Loader, MachineFacts,
+    Returned,
 };
 
 use crate::error::{Error, RunCode};
@@ -227,6 +229,8 @@ impl Builder {
         let files: Vec<FilFile<'_>> =
             self.fil.iter().map(|(name, text)| FilFile { name, text }).collect();
         let mut includes = self.includes;
+        let takes_creo_records =
+            post.as_ref().is_ok_and(|(post, _)| post.control.commons.read(INPUT_CREO_RECORDS));
         let loaded = fil_vm::load(
             &files,
             &mut vocabulary,
@@ -235,6 +239,7 @@ impl Builder {
                 limits: self.limits,
                 strict: self.strict,
                 allow: &self.allow,
+                facts: MachineFacts { takes_creo_records, ..MachineFacts::default() },
                 functions: Some(&self.functions),
                 loader: includes.as_mut().map(|loader| loader as Loader<'_>),
                 ..LoadOptions::default()

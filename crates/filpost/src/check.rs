@@ -5,7 +5,7 @@ use fil_diag::{Code, Diag};
 use fil_machine::Letter;
 use fil_machine::address::Addresses;
 use fil_machine::commons::{Commons, LAST_OUTPUT};
-use fil_machine::locations::Location;
+use fil_machine::locations::{INPUT_CREO_RECORDS, Location};
 use fil_machine::stored;
 use fil_vm::{CommonKind, Compat, FilFile, LoadOptions, MachineFacts};
 
@@ -51,6 +51,7 @@ pub fn check(files: &[(&str, &str)], options: Options<'_>) -> Vec<Diag> {
         name_of_common: Some(&name_of_common),
         storing: options.machine.map(|_| &storing as fil_vm::StoringInCommon<'_>),
         writes_letter: options.machine.map(|_| &writes as &dyn Fn(u8) -> bool),
+        takes_creo_records: options.machine.is_some_and(|commons| commons.read(INPUT_CREO_RECORDS)),
         carries_out: Some(&carries_out),
     };
     let mut includes = options.includes;

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
 
-use fil_cl::{Record, Vocabulary, record::kind};
+use fil_cl::{Record, Vocabulary};
 use fil_diag::Result;
 use fil_post::Origin;
 use fil_vm::{Interpreter, SectionId, SectionMode};
@@ -169,8 +169,8 @@ impl<'o, S: Records> Engine<'o, S> {
             return Ok(false);
         }
         self.watch_progress()?;
-        let section = if self.has_sections && self.record.kind != kind::PSEUDO {
-            self.outside.module.find(&self.record, &self.vocabulary)
+        let section = if self.has_sections {
+            self.outside.section_of(&self.record, &self.vocabulary)
         } else {
             None
         };

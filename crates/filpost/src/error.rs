@@ -62,6 +62,10 @@ fil_diag::codes! {
         NoPost = 714, Error, "MACHIN names no post",
             "A program for another machine is worse than none, so a CL file that names its machine is posted for no other.",
             "Put the option file beside the CL file, name its folder with --post-path, or choose a post with -p or -m.";
+        /// A record as it is written that the post can't carry out.
+        WrittenForm = 716, Error, "record is in the form of its CAM system",
+            "Sections see statements as they are written here; the post carries out what they mean in Creo's form, which is not known for a record that FIL has changed.",
+            "Make the statement anew in the section, in Creo's form, or leave --raw-records out.";
         /// Statements after the end.
         AfterFini = 751, Warning, "records after FINI",
             "FINI ends the program; what comes after it is not posted.",
@@ -74,10 +78,6 @@ fil_diag::codes! {
         NoMotion = 753, Warning, "CL file without records",
             "There is nothing to post.",
             "Check that this is the CL file you meant.";
-        /// A dialect was chosen that contradicts the text.
-        OtherSigns = 757, Warning, "CL text of another dialect than the one chosen",
-            "A line of the text is written by one CAM system only, and the dialect of another was chosen; tool axes, cycles and texts may mean something else.",
-            "Leave the choice out, or choose the dialect of that system.";
     }
 }
 

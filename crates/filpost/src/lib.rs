@@ -48,6 +48,7 @@ mod statement;
 pub mod trace;
 mod units;
 pub mod verify;
+mod written;
 
 pub use allow::allowable;
 pub use blocks::{Block, Blocks};

@@ -4,13 +4,12 @@ use std::collections::HashSet;
 use std::sync::Arc;
 
 use fil_cl::vocabulary::words;
-use fil_cl::{Evidence, Record, Vocabulary, record::kind};
-use fil_diag::{Code, Diag, TextSpan};
+use fil_cl::{Record, Vocabulary, record::kind};
+use fil_diag::{Diag, TextSpan};
 use fil_machine::commons::EMPTY;
-use fil_machine::locations::MESSAGE_TO_TAPE;
+use fil_machine::locations::{INPUT_CREO_RECORDS, MESSAGE_TO_TAPE};
 use fil_machine::{Kind, Unit, stored};
 use fil_post::FilLine;
-use fil_post::errors::PostCode;
 use fil_vm::{CommonKind, Files, Host, Module, Moment, SectionId, Site};
 
 use crate::cancel::CancelToken;
@@ -40,6 +39,8 @@ pub(crate) struct Outside<'o, S> {
     pub report: Report,
     /// The embedding program's observers.
     pub observers: Vec<Observer<'o>>,
+    /// Records are given to sections as they are written.
+    raw: bool,
     /// The unit that whoever started the run has said.
     units: Option<Unit>,
     /// What stops the run.
@@ -63,15 +64,16 @@ pub(crate) struct Outside<'o, S> {
 impl<'o, S: Records> Outside<'o, S> {
     /// Everything as it is before the first record.
     pub fn new(start: Start<'o>, records: S) -> Self {
-        let Start { program, cl_name, units, cancel, observers, map } = start;
+        let Start { program, cl_name, raw, units, cancel, observers, map } = start;
         let shared = &program.shared;
         let module = Arc::clone(&shared.module);
         Outside {
-            source: Source::new(records, !module.has_no_section()),
+            source: Source::new(records, raw || !module.has_no_section()),
             module,
             post: shared.prototype.clone(),
             report: Report::default(),
             observers,
+            raw,
             units,
             cancel,
             cl_name,
@@ -93,9 +95,6 @@ impl<'o, S: Records> Outside<'o, S> {
         self.report.unit = units::known_before(self.units, &self.post.control.commons)?;
         if let Some((unit, _)) = self.report.unit {
             self.post.assume_unit(unit);
-        }
-        if self.source.recognized().is_none_or(|found| found.evidence == Evidence::Chosen) {
-            self.post.trust_arcs();
         }
         Ok(())
     }
@@ -121,9 +120,44 @@ impl<'o, S: Records> Outside<'o, S> {
         Ok(more)
     }
 
+    /// The section that takes a record. One of Creo's behind `$$->` goes to sections where
+    /// the machine says so; END there ends an NC sequence and not the program.
+    pub fn section_of(&self, record: &Record, vocabulary: &Vocabulary) -> Option<SectionId> {
+        let is_note = record.kind == kind::PSEUDO
+            && (record.major == words::END || !self.post.control.commons.read(INPUT_CREO_RECORDS));
+        if is_note { None } else { self.module.find(record, vocabulary) }
+    }
+
+    /// The post carries out a record, or what one means that is given as it is written.
+    pub fn process(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
+        if self.raw && record.line != 0 {
+            return self.process_written(record, vocabulary);
+        }
+        self.carry_out(record, vocabulary)
+    }
+
+    #[cold]
+    fn process_written(
+        &mut self,
+        record: &Record,
+        vocabulary: &Vocabulary,
+    ) -> Result<(), Box<Diag>> {
+        let place = |diag: Box<Diag>| {
+            if diag.spans.is_empty() {
+                Box::new(diag.at(self.place(record, vocabulary)))
+            } else {
+                diag
+            }
+        };
+        match self.source.written.meant_by(record).map_err(place)? {
+            None => self.carry_out(record, vocabulary),
+            Some(meant) => meant.iter().try_for_each(|one| self.carry_out(one, vocabulary)),
+        }
+    }
+
     /// The post carries out a record; what it says gets the place in the CL file,
     /// or in FIL for a record that FIL has made.
-    pub fn process(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
+    fn carry_out(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
         if record.major == words::PPRINT && !self.post.control.commons.read(MESSAGE_TO_TAPE) {
             for observer in self.observers.iter_mut() {
                 observer(Event::Message(record.text.trim_end()));
@@ -138,7 +172,6 @@ impl<'o, S: Records> Outside<'o, S> {
             self.take_warnings(Some(&place));
             // The machine itself adds the FIL line to an error.
             let made_by_fil = self.fil_line(record).is_some();
-            let result = result.map_err(|diag| self.name_dialects(diag));
             result.map_err(|diag| if made_by_fil { diag } else { Box::new(diag.at(place)) })?;
         }
         if let (kind::MOTION, Some(point)) = (record.kind, self.post.point()) {
@@ -169,7 +202,6 @@ impl<'o, S: Records> Outside<'o, S> {
         self.report.records = self.source.records;
         self.report.blocks = self.post.control.tape.count;
         self.report.dialect = self.source.recognized();
-        self.report.splines = self.source.splines();
     }
 
     /// The FIL line that made a record.
@@ -212,7 +244,6 @@ impl<'o, S: Records> Outside<'o, S> {
     /// # Errors
     /// A record that waits for its continuation.
     pub fn end_of_file(&mut self) -> Result<(), Box<Diag>> {
-        self.warn_of_other_signs();
         if self.source.records == 0 {
             self.tell(*RunCode::NoMotion.diag(format!("{} holds no record", self.cl_name)));
         } else if self.source.recognized().is_none_or(|found| found.dialect.rules().writes_fini) {
@@ -220,39 +251,7 @@ impl<'o, S: Records> Outside<'o, S> {
         }
         let result = self.post.finish();
         self.take_warnings(None);
-        result.map_err(|diag| self.name_dialects(diag))
-    }
-
-    /// Names the dialects that would turn the arcs the other way, where the sense of arcs is
-    /// refused.
-    fn name_dialects(&self, mut diag: Box<Diag>) -> Box<Diag> {
-        let sense: &Code = PostCode::ArcSense.into();
-        let found = self.source.recognized().map(|found| found.dialect);
-        if let Some(dialect) = found.filter(|_| diag.code == sense) {
-            let fitting = dialect.turning_otherwise();
-            let names: Vec<String> =
-                fitting.iter().map(|other| format!("--dialect {other}")).collect();
-            diag.hint = Some(match &names[..] {
-                [] => format!(
-                    "no dialect turns the arcs of {dialect} the other way: look at them in a backplot"
-                ),
-                _ => format!(
-                    "{} reads them the other way; --dialect {dialect} says that they are as {dialect} \
-                     means them",
-                    names.join(" or ")
-                ),
-            });
-        }
-        diag
-    }
-
-    /// Warns of a sign that contradicts the dialect that was chosen.
-    fn warn_of_other_signs(&mut self) {
-        let Some(found) = self.source.recognized() else { return };
-        let Some((other, line)) = found.against else { return };
-        let message =
-            format!("line {line} shows that the text is from {other}, read as {}", found.dialect);
-        self.tell(RunCode::OtherSigns.diag(message).at(TextSpan::line(&self.cl_name, line, "")));
+        result
     }
 
     /// Warns of records after FINI.
@@ -264,9 +263,7 @@ impl<'o, S: Records> Outside<'o, S> {
         record: &mut Record,
         vocabulary: &mut Vocabulary,
     ) -> Result<(), Box<Diag>> {
-        let more = self.source.read(record, vocabulary)?;
-        self.warn_of_other_signs();
-        if more {
+        if self.source.read(record, vocabulary)? {
             let place = self.place(record, vocabulary);
             self.tell(RunCode::AfterFini.diag("what follows is not posted").at(place));
         }
@@ -322,7 +319,7 @@ impl<S: Records> Host for Outside<'_, S> {
     ) -> Result<bool, Box<Diag>> {
         let mut next = Record::default();
         while !self.ended && self.read(&mut next, vocabulary)? {
-            if next.kind != kind::PSEUDO {
+            if next.kind != kind::PSEUDO || self.section_of(&next, vocabulary).is_some() {
                 *record = next;
                 return Ok(true);
             }
@@ -378,6 +375,10 @@ impl<S: Records> Host for Outside<'_, S> {
     ) -> Result<Option<f64>, Box<Diag>> {
         let found = if next { self.source.next(vocabulary)? } else { self.source.previous() };
         Ok(found.and_then(|motion| motion[coordinate]))
+    }
+
+    fn tool_diameter(&mut self, vocabulary: &mut Vocabulary) -> Result<Option<f64>, Box<Diag>> {
+        self.source.tool_diameter(vocabulary)
     }
 
     fn named_common(&mut self, name: &str) -> Option<Result<f64, Box<Diag>>> {

@@ -54,6 +54,7 @@ pub struct Run<'o> {
 pub(crate) struct Start<'o> {
     pub program: Program,
     pub cl_name: String,
+    pub raw: bool,
     pub units: Option<Unit>,
     pub cancel: Option<CancelToken>,
     pub observers: Vec<Observer<'o>>,
@@ -78,7 +79,8 @@ impl<'o> Run<'o> {
         self
     }
 
-    /// How CL text is read: dialect, encoding of texts, longest statement.
+    /// How CL text is read: dialect, encoding of texts, longest statement. With `raw`,
+    /// sections see statements as they are written, and the post carries out what they mean.
     pub fn reading(mut self, options: reader::Options) -> Self {
         self.reading = options;
         self
@@ -260,9 +262,9 @@ impl<'o> Run<'o> {
     }
 
     fn begin(self, map: Option<map::Writer<'o>>) -> Start<'o> {
-        let cl_name = self.name();
+        let (cl_name, raw) = (self.name(), self.reading.raw);
         let Run { program, units, cancel, observers, .. } = self;
-        Start { program, cl_name, units, cancel, observers, map }
+        Start { program, cl_name, raw, units, cancel, observers, map }
     }
 
     /// Posts what a reader gives. The methods above are compiled for each kind of input

@@ -145,6 +145,7 @@ pub fn asked(
     name: &str,
     options: reader::Options,
 ) -> Result<Asked, Error> {
+    let options = reader::Options { raw: false, ..options };
     asked_of(reader::Reader::new(input, name, options), name)
 }
 
@@ -183,6 +184,7 @@ pub fn machines(
     name: &str,
     options: reader::Options,
 ) -> Result<Vec<(Machin, u32)>, Error> {
+    let options = reader::Options { raw: false, ..options };
     machines_of(reader::Reader::new(input, name, options))
 }
 

@@ -3,8 +3,10 @@
 
 use std::collections::VecDeque;
 
-use fil_cl::{Recognized, Record, SplineCounts, Vocabulary, reader::Reader, record::kind, words};
+use fil_cl::{Meaning, Recognized, Record, Vocabulary, reader::Reader, record::kind, words};
 use fil_diag::Result;
+
+use crate::written::Written;
 
 /// Records NEXTF looks through for the next motion.
 const LOOK_AHEAD: usize = 1000;
@@ -31,8 +33,11 @@ pub(crate) trait Records {
     /// no text.
     fn recognized(&self) -> Option<Recognized>;
 
-    /// The splines that were read as lines so far.
-    fn splines(&self) -> SplineCounts;
+    /// What the record read last means, where it is given as it is written and means
+    /// something else than it says.
+    fn meaning(&self) -> Option<&Meaning> {
+        None
+    }
 }
 
 impl Records for Reader<'_> {
@@ -48,8 +53,8 @@ impl Records for Reader<'_> {
         Some(Reader::recognized(self))
     }
 
-    fn splines(&self) -> SplineCounts {
-        Reader::splines(self)
+    fn meaning(&self) -> Option<&Meaning> {
+        Reader::meaning(self)
     }
 }
 
@@ -63,13 +68,16 @@ pub(crate) struct Source<S> {
     on_motion: bool,
     /// A RAPID record was read whose motion is still to come.
     rapid: bool,
+    tool: Tool,
+    /// Records given as they are written, with what they mean.
+    pub written: Written,
     keeps_motions: bool,
     /// Records read so far.
     pub records: u64,
 }
 
 impl<S: Records> Source<S> {
-    /// `keeps_motions`: [`Source::previous`] will be asked for.
+    /// `keeps_motions`: [`Source::previous`] will be asked for, or what records mean.
     pub fn new(reader: S, keeps_motions: bool) -> Self {
         Source {
             reader,
@@ -77,6 +85,8 @@ impl<S: Records> Source<S> {
             motions: [None; 2],
             on_motion: false,
             rapid: false,
+            tool: Tool::default(),
+            written: Written::default(),
             keeps_motions,
             records: 0,
         }
@@ -85,11 +95,6 @@ impl<S: Records> Source<S> {
     /// The dialect of the CL text, as far as it was read.
     pub fn recognized(&self) -> Option<Recognized> {
         self.reader.recognized()
-    }
-
-    /// The splines that were read as lines so far.
-    pub fn splines(&self) -> SplineCounts {
-        self.reader.splines()
     }
 
     /// Reads the next record; false at the end.
@@ -102,7 +107,13 @@ impl<S: Records> Source<S> {
                 *record = next;
                 true
             }
-            None => self.reader.read(vocabulary, record)?,
+            None => {
+                let more = self.reader.read(vocabulary, record)?;
+                if self.keeps_motions && more {
+                    self.written.keep(record, self.reader.meaning());
+                }
+                more
+            }
         };
         if more {
             self.records += 1;
@@ -123,6 +134,8 @@ impl<S: Records> Source<S> {
         self.motions = [None; 2];
         self.on_motion = false;
         self.rapid = false;
+        // What came before that record is not known.
+        self.tool = Tool { diameter: None, has_moved: true };
         Ok(())
     }
 
@@ -133,14 +146,7 @@ impl<S: Records> Source<S> {
     pub fn next(&mut self, vocabulary: &mut Vocabulary) -> Result<Option<Coordinates>> {
         let mut rapid = self.rapid;
         for index in 0..LOOK_AHEAD {
-            if index == self.ahead.len() {
-                let mut next = Record::default();
-                if !self.reader.read(vocabulary, &mut next)? {
-                    break;
-                }
-                self.ahead.push_back(next);
-            }
-            let record = &self.ahead[index];
+            let Some(record) = self.ahead(index, vocabulary)? else { break };
             match record.kind {
                 kind::MOTION => return Ok(Some(coordinates(record, rapid))),
                 kind::FINI => break,
@@ -148,6 +154,39 @@ impl<S: Records> Source<S> {
             }
         }
         Ok(None)
+    }
+
+    /// The record so many places behind the next one; nothing is consumed.
+    fn ahead(&mut self, index: usize, vocabulary: &mut Vocabulary) -> Result<Option<&Record>> {
+        if index == self.ahead.len() {
+            let mut next = Record::default();
+            if !self.reader.read(vocabulary, &mut next)? {
+                return Ok(None);
+            }
+            self.written.keep(&next, self.reader.meaning());
+            self.ahead.push_back(next);
+        }
+        Ok(self.ahead.get(index))
+    }
+
+    /// Diameter of the tool in use, as the CL file gives it. Before the first motion of a
+    /// tool it may come behind the current record, as Creo writes it.
+    ///
+    /// # Errors
+    /// What the reader refuses.
+    pub fn tool_diameter(&mut self, vocabulary: &mut Vocabulary) -> Result<Option<f64>> {
+        let mut found = self.tool.diameter;
+        if self.tool.has_moved {
+            return Ok(found);
+        }
+        for index in 0..LOOK_AHEAD {
+            let Some(record) = self.ahead(index, vocabulary)? else { break };
+            if matches!(record.kind, kind::MOTION | kind::FINI) || changes_tool(record) {
+                break;
+            }
+            found = record.tool_diameter().or(found);
+        }
+        Ok(found)
     }
 
     /// The motion before the current record.
@@ -160,9 +199,38 @@ impl<S: Records> Source<S> {
         if self.on_motion {
             let rapid = std::mem::take(&mut self.rapid);
             self.motions = [self.motions[1], Some(coordinates(record, rapid))];
+            self.tool.has_moved = true;
+        } else {
+            self.tool.take(record);
         }
         self.rapid |= record.major == words::RAPID;
     }
+}
+
+/// What the CL file has said of the tool in use.
+#[derive(Clone, Copy, Default)]
+struct Tool {
+    diameter: Option<f64>,
+    /// A motion came since the tool was changed or described.
+    has_moved: bool,
+}
+
+impl Tool {
+    /// A diameter before a tool change is that of the new tool, unless a motion came between.
+    fn take(&mut self, record: &Record) {
+        if changes_tool(record) {
+            if self.has_moved {
+                self.diameter = None;
+            }
+            self.has_moved = false;
+        } else if let Some(diameter) = record.tool_diameter() {
+            *self = Tool { diameter: Some(diameter), has_moved: false };
+        }
+    }
+}
+
+fn changes_tool(record: &Record) -> bool {
+    matches!(record.major, words::LOADTL | words::LOAD | words::TURRET)
 }
 
 fn coordinates(record: &Record, rapid: bool) -> Coordinates {

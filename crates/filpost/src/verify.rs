@@ -7,7 +7,7 @@
 
 use std::io::{Cursor, Read};
 
-use fil_cl::Reader;
+use fil_cl::{Options, Reader};
 use fil_nc::dialect::Dialect;
 use fil_nc::interpret;
 use fil_nc::verify::{
@@ -87,7 +87,7 @@ impl Run<'_> {
         let events = interpret::events(nc.text, nc.name, &dialect).map_err(Error::Run)?;
         let known = units::known_before(self.units, self.program.commons()).map_err(Error::Run)?;
         let check = Check {
-            cl: Reader::new(cl, &name, self.reading),
+            cl: Reader::new(cl, &name, Options { raw: false, ..self.reading }),
             cl_name: &name,
             unit: known.map(|(unit, _)| unit),
             nc: nc.text,

@@ -15,7 +15,6 @@ pub(super) const RULES: DialectRules = DialectRules {
     signs: &[Sign::Text(w::PPRINT, "APTCL-SPEC")],
     circle: Some(CircleForm { counts: &[11], sense: ArcSense::LeftHand }),
     geometry: false,
-    splines: false,
     axis: AxisRule::Modal,
     packed_points: false,
     break_column: None,
@@ -63,6 +62,6 @@ fn rewrite_text(record: &mut Record) -> Result<(), FormError> {
         let message = "the points are not those of the tool's nose";
         return Err(FormError::new(ClCode::UnclearPoints, 0, message));
     }
-    record.inert = record.major == w::PPRINT && STRUCTURE.contains(&first.as_str());
+    record.inert |= record.major == w::PPRINT && STRUCTURE.contains(&first.as_str());
     Ok(())
 }

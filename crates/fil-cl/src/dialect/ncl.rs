@@ -12,7 +12,6 @@ pub(super) const RULES: DialectRules = DialectRules {
     signs: &[Sign::Text(w::REMARK, "NCLCAM")],
     circle: None,
     geometry: false,
-    splines: false,
     axis: AxisRule::ModalInMultax,
     packed_points: false,
     break_column: None,
@@ -22,5 +21,5 @@ pub(super) const RULES: DialectRules = DialectRules {
     writes_fini: true,
     rewrite: None,
     rewrite_text: None,
-    without_effect: &[],
+    without_effect: &[("REMARK", "a remark for people, with the version of the system")],
 };

@@ -19,8 +19,6 @@ pub struct Recognized {
     pub dialect: ClDialect,
     /// What it is taken for.
     pub evidence: Evidence,
-    /// A sign of another system, where the dialect was chosen: the system, and the line.
-    pub against: Option<(ClDialect, u32)>,
 }
 
 /// Why a text is taken for one of a dialect.
@@ -78,12 +76,8 @@ impl Recognition {
     /// Starts with the dialect that was chosen, if one was.
     pub(crate) fn new(chosen: Option<ClDialect>) -> Self {
         let found = match chosen {
-            Some(dialect) => Recognized { dialect, evidence: Evidence::Chosen, against: None },
-            None => Recognized {
-                dialect: ClDialect::Generic,
-                evidence: Evidence::NoSign,
-                against: None,
-            },
+            Some(dialect) => Recognized { dialect, evidence: Evidence::Chosen },
+            None => Recognized { dialect: ClDialect::Generic, evidence: Evidence::NoSign },
         };
         let rules = found.dialect.rules();
         let signs_of = |dialect: &ClDialect| {
@@ -177,13 +171,12 @@ impl Recognition {
 
     /// Takes the dialect that has a sign which is there.
     fn watch(&mut self, place: impl FnOnce() -> TextSpan, is_there: impl Fn(&Sign) -> bool) {
+        if self.found.evidence == Evidence::Chosen {
+            return;
+        }
         let found = self.signs.iter().find(|(sign, _)| is_there(sign));
         let Some(dialect) = found.map(|(_, dialect)| *dialect) else { return };
-        if self.found.evidence == Evidence::Chosen {
-            if dialect != self.found.dialect && self.found.against.is_none() {
-                self.found.against = Some((dialect, place().line));
-            }
-        } else if dialect != self.found.dialect && self.refused.is_none() {
+        if dialect != self.found.dialect && self.refused.is_none() {
             self.take(dialect, place());
         }
     }
@@ -210,8 +203,7 @@ impl Recognition {
             self.refused =
                 Some(Box::new(Diag::new(ClCode::TwoDialects, message).at(place).hint(hint)));
         } else {
-            let evidence = Evidence::Sign { line: place.line };
-            self.found = Recognized { dialect, evidence, against: None };
+            self.found = Recognized { dialect, evidence: Evidence::Sign { line: place.line } };
             self.rules = dialect.rules();
             self.changed = true;
             self.sign = Some(place);
@@ -222,7 +214,9 @@ impl Recognition {
     fn read_otherwise(&self, rules: &DialectRules) -> Option<u32> {
         let sense = |rules: &DialectRules| rules.circle.map(|form| form.sense);
         let turns = self.used.circle > 0 && sense(rules) != Some(ArcSense::RightHand);
-        let tilts = self.used.axis > 0 && rules.axis != AxisRule::AsWritten;
+        // While MULTAX is on, the post too keeps the last tool axis of a file as written.
+        let is_plain = |rule| matches!(rule, AxisRule::AsWritten | AxisRule::ModalInMultax);
+        let tilts = self.used.axis > 0 && !is_plain(rules.axis);
         match () {
             () if turns => Some(self.used.circle),
             () if tilts => Some(self.used.axis),

@@ -5,8 +5,8 @@
 //! notes about tools and stock, and blocks that a user has added.
 
 use super::{ArcSense, AxisRule, CircleForm, DialectRules, Sign};
-use crate::forms::{FormError, Outcome, Written, free_text};
-use crate::record::Word;
+use crate::forms::{FormError, Outcome, Written, cycle, free_text};
+use crate::record::{Record, Word};
 use crate::words as w;
 
 pub(super) const RULES: DialectRules = DialectRules {
@@ -15,7 +15,6 @@ pub(super) const RULES: DialectRules = DialectRules {
     signs: &[Sign::Word(w::TRNTYP), Sign::Prefix("CSI_SET_")],
     circle: Some(CircleForm { counts: &[6, 7], sense: ArcSense::RightHand }),
     geometry: false,
-    splines: false,
     axis: AxisRule::Upright,
     packed_points: false,
     break_column: None,
@@ -31,13 +30,29 @@ pub(super) const RULES: DialectRules = DialectRules {
     ],
 };
 
-/// TRNTYP/WORLD says that the points are those of the part, as in all other systems; what
-/// another frame would mean is not public.
 fn rewrite(written: &mut Written<'_>) -> Result<Outcome, FormError> {
-    let record = &mut written.record;
-    if record.major == w::TRNTYP {
-        record.inert = record.data.first() == Some(&Word::Minor(w::WORLD))
-            && record.data[1..].iter().all(|word| *word == Word::Number(0.0));
+    match written.record.major {
+        w::TRNTYP => frame(written.record),
+        w::CYCLE => return Ok(cycle(written)),
+        _ => {}
     }
     Ok(Outcome::Free)
+}
+
+/// TRNTYP/WORLD says that the points are those of the part, as in all other systems; what
+/// another frame would mean is not public.
+fn frame(record: &mut Record) {
+    record.inert = record.data.first() == Some(&Word::Minor(w::WORLD))
+        && record.data[1..].iter().all(|word| *word == Word::Number(0.0));
+}
+
+/// `CYCLE/INIT` announces the cycle, whose couplets follow.
+fn cycle(written: &mut Written<'_>) -> Outcome {
+    if written.record.data == [Word::Minor(w::INIT)] {
+        written.state.expects = Some("the values of the CYCLE");
+        return Outcome::Nothing;
+    }
+    written.state.expects = None;
+    cycle::of_solidworks(written);
+    Outcome::Bound
 }

@@ -34,7 +34,11 @@ pub(crate) fn to_creo(written: &mut Written<'_>) {
 /// The value first; PERMIN is a minute in the unit of the file.
 fn feed(written: &mut Written<'_>) {
     let is_permin = written.name(0) == "PERMIN";
-    let unit = if written.state.is_metric { w::MMPM } else { w::UPM };
+    let unit = match &written.state {
+        state if state.is_metric => w::MMPM,
+        state if state.is_inch => w::IPM,
+        _ => w::UPM,
+    };
     if let [Word::Minor(word), value @ Word::Number(_)] = written.record.data[..] {
         let word = if is_permin { unit } else { word };
         written.record.data = vec![value, Word::Minor(word)];

@@ -8,9 +8,10 @@ use crate::vocabulary::WordId;
 use crate::words as w;
 
 /// A couplet: what it may be called, and what Creo calls it. In Creo's order.
-const COUPLETS: [(&[WordId], WordId); 10] = [
+const COUPLETS: [(&[WordId], WordId); 11] = [
     (&[w::FEDTO, w::DEPTH], w::DEPTH),
-    (&[w::STEP], w::STEP),
+    (&[w::STEP, w::SUBPECK, w::INCR], w::STEP),
+    (&[w::FIRST_PECK], w::FIRST_PECK),
     (&[w::MMPM], w::MMPM),
     (&[w::IPM], w::IPM),
     (&[w::MMPR], w::MMPR),
@@ -22,7 +23,10 @@ const COUPLETS: [(&[WordId], WordId); 10] = [
 ];
 
 /// Places in [`COUPLETS`] of the units of a feed: one takes the place of another.
-const FEEDS: std::ops::Range<usize> = 2..6;
+const FEEDS: std::ops::Range<usize> = 3..7;
+
+/// Place in [`COUPLETS`] of the clearance.
+const CLEAR: usize = 7;
 
 /// A cycle and its values.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,15 +72,40 @@ pub(crate) fn couplets(written: &mut Written<'_>) -> Result<(), FormError> {
         return Err(FormError::new(ClCode::BadPoint, skipped, message));
     }
     written.state.cycle = Some(cycle);
+    give(written, &cycle);
+    Ok(())
+}
+
+/// Brings a cycle of SolidWorks CAM to Creo's form: its depth counts downwards. A record
+/// with other items than those known stays as it is.
+pub(crate) fn of_solidworks(written: &mut Written<'_>) {
+    let [Word::Minor(kind @ (w::DRILL | w::DEEP | w::DEEP2 | w::BRKCHP)), ref rest @ ..] =
+        written.record.data[..]
+    else {
+        return;
+    };
+    let kind = if kind == w::DEEP2 { w::DEEP } else { kind };
+    if let Some(cycle) = with(Cycle { kind, values: Default::default() }, rest) {
+        give(written, &cycle);
+    }
+}
+
+/// Makes the items those of a cycle, in Creo's order. Without CLEAR the level of RAPTO is the
+/// clearance.
+fn give(written: &mut Written<'_>, cycle: &Cycle) {
+    let has_clear = cycle.values[CLEAR].is_some();
     let values = COUPLETS.iter().zip(cycle.values);
     let couplets: Vec<(WordId, f64)> = values
         .filter_map(|((_, name), value)| {
             let value = value?;
-            Some((*name, if *name == w::DEPTH { value.abs() } else { value }))
+            Some(match *name {
+                w::DEPTH => (w::DEPTH, value.abs()),
+                w::RAPTO if !has_clear => (w::CLEAR, value),
+                name => (name, value),
+            })
         })
         .collect();
     written.set_couplets(cycle.kind, &couplets);
-    Ok(())
 }
 
 /// The cycle with these values; `None` for an item that is not known.

@@ -5,6 +5,7 @@ use fil_diag::Result;
 use super::Reader;
 use crate::dialect::{ArcSense, ClDialect};
 use crate::errors::ClCode;
+use crate::forms::vector;
 use crate::record::{Record, Word};
 use crate::words;
 
@@ -31,14 +32,40 @@ impl Reader<'_> {
                 }
             }
         }
-        if !self.options.raw && !matches!(self.dialect(), ClDialect::Generic | ClDialect::Creo) {
-            bring_to_seven(record, count);
+        if !self.is_scout && self.dialect() != ClDialect::Creo {
+            if self.dialect() != ClDialect::Generic {
+                bring_to_seven(record, count);
+            }
+            self.add_radius(record);
         }
         if self.recognition.used.circle == 0 {
             self.recognition.used.circle = record.line;
         }
         self.modal.in_arc = true;
         Ok(())
+    }
+
+    /// Adds the radius that a circle of six numbers leaves out: the distance of its axis from
+    /// the start, where that is known.
+    fn add_radius(&self, record: &mut Record) {
+        let Some(start) = self.modal.point else { return };
+        let [x, y, z, i, j, k, rest @ ..] = &record.data[..] else { return };
+        let [
+            Word::Number(x),
+            Word::Number(y),
+            Word::Number(z),
+            Word::Number(i),
+            Word::Number(j),
+            Word::Number(k),
+        ] = [*x, *y, *z, *i, *j, *k]
+        else {
+            return;
+        };
+        if !matches!(rest.first(), Some(Word::Number(_))) {
+            let Some(axis) = vector::unit([i, j, k]) else { return };
+            let radius = vector::norm(vector::across(vector::sub(start, [x, y, z]), axis));
+            record.data.insert(SIX, Word::Number(radius));
+        }
     }
 
     /// True when the axis must be turned for the right-hand rule. A word that contradicts
@@ -85,6 +112,9 @@ impl Reader<'_> {
 
 /// Numbers of a CIRCLE in Creo's form: center, axis, radius.
 const NUMBERS: usize = 7;
+
+/// Numbers of center and axis.
+const SIX: usize = 6;
 
 /// Leaves what Creo's form has, and TIMES: tolerances and sizes of the tool tell nothing of
 /// the arc, and a direction that was checked says what the axis says now.

@@ -15,7 +15,7 @@ use crate::words;
 const UNITS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 impl Reader<'_> {
-    /// Brings a statement to the form of Creo, unless it is asked for as written.
+    /// Brings a statement to the form of Creo.
     pub(super) fn rewrite(
         &mut self,
         vocab: &mut Vocabulary,
@@ -23,35 +23,33 @@ impl Reader<'_> {
     ) -> Result<Outcome> {
         let rules = self.rules();
         record.inert = rules.is_without_effect(vocab.name(record.major));
-        if self.options.raw {
+        if self.is_scout {
             return Ok(Outcome::Free);
         }
-        match record.major {
-            words::INDIRV => return self.take_direction(record),
-            words::INTOL | words::OUTTOL if rules.splines => {
-                self.keep_tolerance(record);
-                return Ok(Outcome::Bound);
-            }
-            words::NURBS | words::KNOT | words::CNTRL if rules.splines => {
-                return self.take_spline(record);
-            }
-            _ => {}
+        if record.major == words::INDIRV {
+            return self.take_direction(record);
         }
         if vocab.name(record.major) == "HELICAL" && rules.geometry {
             return self.take_helix(vocab, record);
         }
-        if !rules.is_creo_form() {
+        if !rules.is_creo() {
             let state = &mut self.modal.forms;
             common::to_creo(&mut Written { record, vocabulary: vocab, state });
         }
-        let Some(rewrite) = rules.rewrite else { return Ok(Outcome::Free) };
+        // The radius of a circle may come from the point before it.
+        let outcome = match record.major {
+            words::CIRCLE if !rules.is_creo() => Outcome::Bound,
+            _ => Outcome::Free,
+        };
+        let Some(rewrite) = rules.rewrite else { return Ok(outcome) };
         let mut written = Written { record, vocabulary: vocab, state: &mut self.modal.forms };
-        rewrite(&mut written).map_err(|error| self.form_error(error))
+        let rewritten = rewrite(&mut written).map_err(|error| self.form_error(error))?;
+        Ok(if rewritten == Outcome::Free { outcome } else { rewritten })
     }
 
     /// The same for a text statement.
     pub(super) fn rewrite_text(&self, record: &mut Record) -> Result<()> {
-        let rewrite = self.rules().rewrite_text.filter(|_| !self.options.raw);
+        let rewrite = self.rules().rewrite_text.filter(|_| !self.is_scout);
         rewrite.map_or(Ok(()), |rewrite| rewrite(record)).map_err(|error| self.form_error(error))
     }
 
@@ -83,21 +81,16 @@ impl Reader<'_> {
         Ok(Outcome::Made)
     }
 
-    /// True for a word of a motion by geometry that is computed in this dialect.
-    pub(super) fn computes(&self, major: WordId) -> bool {
-        let computes = match major {
-            words::INDIRV => self.rules().geometry,
-            words::NURBS | words::KNOT | words::CNTRL => self.rules().splines,
-            _ => false,
-        };
-        computes && !self.options.raw
+    /// True for INDIRV where motions by geometry are computed.
+    pub(super) fn takes_direction(&self, major: WordId) -> bool {
+        major == words::INDIRV && self.rules().geometry && !self.is_scout
     }
 
     /// True for a statement that names shapes, where they are computed.
     pub(super) fn names_geometry(&self) -> bool {
         let text = &self.statement.joined;
         let is = |name: &[u8]| text.get(..name.len()).is_some_and(|t| t.eq_ignore_ascii_case(name));
-        (is(b"TLON") || is(b"PSIS")) && self.rules().geometry && !self.options.raw
+        (is(b"TLON") || is(b"PSIS")) && self.rules().geometry && !self.is_scout
     }
 
     /// TLON,GOFWD/ makes a CIRCLE and the GOTO to its end; PSIS/ names the plane of arcs.

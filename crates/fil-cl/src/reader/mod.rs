@@ -13,9 +13,9 @@ mod lines;
 mod names;
 mod number;
 mod points;
+mod raw;
 mod repeated;
 mod seek;
-mod spline;
 mod statement;
 
 use std::io::Read;
@@ -34,10 +34,9 @@ pub(crate) use items::reads_as_text;
 use lines::{Input, LineError, Lines};
 pub(crate) use number::number as plain_number;
 use points::Pending;
+pub use raw::Meaning;
 use repeated::Repeated;
 use seek::Seeking;
-use spline::Gathered;
-pub use spline::SplineCounts;
 use statement::{Form, GatherError, Statement};
 
 /// How a CL text is to be read.
@@ -49,7 +48,8 @@ pub struct Options {
     pub decode: fn(&[u8]) -> String,
     /// Longest statement in bytes, continuation lines included.
     pub statement_limit: usize,
-    /// True to give statements as they are written, and not in the form of Creo.
+    /// True to give statements as they are written, and not in the form of Creo; what they
+    /// mean is then told by [`Reader::meaning`]. Arcs by geometry are given as CIRCLE.
     pub raw: bool,
 }
 
@@ -97,11 +97,6 @@ pub struct Reader<'r> {
     /// Start and end of each item in the statement, to point at it.
     item_ranges: Vec<Range<usize>>,
     pending: Pending,
-    /// The spline under way.
-    spline: Gathered,
-    spline_counts: SplineCounts,
-    /// Splines before this record are counted.
-    splines_counted: u32,
     /// Records that the last statement made besides its own, the last one first.
     made: Vec<Record>,
     modal: Modal,
@@ -119,6 +114,8 @@ pub struct Reader<'r> {
     at_line: bool,
     /// It only looks for signs ahead of another reader.
     is_scout: bool,
+    /// What the record of this number means, where it is given as it is written.
+    meaning: Option<(u32, Meaning)>,
 }
 
 impl<'r> Reader<'r> {
@@ -135,9 +132,6 @@ impl<'r> Reader<'r> {
             repeated: Repeated::default(),
             item_ranges: Vec::new(),
             pending: Pending::default(),
-            spline: Gathered::default(),
-            spline_counts: SplineCounts::default(),
-            splines_counted: 0,
             made: Vec::new(),
             modal: Modal::default(),
             file: file_name.to_string(),
@@ -148,6 +142,7 @@ impl<'r> Reader<'r> {
             started: false,
             at_line: false,
             is_scout: false,
+            meaning: None,
         }
     }
 
@@ -269,20 +264,24 @@ impl<'r> Reader<'r> {
                 let major = record.major;
                 self.watch(|recognition, place| recognition.statement(major, vocab, place))?;
                 self.check_complete(vocab, record)?;
-                outcome = self.rewrite(vocab, record)?;
-                if matches!(outcome, Outcome::Free | Outcome::Bound) {
-                    self.finish(record)?;
-                }
+                outcome = if self.keeps_meaning() {
+                    self.give_as_written(vocab, record)?
+                } else {
+                    self.bring_to_form(vocab, record)?
+                };
             }
         }
         self.check_end(vocab, record)?;
+        if self.rules().trailing_comma && !self.options.raw {
+            raw::drop_empty_end(record);
+        }
         if self.recognition.take_changed() {
             self.repeated = Repeated::default();
         }
         if outcome == Outcome::Nothing {
             return Ok(Some(outcome));
         }
-        if outcome == Outcome::Free {
+        if outcome == Outcome::Free && !self.keeps_meaning() {
             let lines = self.lines.line().saturating_sub(self.statement.line);
             self.repeated.keep(self.lines.taken(), lines, record);
         }
@@ -361,7 +360,21 @@ impl<'r> Reader<'r> {
         record.data.push(Word::Text { start: 0, len: record.text.len() as u32 });
         (record.major, record.kind, record.sub) = (major, kind::POST, 0);
         self.watch(|recognition, place| recognition.text(major, &record.text, place))?;
+        record.inert = self.rules().is_without_effect(words::name(major));
+        if self.keeps_meaning() {
+            self.give_text_as_written(record);
+            return Ok(());
+        }
         self.rewrite_text(record)
+    }
+
+    /// Brings a statement to the form of Creo and its items to words.
+    fn bring_to_form(&mut self, vocab: &mut Vocabulary, record: &mut Record) -> Result<Outcome> {
+        let outcome = self.rewrite(vocab, record)?;
+        if matches!(outcome, Outcome::Free | Outcome::Bound) {
+            self.finish(record)?;
+        }
+        Ok(outcome)
     }
 
     /// From items to words, with what the dialect means by them.
@@ -380,7 +393,7 @@ impl<'r> Reader<'r> {
             return Err(self.diag(error.code, &error.message, range));
         }
         match record.major {
-            words::MULTAX => self.modal.multax = !record.has(words::OFF),
+            words::MULTAX | words::TLAXIS => self.set_mode(record),
             words::GOTO | words::FROM => self.keep_axis(record),
             // Where these lead is a matter of the post.
             words::GODLTA | words::GOHOME => self.modal.point = None,

@@ -2,11 +2,15 @@
 
 use fil_diag::Result;
 
-use super::{Reader, items};
+use super::{Meaning, Reader, items};
 use crate::dialect::AxisRule;
 use crate::errors::ClCode;
 use crate::layout::{is_unit, length};
 use crate::record::{Record, Word};
+use crate::words;
+
+/// The tool axis of three axes.
+const UPRIGHT: [f64; 3] = [0.0, 0.0, 1.0];
 
 /// The points of a GOTO not yet handed out.
 #[derive(Default)]
@@ -27,15 +31,6 @@ impl Pending {
     pub(super) fn clear(&mut self) {
         self.values.clear();
         self.next = 0;
-    }
-}
-
-impl Pending {
-    /// Points to be handed out, all of one line.
-    pub(super) fn give(&mut self, points: &[[f64; 3]], line: u32) {
-        self.clear();
-        self.values.extend(points.iter().flatten());
-        (self.group, self.line) = (3, line);
     }
 }
 
@@ -68,9 +63,19 @@ impl Reader<'_> {
         }
         self.modal.in_arc = false;
         self.modal.point = Some(point);
-        let axis = if self.modal.axis.is_none() { None } else { axis.or(self.axis_left_out()) };
+        let axis = if self.modal.axis.is_none() { None } else { self.whole_axis(&point, axis) };
         record.fill_goto(&point, axis.as_ref());
         self.count(record);
+    }
+
+    /// The tool axis of a point, with the one that the dialect means where it has none.
+    fn whole_axis(&mut self, point: &[f64; 3], axis: Option<[f64; 3]>) -> Option<[f64; 3]> {
+        let whole = axis.or(self.axis_left_out());
+        if whole != axis && self.keeps_meaning() {
+            self.keep_meaning(Meaning::Records(vec![Record::goto(*point, whole)]));
+            return axis;
+        }
+        whole
     }
 
     /// Hands out the next point of a GOTO with several.
@@ -188,15 +193,32 @@ impl Reader<'_> {
         }
     }
 
+    /// MULTAX and TLAXIS: the axis of motions that give none. Off brings it back to Z, and on
+    /// begins there, as in the post.
+    pub(super) fn set_mode(&mut self, record: &Record) {
+        if record.major == words::TLAXIS {
+            let takes = matches!(self.rules().axis, AxisRule::Modal | AxisRule::ModalInMultax);
+            if takes && let [Word::Number(i), Word::Number(j), Word::Number(k)] = record.data[..] {
+                self.modal.axis = Some([i, j, k]).filter(|axis| is_unit(*axis));
+            }
+            return;
+        }
+        self.modal.multax = !record.has(words::OFF);
+        if self.rules().axis == AxisRule::ModalInMultax {
+            let kept = self.modal.axis.filter(|_| self.modal.multax);
+            self.modal.axis = Some(kept.unwrap_or(UPRIGHT));
+        }
+    }
+
     /// The tool axis of a motion that gives none.
-    pub(super) fn axis_left_out(&self) -> Option<[f64; 3]> {
+    fn axis_left_out(&self) -> Option<[f64; 3]> {
         match self.rules().axis {
             AxisRule::AsWritten => None,
             AxisRule::Modal => self.modal.axis,
             AxisRule::ModalInMultax if self.modal.multax => self.modal.axis,
             AxisRule::ModalInMultax => None,
             // A file of three axes shows none, so that its records stay as short as they were.
-            AxisRule::Upright => self.modal.axis.map(|_| [0.0, 0.0, 1.0]),
+            AxisRule::Upright => self.modal.axis.map(|_| UPRIGHT),
         }
     }
 }

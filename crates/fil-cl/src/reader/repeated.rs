@@ -55,7 +55,8 @@ impl Repeated {
     /// Keeps a whole statement of so many lines, unless its record depends on the
     /// statements before it or leaves something for those after it.
     pub(super) fn keep(&mut self, text: &[u8], lines: u32, record: &Record) {
-        let is_modal = record.kind == kind::MOTION || record.major == words::MULTAX;
+        let is_modal = record.kind == kind::MOTION
+            || matches!(record.major, words::MULTAX | words::TLAXIS | words::GOHOME);
         let first = memchr::memchr(b'\n', text).map_or(usize::MAX, |end| end + 1);
         let is_long = first > LONGEST || text.len() > LONGEST_STATEMENT;
         if is_modal || is_long || !text.ends_with(b"\n") {

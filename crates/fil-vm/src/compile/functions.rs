@@ -79,6 +79,14 @@ impl Compiler<'_> {
                     }
                 }
             }
+            (FunctionKind::ToolData, [word]) => match &word.kind {
+                ExprKind::Name(name) if name == "DIAMTR" => {
+                    self.chunk.emit(Op::ToolDiameter { dst });
+                }
+                _ => {
+                    self.report(CompileCode::WordExpected, span, "TOOLF takes the word DIAMTR");
+                }
+            },
             // A constant unless its argument is no word.
             (FunctionKind::WordCode, [_]) => {
                 self.report(

@@ -168,7 +168,8 @@ pub fn analyze(
         vocabulary: vocab,
     };
     open_blocks::refuse(search, &allowed, &mut diags);
-    diags.extend(resolve::findings::find(&resolution, &units, vocab));
+    let creo = facts.takes_creo_records;
+    diags.extend(resolve::findings::find(&resolution, &units, vocab, creo));
     diags.retain(|diag| !allowed.allows(diag));
     let refused = diags.iter().any(Diag::is_error);
     if lint && !refused {

@@ -50,6 +50,8 @@ pub struct MachineFacts<'a> {
     pub storing: Option<StoringInCommon<'a>>,
     /// True for a letter, 1 to 26, that the machine writes.
     pub writes_letter: Option<&'a dyn Fn(u8) -> bool>,
+    /// Sections take records that begin with `$$->`.
+    pub takes_creo_records: bool,
     /// True for a major word that the post carries out.
     pub carries_out: Option<&'a dyn Fn(WordId) -> bool>,
 }

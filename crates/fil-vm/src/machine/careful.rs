@@ -6,8 +6,8 @@ use super::{Registers, Vm};
 use crate::builtins::{BUILTINS, FunctionKind};
 use crate::host::Host;
 use crate::ops::{Op, Reg, Target};
-use crate::value::Slot;
 use crate::value::Value::{self, Number};
+use crate::value::{EMPTY, Slot};
 
 impl<H: Host + ?Sized> Vm<'_, H> {
     /// Carries out an operation; where it jumps, gives the target.
@@ -50,6 +50,9 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             Op::LastWritten { dst, letter } => (dst, self.last_written(registers, letter)?),
             Op::NamedCommon { dst, name } => (dst, self.named_common(registers, name)?),
             Op::NextMotion { dst, word } => (dst, self.neighbour(true, word)?),
+            Op::ToolDiameter { dst } => {
+                (dst, Number(self.host.tool_diameter(self.vocab)?.unwrap_or(EMPTY)))
+            }
             Op::PreviousMotion { dst, word } => (dst, self.neighbour(false, word)?),
             _ => return self.act(registers, op),
         };

@@ -96,7 +96,7 @@ impl<'t> Resolver<'t, '_> {
                     FunctionKind::WordCode | FunctionKind::Couplet | FunctionKind::HasWord => {
                         self.word(name, arg.span, Role::Asked);
                     }
-                    // Words of FILEF, NEXTF and PREVF alone.
+                    // Words of FILEF, NEXTF, PREVF and TOOLF alone.
                     _ => {}
                 },
                 (_, true) => {}

@@ -16,8 +16,8 @@ use crate::errors::{CompileCode, LintCode};
 /// Macros that the vendor's post calls itself.
 const RESERVED: [&str; 5] = ["_REPOS", "_OUTPTP", "_OUTPUT", "_MCDWT", "_LSTWT"];
 
-/// Words that CL files have only behind `$$->`, which no section sees.
-const PSEUDO_WORDS: [&str; 4] = ["MFGNO", "FEATNO", "CSYS", "CUTCOM_GEOMETRY_TYPE"];
+/// Words that CL files have only behind `$$->`, which sections see where the machine says so.
+const PSEUDO_WORDS: [&str; 3] = ["MFGNO", "FEATNO", "CUTCOM_GEOMETRY_TYPE"];
 
 /// Types of records that the reader makes, with their subtypes; that of a post command
 /// is the code of its major word.
@@ -30,9 +30,14 @@ const TYPES: [(u32, &[u32]); 6] = [
     (kind::FINI, &[0]),
 ];
 
-/// The findings of every load.
-pub(crate) fn find(resolution: &Resolution, units: &[Unit], vocabulary: &Vocabulary) -> Vec<Diag> {
-    let mut findings = Findings { units, vocabulary, diags: Vec::new() };
+/// The findings of every load. `takes_creo`: sections take records that begin with `$$->`.
+pub(crate) fn find(
+    resolution: &Resolution,
+    units: &[Unit],
+    vocabulary: &Vocabulary,
+    takes_creo: bool,
+) -> Vec<Diag> {
+    let mut findings = Findings { units, vocabulary, takes_creo, diags: Vec::new() };
     for symbol in &resolution.symbols {
         match symbol.kind {
             SymbolKind::Variable if symbol.definitions.is_empty() => findings.word_as_value(symbol),
@@ -54,6 +59,7 @@ pub(crate) fn find(resolution: &Resolution, units: &[Unit], vocabulary: &Vocabul
 struct Findings<'a> {
     units: &'a [Unit],
     vocabulary: &'a Vocabulary,
+    takes_creo: bool,
     diags: Vec<Diag>,
 }
 
@@ -147,9 +153,10 @@ impl Findings<'_> {
                         "write a section for each word, or CIMFIL/ON,2000 and CIMFIL/ON,5000"
                             .into(),
                     );
-                } else if PSEUDO_WORDS.contains(&major.text.as_str()) {
+                } else if PSEUDO_WORDS.contains(&major.text.as_str()) && !self.takes_creo {
                     let message = format!("CL files have {} behind $$-> only", major.text);
-                    self.add(LintCode::SectionNeverRuns, at, message);
+                    self.add(LintCode::SectionNeverRuns, at, message).hint =
+                        Some("sections see it there where input.creo_records = 1".into());
                 } else if let (Some(minor), Some(word)) = (minors.first(), word)
                     && (takes_text(word)
                         || matches!(word, w::GOTO | w::FROM | w::GODLTA | w::CIRCLE))

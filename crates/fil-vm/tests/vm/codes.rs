@@ -144,6 +144,7 @@ fn findings(text: &str) -> Vec<fil_diag::Diag> {
     let text = format!("{text}\nFINI\n");
     let files = [FilFile { name: "case.fil", text: &text }];
     let facts = MachineFacts {
+        takes_creo_records: false,
         carries_out: Some(&|word| word != fil_cl::words::CHUCK),
         storing: None,
         name_of_common: Some(&|kind, number| {

@@ -138,7 +138,7 @@ fn the_embedding_program_adds_functions() {
 fn with_functions(text: &str) -> Bench {
     let mut functions = Functions::new();
     functions.add("TWICEF", 1, |args| Ok(args[0].number().ok_or("a number")? * 2.0));
-    functions.add("TOOLF", 1, |args| Ok(format!("TOOL {}", args[0].number().unwrap_or(0.0))));
+    functions.add("NAMEF", 1, |args| Ok(format!("TOOL {}", args[0].number().unwrap_or(0.0))));
     let limits = Limits { text_bytes: 1000, ..Limits::default() };
     let mut bench = Bench::with(text, limits, Compat::default(), functions);
     bench.globals().unwrap_or_else(|diag| panic!("{diag}"));
@@ -147,11 +147,11 @@ fn with_functions(text: &str) -> Bench {
 
 #[test]
 fn added_functions_return_numbers_and_texts() {
-    let bench = with_functions("VV=TWICEF(4)\nT1=TEXT/TOOLF(VV),'!'\nNN=LNTHF(TOOLF(12))");
+    let bench = with_functions("VV=TWICEF(4)\nT1=TEXT/NAMEF(VV),'!'\nNN=LNTHF(NAMEF(12))");
     assert_eq!((bench.number("VV"), bench.number("NN")), (8.0, 7.0));
     assert_eq!(bench.machine.text("T1"), Some("TOOL 8!"));
     // A loop of texts makes room for the next ones.
-    with_functions("DO/LA,II=1,1000\nT1=TOOLF(II)\nLA) CONTIN");
+    with_functions("DO/LA,II=1,1000\nT1=NAMEF(II)\nLA) CONTIN");
 }
 
 #[test]

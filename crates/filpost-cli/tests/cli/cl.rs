@@ -87,3 +87,49 @@ fn the_dialects_are_listed() {
     assert_eq!(names.len(), filpost::cl::ClDialect::ALL.len());
     assert_eq!(place.run(&["cl"]).status, 2);
 }
+
+#[test]
+fn a_file_of_another_system_becomes_one_of_creo() {
+    let nx = "TOOL PATH/A,TOOL,B\nLOAD/TOOL,2\nSPINDL/RPM,900,CLW\nFEDRAT/MMPM,250.\nGOTO/1.,2.,3.\n\
+        END-OF-PATH\n";
+    let place = Folder::new().with("part.cls", nx);
+    let ran = place.run(&["cl", "part.cls", "--to", "ncl", "-o", "part.ncl", "--units", "mm"]);
+    assert_eq!(
+        ran.seen(),
+        (0, "", "part.cls: 8 statements written for Creo, dialect nx (told by line 1)\n")
+    );
+    let ncl = place.text("part.ncl").expect("a CL file");
+    assert!(ncl.starts_with("$$*          Pro/CLfile\n$$ TOOL PATH / A,TOOL,B\n"), "{ncl}");
+    let printed = place.run(&["cl", "part.cls", "--to", "ncl", "--units", "mm"]);
+    assert_eq!(printed.out, ncl);
+    let post = |file: &str| place.run(&["post", file, "-p", "fanuc-mill", "--units", "mm"]);
+    assert_eq!((post("part.ncl").status, post("part.ncl").out), (0, post("part.cls").out));
+}
+
+#[test]
+fn what_creo_can_not_say_leaves_no_file() {
+    let open = "CSI_SET_A/1\nGODLTA/1,0,0\nCIRCLE/0,0,0,0,0,1\nGOTO/1,0,0\nFINI\n";
+    let place = Folder::new().with("part.apt", open);
+    let ran = place.run(&["cl", "part.apt", "--to", "ncl", "-o", "part.ncl"]);
+    assert!(
+        ran.status == 1 && ran.err.contains("E0412") && ran.err.contains("part.apt:3"),
+        "{ran:?}"
+    );
+    assert_eq!(place.files(), ["part.apt"]);
+    let over = place.run(&["cl", "part.apt", "--to", "ncl", "-o", "part.apt"]);
+    assert!(over.status == 1 && over.err.contains("E0802"), "{over:?}");
+    assert_eq!(place.text("part.apt").as_deref(), Some(open));
+    assert_eq!(place.run(&["cl", "part.apt", "-o", "part.ncl"]).status, 2);
+}
+
+#[test]
+fn records_are_shown_as_they_are_written() {
+    let place = Folder::new().with("part.cls", "PAINT/A\nLOAD/TOOL,2\nFEDRAT/MMPM,250.\n");
+    let formed = place.run(&["cl", "part.cls"]).out;
+    assert!(formed.contains("LOADTL / 2") && formed.contains("FEDRAT / 250.0, MMPM"), "{formed}");
+    let written = place.run(&["cl", "part.cls", "--raw-records"]).out;
+    assert!(
+        written.contains("LOAD / TOOL, 2") && written.contains("FEDRAT / MMPM, 250"),
+        "{written}"
+    );
+}

@@ -40,6 +40,9 @@ pub struct CaseFile {
     /// The dialect of the CL file, by its name.
     #[serde(default, deserialize_with = "dialect")]
     pub dialect: Option<ClDialect>,
+    /// Sections see the records as they are written.
+    #[serde(default)]
+    pub raw_records: bool,
     /// A ready post.
     pub ready: Option<String>,
     /// A `machine.toml`.

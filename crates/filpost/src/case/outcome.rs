@@ -7,7 +7,7 @@ use fil_cl::reader;
 use fil_diag::Diag;
 use fil_nc::diff;
 
-use super::{Case, Programs, unified};
+use super::{Case, CaseFile, Programs, unified};
 use crate::error::Error;
 use crate::files;
 use crate::listing::Listing;
@@ -127,7 +127,8 @@ impl Case {
     fn run_whole(&self, program: &Program) -> Result<Ran, Error> {
         let cl = files::read(&self.folder.join(&self.file.cl))?;
         let (mut nc, mut listing) = (Vec::new(), Listing::new(Vec::new()));
-        let reading = reader::Options { dialect: self.file.dialect, ..reader::Options::default() };
+        let CaseFile { dialect, raw_records: raw, .. } = self.file;
+        let reading = reader::Options { dialect, raw, ..reader::Options::default() };
         let mut run = program.start().cl_name(&self.file.cl).reading(reading);
         if let Some(unit) = self.file.units {
             run = run.units(unit);
