@@ -17,7 +17,10 @@ use crate::post::Post;
 #[inline]
 pub fn handle(post: &mut Post, target: Target) -> Result<()> {
     if let Some(arc) = post.path.arc.take() {
-        post.path.rapid = None;
+        if post.path.rapid.take().is_some() {
+            let message = "RAPID before a CIRCLE: the arc is cut at feed".to_string();
+            post.warn(PostCode::IgnoredPart, message);
+        }
         return carry_out(post, Operation::Arc(arc, target));
     }
     if post.path.cycle.is_some() && post.path.rapid.is_none() {
