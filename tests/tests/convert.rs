@@ -106,7 +106,8 @@ fn small_files_of_each_dialect() {
         seen.push(dialect);
     }
     for dialect in ClDialect::ALL {
-        assert!(seen.contains(dialect), "no file of {dialect}");
+        let is_only_chosen = *dialect == ClDialect::GenericLeft;
+        assert!(seen.contains(dialect) || is_only_chosen, "no file of {dialect}");
     }
 }
 

@@ -50,6 +50,7 @@ const TESTED_HERE: &[(&str, &str)] = &[
     ("E0714", "e0714_machin_names_no_post"),
     ("E0715", "e0715_units_contradict"),
     ("E0716", "e0716_changed_as_written"),
+    ("W0757", "w0757_choice_against_the_signs"),
     ("E0940", "e0940_unit_not_known"),
     ("E0941", "e0941_another_part"),
 ];
@@ -627,4 +628,20 @@ fn e0941_another_part() {
 fn severities_and_letters_agree() {
     let letter = |code: &Code| if code.severity == Severity::Error { 'E' } else { 'W' };
     assert!(all_codes().iter().all(|code| code.name().starts_with(letter(code))));
+}
+
+#[test]
+fn w0757_choice_against_the_signs() {
+    let mill = Program::builder().ready("fanuc-mill").build().expect("a ready post");
+    let text =
+        "TOOL PATH/ROUGH,TOOL,MILL_10\nUNITS/MM\nFEDRAT/100.0,MMPM\nGOTO/1.0,2.0,3.0\nFINI\n";
+    let post = |dialect| {
+        let options = filpost::cl::Options { dialect, ..Default::default() };
+        let mut nc = Vec::new();
+        mill.start().reading(options).run(text.as_bytes(), &mut nc).expect("it is posted").warnings
+    };
+    let chosen = post(Some(filpost::cl::ClDialect::Creo));
+    let codes: Vec<String> = chosen.iter().map(|diag| diag.code.name()).collect();
+    assert_eq!((codes, chosen[0].spans[0].line), (vec!["W0757".to_string()], 1));
+    assert!(post(None).is_empty());
 }

@@ -36,7 +36,7 @@ fil_diag::codes! {
             "The statement describes the motion by geometry; its points are not in the file, \
              and leaving it out would make a wrong path.",
             "Write the CL file again with points or with CIRCLE arcs (Creo: CIRC_INTERPOLATION \
-             other than APT_FORMAT; NX: no NURBS output).";
+             other than APT_FORMAT; other systems than NX: no NURBS output).";
         /// Going back in a stream.
         NotSeekable = 409, Error, "input cannot go back",
             "The CL data come from a stream, which can be read only once and forwards.",
@@ -91,5 +91,10 @@ fil_diag::codes! {
         UnclearUnit = 420, Error, "unit is not clear",
             "The system writes the same word in files of either unit.",
             "Name the unit in the statement.";
+        /// A spline that is not read.
+        BadSpline = 425, Error, "spline can't be read",
+            "A spline is read as lines where its knots, its control points and the numbers of its \
+             NURBS agree, and the tool stands at its begin; anything else could be another curve.",
+            "Write the CL file again with lines and arcs instead of splines.";
     }
 }

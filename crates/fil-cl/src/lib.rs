@@ -18,7 +18,7 @@ pub use convert::{Converted, to_ncl};
 pub use dialect::{ClDialect, Evidence, Recognized};
 pub use errors::ClCode;
 pub use layout::ShapeError;
-pub use reader::{Meaning, Options, Reader};
+pub use reader::{Meaning, Options, Reader, SplineCounts};
 pub use record::{Circle, Record, Word, WordView};
 pub use vocabulary::{Vocabulary, WordId};
 pub use writer::Writer;

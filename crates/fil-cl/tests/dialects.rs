@@ -238,10 +238,10 @@ fn arcs_of_one_dialect_are_no_arcs_of_another() {
         let can = |dialect: &&ClDialect| read(text, Some(**dialect)).is_ok();
         ClDialect::ALL.iter().filter(can).map(|dialect| dialect.name()).collect()
     };
-    assert_eq!(read_by(creo), ["generic", "creo", "solidworks-cam"]);
+    assert_eq!(read_by(creo), ["generic", "generic-left", "creo", "solidworks-cam"]);
     assert_eq!(read_by(nx), ["nx", "ffcam"]);
-    assert_eq!(read_by(solidworks), ["generic", "solidworks-cam"]);
-    assert_eq!(read_by(camworks), ["camworks"]);
+    assert_eq!(read_by(solidworks), ["generic", "generic-left", "solidworks-cam"]);
+    assert_eq!(read_by(camworks), ["generic-left", "camworks"]);
     let diag = refused(nx, None, ClCode::ForeignArc);
     let hint = diag.hint.as_ref().unwrap();
     assert!(hint.contains("--dialect nx") && hint.contains("--dialect ffcam"), "{hint}");

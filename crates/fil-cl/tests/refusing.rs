@@ -208,7 +208,8 @@ fn an_output_that_fails() {
 #[test]
 fn numbers_of_the_codes_are_in_order() {
     let numbers: Vec<_> = ClCode::ALL.iter().map(|code| code.number).collect();
-    assert_eq!(numbers, (401..=420).collect::<Vec<u16>>());
+    assert!(numbers.is_sorted_by(|one, next| one < next), "{numbers:?}");
+    assert!(numbers.iter().all(|number| (401..500).contains(number)), "{numbers:?}");
 }
 
 #[test]

@@ -107,5 +107,9 @@ fil_diag::codes! {
         TapeText = 555, Warning, "text on the tape that is not ASCII",
             "Many controls read ASCII only and stop at other characters.",
             "Write the message in ASCII if the control is not known to read UTF-8.";
+        /// Arcs whose sense nothing proves.
+        ArcUnproved = 556, Warning, "the sense of an arc is not proved",
+            "CAM systems disagree about the axis of a CIRCLE, and by the other rule this arc would be the shorter way round or run on.",
+            "Look at the arc in a backplot; choose the dialect of the CL file with --dialect.";
     }
 }

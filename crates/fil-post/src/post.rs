@@ -78,6 +78,12 @@ impl Post {
         end::finish(self, End::OfFile)
     }
 
+    /// Which way arcs turn was chosen by whoever runs the post: arcs that prove nothing are
+    /// only warned of. Arcs that contradict the choice are still refused.
+    pub fn trust_arcs(&mut self) {
+        self.path.sense_is_chosen = true;
+    }
+
     /// The last CL point, in CL units.
     pub fn point(&self) -> Option<[f64; 3]> {
         self.path.point.map(|p| [p.x, p.y, p.z])

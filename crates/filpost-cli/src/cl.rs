@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::io::{self, BufWriter, Write};
 
 use filpost::cl::record::{kind, motion};
-use filpost::cl::{Evidence, Recognized, Record, Vocabulary, WordView, reader::Reader, words};
+use filpost::cl::{
+    Evidence, Recognized, Record, SplineCounts, Vocabulary, WordView, reader::Reader, words,
+};
 use filpost::{Error, Extents, Unit, statement_text};
 use serde_json::{Value, json};
 
@@ -36,7 +38,8 @@ pub fn run(args: &ClArgs) -> Result<Status, Error> {
     while reader.read(&mut vocabulary, &mut record).map_err(Error::Run)? {
         show.record(&record, &vocabulary).map_err(|error| output::stdout_error(&error))?;
     }
-    show.foot(reader.recognized()).map_err(|error| output::stdout_error(&error))?;
+    show.foot(reader.recognized(), reader.splines())
+        .map_err(|error| output::stdout_error(&error))?;
     Ok(Status::Done)
 }
 
@@ -153,7 +156,7 @@ impl<W: Write> Show<W> {
         Ok(())
     }
 
-    fn foot(&mut self, dialect: Recognized) -> io::Result<()> {
+    fn foot(&mut self, dialect: Recognized, splines: SplineCounts) -> io::Result<()> {
         let counts = self.totals.by_count();
         if self.json {
             let counts: Value = counts.iter().map(|(name, count)| json!([name, count])).collect();
@@ -169,6 +172,9 @@ impl<W: Write> Show<W> {
         }
         let records = summary::counted(self.totals.records, "record");
         writeln!(self.output, "\n{records}, dialect {dialect}")?;
+        if splines.splines > 0 {
+            writeln!(self.output, "{}", summary::splines(&splines))?;
+        }
         for (name, count) in counts {
             writeln!(self.output, "{count:>9}  {name}")?;
         }

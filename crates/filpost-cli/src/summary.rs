@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::time::Duration;
 
+use filpost::cl::SplineCounts;
 use filpost::nc::decimals;
 use filpost::{Diag, Report};
 
@@ -66,8 +67,18 @@ pub fn line(post: &str, report: &Report, warnings: usize, time: Duration) -> Str
     if let Some(dialect) = &report.dialect {
         line.push_str(&format!(", dialect {dialect}"));
     }
+    if report.splines.splines > 0 {
+        line.push_str(&format!(", {}", splines(&report.splines)));
+    }
     line.push_str(&format!(", {:.2} s", time.as_secs_f64()));
     line
+}
+
+/// How many splines were read, as what, and within which tolerance.
+pub fn splines(counts: &SplineCounts) -> String {
+    let (splines, lines) =
+        (counted(counts.splines.into(), "spline"), counted(counts.lines, "line"));
+    format!("{splines} as {lines} within {}", decimals::short(counts.tolerance, 9))
 }
 
 /// A number with its noun.

@@ -78,6 +78,10 @@ fil_diag::codes! {
         NoMotion = 753, Warning, "CL file without records",
             "There is nothing to post.",
             "Check that this is the CL file you meant.";
+        /// A dialect was chosen that contradicts the text.
+        OtherSigns = 757, Warning, "CL text of another dialect than the one chosen",
+            "A line of the text is written by one CAM system only, and the dialect of another was chosen; tool axes, cycles and texts may mean something else.",
+            "Leave the choice out, or choose the dialect of that system.";
     }
 }
 

@@ -1,6 +1,6 @@
 //! Records that a program hands over from memory.
 
-use fil_cl::{ClCode, Recognized, Record, Vocabulary};
+use fil_cl::{ClCode, Recognized, Record, SplineCounts, Vocabulary};
 use fil_diag::{Diag, Result, TextSpan};
 
 use crate::error::{Error, RunCode};
@@ -74,5 +74,9 @@ impl Records for Memory<'_> {
 
     fn recognized(&self) -> Option<Recognized> {
         None
+    }
+
+    fn splines(&self) -> SplineCounts {
+        SplineCounts::default()
     }
 }

@@ -4,12 +4,13 @@ use std::collections::HashSet;
 use std::sync::Arc;
 
 use fil_cl::vocabulary::words;
-use fil_cl::{Record, Vocabulary, record::kind};
-use fil_diag::{Diag, TextSpan};
+use fil_cl::{Evidence, Record, Vocabulary, record::kind};
+use fil_diag::{Code, Diag, TextSpan};
 use fil_machine::commons::EMPTY;
 use fil_machine::locations::{INPUT_CREO_RECORDS, MESSAGE_TO_TAPE};
 use fil_machine::{Kind, Unit, stored};
 use fil_post::FilLine;
+use fil_post::errors::PostCode;
 use fil_vm::{CommonKind, Files, Host, Module, Moment, SectionId, Site};
 
 use crate::cancel::CancelToken;
@@ -96,6 +97,9 @@ impl<'o, S: Records> Outside<'o, S> {
         if let Some((unit, _)) = self.report.unit {
             self.post.assume_unit(unit);
         }
+        if self.source.recognized().is_none_or(|found| found.evidence == Evidence::Chosen) {
+            self.post.trust_arcs();
+        }
         Ok(())
     }
 
@@ -172,6 +176,7 @@ impl<'o, S: Records> Outside<'o, S> {
             self.take_warnings(Some(&place));
             // The machine itself adds the FIL line to an error.
             let made_by_fil = self.fil_line(record).is_some();
+            let result = result.map_err(|diag| self.name_dialects(diag));
             result.map_err(|diag| if made_by_fil { diag } else { Box::new(diag.at(place)) })?;
         }
         if let (kind::MOTION, Some(point)) = (record.kind, self.post.point()) {
@@ -202,6 +207,7 @@ impl<'o, S: Records> Outside<'o, S> {
         self.report.records = self.source.records;
         self.report.blocks = self.post.control.tape.count;
         self.report.dialect = self.source.recognized();
+        self.report.splines = self.source.splines();
     }
 
     /// The FIL line that made a record.
@@ -244,6 +250,7 @@ impl<'o, S: Records> Outside<'o, S> {
     /// # Errors
     /// A record that waits for its continuation.
     pub fn end_of_file(&mut self) -> Result<(), Box<Diag>> {
+        self.warn_of_other_signs();
         if self.source.records == 0 {
             self.tell(*RunCode::NoMotion.diag(format!("{} holds no record", self.cl_name)));
         } else if self.source.recognized().is_none_or(|found| found.dialect.rules().writes_fini) {
@@ -251,7 +258,39 @@ impl<'o, S: Records> Outside<'o, S> {
         }
         let result = self.post.finish();
         self.take_warnings(None);
-        result
+        result.map_err(|diag| self.name_dialects(diag))
+    }
+
+    /// Names the dialects that would turn the arcs the other way, where the sense of arcs is
+    /// refused.
+    fn name_dialects(&self, mut diag: Box<Diag>) -> Box<Diag> {
+        let sense: &Code = PostCode::ArcSense.into();
+        let found = self.source.recognized().map(|found| found.dialect);
+        if let Some(dialect) = found.filter(|_| diag.code == sense) {
+            let fitting = dialect.turning_otherwise();
+            let names: Vec<String> =
+                fitting.iter().map(|other| format!("--dialect {other}")).collect();
+            diag.hint = Some(match &names[..] {
+                [] => format!(
+                    "no dialect turns the arcs of {dialect} the other way: look at them in a backplot"
+                ),
+                _ => format!(
+                    "{} reads them the other way; --dialect {dialect} says that they are as {dialect} \
+                     means them",
+                    names.join(" or ")
+                ),
+            });
+        }
+        diag
+    }
+
+    /// Warns of a sign that contradicts the dialect that was chosen.
+    fn warn_of_other_signs(&mut self) {
+        let Some(found) = self.source.recognized() else { return };
+        let Some((other, line)) = found.against else { return };
+        let message =
+            format!("line {line} shows that the text is from {other}, read as {}", found.dialect);
+        self.tell(RunCode::OtherSigns.diag(message).at(TextSpan::line(&self.cl_name, line, "")));
     }
 
     /// Warns of records after FINI.
@@ -263,7 +302,9 @@ impl<'o, S: Records> Outside<'o, S> {
         record: &mut Record,
         vocabulary: &mut Vocabulary,
     ) -> Result<(), Box<Diag>> {
-        if self.source.read(record, vocabulary)? {
+        let more = self.source.read(record, vocabulary)?;
+        self.warn_of_other_signs();
+        if more {
             let place = self.place(record, vocabulary);
             self.tell(RunCode::AfterFini.diag("what follows is not posted").at(place));
         }

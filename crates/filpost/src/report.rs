@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use fil_cl::Recognized;
+use fil_cl::{Recognized, SplineCounts};
 use fil_diag::Diag;
 use fil_machine::Unit;
 
@@ -49,6 +49,8 @@ pub struct Report {
     pub warnings: Vec<Diag>,
     /// The dialect of the CL text, and why it was taken; `None` for records from memory.
     pub dialect: Option<Recognized>,
+    /// The splines of the CL text that were read as lines, and the tolerance.
+    pub splines: SplineCounts,
     /// The unit of CL file and program, and who has said it; `None` where nothing
     /// did, so that there is no motion.
     pub unit: Option<(Unit, UnitSource)>,

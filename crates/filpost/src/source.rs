@@ -3,7 +3,9 @@
 
 use std::collections::VecDeque;
 
-use fil_cl::{Meaning, Recognized, Record, Vocabulary, reader::Reader, record::kind, words};
+use fil_cl::{
+    Meaning, Recognized, Record, SplineCounts, Vocabulary, reader::Reader, record::kind, words,
+};
 use fil_diag::Result;
 
 use crate::written::Written;
@@ -33,6 +35,9 @@ pub(crate) trait Records {
     /// no text.
     fn recognized(&self) -> Option<Recognized>;
 
+    /// The splines that were read as lines so far.
+    fn splines(&self) -> SplineCounts;
+
     /// What the record read last means, where it is given as it is written and means
     /// something else than it says.
     fn meaning(&self) -> Option<&Meaning> {
@@ -51,6 +56,10 @@ impl Records for Reader<'_> {
 
     fn recognized(&self) -> Option<Recognized> {
         Some(Reader::recognized(self))
+    }
+
+    fn splines(&self) -> SplineCounts {
+        Reader::splines(self)
     }
 
     fn meaning(&self) -> Option<&Meaning> {
@@ -95,6 +104,11 @@ impl<S: Records> Source<S> {
     /// The dialect of the CL text, as far as it was read.
     pub fn recognized(&self) -> Option<Recognized> {
         self.reader.recognized()
+    }
+
+    /// The splines that were read as lines so far.
+    pub fn splines(&self) -> SplineCounts {
+        self.reader.splines()
     }
 
     /// Reads the next record; false at the end.

@@ -1,5 +1,5 @@
-//! Arcs whose sense fights the motions before and after them: a CL file read in
-//! the wrong dialect has such arcs, so a post may refuse them.
+//! Arcs whose sense fights the motions before and after them, or that are all the longer way
+//! round: a CL file read in the wrong dialect has such arcs, so a post may refuse them.
 
 use crate::path::Point;
 
@@ -18,17 +18,27 @@ pub(super) fn has_arc_against_neighbours(steps: &[Step]) -> bool {
         }
         at = Some(end);
     }
-    ways.windows(3).any(|ways| {
+    let fights = ways.windows(3).any(|ways| {
         let [before, here, after] = ways else { return false };
-        here.arc && back(before.last, here.first) && back(here.last, after.first)
-    })
+        here.angle > 0.0 && back(before.last, here.first) && back(here.last, after.first)
+    });
+    // One that is not the shorter way round tells as much with one end.
+    let half = 0.99 * std::f64::consts::PI;
+    let long = |way: &Way| way.angle > half;
+    let one_end = ways.windows(2).any(|ways| {
+        let [before, after] = ways else { return false };
+        (long(before) != long(after)) && back(before.last, after.first)
+    });
+    let all_long = ways.iter().filter(|way| way.angle > 0.0).all(long);
+    fights || one_end || all_long && ways.iter().filter(|way| long(way)).count() >= 4
 }
 
 /// The directions in which a motion begins and ends.
 struct Way {
     first: Point,
     last: Point,
-    arc: bool,
+    /// How far an arc turns, radians; 0 for a line.
+    angle: f64,
 }
 
 fn back(a: Point, b: Point) -> bool {
@@ -46,7 +56,7 @@ fn end(act: &Act) -> Option<Point> {
 
 fn of_line(from: Point, to: Point) -> Option<Way> {
     let way = add(to, times(from, -1.0));
-    (way != [0.0; 3]).then_some(Way { first: way, last: way, arc: false })
+    (way != [0.0; 3]).then_some(Way { first: way, last: way, angle: 0.0 })
 }
 
 fn of_arc(arc: &Arc) -> Way {
@@ -60,5 +70,5 @@ fn of_arc(arc: &Arc) -> Way {
         way[along] = (arc.to[along] - arc.from[along]) / arc.total;
         way
     };
-    Way { first: tangent(arc.from), last: tangent(arc.to), arc: true }
+    Way { first: tangent(arc.from), last: tangent(arc.to), angle: arc.total.abs() }
 }

@@ -16,6 +16,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     signs: &[Sign::Name("BOX"), Sign::Name("OPFEATSTART"), Sign::Name("OPFEATEND")],
     circle: Some(CircleForm { counts: &[7], sense: ArcSense::ByWord }),
     geometry: false,
+    splines: false,
     axis: AxisRule::ModalInMultax,
     packed_points: false,
     break_column: None,

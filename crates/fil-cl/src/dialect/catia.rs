@@ -24,6 +24,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     ],
     circle: None,
     geometry: true,
+    splines: false,
     axis: AxisRule::ModalInMultax,
     packed_points: false,
     break_column: Some(72),

@@ -11,6 +11,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     signs: &[Sign::Comment("*PRO/CLFILE"), Sign::Pseudo],
     circle: Some(CircleForm { counts: &[4, 7], sense: ArcSense::RightHand }),
     geometry: true,
+    splines: false,
     axis: AxisRule::AsWritten,
     packed_points: true,
     break_column: None,

@@ -15,6 +15,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     signs: &[Sign::Text(w::PPRINT, "APTCL-SPEC")],
     circle: Some(CircleForm { counts: &[11], sense: ArcSense::LeftHand }),
     geometry: false,
+    splines: false,
     axis: AxisRule::Modal,
     packed_points: false,
     break_column: None,

@@ -11,6 +11,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     signs: &[],
     circle: Some(CircleForm { counts: &[4, 6, 7], sense: ArcSense::RightHand }),
     geometry: true,
+    splines: false,
     axis: AxisRule::ModalInMultax,
     packed_points: false,
     break_column: None,

@@ -10,6 +10,7 @@ mod catia;
 mod creo;
 mod ffcam;
 mod generic;
+mod generic_left;
 mod ncl;
 mod nx;
 mod recognition;
@@ -27,6 +28,8 @@ pub use recognition::{Evidence, Recognized};
 pub enum ClDialect {
     /// No particular system: APT words and right-hand circles.
     Generic,
+    /// As [`ClDialect::Generic`], with circles that turn the other way. Never recognized.
+    GenericLeft,
     /// PTC Creo, Pro/ENGINEER (`.ncl`).
     Creo,
     /// Siemens NX CLSF (`.cls`, `.clsf`).
@@ -56,6 +59,8 @@ pub struct DialectRules {
     pub circle: Option<CircleForm>,
     /// True where arcs are computed that TLON and HELICAL give by geometry.
     pub geometry: bool,
+    /// True where NURBS, KNOT and CNTRL are read as lines.
+    pub splines: bool,
     /// The tool axis of a GOTO with three values.
     pub axis: AxisRule,
     /// True where a GOTO may hold many points.
@@ -157,6 +162,7 @@ impl ClDialect {
     /// All dialects.
     pub const ALL: &'static [ClDialect] = &[
         ClDialect::Generic,
+        ClDialect::GenericLeft,
         ClDialect::Creo,
         ClDialect::Nx,
         ClDialect::Catia,
@@ -170,6 +176,7 @@ impl ClDialect {
     pub const fn rules(self) -> &'static DialectRules {
         match self {
             ClDialect::Generic => &generic::RULES,
+            ClDialect::GenericLeft => &generic_left::RULES,
             ClDialect::Creo => &creo::RULES,
             ClDialect::Nx => &nx::RULES,
             ClDialect::Catia => &catia::RULES,
@@ -202,6 +209,29 @@ impl ClDialect {
     pub fn without_effect(self, major: &str) -> Option<&'static str> {
         let rows = self.rules().without_effect.iter();
         rows.clone().find(|(word, _)| word.eq_ignore_ascii_case(major)).map(|(_, reason)| *reason)
+    }
+
+    /// The dialects that have a CIRCLE of as many numbers as this one and turn it the other
+    /// way.
+    ///
+    /// ```
+    /// use fil_cl::ClDialect;
+    ///
+    /// assert_eq!(ClDialect::Creo.turning_otherwise(), [ClDialect::GenericLeft]);
+    /// assert_eq!(ClDialect::Nx.turning_otherwise(), []);
+    /// ```
+    pub fn turning_otherwise(self) -> Vec<ClDialect> {
+        let Some(own) = self.rules().circle else { return Vec::new() };
+        let opposite = match own.sense {
+            ArcSense::RightHand => ArcSense::LeftHand,
+            ArcSense::LeftHand => ArcSense::RightHand,
+            ArcSense::ByWord => return Vec::new(),
+        };
+        let turns = |form: CircleForm| {
+            form.sense == opposite && form.counts.iter().any(|count| own.counts.contains(count))
+        };
+        let is_other = |dialect: &ClDialect| dialect.rules().circle.is_some_and(turns);
+        Self::ALL.iter().copied().filter(is_other).collect()
     }
 
     /// The dialects in which a CIRCLE may have so many numbers.
@@ -247,10 +277,11 @@ mod tests {
     }
 
     #[test]
-    fn each_dialect_but_the_generic_one_has_signs() {
+    fn each_dialect_but_the_generic_ones_has_signs() {
         for dialect in ClDialect::ALL {
             let signs = dialect.rules().signs.len();
-            assert_eq!(signs == 0, *dialect == ClDialect::Generic, "{dialect}");
+            let by_choice = matches!(dialect, ClDialect::Generic | ClDialect::GenericLeft);
+            assert_eq!(signs == 0, by_choice, "{dialect}");
         }
     }
 

@@ -12,6 +12,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     signs: &[Sign::Text(w::REMARK, "NCLCAM")],
     circle: None,
     geometry: false,
+    splines: false,
     axis: AxisRule::ModalInMultax,
     packed_points: false,
     break_column: None,

@@ -21,6 +21,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     ],
     circle: Some(CircleForm { counts: &[11], sense: ArcSense::LeftHand }),
     geometry: false,
+    splines: true,
     axis: AxisRule::Modal,
     packed_points: false,
     break_column: None,

@@ -19,6 +19,8 @@ pub struct Recognized {
     pub dialect: ClDialect,
     /// What it is taken for.
     pub evidence: Evidence,
+    /// A sign of another system, where the dialect was chosen: the system, and the line.
+    pub against: Option<(ClDialect, u32)>,
 }
 
 /// Why a text is taken for one of a dialect.
@@ -76,8 +78,12 @@ impl Recognition {
     /// Starts with the dialect that was chosen, if one was.
     pub(crate) fn new(chosen: Option<ClDialect>) -> Self {
         let found = match chosen {
-            Some(dialect) => Recognized { dialect, evidence: Evidence::Chosen },
-            None => Recognized { dialect: ClDialect::Generic, evidence: Evidence::NoSign },
+            Some(dialect) => Recognized { dialect, evidence: Evidence::Chosen, against: None },
+            None => Recognized {
+                dialect: ClDialect::Generic,
+                evidence: Evidence::NoSign,
+                against: None,
+            },
         };
         let rules = found.dialect.rules();
         let signs_of = |dialect: &ClDialect| {
@@ -171,12 +177,13 @@ impl Recognition {
 
     /// Takes the dialect that has a sign which is there.
     fn watch(&mut self, place: impl FnOnce() -> TextSpan, is_there: impl Fn(&Sign) -> bool) {
-        if self.found.evidence == Evidence::Chosen {
-            return;
-        }
         let found = self.signs.iter().find(|(sign, _)| is_there(sign));
         let Some(dialect) = found.map(|(_, dialect)| *dialect) else { return };
-        if dialect != self.found.dialect && self.refused.is_none() {
+        if self.found.evidence == Evidence::Chosen {
+            if dialect != self.found.dialect && self.found.against.is_none() {
+                self.found.against = Some((dialect, place().line));
+            }
+        } else if dialect != self.found.dialect && self.refused.is_none() {
             self.take(dialect, place());
         }
     }
@@ -203,7 +210,8 @@ impl Recognition {
             self.refused =
                 Some(Box::new(Diag::new(ClCode::TwoDialects, message).at(place).hint(hint)));
         } else {
-            self.found = Recognized { dialect, evidence: Evidence::Sign { line: place.line } };
+            let evidence = Evidence::Sign { line: place.line };
+            self.found = Recognized { dialect, evidence, against: None };
             self.rules = dialect.rules();
             self.changed = true;
             self.sign = Some(place);

@@ -15,6 +15,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     signs: &[Sign::Word(w::TRNTYP), Sign::Prefix("CSI_SET_")],
     circle: Some(CircleForm { counts: &[6, 7], sense: ArcSense::RightHand }),
     geometry: false,
+    splines: false,
     axis: AxisRule::Upright,
     packed_points: false,
     break_column: None,

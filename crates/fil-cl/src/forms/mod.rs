@@ -10,6 +10,7 @@ pub(crate) mod common;
 pub(crate) mod cycle;
 pub(crate) mod free_text;
 pub(crate) mod geometry;
+pub(crate) mod spline;
 pub(crate) mod vector;
 
 use crate::errors::ClCode;
@@ -85,6 +86,10 @@ pub(crate) struct FormState {
     pub(crate) highest_speed: Option<f64>,
     /// CHANNEL: the spindle or turret that the file is for.
     pub(crate) channel: Option<Word>,
+    /// INTOL, where it is above 0.
+    pub(crate) inner_tolerance: Option<f64>,
+    /// OUTTOL, where it is above 0.
+    pub(crate) outer_tolerance: Option<f64>,
     /// The program has ended.
     pub(crate) has_ended: bool,
 }

@@ -26,8 +26,16 @@ impl Reader<'_> {
         if self.is_scout {
             return Ok(Outcome::Free);
         }
-        if record.major == words::INDIRV {
-            return self.take_direction(record);
+        match record.major {
+            words::INDIRV => return self.take_direction(record),
+            words::INTOL | words::OUTTOL if rules.splines => {
+                self.keep_tolerance(record);
+                return Ok(Outcome::Bound);
+            }
+            words::NURBS | words::KNOT | words::CNTRL if rules.splines => {
+                return self.take_spline(record);
+            }
+            _ => {}
         }
         if vocab.name(record.major) == "HELICAL" && rules.geometry {
             return self.take_helix(vocab, record);
@@ -81,9 +89,14 @@ impl Reader<'_> {
         Ok(Outcome::Made)
     }
 
-    /// True for INDIRV where motions by geometry are computed.
-    pub(super) fn takes_direction(&self, major: WordId) -> bool {
-        major == words::INDIRV && self.rules().geometry && !self.is_scout
+    /// True for a word of a motion by geometry that is computed in this dialect.
+    pub(super) fn computes(&self, major: WordId) -> bool {
+        let computes = match major {
+            words::INDIRV => self.rules().geometry,
+            words::NURBS | words::KNOT | words::CNTRL => self.rules().splines,
+            _ => false,
+        };
+        computes && !self.is_scout
     }
 
     /// True for a statement that names shapes, where they are computed.

@@ -140,7 +140,7 @@ impl Reader<'_> {
             }
             _ => self.intern(vocab, name, range.clone(), pseudo)?,
         };
-        if is_uncomputed(id) && !pseudo && !self.takes_direction(id) {
+        if is_uncomputed(id) && !pseudo && !self.computes(id) {
             return refuse(ClCode::UncomputedMotion, UNCOMPUTED);
         }
         if name.len() < text.len() {

@@ -16,6 +16,7 @@ mod points;
 mod raw;
 mod repeated;
 mod seek;
+mod spline;
 mod statement;
 
 use std::io::Read;
@@ -37,6 +38,8 @@ use points::Pending;
 pub use raw::Meaning;
 use repeated::Repeated;
 use seek::Seeking;
+use spline::Gathered;
+pub use spline::SplineCounts;
 use statement::{Form, GatherError, Statement};
 
 /// How a CL text is to be read.
@@ -97,6 +100,11 @@ pub struct Reader<'r> {
     /// Start and end of each item in the statement, to point at it.
     item_ranges: Vec<Range<usize>>,
     pending: Pending,
+    /// The spline under way.
+    spline: Gathered,
+    spline_counts: SplineCounts,
+    /// Splines before this record are counted.
+    splines_counted: u32,
     /// Records that the last statement made besides its own, the last one first.
     made: Vec<Record>,
     modal: Modal,
@@ -132,6 +140,9 @@ impl<'r> Reader<'r> {
             repeated: Repeated::default(),
             item_ranges: Vec::new(),
             pending: Pending::default(),
+            spline: Gathered::default(),
+            spline_counts: SplineCounts::default(),
+            splines_counted: 0,
             made: Vec::new(),
             modal: Modal::default(),
             file: file_name.to_string(),

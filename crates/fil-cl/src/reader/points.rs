@@ -34,6 +34,15 @@ impl Pending {
     }
 }
 
+impl Pending {
+    /// Points to be handed out, all of one line.
+    pub(super) fn give(&mut self, points: &[[f64; 3]], line: u32) {
+        self.clear();
+        self.values.extend(points.iter().flatten());
+        (self.group, self.line) = (3, line);
+    }
+}
+
 impl Reader<'_> {
     /// The short way for the most frequent statement: `GOTO / x, y, z[, i, j, k]`
     /// in one line, with numbers in fixed point. Anything else is left to the
@@ -211,7 +220,7 @@ impl Reader<'_> {
     }
 
     /// The tool axis of a motion that gives none.
-    fn axis_left_out(&self) -> Option<[f64; 3]> {
+    pub(super) fn axis_left_out(&self) -> Option<[f64; 3]> {
         match self.rules().axis {
             AxisRule::AsWritten => None,
             AxisRule::Modal => self.modal.axis,

@@ -5,7 +5,7 @@ use std::io::{Read, Seek};
 use fil_diag::{Diag, TextSpan};
 
 use super::lines::Input;
-use super::{Modal, Options, Reader};
+use super::{Gathered, Modal, Options, Reader};
 use crate::errors::ClCode;
 
 /// Records between two checkpoints at first.
@@ -101,6 +101,7 @@ impl Reader<'_> {
             return Err(self.read_failed(&error));
         }
         self.pending.clear();
+        self.spline = Gathered::default();
         self.made.clear();
         self.modal = point.modal;
         self.number = point.number;

@@ -40,13 +40,13 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     let radius = check_radii(arc, ends)?;
     refuse_first_under_compensation(post)?;
     let sweep = sweep(arc, ends);
-    post.path.course.arc(ends.map(|end| arc.axis.cross(&end)), sweep, arc.line)?;
+    post.path.course.arc(ends.map(|end| arc.axis.cross(&end)), sweep, arc.line);
     let turns_axis = target.axis != post.path.axis;
     let whole =
         if turns_axis { None } else { in_plane(post, arc, start, (radius, sweep), target)? };
     let Some(mut whole) = whole else {
         post.warn(PostCode::ArcLines, "an arc was written as short lines".to_string());
-        return chords::carry_out(post, arc, start, sweep, target);
+        return as_lines(post, arc, start, sweep, target);
     };
     check_travel(post, &whole)?;
     motion::ready(&mut post.control)?;
@@ -69,10 +69,24 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
         }
     } else {
         // An arc of a few last digits: as lines it is within rounding.
-        return chords::carry_out(post, arc, start, sweep, target);
+        return as_lines(post, arc, start, sweep, target);
     }
     post.path.point = Some(target.point);
     Ok(())
+}
+
+/// The arc as chords. They are no lines of the CL file, so they tell nothing of its sense.
+fn as_lines(
+    post: &mut Post,
+    arc: &Arc,
+    start: Point3<f64>,
+    sweep: f64,
+    target: Target,
+) -> Result<()> {
+    let course = std::mem::take(&mut post.path.course);
+    let done = chords::carry_out(post, arc, start, sweep, target);
+    post.path.course = course;
+    done
 }
 
 /// Gives the radius at the start.

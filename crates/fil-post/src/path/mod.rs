@@ -14,7 +14,7 @@ pub mod hole;
 mod linear;
 pub mod rapid;
 pub mod rotary;
-mod sense;
+pub(crate) mod sense;
 mod tool_change;
 mod transformation;
 
@@ -60,6 +60,8 @@ pub struct Path {
     pub cutter: Option<f64>,
     /// How the last feed motion ended, to judge the sense of arcs.
     pub(crate) course: sense::Course,
+    /// Whoever chose the dialect has said which way arcs turn.
+    pub(crate) sense_is_chosen: bool,
 }
 
 impl Default for Path {
@@ -78,6 +80,7 @@ impl Default for Path {
             transformation: None,
             cutter: None,
             course: sense::Course::default(),
+            sense_is_chosen: false,
         }
     }
 }

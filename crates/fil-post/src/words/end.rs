@@ -7,6 +7,7 @@ use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{End, Operation};
 use crate::path::carry_out;
+use crate::path::sense::Verdict;
 use crate::post::Post;
 
 /// END: end of the program without rewinding it.
@@ -47,6 +48,20 @@ pub fn finish(post: &mut Post, end: End) -> Result<()> {
     if post.path.arc.is_some() {
         return PostCode::ArcEnd.err("no GOTO followed the last CIRCLE");
     }
+    judge_arcs(post)?;
     post.path.cycle = None;
     carry_out(post, Operation::End(end))
+}
+
+/// Refuses a program whose arcs, taken together, turn the wrong way.
+fn judge_arcs(post: &mut Post) -> Result<()> {
+    match post.path.course.conclude() {
+        Verdict::Fits => {}
+        Verdict::Contradicted(why) => return PostCode::ArcSense.err(why),
+        Verdict::Doubtful(why) if !post.path.sense_is_chosen => {
+            return PostCode::ArcSense.err(why);
+        }
+        Verdict::Doubtful(why) | Verdict::Unproved(why) => post.warn(PostCode::ArcUnproved, why),
+    }
+    Ok(())
 }
