@@ -49,7 +49,7 @@ impl Reader<'_> {
     /// the start, where that is known.
     fn add_radius(&self, record: &mut Record) {
         let Some(start) = self.modal.point else { return };
-        let [x, y, z, i, j, k, rest @ ..] = &record.data[..] else { return };
+        let [x, y, z, i, j, k, ..] = &record.data[..] else { return };
         let [
             Word::Number(x),
             Word::Number(y),
@@ -61,7 +61,7 @@ impl Reader<'_> {
         else {
             return;
         };
-        if !matches!(rest.first(), Some(Word::Number(_))) {
+        if !has_radius(record) {
             let Some(axis) = vector::unit([i, j, k]) else { return };
             let radius = vector::norm(vector::across(vector::sub(start, [x, y, z]), axis));
             record.data.insert(SIX, Word::Number(radius));
@@ -115,6 +115,11 @@ const NUMBERS: usize = 7;
 
 /// Numbers of center and axis.
 const SIX: usize = 6;
+
+/// True for a CIRCLE that names its radius behind center and axis.
+pub(super) fn has_radius(record: &Record) -> bool {
+    matches!(record.data.get(SIX), Some(Word::Number(_)))
+}
 
 /// Leaves what Creo's form has, and TIMES: tolerances and sizes of the tool tell nothing of
 /// the arc, and a direction that was checked says what the axis says now.

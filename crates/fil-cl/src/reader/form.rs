@@ -3,6 +3,7 @@
 use fil_diag::{Diag, Result};
 
 use super::Reader;
+use super::arc::has_radius;
 use crate::errors::ClCode;
 use crate::forms::arc::{self, Departure, Path};
 use crate::forms::{FormError, Outcome, Written, common, geometry};
@@ -44,9 +45,9 @@ impl Reader<'_> {
             let state = &mut self.modal.forms;
             common::to_creo(&mut Written { record, vocabulary: vocab, state });
         }
-        // The radius of a circle may come from the point before it.
+        // The radius of a circle comes from the point before it where it is left out.
         let outcome = match record.major {
-            words::CIRCLE if !rules.is_creo() => Outcome::Bound,
+            words::CIRCLE if !rules.is_creo() && !has_radius(record) => Outcome::Bound,
             _ => Outcome::Free,
         };
         let Some(rewrite) = rules.rewrite else { return Ok(outcome) };
