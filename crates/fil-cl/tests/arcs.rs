@@ -178,7 +178,8 @@ fn check(arc: &Arc, text: &str, decimals: usize) -> Result<(), TestCaseError> {
     let across = add(off, arc.axis, -dot(off, arc.axis));
     prop_assert!(norm(across) < 2.0 * last + 1e-6 * arc.radius, "center\n{}", text);
     if let Some(radius) = found.circle.radius {
-        prop_assert!((radius - arc.radius).abs() < last, "radius {}\n{}", radius, text);
+        // Where it is left out, it is the distance of two rounded points.
+        prop_assert!((radius - arc.radius).abs() < 2.0 * last, "radius {}\n{}", radius, text);
     }
     // The sweep as the post works it out: whole turns are those whose ends agree.
     let [from, to] = [found.start, found.end].map(|point| {
