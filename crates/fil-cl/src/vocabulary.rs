@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-use fil_diag::suggest::did_you_mean;
+use fil_diag::suggest::{did_you_mean, nearest};
 
 pub use crate::words;
 
@@ -132,6 +132,14 @@ impl Vocabulary {
     /// A hint with the known word that an unknown one was perhaps meant to be.
     pub fn perhaps_meant(&self, id: WordId) -> Option<String> {
         if self.is_known(id) { None } else { did_you_mean(self.name(id), self.known_names()) }
+    }
+
+    /// The known word that opens statements and that an unknown one differs least from;
+    /// `None` where it is near to none.
+    pub fn nearest_major(&self, id: WordId) -> Option<&str> {
+        let majors = self.entries.iter().filter(|entry| entry.class & MAJOR != 0);
+        let names = majors.map(|entry| entry.name.as_ref());
+        if self.is_known(id) { None } else { nearest(self.name(id), names) }
     }
 
     /// The integer code. Of the published ones the first of: gpost, PostWorks,

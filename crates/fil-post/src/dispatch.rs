@@ -14,6 +14,7 @@ use crate::items::Items;
 use crate::no_effect;
 use crate::operation::Target;
 use crate::post::Post;
+use crate::site_word;
 use crate::words as word;
 
 /// The word of a motion record that holds its x.
@@ -207,6 +208,7 @@ fn refused(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
 
 fn unknown(word: WordId, vocabulary: &Vocabulary) -> Box<Diag> {
     let mut diag = PostCode::UnknownWord.diag(format!("no handler for {}", vocabulary.name(word)));
-    diag.hint = vocabulary.perhaps_meant(word);
+    let meant = site_word::perhaps_meant(word, vocabulary);
+    diag.hint = meant.map(|meant| format!("did you mean {meant}?"));
     diag
 }

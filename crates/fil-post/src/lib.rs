@@ -19,6 +19,7 @@ pub mod noted;
 pub mod operation;
 pub mod path;
 pub mod post;
+pub mod site_word;
 pub mod tape;
 pub mod warnings;
 pub mod words;

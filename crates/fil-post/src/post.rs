@@ -4,7 +4,7 @@ use fil_cl::Record;
 use fil_cl::vocabulary::Vocabulary;
 use fil_diag::{Diag, Result};
 use fil_machine::Commons;
-use fil_machine::modes::Unit;
+use fil_machine::modes::{FeedMode, Unit};
 
 use crate::cause::Cause;
 use crate::control::Control;
@@ -12,7 +12,7 @@ use crate::dispatch::{self, Dispatcher};
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::noted::Noted;
-use crate::operation::End;
+use crate::operation::{End, Feed};
 use crate::path::Path;
 use crate::words::end;
 
@@ -68,6 +68,22 @@ impl Post {
             self.control.block.cause = Cause { made_by_fil: record.line == 0, ..cause };
         }
         dispatch::dispatch(self, record, vocabulary)
+    }
+
+    /// Lets go of what a refused record has begun, so that the records after it can be
+    /// looked at for further errors. What is written from now on is no program.
+    pub fn let_go(&mut self) {
+        self.control.block.clear();
+        self.path.arc = None;
+        self.path.rapid = None;
+        self.path.interrupt();
+    }
+
+    /// Takes some feed where none was given, to look for errors other than that.
+    pub fn assume_feed(&mut self) {
+        const SOME: f64 = 1.0;
+        let (mode, cause) = (FeedMode::PerMinute, Cause::default());
+        self.path.feed.get_or_insert(Feed { value: SOME, mode, cause });
     }
 
     /// Ends the program if no FINI did.

@@ -17,7 +17,7 @@ use crate::args::{Grant, PostArgs};
 use crate::errors::CommandCode;
 use crate::job::{self, Job, Outcome};
 use crate::posts::Posts;
-use crate::{Status, output, post, render, summary};
+use crate::{Status, output, post, refused, summary};
 
 /// Endings of CL files in a folder, lower case.
 const ENDINGS: &[&str] = &["ncl", "cl", "cls", "apt", "aptsource", "clf"];
@@ -255,9 +255,7 @@ fn tell(job: &Job, ended: &Ended) {
     let Some(outcome) = ended else { return };
     post::tell(outcome);
     if let Err(error) = &outcome.result {
-        for diag in error.diags() {
-            render::to_stderr(diag);
-        }
+        refused::tell(error);
     }
 }
 
@@ -289,7 +287,9 @@ impl Row {
             Ok(report) => (summary::counted(report.blocks, "block"), Status::Done),
             Err(error) => {
                 let code = error.diags().first().map_or(String::new(), |diag| diag.code.name());
-                (format!("refused, {code}"), Status::Failed)
+                let more = error.refusals().map_or(0, |all| all.total().saturating_sub(1));
+                let more = if more > 0 { format!(" + {more}") } else { String::new() };
+                (format!("refused, {code}{more}"), Status::Failed)
             }
         };
         let dialect = outcome.result.as_ref().ok().and_then(|report| report.dialect);

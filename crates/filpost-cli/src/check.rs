@@ -13,7 +13,7 @@ use crate::{Status, json, output, render, sarif, setup, summary};
 /// # Errors
 /// Files that can't be read or written.
 pub fn run(args: &CheckArgs) -> Result<Status, Error> {
-    let compat = setup::compat(&args.reading)?;
+    let compat = setup::compat(&args.reading)?.readings;
     let machine = machine(args)?;
     let groups =
         if args.together { args.files.chunks(args.files.len()) } else { args.files.chunks(1) };

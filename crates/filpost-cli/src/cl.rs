@@ -7,16 +7,17 @@ use filpost::cl::record::{kind, motion};
 use filpost::cl::{
     Evidence, Recognized, Record, SplineCounts, Vocabulary, WordView, reader::Reader, words,
 };
-use filpost::{Error, Extents, Unit, statement_text};
+use filpost::{Error, Extents, Refusals, Unit, statement_text};
 use serde_json::{Value, json};
 
 use crate::args::ClArgs;
 use crate::{Status, convert, dialects, output, setup, summary};
 
-/// Shows the records of a CL file.
+/// Shows the records of a CL file, up to the first error; then the file is read on to find
+/// all that is wrong with it.
 ///
 /// # Errors
-/// A CL file that can't be read.
+/// A CL file that can't be read; all statements that are refused.
 pub fn run(args: &ClArgs) -> Result<Status, Error> {
     let Some(cl) = &args.cl else {
         return dialects::list(args.json);
@@ -35,8 +36,27 @@ pub fn run(args: &ClArgs) -> Result<Status, Error> {
         totals: Totals { given: args.units.units, ..Totals::default() },
     };
     show.head().map_err(|error| output::stdout_error(&error))?;
-    while reader.read(&mut vocabulary, &mut record).map_err(Error::Run)? {
-        show.record(&record, &vocabulary).map_err(|error| output::stdout_error(&error))?;
+    let mut refusals = Refusals::new();
+    loop {
+        match reader.read(&mut vocabulary, &mut record) {
+            Ok(true) if refusals.is_empty() => {
+                show.record(&record, &vocabulary).map_err(|error| output::stdout_error(&error))?;
+            }
+            Ok(true) => {}
+            Ok(false) => break,
+            Err(diag) => {
+                if refusals.is_empty() || !reader.leans_on_earlier() {
+                    refusals.add(*diag);
+                }
+                if !reader.resume() {
+                    break;
+                }
+            }
+        }
+    }
+    if !refusals.is_empty() {
+        show.output.flush().map_err(|error| output::stdout_error(&error))?;
+        return Err(Error::Refused(Box::new(refusals)));
     }
     show.foot(reader.recognized(), reader.splines())
         .map_err(|error| output::stdout_error(&error))?;

@@ -20,6 +20,7 @@ mod output;
 mod plot;
 mod post;
 mod posts;
+mod refused;
 mod render;
 mod sarif;
 mod setup;
@@ -54,9 +55,7 @@ fn main() -> ExitCode {
     let status = match catch_unwind(AssertUnwindSafe(|| run(&Args::parse().command))) {
         Ok(Ok(status)) => status as u8,
         Ok(Err(error)) => {
-            for diag in error.diags() {
-                render::to_stderr(diag);
-            }
+            refused::tell(&error);
             Status::Failed as u8
         }
         Err(_) => Status::Fault as u8,

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use filpost::select::{self, Asked, Choice, Machin};
-use filpost::{Builder, Clock, Compat, Error, Program, files, includes, ready};
+use filpost::{Builder, Clock, CompatFile, Error, Program, files, includes, ready};
 
 use crate::args::{Chosen, ClReading, ClockSource, Grant, Grants, RawRecords, Reading};
 
@@ -181,8 +181,8 @@ fn generic() -> Named {
 ///
 /// # Errors
 /// A compat file that can't be read or used.
-pub fn compat(reading: &Reading) -> Result<Compat, Error> {
-    let Some(path) = &reading.compat else { return Ok(Compat::default()) };
+pub fn compat(reading: &Reading) -> Result<CompatFile, Error> {
+    let Some(path) = &reading.compat else { return Ok(CompatFile::default()) };
     let text = files::read_text(path, reading.encoding.as_deref())?;
     filpost::read_compat(&path.display().to_string(), &text).map_err(Error::Run)
 }

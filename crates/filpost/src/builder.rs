@@ -8,10 +8,10 @@ use fil_diag::{Code, Diag};
 use fil_machine::locations::INPUT_CREO_RECORDS;
 use fil_machine::{Commons, contradictions, files as settings};
 use fil_vm::{
-    Argument, Compat, FilFile, Functions, Included, Limits, LoadOptions, Loader, MachineFacts,
-    Returned,
+    Argument, FilFile, Functions, Included, Limits, LoadOptions, Loader, MachineFacts, Returned,
 };
 
+use crate::compat::CompatFile;
 use crate::error::{Error, RunCode};
 use crate::granted::{Clock, Spawn};
 use crate::program::{Program, Shared};
@@ -45,7 +45,7 @@ pub struct Builder {
     settings: Vec<String>,
     fil: Vec<(String, String)>,
     limits: Limits,
-    compat: Compat,
+    compat: CompatFile,
     strict: bool,
     allow: Vec<&'static Code>,
     functions: Functions,
@@ -66,7 +66,7 @@ impl Builder {
             settings: Vec::new(),
             fil: Vec::new(),
             limits: Limits::default(),
-            compat: Compat::default(),
+            compat: CompatFile::default(),
             strict: false,
             allow: Vec::new(),
             functions: Functions::new(),
@@ -120,9 +120,10 @@ impl Builder {
         self
     }
 
-    /// Corrected readings of POSTF numbers and sections.
-    pub fn compat(mut self, compat: Compat) -> Self {
-        self.compat = compat;
+    /// Corrected readings of POSTF numbers and sections, and words without effect: those
+    /// of a [file](crate::read_compat), or the readings alone.
+    pub fn compat(mut self, compat: impl Into<CompatFile>) -> Self {
+        self.compat = compat.into();
         self
     }
 
@@ -224,7 +225,7 @@ impl Builder {
     /// names of added functions; E0701 for a granted folder that is not there.
     pub fn build(self) -> Result<Program, Error> {
         let folders = folders(self.read.as_deref(), self.write.as_deref())?;
-        let post = post(self.machine, &self.settings);
+        let post = post(self.machine, &self.settings, &self.compat.without_effect);
         let mut vocabulary = Vocabulary::new();
         let files: Vec<FilFile<'_>> =
             self.fil.iter().map(|(name, text)| FilFile { name, text }).collect();
@@ -235,7 +236,7 @@ impl Builder {
             &files,
             &mut vocabulary,
             LoadOptions {
-                compat: self.compat,
+                compat: self.compat.readings,
                 limits: self.limits,
                 strict: self.strict,
                 allow: &self.allow,
@@ -286,10 +287,12 @@ fn folders(read: Option<&Path>, write: Option<&Path>) -> Result<Option<Arc<Folde
 fn post(
     machine: Option<Machine>,
     on_top: &[String],
+    without_effect: &[String],
 ) -> Result<(fil_post::Post, Vec<Diag>), Vec<Diag>> {
     let machine = machine.unwrap_or(Machine::Ready(ready::GENERIC_MILL.into()));
     let name = machine.name();
     let (mut commons, mut warnings) = commons_of(machine)?;
+    without_effect.iter().for_each(|word| commons.list_without_effect(word));
     let mut errors = Vec::new();
     for setting in on_top {
         match settings::apply_setting(&mut commons, setting) {

@@ -27,15 +27,15 @@ const FUEL_OF_READING_AGAIN: u64 = 100;
 
 /// A run of a [`Program`](crate::Program).
 pub(crate) struct Engine<'o, S> {
-    outside: Outside<'o, S>,
-    vocabulary: Vocabulary,
+    pub(crate) outside: Outside<'o, S>,
+    pub(crate) vocabulary: Vocabulary,
     machine: Interpreter,
     has_sections: bool,
     /// The last record of the file that was reached, and fuel left to read it
     /// and those before it again.
     furthest: u32,
     fuel: u64,
-    record: Record,
+    pub(crate) record: Record,
     started: bool,
     /// Blocks on the tape that observers have seen.
     shown: usize,
@@ -108,7 +108,7 @@ impl<'o, S: Records> Engine<'o, S> {
         if let Some(failure) = &self.failure {
             return Err(failure.clone());
         }
-        let result = self.advance().map_err(Error::Run);
+        let result = self.advance().map_err(|first| self.survey(first));
         self.outside.note_counts();
         if let Err(error) = &result {
             self.failure = Some(error.clone());
@@ -137,7 +137,7 @@ impl<'o, S: Records> Engine<'o, S> {
         self.shown = noted.blocks.len();
     }
 
-    fn forget_blocks(&mut self) {
+    pub(crate) fn forget_blocks(&mut self) {
         let tape = &mut self.outside.post.control.tape;
         if let Some(noted) = &mut tape.noted {
             noted.clear();
@@ -169,12 +169,7 @@ impl<'o, S: Records> Engine<'o, S> {
             return Ok(false);
         }
         self.watch_progress()?;
-        let section = if self.has_sections {
-            self.outside.section_of(&self.record, &self.vocabulary)
-        } else {
-            None
-        };
-        match section {
+        match self.section() {
             Some(section) => self.run_section(section)?,
             None => self.outside.process(&self.record, &self.vocabulary)?,
         }
@@ -185,8 +180,16 @@ impl<'o, S: Records> Engine<'o, S> {
         Ok(true)
     }
 
+    /// The section that takes the current record.
+    pub(crate) fn section(&self) -> Option<SectionId> {
+        if !self.has_sections {
+            return None;
+        }
+        self.outside.section_of(&self.record, &self.vocabulary)
+    }
+
     /// Runs the section that takes the current record.
-    fn run_section(&mut self, section: SectionId) -> Result<()> {
+    pub(crate) fn run_section(&mut self, section: SectionId) -> Result<()> {
         let (number, line) = (self.record.number, self.record.line);
         self.outside.section = Some(section);
         let outcome = self.machine.run_section(
@@ -209,7 +212,7 @@ impl<'o, S: Records> Engine<'o, S> {
     }
 
     /// Refuses a run that reads the same records again and again.
-    fn watch_progress(&mut self) -> Result<()> {
+    pub(crate) fn watch_progress(&mut self) -> Result<()> {
         if self.record.number > self.furthest {
             self.furthest = self.record.number;
             return Ok(());

@@ -2,6 +2,8 @@
 
 use fil_diag::{Code, Diag};
 
+use crate::refusals::Refusals;
+
 fil_diag::codes! {
     /// Codes of a run and of the files around it.
     #[non_exhaustive]
@@ -92,16 +94,28 @@ fil_diag::codes! {
 pub enum Error {
     /// The machine or the FIL files are not right; all that is wrong with them.
     Setup(Vec<Diag>),
-    /// A record was refused.
+    /// The run can't go on: files, a script, the embedding program.
     Run(Box<Diag>),
+    /// The CL file was refused; all that is wrong with it.
+    Refused(Box<Refusals>),
 }
 
 impl Error {
-    /// The diagnostics, in the order of their places.
+    /// The diagnostics, in the order of their places. Of a refused CL file each kind of
+    /// error is here once; [`Error::refusals`] says how often it came.
     pub fn diags(&self) -> &[Diag] {
         match self {
             Error::Setup(diags) => diags,
             Error::Run(diag) => std::slice::from_ref(diag),
+            Error::Refused(refusals) => refusals.diags(),
+        }
+    }
+
+    /// What is wrong with a refused CL file; `None` for another error.
+    pub fn refusals(&self) -> Option<&Refusals> {
+        match self {
+            Error::Refused(refusals) => Some(refusals),
+            _ => None,
         }
     }
 

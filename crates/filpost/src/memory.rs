@@ -5,7 +5,7 @@ use fil_diag::{Diag, Result, TextSpan};
 
 use crate::error::{Error, RunCode};
 use crate::program::Program;
-use crate::source::Records;
+use crate::source::{Records, Unread};
 
 /// Hands out records that are already there, after a look at each.
 pub(crate) struct Memory<'r> {
@@ -15,6 +15,8 @@ pub(crate) struct Memory<'r> {
     /// How messages call the records.
     name: String,
     number: u32,
+    /// The last record was refused.
+    failed: bool,
 }
 
 impl<'r> Memory<'r> {
@@ -37,6 +39,7 @@ impl<'r> Memory<'r> {
             vocabulary: Some(vocabulary),
             name: name.to_string(),
             number: 0,
+            failed: false,
         })
     }
 }
@@ -56,6 +59,7 @@ impl Records for Memory<'_> {
         match record.fault(vocabulary) {
             None => Ok(true),
             Some(fault) => {
+                self.failed = true;
                 let diag = RunCode::BadRecord.diag(format!("record {}: {fault}", record.number));
                 // What it names may be no word, so it is not shown.
                 Err(Box::new(diag.at(TextSpan::line(&self.name, record.line, ""))))
@@ -78,5 +82,14 @@ impl Records for Memory<'_> {
 
     fn splines(&self) -> SplineCounts {
         SplineCounts::default()
+    }
+
+    fn has_failed(&self) -> bool {
+        self.failed
+    }
+
+    fn resume(&mut self) -> Option<Unread> {
+        let unread = Unread { word: None, leans_on_earlier: false, goes_on: true };
+        std::mem::take(&mut self.failed).then_some(unread)
     }
 }

@@ -29,9 +29,9 @@ use crate::units::{self, UnitSource};
 /// What a FIL machine reaches while it runs: reader and post.
 pub(crate) struct Outside<'o, S> {
     /// The program of the run.
-    program: Program,
+    pub program: Program,
     /// The CL records.
-    source: Source<S>,
+    pub source: Source<S>,
     /// The compiled FIL.
     pub module: Arc<Module>,
     /// The post.

@@ -153,10 +153,14 @@ fn asked_of(mut reader: reader::Reader<'_>, name: &str) -> Result<Asked, Error> 
     let (mut vocabulary, mut record) = (Vocabulary::new(), Record::default());
     let mut asked = Asked::default();
     let mut most = LOOK_WITHOUT_MOTION;
-    while asked.machin.is_none()
-        && reader.record_number() < most
-        && reader.read(&mut vocabulary, &mut record).map_err(Error::Run)?
-    {
+    while asked.machin.is_none() && reader.record_number() < most {
+        match reader.read(&mut vocabulary, &mut record) {
+            Ok(true) => {}
+            Ok(false) => break,
+            // What is wrong with a statement is said by the run, with all else.
+            Err(diag) if !reader.resume() => return Err(Error::Run(diag)),
+            Err(_) => continue,
+        }
         if record.kind == kind::MOTION {
             most = LOOK;
         }

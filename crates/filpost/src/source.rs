@@ -4,7 +4,8 @@
 use std::collections::VecDeque;
 
 use fil_cl::{
-    Meaning, Recognized, Record, SplineCounts, Vocabulary, reader::Reader, record::kind, words,
+    Meaning, Recognized, Record, SplineCounts, Vocabulary, WordId, reader::Reader, record::kind,
+    words,
 };
 use fil_diag::Result;
 
@@ -43,6 +44,24 @@ pub(crate) trait Records {
     fn meaning(&self) -> Option<&Meaning> {
         None
     }
+
+    /// True when the last record could not be read.
+    fn has_failed(&self) -> bool;
+
+    /// Goes on behind a record that could not be read, to find further errors; `None` when
+    /// there was no such record.
+    fn resume(&mut self) -> Option<Unread>;
+}
+
+/// A record that could not be read.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Unread {
+    /// Its major word, where that was understood.
+    pub word: Option<WordId>,
+    /// It lacks something that should have come before it.
+    pub leans_on_earlier: bool,
+    /// There are further records.
+    pub goes_on: bool,
 }
 
 impl Records for Reader<'_> {
@@ -64,6 +83,18 @@ impl Records for Reader<'_> {
 
     fn meaning(&self) -> Option<&Meaning> {
         Reader::meaning(self)
+    }
+
+    fn has_failed(&self) -> bool {
+        Reader::has_failed(self)
+    }
+
+    fn resume(&mut self) -> Option<Unread> {
+        let (word, leans_on_earlier) = (self.last_word(), self.leans_on_earlier());
+        Reader::has_failed(self).then(|| {
+            let goes_on = Reader::resume(self);
+            Unread { word, leans_on_earlier, goes_on }
+        })
     }
 }
 
@@ -109,6 +140,16 @@ impl<S: Records> Source<S> {
     /// The splines that were read as lines so far.
     pub fn splines(&self) -> SplineCounts {
         self.reader.splines()
+    }
+
+    /// True when the last record could be read.
+    pub fn is_sound(&self) -> bool {
+        !self.reader.has_failed()
+    }
+
+    /// As [`Records::resume`].
+    pub fn resume(&mut self) -> Option<Unread> {
+        self.reader.resume()
     }
 
     /// Reads the next record; false at the end.

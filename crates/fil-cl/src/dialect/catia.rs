@@ -139,7 +139,8 @@ fn spindle(written: &mut Written<'_>) -> Result<Outcome, FormError> {
             }
             let message = "feet or meters a minute: neither MMPM nor IPM nor UNITS came before";
             let hint = "write SMM for meters; for feet choose --dialect generic";
-            return Err(FormError::new(ClCode::UnclearUnit, word - FIRST_DATA, message).hint(hint));
+            let error = FormError::new(ClCode::UnclearUnit, word - FIRST_DATA, message);
+            return Err(error.hint(hint).leaning());
         }
         written.record.set(word, Word::Minor(w::SMM));
     }

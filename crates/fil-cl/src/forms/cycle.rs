@@ -46,7 +46,7 @@ pub(crate) fn couplets(written: &mut Written<'_>) -> Result<(), FormError> {
         [Word::Minor(w::ON), ref rest @ ..] => {
             let Some(cycle) = written.state.cycle else {
                 let message = "ON changes a cycle, and none is in force that is understood";
-                return Err(FormError::new(ClCode::MissingItem, 0, message));
+                return Err(FormError::new(ClCode::MissingItem, 0, message).leaning());
             };
             (cycle, rest)
         }

@@ -40,15 +40,23 @@ pub(crate) struct FormError {
     /// Index of the item at fault.
     pub(crate) item: usize,
     pub(crate) hint: Option<&'static str>,
+    /// What is missing should have come before the statement.
+    pub(crate) leans: bool,
 }
 
 impl FormError {
     pub(crate) fn new(code: ClCode, item: usize, message: impl Into<String>) -> Self {
-        FormError { code, message: message.into(), item, hint: None }
+        FormError { code, message: message.into(), item, hint: None, leans: false }
     }
 
     pub(crate) fn hint(mut self, hint: &'static str) -> Self {
         self.hint = Some(hint);
+        self
+    }
+
+    /// Says that something did not come before the statement.
+    pub(crate) fn leaning(mut self) -> Self {
+        self.leans = true;
         self
     }
 }

@@ -57,7 +57,7 @@ impl Reader<'_> {
     }
 
     /// The same for a text statement.
-    pub(super) fn rewrite_text(&self, record: &mut Record) -> Result<()> {
+    pub(super) fn rewrite_text(&mut self, record: &mut Record) -> Result<()> {
         let rewrite = self.rules().rewrite_text.filter(|_| !self.is_scout);
         rewrite.map_or(Ok(()), |rewrite| rewrite(record)).map_err(|error| self.form_error(error))
     }
@@ -75,6 +75,7 @@ impl Reader<'_> {
 
     /// HELICAL/CENTER,…,END,… makes a CIRCLE and the GOTO to its end.
     fn take_helix(&mut self, vocab: &Vocabulary, record: &mut Record) -> Result<Outcome> {
+        self.leans = self.modal.point.is_none();
         let refuse = |message: &str| {
             self.diag(ClCode::UncomputedMotion, message, 0..self.statement.joined.len())
         };
@@ -109,6 +110,8 @@ impl Reader<'_> {
 
     /// TLON,GOFWD/ makes a CIRCLE and the GOTO to its end; PSIS/ names the plane of arcs.
     pub(super) fn read_geometry(&mut self, record: &mut Record) -> Result<Outcome> {
+        self.major = Some(words::TLON);
+        self.leans = self.modal.point.is_none() || self.modal.forms.direction.is_none();
         let text = &self.statement.joined;
         let whole = 0..text.len();
         self.item_ranges.clear();
@@ -164,7 +167,8 @@ impl Reader<'_> {
         Err(self.diag(ClCode::MissingItem, &message, 0..self.statement.joined.len()))
     }
 
-    fn form_error(&self, error: FormError) -> Box<Diag> {
+    fn form_error(&mut self, error: FormError) -> Box<Diag> {
+        self.leans = error.leans;
         let mut diag = self.diag(error.code, &error.message, self.item_range(error.item));
         diag.hint = error.hint.map(str::to_string);
         diag

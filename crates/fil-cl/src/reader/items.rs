@@ -83,6 +83,7 @@ impl Reader<'_> {
         let length = self.statement.joined.len();
         let major = trim(&self.statement.joined, 0..slash.unwrap_or(length));
         record.major = self.parse_major(vocab, major, pseudo)?;
+        self.major = Some(record.major);
         let known = vocab.is_known(record.major);
         let rules = Rules { lenient: pseudo || !known, free_names: record.major == words::MACHIN };
         let Some(slash) = slash else { return Ok(()) };

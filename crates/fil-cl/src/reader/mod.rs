@@ -15,6 +15,7 @@ mod number;
 mod points;
 mod raw;
 mod repeated;
+mod resume;
 mod seek;
 mod spline;
 mod statement;
@@ -114,7 +115,7 @@ pub struct Reader<'r> {
     /// Number of the last record read.
     number: u32,
     seeking: Seeking,
-    /// The reader does not go on after an error.
+    /// The reader does not go on by itself after an error.
     failed: Option<Box<Diag>>,
     started: bool,
     /// The next record comes from the next line: none waits, none is looked for, nothing was
@@ -124,6 +125,10 @@ pub struct Reader<'r> {
     is_scout: bool,
     /// What the record of this number means, where it is given as it is written.
     meaning: Option<(u32, Meaning)>,
+    /// Major word of the statement read last, where it was understood.
+    major: Option<crate::WordId>,
+    /// The last error says that something did not come before the statement.
+    leans: bool,
 }
 
 impl<'r> Reader<'r> {
@@ -154,6 +159,8 @@ impl<'r> Reader<'r> {
             at_line: false,
             is_scout: false,
             meaning: None,
+            major: None,
+            leans: false,
         }
     }
 
@@ -162,7 +169,7 @@ impl<'r> Reader<'r> {
     ///
     /// # Errors
     /// What is wrong with the statement, with its span. After an error every
-    /// further call gives the same error.
+    /// further call gives the same error, unless [`Reader::resume`] comes between.
     #[inline]
     pub fn read(&mut self, vocab: &mut Vocabulary, record: &mut Record) -> Result<bool> {
         if self.at_line && !self.seeking.is_due(self.number) && self.read_plain_goto(record) {
@@ -252,6 +259,7 @@ impl<'r> Reader<'r> {
         vocab: &mut Vocabulary,
         record: &mut Record,
     ) -> Result<Option<Outcome>> {
+        (self.major, self.leans) = (None, false);
         let Some(form) = self.gather()? else {
             self.refuse_expected()?;
             return Ok(None);
@@ -262,7 +270,10 @@ impl<'r> Reader<'r> {
         record.line = self.statement.line;
         let mut outcome = Outcome::Free;
         match form {
-            Form::Text(major) => self.take_text(record, major)?,
+            Form::Text(major) => {
+                self.major = Some(major);
+                self.take_text(record, major)?;
+            }
             Form::Pseudo => {
                 self.parse_items(vocab, record, true)?;
                 self.watch(|recognition, place| recognition.pseudo(place))?;

@@ -61,6 +61,7 @@ impl Reader<'_> {
 
     /// Takes a statement of a spline; the last one makes the first GOTO of its lines.
     pub(super) fn take_spline(&mut self, record: &mut Record) -> Result<Outcome> {
+        self.leans = self.spline.line == 0 || self.modal.point.is_none();
         let numbers = self.spline_numbers(record)?;
         if record.major == words::NURBS {
             self.refuse_expected()?;
