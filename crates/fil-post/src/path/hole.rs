@@ -115,7 +115,7 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, start: f64) -> Res
     hole.to_initial = match cycle.retract {
         None => false,
         Some(0.0) => true,
-        Some(_) => above(level, wanted) >= 0.0 && above(wanted, hole.clear) > SAME_LEVEL,
+        Some(_) => above(level, wanted) > -SAME_LEVEL && above(wanted, hole.clear) > SAME_LEVEL,
     };
     Ok(())
 }
