@@ -91,6 +91,13 @@ fil_diag::codes! {
         UnclearUnit = 420, Error, "unit is not clear",
             "The system writes the same word in files of either unit.",
             "Name the unit in the statement.";
+        /// Points of a frame that the file does not settle.
+        UnclearFrame = 421, Error, "frame of the points is not clear",
+            "The points count in a frame that turns with the table. Where it lies is known only \
+             for one position of the table in a file, and for a turn about X or Y that brings the \
+             tool along TLAXIS.",
+            "Post each position of the table from a file of its own, with TLAXIS and ROTABL before \
+             the first motion.";
         /// A spline that is not read.
         BadSpline = 425, Error, "spline can't be read",
             "A spline is read as lines where its knots, its control points and the numbers of its \

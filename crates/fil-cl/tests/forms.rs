@@ -69,7 +69,8 @@ fn frames_and_tables_that_change_nothing() {
     }
     for (text, inert) in [
         ("ROTABL/ -0.0,BAXIS,TABLE,CCLW", true),
-        ("ROTABL/ 0.001,BAXIS,TABLE,CCLW", false),
+        ("ROTABL/ 0.001,BAXIS,TABLE,CCLW", true),
+        ("ROTABL/ 0.001,BAXIS,CCLW", false),
         ("OPFEATEND/Drill1", true),
         ("CUTCOM/ OFF", false),
     ] {

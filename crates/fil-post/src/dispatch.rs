@@ -145,8 +145,10 @@ pub fn dispatch(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Re
             handle(post, &mut items)?;
             items.deny_rest()
         }
+        Some(Handler::Refused) | None if is_without_effect(post, vocabulary.name(record.major)) => {
+            Ok(())
+        }
         Some(Handler::Refused) => Err(refused(record, vocabulary)),
-        None if is_without_effect(post, vocabulary.name(record.major)) => Ok(()),
         None => Err(unknown(record.major, vocabulary)),
     }
 }
@@ -178,7 +180,7 @@ fn target(post: &Post, record: &Record, vocabulary: &Vocabulary) -> Result<Targe
 ///
 /// # Errors
 /// As [`target`].
-fn checked_axis(post: &Post, axis: Vector3<f64>) -> Result<Vector3<f64>> {
+pub(crate) fn checked_axis(post: &Post, axis: Vector3<f64>) -> Result<Vector3<f64>> {
     let length = axis.norm();
     let near = (length - 1.0).abs() <= AXIS_LENGTH;
     let on = post.path.multax == Some(true);
@@ -200,10 +202,36 @@ fn no_point(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
 
 fn refused(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
     let major = vocabulary.name(record.major);
-    PostCode::WordForm.diag(format!(
-        "{major}: it changes the path or the frame, and the post does not know how; a FIL section \
-         must take it"
-    ))
+    let (reason, hint) = match record.major {
+        w::SYNC => (
+            "programs of other channels wait here for each other, and the post writes one program",
+            "Let a FIL section write the waiting code of the control with POSTN or INSERT; for a \
+             machine with one channel list SYNC under words.without_effect in machine.toml.",
+        ),
+        w::SWITCH => (
+            "it names the point of the tool that the path is for, and the post does not know where \
+             it lies",
+            "Where the tool data of the control are for that point, list SWITCH under \
+             words.without_effect in machine.toml; else let a FIL section call the offset of the \
+             point.",
+        ),
+        w::ROTABL => (
+            "it turns the part, and whether the angle counts from zero and the points turn with \
+             it is not in the file",
+            "Let a FIL section take it: POSTN writes the position of the axis, and TRANS turns \
+             the points where they do not turn with the table. Or give the tool axis with each \
+             point (MULTAX/ON) in place of ROTABL.",
+        ),
+        _ => (
+            "it changes the path or the frame, and the post does not know how",
+            "Let a FIL section take it, or list it under words.without_effect in machine.toml \
+             where it changes nothing on the machine.",
+        ),
+    };
+    let mut diag =
+        PostCode::WordForm.diag(format!("{major}: {reason}; a FIL section must take it"));
+    diag.hint = Some(hint.to_string());
+    diag
 }
 
 fn unknown(word: WordId, vocabulary: &Vocabulary) -> Box<Diag> {

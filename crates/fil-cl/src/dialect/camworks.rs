@@ -1,12 +1,12 @@
 //! CAMWorks CLT (`.clt`).
 //!
 //! The axis of a circle is the same for both senses; CLOCKWISE or COUNTERCLOCKWISE after the
-//! radius decides. A cycle gives most of its values by their positions; a table that is turned
-//! about an operation gives its angles in radians.
+//! radius decides. A cycle gives most of its values by their positions; the points of an
+//! operation turn with the table.
 
 use super::{ArcSense, AxisRule, CircleForm, DialectRules, Sign};
 use crate::errors::ClCode;
-use crate::forms::{FormError, Outcome, Written, free_text};
+use crate::forms::{FormError, Outcome, Written, free_text, table};
 use crate::record::Word;
 use crate::words as w;
 
@@ -34,10 +34,12 @@ pub(super) const RULES: DialectRules = DialectRules {
 };
 
 fn rewrite(written: &mut Written<'_>) -> Result<Outcome, FormError> {
+    written.record.data.pop_if(|last| *last == Word::Empty);
     match written.record.major {
         w::CUTCOM => Ok(compensation(written)),
         w::CYCLE => cycle(written),
-        w::ROTABL => Ok(turn(written)),
+        w::ROTABL => table::turn(written),
+        w::TLAXIS => Ok(table::tool_axis(written)),
         _ => Ok(Outcome::Free),
     }
 }
@@ -109,11 +111,4 @@ fn cycle(written: &mut Written<'_>) -> Result<Outcome, FormError> {
     let kind = if pecks.is_some() { w::DEEP } else { w::DRILL };
     written.set_couplets(kind, &couplets);
     Ok(Outcome::Bound)
-}
-
-/// A table that turns by nothing. Otherwise the points that follow turn with it, which a
-/// section may know.
-fn turn(written: &mut Written<'_>) -> Outcome {
-    written.record.inert = written.number(0) == Some(0.0);
-    Outcome::Free
 }

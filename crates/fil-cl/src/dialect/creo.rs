@@ -4,6 +4,8 @@
 //! for an arc that is written as points.
 
 use super::{ArcSense, AxisRule, CircleForm, DialectRules, Sign};
+use crate::forms::{FormError, Outcome, Written, cycle};
+use crate::words as w;
 
 pub(super) const RULES: DialectRules = DialectRules {
     name: "creo",
@@ -19,7 +21,15 @@ pub(super) const RULES: DialectRules = DialectRules {
     comma_words: &[],
     writes_units: true,
     writes_fini: true,
-    rewrite: None,
+    rewrite: Some(rewrite),
     rewrite_text: None,
     without_effect: &[],
 };
+
+/// The configuration option cycle_format writes cycles by position.
+fn rewrite(written: &mut Written<'_>) -> Result<Outcome, FormError> {
+    if written.record.major == w::CYCLE {
+        cycle::positional(written)?;
+    }
+    Ok(Outcome::Free)
+}

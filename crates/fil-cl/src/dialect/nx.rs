@@ -4,9 +4,11 @@
 //! seen but one are the shorter way round, and read the other way none. The tool axis is
 //! written when it changes. FEDTO of a cycle is counted upwards from the hole's start,
 //! RTRCTO,AUTO goes back to where the tool was before the cycle, and CYCLE/ON changes values.
+//! TLDATA holds the tool's diameter.
 
 use super::{ArcSense, AxisRule, CircleForm, DialectRules, Sign};
 use crate::forms::{FormError, Outcome, Written, cycle};
+use crate::record::{Record, Word};
 use crate::words as w;
 
 pub(super) const RULES: DialectRules = DialectRules {
@@ -41,9 +43,24 @@ pub(super) const RULES: DialectRules = DialectRules {
 };
 
 fn rewrite(written: &mut Written<'_>) -> Result<Outcome, FormError> {
-    if written.record.major != w::CYCLE {
-        return Ok(Outcome::Free);
+    match written.record.major {
+        w::CYCLE => cycle::couplets(written)?,
+        w::TLDATA => cutter(written),
+        _ => return Ok(Outcome::Free),
     }
-    cycle::couplets(written)?;
     Ok(Outcome::Bound)
+}
+
+/// `TLDATA/MILL,d,…` and `TLDATA/DRILL,MILL,d,…`: the diameter comes as CUTTER, too.
+fn cutter(written: &mut Written<'_>) {
+    let diameter = match written.record.data[..] {
+        [Word::Minor(_), Word::Number(diameter), ..] => diameter,
+        [Word::Minor(w::DRILL), Word::Minor(_), Word::Number(diameter), ..] => diameter,
+        _ => return,
+    };
+    let turns = ["MILL", "DRILL", "TCUTTER", "BARREL"].contains(&written.name(0));
+    let made = Record::builder(w::CUTTER).item(diameter).build();
+    if let (true, Ok(record)) = (turns && diameter > 0.0, made) {
+        written.made.push(Record { line: written.record.line, ..record });
+    }
 }

@@ -5,7 +5,7 @@
 //! notes about tools and stock, and blocks that a user has added.
 
 use super::{ArcSense, AxisRule, CircleForm, DialectRules, Sign};
-use crate::forms::{FormError, Outcome, Written, cycle, free_text};
+use crate::forms::{FormError, Outcome, Written, cycle, free_text, table};
 use crate::record::{Record, Word};
 use crate::words as w;
 
@@ -35,9 +35,10 @@ fn rewrite(written: &mut Written<'_>) -> Result<Outcome, FormError> {
     match written.record.major {
         w::TRNTYP => frame(written.record),
         w::CYCLE => return Ok(cycle(written)),
+        w::ROTABL => return table::turn(written),
+        w::TLAXIS => return Ok(table::tool_axis(written)),
         _ => {}
     }
-    Ok(Outcome::Free)
 }
 
 /// TRNTYP/WORLD says that the points are those of the part, as in all other systems; what

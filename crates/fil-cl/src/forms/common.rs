@@ -31,18 +31,26 @@ pub(crate) fn to_creo(written: &mut Written<'_>) {
     }
 }
 
-/// The value first; PERMIN is a minute in the unit of the file.
-fn feed(written: &mut Written<'_>) {
-    let is_permin = written.name(0) == "PERMIN";
-    let unit = match &written.state {
-        state if state.is_metric => w::MMPM,
-        state if state.is_inch => w::IPM,
-        _ => w::UPM,
+/// The value first; PERMIN is a minute and PERREV a turn in the unit of the file.
+pub(crate) fn feed(written: &mut Written<'_>) {
+    let state = &written.state;
+    let by_file = |metric, inch, other| match () {
+        () if state.is_metric => metric,
+        () if state.is_inch => inch,
+        () => other,
     };
-    if let [Word::Minor(word), value @ Word::Number(_)] = written.record.data[..] {
-        let word = if is_permin { unit } else { word };
-        written.record.data = vec![value, Word::Minor(word)];
-    }
+    let named = |item| match written.name(item) {
+        "PERMIN" => Some(by_file(w::MMPM, w::IPM, w::UPM)),
+        "PERREV" => Some(by_file(w::MMPR, w::IPR, w::UPR)),
+        _ => None,
+    };
+    let (value, word, item) = match written.record.data[..] {
+        [Word::Minor(word), value @ Word::Number(_)] => (value, word, 0),
+        [value @ Word::Number(_), Word::Minor(word)] => (value, word, 1),
+        _ => return,
+    };
+    let word = named(item).unwrap_or(word);
+    written.record.data = vec![value, Word::Minor(word)];
 }
 
 /// `LOAD/TOOL,n[,ADJUST,m]` as LOADTL/n,OSETNO,m.

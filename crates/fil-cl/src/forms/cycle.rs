@@ -53,7 +53,7 @@ pub(crate) fn couplets(written: &mut Written<'_>) -> Result<(), FormError> {
         [Word::Minor(w::DRILL), Word::Minor(kind @ (w::DEEP | w::BRKCHP)), ref rest @ ..] => {
             (Cycle { kind, values: Default::default() }, rest)
         }
-        [Word::Minor(kind @ (w::DRILL | w::TAP | w::BORE | w::REAM)), ref rest @ ..] => {
+        [Word::Minor(kind), ref rest @ ..] if KINDS.contains(&kind) => {
             (Cycle { kind, values: Default::default() }, rest)
         }
         _ => {
@@ -98,14 +98,115 @@ fn give(written: &mut Written<'_>, cycle: &Cycle) {
     let couplets: Vec<(WordId, f64)> = values
         .filter_map(|((_, name), value)| {
             let value = value?;
-            Some(match *name {
-                w::DEPTH => (w::DEPTH, value.abs()),
-                w::RAPTO if !has_clear => (w::CLEAR, value),
-                name => (name, value),
+            Some(match (*name, value) {
+                (w::DEPTH, 0.0) => (w::FEDTO, 0.0),
+                (w::DEPTH, value) => (w::DEPTH, value.abs()),
+                (w::RAPTO, value) if !has_clear => (w::CLEAR, value),
+                other => other,
             })
         })
         .collect();
     written.set_couplets(cycle.kind, &couplets);
+}
+
+/// `CYCLE/kind,z,f,unit[,t,r,i]` as couplets: depth, feed, threads an inch of a tap, distance
+/// of the R level, peck. What a kind has no use for is left out, 0 or empty.
+///
+/// # Errors
+/// Values whose meaning their number leaves open, or that no hole can have.
+pub(crate) fn positional(written: &mut Written<'_>) -> Result<(), FormError> {
+    const UNITS: [WordId; 4] = [w::IPM, w::IPR, w::MMPM, w::MMPR];
+    let data = written.record.data.clone();
+    let [
+        Word::Minor(kind),
+        Word::Number(depth),
+        Word::Number(feed),
+        Word::Minor(unit),
+        ref rest @ ..,
+    ] = data[..]
+    else {
+        return Ok(());
+    };
+    if !UNITS.contains(&unit) || !KINDS.contains(&kind) {
+        return Ok(());
+    }
+    let wrong = |item, message| Err(FormError::new(ClCode::BadPoint, item, message));
+    if depth <= 0.0 {
+        return wrong(1, "the depth counts down from the start of the hole and is above zero");
+    }
+    let [threads, clear, step] = tail(kind, rest)?;
+    if clear.is_some_and(|clear| clear < 0.0) || step.is_some_and(|step| step <= 0.0) {
+        return wrong(4, "the R level lies above the start of the hole, and a peck is above zero");
+    }
+    let mut couplets = vec![(w::DEPTH, depth)];
+    couplets.extend(step.map(|step| (w::STEP, step)));
+    match threads {
+        Some(threads) => couplets.push((w::TPI, lead_of(threads, feed, unit)?)),
+        None => couplets.push((unit, feed)),
+    }
+    couplets.extend(clear.map(|clear| (w::CLEAR, clear)));
+    written.set_couplets(kind, &couplets);
+    Ok(())
+}
+
+/// Kinds of cycles.
+const KINDS: [WordId; 9] =
+    [w::DRILL, w::DEEP, w::BRKCHP, w::THRU, w::FACE, w::CSINK, w::TAP, w::BORE, w::REAM];
+
+/// Threads an inch, R level and peck behind the unit: all three, or only those that the kind
+/// has.
+fn tail(kind: WordId, rest: &[Word]) -> Result<[Option<f64>; 3], FormError> {
+    let unclear = || {
+        let message = "which of threads an inch, R level and peck these values are is not clear";
+        let hint = "write the cycle with couplets: DEPTH, STEP, CLEAR and their like";
+        FormError::new(ClCode::MissingItem, 4, message).hint(hint)
+    };
+    let value = |word: &Word| match word {
+        Word::Number(value) => Some(Some(*value)),
+        Word::Empty => Some(None),
+        _ => None,
+    };
+    let values: Vec<Option<f64>> = rest.iter().map_while(value).collect();
+    if values.len() < rest.len() {
+        return Err(unclear());
+    }
+    let has_gaps = values.contains(&None);
+    let used = |value: Option<f64>| value.filter(|value| *value != 0.0);
+    let found = match (kind, &values[..]) {
+        (_, []) => [None; 3],
+        (_, [threads, clear, step]) => [used(*threads), *clear, used(*step)],
+        (_, [None, clear]) => [None, *clear, None],
+        _ if has_gaps => return Err(unclear()),
+        (w::TAP, [threads, clear]) => [used(*threads), *clear, None],
+        (w::DEEP | w::BRKCHP, [clear, step]) => [None, *clear, *step],
+        (w::TAP | w::DEEP | w::BRKCHP, _) => return Err(unclear()),
+        (_, [clear]) => [None, *clear, None],
+        _ => return Err(unclear()),
+    };
+    let has_more = found[0].is_some() && kind != w::TAP
+        || found[2].is_some() && !matches!(kind, w::DEEP | w::BRKCHP);
+    if has_more { Err(unclear()) } else { Ok(found) }
+}
+
+/// Threads an inch that agree with the feed of a tap.
+fn lead_of(threads: f64, feed: f64, unit: WordId) -> Result<f64, FormError> {
+    const INCH: f64 = 25.4;
+    const AGREE: f64 = 0.01;
+    let lead = match unit {
+        w::IPR => feed,
+        w::MMPR => feed / INCH,
+        _ => {
+            let message =
+                "a tap with threads an inch and a feed a minute: their speed is not known";
+            let hint = "write CYCLE/TAP with couplets, TPI or the feed";
+            return Err(FormError::new(ClCode::MissingItem, 3, message).hint(hint));
+        }
+    };
+    if threads <= 0.0 || (lead * threads - 1.0).abs() > AGREE {
+        let message = "the feed is not the lead of these threads";
+        return Err(FormError::new(ClCode::BadPoint, 2, message));
+    }
+    Ok(threads)
 }
 
 /// The cycle with these values; `None` for an item that is not known.

@@ -11,10 +11,12 @@ pub(crate) mod cycle;
 pub(crate) mod free_text;
 pub(crate) mod geometry;
 pub(crate) mod spline;
+pub(crate) mod table;
 pub(crate) mod vector;
 
 use crate::errors::ClCode;
 use crate::forms::cycle::Cycle;
+use crate::forms::table::Table;
 use crate::layout::ShapeError;
 use crate::record::{Record, Word};
 use crate::vocabulary::{Vocabulary, WordId};
@@ -100,6 +102,16 @@ pub(crate) struct FormState {
     pub(crate) outer_tolerance: Option<f64>,
     /// The program has ended.
     pub(crate) has_ended: bool,
+    /// ROTABL and TLAXIS, where points turn with the table.
+    pub(crate) table: Table,
+}
+
+impl FormState {
+    /// True while each motion must be looked at.
+    #[inline]
+    pub(crate) fn watches_motions(&self) -> bool {
+        self.expects.is_some() || self.table.is_in_play()
+    }
 }
 
 /// A statement under way to its record: the items stand in `record.data`.
@@ -107,6 +119,8 @@ pub(crate) struct Written<'a> {
     pub(crate) record: &'a mut Record,
     pub(crate) vocabulary: &'a mut Vocabulary,
     pub(crate) state: &'a mut FormState,
+    /// Records that the statement makes besides its own, the last one first.
+    pub(crate) made: &'a mut Vec<Record>,
 }
 
 /// Brings a statement of a dialect to the form of Creo.

@@ -6,7 +6,7 @@ use super::Reader;
 use super::arc::has_radius;
 use crate::errors::ClCode;
 use crate::forms::arc::{self, Departure, Path};
-use crate::forms::{FormError, Outcome, Written, common, geometry};
+use crate::forms::{FormError, Outcome, Written, common, geometry, table};
 use crate::layout::UNCOMPUTED;
 use crate::record::{Record, Word};
 use crate::vocabulary::{Vocabulary, WordId};
@@ -42,8 +42,8 @@ impl Reader<'_> {
             return self.take_helix(vocab, record);
         }
         if !rules.is_creo() {
-            let state = &mut self.modal.forms;
-            common::to_creo(&mut Written { record, vocabulary: vocab, state });
+            let (state, made) = (&mut self.modal.forms, &mut self.made);
+            common::to_creo(&mut Written { record, vocabulary: vocab, state, made });
         }
         // The radius of a circle comes from the point before it where it is left out.
         let outcome = match record.major {
@@ -51,7 +51,8 @@ impl Reader<'_> {
             _ => Outcome::Free,
         };
         let Some(rewrite) = rules.rewrite else { return Ok(outcome) };
-        let mut written = Written { record, vocabulary: vocab, state: &mut self.modal.forms };
+        let (state, made) = (&mut self.modal.forms, &mut self.made);
+        let mut written = Written { record, vocabulary: vocab, state, made };
         let rewritten = rewrite(&mut written).map_err(|error| self.form_error(error))?;
         Ok(if rewritten == Outcome::Free { outcome } else { rewritten })
     }
@@ -60,6 +61,16 @@ impl Reader<'_> {
     pub(super) fn rewrite_text(&mut self, record: &mut Record) -> Result<()> {
         let rewrite = self.rules().rewrite_text.filter(|_| !self.is_scout);
         rewrite.map_or(Ok(()), |rewrite| rewrite(record)).map_err(|error| self.form_error(error))
+    }
+
+    /// Brings a motion or a CIRCLE to the part that the table has not turned.
+    pub(super) fn bring_back(&mut self, record: &mut Record) -> Result<()> {
+        let moved = self.modal.point.is_some() || self.modal.in_arc;
+        let table = &mut self.modal.forms.table;
+        if !table.is_in_play() || self.options.raw {
+            return Ok(());
+        }
+        table::bring_back(table, record, moved).map_err(|error| self.form_error(error))
     }
 
     /// INDIRV/i,j,k: the direction in which the next motion departs.

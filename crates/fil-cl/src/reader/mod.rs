@@ -405,9 +405,19 @@ impl<'r> Reader<'r> {
             self.refuse_expected()?;
         }
         match record.major {
-            words::CIRCLE => self.turn_circle(record)?,
-            words::GOTO => self.split_points(record)?,
-            words::FROM => self.check_axis(record)?,
+            words::CIRCLE => {
+                self.turn_circle(record)?;
+                self.bring_back(record)?;
+            }
+            words::GOTO => {
+                self.bring_back(record)?;
+                self.split_points(record)?;
+            }
+            words::FROM => {
+                self.bring_back(record)?;
+                self.check_axis(record)?;
+            }
+            words::GODLTA | words::GOHOME => self.bring_back(record)?,
             _ => {}
         }
         if let Err(error) = record.arrange() {
@@ -418,7 +428,8 @@ impl<'r> Reader<'r> {
             words::MULTAX | words::TLAXIS => self.set_mode(record),
             words::GOTO | words::FROM => self.keep_axis(record),
             // Where these lead is a matter of the post.
-            words::GODLTA | words::GOHOME => self.modal.point = None,
+            words::GODLTA => self.modal.point = None,
+            words::GOHOME => self.keep_home(record),
             _ => {}
         }
         Ok(())

@@ -55,7 +55,7 @@ impl Reader<'_> {
         };
         let [x, y, z, i, j, k] = values;
         let axis = [i, j, k];
-        if count == 6 && !is_unit(axis) || self.modal.forms.expects.is_some() {
+        if count == 6 && !is_unit(axis) || self.modal.forms.watches_motions() {
             return false;
         }
         record.line = self.take_lines(length, 1);
@@ -191,6 +191,16 @@ impl Reader<'_> {
                     record.data.extend_from_slice(&axis.map(Word::Number));
                 }
             }
+        }
+    }
+
+    /// GOHOME/x,y,z\[,i,j,k]: where it leads is a matter of the post; its tool axis stays.
+    pub(super) fn keep_home(&mut self, record: &Record) {
+        self.modal.point = None;
+        if let [.., Word::Number(i), Word::Number(j), Word::Number(k)] = record.data[..]
+            && record.data.len() == 6
+        {
+            self.keep(Some([i, j, k]), record.line);
         }
     }
 

@@ -69,7 +69,7 @@ fn locate(post: &mut Post, cycle: &Cycle, target: Target) -> Result<(Position, H
     let at = rotary::position_of(post, target)?;
     let bottom = rotary::position_of(post, offset(-cycle.depth))?;
     let clear = rotary::position_of(post, offset(cycle.clear))?;
-    let differs = |axis: &usize| (at[*axis] - bottom[*axis]).abs() > SAME;
+    let differs = |axis: &usize| (clear[*axis] - bottom[*axis]).abs() > SAME;
     let moving: Vec<usize> = (0..AXES).filter(differs).collect();
     let [along @ 0..=2] = moving[..] else {
         return PostCode::CycleForm.err("the hole does not run along a linear axis of the machine");

@@ -55,13 +55,15 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
 fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
     let kind = kind(items)?;
     let mut words = CycleWords::default();
+    // FEDTO,0 of NX feeds from the R level to the hole's start.
+    let feeds_to_start = items.has(w::FEDTO);
     let depth = optional(items, &[w::DEPTH, w::FEDTO], &mut words.depth)?;
     let depth = depth.ok_or_else(|| PostCode::CycleForm.diag("DEPTH is missing"))?.abs();
     let clear = clearance(post, items, &mut words.clear)?;
     let step = step(post, items, kind, &mut words.step)?;
     let retract = optional(items, &[w::RETURN, w::RTRCTO], &mut 0)?;
     let dwell = optional(items, &[w::DWELL], &mut words.dwell)?;
-    if depth == 0.0 || clear < 0.0 {
+    if depth == 0.0 && !(feeds_to_start && clear > 0.0) || clear < 0.0 {
         return PostCode::CycleForm.err("DEPTH must not be zero and CLEAR not negative");
     }
     if dwell.is_some_and(|dwell| dwell < 0.0) || retract.is_some_and(|level| level < 0.0) {

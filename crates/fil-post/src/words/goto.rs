@@ -2,8 +2,9 @@
 
 use fil_cl::record::FIRST_DATA;
 use fil_diag::Result;
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
+use crate::dispatch::checked_axis;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{MotionKind, Operation, Target};
@@ -40,19 +41,20 @@ pub fn kind_of_motion(post: &mut Post) -> MotionKind {
     }
 }
 
-/// GOHOME/x,y,z: a motion to that point.
+/// GOHOME/x,y,z\[,i,j,k]: a motion to that point.
 ///
 /// # Errors
-/// Other than three numbers, a CIRCLE that waits for its end, and all that the
+/// Other than three or six numbers, a CIRCLE that waits for its end, and all that the
 /// motion refuses.
 pub fn gohome(post: &mut Post, items: &mut Items) -> Result<()> {
-    let [x, y, z] = items.numbers()[..] else {
-        return Err(items.error("a point x, y, z is missing"));
+    let (point, axis) = match items.numbers()[..] {
+        [x, y, z] => (Point3::new(x, y, z), post.path.axis),
+        [x, y, z, i, j, k] => (Point3::new(x, y, z), checked_axis(post, Vector3::new(i, j, k))?),
+        _ => return Err(items.error("a point x, y, z is missing")),
     };
     items.deny_rest()?;
     refuse_waiting_arc(post)?;
-    let point = Point3::new(x, y, z);
-    let target = Target { point, axis: post.path.axis, word: FIRST_DATA as u16 };
+    let target = Target { point, axis, word: FIRST_DATA as u16 };
     let kind = kind_of_motion(post);
     carry_out(post, Operation::Linear(target, kind))
 }

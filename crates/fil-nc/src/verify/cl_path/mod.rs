@@ -229,6 +229,9 @@ impl Iterator for ClPath<'_> {
 
 impl State {
     fn take(&mut self, record: &Record, vocabulary: &Vocabulary) -> Vec<Wanted> {
+        if record.inert {
+            return Vec::new();
+        }
         match record.kind {
             kind::MOTION => self.motion(record, vocabulary),
             kind::SURFACE => {
@@ -280,6 +283,7 @@ impl State {
             w::CYCLE => self.cycle(record, vocabulary),
             w::GOHOME => match numbers(record)[..] {
                 [x, y, z] => self.line_to(Point3::new(x, y, z), self.axis),
+                [x, y, z, i, j, k] => self.line_to(Point3::new(x, y, z), Vector3::new(i, j, k)),
                 _ => unknown(Effect::Path),
             },
             w::LOADTL | w::LOAD | w::TURRET => {
