@@ -23,11 +23,32 @@ const STRAIGHT: f64 = 1e-6;
 /// # Errors
 /// A CL text that cannot be read, and a statement this module does not cover.
 pub fn cl_path(input: impl Read + Send, name: &str) -> Result<ToolPath, String> {
+    cl_path_in(input, name, None)
+}
+
+/// The same of a CL text that does not say its unit itself.
+///
+/// # Errors
+/// As [`cl_path`].
+pub fn cl_path_in(
+    input: impl Read + Send,
+    name: &str,
+    unit: Option<fil_machine::Unit>,
+) -> Result<ToolPath, String> {
     let mut steps = Vec::new();
-    for step in ClPath::new(Reader::new(input, name, Options::default()), name, [0.0; 3]) {
+    let reader = Reader::new(input, name, Options::default());
+    for step in ClPath::new(reader, name, [0.0; 3]).in_unit(unit) {
         let verify::Step { line, what } = step.map_err(|diag| diag.to_string())?;
-        let action = action(&what).map_err(|reason| format!("CL line {line}: {reason}"))?;
-        steps.extend(action.map(|action| Step { line, action }));
+        let parts = match what {
+            Wanted::Arc(arc, rate) => {
+                turns_of(arc).into_iter().map(|arc| Wanted::Arc(arc, rate)).collect()
+            }
+            other => vec![other],
+        };
+        for what in &parts {
+            let action = action(what).map_err(|reason| format!("CL line {line}: {reason}"))?;
+            steps.extend(action.map(|action| Step { line, action }));
+        }
     }
     Ok(ToolPath { unit: Some(Unit::Mm), steps })
 }
@@ -70,12 +91,25 @@ fn tip(pose: &Pose) -> Result<Point, String> {
     Ok(pose.tip.coords.into())
 }
 
+/// A helix of several turns as full turns and the rest.
+fn turns_of(arc: verify::Arc) -> Vec<verify::Arc> {
+    const TURN: f64 = 360.0;
+    let rise = arc.normal * arc.normal.dot(&(arc.end.tip - arc.start));
+    let mut parts = Vec::new();
+    let (mut start, mut sweep) = (arc.start, arc.sweep);
+    while sweep > TURN + 1e-6 {
+        let tip = start + rise * (TURN / arc.sweep);
+        let end = Pose { tip, ..arc.end };
+        parts.push(verify::Arc { start, end, sweep: TURN, ..arc });
+        (start, sweep) = (tip, sweep - TURN);
+    }
+    parts.push(verify::Arc { start, sweep, ..arc });
+    parts
+}
+
 fn arc(arc: &verify::Arc) -> Result<Arc, String> {
     let along = (0..3).find(|axis| arc.normal[*axis].abs() > 1.0 - STRAIGHT);
     let index = along.ok_or("the axis of the circle is not X, Y or Z")?;
-    if arc.sweep > 360.0 {
-        return Err("more than one turn is not covered".to_string());
-    }
     Ok(Arc {
         to: tip(&arc.end)?,
         center: arc.center.coords.into(),

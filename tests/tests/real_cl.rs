@@ -1,0 +1,301 @@
+//! Every CL file of other systems that is at hand: it posts on a machine that fits it, and
+//! the back-check agrees, or it is refused for the reason that the table gives.
+//!
+//! A file that no row names fails, so that a new one gets its row. Without `FILPOST_DATA`
+//! the reason is printed.
+
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+use fil_nc::forward::Pose;
+use fil_nc::verify::{Allowed, ClPath, Verdict, Wanted};
+use filpost::Unit;
+use filpost::cl::reader::{Options, Reader};
+use filpost::verify::NcProgram;
+use filpost_tests::cl_path::cl_path_in;
+use filpost_tests::compare::compare;
+use filpost_tests::klartext::{self, Step};
+use filpost_tests::nc_path::nc_path;
+use filpost_tests::path::{Action, ToolPath};
+use filpost_tests::rs274;
+
+/// A machine that fits a file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Machine {
+    /// Three axes; its programs run in LinuxCNC's interpreter, too.
+    Mill,
+    /// Two tables, C and A.
+    Tables,
+    Lathe,
+}
+
+impl Machine {
+    fn post(self) -> filpost::Program {
+        let tables = [
+            "rotary.primary_kind=1",
+            "rotary.primary_axis=3",
+            "rotary.secondary_kind=1",
+            "rotary.secondary_axis=1",
+        ];
+        let (ready, settings): (&str, &[&str]) = match self {
+            Machine::Mill => ("linuxcnc-mill", &[]),
+            Machine::Tables => ("fanuc-mill", &tables),
+            Machine::Lathe => ("fanuc-lathe", &[]),
+        };
+        let builder = filpost::Program::builder().ready(ready);
+        settings.iter().fold(builder, |builder, setting| builder.set(setting)).build().unwrap()
+    }
+}
+
+/// What comes of a file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Outcome {
+    Agrees,
+    /// Refused with this code at this line.
+    Refused(&'static str, usize),
+}
+
+use Machine::{Lathe, Mill, Tables};
+use Outcome::{Agrees, Refused};
+
+/// The files, each with the machine and what comes of it.
+const FILES: &[(&str, Machine, Outcome)] = &[
+    ("cl/creo/bohren_1.ncl.8", Mill, Agrees),
+    ("cl/creo/op010.ncl.1", Mill, Agrees),
+    ("cl/creo/profilfraesen_2.ncl.1", Mill, Agrees),
+    ("cl/nx/TORETC_250_BOK.cls", Tables, Agrees),
+    ("cl/nx/_2_KONTUR_VNUT_40_N2.cls", Mill, Agrees),
+    ("cl/nx/_4_SVERL_63_N2.cls", Mill, Agrees),
+    ("cl/nx/ust_a.cls", Tables, Agrees),
+    // No FEDRAT; a binary file; a part program and not its points.
+    ("cl/other/upside_down.as", Tables, Refused("E0509", 18)),
+    ("cl/other/upside_down.cl", Mill, Refused("E0402", 1)),
+    ("cl/other/upside_down.pp", Mill, Refused("E0513", 3)),
+    ("cl/solidworks-cam/Teflon-gasket.apt", Mill, Agrees),
+    ("cl/solidworks-cam/Teste-Metrologia.apt", Tables, Agrees),
+    ("cl/solidworks-cam/shimemcunha.apt", Tables, Agrees),
+    // A comma is missing in its cycles.
+    ("cl-more/camworks/UniSource.clt", Tables, Refused("E0405", 12)),
+    ("cl-more/catia/1_linear_3x_linear_3x_PATH1.aptsource", Tables, Agrees),
+    ("cl-more/catia/1_linear_5x_linear_5x_PATH1.aptsource", Tables, Agrees),
+    (
+        "cl-more/catia/2_circle-cylndr_circle-cylndr_5x_circle-cylndr_5x_PATH1.aptsource",
+        Tables,
+        Agrees,
+    ),
+    ("cl-more/catia/4_toolchange_empty-to-mill.aptsource", Mill, Agrees),
+    ("cl-more/catia/4_toolchange_mill-to-turn.aptsource", Mill, Agrees),
+    // ROTABL, whose points are not in the file.
+    ("cl-more/catia/5_rotabl_rotabl.aptsource", Tables, Refused("E0506", 8)),
+    ("cl-more/catia/DEMO1.txt", Lathe, Agrees),
+    // A tap without a feed.
+    ("cl-more/catia/DEMO2.txt", Mill, Refused("E0511", 32)),
+    ("cl-more/catia/DEMO5.txt", Lathe, Agrees),
+    ("cl-more/catia/circle-cylndr-helical_3x_PATH1.aptsource", Tables, Agrees),
+    ("cl-more/catia/circle-cylndr_3x_PATH1.aptsource", Tables, Agrees),
+    // Its last line is no statement.
+    ("cl-more/catia/izlaz.txt", Mill, Refused("E0513", 84)),
+    ("cl-more/catia/milling_MILLING_PATH1_FRONT.aptsource", Tables, Agrees),
+    ("cl-more/catia/milling_MILLING_PATH2_TRANSV.aptsource", Tables, Agrees),
+    ("cl-more/catia/turning_TURNING_PATH1_TRANSV.aptsource", Tables, Agrees),
+    // No FEDRAT.
+    ("cl-more/nx/PathPointsFile.cls", Tables, Refused("E0509", 1)),
+    ("cl-more/nx/Plane_1.cldata", Mill, Agrees),
+    ("cl-more/nx/cutcom2.clsf", Mill, Agrees),
+    // SYNC waits for another turret.
+    ("cl-more/other/catia_help_lathe_LT.aptsource", Lathe, Refused("E0506", 39)),
+    ("cl-more/other/nx_matkap_CLS.cls", Mill, Agrees),
+    ("cl-more/solidworks-cam/Suporte-parede-top.apt", Mill, Agrees),
+    ("cl-more/solidworks-cam/wall-holes.apt", Tables, Agrees),
+];
+
+/// The folder of files of others; `None`, with the reason printed, where it is absent.
+fn data() -> Option<PathBuf> {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let data = env::var_os("FILPOST_DATA").map_or(here.join("../../shared/data"), PathBuf::from);
+    if data.join("cl").is_dir() {
+        return Some(data);
+    }
+    println!("skipped: no folder {}", data.join("cl").display());
+    None
+}
+
+/// A file as text, and the unit it does not say itself.
+fn read(path: &Path) -> (Vec<u8>, Option<Unit>) {
+    let text = fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let says = text.windows(5).any(|word| word == b"UNIT/" || word == b"UNITS");
+    (text, if says { None } else { Some(Unit::Mm) })
+}
+
+fn post(
+    post: &filpost::Program,
+    cl: &[u8],
+    unit: Option<Unit>,
+) -> Result<Vec<u8>, Box<filpost::Diag>> {
+    let mut nc = Vec::new();
+    let run = post.start();
+    let run = if let Some(unit) = unit { run.units(unit) } else { run };
+    match run.run(cl, &mut nc) {
+        Ok(_) => Ok(nc),
+        Err(error) => Err(Box::new(error.diags()[0].clone())),
+    }
+}
+
+/// The differences that the back-check finds, one a line.
+fn back_check(post: &filpost::Program, cl: &[u8], unit: Option<Unit>, nc: &[u8]) -> String {
+    let run = post.start();
+    let run = if let Some(unit) = unit { run.units(unit) } else { run };
+    let program = NcProgram { text: nc, name: "out.nc" };
+    let (report, _) = run.verify(cl, program, Allowed::default()).unwrap();
+    if report.verdict() == Verdict::Agrees {
+        return String::new();
+    }
+    report.findings.iter().map(|finding| format!("\n  {finding}")).collect::<String>() + "\n"
+}
+
+#[test]
+fn each_file_agrees_or_is_refused_for_its_reason() {
+    let Some(data) = data() else { return };
+    for (name, machine, expected) in FILES {
+        let (cl, unit) = read(&data.join(name));
+        let program = machine.post();
+        let found = post(&program, &cl, unit);
+        match (found, expected) {
+            (Ok(nc), Agrees) => assert_eq!(back_check(&program, &cl, unit, &nc), "", "{name}"),
+            (Err(diag), Refused(code, line)) => {
+                let at = diag.spans.first().map_or(0, |span| span.line as usize);
+                assert_eq!((diag.code.name().as_str(), at), (*code, *line), "{name}: {diag}");
+            }
+            (Ok(_), Refused(code, _)) => panic!("{name} posts; {code} was expected"),
+            (Err(diag), Agrees) => panic!("{name}: {diag}"),
+        }
+    }
+    let agree = FILES.iter().filter(|(.., outcome)| *outcome == Agrees).count();
+    println!("{agree} files agree, {} are refused", FILES.len() - agree);
+}
+
+#[test]
+fn each_file_has_its_row() {
+    let Some(data) = data() else { return };
+    for folder in ["cl", "cl-more"] {
+        for system in fs::read_dir(data.join(folder)).unwrap().flatten() {
+            let Ok(files) = fs::read_dir(system.path()) else { continue };
+            for file in files.flatten() {
+                let name = file.path().strip_prefix(&data).unwrap().to_string_lossy().into_owned();
+                assert!(FILES.iter().any(|(row, ..)| *row == name), "{name} has no row");
+            }
+        }
+    }
+}
+
+/// The compensation of the control moves the path by a radius that the CL file does not
+/// name; without it the programmed points must come.
+fn without_compensation(cl: &[u8]) -> Vec<u8> {
+    let text = String::from_utf8_lossy(cl);
+    let lines = text.lines().filter(|line| !line.starts_with("CUTCOM"));
+    lines.fold(String::new(), |text, line| text + line + "\n").into_bytes()
+}
+
+fn count(path: &ToolPath, wanted: fn(&Action) -> bool) -> usize {
+    path.steps.iter().filter(|step| wanted(&step.action)).count()
+}
+
+/// LinuxCNC's interpreter makes of the programs what the files ask for.
+#[test]
+fn programs_of_three_axes_run() {
+    let (Some(data), Some(program)) = (data(), rs274::program()) else { return };
+    let mut done = 0;
+    for (name, ..) in
+        FILES.iter().filter(|(_, machine, outcome)| *machine == Mill && *outcome == Agrees)
+    {
+        let (cl, unit) = read(&data.join(name));
+        let cl = without_compensation(&cl);
+        let nc = post(&Mill.post(), &cl, unit).unwrap_or_else(|diag| panic!("{name}: {diag}"));
+        let nc = String::from_utf8(nc).unwrap();
+        let wanted =
+            cl_path_in(&cl[..], name, unit).unwrap_or_else(|said| panic!("{name}: {said}"));
+        let calls = rs274::run(&program, &nc).unwrap_or_else(|said| panic!("{name}: {said}"));
+        let found = nc_path(&calls, &nc).unwrap_or_else(|said| panic!("{name}: {said}"));
+        let differences = compare(&wanted, &found);
+        let list: String = differences.iter().map(|one| format!("\n  {one}")).collect();
+        assert!(differences.is_empty(), "{name}:{list}");
+        println!(
+            "{name}: {} motions, {} arcs, {} holes agree",
+            count(&wanted, |action| matches!(action, Action::Rapid(_) | Action::Feed(..))),
+            count(&wanted, |action| matches!(action, Action::Arc(..))),
+            count(&wanted, |action| matches!(action, Action::Hole(..))),
+        );
+        done += 1;
+    }
+    assert!(done > 8, "{done} files");
+}
+
+/// A tip in the frame of its tool axis, which lies across Y.
+fn in_frame(pose: &Pose) -> [f64; 3] {
+    let ([x, y, z], [i, j, k]): ([f64; 3], [f64; 3]) = (pose.tip.coords.into(), pose.axis.into());
+    assert!(j.abs() < 1e-9, "a tool axis out of X and Z");
+    [k * x - i * z, y, i * x + k * z]
+}
+
+/// The path of a CL file in the frames of its tool axes.
+fn steps_of(cl: &[u8]) -> Vec<Step> {
+    let mut found = Vec::new();
+    let mut at = [f64::NAN; 3];
+    let reader = Reader::new(cl, "part", Options::default());
+    for step in ClPath::new(reader, "part", [0.0; 3]) {
+        match step.unwrap().what {
+            Wanted::Rapid(pose) | Wanted::Feed(pose, _) => {
+                let to = in_frame(&pose);
+                if std::mem::replace(&mut at, to) != to {
+                    found.push(Step::Line(to));
+                }
+            }
+            Wanted::Arc(arc, _) => {
+                assert!(arc.normal.z.abs() > 0.999_999, "an arc out of X and Y");
+                at = in_frame(&arc.end);
+                found.push(Step::Arc(at, [arc.center.x, arc.center.y], arc.normal.z > 0.0));
+            }
+            Wanted::Hole(hole) => {
+                let [x, y, _] = in_frame(&hole.start);
+                found.push(Step::Hole([x, y], hole.depth));
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+/// Same kind, and the same numbers to the last digit of the programs.
+fn agree(a: &Step, b: &Step) -> bool {
+    let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 0.0011);
+    match (a, b) {
+        (Step::Line(a), Step::Line(b)) => near(a, b),
+        (Step::Arc(a, center, ccw), Step::Arc(b, other, sense)) => {
+            near(a, b) && near(center, other) && ccw == sense
+        }
+        (Step::Hole(a, depth), Step::Hole(b, other)) => near(a, b) && near(&[*depth], &[*other]),
+        _ => false,
+    }
+}
+
+/// The programs that the CAM system wrote beside two of its CL files go to the same points,
+/// by the same arcs, and drill the same holes.
+#[test]
+fn heidenhain_programs_have_the_same_points() {
+    let Some(data) = data() else { return };
+    for (part, programs) in [("Teflon-gasket", &["11.h"][..]), ("shimemcunha", &["11.h", "12.h"])] {
+        let (cl, _) = read(&data.join(format!("cl/solidworks-cam/{part}.apt")));
+        let wanted = steps_of(&cl);
+        let mut found = Vec::new();
+        for program in programs {
+            let path = data.join(format!("nc/heidenhain/{part}/{program}"));
+            found.extend(klartext::steps(&fs::read_to_string(path).unwrap()).unwrap());
+        }
+        let differs = wanted.iter().zip(&found).position(|(a, b)| !agree(a, b));
+        if let Some(at) = differs {
+            panic!("{part}, step {at}: {:?} and {:?}", wanted[at], found[at]);
+        }
+        assert_eq!(wanted.len(), found.len(), "{part}");
+        println!("{part}: {} steps agree", found.len());
+    }
+}
