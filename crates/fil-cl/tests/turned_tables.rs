@@ -166,6 +166,25 @@ fn cycles_of_nx_that_end_at_their_start() {
     refused("PAINT/PATH\nCYCLE/FACE,RAPTO,3.,FEDTO,2.,MMPM,9.\n", ClCode::BadPoint);
 }
 
+/// Words of a shop's table may have a comma in place of the slash; known words may not.
+#[test]
+fn words_of_a_shop_in_catia() {
+    let sign = "$$*CATIA0\n";
+    let lines = written(&format!("{sign}TEMPO,,LF\n")).unwrap();
+    assert_eq!(lines, ["TEMPO / , LF"]);
+    refused(&format!("{sign}GOTO,1,2,3\n"), ClCode::BadWord);
+    refused("TEMPO,,LF\n", ClCode::BadWord);
+    for values in ["-10.,2.", "0.,2.", "10.,-1.", "-10.,2.,100.,MMPM"] {
+        refused(&format!("{sign}CYCLE/DRILL,{values}\n"), ClCode::BadPoint);
+    }
+}
+
+#[test]
+fn modes_of_nx() {
+    assert_eq!(written("PAINT/PATH\nSET/MODE,ABSOL\n").unwrap(), [""; 0]);
+    assert_eq!(written("PAINT/PATH\nSET/MODE,INCR\n").unwrap(), ["SET / MODE, INCR"]);
+}
+
 /// A tool axis that GOHOME writes is that of the motions after it.
 #[test]
 fn gohome_keeps_its_tool_axis() {

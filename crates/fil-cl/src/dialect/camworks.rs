@@ -21,7 +21,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     packed_points: false,
     break_column: None,
     trailing_comma: true,
-    comma_words: &[],
+    comma_words: false,
     writes_units: true,
     writes_fini: true,
     rewrite: Some(rewrite),

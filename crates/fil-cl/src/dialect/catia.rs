@@ -29,7 +29,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     packed_points: false,
     break_column: Some(72),
     trailing_comma: true,
-    comma_words: &["CHANNEL"],
+    comma_words: true,
     writes_units: false,
     writes_fini: false,
     rewrite: Some(rewrite),
@@ -78,7 +78,7 @@ fn rewrite(written: &mut Written<'_>) -> Result<Outcome, FormError> {
             written.record.inert = written.record.data.iter().all(|word| *word == Word::Empty);
             Ok(Outcome::Free)
         }
-        w::CYCLE => Ok(cycle(written)),
+        w::CYCLE => cycle(written),
         w::REWIND => {
             written.state.has_ended = true;
             Ok(Outcome::Bound)
@@ -217,7 +217,10 @@ fn output_point(written: &mut Written<'_>) -> Outcome {
 }
 
 /// `CYCLE/kind,depth,clearance[,feed,unit]` as couplets.
-fn cycle(written: &mut Written<'_>) -> Outcome {
+///
+/// # Errors
+/// A depth that is not above zero, a clearance below zero.
+fn cycle(written: &mut Written<'_>) -> Result<Outcome, FormError> {
     const BY_POSITION: [WordId; 6] = [w::DRILL, w::TAP, w::BORE, w::REAM, w::CSINK, w::FACE];
     let (kind, couplets) = match written.record.data[..] {
         [Word::Minor(kind), Word::Number(depth), Word::Number(clear)] => {
@@ -230,10 +233,19 @@ fn cycle(written: &mut Written<'_>) -> Outcome {
             Word::Number(feed),
             Word::Minor(unit @ (w::MMPM | w::MMPR | w::IPM | w::IPR)),
         ] => (kind, vec![(w::DEPTH, depth), (unit, feed), (w::CLEAR, clear)]),
-        _ => return Outcome::Bound,
+        _ => return Ok(Outcome::Bound),
     };
-    if BY_POSITION.contains(&kind) {
-        written.set_couplets(kind, &couplets);
+    if !BY_POSITION.contains(&kind) {
+        return Ok(Outcome::Bound);
     }
-    Outcome::Bound
+    for (item, is_wrong) in
+        [(1, written.number(1) <= Some(0.0)), (2, written.number(2) < Some(0.0))]
+    {
+        if is_wrong {
+            let message = "depth and clearance count from the start of the hole, down and up";
+            return Err(FormError::new(ClCode::BadPoint, item, message));
+        }
+    }
+    written.set_couplets(kind, &couplets);
+    Ok(Outcome::Bound)
 }

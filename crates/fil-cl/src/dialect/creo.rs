@@ -18,7 +18,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     packed_points: true,
     break_column: None,
     trailing_comma: false,
-    comma_words: &[],
+    comma_words: false,
     writes_units: true,
     writes_fini: true,
     rewrite: Some(rewrite),

@@ -20,7 +20,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     packed_points: false,
     break_column: None,
     trailing_comma: false,
-    comma_words: &[],
+    comma_words: false,
     writes_units: true,
     writes_fini: false,
     rewrite: Some(rewrite),

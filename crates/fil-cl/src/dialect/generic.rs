@@ -19,7 +19,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     packed_points: false,
     break_column: None,
     trailing_comma: false,
-    comma_words: &[],
+    comma_words: false,
     writes_units: false,
     writes_fini: true,
     rewrite: Some(rewrite),

@@ -71,8 +71,8 @@ pub struct DialectRules {
     pub break_column: Option<usize>,
     /// True where a list of items may end in a comma.
     pub trailing_comma: bool,
-    /// Major words that are followed by a comma in place of the slash.
-    pub comma_words: &'static [&'static str],
+    /// True where words of a shop are followed by a comma in place of the slash.
+    pub comma_words: bool,
     /// True where each file says its unit.
     pub writes_units: bool,
     /// True where each file ends in FINI.

@@ -28,7 +28,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     packed_points: false,
     break_column: None,
     trailing_comma: false,
-    comma_words: &[],
+    comma_words: false,
     writes_units: false,
     writes_fini: false,
     rewrite: Some(rewrite),
@@ -46,6 +46,11 @@ fn rewrite(written: &mut Written<'_>) -> Result<Outcome, FormError> {
     match written.record.major {
         w::CYCLE => cycle::couplets(written)?,
         w::TLDATA => cutter(written),
+        // Absolute coordinates are what all CL data have.
+        w::SET => {
+            written.record.inert =
+                written.record.data == [Word::Minor(w::MODE), Word::Minor(w::ABSOL)];
+        }
         _ => return Ok(Outcome::Free),
     }
     Ok(Outcome::Bound)

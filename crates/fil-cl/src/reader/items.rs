@@ -79,7 +79,8 @@ impl Reader<'_> {
     ) -> Result<()> {
         self.refuse_bytes(is_control)?;
         self.item_ranges.clear();
-        let slash = memchr::memchr(b'/', &self.statement.joined).or_else(|| self.comma_as_slash());
+        let slash =
+            memchr::memchr(b'/', &self.statement.joined).or_else(|| self.comma_as_slash(vocab));
         let length = self.statement.joined.len();
         let major = trim(&self.statement.joined, 0..slash.unwrap_or(length));
         record.major = self.parse_major(vocab, major, pseudo)?;
@@ -107,12 +108,16 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// The first comma, where the dialect writes it in place of the slash.
-    fn comma_as_slash(&self) -> Option<usize> {
+    /// The first comma, where the dialect writes it in place of the slash: behind words of
+    /// a shop, and behind no word that has a meaning.
+    fn comma_as_slash(&self, vocab: &Vocabulary) -> Option<usize> {
+        if !self.rules().comma_words {
+            return None;
+        }
         let comma = memchr::memchr(b',', &self.statement.joined)?;
-        let name = self.statement.joined[..comma].trim_ascii();
-        let mut words = self.rules().comma_words.iter();
-        words.any(|word| name.eq_ignore_ascii_case(word.as_bytes())).then_some(comma)
+        let name = self.statement.joined[..comma].trim_ascii().to_ascii_uppercase();
+        let known = vocab.find(std::str::from_utf8(&name).ok()?);
+        known.is_none_or(|id| !vocab.is_known(id)).then_some(comma)
     }
 
     /// The major word. Blanks within it mean nothing where the word is known
