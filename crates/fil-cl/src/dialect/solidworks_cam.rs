@@ -33,11 +33,14 @@ pub(super) const RULES: DialectRules = DialectRules {
 
 fn rewrite(written: &mut Written<'_>) -> Result<Outcome, FormError> {
     match written.record.major {
-        w::TRNTYP => frame(written.record),
-        w::CYCLE => return Ok(cycle(written)),
-        w::ROTABL => return table::turn(written),
-        w::TLAXIS => return Ok(table::tool_axis(written)),
-        _ => {}
+        w::TRNTYP => {
+            frame(written.record);
+            Ok(Outcome::Free)
+        }
+        w::CYCLE => Ok(cycle(written)),
+        w::ROTABL => table::turn(written),
+        w::TLAXIS => Ok(table::tool_axis(written)),
+        _ => Ok(Outcome::Free),
     }
 }
 
