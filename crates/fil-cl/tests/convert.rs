@@ -44,6 +44,7 @@ fn words_without_effect_become_notes() {
         [
             "$$ TOOL PATH / A,TOOL,MILL 5",
             "$$-> TLDATA / MILL, 5.0, 0.0, 50.0, 0.0, 0.0",
+            "CUTTER / 5.0",
             "$$-> PAINT / COLOR, 31.0",
             "LOADTL / 3.0, OSETNO, 4.0",
             "FEDRAT / 250.0, MMPM",

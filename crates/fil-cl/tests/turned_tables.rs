@@ -157,8 +157,8 @@ fn diameters_of_nx() {
 #[test]
 fn cycles_of_nx_that_end_at_their_start() {
     for (values, expected) in [
-        ("DRILL,RAPTO,3.,FEDTO,0.,MMPM,9.", "DRILL, FEDTO, 0.0, MMPM, 9.0, RAPTO, 3.0"),
-        ("CSINK,RAPTO,3.,FEDTO,-2.,MMPM,9.", "CSINK, DEPTH, 2.0, MMPM, 9.0, RAPTO, 3.0"),
+        ("DRILL,RAPTO,3.,FEDTO,0.,MMPM,9.", "DRILL, FEDTO, 0.0, MMPM, 9.0, CLEAR, 3.0"),
+        ("CSINK,RAPTO,3.,FEDTO,-2.,MMPM,9.", "CSINK, DEPTH, 2.0, MMPM, 9.0, CLEAR, 3.0"),
     ] {
         let lines = written(&format!("PAINT/PATH\nCYCLE/{values}\n")).unwrap();
         assert_eq!(lines, [format!("CYCLE / {expected}")]);
@@ -196,6 +196,6 @@ fn gohome_keeps_its_tool_axis() {
 #[test]
 fn words_of_other_writers_of_apt() {
     let text = "UNITS/MM\nFEDRAT/PERMIN,100\nFEDRAT/PERREV,.1\nMODE/XYPLAN\nAUTOPS\n";
-    assert_eq!(written(text).unwrap()[1..], ["FEDRAT / 100.0, UPM", "FEDRAT / 0.1, UPR"]);
+    assert_eq!(written(text).unwrap()[1..], ["FEDRAT / 100.0, MMPM", "FEDRAT / 0.1, MMPR"]);
     assert_eq!(written("MODE/MILL\n").unwrap(), ["MODE / MILL"]);
 }
