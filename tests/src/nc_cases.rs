@@ -37,8 +37,9 @@ pub fn all() -> Vec<NcCase> {
 fn corpus() -> Vec<NcCase> {
     let folder = root().join("corpus");
     let cases = case::find(&folder).expect("the corpus");
-    // The judges read a CL file without being told its dialect.
-    let recognized = cases.into_iter().filter(|case| case.file.dialect.is_none());
+    // The judges read a CL file without being told its dialect or its unit.
+    let recognized =
+        cases.into_iter().filter(|case| case.file.dialect.is_none() && case.file.units.is_none());
     let with_program = recognized.filter_map(|case| {
         let nc = fs::read_to_string(case.folder.join(case.file.expect.as_ref()?)).ok()?;
         let name = case.folder.strip_prefix(&folder).ok()?.display().to_string();

@@ -158,11 +158,11 @@ impl<'a> Items<'a> {
     fn left(&self) -> Option<String> {
         let left: Vec<String> = (0..self.len())
             .filter(|at| self.is_left(*at))
-            .filter_map(|at| match self.record.data[at] {
-                Word::Number(value) => Some(value.to_string()),
-                Word::Minor(word) => Some(self.name(word).to_string()),
-                word @ Word::Text { .. } => Some(format!("'{}'", self.record.text_of(word))),
-                Word::Empty => None,
+            .map(|at| match self.record.data[at] {
+                Word::Number(value) => value.to_string(),
+                Word::Minor(word) => self.name(word).to_string(),
+                word @ Word::Text { .. } => format!("'{}'", self.record.text_of(word)),
+                Word::Empty => "an empty item".to_string(),
             })
             .collect();
         (!left.is_empty()).then(|| left.join(", "))

@@ -1,5 +1,6 @@
 //! GODLTA/dx,dy,dz or GODLTA/d: a motion relative to the last point.
 
+use fil_cl::record::FIRST_DATA;
 use fil_diag::Result;
 use nalgebra::Vector3;
 
@@ -20,6 +21,8 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         return PostCode::ArcStart.err("GODLTA before any FROM or GOTO");
     };
     goto::refuse_waiting_arc(post)?;
+    // The numbers of a motion stand from its word 6 on.
+    items.skip(usize::from(POINT) - FIRST_DATA);
     let (step, word) = match items.numbers()[..] {
         [x, y, z] => (Vector3::new(x, y, z), POINT),
         [distance] => (post.path.axis.normalize() * distance, 0),

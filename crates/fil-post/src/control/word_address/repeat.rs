@@ -21,6 +21,7 @@ pub fn set(control: &mut Control, words: Vec<(Letter, f64, Cause)>) -> Result<()
     }
     for (letter, value, cause) in words {
         control.require_letter(letter)?;
+        refuse_center(letter)?;
         refuse_mode(control, letter, value)?;
         control.ended_repeats.retain(|ended| *ended != letter);
         control.repeats.insert(letter, (value, cause));
@@ -48,12 +49,23 @@ fn warn_of_what_stays(control: &mut Control) {
     }
 }
 
+/// Letters of an arc: on a line they are an alarm, or a chamfer.
+const OF_AN_ARC: &[u8] = b"IJKR";
+
+/// Refuses center and radius of an arc.
+fn refuse_center(letter: Letter) -> Result<()> {
+    if OF_AN_ARC.contains(&letter.byte()) {
+        return PostCode::WordForm
+            .err(format!("REPEAT: {letter} in each motion would bend lines and arcs"));
+    }
+    Ok(())
+}
+
 /// Refuses a word that would bend an arc or drill another hole.
 fn refuse_in_arc_or_cycle(control: &Control, letter: Letter) -> Result<()> {
     let in_cycle = control.state.in_cycle != Some(false)
         || control.block.g_codes().iter().any(|(code, _)| control.meaning(*code) == Meaning::Cycle);
-    let centers = b"IJKR".map(Letter::of);
-    let arc = centers.into_iter().any(|center| control.block_has(center));
+    let arc = OF_AN_ARC.iter().any(|center| control.block_has(Letter::of(*center)));
     let beside = BESIDE_MOTION.contains(&letter.byte()) && !(in_cycle && letter == letters::F);
     if (in_cycle || arc) && !beside {
         let what = if in_cycle { "a cycle" } else { "an arc" };
