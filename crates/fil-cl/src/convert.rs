@@ -67,7 +67,7 @@ pub fn to_ncl(
     let mut statements = 0;
     Statements::new(unit).all(&mut reader, &mut vocabulary, |record, vocabulary| {
         statements += 1;
-        write(&mut writer, record, vocabulary).map_err(|diag| at(diag, name, record, vocabulary))
+        write(&mut writer, record, vocabulary).map_err(|diag| at(*diag, name, record, vocabulary))
     })?;
     let dialect = reader.recognized();
     drop(reader);
@@ -89,13 +89,13 @@ pub fn to_ncl(
             Ok(false) => "it would not read back".to_string(),
             Err(diag) => format!("it would not read back: {}", diag.message),
         };
-        Err(at(Box::new(Diag::new(ClCode::Unwritable, problem)), name, record, vocabulary))
+        Err(at(Diag::new(ClCode::Unwritable, problem), name, record, vocabulary))
     })?;
     match back.read(&mut vocabulary, &mut found) {
         Ok(false) => Ok(Converted { statements, dialect }),
         _ => {
             let message = "it would read back with a statement more";
-            Err(at(Box::new(Diag::new(ClCode::Unwritable, message)), name, &found, &vocabulary))
+            Err(at(Diag::new(ClCode::Unwritable, message), name, &found, &vocabulary))
         }
     }
 }
@@ -198,7 +198,7 @@ fn same_word(found: Option<WordView<'_>>, meant: Option<WordView<'_>>) -> bool {
 }
 
 /// Adds the line of the statement.
-fn at(diag: Box<Diag>, name: &str, record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
+fn at(diag: Diag, name: &str, record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
     let line = TextSpan::line(name, record.line, vocabulary.name(record.major));
     let hint = "post the file as it is, without converting it";
     Box::new(diag.at(line).hint(hint))

@@ -115,7 +115,7 @@ impl<S: Records> Engine<'_, S> {
             survey.refusals.add(*diag);
             return Ok(true);
         } else {
-            self.refused_by_post(survey, diag);
+            self.refused_by_post(survey, *diag);
         }
         self.let_go(survey.doubt);
         Ok(true)
@@ -128,7 +128,7 @@ impl<S: Records> Engine<'_, S> {
     }
 
     /// Notes the error of a record that the post has refused.
-    fn refused_by_post(&self, survey: &mut Survey, diag: Box<Diag>) {
+    fn refused_by_post(&self, survey: &mut Survey, diag: Diag) {
         let (code, mut word) = (diag.code, self.record.major);
         if is_code(code, PostCode::UnknownWord) {
             survey.refusals.note_word(self.vocabulary.name(word), false);
@@ -136,7 +136,7 @@ impl<S: Records> Engine<'_, S> {
             word = meant.and_then(|meant| self.vocabulary.find(meant)).unwrap_or(word);
         }
         if !survey.doubt.overlaps(rests_on(code, &self.record)) {
-            survey.refusals.add(*diag);
+            survey.refusals.add(diag);
         }
         survey.doubt = survey.doubt.and(left_without(code)).and(Doubt::left_by(word));
     }
