@@ -4,6 +4,7 @@
 
 pub mod corpus;
 pub mod excuse;
+pub mod letter;
 pub mod settings;
 pub mod statement;
 pub mod trial;

@@ -38,7 +38,8 @@ pub fn statements(cl: &str) -> Vec<Statement> {
         text.push_str(line.trim_end());
         let begin = text.trim_start();
         let is_comment = begin.starts_with(COMMENT) && !begin.starts_with(ARROW);
-        if text.ends_with('$') && !is_comment {
+        let is_text = TEXTS.iter().any(|word| begin.starts_with(word));
+        if text.ends_with('$') && !is_comment && !is_text {
             text.push('\n');
             open = Some((first, text));
         } else if !text.trim().is_empty() {
@@ -251,7 +252,7 @@ mod tests {
 
     #[test]
     fn statements_are_cut_into_items() {
-        let cl = "$$ a comment\nPARTNO / A, B\nCYCLE / DRILL, DEPTH, $\n 5., CLEAR $$ C, D\nRAPID\n\
+        let cl = "$$ a comment\nPARTNO / A, B $\nCYCLE / DRILL, DEPTH, $\n 5., CLEAR $$ C, D\nRAPID\n\
                   $$-> CUTTER / 5.\n";
         let all = statements(cl);
         assert_eq!(all.len(), 5);
