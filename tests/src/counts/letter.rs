@@ -3,8 +3,11 @@
 use super::excuse::{Excuse, Setting};
 use super::statement::{Change, Statement, statements};
 
-/// An axis of an arc that much aside of one of the machine counts as that one: 0.001, with
-/// what a difference of numbers leaves.
+/// The axis of an arc may be longer or shorter than 1 by this.
+const AXIS_LENGTH: f64 = 0.001 + 1e-9;
+
+/// An arc that leaves the plane of the machine by this is in it, mm or inch: a last digit,
+/// with what a difference of numbers leaves.
 const IN_PLANE: f64 = 0.001 + 1e-9;
 
 /// A statement with one character changed.
@@ -163,8 +166,12 @@ fn of_number(statement: &Statement, index: usize, mutant: &Mutant) -> Option<&'s
     if change == 0.0 {
         return Some("the same number");
     }
-    if statement.major == "CIRCLE" && (3..6).contains(&index) && change <= IN_PLANE {
-        return Some("an axis that near to one of the machine is that one");
+    if statement.major == "CIRCLE" && (3..6).contains(&index) {
+        if old.abs() == 1.0 && change <= AXIS_LENGTH {
+            return Some("an axis of nearly that length");
+        }
+        let radius: f64 = statement.items.get(6).map(|_| statement.item(6))?.parse().ok()?;
+        return (change * radius <= IN_PLANE).then_some("an arc that near to the plane is in it");
     }
     match before.as_deref() {
         Some("RETURN" | "RTRCTO") if new < old => {
@@ -208,7 +215,7 @@ mod tests {
     #[test]
     fn other_forms_of_the_same_are_excused_and_no_more() {
         let cl = "UNITS / MM\nCYCLE / DEEP2, DEPTH, 9.5, MMPM, 80.0005, RETURN, 25\n\
-                  CIRCLE / 0, 0, 0, 0.000, 0, 1, 5\nCUTTER / 5., 0,\nPPRINT / A\n\
+                  CIRCLE / 0, 0, 0, 0.000, 0, 1, 1\nCUTTER / 5., 0,\nPPRINT / A\n\
                   $$-> CUTTER / 5.\nRAPID /\n";
         let dropped = |at| move |one: &Mutant| one.at == at && one.length == 0;
         let other = |at| move |one: &Mutant| one.at == at && one.length == 1;

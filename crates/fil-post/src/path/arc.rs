@@ -22,8 +22,9 @@ const RADIUS_TOLERANCE: f64 = 1e-3;
 /// End and start of an arc nearer than this make a full circle, mm or inch.
 const SAME_POINT: f64 = 1e-6;
 
-/// Normals that differ less than this from a machine axis lie in its plane.
-const IN_PLANE: f64 = 1e-6;
+/// An arc whose axis is less than this, as a cosine, from one of the machine is near its
+/// plane.
+const NEAR_PLANE: f64 = 1e-6;
 
 const FULL: f64 = 360.0;
 
@@ -159,10 +160,17 @@ fn in_plane(
         (tip - center) * if mirrored { -1.0 } else { 1.0 }
     };
     let to = machine(target.point)?;
-    let found = Plane::ALL.into_iter().find(|plane| normal[plane.normal()].abs() > 1.0 - IN_PLANE);
+    let found =
+        Plane::ALL.into_iter().find(|plane| normal[plane.normal()].abs() > 1.0 - NEAR_PLANE);
     let Some(plane) = found else { return Ok(None) };
     let most = post.control.commons.dbl_opt(loc::CIRCLE_MAX_RADIUS);
     let axes = plane.axes();
+    // A large arc leaves the plane by more than a last digit at a smaller angle.
+    let aside = normal[axes[0]].hypot(normal[axes[1]]);
+    let last_digit = post.control.tables.axis(plane.normal()).resolution();
+    if aside * radius > last_digit {
+        return Ok(None);
+    }
     let circles = axes.into_iter().all(|number| post.control.tables.axis(number).keeps_circles());
     if most.is_some_and(|most| radius > most) || !circles {
         return Ok(None);
