@@ -128,9 +128,12 @@ impl Writer {
         }
     }
 
-    /// The end of the text: what follows FINI, which nobody reads, or else no
-    /// blank lines.
+    /// The end of the text: what follows FINI, which nobody reads, with the line ends of
+    /// the file, or else no blank lines.
     fn rest(&mut self, rest: &Rest<'_>) {
+        let unread = |text: &str| {
+            text.replace("\r\n", "\n").replace('\r', "\n").replace('\n', self.line_end)
+        };
         match rest {
             Rest::None => {
                 let end = self.text.trim_end_matches(['\r', '\n']).len();
@@ -139,11 +142,11 @@ impl Writer {
                     return;
                 }
             }
-            Rest::Below(text) => self.text.push_str(text),
+            Rest::Below(text) => self.text.push_str(&unread(text)),
             Rest::SameLine(text) => {
                 self.text.truncate(self.text.len() - self.line_end.len());
                 self.text.push_str("; ");
-                self.text.push_str(text);
+                self.text.push_str(&unread(text));
             }
         }
         self.text.push_str(self.line_end);

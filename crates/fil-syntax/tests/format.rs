@@ -160,3 +160,16 @@ fn a_line_that_indentation_would_make_too_long_leaves_the_text_alone() {
     let source = format!("CIMFIL/ON,OP\nPPRINT {}\nCIMFIL/OFF\nFINI\n", "X".repeat(16_384 - 7));
     assert_eq!(format("t.fil", &source).expect("no errors"), source);
 }
+
+#[test]
+fn a_lone_continuation_sign_behind_fini_is_nothing() {
+    for source in ["A=1\nFINI\n$", "A=1\nFINI\n$\n", "A=1\nFINI\n$  "] {
+        comes_out(source, "A = 1\nFINI\n");
+    }
+    comes_out("A=1\nFINI\n$ NOTES", "A = 1\nFINI\n$ NOTES\n");
+}
+
+#[test]
+fn what_follows_fini_has_the_line_ends_of_the_file() {
+    comes_out("\r\nFINI; A=1\nB", "FINI; A=1\r\nB\r\n");
+}

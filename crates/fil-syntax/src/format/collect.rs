@@ -155,7 +155,8 @@ impl<'s> Collector<'s> {
         let (below, own_line) = self.between(&parts);
         self.layout.below = below;
         let rest = self.source[stop..].trim_end_matches([' ', '\t', '\r', '\n', '\x0c', '\x1a']);
-        if rest.is_empty() {
+        // A `$` at the very end continues nothing, as it does with a line end behind it.
+        if matches!(rest, "" | "$") {
             return;
         }
         self.layout.rest = if own_line {
