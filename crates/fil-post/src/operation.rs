@@ -88,8 +88,8 @@ pub enum Dwell {
 pub enum Spindle {
     /// Stops.
     Off,
-    /// Stops at an angle (degrees) where the record gives one.
-    Orient(Option<f64>),
+    /// Stops at the angle where the machine orients it.
+    Orient,
     /// Takes a range of speeds, 1 to 6.
     Range(f64),
     /// Takes a highest speed, turns a minute.

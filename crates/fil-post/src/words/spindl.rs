@@ -1,4 +1,4 @@
-//! SPINDL: RPM,s,CLW in any order; OFF; ON; ORIENT\[,b]; SFM and SMM for
+//! SPINDL: RPM,s,CLW in any order; OFF; ON; ORIENT; SFM and SMM for
 //! constant surface speed; MAXRPM,n; RANGE,n.
 
 use fil_cl::vocabulary::words as w;
@@ -19,10 +19,9 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         return carry_out(post, Operation::Spindle(Spindle::Off));
     }
     if items.flag(w::ORIENT) {
-        let angle = items.number();
-        post.due_to(items);
+        refuse_angle(items)?;
         items.deny_rest()?;
-        return carry_out(post, Operation::Spindle(Spindle::Orient(angle)));
+        return carry_out(post, Operation::Spindle(Spindle::Orient));
     }
     let range = items.couplet(w::RANGE)?.map(|range| (range, items.last_word()));
     let limit = items.couplet(w::MAXRPM)?.map(|limit| (limit, items.last_word()));
@@ -40,6 +39,15 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         Some(turn) => carry_out(post, Operation::Spindle(Spindle::Turn(turn))),
         None => Ok(()),
     }
+}
+
+/// The angle of an oriented stop has another address on each control: S would be a speed
+/// to most.
+fn refuse_angle(items: &mut Items) -> Result<()> {
+    let Some(angle) = items.number() else { return Ok(()) };
+    let mut diag = items.error(format!("no address is known for the angle {angle}"));
+    diag.hint = Some("Write the block of this control in a FIL section for SPINDL.".into());
+    Err(diag)
 }
 
 /// What makes the spindle turn; `None` for a record that only sets a range or limit.

@@ -3,7 +3,6 @@
 use fil_diag::Result;
 use fil_machine::letters::S;
 use fil_machine::locations as loc;
-use fil_machine::rounding::Rounding;
 use fil_machine::setting::CodeAt;
 
 use crate::control::{Control, Function};
@@ -29,12 +28,7 @@ const FOOT: f64 = 0.3048;
 pub fn write(control: &mut Control, spindle: Spindle) -> Result<()> {
     match spindle {
         Spindle::Off => off(control),
-        Spindle::Orient(angle) => {
-            if let Some(angle) = angle {
-                control.word_rounded(S, angle, Rounding::Exact)?;
-            }
-            place(control, loc::SPINDLE_ORIENT_CODE, "SPINDL/ORIENT")
-        }
+        Spindle::Orient => place(control, loc::SPINDLE_ORIENT_CODE, "SPINDL/ORIENT"),
         Spindle::Range(range) => select_range(control, range),
         Spindle::Limit(limit) => {
             let code = control.code(loc::SPINDLE_MAX_CODE, "SPINDL/MAXRPM")?;
