@@ -32,9 +32,7 @@ impl Pending {
         self.values.clear();
         self.next = 0;
     }
-}
 
-impl Pending {
     /// Points to be handed out, all of one line.
     pub(super) fn give(&mut self, points: &[[f64; 3]], line: u32) {
         self.clear();

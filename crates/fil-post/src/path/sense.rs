@@ -22,8 +22,9 @@ const UNEVEN: f64 = 0.5;
 /// Long arcs, without a short one, that are taken for those of another rule.
 const MANY: u32 = 4;
 
-/// Square of a way that is none, mm or inch: what computing leaves has no direction.
-const NOTHING: f64 = 1e-14;
+/// A motion whose squared length is below this, mm² or inch², has no direction: a
+/// difference of two equal points leaves as much.
+const SHORTEST: f64 = 1e-14;
 
 /// How the last feed motion ended.
 #[derive(Clone, Copy, Debug, Default)]
@@ -133,7 +134,7 @@ impl Course {
         if self.arc.is_some() {
             self.judge(way)?;
         }
-        if way.norm_squared() > NOTHING {
+        if way.norm_squared() > SHORTEST {
             self.last = Some(way);
         }
         Ok(())
@@ -158,7 +159,7 @@ impl Course {
 
     /// A line follows the arc that waits. One without length tells nothing.
     fn judge(&mut self, way: Vector3<f64>) -> Result<()> {
-        let Some(arc) = self.arc.filter(|_| way.norm_squared() > NOTHING) else { return Ok(()) };
+        let Some(arc) = self.arc.filter(|_| way.norm_squared() > SHORTEST) else { return Ok(()) };
         let end = Meeting::of(arc.end, way);
         self.settle(Some(end));
         if (arc.begin, end) == (Some(Meeting::Back), Meeting::Back) && arc.extent != Extent::Short {
