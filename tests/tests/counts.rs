@@ -10,8 +10,9 @@ use filpost::no_effect::{self, NoEffect};
 use filpost_tests::counts::corpus::{Part, parts};
 use filpost_tests::counts::excuse::Setting;
 use filpost_tests::counts::settings::{Pair, unseen};
-use filpost_tests::counts::statement::{Change, Statement, statements};
+use filpost_tests::counts::statement::{Change, Statement};
 use filpost_tests::counts::trial::Window;
+use filpost_tests::counts::walk;
 use filpost_tests::posting::Prepared;
 
 /// Statements of one form that are tried in the normal run.
@@ -41,28 +42,15 @@ fn all() -> bool {
 
 /// Tries the statements of a file; `seen` counts those of one form.
 fn try_part(part: &Part, seen: &mut HashMap<String, usize>, tally: &mut Tally) {
-    let statements = statements(&part.cl);
-    let inert = part.inert_lines();
-    let machine = part.machine(None).expect("the post of a part");
-    for (at, statement) in statements.iter().enumerate() {
-        let count = seen.entry(statement.shape()).or_default();
-        *count += 1;
-        if statement.major.is_empty() || (*count > SAMPLE && !all()) {
-            continue;
-        }
-        let Some(window) = Window::new(&machine, &statements, at) else {
-            tally.refused += 1;
-            continue;
-        };
-        if window.is_of_a_section() {
-            tally.of_sections += 1;
-            continue;
-        }
-        let inert = inert.contains(&statement.line);
-        let setting = Setting { all: &statements, at, commons: machine.commons(), inert };
+    let chosen =
+        |statement: &Statement, count| !statement.major.is_empty() && (count <= SAMPLE || all());
+    let left = walk::each(part, seen, chosen, |window, machine, setting| {
+        let statement = &setting.all[setting.at];
         let place = format!("{} line {}: {}", part.name, statement.line, statement.text);
-        tally.try_statement(&window, &machine, setting, &place);
-    }
+        tally.try_statement(window, machine, setting, &place);
+    });
+    tally.of_sections += left.of_sections;
+    tally.refused += left.refused;
 }
 
 impl Tally {

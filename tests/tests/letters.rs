@@ -5,10 +5,8 @@ use std::collections::{BTreeMap, HashMap};
 use std::env;
 
 use filpost_tests::counts::corpus::{Part, parts};
-use filpost_tests::counts::excuse::Setting;
 use filpost_tests::counts::letter::{excuse, mutants};
-use filpost_tests::counts::statement::statements;
-use filpost_tests::counts::trial::Window;
+use filpost_tests::counts::walk;
 
 /// Statements of one form that are tried in the normal run, and in a whole one.
 const SAMPLE: [usize; 2] = [1, 5];
@@ -32,45 +30,38 @@ fn all() -> bool {
 
 /// Tries the statements of a file; `seen` counts those of one form.
 fn try_part(part: &Part, seen: &mut HashMap<String, usize>, tally: &mut Tally) {
-    let statements = statements(&part.cl);
-    let inert = part.inert_lines();
-    let machine = part.machine(None).expect("the post of a part");
-    for (at, statement) in statements.iter().enumerate() {
-        let count = seen.entry(statement.shape()).or_default();
-        *count += 1;
-        if *count > SAMPLE[usize::from(all())] {
-            continue;
-        }
-        let Some(window) = Window::new(&machine, &statements, at) else { continue };
-        if window.is_of_a_section() {
-            continue;
-        }
-        let inert = inert.contains(&statement.line);
-        let setting = Setting { all: &statements, at, commons: machine.commons(), inert };
-        let first = (statement.line + at) % STEP;
-        let step = if all() { 1 } else { STEP };
-        let chosen = mutants(&statement.text).into_iter().skip(if all() { 0 } else { first });
-        for mutant in chosen.step_by(step) {
-            tally.tried += 1;
-            if window.notices(&machine, &mutant.text) {
-                continue;
-            }
-            match excuse(&setting, &mutant) {
-                Some(reason) => *tally.excused.entry(reason).or_default() += 1,
-                None if statement.is_text() && window.is_ignored() => {
-                    *tally.excused.entry("the post says that it ignores it").or_default() += 1;
+    let most = SAMPLE[usize::from(all())];
+    walk::each(
+        part,
+        seen,
+        |_, count| count <= most,
+        |window, machine, setting| {
+            let statement = &setting.all[setting.at];
+            let first = (statement.line + setting.at) % STEP;
+            let step = if all() { 1 } else { STEP };
+            let chosen = mutants(&statement.text).into_iter().skip(if all() { 0 } else { first });
+            for mutant in chosen.step_by(step) {
+                tally.tried += 1;
+                if window.notices(machine, &mutant.text) {
+                    continue;
                 }
-                None => {
-                    let kind = format!("{} {:?} at {}", statement.major, mutant.was, mutant.at);
-                    let place = format!(
-                        "{} line {}:\n    {}\n    {}",
-                        part.name, statement.line, statement.text, mutant.text
-                    );
-                    tally.quiet.entry(kind).or_insert((0, place)).0 += 1;
+                match excuse(&setting, &mutant) {
+                    Some(reason) => *tally.excused.entry(reason).or_default() += 1,
+                    None if statement.is_text() && window.is_ignored() => {
+                        *tally.excused.entry("the post says that it ignores it").or_default() += 1;
+                    }
+                    None => {
+                        let kind = format!("{} {:?} at {}", statement.major, mutant.was, mutant.at);
+                        let place = format!(
+                            "{} line {}:\n    {}\n    {}",
+                            part.name, statement.line, statement.text, mutant.text
+                        );
+                        tally.quiet.entry(kind).or_insert((0, place)).0 += 1;
+                    }
                 }
             }
-        }
-    }
+        },
+    );
 }
 
 #[test]

@@ -8,3 +8,4 @@ pub mod letter;
 pub mod settings;
 pub mod statement;
 pub mod trial;
+pub mod walk;
