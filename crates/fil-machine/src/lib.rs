@@ -19,6 +19,7 @@ pub mod letter;
 pub mod locations;
 pub mod modes;
 pub mod number;
+pub mod numbering;
 pub mod rounding;
 pub mod setting;
 pub mod stored;

@@ -10,12 +10,15 @@ use crate::axis_chain::{AxisChain, ROTARY_LETTERS};
 use crate::commons::Commons;
 use crate::errors::MachineCode;
 use crate::locations as loc;
+use crate::numbering::Numbering;
 
 /// The tables.
 #[derive(Clone, Debug, Default)]
 pub struct MachineTables {
     /// The address table.
     pub addresses: Addresses,
+    /// The rules of sequence numbers.
+    pub numbering: Numbering,
     axes: Vec<Axis>,
     chain: AxisChain,
     present: AxisSet,
@@ -41,6 +44,7 @@ impl MachineTables {
 
     fn make(&mut self, commons: &Commons, metric: bool) -> Result<()> {
         self.addresses = Addresses::from_commons(commons, metric);
+        self.numbering = Numbering::from_commons(&self.addresses, commons);
         let chain = AxisChain::from_commons(commons)?;
         self.chain = if metric { chain } else { chain.in_inches() };
         self.axes = linear_letters()

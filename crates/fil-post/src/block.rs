@@ -179,7 +179,10 @@ impl Block {
     #[inline]
     pub fn check_functions(&self, addresses: &Addresses) -> Result<()> {
         for (letter, codes) in [(G, &self.g), (M, &self.m)] {
-            if let Some(format) = addresses.format(letter).filter(|_| !codes.is_empty()) {
+            if codes.is_empty() {
+                continue;
+            }
+            if let Some(format) = addresses.format(letter) {
                 codes.iter().try_for_each(|(code, _)| code.check(letter, format))?;
             }
         }

@@ -1,12 +1,13 @@
 //! The tape: finished blocks as text, with sequence numbers and provenance.
 
 use fil_diag::Result;
-use fil_machine::address::{Addresses, no_address};
+use fil_machine::address::no_address;
 use fil_machine::letters::{G, M, N};
 use fil_machine::number::NumberFormat;
 use fil_machine::rounding::Rounding;
+use fil_machine::tables::MachineTables;
 use fil_machine::word_text::WordText;
-use fil_machine::{Commons, Letter, locations as loc};
+use fil_machine::{Commons, Letter};
 
 use crate::block::{Block, function, named};
 use crate::cause::{Cause, Stacks};
@@ -56,14 +57,15 @@ impl Tape {
     pub fn block(
         &mut self,
         block: &Block,
-        addresses: &Addresses,
+        tables: &MachineTables,
         commons: &mut Commons,
     ) -> Result<()> {
+        let addresses = &tables.addresses;
         if !block.prints(addresses) {
             return Ok(());
         }
         block.check_functions(addresses)?;
-        let start = self.begin(true, addresses, commons)?;
+        let start = self.begin(true, tables, commons)?;
         match &mut self.noted {
             Some(noted) => {
                 let cause = self.cause;
@@ -85,9 +87,10 @@ impl Tape {
     pub fn words(
         &mut self,
         words: &[(Letter, f64, Cause)],
-        addresses: &Addresses,
+        tables: &MachineTables,
         commons: &mut Commons,
     ) -> Result<()> {
+        let addresses = &tables.addresses;
         let mut line = Vec::new();
         let mut noted = Vec::new();
         let mut last = Vec::new();
@@ -114,7 +117,7 @@ impl Tape {
             text.append_to(&mut line);
         }
         last.into_iter().for_each(|(letter, value)| commons.set_last_output(letter, value));
-        let start = self.begin(true, addresses, commons)?;
+        let start = self.begin(true, tables, commons)?;
         let base = self.text.len() - start;
         if let Some(all) = &mut self.noted {
             noted.iter().for_each(|&(letter, at, cause)| {
@@ -136,10 +139,10 @@ impl Tape {
         text: &str,
         cause: Cause,
         numbered: bool,
-        addresses: &Addresses,
+        tables: &MachineTables,
         commons: &mut Commons,
     ) -> Result<()> {
-        let start = self.begin(numbered, addresses, commons)?;
+        let start = self.begin(numbered, tables, commons)?;
         self.note(TEXT, cause, start);
         self.text.extend_from_slice(text.as_bytes());
         self.end(start);
@@ -164,7 +167,7 @@ impl Tape {
     fn begin(
         &mut self,
         numbered: bool,
-        addresses: &Addresses,
+        tables: &MachineTables,
         commons: &mut Commons,
     ) -> Result<usize> {
         let start = self.text.len();
@@ -173,35 +176,37 @@ impl Tape {
             self.text.push(b'/');
         }
         if numbered {
-            self.number(start, addresses, commons)?;
+            self.number(start, tables, commons)?;
         }
         Ok(start)
     }
 
     /// Writes the sequence number of a block that starts at byte `block`.
-    fn number(&mut self, block: usize, addresses: &Addresses, commons: &mut Commons) -> Result<()> {
-        let on = self.sequence.switched.unwrap_or_else(|| commons.read(loc::SEQNO_OFF_AT_START));
-        let Some(position) = addresses.position(N).filter(|_| on) else { return Ok(()) };
-        let every = commons.int(loc::SEQNO_EVERY).max(1);
+    fn number(
+        &mut self,
+        block: usize,
+        tables: &MachineTables,
+        commons: &mut Commons,
+    ) -> Result<()> {
+        let rules = &tables.numbering;
+        let on = self.sequence.switched.unwrap_or(rules.on);
+        let Some(slot) = rules.slot.as_ref().filter(|_| on) else { return Ok(()) };
         self.sequence.since_last += 1;
-        if self.sequence.since_last < every && self.sequence.next.is_some() {
+        if self.sequence.since_last < rules.every && self.sequence.next.is_some() {
             return Ok(());
         }
         self.sequence.since_last = 0;
-        let increment =
-            self.sequence.increment.or(commons.dbl_opt(loc::SEQNO_INCREMENT)).unwrap_or(1.0);
-        let first = || increment + commons.dbl_opt(loc::SEQNO_START_OFFSET).unwrap_or(0.0);
-        let mut number = self.sequence.next.unwrap_or_else(first);
-        if commons.dbl_opt(loc::SEQNO_MAX).is_some_and(|max| number > max) {
-            number = first();
+        let increment = self.sequence.increment.or(rules.increment).unwrap_or(1.0);
+        let first = increment + rules.start_offset;
+        let mut number = self.sequence.next.unwrap_or(first);
+        if number > rules.max {
+            number = first;
         }
         self.sequence.next = Some(number + increment);
-        let slot = addresses.slot(position);
-        let scaled = Rounding::Exact.scale(number, &slot.format);
-        let scaled = scaled.map_err(|diag| named(diag, N))?;
+        let scaled = slot.format.exact(number).map_err(|diag| named(diag, N))?;
         self.note(SEQUENCE, self.sequence.cause, block);
         let mut text = WordText::new();
-        if addresses.blank {
+        if tables.addresses.blank {
             text.put(b' ');
         }
         slot.format.put(scaled, &mut text);

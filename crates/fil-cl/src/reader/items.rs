@@ -25,37 +25,28 @@ const MAX_NAME: usize = 64;
 /// unusual.
 #[inline]
 pub(super) fn plain_goto(text: &[u8], values: &mut [f64; 6]) -> Option<(usize, usize)> {
-    let mut at = skip_blanks(text, text.starts_with(b"GOTO").then_some(4)?);
-    if *text.get(at)? != b'/' {
-        return None;
-    }
+    let mut rest = skip_blanks(text.strip_prefix(b"GOTO")?).strip_prefix(b"/")?;
     let mut count = 0;
     loop {
-        at = skip_blanks(text, at + 1);
-        let (value, length) = fixed_point(&text[at..])?;
+        let (value, behind) = fixed_point(skip_blanks(rest))?;
         *values.get_mut(count)? = value;
         count += 1;
-        at = skip_blanks(text, at + length);
-        match *text.get(at)? {
-            b',' => {}
-            b'\n' => break,
-            b'\r' if *text.get(at + 1)? == b'\n' => {
-                at += 1;
-                break;
+        rest = match skip_blanks(behind) {
+            [b',', rest @ ..] => rest,
+            [b'\n', rest @ ..] | [b'\r', b'\n', rest @ ..] => {
+                return matches!(count, 3 | 6).then_some((count, text.len() - rest.len()));
             }
             _ => return None,
-        }
+        };
     }
-    matches!(count, 3 | 6).then_some((count, at + 1))
 }
 
 #[inline]
-fn skip_blanks(text: &[u8], mut at: usize) -> usize {
-    // What follows is seldom a blank: one comparison tells.
-    while text.get(at).is_some_and(|byte| *byte <= b' ' && is_blank(*byte)) {
-        at += 1;
+fn skip_blanks(mut text: &[u8]) -> &[u8] {
+    while let [b' ' | b'\t', rest @ ..] = text {
+        text = rest;
     }
-    at
+    text
 }
 
 /// How strictly the items of a statement are read.

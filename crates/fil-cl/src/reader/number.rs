@@ -6,84 +6,91 @@ const POWERS: [f64; 23] = [
     1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
 ];
 
+/// Powers of ten up to eight digits.
+const TENS: [u64; 9] = [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000, 100_000_000];
+
+/// The highest bit of each of eight bytes.
+const HIGH_BITS: u64 = u64::from_le_bytes([0x80; 8]);
+
 /// A 64-bit integer cannot overflow below this many digits.
 const SAFE_DIGITS: usize = 19;
 
-/// The fixed-point number at the start of `text` and its length in bytes.
+/// The fixed-point number at the start of `text`, and the text behind it.
 ///
 /// `None` when there is none, or when it has too many digits for the exact way:
 /// an integer up to 2^53 divided by an exact power of ten is correctly rounded.
 #[inline]
-pub(super) fn fixed_point(text: &[u8]) -> Option<(f64, usize)> {
-    let negative = *text.first()? == b'-';
-    let start = usize::from(negative || text[0] == b'+');
-    let (mantissa, point) = digits(text, start, 0);
-    let (mantissa, end, decimals) = match text.get(point) {
-        Some(b'.') => {
-            let (mantissa, rest) = eights(text, point + 1, mantissa);
-            let (mantissa, end) = digits(text, rest, mantissa);
-            (mantissa, end, end - point - 1)
-        }
-        _ => (mantissa, point, 0),
+pub(super) fn fixed_point(text: &[u8]) -> Option<(f64, &[u8])> {
+    let (negative, text) = match text {
+        [b'-', rest @ ..] => (true, rest),
+        [b'+', rest @ ..] => (false, rest),
+        _ => (false, text),
     };
-    let count = point - start + decimals;
-    if count == 0 || count > SAFE_DIGITS || mantissa > 1 << 53 || decimals >= POWERS.len() {
+    let (mantissa, behind) = digits(text, 0);
+    let whole = text.len() - behind.len();
+    let (mantissa, behind, decimals) = match behind {
+        [b'.', fraction @ ..] => {
+            let (mantissa, behind) = long_digits(fraction, mantissa);
+            (mantissa, behind, fraction.len() - behind.len())
+        }
+        _ => (mantissa, behind, 0),
+    };
+    if !(1..=SAFE_DIGITS).contains(&(whole + decimals)) || mantissa > 1 << 53 {
         return None;
     }
-    let size = mantissa as f64 / POWERS[decimals];
+    let size = mantissa as f64 / POWERS.get(decimals)?;
     // A zero has no sign: -0.0 would turn arc tangents half a turn.
-    Some((if negative && mantissa != 0 { -size } else { size }, end))
+    Some((if negative && mantissa != 0 { -size } else { size }, behind))
 }
 
-/// Appends the digits from `at` on to an integer; gives it and where they end.
+/// Appends the digits at the start of a text to an integer; gives it and the text behind.
 #[inline]
-fn digits(text: &[u8], mut at: usize, mut value: u64) -> (u64, usize) {
-    while let Some(digit) = text.get(at).map(|byte| byte.wrapping_sub(b'0')) {
+fn digits(mut text: &[u8], mut value: u64) -> (u64, &[u8]) {
+    while let [byte, rest @ ..] = text {
+        let digit = byte.wrapping_sub(b'0');
         if digit > 9 {
             break;
         }
         value = value.wrapping_mul(10).wrapping_add(u64::from(digit));
-        at += 1;
+        text = rest;
     }
-    (value, at)
+    (value, text)
 }
 
-/// As [`digits`], for as long as eight digits stand together: CL files write
-/// ten decimals, and eight digits at once take as long as two one by one.
+/// As [`digits`], the first eight at once: they take as long as four one by one.
 #[inline]
-fn eights(text: &[u8], mut at: usize, mut value: u64) -> (u64, usize) {
-    while let Some(bytes) = text[at..].first_chunk() {
-        let Some(eight) = eight_digits(*bytes) else { break };
-        value = value.wrapping_mul(100_000_000).wrapping_add(eight);
-        at += 8;
-    }
-    (value, at)
+fn long_digits(text: &[u8], value: u64) -> (u64, &[u8]) {
+    let Some((bytes, rest)) = text.split_first_chunk() else { return digits(text, value) };
+    let (number, count) = leading_digits(*bytes);
+    let value = value.wrapping_mul(TENS[count]).wrapping_add(number);
+    if count < 8 { (value, &text[count..]) } else { digits(rest, value) }
 }
 
-/// The number eight digits write; `None` when one of the bytes is no digit.
+/// The number that the digits at the start of eight bytes write, and how many they are.
 ///
-/// The bytes are added up as lanes of one integer, the first digit in the
-/// lowest lane: to four numbers below 100, to two below 10^4, to one.
+/// The bytes are lanes of one integer, the first in the lowest lane. What is no digit is
+/// shifted out, so that zeros stand in front; then the lanes are added up: to four numbers
+/// below 100, to two below 10^4, to one.
 #[inline]
-fn eight_digits(bytes: [u8; 8]) -> Option<u64> {
+fn leading_digits(bytes: [u8; 8]) -> (u64, usize) {
     let lanes = u64::from_le_bytes(bytes) ^ u64::from_le_bytes([b'0'; 8]);
     // Adding 118 sets the high bit of a lane above 9; a carry into the next
     // lane comes only from one that has the bit itself.
-    let above = lanes.wrapping_add(u64::from_le_bytes([118; 8])) | lanes;
-    if above & u64::from_le_bytes([0x80; 8]) != 0 {
-        return None;
+    let above = (lanes.wrapping_add(u64::from_le_bytes([118; 8])) | lanes) & HIGH_BITS;
+    let count = (above.trailing_zeros() / 8) as usize;
+    if count == 0 {
+        return (0, 0);
     }
+    let lanes = if count == 8 { lanes } else { lanes << (64 - 8 * count) };
     let pairs = (lanes * 10 + (lanes >> 8)) & 0x00FF_00FF_00FF_00FF;
     let fours = (pairs * 100 + (pairs >> 16)) & 0x0000_FFFF_0000_FFFF;
-    Some((fours * 10_000 + (fours >> 32)) & 0xFFFF_FFFF)
+    ((fours * 10_000 + (fours >> 32)) & 0xFFFF_FFFF, count)
 }
 
 /// A whole item as a number: sign, digits, point, exponent with E or D.
 /// `None` when it is none or not finite.
 pub(crate) fn number(item: &[u8]) -> Option<f64> {
-    if let Some((value, end)) = fixed_point(item)
-        && end == item.len()
-    {
+    if let Some((value, [])) = fixed_point(item) {
         return Some(value);
     }
     if !is_decimal(item) {
@@ -96,21 +103,23 @@ pub(crate) fn number(item: &[u8]) -> Option<f64> {
 
 /// Checks the form; the standard parser would take `inf` and `nan` too.
 fn is_decimal(item: &[u8]) -> bool {
-    let skip_sign = |at: usize| at + usize::from(matches!(item.get(at), Some(b'+' | b'-')));
-    let start = skip_sign(0);
-    let (_, point) = digits(item, start, 0);
-    let mut end = point;
-    let mut count = point - start;
-    if item.get(point) == Some(&b'.') {
-        (_, end) = digits(item, point + 1, 0);
-        count += end - point - 1;
+    let item = without_sign(item);
+    let (_, behind) = digits(item, 0);
+    let fraction = behind.strip_prefix(b".").unwrap_or(behind);
+    let (_, end) = digits(fraction, 0);
+    let has_digits = behind.len() < item.len() || end.len() < fraction.len();
+    match end {
+        [] => has_digits,
+        [b'e' | b'E' | b'd' | b'D', exponent @ ..] => {
+            let exponent = without_sign(exponent);
+            has_digits && !exponent.is_empty() && digits(exponent, 0).1.is_empty()
+        }
+        _ => false,
     }
-    if count > 0 && matches!(item.get(end), Some(b'e' | b'E' | b'd' | b'D')) {
-        let exponent = skip_sign(end + 1);
-        (_, end) = digits(item, exponent, 0);
-        count = end - exponent;
-    }
-    count > 0 && end == item.len()
+}
+
+fn without_sign(text: &[u8]) -> &[u8] {
+    text.strip_prefix(b"+").or(text.strip_prefix(b"-")).unwrap_or(text)
 }
 
 #[cfg(test)]
@@ -141,14 +150,15 @@ mod tests {
 
     #[test]
     fn eight_digits_at_once() {
-        assert_eq!(eight_digits(*b"00000000"), Some(0));
-        assert_eq!(eight_digits(*b"12345678"), Some(12_345_678));
-        assert_eq!(eight_digits(*b"99999999"), Some(99_999_999));
+        assert_eq!(leading_digits(*b"00000000"), (0, 8));
+        assert_eq!(leading_digits(*b"12345678"), (12_345_678, 8));
+        assert_eq!(leading_digits(*b"99999999"), (99_999_999, 8));
         for at in 0..8 {
             for byte in (0..=255u8).filter(|byte| !byte.is_ascii_digit()) {
                 let mut bytes = *b"98765432";
                 bytes[at] = byte;
-                assert_eq!(eight_digits(bytes), None, "{bytes:?}");
+                let before = "98765432"[..at].parse().unwrap_or(0);
+                assert_eq!(leading_digits(bytes), (before, at), "{bytes:?}");
             }
         }
     }

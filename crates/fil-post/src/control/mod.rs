@@ -208,12 +208,12 @@ impl Control {
 
     /// Adds a feed word unless the control has that value; notes its cause.
     pub(crate) fn modal_feed(&mut self, letter: Letter, feed: &Feed) -> Result<()> {
-        let addresses = &self.tables.addresses;
-        let Some(position) = addresses.required(letter)? else { return Ok(()) };
         let known = self.state.has_last(letter);
         if known && self.commons.last_output(letter) == feed.value {
             return Ok(());
         }
+        let addresses = &self.tables.addresses;
+        let Some(position) = addresses.required(letter)? else { return Ok(()) };
         let format = &addresses.slot(position).format;
         let scaled = Rounding::Rate.scale(feed.value, format);
         let scaled = scaled.map_err(|diag| crate::block::named(diag, letter))?;
@@ -242,7 +242,7 @@ impl Control {
             self.require_unit()?;
         }
         self.refuse_after_end()?;
-        let result = self.tape.block(&self.block, &self.tables.addresses, &mut self.commons);
+        let result = self.tape.block(&self.block, &self.tables, &mut self.commons);
         self.state.learn_block(&self.block, &self.codes, &self.tables.addresses);
         self.block.clear();
         result
@@ -259,7 +259,7 @@ impl Control {
             self.require_unit()?;
         }
         self.refuse_after_end()?;
-        self.tape.words(words, &self.tables.addresses, &mut self.commons)?;
+        self.tape.words(words, &self.tables, &mut self.commons)?;
         let before = self.before_others()?;
         let letters = words.iter().map(|(letter, value, _)| (*letter, *value));
         self.state.learn_words(letters, &self.codes);
@@ -340,7 +340,7 @@ impl Control {
             self.warnings.add(PostCode::TapeText, format!("`{text}`"));
         }
         let cause = self.block.cause;
-        self.tape.line(text, cause, numbered, &self.tables.addresses, &mut self.commons)
+        self.tape.line(text, cause, numbered, &self.tables, &mut self.commons)
     }
 
     /// Refuses a block after M2 or M30: the control would never read it.
