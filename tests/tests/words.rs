@@ -5,7 +5,7 @@
 //! setting on top, `$$ fil: LINE` a line of FIL, `$$ expect: BLOCK` a block of the
 //! program in order, `$$ warn: W0123` a warning that must come, `$$ error: E0123 at
 //! LINE` a refusal. Sequence numbers, start and end of the program are switched
-//! off unless `$$ whole` asks for them.
+//! off unless `$$ whole` asks for them. A CR of the program is shown as `<CR>`.
 
 use std::path::Path;
 
@@ -29,7 +29,8 @@ fn check(path: &Path) -> Result<(), Failed> {
         (Ok(report), None) => {
             let found: Vec<String> = report.warnings.iter().map(|diag| diag.code.name()).collect();
             same(&found.join(" "), &header.warnings.join(" "))?;
-            same(String::from_utf8_lossy(&nc).trim_end(), &header.expected.join("\n"))
+            let found = String::from_utf8_lossy(&nc).trim_end().replace('\r', "<CR>");
+            same(&found, &header.expected.join("\n"))
         }
     }
 }

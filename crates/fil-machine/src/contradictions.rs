@@ -8,7 +8,7 @@ use crate::axis_chain::AxisChain;
 use crate::commons::{Commons, Dbl, Int, Rel};
 use crate::errors::MachineCode;
 use crate::letter::{Letter, letters};
-use crate::locations::{self as loc, ToolChangeBlock};
+use crate::locations::{self as loc, TapeEndOfBlock, ToolChangeBlock};
 use crate::setting::{CodeAt, LetterAt};
 
 /// Codes of which no two may be the same: one motion, mode or command each.
@@ -135,8 +135,19 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     word_letters(commons, &mut found);
     absent_axes(commons, &mut found);
     numbers(commons, &mut found);
+    tape(commons, &mut found);
     ranges(commons, &mut found);
     found
+}
+
+/// Marks of the tape that are asked for and not there.
+fn tape(commons: &Commons, found: &mut Vec<Diag>) {
+    let ends = commons.read(loc::TAPE_END_OF_BLOCK) == TapeEndOfBlock::Yes;
+    if ends && commons.read(loc::TAPE_END_OF_BLOCK_CHAR).is_none() {
+        found.push(contradiction(
+            "tape.end_of_block asks for a character, and tape.end_of_block_char is none".into(),
+        ));
+    }
 }
 
 fn contradiction(message: String) -> Diag {

@@ -24,6 +24,7 @@ pub mod rounding;
 pub mod setting;
 pub mod stored;
 pub mod tables;
+pub mod tape_style;
 pub mod user_blocks;
 mod value_unit;
 pub mod word_text;

@@ -11,6 +11,7 @@ use crate::commons::Commons;
 use crate::errors::MachineCode;
 use crate::locations as loc;
 use crate::numbering::Numbering;
+use crate::tape_style::TapeStyle;
 
 /// The tables.
 #[derive(Clone, Debug, Default)]
@@ -19,6 +20,8 @@ pub struct MachineTables {
     pub addresses: Addresses,
     /// The rules of sequence numbers.
     pub numbering: Numbering,
+    /// How a block is put on the tape.
+    pub style: TapeStyle,
     axes: Vec<Axis>,
     chain: AxisChain,
     present: AxisSet,
@@ -45,6 +48,7 @@ impl MachineTables {
     fn make(&mut self, commons: &Commons, metric: bool) -> Result<()> {
         self.addresses = Addresses::from_commons(commons, metric);
         self.numbering = Numbering::from_commons(&self.addresses, commons);
+        self.style = TapeStyle::from_commons(commons);
         let chain = AxisChain::from_commons(commons)?;
         self.chain = if metric { chain } else { chain.in_inches() };
         self.axes = linear_letters()

@@ -87,6 +87,10 @@ fil_diag::codes! {
         SkippedPart = 526, Error, "part of a command stands in blocks that may be skipped",
             "With the skip switch on the control would get one half of it only.",
             "Put the whole command on one side of OPSKIP.";
+        /// A block that is too long.
+        BlockLength = 541, Error, "block longer than the control reads",
+            "The rest of a block that is longer than the control's buffer would be lost.",
+            "Shorten the text, drop blanks with tape.blank, or correct tape.max_block of the machine.";
         /// Unknown major word.
         UnknownWord = 513, Error, "unknown word",
             "The post has no handler for this major word, and no table lists it as without effect. A misspelt GOTO would lose a motion.",

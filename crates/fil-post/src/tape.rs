@@ -6,11 +6,13 @@ use fil_machine::letters::{G, M, N};
 use fil_machine::number::NumberFormat;
 use fil_machine::rounding::Rounding;
 use fil_machine::tables::MachineTables;
+use fil_machine::tape_style::TapeStyle;
 use fil_machine::word_text::WordText;
 use fil_machine::{Commons, Letter};
 
 use crate::block::{Block, function, named};
 use crate::cause::{Cause, Stacks};
+use crate::errors::PostCode;
 use crate::noted::{Noted, SEQUENCE, SKIP, TEXT};
 
 /// Sequence numbers: what is due for the next block.
@@ -75,8 +77,7 @@ impl Tape {
             }
             None => block.write(addresses, commons, &mut self.text, |_, _, _| {}),
         }
-        self.end(start);
-        Ok(())
+        self.end(start, tables)
     }
 
     /// Writes words in the order given, whatever the tape order; all of them,
@@ -125,8 +126,7 @@ impl Tape {
             });
         }
         self.text.extend_from_slice(&line);
-        self.end(start);
-        Ok(())
+        self.end(start, tables)
     }
 
     /// Writes a text as a block, with or without a sequence number, and with
@@ -145,8 +145,7 @@ impl Tape {
         let start = self.begin(numbered, tables, commons)?;
         self.note(TEXT, cause, start);
         self.text.extend_from_slice(text.as_bytes());
-        self.end(start);
-        Ok(())
+        self.end(start, tables)
     }
 
     /// Sets the number of the next block and, where given, the increment.
@@ -173,7 +172,7 @@ impl Tape {
         let start = self.text.len();
         if let Some(cause) = self.skip {
             self.note(SKIP, cause, start);
-            self.text.push(b'/');
+            self.skip_mark(tables)?;
         }
         if numbered {
             self.number(start, tables, commons)?;
@@ -223,11 +222,44 @@ impl Tape {
         }
     }
 
-    fn end(&mut self, start: usize) {
+    #[cold]
+    fn skip_mark(&mut self, tables: &MachineTables) -> Result<()> {
+        match tables.style.skip {
+            Some(mark) => self.text.push(mark as u8),
+            None => {
+                return PostCode::NoCode.err("the machine has no mark for OPSKIP (INTCOM 1842)");
+            }
+        }
+        Ok(())
+    }
+
+    fn end(&mut self, start: usize, tables: &MachineTables) -> Result<()> {
+        if !tables.style.is_plain {
+            self.finish(start, &tables.style)?;
+        }
         self.count += 1;
         if let Some(noted) = &mut self.noted {
             noted.block(start..self.text.len(), self.cause);
         }
-        self.text.push(b'\n');
+        if tables.style.is_plain {
+            self.text.push(b'\n');
+        } else {
+            self.text.extend_from_slice(tables.style.line_end());
+        }
+        Ok(())
+    }
+
+    #[cold]
+    fn finish(&mut self, start: usize, style: &TapeStyle) -> Result<()> {
+        style.finish(&mut self.text, start);
+        let block = String::from_utf8_lossy(&self.text[start..]);
+        let length = block.chars().count();
+        match style.longest {
+            Some(longest) if length > longest => {
+                let message = format!("`{block}` has {length} characters, {longest} are allowed");
+                PostCode::BlockLength.err(message)
+            }
+            _ => Ok(()),
+        }
     }
 }

@@ -344,14 +344,12 @@ mod tests {
 
     #[test]
     fn what_does_not_act_is_named_once() {
-        let text = SMALL.replace("13     53", "2025 1\r\n2026 2\r\n1842 32\r\n3000 -32767");
+        let text = SMALL.replace("13     53", "2025 1\r\n2026 2\r\n1868 1\r\n3000 -32767");
         let file = read_option_file("uncx01.p09", &text).unwrap();
         let said: Vec<String> = file.warnings.iter().map(ToString::to_string).collect();
         assert_eq!(
             said,
-            [
-                "W0651 uncx01.p09:4:1: the post does not act on INTCOM 2025 to 2026, tape.opskip_char"
-            ]
+            ["W0651 uncx01.p09:4:1: the post does not act on INTCOM 2025 to 2026, program.merging"]
         );
     }
 }

@@ -168,6 +168,7 @@ fn program_number(control: &mut Control) -> Result<()> {
     let mut line = format!("{letter}{number:0width$}");
     if control.commons.read(loc::PROGRAM_NAME_COMMENT) && !control.head.name.is_empty() {
         let name = control.head.name.replace(['(', ')'], " ");
+        let name = control.in_tape_characters(&name);
         let (name, _) = super::texts::clean_message(&name, '(', ')');
         line.push_str(&format!(" ({name})"));
     }

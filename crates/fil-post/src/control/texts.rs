@@ -44,3 +44,36 @@ pub fn clean_message(text: &str, open: char, close: char) -> (String, bool) {
     let clean = clean.collect();
     (clean, changed)
 }
+
+/// A text without its blanks, but for those in comments and in quoted texts.
+pub fn without_blanks(text: &str) -> String {
+    let mut end = None;
+    let kept = text.chars().filter(|c| {
+        match end {
+            Some(closing) if *c == closing => end = None,
+            Some(_) => return true,
+            None => {
+                end = match c {
+                    '(' => Some(')'),
+                    '"' => Some('"'),
+                    ';' => Some('\n'),
+                    _ => None,
+                }
+            }
+        }
+        end.is_some() || *c != ' '
+    });
+    kept.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::without_blanks;
+
+    #[test]
+    fn blanks_go_but_in_comments_and_quotes() {
+        assert_eq!(without_blanks("G91 G28 Z0 (GO HOME) M9"), "G91G28Z0(GO HOME)M9");
+        assert_eq!(without_blanks("MSG ( A B"), "MSG( A B");
+        assert_eq!(without_blanks("T = \"END MILL\" M6 ; a note"), "T=\"END MILL\"M6; a note");
+    }
+}

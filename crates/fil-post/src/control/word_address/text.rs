@@ -4,7 +4,7 @@ use fil_diag::Result;
 use fil_machine::locations::{self as loc, SeqnoOnText};
 
 use crate::control::Control;
-use crate::control::texts::clean_message;
+use crate::control::texts::{clean_message, without_blanks};
 use crate::errors::PostCode;
 
 /// Writes the text of an INSERT. The machine's end-of-block character splits it
@@ -18,8 +18,13 @@ pub fn insert(control: &mut Control, text: &str) -> Result<()> {
     let end_of_block = control.commons.read(loc::TAPE_END_OF_BLOCK_CHAR);
     for block in text.split(|c| Some(c) == end_of_block) {
         let block = block.trim();
-        if !block.is_empty() {
+        if block.is_empty() {
+            continue;
+        }
+        if control.commons.read(loc::MESSAGE_KEEP_BLANKS) {
             control.write_text(block, numbered)?;
+        } else {
+            control.write_text(&without_blanks(block), numbered)?;
         }
     }
     Ok(())
@@ -42,10 +47,16 @@ pub fn message(control: &mut Control, text: &str) -> Result<()> {
             format!("characters that must not reach the tape in `{}`", text.escape_debug());
         control.warnings.add(PostCode::IgnoredPart, message);
     }
-    let clean: Vec<char> = clean.chars().collect();
-    for part in clean.chunks(longest) {
-        let part: String = part.iter().collect();
+    let clean: Vec<char> = control.in_tape_characters(&clean).chars().collect();
+    let goes_on = control.commons.read(loc::TAPE_CONTINUATION_CHAR).filter(|_| longest > 1);
+    let mut rest = clean.as_slice();
+    while !rest.is_empty() {
+        // The mark of a message that goes on is one of its characters.
+        let mark = goes_on.filter(|_| rest.len() > longest);
+        let (part, left) = rest.split_at(rest.len().min(longest - usize::from(mark.is_some())));
+        let part: String = part.iter().copied().chain(mark).collect();
         control.write_comment(&format!("{open}{part}{close}"), numbered)?;
+        rest = left;
     }
     Ok(())
 }

@@ -1,0 +1,76 @@
+//! How a finished block is put on the tape: skip mark, case, end of the block, end
+//! of the line, longest block.
+
+use crate::commons::Commons;
+use crate::locations::{self as loc, TapeEndOfBlock, TapeLetterCase, TapeLineEnd};
+
+/// The looks of a block. The default is a block as the words make it, with LF.
+#[derive(Clone, Debug)]
+pub struct TapeStyle {
+    /// Nothing is to be done to a block but to end its line with LF.
+    pub is_plain: bool,
+    /// Before a block that the operator can skip; `None` when the machine has no mark.
+    pub skip: Option<char>,
+    /// Case of all letters, comments included.
+    pub letter_case: TapeLetterCase,
+    /// After each block.
+    pub end_of_block: Option<char>,
+    /// What ends a line.
+    pub line_end: TapeLineEnd,
+    /// Most characters of a block, its line end left out; `None` for any number.
+    pub longest: Option<usize>,
+}
+
+impl Default for TapeStyle {
+    fn default() -> Self {
+        TapeStyle {
+            is_plain: true,
+            skip: Some('/'),
+            letter_case: TapeLetterCase::default(),
+            end_of_block: None,
+            line_end: TapeLineEnd::default(),
+            longest: None,
+        }
+    }
+}
+
+impl TapeStyle {
+    pub(crate) fn from_commons(commons: &Commons) -> Self {
+        let ends = commons.read(loc::TAPE_END_OF_BLOCK) == TapeEndOfBlock::Yes;
+        let longest = commons.read(loc::TAPE_MAX_BLOCK).filter(|most| *most > 0);
+        let style = TapeStyle {
+            is_plain: false,
+            skip: commons.read(loc::TAPE_OPSKIP_CHAR),
+            letter_case: commons.read(loc::TAPE_LETTER_CASE),
+            end_of_block: commons.read(loc::TAPE_END_OF_BLOCK_CHAR).filter(|_| ends),
+            line_end: commons.read(loc::TAPE_LINE_END),
+            longest: longest.map(|most| most as usize),
+        };
+        let is_plain = style.letter_case == TapeLetterCase::AsWritten
+            && style.end_of_block.is_none()
+            && style.line_end == TapeLineEnd::Lf
+            && style.longest.is_none();
+        TapeStyle { is_plain, ..style }
+    }
+
+    /// Brings the letters of a block into the case of the tape and adds what ends it.
+    /// `start` is its first byte in `text`.
+    pub fn finish(&self, text: &mut Vec<u8>, start: usize) {
+        match self.letter_case {
+            TapeLetterCase::AsWritten => {}
+            TapeLetterCase::Upper => text[start..].make_ascii_uppercase(),
+            TapeLetterCase::Lower => text[start..].make_ascii_lowercase(),
+        }
+        if let Some(end) = self.end_of_block {
+            text.extend_from_slice(end.encode_utf8(&mut [0; 4]).as_bytes());
+        }
+    }
+
+    /// The bytes that end a line.
+    pub fn line_end(&self) -> &'static [u8] {
+        match self.line_end {
+            TapeLineEnd::Lf => b"\n",
+            TapeLineEnd::CrLf => b"\r\n",
+        }
+    }
+}
