@@ -4,6 +4,7 @@
 //! $$ cl: CYCLE / DRILL, 5     a line of the CL file; FINI is added
 //! $$ expect: X1. Y2.          a line of the NC program, in order
 //! $$ error: E0301 at 5        the refusal, with its line in the FIL file
+//! $$ hint: write ENDIF        its hint
 //! $$ warning: W0217 at 3      a warning that must come
 //! $$ with: other.fil          a file loaded before this one
 //! $$ set: key=value           a setting on top of the suite's machine.toml
@@ -31,6 +32,7 @@ struct Header {
     cl: Vec<String>,
     expect: Vec<String>,
     error: Option<String>,
+    hint: Option<String>,
     warnings: Vec<String>,
     with: Vec<String>,
     set: Vec<String>,
@@ -52,6 +54,7 @@ fn header(text: &str) -> Result<Header, String> {
             "cl" => header.cl.push(value),
             "expect" => header.expect.push(value),
             "error" => header.error = Some(value),
+            "hint" => header.hint = Some(value),
             "warning" => header.warnings.push(value),
             "with" => header.with.push(value),
             "set" => header.set.push(value),
@@ -151,7 +154,12 @@ fn judge(header: &Header, file: &str, result: Posted) -> Result<(), String> {
     let said = |diags: &[Diag]| diags.iter().map(Diag::to_string).collect::<Vec<_>>().join("\n");
     match (result, &header.error) {
         (Err(diags), Some(error)) => match diags.as_slice() {
-            [diag] if at(diag, file) == *error => Ok(()),
+            [diag] if at(diag, file) == *error => match &header.hint {
+                Some(hint) if diag.hint.as_ref() != Some(hint) => {
+                    Err(format!("expected the hint {hint}, got {:?}", diag.hint))
+                }
+                _ => Ok(()),
+            },
             _ => Err(format!("expected {error}, got:\n{}", said(&diags))),
         },
         (Err(diags), None) => Err(format!("refused:\n{}", said(&diags))),

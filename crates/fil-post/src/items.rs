@@ -145,11 +145,7 @@ impl<'a> Items<'a> {
 
     fn deny_left(&self) -> Result<()> {
         match self.left() {
-            Some(left) => {
-                let mut diag = self.error(format!("no meaning is known for {left}"));
-                diag.hint = self.meant();
-                Err(diag)
-            }
+            Some(left) => Err(self.error(format!("no meaning is known for {left}"))),
             None => Ok(()),
         }
     }
@@ -171,7 +167,9 @@ impl<'a> Items<'a> {
     /// An error about the form of this record.
     pub fn error(&self, message: impl std::fmt::Display) -> Box<Diag> {
         let major = self.name(self.record.major);
-        PostCode::WordForm.diag(format!("{major}: {message}"))
+        let mut diag = PostCode::WordForm.diag(format!("{major}: {message}"));
+        diag.hint = self.meant();
+        diag
     }
 
     /// The text of the record, without blanks around it.

@@ -12,6 +12,7 @@ mod flat;
 mod format;
 mod frame;
 mod free_text;
+mod habits;
 mod message;
 mod parse;
 pub mod print;

@@ -9,6 +9,7 @@ use crate::adapter::Shared;
 use crate::errors::SyntaxCode;
 use crate::flat::{Flat, FlatKind};
 use crate::free_text;
+use crate::habits::{self, Refused};
 use crate::message;
 use crate::token::Token;
 use crate::tree::{Name, Span};
@@ -123,6 +124,19 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// The line on which understanding ended.
+    fn refused_line<'t>(&self, span: Span, token: Token<'t>) -> Refused<'t>
+    where
+        'a: 't,
+    {
+        let end = span.start as usize;
+        let start = self.source[..end].rfind(['\r', '\n']).map_or(0, |at| at + 1);
+        let rest = &self.source[start..];
+        let rest = &rest[..rest.find(['\r', '\n']).unwrap_or(rest.len())];
+        let line = &rest[..rest.find("$$").unwrap_or(rest.len())];
+        Refused { line, at: end - start, token }
+    }
+
     /// Takes a statement that does not follow the grammar.
     pub(crate) fn refused(&mut self, error: ErrorRecovery<usize, Token<'_>, Infallible>) {
         let (span, token, expected) = match error.error {
@@ -142,7 +156,9 @@ impl<'a> Reader<'a> {
         };
         let (code, text) = message::refusal(token, self.text(span), &expected);
         self.shared.semicolons.take();
-        self.report(code, text, span);
+        let place = self.place(span);
+        let hint = habits::hint(&self.refused_line(span, token));
+        self.push(Diag { hint, ..Diag::new(code, text).at(place) });
         self.statement(FlatKind::Refused, span);
     }
 }

@@ -381,6 +381,13 @@ pub const BUILTINS: &[Builtin] = &[
         "has the embedding program run a command, where it allows that, and gives its status",
     ),
     function(
+        "SPWNF",
+        "'command'",
+        Own,
+        FunctionKind::Library(Library::Spawn, 1, 1),
+        "the same as SPAWNF",
+    ),
+    function(
         "DATEF",
         "[n]",
         Own,

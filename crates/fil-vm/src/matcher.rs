@@ -17,6 +17,10 @@ pub struct Matcher {
     lists: Vec<Vec<(Vec<WordId>, SectionId)>>,
     /// Sections by type and, where they name one, subtype.
     types: BTreeMap<(u32, Option<u32>), SectionId>,
+    /// The section of all records that no other one takes.
+    rest: Option<SectionId>,
+    /// There are sections by type, or one of the rest.
+    beyond_words: bool,
 }
 
 impl Matcher {
@@ -52,6 +56,7 @@ impl Matcher {
         sub: Option<u32>,
         section: SectionId,
     ) -> Option<SectionId> {
+        self.beyond_words = true;
         match self.types.entry((kind, sub)) {
             Entry::Occupied(other) => Some(*other.get()),
             Entry::Vacant(place) => {
@@ -61,8 +66,20 @@ impl Matcher {
         }
     }
 
+    /// Adds the section of all records that no other one takes; gives the one there is.
+    pub(crate) fn add_rest(&mut self, section: SectionId) -> Option<SectionId> {
+        self.beyond_words = true;
+        match self.rest {
+            Some(other) => Some(other),
+            None => {
+                self.rest = Some(section);
+                None
+            }
+        }
+    }
+
     /// The section of a record. A key of words beats a key of types, more minor
-    /// words beat fewer, a subtype beats none.
+    /// words beat fewer, a subtype beats none, and any key beats ALL.
     #[inline]
     pub fn find(&self, record: &Record, vocab: &Vocabulary) -> Option<SectionId> {
         match self.by_major.get(record.major.index()) {
@@ -73,17 +90,17 @@ impl Matcher {
                         && minors.iter().zip(&record.data).all(|(m, w)| *w == Word::Minor(*m))
                 };
                 let found = list.iter().find(|(minors, _)| fits(minors));
-                found.map(|(_, section)| *section).or_else(|| self.find_type(record, vocab))
+                found.map(|(_, section)| *section).or_else(|| self.find_beyond(record, vocab))
             }
-            _ if self.types.is_empty() => None,
-            _ => self.find_type(record, vocab),
+            _ if !self.beyond_words => None,
+            _ => self.find_beyond(record, vocab),
         }
     }
 
-    fn find_type(&self, record: &Record, vocab: &Vocabulary) -> Option<SectionId> {
+    fn find_beyond(&self, record: &Record, vocab: &Vocabulary) -> Option<SectionId> {
         let of = |sub| self.types.get(&(record.kind, sub)).copied();
         let value = record.value(3, vocab);
         let sub = value.map(|value| value as u32).filter(|sub| value == Some(f64::from(*sub)));
-        sub.and_then(|sub| of(Some(sub))).or_else(|| of(None))
+        sub.and_then(|sub| of(Some(sub))).or_else(|| of(None)).or(self.rest)
     }
 }

@@ -54,10 +54,11 @@ pub(crate) const ELSEWHERE: &[(&str, &str)] = &[
 pub const STATEMENTS: &[Statement] = &[
     Statement {
         word: "CIMFIL",
-        form: "CIMFIL/ON,major[,minor…]\nCIMFIL/ON,type[,subtype]\nCIMFIL/OFF",
+        form: "CIMFIL/ON,major[,minor…]\nCIMFIL/ON,type[,subtype]\nCIMFIL/ON,ALL\nCIMFIL/OFF",
         doc: "A section: it is run for each CL record with that major word and these minor \
               words right after it, or of that CLDATA type. The section takes the record; the \
-              post acts on it only through POSTF(13). More minor words beat fewer.",
+              post acts on it only through POSTF(13). More minor words beat fewer. ALL takes \
+              what no other section takes.",
         grade: Grade::Published,
         example: "CIMFIL/ON,LOADTL\nOPSTOP\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
     },

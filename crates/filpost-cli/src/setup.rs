@@ -66,7 +66,8 @@ impl Named {
             let text = files::read_text(path, encoding)?;
             self.builder = self.builder.fil(&path.display().to_string(), &text);
         }
-        self.builder = self.builder.includes(includes::beside(&self.fil, encoding));
+        self.builder =
+            self.builder.includes(includes::beside_either(&self.fil, &self.inputs, encoding));
         self.inputs.extend(self.fil.iter().cloned());
         Ok(self)
     }

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
 
-use fil_cl::{Record, Vocabulary};
+use fil_cl::{Record, Vocabulary, record::kind};
 use fil_diag::Result;
 use fil_post::Origin;
 use fil_vm::{Interpreter, SectionId, SectionMode};
@@ -191,6 +191,7 @@ impl<'o, S: Records> Engine<'o, S> {
     /// Runs the section that takes the current record.
     pub(crate) fn run_section(&mut self, section: SectionId) -> Result<()> {
         let (number, line) = (self.record.number, self.record.line);
+        self.outside.fini_taken |= self.record.kind == kind::FINI;
         self.outside.section = Some(section);
         let outcome = self.machine.run_section(
             section,

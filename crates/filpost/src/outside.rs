@@ -50,6 +50,8 @@ pub(crate) struct Outside<'o, S> {
     cl_name: String,
     /// The post has carried out FINI.
     pub ended: bool,
+    /// A section has taken FINI.
+    pub fini_taken: bool,
     /// FIL has asked for the development listing.
     trace: bool,
     /// The line map of the run.
@@ -79,6 +81,7 @@ impl<'o, S: Records> Outside<'o, S> {
             cancel,
             cl_name,
             ended: false,
+            fini_taken: false,
             trace: false,
             map,
             idle: HashSet::new(),
@@ -253,7 +256,9 @@ impl<'o, S: Records> Outside<'o, S> {
         self.warn_of_other_signs();
         if self.source.records == 0 {
             self.tell(*RunCode::NoMotion.diag(format!("{} holds no record", self.cl_name)));
-        } else if self.source.recognized().is_none_or(|found| found.dialect.rules().writes_fini) {
+        } else if !self.fini_taken
+            && self.source.recognized().is_none_or(|found| found.dialect.rules().writes_fini)
+        {
             self.tell(*RunCode::NoFini.diag(format!("{} has no FINI", self.cl_name)));
         }
         let result = self.post.finish();
@@ -360,6 +365,7 @@ impl<S: Records> Host for Outside<'_, S> {
     ) -> Result<bool, Box<Diag>> {
         let mut next = Record::default();
         while !self.ended && self.read(&mut next, vocabulary)? {
+            self.fini_taken |= next.kind == kind::FINI;
             if next.kind != kind::PSEUDO || self.section_of(&next, vocabulary).is_some() {
                 *record = next;
                 return Ok(true);

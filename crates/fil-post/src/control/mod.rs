@@ -5,6 +5,7 @@
 //! module a family; [`word_address`] (ISO 6983, Fanuc and its relatives) is the
 //! first.
 
+mod again;
 mod characters;
 pub mod program;
 mod skip;

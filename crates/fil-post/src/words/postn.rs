@@ -1,4 +1,5 @@
-//! POSTN/OUT,letter,value,…: one block of exactly these words.
+//! POSTN/OUT,letter,value,…: one block of exactly these words; POSTN/NORMAL,…: of
+//! those among them that the control does not have.
 
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
@@ -17,9 +18,11 @@ use crate::post::Post;
 /// # Errors
 /// A form other than OUT, a number that is not a letter's, a value that does not fit.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
-    if !items.is_word(0, w::OUT) || !items.flag(w::OUT) {
-        return Err(items.error("only POSTN/OUT is known"));
+    let modal = items.is_word(0, w::NORMAL);
+    if !(modal || items.is_word(0, w::OUT)) {
+        return Err(items.error("only POSTN/OUT and POSTN/NORMAL are known"));
     }
+    items.any_of(&[w::OUT, w::NORMAL]);
     let words = letters_and_values(post, items)?;
     items.deny_rest()?;
     if words.is_empty() {
@@ -30,6 +33,10 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         if twice && *letter != G && *letter != M {
             return Err(items.error(format!("address {letter} stands twice")));
         }
+    }
+    if modal {
+        let words = post.control.without_known(words)?;
+        return if words.is_empty() { Ok(()) } else { carry_out(post, Operation::Words(words)) };
     }
     carry_out(post, Operation::Words(words))
 }

@@ -88,12 +88,13 @@ impl Compiler<'_> {
                 }
             },
             // A constant unless its argument is no word.
-            (FunctionKind::WordCode, [_]) => {
-                self.report(
-                    CompileCode::WordExpected,
-                    span,
-                    "ICODEF takes a word as it is written",
-                );
+            (FunctionKind::WordCode, [word]) => {
+                let hint = match &word.kind {
+                    ExprKind::Text(text) => Some(format!("ICODEF({text}), without apostrophes")),
+                    _ => None,
+                };
+                let message = "ICODEF takes a word as it is written";
+                self.report_with(CompileCode::WordExpected, span, message, hint);
             }
             _ => self.wrong_count(
                 builtin.name,

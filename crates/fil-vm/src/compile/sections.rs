@@ -19,6 +19,9 @@ const TYPE_WORDS: &[(u32, Option<u32>, &str)] = &[
     (kind::FINI, None, "FINI"),
 ];
 
+/// The key of a section for all records that no other section takes.
+pub(crate) const ALL: &str = "ALL";
+
 impl Compiler<'_> {
     pub(super) fn section(&mut self, section: &Section) {
         let key = written(&section.key);
@@ -36,6 +39,9 @@ impl Compiler<'_> {
 
     fn add_key(&mut self, key: &SectionKey, id: SectionId) -> Option<SectionId> {
         match key {
+            SectionKey::Words { major, minors } if major.text == ALL && minors.is_empty() => {
+                self.module.matcher.add_rest(id)
+            }
             SectionKey::Words { major, minors } => {
                 let major = self.vocab.intern(&major.text);
                 let minors = minors.iter().map(|minor| self.vocab.intern(&minor.text)).collect();

@@ -59,7 +59,8 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         sign: &str,
         operation: fn(f64, f64) -> f64,
     ) -> Result<Value, Box<Diag>> {
-        let (x, y) = (self.number(registers, a)?, self.number(registers, b)?);
+        let both = self.number(registers, a).and_then(|x| Ok((x, self.number(registers, b)?)));
+        let (x, y) = both.map_err(|diag| join_hint(diag, sign))?;
         let result = operation(x, y);
         if result.is_finite() {
             return Ok(Number(result));
@@ -339,4 +340,14 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             None => Err(fault(RunCode::Missing, format!("there is no {side} motion"))),
         }
     }
+}
+
+/// Other languages join texts with a plus sign.
+#[cold]
+fn join_hint(mut diag: Box<Diag>, sign: &str) -> Box<Diag> {
+    let mixed: &fil_diag::Code = RunCode::WrongType.into();
+    if sign == "+" && diag.code == mixed {
+        diag.hint = Some("texts are joined by a list: TT=TEXT/AA,BB".to_string());
+    }
+    diag
 }

@@ -11,6 +11,7 @@ use fil_syntax::tree::{Item, SectionKey};
 use super::{FileSpan, Resolution, Role, Symbol, SymbolKind};
 use crate::builtins;
 use crate::compile::files::Unit;
+use crate::compile::sections::ALL;
 use crate::errors::{CompileCode, LintCode};
 
 /// Macros that the vendor's post calls itself.
@@ -78,7 +79,9 @@ impl Findings<'_> {
         let word = self.vocabulary.find(name);
         let is_word = is_function || word.is_some_and(|word| self.vocabulary.is_of_posts(word));
         for used in &symbol.uses {
+            let is_truth = matches!(name.as_str(), "TRUE" | "FALSE") && used.role == Role::Read;
             if used.role == Role::When
+                || is_truth
                 || (is_word && matches!(used.role, Role::Read | Role::Operand | Role::Argument))
             {
                 let what = if is_function { "a result of the function" } else { "the word" };
@@ -88,6 +91,8 @@ impl Findings<'_> {
                     "OTHERS" | "ELSE" | "DEFAULT" => {
                         "the part for all that is left is WHEN/OTHER".into()
                     }
+                    "TRUE" => "true is 1, and IF(NN.EQ.1)THEN asks for it".into(),
+                    "FALSE" => "false is 0, and IF(NN.EQ.0)THEN asks for it".into(),
                     _ if is_function => format!("a function is called with brackets: {name}(…)"),
                     _ => format!("ICODEF({name}) is the code of the word"),
                 });
@@ -147,12 +152,10 @@ impl Findings<'_> {
             SectionKey::Words { major, minors } => {
                 let at = FileSpan { file, span: major.span };
                 let word = self.vocabulary.find(&major.text);
-                if major.text == "ALL" {
-                    let message = "CIMFIL/ON,ALL is not known to take every record".to_string();
-                    self.add(CompileCode::NeverMatches, at, message).hint = Some(
-                        "write a section for each word, or CIMFIL/ON,2000 and CIMFIL/ON,5000"
-                            .into(),
-                    );
+                if major.text == ALL && !minors.is_empty() {
+                    let message = "CIMFIL/ON,ALL takes no minor words".to_string();
+                    self.add(CompileCode::NeverMatches, at, message).hint =
+                        Some("write CIMFIL/ON,ALL, and test the record with HASF(word)".into());
                 } else if PSEUDO_WORDS.contains(&major.text.as_str()) && !self.takes_creo {
                     let message = format!("CL files have {} behind $$-> only", major.text);
                     self.add(LintCode::SectionNeverRuns, at, message).hint =

@@ -34,10 +34,10 @@ impl<'t> Resolver<'t, '_> {
         }
         self.word_of(word, Role::Major);
         let major = self.input.vocabulary.find(&word.text);
-        self.refuse_other_statement(word, major);
+        self.refuse_other_statement(word, args, major);
         let is_text = major.is_some_and(takes_text);
         for (index, arg) in args.iter().enumerate() {
-            if !is_address(major, index) {
+            if !is_address(major, args, index) {
                 self.refuse_letters(arg);
             }
             match &arg.kind {
@@ -98,8 +98,17 @@ impl<'t> Resolver<'t, '_> {
 
     /// A statement of FIL that is misspelt, of another language, or not carried out: as
     /// a record it would reach the post, and what it was meant to do would not be done.
-    fn refuse_other_statement(&mut self, word: &Name, major: Option<WordId>) {
+    fn refuse_other_statement(&mut self, word: &Name, args: &[Expr], major: Option<WordId>) {
         let vocabulary = self.input.vocabulary;
+        if major == Some(w::GOTO)
+            && let [Expr { kind: ExprKind::Name(label), .. }] = args
+            && !self.is_assigned(label)
+        {
+            let message = format!("GOTO/{label} is a motion without a point");
+            let hint = Some(format!("a jump is JUMPTO/{label}"));
+            self.report_with(CompileCode::OtherStatement, word.span, message, hint);
+            return;
+        }
         let (message, hint) = match ELSEWHERE.iter().find(|(other, _)| *other == word.text) {
             Some((_, hint)) => {
                 (format!("{} is no statement of FIL", word.text), (*hint).to_string())
@@ -172,11 +181,17 @@ impl<'t> Resolver<'t, '_> {
     }
 }
 
-/// True for an item that is the number of an address: POSTN/OUT,G,1 and REPEAT/Z,5.
-fn is_address(major: Option<WordId>, index: usize) -> bool {
+/// True for an item that is the number of an address: POSTN/OUT,G,1 and REPEAT/Z,5,
+/// REPEAT/X,Y,NEXT.
+fn is_address(major: Option<WordId>, args: &[Expr], index: usize) -> bool {
     match major {
         Some(w::POSTN) => !index.is_multiple_of(2),
+        Some(w::REPEAT) if is_name(args.last(), "NEXT") => true,
         Some(w::REPEAT) => index.is_multiple_of(2),
         _ => false,
     }
+}
+
+fn is_name(arg: Option<&Expr>, word: &str) -> bool {
+    matches!(arg, Some(Expr { kind: ExprKind::Name(name), .. }) if name == word)
 }

@@ -40,7 +40,7 @@ fn compile_case(number: u16) -> Option<(String, u32)> {
         225 => ("IF(1.EQ.DRILL)RAPID", 1),
         226 => ("XX=1\nCONTINUE", 2),
         227 => ("_MCDWT=MACRO\nRAPID\nTERMAC", 1),
-        228 => ("CIMFIL/ON,ALL\nRAPID\nCIMFIL/OFF", 1),
+        228 => ("CIMFIL/ON,GOTO,CLEAR\nRAPID\nCIMFIL/OFF", 1),
         251 => ("XX=1\nGOTO/X,XX,XX", 2),
         247 => ("INSERT/'G4 P',PAUS", 1),
         _ => return None,
