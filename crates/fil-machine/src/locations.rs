@@ -150,6 +150,16 @@ pub const LINEAR_LIMITS: [(Dbl, Dbl); 3] =
 pub const CHANGE_POSITION: [Dbl; 6] =
     [TOOL_CHANGE_X, TOOL_CHANGE_Y, TOOL_CHANGE_Z, TOOL_CHANGE_A, TOOL_CHANGE_B, TOOL_CHANGE_C];
 
+/// Codes of the spindle ranges.
+pub const RANGE_CODES: [CodeAt; 6] = [
+    SPINDLE_RANGE1_CODE,
+    SPINDLE_RANGE2_CODE,
+    SPINDLE_RANGE3_CODE,
+    SPINDLE_RANGE4_CODE,
+    SPINDLE_RANGE5_CODE,
+    SPINDLE_RANGE6_CODE,
+];
+
 /// Least and greatest speed of each spindle range, turns/min.
 pub const RANGE_SPEEDS: [(Rel, Rel); 6] = [
     (SPINDLE_RANGE1_MIN, SPINDLE_RANGE1_MAX),

@@ -113,6 +113,10 @@ pub struct Modes {
     pub compensation_offset: Option<u32>,
     /// Spindle.
     pub spindle: Spindle,
+    /// Angle of the oriented spindle, degrees; `None` when it turns or none was given.
+    pub orientation: Option<f64>,
+    /// Spindle range that the program has chosen last, from 1.
+    pub spindle_range: Option<u8>,
     /// Spindle speed, turns/min; `None` before the first and at constant surface speed.
     pub speed: Option<f64>,
     /// Preparatory function of the work offset (54 for `G54`).

@@ -87,6 +87,16 @@ impl<'a> Items<'a> {
         words.iter().copied().find(|word| self.flag(*word))
     }
 
+    /// Takes a minor word and the one right behind it; false when they do not stand so.
+    pub fn pair(&mut self, word: WordId, second: WordId) -> bool {
+        let Some(at) = self.find(word).filter(|at| self.is_word(at + 1, second)) else {
+            return false;
+        };
+        self.take(at);
+        self.take(at + 1);
+        true
+    }
+
     /// Takes a couplet: a minor word and the number after it. `None` when the
     /// word is absent.
     ///

@@ -88,14 +88,27 @@ pub enum Dwell {
 pub enum Spindle {
     /// Stops.
     Off,
-    /// Stops at the angle where the machine orients it.
-    Orient,
-    /// Takes a range of speeds, 1 to 6.
-    Range(f64),
+    /// Stops where the machine orients it, or at an angle in degrees.
+    Orient(Option<f64>),
+    /// Takes a range of speeds.
+    Range(SpindleRange),
     /// Takes a highest speed, turns a minute.
     Limit(f64),
     /// Turns.
     Turn(SpindleTurn),
+}
+
+/// A range of spindle speeds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SpindleRange {
+    /// By its number, from 1.
+    Number(f64),
+    /// The lowest one.
+    Low,
+    /// The one between two others.
+    Medium,
+    /// The highest one.
+    High,
 }
 
 /// A spindle that turns.
@@ -105,6 +118,8 @@ pub struct SpindleTurn {
     pub speed: Option<SpindleSpeed>,
     /// Clockwise or not; `None` for the machine's default.
     pub clockwise: Option<bool>,
+    /// The record names the range of speeds too.
+    pub in_named_range: bool,
     /// Word of the record that gives the speed, and the one that gives the direction.
     pub words: [u16; 2],
 }
@@ -120,25 +135,43 @@ pub enum SpindleSpeed {
     Feet(f64),
 }
 
-/// A kind of coolant.
+/// What the coolant does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coolant {
-    /// None.
+    /// Ends.
     Off,
+    /// Flows.
+    On(CoolantKind, Pressure),
+}
+
+/// A kind of coolant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CoolantKind {
     /// What the machine calls coolant on.
-    On,
+    Default,
     /// A jet.
     Flood,
-    /// A jet at high pressure.
-    FloodHigh,
-    /// A jet at low pressure.
-    FloodLow,
     /// Mist.
     Mist,
-    /// Through the tool, at the machine's usual or high pressure.
+    /// Through the tool.
     Through,
-    /// Through the tool at low pressure.
-    ThroughLow,
+    /// Tapping oil.
+    Tap,
+    /// Air.
+    Air,
+}
+
+/// The pressure of a coolant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pressure {
+    /// The machine's usual one.
+    Usual,
+    /// Low.
+    Low,
+    /// Medium.
+    Medium,
+    /// High.
+    High,
 }
 
 /// Cutter compensation.
@@ -210,6 +243,8 @@ pub enum Operation {
     SelectTool(i64),
     /// A function by its number: G or M.
     Function(Letter, FunctionCode),
+    /// An auxiliary function that the next motion brings along.
+    WithMotion(FunctionCode),
     /// A block of exactly these words, each with its cause.
     Words(Vec<(Letter, f64, Cause)>),
     /// Words for each motion from now on; none ends them.

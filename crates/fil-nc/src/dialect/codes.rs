@@ -170,6 +170,10 @@ pub enum Auxiliary {
     Counterclockwise,
     /// Spindle stands.
     SpindleOff,
+    /// Spindle stands where the machine orients it.
+    Orient,
+    /// A range of spindle speeds, from 1.
+    SpindleRange(u8),
     /// Coolant flows, or stops.
     Coolant(bool),
     /// Tool change.
@@ -192,7 +196,10 @@ impl Auxiliary {
         let turns = |auxiliary| {
             matches!(
                 auxiliary,
-                Auxiliary::Clockwise | Auxiliary::Counterclockwise | Auxiliary::SpindleOff
+                Auxiliary::Clockwise
+                    | Auxiliary::Counterclockwise
+                    | Auxiliary::SpindleOff
+                    | Auxiliary::Orient
             )
         };
         match (self, other) {
@@ -380,7 +387,7 @@ impl Auxiliaries {
             ("spindle.cw_code", A::Clockwise),
             ("spindle.ccw_code", A::Counterclockwise),
             ("spindle.stop_code", A::SpindleOff),
-            ("spindle.orient_code", A::SpindleOff),
+            ("spindle.orient_code", A::Orient),
             ("coolant.off_code", A::Coolant(false)),
             ("coolant.flood_code", A::Coolant(true)),
             ("coolant.mist_code", A::Coolant(true)),
@@ -389,6 +396,16 @@ impl Auxiliaries {
             ("coolant.flood_low_code", A::Coolant(true)),
             ("coolant.thru_high_code", A::Coolant(true)),
             ("coolant.thru_low_code", A::Coolant(true)),
+            ("coolant.flood_medium_code", A::Coolant(true)),
+            ("coolant.thru_medium_code", A::Coolant(true)),
+            ("coolant.tap_code", A::Coolant(true)),
+            ("coolant.air_code", A::Coolant(true)),
+            ("spindle.range1_code", A::SpindleRange(1)),
+            ("spindle.range2_code", A::SpindleRange(2)),
+            ("spindle.range3_code", A::SpindleRange(3)),
+            ("spindle.range4_code", A::SpindleRange(4)),
+            ("spindle.range5_code", A::SpindleRange(5)),
+            ("spindle.range6_code", A::SpindleRange(6)),
             ("tool.change_code", A::ToolChange),
             ("program.end_code", A::End),
             ("program.rewind_code", A::End),

@@ -105,6 +105,8 @@ pub struct Dialect {
     pub(crate) cycle_dwell: u8,
     pub(crate) dwell: u8,
     pub(crate) tool_offset: u8,
+    /// That of the angle of an oriented spindle; 0 for none.
+    pub(crate) orientation: u8,
     /// Control's dwell unit in a second.
     pub(crate) dwell_factor: f64,
     /// Control's feed unit in a unit of length a minute.
@@ -201,6 +203,7 @@ impl Dialect {
             cycle_dwell: settings.letter("cycle.dwell_address"),
             dwell: settings.letter("dwell.address"),
             tool_offset: settings.letter("cutcom.address"),
+            orientation: settings.letter("spindle.orient_address"),
             dwell_factor: factor(&settings, "dwell.upm_factor"),
             feed_factor: factor(&settings, "feed.upm_factor"),
             return_initial: settings.code("cycle.return_codes") == Some(2),

@@ -97,21 +97,37 @@ impl State<'_> {
             let limit = words.take(S)?;
             limit.ok_or_else(|| Fault::new(NcCode::MissingWord, "the speed limit needs its S"))?;
         }
-        let oriented = words.auxiliaries.iter().any(|(a, _)| *a == Auxiliary::SpindleOff);
+        let orients = words.auxiliaries.iter().any(|(a, _)| *a == Auxiliary::Orient);
+        let orientation = match self.dialect.orientation {
+            letter if orients && letter > 0 => words.take(letter)?,
+            _ => None,
+        };
+        let stops = words.auxiliaries.iter().any(|(a, _)| *a == Auxiliary::SpindleOff);
+        let oriented = orients || stops;
         if let Some(speed) = words.take(S)?.filter(|_| !oriented) {
             self.modes.speed = (!self.surface).then_some(speed);
         }
         self.tool(words)?;
         for (auxiliary, _) in &words.auxiliaries {
             match auxiliary {
-                Auxiliary::Clockwise => self.modes.spindle = Spindle::Clockwise,
-                Auxiliary::Counterclockwise => self.modes.spindle = Spindle::Counterclockwise,
-                Auxiliary::SpindleOff => self.modes.spindle = Spindle::Off,
+                Auxiliary::Clockwise => self.turn_spindle(Spindle::Clockwise),
+                Auxiliary::Counterclockwise => self.turn_spindle(Spindle::Counterclockwise),
+                Auxiliary::SpindleOff => self.turn_spindle(Spindle::Off),
+                Auxiliary::Orient => {
+                    self.modes.spindle = Spindle::Off;
+                    self.modes.orientation = orientation;
+                }
+                Auxiliary::SpindleRange(range) => self.modes.spindle_range = Some(*range),
                 Auxiliary::Coolant(on) => self.modes.coolant = *on,
                 _ => {}
             }
         }
         Ok(())
+    }
+
+    fn turn_spindle(&mut self, spindle: Spindle) {
+        self.modes.spindle = spindle;
+        self.modes.orientation = None;
     }
 
     fn tool(&mut self, words: &mut Words) -> Result<(), Fault> {

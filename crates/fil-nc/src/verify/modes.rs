@@ -8,6 +8,9 @@ use super::settings::{Due, Settings};
 use super::wanted::{CoolantKind, Effect, Wanted};
 use crate::motion::{Compensation, Modes, Spindle};
 
+/// Allowed deviation of an oriented spindle, degrees.
+const ANGLE: f64 = 6e-4;
+
 /// A state that may change with a motion.
 #[derive(Clone, Copy, Debug)]
 struct Lag<T> {
@@ -79,6 +82,12 @@ pub(super) struct Expected {
     compensation: Lag<(Compensation, Option<u32>)>,
     spindle: Lag<Option<Spindle>>,
     speed: Lag<Option<f64>>,
+    /// Angle of the oriented spindle; `None` when none is asked for.
+    orientation: Option<f64>,
+    /// The spindle range; `None` when none is asked for.
+    range: Option<u8>,
+    /// The record that is taken up names the range.
+    range_is_named: bool,
     coolant: Lag<bool>,
     /// `None` when words of the user's own may have chosen it.
     fixture: Option<Option<u32>>,
@@ -97,6 +106,9 @@ impl Expected {
             compensation: Lag::new((Compensation::Off, None)),
             spindle: Lag::new(Some(Spindle::Off)),
             speed: Lag::new(None),
+            orientation: None,
+            range: None,
+            range_is_named: false,
             coolant: Lag::new(false),
             fixture: Some(fixture_of(&settings.own_blocks())),
             offset_on: None,
@@ -115,17 +127,22 @@ impl Expected {
             Wanted::Spindle(Some(Spindle::Off)) => {
                 self.flush();
                 self.spindle.set(settings.spindle(Some(Spindle::Off)), Due::Now);
+                self.orientation = None;
             }
             Wanted::Spindle(turn) => {
                 self.spindle.set(settings.spindle(*turn), settings.spindle_due());
+                self.orientation = None;
+                self.range_is_named = false;
             }
-            Wanted::Speed(speed) => {
-                let speed = speed.map(|speed| settings.speed_within(speed));
-                self.speed.set(speed, settings.spindle_due());
+            Wanted::SpindleRange(range) => {
+                self.range = settings.spindle_range(*range);
+                self.range_is_named = true;
             }
-            Wanted::Orient => {
+            Wanted::Speed(speed) => self.take_speed(*speed, settings),
+            Wanted::Orient(angle) => {
                 self.spindle.set(None, Due::Now);
                 self.speed.set(None, Due::Now);
+                self.orientation = *angle;
             }
             Wanted::Coolant(kind) => {
                 if *kind == CoolantKind::Off {
@@ -143,9 +160,23 @@ impl Expected {
             }
             Wanted::Stop | Wanted::End => self.flush(),
             Wanted::Fixture(code) => self.fixture = Some(Some(*code)),
-            Wanted::Unknown { effect: Effect::Words | Effect::Path, .. } => self.fixture = None,
+            Wanted::Unknown { effect: Effect::Words | Effect::Path, .. } => {
+                self.fixture = None;
+                self.range = None;
+            }
+            Wanted::Unknown { effect: Effect::Auxiliary, .. } => self.range = None,
             _ => {}
         }
+    }
+
+    /// Takes up a speed, with the range that it brings along.
+    fn take_speed(&mut self, speed: Option<f64>, settings: &Settings) {
+        if let Some(asked) = speed.filter(|_| !self.range_is_named) {
+            let within = settings.speed_within(asked, None);
+            self.range = settings.range_of_speed(within, self.range).or(self.range);
+        }
+        let speed = speed.map(|speed| settings.speed_within(speed, self.range));
+        self.speed.set(speed, settings.spindle_due());
     }
 
     /// Takes up a tool change.
@@ -269,6 +300,7 @@ impl Expected {
                 format!("the spindle has {found}, it should be {must}"),
             ));
         }
+        self.wrong_spindle(modes, &mut wrong);
         if let Some(must) = self.coolant.refuses(|may| may == modes.coolant) {
             let said = if must {
                 "coolant is off, it should be on"
@@ -284,6 +316,22 @@ impl Expected {
             wrong.push((FindingKind::Fixture, format!("work offset {found}, it should be {must}")));
         }
         wrong
+    }
+}
+
+impl Expected {
+    /// What is not as it must be of the spindle's range and orientation.
+    fn wrong_spindle(&self, modes: &Modes, wrong: &mut Vec<(FindingKind, String)>) {
+        if let Some(must) = self.range.filter(|must| modes.spindle_range != Some(*must)) {
+            let found = modes.spindle_range.map_or("none".to_string(), |range| range.to_string());
+            let said = format!("spindle range {found} is chosen, it should be {must}");
+            wrong.push((FindingKind::Spindle, said));
+        }
+        let near = |must: f64| modes.orientation.is_some_and(|is| (is - must).abs() <= ANGLE);
+        if let Some(must) = self.orientation.filter(|must| !near(*must)) {
+            let said = format!("the spindle is not oriented at {must} degrees");
+            wrong.push((FindingKind::Spindle, said));
+        }
     }
 }
 

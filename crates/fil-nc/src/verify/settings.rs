@@ -11,7 +11,7 @@ use fil_machine::locations::{
 use fil_machine::setting::CodeAt;
 use fil_machine::user_blocks;
 
-use super::wanted::{CoolantKind, CycleKind};
+use super::wanted::{CoolantKind, CycleKind, SpindleRange};
 use crate::forward::Forward;
 use crate::motion::{Spindle, unit};
 
@@ -193,16 +193,61 @@ impl<'c> Settings<'c> {
         }
     }
 
-    /// A speed within the machine's ranges.
-    pub fn speed_within(&self, speed: f64) -> f64 {
-        let ranges = self.commons.int(loc::SPINDLE_RANGES).clamp(1, 6) as usize;
+    fn spindle_ranges(&self) -> u8 {
+        self.commons.int(loc::SPINDLE_RANGES).clamp(1, 6) as u8
+    }
+
+    /// Least and greatest speed of a spindle range, from 1.
+    fn speeds_of(&self, range: u8) -> (f64, f64) {
+        let (min, max) = loc::RANGE_SPEEDS[usize::from(range) - 1];
         let of = |at: Rel| self.commons.rel_opt(at);
-        let low =
-            loc::RANGE_SPEEDS[..ranges].iter().filter_map(|(min, _)| of(*min)).reduce(f64::min);
-        let tops: Option<Vec<f64>> =
-            loc::RANGE_SPEEDS[..ranges].iter().map(|(_, max)| of(*max)).collect();
-        let high = tops.and_then(|tops| tops.into_iter().reduce(f64::max));
-        speed.max(low.unwrap_or(0.0)).min(high.unwrap_or(f64::MAX))
+        (of(min).unwrap_or(0.0), of(max).unwrap_or(f64::MAX))
+    }
+
+    /// A speed within a spindle range, or within all of them together.
+    pub fn speed_within(&self, speed: f64, range: Option<u8>) -> f64 {
+        let ranges = range.map_or(1..=self.spindle_ranges(), |range| range..=range);
+        let speeds = || ranges.clone().map(|range| self.speeds_of(range));
+        let given = |(min, _): &(f64, f64)| *min > 0.0;
+        let low = speeds().filter(given).map(|(min, _)| min).reduce(f64::min);
+        let high = speeds().map(|(_, max)| max).fold(0.0, f64::max);
+        speed.max(low.unwrap_or(0.0)).min(high)
+    }
+
+    /// The spindle range that a record names, from 1; `None` for none of the machine.
+    pub fn spindle_range(&self, named: SpindleRange) -> Option<u8> {
+        let count = self.spindle_ranges();
+        match named {
+            SpindleRange::Low => Some(1),
+            SpindleRange::Medium => Some(2).filter(|_| count == 3),
+            SpindleRange::High => Some(count),
+            SpindleRange::Number(number) => (1..=6).find(|range| f64::from(*range) == number),
+        }
+    }
+
+    /// The range that a speed brings along while `now` is in force; `None` where the
+    /// machine leaves ranges to SPINDL/RANGE.
+    pub fn range_of_speed(&self, speed: f64, now: Option<u8>) -> Option<u8> {
+        if !self.commons.read(loc::SPINDLE_AUTO_RANGE) {
+            return None;
+        }
+        let count = self.spindle_ranges();
+        let first = u8::try_from(self.commons.int(loc::SPINDLE_DEFAULT_RANGE)).ok();
+        let first = now.or(first).filter(|first| (1..=count).contains(first));
+        first.into_iter().chain(1..=count).find(|range| {
+            let (min, max) = self.speeds_of(*range);
+            (min..=max).contains(&speed)
+        })
+    }
+
+    /// The machine's usual coolant has pressures, and codes for them.
+    fn has_usual_pressure(&self) -> bool {
+        let code = |at: CodeAt| self.commons.read(at);
+        let usual = code(loc::COOLANT_DEFAULT_CODE);
+        usual.is_some()
+            && [loc::COOLANT_FLOOD_CODE, loc::COOLANT_THRU_HIGH_CODE]
+                .iter()
+                .any(|at| code(*at) == usual)
     }
 
     /// A feed in mm/min within the machine's range.
@@ -218,6 +263,11 @@ impl<'c> Settings<'c> {
         let at = match kind {
             CoolantKind::Off => loc::COOLANT_OFF_CODE,
             CoolantKind::On => loc::COOLANT_DEFAULT_CODE,
+            CoolantKind::OnAtPressure => return self.has_usual_pressure(),
+            CoolantKind::FloodMedium => loc::COOLANT_FLOOD_MEDIUM_CODE,
+            CoolantKind::ThroughMedium => loc::COOLANT_THRU_MEDIUM_CODE,
+            CoolantKind::Tap => loc::COOLANT_TAP_CODE,
+            CoolantKind::Air => loc::COOLANT_AIR_CODE,
             CoolantKind::Flood => loc::COOLANT_FLOOD_CODE,
             CoolantKind::FloodHigh => loc::COOLANT_FLOOD_HIGH_CODE,
             CoolantKind::FloodLow => loc::COOLANT_FLOOD_LOW_CODE,

@@ -2,7 +2,7 @@
 
 use fil_cl::{Record, Vocabulary, Word, WordId, words as w};
 
-use super::wanted::{CoolantKind, Wanted};
+use super::wanted::{CoolantKind, SpindleRange, Wanted};
 use crate::motion::{Compensation, Spindle};
 
 pub(super) fn spindle(record: &Record) -> Vec<Wanted> {
@@ -10,11 +10,11 @@ pub(super) fn spindle(record: &Record) -> Vec<Wanted> {
         return vec![Wanted::Spindle(Some(Spindle::Off))];
     }
     if record.has(w::ORIENT) {
-        return vec![Wanted::Orient];
+        return vec![Wanted::Orient(numbers(record).first().copied())];
     }
     let speed = numbers_beside(record, &[w::MAXRPM, w::RANGE]).first().copied();
     let surface = record.has(w::SFM) || record.has(w::SMM);
-    let mut wanted = Vec::new();
+    let mut wanted: Vec<Wanted> = range(record).map(Wanted::SpindleRange).into_iter().collect();
     if speed.is_some() {
         wanted.push(Wanted::Speed(speed.filter(|_| !surface)));
     }
@@ -26,17 +26,37 @@ pub(super) fn spindle(record: &Record) -> Vec<Wanted> {
     wanted
 }
 
+/// RANGE with a number or a word.
+fn range(record: &Record) -> Option<SpindleRange> {
+    if let Some(number) = record.number_after(w::RANGE) {
+        return Some(SpindleRange::Number(number));
+    }
+    let named = [
+        (w::LOW, SpindleRange::Low),
+        (w::MEDIUM, SpindleRange::Medium),
+        (w::HIGH, SpindleRange::High),
+    ];
+    let found = named.iter().find(|(word, _)| record.has(w::RANGE) && record.has(*word));
+    found.map(|(_, range)| *range)
+}
+
 pub(super) fn coolant(record: &Record) -> Option<Wanted> {
-    let low = record.has(w::LOW);
+    let (low, medium) = (record.has(w::LOW), record.has(w::MEDIUM));
+    let pressure = low || medium || record.has(w::HIGH);
     Some(Wanted::Coolant(match () {
         () if record.has(w::OFF) => CoolantKind::Off,
+        () if record.has(w::ON) && pressure => CoolantKind::OnAtPressure,
         () if record.has(w::ON) => CoolantKind::On,
         () if record.has(w::MIST) => CoolantKind::Mist,
         () if record.has(w::FLOOD) && low => CoolantKind::FloodLow,
+        () if record.has(w::FLOOD) && medium => CoolantKind::FloodMedium,
         () if record.has(w::FLOOD) && record.has(w::HIGH) => CoolantKind::FloodHigh,
         () if record.has(w::FLOOD) => CoolantKind::Flood,
         () if record.has(w::THRU) && low => CoolantKind::ThroughLow,
+        () if record.has(w::THRU) && medium => CoolantKind::ThroughMedium,
         () if record.has(w::THRU) => CoolantKind::Through,
+        () if record.has(w::TAP) => CoolantKind::Tap,
+        () if record.has(w::AIR) => CoolantKind::Air,
         () => return None,
     }))
 }

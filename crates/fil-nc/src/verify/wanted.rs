@@ -45,8 +45,11 @@ pub enum Wanted {
     Spindle(Option<Spindle>),
     /// Spindle speed, turns a minute; `None` for a constant surface speed.
     Speed(Option<f64>),
-    /// The spindle is turned to an angle: neither speed nor direction are known.
-    Orient,
+    /// The spindle is stopped where the machine orients it, or at an angle in degrees:
+    /// neither speed nor direction are known.
+    Orient(Option<f64>),
+    /// A range of spindle speeds.
+    SpindleRange(SpindleRange),
     /// A coolant is switched on or off.
     Coolant(CoolantKind),
     /// Cutter compensation by the control, with the number of its offset where the
@@ -84,6 +87,19 @@ pub enum Effect {
     Path,
 }
 
+/// A range of spindle speeds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SpindleRange {
+    /// By its number, from 1.
+    Number(f64),
+    /// The lowest.
+    Low,
+    /// The middle one.
+    Medium,
+    /// The highest.
+    High,
+}
+
 /// What COOLNT asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CoolantKind {
@@ -91,18 +107,28 @@ pub enum CoolantKind {
     Off,
     /// The machine's usual one.
     On,
+    /// The machine's usual one at a pressure.
+    OnAtPressure,
     /// Flood.
     Flood,
     /// Flood at high pressure.
     FloodHigh,
+    /// Flood at medium pressure.
+    FloodMedium,
     /// Flood at low pressure.
     FloodLow,
     /// Mist.
     Mist,
     /// Through the tool.
     Through,
+    /// Through the tool at medium pressure.
+    ThroughMedium,
     /// Through the tool at low pressure.
     ThroughLow,
+    /// Tapping oil.
+    Tap,
+    /// Air.
+    Air,
 }
 
 /// An arc or helix in the part frame.

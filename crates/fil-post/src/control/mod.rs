@@ -70,8 +70,10 @@ pub struct Control {
     pub head: ProgramHead,
     /// The last spindle speed, as it was asked for.
     pub speed: Option<SpindleSpeed>,
-    /// The spindle range that SPINDL/RANGE chose, from 0.
+    /// The spindle range in force that the program has said, from 0.
     pub range: Option<usize>,
+    /// The location of the coolant that flows, as COOLNT asked for it.
+    pub(crate) coolant: Option<CodeAt>,
     /// The compensation the CL file asks for.
     asked: Compensation,
     /// Unit of the CL file and of the program; `None` before anything says it.
@@ -104,6 +106,7 @@ impl Control {
             head: ProgramHead::default(),
             speed: None,
             range: None,
+            coolant: None,
             asked: Compensation::Off,
             unit,
         })

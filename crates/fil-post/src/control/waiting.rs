@@ -19,12 +19,22 @@ pub enum Function {
     Coolant,
     /// Cutter compensation.
     Compensation,
+    /// A function of the user's own.
+    Auxiliary,
+}
+
+/// The motion that words wait for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Due {
+    Any,
+    Xy,
+    Z,
 }
 
 /// Words that wait for a motion.
 #[derive(Clone, Debug, Default)]
 pub struct Waiting {
-    words: Vec<(Function, Placement, Block)>,
+    words: Vec<(Function, Due, Block)>,
     /// Tool length offset to be called with the next Z motion, with its cause.
     pub length_offset: Option<(i64, Cause)>,
 }
@@ -63,12 +73,36 @@ impl Control {
             }
         }
         self.block = block;
-        if placement == Placement::BlockOfItsOwn {
-            return self.write_block();
-        }
+        let due = match placement {
+            Placement::BlockOfItsOwn => return self.write_block(),
+            Placement::NextXyBlock => Due::Xy,
+            Placement::NextZBlock => Due::Z,
+        };
         let block = self.block.take();
-        self.waiting.words.push((function, placement, block));
+        self.waiting.words.push((function, due, block));
         Ok(())
+    }
+
+    /// Writes the words of one function that still wait, in a block of their own.
+    ///
+    /// # Errors
+    /// As [`Control::write_block`].
+    pub fn flush_function(&mut self, function: Function) -> Result<()> {
+        let Some(at) = self.waiting.words.iter().position(|(old, ..)| *old == function) else {
+            return Ok(());
+        };
+        let (_, _, words) = self.waiting.words.remove(at);
+        let block = std::mem::replace(&mut self.block, words);
+        self.write_block()?;
+        self.block = block;
+        Ok(())
+    }
+
+    /// Keeps the block under construction for the next motion, beside all that waits
+    /// already.
+    pub fn keep_for_motion(&mut self, function: Function) {
+        let block = self.block.take();
+        self.waiting.words.push((function, Due::Any, block));
     }
 
     /// Writes the words that still wait for a motion, each in a block of its own.
@@ -94,11 +128,11 @@ impl Control {
         let moves_xy = moves(self, 0) || moves(self, 1);
         let moves_z = moves(self, 2);
         let mut words = std::mem::take(&mut self.waiting.words);
-        words.retain(|(_, placement, words)| {
-            let due = match placement {
-                Placement::BlockOfItsOwn => true,
-                Placement::NextXyBlock => moves_xy,
-                Placement::NextZBlock => moves_z,
+        words.retain(|(_, due, words)| {
+            let due = match due {
+                Due::Any => true,
+                Due::Xy => moves_xy,
+                Due::Z => moves_z,
             };
             if due {
                 self.block.merge(words);

@@ -49,6 +49,8 @@ pub struct Codes {
     turning: bool,
     /// The machine has canned cycles that a code ends.
     has_cycle_off: bool,
+    /// Auxiliary functions of the spindle ranges.
+    ranges: Vec<FunctionCode>,
 }
 
 impl Codes {
@@ -59,6 +61,10 @@ impl Codes {
             named: Vec::with_capacity(48),
             turning,
             has_cycle_off: commons.read(loc::CYCLE_OFF_CODE).is_some(),
+            ranges: loc::RANGE_CODES
+                .iter()
+                .filter_map(|at| commons.read(*at).and_then(FunctionCode::of_setting))
+                .collect(),
         };
         let mut name = |at: CodeAt, meaning: Meaning| {
             let code = commons.read(at).and_then(FunctionCode::of_setting);
@@ -89,6 +95,11 @@ impl Codes {
             Some((_, meaning)) => *meaning,
             None => self.usual(code),
         }
+    }
+
+    /// True for the code of a spindle range.
+    pub fn is_spindle_range(&self, code: FunctionCode) -> bool {
+        self.ranges.contains(&code)
     }
 
     /// True when a motion function ends a cycle that no code ends.

@@ -110,6 +110,8 @@ pub struct ControlState {
     pub tool_changes: u32,
     /// The tool in the spindle.
     pub tool: Option<i64>,
+    /// The code of the spindle range in force; `None` when it is not known.
+    pub range: Option<FunctionCode>,
     /// The program has ended: M2, M30.
     pub ended: bool,
     /// Letters whose last output value is not what the control has.
@@ -134,6 +136,7 @@ impl ControlState {
             cycle: None,
             tool_changes: 0,
             tool: None,
+            range: None,
             ended: false,
             doubtful: LetterSet::default(),
             before_skip: None,
@@ -186,6 +189,7 @@ impl ControlState {
             cycle: None,
             tool_changes: self.tool_changes,
             tool: None,
+            range: None,
             ended: self.ended,
             doubtful: LetterSet::ALL,
             before_skip: self.before_skip.take(),
@@ -207,7 +211,7 @@ impl ControlState {
             }
         }
         for (code, _) in block.m_codes() {
-            self.learn_auxiliary(*code);
+            self.learn_auxiliary(*code, codes);
         }
         if !self.doubtful.is_empty() {
             self.trust_words(block, addresses);
@@ -240,7 +244,7 @@ impl ControlState {
                 }
                 (letters::M, Some(code)) => {
                     frame |= code == TOOL_CHANGE;
-                    self.learn_auxiliary(code);
+                    self.learn_auxiliary(code, codes);
                 }
                 (letters::T, _) => self.tool = None,
                 _ if cycle => self.doubt(letter),
@@ -310,7 +314,7 @@ impl ControlState {
     }
 
     /// Learns what an auxiliary function does. A call of a subprogram may do anything.
-    pub fn learn_auxiliary(&mut self, code: FunctionCode) {
+    pub fn learn_auxiliary(&mut self, code: FunctionCode, codes: &Codes) {
         const END: [FunctionCode; 2] = [FunctionCode::whole(2), FunctionCode::whole(30)];
         const CALLS: [FunctionCode; 4] = [
             FunctionCode::whole(97),
@@ -319,6 +323,9 @@ impl ControlState {
             FunctionCode::whole(198),
         ];
         self.ended |= END.contains(&code);
+        if codes.is_spindle_range(code) {
+            self.range = Some(code);
+        }
         if code == TOOL_CHANGE {
             self.tool = None;
             self.tool_changes += 1;
@@ -350,7 +357,7 @@ impl ControlState {
                     if code == TOOL_CHANGE {
                         self.doubt_axes();
                     }
-                    self.learn_auxiliary(code);
+                    self.learn_auxiliary(code, codes);
                 }
                 (letters::T, _) => self.tool = None,
                 (letter, _) if AXIS_LETTERS.contains(&letter) => self.doubt_axes(),
@@ -412,6 +419,7 @@ impl ControlState {
         agree(&mut self.in_cycle, &other.in_cycle);
         agree(&mut self.cycle, &other.cycle);
         agree(&mut self.tool, &other.tool);
+        agree(&mut self.range, &other.range);
         self.compensation_begun &= other.compensation_begun;
         self.doubtful.0 |= other.doubtful.0;
     }

@@ -3,6 +3,7 @@
 
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
+use fil_machine::locations as loc;
 
 use crate::cause::Cause;
 use crate::items::Items;
@@ -39,11 +40,12 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
 }
 
 /// LENGTH is the tool's length in the CAM system. The control measures its tools
-/// itself; only a head that turns about a pivot would need it.
+/// itself; only a head that turns about a pivot would need it, unless the machine says
+/// that it is passed over.
 fn gauge_length(post: &Post, items: &mut Items) -> Result<()> {
     let length = items.couplet(w::LENGTH)?;
     let pivot = post.control.tables.chain().pivot.is_some();
-    if length.is_some() && pivot {
+    if length.is_some() && pivot && !post.control.commons.read(loc::TOOL_IGNORE_LENGTH) {
         return Err(items.error("LENGTH would change the pivot distance of the head"));
     }
     Ok(())

@@ -1,8 +1,9 @@
-//! PREFUN/n and AUXFUN/n: a preparatory or auxiliary function by its number.
+//! PREFUN/n and AUXFUN/n\[,NEXT]: a preparatory or auxiliary function by its number.
 
+use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
+use fil_machine::FunctionCode;
 use fil_machine::letters::{G, M};
-use fil_machine::{FunctionCode, Letter};
 
 use crate::items::Items;
 use crate::operation::Operation;
@@ -14,22 +15,30 @@ use crate::post::Post;
 /// # Errors
 /// No number, or one that no function has.
 pub fn prefun(post: &mut Post, items: &mut Items) -> Result<()> {
-    write(post, items, G)
+    let code = code(post, items)?;
+    items.deny_rest()?;
+    carry_out(post, Operation::Function(G, code))
 }
 
-/// Writes M n in a block of its own.
+/// Writes M n in a block of its own, or with NEXT in that of the next motion.
 ///
 /// # Errors
 /// No number, or one that no function has.
 pub fn auxfun(post: &mut Post, items: &mut Items) -> Result<()> {
-    write(post, items, M)
+    let code = code(post, items)?;
+    let next = items.flag(w::NEXT);
+    items.deny_rest()?;
+    let operation = if next { Operation::WithMotion(code) } else { Operation::Function(M, code) };
+    carry_out(post, operation)
 }
 
-fn write(post: &mut Post, items: &mut Items, letter: Letter) -> Result<()> {
+/// The function of the number.
+///
+/// # Errors
+/// No number, or one that no function has.
+fn code(post: &mut Post, items: &mut Items) -> Result<FunctionCode> {
     let number = items.required("the number of the function")?;
     post.due_to(items);
-    items.deny_rest()?;
-    let code = FunctionCode::of_value(number)
-        .ok_or_else(|| items.error(format!("{number} is not the number of a function")))?;
-    carry_out(post, Operation::Function(letter, code))
+    FunctionCode::of_value(number)
+        .ok_or_else(|| items.error(format!("{number} is not the number of a function")))
 }

@@ -1,11 +1,11 @@
-//! SPINDL: RPM,s,CLW in any order; OFF; ON; ORIENT; SFM and SMM for
-//! constant surface speed; MAXRPM,n; RANGE,n.
+//! SPINDL: RPM,s,CLW in any order; OFF; ON; ORIENT\[,angle]; SFM and SMM for
+//! constant surface speed; MAXRPM,n; RANGE,n|LOW|MEDIUM|HIGH.
 
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 
 use crate::items::Items;
-use crate::operation::{Operation, Spindle, SpindleSpeed, SpindleTurn};
+use crate::operation::{Operation, Spindle, SpindleRange, SpindleSpeed, SpindleTurn};
 use crate::path::carry_out;
 use crate::post::Post;
 
@@ -19,11 +19,12 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         return carry_out(post, Operation::Spindle(Spindle::Off));
     }
     if items.flag(w::ORIENT) {
-        refuse_angle(items)?;
+        let angle = items.number();
+        post.due_to(items);
         items.deny_rest()?;
-        return carry_out(post, Operation::Spindle(Spindle::Orient));
+        return carry_out(post, Operation::Spindle(Spindle::Orient(angle)));
     }
-    let range = items.couplet(w::RANGE)?.map(|range| (range, items.last_word()));
+    let range = range(items)?.map(|range| (range, items.last_word()));
     let limit = items.couplet(w::MAXRPM)?.map(|limit| (limit, items.last_word()));
     let turn = turn(items)?;
     items.deny_rest()?;
@@ -36,18 +37,26 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         carry_out(post, Operation::Spindle(Spindle::Limit(limit)))?;
     }
     match turn {
-        Some(turn) => carry_out(post, Operation::Spindle(Spindle::Turn(turn))),
+        Some(turn) => {
+            let turn = SpindleTurn { in_named_range: range.is_some(), ..turn };
+            carry_out(post, Operation::Spindle(Spindle::Turn(turn)))
+        }
         None => Ok(()),
     }
 }
 
-/// The angle of an oriented stop has another address on each control: S would be a speed
-/// to most.
-fn refuse_angle(items: &mut Items) -> Result<()> {
-    let Some(angle) = items.number() else { return Ok(()) };
-    let mut diag = items.error(format!("no address is known for the angle {angle}"));
-    diag.hint = Some("Write the block of this control in a FIL section for SPINDL.".into());
-    Err(diag)
+/// RANGE with a number or a word.
+fn range(items: &mut Items) -> Result<Option<SpindleRange>> {
+    let named = [
+        (w::LOW, SpindleRange::Low),
+        (w::MEDIUM, SpindleRange::Medium),
+        (w::HIGH, SpindleRange::High),
+    ];
+    let found = named.iter().find(|(word, _)| items.pair(w::RANGE, *word));
+    match found {
+        Some((_, range)) => Ok(Some(*range)),
+        None => Ok(items.couplet(w::RANGE)?.map(SpindleRange::Number)),
+    }
 }
 
 /// What makes the spindle turn; `None` for a record that only sets a range or limit.
@@ -73,5 +82,6 @@ fn turn(items: &mut Items) -> Result<Option<SpindleTurn>> {
         return Ok(None);
     }
     let clockwise = direction.map(|word| word == w::CLW);
-    Ok(Some(SpindleTurn { speed, clockwise, words: [speed_word, direction_word] }))
+    let words = [speed_word, direction_word];
+    Ok(Some(SpindleTurn { speed, clockwise, in_named_range: false, words }))
 }

@@ -2,35 +2,85 @@
 
 use fil_diag::Result;
 use fil_machine::locations as loc;
+use fil_machine::setting::CodeAt;
 
 use crate::control::{Control, Function};
-use crate::operation::Coolant;
+use crate::errors::PostCode;
+use crate::operation::{Coolant, CoolantKind, Pressure};
 
 /// Writes the coolant code, in a block of its own or with a motion; OFF at once.
 ///
 /// # Errors
-/// As [`Control::write_block`].
+/// A pressure of a usual coolant that has none; as [`Control::write_block`].
 pub fn write(control: &mut Control, coolant: Coolant) -> Result<()> {
     let at = match coolant {
-        Coolant::On => loc::COOLANT_DEFAULT_CODE,
-        Coolant::Off => loc::COOLANT_OFF_CODE,
-        Coolant::Mist => loc::COOLANT_MIST_CODE,
-        Coolant::Flood => loc::COOLANT_FLOOD_CODE,
-        Coolant::FloodHigh => loc::COOLANT_FLOOD_HIGH_CODE,
-        Coolant::FloodLow => loc::COOLANT_FLOOD_LOW_CODE,
-        Coolant::Through => loc::COOLANT_THRU_HIGH_CODE,
-        Coolant::ThroughLow => loc::COOLANT_THRU_LOW_CODE,
+        Coolant::Off => return off(control),
+        Coolant::On(kind, pressure) => location(control, kind, pressure)?,
     };
+    let changes = control.coolant.replace(at).is_some_and(|before| before != at);
+    if changes && control.commons.read(loc::COOLANT_PRINT_OFF) {
+        write_off(control)?;
+    }
+    add(control, at);
+    let placement = control.commons.read(loc::COOLANT_PLACEMENT);
+    control.place_block(Function::Coolant, placement)
+}
+
+fn off(control: &mut Control) -> Result<()> {
+    control.coolant = None;
+    write_off(control)
+}
+
+/// Ends the coolant at once, after all that still waits for a motion.
+fn write_off(control: &mut Control) -> Result<()> {
+    control.flush_waiting()?;
+    add(control, loc::COOLANT_OFF_CODE);
+    control.write_block()
+}
+
+fn add(control: &mut Control, at: CodeAt) {
     match control.code_if_any(at) {
         Some(code) => control.m(code),
         None => control.warn_no_code("this coolant"),
     }
-    if coolant == Coolant::Off {
-        let words = control.block.take();
-        control.flush_waiting()?;
-        control.block = words;
-        return control.write_block();
-    }
-    let placement = control.commons.read(loc::COOLANT_PLACEMENT);
-    control.place_block(Function::Coolant, placement)
+}
+
+/// The location of the code of a coolant.
+///
+/// # Errors
+/// A pressure where the machine's usual coolant is neither flood nor through the tool.
+fn location(control: &Control, kind: CoolantKind, pressure: Pressure) -> Result<CodeAt> {
+    use Pressure as P;
+    Ok(match (kind, pressure) {
+        (CoolantKind::Default, P::Usual) => loc::COOLANT_DEFAULT_CODE,
+        (CoolantKind::Default, _) => return location(control, usual_kind(control)?, pressure),
+        (CoolantKind::Mist, _) => loc::COOLANT_MIST_CODE,
+        (CoolantKind::Tap, _) => loc::COOLANT_TAP_CODE,
+        (CoolantKind::Air, _) => loc::COOLANT_AIR_CODE,
+        (CoolantKind::Flood, P::Usual) => loc::COOLANT_FLOOD_CODE,
+        (CoolantKind::Flood, P::Low) => loc::COOLANT_FLOOD_LOW_CODE,
+        (CoolantKind::Flood, P::Medium) => loc::COOLANT_FLOOD_MEDIUM_CODE,
+        (CoolantKind::Flood, P::High) => loc::COOLANT_FLOOD_HIGH_CODE,
+        (CoolantKind::Through, P::Low) => loc::COOLANT_THRU_LOW_CODE,
+        (CoolantKind::Through, P::Medium) => loc::COOLANT_THRU_MEDIUM_CODE,
+        (CoolantKind::Through, P::Usual | P::High) => loc::COOLANT_THRU_HIGH_CODE,
+    })
+}
+
+/// The kind whose usual code is that of COOLNT/ON.
+///
+/// # Errors
+/// It is a kind without pressures.
+fn usual_kind(control: &Control) -> Result<CoolantKind> {
+    let usual = control.code_if_any(loc::COOLANT_DEFAULT_CODE);
+    let kinds = [
+        (CoolantKind::Flood, loc::COOLANT_FLOOD_CODE),
+        (CoolantKind::Through, loc::COOLANT_THRU_HIGH_CODE),
+    ];
+    let found = kinds.iter().find(|(_, at)| usual.is_some() && control.code_if_any(*at) == usual);
+    found.map(|(kind, _)| *kind).ok_or_else(|| {
+        PostCode::WordForm.diag(
+            "COOLNT: a pressure with ON, and the code of ON is neither that of FLOOD nor of THRU",
+        )
+    })
 }

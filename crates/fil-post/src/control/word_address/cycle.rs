@@ -4,7 +4,9 @@ use fil_diag::Result;
 use fil_machine::FunctionCode;
 use fil_machine::axes::AxisSet;
 use fil_machine::letters::{F, R};
-use fil_machine::locations::{self as loc, CycleDataModal, CycleDepthOutput, CycleReturnCodes};
+use fil_machine::locations::{
+    self as loc, CycleDataModal, CycleDepthOutput, CycleReturnCodes, DwellCycleModal,
+};
 use fil_machine::modes::{FeedMode, Plane};
 use fil_machine::rounding::Rounding;
 
@@ -56,6 +58,9 @@ pub fn hole(
     let data_modal = control.commons.read(loc::CYCLE_DATA_MODAL);
     let in_force = cycle.in_force == Some(*hole) && control_has_data(control, cycle, code, hole);
     if in_force && data_modal != CycleDataModal::EveryPoint {
+        if control.commons.read(loc::DWELL_CYCLE_MODAL) == DwellCycleModal::EachHole {
+            dwell_word(control, cycle)?;
+        }
         if !motion::axis_words(control, &across)? {
             for number in AxisSet::LINEAR.numbers().filter(|number| *number != hole.along) {
                 motion::axis_word(control, number, &across)?;
@@ -148,6 +153,15 @@ fn level_words(control: &mut Control, cycle: &Cycle, hole: &Hole) -> Result<()> 
     control.because(cycle.due_to(cycle.words.clear), |control| control.word(R, r))
 }
 
+/// The dwell at the bottom, of a cycle that has one.
+fn dwell_word(control: &mut Control, cycle: &Cycle) -> Result<()> {
+    if cycle.dwell == 0.0 {
+        return Ok(());
+    }
+    let cause = cycle.due_to(cycle.words.dwell);
+    control.because(cause, |control| dwell::cycle_word(control, cycle.dwell))
+}
+
 /// Peck, dwell and feed.
 fn data_words(control: &mut Control, cycle: &Cycle) -> Result<()> {
     if let Some(step) = cycle.step {
@@ -156,10 +170,7 @@ fn data_words(control: &mut Control, cycle: &Cycle) -> Result<()> {
             control.word_rounded(letter, step, Rounding::Rate)
         })?;
     }
-    if cycle.dwell > 0.0 {
-        let cause = cycle.due_to(cycle.words.dwell);
-        control.because(cause, |control| dwell::cycle_word(control, cycle.dwell))?;
-    }
+    dwell_word(control, cycle)?;
     let (feed, rounding) = match cycle.feed {
         CycleFeed::Lead(lead) => {
             let mode = FeedMode::PerRevolution;

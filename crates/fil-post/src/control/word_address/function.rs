@@ -1,9 +1,11 @@
 //! A preparatory or auxiliary function by its number (PREFUN, AUXFUN).
 
 use fil_diag::Result;
-use fil_machine::{FunctionCode, Letter};
+use fil_machine::{FunctionCode, Letter, locations as loc};
 
-use crate::control::Control;
+use crate::control::{Control, Function};
+use crate::control_state::TOOL_CHANGE;
+use crate::errors::PostCode;
 
 /// Writes the function in a block of its own; the control learns what it means.
 ///
@@ -12,4 +14,27 @@ use crate::control::Control;
 /// cutter compensation.
 pub fn write(control: &mut Control, letter: Letter, code: FunctionCode) -> Result<()> {
     control.write_words(&[(letter, code.value(), control.block.cause)])
+}
+
+/// Auxiliary functions that stop, end or steer the program, or change the tool: what
+/// they do to the motion of their block is not the same on each control.
+const ALONE: [u16; 8] = [0, 1, 2, 30, 97, 98, 99, 198];
+
+/// Keeps an auxiliary function for the next motion.
+///
+/// # Errors
+/// A function that must stand in a block of its own.
+pub fn with_motion(control: &mut Control, code: FunctionCode) -> Result<()> {
+    control.begin()?;
+    let change = control.code_if_any(loc::TOOL_CHANGE_CODE).unwrap_or(TOOL_CHANGE);
+    let alone = ALONE.into_iter().map(FunctionCode::whole).chain([TOOL_CHANGE, change]);
+    if alone.into_iter().any(|one| one == code) {
+        return PostCode::WordForm.err(format!(
+            "AUXFUN: M{code} with NEXT; a function that stops, ends or steers the program, or \
+             changes the tool, stands in a block of its own"
+        ));
+    }
+    control.m(code);
+    control.keep_for_motion(Function::Auxiliary);
+    Ok(())
 }

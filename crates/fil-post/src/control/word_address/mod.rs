@@ -33,6 +33,7 @@ pub fn write(control: &mut Control, operation: Operation) -> Result<()> {
         Operation::Compensation(compensation) => compensation::write(control, compensation),
         Operation::SelectTool(tool) => tool::select(control, tool),
         Operation::Function(letter, code) => function::write(control, letter, code),
+        Operation::WithMotion(code) => function::with_motion(control, code),
         Operation::Words(words) => control.write_words(&words),
         Operation::Repeat(words) => repeat::set(control, words),
         Operation::Text(text) => text::insert(control, &text),

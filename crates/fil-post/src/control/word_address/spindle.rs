@@ -3,23 +3,19 @@
 use fil_diag::Result;
 use fil_machine::letters::S;
 use fil_machine::locations as loc;
+use fil_machine::rounding::Rounding;
 use fil_machine::setting::CodeAt;
 
 use crate::control::{Control, Function};
 use crate::errors::PostCode;
-use crate::operation::{Spindle, SpindleSpeed, SpindleTurn};
-
-const RANGE_CODES: [CodeAt; 6] = [
-    loc::SPINDLE_RANGE1_CODE,
-    loc::SPINDLE_RANGE2_CODE,
-    loc::SPINDLE_RANGE3_CODE,
-    loc::SPINDLE_RANGE4_CODE,
-    loc::SPINDLE_RANGE5_CODE,
-    loc::SPINDLE_RANGE6_CODE,
-];
+use crate::operation::{Spindle, SpindleRange, SpindleSpeed, SpindleTurn};
 
 /// Meters of a foot.
 const FOOT: f64 = 0.3048;
+
+/// An angle of an oriented stop is rounded to this, degrees: finer ones come from the
+/// arithmetic of a CAM system.
+const SMALLEST_ANGLE: f64 = 1e-3;
 
 /// Writes the spindle's words, in a block of their own or with a motion.
 ///
@@ -28,8 +24,11 @@ const FOOT: f64 = 0.3048;
 pub fn write(control: &mut Control, spindle: Spindle) -> Result<()> {
     match spindle {
         Spindle::Off => off(control),
-        Spindle::Orient => place(control, loc::SPINDLE_ORIENT_CODE, "SPINDL/ORIENT"),
-        Spindle::Range(range) => select_range(control, range),
+        Spindle::Orient(angle) => orient(control, angle),
+        Spindle::Range(range) => {
+            let index = range_of(control, range)?;
+            select_range(control, index)
+        }
         Spindle::Limit(limit) => {
             let code = control.code(loc::SPINDLE_MAX_CODE, "SPINDL/MAXRPM")?;
             control.g_of_record(code);
@@ -50,10 +49,50 @@ fn off(control: &mut Control) -> Result<()> {
     control.write_block()
 }
 
+/// Stops the spindle where the machine orients it. An angle has another address on each
+/// control: S would be a speed to most.
+///
+/// # Errors
+/// The machine has no address for an angle, or its format can't hold it.
+fn orient(control: &mut Control, angle: Option<f64>) -> Result<()> {
+    let Some(angle) = angle else {
+        return place(control, loc::SPINDLE_ORIENT_CODE, "SPINDL/ORIENT");
+    };
+    let Some(letter) = control.commons.read(loc::SPINDLE_ORIENT_ADDRESS) else {
+        let message = format!("SPINDL: no address is known for the angle {angle}");
+        let mut diag = PostCode::WordForm.diag(message);
+        diag.hint = Some(
+            "Name the letter with spindle.orient_address, or write the block of this control in \
+             a FIL section for SPINDL."
+                .into(),
+        );
+        return Err(diag);
+    };
+    let code = control.code(loc::SPINDLE_ORIENT_CODE, "SPINDL/ORIENT")?;
+    control.flush_waiting()?;
+    control.m(code);
+    let angle = (angle / SMALLEST_ANGLE).round() * SMALLEST_ANGLE;
+    control.word_rounded(letter, angle, Rounding::Exact)?;
+    control.write_block()?;
+    control.state.doubt(letter);
+    Ok(())
+}
+
 fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
     control.begin()?;
     let [speed_word, direction_word] = turn.words;
     control.block.cause.word = speed_word;
+    if turn.speed.is_some() && !control.commons.read(loc::SPINDLE_DIRECT_RPM) {
+        let mut diag = PostCode::NoCode.diag(
+            "S of this machine is a code (spindle.direct_rpm), and no table of codes is known",
+        );
+        diag.hint = Some("Write S in a FIL section for SPINDL.".into());
+        return Err(diag);
+    }
+    let by_speed = !turn.in_named_range && control.commons.read(loc::SPINDLE_AUTO_RANGE);
+    if let (Some(SpindleSpeed::Revolutions(speed)), true) = (turn.speed, by_speed) {
+        take_range_of(control, speed)?;
+    }
     match (turn.speed, control.speed) {
         (Some(speed), _) => speed_words(control, speed)?,
         (None, Some(speed)) => {
@@ -100,10 +139,9 @@ fn value_of(control: &mut Control, speed: SpindleSpeed) -> f64 {
 /// machine, with a warning.
 fn within_range(control: &mut Control, speed: f64) -> f64 {
     let commons = &control.commons;
-    let ranges = commons.int(loc::SPINDLE_RANGES).clamp(1, 6) as usize;
     let open = match control.range {
         Some(chosen) => chosen..chosen + 1,
-        None => 0..ranges,
+        None => 0..ranges(control),
     };
     let limits = loc::RANGE_SPEEDS[open].iter();
     let low = limits.clone().filter_map(|(min, _)| commons.rel_opt(*min)).reduce(f64::min);
@@ -117,12 +155,62 @@ fn within_range(control: &mut Control, speed: f64) -> f64 {
     within
 }
 
-fn select_range(control: &mut Control, range: f64) -> Result<()> {
-    let index = (1..=6).position(|number| f64::from(number) == range);
-    let Some(index) = index else {
-        return PostCode::WordForm.err(format!("SPINDL: there is no spindle range {range}"));
+/// Number of the ranges of the machine.
+fn ranges(control: &Control) -> usize {
+    control.commons.int(loc::SPINDLE_RANGES).clamp(1, 6) as usize
+}
+
+/// Index of the range that a record names.
+///
+/// # Errors
+/// The machine has none of this number, or none that lies between two others.
+fn range_of(control: &Control, range: SpindleRange) -> Result<usize> {
+    let count = ranges(control);
+    match range {
+        SpindleRange::Low => Ok(0),
+        SpindleRange::High => Ok(count - 1),
+        SpindleRange::Medium if count == 3 => Ok(1),
+        SpindleRange::Medium => PostCode::WordForm
+            .err(format!("SPINDL: none of {count} spindle ranges is the medium one")),
+        SpindleRange::Number(number) => {
+            (1..=6).position(|one| f64::from(one) == number).ok_or_else(|| {
+                PostCode::WordForm.diag(format!("SPINDL: there is no spindle range {number}"))
+            })
+        }
+    }
+}
+
+/// Takes the range that holds a speed: that in force, else the machine's first choice,
+/// else the lowest one.
+///
+/// # Errors
+/// No range holds the speed, nor one at the ends of all ranges; the range has no code.
+fn take_range_of(control: &mut Control, speed: f64) -> Result<()> {
+    let holds = |control: &Control, index: usize, speed: f64| {
+        let (min, max) = loc::RANGE_SPEEDS[index];
+        let above = control.commons.rel_opt(min).is_none_or(|min| speed >= min);
+        above && control.commons.rel_opt(max).is_none_or(|max| speed <= max)
     };
-    let code = control.code(RANGE_CODES[index], "this spindle range")?;
+    let before = control.range.take().filter(|index| {
+        let code = control.code_if_any(loc::RANGE_CODES[*index]);
+        code.is_some() && control.state.range == code
+    });
+    let speed = within_range(control, speed);
+    control.range = before;
+    let count = ranges(control);
+    let first = control.commons.int(loc::SPINDLE_DEFAULT_RANGE) - 1;
+    let first = before.or(usize::try_from(first).ok()).filter(|first| *first < count);
+    let found = first.into_iter().chain(0..count).find(|index| holds(control, *index, speed));
+    match found {
+        Some(index) if before == Some(index) => Ok(()),
+        Some(index) => control.because(control.block.cause, |control| select_range(control, index)),
+        None => PostCode::WordForm.err(format!("SPINDL: no spindle range holds {speed} turns/min")),
+    }
+}
+
+fn select_range(control: &mut Control, index: usize) -> Result<()> {
+    let code = control.code(loc::RANGE_CODES[index], "this spindle range")?;
+    control.flush_function(Function::Spindle)?;
     control.range = Some(index);
     control.m(code);
     control.write_block()
