@@ -349,8 +349,12 @@ fn e0410_no_such_record() {
 
 #[test]
 fn e0411_too_many_words() {
-    let cl: String = (0..60_000).map(|number| format!("PAINT/W{number}\n")).collect();
-    assert_eq!(posting(&cl), "E0411");
+    let cl: String = (0..60_000).map(|number| format!("W{number}/1\n")).collect();
+    let mut reader = fil_cl::Reader::new(cl.as_bytes(), "a.ncl", fil_cl::Options::default());
+    let (mut vocabulary, mut record) = (fil_cl::Vocabulary::new(), fil_cl::Record::default());
+    let refused = std::iter::from_fn(|| Some(reader.read(&mut vocabulary, &mut record)));
+    let diag = refused.take(60_001).find_map(Result::err).expect("refused");
+    assert_eq!(diag.code.name(), "E0411");
 }
 
 #[test]

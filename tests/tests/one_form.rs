@@ -2,6 +2,7 @@
 //! is the same.
 
 use std::collections::BTreeMap;
+use std::io::Cursor;
 
 use filpost::cl::{ClDialect, Options};
 use filpost::{Program, Unit};
@@ -50,7 +51,8 @@ fn run(
         let program = builder.build().map_err(|error| error.to_string())?;
         let reading = Options { raw, ..Options::default() };
         let mut nc = Vec::new();
-        match program.start().reading(reading).units(Unit::Mm).run(cl.as_bytes(), &mut nc) {
+        let run = program.start().reading(reading).units(Unit::Mm);
+        match run.run_seekable(Cursor::new(cl), &mut nc) {
             Ok(report) => {
                 let said = report.warnings.iter().filter(|diag| diag.code.number == 326);
                 return Ok((said.map(|diag| diag.message.clone()).collect(), nc));
@@ -128,6 +130,7 @@ fn as_written_the_program_is_the_same() {
     const WORDS: &[&str] = &[
         "FEDRAT", "SPINDL", "LOAD", "LOADTL", "UNIT", "UNITS", "CYCLE", "CIRCLE", "GOTO", "INSERT",
         "PPRINT", "SELECT", "CUTCOM", "ROTABL", "TOOLNO", "TLDATA", "HELICAL", "MAXRPM", "SYNC",
+        "INDIRV", "TLON", "PSIS", "NURBS", "KNOT", "CNTRL",
     ];
     let all: Vec<(&str, &str)> = WORDS.iter().map(|word| (*word, "'seen'")).collect();
     for (dialect, cl) in files() {
@@ -158,6 +161,74 @@ fn sections_see_the_words_of_the_system() {
     assert_eq!(formed[1..], ["11", "15 1", "11"]);
     let (written, _) = run(nx, &sees, &[], true).unwrap();
     assert_eq!(written, ["2250", "11", "19 -1", "8"]);
+}
+
+/// Motions by geometry are seen as they are written, too; each is carried out with the
+/// statement that ends it, and NEXTF and PREVF find where it leads.
+#[test]
+fn sections_see_geometry_as_it_is_written() {
+    let spline = "TOOL PATH/A,TOOL,B\nUNITS/MM\nLOAD/TOOL,1\nFEDRAT/MMPM,250.\nGOTO/10.,0.,5.\nNURBS/\n\
+        KNOT/0.,0.,0.,1.,1.,1.\nCNTRL/10.,0.,5.\nCNTRL/10.,10.,5.\nCNTRL/0.,10.,5.\nGOTO/0.,20.,5.\n\
+        END-OF-PATH\n";
+    let arc = "$$*CATIA0\nLOADTL/1\nFEDRAT/250.,MMPM\nGOTO/10.,0.,5.\nINDIRV/0.,1.,0.\n\
+        TLON,GOFWD/(CIRCLE/0.,0.,5.,10.),ON,(LINE/0.,0.,5.,0.,10.,5.)\nGOTO/0.,20.,5.\nFINI\n";
+    let words = ["GOTO", "CIRCLE", "INDIRV", "TLON", "NURBS", "KNOT", "CNTRL"];
+    let sees: Vec<(&str, String)> = words
+        .iter()
+        .map(|word| match *word {
+            "GOTO" | "CIRCLE" => (*word, format!("'{word} ',POSTF(5)")),
+            _ => (*word, format!("'{word} ',POSTF(5),' ',PREVF(X),' ',NEXTF(Y)")),
+        })
+        .collect();
+    let sees: Vec<(&str, &str)> = sees.iter().map(|(word, text)| (*word, &text[..])).collect();
+    let sees = fil(&sees);
+    for (cl, expected) in [
+        (
+            spline,
+            &[
+                "GOTO 8",
+                "NURBS 3 10 0",
+                "KNOT 9 10 0",
+                "CNTRL 6 10 0",
+                "CNTRL 6 10 0",
+                "CNTRL 6 10 20",
+                "GOTO 8",
+            ][..],
+        ),
+        (arc, &["GOTO 8", "INDIRV 6 10 10", "TLON 17 10 20", "GOTO 8"][..]),
+    ] {
+        let formed = run(cl, &sees, &[], false).unwrap();
+        let (written, nc) = run(cl, &sees, &[], true).unwrap();
+        assert_eq!(written, expected);
+        assert_eq!(nc, formed.1);
+        assert!(formed.0.iter().all(|line| line.starts_with("GOTO") || line.starts_with("CIRCLE")));
+    }
+    // A section that takes the statement that ends the motion takes the motion.
+    let takes = "CIMFIL/ON,TLON\nPPRINT/TAKEN\nCIMFIL/OFF\nFINI\n";
+    let nc = String::from_utf8(run(arc, takes, &[], true).unwrap().1).unwrap();
+    assert!(nc.contains("TAKEN") && !nc.contains("G3") && !nc.contains("G03"), "{nc}");
+    let changes = "CIMFIL/ON,TLON\nDMY=POSTF(8,6,99)\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
+    assert!(run(arc, changes, &[], true).unwrap_err().contains("E0716"));
+}
+
+/// The tool in use is known after going back, too.
+#[test]
+fn the_diameter_after_going_back() {
+    let cl = "UNITS/MM\nCUTTER/10.\nLOADTL/1\nFEDRAT/9.,MMPM\nGOTO/1,2,3\nCUTTER/6.\nLOADTL/2\nGOTO/1,2,9\n\
+        COOLNT/ON\nLOADTL/3\nGOTO/1,2,4\nFINI\n";
+    let tool_at = |number: u32| {
+        let text = format!(
+            "$$ filpost: allow-file W0218, W0244\nDONE=0\nCIMFIL/ON,FINI\nIF(DONE.EQ.0)THEN\nDONE=1\n\
+             DMY=POSTF(16,{number})\nWARN/TOOLF(DIAMTR)\nELSE\nDMY=POSTF(13)\nENDIF\nCIMFIL/OFF\n\
+             CIMFIL/ON,GOTO\nIF(DONE.EQ.1)THEN\nWARN/TOOLF(DIAMTR)\nENDIF\nCIMFIL/OFF\nFINI\n"
+        );
+        run(cl, &text, &[], false).unwrap().0
+    };
+    assert_eq!(tool_at(5), ["10", "6", "EMPTY"]);
+    assert_eq!(tool_at(8), ["6", "EMPTY"]);
+    assert_eq!(tool_at(7), ["6", "6", "EMPTY"]);
+    assert_eq!(tool_at(2), ["10", "10", "6", "EMPTY"]);
+    assert_eq!(tool_at(11), ["EMPTY"]);
 }
 
 /// What a system can't say for certain is refused only where the post has to act on it.

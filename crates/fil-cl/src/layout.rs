@@ -14,6 +14,15 @@ use crate::words;
 /// three decimals at the coarsest, which changes the length by less.
 const UNIT_TOLERANCE: f64 = 1e-3;
 
+/// The words of a CIRCLE before its center: modifier, surface type, count, the name slots.
+const CIRCLE_HEAD: [Word; 5] = [
+    Word::Number(0.0),
+    Word::Number(CIRCLE_SURFACE as f64),
+    Word::Number(7.0),
+    Word::Empty,
+    Word::Empty,
+];
+
 /// Why items do not make a record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShapeError {
@@ -183,11 +192,23 @@ impl Record {
 
     /// A CIRCLE record.
     pub fn arc(circle: Circle) -> Self {
-        let mut record = Record { major: words::CIRCLE, ..Record::default() };
-        record.data.extend(circle.center.iter().chain(&circle.axis).map(|v| Word::Number(*v)));
-        record.data.push(circle.radius.map_or(Word::Empty, Word::Number));
-        record.wrap_circle();
+        let mut record = Record::default();
+        record.fill_arc(circle);
         record
+    }
+
+    /// Makes this record a CIRCLE, keeping its buffers and its line.
+    pub(crate) fn fill_arc(&mut self, circle: Circle) {
+        self.kind = kind::SURFACE;
+        self.sub = CIRCLE_SURFACE;
+        self.major = words::CIRCLE;
+        self.inert = false;
+        self.text.clear();
+        self.data.clear();
+        self.data.extend_from_slice(&CIRCLE_HEAD);
+        self.data.extend_from_slice(&circle.center.map(Word::Number));
+        self.data.extend_from_slice(&circle.axis.map(Word::Number));
+        self.data.push(circle.radius.map_or(Word::Empty, Word::Number));
     }
 
     /// Makes this record a GOTO, keeping its buffers.
@@ -295,8 +316,7 @@ impl Record {
     fn wrap_circle(&mut self) {
         self.kind = kind::SURFACE;
         self.sub = CIRCLE_SURFACE;
-        let head = [0.0, f64::from(CIRCLE_SURFACE), 7.0].map(Word::Number);
-        self.data.splice(0..0, head.into_iter().chain([Word::Empty, Word::Empty]));
+        self.data.splice(0..0, CIRCLE_HEAD);
     }
 
     /// How many items from the first on are numbers.

@@ -286,3 +286,26 @@ fn cycles_and_order_of_nx() {
     }
     refused("PPRINT/APTCL-SPEC,1\nPPRINT/TOOL-POSITION,TOOL-CENTER\n", ClCode::UnclearPoints);
 }
+
+/// MANUAL says who typed the number of RTRCTO, and steps of one size are one step.
+#[test]
+fn cycles_of_nx_with_more_values() {
+    const NX: &str = "TOOL PATH/A,TOOL,B\n";
+    let one = |cycle: &str| forms(&format!("{NX}{cycle}\n"));
+    let expected = one("CYCLE/DRILL,DEEP,STEP,2.,RAPTO,3.,FEDTO,-30.,RTRCTO,20.,MMPM,250.");
+    for same in [
+        "CYCLE/DRILL,DEEP,STEP,2.,RAPTO,3.,FEDTO,-30.,RTRCTO,20.,MANUAL,MMPM,250.",
+        "CYCLE/DRILL,DEEP,STEP,2.,2.0,2.,RAPTO,3.,FEDTO,-30.,RTRCTO,20.,MMPM,250.",
+        "cycle/drill,deep,rtrcto,20.,manual,step,2.,2.,rapto,3.,fedto,-30.,mmpm,250.",
+    ] {
+        assert_eq!(one(same), expected, "{same}");
+    }
+    // Steps of several sizes, and MANUAL without a number, are left for a section.
+    for other in [
+        "CYCLE/DRILL,DEEP,STEP,3.,2.,RAPTO,3.,FEDTO,-30.,MMPM,250.",
+        "CYCLE/DRILL,RAPTO,3.,FEDTO,-30.,RTRCTO,MANUAL,MMPM,250.",
+        "CYCLE/DRILL,RAPTO,3.,FEDTO,-30.,RTRCTO,20.,AUTO,MMPM,250.",
+    ] {
+        assert!(!one(other)[0].contains("DEPTH"), "{other}");
+    }
+}

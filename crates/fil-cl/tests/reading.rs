@@ -283,3 +283,43 @@ fn a_script_makes_the_records_a_file_makes() {
     let wrong = Record::statement(words::GOTO, vec![Word::Minor(words::ON)], String::new());
     assert_eq!(wrong.unwrap_err().item, 0);
 }
+
+/// Names of operations are no vocabulary: a file may have any number of them, and the words
+/// known do not grow with it.
+#[test]
+fn any_number_of_names() {
+    let number = 60_000;
+    for (head, word) in [
+        ("$$*CATIA0\n", "OP_NAME/Drilling.#\n"),
+        ("TOOL PATH/A,TOOL,B\n", "PAINT/N#\n"),
+        ("", "$$-> FEATNO / N#\n"),
+        ("", "SITE_WORD/N#,4\n"),
+    ] {
+        let names: String = (0..number).map(|n| word.replace('#', &n.to_string())).collect();
+        let text = format!("{head}{names}GOTO/1,2,3\nFINI\n");
+        let mut reader = Reader::new(text.as_bytes(), "x", Options::default());
+        let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
+        let mut records = 0;
+        while reader.read(&mut vocab, &mut record).unwrap_or_else(|diag| panic!("{diag}")) {
+            records += 1;
+        }
+        assert!(records >= number + 2 && vocab.len() < 21_000, "{word}: {records}");
+    }
+    // A word that a script knows stays a word.
+    let text: String = (0..number).map(|n| format!("SITE_WORD/N{n}\n")).collect();
+    let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
+    let last = vocab.intern(&format!("N{}", number - 1));
+    let mut reader = Reader::new(text.as_bytes(), "x", Options::default());
+    while reader.read(&mut vocab, &mut record).unwrap() {}
+    assert!(record.has(last));
+    // In a statement for the post there is no text.
+    let text: String = (0..number).map(|n| format!("COOLNT/N{n}\n")).collect();
+    let mut reader = Reader::new(text.as_bytes(), "x", Options::default());
+    let refused = loop {
+        match reader.read(&mut vocab, &mut record) {
+            Ok(more) => assert!(more, "to the end"),
+            Err(diag) => break diag,
+        }
+    };
+    assert_eq!(refused.code.number, 411);
+}

@@ -122,8 +122,10 @@ fn splines_that_are_not_whole() {
         ("KNOT/1.0,1.0,1.0,1.0", "KNOT/0.0,0.0,0.0,0.0"),
         ("CNTRL/10.0000,0.0000,5.0000", "CNTRL/10.0000,0.0100,5.0000"),
         ("CNTRL/10.0000,0.0000,5.0000", "CNTRL/10.0000,0.0000"),
-        ("CNTRL/10.0000,0.0000,5.0000", "CNTRL/10.0000,0.0000,5.0000,0.0,0.0,1.0"),
-        ("CNTRL/10.0000,0.0000,5.0000", "CNTRL/10.0000,0.0000,5.0000,0.7071"),
+        ("CNTRL/10.0000,0.0000,5.0000", "CNTRL/10.0000,0.0000,5.0000,0.0,1.0,0.0"),
+        ("CNTRL/10.0000,0.0000,5.0000", "CNTRL/10.0000,0.0000,5.0000,0.0,0.0,1.1"),
+        ("CNTRL/10.0000,0.0000,5.0000", "CNTRL/10.0000,0.0000,5.0000,0.0"),
+        ("CNTRL/10.0000,0.0000,5.0000", "CNTRL/10.0000,0.0000,5.0000,0.0,1.0"),
     ] {
         refused(&QUARTER.replacen(from, to, 1), ClCode::BadSpline, 5);
     }
@@ -135,6 +137,60 @@ fn splines_that_are_not_whole() {
         3,
     );
     refused(&QUARTER.replace("GOTO/10.0000,0.0000,5.0000\n", ""), ClCode::BadSpline, 4);
+}
+
+/// The quarter with something behind the coordinates of each control point.
+fn with_behind(behind: [&str; 4]) -> String {
+    let mut behind = behind.iter();
+    let lines = QUARTER.lines().map(|line| match line.starts_with("CNTRL/") {
+        true => format!("{line}{}\n", behind.next().unwrap()),
+        false => format!("{line}\n"),
+    });
+    lines.collect()
+}
+
+fn points(text: &str) -> Vec<[f64; 3]> {
+    read(text).unwrap().0.iter().map(|record| record.point().unwrap()).collect()
+}
+
+/// Weights that are all the same cancel out, where the first point shows that they do not
+/// multiply the coordinates.
+#[test]
+fn weights_that_change_nothing() {
+    for weights in [[",1.0"; 4], [",0.7071"; 4], [",1.0", "", ",1.", ""]] {
+        assert_eq!(points(&with_behind(weights)), points(QUARTER), "{weights:?}");
+    }
+    let message = refused(&with_behind([",1.0", ",0.7071", ",1.0", ",1.0"]), ClCode::BadSpline, 6);
+    assert!(message.contains("another weight"), "{message}");
+    refused(&with_behind([",0.5", "", "", ""]), ClCode::BadSpline, 6);
+    // The coordinates are multiplied: the tool stands elsewhere.
+    let scaled = with_behind([",2.0"; 4]).replace("GOTO/10.0000,0.0000", "GOTO/5.0000,0.0000");
+    refused(&scaled, ClCode::BadSpline, 5);
+    // A spline that begins at the origin does not tell.
+    let moved = "GOTO/0.,0.,0.\nNURBS/\nKNOT/0.,0.,1.,1.\nCNTRL/0.,0.,0.,2.\nCNTRL/3.,0.,0.,2.\n";
+    let message = refused(moved, ClCode::BadSpline, 4);
+    assert!(message.contains("multiplies"), "{message}");
+}
+
+/// One tool axis for the whole spline is that of its lines, where the tool has it already.
+#[test]
+fn a_tool_axis_of_the_whole_spline() {
+    let upright = [",0.0000000,0.0000000,1.0000000"; 4];
+    assert_eq!(points(&with_behind(upright)), points(QUARTER));
+    let (records, _) = read(&with_behind(upright)).unwrap();
+    assert!(records[1..].iter().all(|record| record.axis() == Some([0.0, 0.0, 1.0])));
+    let tilted = with_behind([",0.0,0.6,0.8"; 4]);
+    let message = refused(&tilted, ClCode::BadSpline, 5);
+    assert!(message.contains("another tool axis than the tool has"), "{message}");
+    let tilted = tilted.replacen("5.0000\n", "5.0000,0.0,0.6,0.8\n", 1);
+    let (records, _) = read(&tilted).unwrap();
+    assert!(records.iter().all(|record| record.axis() == Some([0.0, 0.6, 0.8])));
+    let mut changing = upright;
+    changing[2] = ",0.0,0.6,0.8";
+    let message = refused(&with_behind(changing), ClCode::BadSpline, 7);
+    assert!(message.contains("between control points"), "{message}");
+    changing[2] = "";
+    refused(&with_behind(changing), ClCode::BadSpline, 7);
 }
 
 #[test]

@@ -183,8 +183,9 @@ impl<W: Write> Show<W> {
             let extents = self.totals.extents.map(|box_| json!({"min": box_.min, "max": box_.max}));
             writeln!(
                 self.output,
-                "\n],\n\"dialect\":{},\n\"counts\":{counts},\n\"unit\":{},\n\"extents\":{}}}",
+                "\n],\n\"dialect\":{},\n\"counts\":{counts},\n\"splines\":{},\n\"unit\":{},\n\"extents\":{}}}",
                 json_dialect(dialect),
+                json_splines(&splines),
                 self.totals.unit_json(),
                 extents.unwrap_or(Value::Null)
             )?;
@@ -218,6 +219,14 @@ fn json_dialect(found: Recognized) -> Value {
         Evidence::Sign { line } => json!({"name": name, "line": line}),
         _ => json!({"name": name}),
     }
+}
+
+/// Splines, the lines that they were read as, and the tolerance; null where there are none.
+fn json_splines(counts: &SplineCounts) -> Value {
+    if counts.splines == 0 {
+        return Value::Null;
+    }
+    json!({"splines": counts.splines, "lines": counts.lines, "tolerance": counts.tolerance})
 }
 
 /// The words of a record, word 1 first.

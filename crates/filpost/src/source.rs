@@ -109,6 +109,9 @@ pub(crate) struct Source<S> {
     /// A RAPID record was read whose motion is still to come.
     rapid: bool,
     tool: Tool,
+    tools: Tools,
+    /// Number of the last record that was read.
+    last_read: u32,
     /// Records given as they are written, with what they mean.
     pub written: Written,
     keeps_motions: bool,
@@ -126,6 +129,8 @@ impl<S: Records> Source<S> {
             on_motion: false,
             rapid: false,
             tool: Tool::default(),
+            tools: Tools::default(),
+            last_read: 0,
             written: Written::default(),
             keeps_motions,
             records: 0,
@@ -189,8 +194,7 @@ impl<S: Records> Source<S> {
         self.motions = [None; 2];
         self.on_motion = false;
         self.rapid = false;
-        // What came before that record is not known.
-        self.tool = Tool { diameter: None, has_moved: true };
+        self.tool = self.tools.before(number, self.last_read);
         Ok(())
     }
 
@@ -206,6 +210,11 @@ impl<S: Records> Source<S> {
                 kind::MOTION => return Ok(Some(coordinates(record, rapid))),
                 kind::FINI => break,
                 _ => rapid |= record.major == words::RAPID,
+            }
+            let number = record.number;
+            let meant = self.written.meaning_of(number).iter();
+            if let Some(motion) = meant.clone().find(|record| record.kind == kind::MOTION) {
+                return Ok(Some(coordinates(motion, rapid)));
             }
         }
         Ok(None)
@@ -250,20 +259,30 @@ impl<S: Records> Source<S> {
     }
 
     fn remember(&mut self, record: &Record) {
-        self.on_motion = record.kind == kind::MOTION;
-        if self.on_motion {
+        let is_motion = record.kind == kind::MOTION;
+        // An arc by geometry, a spline: the motion is in what the record means.
+        let meant = if is_motion { &[] } else { self.written.meaning_of(record.number) };
+        let motion = meant.iter().rfind(|record| record.kind == kind::MOTION);
+        let last = if is_motion { Some(record) } else { motion };
+        self.on_motion = last.is_some();
+        let before = self.tool;
+        if let Some(last) = last {
             let rapid = std::mem::take(&mut self.rapid);
-            self.motions = [self.motions[1], Some(coordinates(record, rapid))];
+            self.motions = [self.motions[1], Some(coordinates(last, rapid))];
             self.tool.has_moved = true;
         } else {
             self.tool.take(record);
         }
+        if self.tool != before {
+            self.tools.keep(record.number, self.tool);
+        }
+        self.last_read = self.last_read.max(record.number);
         self.rapid |= record.major == words::RAPID;
     }
 }
 
 /// What the CL file has said of the tool in use.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Default, PartialEq)]
 struct Tool {
     diameter: Option<f64>,
     /// A motion came since the tool was changed or described.
@@ -271,6 +290,9 @@ struct Tool {
 }
 
 impl Tool {
+    /// The tool behind records that nobody has read.
+    const UNKNOWN: Tool = Tool { diameter: None, has_moved: true };
+
     /// A diameter before a tool change is that of the new tool, unless a motion came between.
     fn take(&mut self, record: &Record) {
         if changes_tool(record) {
@@ -280,6 +302,45 @@ impl Tool {
             self.has_moved = false;
         } else if let Some(diameter) = record.tool_diameter() {
             *self = Tool { diameter: Some(diameter), has_moved: false };
+        }
+    }
+}
+
+/// Changes of the tool that are kept, to go back to.
+const TOOLS_KEPT: usize = 4096;
+
+/// The tool after each record that changed what is known of it, in the order of the records.
+#[derive(Default)]
+struct Tools {
+    after: VecDeque<(u32, Tool)>,
+    /// Changes were forgotten.
+    is_cut: bool,
+}
+
+impl Tools {
+    #[cold]
+    fn keep(&mut self, number: u32, tool: Tool) {
+        if self.after.len() == TOOLS_KEPT {
+            self.after.pop_front();
+            self.is_cut = true;
+        }
+        self.after.push_back((number, tool));
+    }
+
+    /// Goes to a record and gives the tool before it. `last_read`: records beyond it nobody has
+    /// looked at.
+    fn before(&mut self, number: u32, last_read: u32) -> Tool {
+        if number > last_read.saturating_add(1) {
+            self.keep(last_read.saturating_add(1), Tool::UNKNOWN);
+            return Tool::UNKNOWN;
+        }
+        while self.after.back().is_some_and(|(changed, _)| *changed >= number) {
+            self.after.pop_back();
+        }
+        match self.after.back() {
+            Some((_, tool)) => *tool,
+            None if self.is_cut => Tool::UNKNOWN,
+            None => Tool::default(),
         }
     }
 }

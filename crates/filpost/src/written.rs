@@ -38,6 +38,18 @@ impl Written {
         }
     }
 
+    /// The records that the record of a number means where it is not in Creo's form; none for
+    /// another one.
+    pub fn meaning_of(&self, number: u32) -> &[Record] {
+        if self.records.is_empty() {
+            return &[];
+        }
+        match self.records.get(&number) {
+            Some((_, Meaning::Records(records))) => records,
+            _ => &[],
+        }
+    }
+
     /// What the post carries out for a record of the CL file; `None` where that is the record
     /// itself.
     ///

@@ -66,10 +66,7 @@ fn rewrite(written: &mut Written<'_>) -> Result<Outcome, FormError> {
             written.record.inert = true;
             Ok(Outcome::Bound)
         }
-        w::FEDRAT => {
-            note_unit(written);
-            Ok(Outcome::Bound)
-        }
+        w::FEDRAT => Ok(note_unit(written)),
         w::SPINDL => spindle(written),
         w::LOADTL => Ok(tool(written)),
         w::TOOLNO => Ok(tool_data(written)),
@@ -89,12 +86,18 @@ fn rewrite(written: &mut Written<'_>) -> Result<Outcome, FormError> {
     }
 }
 
-/// A unit of a feed tells the unit of the file.
-fn note_unit(written: &mut Written<'_>) {
+/// A unit of a feed tells the unit of the file, where it comes first.
+fn note_unit(written: &mut Written<'_>) -> Outcome {
     let has = |units: [WordId; 2]| units.iter().any(|unit| written.record.has(*unit));
     let (metric, inch) = (has([w::MMPM, w::MMPR]), has([w::IPM, w::IPR]));
+    let before = (written.state.is_metric, written.state.is_inch);
     written.state.is_metric |= metric;
     written.state.is_inch |= inch;
+    if before == (written.state.is_metric, written.state.is_inch) {
+        Outcome::Free
+    } else {
+        Outcome::Bound
+    }
 }
 
 /// Words that are not in the vocabulary.

@@ -30,13 +30,12 @@ pub(crate) struct Path {
 }
 
 impl Path {
-    /// Its CIRCLE record.
-    pub(crate) fn record(&self) -> Record {
-        let mut record = Record::arc(self.circle);
+    /// Makes a record its CIRCLE.
+    pub(crate) fn fill(&self, record: &mut Record) {
+        record.fill_arc(self.circle);
         if self.turns > 0.0 {
             record.data.extend([Word::Minor(words::TIMES), Word::Number(self.turns)]);
         }
-        record
     }
 }
 
@@ -53,10 +52,10 @@ pub(crate) fn arc(
     from: Departure,
     round: Round,
     stop: Stop,
-    axes: &[Vector],
+    axes: impl Iterator<Item = Vector>,
 ) -> Result<Path, String> {
     let axis = match round.axis {
-        Some(axis) => axis_of(from, round.center, &[axis])?,
+        Some(axis) => only_axis(from, round.center, axis)?,
         None => axis_of(from, round.center, axes)?,
     };
     check_radius(from.start, round.center, axis, round.radius)?;
@@ -76,25 +75,36 @@ pub(crate) fn arc(
     Ok(Path { circle, end, turns: 0.0 })
 }
 
-/// The axis by the right-hand rule, as near as possible to one that is given.
-fn axis_of(from: Departure, center: Vector, given: &[Vector]) -> Result<Vector, String> {
-    let out = sub(from.start, center);
-    for axis in given {
-        let (out, along) = (across(out, *axis), across(from.direction, *axis));
-        let (Some(out), Some(along)) = (unit(out), unit(along)) else { continue };
-        let turn = dot(*axis, cross(out, along));
-        let is_flat =
-            norm(along) > 0.0 && dot(unit(from.direction).unwrap_or(along), along) > PARALLEL;
-        if is_flat && turn.abs() > TANGENT {
-            let is_near = given.len() == 1
-                || unit(cross(sub(from.start, center), from.direction))
-                    .is_some_and(|found| dot(found, *axis).abs() > PARALLEL);
-            if is_near {
-                return Ok(axis.map(|part| part * turn.signum() + 0.0));
-            }
-        }
-    }
-    Err("INDIRV is no tangent of the circle in a plane that the file names".to_string())
+/// What is said where a departure fits no axis.
+const NO_TANGENT: &str = "INDIRV is no tangent of the circle in a plane that the file names";
+
+/// The axis that is given, by the right-hand rule.
+fn only_axis(from: Departure, center: Vector, axis: Vector) -> Result<Vector, String> {
+    turned(from, center, axis).ok_or_else(|| NO_TANGENT.to_string())
+}
+
+/// The axis by the right-hand rule, the first of these that the departure fits.
+fn axis_of(
+    from: Departure,
+    center: Vector,
+    given: impl Iterator<Item = Vector>,
+) -> Result<Vector, String> {
+    let found = unit(cross(sub(from.start, center), from.direction));
+    let is_near = |axis: &Vector| found.is_some_and(|found| dot(found, *axis).abs() > PARALLEL);
+    given
+        .filter(is_near)
+        .find_map(|axis| turned(from, center, axis))
+        .ok_or_else(|| NO_TANGENT.to_string())
+}
+
+/// An axis, turned so that the departure is counterclockwise about it; `None` where the
+/// departure is no tangent of a circle about it.
+fn turned(from: Departure, center: Vector, axis: Vector) -> Option<Vector> {
+    let out = unit(across(sub(from.start, center), axis))?;
+    let along = unit(across(from.direction, axis))?;
+    let turn = dot(axis, cross(out, along));
+    let is_flat = dot(unit(from.direction)?, along) > PARALLEL;
+    (is_flat && turn.abs() > TANGENT).then(|| axis.map(|part| part * turn.signum() + 0.0))
 }
 
 fn check_radius(point: Vector, center: Vector, axis: Vector, radius: f64) -> Result<(), String> {
@@ -222,7 +232,7 @@ pub(crate) fn read_helix(vocab: &Vocabulary, items: &[Word]) -> Option<(Helix, V
 /// The helix from a departure.
 pub(crate) fn helix(from: Departure, helix: &Helix) -> Result<Path, String> {
     let given = unit(helix.axis).ok_or("AXIS has no length")?;
-    let axis = axis_of(from, helix.center, &[given])?;
+    let axis = only_axis(from, helix.center, given)?;
     check_radius(from.start, helix.center, axis, helix.radius)?;
     check_radius(helix.end, helix.center, axis, helix.radius)?;
     let height = dot(sub(helix.end, from.start), axis).abs();

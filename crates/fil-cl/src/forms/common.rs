@@ -50,7 +50,8 @@ pub(crate) fn feed(written: &mut Written<'_>) {
         _ => return,
     };
     let word = named(item).unwrap_or(word);
-    written.record.data = vec![value, Word::Minor(word)];
+    written.record.data.clear();
+    written.record.data.extend([value, Word::Minor(word)]);
 }
 
 /// `LOAD/TOOL,n[,ADJUST,m]` as LOADTL/n,OSETNO,m.

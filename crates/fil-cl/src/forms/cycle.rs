@@ -41,7 +41,7 @@ pub(crate) struct Cycle {
 /// # Errors
 /// A depth above the hole's start; CYCLE/ON without a cycle.
 pub(crate) fn couplets(written: &mut Written<'_>) -> Result<(), FormError> {
-    let data = written.record.data.clone();
+    let data = one_value_each(written);
     let (base, rest) = match data[..] {
         [Word::Minor(w::ON), ref rest @ ..] => {
             let Some(cycle) = written.state.cycle else {
@@ -74,6 +74,23 @@ pub(crate) fn couplets(written: &mut Written<'_>) -> Result<(), FormError> {
     written.state.cycle = Some(cycle);
     give(written, &cycle);
     Ok(())
+}
+
+/// The items of a cycle, without what adds nothing to a couplet: MANUAL behind the number of
+/// RTRCTO, which says that a user typed it, and further STEPs of the same size.
+fn one_value_each(written: &Written<'_>) -> Vec<Word> {
+    let data = &written.record.data;
+    let mut kept: Vec<Word> = Vec::with_capacity(data.len());
+    for (at, item) in data.iter().enumerate() {
+        let (before, word) = (kept.last(), kept.len().checked_sub(2).map(|at| kept[at]));
+        let has_number = matches!(before, Some(Word::Number(_)));
+        let is_manual = word == Some(Word::Minor(w::RTRCTO)) && written.name(at) == "MANUAL";
+        let is_same_step = word == Some(Word::Minor(w::STEP)) && before == Some(item);
+        if !(has_number && (is_manual || is_same_step)) {
+            kept.push(*item);
+        }
+    }
+    kept
 }
 
 /// Brings a cycle of SolidWorks CAM to Creo's form: its depth counts downwards. A record

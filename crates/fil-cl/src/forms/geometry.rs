@@ -1,27 +1,42 @@
 //! The geometry that TLON and PSIS name: `(CIRCLE/x,y,z,r),ON,(LINE/…)` and its like.
 
 use super::vector::{Vector, cross, sub, unit};
-use crate::reader::plain_number;
+use crate::reader::{leading_number, plain_number};
+use crate::record::Word;
+use crate::vocabulary::Vocabulary;
 
 /// Shapes within shapes, no deeper than CAM systems write them.
 const DEEPEST: usize = 8;
 
-/// A part of a list.
+/// Room for the parts of a list: a line has six numbers, a cylinder seven.
+const USUAL_PARTS: usize = 8;
+
+/// A part of a list. Words are as written, in any case.
 #[derive(Debug, PartialEq)]
-pub(crate) enum Part {
+pub(crate) enum Part<'t> {
     /// A number.
     Number(f64),
-    /// A word, in upper case.
-    Word(String),
+    /// A word.
+    Word(&'t [u8]),
     /// A shape in parentheses: its name and its parts.
-    Shape(String, Vec<Part>),
+    Shape(&'t [u8], Vec<Part<'t>>),
+}
+
+impl Part<'_> {
+    fn is_word(&self, name: &str) -> bool {
+        matches!(self, Part::Word(word) if is(word, name))
+    }
+}
+
+fn is(word: &[u8], name: &str) -> bool {
+    word.eq_ignore_ascii_case(name.as_bytes())
 }
 
 /// What can't be read: where in the text, and what is wrong.
 pub(crate) type Wrong = (usize, String);
 
 /// Reads a list of numbers, words and shapes.
-pub(crate) fn parse(text: &[u8]) -> Result<Vec<Part>, Wrong> {
+pub(crate) fn parse(text: &[u8]) -> Result<Vec<Part<'_>>, Wrong> {
     let mut parser = Parser { text, at: 0 };
     let parts = parser.list(0)?;
     if parser.at < text.len() {
@@ -35,7 +50,7 @@ struct Parser<'a> {
     at: usize,
 }
 
-impl Parser<'_> {
+impl<'a> Parser<'a> {
     fn wrong<T>(&self, message: &str) -> Result<T, Wrong> {
         Err((self.at.min(self.text.len().saturating_sub(1)), message.to_string()))
     }
@@ -47,11 +62,11 @@ impl Parser<'_> {
     }
 
     /// Parts up to a closing parenthesis or the end.
-    fn list(&mut self, depth: usize) -> Result<Vec<Part>, Wrong> {
+    fn list(&mut self, depth: usize) -> Result<Vec<Part<'a>>, Wrong> {
         if depth > DEEPEST {
             return self.wrong("too many shapes within shapes");
         }
-        let mut parts = Vec::new();
+        let mut parts = Vec::with_capacity(USUAL_PARTS);
         loop {
             self.skip_blanks();
             parts.push(self.part(depth)?);
@@ -64,23 +79,31 @@ impl Parser<'_> {
         }
     }
 
-    fn part(&mut self, depth: usize) -> Result<Part, Wrong> {
+    fn part(&mut self, depth: usize) -> Result<Part<'a>, Wrong> {
+        if let Some((value, behind)) = leading_number(&self.text[self.at..])
+            && matches!(behind, [] | [b',' | b')' | b' ', ..])
+        {
+            self.at = self.text.len() - behind.len();
+            return Ok(Part::Number(value));
+        }
         if self.text.get(self.at) != Some(&b'(') {
             let start = self.at;
-            let item = self.item(b",() \t");
+            let item = self.item();
             if let Some(number) = plain_number(item) {
                 return Ok(Part::Number(number));
             }
-            let word = word(item);
-            self.at = if word.is_none() { start } else { self.at };
-            return word
-                .map_or_else(|| self.wrong("neither a number nor a word"), |w| Ok(Part::Word(w)));
+            if is_word(item) {
+                return Ok(Part::Word(item));
+            }
+            self.at = start;
+            return self.wrong("neither a number nor a word");
         }
         self.at += 1;
         self.skip_blanks();
-        let Some(name) = word(self.item(b"/,() \t")) else {
+        let name = self.item();
+        if !is_word(name) {
             return self.wrong("a shape without a name");
-        };
+        }
         self.skip_blanks();
         if self.text.get(self.at) != Some(&b'/') {
             return self.wrong("a slash is missing behind the name of the shape");
@@ -94,23 +117,23 @@ impl Parser<'_> {
         Ok(Part::Shape(name, parts))
     }
 
-    /// The bytes up to one of these.
-    fn item(&mut self, ends: &[u8]) -> &[u8] {
-        let rest = &self.text[self.at..];
-        let length = rest.iter().position(|byte| ends.contains(byte)).unwrap_or(rest.len());
+    /// The bytes up to what ends an item.
+    fn item(&mut self) -> &'a [u8] {
+        let text: &'a [u8] = self.text;
+        let rest = &text[self.at..];
+        let ends = |byte: &u8| matches!(byte, b',' | b'(' | b')' | b' ' | b'\t' | b'/');
+        let length = rest.iter().position(ends).unwrap_or(rest.len());
         self.at += length;
         &rest[..length]
     }
 }
 
-fn word(item: &[u8]) -> Option<String> {
-    let is_word = item.first().is_some_and(u8::is_ascii_alphabetic)
-        && item.iter().all(u8::is_ascii_alphanumeric);
-    is_word.then(|| String::from_utf8_lossy(item).to_ascii_uppercase())
+fn is_word(item: &[u8]) -> bool {
+    item.first().is_some_and(u8::is_ascii_alphabetic) && item.iter().all(u8::is_ascii_alphanumeric)
 }
 
 /// The numbers that a list consists of, when they are so many.
-pub(crate) fn numbers<const N: usize>(parts: &[Part]) -> Option<[f64; N]> {
+pub(crate) fn numbers<const N: usize>(parts: &[Part<'_>]) -> Option<[f64; N]> {
     let mut found = [0.0; N];
     if parts.len() != N {
         return None;
@@ -123,18 +146,18 @@ pub(crate) fn numbers<const N: usize>(parts: &[Part]) -> Option<[f64; N]> {
 }
 
 /// The point or vector that a shape of this name is.
-fn three(part: &Part, expected: &str) -> Option<Vector> {
+fn three(part: &Part<'_>, expected: &str) -> Option<Vector> {
     match part {
-        Part::Shape(name, parts) if name == expected => numbers::<3>(parts),
+        Part::Shape(name, parts) if is(name, expected) => numbers::<3>(parts),
         _ => None,
     }
 }
 
 /// The normal of `(PLANE/(POINT/…),PERPTO,(VECTOR/…))`.
-pub(crate) fn plane_normal(part: &Part) -> Option<Vector> {
+pub(crate) fn plane_normal(part: &Part<'_>) -> Option<Vector> {
     match part {
-        Part::Shape(name, parts) if name == "PLANE" => match &parts[..] {
-            [point, Part::Word(word), vector] if word == "PERPTO" => {
+        Part::Shape(name, parts) if is(name, "PLANE") => match &parts[..] {
+            [point, word, vector] if word.is_word("PERPTO") => {
                 three(point, "POINT")?;
                 unit(three(vector, "VECTOR")?)
             }
@@ -165,12 +188,12 @@ pub(crate) struct Stop {
 
 /// `(CIRCLE/x,y,z,r)` or `(CYLNDR/x,y,z,i,j,k,r)`, then `ON[,n,INTOF]`, then `(LINE/…)` or
 /// `(PLANE/PERPTO,(PLANE/…),(POINT/…),(POINT/…))`.
-pub(crate) fn round_and_stop(parts: &[Part]) -> Option<(Round, Stop)> {
+pub(crate) fn round_and_stop(parts: &[Part<'_>]) -> Option<(Round, Stop)> {
     let (count, line) = match &parts[1..] {
-        [Part::Word(on), line] if on == "ON" => (None, line),
-        [Part::Word(on), Part::Number(count), Part::Word(of), line]
-            if on == "ON"
-                && of == "INTOF"
+        [on, line] if on.is_word("ON") => (None, line),
+        [on, Part::Number(count), of, line]
+            if on.is_word("ON")
+                && of.is_word("INTOF")
                 && (1.0..=3.0).contains(count)
                 && count.fract() == 0.0 =>
         {
@@ -180,12 +203,12 @@ pub(crate) fn round_and_stop(parts: &[Part]) -> Option<(Round, Stop)> {
     };
     let round = round(parts.first()?)?;
     let line = match line {
-        Part::Shape(name, parts) if name == "LINE" => {
+        Part::Shape(name, parts) if is(name, "LINE") => {
             let [a, b, c, d, e, f] = numbers::<6>(parts)?;
             [[a, b, c], [d, e, f]]
         }
-        Part::Shape(name, parts) if name == "PLANE" => match &parts[..] {
-            [Part::Word(word), plane, first, second] if word == "PERPTO" => {
+        Part::Shape(name, parts) if is(name, "PLANE") => match &parts[..] {
+            [word, plane, first, second] if word.is_word("PERPTO") => {
                 let line = [three(first, "POINT")?, three(second, "POINT")?];
                 let normal = plane_normal(plane)?;
                 let is_known = round
@@ -204,18 +227,30 @@ pub(crate) fn round_and_stop(parts: &[Part]) -> Option<(Round, Stop)> {
     Some((round, Stop { line, count }))
 }
 
-fn round(part: &Part) -> Option<Round> {
+fn round(part: &Part<'_>) -> Option<Round> {
     let Part::Shape(name, parts) = part else { return None };
-    match name.as_str() {
-        "CIRCLE" => {
-            let [x, y, z, radius] = numbers::<4>(parts)?;
-            Some(Round { center: [x, y, z], axis: None, radius })
+    if is(name, "CIRCLE") {
+        let [x, y, z, radius] = numbers::<4>(parts)?;
+        return Some(Round { center: [x, y, z], axis: None, radius });
+    }
+    if is(name, "CYLNDR") {
+        let [x, y, z, i, j, k, radius] = numbers::<7>(parts)?;
+        return Some(Round { center: [x, y, z], axis: Some(unit([i, j, k])?), radius });
+    }
+    None
+}
+
+/// Words and numbers of a list in their order, without the parentheses.
+pub(crate) fn flatten(parts: &[Part<'_>], vocabulary: &mut Vocabulary, data: &mut Vec<Word>) {
+    for part in parts {
+        match part {
+            Part::Number(value) => data.push(Word::Number(*value)),
+            Part::Word(word) => data.push(Word::Minor(vocabulary.intern_bytes(word))),
+            Part::Shape(name, parts) => {
+                data.push(Word::Minor(vocabulary.intern_bytes(name)));
+                flatten(parts, vocabulary, data);
+            }
         }
-        "CYLNDR" => {
-            let [x, y, z, i, j, k, radius] = numbers::<7>(parts)?;
-            Some(Round { center: [x, y, z], axis: Some(unit([i, j, k])?), radius })
-        }
-        _ => None,
     }
 }
 

@@ -2,10 +2,12 @@
 
 use fil_diag::{Diag, Result};
 
-use super::Reader;
 use super::arc::has_radius;
+use super::spline::Gathered;
+use super::{Meaning, Reader, items};
 use crate::errors::ClCode;
 use crate::forms::arc::{self, Departure, Path};
+use crate::forms::geometry::Part;
 use crate::forms::{FormError, Outcome, Written, common, geometry, table};
 use crate::layout::UNCOMPUTED;
 use crate::record::{Record, Word};
@@ -79,9 +81,28 @@ impl Reader<'_> {
             let whole = 0..self.statement.joined.len();
             return Err(self.diag(ClCode::BadPoint, "INDIRV takes three numbers", whole));
         };
-        self.modal.forms.direction = Some([i, j, k]);
-        self.modal.forms.expects = Some("the motion that INDIRV begins");
+        self.depart([i, j, k]);
         Ok(Outcome::Nothing)
+    }
+
+    /// The short way for an INDIRV in one line; each arc of some systems has one.
+    pub(super) fn take_plain_direction(&mut self) -> bool {
+        if !self.rules().geometry || self.is_scout || self.options.raw {
+            return false;
+        }
+        let mut values = [0.0; 6];
+        let Some(length) = items::plain_direction(self.lines.unread(), &mut values) else {
+            return false;
+        };
+        self.take_lines(length, 1);
+        let [i, j, k, ..] = values;
+        self.depart([i, j, k]);
+        true
+    }
+
+    fn depart(&mut self, direction: [f64; 3]) {
+        self.modal.forms.direction = Some(direction);
+        self.modal.forms.expects = Some("the motion that INDIRV begins");
     }
 
     /// HELICAL/CENTER,…,END,… makes a CIRCLE and the GOTO to its end.
@@ -119,31 +140,82 @@ impl Reader<'_> {
         (is(b"TLON") || is(b"PSIS")) && self.rules().geometry && !self.is_scout
     }
 
+    /// Takes a statement that names shapes. Where statements are given as they are written, its
+    /// words and numbers stand in their order, without the parentheses.
+    pub(super) fn take_geometry(
+        &mut self,
+        vocab: &mut Vocabulary,
+        record: &mut Record,
+    ) -> Result<Outcome> {
+        if !self.keeps_meaning() {
+            return self.read_geometry(record);
+        }
+        let (major, slash) = self.geometry_major()?;
+        let mut written = Record { line: record.line, ..Record::command(major) };
+        if major == words::TLON {
+            written.data.push(Word::Minor(words::GOFWD));
+        }
+        geometry::flatten(&self.parse_geometry(slash)?, vocab, &mut written.data);
+        match self.read_geometry(record) {
+            Ok(outcome) => {
+                let made = (outcome != Outcome::Nothing).then(|| std::mem::take(record));
+                let records = made.into_iter().chain(self.take_pending()).collect();
+                self.keep_meaning(Meaning::Records(records));
+            }
+            Err(diag) => {
+                self.forget_motion();
+                self.keep_meaning(Meaning::Refused(diag));
+            }
+        }
+        *record = written;
+        Ok(Outcome::Bound)
+    }
+
+    /// Forgets what led to a motion that is refused: nobody knows where it ends.
+    pub(super) fn forget_motion(&mut self) {
+        self.spline = Gathered::default();
+        self.modal.point = None;
+        let forms = &mut self.modal.forms;
+        (forms.direction, forms.expects) = (None, None);
+    }
+
+    /// TLON of `TLON,GOFWD/`, or PSIS, and where its slash stands.
+    fn geometry_major(&self) -> Result<(WordId, usize)> {
+        let text = &self.statement.joined;
+        let slash = memchr::memchr(b'/', text).unwrap_or(text.len());
+        let is = |name: &[u8]| {
+            let letters = text[..slash].iter().filter(|byte| !byte.is_ascii_whitespace());
+            letters.map(u8::to_ascii_uppercase).eq(name.iter().copied())
+        };
+        match () {
+            () if slash == text.len() => {}
+            () if is(b"TLON,GOFWD") => return Ok((words::TLON, slash)),
+            () if is(b"PSIS") => return Ok((words::PSIS, slash)),
+            () => {}
+        }
+        Err(self.diag(ClCode::UncomputedMotion, UNCOMPUTED, 0..text.len()))
+    }
+
+    fn parse_geometry(&self, slash: usize) -> Result<Vec<Part<'_>>> {
+        geometry::parse(&self.statement.joined[slash + 1..]).map_err(|(at, message)| {
+            self.diag(ClCode::BadWord, &message, slash + 1 + at..slash + 2 + at)
+        })
+    }
+
     /// TLON,GOFWD/ makes a CIRCLE and the GOTO to its end; PSIS/ names the plane of arcs.
-    pub(super) fn read_geometry(&mut self, record: &mut Record) -> Result<Outcome> {
+    fn read_geometry(&mut self, record: &mut Record) -> Result<Outcome> {
         self.major = Some(words::TLON);
         self.leans = self.modal.point.is_none() || self.modal.forms.direction.is_none();
-        let text = &self.statement.joined;
-        let whole = 0..text.len();
         self.item_ranges.clear();
-        let slash = memchr::memchr(b'/', text);
-        let major: Vec<u8> = text[..slash.unwrap_or(text.len())]
-            .iter()
-            .filter(|byte| !byte.is_ascii_whitespace())
-            .map(u8::to_ascii_uppercase)
-            .collect();
-        let Some(slash) = slash.filter(|_| matches!(&major[..], b"TLON,GOFWD" | b"PSIS")) else {
-            return Err(self.diag(ClCode::UncomputedMotion, UNCOMPUTED, whole));
-        };
-        let parts = geometry::parse(&text[slash + 1..]).map_err(|(at, message)| {
-            self.diag(ClCode::BadWord, &message, slash + 1 + at..slash + 2 + at)
-        })?;
+        let (major, slash) = self.geometry_major()?;
+        let parts = self.parse_geometry(slash)?;
+        let whole = 0..self.statement.joined.len();
         let refuse = |message: &str| self.diag(ClCode::UncomputedMotion, message, whole.clone());
-        if major == b"PSIS" {
+        if major == words::PSIS {
             let [plane] = &parts[..] else { return Err(refuse("one plane is needed")) };
             let normal = geometry::plane_normal(plane);
-            self.modal.forms.normal =
-                Some(normal.ok_or_else(|| refuse("this surface is not computed"))?);
+            let normal = normal.ok_or_else(|| refuse("this surface is not computed"))?;
+            self.modal.forms.normal = Some(normal);
             return Ok(Outcome::Nothing);
         }
         let (round, stop) = geometry::round_and_stop(&parts)
@@ -153,8 +225,8 @@ impl Reader<'_> {
         };
         let from = Departure { start, direction };
         let named = [self.modal.forms.normal, self.modal.forms.tool_axis, self.modal.axis];
-        let axes: Vec<[f64; 3]> = named.into_iter().flatten().chain(UNITS).collect();
-        let path = arc::arc(from, round, stop, &axes).map_err(|message| refuse(&message))?;
+        let axes = named.into_iter().flatten().chain(UNITS);
+        let path = arc::arc(from, round, stop, axes).map_err(|message| refuse(&message))?;
         (self.modal.forms.direction, self.modal.forms.expects) = (None, None);
         self.give_path(path, record);
         Ok(Outcome::Bound)
@@ -162,11 +234,10 @@ impl Reader<'_> {
 
     /// A path as CIRCLE and the GOTO to its end.
     fn give_path(&mut self, path: Path, record: &mut Record) {
-        let line = record.line;
-        *record = path.record();
-        record.line = line;
+        path.fill(record);
         let axis = self.modal.axis.filter(|_| self.modal.multax);
-        self.made.push(Record { line, ..Record::goto(path.end, axis) });
+        let own = axis.filter(|_| axis != self.axis_left_out());
+        self.pending.give(&[path.end], own, record.line);
         self.modal.point = Some(path.end);
         self.modal.in_arc = false;
     }

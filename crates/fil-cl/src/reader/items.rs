@@ -17,6 +17,10 @@ use crate::words;
 /// More words than this are no vocabulary any more.
 const MAX_VOCABULARY: usize = 50_000;
 
+/// Beyond this many words, names of operations and their like are texts: a file may have any
+/// number of them, and memory must not grow with it.
+const MAX_NAMES: usize = 20_000;
+
 /// A name is not longer than this; in bytes.
 const MAX_NAME: usize = 64;
 
@@ -25,7 +29,20 @@ const MAX_NAME: usize = 64;
 /// unusual.
 #[inline]
 pub(super) fn plain_goto(text: &[u8], values: &mut [f64; 6]) -> Option<(usize, usize)> {
-    let mut rest = skip_blanks(text.strip_prefix(b"GOTO")?).strip_prefix(b"/")?;
+    let found = plain_values(text, b"GOTO", values)?;
+    matches!(found.0, 3 | 6).then_some(found)
+}
+
+/// The same for `INDIRV` with three values; gives the length of the line.
+pub(super) fn plain_direction(text: &[u8], values: &mut [f64; 6]) -> Option<usize> {
+    let (count, length) = plain_values(text, b"INDIRV", values)?;
+    (count == 3).then_some(length)
+}
+
+/// The values of a statement that fills one line, and the length of the line.
+#[inline(always)]
+fn plain_values(text: &[u8], major: &[u8], values: &mut [f64; 6]) -> Option<(usize, usize)> {
+    let mut rest = skip_blanks(text.strip_prefix(major)?).strip_prefix(b"/")?;
     let mut count = 0;
     loop {
         let (value, behind) = fixed_point(skip_blanks(rest))?;
@@ -34,7 +51,7 @@ pub(super) fn plain_goto(text: &[u8], values: &mut [f64; 6]) -> Option<(usize, u
         rest = match skip_blanks(behind) {
             [b',', rest @ ..] => rest,
             [b'\n', rest @ ..] | [b'\r', b'\n', rest @ ..] => {
-                return matches!(count, 3 | 6).then_some((count, text.len() - rest.len()));
+                return Some((count, text.len() - rest.len()));
             }
             _ => return None,
         };
@@ -160,6 +177,9 @@ impl Reader<'_> {
             return Ok(Word::Number(value));
         }
         if is_name(vocab, item, rules.free_names) {
+            if vocab.len() > MAX_NAMES && self.is_data_name(vocab, record, item, rules) {
+                return Ok(record.store_text(&decoded(item, self.options.decode)));
+            }
             return Ok(Word::Minor(self.intern(vocab, item, range, rules.lenient)?));
         }
         if rules.lenient {
@@ -169,6 +189,14 @@ impl Reader<'_> {
         let code = if numeric { ClCode::BadNumber } else { ClCode::BadWord };
         let what = if numeric { "a number" } else { "a number or a name" };
         Err(self.diag(code, &format!("'{shown}' is not {what}"), range))
+    }
+
+    /// True for a new name in a statement that informs: a pseudo-comment, a word without
+    /// effect, a word that nobody knows.
+    #[cold]
+    fn is_data_name(&self, vocab: &Vocabulary, record: &Record, item: &[u8], rules: Rules) -> bool {
+        let informs = rules.lenient || self.rules().is_without_effect(vocab.name(record.major));
+        informs && is_new(vocab, item)
     }
 
     /// The id of a name; one that only looks like another word is refused unless the
@@ -195,7 +223,14 @@ impl Reader<'_> {
 pub(crate) fn reads_as_text(vocab: &Vocabulary, item: &str) -> bool {
     let breaks = |c: char| matches!(c, ',' | '$') || c.is_control();
     let is_whole = !item.is_empty() && item.trim() == item && !item.contains(breaks);
-    is_whole && number(item.as_bytes()).is_none() && !is_name(vocab, item.as_bytes(), false)
+    let is_text = !is_name(vocab, item.as_bytes(), false)
+        || vocab.len() > MAX_NAMES && is_new(vocab, item.as_bytes());
+    is_whole && number(item.as_bytes()).is_none() && is_text
+}
+
+/// True for a name that the run has not met.
+fn is_new(vocab: &Vocabulary, name: &[u8]) -> bool {
+    std::str::from_utf8(name).map_or(true, |name| vocab.find(name).is_none())
 }
 
 /// True for an item that is a name. One that begins with a digit, as 1STPECK,

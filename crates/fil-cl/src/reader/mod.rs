@@ -34,7 +34,7 @@ use crate::words;
 
 pub(crate) use items::reads_as_text;
 use lines::{Input, LineError, Lines};
-pub(crate) use number::number as plain_number;
+pub(crate) use number::{fixed_point as leading_number, number as plain_number};
 use points::Pending;
 pub use raw::Meaning;
 use repeated::Repeated;
@@ -238,12 +238,16 @@ impl<'r> Reader<'r> {
             self.recognize_ahead();
             self.started = true;
         }
-        if self.seeking.is_due(self.number) {
+        // A spline under way is no part of what a checkpoint keeps.
+        if self.seeking.is_due(self.number) && !self.spline.is_under_way() {
             self.seeking.keep(self.number, self.lines.offset(), self.lines.line(), self.modal);
         }
         loop {
             if self.read_plain_goto(record) || self.read_repeated(record) {
                 return Ok(true);
+            }
+            if self.take_plain_direction() {
+                continue;
             }
             match self.read_statement(vocab, record)? {
                 None => return Ok(false),
@@ -280,7 +284,7 @@ impl<'r> Reader<'r> {
                 record.kind = kind::PSEUDO;
                 record.sub = 0;
             }
-            Form::Plain if self.names_geometry() => outcome = self.read_geometry(record)?,
+            Form::Plain if self.names_geometry() => outcome = self.take_geometry(vocab, record)?,
             Form::Plain => {
                 self.parse_items(vocab, record, false)?;
                 let major = record.major;

@@ -20,7 +20,7 @@ const SAFE_DIGITS: usize = 19;
 /// `None` when there is none, or when it has too many digits for the exact way:
 /// an integer up to 2^53 divided by an exact power of ten is correctly rounded.
 #[inline]
-pub(super) fn fixed_point(text: &[u8]) -> Option<(f64, &[u8])> {
+pub(crate) fn fixed_point(text: &[u8]) -> Option<(f64, &[u8])> {
     let (negative, text) = match text {
         [b'-', rest @ ..] => (true, rest),
         [b'+', rest @ ..] => (false, rest),

@@ -33,11 +33,23 @@ impl Pending {
         self.next = 0;
     }
 
-    /// Points to be handed out, all of one line.
-    pub(super) fn give(&mut self, points: &[[f64; 3]], line: u32) {
+    /// Points to be handed out, all of one line and with one tool axis, if there is one.
+    pub(super) fn give(&mut self, points: &[[f64; 3]], axis: Option<[f64; 3]>, line: u32) {
         self.clear();
-        self.values.extend(points.iter().flatten());
-        (self.group, self.line) = (3, line);
+        for point in points {
+            self.values.extend_from_slice(point);
+            self.values.extend(axis.into_iter().flatten());
+        }
+        (self.group, self.line) = (if axis.is_some() { 6 } else { 3 }, line);
+    }
+
+    /// The next point, with its tool axis.
+    fn next(&mut self) -> ([f64; 3], Option<[f64; 3]>) {
+        let mut point = [0.0; 6];
+        point[..self.group].copy_from_slice(&self.values[self.next..self.next + self.group]);
+        self.next += self.group;
+        let [x, y, z, i, j, k] = point;
+        ([x, y, z], (self.group == 6).then_some([i, j, k]))
     }
 }
 
@@ -87,14 +99,21 @@ impl Reader<'_> {
 
     /// Hands out the next point of a GOTO with several.
     pub(super) fn next_pending(&mut self, record: &mut Record) {
-        let Pending { values, next, group, line } = &mut self.pending;
-        let mut point = [0.0; 6];
-        point[..*group].copy_from_slice(&values[*next..*next + *group]);
-        *next += *group;
-        record.line = *line;
-        let [x, y, z, i, j, k] = point;
-        let axis = if *group == 6 { Some([i, j, k]) } else { None };
-        self.give_point(record, [x, y, z], axis);
+        let (point, axis) = self.pending.next();
+        record.line = self.pending.line;
+        self.give_point(record, point, axis);
+    }
+
+    /// All points not yet handed out, as GOTO records.
+    pub(super) fn take_pending(&mut self) -> Vec<Record> {
+        let mut records = Vec::new();
+        while !self.pending.is_empty() {
+            let (point, axis) = self.pending.next();
+            let record = Record::goto(point, axis.or(self.axis_left_out()));
+            records.push(Record { line: self.pending.line, ..record });
+            self.modal.point = Some(point);
+        }
+        records
     }
 
     /// Takes all points but the first out of a GOTO with several.

@@ -39,17 +39,25 @@ impl Reader<'_> {
         self.meaning = Some((self.number.saturating_add(1), meaning));
     }
 
-    /// Gives a statement as it is written and keeps what it means. What is no record as it is
-    /// written, such as several points in one GOTO, is given in Creo's form.
+    /// Gives a statement as it is written and keeps what it means: the motions of a spline
+    /// with its last control point. What is no record as it is written, such as several
+    /// points in one GOTO, is given in Creo's form.
     pub(super) fn give_as_written(
         &mut self,
         vocab: &mut Vocabulary,
         record: &mut Record,
     ) -> Result<Outcome> {
         let mut written = record.clone();
-        let has_shape = written.arrange().is_ok();
+        let is_geometry = self.computes(record.major);
+        let has_shape = is_geometry || written.arrange().is_ok();
+        if is_geometry {
+            (written.kind, written.sub) = (kind::POST, 0);
+        }
         let outcome = match self.bring_to_form(vocab, record) {
             Err(diag) if has_shape => {
+                if is_geometry {
+                    self.forget_motion();
+                }
                 self.keep_meaning(Meaning::Refused(diag));
                 *record = written;
                 return Ok(Outcome::Bound);
@@ -63,12 +71,14 @@ impl Reader<'_> {
         if self.rules().trailing_comma {
             drop_empty_end(record);
         }
-        if outcome != Outcome::Nothing && self.made.is_empty() && *record == written {
+        let more = self.take_pending();
+        let is_alone = self.made.is_empty() && more.is_empty();
+        if outcome != Outcome::Nothing && is_alone && *record == written {
             return Ok(outcome);
         }
         let meant =
             (outcome != Outcome::Nothing).then(|| std::mem::replace(record, written.clone()));
-        let rest = std::mem::take(&mut self.made).into_iter().rev();
+        let rest = std::mem::take(&mut self.made).into_iter().rev().chain(more);
         self.keep_meaning(Meaning::Records(meant.into_iter().chain(rest).collect()));
         *record = written;
         Ok(Outcome::Bound)

@@ -5,7 +5,7 @@ use std::io::{Read, Seek};
 use fil_diag::{Diag, TextSpan};
 
 use super::lines::Input;
-use super::{Gathered, Modal, Options, Reader};
+use super::{Gathered, Modal, Options, Reader, Repeated};
 use crate::errors::ClCode;
 
 /// Records between two checkpoints at first.
@@ -100,6 +100,8 @@ impl Reader<'_> {
         if let Err(error) = self.lines.go_to(point.offset, point.line) {
             return Err(self.read_failed(&error));
         }
+        // A statement may have told something only where it came first.
+        self.repeated = Repeated::default();
         self.pending.clear();
         self.spline = Gathered::default();
         self.made.clear();

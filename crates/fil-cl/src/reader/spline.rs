@@ -1,7 +1,9 @@
 //! NURBS, KNOT and CNTRL: a spline, read as lines within a tolerance.
 //!
 //! The knots tell the degree and how many control points belong to them, so the file says
-//! its form itself; what does not agree with that is refused.
+//! its form itself; what does not agree with that is refused. Values behind the coordinates
+//! of a control point are read where they change nothing: weights that are all the same, and
+//! one tool axis for the whole spline.
 
 use fil_diag::Result;
 
@@ -10,11 +12,18 @@ use crate::errors::ClCode;
 use crate::forms::Outcome;
 use crate::forms::spline::{Spline, degree_and_count};
 use crate::forms::vector::{Vector, norm, sub};
+use crate::layout::is_unit;
 use crate::record::{Record, Word};
 use crate::words;
 
 /// A spline begins where the tool stands; CAM systems round to four decimals.
 const NEAR: f64 = 1e-3;
+
+/// A tool axis is the same as another one where no part differs by more.
+const SAME_AXIS: f64 = 1e-4;
+
+/// The tool axis before any is written.
+const UPRIGHT: Vector = [0.0, 0.0, 1.0];
 
 /// Most knots of a spline.
 const MOST_KNOTS: usize = 100_000;
@@ -47,10 +56,44 @@ pub(super) struct Gathered {
     line: u32,
     /// Records read before it.
     records: u32,
+    /// Records of its own statements before the one under way.
+    own: u32,
     /// Numbers of the NURBS statement.
     numbers: Vec<f64>,
     knots: Vec<f64>,
     points: Vec<Vector>,
+    /// What stands behind the coordinates of its first control point.
+    behind: Behind,
+}
+
+/// What stands behind the coordinates of a control point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum Behind {
+    #[default]
+    Nothing,
+    Weight(f64),
+    Axis(Vector),
+}
+
+impl Behind {
+    /// True where two control points say the same.
+    fn agrees(self, other: Behind) -> bool {
+        match (self, other) {
+            (Behind::Axis(one), Behind::Axis(other)) => {
+                one.iter().zip(other).all(|(a, b)| (a - b).abs() <= SAME_AXIS)
+            }
+            // A weight of 1 may be left out.
+            (Behind::Nothing, Behind::Weight(1.0)) | (Behind::Weight(1.0), Behind::Nothing) => true,
+            (one, other) => one == other,
+        }
+    }
+}
+
+impl Gathered {
+    /// True from NURBS to the last control point.
+    pub(super) fn is_under_way(&self) -> bool {
+        self.line > 0
+    }
 }
 
 impl Reader<'_> {
@@ -77,10 +120,12 @@ impl Reader<'_> {
             self.modal.forms.expects = Some(POINTS);
             return Ok(Outcome::Nothing);
         }
-        if self.spline.line == 0 {
+        if !self.spline.is_under_way() {
             return Err(self.spline_error("a NURBS must come before it"));
         }
-        if self.spline.records != self.number {
+        // As they are written, the statements of a spline are records, too.
+        self.spline.own += u32::from(self.keeps_meaning());
+        if self.spline.records + self.spline.own != self.number {
             let message =
                 format!("another statement came between it and line {}", self.spline.line);
             return Err(self.spline_error(&message));
@@ -111,25 +156,58 @@ impl Reader<'_> {
     }
 
     fn take_control_point(&mut self, record: &mut Record, numbers: &[f64]) -> Result<Outcome> {
-        let point = match numbers[..] {
-            [x, y, z] | [x, y, z, 1.0] => [x, y, z],
-            [_, _, _, weight] => {
-                let message =
-                    format!("a weight of {weight}: only splines without weights are read");
-                return Err(self.diag(ClCode::BadSpline, &message, self.item_range(3)));
+        let (point, behind) = match numbers[..] {
+            [x, y, z] => ([x, y, z], Behind::Nothing),
+            [x, y, z, weight] if weight > 0.0 => ([x, y, z], Behind::Weight(weight)),
+            [x, y, z, i, j, k] if is_unit([i, j, k]) => ([x, y, z], Behind::Axis([i, j, k])),
+            _ => {
+                let message = "a control point has three numbers, with a weight above 0 four, \
+                               with a tool axis of length 1 six";
+                return Err(self.spline_error(message));
             }
-            _ => return Err(self.spline_error("a control point has three numbers")),
         };
         let (degree, count) =
             degree_and_count(&self.spline.knots).map_err(|message| self.spline_error(&message))?;
         if self.spline.points.is_empty() {
             self.check_spline_begin(point, [degree, degree + 1, count, self.spline.knots.len()])?;
+            self.check_behind(point, behind)?;
+            self.spline.behind = behind;
+        }
+        if !behind.agrees(self.spline.behind) {
+            let message = match behind {
+                Behind::Axis(_) => {
+                    "another tool axis than before: how it goes between control points is not known"
+                }
+                _ => {
+                    "another weight than before: whether it multiplies the coordinates is not known"
+                }
+            };
+            return Err(self.diag(ClCode::BadSpline, message, self.item_range(3)));
         }
         self.spline.points.push(point);
         if self.spline.points.len() < count {
             return Ok(Outcome::Nothing);
         }
         self.give_spline(record)
+    }
+
+    /// Weights that are all the same change nothing, unless the coordinates are multiplied by
+    /// them: then the first control point would not be where the tool stands. A tool axis must
+    /// be the one that the tool has there.
+    fn check_behind(&self, point: Vector, behind: Behind) -> Result<()> {
+        let message = match behind {
+            Behind::Weight(weight) if (weight - 1.0).abs() * norm(point) <= 2.0 * NEAR => {
+                if weight == 1.0 {
+                    return Ok(());
+                }
+                "whether this weight multiplies the coordinates is not known"
+            }
+            Behind::Axis(_) if !behind.agrees(Behind::Axis(self.modal.axis.unwrap_or(UPRIGHT))) => {
+                "the spline begins with another tool axis than the tool has there"
+            }
+            _ => return Ok(()),
+        };
+        Err(self.diag(ClCode::BadSpline, message, self.item_range(3)))
     }
 
     /// The spline begins where the tool stands, and the numbers of its NURBS are its degree,
@@ -160,7 +238,7 @@ impl Reader<'_> {
     /// first control point, so that a RAPID before the spline is rapid to there and no farther.
     fn give_spline(&mut self, record: &mut Record) -> Result<Outcome> {
         let tolerance = self.spline_tolerance();
-        let Gathered { line, knots, points, .. } = std::mem::take(&mut self.spline);
+        let Gathered { line, knots, points, behind, .. } = std::mem::take(&mut self.spline);
         self.modal.forms.expects = None;
         let start = points[0];
         let ends = Spline::new(knots, points).and_then(|spline| spline.lines(tolerance));
@@ -172,9 +250,13 @@ impl Reader<'_> {
             counts.lines += ends.len() as u64;
             counts.tolerance = counts.tolerance.max(tolerance);
         }
-        self.pending.give(&ends, line);
-        let axis = self.axis_left_out();
-        *record = Record { line, ..Record::goto(start, axis) };
+        let own = match behind {
+            Behind::Axis(axis) => Some(axis),
+            _ => None,
+        };
+        self.pending.give(&ends, own, line);
+        self.modal.axis = own.or(self.modal.axis);
+        *record = Record { line, ..Record::goto(start, own.or(self.axis_left_out())) };
         Ok(Outcome::Made)
     }
 

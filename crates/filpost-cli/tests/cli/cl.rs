@@ -35,6 +35,22 @@ fn records_are_shown_with_numbered_words() {
     assert_eq!(found["records"].as_array().map(Vec::len), Some(7));
     assert_eq!(found["records"][5]["words"][5], 1.0);
     assert_eq!(found["extents"]["max"], serde_json::json!([1.0, 2.0, 3.0]));
+    assert_eq!(found["splines"], serde_json::Value::Null);
+}
+
+#[test]
+fn splines_are_counted() {
+    let spline = "TOOL PATH/A,TOOL,B\nUNITS/MM\nGOTO/0.,0.,0.\nNURBS/\nKNOT/0.,0.,1.,2.,2.\n\
+        CNTRL/0.,0.,0.\nCNTRL/1.,0.,0.\nCNTRL/1.,1.,0.\nEND-OF-PATH\n";
+    let place = Folder::new().with("part.cls", spline);
+    let json = place.run(&["cl", "part.cls", "--json"]);
+    let found: serde_json::Value = serde_json::from_str(&json.out).expect("JSON");
+    assert_eq!(
+        found["splines"],
+        serde_json::json!({"splines": 1, "lines": 2, "tolerance": 0.001}),
+        "{}",
+        json.out
+    );
 }
 
 const ARC: &str = "UNITS/MM\nLOADTL/1\nSPINDL/RPM,900,CLW\nFEDRAT/200,MMPM\nGOTO/5,0,0\n\
