@@ -114,3 +114,36 @@ fn the_imported_machine_posts_a_real_file() {
     assert_eq!(blocks[blocks.len() - 2..], ["G1 Z1.0", "M5"]);
     assert!(!nc.contains('%') && !nc.contains('O') && !nc.contains('N'), "{nc}");
 }
+
+/// A location of each kind and each unit keeps its value on the way through machine.toml.
+#[test]
+fn every_location_comes_back_from_machine_toml() {
+    use filpost::{Kind, stored};
+
+    let default = filpost::locations::default_commons();
+    let mut commons = default.clone();
+    let mut changed = 0;
+    for kind in [Kind::Int, Kind::Rel, Kind::Dbl] {
+        for number in 212..=kind.size() as u32 {
+            let before = default.get(kind, number).unwrap();
+            let values = [71.0, 1.0, 2.0, 0.0, 14.0, 7.0, 0.5, 999_999.0];
+            let fits = |value: &&f64| {
+                **value != before
+                    && (kind != Kind::Int || value.fract() == 0.0)
+                    && stored::check(kind, number, **value).is_ok()
+            };
+            if let Some(value) = values.iter().find(fits) {
+                commons.set(kind, number, *value).unwrap();
+                changed += 1;
+            }
+        }
+    }
+    assert!(changed > 20_000, "{changed}");
+    let (again, _) = read_toml("machine.toml", &write_toml(&commons)).unwrap();
+    for kind in [Kind::Int, Kind::Rel, Kind::Dbl] {
+        for number in 1..=kind.size() as u32 {
+            let (a, b) = (commons.get(kind, number).unwrap(), again.get(kind, number).unwrap());
+            assert_eq!(a, b, "{kind:?} {number}");
+        }
+    }
+}

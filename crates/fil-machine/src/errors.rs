@@ -38,11 +38,11 @@ fil_diag::codes! {
         /// Unknown key.
         UnknownSetting = 604, Error, "unknown machine setting",
             "A setting that is not understood could change how the machine moves.",
-            "Check the spelling of the key; `filpost machine show` lists all of them.";
+            "Check the spelling of the key; `filpost machine show --all` lists all of them.";
         /// Wrong type or choice.
         SettingValue = 605, Error, "machine setting has a wrong value",
             "The value is not of the setting's kind or not among its choices.",
-            "See the setting's choices with `filpost machine show`.";
+            "See the setting's choices with `filpost machine show --all`.";
         /// Bad option file.
         OptionFile = 606, Error, "option file can't be read",
             "An option file is a list of pairs, location and value, under INTCOM, RELCOM and DBLCOM.",
@@ -50,11 +50,11 @@ fil_diag::codes! {
         /// Settings that contradict each other.
         Contradiction = 607, Error, "settings contradict each other",
             "A program made with them would be read otherwise than it is meant.",
-            "Correct one of the settings; `filpost machine show` lists them.";
+            "Correct one of the settings; `filpost machine show --all` lists them.";
         /// The option file of a lathe.
         LatheOptionFile = 608, Error, "option file of a lathe",
             "An option file holds what differs from the vendor's own machine, and what the vendor's lathe is has never been published. Read over a mill it would be another machine.",
-            "Set the lathe by name: a machine.toml that begins with the settings of `filpost machine show -p fanuc-lathe`.";
+            "Set the lathe by name: a machine.toml that begins with the settings of `filpost machine show --all -p fanuc-lathe`.";
         /// A setting nobody reads.
         UnusedSetting = 651, Warning, "setting without effect",
             "A value in this location is kept, and nothing reads it: the program is the same without it.",

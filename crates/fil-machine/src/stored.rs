@@ -130,9 +130,9 @@ pub(crate) fn wrong_value(row: &Location, value: &str) -> Box<Diag> {
 pub fn acts(kind: Kind, number: u32) -> bool {
     let last_output = LAST_OUTPUT as u32;
     let is_in_a_list = match kind {
-        Kind::Int => u16::try_from(number).is_ok_and(|number| {
-            [user_blocks::START, user_blocks::END].iter().any(|list| list.holds(number))
-        }),
+        Kind::Int => {
+            u16::try_from(number).is_ok_and(|number| user_blocks::list_of(number).is_some())
+        }
         Kind::Dbl => (last_output + 1..=last_output + Letter::COUNT as u32).contains(&number),
         Kind::Rel => false,
     };
@@ -150,7 +150,7 @@ pub fn title(kind: Kind, number: u32) -> String {
 }
 
 /// Two blanks, as packed texts of option files have them: nothing is said.
-const BLANKS: f64 = 8224.0;
+pub(crate) const BLANKS: f64 = 8224.0;
 
 /// True where a value changes nothing, and is not what the location has anyway.
 pub fn is_idle(kind: Kind, number: u32, value: f64) -> bool {

@@ -36,6 +36,14 @@ pub const END: UserBlocks = UserBlocks {
     text: loc::BLOCKS_END_TEXT,
 };
 
+/// All lists, by their keys in machine.toml.
+pub const LISTS: [(&str, UserBlocks); 2] = [("blocks.start", START), ("blocks.end", END)];
+
+/// The list that an INTCOM location belongs to, with its key.
+pub fn list_of(number: u16) -> Option<(&'static str, UserBlocks)> {
+    LISTS.into_iter().find(|(_, list)| list.holds(number))
+}
+
 impl UserBlocks {
     /// The texts, without blanks around them.
     pub fn read(self, commons: &Commons) -> Vec<String> {
@@ -78,10 +86,15 @@ fn unpack(commons: &Commons, first: u16) -> String {
     let mut text = String::new();
     for location in first..first + BLOCK_INTEGERS {
         let pair = commons.int_opt(Int(location)).unwrap_or(0x2020);
-        for byte in [pair & 0xff, (pair >> 8) & 0xff] {
-            let byte = byte as u8;
-            text.push(if (0x20..0x7f).contains(&byte) { char::from(byte) } else { ' ' });
-        }
+        text.extend(characters(pair).map(|c| c.unwrap_or(' ')));
     }
     text.trim().to_string()
+}
+
+/// The two characters of a packed integer; `None` for one that does not print.
+pub fn characters(pair: i32) -> [Option<char>; 2] {
+    [pair & 0xff, (pair >> 8) & 0xff].map(|byte| {
+        let byte = byte as u8;
+        (0x20..0x7f).contains(&byte).then_some(char::from(byte))
+    })
 }

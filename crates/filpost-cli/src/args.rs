@@ -53,9 +53,9 @@ pub enum Command {
 #[derive(Debug, Default, ClapArgs)]
 pub struct Chosen {
     /// A ready post by name, or a folder with machine.toml and post.fil
-    #[arg(short, long, value_name = "POST", conflicts_with = "machine")]
+    #[arg(short, long, value_name = "POST")]
     pub post: Option<String>,
-    /// machine.toml, or an option file (uncx01.pNN)
+    /// machine.toml, or an option file (uncx01.pNN); with --post a machine.toml over its settings
     #[arg(short, long, value_name = "FILE")]
     pub machine: Option<PathBuf>,
     /// One more setting on top (may be given again)
@@ -513,10 +513,14 @@ pub enum MachineCommand {
         #[arg(long, value_name = "LABEL")]
         encoding: Option<String>,
     },
-    /// Show every setting with value, unit, meaning and evidence
+    /// Show what a machine sets otherwise than the default one; with a prefix or --all every
+    /// setting with value, unit, meaning and evidence
     Show {
         #[command(flatten)]
         chosen: Chosen,
+        /// Every setting, with value, unit, meaning and evidence
+        #[arg(long)]
+        all: bool,
         /// Only settings whose name starts with this
         #[arg(value_name = "PREFIX")]
         prefix: Option<String>,

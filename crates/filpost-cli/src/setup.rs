@@ -86,7 +86,24 @@ pub fn named(chosen: &Chosen, encoding: Option<&str>) -> Result<Option<Named>, E
         (None, Some(machine)) => machine_file(machine, encoding)?,
         (None, None) => return Ok(None),
     };
+    let named = match (&chosen.post, &chosen.machine) {
+        (Some(_), Some(machine)) => over(named, machine, encoding)?,
+        _ => named,
+    };
     Ok(Some(with_settings(named, &chosen.set)))
+}
+
+/// Lays the settings of `-m` over the post of `-p`.
+///
+/// # Errors
+/// A file that can't be read.
+fn over(mut named: Named, machine: &Path, encoding: Option<&str>) -> Result<Named, Error> {
+    let text = files::read_text(machine, encoding)?;
+    let name = machine.display().to_string();
+    named.builder = named.builder.over(&name, &text);
+    named.title = format!("{} with {name}", named.title);
+    named.inputs.push(machine.to_path_buf());
+    Ok(named)
 }
 
 /// Where the post of a run comes from; equal ones give the same post.

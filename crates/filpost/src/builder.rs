@@ -42,6 +42,8 @@ impl Machine {
 #[must_use = "a builder makes no program before `build`"]
 pub struct Builder {
     machine: Option<Machine>,
+    /// Name and text of each machine.toml laid over the machine.
+    over: Vec<(String, String)>,
     settings: Vec<String>,
     fil: Vec<(String, String)>,
     limits: Limits,
@@ -63,6 +65,7 @@ impl Builder {
     pub(crate) fn new() -> Self {
         Builder {
             machine: None,
+            over: Vec::new(),
             settings: Vec::new(),
             fil: Vec::new(),
             limits: Limits::default(),
@@ -84,7 +87,8 @@ impl Builder {
         self
     }
 
-    /// The text of a `machine.toml`; `name` is what messages show.
+    /// The text of a `machine.toml`; `name` is what messages show. Its `base` may name a
+    /// post inside the crate.
     pub fn machine(mut self, name: &str, text: &str) -> Self {
         self.machine = Some(Machine::Toml { name: name.into(), text: text.into() });
         self
@@ -99,6 +103,13 @@ impl Builder {
     /// Settings made in the program itself.
     pub fn commons(mut self, commons: Commons) -> Self {
         self.machine = Some(Machine::Commons(Box::new(commons)));
+        self
+    }
+
+    /// The text of a `machine.toml` whose settings are laid over the machine; of several
+    /// the later one wins. `name` is what messages show.
+    pub fn over(mut self, name: &str, text: &str) -> Self {
+        self.over.push((name.into(), text.into()));
         self
     }
 
@@ -225,7 +236,7 @@ impl Builder {
     /// names of added functions; E0701 for a granted folder that is not there.
     pub fn build(self) -> Result<Program, Error> {
         let folders = folders(self.read.as_deref(), self.write.as_deref())?;
-        let post = post(self.machine, &self.settings, &self.compat.without_effect);
+        let post = post(self.machine, &self.over, &self.settings, &self.compat.without_effect);
         let mut vocabulary = Vocabulary::new();
         let files: Vec<FilFile<'_>> =
             self.fil.iter().map(|(name, text)| FilFile { name, text }).collect();
@@ -286,6 +297,7 @@ fn folders(read: Option<&Path>, write: Option<&Path>) -> Result<Option<Arc<Folde
 /// is right.
 fn post(
     machine: Option<Machine>,
+    over: &[(String, String)],
     on_top: &[String],
     without_effect: &[String],
 ) -> Result<(fil_post::Post, Vec<Diag>), Vec<Diag>> {
@@ -294,8 +306,11 @@ fn post(
     let (mut commons, mut warnings) = commons_of(machine)?;
     without_effect.iter().for_each(|word| commons.list_without_effect(word));
     let mut errors = Vec::new();
-    for setting in on_top {
-        match settings::apply_setting(&mut commons, setting) {
+    let over = over.iter().map(|(name, text)| settings::lay_over(&mut commons, name, text));
+    let mut said: Vec<Result<Vec<Diag>, Vec<Diag>>> = over.collect();
+    said.extend(on_top.iter().map(|setting| settings::apply_setting(&mut commons, setting)));
+    for said in said {
+        match said {
             Ok(said) => warnings.extend(said),
             Err(wrong) => errors.extend(wrong),
         }
@@ -317,7 +332,9 @@ fn post(
 fn commons_of(machine: Machine) -> Result<(Commons, Vec<Diag>), Vec<Diag>> {
     match machine {
         Machine::Commons(commons) => Ok((*commons, Vec::new())),
-        Machine::Toml { name, text } => settings::read_toml(&name, &text),
+        Machine::Toml { name, text } => settings::read_toml_with(&name, &text, &|base| {
+            ready::find(base).map(|post| post.machine)
+        }),
         Machine::OptionFile { name, text } => {
             settings::read_option_file(&name, &text).map(|file| (file.commons, file.warnings))
         }

@@ -6,5 +6,5 @@ mod toml_read;
 mod toml_write;
 
 pub use option_file::{OptionFile, read_option_file};
-pub use toml_read::{apply_setting, read_toml};
+pub use toml_read::{apply_setting, lay_over, read_toml, read_toml_with};
 pub use toml_write::write_toml;

@@ -1,6 +1,6 @@
 //! Reading `machine.toml`: named settings over the commons.
 //!
-//! Keys are the names of the table of locations (`rapid.split = 1`), or
+//! `base = "NAME"` names the machine it begins from. Keys are the names of the table of locations (`rapid.split = 1`), or
 //! `int.1870 = 1`, `rel.11 = 1.0`, `dbl.486 = 2.0`; `[address.X]` holds `slot`,
 //! `format`, `spec` and `char` of a letter; `blocks.start` and `blocks.end` are
 //! lists of texts, and so is `words.without_effect`, the major words that pass. A flag takes true or false, a letter or character a text of
@@ -10,7 +10,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use fil_diag::suggest::did_you_mean;
-use fil_diag::{Diag, LineIndex, Result};
+use fil_diag::{Diag, LineIndex, Result, TextSpan};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -31,6 +31,9 @@ const MOST_WORDS: usize = 1000;
 /// What a `machine.toml` may say about itself without it being a setting.
 const ABOUT: &[&str] = &["name", "description", "origin"];
 
+/// The key of the machine that a `machine.toml` begins from.
+const BASE: &str = "base";
+
 /// What messages call the text of a single setting.
 const OPTION: &str = "--set";
 
@@ -43,9 +46,61 @@ const OPTION_FORM: &str = "Write --set key=value, as in --set rapid.split=1.";
 /// # Errors
 /// All that is wrong: text that is not TOML, unknown keys, values of the wrong kind.
 pub fn read_toml(file: &str, text: &str) -> Result<(Commons, Vec<Diag>), Vec<Diag>> {
-    let mut commons = default_commons();
-    let warnings = read_over(&mut commons, file, text)?;
+    read_toml_with(file, text, &|_| None)
+}
+
+/// The same where `base = "NAME"` may name a machine to begin from instead of the default
+/// one; `bases` gives the text of its `machine.toml`.
+///
+/// # Errors
+/// As [`read_toml`]; E0605 for a base that is not there, and for one that begins from a
+/// base of its own.
+pub fn read_toml_with(
+    file: &str,
+    text: &str,
+    bases: &dyn Fn(&str) -> Option<&'static str>,
+) -> Result<(Commons, Vec<Diag>), Vec<Diag>> {
+    let (table, _) = DeTable::parse_recoverable(text);
+    let base = table.get_ref().iter().find(|(key, _)| key.get_ref() == BASE);
+    let mut commons = match base {
+        None => default_commons(),
+        Some((_, value)) => base_commons(file, text, value, bases)?,
+    };
+    let warnings = read_over(&mut commons, file, text, true)?;
     Ok((commons, warnings))
+}
+
+/// Lays the settings of a `machine.toml` over those that are there. The result are
+/// warnings, as those of [`read_toml`].
+///
+/// # Errors
+/// As [`read_toml`]; E0604 for `base`, which only a machine of its own has; E0606 for an
+/// option file.
+pub fn lay_over(commons: &mut Commons, file: &str, text: &str) -> Result<Vec<Diag>, Vec<Diag>> {
+    if text.lines().any(|line| line.trim_start().starts_with("INTCOM:")) {
+        let diag = MachineCode::OptionFile
+            .diag("an option file is a whole machine and can't be laid over another one")
+            .hint("import it with `filpost machine import` and keep what shall be laid over");
+        return Err(vec![diag.at(TextSpan::line(file, 1, text.lines().next().unwrap_or("")))]);
+    }
+    read_over(commons, file, text, false)
+}
+
+/// The machine that `base` names.
+fn base_commons(
+    file: &str,
+    text: &str,
+    value: &Spanned<DeValue>,
+    bases: &dyn Fn(&str) -> Option<&'static str>,
+) -> Result<Commons, Vec<Diag>> {
+    let name = value.get_ref().as_str().unwrap_or_default();
+    let Some(base) = bases(name) else {
+        let diag =
+            Diag::new(MachineCode::SettingValue, format!("no machine `{name}` to begin from"))
+                .hint("base names a ready post: base = \"fanuc-mill\"");
+        return Err(vec![*TomlReader::new(file, text).at(value.span(), diag)]);
+    };
+    read_toml(name, base).map(|(commons, _)| commons)
 }
 
 /// Sets one setting from text, as `--set key=value` gives it; a value that is no TOML
@@ -57,12 +112,19 @@ pub fn apply_setting(commons: &mut Commons, setting: &str) -> Result<Vec<Diag>, 
     let is_toml = DeTable::parse(setting).is_ok();
     let quoted = setting.split_once('=').filter(|_| !is_toml);
     let quoted = quoted.map(|(key, value)| format!("{key}={value:?}"));
-    read_over(commons, OPTION, quoted.as_deref().unwrap_or(setting))
+    read_over(commons, OPTION, quoted.as_deref().unwrap_or(setting), false)
 }
 
-/// Reads settings over those that are there.
-fn read_over(commons: &mut Commons, file: &str, text: &str) -> Result<Vec<Diag>, Vec<Diag>> {
+/// Reads settings over those that are there; `is_whole` is a machine of its own, whose
+/// `base` has been read.
+fn read_over(
+    commons: &mut Commons,
+    file: &str,
+    text: &str,
+    is_whole: bool,
+) -> Result<Vec<Diag>, Vec<Diag>> {
     let mut reader = TomlReader::new(file, text);
+    reader.takes_base = is_whole;
     let (table, broken) = DeTable::parse_recoverable(text);
     for error in &broken {
         let mut diag = MachineCode::MachineSyntax.diag(error.message());
@@ -89,6 +151,8 @@ struct TomlReader<'a> {
     file: &'a str,
     text: &'a str,
     index: LineIndex,
+    /// The text may name the machine that it begins from.
+    takes_base: bool,
     /// All that is wrong so far, with the places.
     errors: Vec<(usize, Diag)>,
     /// All settings that were said.
@@ -103,6 +167,7 @@ impl<'a> TomlReader<'a> {
             file,
             text,
             index: LineIndex::new(text),
+            takes_base: false,
             errors: Vec::new(),
             said: Vec::new(),
             named: Vec::new(),
@@ -144,11 +209,16 @@ impl<'a> TomlReader<'a> {
                 self.address(commons, key, value);
             } else if let DeValue::Table(inner) = value.get_ref() {
                 self.table(commons, inner, &name);
-            } else if !(prefix.is_empty() && ABOUT.contains(&name.as_str())) {
+            } else if !(prefix.is_empty() && self.is_about(&name)) {
                 let result = self.setting(commons, &name, key.span(), value);
                 self.noted(value.span(), result);
             }
         }
+    }
+
+    /// True for a key that is no setting.
+    fn is_about(&self, name: &str) -> bool {
+        ABOUT.contains(&name) || (name == BASE && self.takes_base)
     }
 
     fn setting(
@@ -158,25 +228,22 @@ impl<'a> TomlReader<'a> {
         key: Range<usize>,
         value: &Spanned<DeValue>,
     ) -> Result<()> {
-        match name {
-            "blocks.start" => {
-                user_blocks::START.store(commons, &self.texts(value, MAX_BLOCKS.into())?);
-                return Ok(());
-            }
-            "blocks.end" => {
-                user_blocks::END.store(commons, &self.texts(value, MAX_BLOCKS.into())?);
-                return Ok(());
-            }
-            "words.without_effect" => {
-                let words = self.texts(value, MOST_WORDS)?;
-                words.iter().for_each(|word| commons.list_without_effect(word));
-                return Ok(());
-            }
-            _ => {}
+        if let Some((_, list)) = user_blocks::LISTS.iter().find(|(key, _)| *key == name) {
+            list.store(commons, &self.texts(value, MAX_BLOCKS.into())?);
+            return Ok(());
+        }
+        if name == "words.without_effect" {
+            let words = self.texts(value, MOST_WORDS)?;
+            words.iter().for_each(|word| commons.list_without_effect(word));
+            return Ok(());
         }
         if let Some((kind, number)) = numbered(name) {
             let number_said = self.plain_number(value)?;
             return self.store(commons, (kind, number), number_said, key);
+        }
+        if name == BASE {
+            let message = "`base` stands in the machine.toml of a machine, not in one laid over it";
+            return Err(self.at(key, Diag::new(MachineCode::UnknownSetting, message)));
         }
         let Some(location) = Location::named(name) else {
             let mut diag = Diag::new(MachineCode::UnknownSetting, format!("no setting `{name}`"));
@@ -450,6 +517,29 @@ mod tests {
         assert_eq!(error("[scale]\nx = 'a'"), ("E0605".into(), "machine.toml:2:5".into()));
         assert_eq!(error("int.10000 = 1"), ("E0601".into(), "machine.toml:1:13".into()));
         assert_eq!(error("[address.x]\nslot = 1"), ("E0604".into(), "machine.toml:1:10".into()));
+    }
+
+    #[test]
+    fn a_machine_begins_from_another_one() {
+        let bases = |name: &str| match name {
+            "old" => Some("rapid.split = 0\nseqno.increment = 5"),
+            "nested" => Some("base = 'old'"),
+            _ => None,
+        };
+        let read = |text: &str| read_toml_with("machine.toml", text, &bases);
+        let (mut commons, _) = read("base = 'old'\nseqno.increment = 7").unwrap();
+        assert_eq!(commons.read(loc::RAPID_SPLIT), loc::RapidSplit::OneBlock);
+        assert_eq!(commons.dbl(loc::SEQNO_INCREMENT), 7.0);
+        for text in ["base = 'new'", "base = 3", "base = 'nested'"] {
+            assert_eq!(read(text).unwrap_err()[0].code.name(), "E0605", "{text}");
+        }
+        assert_eq!(error("base = 'old'"), ("E0605".into(), "machine.toml:1:8".into()));
+        lay_over(&mut commons, "m", "seqno.increment = 9").unwrap();
+        assert_eq!(commons.dbl(loc::SEQNO_INCREMENT), 9.0);
+        assert_eq!(
+            lay_over(&mut commons, "m", "base = 'old'").unwrap_err()[0].code.name(),
+            "E0604"
+        );
     }
 
     #[test]

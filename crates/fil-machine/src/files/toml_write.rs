@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 
 use crate::commons::{Commons, EMPTY, Kind};
 use crate::locations::{self as loc, Location, default_commons};
-use crate::user_blocks;
+use crate::stored::BLANKS;
+use crate::user_blocks::{self, UserBlocks};
 
 /// The settings that differ from the default machine.
 pub fn write_toml(commons: &Commons) -> String {
@@ -17,17 +18,32 @@ pub fn write_toml(commons: &Commons) -> String {
             let _ = writeln!(out, "{} = {}  # {}", key(row, value), show(row, value), row.meaning);
         }
     }
-    for (name, at) in [("start", user_blocks::START), ("end", user_blocks::END)] {
-        let blocks = at.read(commons);
-        if !blocks.is_empty() {
-            let _ = writeln!(out, "blocks.{name} = {blocks:?}");
-        }
+    for (name, at) in user_blocks::LISTS {
+        blocks(commons, name, at, &mut out);
     }
     if !commons.words_without_effect().is_empty() {
         let _ = writeln!(out, "words.without_effect = {:?}", commons.words_without_effect());
     }
     unnamed(commons, &defaults, &mut out);
     out
+}
+
+/// A list of user blocks as texts; what they leave of its locations by number. Blanks
+/// are what a location of texts has anyway.
+fn blocks(commons: &Commons, name: &str, at: UserBlocks, out: &mut String) {
+    let mut again = default_commons();
+    let blocks = at.read(commons);
+    if !blocks.is_empty() {
+        let _ = writeln!(out, "{name} = {blocks:?}");
+        at.store(&mut again, &blocks);
+    }
+    let said = |value: f64| if value == EMPTY { BLANKS } else { value };
+    for number in (1..=Kind::Int.size() as u16).filter(|number| at.holds(*number)) {
+        let value = value_of(commons, Kind::Int, number);
+        if said(value) != said(value_of(&again, Kind::Int, number)) {
+            let _ = writeln!(out, "{} = {value}", numbered_key(Kind::Int, number));
+        }
+    }
 }
 
 /// Locations without a name, the address table among them.
@@ -79,7 +95,7 @@ fn show(row: &Location, value: f64) -> String {
 
 /// True for the packed texts of user blocks.
 fn is_text(kind: Kind, number: u16) -> bool {
-    kind == Kind::Int && [user_blocks::START, user_blocks::END].iter().any(|at| at.holds(number))
+    kind == Kind::Int && user_blocks::list_of(number).is_some()
 }
 
 #[cfg(test)]

@@ -2,16 +2,16 @@
 
 mod diff;
 mod schema;
+mod show;
 
 use std::path::Path;
 
-use filpost::locations::TABLE;
-use filpost::{Commons, Error, Kind, Program, files, ready, settings};
+use filpost::{Commons, Error, Kind, files, settings};
 use serde_json::Value;
 
-use crate::args::{Chosen, MachineArgs, MachineCommand};
+use crate::args::{MachineArgs, MachineCommand};
 use crate::output::{self, Target};
-use crate::{Status, explain, setup, summary};
+use crate::{Status, explain, summary};
 
 /// Letters of the address table.
 const LETTERS: std::ops::RangeInclusive<u8> = b'A'..=b'Z';
@@ -32,7 +32,9 @@ pub fn run(args: &MachineArgs) -> Result<Status, Error> {
         MachineCommand::Import { file, output, encoding } => {
             import(file, output.as_deref(), encoding.as_deref())?;
         }
-        MachineCommand::Show { chosen, prefix } => show(chosen, prefix.as_deref())?,
+        MachineCommand::Show { chosen, all, prefix } => {
+            show::run(chosen, prefix.as_deref(), *all)?;
+        }
         MachineCommand::Diff { first, second } => return diff::run(first, second),
         MachineCommand::Schema => output::print(format!("{:#}\n", schema::schema()).as_bytes())?,
     }
@@ -50,42 +52,6 @@ fn import(file: &Path, output: Option<&Path>, encoding: Option<&str>) -> Result<
     })?;
     summary::warnings(&imported.warnings);
     Ok(())
-}
-
-fn show(chosen: &Chosen, prefix: Option<&str>) -> Result<(), Error> {
-    let builder = match setup::named(chosen, None)? {
-        Some(named) => named.builder,
-        None => {
-            let generic = Program::builder().ready(ready::GENERIC_MILL);
-            chosen.set.iter().fold(generic, |builder, setting| builder.set(setting))
-        }
-    };
-    let program = builder.build()?;
-    summary::warnings(program.warnings());
-    let prefix = prefix.unwrap_or("");
-    output::print_with(|out| {
-        for row in TABLE.iter().filter(|row| row.name.starts_with(prefix)) {
-            let value = explain::shown_value(row, program.commons());
-            let used = if row.used { "used" } else { "not used" };
-            writeln!(
-                out,
-                "{:<28} {value}\n{:>28} {} {}, {}, {}, {used}: {}",
-                row.name,
-                "",
-                row.kind.name(),
-                row.number,
-                row.unit,
-                row.evidence,
-                row.meaning
-            )?;
-        }
-        if prefix.is_empty() || "address".starts_with(prefix) {
-            for letter in LETTERS {
-                writeln!(out, "{}", address(program.commons(), letter))?;
-            }
-        }
-        Ok(())
-    })
 }
 
 /// A letter with its tape position, format and specification.

@@ -13,7 +13,7 @@ pub fn schema() -> Value {
         group.insert(key.into(), setting(row));
     }
     let text = json!({"type": "string"});
-    for about in ["name", "description", "origin"] {
+    for about in ["name", "description", "origin", "base"] {
         properties.insert(about.into(), text.clone());
     }
     let blocks = json!({"type": "array", "items": text, "maxItems": 10});

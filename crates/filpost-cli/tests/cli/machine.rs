@@ -90,3 +90,55 @@ fn the_manual_page_names_the_commands() {
     assert!(page.contains(".TH filpost 1"), "{page}");
     assert!(page.contains("filpost\\-post"), "{page}");
 }
+
+#[test]
+fn texts_of_two_machines_are_compared_as_texts() {
+    let one = "[blocks]\nstart = ['G21', 'G90']\n[int]\n2100 = 16705\n2101 = 16961\n2200 = 8224\n";
+    let two = "[blocks]\nstart = ['G21', 'G17 G90']\n";
+    let place = Folder::new().with("one.toml", one).with("two.toml", two);
+    let ran = place.run(&["machine", "diff", "one.toml", "two.toml"]);
+    let expected = "blocks.start                 [\"G21\", \"G90\"] | [\"G21\", \"G17 G90\"]\n\
+                    INTCOM 2100 to 2101          \"AAAB\" | \"\"\n";
+    assert_eq!((ran.status, ran.out.as_str()), (1, expected), "{}", ran.err);
+}
+
+#[test]
+fn a_machine_says_what_it_sets() {
+    let toml = "base = 'grbl'\nseqno.increment = 5\nlist.pages = true\nblocks.end = ['M5']\n";
+    let place = Folder::new().with("machine.toml", toml);
+    let ran = place.run(&["machine", "show", "-m", "machine.toml"]);
+    for line in [
+        "seqno.increment              5, not 1\n",
+        "blocks.end                   [\"M5\"]\n",
+        "tape.start_char ",
+        "set, and without effect: ",
+        "list.pages",
+    ] {
+        assert!(ran.out.contains(line), "{line}: {}", ran.out);
+    }
+    assert!(!ran.out.contains("linear.code"), "{}", ran.out);
+    let all = place.run(&["machine", "show", "--all", "-m", "machine.toml"]).out;
+    assert!(all.contains("linear.code ") && all.contains("seqno.increment              5\n"));
+    assert_eq!(place.run(&["machine", "show", "-m", "nothing.toml"]).status, 1);
+}
+
+#[test]
+fn a_machine_lies_over_a_post() {
+    let place = Folder::new()
+        .with("base.toml", "base = 'fanuc-mill'\nlinear.code = 11\n")
+        .with("over.toml", "linear.code = 11\n")
+        .with("again.toml", "base = 'grbl'\nlinear.code = 11\n")
+        .with("uncx01.p07", "UNCX01.P07\nMILL\nINTCOM:\n0 0\nRELCOM:\n0 0\nDBLCOM:\n0 0\n")
+        .with("part.ncl", SMALL);
+    let base = place.run(&["post", "part.ncl", "-m", "base.toml"]);
+    let over = place.run(&["post", "part.ncl", "-p", "fanuc-mill", "-m", "over.toml"]);
+    assert_eq!((base.status, &base.out), (0, &over.out), "{}", base.err);
+    assert!(base.out.contains("G11"), "{}", base.out);
+    assert!(over.err.contains("fanuc-mill with over.toml"), "{}", over.err);
+    let set = ["post", "part.ncl", "-p", "fanuc-mill", "-m", "over.toml", "--set", "linear.code=1"];
+    assert!(!place.run(&set).out.contains("G11"));
+    for (machine, code) in [("again.toml", "E0604"), ("uncx01.p07", "E0606")] {
+        let ran = place.run(&["post", "part.ncl", "-p", "fanuc-mill", "-m", machine]);
+        assert!(ran.status == 1 && ran.err.contains(code), "{machine}: {}", ran.err);
+    }
+}

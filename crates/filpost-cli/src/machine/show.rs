@@ -1,0 +1,99 @@
+//! `filpost machine show`
+
+use std::io::{self, Write};
+
+use filpost::locations::{TABLE, default_commons};
+use filpost::{Commons, Error, Kind, Program, ready, stored, user_blocks};
+
+use super::{LETTERS, address};
+use crate::args::Chosen;
+use crate::{explain, output, setup, summary};
+
+/// Shows every setting whose name starts with `prefix`; without one, what the machine
+/// sets otherwise than the default machine.
+///
+/// # Errors
+/// Files that can't be read; wrong settings.
+pub fn run(chosen: &Chosen, prefix: Option<&str>, all: bool) -> Result<(), Error> {
+    let builder = match setup::named(chosen, None)? {
+        Some(named) => named.builder,
+        None => {
+            let generic = Program::builder().ready(ready::GENERIC_MILL);
+            chosen.set.iter().fold(generic, |builder, setting| builder.set(setting))
+        }
+    };
+    let program = builder.build()?;
+    summary::warnings(program.warnings());
+    match prefix {
+        None if !all => output::print_with(|out| differences(out, program.commons())),
+        _ => output::print_with(|out| every(out, program.commons(), prefix.unwrap_or(""))),
+    }
+}
+
+fn every(out: &mut dyn Write, commons: &Commons, prefix: &str) -> io::Result<()> {
+    for row in TABLE.iter().filter(|row| row.name.starts_with(prefix)) {
+        let value = explain::shown_value(row, commons);
+        let used = if row.used { "used" } else { "not used" };
+        writeln!(
+            out,
+            "{:<28} {value}\n{:>28} {} {}, {}, {}, {used}: {}",
+            row.name,
+            "",
+            row.kind.name(),
+            row.number,
+            row.unit,
+            row.evidence,
+            row.meaning
+        )?;
+    }
+    if prefix.is_empty() || "address".starts_with(prefix) {
+        for letter in LETTERS {
+            writeln!(out, "{}", address(commons, letter))?;
+        }
+    }
+    Ok(())
+}
+
+/// What acts and differs from the default machine, in words; then what is set and does
+/// not act.
+fn differences(out: &mut dyn Write, commons: &Commons) -> io::Result<()> {
+    let default = default_commons();
+    let value = |at: &Commons, kind: Kind, number: u32| at.get(kind, number).ok();
+    let differs = |kind, number| value(commons, kind, number) != value(&default, kind, number);
+    let mut lines = Vec::new();
+    let mut idle = Vec::new();
+    for row in TABLE.iter().filter(|row| differs(row.kind, row.number.into())) {
+        if row.kind == Kind::Int && user_blocks::list_of(row.number).is_some() {
+            continue;
+        }
+        if !row.used {
+            idle.push((row.kind, u32::from(row.number)));
+            continue;
+        }
+        let [value, before] = [commons, &default].map(|at| explain::shown_value(row, at));
+        lines.push(format!("{:<28} {value}, not {before}\n{:>28} {}", row.name, "", row.meaning));
+    }
+    for letter in LETTERS {
+        let [value, before] = [commons, &default].map(|at| address(at, letter));
+        if value != before {
+            lines.push(value);
+        }
+    }
+    lines.extend(texts(commons));
+    if lines.is_empty() {
+        lines.push("all that acts is as on the default machine".into());
+    }
+    lines.iter().try_for_each(|line| writeln!(out, "{line}"))?;
+    if !idle.is_empty() {
+        let names: Vec<String> = idle.iter().map(|at| stored::title(at.0, at.1)).collect();
+        writeln!(out, "\nset, and without effect: {}", names.join(", "))?;
+    }
+    Ok(())
+}
+
+/// The user's blocks.
+fn texts(commons: &Commons) -> Vec<String> {
+    let lists = user_blocks::LISTS.into_iter().map(|(name, list)| (name, list.read(commons)));
+    let said = lists.filter(|(_, blocks)| !blocks.is_empty());
+    said.map(|(name, blocks)| format!("{name:<28} {blocks:?}")).collect()
+}
