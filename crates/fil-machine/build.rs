@@ -97,6 +97,9 @@ impl<'a> Row<'a> {
                 let default = matches!(self.default, "1" | "71");
                 ("Flag".into(), format!("Flag {{ number: {number}, default: {default} }}"))
             }
+            "choice" if *kind == "D" => {
+                (format!("RealChoice<{}>", self.enum_name()), self.choice("RealChoice"))
+            }
             "choice" if self.default == ABSENT => {
                 (format!("OptionalChoice<{}>", self.enum_name()), self.choice("OptionalChoice"))
             }

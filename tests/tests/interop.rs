@@ -9,7 +9,7 @@ use filpost_tests::cl_path::cl_path;
 use filpost_tests::compare::compare;
 use filpost_tests::nc_path::nc_path;
 use filpost_tests::path::{Action, ToolPath};
-use filpost_tests::rs274;
+use filpost_tests::rs274::{self, Call, Canon};
 
 /// The files of `tests/cl` and the real ones; where these are absent, the reason is printed.
 fn cl_files() -> Vec<PathBuf> {
@@ -87,4 +87,57 @@ fn each_turned_arc_is_noticed() {
             }
         }
     }
+}
+
+const HELIX_AND_LINES: &str = "UNITS / MM
+LOADTL / 1
+SPINDL / RPM, 1000, CLW
+RAPID
+GOTO / 0, 0, 5
+FEDRAT / 150, MMPM
+GOTO / 0, 0, -1
+GOTO / 10, 0, -2
+CIRCLE / 10, 10, -2, 0, 0, 1, 10
+GOTO / 20, 10, -4
+GOTO / 20, 20, -4
+CIRCLE / 20, 20, 6, 1, 0, 0, 10
+GOTO / 20, 30, 6
+FINI
+";
+
+/// The motions of a program, and the feed of each that has one.
+fn motions_and_feeds(calls: &[Call]) -> (Vec<&Canon>, Vec<f64>) {
+    let (mut motions, mut feeds, mut feed) = (Vec::new(), Vec::new(), 0.0);
+    for call in calls {
+        match &call.canon {
+            Canon::FeedRate(rate) => feed = *rate,
+            Canon::Traverse(_) => motions.push(&call.canon),
+            Canon::Feed(_) | Canon::Arc { .. } => {
+                motions.push(&call.canon);
+                feeds.push(feed);
+            }
+            _ => {}
+        }
+    }
+    (motions, feeds)
+}
+
+/// In inverse time the control makes the same motions at the feed of the CL file.
+#[test]
+fn inverse_time_is_the_feed_of_the_cl_file() {
+    let Some(program) = rs274::program() else { return };
+    let post = filpost::Program::builder().ready("linuxcnc-mill").build().unwrap();
+    let run = |cl: &str| {
+        let mut nc = Vec::new();
+        post.run(cl.as_bytes(), &mut nc).unwrap();
+        let nc = String::from_utf8(nc).unwrap();
+        (rs274::run(&program, &nc).unwrap_or_else(|said| panic!("{said}\n{nc}")), nc)
+    };
+    let (a_minute, _) = run(HELIX_AND_LINES);
+    let inverse = HELIX_AND_LINES.replace("150, MMPM", "150, MMPM, INVERS, AUTO");
+    let (inverse, nc) = run(&inverse);
+    let (motions, feeds) = motions_and_feeds(&inverse);
+    assert!(nc.contains("G93"), "{nc}");
+    assert_eq!(motions, motions_and_feeds(&a_minute).0);
+    assert!(feeds.len() > 4 && feeds.iter().all(|feed| (feed - 150.0).abs() < 1.5), "{feeds:?}");
 }

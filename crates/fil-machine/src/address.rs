@@ -136,6 +136,13 @@ impl Addresses {
         &self.slots[position.index()]
     }
 
+    /// Gives a letter another format; nothing for one that is not written.
+    pub(crate) fn set_format(&mut self, letter: Letter, format: NumberFormat) {
+        if let Some(position) = self.position(letter) {
+            self.slots[position.index()].format = format;
+        }
+    }
+
     /// How a letter writes its numbers, `None` when it is not written.
     pub fn format(&self, letter: Letter) -> Option<&NumberFormat> {
         self.position(letter).map(|position| &self.slot(position).format)

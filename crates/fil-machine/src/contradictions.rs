@@ -3,7 +3,7 @@
 
 use fil_diag::{Diag, Result};
 
-use crate::address::TapePosition;
+use crate::address::{Addresses, TapePosition};
 use crate::axis_chain::AxisChain;
 use crate::commons::{Commons, Dbl, Int, Rel};
 use crate::errors::MachineCode;
@@ -45,7 +45,11 @@ const DIFFERENT: &[&[(CodeAt, &str)]] = &[
         (loc::MODE_ABSOLUTE_CODE, "absolute coordinates"),
         (loc::MODE_INCREMENTAL_CODE, "incremental coordinates"),
     ],
-    &[(loc::FEED_UPM_CODE, "feed a minute"), (loc::FEED_UPR_CODE, "feed a revolution")],
+    &[
+        (loc::FEED_UPM_CODE, "feed a minute"),
+        (loc::FEED_UPR_CODE, "feed a revolution"),
+        (loc::FEED_INVERSE_CODE, "inverse time"),
+    ],
     &[
         (loc::CUTCOM_OFF_CODE, "no compensation"),
         (loc::CUTCOM_LEFT_CODE, "compensation left"),
@@ -63,7 +67,7 @@ const MODES: &[(&str, &[CodeAt])] = &[
     ("a motion", &loc::MOTION_CODES),
     ("a plane", &[loc::CIRCLE_PLANE_XY, loc::CIRCLE_PLANE_ZX, loc::CIRCLE_PLANE_YZ]),
     ("a unit", &[loc::UNITS_METRIC_CODE, loc::UNITS_INCH_CODE]),
-    ("a feed mode", &[loc::FEED_UPM_CODE, loc::FEED_UPR_CODE]),
+    ("a feed mode", &[loc::FEED_UPM_CODE, loc::FEED_UPR_CODE, loc::FEED_INVERSE_CODE]),
     ("cutter compensation", &[loc::CUTCOM_OFF_CODE, loc::CUTCOM_LEFT_CODE, loc::CUTCOM_RIGHT_CODE]),
     ("the tool length", &[loc::TOOL_LENGTH_CODE]),
     ("a speed mode", &[loc::SPINDLE_CSS_CODE, loc::SPINDLE_RPM_CODE]),
@@ -93,6 +97,10 @@ const COOLANTS: &[(CodeAt, &str)] =
 /// Numbers that must be above zero where they are given.
 const POSITIVE: &[(Dbl, &str)] = &[
     (loc::FEED_UPM_FACTOR, "the factor of feeds"),
+    (loc::FEED_UPM_MAX_Y, "the largest feed of Y"),
+    (loc::FEED_UPM_MAX_Z, "the largest feed of Z"),
+    (loc::FEED_INVERSE_FACTOR, "the factor of inverse time"),
+    (loc::FEED_INVERSE_MAX, "the largest inverse time"),
     (loc::CIRCLE_CHORD_TOLERANCE, "the chord tolerance"),
     (loc::SEQNO_INCREMENT, "the step of sequence numbers"),
     (loc::SEQNO_MAX, "the largest sequence number"),
@@ -103,10 +111,19 @@ const POSITIVE: &[(Dbl, &str)] = &[
 const NOT_NEGATIVE: &[(Dbl, &str)] = &[
     (loc::FEED_UPM_MIN, "the least feed"),
     (loc::FEED_UPM_MAX, "the largest feed"),
+    (loc::FEED_INVERSE_MIN, "the least inverse time"),
+    (loc::FEED_INVERSE_MIN_TIME, "the shortest time of a motion"),
+    (loc::RAPID_SHORT_DISTANCE, "the length of short rapids"),
+    (loc::CIRCLE_Z_TOLERANCE, "the deviation of flat arcs"),
+    (loc::CIRCLE_CORRECTION_MAX, "the largest correction of an arc"),
     (loc::DWELL_UPM_FACTOR, "the factor of dwells in seconds"),
     (loc::DWELL_UPR_FACTOR, "the factor of dwells in turns"),
     (loc::CYCLE_AUTO_CLEARANCE, "the clearance of cycles"),
+    (loc::CIRCLE_MIN_RADIUS, "the least radius"),
 ];
+
+/// Farthest that the end of an arc may be corrected, mm or inch.
+const MOST_CORRECTION: f64 = 1.0;
 
 /// Refuses settings that contradict each other.
 ///
@@ -130,6 +147,9 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     incremental_start(commons, &mut found);
     start_modes(commons, &mut found);
     arc_sizes(commons, &mut found);
+    rapid_rules(commons, &mut found);
+    feed_formats(commons, &mut found);
+    order_of_axes(commons, &mut found);
     same_positions(commons, &mut found);
     axis_letters(commons, &mut found);
     word_letters(commons, &mut found);
@@ -212,12 +232,68 @@ fn start_modes(commons: &Commons, found: &mut Vec<Diag>) {
 
 /// Arcs end at a quadrant or at a full circle.
 fn arc_sizes(commons: &Commons, found: &mut Vec<Diag>) {
+    let correction = commons.dbl_opt(loc::CIRCLE_CORRECTION_MAX);
+    if let Some(most) = correction.filter(|most| *most > MOST_CORRECTION) {
+        found.push(contradiction(format!(
+            "circle.correction_max is {most}; an end farther off than {MOST_CORRECTION} is that of \
+             another arc"
+        )));
+    }
     if let Some(degrees) = commons.read(loc::CIRCLE_MAX_DEGREES)
         && degrees != 90
         && degrees != 360
     {
         let message = format!("circle.max_degrees is {degrees}; it can be 90 or 360");
         found.push(contradiction(message));
+    }
+}
+
+/// The word of rapids needs letter and value, a letter of its own; short rapids need a feed.
+fn rapid_rules(commons: &Commons, found: &mut Vec<Diag>) {
+    let word = (commons.read(loc::RAPID_ADDRESS), commons.dbl_opt(loc::RAPID_VALUE));
+    if let (Some(letter), None) = word {
+        found.push(contradiction(format!(
+            "rapid.address is {letter}, and rapid.value gives the word no number"
+        )));
+    }
+    if let Some(letter) = word.0
+        && (letters::XYZ.contains(&letter) || b"ABCFGHIJKMNRST".contains(&letter.byte()))
+    {
+        found.push(contradiction(format!("{letter} is the word of rapids and something else")));
+    }
+    let short = commons.dbl_opt(loc::RAPID_SHORT_DISTANCE).unwrap_or(0.0);
+    if short > 0.0 && commons.dbl_opt(loc::RAPID_SHORT_FEED).is_none_or(|feed| feed <= 0.0) {
+        found.push(contradiction(
+            "rapid.short_distance asks for short rapids at feed, and rapid.short_feed gives none"
+                .into(),
+        ));
+    }
+}
+
+/// Formats of F by its mode need the point: without it a reader would have to know the mode.
+fn feed_formats(commons: &Commons, found: &mut Vec<Diag>) {
+    let addresses = Addresses::from_commons(commons, true);
+    let pointless = addresses.format(letters::F).is_some_and(|format| !format.point);
+    for (at, name) in [
+        (loc::FEED_UPM_FORMAT, "feed.upm_format"),
+        (loc::FEED_INVERSE_FORMAT, "feed.inverse_format"),
+    ] {
+        if pointless && commons.int_opt(at).is_some() {
+            found.push(contradiction(format!("{name} is given, and F is written without a point")));
+        }
+    }
+}
+
+/// One axis after the other is a matter of three axes: with a rotary axis the tip would
+/// leave its path by far.
+fn order_of_axes(commons: &Commons, found: &mut Vec<Diag>) {
+    let apart = commons.read(loc::LINEAR_METHOD) != loc::LinearMethod::XyzInOneBlock;
+    let turns = AxisChain::from_commons(commons).is_ok_and(|chain| chain.has_rotary());
+    if apart && turns {
+        found.push(contradiction(
+            "linear.method moves XY and Z one after the other, and the machine has a rotary axis"
+                .into(),
+        ));
     }
 }
 

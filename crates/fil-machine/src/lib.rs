@@ -18,6 +18,7 @@ pub mod function_code;
 pub mod letter;
 pub mod locations;
 pub mod modes;
+pub mod motion_rules;
 pub mod number;
 pub mod numbering;
 pub mod rounding;

@@ -10,7 +10,9 @@ use std::sync::OnceLock;
 
 use crate::commons::{Commons, Dbl, EMPTY, Int, Kind, Rel};
 use crate::letter::Letter;
-use crate::setting::{CharacterAt, Choice, CodeAt, Flag, FromNumber, LetterAt, OptionalChoice};
+use crate::setting::{
+    CharacterAt, Choice, CodeAt, Flag, FromNumber, LetterAt, OptionalChoice, RealChoice,
+};
 
 pub use crate::value_unit::{Evidence, ValueUnit};
 
@@ -141,6 +143,9 @@ pub const CYCLE_CODES: [CodeAt; 9] = [
 
 /// What is added to X, Y and Z of each point of the input.
 pub const INPUT_TRANSLATE: [Dbl; 3] = [INPUT_TRANSLATE_X, INPUT_TRANSLATE_Y, INPUT_TRANSLATE_Z];
+
+/// X, Y and Z of the home position.
+pub const HOME: [Dbl; 3] = [HOME_X, HOME_Y, HOME_Z];
 
 /// Least and greatest X, Y, Z of the machine, mm.
 pub const LINEAR_LIMITS: [(Dbl, Dbl); 3] =

@@ -103,4 +103,6 @@ pub enum FeedMode {
     PerMinute,
     /// Units (mm or inch) a revolution.
     PerRevolution,
+    /// Motions a minute: 1 over the minutes of this one.
+    InverseTime,
 }

@@ -81,6 +81,12 @@ impl NumberFormat {
         }
     }
 
+    /// The same with the digits of another format.
+    pub fn with_digits(self, format: i32, metric: bool) -> Self {
+        let digits = NumberFormat::from_commons(format, 0, metric, self.rule);
+        NumberFormat { whole: digits.whole, decimals: digits.decimals, ..self }
+    }
+
     /// The value as a scaled integer: rounded half away from zero to the
     /// last digit of the format.
     ///

@@ -136,6 +136,30 @@ impl<T: FromNumber + Default> Setting for Choice<T> {
     }
 }
 
+/// One of several choices in DBLCOM; a number that is none of them leaves the default.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RealChoice<T> {
+    /// DBLCOM number.
+    pub number: u16,
+    choices: PhantomData<T>,
+}
+
+impl<T> RealChoice<T> {
+    /// The choice in a DBLCOM location.
+    pub const fn at(number: u16) -> Self {
+        RealChoice { number, choices: PhantomData }
+    }
+}
+
+impl<T: FromNumber + Default> Setting for RealChoice<T> {
+    type Value = T;
+
+    fn read(self, commons: &Commons) -> T {
+        let number = commons.dbl_opt(Dbl(self.number)).filter(|number| number.fract() == 0.0);
+        number.and_then(|number| T::from_number(number as i32)).unwrap_or_default()
+    }
+}
+
 /// One of several choices, or none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OptionalChoice<T> {

@@ -9,7 +9,10 @@ use crate::axes::{Axis, AxisSet, linear_letters};
 use crate::axis_chain::{AxisChain, ROTARY_LETTERS};
 use crate::commons::Commons;
 use crate::errors::MachineCode;
+use crate::letter::letters::F;
 use crate::locations as loc;
+use crate::modes::FeedMode;
+use crate::motion_rules::{FeedFormats, MotionRules};
 use crate::numbering::Numbering;
 use crate::tape_style::TapeStyle;
 
@@ -22,6 +25,9 @@ pub struct MachineTables {
     pub numbering: Numbering,
     /// How a block is put on the tape.
     pub style: TapeStyle,
+    /// The rules of straight motions at feed.
+    pub motion: MotionRules,
+    feed_formats: FeedFormats,
     axes: Vec<Axis>,
     chain: AxisChain,
     present: AxisSet,
@@ -49,6 +55,9 @@ impl MachineTables {
         self.addresses = Addresses::from_commons(commons, metric);
         self.numbering = Numbering::from_commons(&self.addresses, commons);
         self.style = TapeStyle::from_commons(commons);
+        self.motion = MotionRules::from_commons(commons);
+        self.feed_formats = FeedFormats::from_commons(&self.addresses, commons, metric);
+        self.format_feed(FeedMode::PerMinute);
         let chain = AxisChain::from_commons(commons)?;
         self.chain = if metric { chain } else { chain.in_inches() };
         self.axes = linear_letters()
@@ -79,6 +88,13 @@ impl MachineTables {
             }
         }
         Ok(())
+    }
+
+    /// F is written as this mode asks for from now on.
+    pub fn format_feed(&mut self, mode: FeedMode) {
+        if let Some(format) = self.feed_formats.of(mode) {
+            self.addresses.set_format(F, format);
+        }
     }
 
     /// An axis by number: 0 to 2 are X Y Z, 3 and 4 the rotaries.

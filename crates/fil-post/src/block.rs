@@ -156,6 +156,11 @@ impl Block {
         }
     }
 
+    /// Takes a word out.
+    pub fn take_word(&mut self, position: TapePosition) {
+        self.present &= !position.bit();
+    }
+
     /// Notes the cause of a word.
     pub fn note_cause(&mut self, position: TapePosition, cause: Cause) {
         self.causes[position.index()] = cause;

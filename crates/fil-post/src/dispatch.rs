@@ -41,9 +41,11 @@ use Handler::{Items as I, Point as P, Refused};
 
 /// Major words and their handlers.
 pub const HANDLERS: &[(WordId, Handler)] = &[
+    (w::ARCSLP, I(word::arcslp::handle)),
     (w::AUXFUN, I(word::prefun::auxfun)),
     (w::CALSUB, Refused),
     (w::CIRCLE, I(word::circle::handle)),
+    (w::CLAMP, I(word::clamp::handle)),
     (w::COOLNT, I(word::coolnt::handle)),
     (w::COPY, Refused),
     (w::CUTCOM, I(word::cutcom::handle)),
@@ -76,7 +78,7 @@ pub const HANDLERS: &[(WordId, Handler)] = &[
     (w::PREFUN, I(word::prefun::prefun)),
     (w::RAPID, I(word::rapid::handle)),
     (w::REPEAT, I(word::repeat::handle)),
-    (w::RETRCT, Refused),
+    (w::RETRCT, I(word::home::retrct)),
     (w::REWIND, I(word::end::rewind)),
     (w::ROTABL, Refused),
     (w::ROTATE, Refused),

@@ -107,6 +107,10 @@ fil_diag::codes! {
         ArcLines = 554, Warning, "arc written as short lines",
             "The arc lies in no plane of the machine, or its radius is above the maximum.",
             "Nothing to do if the chord tolerance suits; see circle.chord_tolerance.";
+        /// A line in steps.
+        LineSplit = 557, Warning, "slanted line written in two blocks",
+            "The machine moves XY and Z one after the other, so the tool leaves the straight line.",
+            "Nothing to do where the control can't move three axes at once; else set linear.method to 0.";
         /// Text outside ASCII.
         TapeText = 555, Warning, "text on the tape that is not ASCII",
             "Many controls read ASCII only and stop at other characters.",

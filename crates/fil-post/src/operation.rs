@@ -225,6 +225,9 @@ pub enum End {
 pub enum Operation {
     /// A straight motion.
     Linear(Target, MotionKind),
+    /// A rapid motion to a position of X, Y and Z on the machine, mm or inch; an axis
+    /// without one stays.
+    MachinePosition([Option<f64>; 3]),
     /// An arc to a point.
     Arc(Arc, Target),
     /// A hole of the active cycle.

@@ -34,6 +34,7 @@ pub fn trials(row: &Location) -> Vec<Trial> {
         ValueUnit::Count => &["3", "7"],
         ValueUnit::Plain => &["16705", "16962"],
         ValueUnit::Degrees => &["12.5", "90"],
+        ValueUnit::Format => &["3341", "4313"],
         ValueUnit::Rpm => &["50", "5000"],
         _ => &["0.25", "12.5"],
     };

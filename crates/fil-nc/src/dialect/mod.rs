@@ -51,6 +51,17 @@ pub enum CenterForm {
     Unsigned,
 }
 
+/// What the word of a helix beside its end says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HelixForm {
+    /// The rise of a radian, without sign.
+    Radian,
+    /// The rise of a radian.
+    SignedRadian,
+    /// The rise of a turn, without sign.
+    Turn,
+}
+
 /// How a cycle names its bottom and its R level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DepthForm {
@@ -101,6 +112,13 @@ pub struct Dialect {
     pub(crate) tool_call: ToolCall,
     /// Letters of special words, 1 to 26.
     pub(crate) radius: u8,
+    /// An arc right behind another keeps its radius.
+    pub(crate) radius_modal: bool,
+    /// By the normal of the plane: the code for counterclockwise arcs turns by the
+    /// right-hand rule.
+    pub(crate) right_handed: [bool; 3],
+    /// What the word across the plane says of a helix; `None` where it has no meaning.
+    pub(crate) helix: Option<HelixForm>,
     pub(crate) step: u8,
     pub(crate) cycle_dwell: u8,
     pub(crate) dwell: u8,
@@ -111,6 +129,10 @@ pub struct Dialect {
     pub(crate) dwell_factor: f64,
     /// Control's feed unit in a unit of length a minute.
     pub(crate) feed_factor: f64,
+    /// Control's inverse time in motions a minute.
+    pub(crate) inverse_factor: f64,
+    /// A word that makes a straight motion a rapid one: its letter and number.
+    pub(crate) rapid_word: Option<(u8, f64)>,
     /// Holes return to the level before the cycle, where the program does not say.
     pub(crate) return_initial: bool,
     /// Programs end with a code; without one the last block is the end.
@@ -131,6 +153,11 @@ impl Settings<'_> {
     /// A code; `None` when absent.
     pub(crate) fn code(&self, key: &str) -> Option<i32> {
         self.number(key).map(|value| value as i32)
+    }
+
+    /// A flag that is on where nothing is said.
+    fn is_not_off(&self, key: &str) -> bool {
+        !matches!(self.code(key), Some(0 | 72))
     }
 
     fn flag(&self, key: &str) -> bool {
@@ -199,6 +226,19 @@ impl Dialect {
             },
             tool_call,
             radius: settings.letter("circle.radius_address"),
+            radius_modal: settings.flag("circle.radius_modal"),
+            right_handed: [
+                settings.is_not_off("circle.ccw_yz"),
+                !settings.flag("circle.ccw_xz"),
+                settings.is_not_off("circle.ccw_xy"),
+            ],
+            helix: match (settings.code("circle.helix_word"), settings.code("circle.helix_output"))
+            {
+                (Some(0), _) => None,
+                (_, Some(2)) => Some(HelixForm::SignedRadian),
+                (_, Some(3)) => Some(HelixForm::Turn),
+                _ => Some(HelixForm::Radian),
+            },
             step: settings.letter("cycle.step_address"),
             cycle_dwell: settings.letter("cycle.dwell_address"),
             dwell: settings.letter("dwell.address"),
@@ -206,6 +246,10 @@ impl Dialect {
             orientation: settings.letter("spindle.orient_address"),
             dwell_factor: factor(&settings, "dwell.upm_factor"),
             feed_factor: factor(&settings, "feed.upm_factor"),
+            inverse_factor: factor(&settings, "feed.inverse_factor"),
+            rapid_word: Some(settings.letter("rapid.address"))
+                .filter(|letter| *letter > 0)
+                .zip(settings.number("rapid.value")),
             return_initial: settings.code("cycle.return_codes") == Some(2),
             has_end: ["program.end_code", "program.rewind_code"]
                 .iter()

@@ -3,7 +3,7 @@
 use super::Fault;
 use super::state::{Axes, State};
 use super::words::{Words, letter};
-use crate::dialect::CenterForm;
+use crate::dialect::{CenterForm, HelixForm};
 use crate::errors::NcCode;
 use crate::motion::{Arc, Course};
 
@@ -15,6 +15,9 @@ const RADIUS_TOLERANCE: f64 = 0.004;
 
 /// The same of inches, which have four digits.
 const INCH_TOLERANCE: f64 = 0.013;
+
+/// By this part the word of a helix may differ from its rise.
+const HELIX_TOLERANCE: f64 = 0.011;
 
 /// Ends nearer than this are one point, mm.
 const SAME_POINT: f64 = 1e-7;
@@ -31,24 +34,48 @@ impl State<'_> {
     /// An arc in the plane in force.
     pub(super) fn arc(&mut self, words: &mut Words, ccw: bool) -> Result<(), Fault> {
         let rate = self.rate()?;
+        let ccw = ccw == self.dialect.right_handed[self.plane];
         let axes = words.take_axes(self.dialect)?;
         let (to, known) = self.target(&axes);
         let plane = plane_axes(self.plane);
         if plane.iter().any(|axis| !self.known[*axis]) {
             return Err(Fault::new(NcCode::NoCenter, "it is not known where the arc begins"));
         }
-        let (center, angle) = match words.take(self.dialect.radius)? {
+        let radius = words.take(self.dialect.radius)?;
+        let has_center = plane.iter().any(|axis| words.has(CENTER[*axis]));
+        let radius = radius.or(self.arc_radius.filter(|_| !has_center));
+        let (center, angle) = match radius {
             Some(radius) => self.about_radius(plane, &to, radius * self.unit(), ccw)?,
             None => {
                 let center = self.center(words, plane, &to, ccw)?;
                 (center, sweep(plane, center, &self.at, &to, ccw))
             }
         };
+        self.check_helix(words, &to, angle)?;
         let mut point = [0.0; 3];
         point[self.plane] = self.at[self.plane];
         (point[plane[0]], point[plane[1]]) = (center[0], center[1]);
         let arc = Arc { center: point, normal: self.plane, ccw, angle };
         self.travel((to, known), Course::Feed, Some(rate), Some(arc));
+        self.arc_radius = radius.filter(|_| self.dialect.radius_modal);
+        Ok(())
+    }
+
+    /// The word of a helix must say how far the arc rises to its end.
+    fn check_helix(&self, words: &mut Words, to: &Axes, angle: f64) -> Result<(), Fault> {
+        let Some(form) = self.dialect.helix else { return Ok(()) };
+        let Some(given) = words.take(CENTER[self.plane])? else { return Ok(()) };
+        let a_radian = (to[self.plane] - self.at[self.plane]) / angle.to_radians();
+        let rise = match form {
+            HelixForm::Radian => a_radian.abs(),
+            HelixForm::SignedRadian => a_radian,
+            HelixForm::Turn => a_radian.abs() * std::f64::consts::TAU,
+        };
+        let given = given * self.unit();
+        if rise == 0.0 || (given - rise).abs() > HELIX_TOLERANCE * rise.abs() {
+            let message = format!("the helix word says {given:.4} mm, and the arc rises {rise:.4}");
+            return Err(Fault::new(NcCode::ArcRadii, message));
+        }
         Ok(())
     }
 

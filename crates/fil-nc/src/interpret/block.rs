@@ -12,6 +12,9 @@ const P: u8 = letter(b'P');
 const L: u8 = letter(b'L');
 const F: u8 = letter(b'F');
 
+/// The word of rapids may be off by this, which is rounding.
+const RAPID_WORD: f64 = 1e-3;
+
 /// What a block asks of the order of blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Outcome {
@@ -161,6 +164,15 @@ impl State<'_> {
 
     fn straight(&mut self, words: &mut Words, course: Course) -> Result<(), Fault> {
         let rate = if course == Course::Feed { Some(self.rate()?) } else { None };
+        if course == Course::Rapid
+            && let Some((letter, value)) = self.dialect.rapid_word
+        {
+            let word = words.take(letter)?;
+            if word.is_none_or(|word| (word - value).abs() > RAPID_WORD) {
+                let message = format!("a rapid needs its word of {value}");
+                return Err(Fault::new(NcCode::MissingWord, message));
+            }
+        }
         let axes = words.take_axes(self.dialect)?;
         let target = self.target(&axes);
         self.go(target, course, rate);

@@ -26,6 +26,9 @@ pub(super) struct State<'d> {
     pub(super) feed_mode: FeedMode,
     /// F as on the tape.
     pub(super) feed: Option<f64>,
+    /// Radius of the arc that the last motion made, as on the tape, where the next arc
+    /// may leave it out.
+    pub(super) arc_radius: Option<f64>,
     /// S is a surface speed.
     pub(super) surface: bool,
     pub(super) return_initial: bool,
@@ -54,6 +57,7 @@ impl<'d> State<'d> {
             absolute: true,
             feed_mode: dialect.feed_mode,
             feed: None,
+            arc_radius: None,
             surface: false,
             return_initial: dialect.return_initial,
             cycle: None,
@@ -107,7 +111,7 @@ impl<'d> State<'d> {
         Ok(match self.feed_mode {
             FeedMode::PerMinute => Rate::PerMinute(feed / self.dialect.feed_factor * self.unit()),
             FeedMode::PerTurn => Rate::PerTurn(feed * self.unit()),
-            FeedMode::Inverse => Rate::Inverse(feed),
+            FeedMode::Inverse => Rate::Inverse(feed / self.dialect.inverse_factor),
         })
     }
 
@@ -130,6 +134,7 @@ impl<'d> State<'d> {
         arc: Option<Arc>,
     ) {
         (self.at, self.known) = (to, known);
+        self.arc_radius = None;
         let [x, y, z, primary, secondary] = to;
         self.events.push(Event::Move(Move {
             line: self.line,

@@ -5,6 +5,8 @@ use super::between::Asked;
 use super::report::FindingKind;
 use super::say::short;
 use super::walk::{STILL, Walk};
+use fil_machine::locations::LinearMethod;
+
 use crate::forward::Pose;
 use crate::motion::{Course, Event, Move, Position, Rate};
 
@@ -17,6 +19,9 @@ impl<C: Steps> Walk<'_, C> {
         if self.stands_at(pose) {
             return true;
         }
+        if let Some(feed) = self.feed_of_short_rapid(pose) {
+            return self.line(cl_line, pose, Course::Feed, Some(Rate::PerMinute(feed)));
+        }
         let Some(count) = self.rapid_parts(self.next, pose) else { return false };
         let last = self.next + count - 1;
         let Event::Move(end) = self.nc[last] else { return false };
@@ -28,6 +33,42 @@ impl<C: Steps> Walk<'_, C> {
         }
         self.measure(&end, pose);
         self.next = last + 1;
+        true
+    }
+
+    /// The feed that the machine makes a rapid at which is too short for one.
+    fn feed_of_short_rapid(&self, pose: &Pose) -> Option<f64> {
+        let (short, feed) = self.settings.short_rapid(self.metric)?;
+        let length = (pose.tip - self.begins().tip).norm();
+        let slack = 2.0 * self.slack.linear[0];
+        let at_feed = self.next_move().is_some_and(|found| found.course == Course::Feed);
+        let is_short = length < short - slack || (length < short + slack && at_feed);
+        (is_short && self.is_known(&self.known)).then_some(feed)
+    }
+
+    /// A slanted line that the machine makes in two blocks, Z before or after X and Y.
+    fn corner(&mut self, cl_line: u32, pose: &Pose, rate: Option<Rate>) -> bool {
+        let Some(order) = self.settings.first_of_lines() else { return false };
+        let from = self.begins();
+        let mut corner = *pose;
+        match order {
+            LinearMethod::ZThenXy => (corner.tip.x, corner.tip.y) = (from.tip.x, from.tip.y),
+            _ => corner.tip.z = from.tip.z,
+        }
+        let two = [self.next, self.next + 1].map(|index| match self.nc.get(index) {
+            Some(Event::Move(found)) if is_line(found, Course::Feed) => Some(*found),
+            _ => None,
+        });
+        let [Some(first), Some(second)] = two else { return false };
+        if !self.reaches(&first, &corner) || !self.reaches(&second, pose) {
+            return false;
+        }
+        for found in [first, second] {
+            self.check_rate(cl_line, self.at, &found, rate);
+            self.take(cl_line, &found);
+        }
+        self.measure(&second, pose);
+        self.next += 2;
         true
     }
 
@@ -89,7 +130,10 @@ impl<C: Steps> Walk<'_, C> {
                 true
             }
             _ => {
-                self.stands_at(pose) || (course == Course::Feed && self.parts(cl_line, pose, rate))
+                let cuts = course == Course::Feed;
+                self.stands_at(pose)
+                    || (cuts && self.corner(cl_line, pose, rate))
+                    || (cuts && self.parts(cl_line, pose, rate))
             }
         }
     }

@@ -4,7 +4,7 @@ use super::ahead::Steps;
 use super::report::FindingKind;
 use super::say::{short, spell_rate};
 use super::walk::Walk;
-use crate::motion::{Move, Position, Rate};
+use crate::motion::{Compensation, Move, Position, Rate};
 
 /// Steps in which the way of a tip is measured that axes turn on it.
 const STEPS: u32 = 64;
@@ -23,14 +23,16 @@ impl<C: Steps> Walk<'_, C> {
     ) {
         let wanted = match wanted {
             Some(Rate::PerMinute(rate)) => {
-                Rate::PerMinute(self.settings.feed_within(rate, self.metric))
+                let rate = self.settings.feed_within(rate, self.metric);
+                let rate = self.at_the_edge(&from, found, rate);
+                Rate::PerMinute(self.settings.feed_within_axes(rate, &from, found, self.metric))
             }
             Some(rate) => rate,
             None => return,
         };
         let agrees = match (wanted, found.rate) {
-            (Rate::PerMinute(a), Some(Rate::PerMinute(b)))
-            | (Rate::PerTurn(a), Some(Rate::PerTurn(b))) => (a - b).abs() <= self.slack.feed,
+            (Rate::PerMinute(a), Some(Rate::PerMinute(b))) => (a - b).abs() <= self.slack.feed,
+            (Rate::PerTurn(a), Some(Rate::PerTurn(b))) => (a - b).abs() <= self.slack.turn,
             (Rate::PerMinute(rate), Some(Rate::Inverse(inverse))) => {
                 return self.check_time(cl_line, (from, found), rate, inverse);
             }
@@ -41,6 +43,26 @@ impl<C: Steps> Walk<'_, C> {
             let message = format!("feed {found_rate}, it should be {}", spell_rate(wanted));
             self.find(FindingKind::Feed, Some(cl_line), Some(found.line), message);
         }
+    }
+
+    /// The feed of the center of the cutter on a compensated arc, where the machine's
+    /// settings ask for the feed at its edge.
+    fn at_the_edge(&self, from: &Position, found: &Move, rate: f64) -> f64 {
+        let Some(arc) = found.arc.filter(|_| self.settings.feeds_at_the_edge()) else {
+            return rate;
+        };
+        let inside = match found.modes.compensation {
+            Compensation::Off => return rate,
+            Compensation::Left => arc.ccw,
+            Compensation::Right => !arc.ccw,
+        };
+        let [first, second] = arc.plane().map(|axis| from.linear[axis] - arc.center[axis]);
+        let (radius, cutter) = (first.hypot(second), self.cutter.unwrap_or(0.0));
+        let of_center = if inside { radius - cutter / 2.0 } else { radius + cutter / 2.0 };
+        if of_center <= 0.0 {
+            return rate;
+        }
+        self.settings.feed_within(rate * of_center / radius, self.metric)
     }
 
     /// Inverse time: the motion takes `1 / inverse` minutes. Posts take the straight way
@@ -54,7 +76,10 @@ impl<C: Steps> Walk<'_, C> {
     ) {
         let [straight, way] = self.lengths(from, found);
         let slack = self.slack.inverse;
-        let agrees = |length: f64| (inverse * length - rate).abs() <= slack * length;
+        let agrees = |length: f64| {
+            let asked = self.settings.inverse_within(rate / length);
+            (inverse - asked).abs() <= slack
+        };
         if way < STANDS || agrees(straight) || agrees(way) {
             return;
         }
@@ -78,8 +103,8 @@ impl<C: Steps> Walk<'_, C> {
             forward.pose(&forward.along(&from, &found.to, arc, share)).tip
         };
         let straight = match arc {
-            Some(arc) => arc.length(from.linear, found.to.linear),
-            None => (tip(STEPS) - tip(0)).norm(),
+            Some(arc) if !self.settings.takes_chords() => arc.length(from.linear, found.to.linear),
+            _ => (tip(STEPS) - tip(0)).norm(),
         };
         let way: f64 = (0..STEPS).map(|step| (tip(step + 1) - tip(step)).norm()).sum();
         [straight, way.max(straight)]

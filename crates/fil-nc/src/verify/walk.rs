@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use fil_diag::Diag;
+use nalgebra::Point3;
 
 use super::ahead::{Ahead, Steps};
 use super::align::Detour;
@@ -32,6 +33,10 @@ pub(super) struct Walk<'a, C> {
     pub(super) settings: &'a Settings<'a>,
     pub(super) slack: Slack,
     pub(super) metric: bool,
+    /// Diameter of the cutter, mm.
+    pub(super) cutter: Option<f64>,
+    /// End of the last arc in the CL file, and as the machine corrects it.
+    corrected_end: Option<[Point3<f64>; 2]>,
     /// Travel of the linear axes, mm.
     pub(super) travel: [(f64, f64); 3],
     written: [bool; 3],
@@ -71,6 +76,8 @@ impl<'a, C: Steps> Walk<'a, C> {
             settings,
             slack: settings.slack(true),
             metric: true,
+            cutter: None,
+            corrected_end: None,
             travel: settings.travel(true),
             written: settings.written(),
             splits_rapids: settings.splits_rapids(),
@@ -132,6 +139,15 @@ impl<'a, C: Steps> Walk<'a, C> {
                 self.slack = self.settings.slack(*metric);
                 self.travel = self.settings.travel(*metric);
             }
+            Wanted::Home => self.to_machine(step.line, self.settings.home(self.metric), "GOHOME"),
+            Wanted::Retract => {
+                let level = self.settings.retract_level(self.metric);
+                let is_above = level.is_some_and(|z| self.known[2] && self.at.linear[2] >= z);
+                if level.is_some() && !is_above {
+                    self.to_machine(step.line, [None, None, level], "RETRCT");
+                }
+            }
+            Wanted::Cutter(diameter) => self.cutter = Some(*diameter),
             Wanted::XScale(scale) => self.scale_x(*scale),
             Wanted::CycleEnd => self.initial = None,
             Wanted::Straight(within) => self.watch.ask(*within),
@@ -160,8 +176,32 @@ impl<'a, C: Steps> Walk<'a, C> {
     }
 
     pub(super) fn motion(&mut self, step: &Step) {
+        let corrected = self.corrected(step);
+        let step = corrected.as_ref().unwrap_or(step);
         let made = self.is_made(step);
         self.watch.stand(step.what.end().filter(|_| made && !matches!(step.what, Wanted::Hole(_))));
+    }
+
+    /// A rapid to a position of the linear axes, mm. With rotary axes it is not followed.
+    fn to_machine(&mut self, cl_line: u32, to: [Option<f64>; 3], what: &str) {
+        let mut pose = self.settings.forward.pose(&self.at);
+        if self.settings.forward.has_rotary() {
+            return self.unknown(cl_line, what, Effect::Path);
+        }
+        for (n, value) in to.into_iter().enumerate() {
+            pose.tip[n] = value.unwrap_or(pose.tip[n]);
+        }
+        self.motion(&Step { line: cl_line, what: Wanted::Rapid(pose) });
+    }
+
+    /// An arc as the settings of the machine correct it; `None` where they leave it.
+    fn corrected(&mut self, step: &Step) -> Option<Step> {
+        let before = self.corrected_end.take();
+        let Wanted::Arc(arc, rate) = &step.what else { return None };
+        let mut corrected = arc.from(before.filter(|[end, _]| *end == arc.start).map(|[_, at]| at));
+        corrected.end.tip = self.settings.arc_end(&corrected, self.metric);
+        self.corrected_end = Some([arc.end.tip, corrected.end.tip]);
+        (corrected != *arc).then(|| Step { what: Wanted::Arc(corrected, *rate), ..step.clone() })
     }
 
     /// Goes through what the program does for a motion; false when that is another.

@@ -29,6 +29,12 @@ pub enum Wanted {
     Arc(Arc, Option<Rate>),
     /// A hole of a cycle.
     Hole(Hole),
+    /// Rapid traverse to the home position of the machine.
+    Home,
+    /// Rapid traverse up to the machine's level for it.
+    Retract,
+    /// A cutter of this diameter, mm.
+    Cutter(f64),
     /// How far the tip may leave its line between the ends of a motion, mm; `None` for
     /// as far as it does.
     Straight(Option<f64>),
@@ -207,6 +213,14 @@ impl Arc {
     pub fn spoke(&self, point: Point3<f64>) -> Vector3<f64> {
         let from = point - self.center;
         from - self.normal * self.normal.dot(&from)
+    }
+
+    /// The same arc from another start, which is near.
+    pub(super) fn from(&self, start: Option<Point3<f64>>) -> Arc {
+        let Some(start) = start else { return *self };
+        let (old, new) = (self.spoke(self.start), self.spoke(start));
+        let turned = self.normal.dot(&old.cross(&new)).atan2(old.dot(&new)).to_degrees();
+        Arc { start, sweep: self.sweep - turned, ..*self }
     }
 
     /// Radius at the start, mm.

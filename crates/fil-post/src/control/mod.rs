@@ -20,7 +20,7 @@ use fil_machine::address::no_address;
 use fil_machine::commons::EMPTY;
 use fil_machine::contradictions;
 use fil_machine::letters::{G, M};
-use fil_machine::modes::{Plane, Unit};
+use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::rounding::Rounding;
 use fil_machine::setting::{CodeAt, LetterAt};
 use fil_machine::tables::MachineTables;
@@ -76,6 +76,10 @@ pub struct Control {
     pub(crate) coolant: Option<CodeAt>,
     /// The compensation the CL file asks for.
     asked: Compensation,
+    /// ARCSLP is on: blocks of a helix say how far it rises.
+    pub helix_words: bool,
+    /// Number of blocks when the last arc had been written; 0 before the first.
+    pub(crate) last_arc: u64,
     /// Unit of the CL file and of the program; `None` before anything says it.
     pub unit: Option<Unit>,
     codes: Codes,
@@ -108,6 +112,8 @@ impl Control {
             range: None,
             coolant: None,
             asked: Compensation::Off,
+            helix_words: false,
+            last_arc: 0,
             unit,
         })
     }
@@ -121,6 +127,7 @@ impl Control {
         if self.tables.refresh(&self.commons, self.is_metric())? {
             contradictions::check(&self.commons)?;
             self.codes = Codes::from_commons(&self.commons);
+            self.tables.format_feed(self.state.feed_mode.unwrap_or(FeedMode::PerMinute));
         }
         Ok(())
     }

@@ -36,10 +36,9 @@ pub struct ProgramHead {
 pub fn state_at_start(commons: &Commons, unit: Option<Unit>) -> ControlState {
     let starts_with = commons.read(loc::FEED_MODE);
     let per_revolution = commons.read(loc::FEED_UPR_CODE);
-    let feed_mode = if starts_with.is_some() && starts_with == per_revolution {
-        FeedMode::PerRevolution
-    } else {
-        FeedMode::PerMinute
+    let feed_mode = match starts_with {
+        Some(_) if starts_with == per_revolution => FeedMode::PerRevolution,
+        _ => FeedMode::PerMinute,
     };
     let code = commons.read(loc::CIRCLE_PLANE);
     let plane = code.and_then(|code| {

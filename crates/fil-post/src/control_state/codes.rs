@@ -18,8 +18,8 @@ pub enum Meaning {
     Distance(Distance),
     /// The unit.
     Unit(Unit),
-    /// What F means; `None` for inverse time.
-    FeedMode(Option<FeedMode>),
+    /// What F means.
+    FeedMode(FeedMode),
     /// Cutter compensation.
     Compensation(Compensation),
     /// A canned cycle.
@@ -131,9 +131,9 @@ impl Codes {
             80 => Meaning::CycleOff,
             90 => Meaning::Distance(Distance::Absolute),
             91 => Meaning::Distance(Distance::Incremental),
-            93 => Meaning::FeedMode(None),
-            94 => Meaning::FeedMode(Some(FeedMode::PerMinute)),
-            95 => Meaning::FeedMode(Some(FeedMode::PerRevolution)),
+            93 => Meaning::FeedMode(FeedMode::InverseTime),
+            94 => Meaning::FeedMode(FeedMode::PerMinute),
+            95 => Meaning::FeedMode(FeedMode::PerRevolution),
             96..=99 => Meaning::OneBlock,
             4 | 9 | 61 | 64 => Meaning::OneBlock,
             43 | 44 | 49 => Meaning::ToolLength,
@@ -163,14 +163,15 @@ fn of_tenths(code: FunctionCode) -> Meaning {
     }
 }
 
-const MODES: [(CodeAt, Meaning); 18] = [
+const MODES: [(CodeAt, Meaning); 19] = [
     (loc::CIRCLE_PLANE_XY, Meaning::Plane(Plane::Xy)),
     (loc::CIRCLE_PLANE_ZX, Meaning::Plane(Plane::Zx)),
     (loc::CIRCLE_PLANE_YZ, Meaning::Plane(Plane::Yz)),
     (loc::UNITS_METRIC_CODE, Meaning::Unit(Unit::Mm)),
     (loc::UNITS_INCH_CODE, Meaning::Unit(Unit::Inch)),
-    (loc::FEED_UPM_CODE, Meaning::FeedMode(Some(FeedMode::PerMinute))),
-    (loc::FEED_UPR_CODE, Meaning::FeedMode(Some(FeedMode::PerRevolution))),
+    (loc::FEED_UPM_CODE, Meaning::FeedMode(FeedMode::PerMinute)),
+    (loc::FEED_UPR_CODE, Meaning::FeedMode(FeedMode::PerRevolution)),
+    (loc::FEED_INVERSE_CODE, Meaning::FeedMode(FeedMode::InverseTime)),
     (loc::CUTCOM_OFF_CODE, Meaning::Compensation(Compensation::Off)),
     (loc::CUTCOM_LEFT_CODE, Meaning::Compensation(Compensation::Left)),
     (loc::CUTCOM_RIGHT_CODE, Meaning::Compensation(Compensation::Right)),

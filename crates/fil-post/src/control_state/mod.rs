@@ -285,7 +285,7 @@ impl ControlState {
             Meaning::FeedMode(mode) => {
                 // Some controls forget F even when the mode stays.
                 self.doubt(letters::F);
-                self.feed_mode = mode;
+                self.feed_mode = Some(mode);
             }
             Meaning::Compensation(side) => {
                 self.compensation = Some(side);

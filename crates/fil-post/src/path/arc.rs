@@ -3,11 +3,13 @@
 
 use fil_diag::Result;
 use fil_machine::axes::Position;
-use fil_machine::locations::{self as loc, CircleCenter, CircleFullCircle};
+use fil_machine::locations::{
+    self as loc, CircleCenter, CircleCorrection, CircleCutcomPlane, CircleFullCircle,
+};
 use fil_machine::modes::Plane;
 use nalgebra::{Point3, Vector3};
 
-use super::{chords, rotary};
+use super::{chords, feed_rules, rotary};
 use crate::control::Function;
 use crate::control::word_address::arc::{self as words, PlaneArc};
 use crate::control::word_address::motion;
@@ -26,6 +28,9 @@ const SAME_POINT: f64 = 1e-6;
 /// plane.
 const NEAR_PLANE: f64 = 1e-6;
 
+/// Angles nearer than this are one, degrees and quarters of a turn.
+const SAME_ANGLE: f64 = 1e-6;
+
 const FULL: f64 = 360.0;
 
 /// Carries out the arc that ends at `target`.
@@ -37,6 +42,7 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     let Some(start) = post.path.point else {
         return PostCode::ArcStart.err("CIRCLE before any FROM or GOTO");
     };
+    let target = corrected(post, arc, start, target);
     let ends = [start, target.point].map(|point| flat(arc, point));
     let radius = check_radii(arc, ends)?;
     refuse_first_under_compensation(post)?;
@@ -45,6 +51,10 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     let turns_axis = target.axis != post.path.axis;
     let whole =
         if turns_axis { None } else { in_plane(post, arc, start, (radius, sweep), target)? };
+    let whole = match whole {
+        Some(whole) if is_across_compensation(post, &whole)? => None,
+        whole => whole,
+    };
     let Some(mut whole) = whole else {
         post.warn(PostCode::ArcLines, "an arc was written as short lines".to_string());
         return as_lines(post, arc, start, sweep, target);
@@ -58,14 +68,15 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
         );
     };
     whole.start = whole.plane.axes().map(|number| stands[number]);
-    let feed = post.path.feed;
     if usual_step(post, &whole) == Step::Turns
         && sweep <= FULL
         && words::reads_as_meant(&post.control, &whole)?
     {
+        let feed = feed_rules::of_arc(post, &whole)?;
         words::write(&mut post.control, &whole, feed.as_ref())?;
     } else if let Some(parts) = parts(post, &whole)? {
         for part in parts {
+            let feed = feed_rules::of_arc(post, &part)?;
             words::write(&mut post.control, &part, feed.as_ref())?;
         }
     } else {
@@ -85,9 +96,31 @@ fn as_lines(
     target: Target,
 ) -> Result<()> {
     let course = std::mem::take(&mut post.path.course);
+    post.path.in_chords = true;
     let done = chords::carry_out(post, arc, start, sweep, target);
     post.path.course = course;
+    post.path.in_chords = false;
     done
+}
+
+/// The end of an arc as the machine wants it: at the radius of the start, and at its level
+/// where it is off by a little (INTCOM 1879, DBLCOM 917).
+fn corrected(post: &Post, arc: &Arc, start: Point3<f64>, target: Target) -> Target {
+    let commons = &post.control.commons;
+    let mut point = target.point;
+    let [at_start, at_end] = [start, point].map(|point| flat(arc, point));
+    let off = at_start.norm() - at_end.norm();
+    let most = commons.dbl_opt(loc::CIRCLE_CORRECTION_MAX).unwrap_or(0.0);
+    let corrects = commons.read(loc::CIRCLE_CORRECTION) == CircleCorrection::CorrectTheEndPoint;
+    if corrects && off.abs() <= most && at_end.norm() > SAME_POINT {
+        point += at_end.normalize() * off;
+    }
+    let rise = arc.axis.dot(&(point - start));
+    let flat_within = commons.dbl_opt(loc::CIRCLE_Z_TOLERANCE).unwrap_or(0.0);
+    if rise.abs() <= flat_within && arc.turns == 0.0 {
+        point -= arc.axis * rise;
+    }
+    Target { point, ..target }
 }
 
 /// Gives the radius at the start.
@@ -112,6 +145,30 @@ fn refuse_first_under_compensation(post: &Post) -> Result<()> {
         return PostCode::CompensationOnArc.err("cutter compensation would begin or end on an arc");
     }
     Ok(())
+}
+
+/// True for an arc in another plane than cutter compensation, on a machine that writes it
+/// as lines then.
+///
+/// # Errors
+/// An arc that turns back in the plane of compensation: the cutter would swing round.
+fn is_across_compensation(post: &Post, arc: &PlaneArc) -> Result<bool> {
+    let control = &post.control;
+    let other = control.state.plane.filter(|plane| *plane != arc.plane);
+    let Some(plane) = other.filter(|_| control.state.compensates()) else { return Ok(false) };
+    if control.commons.read(loc::CIRCLE_CUTCOM_PLANE) != CircleCutcomPlane::StraightMoves {
+        return Ok(false);
+    }
+    let shared = arc.plane.axes().into_iter().position(|axis| axis != plane.normal());
+    let turns_back = extremes(arc).into_iter().any(|angle| {
+        let along_first = angle.rem_euclid(180.0) < 45.0 || angle.rem_euclid(180.0) > 135.0;
+        along_first == (shared == Some(0))
+    });
+    if turns_back {
+        return PostCode::CompensationOn
+            .err("at an arc in another plane, whose lines would turn back on themselves");
+    }
+    Ok(true)
 }
 
 /// The vector from the axis of the arc to a point.
@@ -164,6 +221,7 @@ fn in_plane(
         Plane::ALL.into_iter().find(|plane| normal[plane.normal()].abs() > 1.0 - NEAR_PLANE);
     let Some(plane) = found else { return Ok(None) };
     let most = post.control.commons.dbl_opt(loc::CIRCLE_MAX_RADIUS);
+    let least = post.control.commons.dbl_opt(loc::CIRCLE_MIN_RADIUS);
     let axes = plane.axes();
     // A large arc leaves the plane by more than a last digit at a smaller angle.
     let aside = normal[axes[0]].hypot(normal[axes[1]]);
@@ -172,7 +230,9 @@ fn in_plane(
         return Ok(None);
     }
     let circles = axes.into_iter().all(|number| post.control.tables.axis(number).keeps_circles());
-    if most.is_some_and(|most| radius > most) || !circles {
+    let is_allowed =
+        most.is_none_or(|most| radius <= most) && least.is_none_or(|least| radius >= least);
+    if !is_allowed || !circles {
         return Ok(None);
     }
     Ok(Some(PlaneArc {
@@ -195,18 +255,27 @@ fn check_travel(post: &Post, arc: &PlaneArc) -> Result<()> {
     if !axes.iter().any(|axis| axis.is_limited()) {
         return Ok(());
     }
-    let start = start_angle(arc);
-    let turned = if arc.counterclockwise { start } else { -start };
-    let mut next = ((turned / 90.0).floor() + 1.0) * 90.0;
-    while next < turned + arc.sweep.min(FULL) {
-        let angle = if arc.counterclockwise { next } else { -next };
+    for angle in extremes(arc) {
         let (sine, cosine) = angle.to_radians().sin_cos();
         for ((axis, center), part) in axes.iter().zip(arc.center).zip([cosine, sine]) {
             axis.check(center + arc.radius * part)?;
         }
-        next += 90.0;
     }
     Ok(())
+}
+
+/// Angles inside an arc, in degrees from the first axis of the plane, where it is farthest
+/// along one of the axes.
+fn extremes(arc: &PlaneArc) -> Vec<f64> {
+    let start = start_angle(arc);
+    let turned = if arc.counterclockwise { start } else { -start };
+    let mut angles = Vec::new();
+    let mut next = ((turned / 90.0 + SAME_ANGLE).floor() + 1.0) * 90.0;
+    while next < turned + arc.sweep.min(FULL) - SAME_ANGLE {
+        angles.push(if arc.counterclockwise { next } else { -next });
+        next += 90.0;
+    }
+    angles
 }
 
 /// Angle of the start from the first axis of the plane, degrees.

@@ -3,7 +3,7 @@
 use fil_diag::Result;
 use fil_machine::axes::AxisSet;
 
-use super::{rapid, rotary};
+use super::{feed_rules, rapid, rotary};
 use crate::control::word_address::cycle;
 use crate::control::word_address::motion::{self, Motion};
 use crate::operation::{MotionKind, Target};
@@ -30,10 +30,17 @@ pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
     let word = rotary::word_of(post, target);
     let motion = Motion { position, axes: AxisSet::ALL, word };
     match kind {
-        MotionKind::Rapid(cause) => rapid::rapid(&mut post.control, &motion, cause)?,
+        MotionKind::Rapid(cause) => match feed_rules::of_short_rapid(post, &motion, target) {
+            Some(feed) => motion::feed(&mut post.control, &motion, Some(&feed))?,
+            None => rapid::rapid(&mut post.control, &motion, cause)?,
+        },
         MotionKind::Feed => {
             rotary::refuse_unwinding(before, post.path.rotary)?;
-            motion::feed(&mut post.control, &motion, post.path.feed.as_ref())?;
+            if feed_rules::apply(post) {
+                feed_rules::line(post, &motion, target)?;
+            } else {
+                motion::feed(&mut post.control, &motion, post.path.feed.as_ref())?;
+            }
         }
         MotionKind::Thread(lead) => {
             let motion = motion.of(AxisSet::LINEAR);

@@ -10,8 +10,10 @@ pub mod arc;
 mod chords;
 pub mod cycle;
 mod expand;
+mod feed_rules;
 pub mod hole;
 mod linear;
+mod machine_position;
 pub mod rapid;
 pub mod rotary;
 pub(crate) mod sense;
@@ -48,6 +50,10 @@ pub struct Path {
     pub rapid: Option<Cause>,
     /// Feed of the next feed motion.
     pub feed: Option<Feed>,
+    /// FEDRAT/INVERS,AUTO: feed motions say how long they take.
+    pub inverse_time: bool,
+    /// The lines written now are chords of an arc.
+    pub(crate) in_chords: bool,
     /// CIRCLE waits for its end point.
     pub arc: Option<Arc>,
     /// The canned cycle that each GOTO carries out.
@@ -74,6 +80,8 @@ impl Default for Path {
             rotary: None,
             rapid: None,
             feed: None,
+            inverse_time: false,
+            in_chords: false,
             arc: None,
             cycle: None,
             thread: None,
@@ -105,6 +113,7 @@ impl Path {
 pub fn carry_out(post: &mut Post, operation: Operation) -> Result<()> {
     match operation {
         Operation::Linear(target, kind) => linear::carry_out(post, target, kind),
+        Operation::MachinePosition(to) => machine_position::carry_out(post, to),
         Operation::Arc(arc, target) => arc::carry_out(post, &arc, target),
         Operation::Hole(target) => hole::carry_out(post, target),
         Operation::ToolChange(change) => tool_change::change(&mut post.control, change),

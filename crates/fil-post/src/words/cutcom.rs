@@ -1,4 +1,5 @@
-//! CUTCOM/LEFT|RIGHT\[,n]\[,XYPLAN|YZPLAN|ZXPLAN], CUTCOM/OFF: cutter compensation.
+//! CUTCOM/LEFT|RIGHT\[,n|OSETNO,n]\[,XYPLAN|YZPLAN|ZXPLAN], CUTCOM/OFF: cutter
+//! compensation.
 
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
@@ -31,7 +32,8 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         };
         (plane, items.last_word())
     });
-    let offset = items.number().map(|offset| (offset, items.last_word()));
+    let named = items.couplet(w::OSETNO)?;
+    let offset = named.or_else(|| items.number()).map(|offset| (offset, items.last_word()));
     items.deny_rest()?;
     if side == Compensation::Off && offset.is_some() {
         return Err(items.error("OFF takes no offset"));

@@ -1,4 +1,5 @@
 //! FEDRAT/f,unit: the feed of the motions to come; value and unit in either order.
+//! FEDRAT/INVERS,AUTO|OFF: whether they say the feed or how long they take.
 
 use fil_cl::WordId;
 use fil_cl::vocabulary::words as w;
@@ -20,10 +21,13 @@ const FOOT: f64 = 12.0;
 /// Sets the feed.
 ///
 /// # Errors
-/// No number, a feed that is not positive, or inverse time.
+/// No number, a feed that is not positive, inverse time on a machine without it.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     if items.flag(w::INVERS) {
-        return Err(items.error("inverse time is not supported"));
+        inverse_time(post, items)?;
+        if items.all_taken() {
+            return Ok(());
+        }
     }
     let unit = items.any_of(UNITS);
     let value = items.required("the feed")?;
@@ -35,6 +39,18 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let feed = in_output_units(post, value, unit)?;
     post.path.feed = Some(within_limits(post, feed));
     post.path.thread = None;
+    Ok(())
+}
+
+/// INVERS,AUTO makes the feed motions to come say how long they take; INVERS,OFF ends it.
+fn inverse_time(post: &mut Post, items: &mut Items) -> Result<()> {
+    post.path.inverse_time = match items.any_of(&[w::AUTO, w::ON, w::OFF]) {
+        Some(word) => word != w::OFF,
+        None => return Err(items.error("INVERS needs AUTO or OFF: the post computes the times")),
+    };
+    if post.path.inverse_time {
+        post.control.code(loc::FEED_INVERSE_CODE, "inverse time")?;
+    }
     Ok(())
 }
 

@@ -4,6 +4,7 @@ use fil_cl::record::FIRST_DATA;
 use fil_diag::Result;
 use nalgebra::{Point3, Vector3};
 
+use super::home;
 use crate::dispatch::checked_axis;
 use crate::errors::PostCode;
 use crate::items::Items;
@@ -41,12 +42,15 @@ pub fn kind_of_motion(post: &mut Post) -> MotionKind {
     }
 }
 
-/// GOHOME/x,y,z\[,i,j,k]: a motion to that point.
+/// GOHOME/x,y,z\[,i,j,k]: a motion to that point; without one to the machine's home.
 ///
 /// # Errors
-/// Other than three or six numbers, a CIRCLE that waits for its end, and all that the
+/// As [`home::gohome`]; other than three or six numbers, a CIRCLE that waits for its end, and all that the
 /// motion refuses.
 pub fn gohome(post: &mut Post, items: &mut Items) -> Result<()> {
+    if items.is_empty() {
+        return home::gohome(post, items);
+    }
     let (point, axis) = match items.numbers()[..] {
         [x, y, z] => (Point3::new(x, y, z), post.path.axis),
         [x, y, z, i, j, k] => (Point3::new(x, y, z), checked_axis(post, Vector3::new(i, j, k))?),

@@ -3,7 +3,9 @@
 //! A handler takes the items it understands from the record and makes operations;
 //! the index of all words is in [`dispatch`](crate::dispatch).
 
+pub mod arcslp;
 pub mod circle;
+pub mod clamp;
 pub mod coolnt;
 pub mod cutcom;
 pub mod cutter;
@@ -14,6 +16,7 @@ pub mod fedrat;
 pub mod from;
 pub mod godlta;
 pub mod goto;
+pub mod home;
 pub mod insert;
 pub mod loadtl;
 pub mod mode;

@@ -246,7 +246,7 @@ impl State {
                 Vec::new()
             }
             kind::FINI => vec![Wanted::End],
-            kind::PSEUDO => Vec::new(),
+            kind::PSEUDO if record.major != w::CUTTER => Vec::new(),
             _ => self.command(record, vocabulary),
         }
     }
@@ -274,6 +274,12 @@ impl State {
                 self.rapid = true;
                 Vec::new()
             }
+            // Inverse time says the same feed in another way.
+            w::FEDRAT if record.has(w::INVERS) && numbers(record).is_empty() => Vec::new(),
+            w::CUTTER => {
+                let cutter = numbers(record).first().map(|diameter| diameter * self.unit());
+                cutter.map(Wanted::Cutter).into_iter().collect()
+            }
             w::FEDRAT => {
                 self.rate = numbers(record).first().map(|value| self.rate_of(record, *value));
                 self.thread = None;
@@ -281,6 +287,8 @@ impl State {
             }
             w::TRANS => self.trans(record),
             w::CYCLE => self.cycle(record, vocabulary),
+            w::GOHOME if record.data.is_empty() => self.to_machine(Wanted::Home),
+            w::RETRCT if record.data.is_empty() => self.to_machine(Wanted::Retract),
             w::GOHOME => match numbers(record)[..] {
                 [x, y, z] => self.line_to(Point3::new(x, y, z), self.axis),
                 [x, y, z, i, j, k] => self.line_to(Point3::new(x, y, z), Vector3::new(i, j, k)),
@@ -313,6 +321,13 @@ impl State {
             major if OWN_WORDS.contains(&major) => unknown(Effect::Words),
             _ => Vec::new(),
         }
+    }
+
+    /// To a position of the machine, which the CL file does not know.
+    fn to_machine(&mut self, what: Wanted) -> Vec<Wanted> {
+        self.point = None;
+        self.rapid = false;
+        vec![what]
     }
 
     /// Length of a CL unit in mm.

@@ -1,10 +1,14 @@
 //! Arcs: plane, direction, end, and the center or the radius.
 
 use fil_diag::Result;
+use fil_machine::Letter;
 use fil_machine::axes::{AxisSet, Position};
-use fil_machine::letters::IJK;
-use fil_machine::locations::{self as loc, CircleCenter};
+use fil_machine::letters::{F, IJK};
+use fil_machine::locations::{
+    self as loc, CircleCenter, CircleCutcomPlane, CircleHelixOutput, CircleHelixWord,
+};
 use fil_machine::modes::Plane;
+use fil_machine::rounding::Rounding;
 
 use super::modes;
 use super::motion::{self, Motion};
@@ -233,17 +237,39 @@ pub fn start_on_tape(control: &Control, from: &Position) -> Option<[f64; 3]> {
 /// A code the machine lacks, a value that does not fit, no feed.
 pub fn write(control: &mut Control, arc: &PlaneArc, feed: Option<&Feed>) -> Result<()> {
     motion::ready(control)?;
-    let code = if arc.counterclockwise { loc::CIRCLE_CCW_CODE } else { loc::CIRCLE_CW_CODE };
+    let as_ccw = arc.counterclockwise == codes_by_the_right_hand(control, arc.plane);
+    let code = if as_ccw { loc::CIRCLE_CCW_CODE } else { loc::CIRCLE_CW_CODE };
     let code = control.code(code, "an arc")?;
     let modal = control.commons.read(loc::CIRCLE_MODAL);
-    control.because(arc.cause, |control| modes::plane(control, arc.plane))?;
+    let change =
+        control.commons.read(loc::CIRCLE_CUTCOM_PLANE) == CircleCutcomPlane::ChangeThePlane;
+    control.because(arc.cause, |control| modes::plane_of_arc(control, arc.plane, change))?;
     motion::motion_code(control, code, modal, arc.cause);
     let end = Motion { position: arc.to, axes: AxisSet::LINEAR, word: arc.word };
     end_words(control, arc, &end)?;
-    control.because(arc.cause, |control| center_words(control, arc))?;
+    control.because(arc.cause, |control| {
+        center_words(control, arc)?;
+        helix_word(control, arc)
+    })?;
+    if control.commons.read(loc::CIRCLE_PRINT_FEED) {
+        control.state.doubt(F);
+    }
     motion::feed_words(control, feed)?;
     let [first, second] = arc.plane.axes();
-    motion::write_turning(control, AxisSet::of(first).or(AxisSet::of(second)))
+    motion::write_turning(control, AxisSet::of(first).or(AxisSet::of(second)))?;
+    control.last_arc = control.tape.count;
+    Ok(())
+}
+
+/// True when the machine's code for counterclockwise arcs turns by the right-hand rule
+/// in this plane: from X to Y, from Z to X, from Y to Z.
+fn codes_by_the_right_hand(control: &Control, plane: Plane) -> bool {
+    let commons = &control.commons;
+    match plane {
+        Plane::Xy => commons.read(loc::CIRCLE_CCW_XY),
+        Plane::Zx => !commons.read(loc::CIRCLE_CCW_XZ),
+        Plane::Yz => commons.read(loc::CIRCLE_CCW_YZ),
+    }
 }
 
 /// Adds the axes of the plane, all or those that change, and the third where it does.
@@ -259,13 +285,46 @@ fn end_words(control: &mut Control, arc: &PlaneArc, end: &Motion) -> Result<()> 
     Ok(())
 }
 
+/// Takes the radius word out of a block right behind an arc of the same radius.
+fn drop_same_radius(control: &mut Control, letter: Letter) {
+    let follows_an_arc = control.last_arc != 0 && control.last_arc == control.tape.count;
+    let Some(position) = control.tables.addresses.position(letter) else { return };
+    let format = &control.tables.addresses.slot(position).format;
+    let radius = control.block.scaled_at(position).map(|scaled| format.unscale(scaled));
+    if follows_an_arc && radius.is_some_and(|radius| control.has_value(letter, radius)) {
+        control.block.take_word(position);
+    }
+}
+
+/// Adds how far a helix rises, where ARCSLP asks for it.
+fn helix_word(control: &mut Control, arc: &PlaneArc) -> Result<()> {
+    let along = arc.plane.normal();
+    let rise = arc.to[along] - arc.from[along];
+    let prints = control.commons.read(loc::CIRCLE_HELIX_WORD) == CircleHelixWord::PrintK;
+    if !control.helix_words || !prints || rise == 0.0 {
+        return Ok(());
+    }
+    let a_radian = rise / arc.sweep.to_radians();
+    let value = match control.commons.read(loc::CIRCLE_HELIX_OUTPUT) {
+        CircleHelixOutput::RiseARadian => a_radian.abs(),
+        CircleHelixOutput::RiseARadianSigned => a_radian,
+        CircleHelixOutput::RiseATurn => a_radian.abs() * std::f64::consts::TAU,
+    };
+    control.require_letter(IJK[along])?;
+    control.word_rounded(IJK[along], value, Rounding::Rate)
+}
+
 /// Adds I J K of the plane, or the radius: negative above 180 degrees.
 fn center_words(control: &mut Control, arc: &PlaneArc) -> Result<()> {
     let form = control.commons.read(loc::CIRCLE_CENTER);
     if form == CircleCenter::Radius {
         let letter = control.letter(loc::CIRCLE_RADIUS_ADDRESS, "the radius")?;
         let radius = if arc.sweep > 180.0 + 1e-6 { -arc.radius } else { arc.radius };
-        return control.word(letter, radius);
+        control.word(letter, radius)?;
+        if control.commons.read(loc::CIRCLE_RADIUS_MODAL) {
+            drop_same_radius(control, letter);
+        }
+        return Ok(());
     }
     let starts = arc.start.into_iter().zip(arc.center);
     for (number, (start, center)) in arc.plane.axes().into_iter().zip(starts) {

@@ -42,6 +42,7 @@ pub fn write(control: &mut Control, operation: Operation) -> Result<()> {
         Operation::End(end) => stop::end(control, end),
         Operation::Skip(on) => control.skip_blocks(on),
         Operation::Linear(..)
+        | Operation::MachinePosition(_)
         | Operation::Arc(..)
         | Operation::Hole(_)
         | Operation::ToolChange(_) => unreachable!("the passes take operations that move"),

@@ -94,6 +94,20 @@ pub fn plane(control: &mut Control, plane: Plane) -> Result<()> {
     Ok(())
 }
 
+/// The same for an arc, which may change the plane within cutter compensation where the
+/// machine says so.
+///
+/// # Errors
+/// As [`plane`].
+pub fn plane_of_arc(control: &mut Control, wanted: Plane, may_change: bool) -> Result<()> {
+    if may_change && control.state.plane != Some(wanted) {
+        let code = control.code(plane_code(wanted), "this plane")?;
+        control.g(code);
+        return Ok(());
+    }
+    plane(control, wanted)
+}
+
 /// Writes a plane selection in a block of its own unless the control is in it; a
 /// machine without planes has only one.
 ///

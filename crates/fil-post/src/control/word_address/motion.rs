@@ -62,6 +62,11 @@ pub fn rapid(control: &mut Control, motion: &Motion, code: RapidCode, cause: Cau
     if axis_words(control, motion)? {
         let modal = control.commons.read(loc::RAPID_MODAL);
         motion_code(control, code, modal, cause);
+        let word = control.commons.read(loc::RAPID_ADDRESS);
+        if let (Some(letter), Some(value)) = (word, control.commons.dbl_opt(loc::RAPID_VALUE)) {
+            control.require_letter(letter)?;
+            control.because(cause, |control| control.word(letter, value))?;
+        }
         if control.commons.read(loc::RAPID_REPEAT_FEED) {
             control.state.doubt(F);
         }
@@ -252,11 +257,27 @@ pub fn feed_words(control: &mut Control, feed: Option<&Feed>) -> Result<()> {
 /// The machine has no such code.
 #[inline]
 pub fn feed_mode(control: &mut Control, feed: &Feed) -> Result<()> {
-    if control.state.feed_mode != Some(feed.mode) {
-        let code = control.code(feed_mode_code(feed.mode), "this feed mode")?;
+    if control.state.feed_mode == Some(feed.mode) { Ok(()) } else { say_feed_mode(control, feed) }
+}
+
+#[cold]
+fn say_feed_mode(control: &mut Control, feed: &Feed) -> Result<()> {
+    let code = control.code(feed_mode_code(feed.mode), "this feed mode")?;
+    control.tables.format_feed(feed.mode);
+    if control.commons.read(loc::FEED_CODE_WITH_MOTION) {
         control.block.g(code, feed.cause.whole());
         control.state.doubt(F);
+        return Ok(());
     }
+    let motion = control.block.take();
+    control.block.g(code, feed.cause.whole());
+    control.state.doubt(F);
+    let with_feed = control.commons.read(loc::FEED_PRINT_WITH_CODE);
+    if with_feed && feed.mode != FeedMode::InverseTime {
+        control.modal_feed(F, feed)?;
+    }
+    control.write_block()?;
+    control.block = motion;
     Ok(())
 }
 
@@ -320,5 +341,6 @@ fn feed_mode_code(mode: FeedMode) -> CodeAt {
     match mode {
         FeedMode::PerMinute => loc::FEED_UPM_CODE,
         FeedMode::PerRevolution => loc::FEED_UPR_CODE,
+        FeedMode::InverseTime => loc::FEED_INVERSE_CODE,
     }
 }

@@ -1,0 +1,224 @@
+//! Feed motions that are more than one block at the feed asked for: XY and Z one after
+//! the other, a largest feed of each axis, inverse time, the feed at the edge of the cutter.
+
+use fil_diag::Result;
+use fil_machine::axes::AxisSet;
+use fil_machine::locations::{self as loc, FeedInverseLength, LinearMethod};
+use fil_machine::modes::FeedMode;
+
+use crate::control::word_address::arc::PlaneArc;
+use crate::control::word_address::motion::{self, Motion};
+use crate::control_state::Compensation;
+use crate::errors::PostCode;
+use crate::operation::{Feed, Target};
+use crate::post::Post;
+
+/// Seconds of a minute.
+const MINUTE: f64 = 60.0;
+
+/// A way of this length is none, mm or inch.
+const NO_WAY: f64 = 1e-9;
+
+/// True when straight feed motions are more than one block at the feed asked for.
+#[inline]
+pub fn apply(post: &Post) -> bool {
+    post.path.inverse_time || post.control.tables.motion.is_special
+}
+
+/// Makes a straight feed motion by these rules.
+///
+/// # Errors
+/// As [`motion::feed`]; inverse time of a motion whose way is not known, or of a feed a
+/// revolution; a part of an arc that the machine can't make.
+#[cold]
+pub fn line(post: &mut Post, motion: &Motion, target: Target) -> Result<()> {
+    let Some(feed) = post.path.feed else {
+        return motion::feed(&mut post.control, motion, None);
+    };
+    let way = way(post, motion);
+    for axes in parts(post, way)? {
+        let part = motion.of(*axes);
+        let length = length(post, way, *axes, target);
+        if stands(way, length) {
+            continue;
+        }
+        let feed = within_axes(post, feed, way, length);
+        let feed = in_force(post, feed, length)?;
+        motion::feed(&mut post.control, &part, Some(&feed))?;
+    }
+    Ok(())
+}
+
+/// How far X, Y and Z go from where the tape stands, mm or inch; `None` where that is not
+/// known.
+fn way(post: &Post, motion: &Motion) -> [Option<f64>; 3] {
+    [0, 1, 2].map(|number| {
+        let from = post.control.axis_position(number)?;
+        Some(motion.position[number] - from)
+    })
+}
+
+/// The axes that go together, in the order of the machine.
+///
+/// # Errors
+/// A part of an arc would go in steps.
+fn parts(post: &mut Post, way: [Option<f64>; 3]) -> Result<&'static [AxisSet]> {
+    let goes = |number: usize| {
+        let resolution = post.control.tables.axis(number).resolution();
+        way[number].is_none_or(|way| way.abs() > 0.5 * resolution)
+    };
+    let slanted = goes(2) && (goes(0) || goes(1));
+    let parts: &[AxisSet] = match post.control.tables.motion.order {
+        LinearMethod::XyThenZ if slanted => &[AxisSet::XY, AxisSet::Z],
+        LinearMethod::ZThenXy if slanted => &[AxisSet::Z, AxisSet::XY],
+        _ => return Ok(&[AxisSet::ALL]),
+    };
+    if post.path.in_chords {
+        return PostCode::WordForm.err(
+            "an arc as short lines needs X, Y and Z in one block, and linear.method moves them \
+             one after the other",
+        );
+    }
+    let message = "a slanted line was written as XY and Z one after the other".to_string();
+    post.warn(PostCode::LineSplit, message);
+    Ok(parts)
+}
+
+/// How far the tip goes in a part of a motion, mm or inch; `None` where that is not known.
+fn length(post: &Post, way: [Option<f64>; 3], axes: AxisSet, target: Target) -> Option<f64> {
+    let known = way.iter().all(Option::is_some) && !post.control.tables.chain().has_rotary();
+    if known {
+        let squares = (0..3).filter(|number| axes.has(*number)).filter_map(|number| way[number]);
+        return Some(squares.map(|way| way * way).sum::<f64>().sqrt());
+    }
+    let whole = axes == AxisSet::ALL;
+    post.path.point.filter(|_| whole).map(|from| (target.point - from).norm())
+}
+
+/// True for a motion that goes nowhere: it makes no block.
+fn stands(way: [Option<f64>; 3], length: Option<f64>) -> bool {
+    way.iter().all(Option::is_some) && length.is_some_and(|length| length <= NO_WAY)
+}
+
+/// A feed a minute at which neither Y nor Z goes faster than it may.
+fn within_axes(post: &mut Post, feed: Feed, way: [Option<f64>; 3], length: Option<f64>) -> Feed {
+    let length = length.unwrap_or(0.0);
+    let shares = [way[1], way[2]].map(|way| match way {
+        Some(way) if length > NO_WAY => (way.abs() / length).min(1.0),
+        _ => 1.0,
+    });
+    within_shares(post, feed, shares)
+}
+
+/// The same; Y and Z go at these shares of the feed at most.
+fn within_shares(post: &mut Post, feed: Feed, shares: [f64; 2]) -> Feed {
+    let largest_of = post.control.tables.motion.largest_of;
+    if feed.mode != FeedMode::PerMinute || largest_of == [None; 2] {
+        return feed;
+    }
+    let factor = upm_factor(post);
+    let mut value = feed.value / factor;
+    for (largest, share) in largest_of.into_iter().zip(shares) {
+        if let Some(largest) = largest.filter(|largest| value * share > *largest) {
+            value = largest / share;
+            post.warn(PostCode::Clamped, "a feed was brought within that of Y or Z".to_string());
+        }
+    }
+    Feed { value: value * factor, ..feed }
+}
+
+/// The control's feed unit in a unit of length a minute.
+fn upm_factor(post: &Post) -> f64 {
+    post.control.commons.dbl_opt(loc::FEED_UPM_FACTOR).unwrap_or(1.0)
+}
+
+/// The feed as the program says it on a way of this length: inverse time where FEDRAT has
+/// asked for it. F then stands in each block.
+///
+/// # Errors
+/// A way that is not known, or none; a feed a revolution.
+fn in_force(post: &mut Post, feed: Feed, length: Option<f64>) -> Result<Feed> {
+    if !post.path.inverse_time {
+        return Ok(feed);
+    }
+    if feed.mode != FeedMode::PerMinute {
+        return PostCode::WordForm.err("a feed a revolution has no inverse time");
+    }
+    let Some(length) = length.filter(|length| *length > NO_WAY) else {
+        return PostCode::WordForm
+            .err("inverse time needs the length of the motion, and its start is not known");
+    };
+    let asked = feed.value / upm_factor(post) / length;
+    let commons = &post.control.commons;
+    let of_time = commons.dbl_opt(loc::FEED_INVERSE_MIN_TIME).filter(|time| *time > 0.0);
+    let most = commons.dbl_opt(loc::FEED_INVERSE_MAX).unwrap_or(f64::INFINITY);
+    let most = of_time.map_or(most, |time| most.min(MINUTE / time));
+    let least = commons.dbl_opt(loc::FEED_INVERSE_MIN).unwrap_or(0.0);
+    let factor = commons.dbl_opt(loc::FEED_INVERSE_FACTOR).unwrap_or(1.0);
+    let value = asked.max(least).min(most);
+    if value != asked {
+        post.warn(PostCode::Clamped, "an inverse time was brought within its limits".to_string());
+    }
+    post.control.state.doubt(fil_machine::letters::F);
+    Ok(Feed { value: value * factor, mode: FeedMode::InverseTime, ..feed })
+}
+
+/// The feed of an arc, or of a part of one.
+///
+/// # Errors
+/// As a line in inverse time.
+pub fn of_arc(post: &mut Post, arc: &PlaneArc) -> Result<Option<Feed>> {
+    let Some(feed) = post.path.feed else { return Ok(None) };
+    let mut feed = at_the_edge(post, feed, arc);
+    if !apply(post) {
+        return Ok(Some(feed));
+    }
+    let along = arc.plane.normal();
+    let rise = (arc.to[along] - arc.from[along]).abs();
+    let length = (arc.sweep.to_radians() * arc.radius).hypot(rise);
+    let shares = [1, 2].map(|axis| if axis == along { (rise / length).min(1.0) } else { 1.0 });
+    feed = within_shares(post, feed, shares);
+    let chord = || {
+        let squares = [0, 1, 2].map(|axis| (arc.to[axis] - arc.from[axis]).powi(2));
+        squares.iter().sum::<f64>().sqrt()
+    };
+    let by_chord =
+        post.control.commons.read(loc::FEED_INVERSE_LENGTH) == FeedInverseLength::LengthOfTheChord;
+    let length = if by_chord { chord() } else { length };
+    in_force(post, feed, Some(length)).map(Some)
+}
+
+/// The feed that an arc is cut with where the center of the cutter goes on another radius
+/// (INTCOM 1859).
+fn at_the_edge(post: &mut Post, feed: Feed, arc: &PlaneArc) -> Feed {
+    let side = match post.control.state.compensation {
+        Some(Compensation::Left) => arc.counterclockwise,
+        Some(Compensation::Right) => !arc.counterclockwise,
+        _ => return feed,
+    };
+    let asked = post.control.commons.read(loc::CIRCLE_TRUE_RADIUS_FEED);
+    let Some(cutter) = post.path.cutter.filter(|_| asked && feed.mode == FeedMode::PerMinute)
+    else {
+        return feed;
+    };
+    // Inside of the arc the center goes on the smaller radius.
+    let of_center = if side { arc.radius - cutter / 2.0 } else { arc.radius + cutter / 2.0 };
+    if of_center <= 0.0 {
+        return feed;
+    }
+    let largest = post.control.commons.dbl_opt(loc::FEED_UPM_MAX).unwrap_or(f64::INFINITY);
+    let value = (feed.value * of_center / arc.radius).min(largest * upm_factor(post));
+    Feed { value, ..feed }
+}
+
+/// The feed of a rapid motion that is too short for one (DBLCOM 425, 426); `None` for a
+/// rapid motion.
+pub fn of_short_rapid(post: &Post, motion: &Motion, target: Target) -> Option<Feed> {
+    let commons = &post.control.commons;
+    let short = commons.dbl_opt(loc::RAPID_SHORT_DISTANCE).filter(|short| *short > 0.0)?;
+    let value = commons.dbl_opt(loc::RAPID_SHORT_FEED)? * upm_factor(post);
+    let turns = post.control.tables.chain().has_rotary();
+    let length = length(post, way(post, motion), AxisSet::ALL, target).filter(|_| !turns)?;
+    let cause = post.control.block.cause;
+    (length < short).then_some(Feed { value, mode: FeedMode::PerMinute, cause })
+}
