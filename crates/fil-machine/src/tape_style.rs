@@ -2,7 +2,7 @@
 //! of the line, longest block.
 
 use crate::commons::Commons;
-use crate::locations::{self as loc, TapeEndOfBlock, TapeLetterCase, TapeLineEnd};
+use crate::locations::{self as loc, TapeBlockMacro, TapeEndOfBlock, TapeLetterCase, TapeLineEnd};
 
 /// The looks of a block. The default is a block as the words make it, with LF.
 #[derive(Clone, Debug)]
@@ -19,6 +19,10 @@ pub struct TapeStyle {
     pub line_end: TapeLineEnd,
     /// Most characters of a block, its line end left out; `None` for any number.
     pub longest: Option<usize>,
+    /// Someone edits the words of blocks (the macro _OUTPTP).
+    pub edits_words: bool,
+    /// Someone edits the lines of the tape (the macro _MCDWT).
+    pub edits_lines: bool,
 }
 
 impl Default for TapeStyle {
@@ -30,6 +34,8 @@ impl Default for TapeStyle {
             end_of_block: None,
             line_end: TapeLineEnd::default(),
             longest: None,
+            edits_words: false,
+            edits_lines: false,
         }
     }
 }
@@ -45,6 +51,11 @@ impl TapeStyle {
             end_of_block: commons.read(loc::TAPE_END_OF_BLOCK_CHAR).filter(|_| ends),
             line_end: commons.read(loc::TAPE_LINE_END),
             longest: longest.map(|most| most as usize),
+            edits_words: commons.read(loc::TAPE_EDIT_MACRO),
+            edits_lines: matches!(
+                commons.read(loc::TAPE_BLOCK_MACRO),
+                TapeBlockMacro::Tape | TapeBlockMacro::Both
+            ),
         };
         let is_plain = style.letter_case == TapeLetterCase::AsWritten
             && style.end_of_block.is_none()

@@ -90,6 +90,32 @@ impl Block {
         TapePosition::of_set(self.present)
     }
 
+    /// Its words in tape order, each with its value and its cause.
+    pub fn words(&self, addresses: &Addresses) -> Vec<(Letter, f64, Cause)> {
+        let mut present = self.present;
+        for (letter, codes) in [(G, &self.g), (M, &self.m)] {
+            if let (Some(position), true) = (addresses.position(letter), !codes.is_empty()) {
+                present |= position.bit();
+            }
+        }
+        let mut words = Vec::new();
+        for position in TapePosition::of_set(present) {
+            let slot = addresses.slot(position);
+            let Some(letter) = slot.letter else { continue };
+            let codes = match letter {
+                G => &self.g,
+                M => &self.m,
+                _ => {
+                    let value = slot.format.unscale(self.scaled[position.index()]);
+                    words.push((letter, value, self.causes[position.index()]));
+                    continue;
+                }
+            };
+            words.extend(codes.iter().map(|(code, cause)| (letter, code.value(), *cause)));
+        }
+        words
+    }
+
     /// True when a word of this letter is in the block.
     pub fn has(&self, letter: Letter, addresses: &Addresses) -> bool {
         match letter {

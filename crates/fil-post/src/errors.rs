@@ -115,6 +115,10 @@ fil_diag::codes! {
         TapeText = 555, Warning, "text on the tape that is not ASCII",
             "Many controls read ASCII only and stop at other characters.",
             "Write the message in ASCII if the control is not known to read UTF-8.";
+        /// Editing without a macro.
+        NoEditMacro = 571, Warning, "no macro edits the blocks",
+            "The settings have the post call a macro with each block or line, and no FIL file has it.",
+            "Load the FIL file with the macro, or set tape.edit_macro and tape.block_macro to 0.";
         /// Arcs whose sense nothing proves.
         ArcUnproved = 556, Warning, "the sense of an arc is not proved",
             "CAM systems disagree about the axis of a CIRCLE, and by the other rule this arc would be the shorter way round or run on.",

@@ -12,6 +12,7 @@ pub mod cause;
 pub mod control;
 pub mod control_state;
 pub mod dispatch;
+pub mod editing;
 pub mod errors;
 pub mod items;
 pub mod no_effect;

@@ -127,6 +127,14 @@ impl Noted {
         })
     }
 
+    /// Forgets the last block.
+    pub fn drop_last(&mut self) {
+        if let Some(last) = self.blocks.pop() {
+            self.words.truncate(last.words.start);
+            self.others.truncate(last.others.start);
+        }
+    }
+
     /// Forgets all blocks.
     pub fn clear(&mut self) {
         self.blocks.clear();

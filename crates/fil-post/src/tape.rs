@@ -12,6 +12,7 @@ use fil_machine::{Commons, Letter};
 
 use crate::block::{Block, function, named};
 use crate::cause::{Cause, Stacks};
+use crate::editing::EditorSlot;
 use crate::errors::PostCode;
 use crate::noted::{Noted, SEQUENCE, SKIP, TEXT};
 
@@ -26,7 +27,7 @@ struct Sequence {
 }
 
 /// The output side of the post.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Default)]
 pub struct Tape {
     /// Text of the blocks not yet taken away.
     pub text: Vec<u8>,
@@ -41,6 +42,8 @@ pub struct Tape {
     pub count: u64,
     /// The next blocks carry the block-delete character, for this cause.
     pub skip: Option<Cause>,
+    /// Who edits blocks and lines.
+    pub editor: EditorSlot,
     sequence: Sequence,
 }
 
@@ -162,6 +165,41 @@ impl Tape {
         self.sequence.cause = self.cause;
     }
 
+    /// The last line, which starts at byte `start`, without what ends it.
+    pub(crate) fn last_line(&self, start: usize, tables: &MachineTables) -> String {
+        let end = self.text.len() - tables.style.line_end().len();
+        String::from_utf8_lossy(&self.text[start..end]).into_owned()
+    }
+
+    /// Puts a line in the place of the last one; an empty one takes it off the tape.
+    ///
+    /// # Errors
+    /// A line that is too long.
+    pub(crate) fn replace_last_line(
+        &mut self,
+        start: usize,
+        line: &str,
+        tables: &MachineTables,
+    ) -> Result<()> {
+        self.text.truncate(start);
+        self.count -= 1;
+        if let Some(noted) = &mut self.noted {
+            noted.drop_last();
+        }
+        if line.is_empty() {
+            return Ok(());
+        }
+        self.note(TEXT, self.cause, start);
+        self.text.extend_from_slice(line.as_bytes());
+        check_length(&self.text[start..], &tables.style)?;
+        self.count += 1;
+        if let Some(noted) = &mut self.noted {
+            noted.block(start..self.text.len(), self.cause);
+        }
+        self.text.extend_from_slice(tables.style.line_end());
+        Ok(())
+    }
+
     /// Begins a block; gives the byte of [`Tape::text`] where it starts.
     fn begin(
         &mut self,
@@ -252,14 +290,20 @@ impl Tape {
     #[cold]
     fn finish(&mut self, start: usize, style: &TapeStyle) -> Result<()> {
         style.finish(&mut self.text, start);
-        let block = String::from_utf8_lossy(&self.text[start..]);
-        let length = block.chars().count();
-        match style.longest {
-            Some(longest) if length > longest => {
-                let message = format!("`{block}` has {length} characters, {longest} are allowed");
-                PostCode::BlockLength.err(message)
-            }
-            _ => Ok(()),
-        }
+        check_length(&self.text[start..], style)
+    }
+}
+
+/// Refuses a block that is longer than the control reads.
+///
+/// # Errors
+/// It is.
+fn check_length(block: &[u8], style: &TapeStyle) -> Result<()> {
+    let block = String::from_utf8_lossy(block);
+    let length = block.chars().count();
+    match style.longest {
+        Some(longest) if length > longest => PostCode::BlockLength
+            .err(format!("`{block}` has {length} characters, {longest} are allowed")),
+        _ => Ok(()),
     }
 }

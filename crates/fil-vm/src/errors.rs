@@ -101,8 +101,8 @@ fil_diag::codes! {
             "Compare it with the statements of FIL.";
         /// A macro that only the vendor's post calls.
         ReservedMacro = 227, Error, "macro that the post does not call",
-            "The vendor's post calls macros of this name to edit what it writes; filpost does not, so its blocks would not be edited.",
-            "Do its work in sections, or remove the macro.";
+            "A macro of this name edits what the post writes, and nothing calls it here: the settings of the machine do not, or filpost does not know how.",
+            "Switch it on in machine.toml, do its work in sections, or remove the macro.";
         /// A section whose key fits no record.
         NeverMatches = 228, Error, "section that takes no record",
             "No record has these words or numbers where the key names them, so the section would never run.",

@@ -4,6 +4,7 @@ use fil_cl::Record;
 use fil_cl::Vocabulary;
 use fil_diag::Diag;
 
+use crate::machine::Values;
 use crate::moment::Moment;
 
 /// One of the three commons.
@@ -119,6 +120,10 @@ pub trait Host {
         vocab: &mut Vocabulary,
         site: &Site,
     ) -> Result<(), Box<Diag>>;
+
+    /// Exchanges the values of the machine with those of the one that edits what the post
+    /// writes; called before and after [`Host::command`] where FIL has such macros.
+    fn exchange_values(&mut self, _values: &mut Values) {}
 
     /// Puts the next CL record that is no pseudo-comment into `record`; false at
     /// the end, with `record` left alone.

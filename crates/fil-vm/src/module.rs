@@ -10,6 +10,7 @@ use fil_syntax::tree::Span;
 use crate::library::LibraryCall;
 use crate::matcher::Matcher;
 use crate::ops::{Op, Reg};
+use crate::output::OutputMacros;
 use crate::postf::Compat;
 
 /// Number of a chunk in [`Module::chunks`].
@@ -148,6 +149,8 @@ pub struct Module {
     pub(crate) calls: Vec<LibraryCall>,
     /// Vocabulary words that operations name.
     pub(crate) words: Vec<WordId>,
+    /// Macros that edit what the post writes.
+    pub(crate) output: OutputMacros,
     /// Which section takes which record.
     pub(crate) matcher: Matcher,
     /// Numbers of POSTF and the behaviour of sections.
@@ -195,6 +198,11 @@ impl Module {
     /// True when FIL has no section, so that no record needs the machine.
     pub fn has_no_section(&self) -> bool {
         self.sections.is_empty()
+    }
+
+    /// True when FIL has a macro that edits what the post writes.
+    pub fn edits_output(&self) -> bool {
+        !self.output.is_empty()
     }
 
     /// The statement of an operation.

@@ -8,10 +8,12 @@ use fil_diag::{Code, Diag};
 use fil_machine::locations::INPUT_CREO_RECORDS;
 use fil_machine::{Commons, contradictions, files as settings};
 use fil_vm::{
-    Argument, FilFile, Functions, Included, Limits, LoadOptions, Loader, MachineFacts, Returned,
+    Argument, Edits, FilFile, Functions, Included, Limits, LoadOptions, Loader, MachineFacts,
+    Returned,
 };
 
 use crate::compat::CompatFile;
+use crate::editing;
 use crate::error::{Error, RunCode};
 use crate::granted::{Clock, Spawn};
 use crate::program::{Program, Shared};
@@ -243,6 +245,9 @@ impl Builder {
         let mut includes = self.includes;
         let takes_creo_records =
             post.as_ref().is_ok_and(|(post, _)| post.control.commons.read(INPUT_CREO_RECORDS));
+        let edits = post
+            .as_ref()
+            .map_or_else(|_| Edits::default(), |(post, _)| editing::edits(&post.control.commons));
         let loaded = fil_vm::load(
             &files,
             &mut vocabulary,
@@ -251,7 +256,7 @@ impl Builder {
                 limits: self.limits,
                 strict: self.strict,
                 allow: &self.allow,
-                facts: MachineFacts { takes_creo_records, ..MachineFacts::default() },
+                facts: MachineFacts { takes_creo_records, edits, ..MachineFacts::default() },
                 functions: Some(&self.functions),
                 loader: includes.as_mut().map(|loader| loader as Loader<'_>),
                 ..LoadOptions::default()

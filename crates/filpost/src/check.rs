@@ -7,8 +7,9 @@ use fil_machine::address::Addresses;
 use fil_machine::commons::{Commons, LAST_OUTPUT};
 use fil_machine::locations::{INPUT_CREO_RECORDS, Location};
 use fil_machine::stored;
-use fil_vm::{CommonKind, Compat, FilFile, LoadOptions, MachineFacts};
+use fil_vm::{CommonKind, Compat, Edits, FilFile, LoadOptions, MachineFacts};
 
+use crate::editing::edits;
 use crate::outside::common_kind;
 
 /// Gives a file by the name INCLUD has, or why it cannot.
@@ -52,6 +53,7 @@ pub fn check(files: &[(&str, &str)], options: Options<'_>) -> Vec<Diag> {
         storing: options.machine.map(|_| &storing as fil_vm::StoringInCommon<'_>),
         writes_letter: options.machine.map(|_| &writes as &dyn Fn(u8) -> bool),
         takes_creo_records: options.machine.is_some_and(|commons| commons.read(INPUT_CREO_RECORDS)),
+        edits: options.machine.map_or(ALL_EDITS, edits),
         carries_out: Some(&carries_out),
     };
     let mut includes = options.includes;
@@ -69,6 +71,9 @@ pub fn check(files: &[(&str, &str)], options: Options<'_>) -> Vec<Diag> {
         Err(diags) => diags,
     }
 }
+
+/// Without a machine nothing tells which macros the post calls.
+const ALL_EDITS: Edits = Edits { words: true, tape: true, listing: true };
 
 /// True for a word that a file of the post carries out.
 fn carries_out(word: WordId) -> bool {

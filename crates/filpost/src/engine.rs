@@ -9,6 +9,7 @@ use fil_diag::Result;
 use fil_post::Origin;
 use fil_vm::{Interpreter, SectionId, SectionMode};
 
+use crate::editing::SharedEditor;
 use crate::error::{Error, RunCode};
 use crate::event::Event;
 use crate::map;
@@ -50,6 +51,13 @@ impl<'o, S: Records> Engine<'o, S> {
         let functions = Arc::clone(&shared.functions);
         let machine = Interpreter::new(Arc::clone(&shared.module), shared.limits, functions);
         let mut outside = Outside::new(start, records);
+        if shared.module.edits_output() {
+            let module = Arc::clone(&shared.module);
+            let second = Interpreter::new(module, shared.limits, Arc::clone(&shared.functions));
+            let editor = SharedEditor::new(second, shared.vocabulary.clone());
+            outside.post.control.tape.editor.0 = Some(editor.boxed());
+            outside.editor = Some(editor);
+        }
         if observed || outside.map.is_some() {
             outside.post.observe();
         }
@@ -162,7 +170,9 @@ impl<'o, S: Records> Engine<'o, S> {
     fn advance(&mut self) -> Result<bool> {
         if !std::mem::replace(&mut self.started, true) {
             self.outside.begin()?;
-            self.machine.run_globals(&mut self.vocabulary, &mut self.outside)?;
+            let done = self.machine.run_globals(&mut self.vocabulary, &mut self.outside);
+            self.exchange_values();
+            done?;
         }
         if !self.outside.read(&mut self.record, &mut self.vocabulary)? {
             self.outside.end_of_file()?;
@@ -193,12 +203,15 @@ impl<'o, S: Records> Engine<'o, S> {
         let (number, line) = (self.record.number, self.record.line);
         self.outside.fini_taken |= self.record.kind == kind::FINI;
         self.outside.section = Some(section);
+        self.exchange_values();
         let outcome = self.machine.run_section(
             section,
             &mut self.record,
             &mut self.vocabulary,
             &mut self.outside,
-        )?;
+        );
+        self.exchange_values();
+        let outcome = outcome?;
         self.outside.section = None;
         let mut swallowed = outcome.swallowed();
         if self.outside.module.compat.section == SectionMode::Process
@@ -210,6 +223,14 @@ impl<'o, S: Records> Engine<'o, S> {
         }
         self.outside.section_done(section, (number, line), swallowed);
         Ok(())
+    }
+
+    /// Hands the values of the script from the sections to the macros that edit, or back.
+    #[inline]
+    fn exchange_values(&mut self) {
+        if let Some(editor) = &self.outside.editor {
+            editor.exchange(&mut self.machine);
+        }
     }
 
     /// Refuses a run that reads the same records again and again.

@@ -68,6 +68,10 @@ fil_diag::codes! {
         WrittenForm = 716, Error, "record is in the form of its CAM system",
             "Sections see statements as they are written here; the post carries out what they mean in Creo's form, which is not known for a record that FIL has changed.",
             "Make the statement anew in the section, in Creo's form, or leave --raw-records out.";
+        /// A post word in a macro that edits.
+        WhileWriting = 718, Error, "not while a block is written",
+            "The macro is called with a block that is on its way to the tape: nothing else can be written, read or set before it is there.",
+            "Change the parameters of the macro alone; do the rest in a section.";
         /// Statements after the end.
         AfterFini = 751, Warning, "records after FINI",
             "FINI ends the program; what comes after it is not posted.",

@@ -27,6 +27,7 @@ pub mod case;
 pub mod check;
 mod compat;
 mod doubt;
+mod editing;
 mod engine;
 mod error;
 mod event;

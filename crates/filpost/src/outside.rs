@@ -11,9 +11,10 @@ use fil_machine::locations::{INPUT_CREO_RECORDS, MESSAGE_TO_TAPE};
 use fil_machine::{Kind, Unit, stored};
 use fil_post::FilLine;
 use fil_post::errors::PostCode;
-use fil_vm::{CommonKind, Files, Host, Module, Moment, SectionId, Site};
+use fil_vm::{CommonKind, Files, Host, Module, Moment, SectionId, Site, Values};
 
 use crate::cancel::CancelToken;
+use crate::editing::SharedEditor;
 use crate::error::RunCode;
 use crate::event::{Event, Observer};
 use crate::granted::Granted;
@@ -60,6 +61,8 @@ pub(crate) struct Outside<'o, S> {
     idle: HashSet<(Kind, u32)>,
     /// The section that runs.
     pub section: Option<SectionId>,
+    /// Who edits what the post writes; `None` where FIL has no macro for it.
+    pub editor: Option<SharedEditor>,
     /// Clock and files.
     pub granted: Granted,
 }
@@ -86,6 +89,7 @@ impl<'o, S: Records> Outside<'o, S> {
             map,
             idle: HashSet::new(),
             section: None,
+            editor: None,
             granted: Granted::new(shared.clock, shared.folders.clone()),
             program,
         }
@@ -356,6 +360,12 @@ impl<S: Records> Host for Outside<'_, S> {
         let result = self.process(record, vocabulary);
         self.post.control.tape.cause.stack = 0;
         result
+    }
+
+    fn exchange_values(&mut self, values: &mut Values) {
+        if let Some(editor) = &self.editor {
+            editor.exchange_values(values);
+        }
     }
 
     fn next_record(

@@ -7,6 +7,7 @@
 
 mod again;
 mod characters;
+mod edit;
 pub mod program;
 mod skip;
 mod texts;
@@ -66,6 +67,8 @@ pub struct Control {
     pub repeats: BTreeMap<Letter, (f64, Cause)>,
     /// The block under construction.
     pub block: Block,
+    /// The program has begun and nobody edits its blocks.
+    pub(crate) straight: bool,
     /// Number and name of the program.
     pub head: ProgramHead,
     /// The last spindle speed, as it was asked for.
@@ -107,6 +110,7 @@ impl Control {
             ended_repeats: Vec::new(),
             repeats: BTreeMap::new(),
             block: Block::default(),
+            straight: false,
             head: ProgramHead::default(),
             speed: None,
             range: None,
@@ -128,6 +132,7 @@ impl Control {
             contradictions::check(&self.commons)?;
             self.codes = Codes::from_commons(&self.commons);
             self.tables.format_feed(self.state.feed_mode.unwrap_or(FeedMode::PerMinute));
+            self.straight = false;
         }
         Ok(())
     }
@@ -247,8 +252,8 @@ impl Control {
         if self.block.is_empty() {
             return Ok(());
         }
-        if !self.head.started {
-            self.begin()?;
+        if !self.straight {
+            return self.write_with_care();
         }
         if self.unit.is_none() && self.block.has_numbers() {
             self.require_unit()?;
@@ -271,7 +276,24 @@ impl Control {
             self.require_unit()?;
         }
         self.refuse_after_end()?;
+        if self.tables.style.edits_words
+            && let Some(edited) = self.edited_words(words)?
+        {
+            return self.put_words(&edited);
+        }
+        self.put_words(words)
+    }
+
+    /// Puts words on the tape; the control learns from them.
+    fn put_words(&mut self, words: &[(Letter, f64, Cause)]) -> Result<()> {
+        if words.is_empty() {
+            return Ok(());
+        }
+        let start = self.tape.text.len();
         self.tape.words(words, &self.tables, &mut self.commons)?;
+        if self.edit_line(start)? {
+            return Ok(());
+        }
         let before = self.before_others()?;
         let letters = words.iter().map(|(letter, value, _)| (*letter, *value));
         self.state.learn_words(letters, &self.codes);
@@ -290,7 +312,9 @@ impl Control {
         }
         self.refuse_after_end()?;
         texts::check(text)?;
-        self.put_line(text, numbered)?;
+        if self.put_line(text, numbered)? {
+            return Ok(());
+        }
         let before = self.before_others()?;
         self.state.learn_text(text, &self.codes);
         self.refuse_in_compensation(before)
@@ -343,16 +367,18 @@ impl Control {
         self.begin()?;
         self.refuse_after_end()?;
         texts::check(text)?;
-        self.put_line(text, numbered)
+        self.put_line(text, numbered).map(|_| ())
     }
 
-    /// Writes a line as it is.
-    fn put_line(&mut self, text: &str, numbered: bool) -> Result<()> {
+    /// Writes a line as it is; says whether it was edited, so that the control has learned
+    /// from it.
+    fn put_line(&mut self, text: &str, numbered: bool) -> Result<bool> {
         if !text.is_ascii() {
             self.warnings.add(PostCode::TapeText, format!("`{text}`"));
         }
-        let cause = self.block.cause;
-        self.tape.line(text, cause, numbered, &self.tables, &mut self.commons)
+        let (cause, start) = (self.block.cause, self.tape.text.len());
+        self.tape.line(text, cause, numbered, &self.tables, &mut self.commons)?;
+        self.edit_line(start)
     }
 
     /// Refuses a block after M2 or M30: the control would never read it.

@@ -173,7 +173,7 @@ fn program_number(control: &mut Control) -> Result<()> {
     }
     let from_part = fixed.is_none() && control.head.number.is_some();
     let cause = if from_part { control.head.cause } else { Cause::default() };
-    control.because(cause, |control| control.put_line(&line, false))
+    control.because(cause, |control| control.put_line(&line, false)).map(|_| ())
 }
 
 /// Writes the character before or after the program; none in a program for direct
@@ -183,7 +183,7 @@ fn tape_mark(control: &mut Control, at: CharacterAt) -> Result<()> {
         return Ok(());
     }
     match control.commons.read(at) {
-        Some(mark) => control.put_line(&mark.to_string(), false),
+        Some(mark) => control.put_line(&mark.to_string(), false).map(|_| ()),
         None => Ok(()),
     }
 }

@@ -9,6 +9,7 @@ mod codes;
 mod text;
 
 pub use codes::{Codes, Meaning};
+pub use text::{TextWords, read as text_words};
 
 use fil_machine::address::Addresses;
 use fil_machine::commons::EMPTY;

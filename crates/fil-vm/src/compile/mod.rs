@@ -12,6 +12,7 @@ pub(crate) mod files;
 mod functions;
 mod macros;
 pub(crate) mod names;
+mod output;
 mod posts;
 pub(crate) mod sections;
 mod statements;
@@ -168,8 +169,7 @@ pub fn analyze(
         vocabulary: vocab,
     };
     open_blocks::refuse(search, &allowed, &mut diags);
-    let creo = facts.takes_creo_records;
-    diags.extend(resolve::findings::find(&resolution, &units, vocab, creo));
+    diags.extend(resolve::findings::find(&resolution, &units, vocab, facts));
     diags.retain(|diag| !allowed.allows(diag));
     let refused = diags.iter().any(Diag::is_error);
     if lint && !refused {
@@ -236,6 +236,7 @@ impl<'t> Compiler<'t> {
         for unit in &self.found.roots {
             self.sections_and_macros(*unit);
         }
+        self.output_macros();
         self.refuse_recursion();
     }
 

@@ -31,6 +31,7 @@ use fil_diag::Diag;
 use crate::compile::files::{Found, Unit};
 use crate::host::CommonKind;
 use crate::module::Module;
+use crate::output::Edits;
 use crate::resolve::{Names, Resolution};
 use context::Context;
 
@@ -52,6 +53,8 @@ pub struct MachineFacts<'a> {
     pub writes_letter: Option<&'a dyn Fn(u8) -> bool>,
     /// Sections take records that begin with `$$->`.
     pub takes_creo_records: bool,
+    /// The macros that the post calls to edit what it writes.
+    pub edits: Edits,
     /// True for a major word that the post carries out.
     pub carries_out: Option<&'a dyn Fn(WordId) -> bool>,
 }

@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use crate::errors::LintCode;
+use crate::output::OutputMacro;
 use crate::resolve::SymbolKind;
 
 /// Warns of both. Files without a section are a library: what they hold is for
@@ -12,6 +13,8 @@ pub(super) fn look(context: &mut Context<'_>) {
     }
     for symbol in &context.program.resolution.symbols {
         let (code, message) = match symbol.kind {
+            // The post itself calls it.
+            SymbolKind::Macro if OutputMacro::named(&symbol.name).is_some() => continue,
             SymbolKind::Macro => (LintCode::UnusedMacro, format!("nothing calls {}", symbol.name)),
             SymbolKind::Array => {
                 (LintCode::UnusedArray, format!("no statement uses {}", symbol.name))

@@ -3,6 +3,7 @@
 mod careful;
 mod files;
 mod library;
+mod output;
 mod post;
 mod postf;
 mod report;
@@ -21,6 +22,8 @@ use crate::functions::Functions;
 use crate::host::{FileMode, Host, Site};
 use crate::module::{ChunkId, Constant, Module, SectionId};
 use crate::value::{Slot, Texts, Value};
+
+pub use output::Values;
 
 /// The register file: indexed by `u16`, so no access is out of bounds.
 pub(crate) type Registers = [Slot; 1 << 16];
@@ -96,6 +99,9 @@ struct State {
     scratch: (Vec<Word>, String),
     /// What the units 1 and 2 of FILEF are open for.
     units: [Option<FileMode>; 2],
+    /// A section that is in the middle of its statements has more registers than those
+    /// that are here, so no text may be dropped.
+    lent: bool,
 }
 
 /// Runs a [`Module`]. The values of its names last from run to run.

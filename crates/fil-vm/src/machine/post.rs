@@ -13,7 +13,11 @@ use crate::value::{EMPTY, Shown};
 
 impl<H: Host + ?Sized> Vm<'_, H> {
     /// Builds the record of a template and hands it to the post.
-    pub(super) fn post(&mut self, registers: &Registers, template: u16) -> Result<(), Box<Diag>> {
+    pub(super) fn post(
+        &mut self,
+        registers: &mut Registers,
+        template: u16,
+    ) -> Result<(), Box<Diag>> {
         let module = self.module;
         let template = &module.templates[usize::from(template)];
         let (data, text) = if template.is_text {
@@ -26,7 +30,11 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         record.number = self.record.as_deref().map_or(0, |record| record.number);
         self.update_site();
         self.outcome.commands += 1;
-        let result = self.host.command(&record, self.vocab, &self.state.site);
+        let result = if module.output.is_empty() {
+            self.host.command(&record, self.vocab, &self.state.site)
+        } else {
+            self.command_with_values(registers, &record)
+        };
         // The next post word uses the same memory.
         self.state.scratch = (record.data, record.text);
         result

@@ -105,7 +105,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
                 let done = self.current_mut()?.resize(n);
                 self.changed(done, n)
             }
-            PostfOp::Process => self.process(),
+            PostfOp::Process => self.process(registers),
             PostfOp::Next => self.next(),
             PostfOp::Back => match self.current()?.number {
                 0 | 1 => Ok(AT_END),
@@ -259,12 +259,17 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         Err(fault(RunCode::BadWordNumber, message))
     }
 
-    fn process(&mut self) -> Result<Value, Box<Diag>> {
+    fn process(&mut self, registers: &mut Registers) -> Result<Value, Box<Diag>> {
         self.update_site();
         let Some(record) = self.record.as_deref() else { return Err(no_record()) };
         self.outcome.commands += 1;
         self.outcome.processed = true;
-        self.host.command(record, self.vocab, &self.state.site)?;
+        if self.module.output.is_empty() {
+            self.host.command(record, self.vocab, &self.state.site)?;
+        } else {
+            let record = record.clone();
+            self.command_with_values(registers, &record)?;
+        }
         Ok(DONE)
     }
 

@@ -96,6 +96,9 @@ impl<H: Host + ?Sized> Vm<'_, H> {
         if let Ok(id) = self.state.texts.add(text, limit) {
             return Ok(Text(id));
         }
+        if self.state.lent {
+            return Err(self.too_much_text());
+        }
         // Cleaning up looks at every register; the fuel keeps a script that
         // sits at the limit from making each text cost that much.
         for _ in 0..1000 {

@@ -13,9 +13,11 @@ use crate::builtins;
 use crate::compile::files::Unit;
 use crate::compile::sections::ALL;
 use crate::errors::{CompileCode, LintCode};
+use crate::lint::MachineFacts;
+use crate::output::{Edits, OutputMacro};
 
-/// Macros that the vendor's post calls itself.
-const RESERVED: [&str; 5] = ["_REPOS", "_OUTPTP", "_OUTPUT", "_MCDWT", "_LSTWT"];
+/// A macro that the vendor's post calls itself, and filpost does not.
+const REPOS: &str = "_REPOS";
 
 /// Words that CL files have only behind `$$->`, which sections see where the machine says so.
 const PSEUDO_WORDS: [&str; 3] = ["MFGNO", "FEATNO", "CUTCOM_GEOMETRY_TYPE"];
@@ -31,14 +33,15 @@ const TYPES: [(u32, &[u32]); 6] = [
     (kind::FINI, &[0]),
 ];
 
-/// The findings of every load. `takes_creo`: sections take records that begin with `$$->`.
+/// The findings of every load.
 pub(crate) fn find(
     resolution: &Resolution,
     units: &[Unit],
     vocabulary: &Vocabulary,
-    takes_creo: bool,
+    facts: MachineFacts<'_>,
 ) -> Vec<Diag> {
-    let mut findings = Findings { units, vocabulary, takes_creo, diags: Vec::new() };
+    let (takes_creo, edits) = (facts.takes_creo_records, facts.edits);
+    let mut findings = Findings { units, vocabulary, takes_creo, edits, diags: Vec::new() };
     for symbol in &resolution.symbols {
         match symbol.kind {
             SymbolKind::Variable if symbol.definitions.is_empty() => findings.word_as_value(symbol),
@@ -61,6 +64,7 @@ struct Findings<'a> {
     units: &'a [Unit],
     vocabulary: &'a Vocabulary,
     takes_creo: bool,
+    edits: Edits,
     diags: Vec<Diag>,
 }
 
@@ -102,10 +106,14 @@ impl Findings<'_> {
 
     fn reserved_macro(&mut self, symbol: &Symbol) {
         let Some(at) = symbol.definitions.first() else { return };
-        if RESERVED.contains(&symbol.name.as_str()) {
-            let message = format!("filpost does not call {}", symbol.name);
-            self.add(CompileCode::ReservedMacro, *at, message);
-        }
+        let hint = match OutputMacro::named(&symbol.name) {
+            Some(edits) if self.edits.has(edits) => return,
+            Some(edits) => Some(format!("{} in machine.toml has it called", edits.setting())),
+            None if symbol.name == REPOS => None,
+            None => return,
+        };
+        let message = format!("the post does not call {}", symbol.name);
+        self.add(CompileCode::ReservedMacro, *at, message).hint = hint;
     }
 
     /// A word that is near a known one where it decides what runs: in the key of a

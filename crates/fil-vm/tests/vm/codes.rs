@@ -39,7 +39,7 @@ fn compile_case(number: u16) -> Option<(String, u32)> {
         224 => ("RPM=3000\nSPINDL/RPM,900,CLW", 2),
         225 => ("IF(1.EQ.DRILL)RAPID", 1),
         226 => ("XX=1\nCONTINUE", 2),
-        227 => ("_MCDWT=MACRO\nRAPID\nTERMAC", 1),
+        227 => ("_MCDWT=MACRO/LINE\nLINE=1\nTERMAC", 1),
         228 => ("CIMFIL/ON,GOTO,CLEAR\nRAPID\nCIMFIL/OFF", 1),
         251 => ("XX=1\nGOTO/X,XX,XX", 2),
         247 => ("INSERT/'G4 P',PAUS", 1),
@@ -144,6 +144,7 @@ fn findings(text: &str) -> Vec<fil_diag::Diag> {
     let text = format!("{text}\nFINI\n");
     let files = [FilFile { name: "case.fil", text: &text }];
     let facts = MachineFacts {
+        edits: fil_vm::Edits::default(),
         takes_creo_records: false,
         carries_out: Some(&|word| word != fil_cl::words::CHUCK),
         storing: None,

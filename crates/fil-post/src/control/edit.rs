@@ -1,0 +1,150 @@
+//! Blocks that someone else edits on their way to the tape: their words (INTCOM 4667)
+//! and their lines (INTCOM 1920). The control learns from what is left on the tape.
+
+use fil_diag::Result;
+use fil_machine::Letter;
+use fil_machine::letters::{G, M, N};
+
+use super::{Control, texts};
+use crate::cause::Cause;
+use crate::control_state::text_words;
+use crate::errors::PostCode;
+
+/// A word with its cause.
+type CausedWord = (Letter, f64, Cause);
+
+impl Control {
+    /// Writes the block under construction where the program has not begun or someone
+    /// edits blocks.
+    ///
+    /// # Errors
+    /// As [`Control::write_block`]; what the editor refuses.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn write_with_care(&mut self) -> Result<()> {
+        self.begin()?;
+        let style = &self.tables.style;
+        let (edits_words, edits_lines) = (style.edits_words, style.edits_lines);
+        self.straight = !edits_words && !edits_lines;
+        if self.straight {
+            return self.write_block();
+        }
+        if self.block.has_numbers() {
+            self.require_unit()?;
+        }
+        self.refuse_after_end()?;
+        if edits_words {
+            let words = self.block.words(&self.tables.addresses);
+            if let Some(edited) = self.edited_words(&words)? {
+                self.block.clear();
+                return self.put_words(&edited);
+            }
+        }
+        let start = self.tape.text.len();
+        self.tape.block(&self.block, &self.tables, &mut self.commons)?;
+        if edits_lines && self.edit_line(start)? {
+            self.block.clear();
+            return Ok(());
+        }
+        self.state.learn_block(&self.block, &self.codes, &self.tables.addresses);
+        self.block.clear();
+        Ok(())
+    }
+
+    /// The words as an editor leaves them; `None` where it changes nothing. Words that it
+    /// adds stand where the tape order has them.
+    pub(super) fn edited_words(&mut self, words: &[CausedWord]) -> Result<Option<Vec<CausedWord>>> {
+        let before: Vec<(Letter, f64)> = words.iter().map(|word| (word.0, word.1)).collect();
+        let mut after = before.clone();
+        let Some(editor) = &mut self.tape.editor.0 else {
+            self.warn_no_macro("tape.edit_macro", "_OUTPTP");
+            return Ok(None);
+        };
+        let found = editor.words(&mut after, &self.commons)?;
+        let warnings = editor.take_warnings();
+        self.warnings.list.extend(warnings);
+        if !found {
+            self.warn_no_macro("tape.edit_macro", "_OUTPTP");
+        }
+        if after == before {
+            return Ok(None);
+        }
+        let cause = self.block.cause.whole();
+        let mut kept: Vec<CausedWord> = Vec::with_capacity(after.len());
+        let mut old = words.iter().peekable();
+        for (letter, value) in after {
+            // Words keep their order, so the next one of this letter is the same word.
+            let same = old.clone().position(|word| word.0 == letter);
+            if let Some(skipped) = same {
+                let word = old.nth(skipped);
+                kept.push((letter, value, word.map_or(cause, |word| word.2)));
+            } else {
+                let place = self.place_in_tape_order(&kept, letter);
+                kept.insert(place, (letter, value, cause));
+            }
+        }
+        Ok(Some(kept))
+    }
+
+    fn place_in_tape_order(&self, words: &[CausedWord], letter: Letter) -> usize {
+        let position = |letter: Letter| self.tables.addresses.position(letter);
+        let later = |word: &CausedWord| position(word.0) > position(letter);
+        words.iter().position(later).unwrap_or(words.len())
+    }
+
+    /// Has the last line of the tape edited; says whether it was changed. The control then
+    /// learns from what is left of it.
+    ///
+    /// # Errors
+    /// What the editor refuses, and a line that must not reach the tape.
+    pub(super) fn edit_line(&mut self, start: usize) -> Result<bool> {
+        if !self.tables.style.edits_lines || self.tape.text.len() == start {
+            return Ok(false);
+        }
+        let before = self.tape.last_line(start, &self.tables);
+        let mut after = before.clone();
+        let Some(editor) = &mut self.tape.editor.0 else {
+            self.warn_no_macro("tape.block_macro", "_MCDWT");
+            return Ok(false);
+        };
+        let found = editor.line(&mut after, &self.commons)?;
+        let warnings = editor.take_warnings();
+        self.warnings.list.extend(warnings);
+        if !found {
+            self.warn_no_macro("tape.block_macro", "_MCDWT");
+        }
+        if after == before {
+            return Ok(false);
+        }
+        if !before.contains('%') {
+            texts::check(&after)?;
+        }
+        self.tape.replace_last_line(start, &after, &self.tables)?;
+        let known = self.before_others()?;
+        self.learn_edited(&before, &after);
+        self.refuse_in_compensation(known)?;
+        Ok(true)
+    }
+
+    /// Learns from a line that was edited. Words that are the same in both are on the
+    /// tape as they were made; what else the line says is in doubt.
+    fn learn_edited(&mut self, before: &str, after: &str) {
+        let (old, new) = match (text_words(before), text_words(after)) {
+            (Some(old), Some(new)) if !new.skipped => (old.words, new.words),
+            _ => return self.state.learn_text(after, &self.codes),
+        };
+        let words = || new.iter().copied().filter(|(letter, _)| *letter != N);
+        self.state.learn_words(words(), &self.codes);
+        let differs = |word: &(Letter, f64), others: &[(Letter, f64)]| !others.contains(word);
+        let changed = old.iter().filter(|word| differs(word, &new));
+        let changed = changed.chain(new.iter().filter(|word| differs(word, &old)));
+        for (letter, _) in changed.filter(|(letter, _)| !matches!(*letter, G | M | N)) {
+            self.state.doubt(*letter);
+        }
+    }
+
+    fn warn_no_macro(&mut self, setting: &str, name: &str) {
+        let message = format!("{setting} is on, and no FIL file has a macro {name}");
+        self.warnings.add(PostCode::NoEditMacro, message);
+    }
+}

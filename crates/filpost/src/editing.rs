@@ -1,0 +1,152 @@
+//! FIL macros that edit what the post writes: _OUTPTP, _MCDWT and _LSTWT.
+//!
+//! While no section runs, the values of the script lie with the editor; a section has
+//! them lent back. So a macro sees and sets the same names as sections do.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use fil_cl::{Record, Vocabulary};
+use fil_diag::{Diag, Result};
+use fil_machine::commons::EMPTY;
+use fil_machine::locations::{self as loc, TapeBlockMacro};
+use fil_machine::{Commons, Letter};
+use fil_post::editing::Editor;
+use fil_vm::{CommonKind, Edits, Host, Interpreter, OutputMacro, Site, Values};
+
+use crate::error::RunCode;
+use crate::outside::common_kind;
+
+/// The macros that a machine has the post call.
+pub(crate) fn edits(commons: &Commons) -> Edits {
+    let lines = commons.read(loc::TAPE_BLOCK_MACRO);
+    Edits {
+        words: commons.read(loc::TAPE_EDIT_MACRO),
+        tape: matches!(lines, TapeBlockMacro::Tape | TapeBlockMacro::Both),
+        listing: matches!(lines, TapeBlockMacro::Listing | TapeBlockMacro::Both),
+    }
+}
+
+/// The machine that runs the macros, shared by the post and the run.
+#[derive(Clone)]
+pub(crate) struct SharedEditor(Arc<Mutex<MacroRunner>>);
+
+struct MacroRunner {
+    interpreter: Interpreter,
+    vocabulary: Vocabulary,
+    warnings: Vec<Diag>,
+}
+
+impl SharedEditor {
+    /// An editor whose machine takes the place of another one of the same module.
+    pub fn new(interpreter: Interpreter, vocabulary: Vocabulary) -> Self {
+        let runner = MacroRunner { interpreter, vocabulary, warnings: Vec::new() };
+        SharedEditor(Arc::new(Mutex::new(runner)))
+    }
+
+    /// The editor as the post calls it.
+    pub fn boxed(&self) -> Box<dyn Editor> {
+        Box::new(self.clone())
+    }
+
+    /// Exchanges the values with the machine of the sections.
+    pub fn exchange(&self, other: &mut Interpreter) {
+        self.with(|runner| runner.interpreter.exchange(other));
+    }
+
+    /// The same with one that is in the middle of a section.
+    pub fn exchange_values(&self, values: &mut Values) {
+        self.with(|runner| runner.interpreter.exchange_values(values));
+    }
+
+    /// Edits a line of the tape or the listing.
+    ///
+    /// # Errors
+    /// What the macro refuses.
+    pub fn edit_line(
+        &self,
+        what: OutputMacro,
+        line: &mut String,
+        commons: &Commons,
+    ) -> Result<bool> {
+        self.with(|runner| {
+            let MacroRunner { interpreter, vocabulary, warnings } = runner;
+            let mut host = WhileWriting { commons, warnings };
+            let found = interpreter.edits(what);
+            interpreter.edit_line(what, line, vocabulary, &mut host).map(|()| found)
+        })
+    }
+
+    fn with<T>(&self, act: impl FnOnce(&mut MacroRunner) -> T) -> T {
+        act(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+}
+
+impl Editor for SharedEditor {
+    fn words(&mut self, words: &mut Vec<(Letter, f64)>, commons: &Commons) -> Result<bool> {
+        let mut plain: Vec<(u8, f64)> =
+            words.iter().map(|(letter, value)| (letter.byte(), *value)).collect();
+        let found = self.with(|runner| {
+            let MacroRunner { interpreter, vocabulary, warnings } = runner;
+            let mut host = WhileWriting { commons, warnings };
+            let found = interpreter.edits(OutputMacro::Words);
+            interpreter.edit_words(&mut plain, vocabulary, &mut host).map(|()| found)
+        })?;
+        *words = plain.into_iter().map(|(letter, value)| (Letter::of(letter), value)).collect();
+        Ok(found)
+    }
+
+    fn line(&mut self, line: &mut String, commons: &Commons) -> Result<bool> {
+        self.edit_line(OutputMacro::Tape, line, commons)
+    }
+
+    fn take_warnings(&mut self) -> Vec<Diag> {
+        self.with(|runner| std::mem::take(&mut runner.warnings))
+    }
+}
+
+/// What a macro reaches while a block is on its way to the tape: the settings, to read.
+struct WhileWriting<'a> {
+    commons: &'a Commons,
+    warnings: &'a mut Vec<Diag>,
+}
+
+fn refused<T>(what: &str) -> Result<T> {
+    RunCode::WhileWriting.err(format!("{what} in a macro that edits what is written"))
+}
+
+impl Host for WhileWriting<'_> {
+    fn common(&mut self, kind: CommonKind, location: u32) -> Result<f64> {
+        self.commons.get(common_kind(kind), location)
+    }
+
+    fn set_common(&mut self, _: CommonKind, location: u32, _: f64) -> Result<Option<Box<Diag>>> {
+        refused(&format!("location {location} can't be set"))
+    }
+
+    fn clear_common(&mut self, kind: CommonKind, location: u32) -> Result<Option<Box<Diag>>> {
+        self.set_common(kind, location, EMPTY)
+    }
+
+    fn command(&mut self, record: &Record, vocabulary: &mut Vocabulary, _: &Site) -> Result<()> {
+        refused(&format!("no {} is carried out", vocabulary.name(record.major)))
+    }
+
+    fn next_record(&mut self, _: &mut Record, _: &mut Vocabulary) -> Result<bool> {
+        refused("no record is read")
+    }
+
+    fn seek_record(&mut self, _: u32, _: &mut Record, _: &mut Vocabulary) -> Result<bool> {
+        refused("no record is read")
+    }
+
+    fn warn(&mut self, diag: Diag) {
+        self.warnings.push(diag);
+    }
+
+    fn trace(&mut self, _: bool) {}
+
+    fn named_common(&mut self, name: &str) -> Option<Result<f64>> {
+        let row = fil_machine::locations::Location::named(&name.to_ascii_lowercase())?;
+        Some(self.commons.get(row.kind, u32::from(row.number)))
+    }
+}
