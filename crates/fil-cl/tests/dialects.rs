@@ -241,7 +241,7 @@ fn arcs_of_one_dialect_are_no_arcs_of_another() {
     assert_eq!(read_by(creo), ["generic", "generic-left", "creo", "solidworks-cam"]);
     assert_eq!(read_by(nx), ["nx", "ffcam"]);
     assert_eq!(read_by(solidworks), ["generic", "generic-left", "solidworks-cam"]);
-    assert_eq!(read_by(camworks), ["generic-left", "camworks"]);
+    assert_eq!(read_by(camworks), ["generic-left", "camworks", "camworks-axis"]);
     let diag = refused(nx, None, ClCode::ForeignArc);
     let hint = diag.hint.as_ref().unwrap();
     assert!(hint.contains("--dialect nx") && hint.contains("--dialect ffcam"), "{hint}");
@@ -341,11 +341,42 @@ fn empty_items() {
     let comma = "CUTTER/ 10.,0.,5.,3.,31.,0.,130.,\n";
     for dialect in ClDialect::ALL {
         refused("GOTO/1,,3\n", Some(*dialect), ClCode::BadPoint);
-        let trailing = matches!(dialect, ClDialect::CamWorks | ClDialect::Catia);
+        let trailing = dialect.rules().trailing_comma;
+        let writes = [ClDialect::CamWorks, ClDialect::CamWorksAxis, ClDialect::Catia];
+        assert_eq!(trailing, writes.contains(dialect));
         assert_eq!(read(comma, Some(*dialect)).is_ok(), trailing, "{dialect}");
     }
     let found = records("CHANNEL,1\nCHANNEL,\n", ClDialect::Catia);
     assert_eq!((found[0].data.len(), found[1].data.len()), (1, 0));
     assert_eq!(found[0].data[0], Word::Number(1.0));
     refused("CHANNEL,1\n", None, ClCode::BadWord);
+}
+
+/// A word that contradicts the axis is believed only where the path runs on by it.
+#[test]
+fn a_word_against_the_axis_must_be_proved() {
+    let text = |word: &str, next: &str| {
+        format!(
+            "BOX/0,0,0,1,1,1\nGOTO/10,-5,0\nGOTO/10,0,0\nCIRCLE/0,0,0,0,0,1,10,{word}\nGOTO/0,-10,0\n{next}\n"
+        )
+    };
+    let code = |text: &str| read(text, None).err().map(|diag| diag.code.number);
+    // Three quarters of a turn by the axis, a quarter by the word.
+    let wrong = text("CLOCKWISE", "GOTO/5,-10,0");
+    assert_eq!(code(&wrong), Some(417));
+    assert_eq!(code(&text("COUNTERCLOCKWISE", "GOTO/5,-10,0")), None);
+    let diag = read(&wrong, None).unwrap_err();
+    assert!(diag.message.contains("line 4") && diag.spans[0].line == 6, "{diag}");
+    assert!(diag.hint.as_ref().is_some_and(|hint| hint.contains("camworks-axis")), "{diag}");
+    let by_axis = records(&wrong, ClDialect::CamWorksAxis);
+    assert!(by_axis.iter().any(|record| record.circle().is_some_and(|c| c.axis[2] == 1.0)));
+    // It runs on, a corner or a rapid tells nothing, a point twice neither.
+    for next in ["GOTO/-5,-10,0", "GOTO/0,-20,0", "RAPID/\nGOTO/5,-10,0", "GOTO/0,-10,0"] {
+        assert_eq!(code(&text("CLOCKWISE", next)), None, "{next}");
+    }
+    let feed = "FEDRAT/MMPM,9.\n".repeat(2) + "GOTO/5,-10,0";
+    assert_eq!(code(&text("CLOCKWISE", &feed)), Some(417));
+    // A word that has proved itself is believed beside a boss.
+    let proved = text("CLOCKWISE", "GOTO/-5,-10,0") + &wrong;
+    assert_eq!(code(&proved), None);
 }

@@ -221,8 +221,9 @@ fn refused(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
             "it turns the part, and whether the angle counts from zero and the points turn with \
              it is not in the file",
             "Let a FIL section take it: POSTN writes the position of the axis, and TRANS turns \
-             the points where they do not turn with the table. Or give the tool axis with each \
-             point (MULTAX/ON) in place of ROTABL.",
+             the points where they do not turn with the table. Where each point of the file has its \
+             tool axis in the part (MULTAX/ON), the axes turn the table already: list ROTABL under \
+             words.without_effect in machine.toml.",
         ),
         _ => (
             "it changes the path or the frame, and the post does not know how",

@@ -73,6 +73,7 @@ fn arcs(rules: &DialectRules) -> String {
         ArcSense::RightHand => "the axis by the right-hand rule",
         ArcSense::LeftHand => "the axis opposite to the right-hand rule",
         ArcSense::ByWord => "CLOCKWISE or COUNTERCLOCKWISE decides",
+        ArcSense::ByAxis => "the axis by the right-hand rule, whatever word stands behind",
     };
     format!("CIRCLE with {} numbers, {sense}", form.spell_counts())
 }

@@ -1,7 +1,7 @@
 //! CAMWorks CLT (`.clt`).
 //!
 //! The axis of a circle is the same for both senses; CLOCKWISE or COUNTERCLOCKWISE after the
-//! radius decides. A cycle gives most of its values by their positions; the points of an
+//! radius decides, unless the motion after it shows that the word is wrong. A cycle gives most of its values by their positions; the points of an
 //! operation turn with the table.
 
 use super::{ArcSense, AxisRule, CircleForm, DialectRules, Sign};

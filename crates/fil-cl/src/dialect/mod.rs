@@ -6,6 +6,7 @@
 //! its `RULES`, a variant of [`ClDialect`] and a row in [`ClDialect::ALL`].
 
 mod camworks;
+mod camworks_axis;
 mod catia;
 mod creo;
 mod ffcam;
@@ -40,6 +41,9 @@ pub enum ClDialect {
     SolidWorksCam,
     /// CAMWorks CLT (`.clt`).
     CamWorks,
+    /// As [`ClDialect::CamWorks`], with circles that turn as their axis says. Never
+    /// recognized.
+    CamWorksAxis,
     /// Makino FFCAM (`.cldata`).
     Ffcam,
     /// NCCS NCL (`.as`).
@@ -131,6 +135,8 @@ pub enum ArcSense {
     LeftHand,
     /// As the word CLOCKWISE or COUNTERCLOCKWISE says, seen against the axis.
     ByWord,
+    /// Counterclockwise seen against the axis, whatever word stands behind it.
+    ByAxis,
 }
 
 /// The tool axis of a GOTO that gives none.
@@ -168,6 +174,7 @@ impl ClDialect {
         ClDialect::Catia,
         ClDialect::SolidWorksCam,
         ClDialect::CamWorks,
+        ClDialect::CamWorksAxis,
         ClDialect::Ffcam,
         ClDialect::Ncl,
     ];
@@ -182,6 +189,7 @@ impl ClDialect {
             ClDialect::Catia => &catia::RULES,
             ClDialect::SolidWorksCam => &solidworks_cam::RULES,
             ClDialect::CamWorks => &camworks::RULES,
+            ClDialect::CamWorksAxis => &camworks_axis::RULES,
             ClDialect::Ffcam => &ffcam::RULES,
             ClDialect::Ncl => &ncl::RULES,
         }
@@ -225,7 +233,8 @@ impl ClDialect {
         let opposite = match own.sense {
             ArcSense::RightHand => ArcSense::LeftHand,
             ArcSense::LeftHand => ArcSense::RightHand,
-            ArcSense::ByWord => return Vec::new(),
+            ArcSense::ByWord => ArcSense::ByAxis,
+            ArcSense::ByAxis => ArcSense::ByWord,
         };
         let turns = |form: CircleForm| {
             form.sense == opposite && form.counts.iter().any(|count| own.counts.contains(count))
@@ -280,7 +289,10 @@ mod tests {
     fn each_dialect_but_the_generic_ones_has_signs() {
         for dialect in ClDialect::ALL {
             let signs = dialect.rules().signs.len();
-            let by_choice = matches!(dialect, ClDialect::Generic | ClDialect::GenericLeft);
+            let by_choice = matches!(
+                dialect,
+                ClDialect::Generic | ClDialect::GenericLeft | ClDialect::CamWorksAxis
+            );
             assert_eq!(signs == 0, by_choice, "{dialect}");
         }
     }

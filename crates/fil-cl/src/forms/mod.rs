@@ -18,6 +18,7 @@ use crate::errors::ClCode;
 use crate::forms::cycle::Cycle;
 use crate::forms::table::Table;
 use crate::layout::ShapeError;
+use crate::reader::WordArc;
 use crate::record::{Record, Word};
 use crate::vocabulary::{Vocabulary, WordId};
 
@@ -104,13 +105,17 @@ pub(crate) struct FormState {
     pub(crate) has_ended: bool,
     /// ROTABL and TLAXIS, where points turn with the table.
     pub(crate) table: Table,
+    /// A CIRCLE whose word contradicts its axis, until the motion after it.
+    pub(crate) word_arc: Option<WordArc>,
+    /// Such a CIRCLE ran on as its word says.
+    pub(crate) has_proved_words: bool,
 }
 
 impl FormState {
     /// True while each motion must be looked at.
     #[inline]
     pub(crate) fn watches_motions(&self) -> bool {
-        self.expects.is_some() || self.table.is_in_play()
+        self.expects.is_some() || self.table.is_in_play() || self.word_arc.is_some()
     }
 }
 

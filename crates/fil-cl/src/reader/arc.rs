@@ -10,22 +10,24 @@ use crate::record::{Record, Word};
 use crate::words;
 
 impl Reader<'_> {
-    /// Turns the axis of a circle so that the right-hand rule holds. A circle that is not
+    /// Turns the axis of a circle so that the right-hand rule holds; true where a word has turned
+    /// it that contradicts it. A circle that is not
     /// in a form of the dialect is refused: it is perhaps one of another dialect, whose
     /// axis has the opposite sense.
-    pub(super) fn turn_circle(&mut self, record: &mut Record) -> Result<()> {
+    pub(super) fn turn_circle(&mut self, record: &mut Record) -> Result<bool> {
         let count = record.data.iter().take_while(|word| matches!(word, Word::Number(_))).count();
         let Some(form) = self.rules().circle else {
             let message = format!("arcs of {} are not written as CIRCLE", self.dialect());
-            return self.foreign_circle(&message, count);
+            return self.foreign_circle(&message, count).map(|()| false);
         };
         if !form.counts.contains(&count) {
             let message =
                 format!("{count} numbers, where {} has {}", self.dialect(), form.spell_counts());
-            return self.foreign_circle(&message, count);
+            return self.foreign_circle(&message, count).map(|()| false);
         }
         self.check_axis(record)?;
-        if self.is_turned(record, form.sense, count)? {
+        let turned = self.is_turned(record, form.sense, count)?;
+        if turned {
             for word in record.data.iter_mut().skip(3).take(3) {
                 if let Word::Number(part) = word {
                     *part = 0.0 - *part;
@@ -42,7 +44,7 @@ impl Reader<'_> {
             self.recognition.used.circle = record.line;
         }
         self.modal.in_arc = true;
-        Ok(())
+        Ok(turned && form.sense == ArcSense::ByWord && !self.is_scout)
     }
 
     /// Adds the radius that a circle of six numbers leaves out: the distance of its axis from
@@ -73,12 +75,13 @@ impl Reader<'_> {
     fn is_turned(&self, record: &Record, sense: ArcSense, count: usize) -> Result<bool> {
         let turned = sense == ArcSense::LeftHand;
         match (record.has(words::CLOCKWISE), record.has(words::COUNTERCLOCKWISE)) {
-            (false, false) if sense == ArcSense::ByWord => {
+            (false, false) if matches!(sense, ArcSense::ByWord | ArcSense::ByAxis) => {
                 self.foreign_circle("CLOCKWISE or COUNTERCLOCKWISE is needed", count)?;
             }
             (false, false) => {}
             (true, true) => self.foreign_circle("CLOCKWISE and COUNTERCLOCKWISE", count)?,
             (clockwise, _) if sense == ArcSense::ByWord => return Ok(clockwise),
+            _ if sense == ArcSense::ByAxis => {}
             (clockwise, _) if clockwise != (points_down(record) != turned) => {
                 let word = if clockwise { "CLOCKWISE" } else { "COUNTERCLOCKWISE" };
                 let message =

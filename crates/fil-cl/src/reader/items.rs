@@ -188,7 +188,13 @@ impl Reader<'_> {
         let shown = decoded(item, self.options.decode);
         let code = if numeric { ClCode::BadNumber } else { ClCode::BadWord };
         let what = if numeric { "a number" } else { "a number or a name" };
-        Err(self.diag(code, &format!("'{shown}' is not {what}"), range))
+        let mut diag = self.diag(code, &format!("'{shown}' is not {what}"), range);
+        let mut parts = item.split(|byte| is_blank(*byte)).filter(|part| !part.is_empty());
+        let is_item = |part: &[u8]| number(part).is_some() || is_name(vocab, part, false);
+        if parts.clone().count() > 1 && parts.all(is_item) {
+            diag.hint = Some("a comma is missing between the items".to_string());
+        }
+        Err(diag)
     }
 
     /// True for a new name in a statement that informs: a pseudo-comment, a word without

@@ -19,6 +19,7 @@ mod resume;
 mod seek;
 mod spline;
 mod statement;
+mod word_arc;
 
 use std::io::Read;
 use std::ops::Range;
@@ -28,6 +29,7 @@ use fil_diag::{Diag, Result, TextSpan};
 use crate::dialect::{ClDialect, DialectRules, Recognition, Recognized};
 use crate::errors::ClCode;
 use crate::forms::{FormState, Outcome};
+use crate::layout::ShapeError;
 use crate::record::{Record, Word, kind};
 use crate::vocabulary::Vocabulary;
 use crate::words;
@@ -42,6 +44,7 @@ use seek::Seeking;
 use spline::Gathered;
 pub use spline::SplineCounts;
 use statement::{Form, GatherError, Statement};
+pub(crate) use word_arc::WordArc;
 
 /// How a CL text is to be read.
 #[derive(Clone, Copy, Debug)]
@@ -344,6 +347,9 @@ impl<'r> Reader<'r> {
     /// The short way for a statement that was read before.
     #[inline]
     fn read_repeated(&mut self, record: &mut Record) -> bool {
+        if self.modal.forms.word_arc.is_some() {
+            return false;
+        }
         let Some((length, lines)) = self.repeated.read(self.lines.unread(), record) else {
             return false;
         };
@@ -410,9 +416,16 @@ impl<'r> Reader<'r> {
         }
         match record.major {
             words::CIRCLE => {
-                self.turn_circle(record)?;
+                self.modal.forms.word_arc = None;
+                let is_by_word = self.turn_circle(record)?;
                 self.bring_back(record)?;
+                if is_by_word {
+                    record.arrange().map_err(|error| self.shape_error(&error))?;
+                    self.note_word_arc(record);
+                    return Ok(());
+                }
             }
+            words::RAPID => self.modal.forms.word_arc = None,
             words::GOTO => {
                 self.bring_back(record)?;
                 self.split_points(record)?;
@@ -424,9 +437,9 @@ impl<'r> Reader<'r> {
             words::GODLTA | words::GOHOME => self.bring_back(record)?,
             _ => {}
         }
-        if let Err(error) = record.arrange() {
-            let range = self.item_range(error.item);
-            return Err(self.diag(error.code, &error.message, range));
+        record.arrange().map_err(|error| self.shape_error(&error))?;
+        if self.modal.forms.word_arc.is_some() && record.kind == kind::MOTION {
+            self.judge_word_arc(record)?;
         }
         match record.major {
             words::MULTAX | words::TLAXIS => self.set_mode(record),
@@ -437,6 +450,10 @@ impl<'r> Reader<'r> {
             _ => {}
         }
         Ok(())
+    }
+
+    fn shape_error(&self, error: &ShapeError) -> Box<Diag> {
+        self.diag(error.code, &error.message, self.item_range(error.item))
     }
 
     /// Where an item stands in the joined statement; the last one when there are not so
