@@ -24,6 +24,8 @@ pub fn undercut(job: &Job, passes: &[Pass], ball: bool, spacing: f64) -> f64 {
         }
         let depth = deepen(cut, deepest);
         let end = plus(*point, *normal, -depth);
+        // Behind a lip another wall is nearer.
+        let depth = depth.min(job.section.distance(end));
         let [first, last] = job.section.ends();
         let beside = end[0] < first || end[0] > last;
         // Beside the groove the surface of the blank may be nearer.

@@ -44,6 +44,8 @@ pub struct Job {
     pub clear: f64,
     /// The list of cutters.
     pub cutters: Vec<Cutter>,
+    /// What the checks allow, mm: the rounding of the NC program and of the CL file.
+    pub tolerance: f64,
 }
 
 impl Job {
@@ -71,6 +73,7 @@ impl Job {
             finish: 0.05,
             clear: 2.0,
             cutters: list.iter().chain(&balls).map(cutter).collect(),
+            tolerance: 0.001,
         }
     }
 

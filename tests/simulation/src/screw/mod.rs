@@ -7,6 +7,7 @@ pub mod helix;
 pub mod job;
 pub mod mutate;
 pub mod passes;
+pub mod random;
 pub mod section;
 pub mod sweep;
 

@@ -127,11 +127,46 @@ impl Section {
             let middle = unit([back[0] + on[0], back[1] + on[1]]);
             let center = plus(at, middle, radius / half.sin());
             let hollow = back[1] * on[0] - back[0] * on[1] > 0.0;
-            section.steps.push(Step::Line(first));
+            section.line(first);
             section.steps.push(Step::Arc { to: last, center, hollow });
         }
-        section.steps.push(Step::Line(points[points.len() - 1]));
+        section.line(points[points.len() - 1]);
         section
+    }
+
+    /// A line, unless the section is there already.
+    fn line(&mut self, to: Point) {
+        let at = self.steps.last().map_or(self.from, Step::to);
+        if norm(minus(to, at)) > 1e-9 {
+            self.steps.push(Step::Line(to));
+        }
+    }
+
+    /// Left and right exchanged.
+    pub fn mirrored(&self) -> Self {
+        let [first, last] = self.ends();
+        let turned = |point: Point| [first + last - point[0], point[1]];
+        let parts: Vec<(Point, &Step)> = self.parts().collect();
+        let steps = parts.iter().rev().map(|(from, step)| match **step {
+            Step::Line(_) => Step::Line(turned(*from)),
+            Step::Arc { center, hollow, .. } => {
+                Step::Arc { to: turned(*from), center: turned(center), hollow }
+            }
+        });
+        Section { from: turned([last, self.top()]), steps: steps.collect() }
+    }
+
+    /// The section as a CL file of so many decimals has it.
+    pub fn cut_off(&self, decimals: i32) -> Self {
+        let unit = 10_f64.powi(decimals);
+        let cut = |point: Point| point.map(|value| (value * unit).round() / unit);
+        let steps = self.steps.iter().map(|step| match *step {
+            Step::Line(to) => Step::Line(cut(to)),
+            Step::Arc { to, center, hollow } => {
+                Step::Arc { to: cut(to), center: cut(center), hollow }
+            }
+        });
+        Section { from: cut(self.from), steps: steps.collect() }
     }
 
     /// Z of the surface of the blank.
