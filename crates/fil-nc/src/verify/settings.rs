@@ -6,16 +6,14 @@ use fil_machine::address::Addresses;
 use fil_machine::commons::{Commons, Dbl, Int, Rel};
 use fil_machine::letter::{Letter, letters};
 use fil_machine::locations::{
-    self as loc, CircleCenter, CircleCorrection, FeedInverseLength, LinearMethod, Placement,
-    RapidSplit, ToolChangeBlock, ToolFormat,
+    self as loc, CircleCenter, Placement, RapidSplit, ToolChangeBlock, ToolFormat,
 };
 use fil_machine::setting::CodeAt;
 use fil_machine::user_blocks;
-use nalgebra::Point3;
 
-use super::wanted::{Arc, CoolantKind, CycleKind, SpindleRange};
+use super::wanted::{CoolantKind, CycleKind, SpindleRange};
 use crate::forward::Forward;
-use crate::motion::{Move, Position, Spindle, unit};
+use crate::motion::{Spindle, unit};
 
 /// How far an axis may be asked to stand from 0 when the program never writes it, mm.
 const NOT_WRITTEN: f64 = 1e-3;
@@ -66,7 +64,7 @@ pub struct Slack {
 /// The machine as the back-check sees it.
 #[derive(Clone, Debug)]
 pub struct Settings<'c> {
-    commons: &'c Commons,
+    pub(super) commons: &'c Commons,
     /// Its forward kinematics.
     pub forward: Forward,
     /// What the user allows besides the last digit; `None` for nothing.
@@ -265,97 +263,6 @@ impl<'c> Settings<'c> {
             && [loc::COOLANT_FLOOD_CODE, loc::COOLANT_THRU_HIGH_CODE]
                 .iter()
                 .any(|at| code(*at) == usual)
-    }
-
-    /// A feed in mm/min within the machine's range.
-    pub fn feed_within(&self, feed: f64, metric: bool) -> f64 {
-        let unit = unit(metric);
-        let min = self.commons.dbl_opt(loc::FEED_UPM_MIN).unwrap_or(0.0) * unit;
-        let max = self.commons.dbl_opt(loc::FEED_UPM_MAX).map_or(f64::MAX, |max| max * unit);
-        feed.max(min).min(max)
-    }
-
-    /// A feed in mm/min within what Y and Z may do in a motion.
-    pub fn feed_within_axes(&self, feed: f64, from: &Position, found: &Move, metric: bool) -> f64 {
-        let unit = unit(metric);
-        let most = self.commons.dbl_opt(loc::FEED_UPM_MAX).unwrap_or(f64::INFINITY);
-        let way = |axis: usize| (found.to.linear[axis] - from.linear[axis]).abs();
-        let length = match &found.arc {
-            Some(arc) => arc.length(from.linear, found.to.linear),
-            None => [0, 1, 2].map(way).iter().map(|way| way * way).sum::<f64>().sqrt(),
-        };
-        let within = |feed: f64, (axis, at): (usize, Dbl)| {
-            let Some(largest) = self.commons.dbl_opt(at).filter(|largest| *largest < most) else {
-                return feed;
-            };
-            let turns = found.arc.is_some_and(|arc| arc.normal != axis);
-            let share = if turns || length <= 0.0 { 1.0 } else { (way(axis) / length).min(1.0) };
-            if feed * share > largest * unit { largest * unit / share } else { feed }
-        };
-        [(1, loc::FEED_UPM_MAX_Y), (2, loc::FEED_UPM_MAX_Z)].into_iter().fold(feed, within)
-    }
-
-    /// X, Y, Z of the home position, mm.
-    pub fn home(&self, metric: bool) -> [Option<f64>; 3] {
-        loc::HOME.map(|at| self.commons.dbl_opt(at).map(|value| value * unit(metric)))
-    }
-
-    /// Z that RETRCT goes up to, mm.
-    pub fn retract_level(&self, metric: bool) -> Option<f64> {
-        self.commons.dbl_opt(loc::HOME_RETRACT_Z).map(|value| value * unit(metric))
-    }
-
-    /// Inverse time within the machine's limits, motions a minute.
-    pub fn inverse_within(&self, inverse: f64) -> f64 {
-        let of = |at: Dbl| self.commons.dbl_opt(at);
-        let of_time = of(loc::FEED_INVERSE_MIN_TIME).filter(|time| *time > 0.0);
-        let most = of(loc::FEED_INVERSE_MAX).unwrap_or(f64::INFINITY);
-        let most = of_time.map_or(most, |time| most.min(60.0 / time));
-        inverse.max(of(loc::FEED_INVERSE_MIN).unwrap_or(0.0)).min(most)
-    }
-
-    /// True when the inverse time of an arc is made from its chord.
-    pub fn takes_chords(&self) -> bool {
-        self.commons.read(loc::FEED_INVERSE_LENGTH) == FeedInverseLength::LengthOfTheChord
-    }
-
-    /// True when the feed of a compensated arc is that at the edge of the cutter.
-    pub fn feeds_at_the_edge(&self) -> bool {
-        self.commons.read(loc::CIRCLE_TRUE_RADIUS_FEED)
-    }
-
-    /// Length below which a rapid is made at feed, and that feed, mm and mm/min.
-    pub fn short_rapid(&self, metric: bool) -> Option<(f64, f64)> {
-        let of = |at: Dbl| self.commons.dbl_opt(at).filter(|value| *value > 0.0);
-        let turns = self.forward.has_rotary();
-        let unit = unit(metric);
-        let short = of(loc::RAPID_SHORT_DISTANCE).filter(|_| !turns)?;
-        Some((short * unit, of(loc::RAPID_SHORT_FEED)? * unit))
-    }
-
-    /// The axes that go first in a slanted line: X and Y, or Z; `None` where all go at once.
-    pub fn first_of_lines(&self) -> Option<LinearMethod> {
-        let order = self.commons.read(loc::LINEAR_METHOD);
-        (order != LinearMethod::XyzInOneBlock).then_some(order)
-    }
-
-    /// Where an arc ends when the machine corrects it: at the radius of its start, and at
-    /// its level.
-    pub fn arc_end(&self, arc: &Arc, metric: bool) -> Point3<f64> {
-        let of = |at: Dbl| self.commons.dbl_opt(at).unwrap_or(0.0) * unit(metric);
-        let mut end = arc.end.tip;
-        let spoke = arc.spoke(end);
-        let off = arc.radius() - spoke.norm();
-        let corrects =
-            self.commons.read(loc::CIRCLE_CORRECTION) == CircleCorrection::CorrectTheEndPoint;
-        if corrects && off.abs() <= of(loc::CIRCLE_CORRECTION_MAX) && spoke.norm() > 1e-6 {
-            end += spoke.normalize() * off;
-        }
-        let rise = arc.rise_of(end);
-        if arc.sweep <= 360.0 && rise.abs() <= of(loc::CIRCLE_Z_TOLERANCE) {
-            end -= arc.normal * rise;
-        }
-        end
     }
 
     /// True when the machine has a code for a coolant.

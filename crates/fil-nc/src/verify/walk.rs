@@ -36,7 +36,7 @@ pub(super) struct Walk<'a, C> {
     /// Diameter of the cutter, mm.
     pub(super) cutter: Option<f64>,
     /// End of the last arc in the CL file, and as the machine corrects it.
-    corrected_end: Option<[Point3<f64>; 2]>,
+    pub(super) corrected_end: Option<[Point3<f64>; 2]>,
     /// Travel of the linear axes, mm.
     pub(super) travel: [(f64, f64); 3],
     written: [bool; 3],
@@ -180,28 +180,6 @@ impl<'a, C: Steps> Walk<'a, C> {
         let step = corrected.as_ref().unwrap_or(step);
         let made = self.is_made(step);
         self.watch.stand(step.what.end().filter(|_| made && !matches!(step.what, Wanted::Hole(_))));
-    }
-
-    /// A rapid to a position of the linear axes, mm. With rotary axes it is not followed.
-    fn to_machine(&mut self, cl_line: u32, to: [Option<f64>; 3], what: &str) {
-        let mut pose = self.settings.forward.pose(&self.at);
-        if self.settings.forward.has_rotary() {
-            return self.unknown(cl_line, what, Effect::Path);
-        }
-        for (n, value) in to.into_iter().enumerate() {
-            pose.tip[n] = value.unwrap_or(pose.tip[n]);
-        }
-        self.motion(&Step { line: cl_line, what: Wanted::Rapid(pose) });
-    }
-
-    /// An arc as the settings of the machine correct it; `None` where they leave it.
-    fn corrected(&mut self, step: &Step) -> Option<Step> {
-        let before = self.corrected_end.take();
-        let Wanted::Arc(arc, rate) = &step.what else { return None };
-        let mut corrected = arc.from(before.filter(|[end, _]| *end == arc.start).map(|[_, at]| at));
-        corrected.end.tip = self.settings.arc_end(&corrected, self.metric);
-        self.corrected_end = Some([arc.end.tip, corrected.end.tip]);
-        (corrected != *arc).then(|| Step { what: Wanted::Arc(corrected, *rate), ..step.clone() })
     }
 
     /// Goes through what the program does for a motion; false when that is another.

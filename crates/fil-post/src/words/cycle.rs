@@ -10,10 +10,12 @@ use fil_cl::WordId;
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 use fil_machine::locations as loc;
+use fil_machine::modes::FeedMode;
 
 use super::{fedrat, thread};
 use crate::errors::PostCode;
 use crate::items::Items;
+use crate::operation::Feed;
 use crate::path::cycle::{self, Cycle, CycleFeed, CycleKind, CycleWords};
 use crate::post::Post;
 
@@ -157,10 +159,28 @@ fn feed(post: &mut Post, items: &mut Items, kind: CycleKind) -> Result<CycleFeed
         post.due_to(items);
         let feed = fedrat::in_output_units(post, value, Some(*unit))?;
         post.control.block.cause = cause;
-        return Ok(CycleFeed::Feed(fedrat::within_limits(post, feed)));
+        let feed = fedrat::within_limits(post, feed);
+        return within_that_of_z(post, feed, kind);
     }
     let missing = || PostCode::CycleForm.diag("no feed in the cycle, and no FEDRAT before it");
-    Ok(CycleFeed::Feed(post.path.feed.ok_or_else(missing)?))
+    let feed = post.path.feed.ok_or_else(missing)?;
+    within_that_of_z(post, feed, kind)
+}
+
+/// A feed a minute within what Z may do; a tap's is bound to the spindle.
+fn within_that_of_z(post: &mut Post, feed: Feed, kind: CycleKind) -> Result<CycleFeed> {
+    let Some(largest) = post.control.tables.motion.largest_of[1] else {
+        return Ok(CycleFeed::Feed(feed));
+    };
+    let largest = largest * post.control.commons.dbl_opt(loc::FEED_UPM_FACTOR).unwrap_or(1.0);
+    if feed.mode != FeedMode::PerMinute || feed.value <= largest {
+        return Ok(CycleFeed::Feed(feed));
+    }
+    if kind == CycleKind::Tap {
+        return PostCode::CycleForm.err("the feed of the tap is above that of Z (feed.upm_max_z)");
+    }
+    post.warn(PostCode::Clamped, format!("feed {} of a cycle became {largest}", feed.value));
+    Ok(CycleFeed::Feed(Feed { value: largest, ..feed }))
 }
 
 /// The value of the first of these words, and where in the record it stands.
