@@ -413,3 +413,51 @@ proptest! {
         }
     }
 }
+
+/// MOVARC of ISO 4343 tells the sweep; the GOTO to the end must say the same.
+#[test]
+fn movarc_is_a_circle_that_ends_where_it_says() {
+    let read = |center: &str, degrees: &str, end: &str| {
+        let text = format!(
+            "RAPID\nGOTO/0.0,0.0,-1.0\nMOVARC/{center}, ANGLE, {degrees}\nGOTO/{end}\nGOTO/9,9,9\nFINI\n"
+        );
+        let mut reader = Reader::new(text.as_bytes(), "t", Options::default());
+        let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
+        let mut records = Vec::new();
+        loop {
+            match reader.read(&mut vocab, &mut record) {
+                Ok(true) => records.push(record.clone()),
+                Ok(false) => return Ok(records),
+                Err(diag) => return Err(diag.code.number),
+            }
+        }
+    };
+    const UP: &str = "5.0, 0.0, -1.0, 0.0, 0.0, 1.0, 5.0";
+    const DOWN: &str = "5.0, 0.0, -1.0, 0.0, 0.0, -1.0, 5.0";
+    for (center, degrees, end) in [
+        (UP, "180.0", "10.0,0.0,-1.0"),
+        (UP, "90.0", "5.0,-5.0,-1.0"),
+        (UP, "270.0", "5.0,5.0,-1.0"),
+        (DOWN, "90.0", "5.0,5.0,-1.0"),
+        (UP, "360.0", "0.0,0.0,-1.0"),
+        (UP, "360.0", "0.0,0.0,-3.0"),
+        (UP, "180.005", "10.0,0.0,-1.0"),
+    ] {
+        let records = read(center, degrees, end).unwrap_or_else(|code| panic!("{code} {degrees}"));
+        let circle = records[2].circle().unwrap();
+        assert_eq!((circle.radius, circle.center), (Some(5.0), [5.0, 0.0, -1.0]));
+        assert_eq!(records.len(), 6);
+    }
+    for (center, degrees, end) in [
+        (UP, "90.0", "5.0,5.0,-1.0"),
+        (DOWN, "90.0", "5.0,-5.0,-1.0"),
+        (UP, "180.1", "10.0,0.0,-1.0"),
+        (UP, "360.0", "10.0,0.0,-1.0"),
+        (UP, "0.05", "0.0,0.0,-1.0"),
+        (UP, "-90.0", "5.0,5.0,-1.0"),
+        (UP, "720.0", "0.0,0.0,-3.0"),
+        ("5.0, 0.0, -1.0, 0.0, 0.0, 1.0", "90.0", "5.0,-5.0,-1.0"),
+    ] {
+        assert_eq!(read(center, degrees, end).err(), Some(408), "{center} {degrees} {end}");
+    }
+}

@@ -4,6 +4,7 @@
 //! NX, whose rule is the opposite one, is told by its eleven numbers and refused here.
 
 use super::{ArcSense, AxisRule, CircleForm, DialectRules};
+use crate::errors::ClCode;
 use crate::forms::{FormError, Outcome, Written, common, cycle};
 use crate::record::Word;
 use crate::words as w;
@@ -40,10 +41,34 @@ fn rewrite(written: &mut Written<'_>) -> Result<Outcome, FormError> {
             return Ok(Outcome::Bound);
         }
         w::MODE => return Ok(plane(written)),
+        major if written.vocabulary.name(major) == "MOVARC" => return arc(written),
         _ => {}
     }
     Ok(Outcome::Free)
 }
+
+/// `MOVARC/x,y,z,i,j,k,r,ANGLE,a` of ISO 4343 as a CIRCLE; the GOTO to its end must agree with
+/// the angle.
+///
+/// # Errors
+/// Other items; more than a whole turn.
+fn arc(written: &mut Written<'_>) -> Result<Outcome, FormError> {
+    let is_told = written.record.data.len() == MOVARC
+        && (0..7).all(|item| written.number(item).is_some())
+        && written.name(7) == "ANGLE";
+    let degrees = written.number(8).filter(|_| is_told);
+    let Some(degrees) = degrees.filter(|degrees| *degrees > 0.0 && *degrees <= 360.0) else {
+        let message = "MOVARC is read with center, axis, radius and an ANGLE to a whole turn";
+        return Err(FormError::new(ClCode::UncomputedMotion, 0, message));
+    };
+    written.record.major = w::CIRCLE;
+    written.record.data.truncate(7);
+    written.state.sweep = Some(degrees);
+    Ok(Outcome::Bound)
+}
+
+/// Items of MOVARC.
+const MOVARC: usize = 9;
 
 /// MODE/XYPLAN names the plane of the arcs by geometry that follow.
 fn plane(written: &mut Written<'_>) -> Outcome {

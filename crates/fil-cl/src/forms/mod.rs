@@ -18,7 +18,7 @@ use crate::errors::ClCode;
 use crate::forms::cycle::Cycle;
 use crate::forms::table::Table;
 use crate::layout::ShapeError;
-use crate::reader::WordArc;
+use crate::reader::{ToldSweep, WordArc};
 use crate::record::{Record, Word};
 use crate::vocabulary::{Vocabulary, WordId};
 
@@ -105,6 +105,10 @@ pub(crate) struct FormState {
     pub(crate) has_ended: bool,
     /// ROTABL and TLAXIS, where points turn with the table.
     pub(crate) table: Table,
+    /// Degrees that the CIRCLE under way turns by, where it tells.
+    pub(crate) sweep: Option<f64>,
+    /// A CIRCLE that tells how far it turns, until its end.
+    pub(crate) told_sweep: Option<ToldSweep>,
     /// A CIRCLE whose word contradicts its axis, until the motion after it.
     pub(crate) word_arc: Option<WordArc>,
     /// Such a CIRCLE ran on as its word says.
@@ -115,7 +119,10 @@ impl FormState {
     /// True while each motion must be looked at.
     #[inline]
     pub(crate) fn watches_motions(&self) -> bool {
-        self.expects.is_some() || self.table.is_in_play() || self.word_arc.is_some()
+        self.expects.is_some()
+            || self.table.is_in_play()
+            || self.word_arc.is_some()
+            || self.told_sweep.is_some()
     }
 }
 

@@ -7,6 +7,7 @@
 mod ahead;
 mod arc;
 mod complete;
+mod finish;
 mod form;
 mod items;
 mod lines;
@@ -19,6 +20,7 @@ mod resume;
 mod seek;
 mod spline;
 mod statement;
+mod told_sweep;
 mod word_arc;
 
 use std::io::Read;
@@ -29,7 +31,6 @@ use fil_diag::{Diag, Result, TextSpan};
 use crate::dialect::{ClDialect, DialectRules, Recognition, Recognized};
 use crate::errors::ClCode;
 use crate::forms::{FormState, Outcome};
-use crate::layout::ShapeError;
 use crate::record::{Record, Word, kind};
 use crate::vocabulary::Vocabulary;
 use crate::words;
@@ -44,6 +45,7 @@ use seek::Seeking;
 use spline::Gathered;
 pub use spline::SplineCounts;
 use statement::{Form, GatherError, Statement};
+pub(crate) use told_sweep::ToldSweep;
 pub(crate) use word_arc::WordArc;
 
 /// How a CL text is to be read.
@@ -70,18 +72,6 @@ impl Default for Options {
 pub fn latin1(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| char::from(*byte)).collect()
 }
-
-/// Statements before which all must have come that was announced.
-const ENDS_AN_ANNOUNCEMENT: [crate::WordId; 8] = [
-    words::GOTO,
-    words::FROM,
-    words::GODLTA,
-    words::GOHOME,
-    words::CIRCLE,
-    words::FINI,
-    words::END,
-    words::REWIND,
-];
 
 /// What a statement leaves for the later ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -398,62 +388,6 @@ impl<'r> Reader<'r> {
             return Ok(());
         }
         self.rewrite_text(record)
-    }
-
-    /// Brings a statement to the form of Creo and its items to words.
-    fn bring_to_form(&mut self, vocab: &mut Vocabulary, record: &mut Record) -> Result<Outcome> {
-        let outcome = self.rewrite(vocab, record)?;
-        if matches!(outcome, Outcome::Free | Outcome::Bound) {
-            self.finish(record)?;
-        }
-        Ok(outcome)
-    }
-
-    /// From items to words, with what the dialect means by them.
-    fn finish(&mut self, record: &mut Record) -> Result<()> {
-        if ENDS_AN_ANNOUNCEMENT.contains(&record.major) {
-            self.refuse_expected()?;
-        }
-        match record.major {
-            words::CIRCLE => {
-                self.modal.forms.word_arc = None;
-                let is_by_word = self.turn_circle(record)?;
-                self.bring_back(record)?;
-                if is_by_word {
-                    record.arrange().map_err(|error| self.shape_error(&error))?;
-                    self.note_word_arc(record);
-                    return Ok(());
-                }
-            }
-            words::RAPID => self.modal.forms.word_arc = None,
-            words::GOTO => {
-                self.bring_back(record)?;
-                self.split_points(record)?;
-            }
-            words::FROM => {
-                self.bring_back(record)?;
-                self.check_axis(record)?;
-            }
-            words::GODLTA | words::GOHOME => self.bring_back(record)?,
-            _ => {}
-        }
-        record.arrange().map_err(|error| self.shape_error(&error))?;
-        if self.modal.forms.word_arc.is_some() && record.kind == kind::MOTION {
-            self.judge_word_arc(record)?;
-        }
-        match record.major {
-            words::MULTAX | words::TLAXIS => self.set_mode(record),
-            words::GOTO | words::FROM => self.keep_axis(record),
-            // Where these lead is a matter of the post.
-            words::GODLTA => self.modal.point = None,
-            words::GOHOME => self.keep_home(record),
-            _ => {}
-        }
-        Ok(())
-    }
-
-    fn shape_error(&self, error: &ShapeError) -> Box<Diag> {
-        self.diag(error.code, &error.message, self.item_range(error.item))
     }
 
     /// Where an item stands in the joined statement; the last one when there are not so
