@@ -111,4 +111,7 @@ fn the_last_point_needs_a_way_out() {
     let cl = changed("RAPID\nGOTO / 0.0000, 0.0000, 200.0000\n", "");
     let (found, _) = refusal("feed-ahead.fil", &cl);
     assert_eq!(found, "E0316 there is no next motion");
+    let cl = changed("SEQNO / 1060\nRAPID\n", "SEQNO / 1060\n");
+    let (found, _) = refusal("feed-ahead.fil", &cl);
+    assert_eq!(found, "E0325 A PASS ENDS WITH A RAPID MOVE: AFTER FEDCTL/OFF COMES A CUT");
 }
