@@ -79,7 +79,9 @@ pub fn tell(outcome: &Outcome) {
     let Ok(report) = &outcome.result else { return };
     for (section, count) in &report.swallowed {
         let records = summary::counted(*count, "record");
-        output::say(&format!("note: {records} taken by the section {section} had no effect"));
+        output::say(&format!(
+            "note: {records} taken by the section {section} wrote nothing where they stand"
+        ));
     }
     for path in &report.script_files {
         output::say(&format!("note: FIL has changed {}", path.display()));

@@ -55,14 +55,19 @@ pub fn line(post: &str, report: &Report, warnings: usize, time: Duration) -> Str
         counted(warnings as u64, "warning")
     );
     if let Some(extents) = &report.extents {
+        line.push_str(", points");
         for (axis, name) in ["X", "Y", "Z"].iter().enumerate() {
             let (min, max) = (extents.min[axis], extents.max[axis]);
-            line.push_str(&format!(", {name} {} to {}", length(min), length(max)));
+            let comma = if axis == 0 { "" } else { "," };
+            line.push_str(&format!("{comma} {name} {} to {}", length(min), length(max)));
         }
     }
     if let Some((unit, source)) = report.unit {
         let separator = if report.extents.is_some() { " " } else { ", " };
         line.push_str(&format!("{separator}{unit} ({source})"));
+    }
+    if report.words_beside {
+        line.push_str(", words of POSTN or REPEAT not counted");
     }
     if let Some(dialect) = &report.dialect {
         line.push_str(&format!(", dialect {dialect}"));

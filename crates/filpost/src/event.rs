@@ -23,7 +23,7 @@ pub enum Event<'a> {
         key: &'a str,
         /// The number of the CL record it was run for.
         record: u32,
-        /// The record had no effect on the post.
+        /// The section gave the post nothing for the record.
         swallowed: bool,
         /// FIL has switched the development listing on (POSTF 24).
         traced: bool,

@@ -186,8 +186,12 @@ impl<'o, S: Records> Outside<'o, S> {
             let result = result.map_err(|diag| self.name_dialects(diag));
             result.map_err(|diag| if made_by_fil { diag } else { Box::new(diag.at(place)) })?;
         }
-        if let (kind::MOTION, Some(point)) = (record.kind, self.post.point()) {
-            Extents::add(&mut self.report.extents, point);
+        if record.kind == kind::MOTION {
+            if let Some(point) = self.post.point() {
+                Extents::add(&mut self.report.extents, point);
+            }
+        } else if matches!(record.major, words::POSTN | words::REPEAT) {
+            self.report.words_beside = true;
         }
         self.ended |= record.kind == kind::FINI;
         Ok(())

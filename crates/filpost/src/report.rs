@@ -56,9 +56,14 @@ pub struct Report {
     pub unit: Option<(Unit, UnitSource)>,
     /// The machines that MACHIN records name, each once, with the CL line.
     pub machines: Vec<(Machin, u32)>,
-    /// The box around the path.
+    /// The box around the points of the CL records that the post has carried out. The
+    /// program itself may reach further: see [`Report::words_beside`].
     pub extents: Option<Extents>,
-    /// Records that a section took without any effect on the post, by section.
+    /// POSTN or REPEAT have written words beside those points, which `extents` does
+    /// not count.
+    pub words_beside: bool,
+    /// Records for which a section gave the post nothing, by section. What the section
+    /// kept of them in its variables may act later.
     pub swallowed: BTreeMap<String, u64>,
     /// Files that FIL has written or deleted.
     pub script_files: Vec<PathBuf>,
