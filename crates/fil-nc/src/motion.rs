@@ -98,6 +98,9 @@ pub enum Compensation {
     Right,
 }
 
+/// What the number of a work offset that a word chooses is counted from.
+pub const WORD_OFFSETS: u32 = 1_000_000;
+
 /// What is in force besides the motion itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Modes {
@@ -119,7 +122,9 @@ pub struct Modes {
     pub spindle_range: Option<u8>,
     /// Spindle speed, turns/min; `None` before the first and at constant surface speed.
     pub speed: Option<f64>,
-    /// Preparatory function of the work offset (54 for `G54`).
+    /// The work offset: its preparatory function (54 for `G54`), for a numbered one of a
+    /// function its tenths and the number (541003 for `G54.1 P3`), for one of a word
+    /// 1000000 and the number.
     pub fixture: Option<u32>,
     /// Coolant flows.
     pub coolant: bool,

@@ -86,7 +86,7 @@ pub const HANDLERS: &[(WordId, Handler)] = &[
     (w::SELCTL, I(word::loadtl::select)),
     (w::SELECT, I(word::loadtl::select)),
     (w::SEQNO, I(word::seqno::handle)),
-    (w::SET, Refused),
+    (w::SET, I(word::set::handle)),
     (w::SPINDL, I(word::spindl::handle)),
     (w::STOP, I(word::stop::stop)),
     (w::SWITCH, Refused),

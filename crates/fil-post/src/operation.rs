@@ -242,6 +242,8 @@ pub enum Operation {
     Compensation(CutterCompensation),
     /// A tool change.
     ToolChange(ToolChange),
+    /// A work offset by its number from 1; `None` for the machine's usual one.
+    WorkOffset(Option<i64>),
     /// The next tool is prepared.
     SelectTool(i64),
     /// A function by its number: G or M.

@@ -85,6 +85,8 @@ pub enum Function {
     TipControlByDirection,
     /// Work offset.
     Fixture(u32),
+    /// Work offset by a number of its own; the code in tenths.
+    NumberedFixture(u32),
     /// S is a surface speed, else turns.
     Surface(bool),
     /// S of this block limits the speed.
@@ -149,7 +151,7 @@ impl Function {
             Function::Length(_) | Function::TipControl | Function::TipControlByDirection => {
                 Group::Length
             }
-            Function::Fixture(_) => Group::Fixture,
+            Function::Fixture(_) | Function::NumberedFixture(_) => Group::Fixture,
             Function::Surface(_) => Group::Surface,
             Function::PathControl => Group::PathControl,
             Function::ThreadPasses
@@ -305,6 +307,9 @@ impl Functions {
             return;
         }
         self.add(settings.code("cycle.off_code"), Function::CycleOff);
+        if let Some(tenths) = settings.code("cycle.rigid_tap_code").filter(|code| *code >= 0) {
+            self.0.entry(i64::from(tenths)).or_insert(Function::Cycle(CycleKind::Tap));
+        }
         for (code, kind) in STANDARD_CYCLES {
             self.add(Some(*code), Function::Cycle(*kind));
         }
@@ -321,6 +326,11 @@ impl Functions {
             for code in (first..=last).take(100) {
                 self.add(Some(code), Function::Fixture(code.unsigned_abs()));
             }
+        }
+        let tenths =
+            settings.code("fixture.extended_code").and_then(|code| u32::try_from(code).ok());
+        if let Some(tenths) = tenths {
+            self.0.entry(i64::from(tenths)).or_insert(Function::NumberedFixture(tenths));
         }
     }
 

@@ -123,6 +123,10 @@ pub struct Dialect {
     pub(crate) cycle_dwell: u8,
     pub(crate) dwell: u8,
     pub(crate) tool_offset: u8,
+    /// That of the number of a numbered work offset.
+    pub(crate) fixture_number: u8,
+    /// That of a word that chooses the work offset; 0 for none.
+    pub(crate) fixture_word: u8,
     /// That of the angle of an oriented spindle; 0 for none.
     pub(crate) orientation: u8,
     /// Control's dwell unit in a second.
@@ -243,6 +247,11 @@ impl Dialect {
             cycle_dwell: settings.letter("cycle.dwell_address"),
             dwell: settings.letter("dwell.address"),
             tool_offset: settings.letter("cutcom.address"),
+            fixture_number: settings.letter("fixture.extended_address"),
+            fixture_word: match settings.code("fixture.form") {
+                Some(2) => settings.letter("fixture.address"),
+                _ => 0,
+            },
             orientation: settings.letter("spindle.orient_address"),
             dwell_factor: factor(&settings, "dwell.upm_factor"),
             feed_factor: factor(&settings, "feed.upm_factor"),

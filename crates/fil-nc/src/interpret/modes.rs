@@ -5,7 +5,7 @@ use super::state::State;
 use super::words::{Words, letter};
 use crate::dialect::{Auxiliary, Function, Group, ToolCall};
 use crate::errors::NcCode;
-use crate::motion::{Compensation, Event, Spindle};
+use crate::motion::{Compensation, Event, Spindle, WORD_OFFSETS};
 
 pub(super) const H: u8 = letter(b'H');
 const S: u8 = letter(b'S');
@@ -35,11 +35,30 @@ impl State<'_> {
         if let Some(Function::Return { initial }) = words.function(Group::Return) {
             self.return_initial = initial;
         }
-        if let Some(Function::Fixture(code)) = words.function(Group::Fixture) {
-            self.fixture(code);
-        }
+        self.work_offset(words)?;
         words.function(Group::PathControl);
         self.offsets(words)
+    }
+
+    /// A work offset by its code, by its code and a number, or by a word.
+    fn work_offset(&mut self, words: &mut Words) -> Result<(), Fault> {
+        match words.function(Group::Fixture) {
+            Some(Function::Fixture(code)) => self.fixture(code),
+            Some(Function::NumberedFixture(tenths)) => {
+                let number = words.take_whole(self.dialect.fixture_number)?;
+                let missing =
+                    || Fault::new(NcCode::MissingWord, "the work offset needs its number");
+                self.fixture(tenths * 1000 + number.ok_or_else(missing)?);
+            }
+            _ => {}
+        }
+        let by_word = self.dialect.fixture_word > 0 && words.peek(Group::Length).is_none();
+        if by_word {
+            if let Some(number) = words.take_whole(self.dialect.fixture_word)? {
+                self.fixture(WORD_OFFSETS + number);
+            }
+        }
+        Ok(())
     }
 
     /// The work offset is another one than that in force.

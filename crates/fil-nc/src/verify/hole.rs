@@ -11,9 +11,6 @@ use crate::motion::{Course, Event, Move, Spindle};
 /// Most motions over a hole before it is drilled.
 const APPROACH: usize = 6;
 
-/// How far single moves come back above the last peck, mm.
-const PECK_GAP: f64 = 0.2;
-
 /// Levels of a hole in the machine's Z, and its place.
 #[derive(Clone, Copy)]
 pub(super) struct Levels {
@@ -210,17 +207,17 @@ impl<C: Steps> Walk<'_, C> {
         }
         let Some(back) = self.next_move() else { return Ok(()) };
         self.vertical(&back)?;
-        let slack = self.slack.linear[2];
+        let (slack, peck_gap) = (self.slack.linear[2], self.settings.peck_gap());
         let gap = back.to.linear[2] - reached;
         // How far a control comes back by itself is a parameter of the control.
-        let right = if back.in_cycle { gap > 0.0 } else { (gap - PECK_GAP).abs() <= 2.0 * slack };
-        let above = (back.to.linear[2] - levels.clear).abs() <= slack && gap <= PECK_GAP + slack;
+        let right = if back.in_cycle { gap > 0.0 } else { (gap - peck_gap).abs() <= 2.0 * slack };
+        let above = (back.to.linear[2] - levels.clear).abs() <= slack && gap <= peck_gap + slack;
         if back.course == Course::Rapid && (right || above) {
             self.take(cl_line, &back);
             self.next += 1;
             return Ok(());
         }
-        if hole.kind == CycleKind::Deep && levels.clear - reached <= PECK_GAP + slack {
+        if hole.kind == CycleKind::Deep && levels.clear - reached <= peck_gap + slack {
             return Ok(());
         }
         let message =
@@ -381,12 +378,12 @@ fn reversed(spindle: Spindle) -> Spindle {
 }
 
 /// Heights above its start at which the tool turns round in a hole of single moves.
-pub(super) fn heights(hole: &Hole, levels: Levels) -> Vec<f64> {
+pub(super) fn heights(hole: &Hole, levels: Levels, peck_gap: f64) -> Vec<f64> {
     let raised = hole.retract.filter(|above| *above > 0.0);
     let mut heights: Vec<f64> = raised.into_iter().collect();
     heights.push(levels.clear - levels.at[2]);
     for depth in depths(hole, levels) {
-        heights.extend([depth - levels.at[2], depth + PECK_GAP - levels.at[2]]);
+        heights.extend([depth - levels.at[2], depth + peck_gap - levels.at[2]]);
     }
     heights
 }

@@ -107,7 +107,7 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn say_in_axes(&mut self, hole: &Hole, levels: Levels) -> Option<Kept> {
         let next = self.next_move().filter(|next| next.to.tip_control)?;
         let mut line = self.line_of(hole);
-        line.heights = heights(hole, levels);
+        line.heights = heights(hole, levels, self.settings.peck_gap());
         self.at = self.said(&Move { to: self.at, ..next }, hole, levels, &line).to;
         line.before = self.initial.unwrap_or(self.at.linear[2]) - levels.at[2];
         let first = self.next;

@@ -6,7 +6,7 @@
 use super::report::FindingKind;
 use super::settings::{Due, Settings};
 use super::wanted::{CoolantKind, Effect, Wanted};
-use crate::motion::{Compensation, Modes, Spindle};
+use crate::motion::{Compensation, Modes, Spindle, WORD_OFFSETS};
 
 /// Allowed deviation of an oriented spindle, degrees.
 const ANGLE: f64 = 6e-4;
@@ -159,6 +159,7 @@ impl Expected {
                 self.compensation.set((*side, offset), settings.compensation_due());
             }
             Wanted::Stop | Wanted::End => self.flush(),
+            Wanted::WorkOffset(number) => self.fixture = settings.work_offset(*number).map(Some),
             Wanted::Fixture(code) => self.fixture = Some(Some(*code)),
             Wanted::Unknown { effect: Effect::Words | Effect::Path, .. } => {
                 self.fixture = None;
@@ -310,8 +311,7 @@ impl Expected {
             wrong.push((FindingKind::Coolant, said.to_string()));
         }
         if let Some(must) = self.fixture.filter(|must| *must != modes.fixture) {
-            let name =
-                |fixture: Option<u32>| fixture.map_or("none".to_string(), |g| format!("G{g}"));
+            let name = |fixture: Option<u32>| fixture.map_or("none".to_string(), name_of_fixture);
             let (found, must) = (name(modes.fixture), name(must));
             wrong.push((FindingKind::Fixture, format!("work offset {found}, it should be {must}")));
         }
@@ -371,6 +371,17 @@ fn said_of_spindle(found: Spindle, must: Spindle, cuts: bool) -> String {
         return "the spindle is off while the tool cuts".to_string();
     }
     format!("the spindle is {}, it should be {}", turn(found), turn(must))
+}
+
+fn name_of_fixture(fixture: u32) -> String {
+    match fixture {
+        0..1000 => format!("G{fixture}"),
+        1000..WORD_OFFSETS => {
+            let (tenths, number) = (fixture / 1000, fixture % 1000);
+            format!("G{}.{} P{number}", tenths / 10, tenths % 10)
+        }
+        _ => format!("number {}", fixture - WORD_OFFSETS),
+    }
 }
 
 /// The work offset that the start of a program switches on.

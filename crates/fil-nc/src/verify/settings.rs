@@ -6,14 +6,14 @@ use fil_machine::address::Addresses;
 use fil_machine::commons::{Commons, Dbl, Int, Rel};
 use fil_machine::letter::{Letter, letters};
 use fil_machine::locations::{
-    self as loc, CircleCenter, Placement, RapidSplit, ToolChangeBlock, ToolFormat,
+    self as loc, CircleCenter, FixtureForm, Placement, RapidSplit, ToolChangeBlock, ToolFormat,
 };
 use fil_machine::setting::CodeAt;
 use fil_machine::user_blocks;
 
 use super::wanted::{CoolantKind, CycleKind, SpindleRange};
 use crate::forward::Forward;
-use crate::motion::{Spindle, unit};
+use crate::motion::{Spindle, WORD_OFFSETS, unit};
 
 /// How far an axis may be asked to stand from 0 when the program never writes it, mm.
 const NOT_WRITTEN: f64 = 1e-3;
@@ -253,6 +253,35 @@ impl<'c> Settings<'c> {
             let (min, max) = self.speeds_of(*range);
             (min..=max).contains(&speed)
         })
+    }
+
+    /// The work offset of SET/OFSETL as programs name it (see
+    /// [`Modes::fixture`](crate::motion::Modes)); `None` where the machine has none.
+    pub fn work_offset(&self, number: Option<f64>) -> Option<u32> {
+        let code = |at: CodeAt| u32::try_from(self.commons.read(at)?).ok();
+        let by_word = self.commons.read(loc::FIXTURE_FORM) == FixtureForm::Word;
+        let Some(number) = number else {
+            return code(loc::FIXTURE_DEFAULT_CODE).filter(|_| !by_word);
+        };
+        let index = number as i64 + i64::from(self.commons.int_opt(loc::FIXTURE_BASE).unwrap_or(0));
+        let index = u32::try_from(index).ok()?;
+        if by_word {
+            return Some(WORD_OFFSETS + index);
+        }
+        let (first, last) = (code(loc::FIXTURE_MIN_CODE)?, code(loc::FIXTURE_MAX_CODE)?);
+        let plain = (last + 1).checked_sub(first)?;
+        if (1..=plain).contains(&index) {
+            return Some(first + index - 1);
+        }
+        match self.commons.int_opt(loc::FIXTURE_EXTENDED_CODE).filter(|tenths| *tenths > 0) {
+            Some(tenths) => Some(tenths.unsigned_abs() * 1000 + index.checked_sub(plain)?),
+            None => (first..=last).contains(&index).then_some(index),
+        }
+    }
+
+    /// How far single moves come back above the last peck, mm.
+    pub fn peck_gap(&self) -> f64 {
+        self.commons.dbl_opt(loc::CYCLE_PECK_GAP).unwrap_or(0.0).max(0.0)
     }
 
     /// The machine's usual coolant has pressures, and codes for them.

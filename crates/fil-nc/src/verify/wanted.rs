@@ -63,6 +63,8 @@ pub enum Wanted {
     Compensation(Compensation, Option<u32>),
     /// A work offset, by its preparatory function.
     Fixture(u32),
+    /// A work offset by its number from 1; `None` for the machine's usual one.
+    WorkOffset(Option<f64>),
     /// The program multiplies X by this from here on.
     XScale(f64),
     /// The program waits, seconds; `None` for turns of the spindle.

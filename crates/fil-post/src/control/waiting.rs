@@ -21,6 +21,8 @@ pub enum Function {
     Compensation,
     /// A function of the user's own.
     Auxiliary,
+    /// The work offset.
+    WorkOffset,
 }
 
 /// The motion that words wait for.
@@ -117,6 +119,24 @@ impl Control {
         }
         self.block.cause = cause;
         Ok(())
+    }
+
+    /// Writes a work offset before the motion in the block, where that motion does not
+    /// bring it along: nothing may move in the offset before.
+    ///
+    /// # Errors
+    /// As [`Control::write_block`].
+    pub(crate) fn work_offset_first(&mut self, turning: AxisSet) -> Result<()> {
+        let due =
+            self.waiting.words.iter().find(|(function, ..)| *function == Function::WorkOffset);
+        let Some((_, due, _)) = due else { return Ok(()) };
+        let moves = |number| turning.has(number) || self.block_has(self.tables.axis(number).letter);
+        let comes_along = match due {
+            Due::Any => true,
+            Due::Xy => moves(0) || moves(1),
+            Due::Z => moves(2),
+        };
+        if comes_along { Ok(()) } else { self.flush_function(Function::WorkOffset) }
     }
 
     /// Adds the words that wait for the motion in the block; `turning` are the axes that

@@ -51,13 +51,17 @@ pub struct Codes {
     has_cycle_off: bool,
     /// Auxiliary functions of the spindle ranges.
     ranges: Vec<FunctionCode>,
+    /// The lowest and the highest code of the work offsets.
+    fixtures: Option<(FunctionCode, FunctionCode)>,
 }
 
 impl Codes {
     /// The functions that the settings name.
     pub fn from_commons(commons: &Commons) -> Self {
         let turning = commons.read(loc::FEED_UPM_CODE) == Some(98);
+        let code = |at: CodeAt| commons.read(at).and_then(FunctionCode::of_setting);
         let mut codes = Codes {
+            fixtures: code(loc::FIXTURE_MIN_CODE).zip(code(loc::FIXTURE_MAX_CODE)),
             named: Vec::with_capacity(48),
             turning,
             has_cycle_off: commons.read(loc::CYCLE_OFF_CODE).is_some(),
@@ -81,10 +85,18 @@ impl Codes {
         for at in loc::CYCLE_CODES {
             name(at, Meaning::Cycle);
         }
+        let tenths = |at| {
+            let code = commons.int_opt(at).and_then(|code| u32::try_from(code).ok());
+            code.map(FunctionCode::tenths)
+        };
+        let (extended, tap) =
+            (tenths(loc::FIXTURE_EXTENDED_CODE), tenths(loc::CYCLE_RIGID_TAP_CODE));
         if !turning {
             name(loc::MODE_ABSOLUTE_CODE, Meaning::Distance(Distance::Absolute));
             name(loc::MODE_INCREMENTAL_CODE, Meaning::Distance(Distance::Incremental));
         }
+        codes.named.extend(extended.map(|code| (code, Meaning::Frame)));
+        codes.named.extend(tap.map(|code| (code, Meaning::Cycle)));
         codes
     }
 
@@ -93,6 +105,9 @@ impl Codes {
     pub fn meaning(&self, code: FunctionCode) -> Meaning {
         match self.named.iter().find(|(named, _)| *named == code) {
             Some((_, meaning)) => *meaning,
+            None if self.fixtures.is_some_and(|(first, last)| first <= code && code <= last) => {
+                Meaning::Frame
+            }
             None => self.usual(code),
         }
     }

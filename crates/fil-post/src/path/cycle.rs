@@ -81,6 +81,8 @@ pub struct Cycle {
     pub dwell: f64,
     /// Feed.
     pub feed: CycleFeed,
+    /// A tap in step with the spindle (HIGH), with its code where the machine has one.
+    pub rigid: bool,
     /// Level of the tool before the cycle along the drilling axis, machine
     /// coordinates; `None` when it is to be taken from the tape at the next hole.
     pub initial: Option<f64>,

@@ -2,6 +2,7 @@
 
 use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
+use fil_machine::locations as loc;
 use fil_machine::modes::INCH;
 
 use super::cycle::{Cycle, CycleFeed, CycleKind, Hole};
@@ -12,10 +13,6 @@ use crate::control::word_address::dwell;
 use crate::control::word_address::motion::{self, Motion};
 use crate::errors::PostCode;
 use crate::operation::{Dwell, Feed};
-
-/// Distance above the last depth at which a peck starts to feed, and by which
-/// BRKCHP lifts, mm.
-const PECK_GAP: f64 = 0.2;
 
 /// Drills one hole: rapid to it and to the R level, feed to the bottom (in
 /// pecks), dwell, retract.
@@ -38,7 +35,7 @@ fn cant_tap() -> Result<()> {
 }
 
 /// All axes but one.
-fn without(axis: usize) -> AxisSet {
+pub(super) fn without(axis: usize) -> AxisSet {
     AxisSet::ALL
         .numbers()
         .filter(|number| *number != axis)
@@ -73,7 +70,8 @@ impl Moves<'_> {
 
     /// DEEP comes out to the R level after each peck, BRKCHP only lifts.
     fn pecks(&mut self, step: f64) -> Result<()> {
-        let gap = if self.control.is_metric() { PECK_GAP } else { PECK_GAP / INCH };
+        let gap = self.control.commons.dbl_opt(loc::CYCLE_PECK_GAP).unwrap_or(0.0).max(0.0);
+        let gap = if self.control.is_metric() { gap } else { gap / INCH };
         let Hole { bottom, clear, .. } = *self.hole;
         let (length, out) = ((clear - bottom).abs(), (clear - bottom).signum());
         let mut reached = 0.0;
@@ -83,10 +81,8 @@ impl Moves<'_> {
             self.feed(level)?;
             if self.cycle.kind == CycleKind::Deep {
                 self.rapid(clear)?;
-                self.rapid(clear - (reached - gap).max(0.0) * out)?;
-            } else {
-                self.rapid(level + gap * out)?;
             }
+            self.rapid(clear - (reached - gap).max(0.0) * out)?;
         }
         self.feed(bottom)
     }

@@ -3,6 +3,7 @@
 
 use fil_diag::Result;
 use fil_machine::axes::{AXES, AxisSet, Position};
+use fil_machine::locations as loc;
 
 use super::cycle::{Cycle, Hole};
 use super::{expand, rapid, rotary};
@@ -53,6 +54,13 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     }
     let at = Motion { position, axes: AxisSet::ALL, word };
     if let Some(code) = words::code(&post.control, cycle) {
+        if post.control.state.in_cycle != Some(true)
+            && post.control.commons.read(loc::CYCLE_APPROACH_BLOCK)
+        {
+            let across = expand::without(hole.along);
+            let cause = post.control.block.cause;
+            rapid::rapid(&mut post.control, &at.of(across), cause)?;
+        }
         words::hole(&mut post.control, cycle, code, &at, &hole)?;
         cycle.in_force = Some(hole);
     } else {

@@ -41,7 +41,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     if post.path.arc.is_some() {
         return PostCode::ArcEnd.err("CYCLE came between a CIRCLE and its GOTO");
     }
-    if items.any_of(&[w::OFF, w::NOMORE]).is_some() {
+    if !items.has(w::PULBAC) && items.any_of(&[w::OFF, w::NOMORE]).is_some() {
         items.deny_rest()?;
         return cycle::replace(post, None);
     }
@@ -63,7 +63,8 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
     let depth = depth.ok_or_else(|| PostCode::CycleForm.diag("DEPTH is missing"))?.abs();
     let clear = clearance(post, items, &mut words.clear)?;
     let step = step(post, items, kind, &mut words.step)?;
-    let retract = optional(items, &[w::RETURN, w::RTRCTO], &mut 0)?;
+    let retract = return_level(items)?;
+    let rigid = kind == CycleKind::Tap && items.flag(w::HIGH);
     let dwell = optional(items, &[w::DWELL], &mut words.dwell)?;
     if depth == 0.0 && !(feeds_to_start && clear > 0.0) || clear < 0.0 {
         return PostCode::CycleForm.err("DEPTH must not be zero and CLEAR not negative");
@@ -81,6 +82,7 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
         step,
         dwell: dwell.or(usual_dwell).unwrap_or(0.0),
         feed,
+        rigid,
         initial: None,
         cause: post.control.block.cause.whole(),
         words,
@@ -98,6 +100,28 @@ fn kind(items: &mut Items) -> Result<CycleKind> {
         items.flag(w::DRILL);
     }
     Ok(*kind)
+}
+
+/// The level to retract to: RETURN or RTRCTO, or PULBAC for that before the cycle.
+///
+/// # Errors
+/// PULBAC beside a level that is another one.
+fn return_level(items: &mut Items) -> Result<Option<f64>> {
+    let level = optional(items, &[w::RETURN, w::RTRCTO], &mut 0)?;
+    if !items.flag(w::PULBAC) {
+        return Ok(level);
+    }
+    let off = items.flag(w::OFF);
+    if !off {
+        items.flag(w::ON);
+    }
+    match level {
+        Some(level) if off || level != 0.0 => {
+            PostCode::CycleForm.err(format!("PULBAC beside the return level {level}"))
+        }
+        _ if off => Ok(None),
+        _ => Ok(Some(0.0)),
+    }
 }
 
 /// The R level above the hole's start: RAPTO or CLEAR, else the machine's.

@@ -31,6 +31,7 @@ pub mod pseudo;
 pub mod rapid;
 pub mod repeat;
 pub mod seqno;
+pub mod set;
 pub mod spindl;
 pub mod stop;
 pub mod thread;

@@ -312,6 +312,9 @@ impl State {
                 [code] if WORK_OFFSETS.contains(&code) => vec![Wanted::Fixture(code as u32)],
                 _ => unknown(Effect::Words),
             },
+            w::SET if record.has(w::OFSETL) => {
+                vec![Wanted::WorkOffset(numbers(record).first().copied())]
+            }
             w::LINTOL => self.straight(record),
             w::STOP | w::OPSTOP => vec![Wanted::Stop],
             w::INSERT => vec![Wanted::Insert(record.text.trim().to_string())],
@@ -380,7 +383,9 @@ impl State {
     }
 
     fn cycle(&mut self, record: &Record, vocabulary: &Vocabulary) -> Vec<Wanted> {
-        if record.has(w::OFF) || record.has(w::NOMORE) {
+        let pulls_back = record.has(w::PULBAC);
+        let off = record.has(w::OFF);
+        if !pulls_back && (off || record.has(w::NOMORE)) {
             self.cycle = None;
             return vec![Wanted::CycleEnd];
         }
@@ -404,7 +409,7 @@ impl State {
             kind,
             depth: depth.abs(),
             clear: number(&[w::RAPTO, w::CLEAR]),
-            retract: number(&[w::RETURN, w::RTRCTO]),
+            retract: if pulls_back && !off { Some(0.0) } else { number(&[w::RETURN, w::RTRCTO]) },
             step: number(&[w::STEP, w::SUBPECK, w::INCR])
                 .filter(|_| matches!(kind, CycleKind::Deep | CycleKind::Brkchp)),
             dwell: record.number_after(w::DWELL),

@@ -3,9 +3,10 @@
 use fil_diag::Result;
 use fil_machine::FunctionCode;
 use fil_machine::axes::AxisSet;
-use fil_machine::letters::{F, R};
+use fil_machine::letters::{F, R, S};
 use fil_machine::locations::{
-    self as loc, CycleDataModal, CycleDepthOutput, CycleReturnCodes, DwellCycleModal,
+    self as loc, CycleAxesModal, CycleDataModal, CycleDepthOutput, CycleReturnCodes,
+    DwellCycleModal,
 };
 use fil_machine::modes::{FeedMode, Plane};
 use fil_machine::rounding::Rounding;
@@ -13,7 +14,8 @@ use fil_machine::rounding::Rounding;
 use super::motion::{self, Motion};
 use super::{dwell, modes};
 use crate::control::Control;
-use crate::operation::Feed;
+use crate::errors::PostCode;
+use crate::operation::{Feed, SpindleSpeed};
 use crate::path::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 
 /// The code of a cycle; `None` where the machine has none that does all of it, so that
@@ -22,6 +24,10 @@ use crate::path::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 /// A dwell is lost in a cycle that takes none: G81, G73, G83 and G85 do not. Drilling
 /// with a dwell is countersinking (G82).
 pub fn code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
+    let rigid = control.commons.int_opt(loc::CYCLE_RIGID_TAP_CODE).filter(|_| cycle.rigid);
+    if let Some(tenths) = rigid.and_then(|tenths| u32::try_from(tenths).ok()) {
+        return Some(FunctionCode::tenths(tenths));
+    }
     let code = control.code_if_any(cycle.kind.locations().0)?;
     if cycle.dwell == 0.0 || !WITHOUT_DWELL.contains(&code) {
         return Some(code);
@@ -61,7 +67,9 @@ pub fn hole(
         if control.commons.read(loc::DWELL_CYCLE_MODAL) == DwellCycleModal::EachHole {
             dwell_word(control, cycle)?;
         }
-        if !motion::axis_words(control, &across)? {
+        let moves = motion::axis_words(control, &across)?;
+        repeated_axes(control, &across, AxisSet::ALL)?;
+        if !moves {
             for number in AxisSet::LINEAR.numbers().filter(|number| *number != hole.along) {
                 motion::axis_word(control, number, &across)?;
             }
@@ -69,14 +77,64 @@ pub fn hole(
         return motion::write_motion(control);
     }
     modes::plane_of_its_own(control, Plane::across(hole.along))?;
+    control.because(cycle.cause, |control| rigid_mode(control, cycle))?;
     control.because(cycle.cause, |control| codes(control, code, hole))?;
     for number in AxisSet::LINEAR.numbers().filter(|number| *number != hole.along) {
         motion::axis_word(control, number, &across)?;
     }
     motion::axis_words(control, &across.of(AxisSet::ROTARY))?;
+    repeated_axes(control, &across, AxisSet::ROTARY)?;
     level_words(control, cycle, hole)?;
     data_words(control, cycle)?;
     motion::write_motion(control)
+}
+
+/// Adds the words of those axes that each hole says again, whether or not they have
+/// changed.
+fn repeated_axes(control: &mut Control, across: &Motion, of: AxisSet) -> Result<()> {
+    let repeated = match control.commons.read(loc::CYCLE_AXES_MODAL) {
+        CycleAxesModal::Both => return Ok(()),
+        CycleAxesModal::Linear => AxisSet::ROTARY,
+        CycleAxesModal::Rotary => AxisSet::LINEAR,
+        CycleAxesModal::Neither => AxisSet::ALL,
+    };
+    let present = control.tables.present();
+    for number in across.axes.and(repeated).and(present).and(of).numbers() {
+        motion::axis_word(control, number, across)?;
+    }
+    Ok(())
+}
+
+/// The block that puts the control in step with the spindle, before a rigid tap.
+///
+/// # Errors
+/// The machine has no means for a rigid tap; no speed of the spindle is known.
+fn rigid_mode(control: &mut Control, cycle: &Cycle) -> Result<()> {
+    if !cycle.rigid {
+        return Ok(());
+    }
+    let Some(mode) = control.code_if_any(loc::CYCLE_RIGID_TAP_MODE) else {
+        if control.commons.int_opt(loc::CYCLE_RIGID_TAP_CODE).is_some() {
+            return Ok(());
+        }
+        return PostCode::NoCode.err(
+            "CYCLE/TAP,HIGH, and the machine has no rigid tap (cycle.rigid_tap_code or \
+             cycle.rigid_tap_mode)",
+        );
+    };
+    if control.state.in_cycle == Some(true) {
+        return Ok(());
+    }
+    let Some(SpindleSpeed::Revolutions(speed)) = control.speed else {
+        return PostCode::CycleForm
+            .err("a rigid tap needs the turns of the spindle, and no SPINDL gave them");
+    };
+    let waiting = control.block.take();
+    control.m(mode);
+    control.word(S, speed)?;
+    control.write_block()?;
+    control.block = waiting;
+    Ok(())
 }
 
 /// True when the control still has the words of the last hole: no text has changed

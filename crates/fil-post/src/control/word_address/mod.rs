@@ -6,6 +6,7 @@ mod compensation;
 mod coolant;
 pub mod cycle;
 pub mod dwell;
+mod fixture;
 mod function;
 pub mod modes;
 pub mod motion;
@@ -33,6 +34,7 @@ pub fn write(control: &mut Control, operation: Operation) -> Result<()> {
         Operation::Compensation(compensation) => compensation::write(control, compensation),
         Operation::SelectTool(tool) => tool::select(control, tool),
         Operation::Function(letter, code) => function::write(control, letter, code),
+        Operation::WorkOffset(number) => fixture::write(control, number),
         Operation::WithMotion(code) => function::with_motion(control, code),
         Operation::Words(words) => control.write_words(&words),
         Operation::Repeat(words) => repeat::set(control, words),

@@ -298,6 +298,7 @@ pub fn write_motion(control: &mut Control) -> Result<()> {
 #[inline]
 pub fn write_turning(control: &mut Control, turning: AxisSet) -> Result<()> {
     if !control.waiting.is_empty() {
+        control.work_offset_first(turning)?;
         control.take_waiting(turning);
         length_offset_words(control)?;
     }

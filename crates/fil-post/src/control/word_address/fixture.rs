@@ -1,0 +1,92 @@
+//! Work offsets: G54 to G59, G54.1 P, or a word.
+
+use fil_diag::Result;
+use fil_machine::FunctionCode;
+use fil_machine::locations::{self as loc, FixtureForm, Placement};
+use fil_machine::rounding::Rounding;
+use fil_machine::setting::CodeAt;
+
+use super::cycle;
+use crate::control::{Control, Function};
+use crate::errors::PostCode;
+
+/// Writes a work offset, in a block of its own or with the next motion. Where the axes
+/// stand in it is not known, so that the next motion says all of them.
+///
+/// # Errors
+/// Cutter compensation; an offset that the machine lacks.
+pub fn write(control: &mut Control, number: Option<i64>) -> Result<()> {
+    control.begin()?;
+    cycle::cancel(control)?;
+    if control.is_compensated() {
+        return PostCode::CompensationOn
+            .err("at a change of the work offset; CUTCOM/OFF must come before it");
+    }
+    control.flush_function(Function::WorkOffset)?;
+    match (number, control.commons.read(loc::FIXTURE_FORM)) {
+        (None, FixtureForm::GCode) => {
+            let code = control.code(loc::FIXTURE_DEFAULT_CODE, "SET/OFSETL without a number")?;
+            control.g(code);
+        }
+        (None, FixtureForm::Word) => {
+            return PostCode::WordForm
+                .err("SET/OFSETL without a number, and a word with a number chooses the offset");
+        }
+        (Some(number), form) => {
+            let index = number + i64::from(control.commons.int_opt(loc::FIXTURE_BASE).unwrap_or(0));
+            match form {
+                FixtureForm::GCode => code(control, index)?,
+                FixtureForm::Word => {
+                    let letter = control.letter(loc::FIXTURE_ADDRESS, "a work offset")?;
+                    control.word_rounded(letter, index as f64, Rounding::Exact)?;
+                }
+            }
+        }
+    }
+    control.state.doubt_axes();
+    match control.commons.read(loc::FIXTURE_PLACEMENT) {
+        Placement::BlockOfItsOwn => {
+            control.write_block()?;
+            control.state.doubt_axes();
+            Ok(())
+        }
+        placement => control.place_block(Function::WorkOffset, placement),
+    }
+}
+
+/// Adds the code of an offset: the n-th from the lowest one, a further one with its own
+/// number, or the offset whose code the number is.
+///
+/// # Errors
+/// The machine has no such offset.
+fn code(control: &mut Control, index: i64) -> Result<()> {
+    let bound = |at: CodeAt| control.commons.read(at).map(i64::from);
+    let (first, last) = (bound(loc::FIXTURE_MIN_CODE), bound(loc::FIXTURE_MAX_CODE));
+    let (Some(first), Some(last)) = (first, last) else {
+        return PostCode::NoCode
+            .err("the machine has no code for a work offset (INTCOM 3429 and 3430)");
+    };
+    let plain = last - first + 1;
+    let extended = control.commons.int_opt(loc::FIXTURE_EXTENDED_CODE).filter(|code| *code > 0);
+    let whole = |code: i64| i32::try_from(code).ok().and_then(FunctionCode::of_setting);
+    if let Some(code) = whole(first + index - 1).filter(|_| (1..=plain).contains(&index)) {
+        control.g(code);
+        return Ok(());
+    }
+    let count = i64::from(control.commons.int_opt(loc::FIXTURE_EXTENDED_COUNT).unwrap_or(0));
+    match extended {
+        Some(tenths) if (1..=count).contains(&(index - plain)) => {
+            let letter = control.letter(loc::FIXTURE_EXTENDED_ADDRESS, "a further work offset")?;
+            control.g(FunctionCode::tenths(tenths.unsigned_abs()));
+            return control.word_rounded(letter, (index - plain) as f64, Rounding::Exact);
+        }
+        None if (first..=last).contains(&index) => {
+            if let Some(code) = whole(index) {
+                control.g(code);
+                return Ok(());
+            }
+        }
+        _ => {}
+    }
+    PostCode::WordForm.err(format!("SET: the machine has no work offset {index}"))
+}
