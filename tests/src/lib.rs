@@ -27,6 +27,7 @@ pub mod rs274;
 pub mod same_events;
 pub mod sinumerik;
 pub mod tip_program;
+pub mod word_pages;
 pub mod words;
 
 /// The folder of the workspace.

@@ -10,7 +10,7 @@ use filpost::builtins::BUILTINS;
 use filpost::postf::{Grade, POSTF};
 use filpost::statements::STATEMENTS;
 use filpost_tests::examples::{Block, run};
-use filpost_tests::root;
+use filpost_tests::{root, word_pages};
 
 const FOLDER: &str = "docs/reference";
 
@@ -76,6 +76,7 @@ fn pages() -> BTreeMap<String, String> {
         let extension =
             if row.extension { " An extension of filpost, refused under `--strict`." } else { "" };
         let rest = format!("{}{extension}", grade(row.grade));
+        let rest = format!("{rest}{}", example_of(row.name));
         let text = page(row.name, &row.call(), row.doc, &rest);
         add(&mut index, row.name.replace('/', "-"), row.name, text);
     }
@@ -86,8 +87,13 @@ fn pages() -> BTreeMap<String, String> {
         let operation = filpost::operation_name(row.op);
         let rest = format!("{} Its name in a compat file is `{operation}`.", grade(row.grade));
         let title = format!("POSTF({})", row.number);
+        let rest = format!("{rest}{}", example_of(&title));
         let text = page(&title, &call, row.doc, &rest);
         add(&mut index, format!("POSTF-{}", row.number), &title, text);
+    }
+    index.push_str("\n## Post words\n\n");
+    for (word, text) in word_pages::pages() {
+        add(&mut index, format!("word-{word}"), &word, text);
     }
     index.push_str("\n## CL records\n\n- [Words without effect](no-effect.md)\n");
     pages.insert("no-effect".into(), no_effect_page());
@@ -121,8 +127,114 @@ fn the_summary_lists_the_reference() {
     }
 }
 
+/// The pages of post words as `filpost explain` has them.
+const EXPLAINED: &str = "crates/filpost/data/words.md";
+
+#[test]
+fn explain_has_the_pages_of_post_words() {
+    let all: String = word_pages::pages().into_values().collect();
+    let path = root().join(EXPLAINED);
+    if std::env::var_os("FILPOST_UPDATE").is_some() {
+        std::fs::write(&path, &all).unwrap();
+    }
+    assert_eq!(std::fs::read_to_string(&path).unwrap_or_default(), all, "{EXPLAINED}");
+}
+
+#[test]
+fn each_post_word_has_a_page() {
+    let vocabulary = filpost::cl::Vocabulary::new();
+    let pages = word_pages::pages();
+    for (word, _) in filpost::dispatch::HANDLERS {
+        let name = vocabulary.name(*word);
+        assert!(pages.contains_key(name), "no example of {name} in tests/reference/words.txt");
+    }
+}
+
+/// Examples of functions and POSTF numbers, by the title of their page.
+const EXAMPLES: &[(&str, &str)] = &[
+    (
+        "POSTF(1)",
+        "CIMFIL/ON,FEDRAT\nMOST=POSTF(1,3,120)\nIF(POSTF(7,4).GT.MOST)DMY=POSTF(8,4,MOST)\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
+    ),
+    ("POSTF(2)", "$$ X is written twice as large\nDMY=POSTF(2,3,486,2)\nFINI\n"),
+    (
+        "POSTF(3)",
+        "$$ the next X is written even where it has not changed\nCIMFIL/ON,LOADTL\nDMY=POSTF(13)\nDMY=POSTF(3,3,355+X)\nCIMFIL/OFF\nFINI\n",
+    ),
+    ("POSTF(4)", "EMP=POSTF(4)\nFINI\n"),
+    ("POSTF(5)", "CIMFIL/ON,LOADTL\nIF(POSTF(5).GT.4)OPSTOP\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n"),
+    ("POSTF(6)", "CIMFIL/ON,SPINDL\nIF(POSTF(6,4).EQ.2)OPSTOP\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n"),
+    (
+        "POSTF(7)",
+        "CIMFIL/ON,LOADTL\nTN=POSTF(7,4)\nPPRINT/'TOOL ',TN\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
+    ),
+    (
+        "POSTF(8)",
+        "CIMFIL/ON,FEDRAT\nDMY=POSTF(8,4,POSTF(7,4)*0.8)\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
+    ),
+    (
+        "POSTF(9)",
+        "CIMFIL/ON,CYCLE\nAT=POSTF(9,4,ICODEF(DEPTH))\nIF(AT.GT.0)DEEP=POSTF(7,AT+1)\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
+    ),
+    ("POSTF(10)", "CIMFIL/ON,COOLNT\nDMY=POSTF(10,5,ICODEF(HIGH))\nCIMFIL/OFF\nFINI\n"),
+    (
+        "POSTF(11)",
+        "CIMFIL/ON,LOADTL\nIF(POSTF(5).GT.4)DMY=POSTF(11,5)\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
+    ),
+    ("POSTF(12)", "CIMFIL/ON,LOADTL\nDMY=POSTF(12,4)\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n"),
+    (
+        "POSTF(13)",
+        "$$ a stop before each tool change, which the post then makes as usual\nCIMFIL/ON,LOADTL\nOPSTOP\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
+    ),
+    (
+        "POSTF(14)",
+        "$$ the record behind STOP is read with it\nCIMFIL/ON,STOP\nDMY=POSTF(13)\nATEND=POSTF(14)\nIF(ATEND.EQ.0)DMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
+    ),
+    (
+        "POSTF(20)",
+        "CIMFIL/ON,LOADTL\nDMY=POSTF(20)\nDMY=POSTF(8,4,99)\nDMY=POSTF(21)\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
+    ),
+    (
+        "POSTF(21)",
+        "CIMFIL/ON,LOADTL\nDMY=POSTF(20)\nDMY=POSTF(8,4,99)\nDMY=POSTF(21)\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
+    ),
+    ("POSTF(24)", "DMY=POSTF(24,1)\nFINI\n"),
+    (
+        "NEXTF",
+        "$$ a slower feed before the path goes down\nCIMFIL/ON,FEDRAT\nIF(NEXTF(Z).LT.0)DMY=POSTF(8,4,POSTF(7,4)/2)\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
+    ),
+    ("PREVF", "CIMFIL/ON,STOP\nPPRINT/'STOPPED AT Z',PREVF(Z)\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n"),
+    (
+        "COUPLF",
+        "CIMFIL/ON,CYCLE,DRILL\nDEEP=COUPLF(DEPTH,0)\nIF(DEEP.GT.50)OPSTOP\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
+    ),
+    ("HASF", "CIMFIL/ON,COOLNT\nIF(HASF(THRU).EQ.1)OPSTOP\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n"),
+    (
+        "LASTF",
+        "CIMFIL/ON,LOADTL\nIF(LASTF(Z).LT.100)POSTN/OUT,G,0,Z,100\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
+    ),
+    (
+        "ICODEF",
+        "CIMFIL/ON,COOLNT\nIF(POSTF(7,4).EQ.ICODEF(FLOOD))OPSTOP\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
+    ),
+];
+
+/// The part of a page with its example; nothing where there is none.
+fn example_of(title: &str) -> String {
+    match EXAMPLES.iter().find(|(known, _)| *known == title) {
+        Some((_, example)) => format!("\n\n## Example\n\n```fil\n{example}```"),
+        None => String::new(),
+    }
+}
+
 #[test]
 fn the_examples_run() {
+    for (title, text) in EXAMPLES {
+        let block = Block { words: vec!["fil"], text: (*text).into(), heading: "", line: 1 };
+        let diags = run(&block).expect("an example of FIL is run");
+        let errors: Vec<_> = diags.iter().filter(|diag| diag.is_error()).collect();
+        assert!(errors.is_empty(), "{title}: {errors:?}");
+    }
     for row in STATEMENTS.iter().filter(|row| !row.example.is_empty()) {
         let block = Block { words: vec!["fil"], text: row.example.into(), heading: "", line: 1 };
         let diags = run(&block).expect("an example of FIL is run");

@@ -6,6 +6,7 @@ use filpost::locations::{Location, TABLE};
 use filpost::postf::{Grade, POSTF, PostfInfo};
 use filpost::ready::{self, READY};
 use filpost::statements::STATEMENTS;
+use filpost::word_pages;
 use filpost::{Code, Commons, Error, Kind, Severity, dispatch, suggest};
 
 use crate::errors::CommandCode;
@@ -211,7 +212,11 @@ fn vocabulary_word(name: &str) -> Option<String> {
         (true, false) => "The post does not know it: a FIL section must take it.",
         (false, false) => "It stands inside statements.",
     };
-    Some(format!("{}  {class}\n\n{code}\n{post}", vocabulary.name(id)))
+    let page = word_pages::page(name).map_or_else(String::new, |page| {
+        let (_, text) = page.split_once("\n\n").unwrap_or_default();
+        format!("\n\n{text}")
+    });
+    Some(format!("{}  {class}\n\n{code}\n{post}{page}", vocabulary.name(id)))
 }
 
 /// The settings of a group such as `rapid`.

@@ -83,12 +83,16 @@ impl<'o, S: Records> Engine<'o, S> {
             more = self.step()?;
             if observed {
                 self.show_blocks(|_, _| {});
+                self.outside.record_done().map_err(Error::Run)?;
             }
             if !more || self.outside.post.control.tape.text.len() >= FLUSH {
                 self.flush(nc)?;
             }
         }
         nc.flush().map_err(write_error)?;
+        if observed {
+            self.outside.run_done().map_err(Error::Run)?;
+        }
         let pending = self.take_pending();
         Ok((std::mem::take(&mut self.outside.report), pending))
     }

@@ -4,6 +4,9 @@ use fil_cl::{Record, Vocabulary};
 use fil_diag::Diag;
 use fil_post::Origin;
 
+use crate::report::Report;
+use crate::tally::{Motion, Tally};
+
 /// An event of a run, in the order in which things happen.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
@@ -41,6 +44,49 @@ pub enum Event<'a> {
     Message(&'a str),
     /// A warning; all of them are in the report as well.
     Warning(&'a Diag),
+    /// A motion was carried out. It comes before the blocks of its record.
+    Motion(Motion),
+    /// A record and all it has caused are over. A line of a listing that was made of it
+    /// goes through the script's macro first, where it has one.
+    #[non_exhaustive]
+    RecordDone {
+        /// The macro for lines of listings (_LSTWT).
+        lines: LineEditor<'a>,
+    },
+    /// The program is complete.
+    End(RunEnd<'a>),
+}
+
+/// What a run has counted, at its end.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct RunEnd<'a> {
+    /// Lengths, times and tools.
+    pub tally: &'a Tally,
+    /// Warnings and the unit, among others; its counts are those of `blocks` and `bytes`.
+    pub report: &'a Report,
+    /// Blocks written.
+    pub blocks: u64,
+    /// Bytes written.
+    pub bytes: u64,
+}
+
+/// Edits lines of a listing as the script wants them.
+#[derive(Clone, Copy)]
+pub struct LineEditor<'a>(pub(crate) &'a dyn Fn(&mut String));
+
+impl LineEditor<'_> {
+    /// Edits a line; an empty one is to be left out. An error of the script stops the run
+    /// behind the event.
+    pub fn edit(&self, line: &mut String) {
+        (self.0)(line);
+    }
+}
+
+impl std::fmt::Debug for LineEditor<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("LineEditor")
+    }
 }
 
 /// An observer of one run.

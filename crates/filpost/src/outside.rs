@@ -1,5 +1,6 @@
 //! What a FIL machine reaches while it runs: records, the post, the report.
 
+use std::cell::RefCell;
 use std::collections::HashSet;
 use std::sync::Arc;
 
@@ -11,12 +12,12 @@ use fil_machine::locations::{INPUT_CREO_RECORDS, MESSAGE_TO_TAPE};
 use fil_machine::{Kind, Unit, stored};
 use fil_post::FilLine;
 use fil_post::errors::PostCode;
-use fil_vm::{CommonKind, Files, Host, Module, Moment, SectionId, Site, Values};
+use fil_vm::{CommonKind, Files, Host, Module, Moment, OutputMacro, SectionId, Site, Values};
 
 use crate::cancel::CancelToken;
-use crate::editing::SharedEditor;
+use crate::editing::{SharedEditor, edits};
 use crate::error::RunCode;
-use crate::event::{Event, Observer};
+use crate::event::{Event, LineEditor, Observer, RunEnd};
 use crate::granted::Granted;
 use crate::map;
 use crate::program::Program;
@@ -25,6 +26,7 @@ use crate::run::Start;
 use crate::select;
 use crate::source::{Records, Source};
 use crate::statement::statement_text;
+use crate::tally::{Before, Tally};
 use crate::units::{self, UnitSource};
 
 /// What a FIL machine reaches while it runs: reader and post.
@@ -43,6 +45,10 @@ pub(crate) struct Outside<'o, S> {
     pub observers: Vec<Observer<'o>>,
     /// Records are given to sections as they are written.
     raw: bool,
+    /// Lengths and times, while somebody looks on.
+    pub tally: Option<Box<Tally>>,
+    /// Records need more than to be carried out: they are raw, or counted.
+    careful: bool,
     /// The unit that whoever started the run has said.
     units: Option<Unit>,
     /// What stops the run.
@@ -78,6 +84,8 @@ impl<'o, S: Records> Outside<'o, S> {
             module,
             post: shared.prototype.clone(),
             report: Report::default(),
+            careful: raw || !observers.is_empty(),
+            tally: (!observers.is_empty()).then(Box::default),
             observers,
             raw,
             units,
@@ -141,10 +149,76 @@ impl<'o, S: Records> Outside<'o, S> {
 
     /// The post carries out a record, or what one means that is given as it is written.
     pub fn process(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
+        if self.careful {
+            return self.process_carefully(record, vocabulary);
+        }
+        self.carry_out(record, vocabulary)
+    }
+
+    #[cold]
+    fn process_carefully(
+        &mut self,
+        record: &Record,
+        vocabulary: &Vocabulary,
+    ) -> Result<(), Box<Diag>> {
         if self.raw && record.line != 0 {
             return self.process_written(record, vocabulary);
         }
-        self.carry_out(record, vocabulary)
+        self.carry_out_counted(record, vocabulary)
+    }
+
+    /// Carries out a record and counts its motion, where somebody looks on.
+    fn carry_out_counted(
+        &mut self,
+        record: &Record,
+        vocabulary: &Vocabulary,
+    ) -> Result<(), Box<Diag>> {
+        let before = Before::new(&self.post);
+        self.carry_out(record, vocabulary)?;
+        let Some(tally) = &mut self.tally else { return Ok(()) };
+        if let Some(motion) = tally.count(&before, record, &self.post) {
+            for observer in self.observers.iter_mut() {
+                observer(Event::Motion(motion));
+            }
+        }
+        Ok(())
+    }
+
+    /// Tells the observers that a record and all it has caused are over.
+    ///
+    /// # Errors
+    /// What the script's macro for lines of listings refuses.
+    pub fn record_done(&mut self) -> Result<(), Box<Diag>> {
+        let failure = RefCell::new(None);
+        let commons = &self.post.control.commons;
+        let editor = self.editor.as_ref().filter(|_| edits(commons).listing);
+        let edit = |line: &mut String| {
+            if let Some(editor) = editor
+                && failure.borrow().is_none()
+                && let Err(diag) = editor.edit_line(OutputMacro::Listing, line, commons)
+            {
+                *failure.borrow_mut() = Some(diag);
+            }
+        };
+        for observer in self.observers.iter_mut() {
+            observer(Event::RecordDone { lines: LineEditor(&edit) });
+        }
+        failure.into_inner().map_or(Ok(()), Err)
+    }
+
+    /// Tells the observers what the run has counted.
+    ///
+    /// # Errors
+    /// As [`Outside::record_done`].
+    pub fn run_done(&mut self) -> Result<(), Box<Diag>> {
+        if let Some(tally) = &self.tally {
+            let (blocks, bytes) = (self.report.blocks, self.report.bytes);
+            let end = RunEnd { tally, report: &self.report, blocks, bytes };
+            for observer in self.observers.iter_mut() {
+                observer(Event::End(end));
+            }
+        }
+        self.record_done()
     }
 
     #[cold]
@@ -161,8 +235,8 @@ impl<'o, S: Records> Outside<'o, S> {
             }
         };
         match self.source.written.meant_by(record).map_err(place)? {
-            None => self.carry_out(record, vocabulary),
-            Some(meant) => meant.iter().try_for_each(|one| self.carry_out(one, vocabulary)),
+            None => self.carry_out_counted(record, vocabulary),
+            Some(meant) => meant.iter().try_for_each(|one| self.carry_out_counted(one, vocabulary)),
         }
     }
 

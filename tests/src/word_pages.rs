@@ -1,0 +1,133 @@
+//! The pages of the post words: what compat.md says of a word, its words by position
+//! and what an example writes. All but the examples themselves is made from what the
+//! program does.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use filpost::Program;
+use filpost::cl::reader::{Options, Reader};
+use filpost::cl::record::WordView;
+use filpost::cl::{Record, Vocabulary};
+
+use crate::root;
+
+/// What stands before an example that does not stand alone.
+const START: &str = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 1000, CLW\nFEDRAT / 200, MMPM\nRAPID\n\
+                     GOTO / 0, 0, 50\n";
+
+/// An example of a post word.
+struct Example<'a> {
+    word: &'a str,
+    post: &'a str,
+    alone: bool,
+    lines: &'a str,
+}
+
+/// The examples in `tests/reference/words.txt`.
+fn examples(text: &str) -> Vec<Example<'_>> {
+    let mut examples = Vec::new();
+    for part in text.split("\n# ").skip(1) {
+        let (head, lines) = part.split_once('\n').expect("an example has lines");
+        let mut words = head.split_whitespace();
+        let word = words.next().expect("a word");
+        let rest: Vec<&str> = words.collect();
+        let post =
+            rest.iter().position(|part| *part == "on").map_or("fanuc-mill", |at| rest[at + 1]);
+        examples.push(Example { word, post, alone: rest.contains(&"alone"), lines });
+    }
+    examples
+}
+
+/// The rows of compat.md that say what a post word does, each with its grade.
+fn rows(compat: &str, word: &str) -> Vec<(String, String)> {
+    let wanted = |cell: &str| cell == word || cell.starts_with(&format!("{word}, "));
+    compat
+        .lines()
+        .filter_map(|line| {
+            let cells: Vec<&str> = line.trim_matches('|').split(" | ").map(str::trim).collect();
+            let [name, does, grade, ..] = cells[..] else { return None };
+            wanted(name).then(|| (does.to_string(), grade.to_string()))
+        })
+        .collect()
+}
+
+/// The pages by word.
+pub fn pages() -> BTreeMap<String, String> {
+    let read = |path: &str| std::fs::read_to_string(root().join(path)).expect("a file of the tree");
+    let (compat, text) = (read("docs/compat.md"), read("tests/reference/words.txt"));
+    examples(&text)
+        .iter()
+        .map(|example| (example.word.to_string(), page(example, &compat)))
+        .collect()
+}
+
+fn page(example: &Example<'_>, compat: &str) -> String {
+    let word = example.word;
+    let mut page = format!("# {word}\n\n");
+    for (does, grade) in rows(compat, word) {
+        // Links count from the folder of the page.
+        let does = does.replace("](", "](../");
+        let _ = writeln!(page, "- {does} ({grade})");
+    }
+    let (start, end) = if example.alone { ("", "") } else { (START, "") };
+    let last = if word == "FINI" { "" } else { "FINI\n" };
+    let cl = format!("{start}{}\n{end}{last}", example.lines.trim_end());
+    let _ = write!(page, "\n## Example\n\n```cl\n{}\n```\n", example.lines.trim_end());
+    let first = start.lines().count() as u32 + 1;
+    page.push_str(&written(example, &cl, first));
+    page.push_str("\n## Words by position\n\nAs POSTF(7,n) counts them, for the first record of the example:\n\n| n | word |\n|---|---|\n");
+    page.push_str(&positions(word, &cl, first));
+    page
+}
+
+/// What the word-address control writes for the lines of the example.
+fn written(example: &Example<'_>, cl: &str, first: u32) -> String {
+    let program = Program::builder().ready(example.post).build().expect("a ready post");
+    let lines = first..first + example.lines.trim_end().lines().count() as u32;
+    let mut blocks = Vec::new();
+    for block in program.blocks(cl.as_bytes()) {
+        match block {
+            Ok(block) if lines.contains(&block.origin.line) => blocks.push(block.text),
+            Ok(_) => {}
+            Err(error) => {
+                let diag = &error.diags()[0];
+                let hint = diag.hint.as_deref().unwrap_or(diag.code.hint);
+                let name = diag.code.name();
+                return format!(
+                    "\nThe post refuses it ([{name}](../errors/{name}.md)): {}. {hint}\n",
+                    diag.message
+                );
+            }
+        }
+    }
+    if blocks.is_empty() {
+        return format!("\n`{}` writes nothing for it.\n", example.post);
+    }
+    format!("\n`{}` writes:\n\n```text\n{}\n```\n", example.post, blocks.join("\n"))
+}
+
+fn positions(word: &str, cl: &str, first: u32) -> String {
+    let mut reader = Reader::new(cl.as_bytes(), "example", Options::default());
+    let (mut vocabulary, mut record) = (Vocabulary::new(), Record::default());
+    while reader.read(&mut vocabulary, &mut record).expect("an example is read") {
+        if record.line < first || vocabulary.name(record.major) != word {
+            continue;
+        }
+        let mut table = String::new();
+        for n in 1..=record.len() {
+            let Some(view) = record.word(n, &vocabulary) else { continue };
+            let text = match view {
+                _ if n == 1 => "number of the record".to_string(),
+                _ if n == 2 => format!("{} (type)", record.kind),
+                WordView::Number(number) => number.to_string(),
+                WordView::Word { name, .. } => name.to_string(),
+                WordView::Text(text) => format!("`'{text}'`"),
+                WordView::Empty => "EMPTY".to_string(),
+            };
+            let _ = writeln!(table, "| {n} | {text} |");
+        }
+        return table;
+    }
+    String::from("| - | the reader makes no record of its own of it |\n")
+}
