@@ -6,7 +6,7 @@ use super::wanted::{Effect, Step, Wanted};
 
 impl<C: Steps> Walk<'_, C> {
     /// A rapid to a position of the linear axes, mm. With rotary axes it is not followed.
-    pub(super) fn to_machine(&mut self, cl_line: u32, to: [Option<f64>; 3], what: &str) {
+    pub(super) fn go_to_machine(&mut self, cl_line: u32, to: [Option<f64>; 3], what: &str) {
         let mut pose = self.settings.forward.pose(&self.at);
         if self.settings.forward.has_rotary() {
             return self.unknown(cl_line, what, Effect::Path);

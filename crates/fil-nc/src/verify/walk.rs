@@ -139,12 +139,14 @@ impl<'a, C: Steps> Walk<'a, C> {
                 self.slack = self.settings.slack(*metric);
                 self.travel = self.settings.travel(*metric);
             }
-            Wanted::Home => self.to_machine(step.line, self.settings.home(self.metric), "GOHOME"),
+            Wanted::Home => {
+                self.go_to_machine(step.line, self.settings.home(self.metric), "GOHOME")
+            }
             Wanted::Retract => {
                 let level = self.settings.retract_level(self.metric);
                 let is_above = level.is_some_and(|z| self.known[2] && self.at.linear[2] >= z);
                 if level.is_some() && !is_above {
-                    self.to_machine(step.line, [None, None, level], "RETRCT");
+                    self.go_to_machine(step.line, [None, None, level], "RETRCT");
                 }
             }
             Wanted::Cutter(diameter) => self.cutter = Some(*diameter),

@@ -287,8 +287,8 @@ impl State {
             }
             w::TRANS => self.trans(record),
             w::CYCLE => self.cycle(record, vocabulary),
-            w::GOHOME if record.data.is_empty() => self.to_machine(Wanted::Home),
-            w::RETRCT if record.data.is_empty() => self.to_machine(Wanted::Retract),
+            w::GOHOME if record.data.is_empty() => self.go_to_machine(Wanted::Home),
+            w::RETRCT if record.data.is_empty() => self.go_to_machine(Wanted::Retract),
             w::GOHOME => match numbers(record)[..] {
                 [x, y, z] => self.line_to(Point3::new(x, y, z), self.axis),
                 [x, y, z, i, j, k] => self.line_to(Point3::new(x, y, z), Vector3::new(i, j, k)),
@@ -327,7 +327,7 @@ impl State {
     }
 
     /// To a position of the machine, which the CL file does not know.
-    fn to_machine(&mut self, what: Wanted) -> Vec<Wanted> {
+    fn go_to_machine(&mut self, what: Wanted) -> Vec<Wanted> {
         self.point = None;
         self.rapid = false;
         vec![what]
