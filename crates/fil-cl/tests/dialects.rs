@@ -368,6 +368,12 @@ fn a_word_against_the_axis_must_be_proved() {
     let diag = read(&wrong, None).unwrap_err();
     assert!(diag.message.contains("line 4") && diag.spans[0].line == 6, "{diag}");
     assert!(diag.hint.as_ref().is_some_and(|hint| hint.contains("camworks-axis")), "{diag}");
+    // The signs of CAMWorks do not speak against its variant.
+    let options = Options { dialect: Some(ClDialect::CamWorksAxis), ..Options::default() };
+    let mut reader = Reader::new(wrong.as_bytes(), "t", options);
+    let (mut vocab, mut record) = (Vocabulary::new(), Record::default());
+    while reader.read(&mut vocab, &mut record).unwrap() {}
+    assert_eq!(reader.recognized().against, None);
     let by_axis = records(&wrong, ClDialect::CamWorksAxis);
     assert!(by_axis.iter().any(|record| record.circle().is_some_and(|c| c.axis[2] == 1.0)));
     // It runs on, a corner or a rapid tells nothing, a point twice neither.
