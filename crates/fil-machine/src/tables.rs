@@ -10,7 +10,7 @@ use crate::axis_chain::{AxisChain, ROTARY_LETTERS};
 use crate::commons::Commons;
 use crate::errors::MachineCode;
 use crate::letter::letters::F;
-use crate::locations as loc;
+use crate::locations::{self as loc, ControlFamily};
 use crate::modes::FeedMode;
 use crate::motion_rules::{FeedFormats, MotionRules};
 use crate::numbering::Numbering;
@@ -28,6 +28,8 @@ pub struct MachineTables {
     /// The rules of straight motions at feed.
     pub motion: MotionRules,
     feed_formats: FeedFormats,
+    /// The language of the control.
+    pub family: ControlFamily,
     axes: Vec<Axis>,
     chain: AxisChain,
     present: AxisSet,
@@ -53,6 +55,7 @@ impl MachineTables {
 
     fn make(&mut self, commons: &Commons, metric: bool) -> Result<()> {
         self.addresses = Addresses::from_commons(commons, metric);
+        self.family = commons.read(loc::CONTROL_FAMILY);
         self.numbering = Numbering::from_commons(&self.addresses, commons);
         self.style = TapeStyle::from_commons(commons);
         self.motion = MotionRules::from_commons(commons);

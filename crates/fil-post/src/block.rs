@@ -85,6 +85,11 @@ impl Block {
         (self.present & position.bit() != 0).then(|| self.scaled[position.index()])
     }
 
+    /// The cause of the word at a tape position, where causes are noted.
+    pub fn cause_at(&self, position: TapePosition) -> Cause {
+        self.causes[position.index()]
+    }
+
     /// The tape positions of its words, functions left out.
     pub fn positions(&self) -> impl Iterator<Item = TapePosition> {
         TapePosition::of_set(self.present)

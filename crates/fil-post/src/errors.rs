@@ -19,6 +19,10 @@ fil_diag::codes! {
         WordForm = 506, Error, "form of this post word is not understood",
             "What can't be read for sure is not guessed: the block would be a guess too.",
             "Compare the record with the documented forms of the word.";
+        /// What the language of the control can't say.
+        Family = 560, Error, "the language of the control has no word for this",
+            "Controls of other families have no G functions of their own choice, no skip mark, or no such cycle; what they can't say is not left out.",
+            "Take the record with a FIL section and write with INSERT what the control shall do.";
         /// A missing code.
         NoCode = 507, Error, "the machine has no code for this",
             "The setting that holds the preparatory or auxiliary function is absent.",

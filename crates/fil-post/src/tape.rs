@@ -151,6 +151,38 @@ impl Tape {
         self.end(start, tables)
     }
 
+    /// Writes a line of a control whose blocks are no words: its number where it has one,
+    /// and its items, each with its letter, its first byte in the text and its cause.
+    ///
+    /// # Errors
+    /// A line longer than the control reads.
+    pub(crate) fn phrase(
+        &mut self,
+        number: Option<u64>,
+        text: &str,
+        items: &[(u8, usize, Cause)],
+        tables: &MachineTables,
+    ) -> Result<()> {
+        let start = self.text.len();
+        if let Some(number) = number {
+            self.note(SEQUENCE, self.sequence.cause, start);
+            self.text.extend_from_slice(format!("{number} ").as_bytes());
+        }
+        let base = self.text.len() - start;
+        if let Some(noted) = &mut self.noted {
+            items.iter().for_each(|&(letter, at, cause)| {
+                noted.word(letter, base + at, cause, self.cause);
+            });
+        }
+        self.text.extend_from_slice(text.as_bytes());
+        self.end(start, tables)
+    }
+
+    /// Blocks are numbered: SEQNO/ON or SEQNO/OFF said so, else the machine.
+    pub(crate) fn numbers(&self, tables: &MachineTables) -> bool {
+        self.sequence.switched.unwrap_or(tables.numbering.on)
+    }
+
     /// Sets the number of the next block and, where given, the increment.
     pub fn renumber(&mut self, next: f64, increment: Option<f64>) {
         self.sequence.next = Some(next);

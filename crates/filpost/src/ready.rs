@@ -22,7 +22,8 @@ macro_rules! ready {
 }
 
 /// All ready posts.
-pub const READY: &[ReadyPost] = ready!["fanuc-lathe", "fanuc-mill", "grbl", "linuxcnc-mill"];
+pub const READY: &[ReadyPost] =
+    ready!["fanuc-lathe", "fanuc-mill", "grbl", "heidenhain-tnc640", "linuxcnc-mill"];
 
 /// The post for a CL file that names none and is for a mill.
 pub const GENERIC_MILL: &str = "fanuc-mill";

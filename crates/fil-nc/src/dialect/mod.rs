@@ -84,9 +84,20 @@ pub enum ToolCall {
     WithOffset,
 }
 
+/// The family of a control.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// Words of a letter and a number (ISO 6983).
+    WordAddress,
+    /// Heidenhain Klartext.
+    Klartext,
+}
+
 /// The language of a machine's NC programs.
 #[derive(Clone, Debug)]
 pub struct Dialect {
+    /// The family of the control.
+    pub family: Family,
     functions: Functions,
     auxiliaries: Auxiliaries,
     /// By printed letter.
@@ -205,6 +216,10 @@ impl Dialect {
             .each_ref()
             .map(|rotary| rotary.as_ref().is_some_and(|rotary| rotary.carries == Carries::Table));
         Ok(Dialect {
+            family: match settings.code("control.family") {
+                Some(1) => Family::Klartext,
+                _ => Family::WordAddress,
+            },
             addresses: numbers::addresses(commons, lathe),
             start: start(commons, axis_letters, scales),
             scales,

@@ -129,7 +129,12 @@ impl State<'_> {
             .ok_or_else(|| Fault::new(NcCode::ArcRadii, "no signs of the center make an arc"))
     }
 
-    fn check_radii(&self, plane: [usize; 2], center: [f64; 2], to: &Axes) -> Result<(), Fault> {
+    pub(super) fn check_radii(
+        &self,
+        plane: [usize; 2],
+        center: [f64; 2],
+        to: &Axes,
+    ) -> Result<(), Fault> {
         let radius =
             |point: &Axes| (point[plane[0]] - center[0]).hypot(point[plane[1]] - center[1]);
         let (start, end) = (radius(&self.at), radius(to));
@@ -142,7 +147,7 @@ impl State<'_> {
     }
 
     /// Center and sweep of an arc of a radius; a negative one goes the long way.
-    fn about_radius(
+    pub(super) fn about_radius(
         &self,
         plane: [usize; 2],
         to: &Axes,
@@ -172,7 +177,7 @@ impl State<'_> {
 }
 
 /// Degrees from start to end about the center, above 0; 360 when they are one point.
-fn sweep(plane: [usize; 2], center: [f64; 2], from: &Axes, to: &Axes, ccw: bool) -> f64 {
+pub(super) fn sweep(plane: [usize; 2], center: [f64; 2], from: &Axes, to: &Axes, ccw: bool) -> f64 {
     let arm = |point: &Axes| [point[plane[0]] - center[0], point[plane[1]] - center[1]];
     let (a, b) = (arm(from), arm(to));
     if (a[0] - b[0]).hypot(a[1] - b[1]) < SAME_POINT {

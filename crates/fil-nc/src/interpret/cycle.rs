@@ -37,6 +37,14 @@ struct Hole {
     bottom: f64,
 }
 
+impl Cycle {
+    /// A cycle of another family, whose levels its own file follows.
+    pub(super) fn of_hole(kind: CycleKind, initial: f64, initial_known: bool) -> Self {
+        let (bottom, clear, step, dwell) = (None, None, None, None);
+        Cycle { kind, initial, initial_known, bottom, clear, step, dwell }
+    }
+}
+
 impl State<'_> {
     /// A block with a cycle's code: the cycle and its first hole.
     pub(super) fn begin_cycle(&mut self, kind: CycleKind, words: &mut Words) -> Result<(), Fault> {
@@ -164,7 +172,7 @@ impl State<'_> {
     }
 }
 
-fn reversed(spindle: Spindle) -> Spindle {
+pub(super) fn reversed(spindle: Spindle) -> Spindle {
     match spindle {
         Spindle::Off => Spindle::Off,
         Spindle::Clockwise => Spindle::Counterclockwise,

@@ -7,6 +7,7 @@
 mod arc;
 mod block;
 mod cycle;
+mod klartext;
 mod modes;
 mod program;
 mod state;
@@ -21,7 +22,7 @@ use std::ops::Range;
 
 use fil_diag::{Diag, TextSpan};
 
-use crate::dialect::Dialect;
+use crate::dialect::{Dialect, Family};
 use crate::errors::NcCode;
 use crate::motion::Event;
 
@@ -66,7 +67,10 @@ pub fn interpret(
     dialect: &Dialect,
     take: &mut dyn FnMut(Event),
 ) -> Result<(), Box<Diag>> {
-    program::Program::new(text, name, dialect).run(take)
+    match dialect.family {
+        Family::WordAddress => program::Program::new(text, name, dialect).run(take),
+        Family::Klartext => klartext::run(text, name, dialect, take),
+    }
 }
 
 /// The events of a whole program.

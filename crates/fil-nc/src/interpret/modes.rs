@@ -170,7 +170,7 @@ impl State<'_> {
         Ok(())
     }
 
-    fn change(&mut self, tool: u32) {
+    pub(super) fn change(&mut self, tool: u32) {
         self.events.push(Event::ToolChange { line: self.line, tool, modes: self.modes });
         self.modes.tool = tool;
     }

@@ -67,6 +67,9 @@ fn bare(line: &[u8]) -> String {
     let mut bare: Vec<u8> =
         line.iter().filter(|byte| !byte.is_ascii_whitespace()).copied().collect();
     bare.make_ascii_uppercase();
+    // Lines of Klartext begin with their number.
+    let number = bare.iter().take_while(|byte| byte.is_ascii_digit()).count();
+    bare.drain(..number);
     if bare.first() == Some(&b'N') {
         let digits = bare[1..].iter().take_while(|byte| byte.is_ascii_digit()).count();
         bare.drain(..=digits);

@@ -109,7 +109,10 @@ impl<C: Steps> Walk<'_, C> {
     ) -> Result<(), (u32, String)> {
         let rest = self.approach(cl_line, hole, levels)?;
         let mut reached = levels.clear;
-        for depth in depths(hole, levels) {
+        let in_cycle = self.next_move().is_some_and(|found| found.in_cycle);
+        let from_surface = in_cycle && self.settings.pecks_from_surface();
+        let first = if from_surface { levels.at[2] } else { levels.clear };
+        for depth in depths(hole, first, levels.bottom) {
             if reached != levels.clear {
                 self.between_pecks(cl_line, hole, levels, reached)?;
             }
@@ -325,9 +328,9 @@ impl<C: Steps> Walk<'_, C> {
     /// How the tool leaves the hole, by the code of the cycle.
     fn way_out(&self, kind: CycleKind) -> Out {
         match (self.settings.cycle_code(kind), kind) {
-            (Some(84 | 74), _) => Out::Thread,
-            (Some(85 | 89), _) => Out::Feed,
-            (Some(73 | 81 | 82 | 83 | 86), _) => Out::Rapid,
+            (Some(84 | 74 | 207), _) => Out::Thread,
+            (Some(85 | 89 | 201), _) => Out::Feed,
+            (Some(73 | 81 | 82 | 83 | 86 | 200 | 203 | 205), _) => Out::Rapid,
             (Some(_), _) => Out::Any,
             (None, CycleKind::Bore | CycleKind::Ream) => Out::Feed,
             (None, _) => Out::Rapid,
@@ -382,22 +385,23 @@ pub(super) fn heights(hole: &Hole, levels: Levels, peck_gap: f64) -> Vec<f64> {
     let raised = hole.retract.filter(|above| *above > 0.0);
     let mut heights: Vec<f64> = raised.into_iter().collect();
     heights.push(levels.clear - levels.at[2]);
-    for depth in depths(hole, levels) {
+    for depth in depths(hole, levels.clear, levels.bottom) {
         heights.extend([depth - levels.at[2], depth + peck_gap - levels.at[2]]);
     }
     heights
 }
 
 /// Where the pecks end, the last at the bottom.
-fn depths(hole: &Hole, levels: Levels) -> Vec<f64> {
+/// The levels of the pecks, counted from a level, and the bottom.
+fn depths(hole: &Hole, from: f64, bottom: f64) -> Vec<f64> {
     let mut depths = Vec::new();
     if let Some(step) = hole.step.filter(|step| *step > 1e-6) {
-        let mut reached = levels.clear - step;
-        while reached > levels.bottom + 1e-9 {
+        let mut reached = from - step;
+        while reached > bottom + 1e-9 {
             depths.push(reached);
             reached -= step;
         }
     }
-    depths.push(levels.bottom);
+    depths.push(bottom);
     depths
 }

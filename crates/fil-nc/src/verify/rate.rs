@@ -4,7 +4,10 @@ use super::ahead::Steps;
 use super::report::FindingKind;
 use super::say::{short, spell_rate};
 use super::walk::Walk;
-use crate::motion::{Compensation, Move, Position, Rate};
+use crate::motion::{Compensation, Course, Move, Position, Rate};
+
+/// Share of a feed that the rounding of a pitch may change.
+const PITCH: f64 = 0.0005;
 
 /// Steps in which the way of a tip is measured that axes turn on it.
 const STEPS: u32 = 64;
@@ -33,6 +36,11 @@ impl<C: Steps> Walk<'_, C> {
         let agrees = match (wanted, found.rate) {
             (Rate::PerMinute(a), Some(Rate::PerMinute(b))) => (a - b).abs() <= self.slack.feed,
             (Rate::PerTurn(a), Some(Rate::PerTurn(b))) => (a - b).abs() <= self.slack.turn,
+            // A control that is told the pitch goes as fast as the spindle turns.
+            (Rate::PerMinute(a), Some(Rate::PerTurn(b))) if found.course == Course::Thread => found
+                .modes
+                .speed
+                .is_some_and(|speed| (a - b * speed).abs() <= self.slack.feed + PITCH * a),
             (Rate::PerMinute(rate), Some(Rate::Inverse(inverse))) => {
                 return self.check_time(cl_line, (from, found), rate, inverse);
             }

@@ -6,7 +6,8 @@ use fil_machine::address::Addresses;
 use fil_machine::commons::{Commons, Dbl, Int, Rel};
 use fil_machine::letter::{Letter, letters};
 use fil_machine::locations::{
-    self as loc, CircleCenter, FixtureForm, Placement, RapidSplit, ToolChangeBlock, ToolFormat,
+    self as loc, CircleCenter, ControlFamily, FixtureForm, Placement, RapidSplit, ToolChangeBlock,
+    ToolFormat,
 };
 use fil_machine::setting::CodeAt;
 use fil_machine::user_blocks;
@@ -384,6 +385,11 @@ impl<'c> Settings<'c> {
     /// Dwell of a cycle when the record gives none, seconds.
     pub fn cycle_dwell(&self, kind: CycleKind) -> f64 {
         self.commons.dbl_opt(of_kind(kind).1).unwrap_or(0.0)
+    }
+
+    /// Pecks of a cycle count from the surface of the hole and not from the R level.
+    pub fn pecks_from_surface(&self) -> bool {
+        self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext
     }
 
     /// G code of a cycle; `None` when holes are single moves.

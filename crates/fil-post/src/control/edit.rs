@@ -4,6 +4,7 @@
 use fil_diag::Result;
 use fil_machine::Letter;
 use fil_machine::letters::{G, M, N};
+use fil_machine::locations::ControlFamily;
 
 use super::{Control, texts};
 use crate::cause::Cause;
@@ -14,8 +15,8 @@ use crate::errors::PostCode;
 type CausedWord = (Letter, f64, Cause);
 
 impl Control {
-    /// Writes the block under construction where the program has not begun or someone
-    /// edits blocks.
+    /// Writes the block under construction where the program has not begun, someone edits
+    /// blocks, or the control's blocks are no words.
     ///
     /// # Errors
     /// As [`Control::write_block`]; what the editor refuses.
@@ -25,7 +26,8 @@ impl Control {
         self.begin()?;
         let style = &self.tables.style;
         let (edits_words, edits_lines) = (style.edits_words, style.edits_lines);
-        self.straight = !edits_words && !edits_lines;
+        let klartext = self.tables.family == ControlFamily::Klartext;
+        self.straight = !edits_words && !edits_lines && !klartext;
         if self.straight {
             return self.write_block();
         }
@@ -33,6 +35,9 @@ impl Control {
             self.require_unit()?;
         }
         self.refuse_after_end()?;
+        if klartext {
+            return super::klartext::phrase::write(self);
+        }
         if edits_words {
             let words = self.block.words(&self.tables.addresses);
             if let Some(edited) = self.edited_words(&words)? {

@@ -1,13 +1,15 @@
 //! The control: operations become blocks on the tape.
 //!
 //! [`Control`] holds what every family of controls needs: settings, tables, tape,
-//! what the control knows, what waits. The words of the blocks are made by one
-//! module a family; [`word_address`] (ISO 6983, Fanuc and its relatives) is the
-//! first.
+//! what the control knows, what waits. The blocks are made by one module a family:
+//! [`word_address`] (ISO 6983, Fanuc and its relatives) and [`klartext`] (Heidenhain);
+//! [`family`] chooses.
 
 mod again;
 mod characters;
 mod edit;
+pub mod family;
+pub mod klartext;
 pub mod program;
 mod skip;
 mod texts;
@@ -21,6 +23,7 @@ use fil_machine::address::no_address;
 use fil_machine::commons::EMPTY;
 use fil_machine::contradictions;
 use fil_machine::letters::{G, M};
+use fil_machine::locations::ControlFamily;
 use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::rounding::Rounding;
 use fil_machine::setting::{CodeAt, LetterAt};
@@ -67,10 +70,12 @@ pub struct Control {
     pub repeats: BTreeMap<Letter, (f64, Cause)>,
     /// The block under construction.
     pub block: Block,
-    /// The program has begun and nobody edits its blocks.
+    /// The program has begun, its blocks are words, and nobody edits them.
     pub(crate) straight: bool,
     /// Number and name of the program.
     pub head: ProgramHead,
+    /// What Klartext needs besides.
+    pub(crate) klartext: klartext::Klartext,
     /// The last spindle speed, as it was asked for.
     pub speed: Option<SpindleSpeed>,
     /// The spindle range in force that the program has said, from 0.
@@ -112,6 +117,7 @@ impl Control {
             block: Block::default(),
             straight: false,
             head: ProgramHead::default(),
+            klartext: klartext::Klartext::default(),
             speed: None,
             range: None,
             coolant: None,
@@ -316,7 +322,10 @@ impl Control {
             return Ok(());
         }
         let before = self.before_others()?;
-        self.state.learn_text(text, &self.codes);
+        match self.tables.family {
+            ControlFamily::Klartext => klartext::reader::learn(self, text),
+            ControlFamily::WordAddress => self.state.learn_text(text, &self.codes),
+        }
         self.refuse_in_compensation(before)
     }
 
@@ -377,6 +386,10 @@ impl Control {
             self.warnings.add(PostCode::TapeText, format!("`{text}`"));
         }
         let (cause, start) = (self.block.cause, self.tape.text.len());
+        if self.tables.family == ControlFamily::Klartext {
+            klartext::line::put(self, &klartext::line::Line::of_text(text, cause))?;
+            return Ok(false);
+        }
         self.tape.line(text, cause, numbered, &self.tables, &mut self.commons)?;
         self.edit_line(start)
     }

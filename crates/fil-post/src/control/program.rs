@@ -5,6 +5,7 @@
 //! the end code, tape end character.
 
 use fil_diag::Result;
+use fil_machine::locations::ControlFamily;
 use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::setting::{CharacterAt, CodeAt};
 use fil_machine::{Commons, FunctionCode, locations as loc, user_blocks};
@@ -86,6 +87,9 @@ fn write_start(control: &mut Control) -> Result<()> {
     let of_both = control.commons.read(loc::UNITS_MODE) == loc::UnitsMode::AsTheClFile;
     let unit = control.unit.filter(|_| !(own_start && of_both));
     control.state = state_at_start(&control.commons, unit);
+    if control.tables.family == ControlFamily::Klartext {
+        return super::klartext::program::start(control, &blocks);
+    }
     tape_mark(control, loc::TAPE_START_CHAR)?;
     program_number(control)?;
     for block in blocks {
@@ -139,6 +143,9 @@ pub fn close_ended(control: &mut Control) -> Result<()> {
 
 fn close(control: &mut Control) -> Result<()> {
     control.head.closed = true;
+    if control.tables.family == ControlFamily::Klartext {
+        return super::klartext::program::end(control);
+    }
     control.because(Cause::default(), |control| tape_mark(control, loc::TAPE_END_CHAR))
 }
 

@@ -3,7 +3,7 @@
 
 use fil_diag::Result;
 use fil_machine::axes::AxisSet;
-use fil_machine::locations::Placement;
+use fil_machine::locations::{ControlFamily, Placement};
 
 use super::Control;
 use crate::block::Block;
@@ -112,6 +112,9 @@ impl Control {
     /// # Errors
     /// As [`Control::write_block`].
     pub fn flush_waiting(&mut self) -> Result<()> {
+        if self.tables.family == ControlFamily::Klartext {
+            super::klartext::motion::refuse_unbegun(self)?;
+        }
         let cause = self.block.cause;
         for (_, _, words) in std::mem::take(&mut self.waiting.words) {
             self.block = words;
@@ -160,5 +163,12 @@ impl Control {
             !due
         });
         self.waiting.words = words;
+    }
+
+    /// Takes away the words of a function that wait; says whether there were any.
+    pub(crate) fn take_function(&mut self, function: Function) -> bool {
+        let before = self.waiting.words.len();
+        self.waiting.words.retain(|(waiting, ..)| *waiting != function);
+        self.waiting.words.len() != before
     }
 }

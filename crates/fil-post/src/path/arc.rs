@@ -10,9 +10,8 @@ use fil_machine::modes::Plane;
 use nalgebra::{Point3, Vector3};
 
 use super::{chords, feed_rules, rotary};
-use crate::control::Function;
 use crate::control::word_address::arc::{self as words, PlaneArc};
-use crate::control::word_address::motion;
+use crate::control::{Function, family};
 use crate::control_state::Compensation;
 use crate::errors::PostCode;
 use crate::operation::{Arc, Target};
@@ -60,7 +59,7 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
         return as_lines(post, arc, start, sweep, target);
     };
     check_travel(post, &whole)?;
-    motion::ready(&mut post.control)?;
+    family::ready(&mut post.control)?;
     let Some(stands) = words::start_on_tape(&post.control, &whole.from) else {
         return PostCode::ArcStart.err(
             "the tape does not stand where the arc begins: a cycle, a text, POSTN or REPEAT has \
@@ -73,11 +72,11 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
         && words::reads_as_meant(&post.control, &whole)?
     {
         let feed = feed_rules::of_arc(post, &whole)?;
-        words::write(&mut post.control, &whole, feed.as_ref())?;
+        family::arc(&mut post.control, &whole, feed.as_ref())?;
     } else if let Some(parts) = parts(post, &whole)? {
         for part in parts {
             let feed = feed_rules::of_arc(post, &part)?;
-            words::write(&mut post.control, &part, feed.as_ref())?;
+            family::arc(&mut post.control, &part, feed.as_ref())?;
         }
     } else {
         // An arc of a few last digits: as lines it is within rounding.
@@ -220,6 +219,10 @@ fn in_plane(
     let found =
         Plane::ALL.into_iter().find(|plane| normal[plane.normal()].abs() > 1.0 - NEAR_PLANE);
     let Some(plane) = found else { return Ok(None) };
+    let along = plane.normal();
+    if !family::has_arc(&post.control, plane, to[along] - from[along]) {
+        return Ok(None);
+    }
     let most = post.control.commons.dbl_opt(loc::CIRCLE_MAX_RADIUS);
     let least = post.control.commons.dbl_opt(loc::CIRCLE_MIN_RADIUS);
     let axes = plane.axes();

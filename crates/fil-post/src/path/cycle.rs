@@ -6,7 +6,7 @@ use fil_machine::locations as loc;
 use fil_machine::setting::CodeAt;
 
 use crate::cause::Cause;
-use crate::control::word_address::cycle as words;
+use crate::control::family;
 use crate::operation::{Feed, Lead};
 use crate::post::Post;
 
@@ -142,7 +142,7 @@ impl Cycle {
 /// # Errors
 /// The machine has no code that ends the cycle the control is in.
 pub fn replace(post: &mut Post, cycle: Option<Cycle>) -> Result<()> {
-    words::cancel(&mut post.control)?;
+    family::cancel_cycle(&mut post.control)?;
     let initial = post.path.cycle.take().and_then(|old| old.initial);
     post.path.cycle = cycle.map(|cycle| Cycle { initial, ..cycle });
     Ok(())

@@ -9,8 +9,8 @@ use super::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 use super::rapid;
 use crate::cause::Cause;
 use crate::control::Control;
-use crate::control::word_address::dwell;
-use crate::control::word_address::motion::{self, Motion};
+use crate::control::family;
+use crate::control::word_address::motion::Motion;
 use crate::errors::PostCode;
 use crate::operation::{Dwell, Feed};
 
@@ -60,7 +60,7 @@ impl Moves<'_> {
         if self.cycle.dwell > 0.0 {
             let seconds = Dwell::Seconds(self.cycle.dwell);
             let cause = self.cycle.due_to(self.cycle.words.dwell);
-            self.control.because(cause, |control| dwell::write(control, seconds))?;
+            self.control.because(cause, |control| family::dwell(control, seconds))?;
         }
         if matches!(self.cycle.kind, CycleKind::Bore | CycleKind::Ream) {
             self.feed(self.hole.clear)?;
@@ -93,7 +93,7 @@ impl Moves<'_> {
     }
 
     fn feed(&mut self, level: f64) -> Result<()> {
-        motion::feed(self.control, &self.to(level), Some(&self.feed))
+        family::feed(self.control, &self.to(level), Some(&self.feed))
     }
 
     /// A motion along the axis of the hole.

@@ -6,8 +6,9 @@ use fil_machine::axes::AxisSet;
 use fil_machine::locations::{self as loc, FeedInverseLength, LinearMethod};
 use fil_machine::modes::FeedMode;
 
+use crate::control::family;
 use crate::control::word_address::arc::PlaneArc;
-use crate::control::word_address::motion::{self, Motion};
+use crate::control::word_address::motion::Motion;
 use crate::control_state::Compensation;
 use crate::errors::PostCode;
 use crate::operation::{Feed, Target};
@@ -28,12 +29,12 @@ pub fn apply(post: &Post) -> bool {
 /// Makes a straight feed motion by these rules.
 ///
 /// # Errors
-/// As [`motion::feed`]; inverse time of a motion whose way is not known, or of a feed a
+/// As [`family::feed`]; inverse time of a motion whose way is not known, or of a feed a
 /// revolution; a part of an arc that the machine can't make.
 #[cold]
 pub fn line(post: &mut Post, motion: &Motion, target: Target) -> Result<()> {
     let Some(feed) = post.path.feed else {
-        return motion::feed(&mut post.control, motion, None);
+        return family::feed(&mut post.control, motion, None);
     };
     let way = way(post, motion);
     for axes in parts(post, way)? {
@@ -44,7 +45,7 @@ pub fn line(post: &mut Post, motion: &Motion, target: Target) -> Result<()> {
         }
         let feed = within_axes(post, feed, way, length);
         let feed = in_force(post, feed, length)?;
-        motion::feed(&mut post.control, &part, Some(&feed))?;
+        family::feed(&mut post.control, &part, Some(&feed))?;
     }
     Ok(())
 }

@@ -7,8 +7,9 @@ use fil_machine::locations as loc;
 
 use super::cycle::{Cycle, Hole};
 use super::{expand, rapid, rotary};
+use crate::control::family;
 use crate::control::word_address::cycle as words;
-use crate::control::word_address::motion::{self, Motion};
+use crate::control::word_address::motion::Motion;
 use crate::control_state::Compensation;
 use crate::errors::PostCode;
 use crate::operation::Target;
@@ -42,7 +43,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
             .err("a hole in cutter compensation; CUTCOM/OFF must come before it");
     }
     post.control.flush_waiting()?;
-    motion::ready_for_hole(&mut post.control, cycle.in_force.is_some())?;
+    family::ready_for_hole(&mut post.control, cycle.in_force.is_some())?;
     let (position, mut hole) = locate(post, cycle, target)?;
     post.path.point = Some(target.point);
     post.path.axis = target.axis;
@@ -53,7 +54,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
         post.control.tables.axis(hole.along).check(level)?;
     }
     let at = Motion { position, axes: AxisSet::ALL, word };
-    if let Some(code) = words::code(&post.control, cycle) {
+    if let Some(code) = family::cycle_code(&post.control, cycle) {
         if post.control.state.in_cycle != Some(true)
             && post.control.commons.read(loc::CYCLE_APPROACH_BLOCK)
         {
@@ -61,7 +62,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
             let cause = post.control.block.cause;
             rapid::rapid(&mut post.control, &at.of(across), cause)?;
         }
-        words::hole(&mut post.control, cycle, code, &at, &hole)?;
+        family::hole(&mut post.control, cycle, code, &at, &hole)?;
         cycle.in_force = Some(hole);
     } else {
         expand::hole(&mut post.control, cycle, &at, &hole)?;
@@ -110,7 +111,7 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, start: f64) -> Res
     };
     let level = if below { wanted } else { initial.unwrap_or(wanted) };
     if below {
-        words::cancel(&mut post.control)?;
+        family::cancel_cycle(&mut post.control)?;
         cycle.in_force = None;
         let mut position = Position::default();
         position[hole.along] = wanted;

@@ -4,8 +4,8 @@ use fil_diag::Result;
 use fil_machine::axes::AxisSet;
 
 use super::{feed_rules, rapid, rotary};
-use crate::control::word_address::cycle;
-use crate::control::word_address::motion::{self, Motion};
+use crate::control::family;
+use crate::control::word_address::motion::Motion;
 use crate::operation::{MotionKind, Target};
 use crate::post::Post;
 
@@ -18,7 +18,7 @@ pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
     if let Some(active) = &mut post.path.cycle {
         active.initial = None;
         active.in_force = None;
-        cycle::cancel(&mut post.control)?;
+        family::cancel_cycle(&mut post.control)?;
     }
     if let (Some(from), false) = (post.path.point, matches!(kind, MotionKind::Rapid(_))) {
         post.path.course.line(target.point - from)?;
@@ -31,7 +31,7 @@ pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
     let motion = Motion { position, axes: AxisSet::ALL, word };
     match kind {
         MotionKind::Rapid(cause) => match feed_rules::of_short_rapid(post, &motion, target) {
-            Some(feed) => motion::feed(&mut post.control, &motion, Some(&feed))?,
+            Some(feed) => family::feed(&mut post.control, &motion, Some(&feed))?,
             None => rapid::rapid(&mut post.control, &motion, cause)?,
         },
         MotionKind::Feed => {
@@ -39,12 +39,12 @@ pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
             if feed_rules::apply(post) {
                 feed_rules::line(post, &motion, target)?;
             } else {
-                motion::feed(&mut post.control, &motion, post.path.feed.as_ref())?;
+                family::feed(&mut post.control, &motion, post.path.feed.as_ref())?;
             }
         }
         MotionKind::Thread(lead) => {
             let motion = motion.of(AxisSet::LINEAR);
-            motion::thread(&mut post.control, &motion, &lead)?;
+            family::thread(&mut post.control, &motion, &lead)?;
         }
     }
     post.path.point = Some(target.point);

@@ -25,7 +25,7 @@ use fil_machine::Unit;
 use nalgebra::{Point3, Vector3};
 
 use crate::cause::Cause;
-use crate::control::word_address;
+use crate::control::family;
 use crate::operation::{Arc, Feed, Lead, Operation};
 use crate::post::Post;
 
@@ -117,6 +117,6 @@ pub fn carry_out(post: &mut Post, operation: Operation) -> Result<()> {
         Operation::Arc(arc, target) => arc::carry_out(post, &arc, target),
         Operation::Hole(target) => hole::carry_out(post, target),
         Operation::ToolChange(change) => tool_change::change(&mut post.control, change),
-        other => word_address::write(&mut post.control, other),
+        other => family::write(&mut post.control, other),
     }
 }

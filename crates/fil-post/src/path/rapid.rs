@@ -7,15 +7,16 @@ use fil_machine::locations::{self as loc, RapidSplit};
 
 use crate::cause::Cause;
 use crate::control::Control;
-use crate::control::word_address::motion::{self, Motion, RapidCode};
+use crate::control::family;
+use crate::control::word_address::motion::{Motion, RapidCode};
 
 /// Makes a rapid motion in the order the machine asks for.
 ///
 /// # Errors
-/// As [`motion::rapid`].
+/// As [`family::rapid`].
 pub fn rapid(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()> {
     if control.commons.read(loc::RAPID_SPLIT) == RapidSplit::OneBlock {
-        return motion::rapid(control, motion, RapidCode::Across, cause);
+        return family::rapid(control, motion, RapidCode::Across, cause);
     }
     let z_first = motion.axes.has(2) && retracts(control, motion)?;
     split(control, motion, z_first, cause)
@@ -25,7 +26,7 @@ pub fn rapid(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()>
 /// Z that is not known Z goes first, since nothing may turn or go across beside the part.
 ///
 /// # Errors
-/// As [`motion::rapid`].
+/// As [`family::rapid`].
 pub fn to_machine_position(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()> {
     let known = control.commons.last_output(control.tables.axis(2).letter) != EMPTY;
     if known || control.commons.read(loc::RAPID_SPLIT) == RapidSplit::OneBlock {
@@ -42,7 +43,7 @@ fn split(control: &mut Control, motion: &Motion, z_first: bool, cause: Cause) ->
     let present = control.tables.present();
     for (group, code) in order {
         if !group.and(present).is_empty() {
-            motion::rapid(control, &motion.of(group), code, cause)?;
+            family::rapid(control, &motion.of(group), code, cause)?;
         }
     }
     Ok(())

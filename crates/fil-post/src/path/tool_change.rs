@@ -7,6 +7,7 @@ use fil_machine::locations::{self as loc, ToolChangeBlock};
 use super::rapid;
 use crate::cause::Cause;
 use crate::control::Control;
+use crate::control::family;
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::tool;
 use crate::operation::ToolChange;
@@ -14,14 +15,14 @@ use crate::operation::ToolChange;
 /// Goes to the change position and changes the tool.
 ///
 /// # Errors
-/// As [`tool::prepare`], [`tool::change`] and a rapid motion.
+/// As [`tool::prepare`], [`family::change_tool`] and a rapid motion.
 pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     if !tool::prepare(control, &wanted)? {
         return Ok(());
     }
     let cause = wanted.causes[0].whole();
     control.because(cause, |control| go_to_change_position(control, cause))?;
-    tool::change(control, wanted)
+    family::change_tool(control, wanted)
 }
 
 /// Goes to the machine's change position before the change (INTCOM 1872,

@@ -2,7 +2,9 @@
 
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
+use fil_machine::locations::ControlFamily;
 
+use crate::errors::PostCode;
 use crate::items::Items;
 use crate::post::Post;
 
@@ -17,6 +19,9 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     }
     match items.any_of(&[w::ON, w::OFF]) {
         Some(word) => post.control.tape.switch_numbers(word == w::ON),
+        None if post.control.tables.family == ControlFamily::Klartext => {
+            return PostCode::Family.err("the lines of Klartext are numbered by the control");
+        }
         None => {
             let next = items.required("the number")?;
             if next < 0.0 || next.fract() != 0.0 {

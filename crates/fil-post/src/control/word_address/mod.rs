@@ -3,7 +3,7 @@
 
 pub mod arc;
 mod compensation;
-mod coolant;
+pub(super) mod coolant;
 pub mod cycle;
 pub mod dwell;
 mod fixture;
@@ -11,9 +11,9 @@ mod function;
 pub mod modes;
 pub mod motion;
 mod repeat;
-mod spindle;
-mod stop;
-mod text;
+pub(super) mod spindle;
+pub(super) mod stop;
+pub(super) mod text;
 pub mod tool;
 
 use fil_diag::Result;

@@ -126,7 +126,7 @@ fn speed_words(control: &mut Control, speed: SpindleSpeed) -> Result<()> {
 
 /// What S says: turns a minute within the range, or a surface speed, which counts meters
 /// a minute in a metric program and feet in one in inches.
-fn value_of(control: &mut Control, speed: SpindleSpeed) -> f64 {
+pub(in crate::control) fn value_of(control: &mut Control, speed: SpindleSpeed) -> f64 {
     match (speed, control.is_metric()) {
         (SpindleSpeed::Revolutions(asked), _) => within_range(control, asked),
         (SpindleSpeed::Meters(value), true) | (SpindleSpeed::Feet(value), false) => value,
@@ -185,7 +185,7 @@ fn range_of(control: &Control, range: SpindleRange) -> Result<usize> {
 ///
 /// # Errors
 /// No range holds the speed, nor one at the ends of all ranges; the range has no code.
-fn take_range_of(control: &mut Control, speed: f64) -> Result<()> {
+pub(in crate::control) fn take_range_of(control: &mut Control, speed: f64) -> Result<()> {
     let holds = |control: &Control, index: usize, speed: f64| {
         let (min, max) = loc::RANGE_SPEEDS[index];
         let above = control.commons.rel_opt(min).is_none_or(|min| speed >= min);
@@ -218,7 +218,7 @@ fn select_range(control: &mut Control, index: usize) -> Result<()> {
 
 /// Adds the M code and writes or keeps the block; a machine without the code
 /// turns its spindle by other means.
-fn place(control: &mut Control, at: CodeAt, what: &str) -> Result<()> {
+pub(in crate::control) fn place(control: &mut Control, at: CodeAt, what: &str) -> Result<()> {
     match control.code_if_any(at) {
         Some(code) => control.m(code),
         None => control.warn_no_code(what),

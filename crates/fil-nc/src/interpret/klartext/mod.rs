@@ -1,0 +1,196 @@
+//! Heidenhain Klartext to events: lines of phrases in their order.
+//!
+//! Followed are `L`, `CC`, `C`, `CR`, `TOOL CALL`, the drilling cycles 200, 201, 203,
+//! 205, 207 and the old cycle 1 with `M99` or `CYCL CALL`, dwell and datum shift. What
+//! else moves, calculates or jumps is refused.
+
+mod cycle;
+mod line;
+mod motion;
+mod tool;
+
+use fil_diag::{Diag, TextSpan};
+
+use super::Fault;
+use super::state::State;
+use crate::dialect::{Auxiliary, Dialect, FeedMode};
+use crate::errors::NcCode;
+use crate::motion::{Event, Spindle};
+use cycle::Definition;
+use line::{Line, Word};
+
+/// Where the reading stands.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Part {
+    /// Before BEGIN PGM.
+    Head,
+    /// Between BEGIN PGM and the end.
+    Body,
+    /// After M2 or M30.
+    Ended,
+    /// After END PGM.
+    Closed,
+}
+
+/// The program and what Klartext remembers besides the modes that all controls have.
+struct Klartext<'d> {
+    state: State<'d>,
+    part: Part,
+    /// The pole of `CC`, mm.
+    pole: [Option<f64>; 2],
+    /// The cycle that `M99` and `CYCL CALL` run.
+    defined: Option<Definition>,
+    /// The datum shift of cycle 7, mm.
+    shift: [f64; 3],
+}
+
+/// Runs a program and hands its events over.
+pub(super) fn run(
+    text: &[u8],
+    name: &str,
+    dialect: &Dialect,
+    take: &mut dyn FnMut(Event),
+) -> Result<(), Box<Diag>> {
+    let mut state = State::new(dialect);
+    state.plane = 2;
+    state.feed_mode = FeedMode::PerMinute;
+    let mut control =
+        Klartext { state, part: Part::Head, pole: [None; 2], defined: None, shift: [0.0; 3] };
+    let mut last = 1;
+    for (number, text) in (1u32..).zip(text.split(|byte| *byte == b'\n')) {
+        let text = text.strip_suffix(b"\r").unwrap_or(text);
+        if !text.trim_ascii().is_empty() {
+            last = number;
+        }
+        let placed = |fault: Fault| fault.place(name, number, text);
+        let line = Line::read(text).map_err(placed)?;
+        control.state.line = number;
+        control.line(&line).map_err(placed)?;
+        control.state.events.drain(..).for_each(&mut *take);
+    }
+    if control.part == Part::Closed {
+        return Ok(());
+    }
+    let message = "no END PGM was found";
+    Err(Box::new(Diag::new(NcCode::CutOff, message).at(TextSpan::line(name, last, ""))))
+}
+
+impl Klartext<'_> {
+    fn line(&mut self, line: &Line) -> Result<(), Fault> {
+        let words = line.texts();
+        if words.is_empty() {
+            return Ok(());
+        }
+        match (self.part, &words[..]) {
+            (Part::Head, ["BEGIN", "PGM", .., unit @ ("MM" | "INCH")]) => {
+                self.state.metric = *unit == "MM";
+                self.part = Part::Body;
+                return Ok(());
+            }
+            (Part::Head, _) => {
+                return Err(Fault::new(
+                    NcCode::ForeignCode,
+                    "the program begins without BEGIN PGM",
+                ));
+            }
+            (Part::Body | Part::Ended, ["END", "PGM", ..]) => {
+                if self.part == Part::Body {
+                    self.end();
+                }
+                self.part = Part::Closed;
+                return Ok(());
+            }
+            (Part::Ended | Part::Closed, _) => {
+                return Err(Fault::new(NcCode::AfterEnd, "the program has ended before this line"));
+            }
+            (Part::Body, _) => {}
+        }
+        if line.continues {
+            return self.define_more(&line.words);
+        }
+        if let Some(definition) = &self.defined {
+            definition.check_whole()?;
+        }
+        match &words[..] {
+            ["BLK", "FORM", ..] | ["TOOL", "DEF", ..] => Ok(()),
+            ["STOP", ..] => self.functions(&line.words[1..]),
+            ["TOOL", "CALL", ..] => self.tool_call(&line.words[2..]),
+            ["CYCL" | "CYCLE", "DEF", ..] => self.define(&line.words[2..]),
+            ["CYCL" | "CYCLE", "CALL", ..] => {
+                self.functions(&line.words[2..])?;
+                self.call_cycle()
+            }
+            ["L", ..] => self.straight(&line.words[1..]),
+            ["CC", ..] => self.pole(&line.words[1..]),
+            ["C", ..] => self.arc(&line.words[1..]),
+            ["CR", ..] => self.arc_of_radius(&line.words[1..]),
+            [first, ..] if first.starts_with('M') => self.functions(&line.words),
+            _ => {
+                let message = format!("`{}` is not followed", words[0]);
+                Err(Fault::new(NcCode::ForeignCode, message))
+            }
+        }
+    }
+
+    fn end(&mut self) {
+        let State { line, modes, .. } = self.state;
+        self.state.events.push(Event::End { line, modes });
+        self.part = Part::Ended;
+    }
+
+    /// The M functions of a line that has nothing else.
+    fn functions(&mut self, words: &[Word]) -> Result<(), Fault> {
+        let mut calls = false;
+        for word in words {
+            let Some(code) = word.function()? else { return Err(word.no_meaning()) };
+            calls |= self.function(code, word)? == After::CallsCycle;
+        }
+        if calls { self.call_cycle() } else { Ok(()) }
+    }
+
+    /// An M function; says what it asks for when the line is done.
+    fn function(&mut self, code: i64, word: &Word) -> Result<After, Fault> {
+        let modes = &mut self.state.modes;
+        match code {
+            13 | 14 => {
+                let clockwise = code == 13;
+                modes.spindle =
+                    if clockwise { Spindle::Clockwise } else { Spindle::Counterclockwise };
+                modes.coolant = true;
+                return Ok(After::Nothing);
+            }
+            91 | 92 => return Ok(After::InMachineFrame),
+            99 => return Ok(After::CallsCycle),
+            137 => {
+                self.state.feed_mode = FeedMode::PerMinute;
+                return Ok(After::Nothing);
+            }
+            80.. => {
+                let message = format!("M{code} changes what motions or cycles do");
+                return Err(Fault::new(NcCode::ForeignCode, message).at(&word.range));
+            }
+            _ => {}
+        }
+        match self.state.dialect.auxiliary(code) {
+            Auxiliary::Clockwise => modes.spindle = Spindle::Clockwise,
+            Auxiliary::Counterclockwise => modes.spindle = Spindle::Counterclockwise,
+            Auxiliary::SpindleOff => modes.spindle = Spindle::Off,
+            Auxiliary::Coolant(on) => modes.coolant = on,
+            Auxiliary::End => return Ok(After::Ends),
+            _ => {}
+        }
+        Ok(After::Nothing)
+    }
+}
+
+/// What an M function asks for besides a mode.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum After {
+    Nothing,
+    /// The positions of the line count in the frame of the machine.
+    InMachineFrame,
+    /// The cycle is run where the line ends.
+    CallsCycle,
+    /// The program ends.
+    Ends,
+}

@@ -1,0 +1,207 @@
+//! Straight lines and arcs.
+
+use super::super::Fault;
+use super::super::arc::sweep;
+use super::line::Word;
+use super::{After, Klartext};
+use crate::errors::NcCode;
+use crate::motion::{Arc, Compensation, Course, Rate};
+
+/// In a program in inches F counts tenths of an inch a minute.
+const TENTHS: f64 = 0.1;
+
+/// What a line of a motion says.
+#[derive(Default)]
+struct Said {
+    /// By axis: the value, and whether it is an increment.
+    axes: [Option<(f64, bool)>; 5],
+    rapid: bool,
+    /// DR: counterclockwise.
+    ccw: Option<bool>,
+    radius: Option<f64>,
+    machine: bool,
+    calls: bool,
+    ends: bool,
+}
+
+impl Klartext<'_> {
+    /// `L X+10 Y+5 R0 FMAX M3`.
+    pub(super) fn straight(&mut self, words: &[Word]) -> Result<(), Fault> {
+        let said = self.said(words)?;
+        if said.ccw.is_some() || said.radius.is_some() {
+            return Err(Fault::new(NcCode::NoMeaning, "a line has no sense and no radius"));
+        }
+        if said.axes != [None; 5] {
+            let (to, known) = self.target(&said);
+            if said.machine {
+                let mut lost = self.state.known;
+                (0..5)
+                    .filter(|axis| said.axes[*axis].is_some())
+                    .for_each(|axis| lost[axis] = false);
+                self.state.go((to, lost), Course::Machine, None);
+            } else if said.rapid {
+                self.state.go((to, known), Course::Rapid, None);
+            } else {
+                let rate = Some(self.rate()?);
+                self.state.go((to, known), Course::Feed, rate);
+            }
+        }
+        self.after(&said)
+    }
+
+    /// What follows when the tool has arrived.
+    fn after(&mut self, said: &Said) -> Result<(), Fault> {
+        if said.calls {
+            self.call_cycle()?;
+        }
+        if said.ends {
+            self.end();
+        }
+        Ok(())
+    }
+
+    /// `CC X+1 Y+2`; without coordinates the tool stands at the pole.
+    pub(super) fn pole(&mut self, words: &[Word]) -> Result<(), Fault> {
+        let said = self.said(words)?;
+        if said.axes[2..].iter().any(Option::is_some) {
+            return Err(Fault::new(NcCode::ForeignCode, "a pole outside of the XY plane"));
+        }
+        let none = said.axes[0].is_none() && said.axes[1].is_none();
+        for axis in 0..2 {
+            match said.axes[axis] {
+                Some((value, false)) => self.pole[axis] = Some(self.state.position(axis, value)),
+                Some((value, true)) => {
+                    let here = Some(self.state.at[axis]).filter(|_| self.state.known[axis]);
+                    self.pole[axis] = here.map(|here| here + self.state.way(axis, value));
+                }
+                None if none => self.pole[axis] = Some(self.state.at[axis]),
+                None => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// `C X+1 Y+2 DR+` about the pole.
+    pub(super) fn arc(&mut self, words: &[Word]) -> Result<(), Fault> {
+        let said = self.said(words)?;
+        let [Some(first), Some(second)] = self.pole else {
+            return Err(Fault::new(NcCode::NoCenter, "no CC came before"));
+        };
+        if said.radius.is_some() {
+            return Err(Fault::new(NcCode::Twice, "a radius beside the pole"));
+        }
+        let (ccw, rate) = self.of_arc(&said)?;
+        let (to, known) = self.target(&said);
+        let center = [first, second];
+        self.state.check_radii([0, 1], center, &to)?;
+        let angle = sweep([0, 1], center, &self.state.at, &to, ccw);
+        let arc = Arc { center: [first, second, self.state.at[2]], normal: 2, ccw, angle };
+        self.state.travel((to, known), Course::Feed, Some(rate), Some(arc));
+        self.after(&said)
+    }
+
+    /// `CR X+1 Y+2 R+5 DR+`: a negative radius goes the long way.
+    pub(super) fn arc_of_radius(&mut self, words: &[Word]) -> Result<(), Fault> {
+        let said = self.said(words)?;
+        let missing = || Fault::new(NcCode::NoCenter, "CR needs its radius");
+        let radius = said.radius.ok_or_else(missing)? * self.state.unit();
+        let (ccw, rate) = self.of_arc(&said)?;
+        let (to, known) = self.target(&said);
+        let ([first, second], angle) = self.state.about_radius([0, 1], &to, radius, ccw)?;
+        let arc = Arc { center: [first, second, self.state.at[2]], normal: 2, ccw, angle };
+        self.state.travel((to, known), Course::Feed, Some(rate), Some(arc));
+        self.after(&said)
+    }
+
+    /// Sense and feed of an arc.
+    fn of_arc(&self, said: &Said) -> Result<(bool, Rate), Fault> {
+        if said.axes[2..].iter().any(Option::is_some) || said.machine || said.rapid {
+            let message = "an arc outside of the XY plane, at FMAX or in the machine frame";
+            return Err(Fault::new(NcCode::ForeignCode, message));
+        }
+        if !self.state.known[0] || !self.state.known[1] {
+            return Err(Fault::new(NcCode::NoCenter, "it is not known where the arc begins"));
+        }
+        let ccw = said.ccw.ok_or_else(|| Fault::new(NcCode::MissingWord, "an arc needs its DR"))?;
+        Ok((ccw, self.rate()?))
+    }
+
+    /// The feed in force.
+    pub(super) fn rate(&self) -> Result<Rate, Fault> {
+        let rate = self.state.rate()?;
+        Ok(match rate {
+            Rate::PerMinute(rate) if !self.state.metric => Rate::PerMinute(rate * TENTHS),
+            rate => rate,
+        })
+    }
+
+    fn target(&self, said: &Said) -> ([f64; 5], [bool; 5]) {
+        let (mut to, mut known) = (self.state.at, self.state.known);
+        for (axis, word) in said.axes.iter().enumerate() {
+            match *word {
+                Some((value, false)) => {
+                    to[axis] = self.state.position(axis, value);
+                    known[axis] = true;
+                }
+                Some((value, true)) => to[axis] += self.state.way(axis, value),
+                None => {}
+            }
+        }
+        (to, known)
+    }
+
+    /// Takes up the words of a line that moves.
+    fn said(&mut self, words: &[Word]) -> Result<Said, Fault> {
+        let mut said = Said::default();
+        for word in words {
+            match word.text.as_str() {
+                "FMAX" => said.rapid = true,
+                "R0" => self.compensate(Compensation::Off),
+                "RL" => self.compensate(Compensation::Left),
+                "RR" => self.compensate(Compensation::Right),
+                "DR+" => said.ccw = Some(true),
+                "DR-" => said.ccw = Some(false),
+                _ => self.word(word, &mut said)?,
+            }
+        }
+        Ok(said)
+    }
+
+    fn compensate(&mut self, side: Compensation) {
+        let modes = &mut self.state.modes;
+        modes.compensation = side;
+        modes.compensation_offset = Some(modes.tool).filter(|_| side != Compensation::Off);
+    }
+
+    fn word(&mut self, word: &Word, said: &mut Said) -> Result<(), Fault> {
+        if let Some(code) = word.function()? {
+            match self.function(code, word)? {
+                After::Nothing => {}
+                After::InMachineFrame => said.machine = true,
+                After::CallsCycle => said.calls = true,
+                After::Ends => said.ends = true,
+            }
+            return Ok(());
+        }
+        if let Some(feed) = word.value("F") {
+            self.state.feed = Some(feed?);
+            return Ok(());
+        }
+        if let Some(radius) = word.value("R") {
+            said.radius = Some(radius?);
+            return Ok(());
+        }
+        let increment = word.text.starts_with('I');
+        let text = word.text.strip_prefix('I').unwrap_or(&word.text);
+        let letter = text.bytes().next().filter(u8::is_ascii_uppercase);
+        let axis = letter.and_then(|letter| self.state.dialect.axis(letter - b'A' + 1));
+        let named = if increment { 2 } else { 1 };
+        let value = word.text.get(..named).and_then(|name| word.value(name));
+        let (Some(axis), Some(value)) = (axis, value) else { return Err(word.no_meaning()) };
+        let value = (value?, increment);
+        if said.axes[axis].replace(value).is_some() {
+            return Err(Fault::new(NcCode::Twice, "two words of one axis").at(&word.range));
+        }
+        Ok(())
+    }
+}

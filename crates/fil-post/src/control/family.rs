@@ -1,0 +1,155 @@
+//! What the passes ask of a control, by its family: each function hands the operation
+//! to the one that the machine's `control.family` names.
+
+use fil_diag::Result;
+use fil_machine::FunctionCode;
+use fil_machine::locations::ControlFamily;
+use fil_machine::modes::Plane;
+
+use super::word_address::arc::PlaneArc;
+use super::word_address::motion::{self as words, Motion, RapidCode};
+use super::{Control, klartext, word_address};
+use crate::cause::Cause;
+use crate::operation::{Dwell, Feed, Lead, Operation, ToolChange};
+use crate::path::cycle::{Cycle, Hole};
+
+/// Writes an operation that does not depend on the path.
+///
+/// # Errors
+/// A code the machine lacks, a value that does not fit, an operation at a wrong
+/// moment, what the control's language can't say.
+pub fn write(control: &mut Control, operation: Operation) -> Result<()> {
+    match control.tables.family {
+        ControlFamily::WordAddress => word_address::write(control, operation),
+        ControlFamily::Klartext => klartext::write(control, operation),
+    }
+}
+
+/// Writes a rapid motion in one block.
+///
+/// # Errors
+/// As [`words::rapid`].
+pub fn rapid(control: &mut Control, motion: &Motion, code: RapidCode, cause: Cause) -> Result<()> {
+    match control.tables.family {
+        ControlFamily::Klartext => klartext::motion::rapid(control, motion),
+        _ => words::rapid(control, motion, code, cause),
+    }
+}
+
+/// Writes a feed motion in one block.
+///
+/// # Errors
+/// As [`words::feed`].
+#[inline]
+pub fn feed(control: &mut Control, motion: &Motion, feed: Option<&Feed>) -> Result<()> {
+    if control.tables.family == ControlFamily::Klartext {
+        return klartext::motion::feed(control, motion, feed);
+    }
+    words::feed(control, motion, feed)
+}
+
+/// Writes one pass of a thread.
+///
+/// # Errors
+/// As [`words::thread`]; Klartext has none.
+pub fn thread(control: &mut Control, motion: &Motion, lead: &Lead) -> Result<()> {
+    match control.tables.family {
+        ControlFamily::Klartext => klartext::refuse("Klartext has no pass of a thread"),
+        _ => words::thread(control, motion, lead),
+    }
+}
+
+/// Brings the control into the modes a motion counts on.
+///
+/// # Errors
+/// As [`words::ready`].
+#[inline]
+pub fn ready(control: &mut Control) -> Result<()> {
+    if control.tables.family == ControlFamily::Klartext {
+        return klartext::motion::ready(control);
+    }
+    words::ready(control)
+}
+
+/// The same for a hole: the control may be in the cycle that drills it.
+///
+/// # Errors
+/// As [`ready`].
+pub fn ready_for_hole(control: &mut Control, in_cycle: bool) -> Result<()> {
+    match control.tables.family {
+        ControlFamily::Klartext => klartext::motion::ready(control),
+        _ => words::ready_for_hole(control, in_cycle),
+    }
+}
+
+/// True when the control has arcs in a plane; `rise` is how far one goes across it.
+pub fn has_arc(control: &Control, plane: Plane, rise: f64) -> bool {
+    match control.tables.family {
+        ControlFamily::Klartext => klartext::motion::has_arc(control, plane, rise),
+        _ => true,
+    }
+}
+
+/// Writes the block of an arc.
+///
+/// # Errors
+/// As [`word_address::arc::write`].
+pub fn arc(control: &mut Control, arc: &PlaneArc, feed: Option<&Feed>) -> Result<()> {
+    match control.tables.family {
+        ControlFamily::Klartext => klartext::motion::arc(control, arc, feed),
+        _ => word_address::arc::write(control, arc, feed),
+    }
+}
+
+/// The code or number of a cycle; `None` where the control has none that does all of
+/// it, so that it must be written as single moves.
+pub fn cycle_code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
+    match control.tables.family {
+        ControlFamily::WordAddress => word_address::cycle::code(control, cycle),
+        ControlFamily::Klartext => klartext::cycle::code(control, cycle),
+    }
+}
+
+/// Writes the block of a hole.
+///
+/// # Errors
+/// As [`word_address::cycle::hole`].
+pub fn hole(
+    control: &mut Control,
+    cycle: &Cycle,
+    code: FunctionCode,
+    at: &Motion,
+    hole: &Hole,
+) -> Result<()> {
+    match control.tables.family {
+        ControlFamily::WordAddress => word_address::cycle::hole(control, cycle, code, at, hole),
+        ControlFamily::Klartext => klartext::cycle::hole(control, cycle, code, at, hole),
+    }
+}
+
+/// Ends the control's cycle, if it may be in one.
+///
+/// # Errors
+/// As [`word_address::cycle::cancel`].
+pub fn cancel_cycle(control: &mut Control) -> Result<()> {
+    word_address::cycle::cancel(control)
+}
+
+/// Writes a dwell.
+///
+/// # Errors
+/// As [`word_address::dwell::write`].
+pub fn dwell(control: &mut Control, dwell: Dwell) -> Result<()> {
+    write(control, Operation::Dwell(dwell))
+}
+
+/// Changes the tool.
+///
+/// # Errors
+/// As [`word_address::tool::change`].
+pub fn change_tool(control: &mut Control, change: ToolChange) -> Result<()> {
+    match control.tables.family {
+        ControlFamily::WordAddress => word_address::tool::change(control, change),
+        ControlFamily::Klartext => klartext::tool::change(control, change),
+    }
+}

@@ -1,0 +1,265 @@
+//! Drilling cycles 200, 201, 203, 205 and 207: `CYCL DEF` says the hole, `M99` in the
+//! line of its position drills it.
+//!
+//! The settings of the machine say which cycle drills which kind of hole; a kind without
+//! a number is written as single moves. Levels count from Q203, the surface, so that
+//! the sums are exactly what the rounded levels are.
+
+use fil_diag::Result;
+use fil_machine::FunctionCode;
+use fil_machine::axes::AxisSet;
+use fil_machine::letters::XYZ;
+use fil_machine::modes::FeedMode;
+use fil_machine::rounding::Rounding;
+
+use super::line;
+use super::motion;
+use super::phrase::Head;
+use crate::block::named;
+use crate::control::Control;
+use crate::control::word_address::motion::{self as words, Motion};
+use crate::errors::PostCode;
+use crate::operation::SpindleSpeed;
+use crate::path::cycle::{Cycle, CycleFeed, CycleKind, Hole};
+
+/// By which 203 lifts to break chips, and 205 stops before the last depth, mm.
+const GAP: &str = "+0.2";
+
+/// The cycles that are known, with their names.
+const CYCLES: [(u16, &str); 5] = [
+    (200, "DRILLING"),
+    (201, "REAMING"),
+    (203, "UNIVERSAL DRILLING"),
+    (205, "UNIVERSAL PECKING"),
+    (207, "RIGID TAPPING NEW"),
+];
+
+/// The number of the cycle that the settings name for a kind; `None` where they name
+/// none, and in a program in inches, where what its feeds count is not certain.
+pub fn code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
+    control.code_if_any(cycle.kind.locations().0).filter(|_| control.is_metric())
+}
+
+/// Writes the definition of the cycle unless the control has it, and the line of the
+/// hole.
+///
+/// # Errors
+/// A cycle that is not known or can't do what is asked; a value that does not fit.
+pub fn hole(
+    control: &mut Control,
+    cycle: &Cycle,
+    code: FunctionCode,
+    at: &Motion,
+    hole: &Hole,
+) -> Result<()> {
+    if hole.along != 2 || hole.clear < hole.bottom {
+        return super::refuse("a hole along another axis than -Z, the tool axis of TOOL CALL");
+    }
+    let lines = definition(control, cycle, code, hole)?;
+    if control.state.cycle != Some(code) || control.klartext.defined != lines {
+        define(control, cycle, &lines)?;
+        control.klartext.defined = lines;
+        control.state.cycle = Some(code);
+    }
+    let across = at.of(AxisSet::XY.or(AxisSet::ROTARY));
+    if !words::axis_words(control, &across)? {
+        words::axis_word(control, 0, &across)?;
+        words::axis_word(control, 1, &across)?;
+    }
+    let phrase = &mut control.klartext.phrase;
+    (phrase.head, phrase.rapid, phrase.calls_cycle) = (Head::Line, true, true);
+    motion::write(control, AxisSet::NONE)
+}
+
+/// Puts the definition on the tape: one block, whose lines go on with `~`.
+fn define(control: &mut Control, cycle: &Cycle, lines: &[String]) -> Result<()> {
+    let last = lines.len() - 1;
+    for (number, text) in lines.iter().enumerate() {
+        let more = if number < last { " ~" } else { "" };
+        let text = format!("{text}{more}");
+        if number == 0 {
+            line::put(control, &line::Line::of_text(&text, cycle.cause))?;
+        } else {
+            line::put_more(control, &text, cycle.cause)?;
+        }
+    }
+    Ok(())
+}
+
+/// The values of a hole as the tape says them.
+struct Values {
+    set_up: String,
+    depth: String,
+    surface: String,
+    second: String,
+    /// From the surface down, positive.
+    deep: f64,
+    /// From the set-up clearance down, positive.
+    way: f64,
+}
+
+fn values(control: &Control, cycle: &Cycle, hole: &Hole) -> Result<Values> {
+    let axis = control.tables.axis(2);
+    let share = cycle.depth / (cycle.depth + cycle.clear);
+    if !share.is_finite() || cycle.depth <= 0.0 {
+        return PostCode::CycleForm.err("DEPTH must be above zero");
+    }
+    let surface = axis.value(hole.bottom + (hole.clear - hole.bottom) * share)?;
+    let below = |level: f64| Ok::<f64, Box<fil_diag::Diag>>(axis.value(level)? - surface);
+    let (bottom, clear) = (below(hole.bottom)?, below(hole.clear)?);
+    let second = below(hole.rest())?;
+    let digit = axis.resolution() / 2.0;
+    if clear < -digit {
+        return super::refuse("a R level below the surface of the hole (CLEAR below zero)");
+    }
+    if second < clear - digit {
+        return super::refuse("a return to a level below the R level");
+    }
+    let z = XYZ[2];
+    Ok(Values {
+        set_up: line::length(control, z, clear)?.0,
+        depth: line::length(control, z, bottom)?.0,
+        surface: line::length(control, z, surface)?.0,
+        second: line::length(control, z, second)?.0,
+        deep: -bottom,
+        way: clear - bottom,
+    })
+}
+
+/// The lines of a definition, without the signs that they go on.
+fn definition(
+    control: &mut Control,
+    cycle: &Cycle,
+    code: FunctionCode,
+    hole: &Hole,
+) -> Result<Vec<String>> {
+    let number = code.value() as u16;
+    let Some((_, name)) = CYCLES.iter().find(|(known, _)| *known == number) else {
+        return super::refuse(format!("CYCL DEF {number} is not known here"));
+    };
+    if cycle.kind.pecks() != matches!(number, 203 | 205) {
+        return super::refuse(format!("CYCL DEF {number} for {:?}", cycle.kind));
+    }
+    if (cycle.kind == CycleKind::Tap) != (number == 207) {
+        return super::refuse(format!("CYCL DEF {number} for {:?}", cycle.kind));
+    }
+    let at = values(control, cycle, hole)?;
+    let mut lines = vec![format!("CYCL DEF {number} {name}")];
+    let mut say = |q: u16, value: &str, what: &str| lines.push(format!("  Q{q}={value} ;{what}"));
+    say(200, &at.set_up, "SET-UP CLEARANCE");
+    say(201, &at.depth, "DEPTH");
+    if number == 207 {
+        if cycle.dwell > 0.0 {
+            return super::refuse("CYCL DEF 207 does not dwell");
+        }
+        let pitch = pitch(control, cycle)?;
+        say(239, &pitch, "THREAD PITCH");
+        say(203, &at.surface, "SURFACE COORDINATE");
+        say(204, &at.second, "2ND SET-UP CLEARANCE");
+        return Ok(lines);
+    }
+    let feed = feed(control, cycle)?;
+    say(206, &feed, "FEED RATE FOR PLNGNG");
+    let dwell = if cycle.dwell > 0.0 { line::seconds(control, cycle.dwell)? } else { "0".into() };
+    let peck = match cycle.step {
+        Some(step) => step,
+        None => at.deep.max(at.way),
+    };
+    let plunge = peck_text(control, peck)?;
+    if number == 201 {
+        say(211, &dwell, "DWELL TIME AT DEPTH");
+        say(208, "+0", "RETRACTION FEED RATE");
+        say(203, &at.surface, "SURFACE COORDINATE");
+        say(204, &at.second, "2ND SET-UP CLEARANCE");
+        return Ok(lines);
+    }
+    say(202, &plunge, "PLUNGING DEPTH");
+    if number != 205 {
+        say(210, "+0", "DWELL TIME AT TOP");
+    }
+    say(203, &at.surface, "SURFACE COORDINATE");
+    say(204, &at.second, "2ND SET-UP CLEARANCE");
+    match number {
+        203 => {
+            let breaks = if cycle.kind == CycleKind::Brkchp { breaks(&at, peck) } else { 0 };
+            say(212, "+0", "DECREMENT");
+            say(213, &breaks.to_string(), "NR OF BREAKS");
+            say(205, "+0", "MIN. PLUNGING DEPTH");
+            say(211, &dwell, "DWELL TIME AT DEPTH");
+            say(208, "+99999", "RETRACTION FEED RATE");
+            say(256, GAP, "DIST FOR CHIP BRKNG");
+        }
+        205 => {
+            if cycle.kind == CycleKind::Brkchp {
+                return super::refuse("CYCL DEF 205 for BRKCHP");
+            }
+            say(212, "+0", "DECREMENT");
+            say(205, "+0", "MIN. PLUNGING DEPTH");
+            say(258, GAP, "UPPER ADV STOP DIST");
+            say(259, GAP, "LOWER ADV STOP DIST");
+            say(257, "+0", "DEPTH FOR CHIP BRKNG");
+            say(256, GAP, "DIST FOR CHIP BRKNG");
+            say(211, &dwell, "DWELL TIME AT DEPTH");
+            say(379, "+0", "STARTING POINT");
+            say(253, "+0", "F PRE-POSITIONING");
+        }
+        _ => say(211, &dwell, "DWELL TIME AT DEPTH"),
+    }
+    Ok(lines)
+}
+
+/// Pecks of a hole but the last: as many times chips are broken.
+fn breaks(at: &Values, peck: f64) -> u32 {
+    (at.way / peck).ceil().clamp(1.0, 99999.0) as u32
+}
+
+/// A peck, positive.
+fn peck_text(control: &Control, peck: f64) -> Result<String> {
+    if peck <= 0.0 {
+        return PostCode::CycleForm.err("STEP must be above zero");
+    }
+    let z = XYZ[2];
+    let format = control.tables.addresses.format(z).copied().unwrap_or_default();
+    let scaled = Rounding::Rate.scale(peck, &format).map_err(|diag| named(diag, z))?;
+    Ok(line::scaled_text(control, z, scaled).unwrap_or_default())
+}
+
+/// The feed of a hole, mm/min.
+fn feed(control: &Control, cycle: &Cycle) -> Result<String> {
+    let CycleFeed::Feed(feed) = cycle.feed else {
+        return super::refuse("a lead in place of a feed in a cycle that does not tap");
+    };
+    if feed.mode != FeedMode::PerMinute {
+        return super::refuse("a feed a turn of the spindle in a cycle");
+    }
+    line::feed(control, feed.value)
+}
+
+/// The lead of a tap with the sign of its sense: minus for a left-hand thread, which the
+/// spindle that turns counterclockwise cuts.
+fn pitch(control: &Control, cycle: &Cycle) -> Result<String> {
+    let lead = match (cycle.feed, control.speed) {
+        (CycleFeed::Lead(lead), _) => lead.value,
+        (CycleFeed::Feed(feed), _) if feed.mode == FeedMode::PerRevolution => feed.value,
+        (CycleFeed::Feed(feed), Some(SpindleSpeed::Revolutions(speed))) if speed > 0.0 => {
+            feed.value / speed
+        }
+        _ => {
+            return super::refuse(
+                "TAP with a feed a minute before SPINDL: Q239 needs the pitch of the thread",
+            );
+        }
+    };
+    let Some(clockwise) = control.klartext.clockwise else {
+        return super::refuse(
+            "TAP before SPINDL: the sign of Q239 says which way the thread turns",
+        );
+    };
+    let text = format!("{lead:.4}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    let written: f64 = text.parse().unwrap_or(0.0);
+    if (written - lead).abs() > 0.0005 * lead {
+        return super::refuse(format!("a pitch of {lead} would be written as {written}"));
+    }
+    Ok(format!("{}{text}", if clockwise { '+' } else { '-' }))
+}

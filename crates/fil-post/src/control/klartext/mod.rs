@@ -1,0 +1,169 @@
+//! Heidenhain Klartext (TNC 640): lines of phrases. `L X+10 R0 FMAX M3` is a motion,
+//! `CC` and `C … DR+` an arc, `TOOL CALL` a tool or a speed, `CYCL DEF` with `M99` a hole.
+//!
+//! Modes that words of a word-address control switch are said in each line or not at
+//! all, so there is no plane, no G90, no G80: the tool axis is Z, coordinates are
+//! absolute. What Klartext can't say is refused by [`refuse`].
+
+pub mod cycle;
+pub mod line;
+pub mod motion;
+pub mod phrase;
+pub mod program;
+pub mod reader;
+mod spindle;
+pub mod tool;
+
+use fil_diag::Result;
+use fil_machine::letters::M;
+use fil_machine::locations::{self as loc, Placement};
+use fil_machine::modes::Plane;
+use fil_machine::{FunctionCode, Letter};
+
+use super::{Control, Function, word_address};
+use crate::cause::Cause;
+use crate::control_state::Compensation;
+use crate::errors::PostCode;
+use crate::operation::{CutterCompensation, Dwell, Operation};
+use line::Line;
+
+/// What Klartext needs besides what all controls have.
+#[derive(Clone, Debug, Default)]
+pub struct Klartext {
+    /// Number of the next line.
+    next_line: u64,
+    /// What the block under construction says besides its words.
+    phrase: phrase::Phrase,
+    /// The lines of the cycle that was defined last.
+    defined: Vec<String>,
+    /// The spindle was last told to turn clockwise.
+    clockwise: Option<bool>,
+    /// Name of the program, between BEGIN PGM and END PGM.
+    name: String,
+    /// END PGM stands on the tape.
+    ended: bool,
+}
+
+/// Refuses what Klartext has no phrase for.
+///
+/// # Errors
+/// Always.
+pub fn refuse<T>(message: impl Into<String>) -> Result<T> {
+    PostCode::Family.err(message)
+}
+
+/// Writes an operation that does not depend on the path.
+///
+/// # Errors
+/// What Klartext can't say; and as [`word_address::write`].
+pub fn write(control: &mut Control, operation: Operation) -> Result<()> {
+    match operation {
+        Operation::Dwell(dwell) => write_dwell(control, dwell),
+        Operation::Spindle(spindle) => spindle::write(control, spindle),
+        Operation::Compensation(compensation) => compensate(control, compensation),
+        Operation::SelectTool(tool) => tool::select(control, tool),
+        Operation::Function(letter, code) => function(control, letter, code),
+        Operation::WithMotion(code) => {
+            refuse_auxiliary(code)?;
+            word_address::write(control, operation)
+        }
+        Operation::Words(words) => write_words(control, &words),
+        Operation::Repeat(words) if words.is_empty() => Ok(()),
+        Operation::Repeat(_) => refuse("REPEAT: a line of Klartext takes no words of others"),
+        Operation::WorkOffset(_) => {
+            refuse("a work offset by its number: the datum is chosen on a TNC")
+        }
+        Operation::Message(text) => message(control, &text),
+        Operation::Skip(true) => refuse("OPSKIP: what a TNC skips is chosen line by line there"),
+        Operation::Skip(false) => Ok(()),
+        other => word_address::write(control, other),
+    }
+}
+
+/// Cycle 9 waits.
+fn write_dwell(control: &mut Control, dwell: Dwell) -> Result<()> {
+    let Dwell::Seconds(seconds) = dwell else {
+        return refuse("a dwell in turns of the spindle");
+    };
+    control.begin()?;
+    let seconds = line::seconds(control, seconds)?;
+    let cause = control.block.cause;
+    line::put(control, &Line::of_text("CYCL DEF 9.0 DWELL TIME", cause))?;
+    line::put(control, &Line::of_text(&format!("CYCL DEF 9.1 DWELL {seconds}"), cause))
+}
+
+/// RL, RR or R0, with the next motion of X or Y; R0 with any motion.
+fn compensate(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
+    if wanted.plane.is_some_and(|(plane, _)| plane != Plane::Xy) {
+        return refuse("CUTCOM in another plane than XY: the tool axis of TOOL CALL is Z");
+    }
+    if let Some((offset, _)) = wanted.offset {
+        let of_tool = control.state.tool.is_some_and(|tool| tool as f64 == offset);
+        if !of_tool && wanted.side != Compensation::Off {
+            return refuse(format!(
+                "CUTCOM with offset {offset}: RL and RR take the radius of the tool that was called"
+            ));
+        }
+    }
+    control.asked = wanted.side;
+    if control.take_function(Function::Compensation) {
+        let message = "CUTCOM: no motion came before the next CUTCOM".to_string();
+        control.warnings.add(PostCode::IgnoredPart, message);
+    }
+    let was = control.state.compensation;
+    if was == Some(wanted.side) {
+        return Ok(());
+    }
+    control.place_block(Function::Compensation, Placement::NextXyBlock)
+}
+
+/// An M function by its number.
+fn function(control: &mut Control, letter: Letter, code: FunctionCode) -> Result<()> {
+    control.begin()?;
+    if letter != M {
+        return refuse(format!("{letter}{}: Klartext has no such functions", code.value()));
+    }
+    refuse_auxiliary(code)?;
+    let before = control.before_others()?;
+    control.m(code);
+    control.write_block()?;
+    control.refuse_in_compensation(before)
+}
+
+/// Refuses an M function that changes what the post counts on.
+fn refuse_auxiliary(code: FunctionCode) -> Result<()> {
+    match reader::meaning(code.value()) {
+        reader::Auxiliary::Harmless => Ok(()),
+        _ => refuse(format!("AUXFUN: M{} changes what motions or cycles do", code.value())),
+    }
+}
+
+/// POSTN with M functions alone, each in a line of its own.
+fn write_words(control: &mut Control, words: &[(Letter, f64, Cause)]) -> Result<()> {
+    for &(letter, value, cause) in words {
+        let Some(code) = FunctionCode::of_value(value).filter(|_| letter == M) else {
+            return refuse(format!(
+                "POSTN: a line of Klartext is no list of words, {letter}{value} has no meaning there"
+            ));
+        };
+        control.because(cause, |control| function(control, M, code))?;
+    }
+    Ok(())
+}
+
+/// A comment, in lines as long as the machine allows.
+fn message(control: &mut Control, text: &str) -> Result<()> {
+    let longest = control.commons.int(loc::MESSAGE_MAX_CHARS).clamp(1, 120) as usize;
+    let clean: Vec<char> =
+        text.chars().map(|c| if c.is_control() || c == '~' { ' ' } else { c }).collect();
+    if clean.iter().zip(text.chars()).any(|(clean, c)| *clean != c) {
+        let message =
+            format!("characters that must not reach the tape in `{}`", text.escape_debug());
+        control.warnings.add(PostCode::IgnoredPart, message);
+    }
+    for part in clean.chunks(longest) {
+        let part: String = part.iter().collect();
+        control.write_comment(&format!("; {}", part.trim_end()), true)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,153 @@
+//! Motions: `L` at FMAX or at feed, `CC` and `C`.
+
+use fil_diag::Result;
+use fil_machine::FunctionCode;
+use fil_machine::axes::AxisSet;
+use fil_machine::letters::{F, IJK};
+use fil_machine::locations as loc;
+use fil_machine::modes::{FeedMode, Plane};
+
+use super::line::{self, Line};
+use super::phrase::Head;
+use crate::control::word_address::arc::PlaneArc;
+use crate::control::word_address::motion::{self as words, Motion};
+use crate::control::{Control, Function};
+use crate::control_state::Compensation;
+use crate::errors::PostCode;
+use crate::noted::TEXT;
+use crate::operation::Feed;
+
+/// In a program in inches F counts tenths of an inch a minute.
+const TENTHS: f64 = 10.0;
+
+/// M137: F is a feed a minute again, where a text may have said M136.
+const PER_MINUTE: FunctionCode = FunctionCode::whole(137);
+
+/// Rapid traverse in one line.
+///
+/// # Errors
+/// A value that does not fit, a position outside the travel.
+pub fn rapid(control: &mut Control, motion: &Motion) -> Result<()> {
+    if control.commons.read(loc::RAPID_ADDRESS).is_some() {
+        return super::refuse("a word of its own for rapid motions (rapid.address): FMAX has none");
+    }
+    ready(control)?;
+    if words::axis_words(control, motion)? {
+        control.klartext.phrase.head = Head::Line;
+        control.klartext.phrase.rapid = true;
+        write(control, AxisSet::NONE)?;
+    }
+    Ok(())
+}
+
+/// A straight line at feed.
+///
+/// # Errors
+/// As [`rapid`]; no feed, or one a turn of the spindle.
+pub fn feed(control: &mut Control, motion: &Motion, feed: Option<&Feed>) -> Result<()> {
+    ready(control)?;
+    if words::axis_words(control, motion)? {
+        control.klartext.phrase.head = Head::Line;
+        feed_word(control, feed)?;
+        write(control, AxisSet::NONE)?;
+    }
+    Ok(())
+}
+
+/// True for a flat arc across the tool axis, which is Z.
+pub fn has_arc(control: &Control, plane: Plane, rise: f64) -> bool {
+    plane == Plane::Xy && rise.abs() < control.tables.axis(plane.normal()).resolution() / 2.0
+}
+
+/// An arc: its pole, and the line to its end.
+///
+/// # Errors
+/// As [`feed`].
+pub fn arc(control: &mut Control, arc: &PlaneArc, feed: Option<&Feed>) -> Result<()> {
+    ready(control)?;
+    let mut pole = Line::default();
+    pole.item(TEXT, "CC", arc.cause);
+    for (number, center) in arc.plane.axes().into_iter().zip(arc.center) {
+        let (text, _) = line::length(control, IJK[number], center)?;
+        let letter = control.tables.axis(number).letter;
+        pole.item(IJK[number].byte(), &format!("{letter}{text}"), arc.cause);
+    }
+    let end = Motion { position: arc.to, axes: AxisSet::LINEAR, word: arc.word };
+    for number in arc.plane.axes() {
+        words::axis_word(control, number, &end)?;
+    }
+    feed_word(control, feed)?;
+    line::put(control, &pole)?;
+    control.klartext.phrase.head = Head::Arc { ccw: arc.counterclockwise };
+    write(control, AxisSet::XY)
+}
+
+/// Refuses a motion while it is not known what the control does with the radius of the
+/// tool.
+///
+/// # Errors
+/// No unit; cutter compensation that a text may have ended.
+pub fn ready(control: &mut Control) -> Result<()> {
+    control.begin()?;
+    control.require_unit()?;
+    let begun = !control.waiting.has(Function::Compensation);
+    let lost = control.state.compensation.is_none() && begun;
+    if lost && control.compensation_asked() != Compensation::Off {
+        return PostCode::CompensationLost
+            .err("a text that can't be read stands within cutter compensation");
+    }
+    Ok(())
+}
+
+/// Adds F where the control does not have it.
+fn feed_word(control: &mut Control, feed: Option<&Feed>) -> Result<()> {
+    let feed = *feed.ok_or_else(|| PostCode::NoFeed.diag("no FEDRAT came before this motion"))?;
+    if feed.mode != FeedMode::PerMinute {
+        return super::refuse("a feed a turn of the spindle: F is a feed a minute here");
+    }
+    if control.state.feed_mode != Some(FeedMode::PerMinute) {
+        control.m(PER_MINUTE);
+        control.state.feed_mode = Some(FeedMode::PerMinute);
+        control.state.doubt(F);
+    }
+    let value = if control.is_metric() { feed.value } else { feed.value * TENTHS };
+    control.modal_feed(F, &Feed { value, ..feed })
+}
+
+/// Writes the line of a motion with the words that wait for it.
+pub(super) fn write(control: &mut Control, turning: AxisSet) -> Result<()> {
+    let moves = |control: &Control, number| {
+        turning.has(number) || control.block_has(control.tables.axis(number).letter)
+    };
+    let in_plane = moves(control, 0) || moves(control, 1);
+    if control.waiting.has(Function::Compensation) {
+        let off = control.compensation_asked() == Compensation::Off;
+        if (off || in_plane) && control.take_function(Function::Compensation) {
+            control.klartext.phrase.side = Some(control.compensation_asked());
+        }
+    } else if control.state.compensation.is_none() {
+        control.klartext.phrase.side = Some(Compensation::Off);
+    }
+    if !control.waiting.is_empty() {
+        control.take_waiting(turning);
+    }
+    control.write_block()?;
+    if in_plane && control.state.compensates() {
+        control.state.moved_in_plane();
+    }
+    Ok(())
+}
+
+/// Refuses what follows while a CUTCOM waits for a motion: R0, RL and RR stand in lines
+/// that move.
+///
+/// # Errors
+/// One waits.
+pub fn refuse_unbegun(control: &Control) -> Result<()> {
+    if control.waiting.has(Function::Compensation) {
+        return super::refuse(
+            "CUTCOM without a motion behind it: R0, RL and RR are said in the line of a motion",
+        );
+    }
+    Ok(())
+}

@@ -1,0 +1,112 @@
+//! A block of words as a line: `L X+10 Y+5 R0 F200 M8`, `C X+1 Y+2 DR+`, `M5 M9`.
+
+use fil_diag::Result;
+use fil_machine::letters::F;
+
+use super::line::{self, Line};
+use crate::control::Control;
+use crate::control_state::Compensation;
+use crate::noted::TEXT;
+
+/// How a line begins.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Head {
+    /// With its functions: `M5 M9`.
+    #[default]
+    Functions,
+    /// `L`.
+    Line,
+    /// `C`, and `DR+` for counterclockwise behind its end.
+    Arc {
+        /// Counterclockwise.
+        ccw: bool,
+    },
+}
+
+/// What the line under construction says besides words.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Phrase {
+    /// How it begins.
+    pub head: Head,
+    /// FMAX: for this line only.
+    pub rapid: bool,
+    /// R0, RL or RR.
+    pub side: Option<Compensation>,
+    /// M99: the cycle is called where the line ends.
+    pub calls_cycle: bool,
+}
+
+/// Letters whose words a line may hold: axes and the feed.
+const WORDS: &[u8] = b"ABCFUVWXYZ";
+
+/// Writes the block under construction as a line; the control learns from it.
+///
+/// # Errors
+/// A word or function that Klartext does not have.
+pub fn write(control: &mut Control) -> Result<()> {
+    let phrase = std::mem::take(&mut control.klartext.phrase);
+    let block = control.block.take();
+    if let Some((code, _)) = block.g_codes().first() {
+        return super::refuse(format!("G{}: Klartext has no G functions", code.value()));
+    }
+    block.check_functions(&control.tables.addresses)?;
+    let cause = block.cause;
+    let mut line = Line::default();
+    match phrase.head {
+        Head::Functions => {}
+        Head::Line => line.item(TEXT, "L", cause),
+        Head::Arc { .. } => line.item(TEXT, "C", cause),
+    }
+    let mut feed = None;
+    for position in block.positions() {
+        let slot = *control.tables.addresses.slot(position);
+        let (Some(letter), Some(scaled)) = (slot.letter, block.scaled_at(position)) else {
+            continue;
+        };
+        if !WORDS.contains(&letter.byte()) {
+            return super::refuse(format!("{letter}: a line of Klartext has no such word"));
+        }
+        let value = line::scaled_text(control, letter, scaled).unwrap_or_default();
+        let word = format!("{}{value}", char::from(slot.character));
+        let word_cause = block.cause_at(position);
+        control.commons.set_last_output(letter, slot.format.unscale(scaled));
+        if letter == F {
+            feed = Some((word, word_cause));
+        } else {
+            line.item(letter.byte(), &word, word_cause);
+        }
+    }
+    if let Head::Arc { ccw } = phrase.head {
+        line.item(TEXT, if ccw { "DR+" } else { "DR-" }, cause);
+    }
+    if let Some(side) = phrase.side {
+        line.item(TEXT, side_text(side), cause);
+    }
+    if phrase.rapid {
+        line.item(TEXT, "FMAX", cause);
+    } else if let Some((word, cause)) = feed {
+        line.item(F.byte(), &word, cause);
+    }
+    for (code, cause) in block.m_codes() {
+        line.item(b'M', &format!("M{}", code.value()), *cause);
+    }
+    if phrase.calls_cycle {
+        line.item(TEXT, "M99", cause);
+    }
+    line::put(control, &line)?;
+    let addresses = &control.tables.addresses;
+    control.state.learn_block(&block, &control.codes, addresses);
+    if let Some(side) = phrase.side {
+        control.state.compensation = Some(side);
+        control.state.compensation_begun = false;
+    }
+    Ok(())
+}
+
+fn side_text(side: Compensation) -> &'static str {
+    match side {
+        Compensation::Off => "R0",
+        Compensation::Left => "RL",
+        Compensation::Right => "RR",
+    }
+}

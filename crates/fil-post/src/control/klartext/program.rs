@@ -1,0 +1,64 @@
+//! BEGIN PGM and END PGM.
+
+use fil_diag::Result;
+use fil_machine::locations as loc;
+use fil_machine::modes::{Plane, Unit};
+
+use super::line::{self, Line};
+use crate::cause::Cause;
+use crate::control::Control;
+
+/// Longest name of a program.
+const NAME: usize = 32;
+
+/// The head: the name of the program and its unit, then the blocks of the machine.
+///
+/// # Errors
+/// No unit: it stands in the first line. Macros that edit blocks.
+pub fn start(control: &mut Control, blocks: &[String]) -> Result<()> {
+    let style = &control.tables.style;
+    if style.edits_words || style.edits_lines {
+        return super::refuse("_OUTPTP and _MCDWT: lines of Klartext are not edited");
+    }
+    let unit = control.require_unit()?;
+    control.state.unit = Some(unit);
+    control.state.plane = Some(Plane::Xy);
+    control.state.compensation = None;
+    control.klartext.name = name(control);
+    let cause = control.head.cause;
+    let text = format!("BEGIN PGM {} {}", control.klartext.name, unit_text(unit));
+    line::put(control, &Line::of_text(&text, cause))?;
+    blocks.iter().try_for_each(|block| control.write_text(block, true))
+}
+
+/// The last line.
+///
+/// # Errors
+/// No unit.
+pub fn end(control: &mut Control) -> Result<()> {
+    if std::mem::replace(&mut control.klartext.ended, true) {
+        return Ok(());
+    }
+    let unit = unit_text(control.require_unit()?);
+    let text = format!("END PGM {} {unit}", control.klartext.name);
+    line::put(control, &Line::of_text(&text, Cause::default()))
+}
+
+fn unit_text(unit: Unit) -> &'static str {
+    match unit {
+        Unit::Mm => "MM",
+        Unit::Inch => "INCH",
+    }
+}
+
+/// The machine's program number, else the PARTNO text in letters that a file name may
+/// have, else its number, else 1.
+fn name(control: &Control) -> String {
+    if let Some(number) = control.commons.read(loc::PROGRAM_NUMBER) {
+        return number.to_string();
+    }
+    let of_part = control.head.name.trim().chars();
+    let letters = of_part.map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' });
+    let name: String = letters.take(NAME).collect();
+    if name.trim_matches('_').is_empty() { "1".to_string() } else { name }
+}

@@ -1,0 +1,140 @@
+//! The small reader of lines that others put on the tape. It is made to say "I can't"
+//! rather than guess; then all is unknown.
+
+use fil_machine::letters;
+
+use crate::control::Control;
+use crate::control_state::Compensation;
+
+/// What an M function does to what the post counts on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Auxiliary {
+    /// Nothing: spindle, coolant, stops, functions of the machine.
+    Harmless,
+    /// It ends the program.
+    End,
+    /// F is a feed a minute from here on.
+    PerMinute,
+    /// It changes how motions, feeds or cycles are meant.
+    Changes,
+}
+
+/// What the number of an M function means. From 80 on lie those of the control that
+/// change how it moves.
+pub fn meaning(number: f64) -> Auxiliary {
+    match number as i64 {
+        2 | 30 => Auxiliary::End,
+        137 => Auxiliary::PerMinute,
+        0..80 if number.fract() == 0.0 => Auxiliary::Harmless,
+        _ => Auxiliary::Changes,
+    }
+}
+
+/// Learns from a line of others.
+pub fn learn(control: &mut Control, text: &str) {
+    let mut line = text.trim();
+    line = line.trim_start_matches(|c: char| c.is_ascii_digit()).trim_start();
+    let code = line.split(';').next().unwrap_or("").trim();
+    if code.is_empty() || code.starts_with('*') {
+        return;
+    }
+    let upper = code.to_ascii_uppercase();
+    let items: Vec<&str> = upper.split_whitespace().collect();
+    match items[..] {
+        ["BLK", "FORM", ..] | ["TOOL", "DEF", ..] | ["STOP"] => {}
+        ["END", "PGM", ..] => {
+            control.klartext.ended = true;
+            control.state.ended = true;
+        }
+        ["TOOL", "CALL", ..] => {
+            control.state.tool = None;
+            control.state.tool_changes += 1;
+            control.state.doubt_axes();
+            control.state.doubt(letters::S);
+        }
+        ["CYCL", "DEF", number, ..] if !frames(number) => control.state.cycle = None,
+        ["CYCL", "DEF", ..] => {
+            control.state.cycle = None;
+            control.state.doubt_axes();
+        }
+        ["CYCL", "CALL", ..] => control.state.doubt_axes(),
+        ["L", ref rest @ ..] => motion(control, rest),
+        [first, ..] if first.starts_with('M') => motion(control, &items),
+        _ => forget(control),
+    }
+}
+
+/// Cycles that move the frame: datum shift, mirror, rotation, scaling, plane.
+fn frames(number: &str) -> bool {
+    let number = number.split('.').next().unwrap_or("");
+    !matches!(
+        number,
+        "9" | "32"
+            | "200"
+            | "201"
+            | "202"
+            | "203"
+            | "204"
+            | "205"
+            | "206"
+            | "207"
+            | "208"
+            | "209"
+            | "240"
+            | "241"
+    )
+}
+
+/// The items of an L line or of one that has only functions.
+fn motion(control: &mut Control, items: &[&str]) {
+    for item in items {
+        match *item {
+            "FMAX" => {}
+            "R0" => side(control, Compensation::Off),
+            "RL" => side(control, Compensation::Left),
+            "RR" => side(control, Compensation::Right),
+            _ => word(control, item),
+        }
+    }
+}
+
+fn side(control: &mut Control, side: Compensation) {
+    control.state.compensation = Some(side);
+    control.state.compensation_begun = side != Compensation::Off;
+}
+
+fn word(control: &mut Control, item: &str) {
+    let mut rest = item.chars();
+    let first = rest.next();
+    let number = rest.as_str().parse::<f64>();
+    match (first, number) {
+        (Some('M'), Ok(number)) => match meaning(number) {
+            Auxiliary::Harmless => {}
+            Auxiliary::End => control.state.ended = true,
+            Auxiliary::PerMinute => {
+                control.state.feed_mode = Some(fil_machine::modes::FeedMode::PerMinute);
+            }
+            // In the frame of the machine for this line only, and a call of the cycle.
+            Auxiliary::Changes if matches!(number as i64, 91 | 92 | 99) => {
+                control.state.doubt_axes()
+            }
+            Auxiliary::Changes => forget(control),
+        },
+        (Some('F'), Ok(_)) => control.state.doubt(letters::F),
+        (Some('X' | 'Y' | 'Z' | 'A' | 'B' | 'C' | 'U' | 'V' | 'W'), Ok(_)) => {
+            control.state.doubt_axes();
+        }
+        (Some('I'), _) if rest.as_str().len() > 1 => control.state.doubt_axes(),
+        _ => forget(control),
+    }
+}
+
+/// Nothing is known any more but what no line can change.
+fn forget(control: &mut Control) {
+    let (unit, plane) = (control.state.unit, control.state.plane);
+    control.state.forget();
+    control.state.unit = unit;
+    control.state.plane = plane;
+    control.state.distance = Some(crate::control_state::Distance::Absolute);
+    control.state.in_cycle = Some(false);
+}

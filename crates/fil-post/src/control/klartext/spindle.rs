@@ -1,0 +1,52 @@
+//! The spindle: its speed in TOOL CALL, its direction by M3 and M4.
+
+use fil_diag::Result;
+use fil_machine::locations as loc;
+
+use super::tool;
+use crate::control::Control;
+use crate::control::word_address::spindle as words;
+use crate::operation::{Spindle, SpindleSpeed, SpindleTurn};
+
+/// Writes the spindle's words.
+///
+/// # Errors
+/// A surface speed or a limit of the speed; and as [`tool::speed`].
+pub fn write(control: &mut Control, spindle: Spindle) -> Result<()> {
+    match spindle {
+        Spindle::Turn(turn) => start(control, turn),
+        Spindle::Limit(_) => super::refuse("SPINDL/MAXRPM on a mill"),
+        other => words::write(control, other),
+    }
+}
+
+fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
+    control.begin()?;
+    let [speed_word, direction_word] = turn.words;
+    control.block.cause.word = speed_word;
+    if let Some(speed) = turn.speed {
+        if !control.commons.read(loc::SPINDLE_DIRECT_RPM) {
+            return super::refuse(
+                "S as a code (spindle.direct_rpm): TOOL CALL takes turns a minute",
+            );
+        }
+        if !matches!(speed, SpindleSpeed::Revolutions(_)) {
+            return super::refuse("SPINDL with a surface speed on a mill");
+        }
+        let by_speed = !turn.in_named_range && control.commons.read(loc::SPINDLE_AUTO_RANGE);
+        if let (SpindleSpeed::Revolutions(speed), true) = (speed, by_speed) {
+            words::take_range_of(control, speed)?;
+        }
+        control.speed = Some(speed);
+        let value = words::value_of(control, speed);
+        tool::speed(control, value)?;
+    }
+    control.block.cause.word = direction_word;
+    control.klartext.clockwise = Some(turn.clockwise.unwrap_or(true));
+    let direction = match turn.clockwise {
+        Some(true) => loc::SPINDLE_CW_CODE,
+        Some(false) => loc::SPINDLE_CCW_CODE,
+        None => loc::SPINDLE_DEFAULT_CODE,
+    };
+    words::place(control, direction, "the spindle")
+}

@@ -1,0 +1,96 @@
+//! TOOL CALL and TOOL DEF.
+
+use fil_diag::Result;
+use fil_machine::letters::T;
+use fil_machine::locations as loc;
+use fil_machine::rounding::Rounding;
+
+use super::line::{self, Line};
+use crate::block::named;
+use crate::control::Control;
+use crate::errors::PostCode;
+use crate::noted::TEXT;
+use crate::operation::ToolChange;
+
+/// Calls a tool; its length and radius come from the control's table of tools.
+///
+/// # Errors
+/// An offset of its own; a number that does not fit.
+pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
+    if wanted.offset_given && wanted.offset != wanted.tool {
+        return super::refuse(format!(
+            "LOADTL asks for offset {}: the length comes with the tool here",
+            wanted.offset
+        ));
+    }
+    let number = number(control, wanted.tool)?;
+    let mut line = Line::default();
+    line.item(TEXT, "TOOL CALL", control.block.cause.whole());
+    line.item(T.byte(), &number, wanted.causes[0]);
+    line.item(TEXT, "Z", control.block.cause.whole());
+    line::put(control, &line)?;
+    for number in control.tables.present().numbers() {
+        control.state.doubt(control.tables.axis(number).letter);
+    }
+    control.state.tool_changes += 1;
+    control.state.tool = Some(wanted.tool);
+    Ok(())
+}
+
+/// The number of a tool as T writes it.
+pub(super) fn number(control: &Control, tool: i64) -> Result<String> {
+    control.require_letter(T)?;
+    let format = control.tables.addresses.format(T).copied().unwrap_or_default();
+    let scaled = Rounding::Exact.scale(tool as f64, &format).map_err(|diag| named(diag, T))?;
+    Ok(line::scaled_text(control, T, scaled).unwrap_or_default())
+}
+
+/// Names the next tool, on a machine that prepares it.
+///
+/// # Errors
+/// A number that does not fit.
+pub fn select(control: &mut Control, tool: i64) -> Result<()> {
+    if !control.commons.read(loc::TOOL_PRESELECT) {
+        return Ok(());
+    }
+    control.begin()?;
+    let mut line = Line::default();
+    let cause = control.block.cause;
+    line.item(TEXT, "TOOL DEF", cause.whole());
+    line.item(T.byte(), &number(control, tool)?, cause);
+    line::put(control, &line)
+}
+
+/// The speed of the spindle, by calling the tool in the spindle again.
+///
+/// # Errors
+/// The tool in the spindle is not known; cutter compensation; a speed that does not fit.
+pub fn speed(control: &mut Control, value: f64) -> Result<()> {
+    let Some(tool) = control.state.tool else {
+        return super::refuse(
+            "a speed before LOADTL: S stands in TOOL CALL, and the tool in the spindle is not known",
+        );
+    };
+    if control.is_compensated() {
+        return PostCode::CompensationOn.err("at TOOL CALL, which a change of the speed needs");
+    }
+    let s = fil_machine::letters::S;
+    control.require_letter(s)?;
+    let format = control.tables.addresses.format(s).copied().unwrap_or_default();
+    let scaled = Rounding::Rate.scale(value, &format).map_err(|diag| named(diag, s))?;
+    let written = format.unscale(scaled);
+    if control.has_value(s, written) {
+        return Ok(());
+    }
+    let cause = control.block.cause;
+    let mut line = Line::default();
+    line.item(TEXT, "TOOL CALL", cause.whole());
+    line.item(T.byte(), &number(control, tool)?, cause.whole());
+    line.item(TEXT, "Z", cause.whole());
+    let text = line::scaled_text(control, s, scaled).unwrap_or_default();
+    line.item(s.byte(), &format!("S{text}"), cause);
+    line::put(control, &line)?;
+    control.commons.set_last_output(s, written);
+    control.state.trust(s);
+    Ok(())
+}
