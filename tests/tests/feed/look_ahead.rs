@@ -78,7 +78,10 @@ fn wall_and_floor_change_at_the_angle_of_the_paper() {
 
 #[test]
 fn the_feed_of_the_file_is_back_after_the_pass() {
-    let cl = pass_cl().replace("SEQNO / 1060\n", "GOTO / -16, 0, -4.369\n");
+    let cl = pass_cl().replace(
+        "FEDCTL / OFF\nSEQNO / 1060\n",
+        "RAPID\nGOTO / -15, 0, 5\nFEDCTL / OFF\nGOTO / -16, 0, -4.369\n",
+    );
     let (nc, _) = post(Some("feed-ahead.fil"), &cl).unwrap();
     assert_eq!(cuts(&nc).last().map(|(point, feed)| (point[0], *feed)), Some((-16.0, 5.0)));
 }
