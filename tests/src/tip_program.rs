@@ -67,13 +67,16 @@ pub const MACHINES: [Machine; 3] = [
 ];
 
 /// Settings of all of them.
-const COMMON: [&str; 7] = [
+const COMMON: [&str; 9] = [
     "rotary.primary_axis=3",
     "rotary.primary_i=0",
     "rotary.primary_j=0",
     "rotary.primary_k=1",
     "rotary.secondary_k=0",
     "address.A.format=4443",
+    // One block for each motion, so that only tool-tip control keeps the tip on its line.
+    "rotary.tolerance=0",
+    "rotary.feed=1",
     "rapid.split=0",
 ];
 

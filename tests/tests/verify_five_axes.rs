@@ -72,6 +72,9 @@ fn post(rotaries: &[Rotary; 2], pivot: Option<f64>, split: bool) -> Program {
         set("rotary.pivot_distance", pivot);
     }
     set("rapid.split", f64::from(u8::from(split)));
+    // One block for each motion, which the tests divide themselves.
+    set("rotary.tolerance", 0.0);
+    set("rotary.feed", 1.0);
     builder.build().expect("a machine")
 }
 

@@ -64,6 +64,7 @@ pub const HANDLERS: &[(WordId, Handler)] = &[
     (w::HEAD, Refused),
     (w::INDEX, Refused),
     (w::INSERT, I(word::insert::handle)),
+    (w::LINTOL, I(word::lintol::handle)),
     (w::LOAD, I(word::loadtl::handle)),
     (w::LOADTL, I(word::loadtl::handle)),
     (w::MODE, I(word::mode::handle)),

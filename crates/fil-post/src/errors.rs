@@ -95,6 +95,18 @@ fil_diag::codes! {
         BlockLength = 541, Error, "block longer than the control reads",
             "The rest of a block that is longer than the control's buffer would be lost.",
             "Shorten the text, drop blanks with tape.blank, or correct tape.max_block of the machine.";
+        /// A motion of too many parts.
+        TooManyParts = 580, Error, "a motion would be divided too often",
+            "While rotary axes turn, the tip leaves its line; to keep it there, or to say its feed, takes too many blocks.",
+            "Give a larger LINTOL or rotary.tolerance, or a higher feed; check that the part lies near the rotary axes.";
+        /// A feed a revolution while the machine turns.
+        RotaryFeedUnknown = 581, Error, "feed of a motion that turns the machine is not known",
+            "The time of such a motion is found from the way of the tip and its feed a minute.",
+            "Put SPINDL before it, or give the feed in MMPM or IPM.";
+        /// A thread and a turn.
+        ThreadTurns = 582, Error, "the machine would turn while a thread is cut",
+            "The block of a thread moves X, Y and Z only.",
+            "Put the change of the tool axis before or after the thread.";
         /// Unknown major word.
         UnknownWord = 513, Error, "unknown word",
             "The post has no handler for this major word, and no table lists it as without effect. A misspelt GOTO would lose a motion.",
@@ -127,5 +139,13 @@ fil_diag::codes! {
         ArcUnproved = 556, Warning, "the sense of an arc is not proved",
             "CAM systems disagree about the axis of a CIRCLE, and by the other rule this arc would be the shorter way round or run on.",
             "Look at the arc in a backplot; choose the dialect of the CL file with --dialect.";
+        /// The digits are too coarse.
+        CoarseDigits = 590, Warning, "the tape is too coarse for the tolerance",
+            "Each axis word is rounded to its last digit, and far from a rotary axis that moves the tip.",
+            "Give a larger LINTOL or rotary.tolerance, or the axes more digits after the point.";
+        /// Nothing keeps the tip on its line.
+        Undivided = 591, Warning, "the tip leaves its line while the machine turns",
+            "LINTOL / OFF or rotary.tolerance = 0 lets motions that turn the machine be one block each; all axes go evenly, and the tip goes along a curve.",
+            "Give LINTOL or rotary.tolerance a value, or check the program with filpost verify --between.";
     }
 }

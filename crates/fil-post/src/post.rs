@@ -123,13 +123,15 @@ impl Post {
     /// True when lengths or feeds were given: a change of the unit would leave them
     /// in the other one.
     pub(crate) fn has_lengths(&self) -> bool {
-        let Path { point, feed, cycle, transformation, cutter, thread, .. } = &self.path;
+        let Path { point, feed, cycle, transformation, cutter, thread, straightness, .. } =
+            &self.path;
         point.is_some()
             || feed.is_some()
             || cycle.is_some()
             || transformation.is_some()
             || cutter.is_some()
             || thread.is_some()
+            || straightness.tolerance.is_some()
     }
 
     /// Warns once per code and subject.

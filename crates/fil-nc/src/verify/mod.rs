@@ -26,6 +26,7 @@ mod say;
 mod settings;
 mod statements;
 mod tools;
+mod turning_settings;
 mod walk;
 mod wanted;
 

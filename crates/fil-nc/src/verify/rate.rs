@@ -28,7 +28,9 @@ impl<C: Steps> Walk<'_, C> {
             Some(Rate::PerMinute(rate)) => {
                 let rate = self.settings.feed_within(rate, self.metric);
                 let rate = self.at_the_edge(&from, found, rate);
-                Rate::PerMinute(self.settings.feed_within_axes(rate, &from, found, self.metric))
+                let turns = turned(&from, found) > 0.0;
+                let within = self.settings.feed_within_axes(rate, &from, found, self.metric);
+                Rate::PerMinute(if turns { rate } else { within })
             }
             Some(rate) => rate,
             None => return,
@@ -44,9 +46,13 @@ impl<C: Steps> Walk<'_, C> {
             (Rate::PerMinute(rate), Some(Rate::Inverse(inverse))) => {
                 return self.check_time(cl_line, (from, found), rate, inverse);
             }
+            (Rate::PerTurn(rate), Some(Rate::Inverse(inverse))) => {
+                let Some(speed) = found.modes.speed else { return };
+                return self.check_time(cl_line, (from, found), rate * speed, inverse);
+            }
             _ => false,
         };
-        if !agrees {
+        if !agrees && !self.says_the_time(from, found, wanted) {
             let found_rate = found.rate.map_or("none".to_string(), spell_rate);
             let message = format!("feed {found_rate}, it should be {}", spell_rate(wanted));
             self.find(FindingKind::Feed, Some(cl_line), Some(found.line), message);
@@ -84,9 +90,12 @@ impl<C: Steps> Walk<'_, C> {
     ) {
         let [straight, way] = self.lengths(from, found);
         let slack = self.slack.inverse;
+        let turned = turned(&from, found);
         let agrees = |length: f64| {
-            let asked = self.settings.inverse_within(rate / length);
-            (inverse - asked).abs() <= slack
+            let time = self.settings.turning_time(length / rate, turned);
+            let [asked, slower] =
+                [rate / length, 1.0 / time].map(|it| self.settings.inverse_within(it));
+            (inverse - asked).abs() <= slack || (inverse - slower).abs() <= slack
         };
         if way < STANDS || agrees(straight) || agrees(way) {
             return;
@@ -99,6 +108,29 @@ impl<C: Steps> Walk<'_, C> {
             short(rate)
         );
         self.find(FindingKind::Feed, Some(cl_line), Some(found.line), message);
+    }
+
+    /// A feed a minute that is counted over the way of the axes, as the machine takes it in
+    /// motions that turn it, and leads the tip as fast as asked for.
+    fn says_the_time(&self, from: Position, found: &Move, wanted: Rate) -> bool {
+        let turned = turned(&from, found);
+        if turned == 0.0 || from.tip_control || found.to.tip_control {
+            return false;
+        }
+        let rate = match (wanted, found.modes.speed) {
+            (Rate::PerMinute(rate), _) => rate,
+            (Rate::PerTurn(rate), Some(speed)) => rate * speed,
+            _ => return false,
+        };
+        let Some(Rate::PerMinute(feed)) = found.rate else { return false };
+        let Some(counted) = self.settings.counted_way(&from, &found.to, self.metric) else {
+            return false;
+        };
+        self.lengths(from, found).into_iter().any(|way| {
+            let time = self.settings.turning_time(way / rate, turned);
+            let expected = self.settings.feed_within(counted / time, self.metric);
+            (feed - expected).abs() <= self.slack.feed
+        })
     }
 
     /// How far the tip goes in the part, mm: straight, or along an arc of the program; and
@@ -117,4 +149,9 @@ impl<C: Steps> Walk<'_, C> {
         let way: f64 = (0..STEPS).map(|step| (tip(step + 1) - tip(step)).norm()).sum();
         [straight, way.max(straight)]
     }
+}
+
+/// The largest turn of a rotary axis, degrees.
+fn turned(from: &Position, found: &Move) -> f64 {
+    (0..2).map(|n| (found.to.rotary[n] - from.rotary[n]).abs()).fold(0.0, f64::max)
 }

@@ -4,10 +4,10 @@ use fil_diag::Result;
 use fil_machine::locations as loc;
 
 use super::arc::flat;
-use super::linear;
+use super::{linear, linearization};
 use crate::operation::{Arc, MotionKind, Target};
 use crate::post::Post;
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 /// Smallest angle of a chord, degrees.
 const FINEST: f64 = 0.05;
@@ -26,23 +26,73 @@ pub fn carry_out(
     sweep: f64,
     target: Target,
 ) -> Result<()> {
-    let radius = flat(arc, start).norm();
-    let mm = post.control.require_unit()?.in_mm();
-    let tolerance =
-        post.control.commons.dbl_opt(loc::CIRCLE_CHORD_TOLERANCE).unwrap_or(TOLERANCE) / mm;
-    let step = 2.0 * (1.0 - tolerance / radius).clamp(-1.0, 1.0).acos().to_degrees();
-    let count = (sweep / step.max(FINEST)).ceil().max(1.0) as u32;
-    let from_axis = post.path.axis;
-    let from = flat(arc, start);
-    let across = arc.axis.cross(&from);
-    let rise = arc.axis.dot(&(target.point - start));
-    let base = start - from;
+    let chords = Chords::new(post, arc, start, sweep, target);
+    let count = chords.count(post)?;
     for number in 1..count {
-        let share = f64::from(number) / f64::from(count);
-        let (sine, cosine) = (sweep * share).to_radians().sin_cos();
-        let point = base + from * cosine + across * sine + arc.axis * (rise * share);
-        let axis = from_axis.lerp(&target.axis, share).normalize();
-        linear::carry_out(post, Target { point, axis, word: 0 }, MotionKind::Feed)?;
+        let point = chords.at(f64::from(number) / f64::from(count));
+        linear::carry_out(post, point, MotionKind::Feed)?;
     }
     linear::carry_out(post, target, MotionKind::Feed)
+}
+
+/// An arc that is written as lines.
+struct Chords {
+    base: Point3<f64>,
+    from: Vector3<f64>,
+    across: Vector3<f64>,
+    rise: Vector3<f64>,
+    sweep: f64,
+    axes: [Vector3<f64>; 2],
+    end: Target,
+}
+
+impl Chords {
+    fn new(post: &Post, arc: &Arc, start: Point3<f64>, sweep: f64, end: Target) -> Self {
+        let from = flat(arc, start);
+        Chords {
+            base: start - from,
+            from,
+            across: arc.axis.cross(&from),
+            rise: arc.axis * arc.axis.dot(&(end.point - start)),
+            sweep,
+            axes: [post.path.axis, end.axis],
+            end,
+        }
+    }
+
+    /// The point at a share of the arc, with the tool between its ends.
+    fn at(&self, share: f64) -> Target {
+        if share >= 1.0 {
+            return self.end;
+        }
+        let (sine, cosine) = (self.sweep * share).to_radians().sin_cos();
+        let point = self.base + self.from * cosine + self.across * sine + self.rise * share;
+        let axis = self.axes[0].lerp(&self.axes[1], share).normalize();
+        Target { point, axis, word: 0 }
+    }
+
+    /// How many lines keep within the chord tolerance, and the tip near its arc where the
+    /// machine turns on the way.
+    ///
+    /// # Errors
+    /// As [`linearization::count`].
+    fn count(&self, post: &Post) -> Result<u32> {
+        let mm = post.control.require_unit()?.in_mm();
+        let chord = post.control.commons.dbl_opt(loc::CIRCLE_CHORD_TOLERANCE).unwrap_or(TOLERANCE);
+        let within = |tolerance: f64| {
+            let radius = self.from.norm();
+            let step = 2.0 * (1.0 - tolerance / radius).clamp(-1.0, 1.0).acos().to_degrees();
+            (self.sweep / step.max(FINEST)).ceil().max(1.0) as u32
+        };
+        let allowed = linearization::tolerance(post)?;
+        match allowed.filter(|_| self.axes[0] != self.axes[1]) {
+            Some(allowed) => {
+                // The tip is off by the height of the chord and by its way beside the chord.
+                let half = allowed / 2.0;
+                let least = within(half.min(chord / mm));
+                linearization::count(post, least, half, |share| self.at(share))
+            }
+            None => Ok(within(chord / mm)),
+        }
+    }
 }

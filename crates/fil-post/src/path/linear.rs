@@ -3,7 +3,7 @@
 use fil_diag::Result;
 use fil_machine::axes::AxisSet;
 
-use super::{feed_rules, rapid, rotary};
+use super::{feed_rules, linearization, rapid, rotary};
 use crate::control::family;
 use crate::control::word_address::motion::Motion;
 use crate::operation::{MotionKind, Target};
@@ -34,15 +34,13 @@ pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
             Some(feed) => family::feed(&mut post.control, &motion, Some(&feed))?,
             None => rapid::rapid(&mut post.control, &motion, cause)?,
         },
-        MotionKind::Feed => {
-            rotary::refuse_unwinding(before, post.path.rotary)?;
-            if feed_rules::apply(post) {
-                feed_rules::line(post, &motion, target)?;
-            } else {
-                family::feed(&mut post.control, &motion, post.path.feed.as_ref())?;
-            }
-        }
+        MotionKind::Feed => match rotary::turned(before, post.path.rotary)? {
+            Some(before) => linearization::feed(post, before, position, target)?,
+            None if feed_rules::apply(post) => feed_rules::line(post, &motion, target)?,
+            None => family::feed(&mut post.control, &motion, post.path.feed.as_ref())?,
+        },
         MotionKind::Thread(lead) => {
+            rotary::refuse_thread(before, post.path.rotary)?;
             let motion = motion.of(AxisSet::LINEAR);
             family::thread(&mut post.control, &motion, &lead)?;
         }

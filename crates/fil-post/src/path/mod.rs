@@ -13,12 +13,15 @@ mod expand;
 mod feed_rules;
 pub mod hole;
 mod linear;
+pub mod linearization;
 mod machine_position;
 pub mod rapid;
 pub mod rotary;
 pub(crate) mod sense;
+mod tip;
 mod tool_change;
 mod transformation;
+mod turning_feed;
 
 use fil_diag::Result;
 use fil_machine::Unit;
@@ -26,10 +29,12 @@ use nalgebra::{Point3, Vector3};
 
 use crate::cause::Cause;
 use crate::control::family;
+use crate::control::word_address::motion;
 use crate::operation::{Arc, Feed, Lead, Operation};
 use crate::post::Post;
 
 pub use cycle::Cycle;
+pub use linearization::Straightness;
 pub use transformation::Transformation;
 
 /// Where the CL file stands: point and axis, and what its records asked for.
@@ -46,6 +51,10 @@ pub struct Path {
     pub multax: Option<bool>,
     /// Last rotary positions in degrees; `None` before the first motion.
     pub rotary: Option<[f64; 2]>,
+    /// How far the tip may leave its line while the machine turns.
+    pub straightness: Straightness,
+    /// The last feed motion was written in inverse time, in which the control still is.
+    pub(crate) writes_inverse_time: bool,
     /// RAPID was given, by this record: the next motion is rapid.
     pub rapid: Option<Cause>,
     /// Feed of the next feed motion.
@@ -78,6 +87,8 @@ impl Default for Path {
             axis: Vector3::z(),
             multax: None,
             rotary: None,
+            straightness: Straightness::default(),
+            writes_inverse_time: false,
             rapid: None,
             feed: None,
             inverse_time: false,
@@ -113,8 +124,19 @@ impl Path {
 pub fn carry_out(post: &mut Post, operation: Operation) -> Result<()> {
     match operation {
         Operation::Linear(target, kind) => linear::carry_out(post, target, kind),
-        Operation::MachinePosition(to) => machine_position::carry_out(post, to),
         Operation::Arc(arc, target) => arc::carry_out(post, &arc, target),
+        other => {
+            if std::mem::take(&mut post.path.writes_inverse_time) {
+                motion::leave_inverse_time(&mut post.control)?;
+            }
+            carry_out_other(post, other)
+        }
+    }
+}
+
+fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
+    match operation {
+        Operation::MachinePosition(to) => machine_position::carry_out(post, to),
         Operation::Hole(target) => hole::carry_out(post, target),
         Operation::ToolChange(change) => tool_change::change(&mut post.control, change),
         other => family::write(&mut post.control, other),

@@ -12,6 +12,9 @@ use crate::post::Post;
 /// way round that a limit forces.
 const HALF_TURN: f64 = 180.0 + 1e-6;
 
+/// A smaller turn of a rotary axis counts as none, degrees.
+const STILL: f64 = 1e-9;
+
 /// Positions of the axes for a target; the rotary axes are then taken to stand there.
 ///
 /// # Errors
@@ -30,13 +33,15 @@ pub fn position_of(post: &mut Post, target: Target) -> Result<Position> {
     Ok([linear.x, linear.y, linear.z, angles[0], angles[1]])
 }
 
-/// Refuses a feed motion in which a rotary axis would go the long way round because
-/// its limits leave no other: the part would be cut on the way.
+/// Where the rotary axes stood before a feed motion that turns them; `None` for one that
+/// does not, or where they stood is not known.
 ///
 /// # Errors
-/// An axis turns by more than half a turn.
-pub fn refuse_unwinding(before: Option<[f64; 2]>, now: Option<[f64; 2]>) -> Result<()> {
-    let (Some(before), Some(now)) = (before, now) else { return Ok(()) };
+/// A rotary axis would go the long way round because its limits leave no other: the
+/// part would be cut on the way.
+#[inline]
+pub fn turned(before: Option<[f64; 2]>, now: Option<[f64; 2]>) -> Result<Option<[f64; 2]>> {
+    let (Some(before), Some(now)) = (before, now) else { return Ok(None) };
     for (from, to) in before.into_iter().zip(now) {
         if (to - from).abs() > HALF_TURN {
             return PostCode::Unwinding.err(format!(
@@ -44,7 +49,19 @@ pub fn refuse_unwinding(before: Option<[f64; 2]>, now: Option<[f64; 2]>) -> Resu
             ));
         }
     }
-    Ok(())
+    let turns = before.into_iter().zip(now).any(|(from, to)| (to - from).abs() > STILL);
+    Ok(turns.then_some(before))
+}
+
+/// Refuses a pass of a thread in which a rotary axis would turn: its block has none.
+///
+/// # Errors
+/// One would.
+pub fn refuse_thread(before: Option<[f64; 2]>, now: Option<[f64; 2]>) -> Result<()> {
+    match turned(before, now)? {
+        Some(_) => PostCode::ThreadTurns.err("the tool axis changes in a pass of a thread"),
+        None => Ok(()),
+    }
 }
 
 /// The target after TRANS and the input translation (DBLCOM 286–288).

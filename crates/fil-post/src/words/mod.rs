@@ -18,6 +18,7 @@ pub mod godlta;
 pub mod goto;
 pub mod home;
 pub mod insert;
+pub mod lintol;
 pub mod loadtl;
 pub mod mode;
 pub mod multax;

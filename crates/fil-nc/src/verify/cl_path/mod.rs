@@ -99,6 +99,8 @@ struct State {
     cycle: Option<Cycle>,
     matrix: Option<Matrix>,
     shift: Vector3<f64>,
+    /// LINTOL, mm.
+    straight: Option<f64>,
 }
 
 /// Goes through a CL file.
@@ -136,6 +138,7 @@ impl<'r> ClPath<'r> {
                 cycle: None,
                 matrix: None,
                 shift: Vector3::from(shift),
+                straight: None,
             },
             ready: VecDeque::new(),
             over: false,
@@ -353,14 +356,14 @@ impl State {
         }
     }
 
-    /// LINTOL with a length or OFF.
-    fn straight(&self, record: &Record) -> Vec<Wanted> {
-        let within = numbers(record).first().copied().filter(|within| *within > 0.0);
-        match within {
-            Some(within) => vec![Wanted::Straight(Some(within * self.unit()))],
-            None if record.has(w::OFF) => vec![Wanted::Straight(None)],
-            None => Vec::new(),
+    /// LINTOL with a length, ON for the last one, or OFF.
+    fn straight(&mut self, record: &Record) -> Vec<Wanted> {
+        if record.has(w::OFF) {
+            return vec![Wanted::Straight(None)];
         }
+        let within = numbers(record).first().copied().filter(|within| *within > 0.0);
+        self.straight = within.map(|within| within * self.unit()).or(self.straight);
+        vec![Wanted::Straight(self.straight)]
     }
 
     fn trans(&mut self, record: &Record) -> Vec<Wanted> {

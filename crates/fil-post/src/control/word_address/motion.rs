@@ -281,6 +281,21 @@ fn say_feed_mode(control: &mut Control, feed: &Feed) -> Result<()> {
     Ok(())
 }
 
+/// Ends inverse time, in which each block has an F of its own: whatever comes next, a
+/// text of the user's too, counts on the usual feed.
+///
+/// # Errors
+/// The machine has no code for a feed a minute.
+pub fn leave_inverse_time(control: &mut Control) -> Result<()> {
+    if control.state.feed_mode != Some(FeedMode::InverseTime) {
+        return Ok(());
+    }
+    let code = control.code(loc::FEED_UPM_CODE, "this feed mode")?;
+    control.tables.format_feed(FeedMode::PerMinute);
+    control.g(code);
+    control.write_block()
+}
+
 /// Writes a motion block: adds the words that wait for it and those of REPEAT.
 ///
 /// # Errors

@@ -1,0 +1,32 @@
+//! What the settings of a machine make of the time of motions that turn it.
+
+use fil_machine::locations::{self as loc, RotaryFeed};
+
+use super::settings::Settings;
+use crate::motion::{Position, unit};
+
+impl Settings<'_> {
+    /// Minutes of a motion that turns the machine: as long as asked for, or as the turn
+    /// (degrees) takes at least.
+    pub fn turning_time(&self, asked: f64, turned: f64) -> f64 {
+        let most = self.commons.dbl_opt(loc::ROTARY_FEED_MAX).filter(|most| *most > 0.0);
+        asked.max(most.map_or(0.0, |most| turned / most))
+    }
+
+    /// The way over which F counts in a motion that turns the machine, in mm: with degrees
+    /// as units of length of the program; `None` where it is that of the tip.
+    pub fn counted_way(&self, from: &Position, to: &Position, metric: bool) -> Option<f64> {
+        let unit = unit(metric);
+        let squares = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum();
+        let linear: f64 = squares(&from.linear, &to.linear);
+        let turns: f64 = squares(&from.rotary, &to.rotary);
+        let turns = turns * unit * unit;
+        match self.commons.read(loc::ROTARY_FEED) {
+            RotaryFeed::InverseTime | RotaryFeed::AsFedratSays => None,
+            RotaryFeed::CombinedWay => Some((linear + turns).sqrt()),
+            RotaryFeed::LinearWayElseTheTurn => {
+                Some(if linear > 0.0 { linear } else { turns }.sqrt())
+            }
+        }
+    }
+}

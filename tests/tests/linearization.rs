@@ -1,0 +1,189 @@
+//! Motions that turn the machine, divided by the post: the back-check, which bounds how
+//! far the tip leaves its line, agrees on random machines and on real files.
+
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+use fil_nc::verify::{Allowed, Report, Verdict};
+use filpost::verify::NcProgram;
+use filpost::{Program, Unit};
+use filpost_tests::back_check;
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
+
+/// Paths posted for random machines.
+const PATHS: usize = 1_500;
+
+/// Carries, direction, center.
+type Rotary = (u8, [f64; 3], [f64; 3]);
+
+/// Point, tilt and turn of the tool in radians, rapid.
+type Target = ([f64; 3], f64, f64, bool);
+
+fn rotaries() -> impl Strategy<Value = [Rotary; 2]> {
+    let kinds = prop_oneof![Just([1u8, 1]), Just([1, 2]), Just([2, 2]), Just([1, 0]), Just([0, 2])];
+    let directions = prop_oneof![
+        Just([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]),
+        Just([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]),
+        Just([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]),
+        Just([[0.0, 0.0, 1.0], [0.0, -1.0, 1.0]]),
+    ];
+    let centers = proptest::array::uniform2(proptest::array::uniform3(-150.0..150.0f64));
+    (kinds, directions, centers).prop_map(|(kinds, directions, centers)| {
+        [0, 1].map(|n| (kinds[n], directions[n], centers[n]))
+    })
+}
+
+fn targets() -> impl Strategy<Value = Vec<Target>> {
+    let point = proptest::array::uniform3(-80.0..80.0f64);
+    let tilt = prop_oneof![Just(0.0), 0.001..0.6f64];
+    let turn = prop_oneof![Just(0.0), -3.0..3.0f64];
+    proptest::collection::vec((point, tilt, turn, proptest::bool::weighted(0.2)), 2..8)
+}
+
+fn post(rotaries: &[Rotary; 2], pivot: Option<f64>, tolerance: f64, form: u8) -> Program {
+    let mut settings = vec![
+        format!("rotary.tolerance={tolerance}"),
+        format!("rotary.feed={form}"),
+        "rotary.feed_max=100000".to_string(),
+        "feed.upm_max=99999".to_string(),
+        "feed.inverse_max=99999".to_string(),
+    ];
+    settings.extend(pivot.map(|pivot| format!("rotary.pivot_distance={pivot}")));
+    for ((kind, direction, center), (name, letter)) in
+        rotaries.iter().zip([("primary", 3), ("secondary", 2)])
+    {
+        settings.push(format!("rotary.{name}_kind={kind}"));
+        settings.push(format!("rotary.{name}_axis={letter}"));
+        for (parts, names) in [(direction, ["i", "j", "k"]), (center, ["x", "y", "z"])] {
+            let part = |(value, part)| format!("rotary.{name}_{part}={value:?}");
+            settings.extend(parts.iter().zip(names).map(part));
+        }
+    }
+    let builder = Program::builder().ready("fanuc-mill");
+    settings.iter().fold(builder, |builder, set| builder.set(set)).build().expect("a machine")
+}
+
+fn cl(targets: &[Target], feed: f64, lintol: Option<f64>) -> String {
+    let lintol = lintol.map_or(String::new(), |most| format!("LINTOL / {most}\n"));
+    let mut cl = format!("UNITS / MM\n{lintol}MULTAX / ON\nFEDRAT / {feed}, MMPM\n");
+    for (number, ([x, y, z], tilt, turn, rapid)) in targets.iter().enumerate() {
+        let (i, j, k) = (tilt.sin() * turn.cos(), tilt.sin() * turn.sin(), tilt.cos());
+        let rapid = if *rapid || number == 0 { "RAPID\n" } else { "" };
+        cl += &format!("{rapid}GOTO / {x:.10}, {y:.10}, {z:.10}, {i:.10}, {j:.10}, {k:.10}\n");
+    }
+    cl + "FINI\n"
+}
+
+/// The program, and what the back-check says of it when the tip may leave its line by
+/// `between`; `None` where the machine can't make the path.
+fn checked(post: &Program, cl: &str, between: f64) -> Option<(String, Report)> {
+    let mut nc = Vec::new();
+    post.run(cl.as_bytes(), &mut nc).ok()?;
+    let nc = String::from_utf8(nc).expect("ASCII");
+    let allowed = Allowed { tolerance: None, between: Some(between) };
+    let report = back_check::check(post.commons(), cl, &nc, allowed);
+    Some((nc.clone(), report.unwrap_or_else(|diag| panic!("{diag}\n{cl}\n{nc}"))))
+}
+
+/// On every machine, in every form of the feed, the tip stays as near to its line as the
+/// machine or LINTOL says, and the feeds are right.
+#[test]
+fn the_tip_stays_near_its_line_and_goes_at_its_feed() {
+    let mut runner = TestRunner::deterministic();
+    let pivots = proptest::option::of(80.0..300.0f64);
+    let tolerances = prop_oneof![Just(0.02), 0.02..0.5f64];
+    let by_lintol = any::<bool>();
+    let all = (rotaries(), pivots, targets(), tolerances, by_lintol, 50.0..3000.0f64, 0u8..4);
+    let (mut paths, mut divided) = (0, 0);
+    for _ in 0..PATHS {
+        let (rotaries, pivot, targets, tolerance, by_lintol, feed, form) =
+            all.new_tree(&mut runner).unwrap().current();
+        let (of_machine, lintol) =
+            if by_lintol { (5.0, Some(tolerance)) } else { (tolerance, None) };
+        let post = post(&rotaries, pivot, of_machine, form);
+        let cl = cl(&targets, (feed * 10.0).round() / 10.0, lintol);
+        let Some((nc, report)) = checked(&post, &cl, tolerance) else { continue };
+        let seen = format!("{:#?}\n{rotaries:?} {pivot:?} {form}\n{cl}\n{nc}", report.findings);
+        assert_eq!(report.verdict(), Verdict::Agrees, "{seen}");
+        paths += 1;
+        let blocks = nc.lines().filter(|line| line.contains(['X', 'Y', 'Z', 'B', 'C'])).count();
+        divided += usize::from(blocks > 4 * targets.len());
+    }
+    println!("{paths} paths agree, {divided} of them divided");
+    assert!(paths > PATHS / 3 && divided * 3 > paths, "{divided} of {paths}");
+}
+
+/// Without division the tip leaves its line, which is said.
+#[test]
+fn an_undivided_motion_is_said() {
+    let table = [(1, [0.0, 0.0, 1.0], [0.0; 3]), (1, [0.0, 1.0, 0.0], [0.0; 3])];
+    let targets = [([60.0, 0.0, 10.0], 0.1, 0.0, false), ([0.0, 60.0, 10.0], 0.4, 1.5, false)];
+    for (tolerance, lintol) in [(0.0, ""), (0.01, "LINTOL / OFF\n")] {
+        let post = post(&table, None, tolerance, 0);
+        let cl = cl(&targets, 500.0, None).replace("MULTAX", &format!("{lintol}MULTAX"));
+        let outcome = post.run(cl.as_bytes(), &mut Vec::new()).expect("a program");
+        let codes: Vec<String> = outcome.warnings.iter().map(|diag| diag.code.name()).collect();
+        assert!(codes.contains(&"W0591".to_string()), "{codes:?}");
+    }
+}
+
+/// Real files of several systems that turn the machine.
+const FILES: [&str; 7] = [
+    "cl/nx/TORETC_250_BOK.cls",
+    "cl/nx/ust_a.cls",
+    "cl-more/catia/1_linear_5x_linear_5x_PATH1.aptsource",
+    "cl-more/catia/2_circle-cylndr_circle-cylndr_5x_circle-cylndr_5x_PATH1.aptsource",
+    "cl-more/catia/1_linear_3x_linear_3x_PATH1.aptsource",
+    "cl-more/catia/circle-cylndr-helical_3x_PATH1.aptsource",
+    "cl-more/catia/milling_MILLING_PATH1_FRONT.aptsource",
+];
+
+fn data() -> Option<PathBuf> {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let data = env::var_os("FILPOST_DATA").map_or(here.join("../../shared/data"), PathBuf::from);
+    if data.join("cl").is_dir() {
+        return Some(data);
+    }
+    println!("skipped: no folder {}", data.join("cl").display());
+    None
+}
+
+/// Real five-axis files post for tables and for heads, and the tip stays on its line.
+#[test]
+fn real_files_stay_on_their_lines() {
+    let Some(data) = data() else { return };
+    let machines: [[Rotary; 2]; 3] = [
+        [(1, [0.0, 0.0, 1.0], [0.0; 3]), (1, [1.0, 0.0, 0.0], [0.0, 0.0, -50.0])],
+        [(1, [0.0, 0.0, 1.0], [20.0, 5.0, 0.0]), (2, [0.0, 1.0, 0.0], [0.0; 3])],
+        [(2, [0.0, 0.0, 1.0], [0.0; 3]), (2, [0.0, 1.0, 0.0], [0.0; 3])],
+    ];
+    let mut turning = 0;
+    for name in FILES {
+        let cl = fs::read(data.join(name)).expect(name);
+        let says = cl.windows(5).any(|word| word == b"UNIT/" || word == b"UNITS");
+        for (rotaries, pivot) in machines.iter().zip([None, Some(120.0), Some(250.0)]) {
+            let post = post(rotaries, pivot, 0.05, 0);
+            let start = || {
+                let run = post.start();
+                if says { run } else { run.units(Unit::Mm) }
+            };
+            let mut nc = Vec::new();
+            if let Err(error) = start().run(&cl[..], &mut nc) {
+                // Cutter compensation in a plane that this machine does not turn upright.
+                assert_eq!(error.diags()[0].code.name(), "E0519", "{name}: {error}");
+                continue;
+            }
+            let program = NcProgram { text: &nc, name: "out.nc" };
+            let allowed = Allowed { tolerance: None, between: Some(0.05) };
+            let (report, _) = start().verify(&cl[..], program, allowed).expect(name);
+            assert_eq!(report.verdict(), Verdict::Agrees, "{name}: {:#?}", report.findings);
+            if let Some(between) = report.between {
+                println!("{name}: {} mm off its line at most", between.position.max);
+                turning += 1;
+            }
+        }
+    }
+    assert!(turning > 5, "{turning} programs turn the machine at feed");
+}
