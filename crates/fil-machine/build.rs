@@ -21,10 +21,12 @@ fn main() {
     let mut constants = String::new();
     let mut enums = String::new();
     let mut seen = HashSet::new();
+    let mut cells = HashSet::new();
     let mut table = String::from("/// All named locations, in the order of the table's file.\n");
     table.push_str("pub static TABLE: &[Location] = &[\n");
     for line in source.lines().filter(|line| !line.starts_with('#')).skip(1) {
         let row = Row::read(line);
+        assert!(cells.insert((row.kind, row.number)), "two settings in one location: {line}");
         if row.used {
             row.constant(&mut constants);
             if row.unit == "choice" && seen.insert(row.enum_name()) {

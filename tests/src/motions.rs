@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use fil_nc::dialect::Dialect;
 use fil_nc::interpret::interpret;
-use fil_nc::motion::{Compensation, Course, Event, Modes, Move, Rate, Spindle};
+use fil_nc::motion::{Compensation, Course, Event, Modes, Move, Rate, Speed, Spindle};
 use filpost::{Diag, Program};
 
 /// What the head of a program says.
@@ -83,6 +83,7 @@ pub fn lines(text: &str, dialect: &Dialect) -> (Vec<String>, Option<Box<Diag>>) 
         Event::ToolChange { tool, .. } => lines.push(format!("tool {tool}")),
         Event::Dwell { seconds: Some(seconds), .. } => lines.push(format!("dwell {seconds}")),
         Event::Dwell { seconds: None, .. } => lines.push("dwell".into()),
+        Event::Auxiliary { code, .. } => lines.push(format!("M{code}")),
         Event::End { .. } => lines.push("end".into()),
     });
     (lines, refused.err())
@@ -193,8 +194,13 @@ fn modes_line(modes: &Modes) -> String {
     if modes.tip_control {
         line += " tip-control";
     }
-    if let Some(speed) = modes.speed {
-        line += &format!(" S{}", number(speed));
+    match modes.speed {
+        Some(Speed::Turns(speed)) => line += &format!(" S{}", number(speed)),
+        Some(Speed::Surface(speed)) => line += &format!(" surface S{}", number(speed)),
+        None => {}
+    }
+    if let Some(limit) = modes.speed_limit {
+        line += &format!(" up to S{}", number(limit));
     }
     line += match modes.spindle {
         Spindle::Off => "",
@@ -209,5 +215,8 @@ fn modes_line(modes: &Modes) -> String {
     if let Some(fixture) = modes.fixture {
         line += &format!(" G{fixture}");
     }
-    if modes.coolant { line + " coolant" } else { line }
+    if let Some(code) = modes.coolant {
+        line += &format!(" coolant M{code}");
+    }
+    line
 }

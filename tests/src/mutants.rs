@@ -1,7 +1,7 @@
 //! Small faults put into NC programs: a changed digit, a lost sign, a dropped word,
-//! a turned arc, a missing block.
+//! a turned arc, a missing block, a word too many.
 
-use fil_nc::text::read_block;
+use fil_nc::text::{Block, read_block};
 
 /// A program with one fault.
 pub struct Mutant {
@@ -34,6 +34,9 @@ fn of_line(line: &str) -> Vec<(String, String)> {
         return Vec::new();
     }
     let mut faults = vec![(format!("without `{line}`"), String::new())];
+    for word in ["M0", "M7", "M50", "S77"].into_iter().filter(|word| fits(&block, word)) {
+        faults.push((format!("`{line}` with {word}"), format!("{line} {word}")));
+    }
     for word in &block.words {
         let (range, text) = (word.range.clone(), &line[word.range.clone()]);
         let with = |new: &str| format!("{}{new}{}", &line[..range.start], &line[range.end..]);
@@ -55,6 +58,12 @@ fn of_line(line: &str) -> Vec<(String, String)> {
         }
     }
     faults
+}
+
+/// A word may be added to a block that has none like it.
+fn fits(block: &Block, word: &str) -> bool {
+    let letter = word.as_bytes()[0];
+    block.comments.is_empty() && block.words.iter().all(|other| other.letter != letter)
 }
 
 /// G2 for G3 and the reverse.

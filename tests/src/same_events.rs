@@ -31,7 +31,8 @@ fn bare(events: &[Event]) -> Vec<Event> {
             }
             Event::ToolChange { tool, modes, .. } => Event::ToolChange { line: 0, tool, modes },
             Event::Dwell { seconds, .. } => Event::Dwell { line: 0, seconds },
-            Event::End { modes, .. } => Event::End { line: 0, modes },
+            Event::Auxiliary { code, .. } => Event::Auxiliary { line: 0, code },
+            Event::End { code, modes, .. } => Event::End { line: 0, code, modes },
         });
     }
     bare

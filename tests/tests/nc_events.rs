@@ -141,6 +141,7 @@ fn a_real_program_is_read() {
 const NOT_FOLLOWED: &[(&str, &str)] = &[
     ("feed-control-l400", "E0905 out.nc:2:5: R: an address with an index"),
     ("one-surface", "E0904 out.nc:7:5: the machine has no G65"),
+    ("texts", "E0904 out.nc:12:1: `CALL` is not followed"),
     ("side", "E0904 out.nc:8:5: the machine has no G68.2"),
     ("three-angles", "E0904 out.nc:8:5: the machine has no G68.2"),
     ("turned-only", "E0904 out.nc:8:5: the machine has no G68.2"),

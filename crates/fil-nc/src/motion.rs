@@ -4,6 +4,9 @@
 /// Millimetres of an inch.
 pub(crate) const INCH: f64 = 25.4;
 
+/// Meters of a foot.
+pub(crate) const FOOT: f64 = 0.3048;
+
 /// Millimetres of a unit of length.
 pub(crate) fn unit(metric: bool) -> f64 {
     if metric { 1.0 } else { INCH }
@@ -86,6 +89,25 @@ pub enum Spindle {
     Counterclockwise,
 }
 
+/// How fast the spindle turns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Speed {
+    /// Turns/min.
+    Turns(f64),
+    /// Constant surface speed, m/min.
+    Surface(f64),
+}
+
+impl Speed {
+    /// Turns/min; `None` for a surface speed.
+    pub fn turns(self) -> Option<f64> {
+        match self {
+            Speed::Turns(turns) => Some(turns),
+            Speed::Surface(_) => None,
+        }
+    }
+}
+
 /// Cutter compensation by the control.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Compensation {
@@ -120,14 +142,18 @@ pub struct Modes {
     pub orientation: Option<f64>,
     /// Spindle range that the program has chosen last, from 1.
     pub spindle_range: Option<u8>,
-    /// Spindle speed, turns/min; `None` before the first and at constant surface speed.
-    pub speed: Option<f64>,
+    /// Spindle speed; `None` before the first, and after a change between turns and
+    /// surface speed.
+    pub speed: Option<Speed>,
+    /// What surface speed may turn the spindle up to, turns/min; `None` before the first
+    /// limit.
+    pub speed_limit: Option<f64>,
     /// The work offset: its preparatory function (54 for `G54`), for a numbered one of a
     /// function its tenths and the number (541003 for `G54.1 P3`), for one of a word
     /// 1000000 and the number.
     pub fixture: Option<u32>,
-    /// Coolant flows.
-    pub coolant: bool,
+    /// The auxiliary function of the coolant that was switched on last; `None` when off.
+    pub coolant: Option<u32>,
 }
 
 /// A single motion from where the axes stand to `to`; [`Forward::along`] says how it
@@ -179,11 +205,34 @@ pub enum Event {
         /// Seconds; `None` when the program waits turns of the spindle.
         seconds: Option<f64>,
     },
+    /// An auxiliary function without a motion of its own that is none of spindle, coolant
+    /// and tool (`M0`, `M41`).
+    Auxiliary {
+        /// Line of the NC program.
+        line: u32,
+        /// Its number.
+        code: u32,
+    },
     /// The end of the program.
     End {
         /// Line of the NC program.
         line: u32,
+        /// The number of the auxiliary function that ends it; `None` where it ends without.
+        code: Option<u32>,
         /// What is in force at the end.
         modes: Modes,
     },
+}
+
+impl Event {
+    /// Line of the NC program, 1-based.
+    pub fn line(&self) -> u32 {
+        match self {
+            Event::Move(Move { line, .. })
+            | Event::ToolChange { line, .. }
+            | Event::Dwell { line, .. }
+            | Event::Auxiliary { line, .. }
+            | Event::End { line, .. } => *line,
+        }
+    }
 }

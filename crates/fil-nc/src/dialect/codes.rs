@@ -176,20 +176,20 @@ pub enum Auxiliary {
     Orient,
     /// A range of spindle speeds, from 1.
     SpindleRange(u8),
-    /// Coolant flows, or stops.
-    Coolant(bool),
+    /// The coolant of this number flows; `None`: it stops.
+    Coolant(Option<u32>),
     /// Tool change.
     ToolChange,
-    /// End of the program.
-    End,
+    /// End of the program, by this number.
+    End(u32),
     /// Call of a subprogram.
     Call,
     /// End of a subprogram.
     Back,
     /// Steers the program in a way that can't be followed.
     Flow,
-    /// Anything else: no motion of the axes.
-    Other,
+    /// Anything else, by its number: no motion of the axes.
+    Other(u32),
 }
 
 impl Auxiliary {
@@ -205,7 +205,7 @@ impl Auxiliary {
             )
         };
         match (self, other) {
-            (Auxiliary::Coolant(on), Auxiliary::Coolant(other)) => on != other,
+            (Auxiliary::Coolant(on), Auxiliary::Coolant(other)) => on.is_some() != other.is_some(),
             _ => turns(self) && turns(other),
         }
     }
@@ -386,6 +386,21 @@ fn named() -> [(&'static str, Function); 24] {
     ]
 }
 
+/// Settings that name the code of a coolant.
+const COOLANTS: [&str; 11] = [
+    "coolant.flood_medium_code",
+    "coolant.thru_medium_code",
+    "coolant.tap_code",
+    "coolant.air_code",
+    "coolant.flood_code",
+    "coolant.mist_code",
+    "coolant.default_code",
+    "coolant.flood_high_code",
+    "coolant.flood_low_code",
+    "coolant.thru_high_code",
+    "coolant.thru_low_code",
+];
+
 /// M words by their numbers.
 #[derive(Clone, Debug)]
 pub(super) struct Auxiliaries(HashMap<i64, Auxiliary>);
@@ -398,27 +413,14 @@ impl Auxiliaries {
             ("spindle.ccw_code", A::Counterclockwise),
             ("spindle.stop_code", A::SpindleOff),
             ("spindle.orient_code", A::Orient),
-            ("coolant.off_code", A::Coolant(false)),
-            ("coolant.flood_code", A::Coolant(true)),
-            ("coolant.mist_code", A::Coolant(true)),
-            ("coolant.default_code", A::Coolant(true)),
-            ("coolant.flood_high_code", A::Coolant(true)),
-            ("coolant.flood_low_code", A::Coolant(true)),
-            ("coolant.thru_high_code", A::Coolant(true)),
-            ("coolant.thru_low_code", A::Coolant(true)),
-            ("coolant.flood_medium_code", A::Coolant(true)),
-            ("coolant.thru_medium_code", A::Coolant(true)),
-            ("coolant.tap_code", A::Coolant(true)),
-            ("coolant.air_code", A::Coolant(true)),
             ("spindle.range1_code", A::SpindleRange(1)),
             ("spindle.range2_code", A::SpindleRange(2)),
             ("spindle.range3_code", A::SpindleRange(3)),
             ("spindle.range4_code", A::SpindleRange(4)),
             ("spindle.range5_code", A::SpindleRange(5)),
             ("spindle.range6_code", A::SpindleRange(6)),
+            ("coolant.off_code", A::Coolant(None)),
             ("tool.change_code", A::ToolChange),
-            ("program.end_code", A::End),
-            ("program.rewind_code", A::End),
         ];
         let mut table = HashMap::new();
         for (key, auxiliary) in named {
@@ -426,7 +428,15 @@ impl Auxiliaries {
                 table.entry(i64::from(code)).or_insert(auxiliary);
             }
         }
-        for (code, auxiliary) in [(2, A::End), (30, A::End), (98, A::Call), (99, A::Back)] {
+        for code in COOLANTS.iter().filter_map(|key| settings.code(key)) {
+            let flows = A::Coolant(Some(code.unsigned_abs()));
+            table.entry(i64::from(code)).or_insert(flows);
+        }
+        let ends = ["program.end_code", "program.rewind_code"].map(|key| settings.code(key));
+        for code in ends.into_iter().flatten().chain([2, 30]) {
+            table.entry(i64::from(code)).or_insert(A::End(code.unsigned_abs()));
+        }
+        for (code, auxiliary) in [(98, A::Call), (99, A::Back)] {
             table.entry(code).or_insert(auxiliary);
         }
         for code in [96, 97, 198] {
@@ -436,6 +446,6 @@ impl Auxiliaries {
     }
 
     pub(super) fn get(&self, code: i64) -> Auxiliary {
-        self.0.get(&code).copied().unwrap_or(Auxiliary::Other)
+        self.0.get(&code).copied().unwrap_or(Auxiliary::Other(code as u32))
     }
 }

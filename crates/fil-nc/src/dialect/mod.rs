@@ -121,6 +121,8 @@ pub struct Dialect {
     pub(crate) center: CenterForm,
     pub(crate) depth: DepthForm,
     pub(crate) tool_call: ToolCall,
+    /// The character that marks a block the operator can skip.
+    pub(crate) skip_mark: u8,
     /// Letters of special words, 1 to 26.
     pub(crate) radius: u8,
     /// An arc right behind another keeps its radius.
@@ -244,6 +246,10 @@ impl Dialect {
                 _ => DepthForm::Absolute,
             },
             tool_call,
+            skip_mark: settings
+                .code("tape.opskip_char")
+                .and_then(|code| u8::try_from(code).ok())
+                .unwrap_or(b'/'),
             radius: settings.letter("circle.radius_address"),
             radius_modal: settings.flag("circle.radius_modal"),
             right_handed: [

@@ -20,8 +20,8 @@ const RAPID_WORD: f64 = 1e-3;
 pub(super) enum Outcome {
     /// The next one.
     Next,
-    /// The program ends.
-    End,
+    /// The program ends, by the auxiliary function of this number.
+    End(u32),
     /// A subprogram.
     Call {
         /// Its number.
@@ -45,13 +45,14 @@ impl State<'_> {
         let (stood, known) = (self.at, self.known);
         self.modes(&mut words)?;
         self.tool_and_spindle(&mut words)?;
+        self.auxiliaries(&words);
         self.motion(&mut words)?;
         if begins {
             self.check_begun(&stood, &known)?;
         }
         words.finish()?;
-        if outcome == Outcome::End {
-            self.events.push(Event::End { line: self.line, modes: self.modes });
+        if let Outcome::End(code) = outcome {
+            self.events.push(Event::End { line: self.line, code: Some(code), modes: self.modes });
         }
         Ok(outcome)
     }
@@ -61,7 +62,7 @@ impl State<'_> {
         let mut outcome = Outcome::Next;
         for (auxiliary, range) in words.auxiliaries.clone() {
             let asked = match auxiliary {
-                Auxiliary::End => Outcome::End,
+                Auxiliary::End(code) => Outcome::End(code),
                 Auxiliary::Back => Outcome::Back,
                 Auxiliary::Call => call(words)?,
                 _ => continue,

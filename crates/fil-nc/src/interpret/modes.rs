@@ -5,7 +5,7 @@ use super::state::State;
 use super::words::{Words, letter};
 use crate::dialect::{Auxiliary, Function, Group, ToolCall};
 use crate::errors::NcCode;
-use crate::motion::{Compensation, Event, Spindle, WORD_OFFSETS};
+use crate::motion::{Compensation, Event, FOOT, Speed, Spindle, WORD_OFFSETS};
 
 pub(super) const H: u8 = letter(b'H');
 const S: u8 = letter(b'S');
@@ -90,6 +90,7 @@ impl State<'_> {
                 let offset = words.take_whole(H)?;
                 let missing = || Fault::new(NcCode::MissingWord, "the length offset needs its H");
                 self.modes.length_offset = Some(offset.ok_or_else(missing)?);
+                self.length_is_on = true;
             }
             Some(Function::TipControl) => self.begin_tip_control(words)?,
             Some(_) => {
@@ -97,8 +98,10 @@ impl State<'_> {
                 self.modes.length_offset = None;
                 self.end_tip_control();
             }
+            // A tool change may end the function: then H alone is not certain to act.
             None if self.modes.length_offset.is_some() && words.has(H) => {
-                self.modes.length_offset = words.take_whole(H)?;
+                let offset = words.take_whole(H)?;
+                self.modes.length_offset = offset.filter(|_| self.length_is_on);
             }
             None => {}
         }
@@ -108,13 +111,15 @@ impl State<'_> {
     /// Speed, tool and M words.
     pub(super) fn tool_and_spindle(&mut self, words: &mut Words) -> Result<(), Fault> {
         if let Some(Function::Surface(on)) = words.function(Group::Surface) {
+            if on != self.surface {
+                self.modes.speed = None;
+            }
             self.surface = on;
-            self.modes.speed = self.modes.speed.filter(|_| !on);
         }
         if words.peek(Group::Once) == Some(Function::SpeedLimit) {
             words.function(Group::Once);
-            let limit = words.take(S)?;
-            limit.ok_or_else(|| Fault::new(NcCode::MissingWord, "the speed limit needs its S"))?;
+            let missing = || Fault::new(NcCode::MissingWord, "the speed limit needs its S");
+            self.modes.speed_limit = Some(words.take(S)?.ok_or_else(missing)?);
         }
         let orients = words.auxiliaries.iter().any(|(a, _)| *a == Auxiliary::Orient);
         let orientation = match self.dialect.orientation {
@@ -124,7 +129,10 @@ impl State<'_> {
         let stops = words.auxiliaries.iter().any(|(a, _)| *a == Auxiliary::SpindleOff);
         let oriented = orients || stops;
         if let Some(speed) = words.take(S)?.filter(|_| !oriented) {
-            self.modes.speed = (!self.surface).then_some(speed);
+            self.modes.speed = Some(match self.surface {
+                true => Speed::Surface(speed * if self.metric { 1.0 } else { FOOT }),
+                false => Speed::Turns(speed),
+            });
         }
         self.tool(words)?;
         for (auxiliary, _) in &words.auxiliaries {
@@ -147,6 +155,15 @@ impl State<'_> {
     fn turn_spindle(&mut self, spindle: Spindle) {
         self.modes.spindle = spindle;
         self.modes.orientation = None;
+    }
+
+    /// Tells the auxiliary functions that are none of spindle, coolant and tool.
+    pub(super) fn auxiliaries(&mut self, words: &Words) {
+        for (auxiliary, _) in &words.auxiliaries {
+            if let Auxiliary::Other(code) = auxiliary {
+                self.events.push(Event::Auxiliary { line: self.line, code: *code });
+            }
+        }
     }
 
     fn tool(&mut self, words: &mut Words) -> Result<(), Fault> {
@@ -172,6 +189,7 @@ impl State<'_> {
 
     pub(super) fn change(&mut self, tool: u32) {
         self.events.push(Event::ToolChange { line: self.line, tool, modes: self.modes });
+        self.length_is_on = false;
         self.modes.tool = tool;
     }
 }

@@ -29,6 +29,8 @@ pub(super) struct State<'d> {
     /// Radius of the arc that the last motion made, as on the tape, where the next arc
     /// may leave it out.
     pub(super) arc_radius: Option<f64>,
+    /// The function of the length offset stood behind the last tool change.
+    pub(super) length_is_on: bool,
     /// S is a surface speed.
     pub(super) surface: bool,
     pub(super) return_initial: bool,
@@ -58,6 +60,7 @@ impl<'d> State<'d> {
             feed_mode: dialect.feed_mode,
             feed: None,
             arc_radius: None,
+            length_is_on: false,
             surface: false,
             return_initial: dialect.return_initial,
             cycle: None,

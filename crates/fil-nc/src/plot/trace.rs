@@ -96,7 +96,7 @@ pub fn nc_trace(events: &[Event], forward: &Forward) -> Trace {
                 at = motion.to;
             }
             Event::ToolChange { line, tool, .. } => builder.change(*line, *tool),
-            Event::Dwell { .. } | Event::End { .. } => {}
+            Event::Dwell { .. } | Event::Auxiliary { .. } | Event::End { .. } => {}
         }
     }
     builder.trace

@@ -354,15 +354,7 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     fn next_line(&self) -> u32 {
-        match self.nc.get(self.next) {
-            Some(
-                Event::Move(Move { line, .. })
-                | Event::ToolChange { line, .. }
-                | Event::Dwell { line, .. }
-                | Event::End { line, .. },
-            ) => *line,
-            None => 0,
-        }
+        self.nc.get(self.next).map_or(0, Event::line)
     }
 
     fn spell_level(&self, what: &str, is: f64, should: f64) -> String {

@@ -8,6 +8,8 @@
 mod ahead;
 mod align;
 mod arc;
+mod auxiliaries;
+mod beside;
 mod between;
 mod blocks;
 mod cl_path;
@@ -17,7 +19,6 @@ mod hole_tip;
 mod lines;
 mod machine_ends;
 mod modes;
-mod motion_settings;
 mod parts;
 mod programs;
 mod rate;
@@ -44,7 +45,7 @@ pub use cl_path::ClPath;
 pub use programs::{compare_programs, compare_words};
 pub use report::{Deviation, Finding, FindingKind, Report, Unverified, Verdict};
 pub use settings::{Due, Settings, Slack};
-pub use wanted::{Arc, CoolantKind, CycleKind, Effect, Hole, Step, Wanted};
+pub use wanted::{Arc, CoolantKind, CycleKind, Effect, End, Hole, Step, Wanted};
 
 /// The inputs of a back-check.
 pub struct Check<'a> {

@@ -4,9 +4,10 @@
 //! state before and the state asked for are right; after it only the latter is.
 
 use super::report::FindingKind;
-use super::settings::{Due, Settings};
+use super::say::short;
+use super::settings::{Due, Settings, Slack};
 use super::wanted::{CoolantKind, Effect, Wanted};
-use crate::motion::{Compensation, Modes, Spindle, WORD_OFFSETS};
+use crate::motion::{Compensation, Modes, Speed, Spindle, WORD_OFFSETS};
 
 /// Allowed deviation of an oriented spindle, degrees.
 const ANGLE: f64 = 6e-4;
@@ -81,14 +82,18 @@ pub(super) struct Expected {
     /// The side, and the number of the offset.
     compensation: Lag<(Compensation, Option<u32>)>,
     spindle: Lag<Option<Spindle>>,
-    speed: Lag<Option<f64>>,
     /// Angle of the oriented spindle; `None` when none is asked for.
     orientation: Option<f64>,
     /// The spindle range; `None` when none is asked for.
     range: Option<u8>,
     /// The record that is taken up names the range.
     range_is_named: bool,
-    coolant: Lag<bool>,
+    speed: Lag<Option<Speed>>,
+    /// A speed was asked for, or words of the user's own may have set one.
+    has_speed: bool,
+    /// `None` inside where words of the user's own may have set it.
+    speed_limit: Option<Option<f64>>,
+    coolant: Lag<Option<u32>>,
     /// `None` when words of the user's own may have chosen it.
     fixture: Option<Option<u32>>,
     /// The length offset seen last.
@@ -109,7 +114,9 @@ impl Expected {
             orientation: None,
             range: None,
             range_is_named: false,
-            coolant: Lag::new(false),
+            has_speed: settings.has_speed_at_start(),
+            speed_limit: Some(settings.speed_limit_at_start()),
+            coolant: Lag::new(None),
             fixture: Some(fixture_of(&settings.own_blocks())),
             offset_on: None,
             said: Vec::new(),
@@ -139,6 +146,7 @@ impl Expected {
                 self.range_is_named = true;
             }
             Wanted::Speed(speed) => self.take_speed(*speed, settings),
+            Wanted::SpeedLimit(limit) => self.speed_limit = Some(Some(*limit)),
             Wanted::Orient(angle) => {
                 self.spindle.set(None, Due::Now);
                 self.speed.set(None, Due::Now);
@@ -149,8 +157,8 @@ impl Expected {
                     self.flush();
                 }
                 let due = if *kind == CoolantKind::Off { Due::Now } else { settings.coolant_due() };
-                if settings.has_coolant(*kind) {
-                    self.coolant.set(*kind != CoolantKind::Off, due);
+                if let Some(code) = settings.coolant_code(*kind) {
+                    self.coolant.set(Some(code).filter(|_| *kind != CoolantKind::Off), due);
                 }
             }
             Wanted::Compensation(side, offset) => {
@@ -158,12 +166,12 @@ impl Expected {
                 let offset = offset.or(of_tool).filter(|_| *side != Compensation::Off);
                 self.compensation.set((*side, offset), settings.compensation_due());
             }
-            Wanted::Stop | Wanted::End => self.flush(),
+            Wanted::Stop { .. } | Wanted::End(_) => self.flush(),
             Wanted::WorkOffset(number) => self.fixture = settings.work_offset(*number).map(Some),
             Wanted::Fixture(code) => self.fixture = Some(Some(*code)),
-            Wanted::Unknown { effect: Effect::Words | Effect::Path, .. } => {
-                self.fixture = None;
-                self.range = None;
+            Wanted::Unknown { effect: Effect::Words | Effect::AnyWords | Effect::Path, .. } => {
+                (self.fixture, self.speed_limit, self.range) = (None, None, None);
+                self.has_speed |= !matches!(wanted, Wanted::Unknown { effect: Effect::Words, .. });
             }
             Wanted::Unknown { effect: Effect::Auxiliary, .. } => self.range = None,
             _ => {}
@@ -171,13 +179,19 @@ impl Expected {
     }
 
     /// Takes up a speed, with the range that it brings along.
-    fn take_speed(&mut self, speed: Option<f64>, settings: &Settings) {
-        if let Some(asked) = speed.filter(|_| !self.range_is_named) {
-            let within = settings.speed_within(asked, None);
-            self.range = settings.range_of_speed(within, self.range).or(self.range);
-        }
-        let speed = speed.map(|speed| settings.speed_within(speed, self.range));
-        self.speed.set(speed, settings.spindle_due());
+    fn take_speed(&mut self, speed: Speed, settings: &Settings) {
+        let speed = match speed {
+            Speed::Surface(_) => speed,
+            Speed::Turns(asked) => {
+                if !self.range_is_named {
+                    let within = settings.speed_within(asked, None);
+                    self.range = settings.range_of_speed(within, self.range).or(self.range);
+                }
+                Speed::Turns(settings.speed_within(asked, self.range))
+            }
+        };
+        self.speed.set(Some(speed), settings.spindle_due());
+        self.has_speed = true;
     }
 
     /// Takes up a tool change.
@@ -198,10 +212,10 @@ impl Expected {
         &mut self,
         modes: &Modes,
         changes: bool,
-        speed_slack: f64,
+        slack: &Slack,
     ) -> Vec<(FindingKind, String)> {
         self.flush();
-        let mut wrong = self.wrong(modes, Doing::Standing, speed_slack);
+        let mut wrong = self.wrong(modes, Doing::Standing, slack);
         // A change may bring its own offset along; one that waits needs a motion.
         wrong.retain(|(kind, _)| *kind != FindingKind::Tool || !(changes || self.offset_waits()));
         if modes.tip_control {
@@ -231,7 +245,7 @@ impl Expected {
         modes: &Modes,
         moved: Moved,
         cuts: bool,
-        speed_slack: f64,
+        slack: &Slack,
     ) -> Vec<(FindingKind, String)> {
         self.offset.moved(moved);
         self.compensation.moved(moved);
@@ -240,7 +254,7 @@ impl Expected {
         self.coolant.moved(moved);
         self.offset_on = modes.length_offset;
         let doing = if cuts { Doing::Cutting } else { Doing::Moving };
-        let wrong = self.wrong(modes, doing, speed_slack);
+        let wrong = self.wrong(modes, doing, slack);
         self.news(wrong)
     }
 
@@ -261,7 +275,7 @@ impl Expected {
         })
     }
 
-    fn wrong(&self, modes: &Modes, doing: Doing, speed_slack: f64) -> Vec<(FindingKind, String)> {
+    fn wrong(&self, modes: &Modes, doing: Doing, slack: &Slack) -> Vec<(FindingKind, String)> {
         let mut wrong = Vec::new();
         if let Some(tool) = self.tool.filter(|tool| *tool != modes.tool) {
             wrong.push((
@@ -289,26 +303,35 @@ impl Expected {
                 said_of_spindle(modes.spindle, must, doing == Doing::Cutting),
             ));
         }
-        let speed = |may: Option<f64>| match (may, modes.speed) {
-            (Some(may), Some(speed)) => (may - speed).abs() <= speed_slack,
-            (Some(_), None) => false,
-            (None, _) => true,
-        };
+        let speed = |may: Option<Speed>| may.is_none_or(|may| same_speed(may, modes.speed, slack));
         if let Some(Some(must)) = self.speed.refuses(speed) {
-            let found = modes.speed.map_or("no speed".to_string(), |speed| format!("S{speed}"));
+            let found = modes.speed.map_or("no speed".to_string(), said_of_speed);
+            let must = said_of_speed(must);
             wrong.push((
                 FindingKind::Speed,
                 format!("the spindle has {found}, it should be {must}"),
             ));
         }
+        if let Some(speed) = modes.speed.filter(|_| !self.has_speed) {
+            let said = format!("the spindle has {}, none is asked for", said_of_speed(speed));
+            wrong.push((FindingKind::Speed, said));
+        }
+        let limit = |must: &Option<f64>| match (must, modes.speed_limit) {
+            (Some(must), Some(limit)) => (must - limit).abs() > slack.speed,
+            (must, limit) => must.is_some() != limit.is_some(),
+        };
+        if let Some(must) = self.speed_limit.filter(limit) {
+            let name = |limit: Option<f64>| limit.map_or("none".to_string(), |s| s.to_string());
+            let (found, must) = (name(modes.speed_limit), name(must));
+            let said = format!("the limit of the spindle speed is {found}, it should be {must}");
+            wrong.push((FindingKind::Speed, said));
+        }
         self.wrong_spindle(modes, &mut wrong);
         if let Some(must) = self.coolant.refuses(|may| may == modes.coolant) {
-            let said = if must {
-                "coolant is off, it should be on"
-            } else {
-                "coolant is on, it should be off"
-            };
-            wrong.push((FindingKind::Coolant, said.to_string()));
+            let name =
+                |code: Option<u32>| code.map_or("off".to_string(), |m| format!("on by M{m}"));
+            let said = format!("coolant is {}, it should be {}", name(modes.coolant), name(must));
+            wrong.push((FindingKind::Coolant, said));
         }
         if let Some(must) = self.fixture.filter(|must| *must != modes.fixture) {
             let name = |fixture: Option<u32>| fixture.map_or("none".to_string(), name_of_fixture);
@@ -332,6 +355,23 @@ impl Expected {
             let said = format!("the spindle is not oriented at {must} degrees");
             wrong.push((FindingKind::Spindle, said));
         }
+    }
+}
+
+fn same_speed(must: Speed, found: Option<Speed>, slack: &Slack) -> bool {
+    match (must, found) {
+        (Speed::Turns(must), Some(Speed::Turns(found))) => (must - found).abs() <= slack.speed,
+        (Speed::Surface(must), Some(Speed::Surface(found))) => {
+            (must - found).abs() <= slack.surface
+        }
+        _ => false,
+    }
+}
+
+fn said_of_speed(speed: Speed) -> String {
+    match speed {
+        Speed::Turns(speed) => format!("{} turns/min", short(speed)),
+        Speed::Surface(speed) => format!("a surface speed of {} m/min", short(speed)),
     }
 }
 

@@ -149,6 +149,7 @@ impl Pair<'_> {
                 a.course == b.course && a.arc.is_some() == b.arc.is_some() && self.same_end(a, b)
             }
             (Event::ToolChange { tool: a, .. }, Event::ToolChange { tool: b, .. }) => a == b,
+            (Event::Auxiliary { code: a, .. }, Event::Auxiliary { code: b, .. }) => a == b,
             (Event::Dwell { .. }, Event::Dwell { .. }) | (Event::End { .. }, Event::End { .. }) => {
                 true
             }
@@ -176,9 +177,17 @@ impl Pair<'_> {
                 self.arcs(a, b);
                 self.modes(b.line, &a.modes, &b.modes);
             }
-            (Event::ToolChange { modes: a, .. }, Event::ToolChange { line, modes: b, .. })
-            | (Event::End { modes: a, .. }, Event::End { line, modes: b }) => {
+            (Event::ToolChange { modes: a, .. }, Event::ToolChange { line, modes: b, .. }) => {
                 self.modes(*line, a, b);
+            }
+            (Event::End { code: must, modes: a, .. }, Event::End { line, code, modes: b }) => {
+                self.modes(*line, a, b);
+                if code != must {
+                    let name = |code: &Option<u32>| code.map_or("none".into(), |m| format!("M{m}"));
+                    let (code, must): (String, String) = (name(code), name(must));
+                    let message = format!("the program ends with {code}, it should be {must}");
+                    self.find(FindingKind::End, *line, message);
+                }
             }
             (Event::Dwell { seconds: a, .. }, Event::Dwell { line, seconds: b }) => {
                 let same = match (a, b) {
@@ -259,6 +268,11 @@ impl Pair<'_> {
             ),
             (a.speed != b.speed, FindingKind::Speed, "the spindle has another speed".to_string()),
             (
+                a.speed_limit != b.speed_limit,
+                FindingKind::Speed,
+                "the spindle speed has another limit".to_string(),
+            ),
+            (
                 a.coolant != b.coolant,
                 FindingKind::Coolant,
                 "the coolant is not as it should be".to_string(),
@@ -281,10 +295,11 @@ impl Pair<'_> {
                 _ => FindingKind::Position,
             },
             (Event::ToolChange { .. }, _) | (_, Event::ToolChange { .. }) => FindingKind::Tool,
+            (_, Event::Auxiliary { .. }) => FindingKind::Auxiliary,
             _ => FindingKind::Missing,
         };
         let message = format!("{}, it should be {}", spell(found), spell(wanted));
-        self.find(kind, line_of(found), message);
+        self.find(kind, found.line(), message);
     }
 
     fn missing(&mut self, at: usize) {
@@ -299,20 +314,11 @@ impl Pair<'_> {
 
     fn extra(&mut self, at: usize) {
         let message = format!("no {} should be here", spell(&self.found[at]));
-        self.find(FindingKind::Extra, line_of(&self.found[at]), message);
+        self.find(FindingKind::Extra, self.found[at].line(), message);
     }
 
     fn find(&mut self, kind: FindingKind, line: u32, message: String) {
         self.report.find(Finding { kind, cl_line: None, nc_line: Some(line), message });
-    }
-}
-
-fn line_of(event: &Event) -> u32 {
-    match event {
-        Event::Move(Move { line, .. })
-        | Event::ToolChange { line, .. }
-        | Event::Dwell { line, .. }
-        | Event::End { line, .. } => *line,
     }
 }
 
@@ -330,6 +336,7 @@ fn spell(event: &Event) -> String {
         }
         Event::ToolChange { tool, .. } => format!("change to tool {tool}"),
         Event::Dwell { seconds, .. } => format!("dwell of {}", dwell(*seconds)),
+        Event::Auxiliary { code, .. } => format!("M{code}"),
         Event::End { .. } => "end of the program".to_string(),
     }
 }

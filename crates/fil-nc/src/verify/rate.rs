@@ -4,7 +4,7 @@ use super::ahead::Steps;
 use super::report::FindingKind;
 use super::say::{short, spell_rate};
 use super::walk::Walk;
-use crate::motion::{Compensation, Course, Move, Position, Rate};
+use crate::motion::{Compensation, Course, Move, Position, Rate, Speed};
 
 /// Share of a feed that the rounding of a pitch may change.
 const PITCH: f64 = 0.0005;
@@ -39,15 +39,15 @@ impl<C: Steps> Walk<'_, C> {
             (Rate::PerMinute(a), Some(Rate::PerMinute(b))) => (a - b).abs() <= self.slack.feed,
             (Rate::PerTurn(a), Some(Rate::PerTurn(b))) => (a - b).abs() <= self.slack.turn,
             // A control that is told the pitch goes as fast as the spindle turns.
-            (Rate::PerMinute(a), Some(Rate::PerTurn(b))) if found.course == Course::Thread => found
-                .modes
-                .speed
-                .is_some_and(|speed| (a - b * speed).abs() <= self.slack.feed + PITCH * a),
+            (Rate::PerMinute(a), Some(Rate::PerTurn(b))) if found.course == Course::Thread => {
+                let agrees = |speed: f64| (a - b * speed).abs() <= self.slack.feed + PITCH * a;
+                found.modes.speed.and_then(Speed::turns).is_some_and(agrees)
+            }
             (Rate::PerMinute(rate), Some(Rate::Inverse(inverse))) => {
                 return self.check_time(cl_line, (from, found), rate, inverse);
             }
             (Rate::PerTurn(rate), Some(Rate::Inverse(inverse))) => {
-                let Some(speed) = found.modes.speed else { return };
+                let Some(speed) = found.modes.speed.and_then(Speed::turns) else { return };
                 return self.check_time(cl_line, (from, found), rate * speed, inverse);
             }
             _ => false,
@@ -117,7 +117,7 @@ impl<C: Steps> Walk<'_, C> {
         if turned == 0.0 || from.tip_control || found.to.tip_control {
             return false;
         }
-        let rate = match (wanted, found.modes.speed) {
+        let rate = match (wanted, found.modes.speed.and_then(Speed::turns)) {
             (Rate::PerMinute(rate), _) => rate,
             (Rate::PerTurn(rate), Some(speed)) => rate * speed,
             _ => return false,

@@ -35,6 +35,8 @@ pub enum FindingKind {
     Coolant,
     /// The tool or its length offset.
     Tool,
+    /// An auxiliary function that is none of those.
+    Auxiliary,
     /// Cutter compensation.
     Compensation,
     /// The work offset.
@@ -73,6 +75,7 @@ impl FindingKind {
             FindingKind::Speed => "speed",
             FindingKind::Coolant => "coolant",
             FindingKind::Tool => "tool",
+            FindingKind::Auxiliary => "auxiliary-function",
             FindingKind::Compensation => "compensation",
             FindingKind::Fixture => "work-offset",
             FindingKind::Cycle => "cycle",

@@ -3,7 +3,7 @@
 use fil_cl::{Record, Vocabulary, Word, WordId, words as w};
 
 use super::wanted::{CoolantKind, SpindleRange, Wanted};
-use crate::motion::{Compensation, Spindle};
+use crate::motion::{Compensation, FOOT, Speed, Spindle};
 
 pub(super) fn spindle(record: &Record) -> Vec<Wanted> {
     if record.has(w::OFF) {
@@ -13,11 +13,15 @@ pub(super) fn spindle(record: &Record) -> Vec<Wanted> {
         return vec![Wanted::Orient(numbers(record).first().copied())];
     }
     let speed = numbers_beside(record, &[w::MAXRPM, w::RANGE]).first().copied();
-    let surface = record.has(w::SFM) || record.has(w::SMM);
     let mut wanted: Vec<Wanted> = range(record).map(Wanted::SpindleRange).into_iter().collect();
-    if speed.is_some() {
-        wanted.push(Wanted::Speed(speed.filter(|_| !surface)));
-    }
+    wanted.extend(record.number_after(w::MAXRPM).map(Wanted::SpeedLimit));
+    wanted.extend(speed.map(|speed| {
+        Wanted::Speed(match () {
+            () if record.has(w::SFM) => Speed::Surface(speed * FOOT),
+            () if record.has(w::SMM) => Speed::Surface(speed),
+            () => Speed::Turns(speed),
+        })
+    }));
     wanted.push(Wanted::Spindle(match () {
         () if record.has(w::CLW) => Some(Spindle::Clockwise),
         () if record.has(w::CCLW) => Some(Spindle::Counterclockwise),
@@ -42,10 +46,11 @@ fn range(record: &Record) -> Option<SpindleRange> {
 
 pub(super) fn coolant(record: &Record) -> Option<Wanted> {
     let (low, medium) = (record.has(w::LOW), record.has(w::MEDIUM));
-    let pressure = low || medium || record.has(w::HIGH);
     Some(Wanted::Coolant(match () {
         () if record.has(w::OFF) => CoolantKind::Off,
-        () if record.has(w::ON) && pressure => CoolantKind::OnAtPressure,
+        () if record.has(w::ON) && low => CoolantKind::OnLow,
+        () if record.has(w::ON) && medium => CoolantKind::OnMedium,
+        () if record.has(w::ON) && record.has(w::HIGH) => CoolantKind::OnHigh,
         () if record.has(w::ON) => CoolantKind::On,
         () if record.has(w::MIST) => CoolantKind::Mist,
         () if record.has(w::FLOOD) && low => CoolantKind::FloodLow,

@@ -7,14 +7,15 @@ use nalgebra::Point3;
 
 use super::ahead::{Ahead, Steps};
 use super::align::Detour;
+use super::auxiliaries::Auxiliaries;
 use super::between::Watch;
 use super::blocks::OwnBlocks;
 use super::gap::Gap;
 use super::modes::{Expected, Moved};
-use super::report::{Finding, FindingKind, Report, Unverified};
-use super::say::{Shape, short};
+use super::report::{Finding, FindingKind, Report};
+use super::say::Shape;
 use super::settings::{Settings, Slack};
-use super::wanted::{Effect, Step, Wanted};
+use super::wanted::{Step, Wanted};
 use crate::forward::Pose;
 use crate::motion::{Course, Event, Modes, Move, Position, Rate};
 
@@ -30,6 +31,7 @@ pub(super) struct Walk<'a, C> {
     /// Index of the next event.
     pub(super) next: usize,
     pub(super) own: OwnBlocks<'a>,
+    pub(super) auxiliaries: Auxiliaries,
     pub(super) settings: &'a Settings<'a>,
     pub(super) slack: Slack,
     pub(super) metric: bool,
@@ -68,11 +70,14 @@ impl<'a, C: Steps> Walk<'a, C> {
         settings: &'a Settings<'a>,
         watch: Watch,
     ) -> Self {
+        let mut auxiliaries = Auxiliaries::default();
+        let nc = without_auxiliaries(nc, &mut auxiliaries);
         Walk {
             cl: Ahead::new(cl),
-            nc: Cow::Borrowed(nc),
+            nc,
             next: 0,
             own,
+            auxiliaries,
             settings,
             slack: settings.slack(true),
             metric: true,
@@ -101,7 +106,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         while !self.over
             && let Some(step) = self.cl.next()
         {
-            ended = matches!(step.what, Wanted::End);
+            ended = matches!(step.what, Wanted::End(_));
             self.step(&step);
         }
         if let Some(diag) = self.cl.failed {
@@ -117,6 +122,8 @@ impl<'a, C: Steps> Walk<'a, C> {
                 });
             });
         }
+        let auxiliaries = self.auxiliaries.compare(&self.own);
+        auxiliaries.into_iter().for_each(|one| self.report.find(one));
         // Whatever was not made has been said; this holds if something was forgotten.
         let report = &mut self.report;
         if report.findings.is_empty() && report.matched < report.compared {
@@ -157,7 +164,12 @@ impl<'a, C: Steps> Walk<'a, C> {
             Wanted::Dwell(seconds) => self.dwell(step.line, *seconds),
             Wanted::Insert(text) => self.insert(step.line, text),
             Wanted::Unknown { what, effect } => self.unknown(step.line, what, *effect),
-            Wanted::End => self.end(step.line),
+            Wanted::Stop { optional } => {
+                self.ask_auxiliary(step.line, self.settings.stop_code(*optional));
+            }
+            Wanted::Clamp(on) => self.ask_auxiliary(step.line, self.settings.clamp_code(*on)),
+            Wanted::Auxiliary(code) => self.ask_auxiliary(step.line, Some(*code)),
+            Wanted::End(end) => self.end(step.line, *end),
             _ if step.what.end().is_some() => self.motion(step),
             _ => {}
         }
@@ -344,7 +356,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         };
         let moved = Moved { xy: differs(0) || differs(1), z: differs(2) };
         let cuts = matches!(found.course, Course::Feed | Course::Thread);
-        for (kind, message) in self.modes.check(&found.modes, moved, cuts, self.slack.speed) {
+        for (kind, message) in self.modes.check(&found.modes, moved, cuts, &self.slack) {
             self.find(kind, Some(cl_line), Some(found.line), message);
         }
         self.check_limits(cl_line, found);
@@ -361,7 +373,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         modes: &Modes,
         changes: bool,
     ) {
-        for (kind, message) in self.modes.check_standing(modes, changes, self.slack.speed) {
+        for (kind, message) in self.modes.check_standing(modes, changes, &self.slack) {
             self.find(kind, Some(cl_line), Some(nc_line), message);
         }
     }
@@ -397,96 +409,21 @@ impl<'a, C: Steps> Walk<'a, C> {
     ) {
         self.report.find(Finding { kind, cl_line, nc_line, message });
     }
+}
 
-    pub(super) fn dwell(&mut self, cl_line: u32, wanted: Option<f64>) {
-        self.pass(cl_line);
-        let Some(Event::Dwell { line, seconds }) = self.nc.get(self.next).copied() else {
-            return self.find(FindingKind::Missing, Some(cl_line), None, "no dwell".to_string());
-        };
-        self.next += 1;
-        let wanted = wanted.map(|wanted| self.settings.dwell_within(wanted));
-        self.check_dwell(cl_line, line, seconds, wanted);
-    }
-
-    pub(super) fn check_dwell(
-        &mut self,
-        cl_line: u32,
-        nc_line: u32,
-        found: Option<f64>,
-        wanted: Option<f64>,
-    ) {
-        let agrees = match (found, wanted) {
-            (Some(found), Some(wanted)) => (found - wanted).abs() <= self.slack.dwell,
-            (found, wanted) => found.is_none() && wanted.is_none(),
-        };
-        if !agrees {
-            let spell = |seconds: Option<f64>| match seconds {
-                Some(seconds) => format!("{} s", short(seconds)),
-                None => "turns of the spindle".to_string(),
-            };
-            let message = format!("dwell of {}, it should be {}", spell(found), spell(wanted));
-            self.find(FindingKind::Dwell, Some(cl_line), Some(nc_line), message);
+/// The events of the axes; the auxiliary functions are kept beside them.
+fn without_auxiliaries<'a>(nc: &'a [Event], kept: &mut Auxiliaries) -> Cow<'a, [Event]> {
+    let mut any = false;
+    for event in nc {
+        if let Event::Auxiliary { line, code } = event {
+            kept.found(*line, *code);
+            any = true;
         }
     }
-
-    pub(super) fn insert(&mut self, cl_line: u32, text: &str) {
-        if !self.own.insert(text) {
-            let message = format!("the block `{text}` of INSERT is not there");
-            self.find(FindingKind::Block, Some(cl_line), None, message);
+    match any {
+        false => Cow::Borrowed(nc),
+        true => {
+            nc.iter().filter(|event| !matches!(event, Event::Auxiliary { .. })).copied().collect()
         }
-    }
-
-    pub(super) fn unknown(&mut self, cl_line: u32, what: &str, effect: Effect) {
-        let open = match effect {
-            Effect::Auxiliary => "what its M function does was not compared",
-            Effect::Words => "what it writes was not compared",
-            Effect::Path => {
-                "the CL file does not say what path it makes; nothing after it was compared"
-            }
-        };
-        self.report
-            .unverified
-            .push(Unverified { cl_line: Some(cl_line), what: format!("{what}: {open}") });
-        self.over |= effect == Effect::Path;
-    }
-
-    pub(super) fn end(&mut self, cl_line: u32) {
-        self.pass(cl_line);
-        while !self.at_end() {
-            self.extra(1, cl_line);
-            self.pass(cl_line);
-        }
-        match self.nc.get(self.next).copied() {
-            Some(Event::End { line, modes }) => {
-                self.next += 1;
-                self.check_standing(cl_line, line, &modes, false);
-                if !self.settings.has_end_code() && !self.own.has(line) {
-                    let message = "the program ends here, the settings have no code for it";
-                    self.find(FindingKind::End, Some(cl_line), Some(line), message.to_string());
-                }
-            }
-            None if self.settings.has_end_code() => {
-                let message = "the program has no end".to_string();
-                self.find(FindingKind::End, Some(cl_line), None, message);
-            }
-            _ => {}
-        }
-        self.extra(self.nc.len() - self.next, cl_line);
-    }
-
-    pub(super) fn ends_early(&mut self, step: &Step) {
-        let mut missing = 1;
-        while let Some(step) = self.cl.next() {
-            missing += u64::from(step.what.end().is_some());
-        }
-        self.report.compared += missing - 1;
-        let nc_line = match self.nc.get(self.next) {
-            Some(Event::End { line, .. }) => Some(*line),
-            _ => None,
-        };
-        let motions = if missing == 1 { "motion is" } else { "motions are" };
-        let message = format!("the program ends here; {missing} {motions} missing");
-        self.find(FindingKind::Missing, Some(step.line), nc_line, message);
-        self.over = true;
     }
 }

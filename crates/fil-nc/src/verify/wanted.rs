@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Vector3};
 
 use crate::forward::Pose;
-use crate::motion::{Compensation, Rate, Spindle};
+use crate::motion::{Compensation, Rate, Speed, Spindle};
 
 /// One thing a CL file asks for.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,8 +49,10 @@ pub enum Wanted {
     },
     /// The spindle stands or turns; `None` for the direction the machine turns by itself.
     Spindle(Option<Spindle>),
-    /// Spindle speed, turns a minute; `None` for a constant surface speed.
-    Speed(Option<f64>),
+    /// Spindle speed.
+    Speed(Speed),
+    /// What surface speed may turn the spindle up to, turns a minute.
+    SpeedLimit(f64),
     /// The spindle is stopped where the machine orients it, or at an angle in degrees:
     /// neither speed nor direction are known.
     Orient(Option<f64>),
@@ -69,12 +71,20 @@ pub enum Wanted {
     XScale(f64),
     /// The program waits, seconds; `None` for turns of the spindle.
     Dwell(Option<f64>),
-    /// The operator is waited for; what was to come with a motion comes now.
-    Stop,
+    /// The operator is waited for, always or where he asks for it; what was to come with
+    /// a motion comes now.
+    Stop {
+        /// Only where the operator asks for it.
+        optional: bool,
+    },
+    /// The clamp of an axis, on or off.
+    Clamp(bool),
+    /// An auxiliary function by its number.
+    Auxiliary(u32),
     /// A line of the tape, as it stands.
     Insert(String),
     /// The end of the program.
-    End,
+    End(End),
     /// Something whose effect on the machine is not known from the CL file.
     Unknown {
         /// What it is, for the report.
@@ -84,13 +94,26 @@ pub enum Wanted {
     },
 }
 
+/// How a CL file ends the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// END.
+    Stay,
+    /// REWIND.
+    Rewind,
+    /// By its own end: FINI, or the end of the text.
+    OfFile,
+}
+
 /// What a statement leaves open that the CL file does not explain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
     /// An M function.
     Auxiliary,
-    /// Words of the user's own; the motions of the CL file go on.
+    /// Words of the user's own, none of them M or S; the motions of the CL file go on.
     Words,
+    /// Words of the user's own, M or S too.
+    AnyWords,
     /// The path from here on.
     Path,
 }
@@ -115,8 +138,12 @@ pub enum CoolantKind {
     Off,
     /// The machine's usual one.
     On,
-    /// The machine's usual one at a pressure.
-    OnAtPressure,
+    /// The machine's usual one at low pressure.
+    OnLow,
+    /// The machine's usual one at medium pressure.
+    OnMedium,
+    /// The machine's usual one at high pressure.
+    OnHigh,
     /// Flood.
     Flood,
     /// Flood at high pressure.

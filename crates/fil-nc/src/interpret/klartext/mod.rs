@@ -32,10 +32,15 @@ enum Part {
     Closed,
 }
 
+/// The coolant that M13 and M14 switch on.
+const COOLANT: u32 = 8;
+
 /// The program and what Klartext remembers besides the modes that all controls have.
 struct Klartext<'d> {
     state: State<'d>,
     part: Part,
+    /// The M function that ends the program.
+    end_code: Option<u32>,
     /// The pole of `CC`, mm.
     pole: [Option<f64>; 2],
     /// The cycle that `M99` and `CYCL CALL` run.
@@ -54,8 +59,14 @@ pub(super) fn run(
     let mut state = State::new(dialect);
     state.plane = 2;
     state.feed_mode = FeedMode::PerMinute;
-    let mut control =
-        Klartext { state, part: Part::Head, pole: [None; 2], defined: None, shift: [0.0; 3] };
+    let mut control = Klartext {
+        state,
+        part: Part::Head,
+        end_code: None,
+        pole: [None; 2],
+        defined: None,
+        shift: [0.0; 3],
+    };
     let mut last = 1;
     for (number, text) in (1u32..).zip(text.split(|byte| *byte == b'\n')) {
         let text = text.strip_suffix(b"\r").unwrap_or(text);
@@ -134,7 +145,7 @@ impl Klartext<'_> {
 
     fn end(&mut self) {
         let State { line, modes, .. } = self.state;
-        self.state.events.push(Event::End { line, modes });
+        self.state.events.push(Event::End { line, code: self.end_code, modes });
         self.part = Part::Ended;
     }
 
@@ -156,7 +167,7 @@ impl Klartext<'_> {
                 let clockwise = code == 13;
                 modes.spindle =
                     if clockwise { Spindle::Clockwise } else { Spindle::Counterclockwise };
-                modes.coolant = true;
+                modes.coolant = Some(COOLANT);
                 return Ok(After::Nothing);
             }
             91 | 92 => return Ok(After::InMachineFrame),
@@ -176,7 +187,13 @@ impl Klartext<'_> {
             Auxiliary::Counterclockwise => modes.spindle = Spindle::Counterclockwise,
             Auxiliary::SpindleOff => modes.spindle = Spindle::Off,
             Auxiliary::Coolant(on) => modes.coolant = on,
-            Auxiliary::End => return Ok(After::Ends),
+            Auxiliary::End(code) => {
+                self.end_code = Some(code);
+                return Ok(After::Ends);
+            }
+            Auxiliary::Other(code) => {
+                self.state.events.push(Event::Auxiliary { line: self.state.line, code });
+            }
             _ => {}
         }
         Ok(After::Nothing)

@@ -4,6 +4,7 @@ use super::super::Fault;
 use super::Klartext;
 use super::line::Word;
 use crate::errors::NcCode;
+use crate::motion::Speed;
 
 impl Klartext<'_> {
     /// `TOOL CALL 5 Z S2000`; the tool in the spindle with a speed is no change.
@@ -35,7 +36,7 @@ impl Klartext<'_> {
             }
         }
         if speed.is_some() {
-            self.state.modes.speed = speed;
+            self.state.modes.speed = speed.map(Speed::Turns);
         }
         self.state.feed = feed.or(self.state.feed);
         Ok(())

@@ -17,7 +17,7 @@ use nalgebra::{Matrix3x4, Point3, Vector3};
 use super::statements::{
     compensation, coolant, numbers, numbers_beside, spindle, statement, whole,
 };
-use super::wanted::{CycleKind, Effect, Step, Wanted};
+use super::wanted::{CycleKind, Effect, End, Step, Wanted};
 use crate::errors::NcCode;
 use crate::motion::{INCH, Rate};
 
@@ -162,14 +162,15 @@ impl<'r> ClPath<'r> {
             }
             if !self.reader.read(&mut self.vocabulary, &mut self.record)? {
                 self.over = true;
-                self.ready.push_back(Step { line: self.record.line, what: Wanted::End });
+                self.ready
+                    .push_back(Step { line: self.record.line, what: Wanted::End(End::OfFile) });
                 return Ok(true);
             }
             let line = self.record.line;
             self.require_unit()?;
             self.refuse_other_unit()?;
             let steps = self.state.take(&self.record, &self.vocabulary);
-            self.over = steps.iter().any(|what| matches!(what, Wanted::End));
+            self.over = steps.iter().any(|what| matches!(what, Wanted::End(_)));
             self.ready.extend(steps.into_iter().map(|what| Step { line, what }));
         }
         Ok(true)
@@ -248,7 +249,7 @@ impl State {
                 self.mode(record);
                 Vec::new()
             }
-            kind::FINI => vec![Wanted::End],
+            kind::FINI => vec![Wanted::End(End::OfFile)],
             kind::PSEUDO if record.major != w::CUTTER => Vec::new(),
             _ => self.command(record, vocabulary),
         }
@@ -319,12 +320,27 @@ impl State {
                 vec![Wanted::WorkOffset(numbers(record).first().copied())]
             }
             w::LINTOL => self.straight(record),
-            w::STOP | w::OPSTOP => vec![Wanted::Stop],
+            w::STOP => vec![Wanted::Stop { optional: false }],
+            w::OPSTOP => vec![Wanted::Stop { optional: true }],
             w::INSERT => vec![Wanted::Insert(record.text.trim().to_string())],
-            w::END | w::REWIND => vec![Wanted::End],
-            w::AUXFUN => unknown(Effect::Auxiliary),
+            w::END => vec![Wanted::End(End::Stay)],
+            w::REWIND => vec![Wanted::End(End::Rewind)],
+            w::CLAMP => vec![Wanted::Clamp(record.has(w::ON))],
+            w::AUXFUN => {
+                let mut wanted = unknown(Effect::Auxiliary);
+                let code = numbers(record).first().and_then(|code| whole(*code));
+                wanted.extend(code.map(Wanted::Auxiliary));
+                wanted
+            }
             major if ENDS_THE_PATH.contains(&major) => unknown(Effect::Path),
-            major if OWN_WORDS.contains(&major) => unknown(Effect::Words),
+            major if OWN_WORDS.contains(&major) => {
+                let is_m_or_s = |word: &Word| match word {
+                    Word::Minor(id) => matches!(vocabulary.name(*id), "M" | "S"),
+                    _ => false,
+                };
+                let any = record.data.iter().any(is_m_or_s);
+                unknown(if any { Effect::AnyWords } else { Effect::Words })
+            }
             _ => Vec::new(),
         }
     }

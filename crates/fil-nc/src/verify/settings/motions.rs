@@ -4,9 +4,10 @@ use fil_machine::commons::Dbl;
 use fil_machine::locations::{self as loc, CircleCorrection, FeedInverseLength, LinearMethod};
 use nalgebra::Point3;
 
-use super::settings::Settings;
-use super::wanted::Arc;
+use super::Settings;
+
 use crate::motion::{Move, Position, unit};
+use crate::verify::wanted::Arc;
 
 impl Settings<'_> {
     /// A feed in mm/min within the machine's range.

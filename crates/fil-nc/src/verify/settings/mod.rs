@@ -1,20 +1,22 @@
 //! What the back-check has to know of a machine besides its kinematics: the last
 //! digit of each address, where a post may put a word, and what the settings add.
 
+mod functions;
+mod motions;
+
 use fil_diag::Diag;
 use fil_machine::address::Addresses;
-use fil_machine::commons::{Commons, Dbl, Int, Rel};
+use fil_machine::commons::{Commons, Dbl, Int};
 use fil_machine::letter::{Letter, letters};
 use fil_machine::locations::{
-    self as loc, CircleCenter, ControlFamily, FixtureForm, Placement, RapidSplit, ToolChangeBlock,
-    ToolFormat,
+    self as loc, CircleCenter, ControlFamily, Placement, RapidSplit, ToolChangeBlock, ToolFormat,
 };
 use fil_machine::setting::CodeAt;
 use fil_machine::user_blocks;
 
-use super::wanted::{CoolantKind, CycleKind, SpindleRange};
+use super::wanted::CycleKind;
 use crate::forward::Forward;
-use crate::motion::{Spindle, WORD_OFFSETS, unit};
+use crate::motion::{FOOT, unit};
 
 /// How far an axis may be asked to stand from 0 when the program never writes it, mm.
 const NOT_WRITTEN: f64 = 1e-3;
@@ -58,6 +60,8 @@ pub struct Slack {
     pub inverse: f64,
     /// Spindle speed, turns/min.
     pub speed: f64,
+    /// Surface speed, m/min.
+    pub surface: f64,
     /// Dwell, seconds.
     pub dwell: f64,
 }
@@ -124,6 +128,7 @@ impl<'c> Settings<'c> {
             turn: half(letters::F) * unit + DUST,
             inverse: half_of_feed(loc::FEED_INVERSE_FORMAT) / self.inverse_factor() + DUST,
             speed: half(letters::S) + DUST,
+            surface: half(letters::S) * if metric { 1.0 } else { FOOT } + DUST,
             dwell: self.dwell_slack(half),
         }
     }
@@ -167,16 +172,6 @@ impl<'c> Settings<'c> {
         blocks
     }
 
-    /// When a spindle word must be in force.
-    pub fn spindle_due(&self) -> Due {
-        due(self.commons.read(loc::SPINDLE_PLACEMENT))
-    }
-
-    /// When a coolant word must be in force.
-    pub fn coolant_due(&self) -> Due {
-        due(self.commons.read(loc::COOLANT_PLACEMENT))
-    }
-
     /// True when the tool's number is that of its diameter offset.
     pub fn offsets_diameters_by_tool(&self) -> bool {
         self.commons.read(loc::TOOL_DIAMETER_FROM_TOOL)
@@ -185,134 +180,6 @@ impl<'c> Settings<'c> {
     /// When cutter compensation must be in force.
     pub fn compensation_due(&self) -> Due {
         if self.commons.read(loc::CUTCOM_WITH_MOTION) { Due::WithXY } else { Due::Now }
-    }
-
-    /// What the spindle does for `SPINDL`; `None` where the machine has no code for it.
-    pub fn spindle(&self, wanted: Option<Spindle>) -> Option<Spindle> {
-        let code = |at: CodeAt| self.commons.read(at);
-        match wanted {
-            Some(Spindle::Off) => code(loc::SPINDLE_STOP_CODE).map(|_| Spindle::Off),
-            Some(Spindle::Clockwise) => code(loc::SPINDLE_CW_CODE).map(|_| Spindle::Clockwise),
-            Some(Spindle::Counterclockwise) => {
-                code(loc::SPINDLE_CCW_CODE).map(|_| Spindle::Counterclockwise)
-            }
-            None => {
-                let usual = code(loc::SPINDLE_DEFAULT_CODE)?;
-                match () {
-                    () if code(loc::SPINDLE_CW_CODE) == Some(usual) => Some(Spindle::Clockwise),
-                    () if code(loc::SPINDLE_CCW_CODE) == Some(usual) => {
-                        Some(Spindle::Counterclockwise)
-                    }
-                    () => None,
-                }
-            }
-        }
-    }
-
-    fn spindle_ranges(&self) -> u8 {
-        self.commons.int(loc::SPINDLE_RANGES).clamp(1, 6) as u8
-    }
-
-    /// Least and greatest speed of a spindle range, from 1.
-    fn speeds_of(&self, range: u8) -> (f64, f64) {
-        let (min, max) = loc::RANGE_SPEEDS[usize::from(range) - 1];
-        let of = |at: Rel| self.commons.rel_opt(at);
-        (of(min).unwrap_or(0.0), of(max).unwrap_or(f64::MAX))
-    }
-
-    /// A speed within a spindle range, or within all of them together.
-    pub fn speed_within(&self, speed: f64, range: Option<u8>) -> f64 {
-        let ranges = range.map_or(1..=self.spindle_ranges(), |range| range..=range);
-        let speeds = || ranges.clone().map(|range| self.speeds_of(range));
-        let given = |(min, _): &(f64, f64)| *min > 0.0;
-        let low = speeds().filter(given).map(|(min, _)| min).reduce(f64::min);
-        let high = speeds().map(|(_, max)| max).fold(0.0, f64::max);
-        speed.max(low.unwrap_or(0.0)).min(high)
-    }
-
-    /// The spindle range that a record names, from 1; `None` for none of the machine.
-    pub fn spindle_range(&self, named: SpindleRange) -> Option<u8> {
-        let count = self.spindle_ranges();
-        match named {
-            SpindleRange::Low => Some(1),
-            SpindleRange::Medium => Some(2).filter(|_| count == 3),
-            SpindleRange::High => Some(count),
-            SpindleRange::Number(number) => (1..=6).find(|range| f64::from(*range) == number),
-        }
-    }
-
-    /// The range that a speed brings along while `now` is in force; `None` where the
-    /// machine leaves ranges to SPINDL/RANGE.
-    pub fn range_of_speed(&self, speed: f64, now: Option<u8>) -> Option<u8> {
-        if !self.commons.read(loc::SPINDLE_AUTO_RANGE) {
-            return None;
-        }
-        let count = self.spindle_ranges();
-        let first = u8::try_from(self.commons.int(loc::SPINDLE_DEFAULT_RANGE)).ok();
-        let first = now.or(first).filter(|first| (1..=count).contains(first));
-        first.into_iter().chain(1..=count).find(|range| {
-            let (min, max) = self.speeds_of(*range);
-            (min..=max).contains(&speed)
-        })
-    }
-
-    /// The work offset of SET/OFSETL as programs name it (see
-    /// [`Modes::fixture`](crate::motion::Modes)); `None` where the machine has none.
-    pub fn work_offset(&self, number: Option<f64>) -> Option<u32> {
-        let code = |at: CodeAt| u32::try_from(self.commons.read(at)?).ok();
-        let by_word = self.commons.read(loc::FIXTURE_FORM) == FixtureForm::Word;
-        let Some(number) = number else {
-            return code(loc::FIXTURE_DEFAULT_CODE).filter(|_| !by_word);
-        };
-        let index = number as i64 + i64::from(self.commons.int_opt(loc::FIXTURE_BASE).unwrap_or(0));
-        let index = u32::try_from(index).ok()?;
-        if by_word {
-            return Some(WORD_OFFSETS + index);
-        }
-        let (first, last) = (code(loc::FIXTURE_MIN_CODE)?, code(loc::FIXTURE_MAX_CODE)?);
-        let plain = (last + 1).checked_sub(first)?;
-        if (1..=plain).contains(&index) {
-            return Some(first + index - 1);
-        }
-        match self.commons.int_opt(loc::FIXTURE_EXTENDED_CODE).filter(|tenths| *tenths > 0) {
-            Some(tenths) => Some(tenths.unsigned_abs() * 1000 + index.checked_sub(plain)?),
-            None => (first..=last).contains(&index).then_some(index),
-        }
-    }
-
-    /// How far single moves come back above the last peck, mm.
-    pub fn peck_gap(&self) -> f64 {
-        self.commons.dbl_opt(loc::CYCLE_PECK_GAP).unwrap_or(0.0).max(0.0)
-    }
-
-    /// The machine's usual coolant has pressures, and codes for them.
-    fn has_usual_pressure(&self) -> bool {
-        let code = |at: CodeAt| self.commons.read(at);
-        let usual = code(loc::COOLANT_DEFAULT_CODE);
-        usual.is_some()
-            && [loc::COOLANT_FLOOD_CODE, loc::COOLANT_THRU_HIGH_CODE]
-                .iter()
-                .any(|at| code(*at) == usual)
-    }
-
-    /// True when the machine has a code for a coolant.
-    pub fn has_coolant(&self, kind: CoolantKind) -> bool {
-        let at = match kind {
-            CoolantKind::Off => loc::COOLANT_OFF_CODE,
-            CoolantKind::On => loc::COOLANT_DEFAULT_CODE,
-            CoolantKind::OnAtPressure => return self.has_usual_pressure(),
-            CoolantKind::FloodMedium => loc::COOLANT_FLOOD_MEDIUM_CODE,
-            CoolantKind::ThroughMedium => loc::COOLANT_THRU_MEDIUM_CODE,
-            CoolantKind::Tap => loc::COOLANT_TAP_CODE,
-            CoolantKind::Air => loc::COOLANT_AIR_CODE,
-            CoolantKind::Flood => loc::COOLANT_FLOOD_CODE,
-            CoolantKind::FloodHigh => loc::COOLANT_FLOOD_HIGH_CODE,
-            CoolantKind::FloodLow => loc::COOLANT_FLOOD_LOW_CODE,
-            CoolantKind::Mist => loc::COOLANT_MIST_CODE,
-            CoolantKind::Through => loc::COOLANT_THRU_HIGH_CODE,
-            CoolantKind::ThroughLow => loc::COOLANT_THRU_LOW_CODE,
-        };
-        self.commons.read(at).is_some()
     }
 
     /// True when the program calls tools.
@@ -426,12 +293,6 @@ impl<'c> Settings<'c> {
     /// True when an arc is written with its radius.
     pub fn writes_radius(&self) -> bool {
         self.commons.read(loc::CIRCLE_CENTER) == CircleCenter::Radius
-    }
-
-    /// True when the program must end with a code.
-    pub fn has_end_code(&self) -> bool {
-        let codes = [loc::PROGRAM_REWIND_CODE, loc::PROGRAM_END_CODE];
-        codes.iter().any(|at| self.commons.read(*at).is_some())
     }
 }
 

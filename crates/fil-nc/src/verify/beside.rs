@@ -1,0 +1,120 @@
+//! What stands between the motions: dwells, texts, functions, the end.
+
+use super::ahead::Steps;
+use super::report::{FindingKind, Unverified};
+use super::say::short;
+use super::walk::Walk;
+use super::wanted::{Effect, End, Step};
+use crate::motion::Event;
+
+impl<C: Steps> Walk<'_, C> {
+    pub(super) fn dwell(&mut self, cl_line: u32, wanted: Option<f64>) {
+        self.pass(cl_line);
+        let Some(Event::Dwell { line, seconds }) = self.nc.get(self.next).copied() else {
+            return self.find(FindingKind::Missing, Some(cl_line), None, "no dwell".to_string());
+        };
+        self.next += 1;
+        let wanted = wanted.map(|wanted| self.settings.dwell_within(wanted));
+        self.check_dwell(cl_line, line, seconds, wanted);
+    }
+
+    pub(super) fn check_dwell(
+        &mut self,
+        cl_line: u32,
+        nc_line: u32,
+        found: Option<f64>,
+        wanted: Option<f64>,
+    ) {
+        let agrees = match (found, wanted) {
+            (Some(found), Some(wanted)) => (found - wanted).abs() <= self.slack.dwell,
+            (found, wanted) => found.is_none() && wanted.is_none(),
+        };
+        if !agrees {
+            let spell = |seconds: Option<f64>| match seconds {
+                Some(seconds) => format!("{} s", short(seconds)),
+                None => "turns of the spindle".to_string(),
+            };
+            let message = format!("dwell of {}, it should be {}", spell(found), spell(wanted));
+            self.find(FindingKind::Dwell, Some(cl_line), Some(nc_line), message);
+        }
+    }
+
+    pub(super) fn insert(&mut self, cl_line: u32, text: &str) {
+        if !self.own.insert(text) {
+            let message = format!("the block `{text}` of INSERT is not there");
+            self.find(FindingKind::Block, Some(cl_line), None, message);
+        }
+    }
+
+    /// An auxiliary function must stand between the last motion and the next.
+    pub(super) fn ask_auxiliary(&mut self, cl_line: u32, code: Option<u32>) {
+        let Some(code) = code else { return };
+        let last = self.next.checked_sub(1).and_then(|at| self.nc.get(at)).map_or(1, Event::line);
+        let next = self.nc.get(self.next).map_or(u32::MAX, Event::line);
+        self.auxiliaries.ask(code, cl_line, last..=next);
+    }
+
+    pub(super) fn unknown(&mut self, cl_line: u32, what: &str, effect: Effect) {
+        let open = match effect {
+            Effect::Auxiliary => "what its M function does was not compared",
+            Effect::Words | Effect::AnyWords => "what it writes was not compared",
+            Effect::Path => {
+                "the CL file does not say what path it makes; nothing after it was compared"
+            }
+        };
+        self.report
+            .unverified
+            .push(Unverified { cl_line: Some(cl_line), what: format!("{what}: {open}") });
+        if matches!(effect, Effect::AnyWords | Effect::Path) {
+            let last = self.next.checked_sub(1).and_then(|at| self.nc.get(at));
+            self.auxiliaries.open(last.map_or(1, Event::line));
+        }
+        self.over |= effect == Effect::Path;
+    }
+
+    pub(super) fn end(&mut self, cl_line: u32, end: End) {
+        self.pass(cl_line);
+        while !self.at_end() {
+            self.extra(1, cl_line);
+            self.pass(cl_line);
+        }
+        match self.nc.get(self.next).copied() {
+            Some(Event::End { line, code, modes }) => {
+                self.next += 1;
+                self.check_standing(cl_line, line, &modes, false);
+                let must = self.settings.end_code(end).filter(|must| Some(*must) != code);
+                if let Some(must) = must.filter(|_| !self.own.has(line)) {
+                    let found = code.map_or("without a code".to_string(), |m| format!("with M{m}"));
+                    let message = format!("the program ends {found}, it should be M{must}");
+                    self.find(FindingKind::End, Some(cl_line), Some(line), message);
+                }
+                if !self.settings.has_end_code() && !self.own.has(line) {
+                    let message = "the program ends here, the settings have no code for it";
+                    self.find(FindingKind::End, Some(cl_line), Some(line), message.to_string());
+                }
+            }
+            None if self.settings.has_end_code() => {
+                let message = "the program has no end".to_string();
+                self.find(FindingKind::End, Some(cl_line), None, message);
+            }
+            _ => {}
+        }
+        self.extra(self.nc.len() - self.next, cl_line);
+    }
+
+    pub(super) fn ends_early(&mut self, step: &Step) {
+        let mut missing = 1;
+        while let Some(step) = self.cl.next() {
+            missing += u64::from(step.what.end().is_some());
+        }
+        self.report.compared += missing - 1;
+        let nc_line = match self.nc.get(self.next) {
+            Some(Event::End { line, .. }) => Some(*line),
+            _ => None,
+        };
+        let motions = if missing == 1 { "motion is" } else { "motions are" };
+        let message = format!("the program ends here; {missing} {motions} missing");
+        self.find(FindingKind::Missing, Some(step.line), nc_line, message);
+        self.over = true;
+    }
+}

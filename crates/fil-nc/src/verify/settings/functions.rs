@@ -1,0 +1,215 @@
+//! Codes and placements of spindle, coolant, stops and end.
+
+use fil_machine::commons::Rel;
+use fil_machine::locations::{self as loc, FixtureForm};
+use fil_machine::setting::CodeAt;
+use fil_machine::user_blocks;
+
+use super::{Due, Settings, due};
+use crate::motion::{Spindle, WORD_OFFSETS};
+use crate::text::read_block;
+use crate::verify::wanted::{CoolantKind, End, SpindleRange};
+
+impl Settings<'_> {
+    /// When a spindle word must be in force.
+    pub fn spindle_due(&self) -> Due {
+        due(self.commons.read(loc::SPINDLE_PLACEMENT))
+    }
+
+    /// When a coolant word must be in force.
+    pub fn coolant_due(&self) -> Due {
+        due(self.commons.read(loc::COOLANT_PLACEMENT))
+    }
+
+    /// What the spindle does for `SPINDL`; `None` where the machine has no code for it.
+    pub fn spindle(&self, wanted: Option<Spindle>) -> Option<Spindle> {
+        let code = |at: CodeAt| self.commons.read(at);
+        match wanted {
+            Some(Spindle::Off) => code(loc::SPINDLE_STOP_CODE).map(|_| Spindle::Off),
+            Some(Spindle::Clockwise) => code(loc::SPINDLE_CW_CODE).map(|_| Spindle::Clockwise),
+            Some(Spindle::Counterclockwise) => {
+                code(loc::SPINDLE_CCW_CODE).map(|_| Spindle::Counterclockwise)
+            }
+            None => {
+                let usual = code(loc::SPINDLE_DEFAULT_CODE)?;
+                match () {
+                    () if code(loc::SPINDLE_CW_CODE) == Some(usual) => Some(Spindle::Clockwise),
+                    () if code(loc::SPINDLE_CCW_CODE) == Some(usual) => {
+                        Some(Spindle::Counterclockwise)
+                    }
+                    () => None,
+                }
+            }
+        }
+    }
+
+    fn spindle_ranges(&self) -> u8 {
+        self.commons.int(loc::SPINDLE_RANGES).clamp(1, 6) as u8
+    }
+
+    /// Least and greatest speed of a spindle range, from 1.
+    fn speeds_of(&self, range: u8) -> (f64, f64) {
+        let (min, max) = loc::RANGE_SPEEDS[usize::from(range) - 1];
+        let of = |at: Rel| self.commons.rel_opt(at);
+        (of(min).unwrap_or(0.0), of(max).unwrap_or(f64::MAX))
+    }
+
+    /// A speed within a spindle range, or within all of them together.
+    pub fn speed_within(&self, speed: f64, range: Option<u8>) -> f64 {
+        let ranges = range.map_or(1..=self.spindle_ranges(), |range| range..=range);
+        let speeds = || ranges.clone().map(|range| self.speeds_of(range));
+        let given = |(min, _): &(f64, f64)| *min > 0.0;
+        let low = speeds().filter(given).map(|(min, _)| min).reduce(f64::min);
+        let high = speeds().map(|(_, max)| max).fold(0.0, f64::max);
+        speed.max(low.unwrap_or(0.0)).min(high)
+    }
+
+    /// The spindle range that a record names, from 1; `None` for none of the machine.
+    pub fn spindle_range(&self, named: SpindleRange) -> Option<u8> {
+        let count = self.spindle_ranges();
+        match named {
+            SpindleRange::Low => Some(1),
+            SpindleRange::Medium => Some(2).filter(|_| count == 3),
+            SpindleRange::High => Some(count),
+            SpindleRange::Number(number) => (1..=6).find(|range| f64::from(*range) == number),
+        }
+    }
+
+    /// The range that a speed brings along while `now` is in force; `None` where the
+    /// machine leaves ranges to SPINDL/RANGE.
+    pub fn range_of_speed(&self, speed: f64, now: Option<u8>) -> Option<u8> {
+        if !self.commons.read(loc::SPINDLE_AUTO_RANGE) {
+            return None;
+        }
+        let count = self.spindle_ranges();
+        let first = u8::try_from(self.commons.int(loc::SPINDLE_DEFAULT_RANGE)).ok();
+        let first = now.or(first).filter(|first| (1..=count).contains(first));
+        first.into_iter().chain(1..=count).find(|range| {
+            let (min, max) = self.speeds_of(*range);
+            (min..=max).contains(&speed)
+        })
+    }
+
+    /// A coolant by its own kind, where the record names the machine's usual one at a
+    /// pressure; `None` where the usual one has no pressures.
+    fn own_kind(&self, kind: CoolantKind) -> Option<CoolantKind> {
+        let code = |at: CodeAt| self.commons.read(at);
+        let usual = code(loc::COOLANT_DEFAULT_CODE);
+        let is = |at: CodeAt| usual.is_some() && code(at) == usual;
+        let [flood, through] = match kind {
+            CoolantKind::OnLow => [CoolantKind::FloodLow, CoolantKind::ThroughLow],
+            CoolantKind::OnMedium => [CoolantKind::FloodMedium, CoolantKind::ThroughMedium],
+            CoolantKind::OnHigh => [CoolantKind::FloodHigh, CoolantKind::Through],
+            _ => return Some(kind),
+        };
+        match () {
+            () if is(loc::COOLANT_FLOOD_CODE) => Some(flood),
+            () if is(loc::COOLANT_THRU_HIGH_CODE) => Some(through),
+            () => None,
+        }
+    }
+
+    /// The code of a coolant; `None` where the machine has none.
+    pub fn coolant_code(&self, kind: CoolantKind) -> Option<u32> {
+        let at = match self.own_kind(kind)? {
+            CoolantKind::Off => loc::COOLANT_OFF_CODE,
+            CoolantKind::On | CoolantKind::OnLow | CoolantKind::OnMedium | CoolantKind::OnHigh => {
+                loc::COOLANT_DEFAULT_CODE
+            }
+            CoolantKind::FloodMedium => loc::COOLANT_FLOOD_MEDIUM_CODE,
+            CoolantKind::ThroughMedium => loc::COOLANT_THRU_MEDIUM_CODE,
+            CoolantKind::Tap => loc::COOLANT_TAP_CODE,
+            CoolantKind::Air => loc::COOLANT_AIR_CODE,
+            CoolantKind::Flood => loc::COOLANT_FLOOD_CODE,
+            CoolantKind::FloodHigh => loc::COOLANT_FLOOD_HIGH_CODE,
+            CoolantKind::FloodLow => loc::COOLANT_FLOOD_LOW_CODE,
+            CoolantKind::Mist => loc::COOLANT_MIST_CODE,
+            CoolantKind::Through => loc::COOLANT_THRU_HIGH_CODE,
+            CoolantKind::ThroughLow => loc::COOLANT_THRU_LOW_CODE,
+        };
+        self.commons.read(at).map(number)
+    }
+
+    /// The work offset of SET/OFSETL as programs name it (see
+    /// [`Modes::fixture`](crate::motion::Modes)); `None` where the machine has none.
+    pub fn work_offset(&self, number: Option<f64>) -> Option<u32> {
+        let code = |at: CodeAt| u32::try_from(self.commons.read(at)?).ok();
+        let by_word = self.commons.read(loc::FIXTURE_FORM) == FixtureForm::Word;
+        let Some(number) = number else {
+            return code(loc::FIXTURE_DEFAULT_CODE).filter(|_| !by_word);
+        };
+        let index = number as i64 + i64::from(self.commons.int_opt(loc::FIXTURE_BASE).unwrap_or(0));
+        let index = u32::try_from(index).ok()?;
+        if by_word {
+            return Some(WORD_OFFSETS + index);
+        }
+        let (first, last) = (code(loc::FIXTURE_MIN_CODE)?, code(loc::FIXTURE_MAX_CODE)?);
+        let plain = (last + 1).checked_sub(first)?;
+        if (1..=plain).contains(&index) {
+            return Some(first + index - 1);
+        }
+        match self.commons.int_opt(loc::FIXTURE_EXTENDED_CODE).filter(|tenths| *tenths > 0) {
+            Some(tenths) => Some(tenths.unsigned_abs() * 1000 + index.checked_sub(plain)?),
+            None => (first..=last).contains(&index).then_some(index),
+        }
+    }
+
+    /// How far single moves come back above the last peck, mm.
+    pub fn peck_gap(&self) -> f64 {
+        self.commons.dbl_opt(loc::CYCLE_PECK_GAP).unwrap_or(0.0).max(0.0)
+    }
+
+    /// The code of STOP or OPSTOP.
+    pub fn stop_code(&self, optional: bool) -> Option<u32> {
+        let at = if optional { loc::PROGRAM_OPSTOP_CODE } else { loc::PROGRAM_STOP_CODE };
+        self.commons.read(at).map(number)
+    }
+
+    /// The code of CLAMP.
+    pub fn clamp_code(&self, on: bool) -> Option<u32> {
+        let at = if on { loc::ROTARY_CLAMP_CODE } else { loc::ROTARY_UNCLAMP_CODE };
+        self.commons.read(at).map(number)
+    }
+
+    /// The code that ends the program.
+    pub fn end_code(&self, end: End) -> Option<u32> {
+        let code = |at: CodeAt| self.commons.read(at).map(number);
+        match end {
+            End::Stay => code(loc::PROGRAM_END_CODE),
+            End::Rewind => code(loc::PROGRAM_REWIND_CODE),
+            End::OfFile => code(loc::PROGRAM_REWIND_CODE).or(code(loc::PROGRAM_END_CODE)),
+        }
+    }
+
+    /// True when the start of the program has an S word.
+    pub fn has_speed_at_start(&self) -> bool {
+        user_blocks::START.read(self.commons).iter().any(|block| {
+            read_block(block.as_bytes(), "settings", 1)
+                .is_ok_and(|block| block.word(b'S').is_some())
+        })
+    }
+
+    /// The limit of surface speed that the start of the program sets, turns/min.
+    pub fn speed_limit_at_start(&self) -> Option<f64> {
+        let code = i64::from(self.commons.read(loc::SPINDLE_MAX_CODE).map(number)?);
+        let of_block = |block: String| {
+            let block = read_block(block.as_bytes(), "settings", 1).ok()?;
+            let limits = block.words.iter().any(|word| {
+                word.letter == b'G' && word.number.digits == code && word.number.decimals == 0
+            });
+            block.word(b'S').filter(|_| limits).map(|word| word.number.value())
+        };
+        user_blocks::START.read(self.commons).into_iter().filter_map(of_block).next_back()
+    }
+
+    /// True when the program must end with a code.
+    pub fn has_end_code(&self) -> bool {
+        let codes = [loc::PROGRAM_REWIND_CODE, loc::PROGRAM_END_CODE];
+        codes.iter().any(|at| self.commons.read(*at).is_some())
+    }
+}
+
+/// The number of a function.
+fn number(code: i32) -> u32 {
+    code.unsigned_abs()
+}
