@@ -7,9 +7,12 @@ use std::collections::BTreeMap;
 
 use fil_post::no_effect;
 use filpost::builtins::BUILTINS;
+use filpost::commons::EMPTY;
+use filpost::locations::{TABLE, default_commons};
 use filpost::postf::{Grade, POSTF};
 use filpost::statements::STATEMENTS;
 use filpost_tests::examples::{Block, run};
+use filpost_tests::words::Header;
 use filpost_tests::{root, word_pages};
 
 const FOLDER: &str = "docs/reference";
@@ -48,6 +51,58 @@ fn no_effect_page() -> String {
         page.push_str(&format!("| {} | {item}{left_out} | {} |\n", row.major, row.reason));
     }
     page
+}
+
+/// The settings that act, each with its default, what it does and a case of the suite of
+/// words that sets it; then those that do not act.
+fn settings_page() -> String {
+    let mut page = String::from(
+        "# Settings\n\nEvery setting of a [machine](../machine.md) that the post acts on. The case is a \
+         file of `tests/words` that sets it. `filpost explain KEY` says the same in the terminal.\n\n\
+         | setting | location | default | what it does | values | case |\n|---|---|---|---|---|---|\n",
+    );
+    let commons = default_commons();
+    let cases = cases_by_setting();
+    for row in TABLE.iter().filter(|row| row.used) {
+        let value = commons.get(row.kind, u32::from(row.number)).expect("a row of the table");
+        let default = if value == EMPTY { "none".into() } else { value.to_string() };
+        let case = cases.get(row.name).map_or("-".into(), |name| format!("`{name}`"));
+        page.push_str(&format!(
+            "| `{}` | {} {} | {default} | {} | {} | {case} |\n",
+            row.name,
+            row.kind.name(),
+            row.number,
+            row.meaning,
+            row.choices.replace('|', ", "),
+        ));
+    }
+    page.push_str(
+        "\n## Settings that do not act\n\nThey are kept, and whoever sets one is warned \
+         ([W0651](../errors/W0651.md)).\n\n| setting | location | what it would do |\n|---|---|---|\n",
+    );
+    for row in TABLE.iter().filter(|row| !row.used) {
+        let (name, kind) = (row.name, row.kind.name());
+        page.push_str(&format!("| `{name}` | {kind} {} | {} |\n", row.number, row.meaning));
+    }
+    page
+}
+
+/// The first file of the suite of words that sets a setting, by the setting.
+fn cases_by_setting() -> BTreeMap<String, String> {
+    let folder = std::fs::read_dir(root().join("tests/words")).expect("tests/words");
+    let mut files: Vec<_> = folder.map(|entry| entry.expect("an entry").path()).collect();
+    files.sort();
+    let mut cases = BTreeMap::new();
+    for file in files {
+        let text = std::fs::read_to_string(&file).expect("a file of the suite");
+        let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let Ok(header) = Header::read(&text) else { continue };
+        for setting in &header.settings {
+            let key = setting.split('=').next().unwrap_or_default().trim();
+            cases.entry(key.to_string()).or_insert_with(|| name.clone());
+        }
+    }
+    cases
 }
 
 /// File name without ending, and text, of every page; the index among them.
@@ -95,6 +150,8 @@ fn pages() -> BTreeMap<String, String> {
     for (word, text) in word_pages::pages() {
         add(&mut index, format!("word-{word}"), &word, text);
     }
+    index.push_str("\n## Machine\n\n- [Settings](settings.md)\n");
+    pages.insert("settings".into(), settings_page());
     index.push_str("\n## CL records\n\n- [Words without effect](no-effect.md)\n");
     pages.insert("no-effect".into(), no_effect_page());
     pages.insert("README".into(), index);

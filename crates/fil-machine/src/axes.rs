@@ -12,7 +12,7 @@ use crate::address::{Addresses, Output, TapePosition};
 use crate::commons::{Commons, Dbl};
 use crate::errors::MachineCode;
 use crate::letter::{Letter, letters};
-use crate::locations as loc;
+use crate::locations::{self as loc, MotionResolutionManual};
 use crate::number::NumberFormat;
 
 /// Number of axes: X, Y, Z, primary and secondary rotary.
@@ -108,6 +108,12 @@ pub struct Axis {
     /// The tape holds diameters.
     diameter: bool,
     resolution: f64,
+    /// Nothing comes between the position and its rounding to the address.
+    is_plain: bool,
+    /// Step that positions are rounded to first; `None` for that of the address.
+    step: Option<f64>,
+    /// Scaled integers no farther than this from the last one count as unchanged.
+    same: i64,
     min: f64,
     max: f64,
 }
@@ -123,14 +129,24 @@ impl Axis {
     ) -> Self {
         let scale = commons.dbl_opt(SCALE[common]).unwrap_or(1.0);
         let format = addresses.format(letter).copied().unwrap_or_default();
+        let translate = commons.dbl_opt(TRANSLATE[common]).unwrap_or(0.0);
+        let by_hand = commons.read(loc::MOTION_RESOLUTION_MANUAL) == MotionResolutionManual::Yes;
+        let step = if common < 3 { commons.dbl_opt(loc::MOTION_RESOLUTION) } else { None };
+        let step = step.filter(|_| by_hand);
+        let same = commons.dbl_opt(loc::MOTION_SAME_TOLERANCE).unwrap_or(0.0);
+        let same = if common < 3 { same * scale.abs() / format.unscale(1) } else { 0.0 };
         Axis {
             letter,
+            is_plain: scale == 1.0 && translate == 0.0 && step.is_none(),
+            step,
+            // What a tolerance of a whole number of digits leaves in binary counts.
+            same: (same + 1e-6).floor() as i64,
             output: addresses.output(letter),
             format,
             scale,
-            translate: commons.dbl_opt(TRANSLATE[common]).unwrap_or(0.0),
+            translate,
             diameter: common == 0 && scale == DIAMETER,
-            resolution: format.unscale(1) / scale.abs(),
+            resolution: (format.unscale(1) / scale.abs()).max(step.unwrap_or(0.0)),
             min: f64::NEG_INFINITY,
             max: f64::INFINITY,
         }
@@ -145,7 +161,8 @@ impl Axis {
             return MachineCode::SettingValue.err("lathe.diameter and scale.x would both change X");
         }
         self.scale = DIAMETER;
-        self.resolution /= DIAMETER;
+        self.is_plain = false;
+        self.resolution = (self.resolution / DIAMETER).max(self.step.unwrap_or(0.0));
         self.diameter = true;
         Ok(())
     }
@@ -177,13 +194,17 @@ impl Axis {
     /// The value does not fit the address's format.
     #[inline(always)]
     pub fn scaled(&self, position: f64) -> Result<i64> {
-        if self.scale == 1.0 && self.translate == 0.0 {
+        if self.is_plain {
             return self.format.scale(position).map_err(|diag| self.named(diag));
         }
         self.scaled_and_moved(position)
     }
 
     fn scaled_and_moved(&self, position: f64) -> Result<i64> {
+        let position = match self.step {
+            Some(step) => (position / step).round() * step,
+            None => position,
+        };
         let rounded = if self.diameter {
             position
         } else {
@@ -250,7 +271,18 @@ impl Axis {
     /// True when the tape does not yet stand at this scaled value.
     #[inline]
     pub fn changes(&self, scaled: i64, commons: &Commons) -> bool {
-        self.format.unscale(scaled) != commons.last_output(self.letter)
+        let last = commons.last_output(self.letter);
+        self.format.unscale(scaled) != last && (self.same == 0 || self.is_apart(scaled, last))
+    }
+
+    /// True when a scaled integer is farther from the last value than what counts as
+    /// unchanged.
+    #[cold]
+    fn is_apart(&self, scaled: i64, last: f64) -> bool {
+        match self.format.scale(last) {
+            Ok(last) => (scaled - last).abs() > self.same,
+            Err(_) => true,
+        }
     }
 
     /// True when the settings suppress the words of this axis.

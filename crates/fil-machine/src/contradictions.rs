@@ -8,7 +8,7 @@ use crate::axis_chain::AxisChain;
 use crate::commons::{Commons, Dbl, Int, Rel};
 use crate::errors::MachineCode;
 use crate::letter::{Letter, letters};
-use crate::locations::{self as loc, TapeEndOfBlock, ToolChangeBlock};
+use crate::locations::{self as loc, SeqnoAlign, TapeEndOfBlock, ToolChangeBlock};
 use crate::setting::{CodeAt, LetterAt};
 
 /// Codes of which no two may be the same: one motion, mode or command each.
@@ -105,6 +105,7 @@ const POSITIVE: &[(Dbl, &str)] = &[
     (loc::SEQNO_INCREMENT, "the step of sequence numbers"),
     (loc::SEQNO_MAX, "the largest sequence number"),
     (loc::CIRCLE_MAX_RADIUS, "the largest radius"),
+    (loc::MOTION_RESOLUTION, "the resolution of the linear axes"),
 ];
 
 /// Numbers that must not be below zero where they are given.
@@ -120,6 +121,8 @@ const NOT_NEGATIVE: &[(Dbl, &str)] = &[
     (loc::DWELL_UPR_FACTOR, "the factor of dwells in turns"),
     (loc::CYCLE_AUTO_CLEARANCE, "the clearance of cycles"),
     (loc::CIRCLE_MIN_RADIUS, "the least radius"),
+    (loc::TAPE_LEADER, "the length of the leader"),
+    (loc::MOTION_SAME_TOLERANCE, "the tolerance of unchanged coordinates"),
 ];
 
 /// Farthest that the end of an arc may be corrected, mm or inch.
@@ -160,8 +163,29 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     found
 }
 
-/// Marks of the tape that are asked for and not there.
+/// Marks of the tape that are asked for and not there, or mean something else.
 fn tape(commons: &Commons, found: &mut Vec<Diag>) {
+    let aligns = commons.read(loc::SEQNO_ALIGN) == SeqnoAlign::ToolChanges;
+    match commons.read(loc::TAPE_ALIGN_CHAR) {
+        _ if !aligns => {}
+        None => found.push(contradiction(
+            "seqno.align asks for a character, and tape.align_char is none".into(),
+        )),
+        Some(mark)
+            if Letter::of_character(mark)
+                .is_some_and(|mark| commons.read(loc::PROGRAM_NUMBER_ADDRESS) == Some(mark)) =>
+        {
+            found.push(contradiction(format!(
+                "{mark} is both tape.align_char and the letter of a program number"
+            )));
+        }
+        Some(_) => {}
+    }
+    let length = commons.dbl_opt(loc::TAPE_LEADER).unwrap_or(0.0);
+    let has_leader = !commons.read(loc::TAPE_DNC) && length != 0.0;
+    if has_leader && commons.read(loc::TAPE_LEADER_CHAR).is_none() {
+        found.push(contradiction("tape.leader has a length, and tape.leader_char is none".into()));
+    }
     let ends = commons.read(loc::TAPE_END_OF_BLOCK) == TapeEndOfBlock::Yes;
     if ends && commons.read(loc::TAPE_END_OF_BLOCK_CHAR).is_none() {
         found.push(contradiction(

@@ -3,7 +3,7 @@
 use crate::address::{Addresses, Slot};
 use crate::commons::Commons;
 use crate::letter::letters::N;
-use crate::locations as loc;
+use crate::locations::{self as loc, SeqnoAlign};
 
 /// The rules of sequence numbers.
 #[derive(Clone, Debug, Default)]
@@ -18,6 +18,8 @@ pub struct Numbering {
     pub increment: Option<f64>,
     /// What is added to the first number.
     pub start_offset: f64,
+    /// Stands in place of N where the program can be begun anew; `None` for no such marks.
+    pub align: Option<u8>,
     /// The largest number; after it they begin again.
     pub max: f64,
 }
@@ -30,6 +32,10 @@ impl Numbering {
             every: commons.int(loc::SEQNO_EVERY).max(1),
             increment: commons.dbl_opt(loc::SEQNO_INCREMENT),
             start_offset: commons.dbl_opt(loc::SEQNO_START_OFFSET).unwrap_or(0.0),
+            align: commons
+                .read(loc::TAPE_ALIGN_CHAR)
+                .filter(|_| commons.read(loc::SEQNO_ALIGN) == SeqnoAlign::ToolChanges)
+                .map(|mark| mark as u8),
             max: commons.dbl_opt(loc::SEQNO_MAX).unwrap_or(f64::INFINITY),
         }
     }

@@ -17,6 +17,12 @@ pub struct TapeStyle {
     pub end_of_block: Option<char>,
     /// What ends a line.
     pub line_end: TapeLineEnd,
+    /// A block may have several preparatory functions.
+    pub several_g: bool,
+    /// A block may have several auxiliary functions.
+    pub several_m: bool,
+    /// One of both is false.
+    pub divides: bool,
     /// Most characters of a block, its line end left out; `None` for any number.
     pub longest: Option<usize>,
     /// Someone edits the words of blocks (the macro _OUTPTP).
@@ -33,6 +39,9 @@ impl Default for TapeStyle {
             letter_case: TapeLetterCase::default(),
             end_of_block: None,
             line_end: TapeLineEnd::default(),
+            several_g: true,
+            several_m: true,
+            divides: false,
             longest: None,
             edits_words: false,
             edits_lines: false,
@@ -44,8 +53,12 @@ impl TapeStyle {
     pub(crate) fn from_commons(commons: &Commons) -> Self {
         let ends = commons.read(loc::TAPE_END_OF_BLOCK) == TapeEndOfBlock::Yes;
         let longest = commons.read(loc::TAPE_MAX_BLOCK).filter(|most| *most > 0);
+        let several = [commons.read(loc::MODE_SEVERAL_G), commons.read(loc::MODE_SEVERAL_M)];
         let style = TapeStyle {
             is_plain: false,
+            several_g: several[0],
+            several_m: several[1],
+            divides: several != [true; 2],
             skip: commons.read(loc::TAPE_OPSKIP_CHAR),
             letter_case: commons.read(loc::TAPE_LETTER_CASE),
             end_of_block: commons.read(loc::TAPE_END_OF_BLOCK_CHAR).filter(|_| ends),

@@ -82,14 +82,6 @@ impl Block {
 /// # Errors
 /// [`NcCode`] with the place of what can't be read.
 pub fn read_block(text: &[u8], name: &str, line: u32) -> Result<Block, Box<Diag>> {
-    read_marked_block(text, name, line, b'/')
-}
-
-/// The same for a control with another block-skip mark than the slash.
-///
-/// # Errors
-/// As [`read_block`].
-pub fn read_marked_block(text: &[u8], name: &str, line: u32, mark: u8) -> Result<Block, Box<Diag>> {
     let mut scan = Scan { text, at: 0, name, line };
     let mut block = Block { line, ..Block::default() };
     if line == 1 && text.starts_with(BYTE_ORDER_MARK) {
@@ -100,7 +92,7 @@ pub fn read_marked_block(text: &[u8], name: &str, line: u32, mark: u8) -> Result
         block.tape_mark = true;
         return Ok(block);
     }
-    if scan.peek() == Some(mark) {
+    if scan.peek() == Some(b'/') {
         block.skip = true;
         scan.at += 1;
     }

@@ -177,6 +177,21 @@ impl Block {
         }
     }
 
+    /// Takes a function out.
+    pub fn remove(&mut self, letter: Letter, code: FunctionCode) {
+        let codes = if letter == G { &mut self.g } else { &mut self.m };
+        codes.retain(|known| known.0 != code);
+    }
+
+    /// Moves a word with its cause to another block; none, where the block has none.
+    pub fn move_word(&mut self, position: TapePosition, to: &mut Block) {
+        if let Some(scaled) = self.scaled_at(position) {
+            self.present &= !position.bit();
+            to.put(position, scaled);
+            to.causes[position.index()] = self.causes[position.index()];
+        }
+    }
+
     /// Adds a word whose value is already scaled to its format.
     #[inline]
     pub fn put(&mut self, position: TapePosition, scaled: i64) {

@@ -107,6 +107,10 @@ fil_diag::codes! {
         ThreadTurns = 582, Error, "the machine would turn while a thread is cut",
             "The block of a thread moves X, Y and Z only.",
             "Put the change of the tool axis before or after the thread.";
+        /// Too many functions in a block.
+        Crowded = 542, Error, "functions that the control does not take in one block",
+            "The control takes one preparatory function in a block, and each of these needs the words that stand there.",
+            "Set mode.several_g of the machine, or tool.length_z, which calls the tool length in a block of its own.";
         /// Unknown major word.
         UnknownWord = 513, Error, "unknown word",
             "The post has no handler for this major word, and no table lists it as without effect. A misspelt GOTO would lose a motion.",

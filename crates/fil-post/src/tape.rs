@@ -24,6 +24,8 @@ struct Sequence {
     switched: Option<bool>,
     since_last: i32,
     cause: Cause,
+    /// The next number is one at which the program can be begun anew.
+    aligns: bool,
 }
 
 /// The output side of the post.
@@ -191,6 +193,11 @@ impl Tape {
         self.sequence.cause = self.cause;
     }
 
+    /// The program can be begun anew at the next block that has a number.
+    pub fn align(&mut self) {
+        self.sequence.aligns = true;
+    }
+
     /// Switches sequence numbers on or off.
     pub fn switch_numbers(&mut self, on: bool) {
         self.sequence.switched = Some(on);
@@ -261,7 +268,9 @@ impl Tape {
         let on = self.sequence.switched.unwrap_or(rules.on);
         let Some(slot) = rules.slot.as_ref().filter(|_| on) else { return Ok(()) };
         self.sequence.since_last += 1;
-        if self.sequence.since_last < rules.every && self.sequence.next.is_some() {
+        let align = rules.align.filter(|_| std::mem::take(&mut self.sequence.aligns));
+        let is_due = self.sequence.since_last >= rules.every || self.sequence.next.is_none();
+        if !is_due && align.is_none() {
             return Ok(());
         }
         self.sequence.since_last = 0;
@@ -279,7 +288,7 @@ impl Tape {
             text.put(b' ');
         }
         slot.format.put(scaled, &mut text);
-        text.put(slot.character);
+        text.put(align.unwrap_or(slot.character));
         text.append_to(&mut self.text);
         commons.set_last_output(N, number);
         Ok(())

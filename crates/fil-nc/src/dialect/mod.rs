@@ -4,6 +4,7 @@
 //! understands them; the post's own output code has no part in it.
 
 mod codes;
+mod marks;
 mod numbers;
 
 use fil_diag::Diag;
@@ -100,6 +101,7 @@ pub struct Dialect {
     pub family: Family,
     functions: Functions,
     auxiliaries: Auxiliaries,
+    pub(crate) marks: marks::Marks,
     /// By printed letter.
     addresses: [Option<Address>; 26],
     /// X Y Z and the two rotary axes; `None` without one.
@@ -121,8 +123,6 @@ pub struct Dialect {
     pub(crate) center: CenterForm,
     pub(crate) depth: DepthForm,
     pub(crate) tool_call: ToolCall,
-    /// The character that marks a block the operator can skip.
-    pub(crate) skip_mark: u8,
     /// Letters of special words, 1 to 26.
     pub(crate) radius: u8,
     /// An arc right behind another keeps its radius.
@@ -234,6 +234,7 @@ impl Dialect {
             feed_mode: functions.feed_mode(settings.code("feed.mode")),
             functions,
             auxiliaries: Auxiliaries::new(&settings),
+            marks: marks::Marks::new(&settings),
             center: match settings.code("circle.center") {
                 Some(2) => CenterForm::FromCenter,
                 Some(4) => CenterForm::Absolute,
@@ -246,10 +247,6 @@ impl Dialect {
                 _ => DepthForm::Absolute,
             },
             tool_call,
-            skip_mark: settings
-                .code("tape.opskip_char")
-                .and_then(|code| u8::try_from(code).ok())
-                .unwrap_or(b'/'),
             radius: settings.letter("circle.radius_address"),
             radius_modal: settings.flag("circle.radius_modal"),
             right_handed: [

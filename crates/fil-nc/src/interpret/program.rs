@@ -11,7 +11,7 @@ use super::state::State;
 use crate::dialect::Dialect;
 use crate::errors::NcCode;
 use crate::motion::Event;
-use crate::text::{Block, read_marked_block};
+use crate::text::{Block, read_block};
 
 /// Most calls within calls.
 const MAX_DEPTH: usize = 16;
@@ -125,8 +125,8 @@ impl<'a> Program<'a> {
         index: usize,
         take: &mut dyn FnMut(Event),
     ) -> Result<Option<usize>, Box<Diag>> {
-        let mark = self.dialect.skip_mark;
-        let block = match read_marked_block(line, self.name, number, mark) {
+        let line = &*self.dialect.marks.read(line);
+        let block = match read_block(line, self.name, number) {
             Ok(block) => block,
             Err(diag) if self.part == Part::Head && !self.marked => {
                 self.label.get_or_insert(diag);
@@ -200,7 +200,7 @@ impl<'a> Program<'a> {
     fn follow(&mut self, outcome: Outcome, index: usize) -> Result<Option<usize>, Fault> {
         match outcome {
             Outcome::Next => Ok(None),
-            Outcome::End(_) => {
+            Outcome::End => {
                 self.part = Part::Ended;
                 let outer = self.calls.first().map(|call| call.back);
                 self.calls.clear();

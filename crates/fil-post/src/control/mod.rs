@@ -6,6 +6,7 @@
 //! [`family`] chooses.
 
 mod again;
+mod apart;
 mod characters;
 mod edit;
 pub mod family;
@@ -265,6 +266,9 @@ impl Control {
             self.require_unit()?;
         }
         self.refuse_after_end()?;
+        if self.tables.style.divides && self.is_crowded() {
+            return self.write_apart();
+        }
         let result = self.tape.block(&self.block, &self.tables, &mut self.commons);
         self.state.learn_block(&self.block, &self.codes, &self.tables.addresses);
         self.block.clear();

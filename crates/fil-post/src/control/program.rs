@@ -5,18 +5,28 @@
 //! the end code, tape end character.
 
 use fil_diag::Result;
-use fil_machine::locations::ControlFamily;
+use fil_machine::locations::{self as loc, ControlFamily, TapePartnoText};
 use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::setting::{CharacterAt, CodeAt};
-use fil_machine::{Commons, FunctionCode, locations as loc, user_blocks};
+use fil_machine::{Commons, FunctionCode, user_blocks};
 
 use super::Control;
 use crate::cause::Cause;
 use crate::control_state::ControlState;
 use crate::errors::PostCode;
 
+/// Most characters of a leader.
+const LONGEST_LEADER: usize = 10_000;
+
 /// Program numbers have at most four digits.
 const NUMBERS: i64 = 10_000;
+
+/// Modes that the program says at its start, and those the control has anyway.
+const START_MODES: [(CodeAt, CodeAt); 3] = [
+    (loc::MODE_POSITION, loc::MODE_POSITION_IN_FORCE),
+    (loc::FEED_MODE, loc::FEED_MODE_IN_FORCE),
+    (loc::CIRCLE_PLANE, loc::CIRCLE_PLANE_IN_FORCE),
+];
 
 /// What the head of the program says.
 #[derive(Clone, Debug, Default)]
@@ -90,7 +100,9 @@ fn write_start(control: &mut Control) -> Result<()> {
     if control.tables.family == ControlFamily::Klartext {
         return super::klartext::program::start(control, &blocks);
     }
+    leader(control)?;
     tape_mark(control, loc::TAPE_START_CHAR)?;
+    part_name(control)?;
     program_number(control)?;
     for block in blocks {
         control.write_text(&block, true)?;
@@ -155,8 +167,9 @@ fn mode_codes(control: &mut Control) {
     if let Some(code) = control.unit.and_then(|unit| control.code_if_any(unit_code(unit))) {
         control.g(code);
     }
-    for at in [loc::MODE_POSITION, loc::FEED_MODE, loc::CIRCLE_PLANE] {
-        if let Some(code) = control.code_if_any(at) {
+    for (at, in_force) in START_MODES {
+        let in_force = control.code_if_any(in_force);
+        if let Some(code) = control.code_if_any(at).filter(|code| in_force != Some(*code)) {
             control.g(code);
         }
     }
@@ -181,6 +194,34 @@ fn program_number(control: &mut Control) -> Result<()> {
     let from_part = fixed.is_none() && control.head.number.is_some();
     let cause = if from_part { control.head.cause } else { Cause::default() };
     control.because(cause, |control| control.put_line(&line, false)).map(|_| ())
+}
+
+/// Writes PARTNO as a comment before the program, where the machine wants it.
+fn part_name(control: &mut Control) -> Result<()> {
+    let wanted = control.commons.read(loc::TAPE_PARTNO_TEXT) == TapePartnoText::Yes;
+    if !wanted || control.head.name.is_empty() {
+        return Ok(());
+    }
+    let open = control.commons.read(loc::MESSAGE_OUT_CHAR).unwrap_or('(');
+    let close = control.commons.read(loc::MESSAGE_IN_CHAR).unwrap_or(')');
+    let name = control.in_tape_characters(&control.head.name.clone());
+    let (name, _) = super::texts::clean_message(&name, open, close);
+    let cause = control.head.cause;
+    control
+        .because(cause, |control| control.put_line(&format!("{open}{name}{close}"), false))
+        .map(|_| ())
+}
+
+/// Writes the leader of a tape that is no direct transfer.
+fn leader(control: &mut Control) -> Result<()> {
+    let length = control.commons.dbl_opt(loc::TAPE_LEADER).unwrap_or(0.0) as usize;
+    match control.commons.read(loc::TAPE_LEADER_CHAR) {
+        Some(mark) if length > 0 && !control.commons.read(loc::TAPE_DNC) => {
+            let line = mark.to_string().repeat(length.min(LONGEST_LEADER));
+            control.put_line(&line, false).map(|_| ())
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Writes the character before or after the program; none in a program for direct

@@ -20,6 +20,7 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     if !tool::prepare(control, &wanted)? {
         return Ok(());
     }
+    control.tape.align();
     let cause = wanted.causes[0].whole();
     control.because(cause, |control| go_to_change_position(control, cause))?;
     family::change_tool(control, wanted)

@@ -109,6 +109,7 @@ impl<'c> Settings<'c> {
             self.allowed(half(letter) / self.scale(common) * unit)
         };
         let axes = [0, 1, 2].map(|common| (letters::XYZ[common], common));
+        let by_hand = self.by_hand();
         // A diameter is rounded once, after it is doubled.
         let scaled = |common: usize| {
             let diameter = common == 0 && self.scale(common) == 2.0;
@@ -119,7 +120,7 @@ impl<'c> Settings<'c> {
             None => 0.0,
         });
         Slack {
-            linear: axes.map(|(letter, common)| of_axis(letter, common, unit)),
+            linear: axes.map(|(letter, common)| of_axis(letter, common, unit) + by_hand * unit),
             rounded: axes.map(|(letter, common)| Some(half(letter) * scaled(common)?)),
             rotary,
             center: letters::IJK.map(|letter| self.allowed(half(letter) * unit)),
@@ -131,6 +132,15 @@ impl<'c> Settings<'c> {
             surface: half(letters::S) * if metric { 1.0 } else { FOOT } + DUST,
             dwell: self.dwell_slack(half),
         }
+    }
+
+    /// What a resolution set by hand and the tolerance of unchanged coordinates may take
+    /// from a position, in the unit of the program.
+    fn by_hand(&self) -> f64 {
+        let is_set =
+            self.commons.read(loc::MOTION_RESOLUTION_MANUAL) == loc::MotionResolutionManual::Yes;
+        let step = self.commons.dbl_opt(loc::MOTION_RESOLUTION).filter(|_| is_set).unwrap_or(0.0);
+        0.5 * step + self.commons.dbl_opt(loc::MOTION_SAME_TOLERANCE).unwrap_or(0.0)
     }
 
     /// What the program multiplies an axis by.
