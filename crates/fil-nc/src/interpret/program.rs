@@ -200,7 +200,7 @@ impl<'a> Program<'a> {
     fn follow(&mut self, outcome: Outcome, index: usize) -> Result<Option<usize>, Fault> {
         match outcome {
             Outcome::Next => Ok(None),
-            Outcome::End => {
+            Outcome::End(_) => {
                 self.part = Part::Ended;
                 let outer = self.calls.first().map(|call| call.back);
                 self.calls.clear();

@@ -167,6 +167,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             Wanted::Stop { optional } => {
                 self.ask_auxiliary(step.line, self.settings.stop_code(*optional));
             }
+            Wanted::RigidTap => self.ask_auxiliary(step.line, self.settings.rigid_tap_mode()),
             Wanted::Clamp(on) => self.ask_auxiliary(step.line, self.settings.clamp_code(*on)),
             Wanted::Auxiliary(code) => self.ask_auxiliary(step.line, Some(*code)),
             Wanted::End(end) => self.end(step.line, *end),

@@ -77,6 +77,8 @@ pub enum Wanted {
         /// Only where the operator asks for it.
         optional: bool,
     },
+    /// The holes that follow are tapped in step with the spindle.
+    RigidTap,
     /// The clamp of an axis, on or off.
     Clamp(bool),
     /// An auxiliary function by its number.

@@ -434,7 +434,9 @@ impl State {
             dwell: record.number_after(w::DWELL),
             rate: rate.or(self.rate),
         });
-        if begins { vec![Wanted::CycleEnd] } else { Vec::new() }
+        let rigid = kind == CycleKind::Tap && record.has(w::HIGH);
+        let begins = begins.then_some(Wanted::CycleEnd);
+        begins.into_iter().chain(rigid.then_some(Wanted::RigidTap)).collect()
     }
 
     fn tool(&mut self, record: &Record) -> Option<Vec<Wanted>> {

@@ -165,6 +165,11 @@ impl Settings<'_> {
         self.commons.read(at).map(number)
     }
 
+    /// The code that brings the control into the mode of rigid taps.
+    pub fn rigid_tap_mode(&self) -> Option<u32> {
+        self.commons.read(loc::CYCLE_RIGID_TAP_MODE).map(number)
+    }
+
     /// The code of CLAMP.
     pub fn clamp_code(&self, on: bool) -> Option<u32> {
         let at = if on { loc::ROTARY_CLAMP_CODE } else { loc::ROTARY_UNCLAMP_CODE };
