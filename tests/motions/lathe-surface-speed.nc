@@ -1,9 +1,9 @@
 ; post: fanuc-lathe
-; note: Under constant surface speed the turns are not known.
+; note: The limit stays in force; it holds under surface speed.
 ; expect: tool 2
-; expect: modes T2 H2 cw
+; expect: modes T2 H2 surface S180 up to S2000 cw
 ; expect: rapid X10 Y? Z0
-; expect: modes T2 H2 S800 cw
+; expect: modes T2 H2 S800 up to S2000 cw
 ; expect: rapid X11 Y? Z0
 ; expect: end
 T0202

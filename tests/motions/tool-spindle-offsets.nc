@@ -1,9 +1,9 @@
 ; expect: tool 3
-; expect: modes T3 S1200 cw coolant
+; expect: modes T3 S1200 cw coolant M8
 ; expect: rapid X0 Y0 Z?
-; expect: modes T3 H3 S1200 cw coolant
+; expect: modes T3 H3 S1200 cw coolant M8
 ; expect: rapid X0 Y0 Z5
-; expect: modes T3 H3 S1200 cw left coolant
+; expect: modes T3 H3 S1200 cw left coolant M8
 ; expect: feed X1 Y0 Z5 F100
 ; expect: modes T3 H3 S1200 cw
 ; expect: feed X2 Y0 Z5 F100

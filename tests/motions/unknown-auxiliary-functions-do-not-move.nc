@@ -1,3 +1,6 @@
+; expect: M11
+; expect: M21
+; expect: M33
 ; expect: rapid X1 Y? Z?
 ; expect: end
 M11

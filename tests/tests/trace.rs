@@ -74,6 +74,10 @@ fn a_map_changes_nothing_and_is_the_same_each_time() {
 #[test]
 fn each_line_is_cut_into_its_words() {
     for case in cases() {
+        // A line of Klartext is a phrase and not a row of letters with numbers.
+        if case.folder.components().any(|part| part.as_os_str() == "klartext") {
+            continue;
+        }
         let Some((nc, map)) = mapped(&case) else { continue };
         let at = case.folder.display();
         let text = String::from_utf8(nc).expect("UTF-8");

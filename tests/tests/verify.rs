@@ -184,7 +184,7 @@ fn findings_are_a_machinists_words() {
 /// The same for a lathe: surface speed, its limit, functions of the operator and the shop.
 #[test]
 fn findings_of_a_lathe() {
-    let cl = root().join("tests/cl/surface-speed.ncl.1");
+    let cl = root().join("tests/verify/surface-speed.ncl");
     let cases = nc_cases::posted(&cl);
     let case = cases.iter().find(|case| case.name.starts_with("fanuc-lathe")).expect("a program");
     let limit = "the limit of the spindle speed is";

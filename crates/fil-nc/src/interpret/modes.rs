@@ -53,10 +53,8 @@ impl State<'_> {
             _ => {}
         }
         let by_word = self.dialect.fixture_word > 0 && words.peek(Group::Length).is_none();
-        if by_word {
-            if let Some(number) = words.take_whole(self.dialect.fixture_word)? {
-                self.fixture(WORD_OFFSETS + number);
-            }
+        if by_word && let Some(number) = words.take_whole(self.dialect.fixture_word)? {
+            self.fixture(WORD_OFFSETS + number);
         }
         Ok(())
     }

@@ -86,7 +86,7 @@ impl Control {
             self.block.g(*code, *cause);
             self.write_block()?;
         }
-        self.each_m(&block.m_codes().to_vec())
+        self.each_m(block.m_codes())
     }
 
     fn each_m(&mut self, codes: &[(FunctionCode, Cause)]) -> Result<()> {

@@ -117,26 +117,42 @@ pub(super) fn count(
     at: impl Fn(f64) -> Target,
 ) -> Result<u32> {
     let Some(before) = post.path.rotary else { return Ok(least) };
-    let chain = post.control.tables.chain();
     let start = stands(post, before);
     let mut count = least;
-    'more: while count <= MOST_CHORDS {
-        let mut from = start;
-        for number in 1..=count {
-            let target = at(f64::from(number) / f64::from(count));
-            let (point, axis) = rotary::transformed(post, target);
-            let angles = chain.solve(axis, [from[3], from[4]])?;
-            let linear = chain.linear(point, angles);
-            let to = [linear.x, linear.y, linear.z, angles[0], angles[1]];
-            if Turning::new(post, from, to).off(&from, &to, allowed) > allowed {
-                count += count / 4 + 1;
-                continue 'more;
-            }
-            from = to;
+    while count <= MOST_CHORDS {
+        if suffices(post, start, count, allowed, &at)? {
+            return Ok(count);
         }
-        return Ok(count);
+        count += count / 4 + 1;
     }
     PostCode::TooManyParts.err("an arc on which the machine turns needs too many motions")
+}
+
+/// True when so many even parts keep the tip within the distance.
+///
+/// # Errors
+/// A tool axis that the machine can't reach.
+fn suffices(
+    post: &Post,
+    start: Position,
+    count: u32,
+    allowed: f64,
+    at: impl Fn(f64) -> Target,
+) -> Result<bool> {
+    let chain = post.control.tables.chain();
+    let mut from = start;
+    for number in 1..=count {
+        let target = at(f64::from(number) / f64::from(count));
+        let (point, axis) = rotary::transformed(post, target);
+        let angles = chain.solve(axis, [from[3], from[4]])?;
+        let linear = chain.linear(point, angles);
+        let to = [linear.x, linear.y, linear.z, angles[0], angles[1]];
+        if Turning::new(post, from, to).off(&from, &to, allowed) > allowed {
+            return Ok(false);
+        }
+        from = to;
+    }
+    Ok(true)
 }
 
 /// Where the axes stand: exactly where the CL file has brought them, unless the tape

@@ -23,13 +23,7 @@ fn messages_cannot_steer_the_terminal() {
 #[test]
 fn wrong_usage_has_its_own_status() {
     let place = Folder::new();
-    for arguments in [
-        &[][..],
-        &["fly"],
-        &["post"],
-        &["post", "a", "--fast"],
-        &["post", "a", "-p", "b", "-m", "c"],
-    ] {
+    for arguments in [&[][..], &["fly"], &["post"], &["post", "a", "--fast"]] {
         assert_eq!(place.run(arguments).status, 2, "{arguments:?}");
     }
     let version = place.run(&["--version"]);

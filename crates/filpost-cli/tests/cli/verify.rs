@@ -16,7 +16,7 @@ const PROGRAM: &str = "%\nO0001\nN10 G21 G90 G94 G17\nN20 G0 X0. Y0. A0.\nN30 Z1
 /// The middle of the line, (0, -50, 50), is 70.711 from the axis, at 45 degrees.
 const HALF_WAY: &str = "N35 G1 Z70.711 A45. F200.\nN40 G1 Y0. Z100. A90. F200.\n";
 
-const TABLE: [&str; 8] = [
+const TABLE: [&str; 12] = [
     "-p",
     "fanuc-mill",
     "--set",
@@ -25,6 +25,10 @@ const TABLE: [&str; 8] = [
     "rotary.primary_letter=A",
     "--set",
     "rotary.primary_axis=1",
+    "--set",
+    "rotary.tolerance=0",
+    "--set",
+    "rotary.feed=1",
 ];
 
 fn verify(cl: &str, nc: &str, machine: &[&str], more: &[&str]) -> Ran {

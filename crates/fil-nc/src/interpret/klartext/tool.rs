@@ -30,10 +30,9 @@ impl Klartext<'_> {
         if number.is_some() && !axis {
             return Err(Fault::new(NcCode::MissingWord, "the tool axis is needed"));
         }
-        if let Some(number) = number {
-            if number != self.state.modes.tool || speed.is_none() {
-                self.state.change(number);
-            }
+        let changes = |number: &u32| *number != self.state.modes.tool || speed.is_none();
+        if let Some(number) = number.filter(changes) {
+            self.state.change(number);
         }
         if speed.is_some() {
             self.state.modes.speed = speed.map(Speed::Turns);
