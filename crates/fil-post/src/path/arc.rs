@@ -107,12 +107,13 @@ fn as_lines(
 fn corrected(post: &Post, arc: &Arc, start: Point3<f64>, target: Target) -> Target {
     let commons = &post.control.commons;
     let mut point = target.point;
-    let [at_start, at_end] = [start, point].map(|point| flat(arc, point));
-    let off = at_start.norm() - at_end.norm();
-    let most = commons.dbl_opt(loc::CIRCLE_CORRECTION_MAX).unwrap_or(0.0);
-    let corrects = commons.read(loc::CIRCLE_CORRECTION) == CircleCorrection::CorrectTheEndPoint;
-    if corrects && off.abs() <= most && at_end.norm() > SAME_POINT {
-        point += at_end.normalize() * off;
+    if commons.read(loc::CIRCLE_CORRECTION) == CircleCorrection::CorrectTheEndPoint {
+        let [at_start, at_end] = [start, point].map(|point| flat(arc, point));
+        let off = at_start.norm() - at_end.norm();
+        let most = commons.dbl_opt(loc::CIRCLE_CORRECTION_MAX).unwrap_or(0.0);
+        if off.abs() <= most && at_end.norm() > SAME_POINT {
+            point += at_end.normalize() * off;
+        }
     }
     let rise = arc.axis.dot(&(point - start));
     let flat_within = commons.dbl_opt(loc::CIRCLE_Z_TOLERANCE).unwrap_or(0.0);
@@ -159,7 +160,7 @@ fn is_across_compensation(post: &Post, arc: &PlaneArc) -> Result<bool> {
         return Ok(false);
     }
     let shared = arc.plane.axes().into_iter().position(|axis| axis != plane.normal());
-    let turns_back = extremes(arc).into_iter().any(|angle| {
+    let turns_back = extremes(arc).any(|angle| {
         let along_first = angle.rem_euclid(180.0) < 45.0 || angle.rem_euclid(180.0) > 135.0;
         along_first == (shared == Some(0))
     });
@@ -269,16 +270,15 @@ fn check_travel(post: &Post, arc: &PlaneArc) -> Result<()> {
 
 /// Angles inside an arc, in degrees from the first axis of the plane, where it is farthest
 /// along one of the axes.
-fn extremes(arc: &PlaneArc) -> Vec<f64> {
+fn extremes(arc: &PlaneArc) -> impl Iterator<Item = f64> + use<> {
     let start = start_angle(arc);
     let turned = if arc.counterclockwise { start } else { -start };
-    let mut angles = Vec::new();
-    let mut next = ((turned / 90.0 + SAME_ANGLE).floor() + 1.0) * 90.0;
-    while next < turned + arc.sweep.min(FULL) - SAME_ANGLE {
-        angles.push(if arc.counterclockwise { next } else { -next });
-        next += 90.0;
-    }
-    angles
+    let first = ((turned / 90.0 + SAME_ANGLE).floor() + 1.0) * 90.0;
+    let end = turned + arc.sweep.min(FULL) - SAME_ANGLE;
+    let sign = if arc.counterclockwise { 1.0 } else { -1.0 };
+    std::iter::successors(Some(first), |angle| Some(angle + 90.0))
+        .take_while(move |angle| *angle < end)
+        .map(move |angle| sign * angle)
 }
 
 /// Angle of the start from the first axis of the plane, degrees.
