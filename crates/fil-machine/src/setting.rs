@@ -111,7 +111,7 @@ pub trait FromNumber: Copy {
     fn from_number(number: i32) -> Option<Self>;
 }
 
-/// One of several choices in INTCOM; a number that is none of them leaves the
+/// One of several choices in INTCOM; a number that is not among them leaves the
 /// default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Choice<T> {
@@ -136,7 +136,7 @@ impl<T: FromNumber + Default> Setting for Choice<T> {
     }
 }
 
-/// One of several choices in DBLCOM; a number that is none of them leaves the default.
+/// One of several choices in DBLCOM; a number that is not among them leaves the default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RealChoice<T> {
     /// DBLCOM number.

@@ -7,7 +7,7 @@ fil_diag::codes! {
         NotAWord = 901, Error, "not a word of an NC program",
             "A block is made of letters, each with a number; what is not one is not guessed.",
             "Check that the file is an NC program of this control, and not cut off.";
-        /// A letter with a number that is none.
+        /// A letter whose number can't be read.
         BadNumber = 902, Error, "a letter without a readable number",
             "The value of this word can't be read for sure.",
             "Check the number after the letter; a file that was cut off often ends in one.";

@@ -205,8 +205,8 @@ pub enum Event {
         /// Seconds; `None` when the program waits turns of the spindle.
         seconds: Option<f64>,
     },
-    /// An auxiliary function without a motion of its own that is none of spindle, coolant
-    /// and tool (`M0`, `M41`).
+    /// An auxiliary function without a motion of its own, besides spindle, coolant and
+    /// tool (`M0`, `M41`).
     Auxiliary {
         /// Line of the NC program.
         line: u32,

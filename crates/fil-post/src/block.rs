@@ -95,16 +95,22 @@ impl Block {
         TapePosition::of_set(self.present)
     }
 
-    /// Its words in tape order, each with its value and its cause.
-    pub fn words(&self, addresses: &Addresses) -> Vec<(Letter, f64, Cause)> {
+    /// The tape positions of its words and of its functions, in tape order.
+    #[inline]
+    fn positions_and_functions(&self, addresses: &Addresses) -> impl Iterator<Item = TapePosition> {
         let mut present = self.present;
         for (letter, codes) in [(G, &self.g), (M, &self.m)] {
             if let (Some(position), true) = (addresses.position(letter), !codes.is_empty()) {
                 present |= position.bit();
             }
         }
+        TapePosition::of_set(present)
+    }
+
+    /// Its words in tape order, each with its value and its cause.
+    pub fn words(&self, addresses: &Addresses) -> Vec<(Letter, f64, Cause)> {
         let mut words = Vec::new();
-        for position in TapePosition::of_set(present) {
+        for position in self.positions_and_functions(addresses) {
             let slot = addresses.slot(position);
             let Some(letter) = slot.letter else { continue };
             let codes = match letter {
@@ -259,13 +265,7 @@ impl Block {
             }
             text.append_to(out);
         };
-        let mut present = self.present;
-        for (letter, codes) in [(G, &self.g), (M, &self.m)] {
-            if let (Some(position), true) = (addresses.position(letter), !codes.is_empty()) {
-                present |= position.bit();
-            }
-        }
-        for position in TapePosition::of_set(present) {
+        for position in self.positions_and_functions(addresses) {
             let slot = addresses.slot(position);
             let Some(letter) = slot.letter else { continue };
             let codes = match letter {

@@ -240,6 +240,7 @@ impl Tape {
     }
 
     /// Begins a block; gives the byte of [`Tape::text`] where it starts.
+    #[inline(always)]
     fn begin(
         &mut self,
         numbered: bool,
@@ -312,6 +313,7 @@ impl Tape {
         Ok(())
     }
 
+    #[inline(always)]
     fn end(&mut self, start: usize, tables: &MachineTables) -> Result<()> {
         if !tables.style.is_plain {
             self.finish(start, &tables.style)?;

@@ -80,7 +80,11 @@ impl<'o, S: Records> Engine<'o, S> {
         let observed = !self.outside.observers.is_empty();
         let mut more = true;
         while more {
-            more = self.step()?;
+            let step = self.advance().map_err(|first| self.survey(first));
+            if observed || !matches!(step, Ok(true)) {
+                self.outside.note_counts();
+            }
+            more = step?;
             if observed {
                 self.show_blocks(|_, _| {});
                 self.outside.record_done().map_err(Error::Run)?;
@@ -238,11 +242,17 @@ impl<'o, S: Records> Engine<'o, S> {
     }
 
     /// Refuses a run that reads the same records again and again.
+    #[inline]
     pub(crate) fn watch_progress(&mut self) -> Result<()> {
         if self.record.number > self.furthest {
             self.furthest = self.record.number;
             return Ok(());
         }
+        self.pay_for_reading_again()
+    }
+
+    #[cold]
+    fn pay_for_reading_again(&mut self) -> Result<()> {
         if let Some(left) = self.fuel.checked_sub(FUEL_OF_READING_AGAIN) {
             self.fuel = left;
             return Ok(());

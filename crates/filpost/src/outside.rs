@@ -119,6 +119,7 @@ impl<'o, S: Records> Outside<'o, S> {
     }
 
     /// Reads the next record; what the post writes from now on is caused by it.
+    #[inline(always)]
     pub fn read(
         &mut self,
         record: &mut Record,

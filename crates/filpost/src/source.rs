@@ -29,7 +29,7 @@ pub(crate) trait Records {
     /// Makes record `number` (from 1) the next one.
     ///
     /// # Errors
-    /// Records that can't go back; a number that is none.
+    /// Records that can't go back; a number past the last record, or 0.
     fn seek(&mut self, number: u32) -> Result<()>;
 
     /// The dialect of a CL text, as far as it was read; `None` for records that come from
@@ -161,6 +161,7 @@ impl<S: Records> Source<S> {
     ///
     /// # Errors
     /// What the reader refuses.
+    #[inline(always)]
     pub fn read(&mut self, record: &mut Record, vocabulary: &mut Vocabulary) -> Result<bool> {
         let more = match self.ahead.pop_front() {
             Some(next) => {
@@ -187,7 +188,7 @@ impl<S: Records> Source<S> {
     /// Goes to a record, so that the next read gives it.
     ///
     /// # Errors
-    /// A stream that can't go back; a number that is none.
+    /// A stream that can't go back; a number past the last record, or 0.
     pub fn seek(&mut self, number: u32) -> Result<()> {
         self.reader.seek(number)?;
         self.ahead.clear();

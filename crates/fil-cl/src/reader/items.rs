@@ -60,7 +60,10 @@ fn plain_values(text: &[u8], major: &[u8], values: &mut [f64; 6]) -> Option<(usi
 
 #[inline]
 fn skip_blanks(mut text: &[u8]) -> &[u8] {
-    while let [b' ' | b'\t', rest @ ..] = text {
+    while let [first, rest @ ..] = text
+        && *first <= b' '
+        && matches!(*first, b' ' | b'\t')
+    {
         text = rest;
     }
     text

@@ -64,7 +64,7 @@ fn value_of(commons: &Commons, kind: Kind, number: u16) -> f64 {
     commons.get(kind, u32::from(number)).unwrap_or(EMPTY)
 }
 
-/// The name; the number for a value that is none of the setting's choices.
+/// The name; the number where the setting has no choice of this value.
 fn key(row: &Location, value: f64) -> String {
     let choices = row.choice_list();
     let strange = value != EMPTY && choices.iter().all(|(choice, _)| *choice != value);

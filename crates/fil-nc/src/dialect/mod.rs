@@ -289,8 +289,8 @@ impl Dialect {
         self.functions.get(tenths)
     }
 
-    /// What an M word means; an M word that is none of the machine's own functions
-    /// and steers no program is [`Auxiliary::Other`].
+    /// What an M word means; an M word that the machine does not name
+    /// and that steers no program is [`Auxiliary::Other`].
     pub fn auxiliary(&self, code: i64) -> Auxiliary {
         self.auxiliaries.get(code)
     }

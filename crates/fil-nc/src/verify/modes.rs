@@ -49,7 +49,7 @@ impl<T: Copy + PartialEq> Lag<T> {
         }
     }
 
-    /// The state that must be, when `found` is none of those that may be.
+    /// The state that must be, when `found` is not among those that may be.
     fn refuses(&self, found: impl Fn(T) -> bool) -> Option<T> {
         let next = self.next.map(|(value, _)| value);
         let right = found(self.now) || next.is_some_and(&found);

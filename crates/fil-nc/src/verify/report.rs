@@ -35,7 +35,7 @@ pub enum FindingKind {
     Coolant,
     /// The tool or its length offset.
     Tool,
-    /// An auxiliary function that is none of those.
+    /// Any other auxiliary function.
     Auxiliary,
     /// Cutter compensation.
     Compensation,

@@ -112,7 +112,7 @@ pub enum End {
 pub enum Effect {
     /// An M function.
     Auxiliary,
-    /// Words of the user's own, none of them M or S; the motions of the CL file go on.
+    /// Words of the user's own, without M and S; the motions of the CL file go on.
     Words,
     /// Words of the user's own, M or S too.
     AnyWords,

@@ -16,7 +16,7 @@ const MOST: f64 = 999.0;
 /// Takes a work offset. A machine may list SET as without effect: then nothing is done.
 ///
 /// # Errors
-/// Another form than OFSETL; a number that is none; a CIRCLE that waits for its end; an
+/// Another form than OFSETL; a number that can't be read; a CIRCLE that waits for its end; an
 /// offset in cutter compensation, or that the machine lacks.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     if post.control.commons.words_without_effect().iter().any(|word| word == "SET") {

@@ -74,7 +74,7 @@ pub struct CaseFile {
     /// The unit of a CL file without UNITS: `mm` or `inch`.
     #[serde(default, deserialize_with = "unit")]
     pub units: Option<Unit>,
-    /// Largest difference of a length or an angle that is none; with it, or with
+    /// Largest difference of a length or an angle that still counts as equal; with it, or with
     /// `ignore`, programs are compared as a control reads them.
     pub tolerance: Option<f64>,
     /// What that comparison leaves out: `n`, `comments`, `dates`, `points`, letters.
