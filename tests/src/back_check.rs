@@ -7,12 +7,36 @@ use fil_nc::motion::Event;
 use fil_nc::verify::{Allowed, Check, Report, verify};
 use filpost::{Commons, Diag, Unit};
 
+/// What a program does on a machine, and what it does with the blocks left out that may be
+/// skipped, where it has some.
+#[derive(Clone, Debug)]
+pub struct Both {
+    /// All blocks are run.
+    pub all: Vec<Event>,
+    /// Blocks that may be skipped are left out.
+    pub left_out: Option<Vec<Event>>,
+}
+
 /// What a program does on a machine.
 ///
 /// # Errors
 /// A program that can't be followed.
 pub fn events(commons: &Commons, nc: &str) -> Result<Vec<Event>, Box<Diag>> {
     interpret::events(nc.as_bytes(), "out.nc", &Dialect::new(commons)?)
+}
+
+/// What a program does, whichever way the switch is.
+///
+/// # Errors
+/// A program that can't be followed, one way or the other.
+pub fn both(commons: &Commons, nc: &str) -> Result<Both, Box<Diag>> {
+    let dialect = Dialect::new(commons)?;
+    let nc = nc.as_bytes();
+    let all = interpret::events(nc, "out.nc", &dialect)?;
+    let skips = interpret::has_skipped_blocks(nc, &dialect);
+    let leave_out = || interpret::events(nc, "out.nc", &dialect.skipping_blocks());
+    let left_out = skips.then(leave_out).transpose()?;
+    Ok(Both { all, left_out })
 }
 
 /// Compares a program that does this with a CL file; one without UNITS is in the unit
@@ -23,19 +47,27 @@ pub fn events(commons: &Commons, nc: &str) -> Result<Vec<Event>, Box<Diag>> {
 pub fn compare(
     commons: &Commons,
     cl: &[u8],
-    (nc, events): (&[u8], &[Event]),
+    (nc, both): (&[u8], &Both),
     allowed: Allowed,
 ) -> Result<Report, Box<Diag>> {
-    let cl_name = "part.ncl";
-    let cl = Reader::new(cl, cl_name, Options::default());
-    let unit = Unit::of_machine(commons);
-    verify(Check { cl, cl_name, unit, nc, events, commons, allowed })
+    let one_way = |events: &[Event], skips_blocks: bool| {
+        let cl_name = "part.ncl";
+        let cl = Reader::new(cl, cl_name, Options::default());
+        let unit = Unit::of_machine(commons);
+        let allowed = allowed.clone();
+        verify(Check { cl, cl_name, unit, nc, events, commons, allowed, skips_blocks })
+    };
+    let report = one_way(&both.all, false)?;
+    match &both.left_out {
+        Some(left_out) => Ok(report.with_blocks_left_out(one_way(left_out, true)?)),
+        None => Ok(report),
+    }
 }
 
 /// Follows a program and compares it with a CL file.
 ///
 /// # Errors
-/// As [`events`] and [`compare`].
+/// As [`both`] and [`compare`].
 pub fn check(commons: &Commons, cl: &str, nc: &str, allowed: Allowed) -> Result<Report, Box<Diag>> {
-    compare(commons, cl.as_bytes(), (nc.as_bytes(), &events(commons, nc)?), allowed)
+    compare(commons, cl.as_bytes(), (nc.as_bytes(), &both(commons, nc)?), allowed)
 }

@@ -23,7 +23,10 @@ pub fn event_path(events: &[Event], unit: Unit) -> ToolPath {
             Event::ToolChange { line, tool, .. } => {
                 steps.push(Step { line: *line, action: Action::Tool(*tool) });
             }
-            Event::Dwell { .. } | Event::Auxiliary { .. } | Event::End { .. } => {}
+            Event::Dwell { .. }
+            | Event::Auxiliary { .. }
+            | Event::LeftToControl { .. }
+            | Event::End { .. } => {}
         }
     }
     ToolPath { unit: Some(Unit::Mm), steps }

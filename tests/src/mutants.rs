@@ -1,7 +1,8 @@
 //! Small faults put into NC programs: a changed digit, a lost sign, a dropped word,
-//! a turned arc, a missing block, a word too many.
+//! another function of the same group, a missing block, a block that may be skipped, a word
+//! too many.
 
-use fil_nc::text::{Block, read_block};
+use fil_nc::text::{Block, Word, read_block};
 
 /// A program with one fault.
 pub struct Mutant {
@@ -9,68 +10,119 @@ pub struct Mutant {
     pub line: usize,
     /// What was done to it.
     pub fault: String,
+    /// Letter of the word that is changed; `None` for more than one word.
+    pub word: Option<u8>,
     /// The program.
     pub text: String,
 }
 
-/// All mutants of a program; lines keep their numbers.
-pub fn all(nc: &str) -> Vec<Mutant> {
+/// Mutants of a program, from that of number `first` on each of so many; lines keep their
+/// numbers.
+pub fn all(nc: &str, step: usize, first: usize) -> impl Iterator<Item = Mutant> {
     let lines: Vec<&str> = nc.split('\n').collect();
-    let mut mutants = Vec::new();
-    for (index, line) in lines.iter().enumerate() {
-        for (fault, changed) in of_line(line) {
-            let mut lines = lines.clone();
-            lines[index] = &changed;
-            mutants.push(Mutant { line: index + 1, fault, text: lines.join("\n") });
-        }
-    }
-    mutants
+    let faults = |index: usize| of_line(lines[index]).into_iter().map(move |fault| (index, fault));
+    let faults: Vec<(usize, Fault)> = (0..lines.len()).flat_map(faults).collect();
+    let chosen = faults.into_iter().skip(first % step).step_by(step);
+    chosen.map(move |(index, fault)| {
+        let mut lines = lines.clone();
+        lines[index] = &fault.changed;
+        Mutant { line: index + 1, text: lines.join("\n"), fault: fault.said, word: fault.word }
+    })
 }
 
+/// What can be wrong with a line.
+struct Fault {
+    said: String,
+    changed: String,
+    word: Option<u8>,
+}
+
+/// Words that a program may have too many.
+const INSERTED: [&str; 14] = [
+    "M0", "M3", "M7", "M50", "S77", "F77.", "H77", "T77", "G18", "G20", "G55", "G91", "G95", "G41",
+];
+
+/// Functions that are taken for each other.
+const EXCHANGED: [(&str, &str); 14] = [
+    ("G2", "G3"),
+    ("G02", "G03"),
+    ("G0", "G1"),
+    ("G17", "G18"),
+    ("G20", "G21"),
+    ("G41", "G42"),
+    ("G54", "G55"),
+    ("G90", "G91"),
+    ("G94", "G95"),
+    ("G96", "G97"),
+    ("G98", "G99"),
+    ("G81", "G82"),
+    ("M7", "M8"),
+    ("M2", "M30"),
+];
+
 /// What can be wrong with a line, and the line with it.
-fn of_line(line: &str) -> Vec<(String, String)> {
+fn of_line(line: &str) -> Vec<Fault> {
     let Ok(block) = read_block(line.as_bytes(), "nc", 1) else { return Vec::new() };
     if block.words.is_empty() {
         return Vec::new();
     }
-    let mut faults = vec![(format!("without `{line}`"), String::new())];
-    for word in ["M0", "M7", "M50", "S77"].into_iter().filter(|word| fits(&block, word)) {
-        faults.push((format!("`{line}` with {word}"), format!("{line} {word}")));
+    let whole = |said: String, changed: String| Fault { said, changed, word: None };
+    let mut faults = vec![whole(format!("without `{line}`"), String::new())];
+    if !block.skip {
+        faults.push(whole(format!("`{line}` may be skipped"), format!("/{line}")));
     }
-    for word in &block.words {
-        let (range, text) = (word.range.clone(), &line[word.range.clone()]);
-        let with = |new: &str| format!("{}{new}{}", &line[..range.start], &line[range.end..]);
-        faults.push((format!("`{line}` without {text}"), with("")));
-        if text.contains('-') {
-            let unsigned = text.replace('-', "");
-            faults.push((format!("{text} is {unsigned} in `{line}`"), with(&unsigned)));
-        }
-        if let Some(turned) = turned(text) {
-            faults.push((format!("{text} is {turned} in `{line}`"), with(&turned)));
-        }
-        for (at, digit) in text.char_indices().filter(|(_, c)| c.is_ascii_digit()) {
-            for step in [1, 9] {
-                let other = (digit as u8 - b'0' + step) % 10 + b'0';
-                let mut changed = text.to_string();
-                changed.replace_range(at..=at, &char::from(other).to_string());
-                faults.push((format!("{text} is {changed} in `{line}`"), with(&changed)));
-            }
-        }
+    for word in INSERTED.into_iter().filter(|word| fits(&block, word)) {
+        faults.push(whole(format!("`{line}` with {word}"), format!("{line} {word}")));
     }
+    faults.extend(block.words.iter().flat_map(|word| of_word(line, word)));
+    faults
+}
+
+/// What can be wrong with a word of a line.
+fn of_word(line: &str, word: &Word) -> Vec<Fault> {
+    let (range, text) = (word.range.clone(), &line[word.range.clone()]);
+    let fault = |said: String, new: &str| Fault {
+        said,
+        changed: format!("{}{new}{}", &line[..range.start], &line[range.end..]),
+        word: Some(word.letter),
+    };
+    let mut faults = vec![fault(format!("`{line}` without {text}"), "")];
+    // A sequence number steers nothing.
+    if word.letter == b'N' {
+        return faults;
+    }
+    let mut others: Vec<String> = exchanged(text).map(str::to_string).collect();
+    others.extend(text.contains('-').then(|| text.replace('-', "")));
+    for (at, digit) in text.char_indices().filter(|(_, c)| c.is_ascii_digit()) {
+        others.extend([1, 9].map(|step| {
+            let mut changed = text.to_string();
+            let other = (digit as u8 - b'0' + step) % 10 + b'0';
+            changed.replace_range(at..=at, &char::from(other).to_string());
+            changed
+        }));
+    }
+    let is_now = |other: String| fault(format!("{text} is {other} in `{line}`"), &other);
+    faults.extend(others.into_iter().map(is_now));
     faults
 }
 
 /// A word may be added to a block that has none like it.
 fn fits(block: &Block, word: &str) -> bool {
     let letter = word.as_bytes()[0];
-    block.comments.is_empty() && block.words.iter().all(|other| other.letter != letter)
+    let has = |other: &Word| other.letter == letter && (letter != b'G' || is(other, word));
+    block.comments.is_empty() && !block.words.iter().any(has)
 }
 
-/// G2 for G3 and the reverse.
-fn turned(word: &str) -> Option<String> {
-    match word {
-        "G2" | "G02" => Some(word.replace('2', "3")),
-        "G3" | "G03" => Some(word.replace('3', "2")),
+/// A word is this function.
+fn is(word: &Word, function: &str) -> bool {
+    function[1..].parse() == Ok(word.number.value())
+}
+
+/// The functions that one is taken for.
+fn exchanged(word: &str) -> impl Iterator<Item = &'static str> {
+    EXCHANGED.into_iter().filter_map(move |(one, other)| match word {
+        _ if word == one => Some(other),
+        _ if word == other => Some(one),
         _ => None,
-    }
+    })
 }

@@ -2,7 +2,8 @@
 
 use filpost::{Error, Program};
 
-/// Settings that leave nothing of the program but the blocks of its records.
+/// Settings that leave nothing of the program but the blocks of its records, and state the
+/// modes that nothing says then.
 const BARE: &[&str] = &[
     "seqno.off_at_start=72",
     "tape.start_char=none",
@@ -13,6 +14,9 @@ const BARE: &[&str] = &[
     "mode.position=none",
     "feed.mode=none",
     "circle.plane=none",
+    "mode.position_in_force=90",
+    "feed.mode_in_force=94",
+    "circle.plane_in_force=17",
     "program.rewind_code=none",
     "program.end_code=none",
 ];

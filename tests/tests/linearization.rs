@@ -82,7 +82,7 @@ fn checked(post: &Program, cl: &str, between: f64) -> Option<(String, Report)> {
     let mut nc = Vec::new();
     post.run(cl.as_bytes(), &mut nc).ok()?;
     let nc = String::from_utf8(nc).expect("ASCII");
-    let allowed = Allowed { tolerance: None, between: Some(between) };
+    let allowed = Allowed { between: Some(between), ..Allowed::default() };
     let report = back_check::check(post.commons(), cl, &nc, allowed);
     Some((nc.clone(), report.unwrap_or_else(|diag| panic!("{diag}\n{cl}\n{nc}"))))
 }
@@ -176,7 +176,7 @@ fn real_files_stay_on_their_lines() {
                 continue;
             }
             let program = NcProgram { text: &nc, name: "out.nc" };
-            let allowed = Allowed { tolerance: None, between: Some(0.05) };
+            let allowed = Allowed { between: Some(0.05), ..Allowed::default() };
             let (report, _) = start().verify(&cl[..], program, allowed).expect(name);
             assert_eq!(report.verdict(), Verdict::Agrees, "{name}: {:#?}", report.findings);
             if let Some(between) = report.between {

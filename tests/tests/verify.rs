@@ -14,26 +14,58 @@ use fil_nc::motion::Event;
 use fil_nc::verify::{Allowed, FindingKind, Report, Verdict, compare_programs};
 use filpost::Diag;
 use filpost::verify::{NcProgram, Reference};
-use filpost_tests::back_check;
+use filpost_tests::back_check::{self, Both};
 use filpost_tests::mutants;
 use filpost_tests::nc_cases::{self, NcCase};
 use filpost_tests::root;
 use filpost_tests::same_events;
 
 /// Share of the faults that change what the machine does which must be found.
-const FOUND: f64 = 0.99;
+const FOUND: f64 = 0.998;
 
-fn events(case: &NcCase, nc: &str) -> Result<Vec<Event>, Box<Diag>> {
-    back_check::events(case.post.commons(), nc)
+/// Of so many faults one is tried in the normal run; all with `FILPOST_FAULTS=all`.
+const SAMPLE: usize = 8;
+
+/// Programs with axis words whose last digit a rounding may leave open: points between the
+/// ends of lines that another post has divided, points of arcs that are lines, values half
+/// way between two.
+const ROUNDED: [&str; 8] = [
+    "verify/linearized-",
+    "verify/inverse-time-",
+    "words/circle-below-the-least-radius-becomes-lines",
+    "words/goto-a-little-farther-writes-nothing",
+    "words/goto-in-steps-of-a-resolution",
+    "words/goto-on-a-tilted-table-rounds-halves-alike",
+    "words/rotary-",
+    "holes/two-tables-tip",
+];
+
+fn events(case: &NcCase, nc: &str) -> Result<Both, Box<Diag>> {
+    back_check::both(case.post.commons(), nc)
 }
 
-fn against_cl(case: &NcCase, nc: &str, events: &[Event]) -> Result<Report, Box<Diag>> {
-    let program = (nc.as_bytes(), events);
+fn against_cl(case: &NcCase, nc: &str, both: &Both) -> Result<Report, Box<Diag>> {
+    let program = (nc.as_bytes(), both);
     back_check::compare(case.post.commons(), &case.cl, program, Allowed::default())
 }
 
 fn check(case: &NcCase, nc: &str) -> Result<Report, Box<Diag>> {
     against_cl(case, nc, &events(case, nc)?)
+}
+
+/// What a program does with the blocks left out that may be skipped.
+fn left_out(both: &Both) -> &[Event] {
+    both.left_out.as_deref().unwrap_or(&both.all)
+}
+
+/// Compares with another program, whichever way the switch is.
+fn against_program(original: &Both, found: &Both) -> Report {
+    let report = compare_programs(&original.all, &found.all, None);
+    if original.left_out.is_none() && found.left_out.is_none() {
+        return report;
+    }
+    let other = compare_programs(left_out(original), left_out(found), None);
+    report.with_blocks_left_out(other)
 }
 
 fn listed(report: &Report) -> String {
@@ -92,16 +124,15 @@ enum Fate {
     Missed,
 }
 
-fn fate(case: &NcCase, original: &[Event], nc: &str) -> Fate {
+fn fate(case: &NcCase, original: &Both, nc: &str) -> Fate {
     let Ok(found) = events(case, nc) else { return Fate::Refused };
-    if same_events::same(&found, original) {
+    let same = same_events::same(&found.all, &original.all)
+        && same_events::same(left_out(&found), left_out(original));
+    if same {
         return Fate::Same;
     }
-    let report = if case.fil {
-        Ok(compare_programs(original, &found, None))
-    } else {
-        against_cl(case, nc, &found)
-    };
+    let report =
+        if case.fil { Ok(against_program(original, &found)) } else { against_cl(case, nc, &found) };
     match report {
         Ok(report) if report.verdict() != Verdict::Differs => Fate::Missed,
         _ => Fate::Reported,
@@ -110,14 +141,19 @@ fn fate(case: &NcCase, original: &[Event], nc: &str) -> Fate {
 
 #[test]
 fn faults_are_found() {
+    let all = std::env::var_os("FILPOST_FAULTS").is_some_and(|value| value == "all");
     let mut fates: BTreeMap<Fate, usize> = BTreeMap::new();
     let mut missed = String::new();
-    for case in nc_cases::all() {
+    for (turn, case) in nc_cases::all().into_iter().enumerate() {
         let Ok(original) = events(&case, &case.nc) else { continue };
-        for mutant in mutants::all(&case.nc) {
+        let step = if all { 1 } else { SAMPLE };
+        for mutant in mutants::all(&case.nc, step, turn) {
             let fate = fate(&case, &original, &mutant.text);
             *fates.entry(fate).or_default() += 1;
             if fate == Fate::Missed {
+                let axis = mutant.word.is_some_and(|word| b"XYZABCUVW".contains(&word));
+                let rounded = ROUNDED.iter().any(|name| case.name.starts_with(name));
+                assert!(!axis || rounded, "{} line {}: {}", case.name, mutant.line, mutant.fault);
                 let _ = writeln!(missed, "{} line {}: {}", case.name, mutant.line, mutant.fault);
             }
         }
@@ -126,6 +162,13 @@ fn faults_are_found() {
     let found = count(Fate::Refused) + count(Fate::Reported);
     println!("{fates:?}\n{missed}");
     assert!(count(Fate::Reported) > 5_000, "only {} faults were put in", count(Fate::Reported));
+    if !all {
+        let listed = std::fs::read_to_string(root().join("tests/verify/faults.txt"));
+        let listed = listed.expect("the list");
+        let known = |missed: &str| listed.lines().any(|line| line == missed);
+        let new: Vec<&str> = missed.lines().filter(|missed| !known(missed)).collect();
+        return assert!(new.is_empty(), "{new:#?}");
+    }
     let share = count(Fate::Reported) as f64 / (count(Fate::Reported) + count(Fate::Missed)) as f64;
     assert!(share >= FOUND, "{share}:\n{missed}");
     assert!(found > 0);

@@ -305,7 +305,7 @@ fn divided_lines_agree_and_a_point_left_out_is_found() {
         assert!((max - dense).abs() < 1e-4, "{max} {dense}\n{seen}");
         let dense = sampled(commons, &divided.without_one, POINTS, divided.ends);
         let limit = max * 1.2;
-        let allowed = Allowed { tolerance: None, between: Some(limit) };
+        let allowed = Allowed { between: Some(limit), ..Allowed::default() };
         let report = check_allowed(commons, &cl, &divided.without_one, allowed).unwrap();
         let found = report.findings.iter().any(|finding| finding.kind == FindingKind::Between);
         assert_eq!(found, dense > limit, "{dense} {limit}\n{seen}");

@@ -123,6 +123,26 @@ pub enum Compensation {
 /// What the number of a work offset that a word chooses is counted from.
 pub const WORD_OFFSETS: u32 = 1_000_000;
 
+/// A work offset by its name in a program, as [`Modes::fixture`] counts it: `G54`,
+/// `G54.1P3`, or another letter with a number for one that a word chooses.
+pub fn work_offset(name: &str) -> Option<u32> {
+    let name = name.to_ascii_uppercase();
+    let (letter, rest) = name.split_at_checked(1)?;
+    let number = |text: &str| text.parse::<u32>().ok().filter(|number| *number < 1000);
+    match (letter, rest.split_once('P')) {
+        ("G", None) => number(rest),
+        ("G", Some((function, extended))) => {
+            let (whole, tenth) = function.split_once('.').unwrap_or((function, "0"));
+            let tenths = number(whole)? * 10 + number(tenth).filter(|tenth| *tenth < 10)?;
+            Some(tenths * 1000 + number(extended)?)
+        }
+        (letter, _) if letter.as_bytes()[0].is_ascii_uppercase() => {
+            Some(WORD_OFFSETS + number(rest)?)
+        }
+        _ => None,
+    }
+}
+
 /// What is in force besides the motion itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Modes {
@@ -130,6 +150,9 @@ pub struct Modes {
     pub tool: u32,
     /// Number of the length offset; `None` when off.
     pub length_offset: Option<u32>,
+    /// An `H` that stands after a tool change without the function of the length offset:
+    /// whether it acts is not certain. `None` after that function.
+    pub stray_offset: Option<u32>,
     /// Tool-tip control is on.
     pub tip_control: bool,
     /// Cutter compensation.
@@ -152,6 +175,8 @@ pub struct Modes {
     /// function its tenths and the number (541003 for `G54.1 P3`), for one of a word
     /// 1000000 and the number.
     pub fixture: Option<u32>,
+    /// A drilling cycle is on; said where a tool is changed and at the end.
+    pub cycle: bool,
     /// The auxiliary function of the coolant that was switched on last; `None` when off.
     pub coolant: Option<u32>,
 }
@@ -184,6 +209,47 @@ pub struct Move {
     pub modes: Modes,
 }
 
+/// A mode that a control is in when a program begins, whatever the program before it left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StartMode {
+    /// mm or inch.
+    Unit,
+    /// Absolute or incremental positions.
+    Positions,
+    /// Feed a minute, a turn or in inverse time.
+    Feed,
+    /// The plane of arcs and cycles.
+    Plane,
+    /// The level that a hole returns to.
+    ReturnLevel,
+    /// Spindle speed or surface speed.
+    Surface,
+}
+
+impl StartMode {
+    /// All of them.
+    pub const ALL: [StartMode; 6] = [
+        StartMode::Unit,
+        StartMode::Positions,
+        StartMode::Feed,
+        StartMode::Plane,
+        StartMode::ReturnLevel,
+        StartMode::Surface,
+    ];
+
+    /// What it is, in a machinist's words.
+    pub fn name(self) -> &'static str {
+        match self {
+            StartMode::Unit => "the unit",
+            StartMode::Positions => "whether axis words are positions or increments",
+            StartMode::Feed => "what F means",
+            StartMode::Plane => "the plane",
+            StartMode::ReturnLevel => "the level that holes return to",
+            StartMode::Surface => "whether S is a spindle speed or a surface speed",
+        }
+    }
+}
+
 /// What happens in a program, in order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Event {
@@ -213,6 +279,14 @@ pub enum Event {
         /// Its number.
         code: u32,
     },
+    /// A block depends on a mode that no block before it has said and that the machine does
+    /// not state either; it comes before what the block does.
+    LeftToControl {
+        /// Line of the NC program.
+        line: u32,
+        /// The mode.
+        mode: StartMode,
+    },
     /// The end of the program.
     End {
         /// Line of the NC program.
@@ -232,6 +306,7 @@ impl Event {
             | Event::ToolChange { line, .. }
             | Event::Dwell { line, .. }
             | Event::Auxiliary { line, .. }
+            | Event::LeftToControl { line, .. }
             | Event::End { line, .. } => *line,
         }
     }

@@ -98,6 +98,11 @@ pub fn read_block(text: &[u8], name: &str, line: u32) -> Result<Block, Box<Diag>
     }
     loop {
         scan.blanks();
+        if let Some(sign) = scan.message_sign(&block) {
+            scan.at += sign - 1;
+            block.comments.push(scan.rest());
+            return Ok(block);
+        }
         match scan.peek() {
             None => return Ok(block),
             Some(b'(') => block.comments.push(scan.bracket()?),
@@ -124,6 +129,15 @@ impl Scan<'_> {
         while self.peek().is_some_and(|byte| byte.is_ascii_whitespace()) {
             self.at += 1;
         }
+    }
+
+    /// A line that is a text for the operator on controls of other systems: `MSG("text")`,
+    /// `!text`, `* - text`; a control that does not know it stops there. Gives the length of
+    /// its sign.
+    fn message_sign(&self, block: &Block) -> Option<usize> {
+        let rest = &self.text[self.at..];
+        let sign = [&b"MSG("[..], b"!", b"* -"].into_iter().find(|sign| rest.starts_with(sign));
+        sign.filter(|_| block.words.iter().all(|word| word.letter == b'N')).map(<[u8]>::len)
     }
 
     /// `(comment)`.
@@ -233,6 +247,16 @@ mod tests {
         assert_eq!(block.words[1].number.value(), 15.622);
         assert_eq!(block.sequence_number(), Some(5));
         assert!(read("% O100").tape_mark);
+    }
+
+    #[test]
+    fn messages_of_other_systems_are_comments() {
+        for text in ["MSG(\"TURN THE PART\")", "N5 MSG(\"X1.\")", "!turn", "* - turn the part"] {
+            let block = read(text);
+            assert_eq!(block.comments.len(), 1, "{text}");
+            assert!(block.words.iter().all(|word| word.letter == b'N'), "{text}");
+        }
+        assert!(read_block(b"G1 MSG(a)", "test", 1).is_err());
     }
 
     #[test]

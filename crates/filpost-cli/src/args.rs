@@ -339,6 +339,9 @@ pub struct VerifyArgs {
     /// left out
     #[arg(long, value_name = "MM", value_parser = tolerance)]
     pub between: Option<f64>,
+    /// Work offsets that the program may choose where the CL file names none: G54,G54.1P3
+    #[arg(long, value_name = "OFFSETS", value_delimiter = ',', value_parser = work_offset)]
+    pub allow_offset: Vec<u32>,
     /// How findings are written
     #[arg(long, value_enum, default_value_t = Report::Text)]
     pub format: Report,
@@ -393,6 +396,12 @@ pub enum Report {
     Text,
     /// JSON
     Json,
+}
+
+/// A work offset by its name, as the interpreter counts it.
+fn work_offset(text: &str) -> Result<u32, String> {
+    let known = filpost::nc::motion::work_offset(text.trim());
+    known.ok_or_else(|| "G54, G54.1P3 or a letter with a number is needed".to_string())
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {

@@ -28,7 +28,8 @@ pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
     let (program, title) = program(args, &mut cl)?;
     let name = output::input_name(&args.nc);
     let nc = NcProgram { text: &text, name: &name };
-    let allowed = Allowed { tolerance: args.tol, between: args.between };
+    let offsets = args.allow_offset.clone();
+    let allowed = Allowed { tolerance: args.tol, between: args.between, offsets };
     let mut run = program.start().cl_name(&output::input_name(&args.cl)).reading(options(args)?);
     if let Some(unit) = args.units.units {
         run = run.units(unit);

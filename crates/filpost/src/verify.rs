@@ -8,8 +8,11 @@
 use std::io::{Cursor, Read};
 
 use fil_cl::{Options, Reader};
+use fil_diag::Diag;
+use fil_machine::Commons;
 use fil_nc::dialect::Dialect;
 use fil_nc::interpret;
+use fil_nc::motion::Event;
 use fil_nc::verify::{
     Allowed, Check, Report, compare_programs, compare_words, look_at_blocks, refuse_another_part,
     verify,
@@ -84,7 +87,29 @@ impl Run<'_> {
             let report = self.against_second_run(text, nc, &dialect, allowed)?;
             return Ok((report, Reference::SecondRun));
         }
-        let events = interpret::events(nc.text, nc.name, &dialect).map_err(Error::Run)?;
+        if !interpret::has_skipped_blocks(nc.text, &dialect) {
+            return Ok((self.against_cl(cl, nc, &dialect, allowed)?, Reference::ClFile));
+        }
+        // What the operator may leave out is run both ways.
+        let mut text = Vec::new();
+        cl.read_to_end(&mut text)
+            .map_err(|error| crate::files::cant_read(name.as_ref(), &error))?;
+        let report = self.against_cl(&mut &text[..], nc, &dialect, allowed.clone())?;
+        let skipping = dialect.skipping_blocks();
+        let left_out = self.against_cl(&mut &text[..], nc, &skipping, allowed)?;
+        Ok((report.with_blocks_left_out(left_out), Reference::ClFile))
+    }
+
+    /// Compares with the path of the CL file, one way of the switch that leaves blocks out.
+    fn against_cl(
+        &self,
+        cl: &mut (dyn Read + Send),
+        nc: NcProgram<'_>,
+        dialect: &Dialect,
+        allowed: Allowed,
+    ) -> Result<Report, Error> {
+        let name = self.name();
+        let events = events(nc, dialect).map_err(Error::Run)?;
         let known = units::known_before(self.units, self.program.commons()).map_err(Error::Run)?;
         let check = Check {
             cl: Reader::new(cl, &name, Options { raw: false, ..self.reading }),
@@ -94,8 +119,9 @@ impl Run<'_> {
             events: &events,
             commons: self.program.commons(),
             allowed,
+            skips_blocks: dialect.leaves_blocks_out(),
         };
-        Ok((verify(check).map_err(Error::Run)?, Reference::ClFile))
+        verify(check).map_err(Error::Run)
     }
 
     /// Compares with what another run makes; files of scripts are not written. When
@@ -105,21 +131,49 @@ impl Run<'_> {
         cl: Vec<u8>,
         nc: NcProgram<'_>,
         dialect: &Dialect,
-        Allowed { tolerance, between }: Allowed,
+        allowed: Allowed,
     ) -> Result<Report, Error> {
         let program: Program = self.program.clone();
         let mut again = Vec::new();
         self.run_pending(Cursor::new(cl), &mut again)?;
-        let compared = match interpret::events(&again, "the second run", dialect) {
-            Ok(again) => interpret::events(nc.text, nc.name, dialect).and_then(|events| {
-                let mut report = compare_programs(&again, &events, tolerance);
-                look_at_blocks(&events, program.commons(), between, &mut report)?;
-                Ok(report)
-            }),
-            Err(refused) => compare_words(&again, (nc.text, nc.name), &refused, tolerance),
+        let compare = |dialect: &Dialect| {
+            compare_with_run(&again, nc, dialect, program.commons(), &allowed).map_err(Error::Run)
         };
-        let report = compared.map_err(Error::Run)?;
+        let mut report = compare(dialect)?;
+        let texts = [&again[..], nc.text];
+        if texts.iter().any(|text| interpret::has_skipped_blocks(text, dialect)) {
+            report = report.with_blocks_left_out(compare(&dialect.skipping_blocks())?);
+        }
         refuse_another_part(&report).map_err(Error::Run)?;
         Ok(report)
     }
+}
+
+/// Compares with a program that the post has made; when that can't be followed, by blocks.
+fn compare_with_run(
+    again: &[u8],
+    nc: NcProgram<'_>,
+    dialect: &Dialect,
+    commons: &Commons,
+    &Allowed { tolerance, between, .. }: &Allowed,
+) -> Result<Report, Box<Diag>> {
+    match interpret::events(again, "the second run", dialect) {
+        Ok(again) => {
+            let events = events(nc, dialect)?;
+            let mut report = compare_programs(&again, &events, tolerance);
+            look_at_blocks(&events, commons, between, &mut report)?;
+            Ok(report)
+        }
+        Err(refused) => compare_words(again, (nc.text, nc.name), &refused, tolerance),
+    }
+}
+
+/// What a program does; a refusal says when blocks are left out.
+fn events(nc: NcProgram<'_>, dialect: &Dialect) -> Result<Vec<Event>, Box<Diag>> {
+    interpret::events(nc.text, nc.name, dialect).map_err(|mut refused| {
+        if dialect.leaves_blocks_out() {
+            refused.message.push_str(", with the blocks behind / left out");
+        }
+        refused
+    })
 }

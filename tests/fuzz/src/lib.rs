@@ -17,7 +17,8 @@ use filpost::map::{Digest, Entry, MapReader};
 use filpost::{Builder, Commons, Limits, Program};
 use filpost_tests::duel::{fight, reduce};
 use filpost_tests::programs::{Dice, case};
-use filpost_tests::{back_check, tip_program};
+use filpost_tests::back_check::{self, Both};
+use filpost_tests::tip_program;
 
 /// Small, so that an input takes milliseconds at most.
 const LIMITS: Limits =
@@ -140,6 +141,7 @@ pub fn nc_bytes(data: &[u8]) {
         }
     }
     let mut events = Vec::new();
+    let _ = interpret(nc, "fuzz.nc", &dialect.skipping_blocks(), &mut |event| finite(&event));
     let _ = interpret(nc, "fuzz.nc", dialect, &mut |event| {
         finite(&event);
         if events.len() < DRAWN {
@@ -150,8 +152,9 @@ pub fn nc_bytes(data: &[u8]) {
     let picture = svg(&drawing, &View::ALL);
     assert!(!picture.contains("NaN") && !picture.contains("inf"), "{picture}");
     compare(nc);
-    let allowed = Allowed { tolerance: None, between: Some(0.01) };
-    if let Ok(report) = back_check::compare(commons, PART.as_bytes(), (nc, &events), allowed) {
+    let allowed = Allowed { between: Some(0.01), ..Allowed::default() };
+    let both = Both { all: events, left_out: None };
+    if let Ok(report) = back_check::compare(commons, PART.as_bytes(), (nc, &both), allowed) {
         let deviations = [report.position.max, report.axis.max];
         assert!(deviations.iter().all(|max| max.is_finite()), "{report:?}");
     }

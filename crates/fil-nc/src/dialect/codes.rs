@@ -334,6 +334,11 @@ impl Functions {
         }
     }
 
+    /// A code stands for this function.
+    pub(super) fn holds(&self, function: Function) -> bool {
+        self.0.values().any(|found| *found == function)
+    }
+
     pub(super) fn get(&self, tenths: i64) -> Option<Function> {
         self.0.get(&tenths).copied()
     }

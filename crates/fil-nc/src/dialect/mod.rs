@@ -6,6 +6,7 @@
 mod codes;
 mod marks;
 mod numbers;
+mod start;
 
 use fil_diag::Diag;
 use fil_machine::Letter;
@@ -16,6 +17,7 @@ use fil_machine::locations::Location;
 use codes::{Auxiliaries, Functions};
 pub use codes::{Auxiliary, CycleKind, FeedMode, Function, Group};
 pub use numbers::{Address, Unreadable};
+pub(crate) use start::Certain;
 
 /// Names of the six axes that settings know, as their keys end.
 const AXIS_NAMES: [&str; 6] = ["x", "y", "z", "a", "b", "c"];
@@ -120,6 +122,12 @@ pub struct Dialect {
     pub(crate) start: [Option<f64>; 5],
     pub(crate) plane: usize,
     pub(crate) feed_mode: FeedMode,
+    /// Axis words are positions when the program begins, else increments.
+    pub(crate) absolute: bool,
+    /// The modes that are certain when the program begins.
+    pub(crate) certain: Certain,
+    /// The switch of the control is on by which blocks with a skip mark are left out.
+    pub(crate) skips_blocks: bool,
     pub(crate) center: CenterForm,
     pub(crate) depth: DepthForm,
     pub(crate) tool_call: ToolCall,
@@ -229,9 +237,12 @@ impl Dialect {
             tables,
             tip_control_anywhere: settings.code("rotary.tip_control") == Some(1),
             lathe,
-            metric: settings.code("units.mode") != Some(1),
-            plane: functions.plane(settings.code("circle.plane")),
-            feed_mode: functions.feed_mode(settings.code("feed.mode")),
+            metric: start::metric(&settings),
+            plane: functions.plane(start::in_force(&settings, "circle.plane")),
+            feed_mode: functions.feed_mode(start::in_force(&settings, "feed.mode")),
+            absolute: start::absolute(&settings),
+            certain: Certain::new(&settings, &functions),
+            skips_blocks: false,
             functions,
             auxiliaries: Auxiliaries::new(&settings),
             marks: marks::Marks::new(&settings),
@@ -284,9 +295,25 @@ impl Dialect {
         })
     }
 
+    /// The same control with its switch on by which blocks are left out.
+    #[must_use]
+    pub fn skipping_blocks(&self) -> Dialect {
+        Dialect { skips_blocks: true, ..self.clone() }
+    }
+
+    /// Its switch is on by which blocks are left out.
+    pub fn leaves_blocks_out(&self) -> bool {
+        self.skips_blocks
+    }
+
     /// What a G word means, its number in tenths (`G68.2` is 682).
     pub fn function(&self, tenths: i64) -> Option<Function> {
         self.functions.get(tenths)
+    }
+
+    /// S can be a surface speed.
+    pub(crate) fn has_surface_speed(&self) -> bool {
+        self.functions.holds(Function::Surface(true))
     }
 
     /// What an M word means; an M word that the machine does not name

@@ -1,11 +1,12 @@
 //! One block: modes first, then tool and spindle, then the motion.
 
 use super::Fault;
+use super::left_to_control::Uses;
 use super::state::State;
 use super::words::{Words, letter};
 use crate::dialect::{Auxiliary, CycleKind, FeedMode, Function, Group};
 use crate::errors::NcCode;
-use crate::motion::{Course, Event};
+use crate::motion::{Course, Event, Modes};
 use crate::text::Block;
 
 const P: u8 = letter(b'P');
@@ -43,6 +44,7 @@ impl State<'_> {
         self.check_tip_control(&words)?;
         let begins = words.peek(Group::Length) == Some(Function::TipControl);
         let (stood, known) = (self.at, self.known);
+        let uses = Uses::of(&words, self.dialect);
         self.modes(&mut words)?;
         self.tool_and_spindle(&mut words)?;
         self.auxiliaries(&words);
@@ -51,8 +53,12 @@ impl State<'_> {
             self.check_begun(&stood, &known)?;
         }
         words.finish()?;
+        if !self.certain.all() {
+            self.tell_left_to_control(uses);
+        }
         if let Outcome::End(code) = outcome {
-            self.events.push(Event::End { line: self.line, code: Some(code), modes: self.modes });
+            let modes = Modes { cycle: self.cycle.is_some(), ..self.modes };
+            self.events.push(Event::End { line: self.line, code: Some(code), modes });
         }
         Ok(outcome)
     }

@@ -8,6 +8,7 @@ mod arc;
 mod block;
 mod cycle;
 mod klartext;
+mod left_to_control;
 mod modes;
 mod program;
 mod state;
@@ -71,6 +72,12 @@ pub fn interpret(
         Family::WordAddress => program::Program::new(text, name, dialect).run(take),
         Family::Klartext => klartext::run(text, name, dialect, take),
     }
+}
+
+/// True when the program has blocks that the control leaves out when its switch is on
+/// ([`Dialect::skips_blocks`]).
+pub fn has_skipped_blocks(text: &[u8], dialect: &Dialect) -> bool {
+    dialect.family == Family::WordAddress && program::has_skipped_blocks(text, dialect)
 }
 
 /// The events of a whole program.

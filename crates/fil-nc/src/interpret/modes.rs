@@ -5,7 +5,7 @@ use super::state::State;
 use super::words::{Words, letter};
 use crate::dialect::{Auxiliary, Function, Group, ToolCall};
 use crate::errors::NcCode;
-use crate::motion::{Compensation, Event, FOOT, Speed, Spindle, WORD_OFFSETS};
+use crate::motion::{Compensation, Event, FOOT, Modes, Speed, Spindle, StartMode, WORD_OFFSETS};
 
 pub(super) const H: u8 = letter(b'H');
 const S: u8 = letter(b'S');
@@ -15,12 +15,14 @@ impl State<'_> {
     /// Takes up all modal functions but the motion.
     pub(super) fn modes(&mut self, words: &mut Words) -> Result<(), Fault> {
         if let Some(Function::Units { metric }) = words.function(Group::Units) {
+            self.certain.say(StartMode::Unit);
             if self.metric != metric {
                 self.feed = None;
             }
             self.metric = metric;
         }
         if let Some(Function::Feed(mode)) = words.function(Group::Feed) {
+            self.certain.say(StartMode::Feed);
             if self.feed_mode != mode {
                 self.feed = None;
             }
@@ -28,12 +30,15 @@ impl State<'_> {
         }
         if let Some(Function::Plane(normal)) = words.function(Group::Plane) {
             self.plane = normal;
+            self.certain.say(StartMode::Plane);
         }
         if let Some(Function::Positions { absolute }) = words.function(Group::Positions) {
             self.absolute = absolute;
+            self.certain.say(StartMode::Positions);
         }
         if let Some(Function::Return { initial }) = words.function(Group::Return) {
             self.return_initial = initial;
+            self.certain.say(StartMode::ReturnLevel);
         }
         self.work_offset(words)?;
         words.function(Group::PathControl);
@@ -42,7 +47,8 @@ impl State<'_> {
 
     /// A work offset by its code, by its code and a number, or by a word.
     fn work_offset(&mut self, words: &mut Words) -> Result<(), Fault> {
-        match words.function(Group::Fixture) {
+        let function = words.function(Group::Fixture);
+        match function {
             Some(Function::Fixture(code)) => self.fixture(code),
             Some(Function::NumberedFixture(tenths)) => {
                 let number = words.take_whole(self.dialect.fixture_number)?;
@@ -54,6 +60,9 @@ impl State<'_> {
         }
         let by_word = self.dialect.fixture_word > 0 && words.peek(Group::Length).is_none();
         if by_word && let Some(number) = words.take_whole(self.dialect.fixture_word)? {
+            if function.is_some() {
+                return Err(Fault::new(NcCode::Twice, "two work offsets in one block"));
+            }
             self.fixture(WORD_OFFSETS + number);
         }
         Ok(())
@@ -88,18 +97,21 @@ impl State<'_> {
                 let offset = words.take_whole(H)?;
                 let missing = || Fault::new(NcCode::MissingWord, "the length offset needs its H");
                 self.modes.length_offset = Some(offset.ok_or_else(missing)?);
+                self.modes.stray_offset = None;
                 self.length_is_on = true;
             }
             Some(Function::TipControl) => self.begin_tip_control(words)?,
             Some(_) => {
                 words.take_whole(H)?;
                 self.modes.length_offset = None;
+                self.modes.stray_offset = None;
                 self.end_tip_control();
             }
             // A tool change may end the function: then H alone is not certain to act.
             None if self.modes.length_offset.is_some() && words.has(H) => {
                 let offset = words.take_whole(H)?;
                 self.modes.length_offset = offset.filter(|_| self.length_is_on);
+                self.modes.stray_offset = offset.filter(|_| !self.length_is_on);
             }
             None => {}
         }
@@ -113,6 +125,7 @@ impl State<'_> {
                 self.modes.speed = None;
             }
             self.surface = on;
+            self.certain.say(StartMode::Surface);
         }
         if words.peek(Group::Once) == Some(Function::SpeedLimit) {
             words.function(Group::Once);
@@ -186,7 +199,8 @@ impl State<'_> {
     }
 
     pub(super) fn change(&mut self, tool: u32) {
-        self.events.push(Event::ToolChange { line: self.line, tool, modes: self.modes });
+        let modes = Modes { cycle: self.cycle.is_some(), ..self.modes };
+        self.events.push(Event::ToolChange { line: self.line, tool, modes });
         self.length_is_on = false;
         self.modes.tool = tool;
     }

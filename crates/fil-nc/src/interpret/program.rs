@@ -19,6 +19,9 @@ const MAX_DEPTH: usize = 16;
 /// Most motions that calls may make in all, blocks without one counted too.
 const MAX_CALLED: usize = 5_000_000;
 
+/// The mark of blocks that may be skipped, as [`Marks`](crate::dialect) give it.
+const SKIP: u8 = b'/';
+
 /// Where the reading stands.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Part {
@@ -126,6 +129,9 @@ impl<'a> Program<'a> {
         take: &mut dyn FnMut(Event),
     ) -> Result<Option<usize>, Box<Diag>> {
         let line = &*self.dialect.marks.read(line);
+        if self.dialect.skips_blocks && may_be_skipped(line) {
+            return Ok(None);
+        }
         let block = match read_block(line, self.name, number) {
             Ok(block) => block,
             Err(diag) if self.part == Part::Head && !self.marked => {
@@ -259,6 +265,16 @@ impl<'a> Program<'a> {
             text,
         )))
     }
+}
+
+/// A line that begins with the skip mark.
+fn may_be_skipped(line: &[u8]) -> bool {
+    line.trim_ascii_start().first() == Some(&SKIP)
+}
+
+/// True when the program does something else with blocks left out that may be skipped.
+pub(super) fn has_skipped_blocks(text: &[u8], dialect: &Dialect) -> bool {
+    text.split(|byte| *byte == b'\n').any(|line| may_be_skipped(&dialect.marks.read(line)))
 }
 
 fn after_end() -> Fault {

@@ -4,7 +4,7 @@ use super::Fault;
 use super::cycle::Cycle;
 use super::thread::{Pass, Setup};
 use super::words::AxisWord;
-use crate::dialect::{Dialect, FeedMode, Function};
+use crate::dialect::{Certain, Dialect, FeedMode, Function};
 use crate::errors::NcCode;
 use crate::motion::{Arc, Course, Event, Modes, Move, Position, Rate, unit};
 
@@ -34,6 +34,8 @@ pub(super) struct State<'d> {
     /// S is a surface speed.
     pub(super) surface: bool,
     pub(super) return_initial: bool,
+    /// The modes that a block has said, or the machine.
+    pub(super) certain: Certain,
     pub(super) cycle: Option<Cycle>,
     pub(super) pass: Option<Pass>,
     pub(super) setup: Option<Setup>,
@@ -56,13 +58,14 @@ impl<'d> State<'d> {
             motion: None,
             plane: dialect.plane,
             metric: dialect.metric,
-            absolute: true,
+            absolute: dialect.absolute,
             feed_mode: dialect.feed_mode,
             feed: None,
             arc_radius: None,
             length_is_on: false,
             surface: false,
             return_initial: dialect.return_initial,
+            certain: dialect.certain,
             cycle: None,
             pass: None,
             setup: None,

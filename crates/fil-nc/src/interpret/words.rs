@@ -183,6 +183,12 @@ impl Words {
         self.first_axis(dialect).is_some()
     }
 
+    /// True when an axis word is left that is no increment by its letter.
+    pub(super) fn has_plain_axes(&self, dialect: &Dialect) -> bool {
+        let plain = |item: &Item| !item.increment && dialect.axis(item.letter).is_some();
+        self.items.iter().any(plain)
+    }
+
     /// Where the first axis word stands that is left.
     pub(super) fn first_axis(&self, dialect: &Dialect) -> Option<&Range<usize>> {
         let axis = self.items.iter().find(|item| dialect.axis(item.letter).is_some());

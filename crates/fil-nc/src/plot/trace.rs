@@ -96,7 +96,10 @@ pub fn nc_trace(events: &[Event], forward: &Forward) -> Trace {
                 at = motion.to;
             }
             Event::ToolChange { line, tool, .. } => builder.change(*line, *tool),
-            Event::Dwell { .. } | Event::Auxiliary { .. } | Event::End { .. } => {}
+            Event::Dwell { .. }
+            | Event::Auxiliary { .. }
+            | Event::LeftToControl { .. }
+            | Event::End { .. } => {}
         }
     }
     builder.trace

@@ -218,7 +218,7 @@ impl<C: Steps> Walk<'_, C> {
                     self.find(FindingKind::Extra, Some(cl_line), Some(line), message);
                     self.next += 1;
                 }
-                Event::Auxiliary { .. } => self.next += 1,
+                Event::Auxiliary { .. } | Event::LeftToControl { .. } => self.next += 1,
                 Event::End { .. } => return,
             }
         }

@@ -57,7 +57,9 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn unknown(&mut self, cl_line: u32, what: &str, effect: Effect) {
         let open = match effect {
             Effect::Auxiliary => "what its M function does was not compared",
-            Effect::Words | Effect::AnyWords => "what it writes was not compared",
+            Effect::Words | Effect::WordsOrOffset | Effect::AnyWords => {
+                "what it writes was not compared"
+            }
             Effect::Path => {
                 "the CL file does not say what path it makes; nothing after it was compared"
             }

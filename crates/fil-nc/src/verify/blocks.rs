@@ -70,8 +70,12 @@ fn bare(line: &[u8]) -> String {
     // Lines of Klartext begin with their number.
     let number = bare.iter().take_while(|byte| byte.is_ascii_digit()).count();
     bare.drain(..number);
-    if bare.first() == Some(&b'N') {
-        let digits = bare[1..].iter().take_while(|byte| byte.is_ascii_digit()).count();
+    // A text may have a number of its own behind that of the post.
+    loop {
+        let digits = bare.iter().skip(1).take_while(|byte| byte.is_ascii_digit()).count();
+        if bare.first() != Some(&b'N') || digits == 0 {
+            break;
+        }
         bare.drain(..=digits);
     }
     String::from_utf8_lossy(&bare).into_owned()

@@ -127,7 +127,7 @@ impl<C: Steps> Walk<'_, C> {
             reached = depth;
         }
         self.bottom_dwell(cl_line, hole)?;
-        self.retract(cl_line, hole.kind, levels.clear, (rest, turning))
+        self.retract(cl_line, hole, levels.clear, (rest, turning))
     }
 
     /// The motions over the hole, down to the R level. Gives the level to return to.
@@ -212,8 +212,9 @@ impl<C: Steps> Walk<'_, C> {
         self.vertical(&back)?;
         let (slack, peck_gap) = (self.slack.linear[2], self.settings.peck_gap());
         let gap = back.to.linear[2] - reached;
-        // How far a control comes back by itself is a parameter of the control.
-        let right = if back.in_cycle { gap > 0.0 } else { (gap - peck_gap).abs() <= 2.0 * slack };
+        // How far a control comes back by itself is a parameter of it, or a word of its cycle.
+        let by_itself = back.in_cycle && !self.settings.says_peck_gap();
+        let right = if by_itself { gap > 0.0 } else { (gap - peck_gap).abs() <= 2.0 * slack };
         let above = (back.to.linear[2] - levels.clear).abs() <= slack && gap <= peck_gap + slack;
         if back.course == Course::Rapid && (right || above) {
             self.take(cl_line, &back);
@@ -290,10 +291,11 @@ impl<C: Steps> Walk<'_, C> {
     fn retract(
         &mut self,
         cl_line: u32,
-        kind: CycleKind,
+        hole: &Hole,
         clear: f64,
         (rest, turning): (f64, Spindle),
     ) -> Result<(), (u32, String)> {
+        let kind = hole.kind;
         let out = self.way_out(kind);
         let Some(first) = self.next_move() else {
             return Err((self.next_line(), "the tool stays in the hole".to_string()));
@@ -306,6 +308,9 @@ impl<C: Steps> Walk<'_, C> {
         };
         if !course {
             return Err((first.line, format!("{} out of the hole", self.spell_move(&first))));
+        }
+        if first.course == Course::Feed {
+            self.check_rate(cl_line, self.at, &first, hole.rate);
         }
         let spindle = match (self.settings.cycle_code(kind), out) {
             (Some(86), _) => Spindle::Off,

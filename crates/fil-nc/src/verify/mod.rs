@@ -16,6 +16,7 @@ mod cl_path;
 mod gap;
 mod hole;
 mod hole_tip;
+mod inserted;
 mod lines;
 mod machine_ends;
 mod modes;
@@ -23,6 +24,7 @@ mod parts;
 mod programs;
 mod rate;
 mod report;
+mod rules;
 mod say;
 mod settings;
 mod statements;
@@ -63,16 +65,22 @@ pub struct Check<'a> {
     pub commons: &'a Commons,
     /// What is allowed.
     pub allowed: Allowed,
+    /// The events are those with the blocks left out that may be skipped, so what stands
+    /// between OPSKIP/ON and OPSKIP/OFF is not asked for.
+    pub skips_blocks: bool,
 }
 
 /// What a program may be off by.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Allowed {
     /// Besides the last digit of each address, mm and degrees; `None` for nothing.
     pub tolerance: Option<f64>,
     /// Of the tip between the ends of motions that turn the machine, mm; `None` for
     /// what LINTOL of the CL file says, or anything.
     pub between: Option<f64>,
+    /// Work offsets (see [`Modes::fixture`](crate::motion::Modes::fixture)) that the program
+    /// may choose where the CL file names none.
+    pub offsets: Vec<u32>,
 }
 
 /// Compares a program with the CL file it should come from.
@@ -83,10 +91,13 @@ pub struct Allowed {
 pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
     let settings = Settings::new(check.commons, check.allowed.tolerance)?;
     let path = ClPath::new(check.cl, check.cl_name, settings.input_shift());
-    let path = path.in_unit(check.unit);
+    let path = path.in_unit(check.unit).leaving_out(check.skips_blocks);
     let own = OwnBlocks::new(check.nc, &settings.own_blocks());
     let watch = Watch::new(check.allowed.between);
-    let report = walk::Walk::new(path, check.events, own, &settings, watch).all()?;
+    let mut walk = walk::Walk::new(path, check.events, own, &settings, watch);
+    walk.modes.allow_offsets(check.allowed.offsets);
+    let mut report = walk.all()?;
+    rules::Rules::check(check.events, &mut report);
     refuse_another_part(&report)?;
     Ok(report)
 }

@@ -14,7 +14,7 @@ const ANGLE: f64 = 6e-4;
 
 /// A state that may change with a motion.
 #[derive(Clone, Copy, Debug)]
-struct Lag<T> {
+pub(super) struct Lag<T> {
     now: T,
     next: Option<(T, Due)>,
 }
@@ -24,7 +24,7 @@ impl<T: Copy + PartialEq> Lag<T> {
         Lag { now, next: None }
     }
 
-    fn set(&mut self, value: T, due: Due) {
+    pub(super) fn set(&mut self, value: T, due: Due) {
         if due == Due::Now {
             *self = Lag::new(value);
         } else {
@@ -75,27 +75,31 @@ enum Doing {
 /// What must be in force. `None` inside is a state that is not known.
 #[derive(Clone, Debug)]
 pub(super) struct Expected {
-    tool: Option<u32>,
+    pub(super) tool: Option<u32>,
     /// The tool that LOADTL named last.
     loaded: Option<u32>,
-    offset: Lag<Option<u32>>,
+    pub(super) offset: Lag<Option<u32>>,
     /// The side, and the number of the offset.
-    compensation: Lag<(Compensation, Option<u32>)>,
-    spindle: Lag<Option<Spindle>>,
+    pub(super) compensation: Lag<(Compensation, Option<u32>)>,
+    pub(super) spindle: Lag<Option<Spindle>>,
     /// Angle of the oriented spindle; `None` when none is asked for.
-    orientation: Option<f64>,
+    pub(super) orientation: Option<f64>,
     /// The spindle range; `None` when none is asked for.
-    range: Option<u8>,
+    pub(super) range: Option<u8>,
     /// The record that is taken up names the range.
     range_is_named: bool,
-    speed: Lag<Option<Speed>>,
+    pub(super) speed: Lag<Option<Speed>>,
     /// A speed was asked for, or words of the user's own may have set one.
-    has_speed: bool,
+    pub(super) has_speed: bool,
     /// `None` inside where words of the user's own may have set it.
-    speed_limit: Option<Option<f64>>,
-    coolant: Lag<Option<u32>>,
+    pub(super) speed_limit: Option<Option<f64>>,
+    pub(super) coolant: Lag<Option<u32>>,
     /// `None` when words of the user's own may have chosen it.
-    fixture: Option<Option<u32>>,
+    pub(super) fixture: Option<Option<u32>>,
+    /// Work offsets that may be chosen where none is asked for.
+    allowed_offsets: Vec<u32>,
+    /// The CL file has asked for a work offset.
+    asks_fixture: bool,
     /// The length offset seen last.
     offset_on: Option<u32>,
     /// What was wrong at the last motion, so that it is said once.
@@ -118,9 +122,16 @@ impl Expected {
             speed_limit: Some(settings.speed_limit_at_start()),
             coolant: Lag::new(None),
             fixture: Some(fixture_of(&settings.own_blocks())),
+            allowed_offsets: Vec::new(),
+            asks_fixture: false,
             offset_on: None,
             said: Vec::new(),
         }
+    }
+
+    /// Work offsets that the program may choose where the CL file asks for none.
+    pub(super) fn allow_offsets(&mut self, offsets: Vec<u32>) {
+        self.allowed_offsets = offsets;
     }
 
     /// The tool that must be in the spindle, as far as it is known.
@@ -167,11 +178,22 @@ impl Expected {
                 self.compensation.set((*side, offset), settings.compensation_due());
             }
             Wanted::Stop { .. } | Wanted::End(_) => self.flush(),
-            Wanted::WorkOffset(number) => self.fixture = settings.work_offset(*number).map(Some),
-            Wanted::Fixture(code) => self.fixture = Some(Some(*code)),
-            Wanted::Unknown { effect: Effect::Words | Effect::AnyWords | Effect::Path, .. } => {
+            Wanted::Insert(text) => self.insert(text, settings),
+            Wanted::WorkOffset(number) => {
+                self.fixture = settings.work_offset(*number).map(Some);
+                self.asks_fixture = true;
+            }
+            Wanted::Fixture(code) => {
+                self.fixture = Some(Some(*code));
+                self.asks_fixture = true;
+            }
+            Wanted::Unknown { effect: Effect::AnyWords | Effect::Path, .. } => {
                 (self.fixture, self.speed_limit, self.range) = (None, None, None);
-                self.has_speed |= !matches!(wanted, Wanted::Unknown { effect: Effect::Words, .. });
+                self.has_speed = true;
+            }
+            Wanted::Unknown { effect: Effect::WordsOrOffset, .. } => self.fixture = None,
+            Wanted::Unknown { effect: Effect::Words, .. } if settings.chooses_offsets_by_word() => {
+                self.fixture = None;
             }
             Wanted::Unknown { effect: Effect::Auxiliary, .. } => self.range = None,
             _ => {}
@@ -258,6 +280,11 @@ impl Expected {
         self.news(wrong)
     }
 
+    /// The length offset at the last motion.
+    pub(super) fn offset_on(&self) -> Option<u32> {
+        self.offset_on
+    }
+
     /// A length offset is still to be called.
     pub(super) fn offset_waits(&self) -> bool {
         self.offset.next.is_some()
@@ -333,7 +360,11 @@ impl Expected {
             let said = format!("coolant is {}, it should be {}", name(modes.coolant), name(must));
             wrong.push((FindingKind::Coolant, said));
         }
-        if let Some(must) = self.fixture.filter(|must| *must != modes.fixture) {
+        let allowed = |found: Option<u32>| {
+            !self.asks_fixture && found.is_some_and(|found| self.allowed_offsets.contains(&found))
+        };
+        let other = |must: &Option<u32>| *must != modes.fixture && !allowed(modes.fixture);
+        if let Some(must) = self.fixture.filter(other) {
             let name = |fixture: Option<u32>| fixture.map_or("none".to_string(), name_of_fixture);
             let (found, must) = (name(modes.fixture), name(must));
             wrong.push((FindingKind::Fixture, format!("work offset {found}, it should be {must}")));

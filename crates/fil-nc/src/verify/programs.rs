@@ -6,9 +6,12 @@
 //! this finds what was changed in a program, not what was wrong with it from the
 //! start.
 
+use std::borrow::Cow;
+
 use fil_diag::Diag;
 
 use super::report::{Finding, FindingKind, Report, Unverified};
+use super::rules::Rules;
 use super::say::{sense, short, way};
 use crate::diff;
 use crate::motion::{Course, Event, Modes, Move, Rate};
@@ -21,14 +24,22 @@ const DUST: f64 = 1e-7;
 
 /// Differences of a program from a reference; `tolerance` in mm and degrees.
 pub fn compare_programs(wanted: &[Event], found: &[Event], tolerance: Option<f64>) -> Report {
-    let mut pair = Pair {
-        wanted,
-        found,
-        tolerance: tolerance.unwrap_or(0.0) + DUST,
-        report: Report::default(),
-    };
+    let [motions, made] = [wanted, found].map(without_left_to_control);
+    let tolerance = tolerance.unwrap_or(0.0) + DUST;
+    let report = Report::default();
+    let mut pair = Pair { wanted: &motions, found: &made, tolerance, report };
     pair.all();
+    Rules::check(found, &mut pair.report);
     pair.report
+}
+
+/// The events without those of modes that a program leaves to the control.
+fn without_left_to_control(events: &[Event]) -> Cow<'_, [Event]> {
+    let is_left = |event: &Event| matches!(event, Event::LeftToControl { .. });
+    if !events.iter().any(is_left) {
+        return Cow::Borrowed(events);
+    }
+    events.iter().filter(|event| !is_left(event)).copied().collect()
 }
 
 /// Compares two programs word by word, for one that the interpreter refuses, so that
@@ -337,6 +348,7 @@ fn spell(event: &Event) -> String {
         Event::ToolChange { tool, .. } => format!("change to tool {tool}"),
         Event::Dwell { seconds, .. } => format!("dwell of {}", dwell(*seconds)),
         Event::Auxiliary { code, .. } => format!("M{code}"),
+        Event::LeftToControl { mode, .. } => mode.name().to_string(),
         Event::End { .. } => "end of the program".to_string(),
     }
 }

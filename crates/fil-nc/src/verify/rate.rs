@@ -12,7 +12,7 @@ const PITCH: f64 = 0.0005;
 /// Steps in which the way of a tip is measured that axes turn on it.
 const STEPS: u32 = 64;
 
-/// A tip that goes less than this stands, mm; how fast is then nobody's business.
+/// A tip that goes less than this stands, mm: the feed of the CL file says nothing then.
 const STANDS: f64 = 1e-3;
 
 impl<C: Steps> Walk<'_, C> {
@@ -97,7 +97,10 @@ impl<C: Steps> Walk<'_, C> {
                 [rate / length, 1.0 / time].map(|it| self.settings.inverse_within(it));
             (inverse - asked).abs() <= slack || (inverse - slower).abs() <= slack
         };
-        if way < STANDS || agrees(straight) || agrees(way) {
+        if way < STANDS {
+            return self.check_turn(cl_line, found, turned, inverse);
+        }
+        if agrees(straight) || agrees(way) {
             return;
         }
         let message = format!(
@@ -108,6 +111,24 @@ impl<C: Steps> Walk<'_, C> {
             short(rate)
         );
         self.find(FindingKind::Feed, Some(cl_line), Some(found.line), message);
+    }
+
+    /// Inverse time where the tip stands: the turn takes as long as the machine needs for it,
+    /// where its settings say that.
+    fn check_turn(&mut self, cl_line: u32, found: &Move, turned: f64, inverse: f64) {
+        let time = self.settings.turning_time(0.0, turned);
+        if time == 0.0 {
+            return;
+        }
+        let must = self.settings.inverse_within(1.0 / time);
+        if (inverse - must).abs() > self.slack.inverse {
+            let message = format!(
+                "feed {} blocks a minute, it should be {}, as long as the turn takes at least",
+                short(inverse),
+                short(must)
+            );
+            self.find(FindingKind::Feed, Some(cl_line), Some(found.line), message);
+        }
     }
 
     /// A feed a minute that is counted over the way of the axes, as the machine takes it in

@@ -53,6 +53,8 @@ pub enum FindingKind {
     Units,
     /// A line of the tape that the settings or INSERT ask for.
     Block,
+    /// A mode that the program depends on and leaves to the control.
+    StartMode,
     /// The end of the program.
     End,
 }
@@ -84,6 +86,7 @@ impl FindingKind {
             FindingKind::Limit => "limit",
             FindingKind::Units => "units",
             FindingKind::Block => "block",
+            FindingKind::StartMode => "start-mode",
             FindingKind::End => "end",
         }
     }
@@ -193,6 +196,24 @@ impl Report {
             () if !self.unverified.is_empty() => Verdict::Partly,
             () => Verdict::Agrees,
         }
+    }
+
+    /// Takes up what was found when the control left out the blocks that may be skipped.
+    #[must_use]
+    pub fn with_blocks_left_out(mut self, other: Report) -> Report {
+        for finding in other.findings {
+            if !self.findings.contains(&finding) {
+                let message = format!("{}, with the blocks behind / left out", finding.message);
+                self.find(Finding { message, ..finding });
+            }
+        }
+        self.more += other.more;
+        for open in other.unverified {
+            if !self.unverified.contains(&open) {
+                self.unverified.push(open);
+            }
+        }
+        self
     }
 
     pub(super) fn find(&mut self, finding: Finding) {

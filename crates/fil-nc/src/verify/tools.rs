@@ -32,6 +32,12 @@ impl<C: Steps> Walk<'_, C> {
                 self.find(FindingKind::Tool, Some(cl_line), Some(line), message);
             }
             let at_once = self.settings.calls_tools_with_offset();
+            let before = self.modes.offset_on();
+            let early = modes.length_offset.filter(|taken| !at_once && before != Some(*taken));
+            if let Some(taken) = early {
+                let message = format!("length offset {taken} is called before the tool changes");
+                self.find(FindingKind::Tool, Some(cl_line), Some(line), message);
+            }
             let taken = modes.length_offset.unwrap_or(0);
             if at_once && taken != offset {
                 let message = format!("length offset {taken} is taken up, it should be {offset}");
@@ -63,19 +69,20 @@ impl<C: Steps> Walk<'_, C> {
         let value = |at: &Position, n: usize| {
             if n < 3 { forward.restated(at, false).linear[n] } else { at.rotary[n - 3] }
         };
-        let near = |at: &Position, n: usize| match wanted[n] {
+        let near = |at: &Position, known: &[bool; 5], n: usize| match wanted[n] {
+            Some(_) if !known[n] => false,
             Some(wanted) => {
                 let slack = if n < 3 { self.slack.linear[n] } else { self.slack.rotary[n - 3] };
                 (value(at, n) - wanted).abs() <= slack
             }
             None => true,
         };
-        if (0..5).all(|n| near(&self.at, n)) {
+        if (0..5).all(|n| near(&self.at, &self.known, n)) {
             return;
         }
         let reached = self.nc[self.next..].iter().take(RAPID_PARTS).position(|event| match event {
             Event::Move(found) => {
-                found.course == Course::Rapid && (0..5).all(|n| near(&found.to, n))
+                found.course == Course::Rapid && (0..5).all(|n| near(&found.to, &found.known, n))
             }
             _ => false,
         });

@@ -270,6 +270,10 @@ impl<'a, C: Steps> Walk<'a, C> {
                     self.next += 1;
                 }
                 Some(Event::Dwell { line, .. }) if self.own.has(line) => self.next += 1,
+                Some(Event::ToolChange { line, tool, .. }) if self.own.has(line) => {
+                    self.modes.insert_tool(tool);
+                    self.next += 1;
+                }
                 _ => return,
             }
         }
@@ -337,7 +341,20 @@ impl<'a, C: Steps> Walk<'a, C> {
 
     /// The gap between where the axes stand and a pose.
     pub(super) fn gap(&self, at: &Position, pose: &Pose) -> Gap {
+        if self.slack.kept > 0.0 {
+            return Gap::of(self.settings, &self.slack_of_moved(at), at, pose, self.exact);
+        }
         Gap::of(self.settings, &self.slack, at, pose, self.exact)
+    }
+
+    /// The slack of a position that the axes come to: those that move are written.
+    #[cold]
+    fn slack_of_moved(&self, to: &Position) -> Slack {
+        let mut slack = self.slack;
+        for n in (0..3).filter(|n| to.linear[*n] != self.at.linear[*n]) {
+            slack.linear[n] -= slack.kept;
+        }
+        slack
     }
 
     /// All axes that the program writes are known.
@@ -414,17 +431,17 @@ impl<'a, C: Steps> Walk<'a, C> {
 
 /// The events of the axes; the auxiliary functions are kept beside them.
 fn without_auxiliaries<'a>(nc: &'a [Event], kept: &mut Auxiliaries) -> Cow<'a, [Event]> {
+    let is_beside =
+        |event: &Event| matches!(event, Event::Auxiliary { .. } | Event::LeftToControl { .. });
     let mut any = false;
-    for event in nc {
+    for event in nc.iter().filter(|event| is_beside(event)) {
+        any = true;
         if let Event::Auxiliary { line, code } = event {
             kept.found(*line, *code);
-            any = true;
         }
     }
     match any {
         false => Cow::Borrowed(nc),
-        true => {
-            nc.iter().filter(|event| !matches!(event, Event::Auxiliary { .. })).copied().collect()
-        }
+        true => nc.iter().filter(|event| !is_beside(event)).copied().collect(),
     }
 }

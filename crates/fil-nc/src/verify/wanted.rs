@@ -112,8 +112,11 @@ pub enum End {
 pub enum Effect {
     /// An M function.
     Auxiliary,
-    /// Words of the user's own, without M and S; the motions of the CL file go on.
+    /// Words of the user's own, none of them M, S or a work offset by its function; the
+    /// motions of the CL file go on.
     Words,
+    /// The same, and one of them may be the function of a work offset.
+    WordsOrOffset,
     /// Words of the user's own, M or S too.
     AnyWords,
     /// The path from here on.
@@ -228,6 +231,23 @@ pub struct Hole {
 }
 
 impl Wanted {
+    /// True for what blocks do, false for what holds on after them.
+    pub fn is_done_once(&self) -> bool {
+        self.end().is_some()
+            || matches!(
+                self,
+                Wanted::Home
+                    | Wanted::Retract
+                    | Wanted::Tool { .. }
+                    | Wanted::Dwell(_)
+                    | Wanted::Stop { .. }
+                    | Wanted::RigidTap
+                    | Wanted::Clamp(_)
+                    | Wanted::Auxiliary(_)
+                    | Wanted::Insert(_)
+            )
+    }
+
     /// Where a motion ends; `None` for all else.
     pub fn end(&self) -> Option<Pose> {
         match self {

@@ -164,7 +164,9 @@ fn close(control: &mut Control) -> Result<()> {
 /// Adds the mode codes a control must be in. A machine with start blocks of
 /// its own says them there; what they leave open is taken from the settings.
 fn mode_codes(control: &mut Control) {
-    if let Some(code) = control.unit.and_then(|unit| control.code_if_any(unit_code(unit))) {
+    let in_force = control.code_if_any(loc::UNITS_IN_FORCE);
+    let unit = control.unit.and_then(|unit| control.code_if_any(unit_code(unit)));
+    if let Some(code) = unit.filter(|code| in_force != Some(*code)) {
         control.g(code);
     }
     for (at, in_force) in START_MODES {

@@ -115,6 +115,10 @@ pub struct ClPath<'r> {
     state: State,
     ready: VecDeque<Step>,
     over: bool,
+    /// What stands between OPSKIP/ON and OPSKIP/OFF is left out.
+    leaves_out: bool,
+    /// OPSKIP is on.
+    skips: bool,
 }
 
 impl<'r> ClPath<'r> {
@@ -142,7 +146,16 @@ impl<'r> ClPath<'r> {
             },
             ready: VecDeque::new(),
             over: false,
+            leaves_out: false,
+            skips: false,
         }
+    }
+
+    /// The path with the blocks left out that the operator may skip: of what stands between
+    /// OPSKIP/ON and OPSKIP/OFF only what holds on is asked for.
+    pub fn leaving_out(mut self, leaves_out: bool) -> Self {
+        self.leaves_out = leaves_out;
+        self
     }
 
     /// The unit of a CL file that does not say it itself.
@@ -169,11 +182,27 @@ impl<'r> ClPath<'r> {
             let line = self.record.line;
             self.require_unit()?;
             self.refuse_other_unit()?;
-            let steps = self.state.take(&self.record, &self.vocabulary);
+            let mut steps = self.state.take(&self.record, &self.vocabulary);
+            if self.record.kind == kind::POST && self.record.major == w::OPSKIP {
+                self.skips = self.record.has(w::ON);
+            }
+            if self.leaves_out && self.skips {
+                steps.retain(|what| !what.is_done_once());
+            }
             self.over = steps.iter().any(|what| matches!(what, Wanted::End(_)));
             self.ready.extend(steps.into_iter().map(|what| Step { line, what }));
         }
         Ok(true)
+    }
+}
+
+/// What words of the user's own can do that are no M and no S: a number that is none of a work
+/// offset's functions chooses none.
+fn of_own_words(record: &Record) -> Effect {
+    let may_choose = |number: &f64| (WORK_OFFSETS[0]..60.0).contains(number);
+    match numbers(record).iter().any(may_choose) {
+        true => Effect::WordsOrOffset,
+        false => Effect::Words,
     }
 }
 
@@ -314,7 +343,7 @@ impl State {
             w::MODE if record.has(w::MILL) => vec![Wanted::XScale(1.0)],
             w::PREFUN => match numbers(record)[..] {
                 [code] if WORK_OFFSETS.contains(&code) => vec![Wanted::Fixture(code as u32)],
-                _ => unknown(Effect::Words),
+                _ => unknown(of_own_words(record)),
             },
             w::SET if record.has(w::OFSETL) => {
                 vec![Wanted::WorkOffset(numbers(record).first().copied())]
@@ -339,7 +368,7 @@ impl State {
                     _ => false,
                 };
                 let any = record.data.iter().any(is_m_or_s);
-                unknown(if any { Effect::AnyWords } else { Effect::Words })
+                unknown(if any { Effect::AnyWords } else { of_own_words(record) })
             }
             _ => Vec::new(),
         }

@@ -134,7 +134,7 @@ impl Settings<'_> {
     /// [`Modes::fixture`](crate::motion::Modes)); `None` where the machine has none.
     pub fn work_offset(&self, number: Option<f64>) -> Option<u32> {
         let code = |at: CodeAt| u32::try_from(self.commons.read(at)?).ok();
-        let by_word = self.commons.read(loc::FIXTURE_FORM) == FixtureForm::Word;
+        let by_word = self.chooses_offsets_by_word();
         let Some(number) = number else {
             return code(loc::FIXTURE_DEFAULT_CODE).filter(|_| !by_word);
         };
@@ -152,6 +152,11 @@ impl Settings<'_> {
             Some(tenths) => Some(tenths.unsigned_abs() * 1000 + index.checked_sub(plain)?),
             None => (first..=last).contains(&index).then_some(index),
         }
+    }
+
+    /// A word chooses the work offset, and not a function.
+    pub fn chooses_offsets_by_word(&self) -> bool {
+        self.commons.read(loc::FIXTURE_FORM) == FixtureForm::Word
     }
 
     /// How far single moves come back above the last peck, mm.

@@ -15,6 +15,7 @@ use fil_machine::setting::CodeAt;
 use fil_machine::user_blocks;
 
 use super::wanted::CycleKind;
+use crate::dialect::Dialect;
 use crate::forward::Forward;
 use crate::motion::{FOOT, unit};
 
@@ -44,6 +45,9 @@ pub enum Due {
 pub struct Slack {
     /// X, Y, Z, mm.
     pub linear: [f64; 3],
+    /// What of that only an axis may be off by that stays, as a coordinate that changes by
+    /// less is not written, mm.
+    pub kept: f64,
     /// Last digit of X, Y, Z, mm, where a value is rounded before it is scaled.
     pub rounded: [Option<f64>; 3],
     /// Primary and secondary rotary axis, degrees.
@@ -72,6 +76,8 @@ pub struct Settings<'c> {
     pub(super) commons: &'c Commons,
     /// Its forward kinematics.
     pub forward: Forward,
+    /// What the words of its programs mean.
+    pub(super) dialect: Dialect,
     /// What the user allows besides the last digit; `None` for nothing.
     tolerance: Option<f64>,
 }
@@ -82,7 +88,8 @@ impl<'c> Settings<'c> {
     /// # Errors
     /// A machine whose kinematics make no sense.
     pub fn new(commons: &'c Commons, tolerance: Option<f64>) -> Result<Self, Box<Diag>> {
-        Ok(Settings { commons, forward: Forward::from_commons(commons)?, tolerance })
+        let forward = Forward::from_commons(commons)?;
+        Ok(Settings { commons, forward, dialect: Dialect::new(commons)?, tolerance })
     }
 
     /// Translation of the input, CL units.
@@ -109,7 +116,8 @@ impl<'c> Settings<'c> {
             self.allowed(half(letter) / self.scale(common) * unit)
         };
         let axes = [0, 1, 2].map(|common| (letters::XYZ[common], common));
-        let by_hand = self.by_hand();
+        let kept = self.commons.dbl_opt(loc::MOTION_SAME_TOLERANCE).unwrap_or(0.0) * unit;
+        let by_hand = self.by_hand() * unit + kept;
         // A diameter is rounded once, after it is doubled.
         let scaled = |common: usize| {
             let diameter = common == 0 && self.scale(common) == 2.0;
@@ -120,7 +128,8 @@ impl<'c> Settings<'c> {
             None => 0.0,
         });
         Slack {
-            linear: axes.map(|(letter, common)| of_axis(letter, common, unit) + by_hand * unit),
+            linear: axes.map(|(letter, common)| of_axis(letter, common, unit) + by_hand),
+            kept,
             rounded: axes.map(|(letter, common)| Some(half(letter) * scaled(common)?)),
             rotary,
             center: letters::IJK.map(|letter| self.allowed(half(letter) * unit)),
@@ -134,13 +143,11 @@ impl<'c> Settings<'c> {
         }
     }
 
-    /// What a resolution set by hand and the tolerance of unchanged coordinates may take
-    /// from a position, in the unit of the program.
+    /// What a resolution set by hand may take from a position, in the unit of the program.
     fn by_hand(&self) -> f64 {
         let is_set =
             self.commons.read(loc::MOTION_RESOLUTION_MANUAL) == loc::MotionResolutionManual::Yes;
-        let step = self.commons.dbl_opt(loc::MOTION_RESOLUTION).filter(|_| is_set).unwrap_or(0.0);
-        0.5 * step + self.commons.dbl_opt(loc::MOTION_SAME_TOLERANCE).unwrap_or(0.0)
+        0.5 * self.commons.dbl_opt(loc::MOTION_RESOLUTION).filter(|_| is_set).unwrap_or(0.0)
     }
 
     /// What the program multiplies an axis by.
@@ -266,6 +273,11 @@ impl<'c> Settings<'c> {
 
     /// Pecks of a cycle count from the surface of the hole and not from the R level.
     pub fn pecks_from_surface(&self) -> bool {
+        self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext
+    }
+
+    /// The cycles of the control have a word for how far it comes back between pecks.
+    pub fn says_peck_gap(&self) -> bool {
         self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext
     }
 

@@ -1,0 +1,54 @@
+//! Modes that a program depends on without saying them.
+
+use super::state::State;
+use super::words::Words;
+use crate::dialect::Dialect;
+use crate::motion::{Compensation, Course, Event, Move, StartMode};
+
+/// What the words of a block may depend on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Uses {
+    /// An axis word that is a position or an increment.
+    positions: bool,
+    /// S.
+    speed: bool,
+}
+
+impl Uses {
+    pub(super) fn of(words: &Words, dialect: &Dialect) -> Self {
+        Uses { positions: words.has_plain_axes(dialect), speed: words.has(b'S' - b'A' + 1) }
+    }
+}
+
+impl State<'_> {
+    /// Tells the modes that the block depends on and that are not certain. Each is told
+    /// once, before what the block does.
+    #[cold]
+    pub(super) fn tell_left_to_control(&mut self, uses: Uses) {
+        let left = StartMode::ALL.into_iter().filter(|mode| !self.certain.has(*mode));
+        let left: Vec<StartMode> = left.filter(|mode| self.depends_on(*mode, uses)).collect();
+        for mode in left.into_iter().rev() {
+            self.certain.say(mode);
+            self.events.insert(0, Event::LeftToControl { line: self.line, mode });
+        }
+    }
+
+    fn depends_on(&self, mode: StartMode, uses: Uses) -> bool {
+        let any = |is: &dyn Fn(&Move) -> bool| {
+            self.events.iter().any(|event| matches!(event, Event::Move(found) if is(found)))
+        };
+        let of_cycle = |found: &Move| found.in_cycle && found.course != Course::Machine;
+        match mode {
+            StartMode::Unit => any(&|_| true),
+            StartMode::Positions => uses.positions && any(&|found| found.course != Course::Machine),
+            StartMode::Feed => any(&|found| found.course == Course::Feed),
+            StartMode::Plane => any(&|found| {
+                found.arc.is_some()
+                    || of_cycle(found)
+                    || found.modes.compensation != Compensation::Off
+            }),
+            StartMode::ReturnLevel => self.cycle.is_some() && any(&of_cycle),
+            StartMode::Surface => uses.speed && self.modes.speed.is_some(),
+        }
+    }
+}

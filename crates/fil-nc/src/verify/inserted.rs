@@ -1,0 +1,83 @@
+//! What a block of INSERT switches, the CL file asks for.
+
+use super::modes::Expected;
+use super::settings::{Due, Settings};
+use crate::dialect::{Auxiliary, Function};
+use crate::motion::{Compensation, Speed, Spindle};
+use crate::text::{Block, read_block};
+
+impl Expected {
+    /// Takes up what the words of a text switch; of a text that can't be read the program
+    /// is refused anyway.
+    pub(super) fn insert(&mut self, text: &str, settings: &Settings) {
+        let line = settings.dialect.marks.read(text.as_bytes());
+        let Ok(block) = read_block(&line, "INSERT", 1) else { return };
+        for word in &block.words {
+            let number = word.number;
+            match word.letter {
+                b'G' => {
+                    let tenths = (number.value() * 10.0).round() as i64;
+                    if let Some(function) = settings.dialect.function(tenths) {
+                        self.insert_function(function, &block, settings);
+                    }
+                }
+                b'M' if number.decimals == 0 => {
+                    self.insert_auxiliary(settings.dialect.auxiliary(number.digits));
+                }
+                b'S' => {
+                    // Turns or surface speed: the text need not say it.
+                    let turns = settings.dialect.has_surface_speed();
+                    let speed = Speed::Turns(number.value());
+                    self.speed.set(Some(speed).filter(|_| !turns), Due::Now);
+                    self.has_speed = true;
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn insert_function(&mut self, function: Function, block: &Block, settings: &Settings) {
+        let whole = |letter: u8| {
+            let word = block.words.iter().find(|word| word.letter == letter)?;
+            u32::try_from(word.number.digits).ok().filter(|_| word.number.decimals == 0)
+        };
+        let printed = |letter: u8| letter + b'A' - 1;
+        match function {
+            Function::Fixture(code) => self.fixture = Some(Some(code)),
+            Function::NumberedFixture(tenths) => {
+                let number = whole(printed(settings.dialect.fixture_number));
+                self.fixture = number.map(|number| Some(tenths * 1000 + number));
+            }
+            Function::Compensation(side) => {
+                let offset = whole(printed(settings.dialect.tool_offset));
+                let offset = offset.filter(|_| side != Compensation::Off);
+                self.compensation.set((side, offset), Due::Now);
+            }
+            Function::Length(true) => self.offset.set(whole(b'H'), Due::Now),
+            Function::Length(false) => self.offset.set(None, Due::Now),
+            Function::SpeedLimit => self.speed_limit = None,
+            _ => {}
+        }
+    }
+
+    fn insert_auxiliary(&mut self, auxiliary: Auxiliary) {
+        let mut spindle = |turns: Option<Spindle>| {
+            self.spindle.set(turns, Due::Now);
+            self.orientation = None;
+        };
+        match auxiliary {
+            Auxiliary::Clockwise => spindle(Some(Spindle::Clockwise)),
+            Auxiliary::Counterclockwise => spindle(Some(Spindle::Counterclockwise)),
+            Auxiliary::SpindleOff => spindle(Some(Spindle::Off)),
+            Auxiliary::Orient => spindle(None),
+            Auxiliary::SpindleRange(range) => self.range = Some(range),
+            Auxiliary::Coolant(code) => self.coolant.set(code, Due::Now),
+            _ => {}
+        }
+    }
+
+    /// A tool that a block of INSERT or of the settings changes to.
+    pub(super) fn insert_tool(&mut self, tool: u32) {
+        self.tool = Some(tool);
+    }
+}

@@ -1,0 +1,138 @@
+//! What the back-check says of the modes a control may be in, of blocks that may be skipped,
+//! of texts and of work offsets.
+
+use fil_nc::verify::{Allowed, FindingKind, Report, Verdict};
+use filpost::Diag;
+use filpost_tests::nc_cases::{self, NcCase};
+use filpost_tests::{back_check, root};
+
+fn check(case: &NcCase, nc: &str) -> Result<Report, Box<Diag>> {
+    let commons = case.post.commons();
+    let both = back_check::both(commons, nc)?;
+    back_check::compare(commons, &case.cl, (nc.as_bytes(), &both), Allowed::default())
+}
+
+fn listed(report: &Report) -> String {
+    report.findings.iter().map(|finding| format!("\n  {finding}")).collect()
+}
+
+/// A program that depends on what the last one left, and those that no switch and no mode of
+/// the control may change.
+#[test]
+fn what_a_control_may_be_in_is_found() {
+    let cl = root().join("tests/cl/holes.ncl.1");
+    let cases = nc_cases::posted(&cl);
+    let case = cases.iter().find(|case| case.name.starts_with("fanuc-mill")).expect("a program");
+    let left = "is left to the control: no block says it, and the machine does not state it";
+    let start = FindingKind::StartMode;
+    for (old, new, kind, said) in [
+        ("G21 ", "", start, format!("the unit {left}")),
+        ("G90 ", "", start, format!("whether axis words are positions or increments {left}")),
+        ("G94 ", "", start, format!("what F means {left}")),
+        (" G17", "", start, format!("the plane {left}")),
+        ("G99 ", "", start, format!("the level that holes return to {left}")),
+        (
+            "\nN220",
+            "\nG81 X1. Y1. Z0. R2. F9.\nN220",
+            FindingKind::Cycle,
+            "a cycle is on while the tool is changed".to_string(),
+        ),
+        (
+            "\nN220",
+            "\nG1 G41 D1 X12. F9.\nN220",
+            FindingKind::Compensation,
+            "cutter compensation is on while the tool is changed".to_string(),
+        ),
+        (
+            "\nN220",
+            "\nG41 D1 G2 X13.5 R4. F9.\nG1 G40 X1.\nN220",
+            FindingKind::Compensation,
+            "cutter compensation begins on an arc, it must on a line".to_string(),
+        ),
+        (
+            "\nN130",
+            "\nG1 G41 D1 X1. F9.\nN130",
+            FindingKind::Compensation,
+            "cutter compensation is on in a cycle".to_string(),
+        ),
+        (
+            "\nN40 M8",
+            "\n/N40 M8",
+            FindingKind::Coolant,
+            "coolant is off, it should be on by M8, with the blocks behind / left out".to_string(),
+        ),
+        (
+            "\nN80 X12.5",
+            "\n/N80 X12.5",
+            FindingKind::Missing,
+            "no hole at X12.5 Y0, with the blocks behind / left out".to_string(),
+        ),
+    ] {
+        assert!(case.nc.contains(old), "{old}:\n{}", case.nc);
+        let report = check(case, &case.nc.replacen(old, new, 1)).expect("a report");
+        let found = report.findings.iter().any(|one| one.kind == kind && one.message == said);
+        assert!(found, "{old}{}", listed(&report));
+    }
+}
+
+/// What a block of INSERT switches, the CL file asks for; its messages may be of another
+/// system. A work offset that nobody asks for may be allowed.
+#[test]
+fn no_false_alarm_of_texts_and_offsets() {
+    let post = filpost::Program::builder().ready("fanuc-mill").build().expect("a post");
+    let cl = |text: &str| {
+        format!(
+            "UNITS / MM\nLOADTL / 1\nSPINDL / 900, CLW\nRAPID\nGOTO / 0, 0, 5\n\
+             INSERT / {text}\nFEDRAT / 500, MMPM\nGOTO / 1, 2, 3\nGOTO / 4, 4, 4\nFINI\n"
+        )
+    };
+    for text in [
+        "M8",
+        "G55",
+        "M4",
+        "S400",
+        "N7 (TURN THE PART)",
+        "MSG(\"TURN\")",
+        "!TURN",
+        "* - TURN",
+        "G91",
+        "T5 M6",
+        "G43 H9",
+        "G4 P500",
+        "; TURN",
+    ] {
+        let cl = cl(text);
+        let mut nc = Vec::new();
+        let posted = post.run(cl.as_bytes(), &mut nc);
+        let nc = String::from_utf8(nc).expect("a text");
+        if posted.is_err() {
+            continue;
+        }
+        let report = back_check::check(post.commons(), &cl, &nc, Allowed::default());
+        let report = report.unwrap_or_else(|diag| panic!("{text}: {diag}\n{nc}"));
+        assert_eq!(report.verdict(), Verdict::Agrees, "{text}{}\n{nc}", listed(&report));
+        let other = back_check::check(post.commons(), &cl_without(&cl), &nc, Allowed::default());
+        let other = other.unwrap_or_else(|diag| panic!("{text}: {diag}\n{nc}"));
+        let is_text = nc.contains("TURN");
+        assert_eq!(other.verdict() == Verdict::Differs, !is_text && text != "G91", "{text}{nc}");
+    }
+    let cl = cl_without(&cl(""));
+    let mut nc = Vec::new();
+    post.run(cl.as_bytes(), &mut nc).expect("a program");
+    let nc = String::from_utf8(nc).expect("a text").replacen("G0 X0.", "G55 G0 X0.", 1);
+    let check = |offsets: Vec<u32>| {
+        let allowed = Allowed { offsets, ..Allowed::default() };
+        back_check::check(post.commons(), &cl, &nc, allowed).expect("a report").verdict()
+    };
+    assert_eq!(check(Vec::new()), Verdict::Differs);
+    assert_eq!(check(vec![54]), Verdict::Differs);
+    assert_eq!(check(vec![54, 55]), Verdict::Agrees);
+    let named = ["G55", "g54.1p3", "E4", "G54.1", "55", ""].map(fil_nc::motion::work_offset);
+    assert_eq!(named, [Some(55), Some(541_003), Some(1_000_004), None, None, None]);
+}
+
+/// A CL file without its INSERT.
+fn cl_without(cl: &str) -> String {
+    let lines = cl.lines().filter(|line| !line.starts_with("INSERT"));
+    lines.fold(String::new(), |text, line| text + line + "\n")
+}
