@@ -54,8 +54,9 @@ pub fn line(post: &str, report: &Report, warnings: usize, time: Duration) -> Str
         counted(report.blocks, "block"),
         counted(warnings as u64, "warning")
     );
-    if let Some(extents) = &report.extents {
-        line.push_str(", points");
+    let extents = report.extents.as_ref().filter(|_| !report.words_beside);
+    if let Some(extents) = extents {
+        line.push_str(", CL points");
         for (axis, name) in ["X", "Y", "Z"].iter().enumerate() {
             let (min, max) = (extents.min[axis], extents.max[axis]);
             let comma = if axis == 0 { "" } else { "," };
@@ -63,11 +64,11 @@ pub fn line(post: &str, report: &Report, warnings: usize, time: Duration) -> Str
         }
     }
     if let Some((unit, source)) = report.unit {
-        let separator = if report.extents.is_some() { " " } else { ", " };
+        let separator = if extents.is_some() { " " } else { ", " };
         line.push_str(&format!("{separator}{unit} ({source})"));
     }
     if report.words_beside {
-        line.push_str(", words of POSTN or REPEAT not counted");
+        line.push_str(", extents left out: POSTN or REPEAT wrote words of their own");
     }
     if let Some(dialect) = &report.dialect {
         line.push_str(&format!(", dialect {dialect}"));

@@ -116,8 +116,13 @@ fn position(motion: &Motion) -> String {
     format!("{:>22}X {x}  Y {y}  Z {z}  {feed}  way {}  {time}", "at ", length(motion.length))
 }
 
+/// In the place of the extents.
+const BESIDE: &str = "Extents left out, and times and lengths are those of the CL points alone: \
+                      POSTN or REPEAT wrote words of their own";
+
 fn totals(end: &RunEnd<'_>) -> Vec<String> {
     let total = &end.tally.total;
+    let beside = end.report.words_beside;
     let unit = end.report.unit.map_or_else(String::new, |(unit, _)| format!(" {unit}"));
     let meters = end.bytes as f64 / CHARACTERS_AN_INCH * METERS_IN_AN_INCH;
     let mut lines = vec![
@@ -131,8 +136,10 @@ fn totals(end: &RunEnd<'_>) -> Vec<String> {
         format!("Time:    {} in all", clock(total.seconds())),
     ];
     lines.extend(times(total, &unit, "         "));
-    if let Some(extents) = &total.extents {
-        lines.push(format!("Extents: {}{unit}", span(extents)));
+    match &total.extents {
+        Some(_) if beside => lines.push(BESIDE.to_string()),
+        Some(extents) => lines.push(format!("CL points: {}{unit}", span(extents))),
+        None => {}
     }
     for tool in &end.tally.tools {
         let name = tool.tool.map_or_else(|| "no tool".to_string(), |tool| format!("T{tool}"));
@@ -140,7 +147,7 @@ fn totals(end: &RunEnd<'_>) -> Vec<String> {
             tool.diameter.map_or_else(String::new, |d| format!(", diameter {}{unit}", length(d)));
         lines.push(format!("Tool:    {name}{diameter}, {}", clock(tool.totals.seconds())));
         lines.extend(times(&tool.totals, &unit, "         "));
-        if let Some(extents) = &tool.totals.extents {
+        if let Some(extents) = tool.totals.extents.as_ref().filter(|_| !beside) {
             lines.push(format!("         {}{unit}", span(extents)));
         }
     }

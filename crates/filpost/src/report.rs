@@ -59,8 +59,8 @@ pub struct Report {
     /// The box around the points of the CL records that the post has carried out. The
     /// program itself may reach further: see [`Report::words_beside`].
     pub extents: Option<Extents>,
-    /// POSTN or REPEAT have written words beside those points, which `extents` does
-    /// not count.
+    /// POSTN or REPEAT have written words beside those points, so that the program may
+    /// leave `extents`: the summary and the listing don't show them.
     pub words_beside: bool,
     /// Records for which a section gave the post nothing, by section. What the section
     /// kept of them in its variables may act later.

@@ -98,6 +98,10 @@ pub enum Search {
     FourTouches,
     /// The least of 360 readings, one degree apart.
     Lowest,
+    /// The place of the least reading, found to the last bit.
+    Least,
+    /// The places of the least and of the largest reading, each found to the last bit.
+    BothEnds,
 }
 
 /// A probe whose readings are wrong by at most `noise`.
@@ -131,9 +135,14 @@ impl Probe {
                 (south - north).atan2(west - east).to_degrees()
             }
             Search::Lowest => self.lowest(cylinder, height),
+            Search::Least | Search::BothEnds => self.outmost(cylinder, height, 1.0),
+        };
+        let opposite = match self.search {
+            Search::BothEnds => self.outmost(cylinder, height, -1.0),
+            _ => c + 180.0,
         };
         let mut at = |c: f64| [self.read(cylinder, height, c), c.rem_euclid(360.0)];
-        Probed { height, least: at(c), largest: at(c + 180.0) }
+        Probed { height, least: at(c), largest: at(opposite) }
     }
 
     /// A search that compares readings, as the paper seems to do.
@@ -142,6 +151,19 @@ impl Probe {
             (0..360).map(|c| self.read(cylinder, height, f64::from(c))).collect();
         let least = (0..360).min_by(|a, b| readings[*a].total_cmp(&readings[*b]));
         least.expect("there are readings") as f64
+    }
+
+    /// The place of the least reading times `sign`, by ever smaller steps.
+    fn outmost(&self, cylinder: &Cylinder, height: f64, sign: f64) -> f64 {
+        let reading = |c: f64| sign * cylinder.reading(height, c);
+        let nearer = |a: &f64, b: &f64| reading(*a).total_cmp(&reading(*b));
+        let mut at = (0..360).map(f64::from).min_by(nearer).expect("there are readings");
+        let mut step = 1.0;
+        while step > 1e-7 {
+            at = [at - step, at, at + step].into_iter().min_by(nearer).expect("three places");
+            step /= 1.5;
+        }
+        at
     }
 
     fn read(&mut self, cylinder: &Cylinder, height: f64, c: f64) -> f64 {

@@ -82,23 +82,40 @@ fn colour(contact: &Contact) -> &'static str {
     if contact.floor { FLOOR } else { WALL }
 }
 
+/// What the ball cuts on its way: lines a radius from the moves, and where the path
+/// turns up, arcs round its points.
+fn swept(points: &[Point]) -> Vec<Point2> {
+    let directions: Vec<f64> = points
+        .windows(2)
+        .map(|ends| (ends[1][2] - ends[0][2]).atan2(ends[1][0] - ends[0][0]))
+        .collect();
+    let touched = |point: &Point, direction: f64| {
+        let angle = direction + std::f64::consts::FRAC_PI_2;
+        let [x, z] = [point[0], point[2] + LISTING.ball];
+        [x + LISTING.ball * angle.cos(), z + LISTING.ball * angle.sin()]
+    };
+    let mut outline = Vec::new();
+    for (cut, direction) in directions.iter().enumerate() {
+        let before = directions[cut.saturating_sub(1)];
+        // The pass goes to -X: directions grow less from point to point of a valley.
+        let turn = (direction - before).sin().asin();
+        for step in 0..=8 {
+            outline.push(touched(&points[cut], before + turn * f64::from(step) / 8.0));
+        }
+    }
+    if let (Some(last), Some(direction)) = (points.last(), directions.last()) {
+        outline.push(touched(last, *direction));
+    }
+    outline
+}
+
 /// The section of the groove with the ball on the wall and on the floor.
 fn profile(picture: &mut Picture, points: &[Point], contacts: &[Contact]) {
     let center = |point: &Point| [point[0], point[2] + LISTING.ball];
     for (ends, contact) in points.windows(2).zip(contacts) {
         picture.line(&[center(&ends[0]), center(&ends[1])], Pen::full(colour(contact), 3.0));
     }
-    // What the ball touches lies a radius from the path, at right angles to it.
-    let touched: Vec<Point2> = points
-        .windows(2)
-        .map(|ends| {
-            let (from, to) = (center(&ends[0]), center(&ends[1]));
-            let [dx, dz] = [to[0] - from[0], to[1] - from[1]];
-            let radius = LISTING.ball / dx.hypot(dz);
-            [(from[0] + to[0]) / 2.0 - dz * radius, (from[1] + to[1]) / 2.0 + dx * radius]
-        })
-        .collect();
-    picture.line(&touched, Pen::full("black", 1.5));
+    picture.line(&swept(points), Pen::full("black", 1.5));
     for index in [3, 15] {
         picture.circle(center(&points[index]), LISTING.ball, GROUND);
     }

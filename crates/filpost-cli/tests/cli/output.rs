@@ -166,17 +166,19 @@ fn an_output_never_replaces_an_input() {
     assert_eq!(place.files(), ["part.ncl", "post.fil"]);
 }
 
-/// The summary speaks of the points of the CL file, and says when POSTN wrote more.
+/// The summary speaks of the points of the CL file, and leaves them out when POSTN or
+/// REPEAT wrote words that they don't hold.
 #[test]
-fn the_summary_counts_points_and_not_words_of_postn() {
+fn the_summary_leaves_extents_out_beside_words_of_postn() {
     let script = "CIMFIL/ON,COOLNT\nISON = 1\nCIMFIL/OFF\nCIMFIL/ON,INSERT\n\
                   IF (ISON.EQ.1) POSTN/OUT,X,99\nCIMFIL/OFF\nISON = 0\nFINI\n";
     let cl = SMALL.replace("FINI", "COOLNT/ON\nINSERT/A\nFINI");
     let place = Folder::new().with("part.ncl", &cl).with("x.fil", script);
     let plain = Folder::new().with("part.ncl", SMALL).run(&["post", "part.ncl"]);
-    assert!(plain.err.contains(", points X ") && !plain.err.contains("POSTN"), "{}", plain.err);
+    assert!(plain.err.contains(", CL points X ") && !plain.err.contains("POSTN"), "{}", plain.err);
     let ran = place.run(&["post", "part.ncl", "-f", "x.fil"]);
     assert_eq!(ran.status, 0, "{}", ran.err);
-    assert!(ran.err.contains("words of POSTN or REPEAT not counted"), "{}", ran.err);
+    assert!(ran.err.contains("extents left out: POSTN or REPEAT wrote words"), "{}", ran.err);
+    assert!(!ran.err.contains("CL points"), "{}", ran.err);
     assert!(ran.err.contains("1 record taken by the section COOLNT wrote nothing where they"));
 }

@@ -9,6 +9,7 @@ const THIN: Pen = Pen::full("#999", 1.0);
 const PART: Pen = Pen::full("black", 2.0);
 const CUT: Pen = Pen::full("#1565c0", 1.5);
 const LEFT: Pen = Pen::full("#e65100", 1.0);
+const STEP: Pen = Pen::full("#b71c1c", 2.0);
 const LIMIT: Pen = Pen::dashed("#2e7d32", 1.2);
 
 /// The section after roughing, and beside it after finishing.
@@ -72,12 +73,43 @@ fn roughing(picture: &mut Picture, job: &Job, tools: &[(&Cutter, [f64; 2])], shi
         picture.line(&[[x, tip[1]], [x, tip[1] + 0.4]], CUT);
         picture.text([x, tip[1] + 0.6], &(index + 1).to_string());
     }
+    step_and_ends(picture, tools, &line, shift);
     if let Some((cutter, tip)) = tools.first() {
         let [x, radius] = [tip[0] + shift, cutter.diameter / 2.0];
         let top = job.section.top() + 2.5;
         let outline =
             [[x - radius, top], [x - radius, tip[1]], [x + radius, tip[1]], [x + radius, top]];
         picture.line(&outline, CUT);
+    }
+}
+
+/// A and B, the ends of the last level, and the step h: how far the corner that the last
+/// two levels leave stands off the wall. `wall` is the section without the allowance.
+fn step_and_ends(
+    picture: &mut Picture,
+    tools: &[(&Cutter, [f64; 2])],
+    wall: &[[f64; 2]],
+    shift: f64,
+) {
+    let mut levels: Vec<f64> = tools.iter().map(|(_, tip)| tip[1]).collect();
+    levels.dedup();
+    let [.., before, last] = levels[..] else { return };
+    let at_last = tools.iter().filter(|(_, tip)| tip[1] == last);
+    let edges =
+        at_last.map(|(cutter, tip)| [-1.0, 1.0].map(|side| tip[0] + side * cutter.diameter / 2.0));
+    let [a, b] = edges.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], [left, right]| {
+        [a.min(left), b.max(right)]
+    });
+    for (x, side, name) in [(a, -1.0, "A"), (b, 1.0, "B")] {
+        picture.circle([x + shift, last], 0.12, STEP);
+        picture.text([x + shift + side * 0.9, last - 1.5], name);
+    }
+    let corner = [b + shift, before];
+    let away = |point: &[f64; 2]| (point[0] - corner[0]).hypot(point[1] - corner[1]);
+    let foot = wall.iter().min_by(|p, q| away(p).total_cmp(&away(q)));
+    if let Some(foot) = foot {
+        picture.line(&[corner, *foot], STEP);
+        picture.text([corner[0] - 0.9, corner[1]], "h");
     }
 }
 
@@ -92,9 +124,11 @@ fn finishing(picture: &mut Picture, tools: &[(&Cutter, [f64; 2])], shift: f64) {
     picture.line(&tools.iter().map(center).collect::<Vec<_>>(), LIMIT);
 }
 
-/// The surface of the blank unrolled, X to the right and A upward, with the first
-/// passes of roughing.
-pub fn unrolled(job: &Job, passes: &[Pass], count: usize) -> Picture {
+/// The surface of the blank unrolled, X to the right and A upward, with the passes of the
+/// first level of roughing.
+pub fn unrolled(job: &Job, passes: &[Pass]) -> Picture {
+    let first = passes.first().map_or(0.0, |pass| pass.from[1]);
+    let count = passes.iter().take_while(|pass| pass.from[1] == first).count();
     // Degrees are drawn as far as they are on a blank a tenth as thick.
     let place = |at: [f64; 3]| [at[0], at[2] / 20.0];
     let mut picture = Picture::default();
@@ -122,6 +156,10 @@ pub fn unrolled(job: &Job, passes: &[Pass], count: usize) -> Picture {
     picture.text(
         [(start + end) / 2.0, high / 20.0 + 1.0],
         "blank, unrolled: X to the right, A upward",
+    );
+    picture.text(
+        [(start + end) / 2.0, low / 20.0 - 5.0],
+        &format!("first level: passes 1 to {count} at Z{first}; dashed: from one to the next"),
     );
     picture
 }

@@ -201,7 +201,7 @@ fn the_page_shows_the_case() {
     let made = passes::read(&job, &nc).expect("the passes are right");
     let folder = root().join("docs/papers");
     drawing::section(&job, &made).check(&folder.join("screw-section.svg"));
-    drawing::unrolled(&job, &made, 5).check(&folder.join("screw-unrolled.svg"));
+    drawing::unrolled(&job, &made).check(&folder.join("screw-unrolled.svg"));
 }
 
 /// The undercut comes from the lead angle: the cut of a ball of radius r is as wide as

@@ -1,11 +1,14 @@
 //! The run-out script and the library function, proved on a simulated machine: what is
 //! left at a displaced and tilted cylinder after one program has gone round it.
 
+mod tilt;
+
 use std::fs;
+use std::io::Cursor;
 use std::sync::{Arc, Mutex};
 
 use filpost::check::{self, Options};
-use filpost::{Argument, Error, Program, case::Case};
+use filpost::{Argument, Error, Event, Program, case::Case};
 use filpost_simulation::runout::solve::{Bounds, Placing, Reading, RunOut, Section};
 use filpost_simulation::runout::{
     Cylinder, Probe, Probed, Random, Residual, SECTIONS, Search, TURNS, cl_file, deviations,
@@ -308,6 +311,35 @@ fn the_statement_of_the_library_makes_the_same_program() {
     }
 }
 
+/// The matrix that the script shows in the listing is that of the page and of the library.
+#[test]
+fn the_page_shows_the_matrix_of_the_skew_case() {
+    let cl = text("corpus/papers/run-out-skew/part.ncl");
+    let mut shown = String::new();
+    let post = post(&five_axes(), &script());
+    post.start()
+        .observe(|event| {
+            if let Event::Message(line) = event {
+                shown += &format!("{line}\n");
+            }
+        })
+        .run(Cursor::new(cl), &mut Vec::new())
+        .expect("it is posted");
+    assert!(text("docs/papers/run-out.md").contains(&shown), "{shown}");
+    let read = |value: f64, c: f64| Reading { value, c };
+    let sections = [
+        Section { height: 20.0, least: read(49.94, 180.0), largest: read(50.06, 0.0) },
+        Section { height: 100.0, least: read(49.9, 233.1301), largest: read(50.1, 53.1301) },
+    ];
+    let found = RunOut::find(&sections, &Bounds::default()).expect("it is found");
+    let numbers = shown.lines().skip(1).flat_map(str::split_whitespace);
+    let numbers: Vec<f64> = numbers.map(|number| number.parse().expect("a number")).collect();
+    assert_eq!(numbers.len(), 12);
+    for (shown, own) in numbers.iter().zip(found.matrix.transpose().iter()) {
+        assert!((shown - own).abs() < 1e-9, "{shown} {own}");
+    }
+}
+
 /// Each wrong sign, factor or order in the script shows at the part.
 #[test]
 fn mutations_of_the_script_are_found() {
@@ -317,10 +349,10 @@ fn mutations_of_the_script_are_found() {
         ("ROX(1) - ROZ(1)*ROAX/ROAZ", "ROX(1) + ROZ(1)*ROAX/ROAZ"),
         ("ROY(1) - ROZ(1)*ROAY/ROAZ", "ROY(1) + ROZ(1)*ROAY/ROAZ"),
         ("ROY(1) - ROZ(1)*ROAY/ROAZ", "ROY(1) - ROZ(2)*ROAY/ROAZ"),
-        ("ROTIR/2*COSF(ROC)", "ROTIR*COSF(ROC)"),
-        ("ROTIR/2*COSF(ROC)", "ROTIR/2*SINF(ROC)"),
-        ("ROTIR/2*SINF(ROC)", "-ROTIR/2*SINF(ROC)"),
-        ("COUPLF(CMAX) - ROOFF/2", "COUPLF(CMIN) - ROOFF/2"),
+        ("ROTIR/2*COSF(ROC(ROI))", "ROTIR*COSF(ROC(ROI))"),
+        ("ROTIR/2*COSF(ROC(ROI))", "ROTIR/2*SINF(ROC(ROI))"),
+        ("ROTIR/2*SINF(ROC(ROI))", "-ROTIR/2*SINF(ROC(ROI))"),
+        ("COUPLF(CMAX) - ROMISS/2", "COUPLF(CMIN) - ROMISS/2"),
         ("+ ROQ*SINF(ROBY)", "- ROQ*SINF(ROBY)"),
         ("- ROP*SINF(ROBY)", "+ ROP*SINF(ROBY)"),
         ("ROFROM=3,ROTO=1", "ROFROM=1,ROTO=3"),
@@ -414,7 +446,7 @@ fn bad_inputs_are_refused_in_words() {
         ("not-opposite", "section 2: CMIN and CMAX are not half a turn apart, but for 90"),
         ("misread", "section 2: run-out 45.11 mm is more than 2"),
         ("too-steep", "tilt 4.1596"),
-        ("unknown-form", "RUNOUT needs PROBE, TOLER, ON, POINTS or OFF"),
+        ("unknown-form", "RUNOUT needs PROBE, TOLER, DIAMTR, ON, POINTS or OFF"),
         ("tolerance", "RUNOUT/TOLER is above 0 and at most 0.1 mm"),
         ("other-table", "the machine has no table about Z through X0 Y0"),
         ("inches", "RUNOUT counts in mm, and this CL file in inches"),
