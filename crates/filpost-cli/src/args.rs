@@ -40,6 +40,10 @@ pub enum Command {
     Explain(ExplainArgs),
     /// Import and show machine settings
     Machine(MachineArgs),
+    /// Post a case at each save, and tell what that changes
+    Watch(WatchArgs),
+    /// Serve an editor: the language server, over standard input and output
+    Lsp,
     /// Print the manual page
     Man,
     /// Print completions for a shell
@@ -414,6 +418,16 @@ fn ignored(text: &str) -> Result<String, String> {
     known.map(|()| text.to_string()).map_err(|_| {
         "write n, comments, dates, points, spaces or a letter, with commas between".to_string()
     })
+}
+
+/// `filpost watch`
+#[derive(Debug, ClapArgs)]
+pub struct WatchArgs {
+    /// The folder of the case, with its case.toml
+    pub case: PathBuf,
+    /// End after so many runs
+    #[arg(long, value_name = "N", hide = true)]
+    pub runs: Option<u32>,
 }
 
 /// `filpost test`

@@ -28,6 +28,7 @@ mod summary;
 mod test;
 mod trace;
 mod verify;
+mod watch;
 
 use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind};
 use std::process::ExitCode;
@@ -76,6 +77,14 @@ fn run(command: &Command) -> Result<Status, Error> {
         Command::Trace(args) => trace::run(args),
         Command::Explain(args) => explain::run(&args.subject),
         Command::Machine(args) => machine::run(args),
+        Command::Watch(args) => watch::run(args),
+        Command::Lsp => Ok(match filpost_lsp::serve_stdio() {
+            Ok(()) => Status::Done,
+            Err(message) => {
+                output::say(&message);
+                Status::Failed
+            }
+        }),
         Command::Man => {
             let mut page = Vec::new();
             let written = clap_mangen::Man::new(Args::command()).render(&mut page);

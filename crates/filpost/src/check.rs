@@ -7,7 +7,7 @@ use fil_machine::address::Addresses;
 use fil_machine::commons::{Commons, LAST_OUTPUT};
 use fil_machine::locations::{INPUT_CREO_RECORDS, Location};
 use fil_machine::stored;
-use fil_vm::{CommonKind, Compat, Edits, FilFile, LoadOptions, MachineFacts};
+use fil_vm::{Analysis, CommonKind, Compat, Edits, FilFile, LoadOptions, MachineFacts};
 
 use crate::editing::edits;
 use crate::outside::common_kind;
@@ -40,6 +40,11 @@ pub struct Options<'a> {
 /// what would run but is most likely not meant, by file and line. The files
 /// share one name space; each is a name for messages and a text.
 pub fn check(files: &[(&str, &str)], options: Options<'_>) -> Vec<Diag> {
+    analyze(files, options).diags
+}
+
+/// As [`check`], and with the names of all files, for an editor.
+pub fn analyze(files: &[(&str, &str)], options: Options<'_>) -> Analysis {
     let files: Vec<FilFile<'_>> = files.iter().map(|(name, text)| FilFile { name, text }).collect();
     let addresses = options.machine.map(|commons| Addresses::from_commons(commons, true));
     let writes = |letter: u8| {
@@ -66,10 +71,7 @@ pub fn check(files: &[(&str, &str)], options: Options<'_>) -> Vec<Diag> {
         loader: includes.as_mut().map(|loader| loader as Includes<'_>),
         ..LoadOptions::default()
     };
-    match fil_vm::load(&files, &mut Vocabulary::new(), load) {
-        Ok(loaded) => loaded.warnings,
-        Err(diags) => diags,
-    }
+    fil_vm::analyze(&files, &mut Vocabulary::new(), load)
 }
 
 /// Without a machine nothing tells which macros the post calls.
@@ -91,7 +93,7 @@ fn storing(kind: CommonKind, number: u32, value: Option<f64>) -> Option<Diag> {
 
 /// The name of a common location: that of its setting, or its use in a table
 /// of all letters.
-fn name_of_common(kind: CommonKind, number: u32) -> Option<String> {
+pub fn name_of_common(kind: CommonKind, number: u32) -> Option<String> {
     if let Some(row) = Location::numbered(common_kind(kind), number) {
         return Some(row.name.to_string());
     }

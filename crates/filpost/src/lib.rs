@@ -82,8 +82,10 @@ pub use fil_machine::{
 pub use fil_nc as nc;
 pub use fil_post::{Cause, FilLine, Origin, Stack, dispatch, no_effect};
 pub use fil_syntax as syntax;
-pub use fil_vm::{Argument, Compat, Included, Limits, Moment, Returned, SectionMode};
-pub use fil_vm::{builtins, postf, statements};
+pub use fil_vm::{
+    Analysis, Argument, CommonKind, Compat, Included, Limits, Moment, Returned, SectionMode,
+};
+pub use fil_vm::{builtins, is_allowable, postf, resolve, statements};
 
 /// The example of the README, run with the documentation tests.
 #[cfg(doctest)]

@@ -17,3 +17,4 @@ mod support;
 mod test;
 mod trace;
 mod verify;
+mod watch;

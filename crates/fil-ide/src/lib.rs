@@ -1,0 +1,32 @@
+//! What an editor of FIL, `machine.toml` and CL files needs, over the same parser, names
+//! and tables as a run: no protocol and no I/O.
+//!
+//! [`Script`] is the analysis of a FIL file with the files it includes. Places of an
+//! editor are lines and UTF-16 units ([`Position`]); everything inside counts bytes.
+
+mod actions;
+pub mod cl_file;
+mod complete;
+mod context;
+mod fold;
+mod hover;
+mod inlay;
+pub mod machine;
+mod navigate;
+mod script;
+mod signature;
+mod symbols;
+mod tables;
+mod text;
+mod tokens;
+
+pub use actions::Fix;
+pub use complete::{Item, ItemKind};
+pub use fold::Fold;
+pub use inlay::Inlay;
+pub use navigate::{Edit, Place};
+pub use script::{Finding, Script};
+pub use signature::Signature;
+pub use symbols::{Outline, OutlineKind};
+pub use text::{Position, Range, Text};
+pub use tokens::{TOKEN_TYPES, Token};

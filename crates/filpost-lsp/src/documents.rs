@@ -1,0 +1,213 @@
+//! The open documents, and the files they are checked with.
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use fil_ide::{Script, Text};
+use filpost::{Included, files, includes};
+
+use crate::cases::Cases;
+use crate::uri::path_of;
+
+/// What a document is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// A FIL file.
+    Fil,
+    /// A `machine.toml`.
+    Machine,
+    /// A CL file.
+    Cl,
+}
+
+impl Kind {
+    /// By the name of the document; what the editor says wins.
+    fn of(uri: &str, language: &str) -> Option<Self> {
+        match language {
+            "fil" => return Some(Kind::Fil),
+            "cl" | "ncl" => return Some(Kind::Cl),
+            _ => {}
+        }
+        let name = uri.rsplit('/').next().unwrap_or(uri).to_ascii_lowercase();
+        let end = name.rsplit('.').next().unwrap_or_default();
+        let numbered = |letter: char| {
+            end.strip_prefix(letter).is_some_and(|digits| {
+                !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
+            })
+        };
+        match end {
+            "fil" => Some(Kind::Fil),
+            "toml" if name.starts_with("machine") || language == "toml" && name != "case.toml" => {
+                Some(Kind::Machine)
+            }
+            "ncl" | "cl" | "cls" | "apt" | "aptsource" | "clf" => Some(Kind::Cl),
+            _ if numbered('f') => Some(Kind::Fil),
+            _ => None,
+        }
+    }
+}
+
+/// An open document.
+pub(crate) struct Document {
+    pub kind: Option<Kind>,
+    pub text: Text,
+    /// As the editor sent it.
+    pub raw: String,
+}
+
+/// All open documents.
+#[derive(Default)]
+pub(crate) struct Documents {
+    open: HashMap<String, Document>,
+    /// Analyses of FIL documents; thrown away with each change.
+    scripts: HashMap<String, Script>,
+    cases: Cases,
+}
+
+impl Documents {
+    /// Documents of an editor that has a folder open.
+    pub fn new(root: Option<PathBuf>) -> Self {
+        Documents { cases: Cases::new(root), ..Documents::default() }
+    }
+
+    /// A document was opened or changed.
+    pub fn set(&mut self, uri: &str, language: Option<&str>, text: &str) {
+        let kind = match (language, self.open.get(uri)) {
+            (Some(language), _) => Kind::of(uri, language),
+            (None, Some(document)) => document.kind,
+            (None, None) => Kind::of(uri, ""),
+        };
+        let document = Document { kind, text: Text::new(text), raw: text.to_string() };
+        self.open.insert(uri.to_string(), document);
+        self.scripts.clear();
+    }
+
+    /// A document was closed.
+    pub fn close(&mut self, uri: &str) {
+        self.open.remove(uri);
+        self.scripts.clear();
+    }
+
+    /// Files on the disk may have changed.
+    pub fn forget(&mut self) {
+        self.cases.forget();
+        self.scripts.clear();
+    }
+
+    pub fn get(&self, uri: &str) -> Option<&Document> {
+        self.open.get(uri)
+    }
+
+    /// All open FIL documents.
+    pub fn scripts_open(&self) -> Vec<String> {
+        let fil = self.open.iter().filter(|(_, document)| document.kind == Some(Kind::Fil));
+        let mut found: Vec<String> = fil.map(|(uri, _)| uri.clone()).collect();
+        found.sort_unstable();
+        found
+    }
+
+    /// The analysis of an open FIL document.
+    pub fn script(&mut self, uri: &str) -> Option<&Script> {
+        self.cases.look();
+        let document = self.open.get(uri)?;
+        if document.kind != Some(Kind::Fil) {
+            return None;
+        }
+        if !self.scripts.contains_key(uri) {
+            let script = self.analyze(uri, document);
+            self.scripts.insert(uri.to_string(), script);
+        }
+        self.scripts.get(uri)
+    }
+
+    fn analyze(&self, uri: &str, document: &Document) -> Script {
+        let Some(path) = path_of(uri) else {
+            return Script::new(&[(uri, &document.raw)], uri, None, None);
+        };
+        let open = self.texts();
+        let root = root_of(&path, &open).unwrap_or_else(|| path.clone());
+        let group = self.cases.group_of(&root);
+        let machine = group.commons();
+        let read = |path: &PathBuf| {
+            open.get(path)
+                .cloned()
+                .or_else(|| files::read_text(path, None).ok())
+                .unwrap_or_default()
+        };
+        // A path may be written in two ways; names of an analysis are those of the group.
+        let real = root.canonicalize().unwrap_or_else(|_| root.clone());
+        let is_root = |file: &&PathBuf| **file == root || **file == real;
+        let name = group.files.iter().find(is_root).unwrap_or(&root).display().to_string();
+        let named: Vec<(String, String)> =
+            group.files.iter().map(|file| (file.display().to_string(), read(file))).collect();
+        let given: Vec<(&str, &str)> =
+            named.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
+        let own = path.canonicalize().unwrap_or_else(|_| path.clone());
+        // The name of an included file is known only once it has been included.
+        let known = RefCell::new(None);
+        let analyzed = |edited: &str| {
+            let mut beside = includes::beside(&group.files, None);
+            let mut loader = |from: &str, file: &str| -> Result<Included, String> {
+                let mut included = beside(from, file)?;
+                if let Ok(real) = Path::new(&included.name).canonicalize() {
+                    if let Some(text) = open.get(&real) {
+                        included.text.clone_from(text);
+                    }
+                    if real == own {
+                        *known.borrow_mut() = Some(included.name.clone());
+                    }
+                }
+                Ok(included)
+            };
+            Script::new(&given, edited, Some(&mut loader), machine.as_ref())
+        };
+        let script = analyzed(&name);
+        let included = known.borrow().clone();
+        match included.filter(|_| root != path) {
+            Some(edited) => analyzed(&edited),
+            None => script,
+        }
+    }
+
+    /// Texts of open FIL documents by their paths, real ones too.
+    fn texts(&self) -> HashMap<PathBuf, String> {
+        let mut found = HashMap::new();
+        for (uri, document) in &self.open {
+            let Some(path) = path_of(uri) else { continue };
+            if let Ok(real) = path.canonicalize() {
+                found.insert(real, document.raw.clone());
+            }
+            found.insert(path, document.raw.clone());
+        }
+        found
+    }
+}
+
+/// The file beside or above that includes this one: names of both are one name space.
+fn root_of(path: &Path, open: &HashMap<PathBuf, String>) -> Option<PathBuf> {
+    let own = path.file_name()?.to_str()?.to_ascii_uppercase();
+    let folder = path.parent()?;
+    for folder in [Some(folder), folder.parent()].into_iter().flatten() {
+        let entries = std::fs::read_dir(folder).ok()?;
+        let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+        files.sort_unstable();
+        for file in files {
+            let is_fil = file.extension().is_some_and(|end| end.eq_ignore_ascii_case("fil"));
+            if !is_fil || file == path {
+                continue;
+            }
+            let text = open.get(&file).cloned().or_else(|| files::read_text(&file, None).ok());
+            let includes = text.is_some_and(|text| {
+                text.lines().any(|line| {
+                    let line = line.trim().to_ascii_uppercase();
+                    line.starts_with("INCLUD") && line.trim_end_matches('\'').ends_with(&own)
+                })
+            });
+            if includes {
+                return Some(file);
+            }
+        }
+    }
+    None
+}

@@ -1,0 +1,296 @@
+//! Requests and notifications, each with its answer.
+
+use std::path::Path;
+
+use fil_ide::{Item, Outline, Position, Script, cl_file, machine};
+use serde_json::{Value, json};
+
+use crate::answer;
+use crate::documents::{Documents, Kind};
+use crate::uri::{path_of, uri_of};
+
+/// A request that can't be answered.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// A code of the protocol.
+    pub code: i32,
+    /// A sentence.
+    pub message: String,
+}
+
+const INVALID_PARAMS: i32 = -32602;
+const METHOD_NOT_FOUND: i32 = -32601;
+const REQUEST_FAILED: i32 = -32803;
+
+type Answer = Result<Value, Fault>;
+
+/// The state of one editor's documents.
+#[derive(Default)]
+pub struct Server {
+    documents: Documents,
+    /// Documents that have been told of diagnostics, to take them back.
+    told: Vec<String>,
+}
+
+impl Server {
+    /// A server for the parameters of `initialize`.
+    pub fn new(params: &Value) -> Self {
+        let folder = params.pointer("/workspaceFolders/0/uri").or_else(|| params.get("rootUri"));
+        let root = folder.and_then(Value::as_str).and_then(path_of);
+        Server { documents: Documents::new(root), told: Vec::new() }
+    }
+
+    /// Answers a request.
+    ///
+    /// # Errors
+    /// Wrong parameters, unknown methods, a name that can't be changed.
+    pub fn request(&mut self, method: &str, params: &Value) -> Answer {
+        if method == "workspace/symbol" {
+            return Ok(self.search(params));
+        }
+        let uri = params.pointer("/textDocument/uri").and_then(Value::as_str);
+        let uri =
+            uri.ok_or_else(|| fault(INVALID_PARAMS, "textDocument.uri is missing"))?.to_string();
+        let position = params.get("position").and_then(answer::read_position);
+        let at = || position.ok_or_else(|| fault(INVALID_PARAMS, "position is missing"));
+        match method {
+            "textDocument/hover" => Ok(self.hover(&uri, at()?)),
+            "textDocument/completion" => Ok(self.complete(&uri, at()?)),
+            "textDocument/signatureHelp" => Ok(self.signature(&uri, at()?)),
+            "textDocument/definition" => {
+                Ok(self.places(&uri, |script| script.definition(position.unwrap_or_default())))
+            }
+            "textDocument/references" => {
+                let all = params.pointer("/context/includeDeclaration").and_then(Value::as_bool);
+                let at = at()?;
+                Ok(self.places(&uri, |script| script.references(at, all.unwrap_or(true))))
+            }
+            "textDocument/prepareRename" => self.prepare_rename(&uri, at()?),
+            "textDocument/rename" => {
+                let new = params.get("newName").and_then(Value::as_str);
+                let new = new.ok_or_else(|| fault(INVALID_PARAMS, "newName is missing"))?;
+                self.rename(&uri, at()?, new)
+            }
+            "textDocument/documentSymbol" => Ok(self.outline(&uri)),
+            "textDocument/foldingRange" => Ok(self.folds(&uri)),
+            "textDocument/formatting" => self.format(&uri),
+            "textDocument/inlayHint" => Ok(self.inlays(&uri)),
+            "textDocument/codeAction" => {
+                let range = params.get("range").and_then(answer::read_range);
+                let range = range.ok_or_else(|| fault(INVALID_PARAMS, "range is missing"))?;
+                let script = self.documents.script(&uri);
+                let fixes = script.map_or_else(Vec::new, |script| script.fixes(range));
+                Ok(fixes
+                    .iter()
+                    .map(|fix| answer::fix(fix, |file| uri_of_file(file, &uri)))
+                    .collect())
+            }
+            "textDocument/semanticTokens/full" => {
+                let script = self.documents.script(&uri);
+                Ok(answer::tokens(&script.map_or_else(Vec::new, Script::tokens)))
+            }
+            _ => Err(fault(METHOD_NOT_FOUND, method)),
+        }
+    }
+
+    /// Takes a notification; gives those that are to be sent.
+    pub fn notification(&mut self, method: &str, params: &Value) -> Vec<(String, Value)> {
+        let uri = params.pointer("/textDocument/uri").and_then(Value::as_str).unwrap_or_default();
+        match method {
+            "textDocument/didOpen" => {
+                let text = |name: &str| {
+                    let value = params.pointer(&format!("/textDocument/{name}"));
+                    value.and_then(Value::as_str).unwrap_or_default()
+                };
+                self.documents.set(uri, Some(text("languageId")), text("text"));
+            }
+            "textDocument/didChange" => {
+                let changes = params.get("contentChanges").and_then(Value::as_array);
+                let last = changes.and_then(|changes| changes.last()?.get("text")?.as_str());
+                if let Some(text) = last {
+                    self.documents.set(uri, None, text);
+                }
+            }
+            "textDocument/didClose" => self.documents.close(uri),
+            "textDocument/didSave" | "workspace/didChangeWatchedFiles" => self.documents.forget(),
+            _ => return Vec::new(),
+        }
+        self.diagnostics(uri)
+    }
+
+    /// Diagnostics of the document and of all that share names with it.
+    fn diagnostics(&mut self, uri: &str) -> Vec<(String, Value)> {
+        let mut found: Vec<(String, Vec<Value>)> = Vec::new();
+        if let Some(document) = self.documents.get(uri)
+            && document.kind == Some(Kind::Machine)
+        {
+            let wrong = machine::findings("machine.toml", &document.text);
+            let wrong = wrong
+                .iter()
+                .map(|(range, code, message)| answer::diagnostic(*range, code, message));
+            found.push((uri.to_string(), wrong.collect()));
+        }
+        for open in self.documents.scripts_open() {
+            if let Some(script) = self.documents.script(&open) {
+                let findings = script.findings();
+                found.push((open, findings.iter().map(answer::finding).collect()));
+            }
+        }
+        let gone = self.told.iter().filter(|told| found.iter().all(|(uri, _)| uri != *told));
+        let empty: Vec<(String, Vec<Value>)> = gone.map(|uri| (uri.clone(), Vec::new())).collect();
+        self.told = found.iter().map(|(uri, _)| uri.clone()).collect();
+        let all = found.into_iter().chain(empty);
+        all.map(|(uri, diagnostics)| {
+            let params = json!({ "uri": uri, "diagnostics": diagnostics });
+            ("textDocument/publishDiagnostics".to_string(), params)
+        })
+        .collect()
+    }
+
+    fn hover(&mut self, uri: &str, at: Position) -> Value {
+        let found = match self.kind(uri) {
+            Some(Kind::Fil) => self.documents.script(uri).and_then(|script| script.hover(at)),
+            Some(Kind::Machine) => {
+                self.documents.get(uri).and_then(|own| machine::hover(&own.text, at))
+            }
+            Some(Kind::Cl) => self.documents.get(uri).and_then(|own| cl_file::hover(&own.text, at)),
+            None => None,
+        };
+        found.map_or(Value::Null, |(markdown, range)| {
+            let contents = json!({ "kind": "markdown", "value": markdown });
+            json!({ "contents": contents, "range": answer::range(range) })
+        })
+    }
+
+    fn complete(&mut self, uri: &str, at: Position) -> Value {
+        let items: Vec<Item> = match self.kind(uri) {
+            Some(Kind::Fil) => {
+                self.documents.script(uri).map_or_else(Vec::new, |script| script.complete(at))
+            }
+            Some(Kind::Machine) => {
+                let own = self.documents.get(uri);
+                own.map_or_else(Vec::new, |own| machine::complete(&own.text, at))
+            }
+            _ => Vec::new(),
+        };
+        items.iter().map(answer::item).collect()
+    }
+
+    fn signature(&mut self, uri: &str, at: Position) -> Value {
+        let Some(found) = self.documents.script(uri).and_then(|script| script.signature(at)) else {
+            return Value::Null;
+        };
+        let parameters: Vec<Value> =
+            found.parameters.iter().map(|name| json!({ "label": name })).collect();
+        json!({
+            "signatures": [{
+                "label": found.label,
+                "documentation": found.doc,
+                "parameters": parameters,
+            }],
+            "activeSignature": 0,
+            "activeParameter": found.active,
+        })
+    }
+
+    fn places(&mut self, uri: &str, ask: impl Fn(&Script) -> Vec<fil_ide::Place>) -> Value {
+        let found = self.documents.script(uri).map_or_else(Vec::new, ask);
+        let places = found.iter().map(|place| {
+            json!({ "uri": uri_of_file(&place.file, uri), "range": answer::range(place.range) })
+        });
+        places.collect()
+    }
+
+    fn prepare_rename(&mut self, uri: &str, at: Position) -> Answer {
+        let script =
+            self.documents.script(uri).ok_or_else(|| fault(REQUEST_FAILED, "no FIL file"))?;
+        let range = script.renamable(at).map_err(|message| fault(REQUEST_FAILED, &message))?;
+        Ok(answer::range(range))
+    }
+
+    fn rename(&mut self, uri: &str, at: Position, new: &str) -> Answer {
+        let script =
+            self.documents.script(uri).ok_or_else(|| fault(REQUEST_FAILED, "no FIL file"))?;
+        let edits = script.rename(at, new).map_err(|message| fault(REQUEST_FAILED, &message))?;
+        Ok(answer::workspace_edit(&edits, |file| uri_of_file(file, uri)))
+    }
+
+    fn outline(&mut self, uri: &str) -> Value {
+        let entries: Vec<Outline> = match self.kind(uri) {
+            Some(Kind::Fil) => self.documents.script(uri).map_or_else(Vec::new, Script::outline),
+            Some(Kind::Machine) => {
+                self.documents.get(uri).map_or_else(Vec::new, |own| machine::outline(&own.text))
+            }
+            Some(Kind::Cl) => {
+                self.documents.get(uri).map_or_else(Vec::new, |own| cl_file::outline(&own.text))
+            }
+            None => Vec::new(),
+        };
+        entries.iter().map(answer::outline).collect()
+    }
+
+    /// Symbols of all open scripts and of what they include whose names hold a text.
+    fn search(&mut self, params: &Value) -> Value {
+        let query = params.get("query").and_then(Value::as_str).unwrap_or_default();
+        let query = query.to_ascii_uppercase();
+        let mut found: Vec<Value> = Vec::new();
+        for uri in self.documents.scripts_open() {
+            let Some(script) = self.documents.script(&uri) else { continue };
+            for (file, entries) in script.outlines() {
+                let own = uri_of_file(file, &uri);
+                let fits = entries.iter().filter(|entry| entry.name.contains(&query));
+                for symbol in fits.map(|entry| answer::symbol(entry, &own)) {
+                    if !found.contains(&symbol) {
+                        found.push(symbol);
+                    }
+                }
+            }
+        }
+        Value::Array(found)
+    }
+
+    fn folds(&mut self, uri: &str) -> Value {
+        let folds = self.documents.script(uri).map_or_else(Vec::new, Script::folds);
+        let folds = folds.iter().map(|fold| {
+            let kind = if fold.comment { "comment" } else { "region" };
+            json!({ "startLine": fold.first, "endLine": fold.last, "kind": kind })
+        });
+        folds.collect()
+    }
+
+    fn format(&mut self, uri: &str) -> Answer {
+        let own = self.documents.get(uri).filter(|own| own.kind == Some(Kind::Fil));
+        let own = own.ok_or_else(|| fault(REQUEST_FAILED, "no FIL file"))?;
+        match filpost::syntax::format(uri, &own.raw) {
+            Ok(text) if text == own.raw => Ok(json!([])),
+            Ok(text) => Ok(json!([{ "range": answer::range(own.text.whole()), "newText": text }])),
+            Err(_) => Err(fault(REQUEST_FAILED, "a text with errors is not formatted")),
+        }
+    }
+
+    fn inlays(&mut self, uri: &str) -> Value {
+        let inlays = self.documents.script(uri).map_or_else(Vec::new, Script::inlays);
+        let inlays = inlays.iter().map(|inlay| {
+            json!({ "position": answer::position(inlay.position), "label": inlay.label, "kind": 1 })
+        });
+        inlays.collect()
+    }
+
+    fn kind(&self, uri: &str) -> Option<Kind> {
+        self.documents.get(uri)?.kind
+    }
+}
+
+fn fault(code: i32, message: &str) -> Fault {
+    Fault { code, message: message.to_string() }
+}
+
+/// The URI of a file of an analysis; a document without a path is its own.
+fn uri_of_file(file: &str, document: &str) -> String {
+    if path_of(document).is_none() {
+        return document.to_string();
+    }
+    let path = Path::new(file);
+    let own = path_of(document).is_some_and(|own| own == path);
+    if own { document.to_string() } else { uri_of(path) }
+}
