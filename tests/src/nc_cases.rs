@@ -1,6 +1,7 @@
 //! Every NC program the suites expect, with the CL file and the machine it is for.
 
 use std::fs;
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use filpost::{Program, case};
@@ -153,7 +154,7 @@ pub fn posted(path: &Path) -> Vec<NcCase> {
 /// The program; `None` for an input that is to be refused.
 fn run(post: &Program, cl: &[u8]) -> Option<String> {
     let mut nc = Vec::new();
-    post.run(cl, &mut nc).ok()?;
+    post.run_seekable(Cursor::new(cl), &mut nc).ok()?;
     String::from_utf8(nc).ok()
 }
 

@@ -7,6 +7,7 @@
 //! LINE` a refusal. Sequence numbers, start and end of the program are switched
 //! off unless `$$ whole` asks for them. A CR of the program is shown as `<CR>`.
 
+use std::io::Cursor;
 use std::path::Path;
 
 use filpost_tests::words::Header;
@@ -16,7 +17,8 @@ fn check(path: &Path) -> Result<(), Failed> {
     let text = std::fs::read_to_string(path)?;
     let header = Header::read(&text).map_err(Failed::from)?;
     let mut nc = Vec::new();
-    let result = header.post().and_then(|post| post.run(text.as_bytes(), &mut nc));
+    let result =
+        header.post().and_then(|post| post.run_seekable(Cursor::new(text.as_bytes()), &mut nc));
     match (result, &header.error) {
         (Err(error), Some(expected)) => {
             let diag = &error.diags()[0];

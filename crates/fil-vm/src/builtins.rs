@@ -6,6 +6,7 @@
 use crate::arithmetic::{arc_tangent, cos_degrees, distance, sin_degrees};
 use crate::library::Library;
 use crate::postf::Grade;
+use crate::totals::TotalsList;
 
 /// What the compiler does with a built-in function.
 #[derive(Clone, Copy)]
@@ -36,6 +37,8 @@ pub enum FunctionKind {
     PreviousMotion,
     /// TOOLF
     ToolData,
+    /// PROGF, TLISTF and OPERF
+    Totals(TotalsList),
     /// LASTF
     LastWritten,
     /// COMF
@@ -52,8 +55,9 @@ impl FunctionKind {
             | FunctionKind::NextMotion
             | FunctionKind::PreviousMotion
             | FunctionKind::ToolData
-            | FunctionKind::Size => Some(0),
-            FunctionKind::File => Some(1),
+            | FunctionKind::Size
+            | FunctionKind::Totals(TotalsList::Program) => Some(0),
+            FunctionKind::File | FunctionKind::Totals(_) => Some(1),
             _ => None,
         }
     }
@@ -443,7 +447,43 @@ pub const BUILTINS: &[Builtin] = &[
         "TOOLF",
         "word",
         FunctionKind::ToolData,
-        "DIAMTR: diameter of the tool in use as the CL file gives it, by CUTTER, `$$-> CUTTER` or TLDATA before or behind the tool change; EMPTY where it gives none",
+        "DIAMTR: diameter of the tool in use as the CL file gives it, by CUTTER, `$$-> CUTTER` or TLDATA before or behind the tool change; EMPTY where it gives none; NEXT: number of the tool of the next tool change, EMPTY after the last one; asks for a first pass, as PROGF",
+    ),
+    extension(
+        "PROGF",
+        "word",
+        FunctionKind::Totals(TotalsList::Program),
+        "a number of the whole program, from a first pass over the CL file: TOOLS entries of the tool list, OPERS operations, UNITS millimeters in a unit of the CL file (1 or 25.4), TIME all minutes, CUTTIM minutes at feed, RAPTIM minutes at rapid traverse, CUTLEN and RAPLEN length of the path at feed and at rapid traverse, XMIN XMAX YMIN YMAX ZMIN ZMAX extents of the path of the tool's tip; lengths in the unit of the CL file; EMPTY where there is none, and for times of motions whose time is not known",
+    ),
+    extension(
+        "TLISTF",
+        "n,word",
+        FunctionKind::Totals(TotalsList::Tools),
+        "a number of entry n of the tool list, 1 to PROGF(TOOLS), each tool once in the order of the first changes: NUMBER, DIAMTR its diameter, LENGTH the length that LOADTL gives, TIME … ZMAX as for PROGF of all that is done with it; EMPTY where there is none",
+    ),
+    extension(
+        "OPERF",
+        "n,word",
+        FunctionKind::Totals(TotalsList::Operations),
+        "a number of operation n, 1 to PROGF(OPERS): TOOL number of its tool, FEATNO its number in the CAM system, TIME … ZMAX as for PROGF of the operation; EMPTY where there is none",
+    ),
+    extension(
+        "TEXT/PROG",
+        "",
+        FunctionKind::Library(Library::TotalsText(TotalsList::Program), 0, 0),
+        "the text of PARTNO, wherever it stands in the CL file; the empty text where there is none",
+    ),
+    extension(
+        "TEXT/TLIST",
+        "n",
+        FunctionKind::Library(Library::TotalsText(TotalsList::Tools), 1, 1),
+        "what the CL file calls the tool of entry n of the tool list: TPRINT, or TOOL PATH of NX; the empty text where it has no name",
+    ),
+    extension(
+        "TEXT/OPER",
+        "n",
+        FunctionKind::Library(Library::TotalsText(TotalsList::Operations), 1, 1),
+        "the name of operation n: the first PPRINT before its first motion, OPERATION NAME of CATIA, or TOOL PATH of NX; the empty text where it has none",
     ),
     extension("LASTF", "letter", FunctionKind::LastWritten, "last value written for a letter"),
     extension("COMF", "'name'", FunctionKind::NamedCommon, "a common location by its name"),

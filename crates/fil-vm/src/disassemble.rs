@@ -86,6 +86,8 @@ fn show(module: &Module, op: Op) -> String {
         Op::NamedCommon { dst, name } => format!("{} = common {}", n(dst), n(name)),
         Op::NextMotion { dst, word } => format!("{} = next coordinate {word}", n(dst)),
         Op::ToolDiameter { dst } => format!("{} = diameter of the tool", n(dst)),
+        Op::NextTool { dst } => format!("{} = next tool", n(dst)),
+        Op::Totals { dst, what, index } => format!("{} = totals {what} of {}", n(dst), n(index)),
         Op::PreviousMotion { dst, word } => format!("{} = previous coordinate {word}", n(dst)),
         Op::Post { template } => post(module, template),
         Op::Call { macro_id } => {

@@ -4,8 +4,10 @@ use fil_cl::Record;
 use fil_cl::Vocabulary;
 use fil_diag::Diag;
 
+use crate::errors::RunCode;
 use crate::machine::Values;
 use crate::moment::Moment;
+use crate::totals::{TotalsOf, TotalsText, TotalsWord};
 
 /// One of the three commons.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -87,6 +89,10 @@ pub trait Files {
 
     /// Writes a line.
     fn write_line(&mut self, unit: usize, line: &str) -> Result<(), Box<Diag>>;
+}
+
+fn no_totals() -> Box<Diag> {
+    RunCode::Missing.diag("numbers of the whole program are not known here")
 }
 
 /// What a machine asks of the program that runs it.
@@ -178,6 +184,31 @@ pub trait Host {
     /// `None` where the CL file gives none.
     fn tool_diameter(&mut self, _vocab: &mut Vocabulary) -> Result<Option<f64>, Box<Diag>> {
         Ok(None)
+    }
+
+    /// A number of the whole program, of a tool or of an operation, from a first pass over
+    /// the CL file; `None` where there is none.
+    ///
+    /// # Errors
+    /// No first pass is possible; an entry or operation that there is not.
+    fn totals(&mut self, _of: TotalsOf, _word: TotalsWord) -> Result<Option<f64>, Box<Diag>> {
+        Err(no_totals())
+    }
+
+    /// A text from the first pass.
+    ///
+    /// # Errors
+    /// As [`Host::totals`].
+    fn totals_text(&mut self, _of: TotalsText) -> Result<String, Box<Diag>> {
+        Err(no_totals())
+    }
+
+    /// Number of the tool of the next tool change; `None` after the last one.
+    ///
+    /// # Errors
+    /// As [`Host::totals`].
+    fn next_tool(&mut self) -> Result<Option<f64>, Box<Diag>> {
+        Err(no_totals())
     }
 
     /// Coordinate 0 to 5 (X Y Z I J K) of the next or previous motion, or with 6

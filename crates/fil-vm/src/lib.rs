@@ -27,6 +27,7 @@ pub mod postf;
 pub mod resolve;
 pub mod statements;
 mod texts;
+mod totals;
 mod tree;
 mod value;
 
@@ -41,4 +42,5 @@ pub use module::{File, Module, SectionId};
 pub use moment::Moment;
 pub use output::{Edits, OutputMacro};
 pub use postf::{Compat, PostfOp, SectionMode};
+pub use totals::{TotalsOf, TotalsText, TotalsWord};
 pub use value::{EMPTY, Value};

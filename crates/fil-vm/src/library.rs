@@ -4,6 +4,7 @@
 use fil_syntax::tree::{Expr, ExprKind};
 
 use crate::ops::Reg;
+use crate::totals::TotalsList;
 
 /// What a call of the library does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,6 +55,8 @@ pub enum Library {
     Time,
     /// SPAWNF
     Spawn,
+    /// TEXT/PROG, TEXT/TLIST and TEXT/OPER
+    TotalsText(TotalsList),
 }
 
 /// The second argument of FILEF.

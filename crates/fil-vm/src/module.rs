@@ -155,6 +155,8 @@ pub struct Module {
     pub(crate) matcher: Matcher,
     /// Numbers of POSTF and the behaviour of sections.
     pub compat: Compat,
+    /// FIL asks for numbers of the whole program.
+    pub(crate) asks_totals: bool,
     /// Numbers of arguments of the embedding program's functions.
     pub(crate) host_arity: Vec<u16>,
 }
@@ -203,6 +205,12 @@ impl Module {
     /// True when FIL has a macro that edits what the post writes.
     pub fn edits_output(&self) -> bool {
         !self.output.is_empty()
+    }
+
+    /// True when FIL asks for numbers of the whole program (PROGF, TLISTF, OPERF and
+    /// TOOLF(NEXT)), which need a first pass over the CL file.
+    pub fn asks_totals(&self) -> bool {
+        self.asks_totals
     }
 
     /// The statement of an operation.

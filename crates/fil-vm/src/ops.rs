@@ -81,6 +81,11 @@ pub enum Op {
     PreviousMotion { dst: Reg, word: u16 },
     /// `dst = TOOLF(DIAMTR)`
     ToolDiameter { dst: Reg },
+    /// `dst = TOOLF(NEXT)`
+    NextTool { dst: Reg },
+    /// `dst = PROGF(word)`, `TLISTF(index,word)` or `OPERF(index,word)`; `what` holds the
+    /// function and the number of the word.
+    Totals { dst: Reg, what: u16, index: Reg },
     /// Sends the post word of that template.
     Post { template: u16 },
     /// Runs a macro; its parameters are set already.

@@ -14,6 +14,7 @@ use crate::error::{Error, RunCode};
 use crate::event::Event;
 use crate::map;
 use crate::outside::Outside;
+use crate::passes::FirstPass;
 use crate::report::Report;
 use crate::run::Start;
 use crate::script_files::{PendingFiles, ScriptFiles};
@@ -93,12 +94,32 @@ impl<'o, S: Records> Engine<'o, S> {
                 self.flush(nc)?;
             }
         }
+        if let Err(diag) = self.outside.pass.check() {
+            let place = self.outside.place(&self.record, &self.vocabulary);
+            return Err(Error::Run(Box::new(diag.at(place))));
+        }
         nc.flush().map_err(write_error)?;
         if observed {
             self.outside.run_done().map_err(Error::Run)?;
         }
         let pending = self.take_pending();
         Ok((std::mem::take(&mut self.outside.report), pending))
+    }
+
+    /// Runs through the records to find what scripts ask of the whole program; nothing is
+    /// written and nobody is told.
+    pub(crate) fn count(mut self) -> FirstPass {
+        let failure = loop {
+            match self.advance() {
+                Ok(true) => {}
+                Ok(false) => break None,
+                Err(diag) => break Some(diag.message.clone()),
+            }
+            self.forget_blocks();
+            self.outside.report.warnings.clear();
+        };
+        let overview = self.outside.pass.counted().map(std::mem::take).unwrap_or_default();
+        FirstPass { overview, failure }
     }
 
     /// What the run has to tell so far.
@@ -180,7 +201,9 @@ impl<'o, S: Records> Engine<'o, S> {
             self.outside.begin()?;
             let done = self.machine.run_globals(&mut self.vocabulary, &mut self.outside);
             self.exchange_values();
-            done?;
+            if !self.outside.pass.has_guessed() {
+                done?;
+            }
         }
         if !self.outside.read(&mut self.record, &mut self.vocabulary)? {
             self.outside.end_of_file()?;
@@ -219,7 +242,13 @@ impl<'o, S: Records> Engine<'o, S> {
             &mut self.outside,
         );
         self.exchange_values();
-        let outcome = outcome?;
+        let outcome = match outcome {
+            Err(_) if self.outside.pass.has_guessed() => {
+                self.outside.section = None;
+                return self.go_on_after_guess();
+            }
+            outcome => outcome?,
+        };
         self.outside.section = None;
         let mut swallowed = outcome.swallowed();
         if self.outside.module.compat.section == SectionMode::Process
@@ -231,6 +260,16 @@ impl<'o, S: Records> Engine<'o, S> {
         }
         self.outside.section_done(section, (number, line), swallowed);
         Ok(())
+    }
+
+    /// In a first pass a section may fail because it was told a number that is not the right
+    /// one: the post then carries its record out, unless it has.
+    #[cold]
+    fn go_on_after_guess(&mut self) -> Result<()> {
+        if self.outside.last_done == self.record.number {
+            return Ok(());
+        }
+        self.outside.process(&self.record, &self.vocabulary)
     }
 
     /// Hands the values of the script from the sections to the macros that edit, or back.

@@ -72,6 +72,10 @@ fil_diag::codes! {
         WhileWriting = 718, Error, "not while a block is written",
             "The macro is called with a block that is on its way to the tape: nothing else can be written, read or set before it is there.",
             "Change the parameters of the macro alone; do the rest in a section.";
+        /// PROGF changed what PROGF tells.
+        OwnTotals = 719, Error, "the program's totals depend on themselves",
+            "A script asked for totals of the program before its motions came and was told what a first pass had counted; the program it then wrote comes to something else, so its header would be wrong.",
+            "Use what PROGF, TLISTF, OPERF and TOOLF(NEXT) tell in texts alone, not in motions, tools, feeds or dwells.";
         /// Statements after the end.
         AfterFini = 751, Warning, "records after FINI",
             "FINI ends the program; what comes after it is not posted.",

@@ -12,7 +12,10 @@ use fil_machine::locations::{INPUT_CREO_RECORDS, MESSAGE_TO_TAPE};
 use fil_machine::{Kind, Unit, stored};
 use fil_post::FilLine;
 use fil_post::errors::PostCode;
-use fil_vm::{CommonKind, Files, Host, Module, Moment, OutputMacro, SectionId, Site, Values};
+use fil_vm::{
+    CommonKind, Files, Host, Module, Moment, OutputMacro, SectionId, Site, TotalsOf, TotalsText,
+    TotalsWord, Values,
+};
 
 use crate::cancel::CancelToken;
 use crate::editing::{SharedEditor, edits};
@@ -20,6 +23,8 @@ use crate::error::RunCode;
 use crate::event::{Event, LineEditor, Observer, RunEnd};
 use crate::granted::Granted;
 use crate::map;
+use crate::overview::Counted;
+use crate::passes::Pass;
 use crate::program::Program;
 use crate::report::{Extents, Report};
 use crate::run::Start;
@@ -47,6 +52,10 @@ pub(crate) struct Outside<'o, S> {
     raw: bool,
     /// Lengths and times, while somebody looks on.
     pub tally: Option<Box<Tally>>,
+    /// Which pass over the CL file this is.
+    pub pass: Pass,
+    /// Number of the last record that the post has carried out, in a first pass.
+    pub last_done: u32,
     /// Records need more than to be carried out: they are raw, or counted.
     careful: bool,
     /// The unit that whoever started the run has said.
@@ -76,16 +85,19 @@ pub(crate) struct Outside<'o, S> {
 impl<'o, S: Records> Outside<'o, S> {
     /// Everything as it is before the first record.
     pub fn new(start: Start<'o>, records: S) -> Self {
-        let Start { program, cl_name, raw, units, cancel, observers, map } = start;
+        let Start { program, cl_name, raw, units, cancel, observers, map, pass } = start;
         let shared = &program.shared;
+        let counts = !observers.is_empty() || !matches!(pass, Pass::Only);
         let module = Arc::clone(&shared.module);
         Outside {
             source: Source::new(records, raw || !module.has_no_section()),
             module,
             post: shared.prototype.clone(),
             report: Report::default(),
-            careful: raw || !observers.is_empty(),
-            tally: (!observers.is_empty()).then(Box::default),
+            careful: raw || counts,
+            tally: counts.then(Box::default),
+            pass,
+            last_done: 0,
             observers,
             raw,
             units,
@@ -133,6 +145,9 @@ impl<'o, S: Records> Outside<'o, S> {
             if record.major == words::MACHIN {
                 select::note(&mut self.report.machines, record, vocabulary);
             }
+            if let Some(overview) = self.pass.counted() {
+                overview.note(record);
+            }
             for observer in self.observers.iter_mut() {
                 observer(Event::Record { record, vocabulary });
             }
@@ -175,9 +190,21 @@ impl<'o, S: Records> Outside<'o, S> {
         vocabulary: &Vocabulary,
     ) -> Result<(), Box<Diag>> {
         let before = Before::new(&self.post);
+        self.last_done = record.number;
         self.carry_out(record, vocabulary)?;
         let Some(tally) = &mut self.tally else { return Ok(()) };
-        if let Some(motion) = tally.count(&before, record, &self.post) {
+        let other_seconds = tally.total.other_seconds;
+        let motion = tally.count(&before, record, &self.post);
+        if let Some(overview) = self.pass.counted() {
+            let counted = Counted {
+                motion,
+                other_seconds: tally.total.other_seconds - other_seconds,
+                diameter: self.source.diameter(),
+                unit: self.post.unit(),
+            };
+            overview.count(record, self.post.control.tape.cause.record, &counted);
+        }
+        if let Some(motion) = motion {
             for observer in self.observers.iter_mut() {
                 observer(Event::Motion(motion));
             }
@@ -500,7 +527,25 @@ impl<S: Records> Host for Outside<'_, S> {
     }
 
     fn spawn(&mut self, command: &str) -> Option<Result<f64, String>> {
-        self.program.shared.spawn.as_ref().map(|run| run(command))
+        let run = self.program.shared.spawn.as_ref()?;
+        if self.pass.is_first() {
+            // A command runs once, in the pass that writes the program.
+            self.pass.guess();
+            return Some(Ok(0.0));
+        }
+        Some(run(command))
+    }
+
+    fn totals(&mut self, of: TotalsOf, word: TotalsWord) -> Result<Option<f64>, Box<Diag>> {
+        self.pass.number(of, word)
+    }
+
+    fn totals_text(&mut self, of: TotalsText) -> Result<String, Box<Diag>> {
+        self.pass.text(of)
+    }
+
+    fn next_tool(&mut self) -> Result<Option<f64>, Box<Diag>> {
+        self.pass.tool_after(self.post.control.tape.cause.record)
     }
 
     fn neighbour(

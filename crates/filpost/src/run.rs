@@ -1,7 +1,7 @@
 //! One run: its options, then the CL stream it takes through the program.
 
 use std::fs::File;
-use std::io::{self, Read, Seek, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use fil_cl::reader::{self, Reader};
@@ -16,6 +16,7 @@ use crate::event::{Event, Observer};
 use crate::files;
 use crate::map;
 use crate::memory::Memory;
+use crate::passes::{FirstPass, Pass};
 use crate::program::Program;
 use crate::report::Report;
 use crate::script_files::PendingFiles;
@@ -59,6 +60,7 @@ pub(crate) struct Start<'o> {
     pub cancel: Option<CancelToken>,
     pub observers: Vec<Observer<'o>>,
     pub map: Option<map::Writer<'o>>,
+    pub pass: Pass,
 }
 
 impl<'o> Run<'o> {
@@ -119,17 +121,19 @@ impl<'o> Run<'o> {
     }
 
     /// Posts a CL stream. The stream can't go back, so POSTF(15) and (16) are
-    /// refused.
+    /// refused, and what asks for totals of the program: PROGF, TLISTF, OPERF, TOOLF(NEXT).
     ///
     /// # Errors
     /// The first thing that is wrong; what was written until then is not a
     /// program. The writer's own errors come as E0702.
     pub fn run(self, cl: impl Read + Send, mut nc: impl Write) -> Result<Report, Error> {
         let reader = Reader::new(cl, &self.name(), self.reading);
-        commit(self.post(reader, None, &mut nc).0)
+        commit(self.post(reader, None, None, &mut nc).0)
     }
 
-    /// Posts a CL stream that can go back.
+    /// Posts a CL stream that can go back. Where FIL asks for totals of the program, the
+    /// stream is read twice, and functions of the embedding program are called in both passes;
+    /// what scripts write and the commands they run come from the second pass alone.
     ///
     /// # Errors
     /// As [`Run::run`].
@@ -148,11 +152,12 @@ impl<'o> Run<'o> {
     /// As [`Run::run`].
     pub fn run_pending(
         self,
-        cl: impl Read + Seek + Send,
+        mut cl: impl Read + Seek + Send,
         mut nc: impl Write,
     ) -> Result<(Report, PendingFiles), Error> {
+        let first = self.first_pass(&mut cl)?;
         let reader = Reader::seekable(cl, &self.name(), self.reading);
-        self.post(reader, None, &mut nc).0
+        self.post(reader, first, None, &mut nc).0
     }
 
     /// Posts a CL file into an NC file. On any error there is no file under the
@@ -219,18 +224,19 @@ impl<'o> Run<'o> {
     /// As [`Run::run`]; E0702 for the map.
     pub fn run_mapped(
         self,
-        cl: impl Read + Seek + Send,
+        mut cl: impl Read + Seek + Send,
         mut nc: impl Write,
         names: &map::Names,
         output: &'o mut (dyn Write + Send),
     ) -> Result<(Report, PendingFiles), Error> {
         let cant = |error| files::cant_read(Path::new(&names.cl), &error);
+        let first = self.first_pass(&mut cl)?;
         let mut cl = map::Digested::new(cl).map_err(cant)?;
         let reader = Reader::seekable(&mut cl, &self.name(), self.reading);
         let cant_write = |error| files::cant_write(Path::new("the line map"), &error);
         let module = &self.program.shared.module;
         let map = map::Writer::new(output, names, module).map_err(cant_write)?;
-        let (result, map) = self.post(reader, Some(map), &mut nc);
+        let (result, map) = self.post(reader, first, Some(map), &mut nc);
         let result = result?;
         let digest = cl.finish().map_err(cant)?;
         map.map_or(Ok(()), |map| map.finish(digest)).map_err(cant_write)?;
@@ -253,7 +259,7 @@ impl<'o> Run<'o> {
     /// ```
     pub fn blocks(self, cl: impl Read + Send + 'o) -> Blocks<'o> {
         let reader = Reader::new(cl, &self.name(), self.reading);
-        Blocks::new(Engine::new(self.begin(None), reader, true))
+        Blocks::new(Engine::new(self.begin(None, Pass::Only), reader, true))
     }
 
     /// The name of the CL file in messages.
@@ -261,10 +267,35 @@ impl<'o> Run<'o> {
         self.cl_name.clone().unwrap_or_else(|| "CL".into())
     }
 
-    fn begin(self, map: Option<map::Writer<'o>>) -> Start<'o> {
+    fn begin(self, map: Option<map::Writer<'o>>, pass: Pass) -> Start<'o> {
         let (cl_name, raw) = (self.name(), self.reading.raw);
         let Run { program, units, cancel, observers, .. } = self;
-        Start { program, cl_name, raw, units, cancel, observers, map }
+        Start { program, cl_name, raw, units, cancel, observers, map, pass }
+    }
+
+    /// Counts what the FIL asks of the whole program, where it does; the input then stands
+    /// where it stood.
+    fn first_pass(&self, cl: &mut (impl Read + Seek + Send)) -> Result<Option<FirstPass>, Error> {
+        if !self.program.shared.module.asks_totals() {
+            return Ok(None);
+        }
+        let name = self.name();
+        let cant = |error| files::cant_read(Path::new(&name), &error);
+        let start = cl.stream_position().map_err(cant)?;
+        let reader = Reader::seekable(&mut *cl, &name, self.reading);
+        let pass = Pass::First { counted: Box::default(), guessed: false };
+        let Run { program, reading, units, cancel, .. } = self;
+        let first = Run {
+            program: program.clone(),
+            cl_name: None,
+            reading: *reading,
+            units: *units,
+            cancel: cancel.clone(),
+            observers: Vec::new(),
+        };
+        let found = Engine::new(first.begin(None, pass), reader, false).count();
+        cl.seek(SeekFrom::Start(start)).map_err(cant)?;
+        Ok(Some(found))
     }
 
     /// Posts what a reader gives. The methods above are compiled for each kind of input
@@ -272,24 +303,26 @@ impl<'o> Run<'o> {
     fn post(
         self,
         reader: Reader<'_>,
+        first: Option<FirstPass>,
         map: Option<map::Writer<'o>>,
         nc: &mut dyn Write,
     ) -> Done<'o> {
-        self.drive(reader, map, nc)
+        self.drive(reader, Pass::writing(first), map, nc)
     }
 
     fn post_memory(self, memory: Memory<'_>, nc: &mut dyn Write) -> Result<Report, Error> {
-        commit(self.drive(memory, None, nc).0)
+        commit(self.drive(memory, Pass::Only, None, nc).0)
     }
 
     fn drive(
         self,
         records: impl Records,
+        pass: Pass,
         map: Option<map::Writer<'o>>,
         nc: &mut dyn Write,
     ) -> Done<'o> {
         let observed = !self.observers.is_empty();
-        let mut engine = Engine::new(self.begin(map), records, observed);
+        let mut engine = Engine::new(self.begin(map, pass), records, observed);
         let result = engine.run(nc);
         (result, engine.take_map())
     }

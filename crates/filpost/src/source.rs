@@ -254,6 +254,11 @@ impl<S: Records> Source<S> {
         Ok(found)
     }
 
+    /// Diameter of the tool in use, as far as the records that were read give it.
+    pub fn diameter(&self) -> Option<f64> {
+        self.tool.diameter
+    }
+
     /// The motion before the current record.
     pub fn previous(&self) -> Option<Coordinates> {
         self.motions[usize::from(!self.on_motion)]

@@ -4,8 +4,6 @@
 //! (`rapid.rate`), without acceleration; a hole is its way down at the feed of its cycle
 //! and back at rapid.
 
-use std::f64::consts::TAU;
-
 use fil_cl::{Record, Word, record::kind, words};
 use fil_machine::commons::EMPTY;
 use fil_machine::modes::{FeedMode, Unit};
@@ -14,6 +12,7 @@ use fil_post::Post;
 use fil_post::operation::{Arc, Feed, SpindleSpeed};
 use fil_post::path::cycle::CycleFeed;
 
+use crate::reach::{ArcPath, distance};
 use crate::report::Extents;
 
 /// DBLCOM with the rapid traverse, mm/min, and with the seconds of a tool change.
@@ -41,6 +40,9 @@ pub struct Totals {
     pub untimed: u64,
     /// The box around the points.
     pub extents: Option<Extents>,
+    /// The box around the path of the tool's tip: arcs and the bottoms of holes included, the
+    /// start of the first motion not.
+    pub reach: Option<Extents>,
 }
 
 impl Totals {
@@ -49,7 +51,8 @@ impl Totals {
         self.cutting_seconds + self.rapid_seconds + self.other_seconds
     }
 
-    fn add(&mut self, motion: &Motion) {
+    /// Counts a motion.
+    pub(crate) fn add(&mut self, motion: &Motion) {
         let (length, seconds) = if motion.rapid {
             (&mut self.rapid_length, &mut self.rapid_seconds)
         } else {
@@ -61,6 +64,29 @@ impl Totals {
             None => self.untimed += 1,
         }
         Extents::add(&mut self.extents, motion.point);
+        self.widen(&motion.reach);
+    }
+
+    fn widen(&mut self, to: &Extents) {
+        Extents::add(&mut self.reach, to.min);
+        Extents::add(&mut self.reach, to.max);
+    }
+
+    /// Counts all that others count.
+    pub(crate) fn join(&mut self, other: &Totals) {
+        self.cutting_length += other.cutting_length;
+        self.rapid_length += other.rapid_length;
+        self.cutting_seconds += other.cutting_seconds;
+        self.rapid_seconds += other.rapid_seconds;
+        self.other_seconds += other.other_seconds;
+        self.untimed += other.untimed;
+        if let Some(points) = &other.extents {
+            Extents::add(&mut self.extents, points.min);
+            Extents::add(&mut self.extents, points.max);
+        }
+        if let Some(reach) = &other.reach {
+            self.widen(reach);
+        }
     }
 }
 
@@ -100,6 +126,8 @@ pub struct Motion {
     pub length: f64,
     /// Its time; `None` where it can't be told.
     pub seconds: Option<f64>,
+    /// The box around it, without its start.
+    pub(crate) reach: Extents,
 }
 
 /// What the post knew before a record.
@@ -161,8 +189,9 @@ impl Tally {
 fn motion(before: &Before, post: &Post) -> Option<Motion> {
     let point = post.point()?;
     let start = before.point.unwrap_or(point);
-    let length =
-        before.arc.map_or_else(|| distance(start, point), |arc| arc_length(&arc, start, point));
+    let arc = before.arc.map(|arc| ArcPath::new(&arc, start, point));
+    let length = arc.as_ref().map_or_else(|| distance(start, point), ArcPath::length);
+    let reach = reach(point, arc.as_ref(), post);
     let rate = rapid_rate(post);
     let feed = post.path.feed;
     if let Some(cycle) = &post.path.cycle {
@@ -180,14 +209,30 @@ fn motion(before: &Before, post: &Post) -> Option<Motion> {
             feed: feed.map(|feed| feed.value),
             length,
             seconds,
+            reach,
         });
     }
     if before.rapid && before.arc.is_none() {
         let seconds = rate.map(|rate| length / rate * 60.0);
-        return Some(Motion { point, rapid: true, feed: None, length, seconds });
+        return Some(Motion { point, rapid: true, feed: None, length, seconds, reach });
     }
     let seconds = feed.and_then(|feed| at_feed(length, &feed, post));
-    Some(Motion { point, rapid: false, feed: feed.map(|feed| feed.value), length, seconds })
+    Some(Motion { point, rapid: false, feed: feed.map(|feed| feed.value), length, seconds, reach })
+}
+
+/// The box around a motion to a point: an arc, a hole down to its bottom, or a line.
+fn reach(point: [f64; 3], arc: Option<&ArcPath>, post: &Post) -> Extents {
+    let mut extents = None;
+    Extents::add(&mut extents, point);
+    if let Some(arc) = arc {
+        arc.widen(&mut extents);
+    }
+    if let Some(cycle) = &post.path.cycle {
+        let axis = post.path.axis;
+        let down = [axis.x, axis.y, axis.z].map(|part| part * cycle.depth);
+        Extents::add(&mut extents, [0, 1, 2].map(|i| point[i] - down[i]));
+    }
+    extents.unwrap_or(Extents { min: point, max: point })
 }
 
 fn at_feed(length: f64, feed: &Feed, post: &Post) -> Option<f64> {
@@ -218,42 +263,4 @@ fn first_number(record: &Record) -> Option<f64> {
         Word::Number(number) => Some(*number),
         _ => None,
     })
-}
-
-fn distance(from: [f64; 3], to: [f64; 3]) -> f64 {
-    from.iter().zip(to).map(|(a, b)| (b - a) * (b - a)).sum::<f64>().sqrt()
-}
-
-/// Length of an arc or helix between two points.
-fn arc_length(arc: &Arc, from: [f64; 3], to: [f64; 3]) -> f64 {
-    let center = [arc.center.x, arc.center.y, arc.center.z];
-    let axis = [arc.axis.x, arc.axis.y, arc.axis.z];
-    let (from, low) = in_plane(minus(from, center), axis);
-    let (to, high) = in_plane(minus(to, center), axis);
-    let radius = arc.radius.unwrap_or_else(|| dot(from, from).sqrt());
-    let angle = dot(axis, cross(from, to)).atan2(dot(from, to));
-    let mut angle = if angle < 0.0 { angle + TAU } else { angle };
-    // Ends that meet are a full circle.
-    if angle < 1e-9 && arc.turns == 0.0 {
-        angle = TAU;
-    }
-    (radius * (angle + arc.turns * TAU)).hypot(high - low)
-}
-
-/// The part of a vector across an axis, and its length along it.
-fn in_plane(vector: [f64; 3], axis: [f64; 3]) -> ([f64; 3], f64) {
-    let along = dot(vector, axis);
-    (minus(vector, axis.map(|part| part * along)), along)
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

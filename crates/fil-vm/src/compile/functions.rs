@@ -7,6 +7,7 @@ use crate::builtins::{BUILTINS, Builtin, FunctionKind};
 use crate::errors::CompileCode;
 use crate::ops::{Op, Reg};
 use crate::postf::{Grade, PostfOp};
+use crate::totals::{self, TotalsList};
 use crate::value::Shown;
 
 /// Words that NEXTF and PREVF take, in the order of the host's coordinates.
@@ -83,10 +84,21 @@ impl Compiler<'_> {
                 ExprKind::Name(name) if name == "DIAMTR" => {
                     self.chunk.emit(Op::ToolDiameter { dst });
                 }
+                ExprKind::Name(name) if name == "NEXT" => {
+                    self.module.asks_totals = true;
+                    self.chunk.emit(Op::NextTool { dst });
+                }
                 _ => {
-                    self.report(CompileCode::WordExpected, span, "TOOLF takes the word DIAMTR");
+                    self.report(CompileCode::WordExpected, span, "TOOLF takes DIAMTR or NEXT");
                 }
             },
+            (FunctionKind::Totals(list @ TotalsList::Program), [word]) => {
+                self.totals(list, builtin, word, dst, dst);
+            }
+            (FunctionKind::Totals(list), [index, word]) if list != TotalsList::Program => {
+                let index = self.expression(index);
+                self.totals(list, builtin, word, index, dst);
+            }
             // A constant unless its argument is no word.
             (FunctionKind::WordCode, [word]) => {
                 let hint = match &word.kind {
@@ -103,6 +115,23 @@ impl Compiler<'_> {
                 span,
             ),
         }
+    }
+
+    /// PROGF, TLISTF and OPERF; without an index `index` is any register.
+    fn totals(&mut self, list: TotalsList, builtin: &Builtin, word: &Expr, index: Reg, dst: Reg) {
+        let found = match &word.kind {
+            ExprKind::Name(name) => list.find(name),
+            _ => None,
+        };
+        let Some(word_number) = found else {
+            let words: Vec<&str> = list.words().map(|(name, _)| name).collect();
+            let message = format!("{} takes one of {}", builtin.name, words.join(" "));
+            self.report(CompileCode::WordExpected, word.span, message);
+            return;
+        };
+        self.module.asks_totals = true;
+        let what = totals::what(list, word_number);
+        self.chunk.emit(Op::Totals { dst, what, index });
     }
 
     /// The index of a word that a function names.

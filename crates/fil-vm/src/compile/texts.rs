@@ -137,6 +137,7 @@ impl Compiler<'_> {
         span: Span,
         dst: Reg,
     ) {
+        self.module.asks_totals |= matches!(library, Library::TotalsText(_));
         let base = self.arguments(args, span);
         let call = LibraryCall { library, base, count: args.len() as u16, rules };
         self.module.calls.push(call);

@@ -53,6 +53,8 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             Op::ToolDiameter { dst } => {
                 (dst, Number(self.host.tool_diameter(self.vocab)?.unwrap_or(EMPTY)))
             }
+            Op::NextTool { dst } => (dst, Number(self.host.next_tool()?.unwrap_or(EMPTY))),
+            Op::Totals { dst, what, index } => (dst, self.totals(registers, what, index)?),
             Op::PreviousMotion { dst, word } => (dst, self.neighbour(false, word)?),
             _ => return self.act(registers, op),
         };

@@ -82,6 +82,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             Library::File(op) => self.file(registers, op, base),
             Library::Date | Library::Time => self.clock(registers, call),
             Library::Spawn => self.spawn(registers, base),
+            Library::TotalsText(list) => self.totals_text(registers, list, base),
         }
     }
 

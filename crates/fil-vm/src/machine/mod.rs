@@ -10,6 +10,7 @@ mod report;
 mod run;
 mod slow;
 mod texts;
+mod totals;
 
 use std::collections::HashSet;
 use std::sync::Arc;

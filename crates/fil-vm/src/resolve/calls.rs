@@ -96,7 +96,7 @@ impl<'t> Resolver<'t, '_> {
                     FunctionKind::WordCode | FunctionKind::Couplet | FunctionKind::HasWord => {
                         self.word(name, arg.span, Role::Asked);
                     }
-                    // Words of FILEF, NEXTF, PREVF and TOOLF alone.
+                    // Words of FILEF, NEXTF, PREVF, TOOLF and the totals alone.
                     _ => {}
                 },
                 (_, true) => {}
