@@ -16,12 +16,26 @@ fn cl_files() -> Vec<PathBuf> {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let data = env::var_os("FILPOST_DATA").map_or(here.join("../../shared/data"), PathBuf::from);
     let mut files = files_in(&here.join("cl")).unwrap();
+    files.extend(mills_taken_by("linuxcnc-mill"));
     let real = data.join("cl/creo");
     match files_in(&real) {
         Ok(more) => files.extend(more),
         Err(error) => println!("skipped: {}: {error}", real.display()),
     }
     files
+}
+
+/// The CL files of `corpus/mills` that a ready mill has a program for.
+fn mills_taken_by(ready: &str) -> Vec<PathBuf> {
+    let mills = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpus/mills");
+    let of_post = files_in(&mills.join(ready)).unwrap();
+    // The path of a CL file with cutter compensation is not known to the judge.
+    let taken = of_post
+        .iter()
+        .filter(|case| case.join("expected.nc").exists() && !case.ends_with("radius"));
+    taken
+        .map(|case| mills.join("cl").join(case.file_name().unwrap()).with_extension("ncl"))
+        .collect()
 }
 
 fn files_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
@@ -68,6 +82,34 @@ fn cl_files_become_the_same_path() {
             count(&wanted, |action| matches!(action, Action::Tool(_))),
         );
     }
+}
+
+/// Words that the interpreter has not, or reads otherwise: work offsets and taps of other
+/// controls, dwells in milliseconds, and G86, which needs a dwell there.
+const NOT_ITS: [&str; 6] = ["G154", "G54.1", "G84.2", "G4 ", "G82 ", "G86 "];
+
+/// The programs of the ready mills, as far as the interpreter can read them.
+#[test]
+fn programs_of_the_ready_mills_make_the_path_of_their_cl_file() {
+    let Some(program) = rs274::program() else { return };
+    let posts = ["fanuc-mill", "haas-mill", "mazak-mill", "mitsubishi-mill", "brother-mill"];
+    let mut judged = 0;
+    for ready in posts.into_iter().chain(["mach3-mill", "mach4-mill"]) {
+        for cl in mills_taken_by(ready) {
+            let nc = String::from_utf8(post_with(ready, &cl)).unwrap();
+            if NOT_ITS.iter().any(|word| nc.contains(word)) {
+                continue;
+            }
+            let calls = rs274::run(&program, &nc);
+            let calls = calls.unwrap_or_else(|said| panic!("{ready} {}: {said}", cl.display()));
+            let differences = compare(&expected(&cl), &nc_path(&calls, &nc).unwrap());
+            let list: String = differences.iter().map(|one| format!("\n  {one}")).collect();
+            assert!(differences.is_empty(), "{ready} {}:{list}\n{nc}", cl.display());
+            judged += 1;
+        }
+    }
+    assert!(judged > 40, "only {judged} programs");
+    println!("{judged} programs agree");
 }
 
 /// Each arc turned round in a program of the post must be noticed.

@@ -4,7 +4,7 @@
 //! `tests/verify/agree.txt` and `tests/verify/faults.txt` list what was not compared
 //! and what was not found; `FILPOST_UPDATE=1` writes them anew.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::fmt::Write as _;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -139,12 +139,22 @@ fn fate(case: &NcCase, original: &Both, nc: &str) -> Fate {
     }
 }
 
+/// The blocks of a program behind its number and name.
+fn unnumbered(nc: &str) -> String {
+    nc.lines().filter(|line| !line.starts_with('O')).collect::<Vec<_>>().join("\n")
+}
+
 #[test]
 fn faults_are_found() {
     let all = std::env::var_os("FILPOST_FAULTS").is_some_and(|value| value == "all");
     let mut fates: BTreeMap<Fate, usize> = BTreeMap::new();
     let mut missed = String::new();
+    let mut of_mills = HashSet::new();
     for (turn, case) in nc_cases::all().into_iter().enumerate() {
+        // The ready mills write many programs alike: one of those gets the faults.
+        if case.name.starts_with("corpus/mills/") && !of_mills.insert(unnumbered(&case.nc)) {
+            continue;
+        }
         let Ok(original) = events(&case, &case.nc) else { continue };
         let step = if all { 1 } else { SAMPLE };
         for mutant in mutants::all(&case.nc, step, turn) {

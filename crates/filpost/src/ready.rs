@@ -22,8 +22,20 @@ macro_rules! ready {
 }
 
 /// All ready posts.
-pub const READY: &[ReadyPost] =
-    ready!["fanuc-lathe", "fanuc-mill", "grbl", "heidenhain-tnc640", "linuxcnc-mill"];
+pub const READY: &[ReadyPost] = ready![
+    "brother-mill",
+    "fanuc-lathe",
+    "fanuc-mill",
+    "grbl",
+    "haas-mill",
+    "heidenhain-tnc640",
+    "linuxcnc-mill",
+    "mach3-mill",
+    "mach4-mill",
+    "mazak-mill",
+    "mitsubishi-mill",
+    "okuma-mill",
+];
 
 /// The post for a CL file that names none and is for a mill.
 pub const GENERIC_MILL: &str = "fanuc-mill";

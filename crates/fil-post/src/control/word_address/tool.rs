@@ -85,9 +85,23 @@ fn tool_blocks(control: &mut Control, tool: i64) -> Result<()> {
     }
     match control.code_if_any(loc::TOOL_CHANGE_CODE) {
         Some(code) => control.block.m(code, control.block.cause.whole()),
-        None => control.warn_no_code("a tool change"),
+        None => without_code(control, tool)?,
     }
     control.write_block()
+}
+
+/// A machine without a code for tool changes: its first tool is in the spindle already, or T
+/// changes it. Another one would never come there.
+fn without_code(control: &mut Control, tool: i64) -> Result<()> {
+    let calls = control.tables.addresses.required(T)?.is_some();
+    if let Some(before) = control.state.tool.filter(|before| *before != tool && !calls) {
+        return PostCode::NoCode.err(format!(
+            "tool {tool} after tool {before}, and the machine has no tool change: post one tool a \
+             file, or take LOADTL with a FIL section that stops the program"
+        ));
+    }
+    control.warn_no_code("a tool change");
+    Ok(())
 }
 
 /// Calls the length offset: with the Z position of the machine (own location
