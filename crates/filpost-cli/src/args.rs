@@ -44,6 +44,8 @@ pub enum Command {
     Watch(WatchArgs),
     /// Serve an editor: the language server, over standard input and output
     Lsp,
+    /// Make a folder to start an own post from
+    New(NewArgs),
     /// Print the manual page
     Man,
     /// Print completions for a shell
@@ -65,6 +67,17 @@ pub struct Chosen {
     /// One more setting on top (may be given again)
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
+}
+
+/// `filpost new`
+#[derive(Debug, ClapArgs)]
+pub struct NewArgs {
+    /// The folder to make; nothing of that name may be there
+    #[arg(value_name = "FOLDER")]
+    pub folder: PathBuf,
+    /// The ready post to begin from (`filpost explain haas-mill` tells of one)
+    #[arg(long, value_name = "POST", default_value = filpost::ready::GENERIC_MILL)]
+    pub base: String,
 }
 
 /// How FIL is read.

@@ -31,5 +31,13 @@ fil_diag::codes! {
         NoClFiles = 807, Error, "no CL files in this folder",
             "Of a folder those files are posted that end as CL files do; folders in it are not looked into.",
             "Name the folder that holds the CL files, or name the files themselves.";
+        /// `filpost new` over something.
+        FolderExists = 808, Error, "the folder is there already",
+            "A new post begins in a folder of its own; nothing that is there is written over.",
+            "Choose another name.";
+        /// `filpost new` of `..` or `/`.
+        NoName = 809, Error, "no name for the new post",
+            "The post has the name of its folder, and this path ends with none.",
+            "Write the name of the folder: filpost new my-post.";
     }
 }

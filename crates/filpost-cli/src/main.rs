@@ -16,6 +16,7 @@ mod fmt;
 mod job;
 mod json;
 mod machine;
+mod new;
 mod output;
 mod plot;
 mod post;
@@ -85,6 +86,7 @@ fn run(command: &Command) -> Result<Status, Error> {
                 Status::Failed
             }
         }),
+        Command::New(args) => new::run(args),
         Command::Man => {
             let mut page = Vec::new();
             let written = clap_mangen::Man::new(Args::command()).render(&mut page);

@@ -15,6 +15,12 @@ const TESTED: &[(&str, &str, &str)] = &[
     ("E0805", include_str!("cases.rs"), "a_case_is_not_made_of_two_files_of_one_name"),
     ("E0806", include_str!("trace.rs"), "places_that_are_not_there_are_refused"),
     ("E0807", include_str!("batch.rs"), "what_makes_no_sense_for_several_files_is_wrong_usage"),
+    ("E0808", include_str!("new.rs"), "nothing_is_written_over"),
+    (
+        "E0809",
+        include_str!("new.rs"),
+        "a_path_without_a_name_and_a_base_that_is_not_there_are_refused",
+    ),
 ];
 
 /// What `filpost explain` says of each code there is, by its name.

@@ -11,6 +11,7 @@ mod explain;
 mod fmt;
 mod machine;
 mod messages;
+mod new;
 mod output;
 mod post;
 mod support;

@@ -1,0 +1,99 @@
+//! `filpost new`: a folder to start an own post from.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use filpost::ready::{self, ReadyPost};
+use filpost::{Diag, Error, Program, files};
+
+use crate::args::NewArgs;
+use crate::errors::CommandCode;
+use crate::{Status, output};
+
+const MACHINE: &str = include_str!("../data/new/machine.toml");
+const SCRIPT: &str = include_str!("../data/new/post.fil");
+const README: &str = include_str!("../data/new/README.md");
+const CASE: &str = include_str!("../data/new/case.toml");
+const MILLED: &str = include_str!("../data/new/milled.ncl");
+const TURNED: &str = include_str!("../data/new/turned.ncl");
+
+/// Makes the folder: settings over a ready post, a script with a header, a first case, and a
+/// page that says how to go on.
+///
+/// # Errors
+/// E0703 for a base that is no ready post, E0808 where something of that name is there, E0809
+/// for a folder without a name, E0702 for files that can't be written.
+pub fn run(args: &NewArgs) -> Result<Status, Error> {
+    let Some(name) = args.folder.file_name().and_then(|name| name.to_str()) else {
+        let message = format!("{} has no name of its own", args.folder.display());
+        return Err(refused(CommandCode::NoName, message));
+    };
+    let base = find(&args.base)?;
+    let fill = |text: &str| {
+        let shown = args.folder.display().to_string();
+        text.replace("{NAME}", name).replace("{BASE}", base.name).replace("{FOLDER}", &shown)
+    };
+    let machine = fill(MACHINE).replace("\"{TITLE}\"", &toml::Value::from(name).to_string());
+    let script = fill(SCRIPT);
+    let program =
+        Program::builder().machine("machine.toml", &machine).fil("post.fil", &script).build()?;
+    let (part, nc) = first_program(base, &program)?;
+    make_folder(&args.folder)?;
+    let case = args.folder.join("cases/first");
+    fs::create_dir_all(&case).map_err(|error| files::cant_write(&case, &error))?;
+    write(&args.folder.join("machine.toml"), machine.as_bytes())?;
+    write(&args.folder.join("post.fil"), script.as_bytes())?;
+    write(&args.folder.join("README.md"), fill(README).as_bytes())?;
+    write(&case.join("case.toml"), CASE.as_bytes())?;
+    write(&case.join("part.ncl"), part.as_bytes())?;
+    write(&case.join("expected.nc"), &nc)?;
+    let folder = args.folder.display();
+    output::print(
+        format!("{folder} is made, from {}; go on with {folder}/README.md\n", base.name).as_bytes(),
+    )?;
+    Ok(Status::Done)
+}
+
+/// The ready post of a name.
+fn find(name: &str) -> Result<&'static ReadyPost, Error> {
+    // The library knows how to refuse one that is not there.
+    Program::builder().ready(name).build()?;
+    ready::find(name).ok_or_else(|| refused(CommandCode::NoName, format!("no post {name}")))
+}
+
+/// A part that the post takes, with its program: a lathe's is a turned one.
+fn first_program(base: &ReadyPost, program: &Program) -> Result<(&'static str, Vec<u8>), Error> {
+    let parts = if base.name.ends_with("lathe") { [TURNED, MILLED] } else { [MILLED, TURNED] };
+    let posted = parts.map(|part| {
+        let mut nc = Vec::new();
+        let run = program.start().cl_name("part.ncl");
+        run.run_seekable(io::Cursor::new(part), &mut nc).map(|_| (part, nc))
+    });
+    let [first, second] = posted;
+    first.or_else(|refused| second.map_err(|_| refused))
+}
+
+/// A folder that was not there.
+fn make_folder(folder: &Path) -> Result<(), Error> {
+    let parent = folder.parent().filter(|parent| !parent.as_os_str().is_empty());
+    if let Some(parent) = parent {
+        fs::create_dir_all(parent).map_err(|error| files::cant_write(parent, &error))?;
+    }
+    match fs::create_dir(folder) {
+        Ok(()) => Ok(()),
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+            let message = format!("{} is there already", folder.display());
+            Err(refused(CommandCode::FolderExists, message))
+        }
+        Err(error) => Err(files::cant_write(folder, &error)),
+    }
+}
+
+fn write(path: &Path, text: &[u8]) -> Result<(), Error> {
+    fs::write(path, text).map_err(|error| files::cant_write(path, &error))
+}
+
+fn refused(code: CommandCode, message: String) -> Error {
+    Error::Run(Box::new(Diag::new(code, message)))
+}
