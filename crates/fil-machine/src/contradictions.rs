@@ -19,6 +19,7 @@ const DIFFERENT: &[&[(CodeAt, &str)]] = &[
         (loc::CIRCLE_CW_CODE, "clockwise arcs"),
         (loc::CIRCLE_CCW_CODE, "counterclockwise arcs"),
         (loc::THREAD_CODE, "a thread"),
+        (loc::THREAD_CYCLE_CODE, "the cycle of a thread"),
         (loc::DWELL_CODE, "a dwell"),
         (loc::CYCLE_OFF_CODE, "the end of a cycle"),
     ],

@@ -107,6 +107,18 @@ fil_diag::codes! {
         ThreadTurns = 582, Error, "the machine would turn while a thread is cut",
             "The block of a thread moves X, Y and Z only.",
             "Put the change of the tool axis before or after the thread.";
+        /// Surface speed without a limit.
+        SpeedLimit = 583, Error, "surface speed without a highest speed",
+            "At constant surface speed the spindle turns faster the nearer the tool comes to its axis; what stops it must be said before.",
+            "Give SPINDL / MAXRPM, or spindle.css_limit; where the control limits it by itself, spindle.css_unlimited = 1.";
+        /// No such station.
+        Station = 584, Error, "the turret has no such station",
+            "The number of the tool is above that of the last station, and the turret would turn to another one, or alarm.",
+            "Correct the number of the tool, or turret.stations of the machine.";
+        /// A thread that can't be cut.
+        Thread = 585, Error, "thread can't be cut",
+            "A value the thread needs is missing or makes no sense, or the machine is in a mode in which no thread can be cut.",
+            "Give a lead, a depth and passes above zero, two points of the crest, and turns of the spindle (SPINDL / RPM), without cutter compensation.";
         /// Too many functions in a block.
         Crowded = 542, Error, "functions that the control does not take in one block",
             "The control takes one preparatory function in a block, and each of these needs the words that stand there.",

@@ -97,6 +97,15 @@ impl<'a> Items<'a> {
         true
     }
 
+    /// Takes the minor word at an index; false when another item stands there.
+    pub fn word_at(&mut self, at: usize, word: WordId) -> bool {
+        let stands = self.is_word(at, word) && self.is_left(at);
+        if stands {
+            self.take(at);
+        }
+        stands
+    }
+
     /// Takes a couplet: a minor word and the number after it. `None` when the
     /// word is absent.
     ///

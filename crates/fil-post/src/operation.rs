@@ -74,6 +74,51 @@ pub struct Arc {
     pub cause: Cause,
 }
 
+/// Where the tool stands clear of a thread.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ThreadSide {
+    /// Farther from the axis of the spindle.
+    Outside,
+    /// Nearer to it.
+    Inside,
+    /// Before a face, farther in +Z.
+    Before,
+    /// Behind a face, farther in -Z.
+    Behind,
+}
+
+/// How a thread is divided into passes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ThreadPasses {
+    /// By the depth of the first one, mm or inch.
+    First(f64),
+    /// By their number.
+    Count(u32),
+}
+
+/// A whole thread. Lengths in mm or inch, depths square to the axis it runs along.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thread {
+    /// Where the crest begins and ends.
+    pub crest: [Target; 2],
+    /// Where the tool stands clear of it.
+    pub side: ThreadSide,
+    /// How far the tool goes in a turn.
+    pub lead: Lead,
+    /// Number of threads beside each other.
+    pub starts: u32,
+    /// From the crest to the root.
+    pub depth: f64,
+    /// Its passes.
+    pub passes: ThreadPasses,
+    /// Passes at full depth after the last one.
+    pub springs: u32,
+    /// Angle of the profile, degrees: the tool goes in along one flank; 0 goes straight in.
+    pub angle: f64,
+    /// Distance from the crest at which the tool goes back.
+    pub clearance: f64,
+}
+
 /// How long to dwell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Dwell {
@@ -96,6 +141,19 @@ pub enum Spindle {
     Limit(f64),
     /// Turns.
     Turn(SpindleTurn),
+    /// The second spindle of a lathe turns or stops.
+    Side(SideSpindle),
+}
+
+/// What the second spindle of a lathe does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SideSpindle {
+    /// Clockwise or not; `None` where it stops.
+    pub turn: Option<bool>,
+    /// Turns a minute, where the record says it.
+    pub speed: Option<f64>,
+    /// Word of the record that gives the speed, and the one that gives the direction.
+    pub words: [u16; 2],
 }
 
 /// A range of spindle speeds.
@@ -232,6 +290,8 @@ pub enum Operation {
     Arc(Arc, Target),
     /// A hole of the active cycle.
     Hole(Target),
+    /// A thread in all its passes.
+    Thread(Box<Thread>),
     /// A dwell.
     Dwell(Dwell),
     /// A spindle.

@@ -27,13 +27,16 @@ pub const READY: &[ReadyPost] = ready![
     "fanuc-lathe",
     "fanuc-mill",
     "grbl",
+    "haas-lathe",
     "haas-mill",
     "heidenhain-tnc640",
+    "linuxcnc-lathe",
     "linuxcnc-mill",
     "mach3-mill",
     "mach4-mill",
     "mazak-mill",
     "mitsubishi-mill",
+    "okuma-lathe",
     "okuma-mill",
 ];
 

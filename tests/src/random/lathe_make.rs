@@ -19,13 +19,25 @@ const TEXTS: &[&str] = &[
     "(A NOTE)", "G17",
 ];
 
-/// Draws a program for a lathe.
+/// Draws a program for a Fanuc lathe.
 pub fn program(seed: u64) -> Program {
     let mut dice = Dice::from_seed(seed);
     let setup = Setup::lathe(&mut dice);
+    let texts = dice.once_in(3);
+    made(dice, setup, texts)
+}
+
+/// Draws a program for a lathe of LinuxCNC, which takes other texts than Fanuc's.
+pub fn linuxcnc_program(seed: u64) -> Program {
+    let mut dice = Dice::from_seed(seed);
+    let setup = Setup::linuxcnc_lathe(&mut dice);
+    made(dice, setup, false)
+}
+
+fn made(dice: Dice<'static>, setup: Setup, texts: bool) -> Program {
     let size = 1.0 / setup.unit.in_mm();
     let mut maker =
-        Maker { texts: dice.once_in(3), dice, setup, statements: Vec::new(), size, at: [0.0; 3] };
+        Maker { texts, dice, setup, statements: Vec::new(), size, at: [0.0; 3], threads: false };
     maker.change_tool();
     maker.feed();
     for _ in 0..3 + maker.dice.below(9) {
@@ -44,6 +56,8 @@ struct Maker {
     at: Point,
     /// Texts stand between the motions.
     texts: bool,
+    /// Passes of a thread are cut, which takes turns of the spindle.
+    threads: bool,
 }
 
 impl Maker {
@@ -70,8 +84,11 @@ impl Maker {
 
     fn spindle(&mut self) {
         let ccw = self.dice.once_in(3);
-        let command = if self.dice.once_in(2) {
-            let limit = self.dice.once_in(2).then(|| 1000.0 + self.dice.below(2000) as f64);
+        let command = if self.dice.once_in(2) && !self.threads {
+            // Without a limit the post refuses a surface speed, where the machine does not
+            // take it.
+            let limit = self.dice.once_in(2) || !self.setup.takes_surface_speed_without_limit();
+            let limit = limit.then(|| 1000.0 + self.dice.below(2000) as f64);
             SpindleCommand::Surface { speed: 50.0 + self.dice.below(300) as f64, ccw, limit }
         } else {
             SpindleCommand::Turn { speed: 100.0 + self.dice.below(3000) as f64, ccw }
@@ -189,6 +206,8 @@ impl Maker {
         let start = [self.length(10.0, 40.0), 0.0, self.length(3.0, 6.0)];
         let end = self.length(-40.0, -5.0);
         let taper = if self.dice.once_in(3) { self.length(0.1, 2.0) } else { 0.0 };
+        self.threads = true;
+        self.spindle();
         self.say(Statement::Thread(lead));
         for pass in 0..1 + self.dice.below(3) {
             let x = start[0] - pass as f64 * 0.2 * self.size;
@@ -200,6 +219,7 @@ impl Maker {
             self.say(Statement::Rapid([start[0] + 5.0 * self.size, 0.0, end]));
         }
         self.say(Statement::ThreadOff);
+        self.threads = false;
         if !self.dice.once_in(3) {
             self.feed();
         }
@@ -288,7 +308,7 @@ impl Maker {
             }
             5 => self.say(Statement::OptionalStop),
             6 => self.say(Statement::Message("A MESSAGE")),
-            7 => self.say(Statement::Spindle(SpindleCommand::Off)),
+            7 if !self.threads => self.say(Statement::Spindle(SpindleCommand::Off)),
             8..=10 if self.texts => {
                 let text = TEXTS[self.dice.below(TEXTS.len())];
                 self.say(Statement::Insert(text));

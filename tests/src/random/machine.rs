@@ -160,6 +160,7 @@ fn reset(setup: &Setup) -> Vec<&'static str> {
         lines.extend(["G95", "G18", "G91"]);
         lines.push(if setup.unit == Unit::Mm { "G20" } else { "G21" });
     }
+    lines.extend(["G8", "G97"]);
     lines.push(if setup.center == CenterForm::Absolute { "G90.1" } else { "G91.1" });
     lines.push("(next program)");
     lines
@@ -208,6 +209,11 @@ fn with_lone_code(block: &str, waiting: &mut Option<u32>) -> String {
     }
 }
 
+/// The K of a block.
+fn lead(block: &str) -> Option<f64> {
+    block.split(' ').find_map(|word| word.strip_prefix('K')?.parse().ok())
+}
+
 /// A block without its sequence number.
 pub fn without_number(block: &str) -> &str {
     match block.strip_prefix('N') {
@@ -229,6 +235,12 @@ struct Reading<'a> {
     feed: f64,
     per_revolution: bool,
     speed: f64,
+    /// S is a surface speed, m/min, up to this highest speed.
+    surface: bool,
+    limit: f64,
+    /// The lead along the path of the last threading move, in units of the program.
+    lead: f64,
+    in_step: bool,
     turns: Option<bool>,
     coolant: Coolant,
     compensation: Compensation,
@@ -253,6 +265,10 @@ impl<'a> Reading<'a> {
             feed: 0.0,
             per_revolution: setup.hostile,
             speed: 0.0,
+            surface: false,
+            limit: 0.0,
+            lead: 0.0,
+            in_step: false,
             turns: None,
             coolant: Coolant { flood: false, mist: false },
             compensation: Compensation::Off,
@@ -285,6 +301,7 @@ impl<'a> Reading<'a> {
 
     fn step(&self, act: NcAct, from: Point, line: usize) -> NcStep {
         let spindle = match self.turns {
+            Some(ccw) if self.surface => Turning::Surface { speed: self.speed, ccw },
             Some(ccw) => Turning::At { speed: self.speed, ccw },
             None => Turning::Stopped,
         };
@@ -297,7 +314,7 @@ impl<'a> Reading<'a> {
             coolant: self.coolant,
             compensation: self.compensation,
             length: self.length,
-            limit: 0.0,
+            limit: self.limit,
         }
     }
 
@@ -319,6 +336,12 @@ impl<'a> Reading<'a> {
                     42 => self.compensation = Compensation::Right(offset),
                     43 => self.length = words(block, 'H').first().copied().unwrap_or(0),
                     49 => self.length = 0,
+                    96 => {
+                        self.surface = true;
+                        self.limit = f64::from(words(block, 'D').first().copied().unwrap_or(0));
+                    }
+                    97 => self.surface = false,
+                    33 => self.lead = lead(block).unwrap_or(0.0),
                     _ => {}
                 }
             }
@@ -328,6 +351,7 @@ impl<'a> Reading<'a> {
     fn take(&mut self, canon: &Canon) -> Result<Option<NcAct>, String> {
         match canon {
             Canon::Traverse(to) => return Ok(Some(NcAct::Rapid(self.point(to)))),
+            Canon::Feed(to) if self.in_step => return Ok(Some(self.pass(self.point(to)))),
             Canon::Feed(to) => return Ok(Some(NcAct::Feed(self.point(to)))),
             Canon::Arc { end, center, turns, height, .. } => {
                 return Ok(Some(self.arc(*end, *center, *turns, *height)));
@@ -347,9 +371,19 @@ impl<'a> Reading<'a> {
             Canon::SpindleOff => self.turns = None,
             Canon::Flood(on) => self.coolant.flood = *on,
             Canon::Mist(on) => self.coolant.mist = *on,
-            Canon::Synchronised(_) | Canon::Comment(_) | Canon::Other(_) => {}
+            Canon::Synchronised(on) => self.in_step = *on,
+            Canon::Comment(_) | Canon::Other(_) => {}
         }
         Ok(None)
+    }
+
+    /// A pass of a thread; its lead counts along the path in the program.
+    fn pass(&self, to: Point) -> NcAct {
+        let ways = [0, 1, 2].map(|axis| (to[axis] - self.at[axis]).abs());
+        let length = ways.into_iter().fold(0.0, f64::hypot);
+        let longest = ways.into_iter().fold(0.0, f64::max);
+        let share = if length > 0.0 { longest / length } else { 1.0 };
+        NcAct::Thread { to, lead: self.lead * share * self.unit }
     }
 
     fn point(&self, to: &[f64; 6]) -> Point {

@@ -39,6 +39,7 @@ impl<T: PartialEq + Clone> Waiting<T> {
         let due = |placement| match placement {
             Placement::Own => true,
             Placement::NextXy => across,
+            Placement::NextAny => across || along,
             Placement::NextZ => along,
         };
         if let Some((value, _)) = self.next.take_if(|(_, placement)| due(*placement)) {
@@ -127,13 +128,18 @@ impl Model<'_> {
         if self.is_skipped() {
             self.may_refuse("a tool change in skipped blocks");
             self.tool = None;
+            self.tool_offset = None;
             self.length = Want::Any;
-        } else if self.setup.tool_modal && self.tool == Some(tool) {
+        } else if self.setup.tool_modal
+            && self.tool == Some(tool)
+            && self.tool_offset == Some(offset.unwrap_or(tool))
+        {
             return;
         }
         self.push(Act::Tool(tool));
         if !self.is_skipped() {
             self.tool = Some(tool);
+            self.tool_offset = Some(offset.unwrap_or(tool));
             self.length = Want::only(offset.unwrap_or(tool));
         }
         self.thread = None;
@@ -156,7 +162,9 @@ impl Model<'_> {
                 let side = if left { "LEFT" } else { "RIGHT" };
                 let given = offset.map_or(String::new(), |offset| format!(", {offset}"));
                 self.line(&format!("CUTCOM / {side}{given}"));
-                let Some(number) = offset.or(self.tool) else {
+                // On a lathe the nose is in the offset of the tool, and nothing names it.
+                let of_lathe = self.setup.turns().then_some(0);
+                let Some(number) = of_lathe.or(offset).or(self.tool) else {
                     return self.out.unpredictable = true;
                 };
                 if left { Compensation::Left(number) } else { Compensation::Right(number) }

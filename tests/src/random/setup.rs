@@ -22,6 +22,8 @@ pub enum Placement {
     Own,
     /// The next motion in X or Y.
     NextXy,
+    /// The next motion.
+    NextAny,
     /// The next motion in Z.
     NextZ,
 }
@@ -58,6 +60,9 @@ pub struct Setup {
 /// Settings without which a cycle is written as single moves.
 const NO_CYCLES: [&str; 9] =
     ["drill", "csink", "deep", "tap", "bore", "ream", "thru", "face", "brkchp"];
+
+/// The setting of a machine that limits its spindle by itself.
+const SURFACE_SPEED_ALONE: &str = "spindle.css_unlimited=1";
 
 impl Setup {
     /// Draws a machine.
@@ -106,7 +111,7 @@ impl Setup {
             expanded: true,
             spindle: Placement::Own,
             coolant: Placement::Own,
-            cutcom: Placement::NextXy,
+            cutcom: Placement::NextAny,
             tool_modal: false,
             dwell_factor: 1000.0,
             hostile: dice.once_in(2),
@@ -125,11 +130,31 @@ impl Setup {
         setup.choose(dice, 4, "motion.modal=0");
         setup.choose(dice, 4, "rapid.repeat_feed=1");
         setup.tool_modal = setup.choose(dice, 5, "tool.modal=1");
+        setup.choose(dice, 3, SURFACE_SPEED_ALONE);
         setup
+    }
+
+    /// Draws a lathe of LinuxCNC, whose own interpreter runs its programs.
+    pub fn linuxcnc_lathe(dice: &mut Dice<'static>) -> Self {
+        let mut setup = Setup::lathe(dice);
+        setup.ready = "linuxcnc-lathe";
+        setup.unit = Unit::Mm;
+        setup.dwell_factor = 1.0;
+        setup
+    }
+
+    /// A surface speed needs no highest speed on this machine.
+    pub fn takes_surface_speed_without_limit(&self) -> bool {
+        self.settings.iter().any(|setting| setting == SURFACE_SPEED_ALONE)
     }
 
     /// It is a lathe.
     pub fn turns(&self) -> bool {
+        self.ready == "fanuc-lathe" || self.ready == "linuxcnc-lathe"
+    }
+
+    /// Its programs are run by the lathe of these tests, and not by LinuxCNC's interpreter.
+    pub fn runs_on_our_lathe(&self) -> bool {
         self.ready == "fanuc-lathe"
     }
 
@@ -138,7 +163,7 @@ impl Setup {
         match (self.ready, unit) {
             ("fanuc-mill", Unit::Mm) => (3, 2),
             ("fanuc-lathe", Unit::Mm) => (3, 3),
-            ("fanuc-lathe", Unit::Inch) => (4, 4),
+            ("fanuc-lathe", Unit::Inch) | ("linuxcnc-lathe", Unit::Mm) => (4, 4),
             (_, Unit::Mm) => (4, 2),
             (_, Unit::Inch) => (4, 3),
         }
@@ -146,7 +171,7 @@ impl Setup {
 
     /// A dwell that the format of its address can't hold.
     pub fn rounds_dwell(&self, seconds: f64) -> bool {
-        self.ready != "linuxcnc-mill" && (seconds * self.dwell_factor).fract() != 0.0
+        !self.ready.starts_with("linuxcnc") && (seconds * self.dwell_factor).fract() != 0.0
     }
 
     fn set(&mut self, setting: impl Into<String>) {

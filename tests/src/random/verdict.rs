@@ -86,10 +86,11 @@ pub fn judge_changed(
     both.map(|(program, case)| verdict(program, case, &mut runs)).collect()
 }
 
-/// A mill is LinuxCNC's interpreter, a lathe is our own; the programs are of one kind.
+/// A machine of LinuxCNC is its interpreter, a Fanuc lathe is our own; the programs are of one
+/// kind.
 fn run(rs274: &Path, tapes: &[Tape<'_>]) -> Vec<Result<Vec<NcStep>, String>> {
     match tapes.first() {
-        Some(first) if first.setup.turns() => tapes.iter().map(lathe::run).collect(),
+        Some(first) if first.setup.runs_on_our_lathe() => tapes.iter().map(lathe::run).collect(),
         _ => machine::run(rs274, tapes),
     }
 }

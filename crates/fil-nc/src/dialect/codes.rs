@@ -51,6 +51,8 @@ pub enum Function {
     ThreadPass,
     /// Threading cycle of all passes.
     ThreadPasses,
+    /// That of LinuxCNC, with its pitch in P.
+    ThreadPassesByPitch,
     /// Drilling cycle.
     Cycle(CycleKind),
     /// End of a drilling cycle.
@@ -99,6 +101,8 @@ pub enum Function {
     Reference,
     /// How exactly corners are cut; no motion of its own.
     PathControl,
+    /// X is a diameter.
+    Diameter,
 }
 
 /// Functions of a group exclude each other.
@@ -128,6 +132,8 @@ pub enum Group {
     Surface,
     /// Path control.
     PathControl,
+    /// Diameters.
+    Diameter,
     /// What holds for one block only.
     Once,
 }
@@ -154,7 +160,9 @@ impl Function {
             Function::Fixture(_) | Function::NumberedFixture(_) => Group::Fixture,
             Function::Surface(_) => Group::Surface,
             Function::PathControl => Group::PathControl,
+            Function::Diameter => Group::Diameter,
             Function::ThreadPasses
+            | Function::ThreadPassesByPitch
             | Function::SpeedLimit
             | Function::Dwell
             | Function::MachineFrame
@@ -271,8 +279,7 @@ impl Functions {
             }
         }
         if lathe {
-            table.add(Some(92), Function::ThreadPass);
-            table.add(Some(76), Function::ThreadPasses);
+            table.add_threads(settings);
         }
         table.add_cycles(settings);
         table.add_fixtures(settings);
@@ -292,6 +299,21 @@ impl Functions {
     fn add(&mut self, code: Option<i32>, function: Function) {
         if let Some(code) = code {
             self.0.entry(i64::from(code) * 10).or_insert(function);
+        }
+    }
+
+    /// The threading cycles: Fanuc's, unless the settings name those of another control.
+    fn add_threads(&mut self, settings: &Settings) {
+        let code = settings.code("thread.cycle_code");
+        match settings.code("thread.cycle") {
+            Some(4) => self.add(code, Function::ThreadPassesByPitch),
+            Some(1) if code.is_some_and(|code| code != 92) => {
+                self.add(code, Function::ThreadPass);
+            }
+            _ => {
+                self.add(Some(92), Function::ThreadPass);
+                self.add(Some(76), Function::ThreadPasses);
+            }
         }
     }
 
@@ -361,7 +383,7 @@ impl Functions {
 }
 
 /// Settings that name the code of a function.
-fn named() -> [(&'static str, Function); 24] {
+fn named() -> [(&'static str, Function); 25] {
     use Function as F;
     [
         ("rapid.code_xy", F::Rapid),
@@ -388,6 +410,7 @@ fn named() -> [(&'static str, Function); 24] {
         ("spindle.css_code", F::Surface(true)),
         ("spindle.rpm_code", F::Surface(false)),
         ("spindle.max_code", F::SpeedLimit),
+        ("lathe.diameter_code", F::Diameter),
     ]
 }
 

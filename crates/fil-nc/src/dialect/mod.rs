@@ -148,6 +148,14 @@ pub struct Dialect {
     pub(crate) fixture_number: u8,
     /// That of a word that chooses the work offset; 0 for none.
     pub(crate) fixture_word: u8,
+    /// That of the lead of a threading move.
+    pub(crate) lead: u8,
+    /// The lead is measured along the path, else along the longer axis.
+    pub(crate) lead_along_path: bool,
+    /// That of the taper in the threading cycle of one pass.
+    pub(crate) thread_taper: u8,
+    /// That of the highest speed beside a surface speed; 0 for none.
+    pub(crate) speed_limit: u8,
     /// That of the angle of an oriented spindle; 0 for none.
     pub(crate) orientation: u8,
     /// Control's dwell unit in a second.
@@ -281,6 +289,10 @@ impl Dialect {
                 Some(2) => settings.letter("fixture.address"),
                 _ => 0,
             },
+            lead: settings.letter("thread.lead_address"),
+            lead_along_path: settings.code("thread.lead_along") == Some(1),
+            thread_taper: settings.letter("thread.taper_address"),
+            speed_limit: settings.letter("spindle.max_address"),
             orientation: settings.letter("spindle.orient_address"),
             dwell_factor: factor(&settings, "dwell.upm_factor"),
             feed_factor: factor(&settings, "feed.upm_factor"),

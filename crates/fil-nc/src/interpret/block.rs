@@ -104,6 +104,11 @@ impl State<'_> {
                 self.motion = None;
                 return self.thread_passes(words);
             }
+            Some(Function::ThreadPassesByPitch) => {
+                words.function(Group::Once);
+                self.motion = None;
+                return self.thread_by_pitch(words);
+            }
             _ => {}
         }
         if let Some(kind) = self.take_motion(words)? {

@@ -42,6 +42,7 @@ impl State<'_> {
         }
         self.work_offset(words)?;
         words.function(Group::PathControl);
+        words.function(Group::Diameter);
         self.offsets(words)
     }
 
@@ -108,6 +109,8 @@ impl State<'_> {
                 self.end_tip_control();
             }
             // A tool change may end the function: then H alone is not certain to act.
+            // In a threading cycle H counts passes.
+            None if words.peek(Group::Once) == Some(Function::ThreadPassesByPitch) => {}
             None if self.modes.length_offset.is_some() && words.has(H) => {
                 let offset = words.take_whole(H)?;
                 self.modes.length_offset = offset.filter(|_| self.length_is_on);
@@ -126,6 +129,10 @@ impl State<'_> {
             }
             self.surface = on;
             self.certain.say(StartMode::Surface);
+            let letter = self.dialect.speed_limit;
+            if on && letter > 0 {
+                self.modes.speed_limit = words.take(letter)?;
+            }
         }
         if words.peek(Group::Once) == Some(Function::SpeedLimit) {
             words.function(Group::Once);

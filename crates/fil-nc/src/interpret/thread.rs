@@ -9,7 +9,9 @@ use crate::motion::{Course, Rate};
 const A: u8 = letter(b'A');
 const D: u8 = letter(b'D');
 const F: u8 = letter(b'F');
+const H: u8 = letter(b'H');
 const I: u8 = letter(b'I');
+const J: u8 = letter(b'J');
 const K: u8 = letter(b'K');
 const P: u8 = letter(b'P');
 const Q: u8 = letter(b'Q');
@@ -51,11 +53,20 @@ struct Thread {
 impl State<'_> {
     /// One pass from where the tool stands.
     pub(super) fn thread(&mut self, words: &mut Words) -> Result<(), Fault> {
-        let lead = self.lead(words, &[F, K], None)?;
+        let lead = self.lead(words, &[self.dialect.lead], None)?;
         let axes = words.take_axes(self.dialect)?;
         let target = self.target(&axes);
+        let lead = if self.dialect.lead_along_path { lead * self.share(&target.0) } else { lead };
         self.go(target, Course::Thread, Some(Rate::PerTurn(lead)));
         Ok(())
+    }
+
+    /// What the longest axis has of the way to a point.
+    fn share(&self, to: &[f64; 5]) -> f64 {
+        let ways = [0, 1, 2].map(|axis| (to[axis] - self.at[axis]).abs());
+        let length = ways[0].hypot(ways[1]).hypot(ways[2]);
+        let longest = ways.into_iter().fold(0.0, f64::max);
+        if length > 0.0 { longest / length } else { 1.0 }
     }
 
     /// The lead, from the first of these letters that the block has, else the one in
@@ -80,9 +91,9 @@ impl State<'_> {
         let before = self.pass;
         let lead = self.lead(words, &[F], before.map(|pass| pass.lead))?;
         let axes = words.take_axes(self.dialect)?;
-        let taper = match words.take(R)? {
+        let taper = match words.take(self.dialect.thread_taper)? {
             Some(taper) => Some(taper),
-            None => words.take(I)?,
+            None => words.take(if self.dialect.thread_taper == R { I } else { R })?,
         };
         let (x, z) = self.thread_end(&axes, before)?;
         let taper = taper.map(|taper| taper * self.unit()).or(before.map(|pass| pass.taper));
@@ -171,6 +182,55 @@ impl State<'_> {
         let first = words.take_number(D).map(|first| first.steps(self.unit()));
         let setup = Setup { finishing: 1, angle, least: 0.0, allowance: 0.0 };
         thread(Pass { x, z, taper, lead }, height, first, setup)
+    }
+
+    /// LinuxCNC: `P` pitch, `Z` end, `I` from where the tool stands to the crest, `J` first
+    /// depth, `K` height, `R` how fast the passes become shallower, `Q` slant of the
+    /// infeed, `H` passes at full depth after the last. `I`, `J` and `K` count as X does.
+    pub(super) fn thread_by_pitch(&mut self, words: &mut Words) -> Result<(), Fault> {
+        let missing =
+            |what: &str| Fault::new(NcCode::MissingWord, format!("the thread needs {what}"));
+        let lead = self.lead(words, &[P], None)?;
+        let to_crest = words.take(I)?.ok_or_else(|| missing("its crest (I)"))?;
+        let first = words.take(J)?.ok_or_else(|| missing("its first depth (J)"))?;
+        let height = words.take(K)?.ok_or_else(|| missing("its height (K)"))?;
+        let power = words.take(R)?.unwrap_or(1.0).max(1.0);
+        let slope = words.take(Q)?.unwrap_or(0.0).to_radians().tan();
+        let springs = words.take_whole(H)?.unwrap_or(0);
+        let axes = words.take_axes(self.dialect)?;
+        let [end] = axes[..] else { return Err(missing("Z and no other axis")) };
+        if end.axis != Z || !(self.known[X] && self.known[Z]) {
+            return Err(missing("Z, and to know where X and Z stand"));
+        }
+        let [to_crest, first, height] = [to_crest, first, height].map(|way| self.way(X, way));
+        if to_crest == 0.0 || first <= 0.0 || height <= 0.0 {
+            return Err(Fault::new(NcCode::BadNumber, "a depth of the thread is not above zero"));
+        }
+        let (drive, begin) = (self.at[X], self.at[Z]);
+        let z = self.target(&axes).0[Z];
+        let (into, towards) = (to_crest.signum(), (z - begin).signum());
+        let count = (1..).map(|pass| first * f64::from(pass).powf(1.0 / power));
+        let mut depths: Vec<f64> =
+            count.take_while(|depth| *depth < height).take(MAX_PASSES + 1).collect();
+        if depths.len() > MAX_PASSES {
+            return Err(Fault::new(NcCode::BadNumber, "the passes are too shallow to count"));
+        }
+        depths.extend((0..=springs).map(|_| height));
+        let crest = drive + to_crest;
+        self.pass = Some(Pass { x: crest, z, taper: 0.0, lead });
+        for depth in depths {
+            let x = crest + into * depth;
+            let clear = x - into * (to_crest.abs() + height);
+            let begin = begin + towards * depth * slope;
+            let end = z - towards * (height - depth) * slope;
+            self.step(&[(X, clear), (Z, begin)], Course::Rapid, None);
+            self.step(&[(X, x)], Course::Rapid, None);
+            self.step(&[(Z, end)], Course::Thread, Some(Rate::PerTurn(lead)));
+            self.step(&[(X, clear)], Course::Rapid, None);
+        }
+        self.step(&[(X, drive), (Z, z)], Course::Rapid, None);
+        self.pass = None;
+        Ok(())
     }
 
     /// Passes of falling depth, so that each takes the same chip, then those at the

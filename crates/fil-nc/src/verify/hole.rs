@@ -309,7 +309,7 @@ impl<C: Steps> Walk<'_, C> {
         if !course {
             return Err((first.line, format!("{} out of the hole", self.spell_move(&first))));
         }
-        if first.course == Course::Feed {
+        if matches!(first.course, Course::Feed | Course::Thread) {
             self.check_rate(cl_line, self.at, &first, hole.rate);
         }
         let spindle = match (self.settings.cycle_code(kind), out) {
@@ -338,6 +338,7 @@ impl<C: Steps> Walk<'_, C> {
             (Some(73 | 81 | 82 | 83 | 86 | 200 | 203 | 205), _) => Out::Rapid,
             (Some(_), _) => Out::Any,
             (None, CycleKind::Bore | CycleKind::Ream) => Out::Feed,
+            (None, CycleKind::Tap) => Out::Thread,
             (None, _) => Out::Rapid,
         }
     }

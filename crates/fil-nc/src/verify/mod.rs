@@ -28,6 +28,7 @@ mod rules;
 mod say;
 mod settings;
 mod statements;
+mod thread;
 mod tools;
 mod turning_settings;
 mod walk;
@@ -47,7 +48,7 @@ pub use cl_path::ClPath;
 pub use programs::{compare_programs, compare_words};
 pub use report::{Deviation, Finding, FindingKind, Report, Unverified, Verdict};
 pub use settings::{Due, Settings, Slack};
-pub use wanted::{Arc, CoolantKind, CycleKind, Effect, End, Hole, Step, Wanted};
+pub use wanted::{Arc, CoolantKind, CycleKind, Effect, End, Hole, Step, Wanted, WholeThread};
 
 /// The inputs of a back-check.
 pub struct Check<'a> {

@@ -42,6 +42,7 @@ impl<T: Copy + PartialEq> Lag<T> {
         let due = self.next.is_some_and(|(_, due)| match due {
             Due::Now => true,
             Due::WithXY => moved.xy,
+            Due::WithAny => moved.xy || moved.z,
             Due::WithZ => moved.z,
         });
         if due {
@@ -78,6 +79,8 @@ pub(super) struct Expected {
     pub(super) tool: Option<u32>,
     /// The tool that LOADTL named last.
     loaded: Option<u32>,
+    /// The offset that it named.
+    loaded_offset: Option<u32>,
     pub(super) offset: Lag<Option<u32>>,
     /// The side, and the number of the offset.
     pub(super) compensation: Lag<(Compensation, Option<u32>)>,
@@ -93,6 +96,8 @@ pub(super) struct Expected {
     pub(super) has_speed: bool,
     /// `None` inside where words of the user's own may have set it.
     pub(super) speed_limit: Option<Option<f64>>,
+    /// The limit that the next surface speed brings along.
+    next_limit: Option<f64>,
     pub(super) coolant: Lag<Option<u32>>,
     /// `None` when words of the user's own may have chosen it.
     pub(super) fixture: Option<Option<u32>>,
@@ -111,6 +116,7 @@ impl Expected {
         Expected {
             tool: None,
             loaded: None,
+            loaded_offset: None,
             offset: Lag::new(None),
             compensation: Lag::new((Compensation::Off, None)),
             spindle: Lag::new(Some(Spindle::Off)),
@@ -120,6 +126,7 @@ impl Expected {
             range_is_named: false,
             has_speed: settings.has_speed_at_start(),
             speed_limit: Some(settings.speed_limit_at_start()),
+            next_limit: None,
             coolant: Lag::new(None),
             fixture: Some(fixture_of(&settings.own_blocks())),
             allowed_offsets: Vec::new(),
@@ -137,6 +144,11 @@ impl Expected {
     /// The tool that must be in the spindle, as far as it is known.
     pub(super) fn tool(&self) -> Option<u32> {
         self.tool
+    }
+
+    /// The offset that LOADTL named last.
+    pub(super) fn loaded_offset(&self) -> Option<u32> {
+        self.loaded_offset
     }
 
     /// Takes up what a step switches.
@@ -157,6 +169,9 @@ impl Expected {
                 self.range_is_named = true;
             }
             Wanted::Speed(speed) => self.take_speed(*speed, settings),
+            Wanted::SpeedLimit(limit) if settings.limit_comes_with_surface() => {
+                self.next_limit = Some(*limit);
+            }
             Wanted::SpeedLimit(limit) => self.speed_limit = Some(Some(*limit)),
             Wanted::Orient(angle) => {
                 self.spindle.set(None, Due::Now);
@@ -174,7 +189,9 @@ impl Expected {
             }
             Wanted::Compensation(side, offset) => {
                 let of_tool = self.loaded.filter(|_| settings.offsets_diameters_by_tool());
-                let offset = offset.or(of_tool).filter(|_| *side != Compensation::Off);
+                // The nose of a turning tool is in the offset of its T word.
+                let has_number = !settings.calls_tools_with_offset() && *side != Compensation::Off;
+                let offset = offset.or(of_tool).filter(|_| has_number);
                 self.compensation.set((*side, offset), settings.compensation_due());
             }
             Wanted::Stop { .. } | Wanted::End(_) => self.flush(),
@@ -200,10 +217,23 @@ impl Expected {
         }
     }
 
+    /// The speed that must be in force, turns/min; `None` for a surface speed, and where
+    /// none is known.
+    pub(super) fn turns_a_minute(&self) -> Option<f64> {
+        let next = self.speed.next.map(|(speed, _)| speed);
+        next.unwrap_or(self.speed.now).and_then(Speed::turns)
+    }
+
     /// Takes up a speed, with the range that it brings along.
     fn take_speed(&mut self, speed: Speed, settings: &Settings) {
         let speed = match speed {
-            Speed::Surface(_) => speed,
+            Speed::Surface(_) => {
+                if self.speed_limit == Some(None) || self.next_limit.is_some() {
+                    let limit = self.next_limit.or(settings.surface_limit());
+                    self.speed_limit = Some(limit);
+                }
+                speed
+            }
             Speed::Turns(asked) => {
                 if !self.range_is_named {
                     let within = settings.speed_within(asked, None);
@@ -221,6 +251,7 @@ impl Expected {
         self.flush();
         self.tool = settings.calls_tools().then_some(tool);
         self.loaded = Some(tool);
+        self.loaded_offset = Some(offset);
         if settings.calls_offsets() {
             self.offset.set(Some(offset), Due::WithZ);
         } else if settings.calls_tools_with_offset() {

@@ -6,6 +6,9 @@ use super::wanted::{CoolantKind, SpindleRange, Wanted};
 use crate::motion::{Compensation, FOOT, Speed, Spindle};
 
 pub(super) fn spindle(record: &Record) -> Vec<Wanted> {
+    if record.has(w::SIDE) {
+        return side_spindle(record);
+    }
     if record.has(w::OFF) {
         return vec![Wanted::Spindle(Some(Spindle::Off))];
     }
@@ -28,6 +31,16 @@ pub(super) fn spindle(record: &Record) -> Vec<Wanted> {
         () => None,
     }));
     wanted
+}
+
+/// The second spindle; S is the same word for both.
+fn side_spindle(record: &Record) -> Vec<Wanted> {
+    if record.has(w::OFF) {
+        return vec![Wanted::SideSpindle(None)];
+    }
+    let speed = numbers(record).first().map(|speed| Wanted::Speed(Speed::Turns(*speed)));
+    let turn = Wanted::SideSpindle(Some(record.has(w::CLW)));
+    speed.into_iter().chain([turn]).collect()
 }
 
 /// RANGE with a number or a word.

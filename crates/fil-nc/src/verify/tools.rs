@@ -10,7 +10,9 @@ use crate::motion::{Course, Event, Position};
 impl<C: Steps> Walk<'_, C> {
     pub(super) fn tool(&mut self, cl_line: u32, number: u32, offset: u32) {
         self.initial = None;
-        let same = self.modes.tool() == Some(number) && self.settings.tool_is_modal();
+        let same = self.modes.tool() == Some(number)
+            && self.modes.loaded_offset() == Some(offset)
+            && self.settings.tool_is_modal();
         let changes = !same && self.settings.calls_tools();
         if !changes {
             return self.modes.change_tool(number, offset, self.settings);
@@ -33,7 +35,10 @@ impl<C: Steps> Walk<'_, C> {
             }
             let at_once = self.settings.calls_tools_with_offset();
             let before = self.modes.offset_on();
-            let early = modes.length_offset.filter(|taken| !at_once && before != Some(*taken));
+            let at_change = self.settings.calls_offset_at_change();
+            let early = modes
+                .length_offset
+                .filter(|taken| !at_once && !at_change && before != Some(*taken));
             if let Some(taken) = early {
                 let message = format!("length offset {taken} is called before the tool changes");
                 self.find(FindingKind::Tool, Some(cl_line), Some(line), message);

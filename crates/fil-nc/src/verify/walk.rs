@@ -162,7 +162,18 @@ impl<'a, C: Steps> Walk<'a, C> {
             Wanted::Straight(within) => self.watch.ask(*within),
             Wanted::Tool { number, offset } => self.tool(step.line, *number, *offset),
             Wanted::Dwell(seconds) => self.dwell(step.line, *seconds),
+            Wanted::DwellTurns(turns) => {
+                let seconds = self.settings.waits_seconds().then(|| {
+                    let speed = self.modes.turns_a_minute().unwrap_or(f64::INFINITY);
+                    self.settings.dwell_within(turns * 60.0 / speed)
+                });
+                self.dwell(step.line, seconds);
+            }
             Wanted::Insert(text) => self.insert(step.line, text),
+            Wanted::WholeThread(thread) => self.whole_thread(step.line, thread),
+            Wanted::SideSpindle(turn) => {
+                self.ask_auxiliary(step.line, self.settings.side_spindle_code(*turn));
+            }
             Wanted::Unknown { what, effect } => self.unknown(step.line, what, *effect),
             Wanted::Stop { optional } => {
                 self.ask_auxiliary(step.line, self.settings.stop_code(*optional));

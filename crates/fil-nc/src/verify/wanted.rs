@@ -25,6 +25,10 @@ pub enum Wanted {
     Feed(Pose, Option<Rate>),
     /// A thread pass.
     Thread(Pose, f64),
+    /// A whole thread, in passes that the machine divides.
+    WholeThread(WholeThread),
+    /// The second spindle: clockwise or not, `None` where it stops.
+    SideSpindle(Option<bool>),
     /// An arc or helix at feed.
     Arc(Arc, Option<Rate>),
     /// A hole of a cycle.
@@ -69,8 +73,10 @@ pub enum Wanted {
     WorkOffset(Option<f64>),
     /// The program multiplies X by this from here on.
     XScale(f64),
-    /// The program waits, seconds; `None` for turns of the spindle.
+    /// The program waits, seconds.
     Dwell(Option<f64>),
+    /// The program waits turns of the spindle.
+    DwellTurns(f64),
     /// The operator is waited for, always or where he asks for it; what was to come with
     /// a motion comes now.
     Stop {
@@ -184,6 +190,31 @@ pub struct Arc {
     pub end: Pose,
     /// Swept angle, degrees, above 0.
     pub sweep: f64,
+}
+
+/// A whole thread. Lengths in mm, in the frame of the program.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WholeThread {
+    /// Where the crest begins and ends.
+    pub crest: [Point3<f64>; 2],
+    /// Unit vector from the crest to where the tool stands clear.
+    pub out: Vector3<f64>,
+    /// How far the tool goes in a turn.
+    pub lead: f64,
+    /// Number of threads beside each other.
+    pub starts: u32,
+    /// From the crest to the root.
+    pub depth: f64,
+    /// Depth of the first pass.
+    pub first: f64,
+    /// Number of passes, where it is laid down.
+    pub passes: Option<u32>,
+    /// Passes at full depth after the last one, where it is laid down.
+    pub springs: Option<u32>,
+    /// How far from the crest the tool goes back, where it is laid down.
+    pub clearance: Option<f64>,
+    /// Angle of the profile, degrees.
+    pub angle: f64,
 }
 
 /// A kind of cycle.

@@ -10,8 +10,10 @@ use super::word_address::arc::PlaneArc;
 use super::word_address::motion::{self as words, Motion, RapidCode};
 use super::{Control, klartext, word_address};
 use crate::cause::Cause;
-use crate::operation::{Dwell, Feed, Lead, Operation, ToolChange};
+use crate::operation::{Dwell, Feed, Lead, Operation, Thread, ToolChange};
 use crate::path::cycle::{Cycle, Hole};
+use crate::path::thread::Shape;
+use crate::post::Post;
 
 /// Writes an operation that does not depend on the path.
 ///
@@ -56,6 +58,18 @@ pub fn thread(control: &mut Control, motion: &Motion, lead: &Lead) -> Result<()>
     match control.tables.family {
         ControlFamily::Klartext => klartext::refuse("Klartext has no pass of a thread"),
         _ => words::thread(control, motion, lead),
+    }
+}
+
+/// Writes the cycle of one start of a whole thread; false where the machine has none that
+/// says all of it.
+///
+/// # Errors
+/// As [`word_address::thread::cycle`]; Klartext has no threads.
+pub fn thread_cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Result<bool> {
+    match post.control.tables.family {
+        ControlFamily::WordAddress => word_address::thread::cycle(post, thread, shape, start),
+        ControlFamily::Klartext => Ok(false),
     }
 }
 

@@ -79,6 +79,8 @@ pub struct Control {
     pub(crate) klartext: klartext::Klartext,
     /// The last spindle speed, as it was asked for.
     pub speed: Option<SpindleSpeed>,
+    /// The spindle turns clockwise or not, as far as the program has said it.
+    pub turning: Option<bool>,
     /// The spindle range in force that the program has said, from 0.
     pub range: Option<usize>,
     /// The location of the coolant that flows, as COOLNT asked for it.
@@ -120,6 +122,7 @@ impl Control {
             head: ProgramHead::default(),
             klartext: klartext::Klartext::default(),
             speed: None,
+            turning: None,
             range: None,
             coolant: None,
             asked: Compensation::Off,

@@ -169,6 +169,9 @@ fn mode_codes(control: &mut Control) {
     if let Some(code) = unit.filter(|code| in_force != Some(*code)) {
         control.g(code);
     }
+    if let Some(code) = control.code_if_any(loc::LATHE_DIAMETER_CODE) {
+        control.g(code);
+    }
     for (at, in_force) in START_MODES {
         let in_force = control.code_if_any(in_force);
         if let Some(code) = control.code_if_any(at).filter(|code| in_force != Some(*code)) {

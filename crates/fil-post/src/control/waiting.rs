@@ -85,6 +85,13 @@ impl Control {
         Ok(())
     }
 
+    /// Lets the words of a function come with the next motion, whichever axis moves.
+    pub fn comes_with_any_motion(&mut self, function: Function) {
+        for (_, due, _) in self.waiting.words.iter_mut().filter(|(of, ..)| *of == function) {
+            *due = Due::Any;
+        }
+    }
+
     /// Writes the words of one function that still wait, in a block of their own.
     ///
     /// # Errors

@@ -79,6 +79,7 @@ impl Codes {
         for at in loc::MOTION_CODES.into_iter().chain([loc::THREAD_CODE]) {
             name(at, Meaning::Motion);
         }
+        name(loc::THREAD_CYCLE_CODE, Meaning::Turning);
         for (at, meaning) in MODES {
             name(at, meaning);
         }
@@ -178,7 +179,8 @@ fn of_tenths(code: FunctionCode) -> Meaning {
     }
 }
 
-const MODES: [(CodeAt, Meaning); 19] = [
+const MODES: [(CodeAt, Meaning); 20] = [
+    (loc::LATHE_DIAMETER_CODE, Meaning::OneBlock),
     (loc::CIRCLE_PLANE_XY, Meaning::Plane(Plane::Xy)),
     (loc::CIRCLE_PLANE_ZX, Meaning::Plane(Plane::Zx)),
     (loc::CIRCLE_PLANE_YZ, Meaning::Plane(Plane::Yz)),

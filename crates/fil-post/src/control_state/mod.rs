@@ -111,6 +111,10 @@ pub struct ControlState {
     pub tool_changes: u32,
     /// The tool in the spindle.
     pub tool: Option<i64>,
+    /// The offset that was called with it.
+    pub tool_offset: Option<i64>,
+    /// The highest speed of the spindle, turns a minute, as far as the program has said it.
+    pub speed_limit: Option<f64>,
     /// The code of the spindle range in force; `None` when it is not known.
     pub range: Option<FunctionCode>,
     /// The program has ended: M2, M30.
@@ -137,6 +141,8 @@ impl ControlState {
             cycle: None,
             tool_changes: 0,
             tool: None,
+            tool_offset: None,
+            speed_limit: None,
             range: None,
             ended: false,
             doubtful: LetterSet::default(),
@@ -190,6 +196,8 @@ impl ControlState {
             cycle: None,
             tool_changes: self.tool_changes,
             tool: None,
+            tool_offset: None,
+            speed_limit: self.speed_limit,
             range: None,
             ended: self.ended,
             doubtful: LetterSet::ALL,
@@ -420,6 +428,8 @@ impl ControlState {
         agree(&mut self.in_cycle, &other.in_cycle);
         agree(&mut self.cycle, &other.cycle);
         agree(&mut self.tool, &other.tool);
+        agree(&mut self.tool_offset, &other.tool_offset);
+        agree(&mut self.speed_limit, &other.speed_limit);
         agree(&mut self.range, &other.range);
         self.compensation_begun &= other.compensation_begun;
         self.doubtful.0 |= other.doubtful.0;

@@ -3,7 +3,7 @@
 use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
 use fil_machine::locations as loc;
-use fil_machine::modes::INCH;
+use fil_machine::modes::{FeedMode, INCH};
 
 use super::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 use super::rapid;
@@ -11,8 +11,9 @@ use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family;
 use crate::control::word_address::motion::Motion;
+use crate::control::word_address::spindle;
 use crate::errors::PostCode;
-use crate::operation::{Dwell, Feed};
+use crate::operation::{Dwell, Feed, Lead, SpindleSpeed};
 
 /// Drills one hole: rapid to it and to the R level, feed to the bottom (in
 /// pecks), dwell, retract.
@@ -20,13 +21,59 @@ use crate::operation::{Dwell, Feed};
 /// # Errors
 /// TAP, which needs a control that couples spindle and feed.
 pub fn hole(control: &mut Control, cycle: &Cycle, at: &Motion, hole: &Hole) -> Result<()> {
-    let CycleFeed::Feed(feed) = cycle.feed else { return cant_tap() };
     if cycle.kind == CycleKind::Tap {
-        return cant_tap();
+        return tap(control, cycle, at, hole);
     }
+    let CycleFeed::Feed(feed) = cycle.feed else { return cant_tap() };
     let across = without(hole.along);
     rapid::rapid(control, &at.of(across), control.block.cause)?;
     control.because(cycle.cause, |control| Moves { control, cycle, hole, feed }.down_and_up())
+}
+
+/// Taps a hole by two threading moves, on a machine that asks for it.
+///
+/// # Errors
+/// Any other machine; a spindle that stands or turns at surface speed; a dwell.
+fn tap(control: &mut Control, cycle: &Cycle, at: &Motion, hole: &Hole) -> Result<()> {
+    if !control.commons.read(loc::THREAD_TAP) {
+        return cant_tap();
+    }
+    if cycle.dwell > 0.0 || cycle.rigid {
+        return PostCode::CycleForm.err("a tap by threading moves has no dwell and is not rigid");
+    }
+    let lead = lead_of(control, cycle)?;
+    rapid::rapid(control, &at.of(without(hole.along)), control.block.cause)?;
+    let level = |level: f64| {
+        let mut position = Position::default();
+        position[hole.along] = level;
+        Motion { position, axes: AxisSet::of(hole.along), word: 0 }
+    };
+    control.because(cycle.cause, |control| {
+        let cause = control.block.cause;
+        rapid::rapid(control, &level(hole.clear), cause)?;
+        control.flush_waiting()?;
+        family::thread(control, &level(hole.bottom), &lead)?;
+        spindle::turn_back(control)?;
+        family::thread(control, &level(hole.clear), &lead)?;
+        spindle::turn_back(control)?;
+        rapid::rapid(control, &level(hole.rest()), cause)
+    })
+}
+
+/// The lead of a tap: its own, or what its feed makes of it at the speed of the spindle.
+fn lead_of(control: &Control, cycle: &Cycle) -> Result<Lead> {
+    let feed = match cycle.feed {
+        CycleFeed::Lead(lead) => return Ok(lead),
+        CycleFeed::Feed(feed) => feed,
+    };
+    let value = match (feed.mode, control.speed) {
+        (FeedMode::PerRevolution, Some(SpindleSpeed::Revolutions(_))) => feed.value,
+        (FeedMode::PerMinute, Some(SpindleSpeed::Revolutions(speed))) if speed > 0.0 => {
+            feed.value / speed
+        }
+        _ => return PostCode::CycleForm.err("a tap needs turns of the spindle (SPINDL / RPM)"),
+    };
+    Ok(Lead { value, cause: feed.cause })
 }
 
 fn cant_tap() -> Result<()> {

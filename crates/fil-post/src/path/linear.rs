@@ -3,7 +3,7 @@
 use fil_diag::Result;
 use fil_machine::axes::AxisSet;
 
-use super::{feed_rules, linearization, rapid, rotary};
+use super::{feed_rules, linearization, rapid, rotary, thread};
 use crate::control::family;
 use crate::control::word_address::motion::Motion;
 use crate::operation::{MotionKind, Target};
@@ -41,6 +41,7 @@ pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
         },
         MotionKind::Thread(lead) => {
             rotary::refuse_thread(before, post.path.rotary)?;
+            let lead = thread::counted_lead(post, lead, target)?;
             let motion = motion.of(AxisSet::LINEAR);
             family::thread(&mut post.control, &motion, &lead)?;
         }

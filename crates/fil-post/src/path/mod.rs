@@ -18,6 +18,7 @@ mod machine_position;
 pub mod rapid;
 pub mod rotary;
 pub(crate) mod sense;
+pub mod thread;
 mod tip;
 mod tool_change;
 mod transformation;
@@ -69,6 +70,8 @@ pub struct Path {
     pub cycle: Option<Cycle>,
     /// A thread is cut by each feed motion.
     pub thread: Option<Lead>,
+    /// A whole thread that waits for its points, or has them.
+    pub(crate) awaited_thread: Option<Box<thread::Awaited>>,
     /// TRANS.
     pub transformation: Option<Transformation>,
     /// Diameter of the cutter, mm or inch.
@@ -96,6 +99,7 @@ impl Default for Path {
             arc: None,
             cycle: None,
             thread: None,
+            awaited_thread: None,
             transformation: None,
             cutter: None,
             course: sense::Course::default(),
@@ -138,6 +142,7 @@ fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
     match operation {
         Operation::MachinePosition(to) => machine_position::carry_out(post, to),
         Operation::Hole(target) => hole::carry_out(post, target),
+        Operation::Thread(thread) => thread::carry_out(post, &thread),
         Operation::ToolChange(change) => tool_change::change(&mut post.control, change),
         other => family::write(&mut post.control, other),
     }

@@ -24,11 +24,14 @@ const OF_THE_TOOL: usize = 4;
 /// Keeps the circle until its end point comes.
 ///
 /// # Errors
-/// A second CIRCLE without a GOTO between, a CIRCLE in a cycle, a record without
+/// A second CIRCLE without a GOTO between, a CIRCLE in a cycle or in a thread, a record without
 /// center and axis, a direction that contradicts the axis.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     if post.path.arc.is_some() {
         return PostCode::ArcEnd.err("a second CIRCLE came before the GOTO");
+    }
+    if post.path.thread.is_some() {
+        return PostCode::Thread.err("CIRCLE in a thread; THREAD/OFF must come before it");
     }
     if post.path.cycle.is_some() {
         return PostCode::InCycle.err("CIRCLE in an active cycle; CYCLE/OFF must come before it");

@@ -8,6 +8,7 @@ use crate::items::Items;
 use crate::operation::{End, Operation};
 use crate::path::carry_out;
 use crate::path::sense::Verdict;
+use crate::path::thread;
 use crate::post::Post;
 
 /// END: end of the program without rewinding it.
@@ -49,6 +50,7 @@ pub fn finish(post: &mut Post, end: End) -> Result<()> {
         return PostCode::ArcEnd.err("no GOTO followed the last CIRCLE");
     }
     judge_arcs(post)?;
+    thread::end(post)?;
     post.path.cycle = None;
     carry_out(post, Operation::End(end))
 }

@@ -10,6 +10,7 @@ use fil_machine::modes::{FeedMode, INCH, Unit};
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::Feed;
+use crate::path::thread;
 use crate::post::Post;
 
 /// Units of a feed.
@@ -38,7 +39,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     items.deny_rest()?;
     let feed = in_output_units(post, value, unit)?;
     post.path.feed = Some(within_limits(post, feed));
-    post.path.thread = None;
+    thread::end(post)?;
     Ok(())
 }
 

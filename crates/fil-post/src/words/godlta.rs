@@ -9,7 +9,7 @@ use crate::dispatch::POINT;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{Operation, Target};
-use crate::path::carry_out;
+use crate::path::{carry_out, thread};
 use crate::post::Post;
 
 /// Moves by the increments; one number moves along the tool axis.
@@ -21,6 +21,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         return PostCode::ArcStart.err("GODLTA before any FROM or GOTO");
     };
     goto::refuse_waiting_arc(post)?;
+    thread::refuse_awaited(post)?;
     // The numbers of a motion stand from its word 6 on.
     items.skip(usize::from(POINT) - FIRST_DATA);
     let (step, word) = match items.numbers()[..] {

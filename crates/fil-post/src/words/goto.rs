@@ -9,7 +9,7 @@ use crate::dispatch::checked_axis;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{MotionKind, Operation, Target};
-use crate::path::carry_out;
+use crate::path::{carry_out, thread};
 use crate::post::Post;
 
 /// Moves to the point; ends an arc or drills a hole when CIRCLE or CYCLE ask for it.
@@ -28,8 +28,10 @@ pub fn handle(post: &mut Post, target: Target) -> Result<()> {
     if post.path.cycle.is_some() && post.path.rapid.is_none() {
         return carry_out(post, Operation::Hole(target));
     }
-    let kind = kind_of_motion(post);
-    carry_out(post, Operation::Linear(target, kind))
+    match kind_of_motion(post) {
+        MotionKind::Thread(lead) => thread::point(post, target, lead),
+        kind => carry_out(post, Operation::Linear(target, kind)),
+    }
 }
 
 /// Rapid after RAPID, a pass of a thread in a thread, else at feed.
@@ -58,6 +60,7 @@ pub fn gohome(post: &mut Post, items: &mut Items) -> Result<()> {
     };
     items.deny_rest()?;
     refuse_waiting_arc(post)?;
+    thread::refuse_awaited(post)?;
     let target = Target { point, axis, word: FIRST_DATA as u16 };
     let kind = kind_of_motion(post);
     carry_out(post, Operation::Linear(target, kind))

@@ -8,7 +8,7 @@ use fil_machine::locations as loc;
 use crate::cause::Cause;
 use crate::items::Items;
 use crate::operation::{Operation, ToolChange};
-use crate::path::carry_out;
+use crate::path::{carry_out, thread};
 use crate::post::Post;
 
 /// Most a tool or offset number may be.
@@ -33,7 +33,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         Some((offset, word)) => (whole(items, offset)?, true, Cause { word, ..cause }),
         None => (tool, false, cause),
     };
-    post.path.thread = None;
+    thread::end(post)?;
     post.path.interrupt();
     let causes = [cause, offset_cause];
     carry_out(post, Operation::ToolChange(ToolChange { tool, offset, offset_given, causes }))

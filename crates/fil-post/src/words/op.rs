@@ -1,40 +1,74 @@
 //! OP/THREAD,TURN,TPI,n: the GOTOs that follow cut a thread, each feed motion one
-//! pass with the thread code.
+//! pass with the thread code. With DEPTH and CUTS the two GOTOs that follow are the ends of
+//! its crest, and the thread is cut in all its passes.
 
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 
-use super::thread;
+use super::thread::{lead, springs_of, starts, usual_clearance};
+use crate::errors::PostCode;
 use crate::items::Items;
+use crate::operation::{Lead, Target, Thread, ThreadPasses, ThreadSide};
+use crate::path::thread::{self, Awaited};
 use crate::post::Post;
 
-/// Remembers the lead. FEDRAT, LOADTL or OP/NOMORE end the thread.
+/// An angle of the cone nearer to that of the two points is the same, degrees.
+const SAME_ANGLE: f64 = 0.05;
+
+/// Remembers the lead, or what the whole thread is. FEDRAT, LOADTL or OP/NOMORE end it.
 ///
 /// # Errors
-/// Another OP than THREAD with TPI; depth, cuts or starts, which ask for passes that
-/// the post does not make.
+/// Another OP than THREAD with a lead; CUTS without DEPTH and the other way round; several
+/// starts of a thread that is cut pass by pass.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
+    thread::end(post)?;
     if items.flag(w::NOMORE) {
-        post.path.thread = None;
         return Ok(());
     }
     if !items.flag(w::THREAD) {
         return Err(items.error("only OP/THREAD is known"));
     }
-    items.any_of(&[w::TURN, w::FACE]);
-    let lead = thread::lead(post, items)?;
-    if items.couplet(w::MULTRD)?.is_some_and(|starts| starts != 1.0) {
-        return Err(items.error("a thread of several starts needs a FIL section"));
-    }
-    for word in [w::DEPTH, w::CUTS, w::FINCUT, w::CUTANG] {
-        if items.couplet(word)?.is_some_and(|value| value != 0.0) {
-            let name = items.name(word).to_string();
-            return Err(items.error(format!(
-                "{name} asks for passes that the post does not make; a FIL section must take it"
-            )));
-        }
-    }
+    let on_face = items.any_of(&[w::TURN, w::FACE]) == Some(w::FACE);
+    let pitch = lead(post, items)?;
+    let starts = starts(items, w::MULTRD)?;
+    let given = |value: Option<f64>| value.filter(|value| *value != 0.0);
+    let depth = given(items.couplet(w::DEPTH)?);
+    let cuts = given(items.couplet(w::CUTS)?);
+    let springs = items.couplet(w::FINCUT)?;
+    let cone = items.couplet(w::CUTANG)?;
     items.deny_rest()?;
-    post.path.thread = Some(lead);
+    let (depth, cuts) = match (depth, cuts) {
+        (Some(depth), Some(cuts)) => (depth, cuts),
+        (None, None) => {
+            if starts != 1 || given(springs).is_some() || given(cone).is_some() {
+                return Err(items.error("MULTRD, FINCUT and CUTANG need DEPTH and CUTS"));
+            }
+            post.path.thread = Some(pitch);
+            return Ok(());
+        }
+        _ => return PostCode::Thread.err("OP/THREAD needs DEPTH and CUTS, or neither"),
+    };
+    if given(cone).is_some_and(|cone| cone.abs() > SAME_ANGLE) {
+        return Err(items.error("CUTANG: the cone is that of the two points; leave the angle out"));
+    }
+    if cuts.fract() != 0.0 || !(1.0..=1000.0).contains(&cuts) {
+        return PostCode::Thread.err(format!("{cuts} passes"));
+    }
+    let from = post.path.point.map(|point| Target { point, axis: post.path.axis, word: 0 });
+    let nowhere = Target { point: Default::default(), axis: post.path.axis, word: 0 };
+    let thread = Thread {
+        crest: [nowhere; 2],
+        side: ThreadSide::Outside,
+        lead: Lead { value: pitch.value * f64::from(starts), ..pitch },
+        starts,
+        depth,
+        passes: ThreadPasses::Count(cuts as u32),
+        springs: springs_of(post, items, springs)?,
+        angle: 0.0,
+        clearance: usual_clearance(post),
+    };
+    post.path.thread = Some(pitch);
+    let awaited = Awaited { thread, on_face, from, start: None, is_cut: false };
+    post.path.awaited_thread = Some(Box::new(awaited));
     Ok(())
 }

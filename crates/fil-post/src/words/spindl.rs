@@ -1,11 +1,12 @@
 //! SPINDL: RPM,s,CLW in any order; OFF; ON; ORIENT\[,angle]; SFM and SMM for
-//! constant surface speed; MAXRPM,n; RANGE,n|LOW|MEDIUM|HIGH.
+//! constant surface speed; MAXRPM,n; RANGE,n|LOW|MEDIUM|HIGH. SIDE speaks of the second
+//! spindle of a lathe, MAIN of the first.
 
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 
 use crate::items::Items;
-use crate::operation::{Operation, Spindle, SpindleRange, SpindleSpeed, SpindleTurn};
+use crate::operation::{Operation, SideSpindle, Spindle, SpindleRange, SpindleSpeed, SpindleTurn};
 use crate::path::carry_out;
 use crate::post::Post;
 
@@ -14,6 +15,10 @@ use crate::post::Post;
 /// # Errors
 /// A form that is not known, or a speed that does not fit.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
+    if items.flag(w::SIDE) {
+        return side(post, items);
+    }
+    items.flag(w::MAIN);
     if items.flag(w::OFF) {
         items.deny_rest()?;
         return carry_out(post, Operation::Spindle(Spindle::Off));
@@ -43,6 +48,26 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         }
         None => Ok(()),
     }
+}
+
+/// The second spindle: RPM,s with CLW or CCLW; OFF.
+fn side(post: &mut Post, items: &mut Items) -> Result<()> {
+    let stops = items.flag(w::OFF);
+    items.flag(w::RPM);
+    let speed = if stops { None } else { items.number() };
+    let speed_word = items.last_word();
+    let direction = items.any_of(&[w::CLW, w::CCLW]);
+    let words = [speed_word, items.last_word()];
+    items.deny_rest()?;
+    let turn = match direction {
+        _ if stops => None,
+        Some(word) => Some(word == w::CLW),
+        None => return Err(items.error("the second spindle needs CLW, CCLW or OFF")),
+    };
+    if speed.is_some_and(|speed| speed < 0.0) {
+        return Err(items.error("the speed is negative; CCLW turns the other way"));
+    }
+    carry_out(post, Operation::Spindle(Spindle::Side(SideSpindle { turn, speed, words })))
 }
 
 /// RANGE with a number or a word.

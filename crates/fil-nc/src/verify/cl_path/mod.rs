@@ -5,6 +5,7 @@
 //! not known from the CL file alone becomes [`Wanted::Unknown`].
 
 mod path;
+mod thread;
 
 use std::collections::VecDeque;
 
@@ -95,6 +96,8 @@ struct State {
     rapid: bool,
     rate: Option<Rate>,
     thread: Option<f64>,
+    /// OP/THREAD that waits for the ends of its crest.
+    awaited: Option<thread::Awaited>,
     circle: Option<Waiting>,
     cycle: Option<Cycle>,
     matrix: Option<Matrix>,
@@ -138,6 +141,7 @@ impl<'r> ClPath<'r> {
                 rapid: false,
                 rate: None,
                 thread: None,
+                awaited: None,
                 circle: None,
                 cycle: None,
                 matrix: None,
@@ -315,7 +319,7 @@ impl State {
             }
             w::FEDRAT => {
                 self.rate = numbers(record).first().map(|value| self.rate_of(record, *value));
-                self.thread = None;
+                self.end_thread();
                 Vec::new()
             }
             w::TRANS => self.trans(record),
@@ -335,9 +339,13 @@ impl State {
             w::CUTCOM => {
                 compensation(record).map_or_else(|| unknown(Effect::Words), |side| vec![side])
             }
-            w::DELAY => vec![Wanted::Dwell(
-                numbers(record).first().copied().filter(|_| !record.has(w::REV)),
-            )],
+            w::DELAY => {
+                let amount = numbers(record).first().copied();
+                vec![match amount.filter(|_| record.has(w::REV)) {
+                    Some(turns) => Wanted::DwellTurns(turns),
+                    None => Wanted::Dwell(amount),
+                }]
+            }
             w::OP | w::THREAD => self.thread(record).unwrap_or_else(|| unknown(Effect::Path)),
             w::MODE if record.has(w::TURN) => vec![Wanted::XScale(DIAMETER)],
             w::MODE if record.has(w::MILL) => vec![Wanted::XScale(1.0)],
@@ -469,7 +477,7 @@ impl State {
     }
 
     fn tool(&mut self, record: &Record) -> Option<Vec<Wanted>> {
-        self.thread = None;
+        self.end_thread();
         let numbers = numbers_beside(record, &[w::LENGTH, w::OSETNO, w::ADJUST]);
         let number = *numbers.first()?;
         let offset = record.number_after(w::OSETNO).or(record.number_after(w::ADJUST));
@@ -477,30 +485,5 @@ impl State {
             number: whole(number)?,
             offset: whole(offset.unwrap_or(number))?,
         }])
-    }
-
-    /// The lead of a thread or tap in mm: TPI counts threads an inch.
-    fn lead(&self, record: &Record) -> Option<f64> {
-        let after = |word| record.number_after(word);
-        let lead = match (after(w::TPI), after(w::MMPR), after(w::IPR)) {
-            (Some(threads), ..) => INCH / threads,
-            (_, Some(millimetres), _) => millimetres,
-            (.., Some(inches)) => inches * INCH,
-            _ => return None,
-        };
-        Some(lead).filter(|lead| lead.is_finite() && *lead > 0.0)
-    }
-
-    /// OP/THREAD and THREAD with a lead; `None` for forms that leave the passes open.
-    fn thread(&mut self, record: &Record) -> Option<Vec<Wanted>> {
-        if record.has(w::NOMORE) || record.has(w::OFF) {
-            self.thread = None;
-            return Some(Vec::new());
-        }
-        if record.has(w::AUTO) || (record.major == w::OP && !record.has(w::THREAD)) {
-            return None;
-        }
-        self.thread = Some(self.lead(record)?);
-        Some(Vec::new())
     }
 }

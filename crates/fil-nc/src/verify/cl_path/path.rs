@@ -37,6 +37,10 @@ impl State {
         if record.sub == motion::GODLTA {
             return self.line_to(point, axis);
         }
+        if self.awaited.is_some() && !self.rapid {
+            self.axis = axis;
+            return self.point_of_thread(point);
+        }
         match (self.circle.take(), self.cycle) {
             (Some(waiting), _) => self.arc_to(&waiting, point, axis),
             (None, Some(cycle)) if !self.rapid => {
@@ -121,7 +125,7 @@ impl State {
     }
 
     /// A point and a tool axis after TRANS, in mm.
-    fn pose(&self, point: Point3<f64>, axis: Vector3<f64>) -> Pose {
+    pub(super) fn pose(&self, point: Point3<f64>, axis: Vector3<f64>) -> Pose {
         let (point, axis) = match &self.matrix {
             Some(Matrix { rows, turns_axis }) => {
                 let turned = rows.fixed_columns::<3>(0) * axis;

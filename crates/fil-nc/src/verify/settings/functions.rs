@@ -1,7 +1,7 @@
 //! Codes and placements of spindle, coolant, stops and end.
 
 use fil_machine::commons::Rel;
-use fil_machine::locations::{self as loc, FixtureForm};
+use fil_machine::locations::{self as loc, FixtureForm, ThreadCycle};
 use fil_machine::setting::CodeAt;
 use fil_machine::user_blocks;
 
@@ -173,6 +173,57 @@ impl Settings<'_> {
     /// The code that brings the control into the mode of rigid taps.
     pub fn rigid_tap_mode(&self) -> Option<u32> {
         self.commons.read(loc::CYCLE_RIGID_TAP_MODE).map(number)
+    }
+
+    /// The code of the second spindle.
+    pub fn side_spindle_code(&self, turn: Option<bool>) -> Option<u32> {
+        let at = match turn {
+            None => loc::SPINDLE_SIDE_STOP_CODE,
+            Some(true) => loc::SPINDLE_SIDE_CW_CODE,
+            Some(false) => loc::SPINDLE_SIDE_CCW_CODE,
+        };
+        self.commons.read(at).map(number)
+    }
+
+    /// The machine waits seconds only.
+    pub fn waits_seconds(&self) -> bool {
+        self.commons.dbl_opt(loc::DWELL_UPR_FACTOR).is_none_or(|factor| factor <= 0.0)
+    }
+
+    /// How far from the crest the tool goes back from a thread, mm.
+    pub fn thread_clearance(&self) -> f64 {
+        self.commons.dbl_opt(loc::THREAD_CLEARANCE).unwrap_or(0.0)
+    }
+
+    /// Least that a pass of a thread goes deeper, mm.
+    pub fn thread_least_depth(&self) -> f64 {
+        self.commons.dbl_opt(loc::THREAD_LEAST_DEPTH).unwrap_or(0.0).max(0.0)
+    }
+
+    /// The cycle of all passes in one block leaves open how many of them lie at the root.
+    pub fn leaves_springs_open(&self) -> bool {
+        self.commons.read(loc::THREAD_CYCLE) == ThreadCycle::CycleOfAllPassesInOneBlock
+    }
+
+    /// The fewest passes at full depth after the last one that the machine's cycle can say.
+    pub fn least_springs(&self) -> u32 {
+        let cycle = self.commons.read(loc::THREAD_CYCLE);
+        u32::from(cycle == ThreadCycle::CycleOfAllPassesInTwoBlocks)
+    }
+
+    /// Passes at full depth after the last one of a thread.
+    pub fn thread_springs(&self) -> u32 {
+        self.commons.int(loc::THREAD_SPRINGS).max(0).unsigned_abs()
+    }
+
+    /// The highest speed that the machine gives before a surface speed, turns/min.
+    pub fn surface_limit(&self) -> Option<f64> {
+        self.commons.dbl_opt(loc::SPINDLE_CSS_LIMIT)
+    }
+
+    /// The highest speed stands in the block of the surface speed.
+    pub fn limit_comes_with_surface(&self) -> bool {
+        self.commons.read(loc::SPINDLE_MAX_ADDRESS).is_some()
     }
 
     /// The code of CLAMP.

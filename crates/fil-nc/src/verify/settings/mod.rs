@@ -35,6 +35,8 @@ pub enum Due {
     Now,
     /// When X or Y moves.
     WithXY,
+    /// With the next motion of any of them.
+    WithAny,
     /// When Z moves.
     WithZ,
 }
@@ -196,7 +198,11 @@ impl<'c> Settings<'c> {
 
     /// When cutter compensation must be in force.
     pub fn compensation_due(&self) -> Due {
-        if self.commons.read(loc::CUTCOM_WITH_MOTION) { Due::WithXY } else { Due::Now }
+        match self.commons.read(loc::CUTCOM_WITH_MOTION) {
+            false => Due::Now,
+            true if self.commons.read(loc::LATHE_DIAMETER) => Due::WithAny,
+            true => Due::WithXY,
+        }
     }
 
     /// True when the program calls tools.
@@ -219,6 +225,11 @@ impl<'c> Settings<'c> {
         !self.calls_tools_with_offset()
             && self.commons.read(loc::TOOL_LENGTH_CODE).is_some()
             && self.commons.read(loc::TOOL_LENGTH_FROM_TOOL)
+    }
+
+    /// The length offset stands right behind the tool change.
+    pub fn calls_offset_at_change(&self) -> bool {
+        self.commons.read(loc::TOOL_LENGTH_AT_CHANGE)
     }
 
     /// Z that the length offset is called with, mm.

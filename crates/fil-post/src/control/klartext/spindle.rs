@@ -16,6 +16,7 @@ pub fn write(control: &mut Control, spindle: Spindle) -> Result<()> {
     match spindle {
         Spindle::Turn(turn) => start(control, turn),
         Spindle::Limit(_) => super::refuse("SPINDL/MAXRPM on a mill"),
+        Spindle::Side(_) => super::refuse("SPINDL/SIDE on a mill"),
         other => words::write(control, other),
     }
 }

@@ -34,6 +34,7 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     }
     control.state.tool_changes += 1;
     control.state.tool = Some(wanted.tool);
+    control.state.tool_offset = Some(wanted.offset);
     Ok(())
 }
 

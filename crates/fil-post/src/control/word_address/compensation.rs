@@ -1,10 +1,12 @@
 //! Cutter compensation: its plane, its side, its offset.
 
 use fil_diag::Result;
-use fil_machine::locations::{self as loc, Placement};
+use fil_machine::letters::T;
+use fil_machine::locations::{self as loc, Placement, ToolFormat};
 use fil_machine::modes::Plane;
 
 use super::modes;
+use super::tool::OFFSETS;
 use crate::control::{Control, Function};
 use crate::control_state::Compensation;
 use crate::errors::PostCode;
@@ -37,17 +39,45 @@ pub fn write(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
     control.asked = wanted.side;
     let with_motion = control.commons.read(loc::CUTCOM_WITH_MOTION);
     let placement = if with_motion { Placement::NextXyBlock } else { Placement::BlockOfItsOwn };
-    control.place_block(Function::Compensation, placement)
+    control.place_block(Function::Compensation, placement)?;
+    if control.commons.read(loc::LATHE_DIAMETER) {
+        // Its plane is that of X and Z, and no motion leaves it.
+        control.comes_with_any_motion(Function::Compensation);
+    }
+    Ok(())
 }
 
-/// The plane a machine works in: the one its program starts in, else XY.
+/// The plane a machine works in: the one its program starts in, else ZX on a lathe and XY
+/// on a mill.
 fn usual_plane(control: &Control) -> Plane {
     let start = crate::control::program::state_at_start(&control.commons, None);
-    start.plane.unwrap_or(Plane::Xy)
+    let turns = control.commons.read(loc::LATHE_DIAMETER);
+    start.plane.unwrap_or(if turns { Plane::Zx } else { Plane::Xy })
+}
+
+/// The nose of a turning tool is in the offset that its T word has called: a number in
+/// the record must be the same, and no word is written.
+///
+/// # Errors
+/// Another offset, or one that is not known.
+fn nose(control: &Control, given: Option<(f64, u16)>) -> Result<()> {
+    let Some((offset, _)) = given else { return Ok(()) };
+    let called = control.last_value(T).map(|word| word.rem_euclid(OFFSETS as f64));
+    if called == Some(offset) {
+        return Ok(());
+    }
+    let called = called.map_or("not known".to_string(), |called| format!("{called}"));
+    let mut diag = PostCode::WordForm
+        .diag(format!("CUTCOM: offset {offset}, and that of the T word in force is {called}"));
+    diag.hint = Some("The nose radius is in the offset of the T word; leave the number out, or give LOADTL the same OSETNO.".into());
+    Err(diag)
 }
 
 /// Adds the offset: that of the record, else the number of the tool.
 fn offset_word(control: &mut Control, given: Option<(f64, u16)>) -> Result<()> {
+    if control.commons.read(loc::TOOL_FORMAT) == ToolFormat::ToolAndOffsetInOneTWord {
+        return nose(control, given);
+    }
     let from_tool = control.commons.read(loc::TOOL_DIAMETER_FROM_TOOL);
     let of_tool = control.state.tool.filter(|_| from_tool).map(|tool| (tool as f64, 0));
     let Some((offset, word)) = given.or(of_tool) else {

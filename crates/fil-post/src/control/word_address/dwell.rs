@@ -2,12 +2,13 @@
 
 use fil_diag::Result;
 use fil_machine::commons::Dbl;
+use fil_machine::letters::S;
 use fil_machine::modes::FeedMode;
 use fil_machine::{Letter, locations as loc};
 
 use crate::control::Control;
 use crate::errors::PostCode;
-use crate::operation::Dwell;
+use crate::operation::{Dwell, SpindleSpeed};
 
 /// Writes a dwell block.
 ///
@@ -47,7 +48,8 @@ fn in_seconds(control: &mut Control, seconds: f64) -> f64 {
 fn in_revolutions(control: &mut Control, turns: f64) -> Result<f64> {
     let factor = control.commons.dbl_opt(loc::DWELL_UPR_FACTOR).filter(|factor| *factor > 0.0);
     let Some(factor) = factor else {
-        return PostCode::NoCode.err("the machine can't dwell in revolutions");
+        let seconds = turns * 60.0 / turns_a_minute(control)?;
+        return Ok(in_seconds(control, seconds));
     };
     // Code and letter are those of a dwell in seconds: the feed mode tells them apart.
     if control.state.feed_mode != Some(FeedMode::PerRevolution) {
@@ -55,6 +57,25 @@ fn in_revolutions(control: &mut Control, turns: f64) -> Result<f64> {
             .err("a dwell in revolutions where the feed is not one a revolution would be seconds");
     }
     Ok(within(control, turns, (loc::DWELL_UPR_MIN, loc::DWELL_UPR_MAX)) * factor)
+}
+
+/// The speed of the spindle, for a machine that waits seconds only.
+///
+/// # Errors
+/// None is known, or it changes with the radius.
+fn turns_a_minute(control: &Control) -> Result<f64> {
+    let of_turns = matches!(control.speed, Some(SpindleSpeed::Revolutions(_)));
+    let speed = control.last_value(S).filter(|speed| of_turns && *speed > 0.0);
+    speed.ok_or_else(|| {
+        let mut diag = PostCode::NoCode.diag(
+            "the machine can't dwell in revolutions, and how fast the spindle turns is not known",
+        );
+        diag.hint = Some(
+            "Give the spindle turns a minute (SPINDL / RPM) before it, or the dwell in seconds."
+                .into(),
+        );
+        diag
+    })
 }
 
 fn within(control: &mut Control, amount: f64, (min, max): (Dbl, Dbl)) -> f64 {

@@ -11,9 +11,10 @@ mod function;
 pub mod modes;
 pub mod motion;
 mod repeat;
-pub(super) mod spindle;
+pub mod spindle;
 pub(super) mod stop;
 pub(super) mod text;
+pub mod thread;
 pub mod tool;
 
 use fil_diag::Result;
@@ -47,6 +48,7 @@ pub fn write(control: &mut Control, operation: Operation) -> Result<()> {
         | Operation::MachinePosition(_)
         | Operation::Arc(..)
         | Operation::Hole(_)
+        | Operation::Thread(_)
         | Operation::ToolChange(_) => unreachable!("the passes take operations that move"),
     }
 }

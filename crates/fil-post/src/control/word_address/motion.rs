@@ -104,8 +104,12 @@ pub fn thread(control: &mut Control, motion: &Motion, lead: &Lead) -> Result<()>
     }
     let code = control.code(loc::THREAD_CODE, "a thread")?;
     motion_code(control, code, false, lead.cause.whole());
-    lead_word(control, lead)?;
+    let letter = control.letter(loc::THREAD_LEAD_ADDRESS, "the lead of a thread")?;
+    control.because(lead.cause, |control| {
+        control.word_rounded(letter, lead.value, fil_machine::rounding::Rounding::Lead)
+    })?;
     write_motion(control)?;
+    control.state.doubt(letter);
     control.state.doubt(F);
     Ok(())
 }

@@ -8,7 +8,7 @@ use fil_machine::setting::CodeAt;
 
 use crate::control::{Control, Function};
 use crate::errors::PostCode;
-use crate::operation::{Spindle, SpindleRange, SpindleSpeed, SpindleTurn};
+use crate::operation::{SideSpindle, Spindle, SpindleRange, SpindleSpeed, SpindleTurn};
 
 /// Meters of a foot.
 const FOOT: f64 = 0.3048;
@@ -30,18 +30,69 @@ pub fn write(control: &mut Control, spindle: Spindle) -> Result<()> {
             select_range(control, index)
         }
         Spindle::Limit(limit) => {
-            let code = control.code(loc::SPINDLE_MAX_CODE, "SPINDL/MAXRPM")?;
-            control.g_of_record(code);
-            control.word(S, limit)?;
-            control.write_block()
+            if !(limit.is_finite() && limit > 0.0) {
+                return PostCode::WordForm.err(format!("SPINDL: a highest speed of {limit}"));
+            }
+            limit_block(control, limit)
         }
         Spindle::Turn(turn) => start(control, turn),
+        Spindle::Side(side) => side_spindle(control, side),
     }
+}
+
+/// Says the highest speed, in a block of its own or later in that of the surface speed.
+fn limit_block(control: &mut Control, limit: f64) -> Result<()> {
+    control.begin()?;
+    control.state.speed_limit = Some(limit);
+    if control.commons.read(loc::SPINDLE_MAX_ADDRESS).is_some() {
+        return Ok(());
+    }
+    let code = control.code(loc::SPINDLE_MAX_CODE, "SPINDL/MAXRPM")?;
+    control.g_of_record(code);
+    control.word(S, limit)?;
+    control.write_block()
+}
+
+/// Sees that a highest speed is in force before a surface speed.
+///
+/// # Errors
+/// Neither the CL file nor the machine gives one.
+fn require_limit(control: &mut Control) -> Result<()> {
+    if control.state.speed_limit.is_some() || control.commons.read(loc::SPINDLE_CSS_UNLIMITED) {
+        return Ok(());
+    }
+    match control.commons.dbl_opt(loc::SPINDLE_CSS_LIMIT) {
+        Some(limit) => limit_block(control, limit),
+        None => PostCode::SpeedLimit.err("SPINDL: no highest speed (MAXRPM) is in force"),
+    }
+}
+
+/// Turns or stops the second spindle, in a block of its own.
+fn side_spindle(control: &mut Control, side: SideSpindle) -> Result<()> {
+    let at = match side.turn {
+        None => loc::SPINDLE_SIDE_STOP_CODE,
+        Some(true) => loc::SPINDLE_SIDE_CW_CODE,
+        Some(false) => loc::SPINDLE_SIDE_CCW_CODE,
+    };
+    let code = control.code(at, "the second spindle")?;
+    control.flush_waiting()?;
+    control.block.cause.word = side.words[0];
+    if let Some(speed) = side.speed {
+        if let Some(code) = control.code_if_any(loc::SPINDLE_RPM_CODE) {
+            control.g_of_record(code);
+        }
+        control.word(S, speed)?;
+        control.speed = None;
+    }
+    control.block.cause.word = side.words[1];
+    control.m(code);
+    control.write_block()
 }
 
 /// Stops the spindle at once, after all that still waits for a motion.
 fn off(control: &mut Control) -> Result<()> {
     control.flush_waiting()?;
+    control.turning = None;
     match control.code_if_any(loc::SPINDLE_STOP_CODE) {
         Some(code) => control.m(code),
         None => control.warn_no_code("SPINDL/OFF"),
@@ -55,6 +106,7 @@ fn off(control: &mut Control) -> Result<()> {
 /// # Errors
 /// The machine has no address for an angle, or its format can't hold it.
 fn orient(control: &mut Control, angle: Option<f64>) -> Result<()> {
+    control.turning = None;
     let Some(angle) = angle else {
         return place(control, loc::SPINDLE_ORIENT_CODE, "SPINDL/ORIENT");
     };
@@ -81,6 +133,10 @@ fn orient(control: &mut Control, angle: Option<f64>) -> Result<()> {
 fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
     control.begin()?;
     let [speed_word, direction_word] = turn.words;
+    if matches!(turn.speed, Some(SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_))) {
+        control.code(loc::SPINDLE_CSS_CODE, "constant surface speed")?;
+        require_limit(control)?;
+    }
     control.block.cause.word = speed_word;
     if turn.speed.is_some() && !control.commons.read(loc::SPINDLE_DIRECT_RPM) {
         let mut diag = PostCode::NoCode.diag(
@@ -102,12 +158,33 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
         (None, None) => {}
     }
     control.block.cause.word = direction_word;
+    let usual = || {
+        let code = control.code_if_any(loc::SPINDLE_DEFAULT_CODE)?;
+        Some(control.code_if_any(loc::SPINDLE_CW_CODE) == Some(code))
+    };
+    control.turning = turn.clockwise.or_else(usual);
     let direction = match turn.clockwise {
         Some(true) => loc::SPINDLE_CW_CODE,
         Some(false) => loc::SPINDLE_CCW_CODE,
         None => loc::SPINDLE_DEFAULT_CODE,
     };
     place(control, direction, "the spindle")
+}
+
+/// Turns the spindle the other way, in a block of its own; says which way it turned.
+///
+/// # Errors
+/// It does not turn, or nothing has said which way; the machine has no such code.
+pub fn turn_back(control: &mut Control) -> Result<bool> {
+    let Some(clockwise) = control.turning else {
+        return PostCode::CycleForm.err("a tap, and which way the spindle turns is not known");
+    };
+    let at = if clockwise { loc::SPINDLE_CCW_CODE } else { loc::SPINDLE_CW_CODE };
+    let code = control.code(at, "the spindle turned back")?;
+    control.m(code);
+    control.write_block()?;
+    control.turning = Some(!clockwise);
+    Ok(clockwise)
 }
 
 /// Adds S, and on a lathe the code for revolutions or surface speed.
@@ -120,6 +197,12 @@ fn speed_words(control: &mut Control, speed: SpindleSpeed) -> Result<()> {
         control.g_of_record(code);
     }
     control.speed = Some(speed);
+    let of_surface = !matches!(speed, SpindleSpeed::Revolutions(_));
+    let letter = control.commons.read(loc::SPINDLE_MAX_ADDRESS).filter(|_| of_surface);
+    if let (Some(letter), Some(limit)) = (letter, control.state.speed_limit) {
+        control.word_rounded(letter, limit, Rounding::Rate)?;
+        control.state.doubt(letter);
+    }
     let value = value_of(control, speed);
     control.word(S, value)
 }

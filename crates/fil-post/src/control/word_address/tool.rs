@@ -10,12 +10,16 @@ use crate::control::Control;
 use crate::errors::PostCode;
 use crate::operation::ToolChange;
 
+/// How many offsets the second half of T0303 can name.
+pub(super) const OFFSETS: i64 = 100;
+
 /// Ends what a tool change must not interrupt; says whether the tool is to be
 /// changed at all.
 ///
 /// # Errors
-/// Cutter compensation that is still on.
+/// Cutter compensation that is still on; a station that the turret lacks.
 pub fn prepare(control: &mut Control, wanted: &ToolChange) -> Result<bool> {
+    check_station(control, wanted.tool)?;
     control.begin()?;
     super::cycle::cancel(control)?;
     control.flush_waiting()?;
@@ -23,7 +27,19 @@ pub fn prepare(control: &mut Control, wanted: &ToolChange) -> Result<bool> {
         return PostCode::CompensationOn.err("at a tool change; CUTCOM/OFF must come before it");
     }
     let modal = control.commons.read(loc::TOOL_MODAL);
-    Ok(!modal || control.state.tool != Some(wanted.tool))
+    let stays =
+        control.state.tool == Some(wanted.tool) && control.state.tool_offset == Some(wanted.offset);
+    Ok(!modal || !stays)
+}
+
+/// Refuses a tool that no station of the turret holds.
+fn check_station(control: &Control, tool: i64) -> Result<()> {
+    match control.commons.int_opt(loc::TURRET_STATIONS) {
+        Some(stations) if tool < 1 || tool > i64::from(stations) => {
+            PostCode::Station.err(format!("tool {tool} of a turret with stations 1 to {stations}"))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Changes the tool and calls its length offset.
@@ -41,6 +57,7 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
         control.because(wanted.causes[1], |control| length_offset(control, wanted))?;
     }
     control.state.tool = Some(wanted.tool);
+    control.state.tool_offset = Some(wanted.offset);
     Ok(())
 }
 
@@ -58,7 +75,6 @@ pub fn select(control: &mut Control, tool: i64) -> Result<()> {
 
 /// Writes tool and offset in one word, two digits each: T0303.
 fn tool_and_offset(control: &mut Control, wanted: ToolChange) -> Result<()> {
-    const OFFSETS: i64 = 100;
     if wanted.offset >= OFFSETS {
         return PostCode::WordForm
             .err(format!("LOADTL: offset {} has more than two digits", wanted.offset));
@@ -120,6 +136,13 @@ fn length_offset(control: &mut Control, wanted: ToolChange) -> Result<()> {
     if let Some(cancel) = control.code_if_any(loc::TOOL_LENGTH_CANCEL_CODE) {
         control.g_of_record(cancel);
         control.write_block()?;
+    }
+    if control.commons.read(loc::TOOL_LENGTH_AT_CHANGE) {
+        control.g_of_record(code);
+        control.word(H, wanted.offset as f64)?;
+        control.write_block()?;
+        control.state.doubt_axes();
+        return Ok(());
     }
     let Some(z) = control.commons.dbl_opt(loc::TOOL_LENGTH_Z) else {
         control.waiting.length_offset = Some((wanted.offset, control.block.cause));

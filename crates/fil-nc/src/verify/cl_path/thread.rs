@@ -1,0 +1,172 @@
+//! Threads of a CL file: passes of their own, and whole threads that the machine divides.
+
+use fil_cl::{Record, Word, words as w};
+use nalgebra::{Point3, Vector3};
+
+use super::State;
+use crate::motion::INCH;
+use crate::verify::wanted::{Effect, Wanted, WholeThread};
+
+/// Where TO stands among the items of THREAD/AUTO,x,y,z,TO,x,y,z.
+const TO: usize = 4;
+
+/// OP/THREAD with depth and passes, before its two points. Lengths in CL units.
+#[derive(Clone, Copy)]
+pub(super) struct Awaited {
+    on_face: bool,
+    lead: f64,
+    starts: u32,
+    depth: f64,
+    passes: u32,
+    springs: Option<u32>,
+    from: Option<Point3<f64>>,
+    start: Option<Point3<f64>>,
+}
+
+impl State {
+    /// OP/THREAD and THREAD; `None` for forms that leave the passes open.
+    pub(super) fn thread(&mut self, record: &Record) -> Option<Vec<Wanted>> {
+        self.end_thread();
+        if record.has(w::NOMORE) || record.has(w::OFF) {
+            return Some(Vec::new());
+        }
+        if record.has(w::AUTO) {
+            return Some(vec![Wanted::WholeThread(self.automatic(record)?)]);
+        }
+        if record.major == w::OP && !record.has(w::THREAD) {
+            return None;
+        }
+        let lead = self.lead(record)?;
+        let given = |word| record.number_after(word).filter(|value| *value != 0.0);
+        match (given(w::DEPTH), given(w::CUTS)) {
+            (Some(depth), Some(passes)) => {
+                let starts = record.number_after(w::MULTRD).unwrap_or(1.0).max(1.0) as u32;
+                self.awaited = Some(Awaited {
+                    on_face: record.has(w::FACE),
+                    lead: lead * f64::from(starts),
+                    starts,
+                    depth,
+                    passes: passes as u32,
+                    springs: record.number_after(w::FINCUT).map(|count| count as u32),
+                    from: self.point,
+                    start: None,
+                });
+            }
+            (None, None) => self.thread = Some(lead),
+            _ => return None,
+        }
+        Some(Vec::new())
+    }
+
+    /// Ends a thread.
+    pub(super) fn end_thread(&mut self) {
+        self.thread = None;
+        self.awaited = None;
+    }
+
+    /// The lead of a thread or tap in mm: TPI counts threads an inch.
+    pub(super) fn lead(&self, record: &Record) -> Option<f64> {
+        let after = |word| record.number_after(word);
+        let lead = match (after(w::TPI), after(w::MMPR), after(w::IPR)) {
+            (Some(threads), ..) => INCH / threads,
+            (_, Some(millimetres), _) => millimetres,
+            (.., Some(inches)) => inches * INCH,
+            _ => return None,
+        };
+        Some(lead).filter(|lead| lead.is_finite() && *lead > 0.0)
+    }
+
+    /// THREAD/AUTO: the threads beside each other are a pitch apart.
+    fn automatic(&mut self, record: &Record) -> Option<WholeThread> {
+        if record.data.get(TO) != Some(&Word::Minor(w::TO)) {
+            return None;
+        }
+        let value = |at: usize| match record.data.get(at) {
+            Some(Word::Number(value)) => Some(*value),
+            _ => None,
+        };
+        let begin = Point3::new(value(1)?, value(2)?, value(3)?);
+        let end = Point3::new(value(5)?, value(6)?, value(7)?);
+        let kind = record.data.iter().position(|word| *word == Word::Minor(w::TYPE))?;
+        let (depth, angle) = (value(kind + 2)?, value(kind + 3)?);
+        let starts = record.number_after(w::TIMES).unwrap_or(1.0).max(1.0);
+        let from = self.point;
+        let word = [w::IN, w::OUT, w::FACE].into_iter().find(|word| record.has(*word));
+        let out = match word {
+            Some(w::FACE) => Vector3::z() * (from?.z - begin.z).signum(),
+            Some(w::IN) => inwards(begin, end),
+            Some(_) => -inwards(begin, end),
+            None if from?.x.abs() < begin.x.abs() => inwards(begin, end),
+            None => -inwards(begin, end),
+        };
+        let springs = record.number_after(w::LAST).map(|count| count as u32);
+        let thread = WholeThread {
+            crest: [begin, end],
+            out,
+            lead: self.lead(record)? * starts,
+            starts: starts as u32,
+            depth,
+            first: record.number_after(w::DEEP)?,
+            passes: None,
+            springs,
+            clearance: record.number_after(w::FEDTO),
+            angle,
+        };
+        // Where the tool stands afterwards is the machine's business.
+        self.point = None;
+        Some(self.on_machine(&thread))
+    }
+
+    /// A point behind OP/THREAD: the first begins the crest, the second ends it.
+    pub(super) fn point_of_thread(&mut self, point: Point3<f64>) -> Vec<Wanted> {
+        let Some(mut awaited) = self.awaited.take() else { return Vec::new() };
+        let Some(begin) = awaited.start else {
+            awaited.start = Some(point);
+            self.awaited = Some(awaited);
+            return Vec::new();
+        };
+        let open = Wanted::Unknown { what: "OP/THREAD".to_string(), effect: Effect::Path };
+        let Some(from) = awaited.from else { return vec![open] };
+        let out = match awaited.on_face {
+            true => Vector3::z() * (from.z - begin.z).signum(),
+            false if from.x.abs() < begin.x.abs() => inwards(begin, point),
+            false => -inwards(begin, point),
+        };
+        let first = awaited.depth / f64::from(awaited.passes).sqrt();
+        let thread = WholeThread {
+            crest: [begin, point],
+            out,
+            lead: awaited.lead,
+            starts: awaited.starts,
+            depth: awaited.depth,
+            first,
+            passes: Some(awaited.passes),
+            springs: awaited.springs,
+            clearance: Some((from - begin).dot(&out).abs()),
+            angle: 0.0,
+        };
+        self.point = None;
+        vec![Wanted::WholeThread(self.on_machine(&thread))]
+    }
+
+    /// The thread as TRANS places it, in mm; its lead is in mm already.
+    fn on_machine(&self, thread: &WholeThread) -> WholeThread {
+        let place = |point: Point3<f64>| self.pose(point, Vector3::z()).tip;
+        let crest = thread.crest.map(place);
+        let out = place(thread.crest[0] + thread.out) - crest[0];
+        let unit = self.unit();
+        WholeThread {
+            crest,
+            out: out.try_normalize(1e-9).unwrap_or(thread.out),
+            depth: thread.depth * unit,
+            first: thread.first * unit,
+            clearance: thread.clearance.map(|clearance| clearance * unit),
+            ..*thread
+        }
+    }
+}
+
+/// Towards the axis of the spindle.
+fn inwards(begin: Point3<f64>, end: Point3<f64>) -> Vector3<f64> {
+    if begin.x + end.x < 0.0 { Vector3::x() } else { -Vector3::x() }
+}

@@ -1,0 +1,279 @@
+//! The threading cycles of lathes: G92 once a pass, G76 in two blocks or in one.
+
+use std::fmt::Write as _;
+
+use fil_diag::Result;
+use fil_machine::letters::F;
+use fil_machine::locations::{self as loc, ThreadCycle};
+use fil_machine::rounding::Rounding;
+use fil_machine::word_text::WordText;
+use fil_machine::{FunctionCode, Letter};
+
+use super::motion::{self, Motion};
+use crate::control::Control;
+use crate::errors::PostCode;
+use crate::operation::Thread;
+use crate::path::thread::{Shape, cycle_of, go_above, least_depth, on_machine};
+use crate::post::Post;
+
+/// Lengths nearer to zero than this are zero, mm or inch.
+const NOTHING: f64 = 1e-9;
+
+/// Writes the cycle of one start, from where the tool stands clear; false where the machine
+/// has none that says all of the thread.
+///
+/// # Errors
+/// A value that does not fit its address; a frame that turns the thread out of X and Z.
+pub fn cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Result<bool> {
+    let cycle = cycle_of(post, thread, shape);
+    if cycle == ThreadCycle::SinglePasses {
+        return Ok(false);
+    }
+    let code = post.control.code(loc::THREAD_CYCLE_CODE, "the cycle of a thread")?;
+    let ends = Ends::of(post, thread, shape, start)?;
+    motion::ready(&mut post.control)?;
+    post.control.flush_waiting()?;
+    match cycle {
+        ThreadCycle::SinglePasses => return Ok(false),
+        ThreadCycle::CycleOfOnePass => one_pass_each(post, thread, (shape, start), (&ends, code))?,
+        ThreadCycle::CycleOfAllPassesInTwoBlocks => two_blocks(post, thread, &ends, code)?,
+        ThreadCycle::CycleOfAllPassesInOneBlock => one_block(post, thread, &ends, code)?,
+        ThreadCycle::CycleOfAllPassesOfLinuxcnc => linuxcnc(post, thread, &ends, code)?,
+    }
+    let [x, z] = ends.begin;
+    match cycle {
+        ThreadCycle::SinglePasses | ThreadCycle::CycleOfOnePass => {}
+        // LinuxCNC leaves the tool clear of the end of the thread.
+        ThreadCycle::CycleOfAllPassesOfLinuxcnc => {
+            stands_at(&mut post.control, [x, ends.root[1]])?;
+        }
+        _ => stands_at(&mut post.control, [x, z])?,
+    }
+    Ok(true)
+}
+
+/// Where the thread lies in the machine, X and Z, X as a radius.
+struct Ends {
+    begin: [f64; 2],
+    crest: [[f64; 2]; 2],
+    root: [f64; 2],
+    first: f64,
+    least: f64,
+    springs: u32,
+}
+
+impl Ends {
+    fn of(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Result<Ends> {
+        let begin = on_machine(post, shape.shifted(start))?;
+        let crest = [on_machine(post, shape.crest_of(start))?, on_machine(post, shape.crest[1])?];
+        let root = on_machine(post, shape.end(-thread.depth))?;
+        let [across, along] = [root[0] - crest[1][0], root[1] - crest[1][1]];
+        if along.abs() > 1e-6 || (across.abs() - thread.depth).abs() > 1e-6 {
+            return PostCode::Thread.err("TRANS turns the thread out of the plane of X and Z");
+        }
+        let first = shape.depths.first().copied().unwrap_or(thread.depth);
+        let least = least_depth(post);
+        Ok(Ends { begin, crest, root, first, least, springs: thread.springs })
+    }
+
+    /// Radius at the start less that at the end.
+    fn taper(&self) -> f64 {
+        self.crest[0][0] - self.crest[1][0]
+    }
+}
+
+/// G92 X Z R F for each pass.
+fn one_pass_each(
+    post: &mut Post,
+    thread: &Thread,
+    (shape, start): (&Shape, u32),
+    (ends, code): (&Ends, FunctionCode),
+) -> Result<()> {
+    let taper = Some(ends.taper()).filter(|taper| taper.abs() > NOTHING);
+    let letter = match taper {
+        Some(_) => Some(post.control.letter(loc::THREAD_TAPER_ADDRESS, "the taper of a thread")?),
+        None => None,
+    };
+    for depth in &shape.depths {
+        go_above(post, thread, shape.above(start, *depth))?;
+        let end = on_machine(post, shape.end(-depth))?;
+        let control = &mut post.control;
+        let at = Motion {
+            position: [end[0], 0.0, end[1], 0.0, 0.0],
+            axes: fil_machine::axes::AxisSet::LINEAR,
+            word: 0,
+        };
+        control.because(thread.lead.cause, |control| {
+            control.g_of_record(code);
+            motion::axis_word(control, 0, &at)?;
+            motion::axis_word(control, 2, &at)?;
+            if let (Some(letter), Some(taper)) = (letter, taper) {
+                control.word_rounded(letter, taper, Rounding::Nearest)?;
+                control.state.doubt(letter);
+            }
+            motion::lead_word(control, &thread.lead)?;
+            control.write_block()
+        })?;
+        // Each pass comes back to where it began.
+        let begin = on_machine(post, shape.above(start, *depth))?;
+        stands_at(&mut post.control, begin)?;
+    }
+    Ok(())
+}
+
+/// G76 P(springs, run-out, angle) Q(least) R(allowance), G76 X Z R P Q F.
+fn two_blocks(post: &mut Post, thread: &Thread, ends: &Ends, code: FunctionCode) -> Result<()> {
+    let control = &mut post.control;
+    let unit = if control.is_metric() { 1e3 } else { 1e4 };
+    let springs = ends.springs.clamp(1, 99);
+    if springs != ends.springs.max(1) {
+        return PostCode::Thread
+            .err(format!("{} passes at full depth, and G76 has 99", ends.springs));
+    }
+    let mut setup = Line::new(control, code)?;
+    setup.raw('P', &format!("{springs:02}00{:02}", thread.angle as u32));
+    setup.raw('Q', &steps(ends.least, unit, false)?);
+    setup.raw('R', "0");
+    let mut cut = Line::new(control, code)?;
+    cut.axis(0, ends.root[0])?;
+    cut.axis(2, ends.root[1])?;
+    if ends.taper().abs() > NOTHING {
+        cut.word('R', ends.taper(), Rounding::Nearest)?;
+    }
+    cut.raw('P', &steps(thread.depth, unit, true)?);
+    cut.raw('Q', &steps(ends.first, unit, true)?);
+    cut.word('F', thread.lead.value, Rounding::Lead)?;
+    let (setup, cut) = (setup.text, cut.text);
+    control.because(thread.lead.cause, |control| {
+        control.write_text(&setup, true)?;
+        control.write_text(&cut, true)
+    })
+}
+
+/// G76 X Z I K D A F.
+fn one_block(post: &mut Post, thread: &Thread, ends: &Ends, code: FunctionCode) -> Result<()> {
+    let control = &mut post.control;
+    let mut line = Line::new(control, code)?;
+    line.axis(0, ends.root[0])?;
+    line.axis(2, ends.root[1])?;
+    if ends.taper().abs() > NOTHING {
+        line.word('I', ends.taper(), Rounding::Nearest)?;
+    }
+    line.word('K', thread.depth, Rounding::Lead)?;
+    line.word('D', ends.first, Rounding::Rate)?;
+    line.word('A', thread.angle, Rounding::Nearest)?;
+    line.word('F', thread.lead.value, Rounding::Lead)?;
+    let text = line.text;
+    control.because(thread.lead.cause, |control| control.write_text(&text, true))
+}
+
+/// LinuxCNC's G76 P Z I J R K Q H: I, J and K count as X does.
+fn linuxcnc(post: &mut Post, thread: &Thread, ends: &Ends, code: FunctionCode) -> Result<()> {
+    let control = &mut post.control;
+    let axis = *control.tables.axis(0);
+    let x = |radius: f64| axis.value(radius);
+    let drive = x(ends.begin[0])?;
+    let crest = x(ends.crest[0][0])?;
+    let root = x(ends.root[0])?;
+    let factor = (root - crest) / (ends.root[0] - ends.crest[0][0]);
+    let mut line = Line::new(control, code)?;
+    line.word('P', thread.lead.value, Rounding::Lead)?;
+    line.axis(2, ends.root[1])?;
+    line.word('I', crest - drive, Rounding::Nearest)?;
+    line.word('J', (ends.first * factor).abs(), Rounding::Rate)?;
+    line.word('R', 2.0, Rounding::Nearest)?;
+    line.word('K', (root - crest).abs(), Rounding::Lead)?;
+    line.word('Q', thread.angle / 2.0, Rounding::Nearest)?;
+    line.word('H', f64::from(ends.springs), Rounding::Exact)?;
+    let text = line.text;
+    control.because(thread.lead.cause, |control| control.write_text(&text, true))
+}
+
+/// A length in smallest steps, without a point.
+///
+/// # Errors
+/// One that rounding would change too much, or make zero.
+fn steps(length: f64, unit: f64, exact: bool) -> Result<String> {
+    let steps = (length * unit).round();
+    if exact && ((steps / unit - length).abs() > 0.01 * length || steps < 1.0) {
+        return PostCode::Thread
+            .err(format!("{length} can't be said in whole steps of the control"));
+    }
+    Ok(format!("{steps:.0}"))
+}
+
+/// A block whose words follow each other in the order of the cycle.
+struct Line<'c> {
+    control: &'c Control,
+    text: String,
+}
+
+impl<'c> Line<'c> {
+    fn new(control: &'c Control, code: FunctionCode) -> Result<Self> {
+        let mut line = Line { control, text: String::new() };
+        let mut word = WordText::new();
+        let g = fil_machine::letters::G;
+        let Some(position) = control.tables.addresses.position(g) else {
+            return PostCode::NoCode.err("G is off the tape");
+        };
+        let slot = control.tables.addresses.slot(position);
+        code.put(&slot.format, &mut word);
+        word.put(slot.character);
+        line.put(word);
+        Ok(line)
+    }
+
+    fn put(&mut self, word: WordText) {
+        let mut bytes = Vec::new();
+        word.append_to(&mut bytes);
+        self.blank();
+        self.text.push_str(&String::from_utf8_lossy(&bytes));
+    }
+
+    fn blank(&mut self) {
+        if self.control.tables.addresses.blank && !self.text.is_empty() {
+            self.text.push(' ');
+        }
+    }
+
+    /// Digits as they are.
+    fn raw(&mut self, letter: char, digits: &str) {
+        self.blank();
+        let _ = write!(self.text, "{letter}{digits}");
+    }
+
+    /// A value in the format of its letter.
+    fn word(&mut self, letter: char, value: f64, rounding: Rounding) -> Result<()> {
+        let letter = Letter::of(letter as u8);
+        self.control.require_letter(letter)?;
+        let Some(position) = self.control.tables.addresses.position(letter) else { return Ok(()) };
+        let slot = self.control.tables.addresses.slot(position);
+        let scaled = rounding.scale(value, &slot.format);
+        let scaled = scaled.map_err(|diag| crate::block::named(diag, letter))?;
+        let mut word = WordText::new();
+        slot.format.put(scaled, &mut word);
+        word.put(slot.character);
+        self.put(word);
+        Ok(())
+    }
+
+    /// An axis word.
+    fn axis(&mut self, number: usize, position: f64) -> Result<()> {
+        let axis = self.control.tables.axis(number);
+        let letter = char::from(axis.letter.byte());
+        let scaled = axis.value(position)?;
+        self.word(letter, scaled, Rounding::Nearest)
+    }
+}
+
+/// After the cycle the tool is here.
+fn stands_at(control: &mut Control, [x, z]: [f64; 2]) -> Result<()> {
+    for (number, position) in [(0, x), (2, z)] {
+        let axis = *control.tables.axis(number);
+        control.commons.set_last_output(axis.letter, axis.value(position)?);
+        control.state.trust(axis.letter);
+    }
+    control.state.motion = None;
+    control.state.doubt(F);
+    Ok(())
+}

@@ -1,0 +1,441 @@
+//! Whole threads: random ones in every form that the posts write. An expander of this file,
+//! which knows the controls' cycles from their manuals, turns each program into passes, and
+//! these must be those that the thread asks for; the back-check must find nothing in
+//! the program, and something in one with a changed word. LinuxCNC's own interpreter says what
+//! its G76 and G33 do.
+
+use std::collections::BTreeMap;
+use std::env;
+use std::io::Cursor;
+use std::path::Path;
+
+use filpost::Program;
+use filpost::nc::verify::Allowed;
+use filpost::verify::NcProgram;
+use filpost_tests::programs::Dice;
+use filpost_tests::rs274::{self, Canon};
+
+/// A thread, mm; X as a radius.
+#[derive(Debug)]
+struct Spec {
+    outside: bool,
+    x: [f64; 2],
+    z: [f64; 2],
+    pitch: f64,
+    starts: u32,
+    first: f64,
+    depth: f64,
+    springs: u32,
+    angle: f64,
+    clearance: f64,
+}
+
+/// One pass: where it begins and ends (X as a radius, Z), and its lead along the longer axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Cut {
+    from: [f64; 2],
+    to: [f64; 2],
+    lead: f64,
+}
+
+/// A form: the ready post and settings on top of it.
+const FORMS: [(&str, &[&str]); 5] = [
+    ("fanuc-lathe", &["thread.cycle=0"]),
+    ("fanuc-lathe", &["thread.cycle=1", "thread.cycle_code=92"]),
+    ("fanuc-lathe", &[]),
+    ("haas-lathe", &[]),
+    ("linuxcnc-lathe", &[]),
+];
+
+impl Spec {
+    fn random(seed: u64) -> Spec {
+        let mut dice = Dice::from_seed(seed);
+        let micron = |value: f64| (value * 1000.0).round() / 1000.0;
+        let x = micron(dice.between(10.0, 40.0));
+        let z = [micron(dice.between(2.0, 8.0)), micron(dice.between(-40.0, -8.0))];
+        let backwards = dice.once_in(6);
+        let depth = micron(dice.between(0.3, 3.0));
+        let lean = if dice.once_in(3) { micron(dice.between(-2.0, 2.0)) } else { 0.0 };
+        Spec {
+            outside: dice.once_in(2),
+            x: [x, x + lean],
+            z: if backwards { [z[1], z[0]] } else { z },
+            pitch: micron(dice.between(0.5, 4.0)),
+            starts: if dice.once_in(3) { 1 + dice.below(4) as u32 } else { 1 },
+            first: micron(dice.between(0.1, 0.9) * depth),
+            depth,
+            springs: 1 + dice.below(3) as u32,
+            angle: [0.0, 29.0, 30.0, 55.0, 60.0, 80.0][dice.below(6)],
+            clearance: micron(dice.between(0.5, 4.0)),
+        }
+    }
+
+    fn cl(&self) -> String {
+        let [x1, x2] = self.x;
+        let [z1, z2] = self.z;
+        let side = if self.outside { "OUT" } else { "IN" };
+        let at = if self.outside { x1.max(x2) + 6.0 } else { 1.0 };
+        format!(
+            "UNITS / MM\nLOADTL / 3\nSPINDL / RPM, 400, CLW\nRAPID\nGOTO / {at}, 0, {z1}\n\
+             THREAD / AUTO, {x1}, 0, {z1}, TO, {x2}, 0, {z2}, MMPR, {}, DEEP, {}, LAST, {}, TYPE, 0, \
+             {}, {}, FEDTO, {}, {side}, TIMES, {}\nRAPID\nGOTO / {at}, 0, {z1}\nFINI\n",
+            self.pitch,
+            self.first,
+            self.springs,
+            self.depth,
+            self.angle,
+            self.clearance,
+            self.starts
+        )
+    }
+
+    /// The passes it asks for; `lags`: LinuxCNC's end in step with the infeed.
+    fn cuts(&self, lags: bool) -> Vec<Cut> {
+        let mut depths = Vec::new();
+        let mut pass = 0.0;
+        while depths.last().is_none_or(|depth| *depth < self.depth - 1e-9) {
+            pass += 1.0;
+            depths.push((self.first * f64::sqrt(pass)).min(self.depth));
+        }
+        depths.extend((0..self.springs).map(|_| self.depth));
+        let towards = (self.z[1] - self.z[0]).signum();
+        let slant = (self.x[1] - self.x[0]) / (self.z[1] - self.z[0]);
+        let into = if self.outside { -1.0 } else { 1.0 };
+        let slope = (self.angle / 2.0).to_radians().tan();
+        let mut cuts = Vec::new();
+        for start in 0..self.starts {
+            for depth in &depths {
+                let along = depth * slope - f64::from(start) * self.pitch;
+                let z = self.z[0] + towards * along;
+                let end = if lags { towards * (self.depth - depth) * slope } else { 0.0 };
+                cuts.push(Cut {
+                    from: [self.x[0] + slant * (z - self.z[0]) + into * depth, z],
+                    to: [self.x[1] + into * depth, self.z[1] - end],
+                    lead: self.pitch * f64::from(self.starts),
+                });
+            }
+        }
+        cuts
+    }
+}
+
+/// The control of the expander.
+#[derive(Default)]
+struct Control {
+    at: [f64; 2],
+    cuts: Vec<Cut>,
+    /// Of the first block of G76: passes at full depth, angle, least depth.
+    setup: Option<(u32, f64, f64)>,
+}
+
+impl Control {
+    fn cut(&mut self, from: [f64; 2], to: [f64; 2], lead: f64) {
+        self.cuts.push(Cut { from, to, lead });
+    }
+
+    /// A cycle of all passes, from where the tool stands.
+    fn passes(&mut self, end: [f64; 2], taper: f64, law: Law, lead: f64) {
+        let begin = self.at;
+        let (into, towards) = ((end[0] - begin[0]).signum(), (end[1] - begin[1]).signum());
+        for depth in law.depths() {
+            let root = [end[0] - into * (law.height - depth), end[1]];
+            let z = begin[1] + towards * depth * law.slope;
+            let lag = if law.lags { towards * (law.height - depth) * law.slope } else { 0.0 };
+            self.cut([root[0] + taper, z], [root[0], end[1] - lag], lead);
+        }
+    }
+
+    fn block(&mut self, words: &BTreeMap<char, f64>, code: Option<u32>, raw: &str) -> Option<()> {
+        let get = |letter: char| words.get(&letter).copied();
+        let to = [get('X').map_or(self.at[0], |x| x / 2.0), get('Z').unwrap_or(self.at[1])];
+        match code {
+            Some(0) => self.at = to,
+            Some(32) => {
+                self.cut(self.at, to, get('F')?);
+                self.at = to;
+            }
+            Some(33) => {
+                let ways = [(to[0] - self.at[0]).abs(), (to[1] - self.at[1]).abs()];
+                let share = ways[0].max(ways[1]) / ways[0].hypot(ways[1]);
+                self.cut(self.at, to, get('K')? * share);
+                self.at = to;
+            }
+            Some(92) => {
+                let taper = get('R').unwrap_or(0.0);
+                self.cut([to[0] + taper, self.at[1]], to, get('F')?);
+            }
+            Some(76) if words.contains_key(&'J') => {
+                let law = Law {
+                    height: get('K')? / 2.0,
+                    first: get('J')? / 2.0,
+                    least: 0.0,
+                    springs: get('H')? as u32,
+                    slope: get('Q')?.to_radians().tan(),
+                    lags: true,
+                };
+                let crest = self.at[0] + get('I')? / 2.0;
+                let end = [crest + get('I')?.signum() * law.height, to[1]];
+                self.passes(end, 0.0, law, get('P')?);
+                self.at[1] = to[1];
+            }
+            Some(76) if words.contains_key(&'K') => {
+                let slope = (get('A')? / 2.0).to_radians().tan();
+                let (height, first) = (get('K')?, get('D')?);
+                let law = Law { height, first, least: 0.0, springs: 1, slope, lags: false };
+                self.passes(to, get('I').unwrap_or(0.0), law, get('F')?);
+            }
+            Some(76) if words.contains_key(&'X') => {
+                let (springs, angle, least) = self.setup.take()?;
+                let law = Law {
+                    height: get('P')? / 1000.0,
+                    first: get('Q')? / 1000.0,
+                    least,
+                    springs,
+                    slope: (angle / 2.0).to_radians().tan(),
+                    lags: false,
+                };
+                self.passes(to, get('R').unwrap_or(0.0), law, get('F')?);
+            }
+            Some(76) => {
+                let pairs = raw.split(' ').find_map(|word| word.strip_prefix('P'))?;
+                let pair = |at: usize| pairs.get(at..at + 2)?.parse::<u32>().ok();
+                self.setup = Some((pair(0)?, f64::from(pair(4)?), get('Q')? / 1000.0));
+            }
+            _ => {}
+        }
+        Some(())
+    }
+}
+
+/// How deep the passes of a cycle go.
+struct Law {
+    height: f64,
+    first: f64,
+    least: f64,
+    springs: u32,
+    slope: f64,
+    lags: bool,
+}
+
+impl Law {
+    fn depths(&self) -> Vec<f64> {
+        let mut depths: Vec<f64> = Vec::new();
+        let mut depth = 0.0;
+        while depth < self.height - 1e-9 {
+            let next = self.first * ((depths.len() + 1) as f64).sqrt();
+            depth = next.max(depth + self.least).min(self.height);
+            depths.push(depth);
+        }
+        depths.extend((0..self.springs).map(|_| self.height));
+        depths
+    }
+}
+
+/// The passes of a program.
+fn expand(nc: &str) -> Option<Vec<Cut>> {
+    let mut control = Control::default();
+    let mut motion = None;
+    for line in nc.lines().filter(|line| !line.starts_with(['%', 'O', '('])) {
+        let mut words = BTreeMap::new();
+        for word in line.split(' ').filter(|word| !word.is_empty()) {
+            let value: f64 = word.get(1..)?.parse().ok()?;
+            match word.chars().next()? {
+                'G' if [0, 1, 32, 33, 76, 92].contains(&(value as u32)) => {
+                    motion = Some(value as u32)
+                }
+                'G' | 'N' => {}
+                letter => {
+                    words.insert(letter, value);
+                }
+            }
+        }
+        let moves = ['X', 'Z', 'P'].into_iter().any(|letter| words.contains_key(&letter));
+        if moves {
+            control.block(&words, motion, line)?;
+        }
+    }
+    Some(control.cuts)
+}
+
+/// Differences of less than this are rounding, mm.
+const ROUNDING: f64 = 0.0035;
+
+fn differ(wanted: &[Cut], found: &[Cut], with_lead: bool) -> Option<String> {
+    if wanted.len() != found.len() {
+        return Some(format!("{} passes, {} wanted", found.len(), wanted.len()));
+    }
+    for (number, (wanted, found)) in wanted.iter().zip(found).enumerate() {
+        let near = |a: [f64; 2], b: [f64; 2]| (0..2).all(|n| (a[n] - b[n]).abs() < ROUNDING);
+        let lead = !with_lead || (wanted.lead - found.lead).abs() <= 0.0005 * wanted.lead;
+        if !near(wanted.from, found.from) || !near(wanted.to, found.to) || !lead {
+            return Some(format!("pass {}: {found:?}, wanted {wanted:?}", number + 1));
+        }
+    }
+    None
+}
+
+fn post_of(ready: &str, settings: &[&str]) -> Program {
+    let mut builder = Program::builder().ready(ready).set("thread.least_depth=0");
+    for setting in settings {
+        builder = builder.set(setting);
+    }
+    builder.build().unwrap()
+}
+
+fn nc_of(post: &Program, cl: &str) -> Result<String, String> {
+    let mut nc = Vec::new();
+    match post.run(cl.as_bytes(), &mut nc) {
+        Ok(_) => Ok(String::from_utf8(nc).unwrap()),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+/// What the back-check says against a program; empty when it agrees.
+fn said_against(post: &Program, cl: &str, nc: &str) -> String {
+    let program = NcProgram { text: nc.as_bytes(), name: "out.nc" };
+    match post.start().verify(Cursor::new(cl.to_string()), program, Allowed::default()) {
+        Ok((report, _)) if report.compared == 0 => "nothing was compared".to_string(),
+        Ok((report, _)) => {
+            let mut said: String = report.findings.iter().map(|one| format!("{one}\n")).collect();
+            said.extend(report.unverified.iter().map(|one| format!("{one:?}\n")));
+            said
+        }
+        Err(error) => error.to_string(),
+    }
+}
+
+/// The seeds: a sample, or what `FILPOST_THREADS=first,count` says.
+fn seeds() -> std::ops::Range<u64> {
+    let said = env::var("FILPOST_THREADS").ok();
+    let range = said.as_deref().and_then(|said| said.split_once(','));
+    match range.map(|(first, count)| (first.parse::<u64>(), count.parse::<u64>())) {
+        Some((Ok(first), Ok(count))) => first..first + count,
+        _ => 0..60,
+    }
+}
+
+/// What is wrong with a thread in a form.
+fn wrong(post: &Program, form: usize, spec: &Spec, judge: Option<&Path>) -> Option<String> {
+    let cl = spec.cl();
+    let nc = match nc_of(post, &cl) {
+        Ok(nc) => nc,
+        Err(said) => return Some(format!("refused: {said}\n{cl}")),
+    };
+    let by_cycle = nc.contains("G76");
+    let wanted = spec.cuts(by_cycle && form == 4);
+    // Haas and one-block controls make one pass at full depth; the others count them.
+    let wanted = match form {
+        3 if by_cycle => Spec { springs: 1, ..*spec }.cuts(false),
+        _ => wanted,
+    };
+    let tell = |said: String| Some(format!("{said}\n{cl}{nc}"));
+    let Some(found) = expand(&nc) else { return tell("not understood".to_string()) };
+    if let Some(said) = differ(&wanted, &found, true) {
+        return tell(said);
+    }
+    let said = said_against(post, &cl, &nc);
+    // The number of passes at the root is the control's own in one block.
+    if !said.is_empty() && !(form == 3 && by_cycle && said.contains("passes at the root")) {
+        return tell(said);
+    }
+    let judge = judge.filter(|_| form == 4)?;
+    let calls = match rs274::run(judge, &nc) {
+        Ok(calls) => calls,
+        Err(said) => return tell(said),
+    };
+    let (mut at, mut in_step, mut ran) = ([0.0; 2], false, Vec::new());
+    for call in &calls {
+        match &call.canon {
+            Canon::Synchronised(on) => in_step = *on,
+            Canon::Traverse(to) => at = [to[0], to[2]],
+            Canon::Feed(to) => {
+                let to = [to[0], to[2]];
+                if in_step {
+                    ran.push(Cut { from: at, to, lead: 0.0 });
+                }
+                at = to;
+            }
+            _ => {}
+        }
+    }
+    differ(&wanted, &ran, false).and_then(|said| tell(format!("rs274: {said}")))
+}
+
+#[test]
+fn every_form_cuts_the_same_thread() {
+    let judge = rs274::program();
+    for (form, (ready, settings)) in FORMS.iter().enumerate() {
+        let post = post_of(ready, settings);
+        let mut cycles = 0;
+        for seed in seeds() {
+            let spec = Spec::random(seed);
+            if let Some(said) = wrong(&post, form, &spec, judge.as_deref()) {
+                panic!("seed {seed}, {ready} {settings:?}: {said}");
+            }
+            cycles += u64::from(nc_of(&post, &spec.cl()).unwrap().contains("G76"));
+        }
+        println!("{ready} {settings:?}: {} threads, {cycles} by G76", seeds().count());
+        assert_eq!(cycles > 0, form > 1, "{ready}");
+    }
+}
+
+/// A word of a thread that is another, in each form, is found.
+#[test]
+fn a_changed_word_of_a_thread_is_found() {
+    for (form, (ready, settings)) in FORMS.iter().enumerate() {
+        let post = post_of(ready, settings);
+        for seed in seeds().take(30) {
+            let spec = Spec::random(seed);
+            let (cl, nc) = (spec.cl(), nc_of(&post, &spec.cl()).unwrap());
+            let lines: Vec<&str> = nc.lines().collect();
+            let cut = |line: &&str| {
+                ["G32", "G33", "G92", "G76"].into_iter().any(|code| line.contains(code))
+            };
+            let count = lines.iter().filter(|line| cut(line)).count();
+            let mut dice = Dice::from_seed(seed);
+            let chosen = dice.below(count);
+            for letter in ['X', 'Z', 'F', 'K'] {
+                let mut seen = 0;
+                let changed: Vec<String> = lines
+                    .iter()
+                    .map(|line| {
+                        let is = cut(line) && {
+                            seen += 1;
+                            seen - 1 == chosen
+                        };
+                        let words = line.split(' ').map(|word| match word.strip_prefix(letter) {
+                            Some(number) if is => {
+                                let value: f64 = number.parse().unwrap();
+                                format!("{letter}{:.4}", value * 1.02 + 0.1)
+                            }
+                            _ => word.to_string(),
+                        });
+                        words.collect::<Vec<_>>().join(" ")
+                    })
+                    .collect();
+                let changed = changed.join("\n") + "\n";
+                if changed == nc || (form == 3 && letter == 'K') {
+                    continue;
+                }
+                let said = said_against(&post, &cl, &changed);
+                assert!(!said.is_empty(), "seed {seed}, {letter} of {ready}:\n{cl}{changed}");
+            }
+        }
+    }
+}
+
+/// LinuxCNC's interpreter takes the programs of the cases for its lathe.
+#[test]
+fn linuxcnc_takes_the_programs_of_its_lathe() {
+    let Some(judge) = rs274::program() else { return };
+    let folder = filpost_tests::root().join("corpus/lathe/linuxcnc-lathe");
+    let mut count = 0;
+    for case in std::fs::read_dir(folder).expect("the cases") {
+        let program = case.expect("a case").path().join("expected.nc");
+        let nc = std::fs::read_to_string(&program).expect("a program");
+        rs274::interpret(&judge, &nc)
+            .unwrap_or_else(|said| panic!("{}: {said}", program.display()));
+        count += 1;
+    }
+    assert_eq!(count, 10);
+}
