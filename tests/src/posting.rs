@@ -4,7 +4,10 @@
 use std::collections::BTreeMap;
 use std::io::Cursor;
 
+use fil_nc::verify::Allowed;
 use filpost::{Commons, Diag, Error, Event, Program, cl};
+
+use crate::back_check;
 
 /// What is posted: a CL text with the machine it is for.
 #[derive(Clone, Debug, Default)]
@@ -67,6 +70,24 @@ pub fn post(job: &Job) -> Result<Posted, Refused> {
     Prepared::new(job)?.post(&job.cl)
 }
 
+/// Posts a job and verifies its program; gives what is found wrong.
+///
+/// # Errors
+/// The code by which the post refuses it.
+pub fn verify(job: &Job) -> Result<Vec<String>, String> {
+    let prepared = Prepared::new(job).map_err(|refused| refused.code)?;
+    let posted = prepared.post(&job.cl).map_err(|refused| refused.code)?;
+    Ok(prepared.verify(&job.cl, &posted.nc))
+}
+
+/// Verifies a program that a job did not make; gives what is found wrong.
+///
+/// # Errors
+/// The code by which the machine is refused.
+pub fn verify_nc(job: &Job, nc: &str) -> Result<Vec<String>, String> {
+    Ok(Prepared::new(job).map_err(|refused| refused.code)?.verify(&job.cl, nc))
+}
+
 /// A machine with its scripts, for many CL texts.
 pub struct Prepared {
     program: Program,
@@ -107,6 +128,15 @@ impl Prepared {
     /// The settings of the machine.
     pub fn commons(&self) -> &Commons {
         self.program.commons()
+    }
+
+    /// What is wrong with a program, or why it can't be read.
+    pub fn verify(&self, cl: &str, nc: &str) -> Vec<String> {
+        let found = back_check::check(self.commons(), cl, nc, Allowed::default());
+        match found {
+            Ok(report) => report.findings.iter().map(ToString::to_string).collect(),
+            Err(diag) => vec![diag.to_string()],
+        }
     }
 
     /// Posts a CL text.

@@ -147,8 +147,29 @@ impl Tape {
         tables: &MachineTables,
         commons: &mut Commons,
     ) -> Result<()> {
+        self.items(text, &[(TEXT, 0, cause)], numbered, tables, commons)
+    }
+
+    /// Writes a text as a block: its items, each with its letter, its first byte in the
+    /// text and its cause.
+    ///
+    /// # Errors
+    /// As [`Tape::block`].
+    pub(crate) fn items(
+        &mut self,
+        text: &str,
+        items: &[(u8, usize, Cause)],
+        numbered: bool,
+        tables: &MachineTables,
+        commons: &mut Commons,
+    ) -> Result<()> {
         let start = self.begin(numbered, tables, commons)?;
-        self.note(TEXT, cause, start);
+        let base = self.text.len() - start;
+        if let Some(noted) = &mut self.noted {
+            items.iter().for_each(|&(letter, at, cause)| {
+                noted.word(letter, base + at, cause, self.cause);
+            });
+        }
         self.text.extend_from_slice(text.as_bytes());
         self.end(start, tables)
     }

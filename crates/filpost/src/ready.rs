@@ -38,6 +38,7 @@ pub const READY: &[ReadyPost] = ready![
     "mitsubishi-mill",
     "okuma-lathe",
     "okuma-mill",
+    "sinumerik-840d",
 ];
 
 /// The post for a CL file that names none and is for a mill.

@@ -94,6 +94,8 @@ pub enum Family {
     WordAddress,
     /// Heidenhain Klartext.
     Klartext,
+    /// SINUMERIK 840D.
+    Sinumerik,
 }
 
 /// The language of a machine's NC programs.
@@ -168,6 +170,10 @@ pub struct Dialect {
     pub(crate) rapid_word: Option<(u8, f64)>,
     /// Holes return to the level before the cycle, where the program does not say.
     pub(crate) return_initial: bool,
+    /// Numbers in the names of a SINUMERIK's linear and rotary axes and its spindle.
+    pub(crate) axis_index: Option<i32>,
+    pub(crate) rotary_index: Option<i32>,
+    pub(crate) spindle_index: Option<i32>,
     /// Programs end with a code; without one the last block is the end.
     pub(crate) has_end: bool,
 }
@@ -236,6 +242,7 @@ impl Dialect {
         Ok(Dialect {
             family: match settings.code("control.family") {
                 Some(1) => Family::Klartext,
+                Some(2) => Family::Sinumerik,
                 _ => Family::WordAddress,
             },
             addresses: numbers::addresses(commons, lathe),
@@ -301,6 +308,9 @@ impl Dialect {
                 .filter(|letter| *letter > 0)
                 .zip(settings.number("rapid.value")),
             return_initial: settings.code("cycle.return_codes") == Some(2),
+            axis_index: settings.code("control.axis_index"),
+            rotary_index: settings.code("control.rotary_index"),
+            spindle_index: settings.code("control.spindle_index"),
             has_end: ["program.end_code", "program.rewind_code"]
                 .iter()
                 .any(|key| settings.code(key).is_some()),

@@ -26,7 +26,7 @@ const SAME_POINT: f64 = 1e-7;
 const CENTER: [u8; 3] = [letter(b'I'), letter(b'J'), letter(b'K')];
 
 /// The two axes of a plane, in the order that makes its normal right-handed.
-fn plane_axes(normal: usize) -> [usize; 2] {
+pub(super) fn plane_axes(normal: usize) -> [usize; 2] {
     [(normal + 1) % 3, (normal + 2) % 3]
 }
 

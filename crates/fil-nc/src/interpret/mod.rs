@@ -11,6 +11,7 @@ mod klartext;
 mod left_to_control;
 mod modes;
 mod program;
+mod sinumerik;
 mod state;
 mod thread;
 mod tip_control;
@@ -71,13 +72,14 @@ pub fn interpret(
     match dialect.family {
         Family::WordAddress => program::Program::new(text, name, dialect).run(take),
         Family::Klartext => klartext::run(text, name, dialect, take),
+        Family::Sinumerik => sinumerik::run(text, name, dialect, take),
     }
 }
 
 /// True when the program has blocks that the control leaves out when its switch is on
 /// ([`Dialect::skips_blocks`]).
 pub fn has_skipped_blocks(text: &[u8], dialect: &Dialect) -> bool {
-    dialect.family == Family::WordAddress && program::has_skipped_blocks(text, dialect)
+    dialect.family != Family::Klartext && program::has_skipped_blocks(text, dialect)
 }
 
 /// The events of a whole program.

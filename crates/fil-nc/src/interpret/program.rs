@@ -268,7 +268,7 @@ impl<'a> Program<'a> {
 }
 
 /// A line that begins with the skip mark.
-fn may_be_skipped(line: &[u8]) -> bool {
+pub(super) fn may_be_skipped(line: &[u8]) -> bool {
     line.trim_ascii_start().first() == Some(&SKIP)
 }
 

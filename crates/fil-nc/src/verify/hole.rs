@@ -216,7 +216,9 @@ impl<C: Steps> Walk<'_, C> {
         let by_itself = back.in_cycle && !self.settings.says_peck_gap();
         let right = if by_itself { gap > 0.0 } else { (gap - peck_gap).abs() <= 2.0 * slack };
         let above = (back.to.linear[2] - levels.clear).abs() <= slack && gap <= peck_gap + slack;
-        if back.course == Course::Rapid && (right || above) {
+        let lifts = back.in_cycle && self.settings.lifts_at_feed() && hole.kind != CycleKind::Deep;
+        let course = back.course == Course::Rapid || (lifts && back.course == Course::Feed);
+        if course && (right || above) {
             self.take(cl_line, &back);
             self.next += 1;
             return Ok(());

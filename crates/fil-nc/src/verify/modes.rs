@@ -192,6 +192,9 @@ impl Expected {
                 // The nose of a turning tool is in the offset of its T word.
                 let has_number = !settings.calls_tools_with_offset() && *side != Compensation::Off;
                 let offset = offset.or(of_tool).filter(|_| has_number);
+                // The radius is that of the edge in force, which is said once.
+                let edge = self.offset.now.filter(|_| settings.has_edges());
+                let offset = offset.filter(|offset| Some(*offset) != edge);
                 self.compensation.set((*side, offset), settings.compensation_due());
             }
             Wanted::Stop { .. } | Wanted::End(_) => self.flush(),
@@ -254,6 +257,8 @@ impl Expected {
         self.loaded_offset = Some(offset);
         if settings.calls_offsets() {
             self.offset.set(Some(offset), Due::WithZ);
+        } else if settings.has_edges() {
+            self.offset.set(Some(offset), Due::Now);
         } else if settings.calls_tools_with_offset() {
             self.offset.set(Some(offset).filter(|offset| *offset > 0), Due::Now);
         }

@@ -160,7 +160,9 @@ impl<'a, C: Steps> Walk<'a, C> {
             Wanted::XScale(scale) => self.scale_x(*scale),
             Wanted::CycleEnd => self.initial = None,
             Wanted::Straight(within) => self.watch.ask(*within),
-            Wanted::Tool { number, offset } => self.tool(step.line, *number, *offset),
+            Wanted::Tool { number, offset } => {
+                self.tool(step.line, *number, self.settings.tool_offset(*number, *offset));
+            }
             Wanted::Dwell(seconds) => self.dwell(step.line, *seconds),
             Wanted::DwellTurns(turns) => {
                 let seconds = self.settings.waits_seconds().then(|| {

@@ -48,8 +48,8 @@ pub enum Wanted {
     Tool {
         /// Its number.
         number: u32,
-        /// Number of its length offset.
-        offset: u32,
+        /// Number of its length offset, where the record gives one.
+        offset: Option<u32>,
     },
     /// The spindle stands or turns; `None` for the direction the machine turns by itself.
     Spindle(Option<Spindle>),

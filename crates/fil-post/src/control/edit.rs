@@ -6,7 +6,7 @@ use fil_machine::Letter;
 use fil_machine::letters::{G, M, N};
 use fil_machine::locations::ControlFamily;
 
-use super::{Control, texts};
+use super::{Control, sinumerik, texts};
 use crate::cause::Cause;
 use crate::control_state::text_words;
 use crate::errors::PostCode;
@@ -26,8 +26,8 @@ impl Control {
         self.begin()?;
         let style = &self.tables.style;
         let (edits_words, edits_lines) = (style.edits_words, style.edits_lines);
-        let klartext = self.tables.family == ControlFamily::Klartext;
-        self.straight = !edits_words && !edits_lines && !klartext;
+        let family = self.tables.family;
+        self.straight = !edits_words && !edits_lines && family == ControlFamily::WordAddress;
         if self.straight {
             return self.write_block();
         }
@@ -35,7 +35,7 @@ impl Control {
             self.require_unit()?;
         }
         self.refuse_after_end()?;
-        if klartext {
+        if family == ControlFamily::Klartext {
             return super::klartext::phrase::write(self);
         }
         if edits_words {
@@ -45,8 +45,15 @@ impl Control {
                 return self.put_words(&edited);
             }
         }
+        if family == ControlFamily::Sinumerik && self.tables.style.divides && self.is_crowded() {
+            return self.write_apart();
+        }
         let start = self.tape.text.len();
-        self.tape.block(&self.block, &self.tables, &mut self.commons)?;
+        if family == ControlFamily::Sinumerik {
+            sinumerik::block::write(self)?;
+        } else {
+            self.tape.block(&self.block, &self.tables, &mut self.commons)?;
+        }
         if edits_lines && self.edit_line(start)? {
             self.block.clear();
             return Ok(());
@@ -134,6 +141,9 @@ impl Control {
     /// Learns from a line that was edited. Words that are the same in both are on the
     /// tape as they were made; what else the line says is in doubt.
     fn learn_edited(&mut self, before: &str, after: &str) {
+        if self.tables.family == ControlFamily::Sinumerik {
+            return sinumerik::reader::learn(self, after);
+        }
         let (old, new) = match (text_words(before), text_words(after)) {
             (Some(old), Some(new)) if !new.skipped => (old.words, new.words),
             _ => return self.state.learn_text(after, &self.codes),

@@ -8,7 +8,7 @@ use fil_machine::modes::Plane;
 
 use super::word_address::arc::PlaneArc;
 use super::word_address::motion::{self as words, Motion, RapidCode};
-use super::{Control, klartext, word_address};
+use super::{Control, klartext, sinumerik, word_address};
 use crate::cause::Cause;
 use crate::operation::{Dwell, Feed, Lead, Operation, Thread, ToolChange};
 use crate::path::cycle::{Cycle, Hole};
@@ -24,6 +24,7 @@ pub fn write(control: &mut Control, operation: Operation) -> Result<()> {
     match control.tables.family {
         ControlFamily::WordAddress => word_address::write(control, operation),
         ControlFamily::Klartext => klartext::write(control, operation),
+        ControlFamily::Sinumerik => sinumerik::write(control, operation),
     }
 }
 
@@ -57,7 +58,8 @@ pub fn feed(control: &mut Control, motion: &Motion, feed: Option<&Feed>) -> Resu
 pub fn thread(control: &mut Control, motion: &Motion, lead: &Lead) -> Result<()> {
     match control.tables.family {
         ControlFamily::Klartext => klartext::refuse("Klartext has no pass of a thread"),
-        _ => words::thread(control, motion, lead),
+        ControlFamily::Sinumerik => sinumerik::refuse("passes of a thread are not written yet"),
+        ControlFamily::WordAddress => words::thread(control, motion, lead),
     }
 }
 
@@ -69,7 +71,7 @@ pub fn thread(control: &mut Control, motion: &Motion, lead: &Lead) -> Result<()>
 pub fn thread_cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Result<bool> {
     match post.control.tables.family {
         ControlFamily::WordAddress => word_address::thread::cycle(post, thread, shape, start),
-        ControlFamily::Klartext => Ok(false),
+        ControlFamily::Klartext | ControlFamily::Sinumerik => Ok(false),
     }
 }
 
@@ -111,7 +113,11 @@ pub fn has_arc(control: &Control, plane: Plane, rise: f64) -> bool {
 pub fn arc(control: &mut Control, arc: &PlaneArc, feed: Option<&Feed>) -> Result<()> {
     match control.tables.family {
         ControlFamily::Klartext => klartext::motion::arc(control, arc, feed),
-        _ => word_address::arc::write(control, arc, feed),
+        ControlFamily::Sinumerik => {
+            sinumerik::check_arc(control)?;
+            word_address::arc::write(control, arc, feed)
+        }
+        ControlFamily::WordAddress => word_address::arc::write(control, arc, feed),
     }
 }
 
@@ -121,6 +127,7 @@ pub fn cycle_code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
     match control.tables.family {
         ControlFamily::WordAddress => word_address::cycle::code(control, cycle),
         ControlFamily::Klartext => klartext::cycle::code(control, cycle),
+        ControlFamily::Sinumerik => sinumerik::cycle::code(control, cycle),
     }
 }
 
@@ -138,6 +145,7 @@ pub fn hole(
     match control.tables.family {
         ControlFamily::WordAddress => word_address::cycle::hole(control, cycle, code, at, hole),
         ControlFamily::Klartext => klartext::cycle::hole(control, cycle, code, at, hole),
+        ControlFamily::Sinumerik => sinumerik::cycle::hole(control, cycle, code, at, hole),
     }
 }
 
@@ -165,5 +173,6 @@ pub fn change_tool(control: &mut Control, change: ToolChange) -> Result<()> {
     match control.tables.family {
         ControlFamily::WordAddress => word_address::tool::change(control, change),
         ControlFamily::Klartext => klartext::tool::change(control, change),
+        ControlFamily::Sinumerik => sinumerik::tool::change(control, change),
     }
 }

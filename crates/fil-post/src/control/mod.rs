@@ -2,8 +2,8 @@
 //!
 //! [`Control`] holds what every family of controls needs: settings, tables, tape,
 //! what the control knows, what waits. The blocks are made by one module a family:
-//! [`word_address`] (ISO 6983, Fanuc and its relatives) and [`klartext`] (Heidenhain);
-//! [`family`] chooses.
+//! [`word_address`] (ISO 6983, Fanuc and its relatives), [`klartext`] (Heidenhain) and
+//! [`sinumerik`] (Siemens); [`family`] chooses.
 
 mod again;
 mod apart;
@@ -11,8 +11,11 @@ mod characters;
 mod edit;
 pub mod family;
 pub mod klartext;
+pub(crate) mod line;
 pub mod program;
+pub mod sinumerik;
 mod skip;
+mod tap;
 mod texts;
 mod waiting;
 pub mod word_address;
@@ -77,6 +80,8 @@ pub struct Control {
     pub head: ProgramHead,
     /// What Klartext needs besides.
     pub(crate) klartext: klartext::Klartext,
+    /// What a SINUMERIK needs besides.
+    pub(crate) sinumerik: sinumerik::Sinumerik,
     /// The last spindle speed, as it was asked for.
     pub speed: Option<SpindleSpeed>,
     /// The spindle turns clockwise or not, as far as the program has said it.
@@ -121,6 +126,7 @@ impl Control {
             straight: false,
             head: ProgramHead::default(),
             klartext: klartext::Klartext::default(),
+            sinumerik: sinumerik::Sinumerik::default(),
             speed: None,
             turning: None,
             range: None,
@@ -303,13 +309,20 @@ impl Control {
             return Ok(());
         }
         let start = self.tape.text.len();
-        self.tape.words(words, &self.tables, &mut self.commons)?;
+        if self.tables.family == ControlFamily::Sinumerik {
+            sinumerik::block::put(self, words)?;
+        } else {
+            self.tape.words(words, &self.tables, &mut self.commons)?;
+        }
         if self.edit_line(start)? {
             return Ok(());
         }
         let before = self.before_others()?;
         let letters = words.iter().map(|(letter, value, _)| (*letter, *value));
         self.state.learn_words(letters, &self.codes);
+        if self.tables.family == ControlFamily::Sinumerik {
+            sinumerik::reader::learn_words(self, words);
+        }
         self.refuse_in_compensation(before)
     }
 
@@ -331,6 +344,7 @@ impl Control {
         let before = self.before_others()?;
         match self.tables.family {
             ControlFamily::Klartext => klartext::reader::learn(self, text),
+            ControlFamily::Sinumerik => sinumerik::reader::learn(self, text),
             ControlFamily::WordAddress => self.state.learn_text(text, &self.codes),
         }
         self.refuse_in_compensation(before)

@@ -102,6 +102,9 @@ fn write_start(control: &mut Control) -> Result<()> {
     }
     leader(control)?;
     tape_mark(control, loc::TAPE_START_CHAR)?;
+    if control.tables.family == ControlFamily::Sinumerik {
+        super::sinumerik::program::head(control)?;
+    }
     part_name(control)?;
     program_number(control)?;
     for block in blocks {

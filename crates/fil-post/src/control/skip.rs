@@ -1,8 +1,9 @@
 //! Blocks that the operator can skip (OPSKIP).
 
 use fil_diag::Result;
+use fil_machine::locations::ControlFamily;
 
-use super::Control;
+use super::{Control, sinumerik};
 use crate::errors::PostCode;
 
 impl Control {
@@ -16,6 +17,10 @@ impl Control {
             return Ok(());
         }
         self.begin()?;
+        if self.tables.family == ControlFamily::Sinumerik {
+            // MCALL on one side of the mark would call the cycle on the other.
+            sinumerik::cycle::cancel(self)?;
+        }
         self.flush_waiting()?;
         if self.waiting.length_offset.is_some() {
             return PostCode::SkippedPart.err(

@@ -1,9 +1,10 @@
 //! What the preparatory functions of a machine mean: the codes its settings name,
 //! and for texts of others the usual ones (ISO 6983, RS-274).
 
+use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::setting::CodeAt;
-use fil_machine::{Commons, FunctionCode, locations as loc};
+use fil_machine::{Commons, FunctionCode};
 
 use super::{Compensation, Distance};
 
@@ -53,6 +54,8 @@ pub struct Codes {
     ranges: Vec<FunctionCode>,
     /// The lowest and the highest code of the work offsets.
     fixtures: Option<(FunctionCode, FunctionCode)>,
+    /// The functions are those of a SINUMERIK.
+    sinumerik: bool,
 }
 
 impl Codes {
@@ -64,12 +67,14 @@ impl Codes {
             fixtures: code(loc::FIXTURE_MIN_CODE).zip(code(loc::FIXTURE_MAX_CODE)),
             named: Vec::with_capacity(48),
             turning,
+            sinumerik: commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik,
             has_cycle_off: commons.read(loc::CYCLE_OFF_CODE).is_some(),
             ranges: loc::RANGE_CODES
                 .iter()
                 .filter_map(|at| commons.read(*at).and_then(FunctionCode::of_setting))
                 .collect(),
         };
+        let codes_are_calls = codes.sinumerik;
         let mut name = |at: CodeAt, meaning: Meaning| {
             let code = commons.read(at).and_then(FunctionCode::of_setting);
             if let Some(code) = code {
@@ -83,8 +88,10 @@ impl Codes {
         for (at, meaning) in MODES {
             name(at, meaning);
         }
-        for at in loc::CYCLE_CODES {
-            name(at, Meaning::Cycle);
+        // Cycles of a SINUMERIK are called, and their numbers are no functions.
+        let cycles = if codes_are_calls { &[][..] } else { &loc::CYCLE_CODES[..] };
+        for at in cycles {
+            name(*at, Meaning::Cycle);
         }
         let tenths = |at| {
             let code = commons.int_opt(at).and_then(|code| u32::try_from(code).ok());
@@ -120,7 +127,12 @@ impl Codes {
 
     /// True when a motion function ends a cycle that no code ends.
     pub fn motion_ends_cycle(&self) -> bool {
-        !self.has_cycle_off
+        !self.has_cycle_off && !self.sinumerik
+    }
+
+    /// True when no function of a motion can end a cycle: `MCALL` does.
+    pub fn keeps_cycles(&self) -> bool {
+        self.sinumerik
     }
 
     /// What a code does that no setting names.
@@ -128,6 +140,9 @@ impl Codes {
         let value = code.value();
         if value.fract() != 0.0 {
             return of_tenths(code);
+        }
+        if self.sinumerik {
+            return of_sinumerik(value as u16);
         }
         match value as u16 {
             0..=3 => Meaning::Motion,
@@ -175,6 +190,31 @@ fn of_tenths(code: FunctionCode) -> Meaning {
     match code {
         HIGH_SPEED => Meaning::OneBlock,
         _ if offset || TIP.contains(&code) || FRAMES.contains(&code) => Meaning::Frame,
+        _ => Meaning::Unknown,
+    }
+}
+
+/// What the functions of a SINUMERIK do.
+fn of_sinumerik(code: u16) -> Meaning {
+    match code {
+        0..=3 | 33..=35 | 331 | 332 => Meaning::Motion,
+        4 | 9 | 25 | 26 | 60 | 64 | 96 | 97 | 601..=603 | 641..=645 | 450 | 451 => {
+            Meaning::OneBlock
+        }
+        17 => Meaning::Plane(Plane::Xy),
+        18 => Meaning::Plane(Plane::Zx),
+        19 => Meaning::Plane(Plane::Yz),
+        40 => Meaning::Compensation(Compensation::Off),
+        41 => Meaning::Compensation(Compensation::Left),
+        42 => Meaning::Compensation(Compensation::Right),
+        70 | 700 => Meaning::Unit(Unit::Inch),
+        71 | 710 => Meaning::Unit(Unit::Mm),
+        90 => Meaning::Distance(Distance::Absolute),
+        91 => Meaning::Distance(Distance::Incremental),
+        93 => Meaning::FeedMode(FeedMode::InverseTime),
+        94 => Meaning::FeedMode(FeedMode::PerMinute),
+        95 => Meaning::FeedMode(FeedMode::PerRevolution),
+        53..=57 | 74 | 75 | 153 | 500 | 505..=599 => Meaning::Frame,
         _ => Meaning::Unknown,
     }
 }

@@ -278,7 +278,7 @@ impl ControlState {
                 self.motion = Some(code);
                 if codes.motion_ends_cycle() {
                     self.in_cycle = Some(false);
-                } else if self.in_cycle == Some(true) {
+                } else if self.in_cycle == Some(true) && !codes.keeps_cycles() {
                     // Some controls leave the cycle, some don't.
                     self.in_cycle = None;
                 }
@@ -353,7 +353,8 @@ impl ControlState {
         }
     }
 
-    fn learn_text_words(&mut self, words: &text::TextWords, codes: &Codes) {
+    /// Learns from the words of a text.
+    pub(crate) fn learn_text_words(&mut self, words: &text::TextWords, codes: &Codes) {
         let before = words.skipped.then(|| self.clone());
         if words.calls_subprogram() {
             self.forget();

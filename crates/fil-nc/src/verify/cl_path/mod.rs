@@ -483,7 +483,10 @@ impl State {
         let offset = record.number_after(w::OSETNO).or(record.number_after(w::ADJUST));
         Some(vec![Wanted::Tool {
             number: whole(number)?,
-            offset: whole(offset.unwrap_or(number))?,
+            offset: match offset {
+                Some(offset) => Some(whole(offset)?),
+                None => None,
+            },
         }])
     }
 }

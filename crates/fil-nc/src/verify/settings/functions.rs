@@ -143,6 +143,14 @@ impl Settings<'_> {
         if by_word {
             return Some(WORD_OFFSETS + index);
         }
+        if self.has_edges() {
+            return match index {
+                1..=4 => Some(53 + index),
+                54..=57 | 505..=599 => Some(index),
+                5..=99 => Some(500 + index),
+                _ => None,
+            };
+        }
         let (first, last) = (code(loc::FIXTURE_MIN_CODE)?, code(loc::FIXTURE_MAX_CODE)?);
         let plain = (last + 1).checked_sub(first)?;
         if (1..=plain).contains(&index) {

@@ -232,6 +232,17 @@ impl<'c> Settings<'c> {
         self.commons.read(loc::TOOL_LENGTH_AT_CHANGE)
     }
 
+    /// D chooses a cutting edge of the tool, with length and radius.
+    pub fn has_edges(&self) -> bool {
+        self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik
+    }
+
+    /// The offset that a tool comes with: that of its record, else its own number or,
+    /// where D chooses an edge, the first.
+    pub fn tool_offset(&self, number: u32, given: Option<u32>) -> u32 {
+        given.unwrap_or(if self.has_edges() { 1 } else { number })
+    }
+
     /// Z that the length offset is called with, mm.
     pub fn offset_level(&self, metric: bool) -> Option<f64> {
         let z = self.commons.dbl_opt(loc::TOOL_LENGTH_Z).filter(|_| self.calls_offsets());
@@ -284,12 +295,21 @@ impl<'c> Settings<'c> {
 
     /// Pecks of a cycle count from the surface of the hole and not from the R level.
     pub fn pecks_from_surface(&self) -> bool {
-        self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext
+        self.commons.read(loc::CONTROL_FAMILY) != ControlFamily::WordAddress
+    }
+
+    /// The control's own cycle lifts at feed to break chips.
+    pub fn lifts_at_feed(&self) -> bool {
+        self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik
     }
 
     /// The cycles of the control have a word for how far it comes back between pecks.
     pub fn says_peck_gap(&self) -> bool {
-        self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext
+        match self.commons.read(loc::CONTROL_FAMILY) {
+            ControlFamily::WordAddress => false,
+            ControlFamily::Klartext => true,
+            ControlFamily::Sinumerik => self.peck_gap() > 0.0,
+        }
     }
 
     /// G code of a cycle; `None` when holes are single moves.

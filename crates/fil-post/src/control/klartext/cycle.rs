@@ -16,10 +16,9 @@ use super::line;
 use super::motion;
 use super::phrase::Head;
 use crate::block::named;
-use crate::control::Control;
 use crate::control::word_address::motion::{self as words, Motion};
+use crate::control::{Control, tap};
 use crate::errors::PostCode;
-use crate::operation::SpindleSpeed;
 use crate::path::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 
 /// By which 203 lifts to break chips, and 205 stops before the last depth, mm.
@@ -238,28 +237,11 @@ fn feed(control: &Control, cycle: &Cycle) -> Result<String> {
 /// The lead of a tap with the sign of its sense: minus for a left-hand thread, which the
 /// spindle that turns counterclockwise cuts.
 fn pitch(control: &Control, cycle: &Cycle) -> Result<String> {
-    let lead = match (cycle.feed, control.speed) {
-        (CycleFeed::Lead(lead), _) => lead.value,
-        (CycleFeed::Feed(feed), _) if feed.mode == FeedMode::PerRevolution => feed.value,
-        (CycleFeed::Feed(feed), Some(SpindleSpeed::Revolutions(speed))) if speed > 0.0 => {
-            feed.value / speed
-        }
-        _ => {
-            return super::refuse(
-                "TAP with a feed a minute before SPINDL: Q239 needs the pitch of the thread",
-            );
-        }
-    };
     let Some(clockwise) = control.klartext.clockwise else {
         return super::refuse(
             "TAP before SPINDL: the sign of Q239 says which way the thread turns",
         );
     };
-    let text = format!("{lead:.4}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    let written: f64 = text.parse().unwrap_or(0.0);
-    if (written - lead).abs() > 0.0005 * lead {
-        return super::refuse(format!("a pitch of {lead} would be written as {written}"));
-    }
-    Ok(format!("{}{text}", if clockwise { '+' } else { '-' }))
+    let pitch = tap::pitch(control, cycle)?;
+    Ok(format!("{}{pitch}", if clockwise { '+' } else { '-' }))
 }

@@ -2,7 +2,7 @@
 
 use fil_diag::Result;
 use fil_machine::letters::T;
-use fil_machine::locations::{self as loc, Placement, ToolFormat};
+use fil_machine::locations::{self as loc, ControlFamily, Placement, ToolFormat};
 use fil_machine::modes::Plane;
 
 use super::modes;
@@ -33,7 +33,8 @@ pub fn write(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
     let code = control.code(at, "cutter compensation")?;
     control.block.cause.word = wanted.side_word;
     control.g(code);
-    if wanted.side != Compensation::Off {
+    let takes_offset = control.tables.family != ControlFamily::Sinumerik;
+    if wanted.side != Compensation::Off && takes_offset {
         offset_word(control, wanted.offset)?;
     }
     control.asked = wanted.side;

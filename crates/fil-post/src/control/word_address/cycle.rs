@@ -5,7 +5,7 @@ use fil_machine::FunctionCode;
 use fil_machine::axes::AxisSet;
 use fil_machine::letters::{F, R, S};
 use fil_machine::locations::{
-    self as loc, CycleAxesModal, CycleDataModal, CycleDepthOutput, CycleReturnCodes,
+    self as loc, ControlFamily, CycleAxesModal, CycleDataModal, CycleDepthOutput, CycleReturnCodes,
     DwellCycleModal,
 };
 use fil_machine::modes::{FeedMode, Plane};
@@ -13,7 +13,7 @@ use fil_machine::rounding::Rounding;
 
 use super::motion::{self, Motion};
 use super::{dwell, modes};
-use crate::control::Control;
+use crate::control::{Control, sinumerik};
 use crate::errors::PostCode;
 use crate::operation::{Feed, SpindleSpeed};
 use crate::path::cycle::{Cycle, CycleFeed, CycleKind, Hole};
@@ -156,6 +156,9 @@ fn control_has_data(control: &Control, cycle: &Cycle, code: FunctionCode, hole: 
 pub fn cancel(control: &mut Control) -> Result<()> {
     if control.state.in_cycle != Some(true) {
         return Ok(());
+    }
+    if control.tables.family == ControlFamily::Sinumerik {
+        return sinumerik::cycle::cancel(control);
     }
     let waiting = control.block.take();
     let code = control.code(loc::CYCLE_OFF_CODE, "CYCLE/OFF")?;

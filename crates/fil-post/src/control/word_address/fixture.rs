@@ -16,13 +16,7 @@ use crate::errors::PostCode;
 /// # Errors
 /// Cutter compensation; an offset that the machine lacks.
 pub fn write(control: &mut Control, number: Option<i64>) -> Result<()> {
-    control.begin()?;
-    cycle::cancel(control)?;
-    if control.is_compensated() {
-        return PostCode::CompensationOn
-            .err("at a change of the work offset; CUTCOM/OFF must come before it");
-    }
-    control.flush_function(Function::WorkOffset)?;
+    prepare(control)?;
     match (number, control.commons.read(loc::FIXTURE_FORM)) {
         (None, FixtureForm::GCode) => {
             let code = control.code(loc::FIXTURE_DEFAULT_CODE, "SET/OFSETL without a number")?;
@@ -43,6 +37,32 @@ pub fn write(control: &mut Control, number: Option<i64>) -> Result<()> {
             }
         }
     }
+    place(control)
+}
+
+/// Writes a work offset by its code.
+///
+/// # Errors
+/// Cutter compensation.
+pub(in crate::control) fn write_code(control: &mut Control, code: FunctionCode) -> Result<()> {
+    prepare(control)?;
+    control.g(code);
+    place(control)
+}
+
+/// Ends what a change of the work offset must not interrupt.
+fn prepare(control: &mut Control) -> Result<()> {
+    control.begin()?;
+    cycle::cancel(control)?;
+    if control.is_compensated() {
+        return PostCode::CompensationOn
+            .err("at a change of the work offset; CUTCOM/OFF must come before it");
+    }
+    control.flush_function(Function::WorkOffset)
+}
+
+/// Writes the offset in the block under construction, or keeps it for a motion.
+fn place(control: &mut Control) -> Result<()> {
     control.state.doubt_axes();
     match control.commons.read(loc::FIXTURE_PLACEMENT) {
         Placement::BlockOfItsOwn => {

@@ -6,7 +6,7 @@ mod compensation;
 pub(super) mod coolant;
 pub mod cycle;
 pub mod dwell;
-mod fixture;
+pub(super) mod fixture;
 mod function;
 pub mod modes;
 pub mod motion;

@@ -2,11 +2,12 @@
 //! to be in them.
 
 use fil_diag::Result;
+use fil_machine::FunctionCode;
+use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::modes::{Plane, Unit};
-use fil_machine::{FunctionCode, locations as loc};
 
 use crate::control::program::{plane_code, unit_code};
-use crate::control::{Control, Function};
+use crate::control::{Control, Function, sinumerik};
 use crate::control_state::{Compensation, Distance};
 use crate::errors::PostCode;
 
@@ -30,7 +31,10 @@ pub fn require(control: &mut Control, unit: Unit) -> Result<()> {
 fn say_again(control: &mut Control, unit: Unit) -> Result<()> {
     let waiting = control.block.take();
     let mut missing = Vec::new();
-    if control.state.in_cycle != Some(false) {
+    let sinumerik = control.tables.family == ControlFamily::Sinumerik;
+    if control.state.in_cycle != Some(false) && sinumerik {
+        sinumerik::cycle::cancel(control)?;
+    } else if control.state.in_cycle != Some(false) {
         say(control, control.code_if_any(loc::CYCLE_OFF_CODE));
     }
     if control.state.unit != Some(unit) {

@@ -84,7 +84,7 @@ fn tool_and_offset(control: &mut Control, wanted: ToolChange) -> Result<()> {
 }
 
 /// Where axes and motion stand is not known: the change may have moved the machine.
-fn restate(control: &mut Control) {
+pub(in crate::control) fn restate(control: &mut Control) {
     if control.commons.read(loc::TOOL_RESTATE) {
         for number in control.tables.present().numbers() {
             control.state.doubt(control.tables.axis(number).letter);
@@ -94,7 +94,10 @@ fn restate(control: &mut Control) {
 }
 
 /// Writes T and the change code, in one block or two.
-fn tool_blocks(control: &mut Control, tool: i64) -> Result<()> {
+///
+/// # Errors
+/// A number that does not fit.
+pub(in crate::control) fn tool_blocks(control: &mut Control, tool: i64) -> Result<()> {
     control.word(T, tool as f64)?;
     if control.commons.read(loc::TOOL_SEPARATE_BLOCKS) {
         control.write_block()?;

@@ -1,0 +1,354 @@
+//! A block of words: modes first, then tool and spindle, then the motion.
+
+use super::super::Fault;
+use super::functions::{Function, function};
+use super::line::{Value, Word};
+use super::{Part, Sinumerik};
+use crate::dialect::{Auxiliary, FeedMode, ToolCall};
+use crate::errors::NcCode;
+use crate::motion::{Event, FOOT, Speed, Spindle};
+
+/// A coordinate: its value, and whether it is a position; `None` for what is in force.
+pub(super) type Coordinate = (f64, Option<bool>);
+
+/// What a block says.
+#[derive(Default)]
+pub(super) struct Said {
+    functions: Vec<Function>,
+    auxiliaries: Vec<Auxiliary>,
+    /// By axis.
+    pub(super) axes: [Option<Coordinate>; 5],
+    /// I, J, K.
+    pub(super) center: [Option<Coordinate>; 3],
+    /// CR.
+    pub(super) radius: Option<f64>,
+    feed: Option<f64>,
+    speed: Option<f64>,
+    tool: Option<u32>,
+    edge: Option<u32>,
+    /// SPOS, degrees.
+    position: Option<f64>,
+    limit: Option<f64>,
+}
+
+impl Said {
+    fn has(&self, group: u8) -> Option<Function> {
+        self.functions.iter().copied().find(|function| function.group() == group)
+    }
+
+    pub(super) fn moves(&self) -> bool {
+        self.axes != [None; 5]
+    }
+}
+
+impl Sinumerik<'_> {
+    pub(super) fn block(&mut self, words: &[Word]) -> Result<(), Fault> {
+        let mut said = Said::default();
+        for word in words {
+            self.take(word, &mut said)?;
+        }
+        self.modes(&said);
+        self.tool(&said)?;
+        self.spindle(&said);
+        for auxiliary in &said.auxiliaries {
+            if let Auxiliary::Other(code) = auxiliary {
+                let line = self.state.line;
+                self.state.events.push(Event::Auxiliary { line, code: *code });
+            }
+        }
+        self.act(&said)?;
+        for auxiliary in &said.auxiliaries {
+            if let Auxiliary::End(code) = auxiliary {
+                let (line, modes) = (self.state.line, self.state.modes);
+                self.state.events.push(Event::End { line, code: Some(*code), modes });
+                self.part = Part::Ended;
+            }
+        }
+        Ok(())
+    }
+
+    /// The dwell or the motion of a block.
+    fn act(&mut self, said: &Said) -> Result<(), Fault> {
+        match said.has(8) {
+            Some(Function::Dwell) => return self.dwell(said),
+            Some(Function::FixedPoint) => return self.to_fixed_point(said),
+            _ => {}
+        }
+        if let Some(feed) = said.feed {
+            self.state.feed = Some(feed);
+        } else if self.state.feed_mode == FeedMode::Inverse && said.moves() {
+            self.state.feed = None;
+        }
+        if said.has(8) == Some(Function::Machine) {
+            return self.in_machine_frame(said);
+        }
+        self.motion(said)
+    }
+
+    /// Takes a word up.
+    fn take(&mut self, word: &Word, said: &mut Said) -> Result<(), Fault> {
+        let twice = || Fault::new(NcCode::Twice, format!("two `{}`", word.name)).at(&word.range);
+        let Some(value) = &word.value else { return self.statement(word, said) };
+        if let Some(axis) = self.axis(&word.name) {
+            let coordinate = self.coordinate(word, value)?;
+            return if said.axes[axis].replace(coordinate).is_some() {
+                Err(twice())
+            } else {
+                Ok(())
+            };
+        }
+        let spindle = self.state.dialect.spindle_index.map(|index| index.to_string());
+        let of_spindle = |letter: &str| {
+            word.name == letter
+                || spindle.as_ref().is_some_and(|index| word.name == format!("{letter}{index}"))
+        };
+        let slot = match word.name.as_str() {
+            "G" => return self.function(word, value, said),
+            "I" | "J" | "K" => {
+                let axis = usize::from(word.name.as_bytes()[0] - b'I');
+                let coordinate = self.coordinate(word, value)?;
+                let before = said.center[axis].replace(coordinate);
+                return if before.is_some() { Err(twice()) } else { Ok(()) };
+            }
+            "T" => {
+                let tool = match value {
+                    Value::Text(name) => self.tool_of_name(name),
+                    value => self.whole(word, value)?,
+                };
+                return if said.tool.replace(tool).is_some() { Err(twice()) } else { Ok(()) };
+            }
+            "D" => {
+                let edge = self.whole(word, value)?;
+                return if said.edge.replace(edge).is_some() { Err(twice()) } else { Ok(()) };
+            }
+            _ if of_spindle("M") => return self.auxiliary(word, value, said),
+            _ if of_spindle("S") => &mut said.speed,
+            "F" => &mut said.feed,
+            "CR" => &mut said.radius,
+            "LIMS" => &mut said.limit,
+            "TURN" if self.number(word, value)? == 0.0 => return Ok(()),
+            "SPOS" | "SPOSA" | "SPOS[1]" | "SPOSA[1]" => &mut said.position,
+            name if parameter(name).is_some() && word.assigned => {
+                let number = self.number(word, value)?;
+                self.parameters.extend(parameter(name).map(|name| (name, number)));
+                return Ok(());
+            }
+            name if name.starts_with("SPOS[") => &mut said.position,
+            "CTOL" | "ADIS" | "ADISPOS" => return Ok(()),
+            _ => return Err(word.foreign("is not followed")),
+        };
+        let number = self.number(word, value)?;
+        if slot.replace(number).is_some() { Err(twice()) } else { Ok(()) }
+    }
+
+    /// A statement without a value.
+    fn statement(&mut self, word: &Word, said: &mut Said) -> Result<(), Fault> {
+        const HARMLESS: &[&str] = &[
+            "SOFT",
+            "BRISK",
+            "DRIVE",
+            "FFWON",
+            "FFWOF",
+            "COMPON",
+            "COMPOF",
+            "COMPCURV",
+            "COMPCAD",
+            "NORM",
+            "KONT",
+            "STOPRE",
+            "DIAMOF",
+            "CFC",
+            "CFTCP",
+            "CFIN",
+            "CUT2D",
+            "CUT2DF",
+            "DYNNORM",
+            "DYNPOS",
+            "DYNROUGH",
+            "DYNSEMIFIN",
+            "DYNFINISH",
+            "ORIWKS",
+            "ORIMKS",
+        ];
+        if word.arguments.is_some() {
+            return Err(word.foreign("is no call that is followed in a block of words"));
+        }
+        match word.name.as_str() {
+            "SUPA" => said.functions.push(Function::Machine),
+            name if HARMLESS.contains(&name) => {}
+            _ => return Err(word.foreign("is not followed")),
+        }
+        Ok(())
+    }
+
+    fn function(&mut self, word: &Word, value: &Value, said: &mut Said) -> Result<(), Fault> {
+        let code = self.whole(word, value)?;
+        let known = function(code);
+        let function = known.ok_or_else(|| {
+            Fault::new(NcCode::ForeignCode, format!("G{code} is not followed")).at(&word.range)
+        })?;
+        if function.group() > 0 && said.has(function.group()).is_some() {
+            let message = "two G words of one group";
+            return Err(Fault::new(NcCode::Twice, message).at(&word.range));
+        }
+        said.functions.push(function);
+        Ok(())
+    }
+
+    fn auxiliary(&mut self, word: &Word, value: &Value, said: &mut Said) -> Result<(), Fault> {
+        let code = self.whole(word, value)?;
+        let auxiliary = match self.state.dialect.auxiliary(i64::from(code)) {
+            _ if code == 17 => Auxiliary::End(17),
+            Auxiliary::Flow | Auxiliary::Call | Auxiliary::Back => Auxiliary::Other(code),
+            known => known,
+        };
+        if said.auxiliaries.iter().any(|other| other.excludes(auxiliary)) {
+            let message = "two M words of one kind";
+            return Err(Fault::new(NcCode::Twice, message).at(&word.range));
+        }
+        said.auxiliaries.push(auxiliary);
+        Ok(())
+    }
+
+    fn coordinate(&self, word: &Word, value: &Value) -> Result<Coordinate, Fault> {
+        match value {
+            Value::Absolute(value) => Ok((*value, Some(true))),
+            Value::Increment(value) => Ok((*value, Some(false))),
+            value => Ok((self.number(word, value)?, None)),
+        }
+    }
+
+    fn modes(&mut self, said: &Said) {
+        for function in &said.functions {
+            let state = &mut self.state;
+            match *function {
+                Function::Rapid => state.motion = Some(crate::dialect::Function::Rapid),
+                Function::Linear => state.motion = Some(crate::dialect::Function::Linear),
+                Function::Arc { ccw } => {
+                    state.motion = Some(crate::dialect::Function::Arc { ccw });
+                }
+                Function::Plane(normal) => state.plane = normal,
+                Function::Compensation(side) => {
+                    state.modes.compensation = side;
+                    state.modes.compensation_offset = None;
+                }
+                Function::Units { metric, feeds } => {
+                    state.metric = metric;
+                    if feeds && self.metric_feed != metric {
+                        self.metric_feed = metric;
+                        state.feed = None;
+                    }
+                }
+                Function::Positions { absolute } => state.absolute = absolute,
+                Function::Feed(mode) => self.feed_mode(mode),
+                Function::Surface(on) => {
+                    if on != state.surface {
+                        state.modes.speed = None;
+                    }
+                    state.surface = on;
+                    self.feed_mode(FeedMode::PerTurn);
+                }
+                Function::Offset(code) => self.offset(code),
+                _ => {}
+            }
+        }
+    }
+
+    fn feed_mode(&mut self, mode: FeedMode) {
+        if self.state.feed_mode != mode {
+            self.state.feed = None;
+        }
+        self.state.feed_mode = mode;
+    }
+
+    /// Another work offset: where the axes stand in it is not known.
+    fn offset(&mut self, code: u32) {
+        if self.state.modes.fixture.is_some_and(|now| now != code) {
+            self.lose_axes();
+        }
+        self.state.modes.fixture = Some(code);
+    }
+
+    pub(super) fn lose_axes(&mut self) {
+        for axis in (0..5).filter(|axis| self.state.dialect.scales[*axis].is_some()) {
+            self.state.known[axis] = false;
+        }
+    }
+
+    fn tool(&mut self, said: &Said) -> Result<(), Fault> {
+        let changes = said.auxiliaries.contains(&Auxiliary::ToolChange);
+        let at_once = self.state.dialect.tool_call != ToolCall::WithCode;
+        if at_once && let Some(tool) = said.tool {
+            self.change(tool);
+        } else if said.tool.is_some() {
+            self.state.next_tool = said.tool;
+        }
+        if changes && !at_once {
+            let missing =
+                || Fault::new(NcCode::MissingWord, "no T word names the tool to change to");
+            let next = self.state.next_tool.take().ok_or_else(missing)?;
+            self.change(next);
+        }
+        if let Some(edge) = said.edge {
+            self.state.modes.length_offset = Some(edge).filter(|edge| *edge > 0);
+        }
+        Ok(())
+    }
+
+    /// A new tool comes with an edge that the machine chooses, until D names it.
+    fn change(&mut self, tool: u32) {
+        self.state.change(tool);
+        self.state.modes.length_offset = None;
+    }
+
+    fn spindle(&mut self, said: &Said) {
+        let dwells = said.has(8) == Some(Function::Dwell);
+        let modes = &mut self.state.modes;
+        if let Some(speed) = said.speed.filter(|_| !dwells) {
+            modes.speed = Some(match self.state.surface {
+                true => Speed::Surface(speed * if self.state.metric { 1.0 } else { FOOT }),
+                false => Speed::Turns(speed),
+            });
+        }
+        modes.speed_limit = said.limit.or(modes.speed_limit);
+        for auxiliary in &said.auxiliaries {
+            match auxiliary {
+                Auxiliary::Clockwise => turn(modes, Spindle::Clockwise),
+                Auxiliary::Counterclockwise => turn(modes, Spindle::Counterclockwise),
+                Auxiliary::SpindleOff | Auxiliary::Orient => turn(modes, Spindle::Off),
+                Auxiliary::SpindleRange(range) => modes.spindle_range = Some(*range),
+                Auxiliary::Coolant(on) => modes.coolant = *on,
+                _ => {}
+            }
+        }
+        if said.position.is_some() {
+            turn(modes, Spindle::Off);
+            modes.orientation = said.position;
+        }
+    }
+
+    /// `G4 F1.5` seconds, `G4 S30` turns: neither is a feed or a speed from then on.
+    fn dwell(&mut self, said: &Said) -> Result<(), Fault> {
+        let seconds = match (said.feed, said.speed) {
+            (Some(seconds), None) => Some(seconds),
+            (None, Some(_)) => None,
+            _ => {
+                let message = "a dwell needs F in seconds or S in turns";
+                return Err(Fault::new(NcCode::MissingWord, message));
+            }
+        };
+        let line = self.state.line;
+        self.state.events.push(Event::Dwell { line, seconds });
+        Ok(())
+    }
+}
+
+fn turn(modes: &mut crate::motion::Modes, spindle: Spindle) {
+    modes.spindle = spindle;
+    modes.orientation = None;
+}
+
+/// The number of an R parameter.
+fn parameter(name: &str) -> Option<u32> {
+    name.strip_prefix('R')?.parse().ok()
+}

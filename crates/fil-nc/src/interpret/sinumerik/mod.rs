@@ -1,0 +1,199 @@
+//! SINUMERIK 840D programs to events.
+//!
+//! Followed are G0 to G3 with `CR=` or a center, modes, tools by number or name, D,
+//! named addresses, TRANS and ATRANS, work offsets, R parameters that are given numbers,
+//! and the cycles 81 to 86 and 89, called once or by MCALL. What else moves, calculates
+//! or jumps is refused.
+
+mod block;
+mod cycle;
+mod functions;
+mod line;
+mod motion;
+
+use std::collections::BTreeMap;
+
+use fil_diag::{Diag, TextSpan};
+
+use super::Fault;
+use super::program::may_be_skipped;
+use super::state::State;
+use crate::dialect::Dialect;
+use crate::errors::NcCode;
+use crate::motion::Event;
+use cycle::Call;
+use line::{Value, Word};
+
+/// Where the reading stands.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Part {
+    /// Before the end.
+    Body,
+    /// After M2, M17 or M30.
+    Ended,
+    /// In another program behind it.
+    Behind,
+}
+
+/// The program and what the control remembers besides the modes that all controls have.
+struct Sinumerik<'d> {
+    state: State<'d>,
+    part: Part,
+    /// Values of R parameters.
+    parameters: BTreeMap<u32, f64>,
+    /// The cycle that each motion calls.
+    called: Option<Call>,
+    /// TRANS and ATRANS, mm.
+    shift: [f64; 3],
+    /// Feeds count millimeters.
+    metric_feed: bool,
+    /// Names of tools that are no numbers, in the order of their first call.
+    tools: Vec<String>,
+}
+
+/// The number of the first tool whose name is none.
+const NAMED_TOOLS: u32 = 1_000_001;
+
+/// Runs a program and hands its events over.
+pub(super) fn run(
+    text: &[u8],
+    name: &str,
+    dialect: &Dialect,
+    take: &mut dyn FnMut(Event),
+) -> Result<(), Box<Diag>> {
+    let mut control = Sinumerik {
+        state: State::new(dialect),
+        part: Part::Body,
+        parameters: BTreeMap::new(),
+        called: None,
+        shift: [0.0; 3],
+        metric_feed: dialect.metric,
+        tools: Vec::new(),
+    };
+    let mut last = 1;
+    for (number, text) in (1u32..).zip(text.split(|byte| *byte == b'\n')) {
+        let text = text.strip_suffix(b"\r").unwrap_or(text);
+        let text = &*dialect.marks.read(text);
+        let left_out = dialect.skips_blocks && may_be_skipped(text);
+        if left_out || text.trim_ascii().is_empty() {
+            continue;
+        }
+        last = number;
+        let placed = |fault: Fault| fault.place(name, number, text);
+        control.state.line = number;
+        control.state.events.clear();
+        control.line(text).map_err(placed)?;
+        control.state.events.drain(..).for_each(&mut *take);
+    }
+    if control.part != Part::Body || !dialect.has_end {
+        return Ok(());
+    }
+    let message = "no end code was found";
+    Err(Box::new(Diag::new(NcCode::CutOff, message).at(TextSpan::line(name, last, ""))))
+}
+
+impl Sinumerik<'_> {
+    fn line(&mut self, text: &[u8]) -> Result<(), Fault> {
+        let bare = text.trim_ascii();
+        if bare.starts_with(b"%") {
+            if self.part != Part::Body {
+                self.part = Part::Behind;
+            }
+            return Ok(());
+        }
+        if self.part == Part::Behind {
+            return Ok(());
+        }
+        let words = line::read(text)?;
+        let Some(first) = words.first() else { return Ok(()) };
+        if self.part == Part::Ended {
+            return Err(Fault::new(NcCode::AfterEnd, "the program has ended before this block"));
+        }
+        match (first.name.as_str(), &first.arguments) {
+            ("MSG" | "WORKPIECE" | "CYCLE832" | "GROUP_BEGIN" | "GROUP_END", _) => Ok(()),
+            ("MCALL", _) => self.call_at_each(&words[1..]),
+            (_, Some(_)) if words.len() == 1 => {
+                let call = self.call_of(first)?;
+                self.drill(&call)
+            }
+            ("TRANS" | "ATRANS", _) => self.translate(first, &words[1..]),
+            _ => self.block(&words),
+        }
+    }
+
+    /// `MCALL CYCLE81(…)`, and `MCALL` that ends it.
+    fn call_at_each(&mut self, words: &[Word]) -> Result<(), Fault> {
+        self.called = match words {
+            [] => None,
+            [call] => Some(self.call_of(call)?),
+            [_, other, ..] => return Err(other.no_meaning()),
+        };
+        Ok(())
+    }
+
+    /// TRANS places the zero from that of the work offset, ATRANS from where it lies:
+    /// where the axes stand in it is not known.
+    fn translate(&mut self, statement: &Word, words: &[Word]) -> Result<(), Fault> {
+        let mut shift = if statement.name == "ATRANS" { self.shift } else { [0.0; 3] };
+        for word in words {
+            let axis = self.axis(&word.name).filter(|axis| *axis < 3);
+            let (Some(axis), Some(value)) = (axis, &word.value) else {
+                return Err(word.no_meaning());
+            };
+            shift[axis] += self.number(word, value)? * self.state.unit();
+        }
+        for (axis, to) in shift.into_iter().enumerate() {
+            if to != self.shift[axis] {
+                self.state.known[axis] = false;
+            }
+        }
+        self.shift = shift;
+        Ok(())
+    }
+
+    /// The axis of a name: `X`, `X1` where the machine names it so, `C4`.
+    fn axis(&self, name: &str) -> Option<usize> {
+        let letter = name.bytes().next().filter(u8::is_ascii_uppercase)?;
+        let axis = self.state.dialect.axis(letter - b'A' + 1)?;
+        let index =
+            if axis < 3 { self.state.dialect.axis_index } else { self.state.dialect.rotary_index };
+        let named = index.is_some_and(|index| name[1..] == index.to_string());
+        (name.len() == 1 || named).then_some(axis)
+    }
+
+    /// The number that a value stands for.
+    fn number(&self, word: &Word, value: &Value) -> Result<f64, Fault> {
+        match value {
+            Value::Number(value) => Ok(*value),
+            Value::Parameter(number, sign) => match self.parameters.get(number) {
+                Some(value) => Ok(sign * value),
+                None => Err(word.foreign("takes a parameter that has no value here")),
+            },
+            Value::Unread => Err(word.foreign("is given a calculation, which is not followed")),
+            _ => Err(word.no_meaning()),
+        }
+    }
+
+    /// A whole number at or above zero.
+    fn whole(&self, word: &Word, value: &Value) -> Result<u32, Fault> {
+        let number = self.number(word, value)?;
+        if number.fract() != 0.0 || !(0.0..=4e9).contains(&number) {
+            let message = format!("{number} is no whole number");
+            return Err(Fault::new(NcCode::BadNumber, message).at(&word.range));
+        }
+        Ok(number as u32)
+    }
+
+    /// The number of a tool: that of its name, else one of its own.
+    fn tool_of_name(&mut self, name: &str) -> u32 {
+        if let Ok(number) = name.trim().parse() {
+            return number;
+        }
+        let known = self.tools.iter().position(|known| known == name);
+        let at = known.unwrap_or_else(|| {
+            self.tools.push(name.to_string());
+            self.tools.len() - 1
+        });
+        NAMED_TOOLS + at as u32
+    }
+}

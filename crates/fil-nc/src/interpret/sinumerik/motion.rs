@@ -1,0 +1,153 @@
+//! Straight lines and arcs.
+
+use super::super::Fault;
+use super::super::arc::{plane_axes, sweep};
+use super::Sinumerik;
+use super::block::{Coordinate, Said};
+use crate::dialect::{FeedMode, Function};
+use crate::errors::NcCode;
+use crate::motion::{Arc, Course, Rate, unit};
+
+impl Sinumerik<'_> {
+    /// The motion of a block, and the cycle that it calls.
+    pub(super) fn motion(&mut self, said: &Said) -> Result<(), Fault> {
+        let centered = said.center != [None; 3] || said.radius.is_some();
+        let arc = matches!(self.state.motion, Some(Function::Arc { .. }));
+        if !said.moves() && !(arc && centered) {
+            return if centered { Err(no_arc()) } else { Ok(()) };
+        }
+        match self.state.motion {
+            Some(Function::Rapid) if !centered => {
+                let target = self.target(said);
+                self.state.go(target, Course::Rapid, None);
+            }
+            Some(Function::Linear) if !centered => {
+                let rate = Some(self.rate()?);
+                let target = self.target(said);
+                self.state.go(target, Course::Feed, rate);
+            }
+            Some(Function::Arc { ccw }) => self.arc(said, ccw)?,
+            Some(_) => return Err(no_arc()),
+            None => {
+                let message = "no G word says how the axes move";
+                return Err(Fault::new(NcCode::NoMotion, message));
+            }
+        }
+        match self.called.clone() {
+            Some(call) => self.drill(&call),
+            None => Ok(()),
+        }
+    }
+
+    /// The feed in force. G70 and G71 change lengths and not feeds.
+    pub(super) fn rate(&self) -> Result<Rate, Fault> {
+        let feed = self.state.feed.filter(|feed| *feed > 0.0);
+        let feed = feed.ok_or_else(|| Fault::new(NcCode::NoFeed, "no F word is in force"))?;
+        Ok(self.rate_of(feed))
+    }
+
+    /// What a feed stands for.
+    pub(super) fn rate_of(&self, feed: f64) -> Rate {
+        let (dialect, unit) = (self.state.dialect, unit(self.metric_feed));
+        match self.state.feed_mode {
+            FeedMode::PerMinute => Rate::PerMinute(feed / dialect.feed_factor * unit),
+            FeedMode::PerTurn => Rate::PerTurn(feed * unit),
+            FeedMode::Inverse => Rate::Inverse(feed / dialect.inverse_factor),
+        }
+    }
+
+    fn target(&self, said: &Said) -> ([f64; 5], [bool; 5]) {
+        let (mut to, mut known) = (self.state.at, self.state.known);
+        for (axis, word) in said.axes.iter().enumerate() {
+            let Some((value, absolute)) = *word else { continue };
+            if absolute.unwrap_or(self.state.absolute) {
+                to[axis] = self.state.position(axis, value);
+                known[axis] = true;
+            } else {
+                to[axis] += self.state.way(axis, value);
+            }
+        }
+        (to, known)
+    }
+
+    fn arc(&mut self, said: &Said, ccw: bool) -> Result<(), Fault> {
+        let rate = self.rate()?;
+        let normal = self.state.plane;
+        let ccw = ccw == self.state.dialect.right_handed[normal];
+        let plane = plane_axes(normal);
+        let (to, known) = self.target(said);
+        if plane.iter().any(|axis| !self.state.known[*axis]) {
+            return Err(Fault::new(NcCode::NoCenter, "it is not known where the arc begins"));
+        }
+        let (center, angle) = match said.radius {
+            Some(_) if said.center != [None; 3] => {
+                return Err(Fault::new(NcCode::Twice, "a center and a radius"));
+            }
+            Some(radius) => self.state.about_radius(plane, &to, radius * self.state.unit(), ccw)?,
+            None => {
+                let center = self.center(said, plane, normal)?;
+                self.state.check_radii(plane, center, &to)?;
+                (center, sweep(plane, center, &self.state.at, &to, ccw))
+            }
+        };
+        let mut point = [0.0; 3];
+        point[normal] = self.state.at[normal];
+        (point[plane[0]], point[plane[1]]) = (center[0], center[1]);
+        let arc = Arc { center: point, normal, ccw, angle };
+        self.state.travel((to, known), Course::Feed, Some(rate), Some(arc));
+        Ok(())
+    }
+
+    /// I, J, K count from the start whether or not positions do; AC and IC say it.
+    fn center(&self, said: &Said, plane: [usize; 2], normal: usize) -> Result<[f64; 2], Fault> {
+        if said.center[normal].is_some() || said.center == [None; 3] {
+            return Err(Fault::new(NcCode::NoCenter, "a center needs the axes of its plane"));
+        }
+        let unit = self.state.unit();
+        let of = |axis: usize| match said.center[axis] {
+            Some((value, Some(true))) => value * unit,
+            Some((value, _)) => self.state.at[axis] + value * unit,
+            None => self.state.at[axis],
+        };
+        Ok(plane.map(of))
+    }
+
+    /// `SUPA` and `G53`: for this block positions are those of the machine.
+    pub(super) fn in_machine_frame(&mut self, said: &Said) -> Result<(), Fault> {
+        let straight = matches!(self.state.motion, Some(Function::Rapid | Function::Linear));
+        if said.moves() && !straight {
+            return Err(Fault::new(NcCode::NoMotion, "an arc in the frame of the machine"));
+        }
+        if self.called.is_some() {
+            return Err(Fault::new(NcCode::Twice, "a cycle of MCALL in the frame of the machine"));
+        }
+        self.machine_motion(said);
+        Ok(())
+    }
+
+    /// `G74` and `G75`: the axes go where the machine says; their words have no meaning.
+    pub(super) fn to_fixed_point(&mut self, said: &Said) -> Result<(), Fault> {
+        if !said.moves() {
+            return Err(Fault::new(NcCode::MissingWord, "the axes that go there are needed"));
+        }
+        self.machine_motion(said);
+        Ok(())
+    }
+
+    fn machine_motion(&mut self, said: &Said) {
+        if !said.moves() {
+            return;
+        }
+        let (to, _) = self.target(said);
+        let mut lost = self.state.known;
+        let named = |word: &Option<Coordinate>| word.is_some();
+        for axis in (0..5).filter(|axis| named(&said.axes[*axis])) {
+            lost[axis] = false;
+        }
+        self.state.go((to, lost), Course::Machine, None);
+    }
+}
+
+fn no_arc() -> Fault {
+    Fault::new(NcCode::NoMeaning, "a center or a radius without an arc")
+}

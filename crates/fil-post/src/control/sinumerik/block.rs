@@ -1,0 +1,128 @@
+//! Blocks of words as the language spells them: `X10`, `X1=10`, `CR=5`, `I=AC(10)`,
+//! `M1=3`, `T="5"`.
+
+use fil_diag::Result;
+use fil_machine::address::no_address;
+use fil_machine::letters::{G, IJK, M, S, T, XYZ};
+use fil_machine::locations::{self as loc, CircleCenter, ControlToolCall};
+use fil_machine::rounding::Rounding;
+use fil_machine::word_text::WordText;
+use fil_machine::{FunctionCode, Letter};
+
+use crate::block::{function, named};
+use crate::cause::Cause;
+use crate::control::Control;
+use crate::control::line::Line;
+
+/// A word with its cause.
+type CausedWord = (Letter, f64, Cause);
+
+/// Codes of M that are those of a spindle.
+const OF_SPINDLE: [fil_machine::setting::CodeAt; 5] = [
+    loc::SPINDLE_CW_CODE,
+    loc::SPINDLE_CCW_CODE,
+    loc::SPINDLE_STOP_CODE,
+    loc::SPINDLE_DEFAULT_CODE,
+    loc::SPINDLE_ORIENT_CODE,
+];
+
+/// Puts the block under construction on the tape.
+///
+/// # Errors
+/// A function that its address can't write; a line longer than the control reads.
+pub fn write(control: &mut Control) -> Result<()> {
+    super::check_unit(control)?;
+    let addresses = &control.tables.addresses;
+    if !control.block.prints(addresses) {
+        return Ok(());
+    }
+    control.block.check_functions(addresses)?;
+    let words = control.block.words(addresses);
+    put(control, &words)
+}
+
+/// Puts words on the tape in their order.
+///
+/// # Errors
+/// The machine has no such address; a value that does not fit.
+pub fn put(control: &mut Control, words: &[CausedWord]) -> Result<()> {
+    let mut line = Line::default();
+    let mut last = Vec::with_capacity(words.len());
+    for &(letter, value, cause) in words {
+        let (text, value) = word(control, letter, value)?;
+        line.item(letter.byte(), &text, cause);
+        last.push((letter, value));
+    }
+    last.into_iter().for_each(|(letter, value)| control.commons.set_last_output(letter, value));
+    control.tape.items(&line.text, &line.items, true, &control.tables, &mut control.commons)
+}
+
+/// A word as the tape spells it, and the value that it then has.
+fn word(control: &Control, letter: Letter, value: f64) -> Result<(String, f64)> {
+    let addresses = &control.tables.addresses;
+    let position = addresses.position(letter).ok_or_else(|| no_address(letter))?;
+    let slot = addresses.slot(position);
+    let mut text = WordText::new();
+    if matches!(letter, G | M) {
+        let code = function(letter, value)?;
+        code.check(letter, &slot.format)?;
+        code.put(&slot.format, &mut text);
+        let name = char::from(slot.character);
+        return Ok((spell_function(control, letter, code, name, &digits(&text)), code.value()));
+    }
+    let names = letter.byte() == b'P' && slot.format.decimals == 0;
+    let rounding = if names { Rounding::Exact } else { Rounding::of(letter) };
+    let scaled = rounding.scale(value, &slot.format).map_err(|diag| named(diag, letter))?;
+    slot.format.put(scaled, &mut text);
+    let name = char::from(slot.character);
+    Ok((spell(control, letter, name, &digits(&text)), slot.format.unscale(scaled)))
+}
+
+fn digits(text: &WordText) -> String {
+    let mut out = Vec::new();
+    text.append_to(&mut out);
+    String::from_utf8_lossy(&out).into_owned()
+}
+
+fn spell_function(
+    control: &Control,
+    letter: Letter,
+    code: FunctionCode,
+    name: char,
+    digits: &str,
+) -> String {
+    let of_spindle = || OF_SPINDLE.iter().any(|at| control.code_if_any(*at) == Some(code));
+    match control.commons.int_opt(loc::CONTROL_SPINDLE_INDEX) {
+        Some(index) if letter == M && of_spindle() => format!("{name}{index}={digits}"),
+        _ => format!("{name}{digits}"),
+    }
+}
+
+fn spell(control: &Control, letter: Letter, name: char, digits: &str) -> String {
+    let commons = &control.commons;
+    if commons.read(loc::CIRCLE_RADIUS_ADDRESS) == Some(letter) {
+        return format!("CR={digits}");
+    }
+    if letter == T && commons.read(loc::CONTROL_TOOL_CALL) == ControlToolCall::Name {
+        return format!("{name}=\"{digits}\"");
+    }
+    let absolute = commons.read(loc::CIRCLE_CENTER) == CircleCenter::AbsoluteCenter;
+    if absolute && IJK.contains(&letter) {
+        return format!("{name}=AC({digits})");
+    }
+    let index = match letter {
+        S => commons.int_opt(loc::CONTROL_SPINDLE_INDEX),
+        _ if XYZ.contains(&letter) => commons.int_opt(loc::CONTROL_AXIS_INDEX),
+        _ if is_rotary(control, letter) => commons.int_opt(loc::CONTROL_ROTARY_INDEX),
+        _ => None,
+    };
+    match index {
+        Some(index) => format!("{name}{index}={digits}"),
+        None => format!("{name}{digits}"),
+    }
+}
+
+fn is_rotary(control: &Control, letter: Letter) -> bool {
+    let present = control.tables.present().numbers();
+    present.into_iter().any(|number| number > 2 && control.tables.axis(number).letter == letter)
+}

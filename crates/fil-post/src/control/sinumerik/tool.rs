@@ -1,0 +1,50 @@
+//! Tool change: `T5 M6` or `T="5" M6`, and `D1`, its cutting edge.
+
+use fil_diag::Result;
+use fil_machine::letters::D;
+use fil_machine::locations as loc;
+
+use super::refuse;
+use crate::control::Control;
+use crate::control::word_address::tool as words;
+use crate::operation::ToolChange;
+
+/// The highest number of a cutting edge.
+const EDGES: i64 = 9;
+
+/// Changes the tool and takes its cutting edge: that of OSETNO, else the first. Length
+/// and radius come from the control's table with it.
+///
+/// # Errors
+/// A tool that does not fit; an edge that no tool has.
+pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
+    let edge = if wanted.offset_given { wanted.offset } else { 1 };
+    if !(1..=EDGES).contains(&edge) {
+        return refuse(format!(
+            "LOADTL asks for offset {edge}: D names one of the cutting edges 1 to {EDGES} of the \
+             tool"
+        ));
+    }
+    words::tool_blocks(control, wanted.tool)?;
+    words::restate(control);
+    control.because(wanted.causes[1], |control| {
+        control.word(D, edge as f64)?;
+        control.write_block()
+    })?;
+    control.state.doubt_axes();
+    control.state.tool = Some(wanted.tool);
+    control.sinumerik.edge = Some(edge);
+    Ok(())
+}
+
+/// Names the next tool, on a machine that prepares it.
+///
+/// # Errors
+/// A machine whose T changes the tool at once; a number that does not fit.
+pub fn select(control: &mut Control, tool: i64) -> Result<()> {
+    let prepares = control.commons.read(loc::TOOL_PRESELECT);
+    if prepares && control.code_if_any(loc::TOOL_CHANGE_CODE).is_none() {
+        return refuse("the next tool by T, which changes the tool at once (tool.change_code)");
+    }
+    words::select(control, tool)
+}
