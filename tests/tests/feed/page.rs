@@ -36,6 +36,34 @@ fn the_page_gives_the_times_of_the_pass() {
     }
 }
 
+/// What the page says of the cuts on the floor: how many, how long, and their part of the time.
+#[test]
+fn the_page_gives_the_part_of_the_floor() {
+    let points = points(&pass_cl());
+    let part = |floor: Floor| {
+        let contacts = pass(LISTING, &points, floor);
+        let (mut count, mut on_floor, mut time, mut all) = (0, 0.0, 0.0, 0.0);
+        for (ends, contact) in points.windows(2).zip(&contacts) {
+            let way = length(ends);
+            all += way / contact.feed;
+            if contact.floor {
+                count += 1;
+                on_floor += way;
+                time += way / contact.feed;
+            }
+        }
+        (contacts.len(), count, on_floor, time / all)
+    };
+    let (cuts, count, on_floor, share) = part(Floor::Formula);
+    assert_eq!((cuts, count), (30, 3));
+    let said = format!("three of the 30 cuts, {on_floor:.1} mm of {:.0},", length(&points));
+    let page = read("docs/papers/feed-control.md");
+    assert!(page.contains(&said), "docs/papers/feed-control.md does not say {said}");
+    assert!((share - 2.0 / 3.0).abs() < 0.02, "two thirds: {share}");
+    let (.., share) = part(Floor::Subprogram);
+    assert!(share > 0.8 && share < 0.9, "more than four fifths: {share}");
+}
+
 /// The same pass at the listing's constant feed.
 fn without_feed_control(cl: &str) -> String {
     let lines = cl.lines().filter(|line| !line.starts_with("FEDCTL"));
