@@ -5,6 +5,7 @@
 
 use std::sync::LazyLock;
 
+use fil_cl::{ClDialect, Options, Reader, Record, Vocabulary};
 use fil_nc::dialect::Dialect;
 use fil_nc::diff;
 use fil_nc::forward::Forward;
@@ -15,9 +16,9 @@ use fil_nc::text::read_block;
 use fil_nc::verify::Allowed;
 use filpost::map::{Digest, Entry, MapReader};
 use filpost::{Builder, Commons, Limits, Program};
+use filpost_tests::back_check::{self, Both};
 use filpost_tests::duel::{fight, reduce};
 use filpost_tests::programs::{Dice, case};
-use filpost_tests::back_check::{self, Both};
 use filpost_tests::tip_program;
 
 /// Small, so that an input takes milliseconds at most.
@@ -76,6 +77,143 @@ pub fn cl_bytes(data: &[u8]) {
     if let Ok(built) = ready(*first).build() {
         post(&built, cl);
     }
+}
+
+/// Any bytes as a CL file of a CAM system; the first two choose the system and whether
+/// sections see records as they are written. What is read is read the same again.
+pub fn dialect_bytes(data: &[u8]) {
+    let [system, raw, cl @ ..] = data else { return };
+    let dialect = ClDialect::ALL[usize::from(*system) % ClDialect::ALL.len()];
+    let options = Options { dialect: Some(dialect), raw: raw % 2 == 1, ..Options::default() };
+    let read = || {
+        let mut vocabulary = Vocabulary::new();
+        let mut record = Record::default();
+        let mut reader = Reader::new(cl, "fuzz.ncl", options);
+        let mut said = Vec::new();
+        while let Ok(true) = reader.read(&mut vocabulary, &mut record) {
+            said.push(format!("{record:?}"));
+        }
+        said
+    };
+    assert_eq!(read(), read());
+    let Ok(built) = ready(*raw).build() else { return };
+    let mut nc = Vec::new();
+    let _ = built.start().reading(options).run(cl, &mut nc);
+}
+
+/// Bytes as an arrangement of two rotary axes anywhere, and as points with tool axes for it:
+/// what the post writes must agree with the CL file, by the check that shares nothing
+/// with it.
+pub fn chains(data: &[u8]) {
+    let Some((settings, points)) = data.split_first_chunk::<16>() else { return };
+    let Ok(post) = chain(settings).build() else { return };
+    let part = turning_part(points);
+    let mut nc = Vec::new();
+    if post.run(part.as_bytes(), &mut nc).is_err() {
+        return;
+    }
+    let nc = String::from_utf8(nc).expect("a text");
+    let allowed = Allowed::default();
+    match back_check::check(post.commons(), &part, &nc, allowed) {
+        Ok(report) => assert!(report.findings.is_empty(), "{report:#?}\n{part}\n{nc}"),
+        Err(refused) => panic!("{refused}\n{part}\n{nc}"),
+    }
+}
+
+/// The ready mill with two rotary axes.
+fn chain(bytes: &[u8; 16]) -> Builder {
+    let number = |at: usize| f64::from(bytes[at]) - 128.0;
+    let mut builder = ready(1).set("address.A.format=4443").set("address.B.format=4443");
+    builder = builder.set("address.C.format=4443");
+    for (name, at) in [("primary", 0), ("secondary", 7)] {
+        let mut set = |key: &str, value: f64| {
+            builder = std::mem::replace(&mut builder, Program::builder())
+                .set(&format!("rotary.{name}_{key}={value}"));
+        };
+        let axis = bytes[at] % 3;
+        set("kind", f64::from(1 + bytes[at] / 3 % 2));
+        set("axis", f64::from(1 + axis));
+        // Along X, Y or Z, or aslant.
+        let aslant = bytes[at] > 200;
+        for (n, key) in ["i", "j", "k"].into_iter().enumerate() {
+            let along = f64::from(u8::from(n == usize::from(axis)));
+            set(key, if aslant { along + number(at + 1 + n) / 256.0 } else { along });
+        }
+        for (n, key) in ["x", "y", "z"].into_iter().enumerate() {
+            set(key, number(at + 4 + n));
+        }
+    }
+    builder.set(&format!("rotary.pivot_distance={}", number(14).abs()))
+}
+
+/// A CL file with a point for each six bytes.
+fn turning_part(bytes: &[u8]) -> String {
+    let mut part = "UNITS / MM\nMULTAX / ON\nLOADTL / 1\nSPINDL / RPM, 500, CLW\n".to_string();
+    part.push_str("RAPID\nGOTO / 0, 0, 300, 0, 0, 1\nFEDRAT / 100, MMPM\n");
+    for (count, point) in bytes.chunks_exact(6).take(20).enumerate() {
+        let value = |n: usize| f64::from(point[n]) - 128.0;
+        let axis = [value(3), value(4), 200.0 - value(5).abs()];
+        let length = axis.iter().map(|it| it * it).sum::<f64>().sqrt();
+        let [i, j, k] = axis.map(|it| it / length);
+        if count % 5 == 4 {
+            part.push_str("RAPID\n");
+        }
+        let [x, y, z] = [value(0), value(1), value(2)];
+        part.push_str(&format!("GOTO / {x}, {y}, {z}, {i:.9}, {j:.9}, {k:.9}\n"));
+    }
+    part.push_str("FINI\n");
+    part
+}
+
+/// Bytes as statements for a control of each family: what the post writes, its own check can
+/// follow, and finds nothing.
+pub fn controls(data: &[u8]) {
+    let Some((first, choices)) = data.split_first() else { return };
+    let Ok(post) = ready(*first).build() else { return };
+    let cl = statements(choices);
+    let mut nc = Vec::new();
+    if post.run(cl.as_bytes(), &mut nc).is_err() {
+        return;
+    }
+    let nc = String::from_utf8(nc).expect("a text");
+    match back_check::check(post.commons(), &cl, &nc, Allowed::default()) {
+        Ok(report) => assert!(report.findings.is_empty(), "{report:#?}\n{cl}\n{nc}"),
+        Err(refused) => panic!("{refused}\n{cl}\n{nc}"),
+    }
+}
+
+/// A CL file with a statement for each three bytes.
+fn statements(choices: &[u8]) -> String {
+    let mut cl = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 500, CLW\nFEDRAT / 100, MMPM\n".to_string();
+    let mut in_cycle = false;
+    for choice in choices.chunks_exact(3).take(60) {
+        let [what, one, other] = [choice[0], choice[1], choice[2]];
+        let [x, y] = [one, other].map(|it| f64::from(it) / 4.0);
+        let text = match what % 12 {
+            0..=3 => format!("GOTO / {x}, {y}, {}", f64::from(what) / 8.0),
+            4 if !in_cycle => format!("RAPID\nGOTO / {x}, {y}, 50"),
+            5 => format!("FEDRAT / {}, MMPM", x + 1.0),
+            6 => format!("SPINDL / RPM, {}, {}", y + 50.0, ["CLW", "CCLW"][usize::from(one % 2)]),
+            7 => format!("COOLNT / {}", ["ON", "OFF"][usize::from(one % 2)]),
+            8 if !in_cycle => format!("DELAY / {}", x / 8.0 + 0.25),
+            9 if !in_cycle => {
+                in_cycle = true;
+                let kind = ["DRILL", "DEEP", "BRKCHP", "BORE", "FACE"][usize::from(one % 5)];
+                let step = if matches!(kind, "DEEP" | "BRKCHP") { ", STEP, 2" } else { "" };
+                format!("CYCLE / {kind}, DEPTH, {}{step}, MMPM, 90, CLEAR, 1", y / 8.0 + 1.0)
+            }
+            10 if in_cycle => {
+                in_cycle = false;
+                format!("CYCLE / OFF\nRAPID\nGOTO / {x}, {y}, 60")
+            }
+            11 if !in_cycle => format!("RAPID\nGOTO / {x}, {y}, 60\nLOADTL / {}", one % 8 + 1),
+            _ => continue,
+        };
+        cl.push_str(&text);
+        cl.push('\n');
+    }
+    cl.push_str(if in_cycle { "CYCLE / OFF\nFINI\n" } else { "FINI\n" });
+    cl
 }
 
 /// Any bytes as machine.toml and as an option file.
