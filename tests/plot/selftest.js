@@ -75,6 +75,43 @@
     said.without = places("feed").length;
     box.click();
     said.again = places("feed").length === all;
+    const chosen = () => document.querySelector("#rows .chosen")?.textContent;
+    const inForce = said.tips.feed;
+    said.inForce = inForce;
+    const arcs = places("arc");
+    if (arcs.length) {
+      const spot = arcs[Math.floor(arcs.length / 2)];
+      send("pointerdown", spot);
+      send("pointerup", spot);
+      await frames();
+      said.clicked = chosen();
+    }
+    const row = [...document.querySelectorAll("#rows div")].find((row) => row.textContent.includes("G1"));
+    if (row) {
+      row.click();
+      said.row = chosen() === row.textContent;
+    }
+    const low = document.getElementById("low"), high = document.getElementById("high");
+    high.value = -1000;
+    high.dispatchEvent(new Event("input"));
+    await frames();
+    said.below = Object.keys(colours).map((stroke) => places(stroke).length);
+    high.value = "";
+    high.dispatchEvent(new Event("input"));
+    await frames();
+    said.allAgain = places("feed").length === all;
+    const tools = document.getElementById("tool");
+    said.operations = [...tools.options].map((option) => option.text);
+    upto.value = 0;
+    upto.dispatchEvent(new Event("input"));
+    document.getElementById("speed").value = 600;
+    click("#play");
+    await new Promise((done) => setTimeout(done, 400));
+    said.played = Number(upto.value);
+    if (document.getElementById("play").textContent === "Pause") click("#play");
+    click("#theme");
+    said.dark = document.documentElement.dataset.theme;
+    click("#theme");
     upto.value = 1;
     upto.dispatchEvent(new Event("input"));
     await frames();

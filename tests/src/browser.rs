@@ -76,16 +76,25 @@ pub fn dom(program: &Path, page: &str, seconds: u32) -> Result<String, String> {
 /// Why there is none.
 pub fn screenshot(program: &Path, name: &str, text: &str) -> Result<Vec<[u8; 3]>, String> {
     let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
+    let file = folder.path().join("picture.png");
+    picture(program, name, text, &file)?;
+    pixels(&file)
+}
+
+/// The same as a PNG file.
+///
+/// # Errors
+/// Why there is none.
+pub fn picture(program: &Path, name: &str, text: &str, to: &Path) -> Result<(), String> {
+    let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
     let file = folder.path().join(name);
     fs::write(&file, text).map_err(|error| error.to_string())?;
-    let picture = folder.path().join("picture.png");
     let arguments = [
-        format!("--screenshot={}", picture.display()),
+        format!("--screenshot={}", to.display()),
         "--virtual-time-budget=3000".to_string(),
         format!("file://{}", file.display()),
     ];
-    run(program, folder.path(), &arguments)?;
-    pixels(&picture)
+    run(program, folder.path(), &arguments).map(|_| ())
 }
 
 fn pixels(picture: &Path) -> Result<Vec<[u8; 3]>, String> {

@@ -119,6 +119,47 @@ fn the_page_draws_tells_and_zooms() {
         "{said:#}"
     );
     assert_eq!(said["early"][2], 0, "the arc is not yet drawn: {said:#}");
+    let text = |name: &str| said[name].as_str().unwrap_or_default().to_string();
+    assert!(
+        text("inForce").contains("T1 · F 200 mm/min · S 900 turns/min · clockwise"),
+        "{said:#}"
+    );
+    assert!(text("clicked").contains("G3 Y40. I0. J20."), "{said:#}");
+    assert_eq!((&said["row"], &said["allAgain"]), (&true.into(), &true.into()), "{said:#}");
+    // A pixel may be that of a mark.
+    let below = said["below"].as_array().expect("counts");
+    assert!(below.iter().all(|count| count.as_u64() < Some(5)), "{said:#}");
+    let operations = said["operations"].as_array().expect("a list");
+    assert_eq!(operations.len(), 3, "all tools, T1, T2: {said:#}");
+    assert!(said["played"].as_u64() > Some(1), "{said:#}");
+    assert_eq!(said["dark"], "dark", "{said:#}");
+}
+
+/// The picture of the page in docs/plot.md, as a browser shows it; `FILPOST_UPDATE=1` takes
+/// it anew. Fonts differ from machine to machine, so it is not compared.
+#[test]
+fn the_page_of_the_docs_is_a_screenshot() {
+    let file = root().join("docs/plot-page.png");
+    if std::env::var_os("FILPOST_UPDATE").is_some_and(|value| value == "1")
+        && let Some(browser) = browser::program()
+    {
+        let page = html(&drawing());
+        browser::picture(&browser, "page.html", &page, &file).expect("a screenshot");
+    }
+    let picture = std::fs::read(file).expect("docs/plot-page.png");
+    assert!(picture.starts_with(b"\x89PNG") && picture.len() > 10_000);
+}
+
+/// A lathe's page says so, and holds what is in force.
+#[test]
+fn a_lathe_is_drawn_lying() {
+    let post = Program::builder().ready("fanuc-lathe").build().unwrap();
+    let nc = "G21 G18 G97 S500 M3\nT0101\nG0 X40. Z2.\nG99 G1 Z-20. F0.2\nX44.\nM30\n";
+    let drawing =
+        plot::program(Text { name: "out.nc", bytes: nc.as_bytes() }, post.commons()).unwrap();
+    assert!(drawing.lathe && html(&drawing).contains("\"lathe\":true"));
+    let feed = drawing.path.in_force.last().and_then(|now| now.feed);
+    assert_eq!(feed, Some(fil_nc::motion::Rate::PerTurn(0.2)));
 }
 
 /// The picture of docs/plot.md; `FILPOST_UPDATE=1` draws it anew.

@@ -136,3 +136,20 @@ fn cl_without(cl: &str) -> String {
     let lines = cl.lines().filter(|line| !line.starts_with("INSERT"));
     lines.fold(String::new(), |text, line| text + line + "\n")
 }
+
+/// Seconds of a dwell in Klartext have three decimals, whatever letter other controls use.
+#[test]
+fn a_rounded_dwell_of_klartext_agrees() {
+    let post = filpost::Program::builder().ready("heidenhain-tnc640").build().expect("a post");
+    let cl = "UNITS / MM\nLOADTL / 1\nSPINDL / 500, CLW\nFEDRAT / 100, MMPM\nGOTO / 0, 0, 0\n\
+              DELAY / 3.4375\nGOTO / 1, 2, 3\nFINI\n";
+    let mut nc = Vec::new();
+    post.run(cl.as_bytes(), &mut nc).expect("a program");
+    let nc = String::from_utf8(nc).expect("a text");
+    let check = |nc: &str| {
+        let report = back_check::check(post.commons(), cl, nc, Allowed::default());
+        report.expect("a report").verdict()
+    };
+    assert_eq!(check(&nc), Verdict::Agrees, "{nc}");
+    assert_eq!(check(&nc.replace("3.438", "3.439")), Verdict::Differs, "{nc}");
+}

@@ -67,6 +67,7 @@ pub fn program(nc: Text<'_>, commons: &Commons) -> Result<Drawing, Error> {
     Ok(Drawing {
         title: nc.name.to_string(),
         path: nc_trace(&events, &forward),
+        lathe: dialect.lathe,
         notes: notes(nc.bytes),
         ..Drawing::default()
     })

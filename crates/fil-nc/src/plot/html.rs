@@ -7,10 +7,14 @@ use std::fmt::Write as _;
 use super::encode::{Numbers, json};
 use super::svg::{escape, short};
 use super::{CL_COLOUR, Drawing, Extent, Note, Stroke, Trace};
+use crate::motion::{Rate, Speed, Spindle};
 
 const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
-const SCRIPT: &str = include_str!("page.js");
+const SCRIPT: &str = concat!(include_str!("page.js"), include_str!("pane.js"));
+
+/// Steps of a unit in which feeds, speeds and directions are kept.
+const FINE: f64 = 1e4;
 
 /// Steps over the longest side of the path in which its points are kept.
 const STEPS: f64 = 1_048_576.0;
@@ -65,6 +69,7 @@ fn data(drawing: &Drawing, extent: Option<Extent>) -> String {
         })
         .collect();
     let _ = write!(out, "\"strokes\":[{}],\"underColour\":\"{CL_COLOUR}\",", strokes.join(","));
+    let _ = write!(out, "\"lathe\":{},", drawing.lathe);
     let _ = write!(out, "\"underName\":\"{}\",", drawing.under_name);
     let _ = write!(out, "\"path\":{}", trace(&drawing.path, &drawing.notes, &extent, step));
     if let Some(under) = &drawing.under {
@@ -86,10 +91,12 @@ fn trace(trace: &Trace, notes: &[Note], extent: &Extent, step: f64) -> String {
     let (origins, of_lines) = origins(notes);
     let texts: Vec<&str> = notes.iter().map(|note| note.text.as_str()).collect();
     format!(
-        "{{\"points\":\"{}\",\"pieces\":\"{}\",\"changes\":[{}],\"texts\":{},\"origins\":[{}],\
-         \"originOf\":\"{}\"}}",
+        "{{\"points\":\"{}\",\"pieces\":\"{}\",\"inForce\":\"{}\",\"axes\":\"{}\",\"changes\":[{}],\
+         \"texts\":{},\"origins\":[{}],\"originOf\":\"{}\"}}",
         points(trace, extent, step),
         pieces(trace),
+        in_force(trace),
+        axes(trace),
         changes.join(","),
         json(&texts.join("\n")),
         origins.join(","),
@@ -123,6 +130,53 @@ fn pieces(trace: &Trace) -> String {
         numbers.push(count << 3 | u64::from(goes_on) << 2 | stroke as u64);
         numbers.push_signed(i64::from(piece.line) - line);
         (end, line) = (piece.end, i64::from(piece.line));
+    }
+    numbers.base64()
+}
+
+/// What is in force: the pieces since the one before; tool; feed a minute (1), a turn (2) or
+/// none (0), and the feed; speed in turns (1), at the surface (2) or none (0), and the speed;
+/// spindle off (0), clockwise (1), counterclockwise (2); work offset and 1, or 0 without one.
+fn in_force(trace: &Trace) -> String {
+    let mut numbers = Numbers::default();
+    let mut before = 0;
+    let fine = |value: f64| (value.max(0.0) * FINE).round() as u64;
+    for now in &trace.in_force {
+        numbers.push((now.from - before) as u64);
+        before = now.from;
+        numbers.push(now.tool.into());
+        let (kind, feed) = match now.feed {
+            Some(Rate::PerMinute(feed)) => (1, feed),
+            Some(Rate::PerTurn(feed)) => (2, feed),
+            Some(Rate::Inverse(_)) | None => (0, 0.0),
+        };
+        numbers.push(kind);
+        numbers.push(fine(feed));
+        let (kind, speed) = match now.speed {
+            Some(Speed::Turns(speed)) => (1, speed),
+            Some(Speed::Surface(speed)) => (2, speed),
+            None => (0, 0.0),
+        };
+        numbers.push(kind);
+        numbers.push(fine(speed));
+        numbers.push(match now.spindle {
+            Spindle::Off => 0,
+            Spindle::Clockwise => 1,
+            Spindle::Counterclockwise => 2,
+        });
+        numbers.push(now.fixture.map_or(0, |fixture| u64::from(fixture) + 1));
+    }
+    numbers.base64()
+}
+
+/// Directions of the tool: the pieces since the one before, and the three parts.
+fn axes(trace: &Trace) -> String {
+    let mut numbers = Numbers::default();
+    let mut before = 0;
+    for (from, axis) in &trace.axes {
+        numbers.push((from - before) as u64);
+        before = *from;
+        axis.iter().for_each(|part| numbers.push_signed((part * FINE).round() as i64));
     }
     numbers.base64()
 }

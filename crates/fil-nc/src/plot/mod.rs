@@ -21,6 +21,8 @@ pub use svg::svg;
 pub use trace::{cl_trace, nc_trace};
 pub use view::{Extent, View};
 
+use crate::motion::{Rate, Speed, Spindle};
+
 /// A point of the part frame, mm.
 pub type Point = [f64; 3];
 
@@ -90,6 +92,24 @@ pub struct Change {
     pub line: u32,
 }
 
+/// What is in force from a piece of a path on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InForce {
+    /// Index of the first piece.
+    pub from: usize,
+    /// Number of the tool.
+    pub tool: u32,
+    /// Feed of pieces that are no rapids; inverse time is told as the feed that it makes, in
+    /// whole mm/min.
+    pub feed: Option<Rate>,
+    /// Speed of the spindle.
+    pub speed: Option<Speed>,
+    /// What the spindle does.
+    pub spindle: Spindle,
+    /// The work offset, as [`Modes::fixture`](crate::motion::Modes::fixture).
+    pub fixture: Option<u32>,
+}
+
 /// A path of the tool tip in the part frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trace {
@@ -99,6 +119,11 @@ pub struct Trace {
     pub pieces: Vec<Piece>,
     /// Tool changes.
     pub changes: Vec<Change>,
+    /// What is in force, each from its first piece on; none for a CL file.
+    pub in_force: Vec<InForce>,
+    /// Directions of the tool, each from the piece on that ends with it; none where the tool
+    /// always stands upright.
+    pub axes: Vec<(usize, Point)>,
 }
 
 /// What is said of a line when its piece is pointed at.
@@ -117,6 +142,8 @@ pub struct Drawing {
     pub title: String,
     /// The path.
     pub path: Trace,
+    /// The machine turns parts: the page opens with Z to the right and X up.
+    pub lathe: bool,
     /// The path under it, with which it is compared: mostly that of the CL file.
     pub under: Option<Trace>,
     /// What the path under it is called in a legend.

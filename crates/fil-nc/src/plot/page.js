@@ -52,7 +52,19 @@
     const originOf = [], of = numbers(packed.originOf);
     while (of.more()) originOf.push(of.next());
     const count = points.length / 3;
+    const inForce = [], states = numbers(packed.inForce);
+    for (let from = 0; states.more();) {
+      from += states.next();
+      const [tool, feedKind, feed, speedKind, speed, spindle, fixture] = Array.from({ length: 7 }, states.next);
+      inForce.push({ from, tool, feedKind, feed: feed / 1e4, speedKind, speed: speed / 1e4, spindle, fixture });
+    }
+    const axes = [], directions = numbers(packed.axes);
+    for (let from = 0; directions.more();) {
+      from += directions.next();
+      axes.push({ from, axis: Array.from({ length: 3 }, () => directions.signed() / 1e4) });
+    }
     return {
+      inForce, axes, mask: new Uint8Array(starts.length).fill(1),
       points: Float64Array.from(points), count,
       starts: Uint32Array.from(starts), ends: Uint32Array.from(ends),
       strokes: Uint8Array.from(strokes), lines: Uint32Array.from(lines),
@@ -74,6 +86,7 @@
     zy: [[0, 0, 1], [0, 1, 0]],
     iso: [[half, half, 0], [-sixth, sixth, 2 * sixth]],
   };
+  window.filpostPlot = {};
   const view = { right: [1, 0, 0], up: [0, 1, 0], scale: 1, x: 0, y: 0 };
   const middle = [0, 1, 2].map((axis) => (data.min[axis] + data.max[axis]) / 2);
   const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -198,13 +211,53 @@
       pen.strokeStyle = layer.colour;
       pen.lineWidth = layer.index === 0 ? 1 : 1.5;
       pen.setLineDash(layer.index === 0 && path.shown < DASHES ? [6, 4] : []);
-      strokePieces(pen, path, (piece) => path.strokes[piece] === layer.index);
+      strokePieces(pen, path, (piece) => path.mask[piece] && path.strokes[piece] === layer.index);
     }
     pen.setLineDash([]);
+    drawOrigin(pen);
     drawChanges(pen);
     drawAxes(pen);
     drawScale(pen);
     drawPointer();
+  }
+
+  /** Colours of texts, by the theme. */
+  const ink = (name) => getComputedStyle(document.body).getPropertyValue(`--${name}`).trim();
+
+  /** The origin of the part, and the directions of its axes. */
+  function drawOrigin(pen) {
+    const [x, y] = project([0, 0, 0]);
+    pen.font = "12px sans-serif";
+    pen.strokeStyle = pen.fillStyle = ink("origin");
+    pen.lineWidth = 1.5;
+    pen.beginPath();
+    pen.arc(x, y, 5, 0, 2 * Math.PI);
+    pen.stroke();
+    ["X", "Y", "Z"].forEach((name, axis) => {
+      const dx = view.right[axis] * 36, dy = -view.up[axis] * 36;
+      if (Math.hypot(dx, dy) < 4) return;
+      pen.beginPath();
+      pen.moveTo(x, y);
+      pen.lineTo(x + dx, y + dy);
+      pen.stroke();
+      pen.fillText(name, x + dx * 1.2 - 4, y + dy * 1.2 + 4);
+    });
+  }
+
+  /** Puts a label beside a point, where none stands yet. */
+  function putLabel(pen, taken, label, px, py) {
+    const width = pen.measureText(label).width;
+    for (let ring = 0; ring < 6; ring++) {
+      for (const [dx, dy] of [[7, -6 - 15 * ring], [7, 16 + 15 * ring], [-width - 7, -6 - 15 * ring], [-width - 7, 16 + 15 * ring]]) {
+        const box = [px + dx, py + dy - 12, px + dx + width, py + dy + 3];
+        const free = taken.every((b) => box[2] < b[0] || box[0] > b[2] || box[3] < b[1] || box[1] > b[3]);
+        if (!free) continue;
+        taken.push(box);
+        pen.strokeText(label, px + dx, py + dy);
+        pen.fillText(label, px + dx, py + dy);
+        return;
+      }
+    }
   }
 
   function drawChanges(pen) {
@@ -220,28 +273,27 @@
       seen.set(key, tools);
       pen.beginPath();
       pen.arc(px, py, 4, 0, 2 * Math.PI);
-      pen.fillStyle = "#fff";
+      pen.fillStyle = ink("paper");
       pen.fill();
-      pen.strokeStyle = "#222";
+      pen.strokeStyle = ink("text");
       pen.lineWidth = 1.2;
       pen.stroke();
     }
-    pen.fillStyle = "#222";
-    pen.strokeStyle = "#fff";
+    pen.fillStyle = ink("text");
+    pen.strokeStyle = ink("paper");
     pen.lineWidth = 4;
+    const taken = [];
     for (const [key, tools] of seen) {
       const [px, py] = key.split(",").map(Number);
-      const label = tools.map((tool) => `T${tool}`).join(" ");
-      pen.strokeText(label, px + 7, py - 6);
-      pen.fillText(label, px + 7, py - 6);
+      putLabel(pen, taken, tools.map((tool) => `T${tool}`).join(" "), px, py);
     }
   }
 
   function drawAxes(pen) {
     const x = 44, y = plot.clientHeight - 44;
     pen.font = "12px sans-serif";
-    pen.strokeStyle = "#999";
-    pen.fillStyle = "#555";
+    pen.strokeStyle = ink("faint");
+    pen.fillStyle = ink("faint");
     pen.lineWidth = 1.2;
     ["X", "Y", "Z"].forEach((name, axis) => {
       const dx = view.right[axis] * 30, dy = -view.up[axis] * 30;
@@ -263,7 +315,7 @@
     pen.beginPath();
     pen.moveTo(x - length * view.scale, y);
     pen.lineTo(x, y);
-    pen.strokeStyle = "#666";
+    pen.strokeStyle = ink("faint");
     pen.lineWidth = 2;
     pen.stroke();
     pen.textAlign = "right";
@@ -273,39 +325,47 @@
 
   // --- what lies under the pointer ------------------------------------------------
 
-  let found = null;
+  let found = null, chosen = [];
 
-  /** The piece nearest to a place, within eight pixels. */
+  /** The pieces within eight pixels of a place, the nearest first. */
   function nearest(trace, px, py, wanted) {
     const { x, y, starts, ends } = trace;
-    let best = 64, piece = -1;
+    const near = [];
     for (let index = 0; index < trace.shown; index++) {
       if (!wanted(index)) continue;
+      let best = 64.000001;
       for (let at = starts[index]; at + 1 < ends[index]; at++) {
         const ax = x[at], ay = y[at], bx = x[at + 1] - ax, by = y[at + 1] - ay;
         const length = bx * bx + by * by;
         let share = length > 0 ? ((px - ax) * bx + (py - ay) * by) / length : 0;
         share = share < 0 ? 0 : share > 1 ? 1 : share;
         const dx = px - ax - bx * share, dy = py - ay - by * share;
-        const distance = dx * dx + dy * dy;
-        if (distance <= best) {
-          best = distance;
-          piece = index;
-        }
+        best = Math.min(best, dx * dx + dy * dy);
       }
+      if (best <= 64) near.push({ trace, piece: index, best });
     }
-    return piece < 0 ? null : { trace, piece };
+    return near.sort((a, b) => a.best - b.best || b.piece - a.piece);
+  }
+
+  const isSeen = (piece) => layers[path.strokes[piece]].on && path.mask[piece];
+
+  function under8(px, py) {
+    const near = nearest(path, px, py, isSeen);
+    return near.length || !under || !clLayer.on ? near : nearest(under, px, py, () => true);
   }
 
   function point(px, py) {
-    found = nearest(path, px, py, (piece) => layers[path.strokes[piece]].on);
-    if (!found && under && clLayer.on) found = nearest(under, px, py, () => true);
+    const near = under8(px, py);
+    found = near[0] || null;
     drawPointer();
     if (!found) {
       tip.hidden = true;
       return;
     }
-    tip.textContent = describe(found);
+    const others = near.slice(1).filter((one) => one.trace.lines[one.piece] !== found.trace.lines[found.piece]);
+    const listed = others.slice(0, 5).map(({ trace, piece }) => `also ${lineOf(trace, piece)}`);
+    if (others.length > 5) listed.push(`and ${others.length - 5} more`);
+    tip.textContent = [describe(found), ...listed].join("\n");
     tip.hidden = false;
     const width = over.clientWidth, height = over.clientHeight;
     tip.style.left = `${Math.max(4, Math.min(px + 14, width - tip.offsetWidth - 4))}px`;
@@ -313,15 +373,28 @@
   }
 
   const short = (value) => String(Math.round(value * 1000) / 1000);
+  const lineOf = (trace, piece) => `line ${trace.lines[piece]}: ${trace.texts[trace.lines[piece] - 1] || ""}`;
+
+  /** The last of a list of changes at or before a piece. */
+  function at(list, piece) {
+    let low = 0, high = list.length;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (list[middle].from <= piece) low = middle + 1;
+      else high = middle;
+    }
+    return list[low - 1];
+  }
 
   function describe({ trace, piece }) {
-    const line = trace.lines[piece];
-    const at = 3 * (trace.ends[piece] - 1);
-    const end = ["X", "Y", "Z"].map((name, axis) => name + short(trace.points[at + axis])).join(" ");
+    const last = 3 * (trace.ends[piece] - 1);
+    const end = ["X", "Y", "Z"].map((name, axis) => name + short(trace.points[last + axis])).join(" ");
     const what = `${trace === under ? data.underName + ", " : ""}${data.strokes[trace.strokes[piece]].name} to ${end}`;
-    const text = trace.texts[line - 1] || "";
-    const origin = trace.origins[trace.originOf[line - 1] || 0];
-    return [`line ${line}: ${text}`, what, origin].filter((part) => part).join("\n");
+    const direction = trace.axes.length ? (at(trace.axes, piece) || { axis: [0, 0, 1] }).axis : null;
+    const tilted = direction && `tool axis ${direction.map(short).join(" ")}`;
+    const origin = trace.origins[trace.originOf[trace.lines[piece] - 1] || 0];
+    const more = window.filpostPlot.stateOf ? window.filpostPlot.stateOf(trace, piece) : "";
+    return [lineOf(trace, piece), what, tilted, more, origin].filter((part) => part).join("\n");
   }
 
   function drawPointer() {
@@ -330,16 +403,17 @@
     if (last >= 0 && path.shown < path.starts.length) {
       pen.beginPath();
       pen.arc(path.x[last], path.y[last], 6, 0, 2 * Math.PI);
-      pen.fillStyle = "#222";
+      pen.fillStyle = ink("text");
       pen.fill();
     }
-    if (!found) return;
-    const { trace, piece } = found;
-    pen.beginPath();
-    for (let at = trace.starts[piece]; at < trace.ends[piece]; at++) pen.lineTo(trace.x[at], trace.y[at]);
-    pen.strokeStyle = "#111";
-    pen.lineWidth = 3.5;
-    pen.stroke();
+    const marked = found ? [found] : chosen.map((piece) => ({ trace: path, piece }));
+    for (const { trace, piece } of marked) {
+      pen.beginPath();
+      for (let at = trace.starts[piece]; at < trace.ends[piece]; at++) pen.lineTo(trace.x[at], trace.y[at]);
+      pen.strokeStyle = ink("text");
+      pen.lineWidth = 3.5;
+      pen.stroke();
+    }
   }
 
   // --- hands -------------------------------------------------------------------------
@@ -359,8 +433,17 @@
     soon(draw);
   }, { passive: false });
 
+  let pressed = null;
   over.addEventListener("pointerdown", (event) => {
-    over.setPointerCapture(event.pointerId);
+    pressed = [event.offsetX, event.offsetY];
+    over.focus();
+    if (event.isTrusted) over.setPointerCapture(event.pointerId);
+  });
+  over.addEventListener("pointerup", (event) => {
+    const still = pressed && Math.hypot(event.offsetX - pressed[0], event.offsetY - pressed[1]) < 4;
+    pressed = null;
+    const [near] = still ? under8(event.offsetX, event.offsetY) : [];
+    if (near && near.trace === path) choose(path.lines[near.piece], true);
   });
 
   over.addEventListener("pointermove", (event) => {
@@ -397,16 +480,21 @@
     upto.value = path.shown;
     const line = path.shown ? path.lines[path.shown - 1] : 0;
     place.textContent = line ? `line ${line}` : "";
+    if (window.filpostPlot.shown) window.filpostPlot.shown(line);
     soon(draw);
+  }
+
+  /** Marks all that a line of the program makes. */
+  function choose(line, tell) {
+    chosen = [];
+    for (let piece = 0; piece < path.lines.length; piece++) if (path.lines[piece] === line) chosen.push(piece);
+    drawPointer();
+    if (tell && window.filpostPlot.told) window.filpostPlot.told(line);
   }
 
   upto.max = path.starts.length;
   upto.value = path.starts.length;
   upto.addEventListener("input", () => show(Number(upto.value)));
-  over.addEventListener("keydown", (event) => {
-    const step = { ArrowRight: 1, ArrowLeft: -1, PageDown: 100, PageUp: -100 }[event.key];
-    if (step) show(path.shown + step);
-  });
   element("fit").addEventListener("click", () => {
     fit();
     draw();
@@ -433,6 +521,7 @@
     fit();
     draw();
   });
+  window.filpostPlot = { path, data, at, short, draw, soon, show, look, fit, choose };
   const flat = data.max[2] - data.min[2] < 1e-9;
-  look(flat ? "xy" : "iso");
+  look(data.lathe ? "zx" : flat ? "xy" : "iso");
 })();

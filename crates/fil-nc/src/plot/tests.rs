@@ -17,7 +17,7 @@ fn square(count: usize) -> Trace {
             end: index + 2,
         })
         .collect();
-    Trace { points, pieces, changes: Vec::new() }
+    Trace { points, pieces, ..Trace::default() }
 }
 
 #[test]

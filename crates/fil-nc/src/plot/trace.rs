@@ -5,9 +5,9 @@ use fil_diag::Diag;
 use nalgebra::{Point3, Rotation3, Unit};
 
 use super::sample::{arc_step, tip, tips};
-use super::{Change, Extent, Piece, Point, Stroke, Trace};
+use super::{Change, Extent, InForce, Piece, Point, Stroke, Trace};
 use crate::forward::Forward;
-use crate::motion::{Course, Event, Move, Position};
+use crate::motion::{Course, Event, Modes, Move, Position, Rate};
 use crate::verify::{Arc, ClPath, Hole, Wanted};
 
 /// Chords of arcs leave them by this part of the size of the picture.
@@ -35,9 +35,14 @@ impl Builder {
         }
     }
 
-    /// Draws through points; what has no length is left out.
-    fn draw(&mut self, stroke: Stroke, line: u32, through: impl IntoIterator<Item = Point>) {
-        let Some(from) = self.pen else { return };
+    /// Draws through points; what has no length is left out. True when a piece was made.
+    fn draw(
+        &mut self,
+        stroke: Stroke,
+        line: u32,
+        through: impl IntoIterator<Item = Point>,
+    ) -> bool {
+        let Some(from) = self.pen else { return false };
         let points = &mut self.trace.points;
         if points.last() != Some(&from) {
             points.push(from);
@@ -52,7 +57,40 @@ impl Builder {
         if end > start + 1 {
             self.pen = points.last().copied();
             self.trace.pieces.push(Piece { stroke, line, start, end });
+            return true;
         }
+        false
+    }
+
+    /// Notes what is in force at the piece that was drawn last, where it is something else.
+    fn note(&mut self, motion: &Move, axis: Point) {
+        let from = self.trace.pieces.len() - 1;
+        let last = self.trace.in_force.last();
+        let feed = match (motion.rate, last) {
+            (None, last) => last.and_then(|last| last.feed),
+            (Some(Rate::Inverse(inverse)), _) => {
+                Some(Rate::PerMinute((inverse * self.length(from)).round()))
+            }
+            (rate, _) => rate,
+        };
+        let Modes { tool, speed, spindle, fixture, .. } = motion.modes;
+        let now = InForce { from, tool, feed, speed, spindle, fixture };
+        if last.is_none_or(|last| InForce { from, ..*last } != now) {
+            self.trace.in_force.push(now);
+        }
+        let upright = [0.0, 0.0, 1.0];
+        if self.trace.axes.last().map_or(upright, |(_, axis)| *axis) != axis {
+            self.trace.axes.push((from, axis));
+        }
+    }
+
+    /// Length of a piece, mm.
+    fn length(&self, piece: usize) -> f64 {
+        let piece = &self.trace.pieces[piece];
+        let points = &self.trace.points[piece.start..piece.end];
+        let step =
+            |pair: &[Point]| (0..3).map(|n| (pair[1][n] - pair[0][n]).powi(2)).sum::<f64>().sqrt();
+        points.windows(2).map(step).sum()
     }
 
     fn change(&mut self, line: u32, tool: u32) {
@@ -91,7 +129,9 @@ pub fn nc_trace(events: &[Event], forward: &Forward) -> Trace {
                     builder.put(tip(forward, &motion.to));
                 } else {
                     let points = tips(forward, (&at, &motion.to), motion.arc.as_ref(), tolerance);
-                    builder.draw(stroke(motion), motion.line, points);
+                    if builder.draw(stroke(motion), motion.line, points) {
+                        builder.note(motion, forward.axis(motion.to.rotary).into());
+                    }
                 }
                 at = motion.to;
             }
@@ -143,10 +183,18 @@ pub fn cl_trace(
             builder.put(first.tip.into());
         }
         match &step.what {
-            Wanted::Rapid(to) => builder.draw(Stroke::Rapid, step.line, [to.tip.into()]),
-            Wanted::Feed(to, _) => builder.draw(Stroke::Feed, step.line, [to.tip.into()]),
-            Wanted::Thread(to, _) => builder.draw(Stroke::Thread, step.line, [to.tip.into()]),
-            Wanted::Arc(arc, _) => builder.draw(Stroke::Arc, step.line, along(arc, tolerance)),
+            Wanted::Rapid(to) => {
+                builder.draw(Stroke::Rapid, step.line, [to.tip.into()]);
+            }
+            Wanted::Feed(to, _) => {
+                builder.draw(Stroke::Feed, step.line, [to.tip.into()]);
+            }
+            Wanted::Thread(to, _) => {
+                builder.draw(Stroke::Thread, step.line, [to.tip.into()]);
+            }
+            Wanted::Arc(arc, _) => {
+                builder.draw(Stroke::Arc, step.line, along(arc, tolerance));
+            }
             Wanted::Hole(hole) => {
                 let before = *drilling.get_or_insert(builder.pen);
                 drill(&mut builder, hole, before, step.line);

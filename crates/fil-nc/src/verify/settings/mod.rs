@@ -25,6 +25,9 @@ const NOT_WRITTEN: f64 = 1e-3;
 /// What binary fractions may add to the last digit.
 const DUST: f64 = 1e-7;
 
+/// Half of the last digit of a dwell in Klartext, seconds.
+const KLARTEXT_DWELL: f64 = 5e-4;
+
 const SCALES: [Dbl; 6] =
     [loc::SCALE_X, loc::SCALE_Y, loc::SCALE_Z, loc::SCALE_A, loc::SCALE_B, loc::SCALE_C];
 
@@ -165,6 +168,10 @@ impl<'c> Settings<'c> {
     }
 
     fn dwell_slack(&self, half: impl Fn(Letter) -> f64) -> f64 {
+        if self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext {
+            // Klartext has no letter for it: seconds in thousandths.
+            return KLARTEXT_DWELL + DUST;
+        }
         let factor = self.commons.dbl_opt(loc::DWELL_UPM_FACTOR).filter(|factor| *factor > 0.0);
         let letter = self.commons.read(loc::DWELL_ADDRESS).unwrap_or(Letter::of(b'P'));
         half(letter) / factor.unwrap_or(1.0) + DUST
