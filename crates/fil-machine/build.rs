@@ -51,6 +51,8 @@ struct Row<'a> {
     meaning: &'a str,
     evidence: &'a str,
     used: bool,
+    /// Why the post does not act on it, where that is known.
+    idle: &'a str,
 }
 
 impl<'a> Row<'a> {
@@ -60,8 +62,12 @@ impl<'a> Row<'a> {
         else {
             panic!("nine columns expected: {line}");
         };
-        let used = used == "yes";
-        Row { kind, number, name, unit, default, choices, meaning, evidence, used }
+        let (used, idle) = match used {
+            "yes" => (true, ""),
+            "no" => (false, ""),
+            reason => (false, reason),
+        };
+        Row { kind, number, name, unit, default, choices, meaning, evidence, used, idle }
     }
 
     /// The commons this row lies in, as the type of its constant.
@@ -154,7 +160,7 @@ impl<'a> Row<'a> {
     }
 
     fn table_entry(&self, out: &mut String) {
-        let Row { number, name, choices, meaning, used, .. } = self;
+        let Row { number, name, choices, meaning, used, idle, .. } = self;
         let (unit, evidence) = (self.value_unit(), camel_case(self.evidence));
         let default: f64 = self.default.parse().expect("numeric default");
         let common = self.common();
@@ -162,7 +168,8 @@ impl<'a> Row<'a> {
             out,
             "    Location {{ kind: Kind::{common}, number: {number}, name: {name:?}, \
              unit: ValueUnit::{unit}, default: {default:?}, choices: {choices:?}, \
-             meaning: {meaning:?}, evidence: Evidence::{evidence}, used: {used} }},",
+             meaning: {meaning:?}, evidence: Evidence::{evidence}, used: {used}, \
+             idle: {idle:?} }},",
         )
         .unwrap();
     }

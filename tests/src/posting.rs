@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::io::Cursor;
 
 use fil_nc::verify::Allowed;
+use filpost::listing::Listing;
 use filpost::{Commons, Diag, Error, Event, Program, cl};
 
 use crate::back_check;
@@ -137,6 +138,18 @@ impl Prepared {
             Ok(report) => report.findings.iter().map(ToString::to_string).collect(),
             Err(diag) => vec![diag.to_string()],
         }
+    }
+
+    /// The listing of a CL text.
+    ///
+    /// # Errors
+    /// What the post refuses.
+    pub fn listing(&self, cl: &str) -> Result<String, Refused> {
+        let mut listing = Listing::new(Vec::new());
+        let run = self.program.start().reading(self.reading).observe(listing.observer());
+        run.run_seekable(Cursor::new(cl), &mut Vec::new()).map_err(refused)?;
+        let text = listing.finish().expect("a listing in memory");
+        Ok(String::from_utf8_lossy(&text).into_owned())
     }
 
     /// Posts a CL text.

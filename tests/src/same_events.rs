@@ -30,7 +30,7 @@ fn bare(events: &[Event]) -> Vec<Event> {
                 Event::Move(Move { line: 0, in_cycle: false, rate, ..found })
             }
             Event::ToolChange { tool, modes, .. } => Event::ToolChange { line: 0, tool, modes },
-            Event::Dwell { seconds, .. } => Event::Dwell { line: 0, seconds },
+            Event::Dwell { seconds, turns, .. } => Event::Dwell { line: 0, seconds, turns },
             Event::Auxiliary { code, .. } => Event::Auxiliary { line: 0, code },
             Event::LeftToControl { mode, .. } => Event::LeftToControl { line: 0, mode },
             Event::End { code, modes, .. } => Event::End { line: 0, code, modes },

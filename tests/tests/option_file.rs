@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use filpost::locations::{Location, TABLE};
 use filpost::settings::{read_option_file, read_toml, write_toml};
+use filpost::user_blocks;
 
 /// Text of a file of the outside data; `None`, saying so, where there is none.
 fn outside(name: &str) -> Option<String> {
@@ -144,6 +145,48 @@ fn every_location_comes_back_from_machine_toml() {
         for number in 1..=kind.size() as u32 {
             let (a, b) = (commons.get(kind, number).unwrap(), again.get(kind, number).unwrap());
             assert_eq!(a, b, "{kind:?} {number}");
+        }
+    }
+}
+
+/// An option file with one value at every location of the vendor.
+fn option_file_of(value: &str) -> String {
+    const LAST: [(&str, u32); 3] = [("INTCOM", 4765), ("RELCOM", 22), ("DBLCOM", 1122)];
+    let mut text = "POSTPROCESSOR OPTION FILE: UNCX01.P01\nEVERY LOCATION\n".to_string();
+    for (list, last) in LAST {
+        text.push_str(&format!(" {list}:(LOCATION,VALUE)\n"));
+        for location in 1..=last {
+            text.push_str(&format!("{location:>5}   {value}\n"));
+        }
+        text.push_str("    0   0\n");
+    }
+    text
+}
+
+/// What `machine import` makes of an option file is the same machine, whatever the file
+/// holds: values that filpost would not take from anybody else too.
+#[test]
+fn every_location_of_an_option_file_comes_back() {
+    for value in ["77", "-64", "3", "0", "8224", "-32767"] {
+        let imported = read_option_file("uncx01.p01", &option_file_of(value)).unwrap().commons;
+        let toml = write_toml(&imported);
+        let (again, _) = read_toml("machine.toml", &toml).unwrap_or_else(|errors| {
+            panic!(
+                "{value}: {} of {} lines refused: {}",
+                errors.len(),
+                toml.lines().count(),
+                errors[0]
+            )
+        });
+        for kind in [filpost::Kind::Int, filpost::Kind::Rel, filpost::Kind::Dbl] {
+            for number in 1..=kind.size() as u32 {
+                // A text that is not there is blank.
+                let is_text = kind == filpost::Kind::Int
+                    && u16::try_from(number).is_ok_and(|n| user_blocks::list_of(n).is_some());
+                let said = |value: f64| if is_text && value == 999_999.0 { 8224.0 } else { value };
+                let [a, b] = [&imported, &again].map(|at| said(at.get(kind, number).unwrap()));
+                assert_eq!(a, b, "{value}: {kind:?} {number}");
+            }
         }
     }
 }

@@ -11,7 +11,9 @@ use filpost::commons::EMPTY;
 use filpost::locations::{TABLE, default_commons};
 use filpost::postf::{Grade, POSTF};
 use filpost::statements::STATEMENTS;
+use filpost::user_blocks;
 use filpost_tests::examples::{Block, run};
+use filpost_tests::posting::{Posted, Prepared};
 use filpost_tests::words::Header;
 use filpost_tests::{root, word_pages};
 
@@ -58,7 +60,9 @@ fn no_effect_page() -> String {
 fn settings_page() -> String {
     let mut page = String::from(
         "# Settings\n\nEvery setting of a [machine](../machine.md) that the post acts on. The case is a \
-         file of `tests/words` that sets it. `filpost explain KEY` says the same in the terminal.\n\n\
+         file of `tests/words` that sets it (case on) and gives another program, refusal or \
+         listing without it (case off), as a test proves. `filpost explain KEY` says the same in \
+         the terminal.\n\n\
          | setting | location | default | what it does | values | case |\n|---|---|---|---|---|---|\n",
     );
     let commons = default_commons();
@@ -78,31 +82,66 @@ fn settings_page() -> String {
     }
     page.push_str(
         "\n## Settings that do not act\n\nThey are kept, and whoever sets one is warned \
-         ([W0651](../errors/W0651.md)).\n\n| setting | location | what it would do |\n|---|---|---|\n",
+         ([W0651](../errors/W0651.md)).\n\n| setting | location | what it would do | why it does not act |\n|---|---|---|---|\n",
     );
     for row in TABLE.iter().filter(|row| !row.used) {
         let (name, kind) = (row.name, row.kind.name());
-        page.push_str(&format!("| `{name}` | {kind} {} | {} |\n", row.number, row.meaning));
+        let reason = if row.idle.is_empty() { "-" } else { row.idle };
+        let (number, meaning) = (row.number, row.meaning);
+        page.push_str(&format!("| `{name}` | {kind} {number} | {meaning} | {reason} |\n"));
     }
     page
 }
 
-/// The first file of the suite of words that sets a setting, by the setting.
-fn cases_by_setting() -> BTreeMap<String, String> {
+/// The files of the suite of words, by name: header and text.
+fn words() -> Vec<(String, Header, String)> {
     let folder = std::fs::read_dir(root().join("tests/words")).expect("tests/words");
     let mut files: Vec<_> = folder.map(|entry| entry.expect("an entry").path()).collect();
     files.sort();
-    let mut cases = BTreeMap::new();
-    for file in files {
+    let read = files.into_iter().filter_map(|file| {
         let text = std::fs::read_to_string(&file).expect("a file of the suite");
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let Ok(header) = Header::read(&text) else { continue };
-        for setting in &header.settings {
-            let key = setting.split('=').next().unwrap_or_default().trim();
-            cases.entry(key.to_string()).or_insert_with(|| name.clone());
+        Header::read(&text).ok().map(|header| (name, header, text))
+    });
+    read.collect()
+}
+
+/// The settings that a line of a header sets: a list of blocks is three of them.
+fn keys(setting: &str) -> Vec<String> {
+    let key = setting.split('=').next().unwrap_or_default().trim();
+    if user_blocks::LISTS.iter().any(|(list, _)| *list == key) {
+        return ["flag", "count", "text"].map(|part| format!("{key}_{part}")).to_vec();
+    }
+    vec![key.to_string()]
+}
+
+/// The first file of the suite of words that gives something else without a setting, by
+/// the setting: its case on and its case off.
+fn cases_by_setting() -> BTreeMap<String, String> {
+    let mut cases = BTreeMap::new();
+    for (name, header, text) in words() {
+        for (at, setting) in header.settings.iter().enumerate() {
+            let new: Vec<String> =
+                keys(setting).into_iter().filter(|key| !cases.contains_key(key)).collect();
+            if new.is_empty() {
+                continue;
+            }
+            let mut without = header.clone();
+            without.settings.remove(at);
+            if outcome(&header, &text) != outcome(&without, &text) {
+                cases.extend(new.into_iter().map(|key| (key, name.clone())));
+            }
         }
     }
     cases
+}
+
+/// Program, warnings and listing of a file, or its refusal.
+fn outcome(header: &Header, text: &str) -> Result<(Posted, String), String> {
+    let post = Prepared::of(header.post().map_err(|error| error.to_string())?);
+    let posted = post.post(text).map_err(|refused| refused.message)?;
+    let listing = post.listing(text).map_err(|refused| refused.message)?;
+    Ok((posted, listing))
 }
 
 /// File name without ending, and text, of every page; the index among them.

@@ -17,6 +17,7 @@ pub use build::{Item, RecordBuilder};
 pub use convert::{Converted, to_ncl};
 pub use dialect::{ClDialect, Evidence, Recognized};
 pub use errors::ClCode;
+pub use forms::cycle::keyed_cycle;
 pub use layout::ShapeError;
 pub use reader::{Meaning, Options, Reader, SplineCounts};
 pub use record::{Circle, Record, Word, WordView};

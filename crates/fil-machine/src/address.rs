@@ -137,7 +137,7 @@ impl Addresses {
     }
 
     /// Gives a letter another format; nothing for one that is not written.
-    pub(crate) fn set_format(&mut self, letter: Letter, format: NumberFormat) {
+    pub fn set_format(&mut self, letter: Letter, format: NumberFormat) {
         if let Some(position) = self.position(letter) {
             self.slots[position.index()].format = format;
         }

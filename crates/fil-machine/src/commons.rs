@@ -17,7 +17,7 @@ pub const NA: i32 = -32767;
 pub const EMPTY: f64 = 999_999.0;
 
 /// Number of the INTCOM that holds the last location, own locations included.
-pub const INT_LOCATIONS: usize = 9_999;
+pub const INT_LOCATIONS: usize = 12_199;
 /// Size of RELCOM.
 pub const REL_LOCATIONS: usize = 999;
 /// Size of DBLCOM.

@@ -8,7 +8,9 @@ use crate::axis_chain::AxisChain;
 use crate::commons::{Commons, Dbl, Int, Rel};
 use crate::errors::MachineCode;
 use crate::letter::{Letter, letters};
-use crate::locations::{self as loc, SeqnoAlign, TapeEndOfBlock, ToolChangeBlock};
+use crate::locations::{
+    self as loc, ControlFamily, SeqnoAlign, TapeEndOfBlock, ToolChangeBlock, ToolFormat,
+};
 use crate::setting::{CodeAt, LetterAt};
 
 /// Codes of which no two may be the same: one motion, mode or command each.
@@ -33,6 +35,11 @@ const DIFFERENT: &[&[(CodeAt, &str)]] = &[
         (loc::CYCLE_DRILL_CODE, "drilling"),
         (loc::CYCLE_TAP_CODE, "tapping"),
         (loc::CYCLE_BRKCHP_CODE, "chip breaking"),
+    ],
+    &[
+        (loc::CYCLE_DRILL_CODE, "drilling"),
+        (loc::CYCLE_TAP_LEFT_CODE, "tapping of left-hand threads"),
+        (loc::CYCLE_DEEP_CODE, "deep drilling"),
     ],
     &[(loc::RAPID_CODE_Z, "rapid motion of Z"), (loc::LINEAR_CODE, "linear motion")],
     &[(loc::ROTARY_RAPID_CODE, "rapid turns"), (loc::LINEAR_CODE, "linear motion")],
@@ -123,6 +130,7 @@ const NOT_NEGATIVE: &[(Dbl, &str)] = &[
     (loc::CYCLE_AUTO_CLEARANCE, "the clearance of cycles"),
     (loc::CIRCLE_MIN_RADIUS, "the least radius"),
     (loc::TAPE_LEADER, "the length of the leader"),
+    (loc::TAPE_TRAILER, "the length of the trailer"),
     (loc::MOTION_SAME_TOLERANCE, "the tolerance of unchanged coordinates"),
 ];
 
@@ -153,7 +161,9 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     arc_sizes(commons, &mut found);
     rapid_rules(commons, &mut found);
     feed_formats(commons, &mut found);
+    dwell_formats(commons, &mut found);
     order_of_axes(commons, &mut found);
+    shift_along(commons, &mut found);
     same_positions(commons, &mut found);
     axis_letters(commons, &mut found);
     word_letters(commons, &mut found);
@@ -161,6 +171,8 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     numbers(commons, &mut found);
     tape(commons, &mut found);
     ranges(commons, &mut found);
+    prepared_tools(commons, &mut found);
+    taps_of_a_lathe(commons, &mut found);
     found
 }
 
@@ -309,6 +321,37 @@ fn feed_formats(commons: &Commons, found: &mut Vec<Diag>) {
     }
 }
 
+/// Formats of the dwell word need the point: without it a reader would count the digits by
+/// the format of the address.
+fn dwell_formats(commons: &Commons, found: &mut Vec<Diag>) {
+    let addresses = Addresses::from_commons(commons, true);
+    let letters = [loc::DWELL_ADDRESS, loc::CYCLE_DWELL_ADDRESS].map(|at| commons.read(at));
+    let pointless = letters
+        .into_iter()
+        .flatten()
+        .find(|letter| addresses.format(*letter).is_some_and(|format| !format.point));
+    let formats =
+        [(loc::DWELL_UPM_FORMAT, "dwell.upm_format"), (loc::DWELL_UPR_FORMAT, "dwell.upr_format")];
+    for (at, name) in formats {
+        if let (Some(letter), true) = (pointless, commons.int_opt(at).is_some_and(|d| d > 0)) {
+            found.push(contradiction(format!(
+                "{name} is given, and {letter} is written without a point"
+            )));
+        }
+    }
+}
+
+/// A shift along the tool axis is a matter of three axes: with a rotary axis the center of
+/// an arc would have to go along.
+fn shift_along(commons: &Commons, found: &mut Vec<Diag>) {
+    let shifts = commons.dbl_opt(loc::INPUT_ALONG_TOOL_AXIS).is_some_and(|by| by != 0.0);
+    if shifts && AxisChain::from_commons(commons).is_ok_and(|chain| chain.has_rotary()) {
+        found.push(contradiction(
+            "input.along_tool_axis shifts the points, and the machine has a rotary axis".into(),
+        ));
+    }
+}
+
 /// One axis after the other is a matter of three axes: with a rotary axis the tip would
 /// leave its path by far.
 fn order_of_axes(commons: &Commons, found: &mut Vec<Diag>) {
@@ -343,6 +386,31 @@ fn same_positions(commons: &Commons, found: &mut Vec<Diag>) {
                 "{other} and {letter} are both at tape position {at}"
             )));
         }
+    }
+}
+
+/// Where G98 is the feed a minute, G74 turns: it pecks or faces and taps nothing.
+fn taps_of_a_lathe(commons: &Commons, found: &mut Vec<Diag>) {
+    let turns = commons.read(loc::FEED_UPM_CODE) == Some(98);
+    let taps = commons.read(loc::CYCLE_TAP_CODE).is_some();
+    if turns && taps && commons.read(loc::CYCLE_TAP_LEFT_CODE) == Some(74) {
+        found.push(contradiction(
+            "cycle.tap_left_code is G74, a turning cycle where G98 is a feed".into(),
+        ));
+    }
+}
+
+/// A machine that prepares its next tool by T changes it by another word.
+fn prepared_tools(commons: &Commons, found: &mut Vec<Diag>) {
+    let by_words = commons.read(loc::CONTROL_FAMILY) == ControlFamily::WordAddress;
+    if !by_words || !commons.read(loc::TOOL_PRESELECT) {
+        return;
+    }
+    let in_one_word = commons.read(loc::TOOL_FORMAT) == ToolFormat::ToolAndOffsetInOneTWord;
+    if in_one_word || commons.read(loc::TOOL_CHANGE_CODE).is_none() {
+        found.push(contradiction(
+            "T prepares the next tool (tool.preselect), and T changes the tool by itself".into(),
+        ));
     }
 }
 
@@ -492,6 +560,11 @@ mod tests {
             "circle.radius_address=H",
             "tool.change_block=2\ntool.change_b=10",
             "output.translate_c=5",
+            "tool.preselect=1\ntool.change_code=none",
+            "tool.preselect=1\ntool.format=2",
+            "dwell.upm_format=3241",
+            "cycle.tap_left_code=81",
+            "input.along_tool_axis=5\nrotary.primary_kind=1\nrotary.primary_axis=3",
         ] {
             let mut commons = default_commons();
             for part in setting.lines() {

@@ -37,6 +37,8 @@ pub struct Location {
     pub evidence: Evidence,
     /// The post acts on it.
     pub used: bool,
+    /// Why the post does not act on it; empty where it does, or where no reason is given.
+    pub idle: &'static str,
 }
 
 impl Location {
@@ -129,16 +131,18 @@ pub const MOTION_CODES: [CodeAt; 6] =
     [RAPID_CODE_XY, RAPID_CODE_Z, ROTARY_RAPID_CODE, LINEAR_CODE, CIRCLE_CW_CODE, CIRCLE_CCW_CODE];
 
 /// Codes of the canned cycles.
-pub const CYCLE_CODES: [CodeAt; 9] = [
+pub const CYCLE_CODES: [CodeAt; 11] = [
     CYCLE_DRILL_CODE,
     CYCLE_CSINK_CODE,
     CYCLE_DEEP_CODE,
     CYCLE_BRKCHP_CODE,
     CYCLE_TAP_CODE,
+    CYCLE_TAP_LEFT_CODE,
     CYCLE_BORE_CODE,
     CYCLE_REAM_CODE,
     CYCLE_FACE_CODE,
     CYCLE_THRU_CODE,
+    CYCLE_MILL_CODE,
 ];
 
 /// What is added to X, Y and Z of each point of the input.

@@ -69,6 +69,10 @@ impl MachineTables {
         self.present = AxisSet::LINEAR;
         self.input_shift =
             Vector3::from(loc::INPUT_TRANSLATE.map(|at| commons.dbl_opt(at).unwrap_or(0.0)));
+        let along = commons.dbl_opt(loc::INPUT_ALONG_TOOL_AXIS).unwrap_or(0.0);
+        if !self.chain.has_rotary() {
+            self.input_shift += self.chain.tool.into_inner() * along;
+        }
         for (index, rotary) in self.chain.rotaries.iter().enumerate() {
             let (letter, common) = match rotary {
                 Some(rotary) => (rotary.letter, rotary.axis + 3),
@@ -128,7 +132,7 @@ impl MachineTables {
         self.present
     }
 
-    /// What is added to each point of the input, mm or inch (DBLCOM 286 to 288).
+    /// What is added to each point of the input, mm or inch (DBLCOM 286 to 288 and 918).
     #[inline]
     pub fn input_shift(&self) -> Vector3<f64> {
         self.input_shift

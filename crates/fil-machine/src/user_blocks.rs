@@ -1,4 +1,4 @@
-//! The user's start and end blocks, packed into INTCOM: two ASCII characters an
+//! The user's blocks at the start, at the end and around tool changes, packed into INTCOM: two ASCII characters an
 //! integer, low byte first, 33 integers a block, ten blocks.
 
 use crate::commons::{Commons, Int, Kind, NA};
@@ -8,7 +8,7 @@ use crate::setting::Flag;
 /// Integers that a block takes.
 pub const BLOCK_INTEGERS: u16 = 33;
 
-/// Blocks that fit at the start and at the end.
+/// Blocks of a list, at most.
 pub const MAX_BLOCKS: u16 = 10;
 
 /// Where a list of user blocks lies.
@@ -36,8 +36,69 @@ pub const END: UserBlocks = UserBlocks {
     text: loc::BLOCKS_END_TEXT,
 };
 
+/// The blocks around one kind of tool change.
+#[derive(Clone, Copy, Debug)]
+pub struct AroundChange {
+    /// Before all that the change itself writes.
+    pub before: UserBlocks,
+    /// After it.
+    pub after: UserBlocks,
+}
+
+/// The blocks around the first tool change of a program.
+pub const FIRST_CHANGE: AroundChange = AroundChange {
+    before: UserBlocks {
+        flag: loc::BLOCKS_FIRST_CHANGE_BEFORE_FLAG,
+        count: loc::BLOCKS_FIRST_CHANGE_BEFORE_COUNT,
+        text: loc::BLOCKS_FIRST_CHANGE_BEFORE_TEXT,
+    },
+    after: UserBlocks {
+        flag: loc::BLOCKS_FIRST_CHANGE_AFTER_FLAG,
+        count: loc::BLOCKS_FIRST_CHANGE_AFTER_COUNT,
+        text: loc::BLOCKS_FIRST_CHANGE_AFTER_TEXT,
+    },
+};
+
+/// The blocks around the changes between; also around the first and the last one where
+/// these have none of their own.
+pub const OTHER_CHANGE: AroundChange = AroundChange {
+    before: UserBlocks {
+        flag: loc::BLOCKS_CHANGE_BEFORE_FLAG,
+        count: loc::BLOCKS_CHANGE_BEFORE_COUNT,
+        text: loc::BLOCKS_CHANGE_BEFORE_TEXT,
+    },
+    after: UserBlocks {
+        flag: loc::BLOCKS_CHANGE_AFTER_FLAG,
+        count: loc::BLOCKS_CHANGE_AFTER_COUNT,
+        text: loc::BLOCKS_CHANGE_AFTER_TEXT,
+    },
+};
+
+/// The blocks around the last tool change of a program.
+pub const LAST_CHANGE: AroundChange = AroundChange {
+    before: UserBlocks {
+        flag: loc::BLOCKS_LAST_CHANGE_BEFORE_FLAG,
+        count: loc::BLOCKS_LAST_CHANGE_BEFORE_COUNT,
+        text: loc::BLOCKS_LAST_CHANGE_BEFORE_TEXT,
+    },
+    after: UserBlocks {
+        flag: loc::BLOCKS_LAST_CHANGE_AFTER_FLAG,
+        count: loc::BLOCKS_LAST_CHANGE_AFTER_COUNT,
+        text: loc::BLOCKS_LAST_CHANGE_AFTER_TEXT,
+    },
+};
+
 /// All lists, by their keys in machine.toml.
-pub const LISTS: [(&str, UserBlocks); 2] = [("blocks.start", START), ("blocks.end", END)];
+pub const LISTS: [(&str, UserBlocks); 8] = [
+    ("blocks.start", START),
+    ("blocks.end", END),
+    ("blocks.first_change_before", FIRST_CHANGE.before),
+    ("blocks.first_change_after", FIRST_CHANGE.after),
+    ("blocks.change_before", OTHER_CHANGE.before),
+    ("blocks.change_after", OTHER_CHANGE.after),
+    ("blocks.last_change_before", LAST_CHANGE.before),
+    ("blocks.last_change_after", LAST_CHANGE.after),
+];
 
 /// The list that an INTCOM location belongs to, with its key.
 pub fn list_of(number: u16) -> Option<(&'static str, UserBlocks)> {
@@ -52,6 +113,11 @@ impl UserBlocks {
         }
         let count = commons.int(self.count).clamp(0, i32::from(MAX_BLOCKS)) as u16;
         (0..count).map(|block| unpack(commons, self.text.0 + block * BLOCK_INTEGERS)).collect()
+    }
+
+    /// The list is written: there are blocks in it.
+    pub fn is_on(self, commons: &Commons) -> bool {
+        commons.read(self.flag) && commons.int(self.count) > 0
     }
 
     /// Stores texts, at most [`MAX_BLOCKS`] of at most twice [`BLOCK_INTEGERS`]

@@ -270,6 +270,8 @@ pub enum Event {
         line: u32,
         /// Seconds; `None` when the program waits turns of the spindle.
         seconds: Option<f64>,
+        /// Turns of the spindle that it waits.
+        turns: Option<f64>,
     },
     /// An auxiliary function without a motion of its own, besides spindle, coolant and
     /// tool (`M0`, `M41`).

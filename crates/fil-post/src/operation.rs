@@ -245,6 +245,21 @@ pub struct CutterCompensation {
     pub side_word: u16,
 }
 
+/// What the CL file says of the tool changes behind the one at hand.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum NextTools {
+    /// Nobody has looked, or the file could not be read ahead.
+    #[default]
+    Unknown,
+    /// There is none.
+    None,
+    /// There are some.
+    Some {
+        /// The first that takes another tool, if there is one.
+        other: Option<i64>,
+    },
+}
+
 /// A tool change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ToolChange {
@@ -254,6 +269,8 @@ pub struct ToolChange {
     pub offset: i64,
     /// The record gives the offset.
     pub offset_given: bool,
+    /// The tool changes behind this one.
+    pub next: NextTools,
     /// The record at the word of the tool, and at that of the offset.
     pub causes: [Cause; 2],
 }

@@ -13,7 +13,7 @@ use crate::errors::PostCode;
 use crate::items::Items;
 use crate::noted::Noted;
 use crate::operation::{End, Feed};
-use crate::path::Path;
+use crate::path::{Path, tool_change};
 use crate::words::end;
 
 /// The generalized post of one run.
@@ -113,6 +113,12 @@ impl Post {
     /// Diameter of the cutter as the CL file names it, in CL units.
     pub fn cutter_diameter(&self) -> Option<f64> {
         self.path.cutter
+    }
+
+    /// True when a tool change depends on those behind it: whoever drives the post tells
+    /// them by `path.next_tools` before a record that changes the tool.
+    pub fn looks_ahead_for_tools(&self) -> bool {
+        tool_change::looks_ahead(&self.control.commons)
     }
 
     /// Takes the warnings away.

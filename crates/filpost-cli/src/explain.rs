@@ -187,7 +187,11 @@ fn location(row: &Location) -> String {
     for (number, meaning) in row.choice_list() {
         text.push_str(&format!("  {number} = {meaning}\n"));
     }
-    let used = if row.used { "The post acts on it." } else { "The post does not act on it." };
+    let used = match (row.used, row.idle) {
+        (true, _) => "The post acts on it.".to_string(),
+        (false, "") => "The post does not act on it.".to_string(),
+        (false, reason) => format!("The post does not act on it: {reason}"),
+    };
     text.push_str(&format!("Evidence: {}\n{used}", row.evidence));
     text
 }

@@ -212,7 +212,10 @@ impl<'o, S: Records> Engine<'o, S> {
         self.watch_progress()?;
         match self.section() {
             Some(section) => self.run_section(section)?,
-            None => self.outside.process(&self.record, &self.vocabulary)?,
+            None => {
+                self.outside.look_ahead(&self.record, &mut self.vocabulary)?;
+                self.outside.process(&self.record, &self.vocabulary)?;
+            }
         }
         if self.outside.ended {
             self.outside.after_fini(&mut self.record, &mut self.vocabulary)?;
@@ -256,6 +259,7 @@ impl<'o, S: Records> Engine<'o, S> {
             && !outcome.replaced
         {
             swallowed = false;
+            self.outside.look_ahead(&self.record, &mut self.vocabulary)?;
             self.outside.process(&self.record, &self.vocabulary)?;
         }
         self.outside.section_done(section, (number, line), swallowed);

@@ -4,6 +4,7 @@ use fil_cl::{Record, Vocabulary};
 use fil_diag::Diag;
 use fil_post::Origin;
 
+use crate::listing::ListingRules;
 use crate::report::Report;
 use crate::tally::{Motion, Tally};
 
@@ -52,6 +53,8 @@ pub enum Event<'a> {
     RecordDone {
         /// The macro for lines of listings (_LSTWT).
         lines: LineEditor<'a>,
+        /// Which lines a listing has, by the machine's settings of this moment.
+        rules: ListingRules,
     },
     /// The program is complete.
     End(RunEnd<'a>),

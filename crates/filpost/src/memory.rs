@@ -84,6 +84,10 @@ impl Records for Memory<'_> {
         SplineCounts::default()
     }
 
+    fn can_go_back(&self) -> bool {
+        false
+    }
+
     fn has_failed(&self) -> bool {
         self.failed
     }

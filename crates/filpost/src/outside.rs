@@ -5,10 +5,10 @@ use std::collections::HashSet;
 use std::sync::Arc;
 
 use fil_cl::vocabulary::words;
-use fil_cl::{Evidence, Record, Vocabulary, record::kind};
+use fil_cl::{Evidence, Record, Vocabulary, Word, keyed_cycle, record::kind};
 use fil_diag::{Code, Diag, TextSpan};
 use fil_machine::commons::EMPTY;
-use fil_machine::locations::{INPUT_CREO_RECORDS, MESSAGE_TO_TAPE};
+use fil_machine::locations::{INPUT_CREO_RECORDS, MESSAGE_TO_TAPE, PROGRAM_TIME_STAMP};
 use fil_machine::{Kind, Unit, stored};
 use fil_post::FilLine;
 use fil_post::errors::PostCode;
@@ -22,6 +22,7 @@ use crate::editing::{SharedEditor, edits};
 use crate::error::RunCode;
 use crate::event::{Event, LineEditor, Observer, RunEnd};
 use crate::granted::Granted;
+use crate::listing::ListingRules;
 use crate::map;
 use crate::overview::Counted;
 use crate::passes::Pass;
@@ -29,7 +30,7 @@ use crate::program::Program;
 use crate::report::{Extents, Report};
 use crate::run::Start;
 use crate::select;
-use crate::source::{Records, Source};
+use crate::source::{Records, Source, changes_tool};
 use crate::statement::statement_text;
 use crate::tally::{Before, Tally};
 use crate::units::{self, UnitSource};
@@ -124,6 +125,13 @@ impl<'o, S: Records> Outside<'o, S> {
         if let Some((unit, _)) = self.report.unit {
             self.post.assume_unit(unit);
         }
+        if self.post.control.commons.read(PROGRAM_TIME_STAMP) {
+            let Some(now) = self.granted.now() else {
+                return fil_vm::errors::RunCode::ClockNotGranted
+                    .err("the machine writes date and time (program.time_stamp)");
+            };
+            self.post.control.head.time = Some(now.to_string().replace('T', " "));
+        }
         if self.source.recognized().is_none_or(|found| found.evidence == Evidence::Chosen) {
             self.post.trust_arcs();
         }
@@ -161,6 +169,24 @@ impl<'o, S: Records> Outside<'o, S> {
         let is_note = record.kind == kind::PSEUDO
             && (record.major == words::END || !self.post.control.commons.read(INPUT_CREO_RECORDS));
         if is_note { None } else { self.module.find(record, vocabulary) }
+    }
+
+    /// Tells the post which tools come behind a record that takes one, where its machine
+    /// asks for it.
+    ///
+    /// # Errors
+    /// A file that can't be gone back in.
+    #[inline]
+    pub fn look_ahead(
+        &mut self,
+        record: &Record,
+        vocabulary: &mut Vocabulary,
+    ) -> Result<(), Box<Diag>> {
+        if record.kind != kind::MOTION && changes_tool(record) && self.post.looks_ahead_for_tools()
+        {
+            self.post.path.next_tools = self.source.next_tools(record, vocabulary)?;
+        }
+        Ok(())
     }
 
     /// The post carries out a record, or what one means that is given as it is written.
@@ -228,8 +254,9 @@ impl<'o, S: Records> Outside<'o, S> {
                 *failure.borrow_mut() = Some(diag);
             }
         };
+        let rules = ListingRules::of(commons);
         for observer in self.observers.iter_mut() {
-            observer(Event::RecordDone { lines: LineEditor(&edit) });
+            observer(Event::RecordDone { lines: LineEditor(&edit), rules });
         }
         failure.into_inner().map_or(Ok(()), Err)
     }
@@ -463,7 +490,11 @@ impl<S: Records> Host for Outside<'_, S> {
         let section = self.section.map(SectionId::index);
         let lines = site.stack().map(|(file, line)| FilLine { file, line });
         tape.cause.stack = tape.stacks.number(section, lines);
-        let result = self.process(record, vocabulary);
+        let looked = self.look_ahead(record, vocabulary);
+        let result = looked.and_then(|()| match keyed(record)? {
+            Some(keyed) => self.process(&keyed, vocabulary),
+            None => self.process(record, vocabulary),
+        });
         self.post.control.tape.cause.stack = 0;
         result
     }
@@ -566,6 +597,17 @@ impl<S: Records> Host for Outside<'_, S> {
         let row = fil_machine::locations::Location::named(&name.to_ascii_lowercase())?;
         Some(self.post.control.commons.get(row.kind, u32::from(row.number)))
     }
+}
+
+/// A cycle that the script has written by position, as couplets; `None` for any other record.
+fn keyed(record: &Record) -> Result<Option<Record>, Box<Diag>> {
+    let is_by_position = matches!(record.data.get(1), Some(Word::Number(_)));
+    if record.major != words::CYCLE || record.line != 0 || !is_by_position {
+        return Ok(None);
+    }
+    let mut keyed = record.clone();
+    keyed_cycle(&mut keyed)?;
+    Ok(Some(keyed))
 }
 
 pub(crate) fn common_kind(kind: CommonKind) -> fil_machine::Kind {

@@ -4,15 +4,19 @@
 use std::collections::VecDeque;
 
 use fil_cl::{
-    Meaning, Recognized, Record, SplineCounts, Vocabulary, WordId, reader::Reader, record::kind,
-    words,
+    Meaning, Recognized, Record, SplineCounts, Vocabulary, Word, WordId, reader::Reader,
+    record::kind, words,
 };
 use fil_diag::Result;
+use fil_post::operation::NextTools;
 
 use crate::written::Written;
 
 /// Records NEXTF looks through for the next motion.
 const LOOK_AHEAD: usize = 1000;
+
+/// Records of a stream that are kept to find the next tool.
+const TOOLS_AHEAD: usize = 100_000;
 
 /// X Y Z I J K of a motion record, and 1 for a rapid move, else 0; without a tool
 /// axis of its own I J K are absent.
@@ -44,6 +48,9 @@ pub(crate) trait Records {
     fn meaning(&self) -> Option<&Meaning> {
         None
     }
+
+    /// True for records that can go back.
+    fn can_go_back(&self) -> bool;
 
     /// True when the last record could not be read.
     fn has_failed(&self) -> bool;
@@ -83,6 +90,10 @@ impl Records for Reader<'_> {
 
     fn meaning(&self) -> Option<&Meaning> {
         Reader::meaning(self)
+    }
+
+    fn can_go_back(&self) -> bool {
+        Reader::can_go_back(self)
     }
 
     fn has_failed(&self) -> bool {
@@ -259,6 +270,68 @@ impl<S: Records> Source<S> {
         self.tool.diameter
     }
 
+    /// The tool changes behind the current record, which takes a tool; nothing is consumed.
+    /// Records that can't go back are kept, up to [`TOOLS_AHEAD`] of them. What is wrong with
+    /// a record is said when it is read.
+    ///
+    /// # Errors
+    /// A file that can't be gone back in after all.
+    pub fn next_tools(
+        &mut self,
+        record: &Record,
+        vocabulary: &mut Vocabulary,
+    ) -> Result<NextTools> {
+        let mut seen = ToolsSeen { tool: tool_of(record), any: false };
+        let mut at = 0;
+        while let Some(ahead) = self.ahead.get(at) {
+            if let Some(found) = seen.take(ahead) {
+                return Ok(found);
+            }
+            at += 1;
+        }
+        if self.reader.can_go_back() {
+            return self.read_on_for_tools(seen, vocabulary);
+        }
+        while at < TOOLS_AHEAD {
+            match self.ahead(at, vocabulary) {
+                Ok(None) => return Ok(seen.at_the_end()),
+                Ok(Some(ahead)) => {
+                    if let Some(found) = seen.take(ahead) {
+                        return Ok(found);
+                    }
+                }
+                Err(_) => break,
+            }
+            at += 1;
+        }
+        Ok(NextTools::Unknown)
+    }
+
+    /// Reads on and goes back.
+    fn read_on_for_tools(
+        &mut self,
+        mut seen: ToolsSeen,
+        vocabulary: &mut Vocabulary,
+    ) -> Result<NextTools> {
+        let mut record = Record::default();
+        let mut first = None;
+        let found = loop {
+            match self.reader.read(vocabulary, &mut record) {
+                Ok(true) => {}
+                Ok(false) => break seen.at_the_end(),
+                Err(_) => break NextTools::Unknown,
+            }
+            first.get_or_insert(record.number);
+            if let Some(found) = seen.take(&record) {
+                break found;
+            }
+        };
+        if let Some(first) = first {
+            self.reader.seek(first)?;
+        }
+        Ok(found)
+    }
+
     /// The motion before the current record.
     pub fn previous(&self) -> Option<Coordinates> {
         self.motions[usize::from(!self.on_motion)]
@@ -285,6 +358,46 @@ impl<S: Records> Source<S> {
         self.last_read = self.last_read.max(record.number);
         self.rapid |= record.major == words::RAPID;
     }
+}
+
+/// What was seen of the tool changes ahead.
+struct ToolsSeen {
+    /// The tool of the change at hand.
+    tool: Option<i64>,
+    /// Some change was seen.
+    any: bool,
+}
+
+impl ToolsSeen {
+    /// Looks at a record; gives what is known when nothing more needs to be.
+    fn take(&mut self, record: &Record) -> Option<NextTools> {
+        if record.kind == kind::FINI {
+            return Some(self.at_the_end());
+        }
+        if !changes_tool(record) {
+            return None;
+        }
+        self.any = true;
+        let tool = tool_of(record);
+        (tool != self.tool).then_some(NextTools::Some { other: tool })
+    }
+
+    fn at_the_end(&self) -> NextTools {
+        if self.any { NextTools::Some { other: None } } else { NextTools::None }
+    }
+}
+
+/// The tool that a record takes: its first number that is no length and no offset.
+fn tool_of(record: &Record) -> Option<i64> {
+    const COUPLETS: [WordId; 3] = [words::LENGTH, words::OSETNO, words::ADJUST];
+    let of_couplet = |at: usize| {
+        let before = at.checked_sub(1).and_then(|at| record.data.get(at));
+        COUPLETS.iter().any(|word| before == Some(&Word::Minor(*word)))
+    };
+    record.data.iter().enumerate().find_map(|(at, item)| match item {
+        Word::Number(number) if number.fract() == 0.0 && !of_couplet(at) => Some(*number as i64),
+        _ => None,
+    })
 }
 
 /// What the CL file has said of the tool in use.
@@ -351,7 +464,8 @@ impl Tools {
     }
 }
 
-fn changes_tool(record: &Record) -> bool {
+/// True for a record that takes a tool.
+pub(crate) fn changes_tool(record: &Record) -> bool {
     matches!(record.major, words::LOADTL | words::LOAD | words::TURRET)
 }
 

@@ -5,7 +5,7 @@ use filpost::Commons;
 use filpost::commons::EMPTY;
 use filpost::locations::{Location, ValueUnit};
 
-use crate::posting::Posted;
+use crate::posting::{Posted, Prepared};
 
 use super::corpus::Part;
 
@@ -41,6 +41,20 @@ pub fn trials(row: &Location) -> Vec<Trial> {
     values.iter().copied().map(trial).collect()
 }
 
+/// Settings that act on the listing alone.
+const OF_THE_LISTING: [&str; 10] = [
+    "list.verification",
+    "list.input",
+    "list.suppress_warnings",
+    "list.pages",
+    "list.lines_per_page",
+    "list.tape_image",
+    "list.skip",
+    "tool.list_times",
+    "tool.change_time",
+    "rapid.rate",
+];
+
 /// How a changed setting showed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Seen {
@@ -75,7 +89,15 @@ impl Pair {
         }
         let Ok(machine) = self.part.machine(Some(&trial.text)) else { return Some(Seen::AtLoad) };
         let outcome = machine.post(&self.part.cl);
-        (outcome.ok().as_ref() != Some(&self.outcome)).then_some(Seen::InTheRun(value))
+        let differs = outcome.ok().as_ref() != Some(&self.outcome)
+            || OF_THE_LISTING.contains(&row.name) && self.lists_otherwise(&machine);
+        differs.then_some(Seen::InTheRun(value))
+    }
+
+    /// The listing of another machine differs.
+    fn lists_otherwise(&self, machine: &Prepared) -> bool {
+        let Ok(own) = self.part.machine(None) else { return false };
+        own.listing(&self.part.cl) != machine.listing(&self.part.cl)
     }
 }
 

@@ -1,9 +1,11 @@
 //! Cycles of couplets, in Creo's order and with its words.
 
+use fil_diag::Diag;
+
 use super::Written;
 use crate::errors::ClCode;
 use crate::forms::FormError;
-use crate::record::Word;
+use crate::record::{Record, Word};
 use crate::vocabulary::WordId;
 use crate::words as w;
 
@@ -132,20 +134,49 @@ fn give(written: &mut Written<'_>, cycle: &Cycle) {
 /// # Errors
 /// Values whose meaning their number leaves open, or that no hole can have.
 pub(crate) fn positional(written: &mut Written<'_>) -> Result<(), FormError> {
+    if let Some((kind, couplets)) = by_position(&written.record.data)? {
+        written.set_couplets(kind, &couplets);
+    }
+    Ok(())
+}
+
+/// Brings a CYCLE that a script has made by position to couplets, as the reader does with
+/// those of a CL file; others stay as they are.
+///
+/// # Errors
+/// As for a CL file: values whose meaning their number leaves open, or that no hole can
+/// have.
+pub fn keyed_cycle(record: &mut Record) -> Result<(), Box<Diag>> {
+    let found = by_position(&record.data).map_err(|error| {
+        let mut diag = Diag::new(error.code, format!("CYCLE: {}", error.message));
+        diag.hint = error.hint.map(str::to_string);
+        Box::new(diag)
+    })?;
+    if let Some((kind, couplets)) = found {
+        let items =
+            couplets.iter().flat_map(|(word, value)| [Word::Minor(*word), Word::Number(*value)]);
+        record.data = std::iter::once(Word::Minor(kind)).chain(items).collect();
+    }
+    Ok(())
+}
+
+/// A cycle with its couplets.
+type Couplets = (WordId, Vec<(WordId, f64)>);
+
+fn by_position(data: &[Word]) -> Result<Option<Couplets>, FormError> {
     const UNITS: [WordId; 4] = [w::IPM, w::IPR, w::MMPM, w::MMPR];
-    let data = written.record.data.clone();
     let [
         Word::Minor(kind),
         Word::Number(depth),
         Word::Number(feed),
         Word::Minor(unit),
         ref rest @ ..,
-    ] = data[..]
+    ] = *data
     else {
-        return Ok(());
+        return Ok(None);
     };
     if !UNITS.contains(&unit) || !KINDS.contains(&kind) {
-        return Ok(());
+        return Ok(None);
     }
     let wrong = |item, message| Err(FormError::new(ClCode::BadPoint, item, message));
     if depth <= 0.0 {
@@ -162,8 +193,7 @@ pub(crate) fn positional(written: &mut Written<'_>) -> Result<(), FormError> {
         None => couplets.push((unit, feed)),
     }
     couplets.extend(clear.map(|clear| (w::CLEAR, clear)));
-    written.set_couplets(kind, &couplets);
-    Ok(())
+    Ok(Some((kind, couplets)))
 }
 
 /// Kinds of cycles.

@@ -74,6 +74,11 @@ impl<'r> Reader<'r> {
 }
 
 impl Reader<'_> {
+    /// True for a file, which can go back.
+    pub fn can_go_back(&self) -> bool {
+        self.lines.can_go_back()
+    }
+
     /// Makes record `n` (from 1) the next one to be read. A record past the end
     /// shows as an error of the next [`Reader::read`].
     ///

@@ -29,9 +29,11 @@ pub struct OptionFile {
 
 /// Values the vendor's post has where the file says nothing, as far as the
 /// report of a real option file shows them; and no program number (own
-/// location 9003), because no location for it is known.
+/// location 9003) and no code for taps of left-hand threads (9400), because no location
+/// for them is known.
 const VENDOR_DEFAULTS: &[(Kind, u32, f64)] = &[
     (Kind::Int, 9003, EMPTY),
+    (Kind::Int, 9400, EMPTY),
     (Kind::Int, 471, EMPTY),
     (Kind::Int, 480, EMPTY),
     (Kind::Int, 509, EMPTY),
@@ -39,6 +41,10 @@ const VENDOR_DEFAULTS: &[(Kind, u32, f64)] = &[
     (Kind::Int, 487, 6.0),
     (Kind::Int, 4313, 0.0),
     (Kind::Int, 4314, 0.0),
+    (Kind::Int, 4674, 1.0),
+    (Kind::Int, 1832, 0.0),
+    (Kind::Int, 1866, 0.0),
+    (Kind::Int, 1917, 0.0),
     (Kind::Int, 484, 0.0),
     (Kind::Int, 1869, 0.0),
     (Kind::Rel, 17, 3000.0),

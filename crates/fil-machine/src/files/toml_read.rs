@@ -34,6 +34,9 @@ const ABOUT: &[&str] = &["name", "description", "origin"];
 /// The key of the machine that a `machine.toml` begins from.
 const BASE: &str = "base";
 
+/// What stands before the number of a location whose value the import could not read.
+const IMPORTED: &str = "imported.";
+
 /// What messages call the text of a single setting.
 const OPTION: &str = "--set";
 
@@ -157,6 +160,8 @@ struct TomlReader<'a> {
     errors: Vec<(usize, Diag)>,
     /// All settings that were said.
     said: Vec<Said>,
+    /// Imported values whose meaning is not known.
+    doubtful: Vec<Diag>,
     /// Letters that are named, with their tape position and where that is said.
     named: Vec<(u8, u32, Range<usize>)>,
 }
@@ -170,6 +175,7 @@ impl<'a> TomlReader<'a> {
             takes_base: false,
             errors: Vec::new(),
             said: Vec::new(),
+            doubtful: Vec::new(),
             named: Vec::new(),
         }
     }
@@ -237,6 +243,9 @@ impl<'a> TomlReader<'a> {
             words.iter().for_each(|word| commons.list_without_effect(word));
             return Ok(());
         }
+        if let Some((kind, number)) = name.strip_prefix(IMPORTED).and_then(numbered) {
+            return self.imported(commons, (kind, number), value, key);
+        }
         if let Some((kind, number)) = numbered(name) {
             let number_said = self.plain_number(value)?;
             return self.store(commons, (kind, number), number_said, key);
@@ -252,6 +261,27 @@ impl<'a> TomlReader<'a> {
         };
         let number = self.value(location, value)?;
         self.store(commons, (location.kind, location.number.into()), number, key)
+    }
+
+    /// Stores a value of the vendor's that no choice of its setting means, as the import of
+    /// an option file has left it; warns of it.
+    fn imported(
+        &mut self,
+        commons: &mut Commons,
+        (kind, number): (Kind, u32),
+        value: &Spanned<DeValue>,
+        key: Range<usize>,
+    ) -> Result<()> {
+        let number_said = self.plain_number(value)?;
+        commons.set(kind, number, number_said)?;
+        if stored::acts(kind, number) {
+            let title = stored::title(kind, number);
+            let message = format!("`{title}` = {number_said}: meaning not published");
+            let diag = Diag::new(MachineCode::DoubtfulImport, message);
+            self.doubtful.push(*self.at(key.clone(), diag));
+        }
+        self.said.push(Said { key, kind, number, value: number_said });
+        Ok(())
     }
 
     /// Stores a value that its location can hold. A location may be said by its name and
@@ -458,12 +488,14 @@ impl<'a> TomlReader<'a> {
         }
         self.said.sort_by_key(|said| said.key.start);
         let idle = |said: &&Said| stored::is_idle(said.kind, said.number, said.value);
+        let doubtful = std::mem::take(&mut self.doubtful);
         let idle: Vec<&Said> = self.said.iter().filter(idle).collect();
-        let Some(first) = idle.first() else { return Ok(Vec::new()) };
+        let Some(first) = idle.first() else { return Ok(doubtful) };
         let locations: Vec<(Kind, u32)> =
             idle.iter().map(|said| (said.kind, said.number)).collect();
         let diag = stored::without_effect(&locations);
-        Ok(vec![*self.at(first.key.clone(), diag)])
+        let idle = *self.at(first.key.clone(), diag);
+        Ok(doubtful.into_iter().chain([idle]).collect())
     }
 
     fn at(&self, range: Range<usize>, diag: Diag) -> Box<Diag> {
@@ -515,7 +547,7 @@ mod tests {
         assert_eq!(error("[rapid]\nspilt = 1"), ("E0604".into(), "machine.toml:2:1".into()));
         assert_eq!(error("[rapid]\nsplit = 9"), ("E0605".into(), "machine.toml:2:9".into()));
         assert_eq!(error("[scale]\nx = 'a'"), ("E0605".into(), "machine.toml:2:5".into()));
-        assert_eq!(error("int.10000 = 1"), ("E0601".into(), "machine.toml:1:13".into()));
+        assert_eq!(error("int.20000 = 1"), ("E0601".into(), "machine.toml:1:13".into()));
         assert_eq!(error("[address.x]\nslot = 1"), ("E0604".into(), "machine.toml:1:10".into()));
     }
 
@@ -612,7 +644,7 @@ mod tests {
 
     #[test]
     fn a_setting_without_effect_warns() {
-        let (_, warnings) = read_toml("m", "[list]\npages = true").unwrap();
+        let (_, warnings) = read_toml("m", "[tape]\npartno_punched = true").unwrap();
         assert_eq!(warnings[0].code.name(), "W0651");
     }
 

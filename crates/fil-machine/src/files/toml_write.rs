@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 
 use crate::commons::{Commons, EMPTY, Kind};
 use crate::locations::{self as loc, Location, default_commons};
+use crate::stored;
 use crate::stored::BLANKS;
 use crate::user_blocks::{self, UserBlocks};
 
@@ -41,7 +42,9 @@ fn blocks(commons: &Commons, name: &str, at: UserBlocks, out: &mut String) {
     for number in (1..=Kind::Int.size() as u16).filter(|number| at.holds(*number)) {
         let value = value_of(commons, Kind::Int, number);
         if said(value) != said(value_of(&again, Kind::Int, number)) {
-            let _ = writeln!(out, "{} = {value}", numbered_key(Kind::Int, number));
+            let strange = stored::check(Kind::Int, number.into(), value).is_err();
+            let key = if strange { strange_key } else { numbered_key };
+            let _ = writeln!(out, "{} = {value}", key(Kind::Int, number));
         }
     }
 }
@@ -53,8 +56,10 @@ fn unnamed(commons: &Commons, defaults: &Commons, out: &mut String) {
             let value = value_of(commons, kind, number);
             let named = Location::numbered(kind, u32::from(number)).is_some();
             if value != value_of(defaults, kind, number) && !named && !is_text(kind, number) {
+                let strange = stored::check(kind, number.into(), value).is_err();
+                let key = if strange { strange_key } else { numbered_key };
                 let value = if value == EMPTY { "\"none\"".into() } else { value.to_string() };
-                let _ = writeln!(out, "{} = {value}", numbered_key(kind, number));
+                let _ = writeln!(out, "{} = {value}", key(kind, number));
             }
         }
     }
@@ -66,6 +71,9 @@ fn value_of(commons: &Commons, kind: Kind, number: u16) -> f64 {
 
 /// The name; the number where the setting has no choice of this value.
 fn key(row: &Location, value: f64) -> String {
+    if stored::check(row.kind, row.number.into(), value).is_err() {
+        return strange_key(row.kind, row.number);
+    }
     let choices = row.choice_list();
     let strange = value != EMPTY && choices.iter().all(|(choice, _)| *choice != value);
     if strange && !choices.is_empty() {
@@ -73,6 +81,11 @@ fn key(row: &Location, value: f64) -> String {
     } else {
         row.name.to_string()
     }
+}
+
+/// The key of a value that only an option file may hold.
+fn strange_key(kind: Kind, number: u16) -> String {
+    format!("imported.{}", numbered_key(kind, number))
 }
 
 fn numbered_key(kind: Kind, number: u16) -> String {

@@ -25,8 +25,10 @@ pub enum CycleKind {
     Peck,
     /// In pecks, lifted a little after each.
     BreakChips,
-    /// Feed in, spindle reversed, feed out.
+    /// Feed in, spindle counterclockwise, feed out.
     Tap,
+    /// Feed in, spindle clockwise, feed out.
+    TapLeft,
     /// Feed in, feed out.
     FeedOut,
     /// Feed in, spindle stopped, rapid out.
@@ -233,15 +235,21 @@ const CYCLES: &[(&str, CycleKind)] = &[
     ("cycle.deep_code", CycleKind::Peck),
     ("cycle.brkchp_code", CycleKind::BreakChips),
     ("cycle.tap_code", CycleKind::Tap),
+    ("cycle.tap_left_code", CycleKind::TapLeft),
     ("cycle.ream_code", CycleKind::FeedOut),
     ("cycle.bore_code", CycleKind::StopOut),
+    ("cycle.mill_code", CycleKind::FeedOut),
 ];
+
+/// Settings of the cycles of rigid taps, in tenths.
+const RIGID_TAPS: [(&str, CycleKind); 2] =
+    [("cycle.rigid_tap_code", CycleKind::Tap), ("cycle.rigid_tap_left_code", CycleKind::TapLeft)];
 
 /// What the numbers of ISO 6983 and of Fanuc's mills do. A control that has cycles
 /// has these, whatever its post writes.
 const STANDARD_CYCLES: &[(i32, CycleKind)] = &[
     (73, CycleKind::BreakChips),
-    (74, CycleKind::Tap),
+    (74, CycleKind::TapLeft),
     (76, CycleKind::StopOut),
     (81, CycleKind::Drill),
     (82, CycleKind::Drill),
@@ -329,8 +337,10 @@ impl Functions {
             return;
         }
         self.add(settings.code("cycle.off_code"), Function::CycleOff);
-        if let Some(tenths) = settings.code("cycle.rigid_tap_code").filter(|code| *code >= 0) {
-            self.0.entry(i64::from(tenths)).or_insert(Function::Cycle(CycleKind::Tap));
+        for (key, kind) in RIGID_TAPS {
+            if let Some(tenths) = settings.code(key).filter(|code| *code >= 0) {
+                self.0.entry(i64::from(tenths)).or_insert(Function::Cycle(kind));
+            }
         }
         for (code, kind) in STANDARD_CYCLES {
             self.add(Some(*code), Function::Cycle(*kind));

@@ -162,6 +162,8 @@ pub struct Dialect {
     pub(crate) orientation: u8,
     /// Control's dwell unit in a second.
     pub(crate) dwell_factor: f64,
+    /// Control's dwell unit in a turn of the spindle, where it waits turns.
+    pub(crate) turns_factor: Option<f64>,
     /// Control's feed unit in a unit of length a minute.
     pub(crate) feed_factor: f64,
     /// Control's inverse time in motions a minute.
@@ -302,6 +304,7 @@ impl Dialect {
             speed_limit: settings.letter("spindle.max_address"),
             orientation: settings.letter("spindle.orient_address"),
             dwell_factor: factor(&settings, "dwell.upm_factor"),
+            turns_factor: settings.number("dwell.upr_factor").filter(|factor| *factor > 0.0),
             feed_factor: factor(&settings, "feed.upm_factor"),
             inverse_factor: factor(&settings, "feed.inverse_factor"),
             rapid_word: Some(settings.letter("rapid.address"))

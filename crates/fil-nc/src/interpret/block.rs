@@ -230,8 +230,11 @@ impl State<'_> {
         let time = words.take(self.dialect.dwell)?;
         let time =
             time.ok_or_else(|| Fault::new(NcCode::MissingWord, "the time of the dwell is needed"))?;
-        let seconds = Some(time / self.dialect.dwell_factor);
-        self.events.push(Event::Dwell { line: self.line, seconds });
+        // Some controls count turns while the feed is one a revolution.
+        let turns = self.dialect.turns_factor.filter(|_| self.feed_mode == FeedMode::PerTurn);
+        let turns = turns.map(|factor| time / factor);
+        let seconds = turns.is_none().then_some(time / self.dialect.dwell_factor);
+        self.events.push(Event::Dwell { line: self.line, seconds, turns });
         Ok(())
     }
 }

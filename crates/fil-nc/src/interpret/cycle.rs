@@ -149,13 +149,13 @@ impl State<'_> {
     /// What happens at the bottom, and the way out.
     fn leave(&mut self, cycle: &Cycle, hole: Hole) -> Result<(), Fault> {
         if let Some(seconds) = cycle.dwell.filter(|seconds| *seconds > 0.0) {
-            self.events.push(Event::Dwell { line: self.line, seconds: Some(seconds) });
+            self.events.push(Event::Dwell { line: self.line, seconds: Some(seconds), turns: None });
         }
         let turning = self.modes.spindle;
         let rate = Some(self.rate()?);
         match cycle.kind {
-            CycleKind::Tap => {
-                self.modes.spindle = reversed(turning);
+            CycleKind::Tap | CycleKind::TapLeft => {
+                self.modes.spindle = out_of_a_tap(cycle.kind, turning);
                 self.step(&[(hole.axis, hole.clear)], Course::Feed, rate);
             }
             CycleKind::FeedOut => {
@@ -169,6 +169,16 @@ impl State<'_> {
         self.modes.spindle = turning;
         self.known[hole.axis] = !self.return_initial || cycle.initial_known;
         Ok(())
+    }
+}
+
+/// How the spindle turns on the way out of a tap, which the cycle says and not the way it
+/// turned before: a wrong one tears the thread.
+fn out_of_a_tap(kind: CycleKind, turning: Spindle) -> Spindle {
+    match (turning, kind) {
+        (Spindle::Off, _) => Spindle::Off,
+        (_, CycleKind::TapLeft) => Spindle::Clockwise,
+        _ => Spindle::Counterclockwise,
     }
 }
 

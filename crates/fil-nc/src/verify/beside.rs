@@ -8,14 +8,23 @@ use super::wanted::{Effect, End, Step};
 use crate::motion::Event;
 
 impl<C: Steps> Walk<'_, C> {
-    pub(super) fn dwell(&mut self, cl_line: u32, wanted: Option<f64>) {
+    /// A dwell in seconds, or in turns of the spindle.
+    pub(super) fn dwell(&mut self, cl_line: u32, wanted: Option<f64>, turning: Option<f64>) {
         self.pass(cl_line);
-        let Some(Event::Dwell { line, seconds }) = self.nc.get(self.next).copied() else {
+        let Some(Event::Dwell { line, seconds, turns }) = self.nc.get(self.next).copied() else {
             return self.find(FindingKind::Missing, Some(cl_line), None, "no dwell".to_string());
         };
         self.next += 1;
         let wanted = wanted.map(|wanted| self.settings.dwell_within(wanted));
         self.check_dwell(cl_line, line, seconds, wanted);
+        if let (Some(found), Some(wanted)) = (turns, turning) {
+            let wanted = self.settings.turns_within(wanted);
+            if (found - wanted).abs() > self.slack.turns {
+                let message =
+                    format!("dwell of {} turns, it should be {}", short(found), short(wanted));
+                self.find(FindingKind::Dwell, Some(cl_line), Some(line), message);
+            }
+        }
     }
 
     pub(super) fn check_dwell(

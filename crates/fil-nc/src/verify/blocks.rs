@@ -6,6 +6,8 @@ use std::collections::{HashMap, HashSet};
 pub(super) struct OwnBlocks<'a> {
     /// Blocks of the settings, bare, and whether the program has them.
     wanted: HashMap<String, bool>,
+    /// Blocks around tool changes, bare, and how often the program has them.
+    around: HashMap<String, usize>,
     /// Lines of the program that are such blocks.
     lines: HashSet<u32>,
     /// The text in which the next INSERT is looked for, and the lines before it.
@@ -14,20 +16,42 @@ pub(super) struct OwnBlocks<'a> {
 }
 
 impl<'a> OwnBlocks<'a> {
-    /// Looks for the blocks of the settings in a program.
-    pub(super) fn new(text: &'a [u8], blocks: &[String]) -> Self {
+    /// Looks for the blocks of the settings in a program: those at its start and end, and
+    /// those around tool changes.
+    pub(super) fn new(text: &'a [u8], blocks: &[String], around: &[String]) -> Self {
         let mut wanted: HashMap<String, bool> =
             blocks.iter().map(|block| (bare(block.as_bytes()), false)).collect();
         let mut lines = HashSet::new();
-        if !wanted.is_empty() {
+        let mut around: HashMap<String, usize> =
+            around.iter().map(|block| (bare(block.as_bytes()), 0)).collect();
+        if !wanted.is_empty() || !around.is_empty() {
             for (line, text) in numbered(text) {
-                if let Some(found) = wanted.get_mut(&bare(text)) {
+                let text = bare(text);
+                if let Some(found) = wanted.get_mut(&text) {
                     *found = true;
+                    lines.insert(line);
+                }
+                if let Some(found) = around.get_mut(&text) {
+                    *found += 1;
                     lines.insert(line);
                 }
             }
         }
-        OwnBlocks { wanted, lines, rest: text, passed: 0 }
+        OwnBlocks { wanted, around, lines, rest: text, passed: 0 }
+    }
+
+    /// Blocks around tool changes that the program has less often than its tool changes
+    /// ask for, sorted.
+    pub(super) fn missing_around(&self, asked: &[String]) -> Vec<String> {
+        let mut often: HashMap<String, usize> = HashMap::new();
+        for block in asked {
+            *often.entry(bare(block.as_bytes())).or_default() += 1;
+        }
+        let has = |block: &String| self.around.get(block).copied().unwrap_or(0);
+        let missing = often.into_iter().filter(|(block, times)| has(block) < *times);
+        let mut missing: Vec<String> = missing.map(|(block, _)| block).collect();
+        missing.sort();
+        missing
     }
 
     /// True when a line is one of those blocks.

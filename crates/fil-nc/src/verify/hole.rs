@@ -141,7 +141,9 @@ impl<C: Steps> Walk<'_, C> {
         let near = |a: f64, b: f64, n: usize| (a - b).abs() <= slack[n];
         let raised = match hole.retract {
             Some(above) if above > 0.0 => levels.clear.max(levels.at[2] + above),
-            _ => levels.clear,
+            // Back to where the first of several cycles began.
+            Some(_) => self.initial.map_or(levels.clear, |initial| initial.max(levels.clear)),
+            None => levels.clear,
         };
         let known = self.known[2];
         if known && self.initial.is_none() {
@@ -273,7 +275,7 @@ impl<C: Steps> Walk<'_, C> {
     fn bottom_dwell(&mut self, cl_line: u32, hole: &Hole) -> Result<(), (u32, String)> {
         let wanted = hole.dwell.unwrap_or_else(|| self.settings.cycle_dwell(hole.kind));
         let found = match self.nc.get(self.next) {
-            Some(Event::Dwell { line, seconds }) => Some((*line, *seconds)),
+            Some(Event::Dwell { line, seconds, .. }) => Some((*line, *seconds)),
             _ => None,
         };
         match found {
@@ -330,6 +332,35 @@ impl<C: Steps> Walk<'_, C> {
             }
         }
         self.level_turning(cl_line, rest, "the return level", Some(turning)).map(|_| ())
+    }
+
+    /// The cycle has ended: where the machine asks for it, the tool goes back to the level
+    /// before it.
+    pub(super) fn end_cycle(&mut self, cl_line: u32) {
+        let Some(level) = self.initial.take().filter(|_| self.settings.retracts_after_cycles())
+        else {
+            return;
+        };
+        let (here, slack) = (self.at.linear[2], self.slack.linear[2]);
+        if !self.known[2] || here >= level - slack {
+            return;
+        }
+        let found = self.next_move().filter(|found| {
+            found.course == Course::Rapid
+                && (found.to.linear[2] - level).abs() <= slack
+                && found.to.linear[..2] == self.at.linear[..2]
+        });
+        match found {
+            Some(found) => {
+                self.take(cl_line, &found);
+                self.next += 1;
+            }
+            None => {
+                let message =
+                    format!("the tool does not go back to Z{} behind the cycle", short(level));
+                self.find(FindingKind::Missing, Some(cl_line), None, message);
+            }
+        }
     }
 
     /// How the tool leaves the hole, by the code of the cycle.

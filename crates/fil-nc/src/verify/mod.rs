@@ -92,8 +92,9 @@ pub struct Allowed {
 pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
     let settings = Settings::new(check.commons, check.allowed.tolerance)?;
     let path = ClPath::new(check.cl, check.cl_name, settings.input_shift());
+    let path = path.on_machine(settings.shift_along(), settings.matrix_leaves_axis());
     let path = path.in_unit(check.unit).leaving_out(check.skips_blocks);
-    let own = OwnBlocks::new(check.nc, &settings.own_blocks());
+    let own = OwnBlocks::new(check.nc, &settings.own_blocks(), &settings.blocks_around_changes());
     let watch = Watch::new(check.allowed.between);
     let mut walk = walk::Walk::new(path, check.events, own, &settings, watch);
     walk.modes.allow_offsets(check.allowed.offsets);

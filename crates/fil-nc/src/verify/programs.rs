@@ -200,11 +200,16 @@ impl Pair<'_> {
                     self.find(FindingKind::End, *line, message);
                 }
             }
-            (Event::Dwell { seconds: a, .. }, Event::Dwell { line, seconds: b }) => {
-                let same = match (a, b) {
-                    (Some(a), Some(b)) => self.near(*a, *b),
-                    (a, b) => a == b,
-                };
+            (
+                Event::Dwell { seconds: a, turns: turns_a, .. },
+                Event::Dwell { line, seconds: b, turns: turns_b },
+            ) => {
+                let (a, b) = (&a.or(*turns_a), &b.or(*turns_b));
+                let same = turns_a.is_some() == turns_b.is_some()
+                    && match (a, b) {
+                        (Some(a), Some(b)) => self.near(*a, *b),
+                        (a, b) => a == b,
+                    };
                 if !same {
                     let message = format!("dwell of {}, it should be {}", dwell(*b), dwell(*a));
                     self.find(FindingKind::Dwell, *line, message);

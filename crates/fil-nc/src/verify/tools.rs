@@ -17,6 +17,7 @@ impl<C: Steps> Walk<'_, C> {
         if !changes {
             return self.modes.change_tool(number, offset, self.settings);
         }
+        self.changes += 1;
         self.go_to_change_position(cl_line);
         match self.units_to_tool_change() {
             Some(left_out) => self.extra(left_out, cl_line),

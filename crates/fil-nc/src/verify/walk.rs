@@ -31,6 +31,8 @@ pub(super) struct Walk<'a, C> {
     /// Index of the next event.
     pub(super) next: usize,
     pub(super) own: OwnBlocks<'a>,
+    /// Tool changes so far.
+    pub(super) changes: usize,
     pub(super) auxiliaries: Auxiliaries,
     pub(super) settings: &'a Settings<'a>,
     pub(super) slack: Slack,
@@ -77,6 +79,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             nc,
             next: 0,
             own,
+            changes: 0,
             auxiliaries,
             settings,
             slack: settings.slack(true),
@@ -113,7 +116,9 @@ impl<'a, C: Steps> Walk<'a, C> {
             return Err(diag);
         }
         if !self.over && ended {
-            self.own.missing().into_iter().for_each(|text| {
+            let around = self.settings.blocks_of_changes(self.changes);
+            let missing = self.own.missing().into_iter().chain(self.own.missing_around(&around));
+            missing.for_each(|text| {
                 self.report.find(Finding {
                     kind: FindingKind::Block,
                     cl_line: None,
@@ -158,18 +163,18 @@ impl<'a, C: Steps> Walk<'a, C> {
             }
             Wanted::Cutter(diameter) => self.cutter = Some(*diameter),
             Wanted::XScale(scale) => self.scale_x(*scale),
-            Wanted::CycleEnd => self.initial = None,
+            Wanted::CycleEnd => self.end_cycle(step.line),
             Wanted::Straight(within) => self.watch.ask(*within),
             Wanted::Tool { number, offset } => {
                 self.tool(step.line, *number, self.settings.tool_offset(*number, *offset));
             }
-            Wanted::Dwell(seconds) => self.dwell(step.line, *seconds),
+            Wanted::Dwell(seconds) => self.dwell(step.line, *seconds, None),
             Wanted::DwellTurns(turns) => {
                 let seconds = self.settings.waits_seconds().then(|| {
                     let speed = self.modes.turns_a_minute().unwrap_or(f64::INFINITY);
                     self.settings.dwell_within(turns * 60.0 / speed)
                 });
-                self.dwell(step.line, seconds);
+                self.dwell(step.line, seconds, Some(*turns));
             }
             Wanted::Insert(text) => self.insert(step.line, text),
             Wanted::WholeThread(thread) => self.whole_thread(step.line, thread),
@@ -179,6 +184,9 @@ impl<'a, C: Steps> Walk<'a, C> {
             Wanted::Unknown { what, effect } => self.unknown(step.line, what, *effect),
             Wanted::Stop { optional } => {
                 self.ask_auxiliary(step.line, self.settings.stop_code(*optional));
+            }
+            Wanted::OverrideLock(on) => {
+                self.ask_auxiliary(step.line, self.settings.override_lock(*on))
             }
             Wanted::RigidTap => self.ask_auxiliary(step.line, self.settings.rigid_tap_mode()),
             Wanted::Clamp(on) => self.ask_auxiliary(step.line, self.settings.clamp_code(*on)),

@@ -83,6 +83,8 @@ pub enum Wanted {
         /// Only where the operator asks for it.
         optional: bool,
     },
+    /// The operator's feed override is locked, or acts again.
+    OverrideLock(bool),
     /// The holes that follow are tapped in step with the spindle.
     RigidTap,
     /// The clamp of an axis, on or off.
@@ -238,6 +240,8 @@ pub enum CycleKind {
     Face,
     /// THRU
     Thru,
+    /// MILL, which the control alone knows
+    Mill,
 }
 
 /// A hole along the tool axis.
@@ -270,8 +274,9 @@ impl Wanted {
                 Wanted::Home
                     | Wanted::Retract
                     | Wanted::Tool { .. }
-                    | Wanted::Dwell(_)
+                    | Wanted::Dwell(..)
                     | Wanted::Stop { .. }
+                    | Wanted::OverrideLock(_)
                     | Wanted::RigidTap
                     | Wanted::Clamp(_)
                     | Wanted::Auxiliary(_)

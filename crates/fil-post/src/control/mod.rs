@@ -90,6 +90,10 @@ pub struct Control {
     pub range: Option<usize>,
     /// The location of the coolant that flows, as COOLNT asked for it.
     pub(crate) coolant: Option<CodeAt>,
+    /// Tool changes that were written.
+    pub(crate) changes: u32,
+    /// The tool that was named last as the next one, since the last change.
+    pub(crate) prepared: Option<i64>,
     /// The compensation the CL file asks for.
     asked: Compensation,
     /// ARCSLP is on: blocks of a helix say how far it rises.
@@ -131,6 +135,8 @@ impl Control {
             turning: None,
             range: None,
             coolant: None,
+            changes: 0,
+            prepared: None,
             asked: Compensation::Off,
             helix_words: false,
             last_arc: 0,

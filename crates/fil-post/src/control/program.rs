@@ -5,6 +5,7 @@
 //! the end code, tape end character.
 
 use fil_diag::Result;
+use fil_machine::commons::Dbl;
 use fil_machine::locations::{self as loc, ControlFamily, TapePartnoText};
 use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::setting::{CharacterAt, CodeAt};
@@ -35,6 +36,8 @@ pub struct ProgramHead {
     pub number: Option<i64>,
     /// Text of PARTNO.
     pub name: String,
+    /// Date and time, where the machine wants them.
+    pub time: Option<String>,
     /// The PARTNO record.
     pub cause: Cause,
     /// The start of the program has been written.
@@ -100,13 +103,15 @@ fn write_start(control: &mut Control) -> Result<()> {
     if control.tables.family == ControlFamily::Klartext {
         return super::klartext::program::start(control, &blocks);
     }
-    leader(control)?;
+    tape_mark(control, loc::TAPE_START_CODE)?;
+    leader(control, loc::TAPE_LEADER)?;
     tape_mark(control, loc::TAPE_START_CHAR)?;
     if control.tables.family == ControlFamily::Sinumerik {
         super::sinumerik::program::head(control)?;
     }
     part_name(control)?;
     program_number(control)?;
+    time_stamp(control)?;
     for block in blocks {
         control.write_text(&block, true)?;
     }
@@ -161,7 +166,10 @@ fn close(control: &mut Control) -> Result<()> {
     if control.tables.family == ControlFamily::Klartext {
         return super::klartext::program::end(control);
     }
-    control.because(Cause::default(), |control| tape_mark(control, loc::TAPE_END_CHAR))
+    control.because(Cause::default(), |control| {
+        tape_mark(control, loc::TAPE_END_CHAR)?;
+        leader(control, loc::TAPE_TRAILER)
+    })
 }
 
 /// Adds the mode codes a control must be in. A machine with start blocks of
@@ -204,6 +212,14 @@ fn program_number(control: &mut Control) -> Result<()> {
     control.because(cause, |control| control.put_line(&line, false)).map(|_| ())
 }
 
+/// Writes date and time as a comment, where the machine wants them.
+fn time_stamp(control: &mut Control) -> Result<()> {
+    let Some(time) = control.head.time.clone() else { return Ok(()) };
+    let open = control.commons.read(loc::MESSAGE_OUT_CHAR).unwrap_or('(');
+    let close = control.commons.read(loc::MESSAGE_IN_CHAR).unwrap_or(')');
+    control.put_line(&format!("{open}{time}{close}"), false).map(|_| ())
+}
+
 /// Writes PARTNO as a comment before the program, where the machine wants it.
 fn part_name(control: &mut Control) -> Result<()> {
     let wanted = control.commons.read(loc::TAPE_PARTNO_TEXT) == TapePartnoText::Yes;
@@ -220,9 +236,9 @@ fn part_name(control: &mut Control) -> Result<()> {
         .map(|_| ())
 }
 
-/// Writes the leader of a tape that is no direct transfer.
-fn leader(control: &mut Control) -> Result<()> {
-    let length = control.commons.dbl_opt(loc::TAPE_LEADER).unwrap_or(0.0) as usize;
+/// Writes the leader or the trailer of a tape that is no direct transfer.
+fn leader(control: &mut Control, length: Dbl) -> Result<()> {
+    let length = control.commons.dbl_opt(length).unwrap_or(0.0) as usize;
     match control.commons.read(loc::TAPE_LEADER_CHAR) {
         Some(mark) if length > 0 && !control.commons.read(loc::TAPE_DNC) => {
             let line = mark.to_string().repeat(length.min(LONGEST_LEADER));

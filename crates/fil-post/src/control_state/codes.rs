@@ -6,7 +6,7 @@ use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::setting::CodeAt;
 use fil_machine::{Commons, FunctionCode};
 
-use super::{Compensation, Distance};
+use super::{Compensation, Distance, Rotation};
 
 /// What a preparatory function does to the state of the control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,8 +42,12 @@ pub enum Meaning {
     Unknown,
 }
 
+/// The usual functions that turn the spindle.
+const CLOCKWISE: FunctionCode = FunctionCode::whole(3);
+const COUNTERCLOCKWISE: FunctionCode = FunctionCode::whole(4);
+
 /// The functions of a machine.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Codes {
     named: Vec<(FunctionCode, Meaning)>,
     /// Feeds are G98 and G99: then G90, G92 and G94 are turning cycles.
@@ -52,6 +56,8 @@ pub struct Codes {
     has_cycle_off: bool,
     /// Auxiliary functions of the spindle ranges.
     ranges: Vec<FunctionCode>,
+    /// Auxiliary functions that turn the spindle.
+    turns: [(FunctionCode, Rotation); 2],
     /// The lowest and the highest code of the work offsets.
     fixtures: Option<(FunctionCode, FunctionCode)>,
     /// The functions are those of a SINUMERIK.
@@ -73,6 +79,13 @@ impl Codes {
                 .iter()
                 .filter_map(|at| commons.read(*at).and_then(FunctionCode::of_setting))
                 .collect(),
+            turns: [
+                (code(loc::SPINDLE_CW_CODE).unwrap_or(CLOCKWISE), Rotation::Clockwise),
+                (
+                    code(loc::SPINDLE_CCW_CODE).unwrap_or(COUNTERCLOCKWISE),
+                    Rotation::Counterclockwise,
+                ),
+            ],
         };
         let codes_are_calls = codes.sinumerik;
         let mut name = |at: CodeAt, meaning: Meaning| {
@@ -97,14 +110,15 @@ impl Codes {
             let code = commons.int_opt(at).and_then(|code| u32::try_from(code).ok());
             code.map(FunctionCode::tenths)
         };
-        let (extended, tap) =
-            (tenths(loc::FIXTURE_EXTENDED_CODE), tenths(loc::CYCLE_RIGID_TAP_CODE));
+        let extended = tenths(loc::FIXTURE_EXTENDED_CODE);
+        let taps = [loc::CYCLE_RIGID_TAP_CODE, loc::CYCLE_RIGID_TAP_LEFT_CODE].map(tenths);
         if !turning {
+            name(loc::MODE_PRESET_CODE, Meaning::Frame);
             name(loc::MODE_ABSOLUTE_CODE, Meaning::Distance(Distance::Absolute));
             name(loc::MODE_INCREMENTAL_CODE, Meaning::Distance(Distance::Incremental));
         }
         codes.named.extend(extended.map(|code| (code, Meaning::Frame)));
-        codes.named.extend(tap.map(|code| (code, Meaning::Cycle)));
+        codes.named.extend(taps.into_iter().flatten().map(|code| (code, Meaning::Cycle)));
         codes
     }
 
@@ -123,6 +137,11 @@ impl Codes {
     /// True for the code of a spindle range.
     pub fn is_spindle_range(&self, code: FunctionCode) -> bool {
         self.ranges.contains(&code)
+    }
+
+    /// How the spindle turns after an auxiliary function; `None` for one that leaves it.
+    pub fn rotation(&self, code: FunctionCode) -> Option<Rotation> {
+        self.turns.iter().find(|(turning, _)| *turning == code).map(|(_, rotation)| *rotation)
     }
 
     /// True when a motion function ends a cycle that no code ends.

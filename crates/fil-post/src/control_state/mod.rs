@@ -38,6 +38,30 @@ pub enum Compensation {
     Right,
 }
 
+/// Which way the spindle turns, as far as a tap depends on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rotation {
+    /// Nothing has said it.
+    Unsaid,
+    /// Clockwise, for right-hand threads.
+    Clockwise,
+    /// Counterclockwise, for left-hand threads.
+    Counterclockwise,
+    /// It turned counterclockwise, and may not any more.
+    InDoubt,
+}
+
+impl Rotation {
+    /// After something that can't be read: texts of a shop are taken not to turn a spindle
+    /// that turns clockwise.
+    fn doubted(self) -> Self {
+        match self {
+            Rotation::Counterclockwise => Rotation::InDoubt,
+            other => other,
+        }
+    }
+}
+
 /// A set of letters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LetterSet(u32);
@@ -117,6 +141,10 @@ pub struct ControlState {
     pub speed_limit: Option<f64>,
     /// The code of the spindle range in force; `None` when it is not known.
     pub range: Option<FunctionCode>,
+    /// How the spindle was last told to turn.
+    pub rotation: Rotation,
+    /// The code of the level that cycles return to; `None` when it is not known.
+    pub return_level: Option<FunctionCode>,
     /// The program has ended: M2, M30.
     pub ended: bool,
     /// Letters whose last output value is not what the control has.
@@ -144,6 +172,8 @@ impl ControlState {
             tool_offset: None,
             speed_limit: None,
             range: None,
+            rotation: Rotation::Unsaid,
+            return_level: None,
             ended: false,
             doubtful: LetterSet::default(),
             before_skip: None,
@@ -199,6 +229,8 @@ impl ControlState {
             tool_offset: None,
             speed_limit: self.speed_limit,
             range: None,
+            rotation: self.rotation.doubted(),
+            return_level: None,
             ended: self.ended,
             doubtful: LetterSet::ALL,
             before_skip: self.before_skip.take(),
@@ -310,7 +342,10 @@ impl ControlState {
                 self.motion = None;
             }
             Meaning::OneBlock => {}
-            Meaning::ReturnLevel => self.doubt(letters::R),
+            Meaning::ReturnLevel => {
+                self.return_level = Some(code);
+                self.doubt(letters::R);
+            }
             Meaning::Turning => {
                 self.motion = None;
                 self.doubt_axes();
@@ -332,6 +367,9 @@ impl ControlState {
             FunctionCode::whole(198),
         ];
         self.ended |= END.contains(&code);
+        if let Some(rotation) = codes.rotation(code) {
+            self.rotation = rotation;
+        }
         if codes.is_spindle_range(code) {
             self.range = Some(code);
         }
@@ -432,6 +470,10 @@ impl ControlState {
         agree(&mut self.tool_offset, &other.tool_offset);
         agree(&mut self.speed_limit, &other.speed_limit);
         agree(&mut self.range, &other.range);
+        agree(&mut self.return_level, &other.return_level);
+        if self.rotation != other.rotation {
+            self.rotation = Rotation::InDoubt;
+        }
         self.compensation_begun &= other.compensation_begun;
         self.doubtful.0 |= other.doubtful.0;
     }

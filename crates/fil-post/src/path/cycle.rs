@@ -5,6 +5,7 @@ use fil_machine::commons::Dbl;
 use fil_machine::locations as loc;
 use fil_machine::setting::CodeAt;
 
+use super::hole;
 use crate::cause::Cause;
 use crate::control::family;
 use crate::operation::{Feed, Lead};
@@ -31,12 +32,23 @@ pub enum CycleKind {
     Face,
     /// Through.
     Thru,
+    /// What the control's own cycle does.
+    Mill,
 }
 
 impl CycleKind {
-    /// Locations of its code and of its usual dwell.
-    pub fn locations(self) -> (CodeAt, Dbl) {
-        match self {
+    /// Location of its code.
+    pub fn code(self) -> CodeAt {
+        self.locations().map_or(loc::CYCLE_MILL_CODE, |(code, _)| code)
+    }
+
+    /// Location of its usual dwell; MILL has none.
+    pub fn dwell(self) -> Option<Dbl> {
+        self.locations().map(|(_, dwell)| dwell)
+    }
+
+    fn locations(self) -> Option<(CodeAt, Dbl)> {
+        Some(match self {
             CycleKind::Drill => (loc::CYCLE_DRILL_CODE, loc::DWELL_CYCLE_DRILL),
             CycleKind::Csink => (loc::CYCLE_CSINK_CODE, loc::DWELL_CYCLE_CSINK),
             CycleKind::Deep => (loc::CYCLE_DEEP_CODE, loc::DWELL_CYCLE_DEEP),
@@ -46,7 +58,8 @@ impl CycleKind {
             CycleKind::Ream => (loc::CYCLE_REAM_CODE, loc::DWELL_CYCLE_REAM),
             CycleKind::Face => (loc::CYCLE_FACE_CODE, loc::DWELL_CYCLE_FACE),
             CycleKind::Thru => (loc::CYCLE_THRU_CODE, loc::DWELL_CYCLE_THRU),
-        }
+            CycleKind::Mill => return None,
+        })
     }
 
     /// True for the cycles that go down in pecks.
@@ -90,6 +103,8 @@ pub struct Cycle {
     pub cause: Cause,
     /// Its words with values.
     pub words: CycleWords,
+    /// The axis that the last hole ran along.
+    pub along: Option<usize>,
     /// What the control has of the last hole, while it is in the cycle.
     pub in_force: Option<Hole>,
 }
@@ -143,7 +158,13 @@ impl Cycle {
 /// The machine has no code that ends the cycle the control is in.
 pub fn replace(post: &mut Post, cycle: Option<Cycle>) -> Result<()> {
     family::cancel_cycle(&mut post.control)?;
-    let initial = post.path.cycle.take().and_then(|old| old.initial);
+    let old = post.path.cycle.take();
+    if let (Some(old), None) = (&old, &cycle)
+        && post.control.commons.read(loc::CYCLE_RETRACT_BLOCK)
+    {
+        hole::retract(post, old)?;
+    }
+    let initial = old.and_then(|old| old.initial);
     post.path.cycle = cycle.map(|cycle| Cycle { initial, ..cycle });
     Ok(())
 }

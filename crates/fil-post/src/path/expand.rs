@@ -10,6 +10,7 @@ use super::rapid;
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family;
+use crate::control::word_address::cycle as words;
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::spindle;
 use crate::errors::PostCode;
@@ -19,12 +20,19 @@ use crate::operation::{Dwell, Feed, Lead, SpindleSpeed};
 /// pecks), dwell, retract.
 ///
 /// # Errors
-/// TAP, which needs a control that couples spindle and feed.
+/// TAP, which needs a control that couples spindle and feed, and MILL, which only the
+/// control knows.
 pub fn hole(control: &mut Control, cycle: &Cycle, at: &Motion, hole: &Hole) -> Result<()> {
     if cycle.kind == CycleKind::Tap {
         return tap(control, cycle, at, hole);
     }
-    let CycleFeed::Feed(feed) = cycle.feed else { return cant_tap() };
+    if cycle.kind == CycleKind::Mill {
+        return PostCode::NoCode.err(
+            "the machine has no code for CYCLE/MILL (cycle.mill_code), and what it does at the \
+             bottom is a matter of the control",
+        );
+    }
+    let CycleFeed::Feed(feed) = cycle.feed else { return cant_tap(control) };
     let across = without(hole.along);
     rapid::rapid(control, &at.of(across), control.block.cause)?;
     control.because(cycle.cause, |control| Moves { control, cycle, hole, feed }.down_and_up())
@@ -36,7 +44,7 @@ pub fn hole(control: &mut Control, cycle: &Cycle, at: &Motion, hole: &Hole) -> R
 /// Any other machine; a spindle that stands or turns at surface speed; a dwell.
 fn tap(control: &mut Control, cycle: &Cycle, at: &Motion, hole: &Hole) -> Result<()> {
     if !control.commons.read(loc::THREAD_TAP) {
-        return cant_tap();
+        return cant_tap(control);
     }
     if cycle.dwell > 0.0 || cycle.rigid {
         return PostCode::CycleForm.err("a tap by threading moves has no dwell and is not rigid");
@@ -76,9 +84,8 @@ fn lead_of(control: &Control, cycle: &Cycle) -> Result<Lead> {
     Ok(Lead { value, cause: feed.cause })
 }
 
-fn cant_tap() -> Result<()> {
-    PostCode::NoCode
-        .err("the machine has no tapping cycle, and a tap can't be written as single moves")
+fn cant_tap(control: &Control) -> Result<()> {
+    PostCode::NoCode.err(words::no_tap(control))
 }
 
 /// All axes but one.

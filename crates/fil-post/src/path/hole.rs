@@ -3,7 +3,9 @@
 
 use fil_diag::Result;
 use fil_machine::axes::{AXES, AxisSet, Position};
-use fil_machine::locations as loc;
+use fil_machine::locations::{
+    self as loc, CycleMultax, CycleMultaxAny, CycleMultaxXy, CycleMultaxYz, CycleMultaxZx,
+};
 
 use super::cycle::{Cycle, Hole};
 use super::{expand, rapid, rotary};
@@ -54,7 +56,9 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
         post.control.tables.axis(hole.along).check(level)?;
     }
     let at = Motion { position, axes: AxisSet::ALL, word };
-    if let Some(code) = family::cycle_code(&post.control, cycle) {
+    let code = family::cycle_code(&post.control, cycle).filter(|_| !as_single_moves(post, target));
+    cycle.along = Some(hole.along);
+    if let Some(code) = code {
         if post.control.state.in_cycle != Some(true)
             && post.control.commons.read(loc::CYCLE_APPROACH_BLOCK)
         {
@@ -68,6 +72,43 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
         expand::hole(&mut post.control, cycle, &at, &hole)?;
     }
     words::stands_at(&mut post.control, hole.along, hole.rest())
+}
+
+/// The machine wants single moves for a hole of this direction while MULTAX is on
+/// (INTCOM 4594 to 4598).
+fn as_single_moves(post: &Post, target: Target) -> bool {
+    let commons = &post.control.commons;
+    if post.path.multax != Some(true) || commons.read(loc::CYCLE_MULTAX) != CycleMultax::ByPlane {
+        return false;
+    }
+    let axis = target.axis.normalize();
+    let lies_along = |number: usize| 1.0 - axis[number].abs() < SAME;
+    if lies_along(2) {
+        commons.read(loc::CYCLE_MULTAX_XY) == CycleMultaxXy::SingleMoves
+    } else if lies_along(1) {
+        commons.read(loc::CYCLE_MULTAX_ZX) == CycleMultaxZx::SingleMoves
+    } else if lies_along(0) {
+        commons.read(loc::CYCLE_MULTAX_YZ) == CycleMultaxYz::SingleMoves
+    } else {
+        commons.read(loc::CYCLE_MULTAX_ANY) == CycleMultaxAny::SingleMoves
+    }
+}
+
+/// Goes away from the last hole of a cycle that has ended, to the level before the cycle.
+///
+/// # Errors
+/// As a rapid motion.
+pub fn retract(post: &mut Post, ended: &Cycle) -> Result<()> {
+    let (Some(along), Some(level)) = (ended.along, ended.initial) else { return Ok(()) };
+    let here = post.control.axis_position(along);
+    if here.is_none_or(|here| (here - level).abs() <= SAME_LEVEL) {
+        return Ok(());
+    }
+    let mut position = Position::default();
+    position[along] = level;
+    let motion = Motion { position, axes: AxisSet::of(along), word: 0 };
+    let cause = post.control.block.cause;
+    rapid::rapid(&mut post.control, &motion, cause)
 }
 
 /// Where the hole lies: the position above it, and its levels along the axis that it
@@ -118,6 +159,11 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, start: f64) -> Res
         let motion = Motion { position, axes: AxisSet::of(hole.along), word: 0 };
         let cause = cycle.cause;
         post.control.because(cause, |control| rapid::rapid(control, &motion, cause))?;
+    }
+    if cycle.retract.is_some_and(|retract| retract > 0.0) && above(level, wanted) > SAME_LEVEL {
+        let message = "CYCLE: the level to return to is below the level before the cycle; the tool \
+                       returns to the level before the cycle";
+        post.warn(PostCode::IgnoredPart, message.to_string());
     }
     cycle.initial = Some(level).filter(|_| below || initial.is_some());
     hole.initial = level;

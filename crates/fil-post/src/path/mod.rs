@@ -20,7 +20,7 @@ pub mod rotary;
 pub(crate) mod sense;
 pub mod thread;
 mod tip;
-mod tool_change;
+pub mod tool_change;
 mod transformation;
 mod turning_feed;
 
@@ -31,7 +31,7 @@ use nalgebra::{Point3, Vector3};
 use crate::cause::Cause;
 use crate::control::family;
 use crate::control::word_address::motion;
-use crate::operation::{Arc, Feed, Lead, Operation};
+use crate::operation::{Arc, Feed, Lead, NextTools, Operation};
 use crate::post::Post;
 
 pub use cycle::Cycle;
@@ -76,6 +76,8 @@ pub struct Path {
     pub transformation: Option<Transformation>,
     /// Diameter of the cutter, mm or inch.
     pub cutter: Option<f64>,
+    /// The tool changes behind the next one, where whoever drives the post has looked.
+    pub next_tools: NextTools,
     /// How the last feed motion ended, to judge the sense of arcs.
     pub(crate) course: sense::Course,
     /// Whoever chose the dialect has said which way arcs turn.
@@ -102,6 +104,7 @@ impl Default for Path {
             awaited_thread: None,
             transformation: None,
             cutter: None,
+            next_tools: NextTools::default(),
             course: sense::Course::default(),
             sense_is_chosen: false,
         }

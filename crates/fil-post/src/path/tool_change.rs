@@ -1,8 +1,11 @@
-//! A tool change with the way to the machine's change position.
+//! A tool change with what is around it: the user's blocks, the way to the machine's
+//! change position, the preparation of the next tool.
 
 use fil_diag::Result;
+use fil_machine::Commons;
 use fil_machine::axes::{AxisSet, Position};
 use fil_machine::locations::{self as loc, ToolChangeBlock};
+use fil_machine::user_blocks::{self, AroundChange, UserBlocks};
 
 use super::rapid;
 use crate::cause::Cause;
@@ -10,20 +13,75 @@ use crate::control::Control;
 use crate::control::family;
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::tool;
-use crate::operation::ToolChange;
+use crate::errors::PostCode;
+use crate::operation::{NextTools, Operation, ToolChange};
 
-/// Goes to the change position and changes the tool.
+/// True for a machine whose tool changes depend on those behind them.
+pub fn looks_ahead(commons: &Commons) -> bool {
+    let last = user_blocks::LAST_CHANGE;
+    commons.read(loc::TOOL_PRESELECT) || last.before.is_on(commons) || last.after.is_on(commons)
+}
+
+/// Goes to the change position and changes the tool, between the user's blocks; then
+/// prepares the next tool.
 ///
 /// # Errors
-/// As [`tool::prepare`], [`family::change_tool`] and a rapid motion.
+/// As [`tool::prepare`], [`family::change_tool`] and a rapid motion; a block of the user
+/// that the tape refuses.
 pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     if !tool::prepare(control, &wanted)? {
         return Ok(());
     }
     control.tape.align();
+    let around = around(control, &wanted);
+    control.changes += 1;
+    control.prepared = None;
     let cause = wanted.causes[0].whole();
+    write_blocks(control, around[0])?;
     control.because(cause, |control| go_to_change_position(control, cause))?;
-    family::change_tool(control, wanted)
+    family::change_tool(control, wanted)?;
+    write_blocks(control, around[1])?;
+    match wanted.next {
+        NextTools::Some { other: Some(next) } if control.commons.read(loc::TOOL_PRESELECT) => {
+            family::write(control, Operation::SelectTool(next))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The lists of blocks before and after this change: the first, one between or the last.
+fn around(control: &mut Control, wanted: &ToolChange) -> [UserBlocks; 2] {
+    let last = user_blocks::LAST_CHANGE;
+    let has_last = last.before.is_on(&control.commons) || last.after.is_on(&control.commons);
+    if has_last && control.changes > 0 && wanted.next == NextTools::Unknown {
+        let message = "the blocks of the last tool change: whether a tool change is the last one \
+                       can't be seen in a CL file that can't be read ahead";
+        control.warnings.add(PostCode::IgnoredPart, message.to_string());
+    }
+    let is_last = match wanted.next {
+        NextTools::None => true,
+        NextTools::Some { other } => control.commons.read(loc::TOOL_MODAL) && other.is_none(),
+        NextTools::Unknown => false,
+    };
+    let own = match (control.changes, is_last) {
+        (0, _) => user_blocks::FIRST_CHANGE,
+        (_, true) => last,
+        (_, false) => user_blocks::OTHER_CHANGE,
+    };
+    let AroundChange { before, after } = user_blocks::OTHER_CHANGE;
+    [(own.before, before), (own.after, after)]
+        .map(|(own, other)| if own.is_on(&control.commons) { own } else { other })
+}
+
+/// Writes the blocks of a list; an empty one stands for no block.
+fn write_blocks(control: &mut Control, list: UserBlocks) -> Result<()> {
+    if !list.is_on(&control.commons) {
+        return Ok(());
+    }
+    let blocks = list.read(&control.commons);
+    blocks.iter().filter(|block| !block.is_empty()).try_for_each(|block| {
+        control.because(Cause::default(), |control| control.write_text(block, true))
+    })
 }
 
 /// Goes to the machine's change position before the change (INTCOM 1872,

@@ -31,6 +31,7 @@ const KINDS: &[(WordId, CycleKind)] = &[
     (w::REAM, CycleKind::Ream),
     (w::FACE, CycleKind::Face),
     (w::THRU, CycleKind::Thru),
+    (w::MILL, CycleKind::Mill),
 ];
 
 /// Takes the cycle, or ends it.
@@ -73,7 +74,7 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
         return PostCode::CycleForm.err("DWELL and RETURN must not be negative");
     }
     let feed = feed(post, items, kind)?;
-    let usual_dwell = post.control.commons.dbl_opt(kind.locations().1);
+    let usual_dwell = kind.dwell().and_then(|at| post.control.commons.dbl_opt(at));
     Ok(Cycle {
         kind,
         depth,
@@ -86,6 +87,7 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
         initial: None,
         cause: post.control.block.cause.whole(),
         words,
+        along: None,
         in_force: None,
     })
 }

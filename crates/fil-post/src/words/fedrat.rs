@@ -1,16 +1,17 @@
 //! FEDRAT/f,unit: the feed of the motions to come; value and unit in either order.
 //! FEDRAT/INVERS,AUTO|OFF: whether they say the feed or how long they take.
+//! FEDRAT/LOCK,ON|OFF: whether the operator may override it.
 
 use fil_cl::WordId;
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
-use fil_machine::locations as loc;
 use fil_machine::modes::{FeedMode, INCH, Unit};
+use fil_machine::{letters, locations as loc};
 
 use crate::errors::PostCode;
 use crate::items::Items;
-use crate::operation::Feed;
-use crate::path::thread;
+use crate::operation::{Feed, Operation};
+use crate::path::{carry_out, thread};
 use crate::post::Post;
 
 /// Units of a feed.
@@ -30,6 +31,12 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
             return Ok(());
         }
     }
+    if items.flag(w::LOCK) {
+        lock_override(post, items)?;
+        if items.all_taken() {
+            return Ok(());
+        }
+    }
     let unit = items.any_of(UNITS);
     let value = items.required("the feed")?;
     post.due_to(items);
@@ -41,6 +48,17 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     post.path.feed = Some(within_limits(post, feed));
     thread::end(post)?;
     Ok(())
+}
+
+/// LOCK,ON takes the feed override from the operator, LOCK,OFF gives it back.
+fn lock_override(post: &mut Post, items: &mut Items) -> Result<()> {
+    let (at, what) = match items.any_of(&[w::ON, w::OFF]) {
+        Some(w::ON) => (loc::OVERRIDE_OFF_CODE, "FEDRAT/LOCK,ON"),
+        Some(_) => (loc::OVERRIDE_ON_CODE, "FEDRAT/LOCK,OFF"),
+        None => return Err(items.error("LOCK needs ON or OFF")),
+    };
+    let code = post.control.code(at, what)?;
+    carry_out(post, Operation::Function(letters::M, code))
 }
 
 /// INVERS,AUTO makes the feed motions to come say how long they take; INVERS,OFF ends it.

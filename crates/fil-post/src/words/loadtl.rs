@@ -36,7 +36,9 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     thread::end(post)?;
     post.path.interrupt();
     let causes = [cause, offset_cause];
-    carry_out(post, Operation::ToolChange(ToolChange { tool, offset, offset_given, causes }))
+    let next = std::mem::take(&mut post.path.next_tools);
+    let change = ToolChange { tool, offset, offset_given, next, causes };
+    carry_out(post, Operation::ToolChange(change))
 }
 
 /// LENGTH is the tool's length in the CAM system. The control measures its tools

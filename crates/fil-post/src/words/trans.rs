@@ -2,11 +2,13 @@
 //!
 //! `TRANS/x,y,z` is a translation (DBLCOM 286–288). Twelve numbers are the rows
 //! of a 3x4 matrix: X' = X*a1 + Y*b1 + Z*c1 + d1, and so on. With OPTION,10 it acts
-//! on points only; without OPTION on points and tool axis. `TRANS/NOMORE` ends both.
+//! on points only; without OPTION on points and tool axis, unless the machine says
+//! otherwise (INTCOM 2093). `TRANS/NOMORE` ends both.
 
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
-use fil_machine::{Kind, locations as loc};
+use fil_machine::Kind;
+use fil_machine::locations::{self as loc, InputKind};
 use nalgebra::Matrix3x4;
 
 use crate::errors::PostCode;
@@ -46,9 +48,10 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     if numbers.len() != 12 {
         return Err(items.error(format!("3 or 12 numbers are needed, not {}", numbers.len())));
     }
+    let kind = post.control.commons.read(loc::INPUT_KIND);
     post.path.transformation = Some(Transformation {
         matrix: Matrix3x4::from_row_slice(&numbers),
-        turns_axis: option.is_none(),
+        turns_axis: option.is_none() && kind != InputKind::MatrixOnPoints,
     });
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! The JSON schema of `machine.toml`.
 
 use filpost::locations::{Location, TABLE, ValueUnit};
+use filpost::user_blocks;
 use serde_json::{Map, Value, json};
 
 /// The JSON schema of `machine.toml`, from the table of locations.
@@ -17,11 +18,15 @@ pub fn schema() -> Value {
         properties.insert(about.into(), text.clone());
     }
     let blocks = json!({"type": "array", "items": text, "maxItems": 10});
-    inner(&mut properties, "blocks").insert("start".into(), blocks.clone());
-    inner(&mut properties, "blocks").insert("end".into(), blocks);
+    for (name, _) in user_blocks::LISTS {
+        if let Some((group, key)) = name.split_once('.') {
+            inner(&mut properties, group).insert(key.into(), blocks.clone());
+        }
+    }
     properties.insert("address".into(), addresses());
     for kind in ["int", "rel", "dbl"] {
         let numbers = json!({"type": "object", "patternProperties": {"^[0-9]+$": number()}});
+        inner(&mut properties, "imported").insert(kind.into(), numbers.clone());
         properties.insert(kind.into(), numbers);
     }
     json!({

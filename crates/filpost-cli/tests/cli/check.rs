@@ -26,12 +26,13 @@ fn fil_is_checked_without_cl() {
 #[test]
 fn settings_are_checked_with_the_machine() {
     let fil = "DMY=POSTF(2,1,1870,9)\nDMY=POSTF(2,1,1868,1)\nDMY=POSTF(2,1,1868,71)\nFINI\n";
-    let place = Folder::new().with("post.fil", fil).with("machine.toml", "list.pages = true\n");
+    let place =
+        Folder::new().with("post.fil", fil).with("machine.toml", "tape.partno_punched = true\n");
     let alone = place.run(&["check", "post.fil"]);
     assert!(alone.status == 0 && !alone.err.contains("W0651"), "{}", alone.err);
     let with = place.run(&["check", "post.fil", "-m", "machine.toml"]);
     assert_eq!(with.status, 1, "{}", with.err);
-    for said in ["E0605", "post.fil:1:5", "post.fil:2:5", "list.pages", "machine.toml:1"] {
+    for said in ["E0605", "post.fil:1:5", "post.fil:2:5", "tape.partno_punched", "machine.toml:1"] {
         assert!(with.err.contains(said), "{said}: {}", with.err);
     }
     assert_eq!(with.err.matches("program.merging").count(), 1, "{}", with.err);

@@ -23,7 +23,7 @@ fn an_option_file_becomes_a_machine() {
 #[test]
 fn all_that_is_wrong_with_a_machine_is_said_at_once() {
     let toml = "rapid.spilt = 1\nint.1870 = 9\n[address]\nX = { slot = 0 }\n";
-    let option_file = "UNCX01.P07\nMILL\nINTCOM:\n470\n12000 1\n0 0\nRELCOM:\n0 0\n";
+    let option_file = "UNCX01.P07\nMILL\nINTCOM:\n470\n20000 1\n0 0\nRELCOM:\n0 0\n";
     let place = Folder::new()
         .with("machine.toml", toml)
         .with("uncx01.p07", option_file)
@@ -104,7 +104,8 @@ fn texts_of_two_machines_are_compared_as_texts() {
 
 #[test]
 fn a_machine_says_what_it_sets() {
-    let toml = "base = 'grbl'\nseqno.increment = 5\nlist.pages = true\nblocks.end = ['M5']\n";
+    let toml =
+        "base = 'grbl'\nseqno.increment = 5\ntape.partno_punched = true\nblocks.end = ['M5']\n";
     let place = Folder::new().with("machine.toml", toml);
     let ran = place.run(&["machine", "show", "-m", "machine.toml"]);
     for line in [
@@ -112,7 +113,7 @@ fn a_machine_says_what_it_sets() {
         "blocks.end                   [\"M5\"]\n",
         "tape.start_char ",
         "set, and without effect: ",
-        "list.pages",
+        "tape.partno_punched",
     ] {
         assert!(ran.out.contains(line), "{line}: {}", ran.out);
     }

@@ -147,6 +147,16 @@ fn the_listing_shows_records_and_blocks() {
 }
 
 #[test]
+fn the_time_stamp_is_the_moment_that_is_granted() {
+    let place = Folder::new().with("part.ncl", SMALL);
+    let stamped = ["post", "part.ncl", "--set", "program.time_stamp=1"];
+    let refused = place.run(&stamped);
+    assert!(refused.status == 1 && refused.err.contains("E0322"), "{refused:?}");
+    let ran = place.run(&[&stamped[..], &["--set-clock", "2026-01-31T12:05:09"]].concat());
+    assert_eq!(ran.out, NC.replace("(7)\n", "(7)\n(2026-01-31 12:05:09)\n"));
+}
+
+#[test]
 fn a_message_goes_to_the_tape_or_to_the_listing() {
     let fil = "CIMFIL/ON,SPINDL\nPPRINT/'ON TAPE'\nDMY=POSTF(2,1,484,0)\nPPRINT/'  IN LISTING'\n\
                DMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";

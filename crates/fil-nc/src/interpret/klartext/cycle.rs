@@ -149,7 +149,7 @@ impl Klartext<'_> {
         let text = last.text.strip_prefix("DWELL").unwrap_or(&last.text);
         let seconds: f64 = text.parse().map_err(|_| last.no_meaning())?;
         let line = self.state.line;
-        self.state.events.push(Event::Dwell { line, seconds: Some(seconds) });
+        self.state.events.push(Event::Dwell { line, seconds: Some(seconds), turns: None });
         Ok(())
     }
 
@@ -171,7 +171,7 @@ impl Klartext<'_> {
         self.drill(&hole);
         if hole.dwell > 0.0 {
             let line = self.state.line;
-            self.state.events.push(Event::Dwell { line, seconds: Some(hole.dwell) });
+            self.state.events.push(Event::Dwell { line, seconds: Some(hole.dwell), turns: None });
         }
         let turning = self.state.modes.spindle;
         match hole.kind {

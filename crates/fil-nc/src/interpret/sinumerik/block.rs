@@ -338,7 +338,7 @@ impl Sinumerik<'_> {
             }
         };
         let line = self.state.line;
-        self.state.events.push(Event::Dwell { line, seconds });
+        self.state.events.push(Event::Dwell { line, seconds, turns: None });
         Ok(())
     }
 }

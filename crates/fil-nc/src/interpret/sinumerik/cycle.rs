@@ -157,10 +157,10 @@ impl Sinumerik<'_> {
         let line = self.state.line;
         match dwell {
             Some(time) if time > 0.0 => {
-                self.state.events.push(Event::Dwell { line, seconds: Some(time) });
+                self.state.events.push(Event::Dwell { line, seconds: Some(time), turns: None });
             }
             Some(turns) if turns < 0.0 => {
-                self.state.events.push(Event::Dwell { line, seconds: None });
+                self.state.events.push(Event::Dwell { line, seconds: None, turns: None });
             }
             _ => {}
         }

@@ -49,7 +49,7 @@ const MEASURES: [WordId; 6] = [w::FEDRAT, w::CYCLE, w::THREAD, w::OP, w::LINTOL,
 /// Statements that write words of the user's own.
 const OWN_WORDS: [WordId; 2] = [w::POSTN, w::REPEAT];
 
-const CYCLES: [(WordId, CycleKind); 10] = [
+const CYCLES: [(WordId, CycleKind); 11] = [
     (w::BRKCHP, CycleKind::Brkchp),
     (w::DEEP, CycleKind::Deep),
     (w::DEEP2, CycleKind::Deep),
@@ -60,6 +60,7 @@ const CYCLES: [(WordId, CycleKind); 10] = [
     (w::REAM, CycleKind::Ream),
     (w::FACE, CycleKind::Face),
     (w::THRU, CycleKind::Thru),
+    (w::MILL, CycleKind::Mill),
 ];
 
 /// A cycle that is on; lengths in CL units.
@@ -102,6 +103,10 @@ struct State {
     cycle: Option<Cycle>,
     matrix: Option<Matrix>,
     shift: Vector3<f64>,
+    /// The machine's shift along its tool axis, which no TRANS ends.
+    along: Vector3<f64>,
+    /// A matrix without OPTION leaves the tool axis alone.
+    leaves_axis: bool,
     /// LINTOL, mm.
     straight: Option<f64>,
 }
@@ -146,6 +151,8 @@ impl<'r> ClPath<'r> {
                 cycle: None,
                 matrix: None,
                 shift: Vector3::from(shift),
+                along: Vector3::zeros(),
+                leaves_axis: false,
                 straight: None,
             },
             ready: VecDeque::new(),
@@ -159,6 +166,14 @@ impl<'r> ClPath<'r> {
     /// OPSKIP/ON and OPSKIP/OFF only what holds on is asked for.
     pub fn leaving_out(mut self, leaves_out: bool) -> Self {
         self.leaves_out = leaves_out;
+        self
+    }
+
+    /// What the machine does with the input besides: a shift along its tool axis, and
+    /// whether a matrix without OPTION leaves the tool axis alone.
+    pub fn on_machine(mut self, along: [f64; 3], leaves_axis: bool) -> Self {
+        self.state.along = Vector3::from(along);
+        self.state.leaves_axis = leaves_axis;
         self
     }
 
@@ -313,6 +328,9 @@ impl State {
             }
             // Inverse time says the same feed in another way.
             w::FEDRAT if record.has(w::INVERS) && numbers(record).is_empty() => Vec::new(),
+            w::FEDRAT if record.has(w::LOCK) && numbers(record).is_empty() => {
+                vec![Wanted::OverrideLock(record.has(w::ON))]
+            }
             w::CUTTER => {
                 let cutter = numbers(record).first().map(|diameter| diameter * self.unit());
                 cutter.map(Wanted::Cutter).into_iter().collect()
@@ -431,7 +449,8 @@ impl State {
             [x, y, z] => self.shift = Vector3::new(x, y, z),
             _ if values.len() == 12 => {
                 let rows = Matrix3x4::from_row_slice(&values);
-                self.matrix = Some(Matrix { rows, turns_axis: option.is_none() });
+                self.matrix =
+                    Some(Matrix { rows, turns_axis: option.is_none() && !self.leaves_axis });
             }
             _ => return vec![Wanted::Unknown { what: "TRANS".to_string(), effect: Effect::Path }],
         }

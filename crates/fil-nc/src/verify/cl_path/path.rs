@@ -135,7 +135,7 @@ impl State {
             None => (point, axis),
         };
         let axis = axis.try_normalize(1e-9).unwrap_or(axis);
-        Pose { tip: Point3::from((point.coords + self.shift) * self.unit()), axis }
+        Pose { tip: Point3::from((point.coords + self.shift + self.along) * self.unit()), axis }
     }
 }
 

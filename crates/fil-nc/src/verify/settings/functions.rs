@@ -178,6 +178,12 @@ impl Settings<'_> {
         self.commons.read(at).map(number)
     }
 
+    /// The code that locks the operator's feed override, or lets it act.
+    pub fn override_lock(&self, on: bool) -> Option<u32> {
+        let at = if on { loc::OVERRIDE_OFF_CODE } else { loc::OVERRIDE_ON_CODE };
+        self.commons.read(at).map(number)
+    }
+
     /// The code that brings the control into the mode of rigid taps.
     pub fn rigid_tap_mode(&self) -> Option<u32> {
         self.commons.read(loc::CYCLE_RIGID_TAP_MODE).map(number)

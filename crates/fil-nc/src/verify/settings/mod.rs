@@ -9,10 +9,11 @@ use fil_machine::address::Addresses;
 use fil_machine::commons::{Commons, Dbl, Int};
 use fil_machine::letter::{Letter, letters};
 use fil_machine::locations::{
-    self as loc, CircleCenter, ControlFamily, Placement, RapidSplit, ToolChangeBlock, ToolFormat,
+    self as loc, CircleCenter, ControlFamily, InputKind, Placement, RapidSplit, ToolChangeBlock,
+    ToolFormat,
 };
 use fil_machine::setting::CodeAt;
-use fil_machine::user_blocks;
+use fil_machine::user_blocks::{self, AroundChange};
 
 use super::wanted::CycleKind;
 use crate::dialect::Dialect;
@@ -73,6 +74,8 @@ pub struct Slack {
     pub surface: f64,
     /// Dwell, seconds.
     pub dwell: f64,
+    /// Deviation allowed of a dwell, turns of the spindle.
+    pub turns: f64,
 }
 
 /// The machine as the back-check sees it.
@@ -100,6 +103,20 @@ impl<'c> Settings<'c> {
     /// Translation of the input, CL units.
     pub fn input_shift(&self) -> [f64; 3] {
         loc::INPUT_TRANSLATE.map(|at| self.commons.dbl_opt(at).unwrap_or(0.0))
+    }
+
+    /// Shift of the input along the tool axis of a machine that turns nothing, CL units.
+    pub fn shift_along(&self) -> [f64; 3] {
+        let along = self.commons.dbl_opt(loc::INPUT_ALONG_TOOL_AXIS).unwrap_or(0.0);
+        let axis = [loc::TOOL_AXIS_I, loc::TOOL_AXIS_J, loc::TOOL_AXIS_K]
+            .map(|at| self.commons.dbl_opt(at).unwrap_or(0.0));
+        let length = axis.iter().map(|part| part * part).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
+        axis.map(|part| part / length * along)
+    }
+
+    /// True when a matrix of TRANS leaves the tool axis alone.
+    pub fn matrix_leaves_axis(&self) -> bool {
+        self.commons.read(loc::INPUT_KIND) == InputKind::MatrixOnPoints
     }
 
     /// The last digits of the addresses in a program in mm or inch.
@@ -144,7 +161,8 @@ impl<'c> Settings<'c> {
             inverse: half_of_feed(loc::FEED_INVERSE_FORMAT) / self.inverse_factor() + DUST,
             speed: half(letters::S) + DUST,
             surface: half(letters::S) * if metric { 1.0 } else { FOOT } + DUST,
-            dwell: self.dwell_slack(half),
+            dwell: self.dwell_slack(half, loc::DWELL_UPM_FORMAT, loc::DWELL_UPM_FACTOR),
+            turns: self.dwell_slack(half, loc::DWELL_UPR_FORMAT, loc::DWELL_UPR_FACTOR),
         }
     }
 
@@ -167,14 +185,20 @@ impl<'c> Settings<'c> {
         self.scale(0)
     }
 
-    fn dwell_slack(&self, half: impl Fn(Letter) -> f64) -> f64 {
+    fn dwell_slack(&self, half: impl Fn(Letter) -> f64, format: Int, factor: Dbl) -> f64 {
         if self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext {
             // Klartext has no letter for it: seconds in thousandths.
             return KLARTEXT_DWELL + DUST;
         }
-        let factor = self.commons.dbl_opt(loc::DWELL_UPM_FACTOR).filter(|factor| *factor > 0.0);
+        let factor = self.commons.dbl_opt(factor).filter(|factor| *factor > 0.0);
         let letter = self.commons.read(loc::DWELL_ADDRESS).unwrap_or(Letter::of(b'P'));
-        half(letter) / factor.unwrap_or(1.0) + DUST
+        let own = self.commons.int_opt(format).filter(|digits| *digits > 0);
+        let coarse = own.map_or(0.0, |digits| {
+            // The last digit of each half of the format says its decimals; the fewer count.
+            let decimals = (digits / 100 % 10).min(digits % 10);
+            0.5 * 10f64.powi(-decimals)
+        });
+        half(letter).max(coarse) / factor.unwrap_or(1.0) + DUST
     }
 
     /// Control's feed unit in a unit of length a minute.
@@ -196,6 +220,34 @@ impl<'c> Settings<'c> {
         let mut blocks = user_blocks::START.read(self.commons);
         blocks.extend(user_blocks::END.read(self.commons));
         blocks
+    }
+
+    /// The blocks that may stand around tool changes.
+    pub fn blocks_around_changes(&self) -> Vec<String> {
+        let kinds =
+            [user_blocks::FIRST_CHANGE, user_blocks::OTHER_CHANGE, user_blocks::LAST_CHANGE];
+        kinds.into_iter().flat_map(|kind| self.blocks_of(kind)).collect()
+    }
+
+    /// The blocks that so many tool changes ask for.
+    pub fn blocks_of_changes(&self, changes: usize) -> Vec<String> {
+        let kind = |at: usize| match at {
+            0 => user_blocks::FIRST_CHANGE,
+            at if at + 1 == changes => user_blocks::LAST_CHANGE,
+            _ => user_blocks::OTHER_CHANGE,
+        };
+        (0..changes).flat_map(|at| self.blocks_of(kind(at))).collect()
+    }
+
+    /// The blocks of one kind of tool change; where it has none, those of the others.
+    fn blocks_of(&self, kind: AroundChange) -> Vec<String> {
+        let AroundChange { before, after } = user_blocks::OTHER_CHANGE;
+        let lists = [(kind.before, before), (kind.after, after)];
+        let lists = lists.into_iter().map(|(own, other)| {
+            let own = own.read(self.commons);
+            if own.is_empty() { other.read(self.commons) } else { own }
+        });
+        lists.flatten().filter(|block| !block.is_empty()).collect()
     }
 
     /// True when the tool's number is that of its diameter offset.
@@ -297,7 +349,12 @@ impl<'c> Settings<'c> {
 
     /// Dwell of a cycle when the record gives none, seconds.
     pub fn cycle_dwell(&self, kind: CycleKind) -> f64 {
-        self.commons.dbl_opt(of_kind(kind).1).unwrap_or(0.0)
+        of_kind(kind).1.and_then(|at| self.commons.dbl_opt(at)).unwrap_or(0.0)
+    }
+
+    /// A cycle is followed by a way back to the level before it.
+    pub fn retracts_after_cycles(&self) -> bool {
+        self.commons.read(loc::CYCLE_RETRACT_BLOCK)
     }
 
     /// Pecks of a cycle count from the surface of the hole and not from the R level.
@@ -322,6 +379,13 @@ impl<'c> Settings<'c> {
     /// G code of a cycle; `None` when holes are single moves.
     pub fn cycle_code(&self, kind: CycleKind) -> Option<i32> {
         self.commons.read(of_kind(kind).0)
+    }
+
+    /// A dwell within the machine's range, turns of the spindle.
+    pub fn turns_within(&self, turns: f64) -> f64 {
+        let low = self.commons.dbl_opt(loc::DWELL_UPR_MIN).unwrap_or(0.0);
+        let high = self.commons.dbl_opt(loc::DWELL_UPR_MAX).filter(|max| *max > 0.0);
+        turns.max(low).min(high.unwrap_or(f64::MAX))
     }
 
     /// A dwell within the machine's range, seconds.
@@ -365,8 +429,9 @@ fn due(placement: Placement) -> Due {
 }
 
 /// Locations of a cycle's G code and of its usual dwell.
-fn of_kind(kind: CycleKind) -> (CodeAt, Dbl) {
-    match kind {
+fn of_kind(kind: CycleKind) -> (CodeAt, Option<Dbl>) {
+    let (code, dwell) = match kind {
+        CycleKind::Mill => return (loc::CYCLE_MILL_CODE, None),
         CycleKind::Drill => (loc::CYCLE_DRILL_CODE, loc::DWELL_CYCLE_DRILL),
         CycleKind::Csink => (loc::CYCLE_CSINK_CODE, loc::DWELL_CYCLE_CSINK),
         CycleKind::Deep => (loc::CYCLE_DEEP_CODE, loc::DWELL_CYCLE_DEEP),
@@ -376,5 +441,6 @@ fn of_kind(kind: CycleKind) -> (CodeAt, Dbl) {
         CycleKind::Ream => (loc::CYCLE_REAM_CODE, loc::DWELL_CYCLE_REAM),
         CycleKind::Face => (loc::CYCLE_FACE_CODE, loc::DWELL_CYCLE_FACE),
         CycleKind::Thru => (loc::CYCLE_THRU_CODE, loc::DWELL_CYCLE_THRU),
-    }
+    };
+    (code, Some(dwell))
 }

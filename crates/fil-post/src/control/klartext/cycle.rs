@@ -36,7 +36,7 @@ const CYCLES: [(u16, &str); 5] = [
 /// The number of the cycle that the settings name for a kind; `None` where they name
 /// none, and in a program in inches, where what its feeds count is not certain.
 pub fn code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
-    control.code_if_any(cycle.kind.locations().0).filter(|_| control.is_metric())
+    control.code_if_any(cycle.kind.code()).filter(|_| control.is_metric())
 }
 
 /// Writes the definition of the cycle unless the control has it, and the line of the

@@ -36,7 +36,7 @@ const SECONDS: usize = 3;
 /// The number of the cycle that the settings name for a kind; `None` where they name
 /// none, so that it is written as single moves.
 pub fn code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
-    let code = control.code_if_any(cycle.kind.locations().0)?;
+    let code = control.code_if_any(cycle.kind.code())?;
     let dwells = cycle.dwell > 0.0 && code == FunctionCode::whole(DRILL);
     Some(if dwells { FunctionCode::whole(WITH_DWELL) } else { code })
 }

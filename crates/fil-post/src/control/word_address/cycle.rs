@@ -14,6 +14,7 @@ use fil_machine::rounding::Rounding;
 use super::motion::{self, Motion};
 use super::{dwell, modes};
 use crate::control::{Control, sinumerik};
+use crate::control_state::Rotation;
 use crate::errors::PostCode;
 use crate::operation::{Feed, SpindleSpeed};
 use crate::path::cycle::{Cycle, CycleFeed, CycleKind, Hole};
@@ -24,11 +25,10 @@ use crate::path::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 /// A dwell is lost in a cycle that takes none: G81, G73, G83 and G85 do not. Drilling
 /// with a dwell is countersinking (G82).
 pub fn code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
-    let rigid = control.commons.int_opt(loc::CYCLE_RIGID_TAP_CODE).filter(|_| cycle.rigid);
-    if let Some(tenths) = rigid.and_then(|tenths| u32::try_from(tenths).ok()) {
-        return Some(FunctionCode::tenths(tenths));
+    if cycle.kind == CycleKind::Tap {
+        return tap_code(control, cycle);
     }
-    let code = control.code_if_any(cycle.kind.locations().0)?;
+    let code = control.code_if_any(cycle.kind.code())?;
     if cycle.dwell == 0.0 || !WITHOUT_DWELL.contains(&code) {
         return Some(code);
     }
@@ -38,6 +38,37 @@ pub fn code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
     );
     let with_dwell = control.code_if_any(loc::CYCLE_CSINK_CODE).filter(|_| straight);
     with_dwell.filter(|code| !WITHOUT_DWELL.contains(code))
+}
+
+/// The code of a tap for the way the spindle turns, which the tape has said.
+fn tap_code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
+    let (code, rigid) = match control.state.rotation {
+        Rotation::Unsaid | Rotation::Clockwise => (loc::CYCLE_TAP_CODE, loc::CYCLE_RIGID_TAP_CODE),
+        Rotation::Counterclockwise => (loc::CYCLE_TAP_LEFT_CODE, loc::CYCLE_RIGID_TAP_LEFT_CODE),
+        Rotation::InDoubt => return None,
+    };
+    let usual = control.code_if_any(loc::CYCLE_TAP_CODE);
+    let tenths = |at| control.commons.int_opt(at).and_then(|tenths| u32::try_from(tenths).ok());
+    if cycle.rigid && tenths(loc::CYCLE_RIGID_TAP_CODE).is_some() {
+        return tenths(rigid).map(FunctionCode::tenths);
+    }
+    // A machine without a tapping cycle has none for left-hand threads either.
+    usual.and(control.code_if_any(code))
+}
+
+/// Why the machine has no code for a tap that turns as the spindle does.
+pub fn no_tap(control: &Control) -> &'static str {
+    match control.state.rotation {
+        Rotation::Counterclockwise if control.code_if_any(loc::CYCLE_TAP_CODE).is_some() => {
+            "the spindle turns counterclockwise, and the machine has no cycle for left-hand \
+             threads (cycle.tap_left_code, cycle.rigid_tap_left_code)"
+        }
+        Rotation::InDoubt => {
+            "a text that can't be read, or a block that may be skipped, came after the spindle \
+             turned counterclockwise; SPINDL before the tap says how it turns"
+        }
+        _ => "the machine has no tapping cycle, and a tap can't be written as single moves",
+    }
 }
 
 /// Cycles of the usual controls that take no dwell.
@@ -54,6 +85,19 @@ const WITHOUT_DWELL: [FunctionCode; 4] = [
 /// # Errors
 /// A code or letter the machine lacks, a value that does not fit.
 pub fn hole(
+    control: &mut Control,
+    cycle: &Cycle,
+    code: FunctionCode,
+    at: &Motion,
+    hole: &Hole,
+) -> Result<()> {
+    let usual = dwell::format_of_cycle(control);
+    write_hole(control, cycle, code, at, hole)?;
+    dwell::restore_format(control, usual);
+    Ok(())
+}
+
+fn write_hole(
     control: &mut Control,
     cycle: &Cycle,
     code: FunctionCode,
@@ -194,7 +238,10 @@ fn codes(control: &mut Control, cycle: FunctionCode, hole: &Hole) -> Result<()> 
             loc::CYCLE_RETURN_CLEAR_CODE
         };
         let code = control.code(at, "the return level")?;
-        control.g(code);
+        let modal = control.commons.read(loc::CYCLE_RETURN_MODAL);
+        if !modal || control.state.return_level != Some(code) {
+            control.g(code);
+        }
     }
     control.g(cycle);
     Ok(())
@@ -220,7 +267,11 @@ fn dwell_word(control: &mut Control, cycle: &Cycle) -> Result<()> {
         return Ok(());
     }
     let cause = cycle.due_to(cycle.words.dwell);
-    control.because(cause, |control| dwell::cycle_word(control, cycle.dwell))
+    let mode = match cycle.feed {
+        CycleFeed::Lead(_) => FeedMode::PerRevolution,
+        CycleFeed::Feed(feed) => feed.mode,
+    };
+    control.because(cause, |control| dwell::cycle_word(control, cycle.dwell, mode))
 }
 
 /// Peck, dwell and feed.

@@ -1,9 +1,10 @@
 //! Dwells: in seconds or in turns of the spindle.
 
 use fil_diag::Result;
-use fil_machine::commons::Dbl;
+use fil_machine::commons::{Dbl, Int};
 use fil_machine::letters::S;
 use fil_machine::modes::FeedMode;
+use fil_machine::number::NumberFormat;
 use fil_machine::{Letter, locations as loc};
 
 use crate::control::Control;
@@ -16,26 +17,93 @@ use crate::operation::{Dwell, SpindleSpeed};
 /// The machine has no dwell, or the value does not fit.
 pub fn write(control: &mut Control, dwell: Dwell) -> Result<()> {
     let value = match dwell {
-        Dwell::Seconds(seconds) => in_seconds(control, seconds),
+        Dwell::Seconds(seconds) => {
+            leave_turns(control)?;
+            in_seconds(control, seconds)
+        }
         Dwell::Revolutions(turns) => in_revolutions(control, turns)?,
     };
     let letter = control.letter(loc::DWELL_ADDRESS, "the address of a dwell")?;
     let code = control.code(loc::DWELL_CODE, "a dwell")?;
+    let at = match dwell {
+        Dwell::Seconds(_) => loc::DWELL_UPM_FORMAT,
+        Dwell::Revolutions(_) => loc::DWELL_UPR_FORMAT,
+    };
+    let usual = take_format(control, letter, at);
     control.g_of_record(code);
     control.word(letter, value)?;
     control.write_block()?;
+    restore_format(control, usual);
     control.state.doubt(letter);
     Ok(())
+}
+
+/// Writes the words of a letter with the digits of a setting until [`restore_format`];
+/// 0 keeps those of the address.
+fn take_format(control: &mut Control, letter: Letter, at: Int) -> Option<UsualFormat> {
+    let digits = control.commons.int_opt(at).filter(|digits| *digits > 0)?;
+    let usual = *control.tables.addresses.format(letter)?;
+    let own = usual.with_digits(digits, control.is_metric());
+    control.tables.addresses.set_format(letter, own);
+    Some(UsualFormat { letter, format: usual })
+}
+
+/// Goes back to the format of the address.
+pub fn restore_format(control: &mut Control, usual: Option<UsualFormat>) {
+    if let Some(UsualFormat { letter, format }) = usual {
+        control.tables.addresses.set_format(letter, format);
+    }
+}
+
+/// The format that a letter has when it is no dwell.
+#[derive(Clone, Copy, Debug)]
+pub struct UsualFormat {
+    letter: Letter,
+    format: NumberFormat,
+}
+
+/// The format for the dwell of a cycle in its block; to be given back behind it.
+pub fn format_of_cycle(control: &mut Control) -> Option<UsualFormat> {
+    let letter = control.commons.read(loc::CYCLE_DWELL_ADDRESS)?;
+    take_format(control, letter, loc::DWELL_UPM_FORMAT)
 }
 
 /// Adds the dwell of a cycle, in seconds.
 ///
 /// # Errors
-/// The machine has no address for it, or the value does not fit.
-pub fn cycle_word(control: &mut Control, seconds: f64) -> Result<()> {
+/// The machine has no address for it, or the value does not fit; the control would wait
+/// turns of the spindle, as the feed of the cycle is one a revolution.
+pub fn cycle_word(control: &mut Control, seconds: f64, mode: FeedMode) -> Result<()> {
+    if dwells_in_turns(control) && mode == FeedMode::PerRevolution {
+        return PostCode::CycleForm.err(
+            "a dwell in seconds in a cycle whose feed is one a revolution: this control would \
+             wait turns of the spindle",
+        );
+    }
     let letter: Letter = control.letter(loc::CYCLE_DWELL_ADDRESS, "the dwell of a cycle")?;
     let value = in_seconds(control, seconds);
     control.word(letter, value)
+}
+
+/// On a control that dwells in turns of the spindle while its feed is one a revolution,
+/// a dwell in seconds needs a feed a minute; the next feed motion says its own mode again.
+fn leave_turns(control: &mut Control) -> Result<()> {
+    if !waits_turns(control) {
+        return Ok(());
+    }
+    let code = control.code(loc::FEED_UPM_CODE, "a feed a minute")?;
+    control.g_of_record(code);
+    control.write_block()
+}
+
+/// True for a machine that can dwell in turns of the spindle.
+fn dwells_in_turns(control: &Control) -> bool {
+    control.commons.dbl_opt(loc::DWELL_UPR_FACTOR).is_some_and(|factor| factor > 0.0)
+}
+
+/// True while the control takes a dwell as turns of the spindle.
+fn waits_turns(control: &Control) -> bool {
+    dwells_in_turns(control) && control.state.feed_mode == Some(FeedMode::PerRevolution)
 }
 
 /// Seconds in the control's unit (DBLCOM 980: 1000 for milliseconds, 0 as they

@@ -1,0 +1,114 @@
+//! The texts of a listing: positions, and the totals at its end.
+
+use fil_nc::decimals;
+
+use super::Row;
+use crate::event::RunEnd;
+use crate::report::Extents;
+use crate::tally::{Motion, Totals};
+
+/// Characters of a paper tape on an inch of it.
+const CHARACTERS_AN_INCH: f64 = 10.0;
+const METERS_IN_AN_INCH: f64 = 0.0254;
+
+/// Where a motion ends, its feed and its time.
+pub(super) fn position(motion: &Motion) -> String {
+    let [x, y, z] = motion.point.map(length);
+    let feed = match (motion.rapid, motion.feed) {
+        (true, _) => "rapid".to_string(),
+        (false, Some(feed)) => format!("feed {}", length(feed)),
+        (false, None) => "no feed".to_string(),
+    };
+    let time = motion.seconds.map_or_else(|| "time unknown".to_string(), seconds);
+    format!("{:>22}X {x}  Y {y}  Z {z}  {feed}  way {}  {time}", "at ", length(motion.length))
+}
+
+/// In the place of the extents.
+const BESIDE: &str = "Extents left out, and times and lengths are those of the CL points alone: \
+                      POSTN or REPEAT wrote words of their own";
+
+/// The totals of a run, those of a tool as rows of their own kind.
+pub(super) fn totals(end: &RunEnd<'_>) -> Vec<(Row, String)> {
+    let total = &end.tally.total;
+    let beside = end.report.words_beside;
+    let unit = end.report.unit.map_or_else(String::new, |(unit, _)| format!(" {unit}"));
+    let meters = end.bytes as f64 / CHARACTERS_AN_INCH * METERS_IN_AN_INCH;
+    let mut lines = vec![
+        String::new(),
+        format!(
+            "Program: {} blocks, {} characters, tape length {} m",
+            end.blocks,
+            end.bytes,
+            decimals::short(meters, 2)
+        ),
+        format!("Time:    {} in all", clock(total.seconds())),
+    ];
+    lines.extend(times(total, &unit, "         "));
+    match &total.extents {
+        Some(_) if beside => lines.push(BESIDE.to_string()),
+        Some(extents) => lines.push(format!("CL points: {}{unit}", span(extents))),
+        None => {}
+    }
+    let mut rows: Vec<(Row, String)> = lines.into_iter().map(|line| (Row::Total, line)).collect();
+    for tool in &end.tally.tools {
+        let mut lines = Vec::new();
+        let name = tool.tool.map_or_else(|| "no tool".to_string(), |tool| format!("T{tool}"));
+        let diameter =
+            tool.diameter.map_or_else(String::new, |d| format!(", diameter {}{unit}", length(d)));
+        lines.push(format!("Tool:    {name}{diameter}, {}", clock(tool.totals.seconds())));
+        lines.extend(times(&tool.totals, &unit, "         "));
+        if let Some(extents) = tool.totals.extents.as_ref().filter(|_| !beside) {
+            lines.push(format!("         {}{unit}", span(extents)));
+        }
+        rows.extend(lines.into_iter().map(|line| (Row::Tool, line)));
+    }
+    rows.push((Row::Total, format!("Warnings: {}", end.report.warnings.len())));
+    rows
+}
+
+fn times(totals: &Totals, unit: &str, before: &str) -> Vec<String> {
+    let mut lines = vec![format!(
+        "{before}feed {} over {}{unit}, rapid {} over {}{unit}, tool changes and dwells {}",
+        clock(totals.cutting_seconds),
+        length(totals.cutting_length),
+        clock(totals.rapid_seconds),
+        length(totals.rapid_length),
+        clock(totals.other_seconds),
+    )];
+    if totals.untimed > 0 {
+        lines.push(format!("{before}the time of {} motions is not known", totals.untimed));
+    }
+    lines
+}
+
+fn span(extents: &Extents) -> String {
+    let axes = ["X", "Y", "Z"].iter().enumerate().map(|(axis, name)| {
+        format!("{name} {} to {}", length(extents.min[axis]), length(extents.max[axis]))
+    });
+    axes.collect::<Vec<_>>().join(", ")
+}
+
+fn length(value: f64) -> String {
+    decimals::short(value, 3)
+}
+
+fn seconds(value: f64) -> String {
+    format!("{} s", decimals::short(value, 2))
+}
+
+/// Hours, minutes and seconds.
+fn clock(seconds: f64) -> String {
+    let whole = seconds.round().min(1e9) as u64;
+    format!("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::clock;
+
+    #[test]
+    fn times_are_hours_minutes_and_seconds() {
+        let shown: Vec<String> = [0.0, 59.6, 3661.0].map(clock).to_vec();
+        assert_eq!(shown, ["0:00:00", "0:01:00", "1:01:01"]);
+    }
+}
