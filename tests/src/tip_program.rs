@@ -302,13 +302,27 @@ pub fn cases() -> Vec<NcCase> {
     cases
 }
 
-/// A CL file on a machine, as the post writes it and with tool-tip control.
-fn both(machine: &Machine, name: &str) -> [NcCase; 2] {
+/// A CL file on a machine, as the post writes it without and with tool-tip control, and
+/// with it by hand.
+fn both(machine: &Machine, name: &str) -> [NcCase; 3] {
     let cl = file(&format!("{name}.ncl"));
-    let mut nc = Vec::new();
-    machine.post().run(cl.as_bytes(), &mut nc).expect("a program");
-    let plain = String::from_utf8(nc).expect("text");
-    [("axes", plain), ("tip", machine.tip_program(&cl))].map(|(form, nc)| NcCase {
+    let run = |post: Program| {
+        let mut nc = Vec::new();
+        post.run(cl.as_bytes(), &mut nc).expect("a program");
+        String::from_utf8(nc).expect("text")
+    };
+    let posted = machine
+        .builder()
+        .set("rotary.tip_output=1")
+        .set("address.G.format=2121")
+        .build()
+        .expect("a machine");
+    let forms = [
+        ("axes", run(machine.post())),
+        ("tip", machine.tip_program(&cl)),
+        ("posted-tip", run(posted)),
+    ];
+    forms.map(|(form, nc)| NcCase {
         name: format!("{name}/{}-{form}", machine.name),
         cl: cl.clone().into_bytes(),
         nc,

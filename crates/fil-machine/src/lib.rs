@@ -10,6 +10,8 @@
 pub mod address;
 pub mod axes;
 pub mod axis_chain;
+pub mod chain_drawing;
+pub mod chains;
 pub mod commons;
 pub mod contradictions;
 pub mod errors;

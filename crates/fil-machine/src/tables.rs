@@ -5,12 +5,12 @@ use fil_diag::Result;
 use nalgebra::Vector3;
 
 use crate::address::Addresses;
-use crate::axes::{Axis, AxisSet, linear_letters};
+use crate::axes::{Axis, AxisSet, Position, linear_letters};
 use crate::axis_chain::{AxisChain, ROTARY_LETTERS};
 use crate::commons::Commons;
 use crate::errors::MachineCode;
 use crate::letter::letters::F;
-use crate::locations::{self as loc, ControlFamily};
+use crate::locations::{self as loc, ControlFamily, RotaryTipOutput};
 use crate::modes::FeedMode;
 use crate::motion_rules::{FeedFormats, MotionRules};
 use crate::numbering::Numbering;
@@ -30,7 +30,11 @@ pub struct MachineTables {
     feed_formats: FeedFormats,
     /// The language of the control.
     pub family: ControlFamily,
+    /// Motions are written under tool-tip control.
+    pub tip_output: bool,
     axes: Vec<Axis>,
+    /// The travel of X, Y and Z where their words name the tip in the part.
+    travel: Vec<Axis>,
     chain: AxisChain,
     present: AxisSet,
     input_shift: Vector3<f64>,
@@ -67,6 +71,8 @@ impl MachineTables {
             .map(|(common, letter)| Axis::new(letter, common, &self.addresses, commons))
             .collect();
         self.present = AxisSet::LINEAR;
+        self.tip_output = self.chain.has_rotary()
+            && commons.read(loc::ROTARY_TIP_OUTPUT) == RotaryTipOutput::ToolTipControl;
         self.input_shift =
             Vector3::from(loc::INPUT_TRANSLATE.map(|at| commons.dbl_opt(at).unwrap_or(0.0)));
         let along = commons.dbl_opt(loc::INPUT_ALONG_TOOL_AXIS).unwrap_or(0.0);
@@ -93,6 +99,22 @@ impl MachineTables {
             for (axis, (min, max)) in self.axes.iter_mut().zip(loc::LINEAR_LIMITS) {
                 axis.limit(commons.dbl_opt(min), commons.dbl_opt(max));
             }
+        }
+        self.travel = self.axes[..3].to_vec();
+        if self.tip_output {
+            self.axes[..3].iter_mut().for_each(|axis| axis.limit(None, None));
+        }
+        Ok(())
+    }
+
+    /// Refuses a position of the machine outside the travel of X, Y and Z: under tool-tip
+    /// control the words themselves do not say it.
+    ///
+    /// # Errors
+    /// It lies outside.
+    pub fn check_travel(&self, position: &Position, axes: AxisSet) -> Result<()> {
+        for number in axes.and(AxisSet::LINEAR).numbers() {
+            self.travel[number].check(position[number])?;
         }
         Ok(())
     }

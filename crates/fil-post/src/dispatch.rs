@@ -218,6 +218,43 @@ fn refused(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
              words.without_effect in machine.toml; else let a FIL section call the offset of the \
              point.",
         ),
+        w::ROTHED => (
+            "it turns a head, and whether the angle counts from zero and what the points are \
+             measured from then is not in the file",
+            "Where each point of the file has its tool axis in the part (MULTAX/ON), the axes turn \
+             the head already: list ROTHED under words.without_effect in machine.toml; else let a \
+             FIL section take it.",
+        ),
+        w::ROTATE => (
+            "it turns a table or a head, and whether the angle counts from zero and the points turn \
+             with it is not in the file",
+            "Give the tool axis with each point (MULTAX/ON, GOTO/x,y,z,i,j,k): the post turns the \
+             axes then, and ROTATE can stand under words.without_effect in machine.toml. Else let \
+             a FIL section take it: POSTN writes the position of the axis, TRANS turns the points.",
+        ),
+        w::HEAD => (
+            "it chooses a spindle or channel, and the machine of the post has one",
+            "For a machine with one head list HEAD under words.without_effect in machine.toml; \
+             else post each head from a CL file and with a machine of its own.",
+        ),
+        w::ORIGIN => (
+            "it moves the zero of the machine against that of the part, and work offsets do that \
+             on the control",
+            "Choose the work offset by SET/OFSETL,n, or move the points by TRANS/x,y,z; where the \
+             points need no move, list ORIGIN under words.without_effect in machine.toml.",
+        ),
+        w::TRACUT => (
+            "the CAM system or APT processor transforms the path by it; in a CL file it is not \
+             known whether the points are transformed already",
+            "Where they are, list TRACUT under words.without_effect in machine.toml; where they \
+             are not, write TRANS with the twelve numbers of the matrix.",
+        ),
+        w::COPY | w::INDEX => (
+            "an APT processor writes the repeated path out; in a CL file the copies would be \
+             missing",
+            "Let the CAM system or APT processor expand the copies. Where the path stands in the \
+             file already, list INDEX and COPY under words.without_effect in machine.toml.",
+        ),
         w::ROTABL => (
             "it turns the part, and whether the angle counts from zero and the points turn with \
              it is not in the file",

@@ -119,6 +119,10 @@ fil_diag::codes! {
         Thread = 585, Error, "thread can't be cut",
             "A value the thread needs is missing or makes no sense, or the machine is in a mode in which no thread can be cut.",
             "Give a lead, a depth and passes above zero, two points of the crest, and turns of the spindle (SPINDL / RPM), without cutter compensation.";
+        /// Something under tool-tip control.
+        TipControl = 588, Error, "not under tool-tip control",
+            "The control needs the length of the tool for it, and ends it only where the machine may turn its tables back to zero.",
+            "Put LOADTL before it, or write positions of the axes with rotary.tip_output = 0.";
         /// Too many functions in a block.
         Crowded = 542, Error, "functions that the control does not take in one block",
             "The control takes one preparatory function in a block, and each of these needs the words that stand there.",

@@ -557,6 +557,12 @@ pub enum MachineCommand {
         /// Every setting, with value, unit, meaning and evidence
         #[arg(long)]
         all: bool,
+        /// The chain of axes: what turns what, from the part to the tool
+        #[arg(long, conflicts_with_all = ["all", "prefix"])]
+        chain: bool,
+        /// The chain of axes as an SVG picture
+        #[arg(long, conflicts_with_all = ["all", "prefix", "chain"])]
+        chain_svg: bool,
         /// Only settings whose name starts with this
         #[arg(value_name = "PREFIX")]
         prefix: Option<String>,

@@ -79,8 +79,8 @@ pub use fil_cl as cl;
 pub use fil_diag::suggest;
 pub use fil_diag::{Code, Diag, Severity, TextSpan};
 pub use fil_machine::{
-    Commons, Kind, Letter, Unit, address, commons, files as settings, locations, stored,
-    user_blocks,
+    Commons, Kind, Letter, Unit, address, chain_drawing, chains, commons, files as settings,
+    locations, stored, user_blocks,
 };
 pub use fil_nc as nc;
 pub use fil_post::{Cause, FilLine, Origin, Stack, dispatch, no_effect};

@@ -15,6 +15,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::address::OFF;
+use crate::chains;
 use crate::commons::{Commons, EMPTY, Kind};
 use crate::errors::MachineCode;
 use crate::letter::Letter;
@@ -36,6 +37,9 @@ const BASE: &str = "base";
 
 /// What stands before the number of a location whose value the import could not read.
 const IMPORTED: &str = "imported.";
+
+/// The key of the chain of axes that comes with the post.
+const CHAIN: &str = "chain";
 
 /// What messages call the text of a single setting.
 const OPTION: &str = "--set";
@@ -136,10 +140,31 @@ fn read_over(
     }
     // What the rest of a broken text means is not sure.
     if broken.is_empty() {
+        if let Some((_, value)) = table.get_ref().iter().find(|(key, _)| key.get_ref() == CHAIN) {
+            let chain = chain(value);
+            if let Some(settings) = reader.noted(value.span(), chain) {
+                read_over(commons, CHAIN, settings, false)?;
+            }
+        }
         reader.table(commons, table.get_ref(), "");
         reader.one_letter_a_position(commons);
     }
     reader.finish()
+}
+
+/// The settings of the chain of axes that a value names.
+///
+/// # Errors
+/// There is none of that name.
+fn chain(value: &Spanned<DeValue>) -> Result<&'static str> {
+    let name = value.get_ref().as_str().unwrap_or_default();
+    let Some(chain) = chains::find(name) else {
+        let names: Vec<&str> = chains::CHAINS.iter().map(|chain| chain.name).collect();
+        let mut diag = Diag::new(MachineCode::SettingValue, format!("no chain of axes `{name}`"));
+        diag.hint = Some(format!("there are {}", names.join(", ")));
+        return Err(Box::new(diag));
+    };
+    Ok(chain.settings)
 }
 
 /// A setting of the text.
@@ -224,7 +249,7 @@ impl<'a> TomlReader<'a> {
 
     /// True for a key that is no setting.
     fn is_about(&self, name: &str) -> bool {
-        ABOUT.contains(&name) || (name == BASE && self.takes_base)
+        ABOUT.contains(&name) || name == CHAIN || (name == BASE && self.takes_base)
     }
 
     fn setting(

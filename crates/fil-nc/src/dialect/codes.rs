@@ -296,6 +296,9 @@ impl Functions {
         }
         if has_rotary && !lathe && settings.code("tool.length_code") == Some(43) {
             table.0.extend(TIP_CONTROL);
+            if let Some(tenths) = settings.code("rotary.tip_code").filter(|code| *code > 0) {
+                table.0.insert(i64::from(tenths), Function::TipControl);
+            }
         }
         for (code, function) in STANDARD {
             table.add(Some(*code), *function);

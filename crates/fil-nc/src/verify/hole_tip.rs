@@ -5,13 +5,16 @@
 //! on the hole's line to its last digits is said exactly, at one of the heights the hole
 //! asks for when it can be that.
 
-use nalgebra::{Point3, Vector3};
+use std::f64::consts::PI;
+
+use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::ahead::Steps;
 use super::hole::{Levels, heights};
 use super::walk::{STILL, Walk};
 use super::wanted::Hole;
-use crate::motion::{Event, Move, Position};
+use crate::forward::Frame;
+use crate::motion::{Course, Event, Move, Position};
 
 /// The machine's Z and a tool this far apart are parallel.
 const PARALLEL: f64 = 1e-6;
@@ -54,6 +57,16 @@ impl Line {
         Some(asked.or(before).unwrap_or(0.5 * (low + high)))
     }
 
+    /// The height asked for that a tip beside the line is at, to its last digits.
+    fn level(&self, tip: [f64; 3]) -> Option<f64> {
+        if self.range(tip).is_some() {
+            return None;
+        }
+        let height = (Point3::from(tip) - self.start).dot(&self.axis);
+        let digits: f64 = (0..3).map(|n| self.axis[n].abs() * self.slack[n]).sum();
+        self.heights.iter().copied().find(|asked| (asked - height).abs() <= digits + DUST)
+    }
+
     /// From where to where a tip can be above the start; `None` when it is beside the line.
     fn range(&self, tip: [f64; 3]) -> Option<[f64; 2]> {
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -77,18 +90,51 @@ impl<C: Steps> Walk<'_, C> {
     /// A motion over a hole in positions of the machine's axes, with the rotary axes
     /// where the tool exactly lies along the hole.
     pub(super) fn in_axes(&self, found: &Move, hole: &Hole) -> Move {
-        if !found.to.tip_control {
+        if !self.is_said_anew(found, hole) {
             return *found;
         }
         let rotary = self.gap(&found.to, &hole.start).rotary;
-        let to = self.settings.forward.restated(&Position { rotary, ..found.to }, false);
-        Move { to, ..*found }
+        let linear = self.hole_frame(rotary, hole).linear(self.tip_over(found, hole));
+        Move { to: Position { linear, rotary, tip_control: false }, ..*found }
+    }
+
+    /// The tip of a motion over a hole, with the tool exactly along it.
+    fn tip_over(&self, found: &Move, hole: &Hole) -> Point3<f64> {
+        let rotary = self.gap(&found.to, &hole.start).rotary;
+        self.settings.forward.pose(&Position { rotary, ..found.to }).tip
+    }
+
+    /// Motions over a hole are said in its own directions: under tool-tip control, and
+    /// where a head turns the tool away from the machine's Z.
+    fn is_said_anew(&self, found: &Move, hole: &Hole) -> bool {
+        if found.to.tip_control {
+            return true;
+        }
+        if !self.settings.forward.has_rotary() || found.course == Course::Machine {
+            return false;
+        }
+        let rotary = self.gap(&found.to, &hole.start).rotary;
+        let up = self.settings.forward.frame(rotary).turn.column(2).into_owned();
+        let along = (self.settings.forward.axis(rotary) - hole.start.axis).norm() < PARALLEL;
+        along && (up - hole.start.axis).norm() > PARALLEL
+    }
+
+    /// The machine's directions, turned so that Z goes along the hole.
+    pub(super) fn hole_frame(&self, rotary: [f64; 2], hole: &Hole) -> Frame {
+        let frame = self.settings.forward.frame(rotary);
+        let up = frame.turn.column(2).into_owned();
+        if (up - hole.start.axis).norm() <= PARALLEL {
+            return frame;
+        }
+        let turn = Rotation3::rotation_between(&up, &hole.start.axis)
+            .unwrap_or_else(|| Rotation3::from_axis_angle(&Vector3::x_axis(), PI));
+        Frame { turn: turn.matrix() * frame.turn, ..frame }
     }
 
     /// A motion ends over a hole, or in it.
     pub(super) fn ends_over(&self, found: &Move, hole: &Hole, over: [f64; 3]) -> bool {
-        if found.to.tip_control {
-            return self.line_of(hole).range(found.to.linear).is_some();
+        if self.is_said_anew(found, hole) {
+            return self.line_of(hole).range(self.tip_over(found, hole).coords.into()).is_some();
         }
         (0..2).all(|n| (found.to.linear[n] - over[n]).abs() <= self.slack.linear[n])
     }
@@ -105,16 +151,26 @@ impl<C: Steps> Walk<'_, C> {
 
     /// Says the next motions under tool-tip control in axes, until [`Walk::say_again`].
     pub(super) fn say_in_axes(&mut self, hole: &Hole, levels: Levels) -> Option<Kept> {
-        let next = self.next_move().filter(|next| next.to.tip_control)?;
+        let next = self.next_move().filter(|next| self.is_said_anew(next, hole))?;
         let mut line = self.line_of(hole);
         line.heights = heights(hole, levels, self.settings.peck_gap());
-        self.at = self.said(&Move { to: self.at, ..next }, hole, levels, &line).to;
+        let stands = Move { to: self.at, ..next };
+        self.at = self.said(&stands, hole, levels, &line).to;
+        let known = self.known[..3].iter().all(|known| *known);
+        let tip = self.settings.forward.pose(&stands.to).tip;
+        if let Some(height) = line.level(tip.coords.into()).filter(|_| known) {
+            self.at.linear[2] = levels.at[2] + height;
+        }
         line.before = self.initial.unwrap_or(self.at.linear[2]) - levels.at[2];
+        let rotary = self.gap(&next.to, &hole.start).rotary;
+        let machine = self.settings.forward.frame(rotary);
+        let from_hole = machine.turn.transpose() * self.hole_frame(rotary, hole).turn;
+        self.from_hole = Some(from_hole);
         let first = self.next;
         let (mut events, mut said) = (Vec::new(), Vec::new());
         for event in self.nc[first..].iter().take(MOST + 4 * line.heights.len()) {
             said.push(match event {
-                Event::Move(found) if found.to.tip_control => {
+                Event::Move(found) if self.is_said_anew(found, hole) && found.arc.is_none() => {
                     Event::Move(self.said(found, hole, levels, &line))
                 }
                 Event::Dwell { .. } => *event,
@@ -129,11 +185,10 @@ impl<C: Steps> Walk<'_, C> {
 
     fn said(&self, found: &Move, hole: &Hole, levels: Levels, line: &Line) -> Move {
         let mut said = self.in_axes(found, hole);
-        let up = self.settings.forward.frame(said.to.rotary).turn.column(2).into_owned();
-        if !found.to.tip_control || (up - hole.start.axis).norm() > PARALLEL {
+        if !self.is_said_anew(found, hole) {
             return said;
         }
-        if let Some(height) = line.height(found.to.linear) {
+        if let Some(height) = line.height(self.tip_over(found, hole).coords.into()) {
             said.to.linear = [levels.at[0], levels.at[1], levels.at[2] + height];
         }
         said
@@ -142,6 +197,7 @@ impl<C: Steps> Walk<'_, C> {
     /// Says the motions again as they stand in the program.
     pub(super) fn say_again(&mut self, kept: Option<Kept>) {
         let Some(kept) = kept else { return };
+        self.from_hole = None;
         self.slack.linear = kept.slack;
         let end = kept.first + kept.events.len();
         self.nc.to_mut()[kept.first..end].copy_from_slice(&kept.events);

@@ -1,5 +1,7 @@
 //! Rapids and straight lines: where they end and how they get there.
 
+use nalgebra::Vector3;
+
 use super::ahead::Steps;
 use super::between::Asked;
 use super::report::FindingKind;
@@ -140,6 +142,10 @@ impl<C: Steps> Walk<'_, C> {
 
     pub(super) fn check_limits(&mut self, cl_line: u32, found: &Move) {
         let axes = self.settings.forward.restated(&found.to, false).linear;
+        let axes = match self.from_hole {
+            Some(turn) => (turn * Vector3::from(axes)).into(),
+            None => axes,
+        };
         for (n, (min, max)) in self.travel.into_iter().enumerate() {
             let value = axes[n];
             if !(min..=max).contains(&value) {

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use fil_diag::Diag;
-use nalgebra::Point3;
+use nalgebra::{Matrix3, Point3};
 
 use super::ahead::{Ahead, Steps};
 use super::align::Detour;
@@ -58,6 +58,8 @@ pub(super) struct Walk<'a, C> {
     pub(super) watch: Watch,
     /// Level the control's cycle began from.
     pub(super) initial: Option<f64>,
+    /// Turns directions of the hole, in which its moves are said, into those of the axes.
+    pub(super) from_hole: Option<Matrix3<f64>>,
     /// What was said of the last position, so that one fault is said once.
     pub(super) said: Option<Shape>,
     pub(super) report: Report,
@@ -97,6 +99,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             modes: Expected::new(settings),
             watch,
             initial: None,
+            from_hole: None,
             said: None,
             report: Report::default(),
             over: false,

@@ -75,6 +75,30 @@ pub fn thread_cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32)
     }
 }
 
+/// Begins tool-tip control, with the length offset of the tool.
+///
+/// # Errors
+/// As [`word_address::tip_control::begin`]; Klartext has no such function yet.
+pub fn begin_tip_control(control: &mut Control, offset: Option<(i64, Cause)>) -> Result<()> {
+    match (control.tables.family, offset) {
+        (ControlFamily::WordAddress, Some(offset)) => {
+            word_address::tip_control::begin(control, offset)
+        }
+        _ => klartext::refuse("tool-tip control"),
+    }
+}
+
+/// Ends tool-tip control.
+///
+/// # Errors
+/// As [`begin_tip_control`].
+pub fn end_tip_control(control: &mut Control) -> Result<()> {
+    match control.tables.family {
+        ControlFamily::WordAddress => word_address::tip_control::end(control),
+        _ => klartext::refuse("tool-tip control"),
+    }
+}
+
 /// Brings the control into the modes a motion counts on.
 ///
 /// # Errors

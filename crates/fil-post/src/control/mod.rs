@@ -45,6 +45,17 @@ use crate::warnings::Warnings;
 pub use program::ProgramHead;
 pub use waiting::{Function, Waiting};
 
+/// What tool-tip control begins with.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct TipOffset {
+    /// Length offset of the tool, with its cause.
+    pub offset: Option<(i64, Cause)>,
+    /// The length offset is called without tool-tip control.
+    pub length_is_called: bool,
+    /// A tool change or a position of the machine has brought the tool away from the part.
+    pub is_away: bool,
+}
+
 /// What the control knew before words or texts of others.
 #[derive(Clone, Copy, Debug)]
 pub struct BeforeOthers {
@@ -68,6 +79,8 @@ pub struct Control {
     pub state: ControlState,
     /// Words that wait for a motion.
     pub waiting: Waiting,
+    /// What tool-tip control begins with.
+    pub tip: TipOffset,
     /// Letters whose REPEAT has ended since the last motion.
     pub(crate) ended_repeats: Vec<Letter>,
     /// Words REPEAT adds to each motion block, by letter, with their causes.
@@ -124,6 +137,7 @@ impl Control {
             tables,
             state,
             waiting: Waiting::default(),
+            tip: TipOffset::default(),
             ended_repeats: Vec::new(),
             repeats: BTreeMap::new(),
             block: Block::default(),

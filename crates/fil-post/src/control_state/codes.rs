@@ -35,6 +35,8 @@ pub enum Meaning {
     Turning,
     /// The length of the tool: where Z stands in the program is not known.
     ToolLength,
+    /// Tool-tip control: X, Y and Z name the tip in the part.
+    TipControl,
     /// It moves the zero, or the axes by a way of its own: where they stand in the
     /// program is not known.
     Frame,
@@ -112,12 +114,14 @@ impl Codes {
         };
         let extended = tenths(loc::FIXTURE_EXTENDED_CODE);
         let taps = [loc::CYCLE_RIGID_TAP_CODE, loc::CYCLE_RIGID_TAP_LEFT_CODE].map(tenths);
+        let tip = tenths(loc::ROTARY_TIP_CODE);
         if !turning {
             name(loc::MODE_PRESET_CODE, Meaning::Frame);
             name(loc::MODE_ABSOLUTE_CODE, Meaning::Distance(Distance::Absolute));
             name(loc::MODE_INCREMENTAL_CODE, Meaning::Distance(Distance::Incremental));
         }
         codes.named.extend(extended.map(|code| (code, Meaning::Frame)));
+        codes.named.extend(tip.map(|code| (code, Meaning::TipControl)));
         codes.named.extend(taps.into_iter().flatten().map(|code| (code, Meaning::Cycle)));
         codes
     }
@@ -208,7 +212,8 @@ fn of_tenths(code: FunctionCode) -> Meaning {
     let offset = (54.0..60.0).contains(&code.value());
     match code {
         HIGH_SPEED => Meaning::OneBlock,
-        _ if offset || TIP.contains(&code) || FRAMES.contains(&code) => Meaning::Frame,
+        _ if TIP.contains(&code) => Meaning::TipControl,
+        _ if offset || FRAMES.contains(&code) => Meaning::Frame,
         _ => Meaning::Unknown,
     }
 }

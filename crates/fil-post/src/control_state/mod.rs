@@ -123,6 +123,8 @@ pub struct ControlState {
     pub unit: Option<Unit>,
     /// What F means.
     pub feed_mode: Option<FeedMode>,
+    /// Tool-tip control.
+    pub tip_control: Option<bool>,
     /// Cutter compensation.
     pub compensation: Option<Compensation>,
     /// A motion has been made since compensation was switched on.
@@ -163,6 +165,7 @@ impl ControlState {
             distance: Some(Distance::Absolute),
             unit,
             feed_mode: Some(feed_mode),
+            tip_control: Some(false),
             compensation: Some(Compensation::Off),
             compensation_begun: false,
             in_cycle: Some(false),
@@ -220,6 +223,7 @@ impl ControlState {
             distance: None,
             unit: None,
             feed_mode: None,
+            tip_control: None,
             compensation: None,
             compensation_begun: self.compensation_begun,
             in_cycle: None,
@@ -351,7 +355,17 @@ impl ControlState {
                 self.doubt_axes();
                 self.doubt(letters::F);
             }
-            Meaning::ToolLength => self.doubt(letters::XYZ[2]),
+            Meaning::ToolLength => {
+                self.doubt(letters::XYZ[2]);
+                if self.tip_control != Some(false) {
+                    self.tip_control = Some(false);
+                    self.doubt_axes();
+                }
+            }
+            Meaning::TipControl => {
+                self.tip_control = Some(true);
+                self.doubt_axes();
+            }
             Meaning::Frame => self.doubt_axes(),
             Meaning::Unknown => self.forget(),
         }
@@ -463,6 +477,7 @@ impl ControlState {
         agree(&mut self.distance, &other.distance);
         agree(&mut self.unit, &other.unit);
         agree(&mut self.feed_mode, &other.feed_mode);
+        agree(&mut self.tip_control, &other.tip_control);
         agree(&mut self.compensation, &other.compensation);
         agree(&mut self.in_cycle, &other.in_cycle);
         agree(&mut self.cycle, &other.cycle);

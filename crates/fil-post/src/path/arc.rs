@@ -199,6 +199,9 @@ fn in_plane(
     (radius, sweep): (f64, f64),
     target: Target,
 ) -> Result<Option<PlaneArc>> {
+    if post.control.tables.tip_output {
+        return Ok(None);
+    }
     let transformation = post.path.transformation.as_ref();
     if transformation.is_some_and(|trans| !trans.is_rigid()) {
         return Ok(None);

@@ -4,6 +4,7 @@ use fil_diag::Result;
 use fil_machine::commons::Dbl;
 use fil_machine::locations as loc;
 use fil_machine::setting::CodeAt;
+use nalgebra::Point3;
 
 use super::hole;
 use crate::cause::Cause;
@@ -77,6 +78,15 @@ pub enum CycleFeed {
     Lead(Lead),
 }
 
+/// Where the tip is above the holes of a cycle, in the part.
+#[derive(Clone, Copy, Debug)]
+pub struct AboveHoles {
+    /// Before the first of them.
+    pub before: Point3<f64>,
+    /// After the last one.
+    pub now: Point3<f64>,
+}
+
 /// A cycle in force. Lengths in mm or inch.
 #[derive(Clone, Debug)]
 pub struct Cycle {
@@ -99,6 +109,8 @@ pub struct Cycle {
     /// Level of the tool before the cycle along the drilling axis, machine
     /// coordinates; `None` when it is to be taken from the tape at the next hole.
     pub initial: Option<f64>,
+    /// Where the tip is above the holes, under tool-tip control.
+    pub above: Option<AboveHoles>,
     /// The CYCLE record.
     pub cause: Cause,
     /// Its words with values.

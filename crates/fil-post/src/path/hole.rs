@@ -8,7 +8,7 @@ use fil_machine::locations::{
 };
 
 use super::cycle::{Cycle, Hole};
-use super::{expand, rapid, rotary};
+use super::{expand, rapid, rotary, tip_control};
 use crate::control::family;
 use crate::control::word_address::cycle as words;
 use crate::control::word_address::motion::Motion;
@@ -45,6 +45,9 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
             .err("a hole in cutter compensation; CUTCOM/OFF must come before it");
     }
     post.control.flush_waiting()?;
+    if post.control.tables.tip_output {
+        return tip_control::hole(post, cycle, target);
+    }
     family::ready_for_hole(&mut post.control, cycle.in_force.is_some())?;
     let (position, mut hole) = locate(post, cycle, target)?;
     post.path.point = Some(target.point);

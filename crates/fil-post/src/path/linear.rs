@@ -6,6 +6,7 @@ use fil_machine::axes::AxisSet;
 use super::{feed_rules, linearization, rapid, rotary, thread};
 use crate::control::family;
 use crate::control::word_address::motion::Motion;
+use crate::errors::PostCode;
 use crate::operation::{MotionKind, Target};
 use crate::post::Post;
 
@@ -17,6 +18,7 @@ use crate::post::Post;
 pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()> {
     if let Some(active) = &mut post.path.cycle {
         active.initial = None;
+        active.above = None;
         active.in_force = None;
         family::cancel_cycle(&mut post.control)?;
     }
@@ -35,11 +37,16 @@ pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
             None => rapid::rapid(&mut post.control, &motion, cause)?,
         },
         MotionKind::Feed => match rotary::turned(before, post.path.rotary)? {
-            Some(before) => linearization::feed(post, before, position, target)?,
-            None if feed_rules::apply(post) => feed_rules::line(post, &motion, target)?,
-            None => family::feed(&mut post.control, &motion, post.path.feed.as_ref())?,
+            Some(before) if !post.control.tables.tip_output => {
+                linearization::feed(post, before, position, target)?;
+            }
+            _ if feed_rules::apply(post) => feed_rules::line(post, &motion, target)?,
+            _ => family::feed(&mut post.control, &motion, post.path.feed.as_ref())?,
         },
         MotionKind::Thread(lead) => {
+            if post.control.tables.tip_output {
+                return PostCode::TipControl.err("a thread");
+            }
             rotary::refuse_thread(before, post.path.rotary)?;
             let lead = thread::counted_lead(post, lead, target)?;
             let motion = motion.of(AxisSet::LINEAR);

@@ -28,8 +28,10 @@ pub fn carry_out(post: &mut Post, to: [Option<f64>; 3]) -> Result<()> {
             axes = axes.or(AxisSet::of(number));
         }
     }
+    post.control.tables.check_travel(&position, axes)?;
     let cause = post.control.block.cause.whole();
     rapid::to_machine_position(&mut post.control, &Motion { position, axes, word: 0 }, cause)?;
+    post.control.tip.is_away = true;
     post.path.rapid = None;
     post.path.point = None;
     Ok(())

@@ -20,6 +20,7 @@ pub mod rotary;
 pub(crate) mod sense;
 pub mod thread;
 mod tip;
+pub mod tip_control;
 pub mod tool_change;
 mod transformation;
 mod turning_feed;
@@ -118,6 +119,7 @@ impl Path {
         self.course.interrupt();
         if let Some(cycle) = &mut self.cycle {
             cycle.initial = None;
+            cycle.above = None;
             cycle.in_force = None;
         }
     }
@@ -142,6 +144,9 @@ pub fn carry_out(post: &mut Post, operation: Operation) -> Result<()> {
 }
 
 fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
+    if post.control.tables.tip_output {
+        tip_control::before(&mut post.control, &operation)?;
+    }
     match operation {
         Operation::MachinePosition(to) => machine_position::carry_out(post, to),
         Operation::Hole(target) => hole::carry_out(post, target),

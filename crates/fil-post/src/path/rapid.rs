@@ -15,7 +15,8 @@ use crate::control::word_address::motion::{Motion, RapidCode};
 /// # Errors
 /// As [`family::rapid`].
 pub fn rapid(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()> {
-    if control.commons.read(loc::RAPID_SPLIT) == RapidSplit::OneBlock {
+    let of_tip = control.state.tip_control == Some(true);
+    if of_tip || control.commons.read(loc::RAPID_SPLIT) == RapidSplit::OneBlock {
         return family::rapid(control, motion, RapidCode::Across, cause);
     }
     let z_first = motion.axes.has(2) && retracts(control, motion)?;

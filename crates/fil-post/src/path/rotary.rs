@@ -4,6 +4,7 @@ use fil_diag::Result;
 use fil_machine::axes::Position;
 use nalgebra::{Point3, Vector3};
 
+use super::tip_control;
 use crate::errors::PostCode;
 use crate::operation::Target;
 use crate::post::Post;
@@ -25,6 +26,9 @@ pub fn position_of(post: &mut Post, target: Target) -> Result<Position> {
     let chain = post.control.tables.chain();
     if !chain.has_rotary() && axis == chain.tool.into_inner() {
         return Ok([point.x, point.y, point.z, 0.0, 0.0]);
+    }
+    if post.control.tables.tip_output {
+        return tip_control::position_of(post, point, axis);
     }
     let last = post.path.rotary.unwrap_or_else(|| on_tape(post));
     let angles = chain.solve(axis, last)?;
@@ -75,7 +79,7 @@ pub fn transformed(post: &Post, target: Target) -> (Point3<f64>, Vector3<f64>) {
 }
 
 /// Rotary positions the last output values stand for, degrees; 0 where unknown.
-fn on_tape(post: &Post) -> [f64; 2] {
+pub(super) fn on_tape(post: &Post) -> [f64; 2] {
     [3, 4].map(|number| {
         let present = post.control.tables.present().has(number);
         post.control.axis_position(number).filter(|_| present).unwrap_or(0.0)

@@ -7,7 +7,7 @@ use fil_machine::axes::{AxisSet, Position};
 use fil_machine::locations::{self as loc, ToolChangeBlock};
 use fil_machine::user_blocks::{self, AroundChange, UserBlocks};
 
-use super::rapid;
+use super::{rapid, tip_control};
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family;
@@ -32,6 +32,7 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     if !tool::prepare(control, &wanted)? {
         return Ok(());
     }
+    tip_control::end(control)?;
     control.tape.align();
     let around = around(control, &wanted);
     control.changes += 1;
@@ -39,6 +40,7 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     let cause = wanted.causes[0].whole();
     write_blocks(control, around[0])?;
     control.because(cause, |control| go_to_change_position(control, cause))?;
+    control.tip.is_away = true;
     family::change_tool(control, wanted)?;
     write_blocks(control, around[1])?;
     match wanted.next {
@@ -101,5 +103,6 @@ fn go_to_change_position(control: &mut Control, cause: Cause) -> Result<()> {
             moving = moving.or(AxisSet::of(number));
         }
     }
+    control.tables.check_travel(&position, moving)?;
     rapid::to_machine_position(control, &Motion { position, axes: moving, word: 0 }, cause)
 }

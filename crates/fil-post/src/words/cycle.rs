@@ -85,6 +85,7 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
         feed,
         rigid,
         initial: None,
+        above: None,
         cause: post.control.block.cause.whole(),
         words,
         along: None,

@@ -6,7 +6,7 @@ mod show;
 
 use std::path::Path;
 
-use filpost::{Commons, Error, Kind, files, settings};
+use filpost::{Commons, Error, Kind, chain_drawing, files, settings};
 use serde_json::Value;
 
 use crate::args::{MachineArgs, MachineCommand};
@@ -32,7 +32,13 @@ pub fn run(args: &MachineArgs) -> Result<Status, Error> {
         MachineCommand::Import { file, output, encoding } => {
             import(file, output.as_deref(), encoding.as_deref())?;
         }
-        MachineCommand::Show { chosen, all, prefix } => {
+        MachineCommand::Show { chosen, chain: true, .. } => {
+            show::chain(chosen, chain_drawing::text)?;
+        }
+        MachineCommand::Show { chosen, chain_svg: true, .. } => {
+            show::chain(chosen, chain_drawing::svg)?;
+        }
+        MachineCommand::Show { chosen, all, prefix, .. } => {
             show::run(chosen, prefix.as_deref(), *all)?;
         }
         MachineCommand::Diff { first, second } => return diff::run(first, second),

@@ -14,7 +14,7 @@ pub fn schema() -> Value {
         group.insert(key.into(), setting(row));
     }
     let text = json!({"type": "string"});
-    for about in ["name", "description", "origin", "base"] {
+    for about in ["name", "description", "origin", "base", "chain"] {
         properties.insert(about.into(), text.clone());
     }
     let blocks = json!({"type": "array", "items": text, "maxItems": 10});

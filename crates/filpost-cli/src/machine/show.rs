@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use filpost::locations::{TABLE, default_commons};
-use filpost::{Commons, Error, Kind, Program, ready, stored, user_blocks};
+use filpost::{Commons, Diag, Error, Kind, Program, ready, stored, user_blocks};
 
 use super::{LETTERS, address};
 use crate::args::Chosen;
@@ -15,6 +15,28 @@ use crate::{explain, output, setup, summary};
 /// # Errors
 /// Files that can't be read; wrong settings.
 pub fn run(chosen: &Chosen, prefix: Option<&str>, all: bool) -> Result<(), Error> {
+    let program = program(chosen)?;
+    match prefix {
+        None if !all => output::print_with(|out| differences(out, program.commons())),
+        _ => output::print_with(|out| every(out, program.commons(), prefix.unwrap_or(""))),
+    }
+}
+
+/// Draws the chain of axes.
+///
+/// # Errors
+/// As [`run`].
+pub fn chain(
+    chosen: &Chosen,
+    draw: fn(&Commons) -> Result<String, Box<Diag>>,
+) -> Result<(), Error> {
+    let program = program(chosen)?;
+    let drawing = draw(program.commons()).map_err(|diag| Error::Setup(vec![*diag]))?;
+    output::print(drawing.as_bytes())
+}
+
+/// The machine that is chosen; the generic mill where none is.
+fn program(chosen: &Chosen) -> Result<Program, Error> {
     let builder = match setup::named(chosen, None)? {
         Some(named) => named.builder,
         None => {
@@ -24,10 +46,7 @@ pub fn run(chosen: &Chosen, prefix: Option<&str>, all: bool) -> Result<(), Error
     };
     let program = builder.build()?;
     summary::warnings(program.warnings());
-    match prefix {
-        None if !all => output::print_with(|out| differences(out, program.commons())),
-        _ => output::print_with(|out| every(out, program.commons(), prefix.unwrap_or(""))),
-    }
+    Ok(program)
 }
 
 fn every(out: &mut dyn Write, commons: &Commons, prefix: &str) -> io::Result<()> {

@@ -15,6 +15,7 @@ pub mod spindle;
 pub(super) mod stop;
 pub(super) mod text;
 pub mod thread;
+pub mod tip_control;
 pub mod tool;
 
 use fil_diag::Result;

@@ -348,6 +348,7 @@ fn length_offset_words(control: &mut Control) -> Result<()> {
     }
     if let Some((offset, cause)) = control.waiting.length_offset.take() {
         let code = control.code(loc::TOOL_LENGTH_CODE, "tool length offset")?;
+        control.tip.length_is_called = true;
         control.because(cause, |control| {
             control.g_of_record(code);
             control.word(H, offset as f64)

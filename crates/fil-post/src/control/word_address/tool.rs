@@ -127,6 +127,11 @@ fn without_code(control: &mut Control, tool: i64) -> Result<()> {
 /// Calls the length offset: with the Z position of the machine (own location
 /// `tool.length_z`) in a block of its own, else with the next Z motion.
 fn length_offset(control: &mut Control, wanted: ToolChange) -> Result<()> {
+    if control.tables.tip_output {
+        control.tip.offset = Some((wanted.offset, control.block.cause));
+        control.waiting.length_offset = control.tip.offset;
+        return Ok(());
+    }
     let calls = control.commons.read(loc::TOOL_LENGTH_FROM_TOOL);
     let Some(code) = control.code_if_any(loc::TOOL_LENGTH_CODE).filter(|_| calls) else {
         if wanted.offset_given && wanted.offset != wanted.tool {

@@ -1,0 +1,278 @@
+//! Tool-tip control: X, Y and Z name the tip in the part, and the control moves its axes
+//! so that the tip goes straight while the machine turns.
+//!
+//! It begins before the first motion of a tool and ends before the next tool, a position
+//! of the machine, another work offset and the end of the program. Controls agree in what
+//! it means where their tables stand at zero, so the tables turn there first, unless
+//! `rotary.tip_control` says that the control takes the part as it lies; they turn only
+//! where a tool change or a position of the machine has brought the tool away.
+
+use fil_diag::Result;
+use fil_machine::axes::{AxisSet, Position};
+use fil_machine::axis_chain::Carries;
+use fil_machine::commons::EMPTY;
+use fil_machine::locations::{self as loc, ControlFamily, RotaryTipControl};
+use nalgebra::{Point3, Vector3};
+
+use super::cycle::{AboveHoles, Cycle, CycleFeed, CycleKind};
+use super::{linear, rapid, rotary};
+use crate::control::family;
+use crate::control::word_address::motion::Motion;
+use crate::control::{Control, Function};
+use crate::control_state::{Compensation, Meaning};
+use crate::errors::PostCode;
+use crate::operation::{Dwell, MotionKind, Operation, Target};
+use crate::post::Post;
+
+/// Two tool axes nearer than this are one.
+const SAME_AXIS: f64 = 1e-6;
+
+/// Heights nearer than this are one, mm or inch.
+const SAME_HEIGHT: f64 = 1e-9;
+
+/// The words of a motion to a point: the tip, and the angles of the rotary axes.
+///
+/// # Errors
+/// A tool axis out of reach, a position outside the travel; as [`begin`].
+#[cold]
+pub(super) fn position_of(
+    post: &mut Post,
+    point: Point3<f64>,
+    axis: Vector3<f64>,
+) -> Result<Position> {
+    if post.control.state.tip_control != Some(true) {
+        begin(post)?;
+    }
+    let last = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post));
+    let tables = &post.control.tables;
+    let angles = tables.chain().solve(axis, last)?;
+    let linear = tables.chain().linear(point, angles);
+    tables.check_travel(&[linear.x, linear.y, linear.z, 0.0, 0.0], AxisSet::LINEAR)?;
+    post.path.rotary = Some(angles);
+    Ok([point.x, point.y, point.z, angles[0], angles[1]])
+}
+
+/// Begins tool-tip control.
+///
+/// # Errors
+/// No tool whose length the control has; cutter compensation; tables that would turn
+/// beside the part.
+fn begin(post: &mut Post) -> Result<()> {
+    let control = &mut post.control;
+    control.begin()?;
+    control.require_unit()?;
+    if control.is_compensated() {
+        return PostCode::CompensationOn.err("where tool-tip control begins");
+    }
+    family::cancel_cycle(control)?;
+    let of_tool = control.tip.offset;
+    if of_tool.is_none() && control.tables.family == ControlFamily::WordAddress {
+        return PostCode::TipControl
+            .err("tool-tip control takes up the length of a tool, and no LOADTL came before");
+    }
+    control.flush_function(Function::WorkOffset)?;
+    turn_tables_to_zero(post)?;
+    let control = &mut post.control;
+    control.waiting.length_offset = None;
+    let in_doubt = control.state.tip_control.is_none();
+    if in_doubt || std::mem::take(&mut control.tip.length_is_called) {
+        family::end_tip_control(control)?;
+    }
+    family::begin_tip_control(control, of_tool)?;
+    control.tip.is_away = false;
+    Ok(())
+}
+
+/// Turns the tables to zero, where the control needs that.
+///
+/// # Errors
+/// The tool may stand at the part; a table that does not reach zero.
+fn turn_tables_to_zero(post: &mut Post) -> Result<()> {
+    let control = &mut post.control;
+    let anywhere =
+        control.commons.read(loc::ROTARY_TIP_CONTROL) == RotaryTipControl::BeginsAnywhere;
+    if anywhere || control.tables.family != ControlFamily::WordAddress {
+        return Ok(());
+    }
+    let mut tables = AxisSet::NONE;
+    let mut stands = post.path.rotary.unwrap_or([0.0; 2]);
+    for (index, rotary) in control.tables.chain().rotaries.iter().enumerate() {
+        let Some(rotary) = rotary.as_ref().filter(|rotary| rotary.carries == Carries::Table) else {
+            continue;
+        };
+        if rotary.min.is_some_and(|min| min > 0.0) || rotary.max.is_some_and(|max| max < 0.0) {
+            return PostCode::TipControl.err(format!(
+                "tool-tip control begins with {} at 0, and its travel does not reach it",
+                rotary.letter
+            ));
+        }
+        stands[index] = 0.0;
+        let number = index + 3;
+        if control.axis_position(number) != Some(0.0) {
+            tables = tables.or(AxisSet::of(number));
+        }
+    }
+    if !tables.is_empty() && !control.tip.is_away {
+        return PostCode::TipControl.err(
+            "tool-tip control would begin anew with its tables at 0, and they would turn beside \
+             the part; a tool change must come before",
+        );
+    }
+    let motion = Motion { position: Position::default(), axes: tables, word: 0 };
+    let cause = control.block.cause.whole();
+    if !tables.is_empty() {
+        rapid::rapid(control, &motion, cause)?;
+    }
+    post.path.rotary = Some(stands);
+    Ok(())
+}
+
+/// Ends tool-tip control where it may be on; what goes to a position of the machine next
+/// still has the length of the tool, with its motion of Z.
+///
+/// # Errors
+/// The machine has no code for it.
+pub fn end(control: &mut Control) -> Result<()> {
+    if !control.tables.tip_output || control.state.tip_control == Some(false) {
+        return Ok(());
+    }
+    family::end_tip_control(control)?;
+    for number in AxisSet::LINEAR.numbers() {
+        let letter = control.tables.axis(number).letter;
+        control.commons.set_last_output(letter, EMPTY);
+    }
+    control.waiting.length_offset = control.tip.offset;
+    Ok(())
+}
+
+/// What an operation that is no motion of the path asks of tool-tip control.
+///
+/// # Errors
+/// Cutter compensation, and functions that controls take in different ways under it.
+pub(super) fn before(control: &mut Control, operation: &Operation) -> Result<()> {
+    let what = match operation {
+        Operation::MachinePosition(_) | Operation::WorkOffset(_) | Operation::End(_) => {
+            return end(control);
+        }
+        Operation::Compensation(wanted) if wanted.side != Compensation::Off => "CUTCOM",
+        Operation::Function(letter, code) if *letter == fil_machine::letters::G => {
+            match control.meaning(*code) {
+                Meaning::Frame | Meaning::Cycle | Meaning::Plane(_) | Meaning::Unit(_) => "PREFUN",
+                _ => return Ok(()),
+            }
+        }
+        _ => return Ok(()),
+    };
+    if control.state.tip_control == Some(false) {
+        return Ok(());
+    }
+    PostCode::TipControl.err(format!("{what}: controls differ in what it does under it"))
+}
+
+/// Drills a hole in single moves along its axis.
+///
+/// # Errors
+/// A tap; a level to return to that is not known; as a straight motion.
+pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
+    let CycleFeed::Feed(feed) = cycle.feed else { return cant_tap() };
+    if cycle.kind == CycleKind::Tap {
+        return cant_tap();
+    }
+    let axis = target.axis.normalize();
+    let height = |point: Point3<f64>| (point - target.point).dot(&axis);
+    let above = cycle.above.or(post.path.point.map(|at| AboveHoles { before: at, now: at }));
+    let rest = match (cycle.retract, above) {
+        (None, _) => cycle.clear,
+        (Some(0.0), None) => {
+            return PostCode::CycleForm
+                .err("the level before the cycle, to return to, is not known");
+        }
+        (Some(0.0), Some(above)) => height(above.before).max(cycle.clear),
+        (Some(level), _) => level.max(cycle.clear),
+    };
+    let was = (post.path.feed.replace(feed), post.control.block.cause);
+    let stays = (post.path.axis.normalize() - axis).norm() < SAME_AXIS;
+    let mut moves = Moves { post, cycle, target, axis };
+    if let Some(above) = above.filter(|_| stays) {
+        let (here, lowest) = (height(above.now), rest.max(cycle.clear));
+        if here < lowest - SAME_HEIGHT {
+            let lift = Target { point: above.now + axis * (lowest - here), axis, word: 0 };
+            moves.rapid_to(lift)?;
+        }
+    }
+    moves.down_and_up(rest)?;
+    let now = target.point + axis * rest;
+    cycle.above = Some(AboveHoles { before: above.map_or(now, |above| above.before), now });
+    (post.path.feed, post.control.block.cause) = was;
+    post.path.point = Some(target.point);
+    Ok(())
+}
+
+fn cant_tap() -> Result<()> {
+    PostCode::TipControl.err("a tap can't be written as single moves, and no cycle runs under it")
+}
+
+/// The moves of a hole along its axis.
+struct Moves<'a> {
+    post: &'a mut Post,
+    cycle: &'a Cycle,
+    target: Target,
+    axis: Vector3<f64>,
+}
+
+impl Moves<'_> {
+    fn down_and_up(&mut self, rest: f64) -> Result<()> {
+        let (clear, bottom) = (self.cycle.clear, -self.cycle.depth);
+        self.rapid(clear)?;
+        self.post.control.block.cause = self.cycle.cause;
+        if let Some(step) = self.cycle.step {
+            self.pecks(step)?;
+        }
+        self.feed(bottom)?;
+        if self.cycle.dwell > 0.0 {
+            self.post.control.block.cause = self.cycle.due_to(self.cycle.words.dwell);
+            family::dwell(&mut self.post.control, Dwell::Seconds(self.cycle.dwell))?;
+            self.post.control.block.cause = self.cycle.cause;
+        }
+        if matches!(self.cycle.kind, CycleKind::Bore | CycleKind::Ream) {
+            self.feed(clear)?;
+        }
+        self.rapid(rest)
+    }
+
+    /// DEEP comes out to the R level after each peck, BRKCHP only lifts.
+    fn pecks(&mut self, step: f64) -> Result<()> {
+        let mm = self.post.control.require_unit()?.in_mm();
+        let gap = self.post.control.commons.dbl_opt(loc::CYCLE_PECK_GAP).unwrap_or(0.0).max(0.0);
+        let (clear, length) = (self.cycle.clear, self.cycle.clear + self.cycle.depth);
+        let mut reached = 0.0;
+        while reached + step < length - SAME_HEIGHT {
+            reached += step;
+            self.feed(clear - reached)?;
+            if self.cycle.kind == CycleKind::Deep {
+                self.rapid(clear)?;
+            }
+            self.rapid(clear - (reached - gap / mm).max(0.0))?;
+        }
+        Ok(())
+    }
+
+    fn at(&self, height: f64) -> Target {
+        Target { point: self.target.point + self.axis * height, axis: self.target.axis, word: 0 }
+    }
+
+    fn rapid(&mut self, height: f64) -> Result<()> {
+        let to = self.at(height);
+        self.rapid_to(to)
+    }
+
+    fn rapid_to(&mut self, to: Target) -> Result<()> {
+        let cause = self.post.control.block.cause;
+        linear::carry_out(self.post, to, MotionKind::Rapid(cause))
+    }
+
+    fn feed(&mut self, height: f64) -> Result<()> {
+        let to = self.at(height);
+        linear::carry_out(self.post, to, MotionKind::Feed)
+    }
+}
