@@ -63,6 +63,8 @@ pub struct Block {
     pub words: Vec<Word>,
     /// Comments without their brackets.
     pub comments: Vec<String>,
+    /// What is no word of a letter, in a language that has more than words.
+    pub statement: Option<String>,
 }
 
 impl Block {

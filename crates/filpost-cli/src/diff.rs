@@ -78,6 +78,7 @@ fn describe(what: &What, object: &mut Value) {
         What::Function(..) => "function",
         What::Arc(_) => "arc",
         What::Comment(_) => "comment",
+        What::Statement(_) => "statement",
         What::Mark(_) => "mark",
         What::Numbering(..) => "numbering",
         What::Points(..) => "points",
@@ -94,7 +95,7 @@ fn describe(what: &What, object: &mut Value) {
             object["letter"] = char::from(*letter).to_string().into();
             object["blocks"] = json!(count);
         }
-        What::Only | What::Comment(_) | What::Mark(_) => {}
+        What::Only | What::Comment(_) | What::Statement(_) | What::Mark(_) => {}
     }
 }
 

@@ -5,10 +5,12 @@
 //! out is no difference, arcs are compared as geometry, and what a user chose
 //! to ignore is not looked at. No machine is needed: the modal groups are those
 //! that ISO 6983 and the controls built on it share, and a word of no known
-//! group must be the same in both.
+//! group must be the same in both. Klartext and programs of a SINUMERIK are told by
+//! their text: what is no word there is compared as a statement.
 
 mod align;
 mod arc;
+mod language;
 mod modal;
 mod pair;
 mod program;
@@ -94,6 +96,9 @@ pub enum What {
     Arc(f64),
     /// Comments.
     Comment([String; 2]),
+    /// What is no word of a letter: `TOOL CALL 5 Z`, `MCALL CYCLE81(…)`; empty where a
+    /// block has none.
+    Statement([String; 2]),
     /// Block skip or tape mark.
     Mark([bool; 2]),
     /// The sequence numbers differ in this many blocks, here for the first time.

@@ -1,6 +1,7 @@
 //! Two blocks that stand for each other, word by word.
 
 use super::arc;
+use super::language::same_statement;
 use super::modal::{group, tenths};
 use super::program::Line;
 use super::{Difference, Options, What};
@@ -114,6 +115,10 @@ pub(super) fn compare(one: &Line, two: &Line, options: &Options, found: &mut Fou
     let comments = [one, two].map(|line| line.block.comments.join(" "));
     if comments[0] != comments[1] {
         found.add(pair, What::Comment(comments), [None, None]);
+    }
+    let statements = [one, two].map(|line| line.block.statement.clone().unwrap_or_default());
+    if !same_statement(&statements[0], &statements[1], options.tolerance) {
+        found.add(pair, What::Statement(statements), [None, None]);
     }
     if one.block.sequence_number() != two.block.sequence_number() {
         found.numbering(pair);
@@ -242,6 +247,10 @@ pub(super) fn unlike(one: &Line, two: &Line, options: &Options) -> f64 {
             [true, true] => 0.5,
             _ => 1.0,
         };
+    }
+    if one.block.statement.is_some() || two.block.statement.is_some() {
+        total += 2.0;
+        cost += if one.block.statement == two.block.statement { 0.0 } else { 1.5 };
     }
     if total > 0.0 { (cost / total).min(1.0) } else { 0.0 }
 }

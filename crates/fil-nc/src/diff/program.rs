@@ -5,8 +5,9 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use fil_diag::Diag;
 
 use super::Options;
+use super::language::Language;
 use super::modal::{Modal, group, tenths};
-use crate::text::{Block, Word, read_block};
+use crate::text::{Block, Word};
 
 /// Steps of a unit of length that the alignment tells apart.
 const STEPS: f64 = 1e4;
@@ -52,10 +53,11 @@ impl Program {
 
     pub(super) fn read(text: &[u8], name: &str, options: &Options) -> Result<Self, Box<Diag>> {
         let mut modal = Modal::default();
+        let language = Language::of(text);
         let mut program = Program { name: name.to_string(), ..Program::default() };
         for (number, line) in text.split(|byte| *byte == b'\n').enumerate() {
             program.texts.push(String::from_utf8_lossy(line).trim_end().to_string());
-            let mut block = read_block(line, name, number as u32 + 1)?;
+            let mut block = language.read(line, name, number as u32 + 1)?;
             leave_out(&mut block, options);
             let before = modal.clone();
             modal.take(&block);
@@ -100,7 +102,7 @@ fn without_dates(text: &str) -> String {
 }
 
 fn is_empty(block: &Block) -> bool {
-    let marked = block.tape_mark || block.skip;
+    let marked = block.tape_mark || block.skip || block.statement.is_some();
     !marked && block.words.is_empty() && block.comments.is_empty()
 }
 
@@ -108,7 +110,8 @@ fn is_empty(block: &Block) -> bool {
 fn only_repeats(block: &Block, before: &Modal, after: &Modal) -> bool {
     let drills =
         after.in_cycle() && block.words.iter().any(|word| b"XYZABC".contains(&word.letter));
-    let marked = block.tape_mark || block.skip || !block.comments.is_empty();
+    let marked =
+        block.tape_mark || block.skip || !block.comments.is_empty() || block.statement.is_some();
     let repeated = |word: &Word| word.letter == b'N' || repeats(word, before, after);
     !drills && !marked && block.words.iter().all(repeated)
 }
@@ -140,7 +143,7 @@ fn token(block: &Block, left_out: impl Fn(&Word) -> bool) -> u64 {
         .collect();
     said.sort_unstable();
     let mut hasher = DefaultHasher::new();
-    (block.tape_mark, block.skip, &block.comments, said).hash(&mut hasher);
+    (block.tape_mark, block.skip, &block.comments, &block.statement, said).hash(&mut hasher);
     hasher.finish()
 }
 

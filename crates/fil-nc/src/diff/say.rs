@@ -50,6 +50,9 @@ pub fn sentence(difference: &Difference, first: &Program, second: &Program) -> S
         What::Word(letter, values) => word(*letter, *values),
         What::Function(letter, codes) => function(*letter, *codes),
         What::Arc(deviation) => format!("the arc runs up to {} beside", number(*deviation)),
+        What::Statement([one, two]) if one.is_empty() => format!("`{two}` is new"),
+        What::Statement([one, two]) if two.is_empty() => format!("`{one}` is missing"),
+        What::Statement([one, two]) => format!("`{two}` instead of `{one}`"),
         What::Comment([one, two]) => format!("comment ({two}) instead of ({one})"),
         What::Mark(_) => "tape mark or block skip in one program alone".to_string(),
         What::Numbering(count, numbers) => {

@@ -28,6 +28,8 @@ use crate::dialect::{Dialect, Family};
 use crate::errors::NcCode;
 use crate::motion::Event;
 
+pub(crate) use sinumerik::line as sinumerik_words;
+
 /// A refusal, before it has its place.
 #[derive(Debug)]
 pub(crate) struct Fault {
@@ -47,7 +49,7 @@ impl Fault {
         self
     }
 
-    fn place(self, name: &str, line: u32, text: &[u8]) -> Box<Diag> {
+    pub(crate) fn place(self, name: &str, line: u32, text: &[u8]) -> Box<Diag> {
         let mut place = TextSpan::line(name, line, String::from_utf8_lossy(text).trim_end());
         if let Some(range) = self.range {
             let before = |end: usize| String::from_utf8_lossy(&text[..end.min(text.len())]).len();

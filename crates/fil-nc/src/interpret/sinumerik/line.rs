@@ -8,7 +8,7 @@ use crate::errors::NcCode;
 
 /// What stands behind a name.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Value {
+pub(crate) enum Value {
     /// A number.
     Number(f64),
     /// `AC(…)`: a position, whatever is in force.
@@ -25,25 +25,25 @@ pub(super) enum Value {
 
 /// A word of a block.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Word {
+pub(crate) struct Word {
     /// In upper case, with the number of a named address: `X1`, `CR`, `CYCLE83`.
-    pub(super) name: String,
+    pub(crate) name: String,
     /// Its name stands before `=`.
-    pub(super) assigned: bool,
-    pub(super) value: Option<Value>,
+    pub(crate) assigned: bool,
+    pub(crate) value: Option<Value>,
     /// What a call is given; `None` for an argument that is left out.
-    pub(super) arguments: Option<Vec<Option<Value>>>,
+    pub(crate) arguments: Option<Vec<Option<Value>>>,
     /// Bytes of the line.
-    pub(super) range: Range<usize>,
+    pub(crate) range: Range<usize>,
 }
 
 impl Word {
-    pub(super) fn no_meaning(&self) -> Fault {
+    pub(crate) fn no_meaning(&self) -> Fault {
         let message = format!("`{}`: nothing takes it", self.name);
         Fault::new(NcCode::NoMeaning, message).at(&self.range)
     }
 
-    pub(super) fn foreign(&self, why: &str) -> Fault {
+    pub(crate) fn foreign(&self, why: &str) -> Fault {
         Fault::new(NcCode::ForeignCode, format!("`{}` {why}", self.name)).at(&self.range)
     }
 }
@@ -52,7 +52,7 @@ impl Word {
 ///
 /// # Errors
 /// What is no word, a text that is not closed, a number that can't be read.
-pub(super) fn read(text: &[u8]) -> Result<Vec<Word>, Fault> {
+pub(crate) fn read(text: &[u8]) -> Result<Vec<Word>, Fault> {
     let mut scan = Scan { text, at: 0 };
     let mut words = Vec::new();
     scan.blanks();

@@ -8,7 +8,7 @@
 mod block;
 mod cycle;
 mod functions;
-mod line;
+pub(crate) mod line;
 mod motion;
 
 use std::collections::BTreeMap;
