@@ -275,6 +275,9 @@ impl Wanted {
                     | Wanted::Retract
                     | Wanted::Tool { .. }
                     | Wanted::Dwell(..)
+                    | Wanted::DwellTurns(_)
+                    | Wanted::WholeThread(_)
+                    | Wanted::SideSpindle(_)
                     | Wanted::Stop { .. }
                     | Wanted::OverrideLock(_)
                     | Wanted::RigidTap

@@ -131,9 +131,18 @@ fn clearance_of(awaited: &Awaited, start: Target, side: ThreadSide) -> f64 {
 pub fn carry_out(post: &mut Post, thread: &Thread) -> Result<()> {
     check_machine(post)?;
     let shape = Shape::of(post, thread)?;
-    approach(post, &shape)?;
+    let divides = !matches!(
+        cycle_of(post, thread, &shape),
+        ThreadCycle::SinglePasses | ThreadCycle::CycleOfOnePass
+    );
+    // A cycle that divides the thread begins clear of its start, a pass where it begins itself.
+    let begin = |start: u32| match shape.depths.first() {
+        Some(first) if !divides => shape.above(start, *first),
+        _ => shape.shifted(start),
+    };
+    approach(post, &shape, begin(0))?;
     for start in 0..thread.starts {
-        to(post, shape.shifted(start), MotionKind::Rapid(thread.lead.cause))?;
+        to(post, begin(start), MotionKind::Rapid(thread.lead.cause))?;
         if !family::thread_cycle(post, thread, &shape, start)? {
             passes(post, thread, &shape, start)?;
         }
@@ -392,8 +401,7 @@ pub fn least_depth(post: &Post) -> f64 {
 
 /// Brings the tool clear of the crest, along the axis first where it stands clear of it,
 /// else out first.
-fn approach(post: &mut Post, shape: &Shape) -> Result<()> {
-    let goal = shape.shifted(0);
+fn approach(post: &mut Post, shape: &Shape, goal: Target) -> Result<()> {
     let Some(from) = post.path.point else { return Ok(()) };
     let out = shape.out();
     let clear = (from - goal.point).dot(&out) >= -NOTHING;
