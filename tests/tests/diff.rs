@@ -67,6 +67,6 @@ fn run(path: &Path) -> Result<(), Failed> {
 fn said(first: &str, second: &str, options: &Options) -> Result<String, Failed> {
     let read = |text: &str, name| read(text.as_bytes(), name, options).map_err(|d| d.to_string());
     let (first, second) = (read(first, "first")?, read(second, "second")?);
-    let found = compare(&first, &second, options).differences;
+    let found = compare(&first, &second, options).map_err(|diag| diag.to_string())?.differences;
     Ok(found.iter().map(|difference| sentence(difference, &first, &second) + "\n").collect())
 }

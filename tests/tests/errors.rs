@@ -9,6 +9,7 @@ use std::io::{self, Cursor, Read};
 use std::path::{Path, PathBuf};
 
 use filpost::case::Case;
+use filpost::nc::diff;
 use filpost::nc::verify::Allowed;
 use filpost::{
     CancelToken, Code, Diag, Error, Limits, Program, Severity, Unit, all_codes, files, trace,
@@ -51,6 +52,8 @@ const TESTED_HERE: &[(&str, &str)] = &[
     ("E0715", "e0715_units_contradict"),
     ("E0716", "e0716_changed_as_written"),
     ("W0757", "w0757_choice_against_the_signs"),
+    ("E0717", "e0717_program_too_long"),
+    ("E0915", "e0915_program_changes_while_compared"),
     ("E0940", "e0940_unit_not_known"),
     ("E0941", "e0941_another_part"),
 ];
@@ -424,8 +427,7 @@ fn e0701_missing_file() {
 fn e0707_to_e0710_line_maps() {
     let folder = root().join("docs/trace");
     let (nc, map) = (folder.join("cover.nc"), folder.join("cover.nc.map"));
-    let options =
-        trace::Options { most: 1, cl: filpost::cl::reader::Options::default(), encoding: None };
+    let options = trace::Options { most: 1, ..trace::Options::default() };
     let ask = |file: &Path, line, map: &Path| {
         let place = trace::FilePosition { file: file.to_path_buf(), line, column: None };
         trace::trace(&place, map, &options)
@@ -445,6 +447,46 @@ fn e0702_absent_folder() {
         post_file(&shop.path("part.ncl"), &shop.path("absent/out.nc")).expect_err("refused");
     assert_eq!(names(&error), ["E0702"]);
     assert_eq!(shop.names(), ["part.ncl"]);
+}
+
+#[test]
+fn e0717_program_too_long() {
+    let fil =
+        "CIMFIL/ON,GOTO\nDO/LAB1,II=1,200000\nPOSTN/OUT,G,4,P,II\nLAB1)CONTIN\nCIMFIL/OFF\nFINI\n";
+    let shop = Shop::new();
+    let post = |output_bytes| {
+        let limits = Limits { output_bytes, ..Limits::default() };
+        let builder = Program::builder().fil("t.fil", fil).limits(limits);
+        builder.build()?.run_files(&shop.path("part.ncl"), &shop.path("out.nc"))
+    };
+    assert_eq!(names(&post(2_000_000).expect_err("refused")), ["E0717"]);
+    assert_eq!(shop.names(), ["part.ncl"]);
+    let report = post(u64::MAX).expect("no limit");
+    let text = std::fs::read_to_string(shop.path("out.nc")).expect("a program");
+    assert_eq!(report.bytes, text.len() as u64);
+    assert!(text.len() > 3_000_000, "{} bytes", text.len());
+    let waits = text.lines().filter_map(|line| line.split_once("G4 P")).map(|(_, wait)| wait);
+    let mut last = 0.0;
+    for wait in waits {
+        let wait: f64 = wait.parse().expect("a number");
+        assert!(wait == last + 1.0 || wait == 1.0, "{wait} after {last}");
+        last = wait;
+    }
+}
+
+#[test]
+fn e0915_program_changes_while_compared() {
+    let shop = Shop::new();
+    let blocks = |count: usize| -> String { (0..count).map(|n| format!("G1 X{n}.\n")).collect() };
+    let [first, second] = ["first.nc", "second.nc"].map(|name| shop.path(name));
+    std::fs::write(&first, blocks(2000)).expect("a program");
+    std::fs::write(&second, blocks(2001)).expect("a program");
+    let options = diff::Options::default();
+    let files = [&first, &second].map(|path| std::fs::File::open(path).expect("the program"));
+    let [one, two] = diff::open(files.map(|file| (file, "a program")), &options).expect("read");
+    std::fs::write(&first, blocks(1000)).expect("a shorter program");
+    let error = diff::compare(&one, &two, &options).expect_err("refused");
+    assert_eq!(error.code.name(), "E0915");
 }
 
 #[test]

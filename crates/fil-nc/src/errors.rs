@@ -59,6 +59,10 @@ fil_diag::codes! {
         BadCall = 914, Error, "a subprogram call that can't be followed",
             "The motions of the subprogram are part of the path.",
             "Check the number, and that the subprogram is in this file and ends with M99.";
+        /// The text of a program changed between two readings of it.
+        Changed = 915, Error, "the program changed while it was read",
+            "A long program is not kept in memory, its blocks are read again where they differ; what is compared would be of two states of the file.",
+            "Wait until the program is written, and compare again.";
         /// A CL file whose unit nobody says.
         NoUnit = 940, Error, "the unit of the CL file is not known",
             "Lengths mean nothing before the CL file, the machine or the user says mm or inch.",

@@ -14,6 +14,12 @@ use crate::errors::NcCode;
 /// Digits a number may have in all; more would not fit its exact form.
 const MAX_DIGITS: u32 = 18;
 
+/// Powers of ten, all of them exact.
+const POWERS: [f64; MAX_DIGITS as usize + 1] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
+    1e17, 1e18,
+];
+
 /// What some editors put before the first line.
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
@@ -33,7 +39,8 @@ pub struct Number {
 impl Number {
     /// The value as a human reads it.
     pub fn value(self) -> f64 {
-        self.digits as f64 / 10f64.powi(self.decimals.into())
+        let power = POWERS.get(usize::from(self.decimals)).copied();
+        self.digits as f64 / power.unwrap_or_else(|| 10f64.powi(self.decimals.into()))
     }
 }
 
@@ -84,15 +91,34 @@ impl Block {
 /// # Errors
 /// [`NcCode`] with the place of what can't be read.
 pub fn read_block(text: &[u8], name: &str, line: u32) -> Result<Block, Box<Diag>> {
+    let mut block = Block::default();
+    read_block_into(&mut block, text, name, line)?;
+    Ok(block)
+}
+
+/// The same into a block whose memory is used again; after an error its content
+/// means nothing.
+///
+/// # Errors
+/// As [`read_block`].
+pub fn read_block_into(
+    block: &mut Block,
+    text: &[u8],
+    name: &str,
+    line: u32,
+) -> Result<(), Box<Diag>> {
     let mut scan = Scan { text, at: 0, name, line };
-    let mut block = Block { line, ..Block::default() };
+    (block.line, block.skip, block.tape_mark) = (line, false, false);
+    block.words.clear();
+    block.comments.clear();
+    block.statement = None;
     if line == 1 && text.starts_with(BYTE_ORDER_MARK) {
         scan.at = BYTE_ORDER_MARK.len();
     }
     scan.blanks();
     if scan.peek() == Some(b'%') {
         block.tape_mark = true;
-        return Ok(block);
+        return Ok(());
     }
     if scan.peek() == Some(b'/') {
         block.skip = true;
@@ -100,13 +126,13 @@ pub fn read_block(text: &[u8], name: &str, line: u32) -> Result<Block, Box<Diag>
     }
     loop {
         scan.blanks();
-        if let Some(sign) = scan.message_sign(&block) {
+        if let Some(sign) = scan.message_sign(block) {
             scan.at += sign - 1;
             block.comments.push(scan.rest());
-            return Ok(block);
+            return Ok(());
         }
         match scan.peek() {
-            None => return Ok(block),
+            None => return Ok(()),
             Some(b'(') => block.comments.push(scan.bracket()?),
             Some(b';') => block.comments.push(scan.rest()),
             Some(letter) if letter.is_ascii_alphabetic() => block.words.push(scan.word()?),

@@ -495,6 +495,12 @@ pub struct TraceArgs {
     /// The line map of the run; FILE.map, or the one beside that knows FILE, when left out
     #[arg(long, value_name = "FILE")]
     pub map: Option<PathBuf>,
+    /// The CL file of the run, where it is now; where it lay as seen from the map when left out
+    #[arg(long, value_name = "FILE")]
+    pub cl: Option<PathBuf>,
+    /// A FIL file of the run, where it is now
+    #[arg(long, value_name = "FILE")]
+    pub fil: Vec<PathBuf>,
     /// How the answer is written
     #[arg(long, value_enum, default_value_t = AnswerFormat::Text)]
     pub format: AnswerFormat,

@@ -169,7 +169,7 @@ fn refuse_collisions(jobs: &[Job]) -> Result<(), Error> {
             if let Some(other) = other {
                 let (cl, other) = (job.cl.display(), other.display());
                 let message = format!("{} would come from {cl} and from {other}", path.display());
-                return Err(job::over_input(message));
+                return Err(output::over_input(message));
             }
         }
     }

@@ -8,7 +8,7 @@ use filpost::{Error, Unit, files};
 
 use crate::args::ClArgs;
 use crate::output::{self, Target};
-use crate::{Status, job, setup, summary};
+use crate::{Status, setup, summary};
 
 /// Writes a CL file as one of Creo.
 ///
@@ -17,9 +17,7 @@ use crate::{Status, job, setup, summary};
 /// written, or that is the input.
 pub fn run(args: &ClArgs, cl: &Path) -> Result<Status, Error> {
     let input = output::open(cl)?;
-    if let Some(output) = args.output.as_deref().filter(|output| is_same(cl, output)) {
-        return Err(job::over_input(format!("{} is read by this run already", output.display())));
-    }
+    output::refuse_over(args.output.as_deref(), [cl])?;
     let options = setup::cl_options(args.encoding.as_deref(), &args.cl_reading, args.raw)?;
     let name = output::input_name(cl);
     let unit =
@@ -35,10 +33,4 @@ pub fn run(args: &ClArgs, cl: &Path) -> Result<Status, Error> {
     let statements = summary::counted(converted.statements, "statement");
     output::say(&format!("{name}: {statements} written for Creo, dialect {}", converted.dialect));
     Ok(Status::Done)
-}
-
-/// True for two names of one file.
-fn is_same(one: &Path, other: &Path) -> bool {
-    let real = |path: &Path| path.canonicalize().ok().filter(|path| path.is_file());
-    one.as_os_str() != "-" && real(one).is_some() && real(one) == real(other)
 }

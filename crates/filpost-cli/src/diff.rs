@@ -1,13 +1,13 @@
 //! `filpost diff`
 
-use std::collections::HashSet;
-use std::io::{self, Read, Write};
-use std::path::Path;
+use std::collections::VecDeque;
+use std::io::{self, Write};
+use std::iter::Peekable;
 
+use filpost::Error;
 use filpost::nc::diff::{
-    Comparison, Difference, Ignore, Options, Program, What, compare, read, sentence,
+    self, Comparison, Difference, Ignore, Options, Program, What, compare, sentence,
 };
-use filpost::{Error, files};
 use serde_json::{Value, json};
 
 use crate::args::{DiffArgs, Report};
@@ -33,8 +33,13 @@ pub fn run(args: &DiffArgs) -> Result<Status, Error> {
     }
     let options =
         Options { tolerance: args.tol, ignore, modal: args.modal, diameter: args.diameter };
-    let (first, second) = (program(&args.first, &options)?, program(&args.second, &options)?);
-    let found = compare(&first, &second, &options);
+    let names = [&args.first, &args.second].map(|path| output::input_name(path));
+    let files = [
+        (output::open(&args.first)?, names[0].as_str()),
+        (output::open(&args.second)?, names[1].as_str()),
+    ];
+    let [first, second] = diff::open(files, &options).map_err(Error::Run)?;
+    let found = compare(&first, &second, &options).map_err(Error::Run)?;
     match args.format {
         Report::Json => {
             output::print_with(|out| writeln!(out, "{:#}", as_json(&found, &first, &second)))?
@@ -46,12 +51,6 @@ pub fn run(args: &DiffArgs) -> Result<Status, Error> {
         }
     }
     Ok(if found.differences.is_empty() { Status::Done } else { Status::Failed })
-}
-
-fn program(path: &Path, options: &Options) -> Result<Program, Error> {
-    let mut text = Vec::new();
-    output::open(path)?.read_to_end(&mut text).map_err(|error| files::cant_read(path, &error))?;
-    read(&text, &output::input_name(path), options).map_err(Error::Run)
 }
 
 /// An object with the differences in order.
@@ -108,27 +107,28 @@ struct Show<'p> {
 impl Show<'_> {
     fn all(&self, out: &mut dyn Write, found: &Comparison, context: usize) -> io::Result<()> {
         let mut differences = found.differences.iter().peekable();
-        let differing: HashSet<_> = found.differences.iter().map(|found| found.lines).collect();
-        let differs: Vec<bool> = found.pairs.iter().map(|pair| differing.contains(pair)).collect();
-        let mut shown_to = 0;
-        for at in (0..differs.len()).filter(|at| differs[*at]) {
-            if at < shown_to {
-                continue;
-            }
-            let from = at.saturating_sub(context).max(shown_to);
-            if shown_to > 0 && from > shown_to || shown_to == 0 && from > 0 {
-                writeln!(out, "  …")?;
-            }
-            let mut end = at;
-            let mut row = from;
-            while row < differs.len() && row <= end + context {
-                if differs[row] {
-                    end = row;
+        let mut before = VecDeque::new();
+        let (mut cut, mut after) = (false, 0);
+        for pair in found.pairs() {
+            if differences.peek().is_some_and(|difference| difference.lines == pair) {
+                if cut {
+                    writeln!(out, "  …")?;
                 }
-                self.row(out, found.pairs[row], &mut differences)?;
-                row += 1;
+                for pair in before.drain(..) {
+                    self.row(out, pair, &mut differences)?;
+                }
+                self.row(out, pair, &mut differences)?;
+                (cut, after) = (false, context);
+            } else if after > 0 {
+                self.row(out, pair, &mut differences)?;
+                after -= 1;
+            } else {
+                before.push_back(pair);
+                if before.len() > context {
+                    before.pop_front();
+                    cut = true;
+                }
             }
-            shown_to = row;
         }
         let count = found.differences.len();
         let s = if count == 1 { "" } else { "s" };
@@ -144,7 +144,7 @@ impl Show<'_> {
         &self,
         out: &mut dyn Write,
         pair: [Option<u32>; 2],
-        differences: &mut std::iter::Peekable<impl Iterator<Item = &'d Difference>>,
+        differences: &mut Peekable<impl Iterator<Item = &'d Difference>>,
     ) -> io::Result<()> {
         let mut here = Vec::new();
         while let Some(difference) = differences.next_if(|difference| difference.lines == pair) {

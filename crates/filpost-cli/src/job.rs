@@ -1,7 +1,7 @@
 //! One CL file on its way to one NC program.
 
 use std::fs::File;
-use std::io::{self, BufWriter, Read, Seek, Write};
+use std::io::{self, Read, Seek};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -13,7 +13,7 @@ use indicatif::ProgressBar;
 
 use crate::args::PostArgs;
 use crate::errors::CommandCode;
-use crate::output::{self, Target};
+use crate::output::{self, Target, over_input};
 use crate::posts::{Built, Posts};
 use crate::setup::{self, From};
 use crate::summary;
@@ -73,63 +73,59 @@ fn post(
     refuse_over_input(job, &built.inputs)?;
     (outcome.title, outcome.note) = (built.title, built.note);
     let program = built.program;
-    let mut listing = job.listing.as_deref().map(open_listing).transpose()?;
     let options = options(args)?;
-    let work = |nc: &mut (dyn Write + Send), map: Option<&mut (dyn Write + Send)>| {
-        let mut run = program.start().cl_name(&output::input_name(&job.cl)).reading(options);
-        if let Some(unit) = args.units.units {
-            run = run.units(unit);
-        }
-        if let Some(listing) = &mut listing {
-            run = run.observe(listing.observer());
-        }
-        let input = Watched { input, bar, at: 0, furthest: 0 };
-        let (report, pending) = match (map, &job.map) {
-            (Some(map), Some(path)) => {
-                run.run_mapped(input, nc, &names(&program, job, path), map)?
-            }
-            _ => run.run_pending(input, nc)?,
-        };
-        if let (Some(listing), Some(path)) = (listing, &job.listing) {
-            listing.finish().map_err(|error| files::cant_write(path, &error))?;
-        }
-        confirm(job, &from, &report)?;
-        finish(args, &program, &report, pending, outcome)?;
-        Ok(report)
-    };
-    // The map takes its name after all that can refuse the run.
-    Target::new(job.output.as_deref()).write(|nc| match &job.map {
-        Some(path) => Target::new(Some(path)).write(|map| work(nc, Some(map))),
-        None => work(nc, None),
-    })
-}
+    let stage = |path: &PathBuf| Target::new(Some(path)).stage();
+    let mut nc = Target::new(job.output.as_deref()).stage()?;
+    let mut map = job.map.as_ref().map(stage).transpose()?;
+    let mut listing = job.listing.as_ref().map(stage).transpose()?.map(Listing::new);
 
-/// Refuses a program for another machine than a late MACHIN names; its listing goes too.
-fn confirm(job: &Job, from: &From, report: &Report) -> Result<(), Error> {
-    let name = output::input_name(&job.cl);
-    let confirmed = setup::confirm(from, || Ok(report.machines.clone()), &name);
-    if let (Err(_), Some(listing)) = (&confirmed, &job.listing)
-        && !is_device(listing)
-    {
-        std::fs::remove_file(listing).map_err(|error| files::cant_write(listing, &error))?;
+    let mut run = program.start().cl_name(&output::input_name(&job.cl)).reading(options);
+    if let Some(unit) = args.units.units {
+        run = run.units(unit);
     }
-    confirmed
-}
-
-/// What is left to do before the program appears under its name.
-fn finish(
-    args: &PostArgs,
-    program: &Program,
-    report: &Report,
-    pending: PendingFiles,
-    outcome: &mut Outcome,
-) -> Result<(), Error> {
+    if let Some(listing) = &mut listing {
+        run = run.observe(listing.observer());
+    }
+    let input = Watched { input, bar, at: 0, furthest: 0 };
+    let (report, pending) = match (&mut map, &job.map) {
+        (Some(map), Some(path)) => {
+            run.run_mapped(input, &mut nc, &names(&program, job, path), map)?
+        }
+        _ => run.run_pending(input, &mut nc)?,
+    };
+    let listing = match (listing, &job.listing) {
+        (Some(listing), Some(path)) => {
+            Some(listing.finish().map_err(|error| files::cant_write(path, &error))?)
+        }
+        _ => None,
+    };
+    let name = output::input_name(&job.cl);
+    setup::confirm(&from, || Ok(report.machines.clone()), &name)?;
     let warnings = program.warnings().iter().chain(&report.warnings);
     let allowed = |diag: &&Diag| args.reading.allow.contains(&diag.code);
     outcome.warnings = warnings.filter(|diag| !allowed(diag)).cloned().collect();
     deny(args.deny_warnings, outcome.warnings.len())?;
-    // Last of all: from here on only the program and its map can fail to appear.
-    pending.commit()
+    refuse_scripts(job, &built.inputs, &program, &pending)?;
+    output::commit([Some(nc), map, listing].into_iter().flatten(), pending)?;
+    Ok(report)
+}
+
+/// Refuses a script that would write over a file that this run reads or writes.
+fn refuse_scripts(
+    job: &Job,
+    inputs: &[PathBuf],
+    program: &Program,
+    pending: &PendingFiles,
+) -> Result<(), Error> {
+    let fil = program.fil_files();
+    let outputs = job.output.iter().chain(&job.listing).chain(&job.map);
+    let taken = inputs.iter().chain(outputs).map(PathBuf::as_path);
+    let taken = taken.chain([job.cl.as_path()]).chain(fil.iter().map(Path::new));
+    let taken: Vec<&Path> = taken.collect();
+    for path in pending.paths() {
+        output::refuse_over([path], taken.iter().copied())?;
+    }
+    Ok(())
 }
 
 /// The post of the job, and where it comes from; afterwards the input stands at its
@@ -146,11 +142,6 @@ fn built(posts: &Posts<'_>, job: &Job, input: &mut File) -> Result<(Built, From)
 
 fn options(args: &PostArgs) -> Result<Options, Error> {
     setup::cl_options(args.reading.encoding.as_deref(), &args.cl_reading, args.raw)
-}
-
-fn open_listing(path: &Path) -> Result<Listing<BufWriter<File>>, Error> {
-    let file = File::create(path).map_err(|error| files::cant_write(path, &error))?;
-    Ok(Listing::new(BufWriter::new(file)))
 }
 
 /// How the map calls the files: as they are seen from its folder.
@@ -205,35 +196,16 @@ fn deny(denied: bool, warnings: usize) -> Result<(), Error> {
 /// Refuses an output that is one of the inputs, or another output. A map never
 /// overwrites a file that is not a map.
 fn refuse_over_input(job: &Job, inputs: &[PathBuf]) -> Result<(), Error> {
-    let mut taken: Vec<PathBuf> = inputs.iter().filter_map(|path| real(path)).collect();
-    taken.extend(real(&job.cl));
-    for path in job.output.iter().chain(&job.listing).chain(&job.map) {
-        let file = real(path).unwrap_or_else(|| path.clone());
-        if taken.contains(&file) {
-            let message = format!("{} is read or written by this run already", path.display());
-            return Err(over_input(message));
-        }
-        if !is_device(path) {
-            taken.push(file);
-        }
-    }
+    let outputs = job.output.iter().chain(&job.listing).chain(&job.map).map(PathBuf::as_path);
+    let inputs = inputs.iter().chain([&job.cl]).map(PathBuf::as_path);
+    output::refuse_over(outputs, inputs)?;
     match &job.map {
-        Some(map) if real(map).is_some_and(|map| !is_map(&map)) => Err(over_input(format!(
+        Some(map) if map.is_file() && !is_map(map) => Err(over_input(format!(
             "{} is there and is no line map; --map takes the name after it for that of the map",
             map.display()
         ))),
         _ => Ok(()),
     }
-}
-
-/// E0802
-pub fn over_input(message: String) -> Error {
-    Error::Run(Box::new(Diag::new(CommandCode::OverInput, message)))
-}
-
-/// The real path of a plain file.
-fn real(path: &Path) -> Option<PathBuf> {
-    path.canonicalize().ok().filter(|path| path.is_file())
 }
 
 /// True for an empty file and for one that begins as a map does.
@@ -243,8 +215,4 @@ fn is_map(path: &Path) -> bool {
     let read =
         File::open(path).and_then(|file| file.take(BEGIN.len() as u64).read_to_end(&mut begin));
     read.is_ok() && (begin.is_empty() || begin == BEGIN)
-}
-
-fn is_device(path: &Path) -> bool {
-    path.as_os_str() == "-" || path.metadata().is_ok_and(|found| !found.is_file())
 }

@@ -35,7 +35,7 @@ use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind};
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
-use filpost::Error;
+use filpost::{Error, files};
 
 use args::{Args, Command};
 
@@ -52,8 +52,16 @@ enum Status {
     Fault = 3,
 }
 
+/// Exit status of a command that was told to stop.
+const STOPPED: i32 = 130;
+
 fn main() -> ExitCode {
     std::panic::set_hook(Box::new(report_fault));
+    // Without a handler a stopped command would leave files in the making behind.
+    let _ = ctrlc::set_handler(|| {
+        files::give_up();
+        std::process::exit(STOPPED);
+    });
     let status = match catch_unwind(AssertUnwindSafe(|| run(&Args::parse().command))) {
         Ok(Ok(status)) => status as u8,
         Ok(Err(error)) => {

@@ -4,7 +4,9 @@ use std::fs::File;
 use std::io::{self, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
 
-use filpost::{Error, files};
+use filpost::{Diag, Error, NewFile, PendingFiles, files};
+
+use crate::errors::CommandCode;
 
 /// Name of standard output in messages.
 pub const STANDARD_OUTPUT: &str = "standard output";
@@ -39,6 +41,21 @@ impl Target {
         }
     }
 
+    /// Begins the result: nothing of it is seen before [`commit`].
+    ///
+    /// # Errors
+    /// E0702
+    pub fn stage(self) -> Result<Staged, Error> {
+        match self {
+            Target::File(path) => NewFile::create(&path).map(Staged::File),
+            stream => {
+                let spool = tempfile::tempfile();
+                let spool = spool.map_err(|error| files::cant_write(stream.path(), &error))?;
+                Ok(Staged::Stream(BufWriter::with_capacity(BUFFER, spool), stream))
+            }
+        }
+    }
+
     /// Writes the result; on an error nothing of it is seen.
     ///
     /// # Errors
@@ -47,53 +64,119 @@ impl Target {
         &self,
         write: impl FnOnce(&mut (dyn Write + Send)) -> Result<T, Error>,
     ) -> Result<T, Error> {
+        let mut staged = self.clone().stage()?;
+        let result = write(&mut staged)?;
+        commit([staged], PendingFiles::default())?;
+        Ok(result)
+    }
+
+    /// Its name, for messages.
+    fn path(&self) -> &Path {
         match self {
-            Target::File(path) => files::write_whole(path, |output| write(output)),
-            Target::Stdout => through_spool(write, |spool| {
+            Target::Stdout => Path::new(STANDARD_OUTPUT),
+            Target::Device(path) | Target::File(path) => path,
+        }
+    }
+
+    /// Hands a whole result out.
+    fn copy(&self, spool: &mut File) -> io::Result<()> {
+        match self {
+            Target::Stdout => {
                 let mut output = io::stdout().lock();
                 io::copy(spool, &mut output).and_then(|_| output.flush())
-            })
-            .map_err(|error| error.named(Path::new(STANDARD_OUTPUT))),
-            Target::Device(path) => through_spool(write, |spool| {
+            }
+            Target::Device(path) | Target::File(path) => {
                 let mut output = File::options().write(true).open(path)?;
                 io::copy(spool, &mut output).map(|_| ())
-            })
-            .map_err(|error| error.named(path)),
+            }
         }
     }
 }
 
-/// What went wrong on the way through the spool file.
-enum SpoolError {
-    Run(Error),
-    Io(io::Error),
+/// A result in the making.
+pub enum Staged {
+    /// A file that will take its name.
+    File(NewFile),
+    /// A nameless file that will be copied to a stream.
+    Stream(BufWriter<File>, Target),
 }
 
-impl SpoolError {
-    fn named(self, path: &Path) -> Error {
+impl Write for Staged {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self {
-            SpoolError::Run(error) => error,
-            SpoolError::Io(error) => files::cant_write(path, &error),
+            Staged::File(file) => file.write(bytes),
+            Staged::Stream(spool, _) => spool.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Staged::File(file) => file.flush(),
+            Staged::Stream(spool, _) => spool.flush(),
         }
     }
 }
 
-/// Keeps the result in a nameless file until it is complete, then hands it out.
-fn through_spool<T>(
-    write: impl FnOnce(&mut (dyn Write + Send)) -> Result<T, Error>,
-    hand_out: impl FnOnce(&mut File) -> io::Result<()>,
-) -> Result<T, SpoolError> {
-    let spool = tempfile::tempfile().map_err(SpoolError::Io)?;
-    let mut output = BufWriter::with_capacity(BUFFER, spool);
-    let result = write(&mut output).map_err(SpoolError::Run)?;
-    let finished = output.into_inner().map_err(|error| error.into_error());
-    finished
-        .and_then(|mut spool| {
-            spool.rewind()?;
-            hand_out(&mut spool)
+/// Lets all results of a run and the files of its scripts appear together, or none: the
+/// streams come last, and where one can't be written, the files are as they were.
+///
+/// # Errors
+/// E0702
+pub fn commit(
+    staged: impl IntoIterator<Item = Staged>,
+    mut pending: PendingFiles,
+) -> Result<(), Error> {
+    let mut streams = Vec::new();
+    for result in staged {
+        match result {
+            Staged::File(file) => pending.add(file),
+            Staged::Stream(spool, target) => streams.push((spool, target)),
+        }
+    }
+    pending.commit_then(|| {
+        streams.into_iter().try_for_each(|(spool, target)| {
+            let whole = spool.into_inner().map_err(io::IntoInnerError::into_error);
+            let copied = whole.and_then(|mut spool| {
+                spool.rewind()?;
+                target.copy(&mut spool)
+            });
+            copied.map_err(|error| files::cant_write(target.path(), &error))
         })
-        .map_err(SpoolError::Io)?;
-    Ok(result)
+    })
+}
+
+/// Refuses an output that is one of the inputs, or another output.
+///
+/// # Errors
+/// E0802
+pub fn refuse_over<'p>(
+    outputs: impl IntoIterator<Item = &'p Path>,
+    inputs: impl IntoIterator<Item = &'p Path>,
+) -> Result<(), Error> {
+    let inputs = inputs.into_iter().filter(|path| !is_device(path));
+    let mut taken: Vec<PathBuf> = inputs.map(files::real_path).collect();
+    for path in outputs {
+        let file = files::real_path(path);
+        if taken.contains(&file) {
+            return Err(over_input(format!(
+                "{} is read or written by this run already",
+                path.display()
+            )));
+        }
+        if !is_device(path) {
+            taken.push(file);
+        }
+    }
+    Ok(())
+}
+
+/// E0802
+pub fn over_input(message: String) -> Error {
+    Error::Run(Box::new(Diag::new(CommandCode::OverInput, message)))
+}
+
+fn is_device(path: &Path) -> bool {
+    path.as_os_str() == "-" || path.metadata().is_ok_and(|found| !found.is_file())
 }
 
 /// Reads standard input into a nameless file, so that it can be read again.

@@ -1,7 +1,7 @@
 //! `filpost plot`
 
 use std::io::{Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use filpost::cl::reader::Options;
 use filpost::map::MapReader;
@@ -31,6 +31,9 @@ pub fn run(args: &PlotArgs) -> Result<Status, Error> {
         output::say("error: the name of the picture must end in .svg or .html");
         return Ok(Status::Usage);
     };
+    let inputs = [Some(&args.file), args.cl.as_ref(), args.map.as_ref()];
+    let inputs = inputs.into_iter().flatten().map(PathBuf::as_path);
+    output::refuse_over(args.output.as_deref(), inputs)?;
     let bytes = read(&args.file)?;
     let name = output::input_name(&args.file);
     let text = Text { name: &name, bytes: &bytes };

@@ -28,6 +28,8 @@ pub fn run(args: &TraceArgs) -> Result<Status, Error> {
         most: args.most,
         cl: setup::cl_options(args.encoding.as_deref(), &args.cl_reading, args.raw)?,
         encoding: args.encoding.clone(),
+        cl_file: args.cl.clone(),
+        fil_files: args.fil.clone(),
     };
     let answer = trace::trace(&place, &map, &options)?;
     match args.format {

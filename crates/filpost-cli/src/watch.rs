@@ -92,7 +92,7 @@ fn changes(before: &Made, made: &Made) -> Result<Vec<String>, Box<Diag>> {
     } else {
         let options = Options::default();
         let [old, new] = [read(&before.nc, "before", &options)?, read(&made.nc, "now", &options)?];
-        let found = compare(&old, &new, &options);
+        let found = compare(&old, &new, &options)?;
         let shown = found.differences.iter().take(MOST);
         lines.extend(shown.map(|difference| sentence(difference, &old, &new)));
         if found.differences.is_empty() {

@@ -18,7 +18,7 @@ use crate::error::{Error, RunCode};
 use crate::granted::{Clock, Spawn};
 use crate::program::{Program, Shared};
 use crate::ready;
-use crate::script_files::{Folders, real_folder};
+use crate::script_files::{Folder, Folders};
 
 /// Where the settings of the machine come from.
 enum Machine {
@@ -288,8 +288,8 @@ impl Builder {
 /// The granted folders; `None` without any.
 fn folders(read: Option<&Path>, write: Option<&Path>) -> Result<Option<Arc<Folders>>, Error> {
     let folders = Folders {
-        read: read.map(real_folder).transpose()?,
-        write: write.map(real_folder).transpose()?,
+        read: read.map(Folder::open).transpose()?,
+        write: write.map(Folder::open).transpose()?,
     };
     let any = folders.read.is_some() || folders.write.is_some();
     Ok(any.then(|| Arc::new(folders)))

@@ -11,14 +11,15 @@ use fil_vm::{Interpreter, SectionId, SectionMode};
 
 use crate::editing::SharedEditor;
 use crate::error::{Error, RunCode};
-use crate::event::Event;
 use crate::map;
 use crate::outside::Outside;
 use crate::passes::FirstPass;
+use crate::pending::PendingFiles;
 use crate::report::Report;
 use crate::run::Start;
-use crate::script_files::{PendingFiles, ScriptFiles};
+use crate::script_files::ScriptFiles;
 use crate::source::Records;
+use crate::spilled::Spilled;
 
 /// Bytes of finished blocks that are kept before they go to the writer.
 const FLUSH: usize = 64 * 1024;
@@ -39,8 +40,6 @@ pub(crate) struct Engine<'o, S> {
     fuel: u64,
     pub(crate) record: Record,
     started: bool,
-    /// Blocks on the tape that observers have seen.
-    shown: usize,
     failure: Option<Error>,
 }
 
@@ -71,7 +70,6 @@ impl<'o, S: Records> Engine<'o, S> {
             fuel: shared.limits.fuel,
             record: Record::default(),
             started: false,
-            shown: 0,
             failure: None,
         }
     }
@@ -79,6 +77,7 @@ impl<'o, S: Records> Engine<'o, S> {
     /// Runs to the end; what the script wrote is not under its names yet.
     pub(crate) fn run(&mut self, nc: &mut dyn Write) -> Result<(Report, PendingFiles), Error> {
         let observed = !self.outside.observers.is_empty();
+        self.outside.spilled = Some(Spilled::default());
         let mut more = true;
         while more {
             let step = self.advance().map_err(|first| self.survey(first));
@@ -87,7 +86,7 @@ impl<'o, S: Records> Engine<'o, S> {
             }
             more = step?;
             if observed {
-                self.show_blocks(|_, _| {});
+                self.outside.show_blocks(|_, _| {});
                 self.outside.record_done().map_err(Error::Run)?;
             }
             if !more || self.outside.post.control.tape.text.len() >= FLUSH {
@@ -115,7 +114,7 @@ impl<'o, S: Records> Engine<'o, S> {
                 Ok(false) => break None,
                 Err(diag) => break Some(diag.message.clone()),
             }
-            self.forget_blocks();
+            self.outside.forget_blocks();
             self.outside.report.warnings.clear();
         };
         let overview = self.outside.pass.counted().map(std::mem::take).unwrap_or_default();
@@ -155,45 +154,16 @@ impl<'o, S: Records> Engine<'o, S> {
 
     /// Hands the finished blocks out and forgets them.
     pub(crate) fn take_blocks(&mut self, take: impl FnMut(&str, &Origin)) {
-        self.show_blocks(take);
-        self.forget_blocks();
-    }
-
-    /// Hands out the blocks that nobody has seen yet.
-    fn show_blocks(&mut self, mut take: impl FnMut(&str, &Origin)) {
-        let tape = &self.outside.post.control.tape;
-        let Some(noted) = &tape.noted else { return };
-        for block in &noted.blocks[self.shown..] {
-            let text = String::from_utf8_lossy(&tape.text[block.range.clone()]);
-            let origin = tape.stacks.origin(block.cause);
-            take(&text, &origin);
-            for observer in self.outside.observers.iter_mut() {
-                observer(Event::Block { text: &text, origin: &origin });
-            }
-        }
-        self.shown = noted.blocks.len();
-    }
-
-    pub(crate) fn forget_blocks(&mut self) {
-        let tape = &mut self.outside.post.control.tape;
-        if let Some(noted) = &mut tape.noted {
-            noted.clear();
-        }
-        self.outside.report.bytes += tape.text.len() as u64;
-        tape.text.clear();
-        self.shown = 0;
+        self.outside.show_blocks(take);
+        self.outside.forget_blocks();
     }
 
     fn flush(&mut self, nc: &mut dyn Write) -> Result<(), Error> {
-        let tape = &mut self.outside.post.control.tape;
-        nc.write_all(&tape.text).map_err(write_error)?;
-        if let Some(map) = &mut self.outside.map {
-            // The map takes the text along.
-            self.outside.report.bytes += tape.text.len() as u64;
-            map.blocks(tape);
+        if let Some(spilled) = &mut self.outside.spilled {
+            spilled.hand_out(nc).map_err(write_error)?;
         }
-        self.forget_blocks();
-        Ok(())
+        nc.write_all(&self.outside.post.control.tape.text).map_err(write_error)?;
+        self.outside.give_away_blocks().map_err(Error::Run)
     }
 
     fn advance(&mut self) -> Result<bool> {

@@ -68,6 +68,10 @@ fil_diag::codes! {
         WrittenForm = 716, Error, "record is in the form of its CAM system",
             "Sections see statements as they are written here; the post carries out what they mean in Creo's form, which is not known for a record that FIL has changed.",
             "Make the statement anew in the section, in Creo's form, or leave --raw-records out.";
+        /// A program beyond the limit of the host.
+        TooLong = 717, Error, "the program is too long",
+            "The program around filpost has set how many bytes a program may have, so that a loop which never ends does not fill the disk.",
+            "Look for the loop that writes; an embedding program can raise `Limits::output_bytes`.";
         /// A post word in a macro that edits.
         WhileWriting = 718, Error, "not while a block is written",
             "The macro is called with a block that is on its way to the tape: nothing else can be written, read or set before it is there.",

@@ -31,6 +31,7 @@ use crate::report::{Extents, Report};
 use crate::run::Start;
 use crate::select;
 use crate::source::{Records, Source, changes_tool};
+use crate::spilled::Spilled;
 use crate::statement::statement_text;
 use crate::tally::{Before, Tally};
 use crate::units::{self, UnitSource};
@@ -81,6 +82,10 @@ pub(crate) struct Outside<'o, S> {
     pub editor: Option<SharedEditor>,
     /// Clock and files.
     pub granted: Granted,
+    /// Blocks on the tape that observers have seen.
+    pub shown: usize,
+    /// What the current record has written beyond what is kept in memory.
+    pub spilled: Option<Spilled>,
 }
 
 impl<'o, S: Records> Outside<'o, S> {
@@ -112,6 +117,8 @@ impl<'o, S: Records> Outside<'o, S> {
             section: None,
             editor: None,
             granted: Granted::new(shared.clock, shared.folders.clone()),
+            shown: 0,
+            spilled: None,
             program,
         }
     }
@@ -496,7 +503,8 @@ impl<S: Records> Host for Outside<'_, S> {
             None => self.process(record, vocabulary),
         });
         self.post.control.tape.cause.stack = 0;
-        result
+        result?;
+        self.spill()
     }
 
     fn exchange_values(&mut self, values: &mut Values) {

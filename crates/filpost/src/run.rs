@@ -17,9 +17,9 @@ use crate::files;
 use crate::map;
 use crate::memory::Memory;
 use crate::passes::{FirstPass, Pass};
+use crate::pending::{NewFile, PendingFiles};
 use crate::program::Program;
 use crate::report::Report;
-use crate::script_files::PendingFiles;
 use crate::source::Records;
 
 /// A run that has not begun: options first, then one of the methods that take a
@@ -177,7 +177,12 @@ impl<'o> Run<'o> {
             return Err(files::cant_read(cl, &io::Error::from(io::ErrorKind::IsADirectory)));
         }
         self.cl_name.get_or_insert_with(|| cl.display().to_string());
-        files::write_whole(nc, |output| self.run_seekable(input, output))
+        let mut output = NewFile::create(nc)?;
+        let (report, mut pending) = self.run_pending(input, &mut output)?;
+        pending.refuse(&[cl, nc])?;
+        pending.add(output);
+        pending.commit()?;
+        Ok(report)
     }
 
     /// Posts records from memory, in their order. They can't go back.

@@ -1,90 +1,77 @@
 //! Files of FILEF, TEXT/READ and WRITE/: in granted folders only, and what is
 //! written appears only when the whole run went well.
 
-use std::fs;
-use std::io::{self, BufWriter, Write};
-use std::path::{Component, Path, PathBuf};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use cap_std::ambient_authority;
+use cap_std::fs::Dir;
 use fil_diag::Diag;
 use fil_vm::errors::RunCode as VmCode;
 use fil_vm::{FileMode, Files};
-use tempfile::NamedTempFile;
 
 use crate::error::{Error, RunCode};
 use crate::files;
+use crate::pending::{NewFile, PendingFiles, Place, escapes};
 
 /// Largest file a script reads, in bytes; it is held in memory.
 const LARGEST: u64 = 64 << 20;
 
-/// The folders granted, as real paths.
+/// The folders granted.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Folders {
     /// Where scripts read.
-    pub read: Option<PathBuf>,
+    pub read: Option<Folder>,
     /// Where scripts write and delete.
-    pub write: Option<PathBuf>,
+    pub write: Option<Folder>,
 }
 
-/// What becomes of a file when the run went well.
-#[derive(Debug)]
-enum Change {
-    /// It gets the content of the neighbour.
-    Written(BufWriter<NamedTempFile>),
-    /// It goes away.
-    Deleted,
+/// A folder that is held open from the moment it was granted: no name, no `..` and no
+/// link leads out of it, whenever it was put there.
+#[derive(Clone, Debug)]
+pub(crate) struct Folder {
+    held: Arc<Dir>,
+    /// Its real path, for messages.
+    path: PathBuf,
 }
 
-/// Files a script has written or deleted, not yet under their names. Dropping
-/// this leaves everything as it was.
-#[derive(Debug, Default)]
-pub struct PendingFiles {
-    changes: Vec<(PathBuf, Change)>,
-}
-
-impl PendingFiles {
-    /// The files that will be written or deleted, in order.
-    pub fn paths(&self) -> impl Iterator<Item = &Path> {
-        self.changes.iter().map(|(path, _)| path.as_path())
-    }
-
-    /// Gives the files their names and deletes those that are to go.
+impl Folder {
+    /// Opens a folder.
     ///
     /// # Errors
-    /// E0702 for a file that can't be written or deleted.
-    pub fn commit(mut self) -> Result<(), Error> {
-        for (path, change) in &mut self.changes {
-            if let Change::Written(output) = change {
-                output.flush().map_err(|error| files::cant_write(path, &error))?;
-                files::keep_rights(path, output.get_ref().as_file())?;
-            }
+    /// E0701 for what is no folder.
+    pub fn open(folder: &Path) -> Result<Folder, Error> {
+        let cant = |error: io::Error| files::cant_read(folder, &error);
+        let path = folder.canonicalize().map_err(cant)?;
+        if !path.is_dir() {
+            return Err(cant(io::ErrorKind::NotADirectory.into()));
         }
-        for (path, change) in self.changes {
-            match change {
-                Change::Written(output) => {
-                    let (beside, _) = output.into_parts();
-                    beside
-                        .persist(&path)
-                        .map_err(|error| files::cant_write(&path, &error.error))?;
-                }
-                Change::Deleted => match fs::remove_file(&path) {
-                    Err(error) if error.kind() != io::ErrorKind::NotFound => {
-                        return Err(files::cant_write(&path, &error));
-                    }
-                    _ => {}
-                },
-            }
-        }
-        Ok(())
+        let held = Dir::open_ambient_dir(&path, ambient_authority()).map_err(cant)?;
+        Ok(Folder { held: Arc::new(held), path })
     }
 
-    fn find(&mut self, path: &Path) -> Option<&mut Change> {
-        self.changes.iter_mut().find(|(known, _)| known == path).map(|(_, change)| change)
+    /// The file of a name: one that is there, or could be.
+    fn place(&self, name: &str) -> Result<Place, Box<Diag>> {
+        let outside =
+            |why: &str| Box::new(Diag::new(RunCode::OutsideFolder, format!("'{name}' {why}")));
+        // Scripts of Windows name their folders with a backslash.
+        let wanted = name.replace('\\', "/");
+        if wanted.contains([':', '\0']) {
+            return Err(outside("is no name of a file in the folder"));
+        }
+        Place::below(&self.held, &self.path, Path::new(&wanted)).map_err(|error| match error {
+            error if error.kind() == io::ErrorKind::InvalidInput => {
+                outside("is no name of a file in the folder")
+            }
+            error if escapes(&error) => outside("leads out of the folder"),
+            error if self.is_dangling(&wanted) => outside(&format!("is {error}")),
+            error => cant_read(&self.path.join(&wanted), &error),
+        })
     }
 
-    fn set(&mut self, path: PathBuf, change: Change) {
-        self.changes.retain(|(known, _)| *known != path);
-        self.changes.push((path, change));
+    fn is_dangling(&self, name: &str) -> bool {
+        self.held.symlink_metadata(name).is_ok_and(|found| found.is_symlink())
     }
 }
 
@@ -123,60 +110,58 @@ impl ScriptFiles {
     }
 
     fn open_to_read(&mut self, name: &str) -> Result<Option<Unit>, Box<Diag>> {
-        let folder = self.folders.read.as_deref().ok_or_else(|| not_granted("read"))?;
-        let path = resolve(folder, name)?;
-        self.refuse_open(&path)?;
-        let content = self.content(&path)?;
+        let folder = self.folders.read.as_ref().ok_or_else(|| not_granted("read"))?;
+        let place = folder.place(name)?;
+        self.refuse_open(place.path())?;
+        let content = self.content(&place)?;
         content
             .map(|bytes| {
                 let (text, _) = fil_syntax::decode(&bytes, None).map_err(Box::new)?;
+                let path = place.path().to_path_buf();
                 Ok(Unit::Read { path, text: text.into_owned(), at: 0 })
             })
             .transpose()
     }
 
     fn open_to_write(&mut self, name: &str, append: bool) -> Result<Unit, Box<Diag>> {
-        let path = self.writable(name)?;
-        let folder = path.parent().unwrap_or(Path::new("."));
+        let place = self.writable(name)?;
+        let path = place.path().to_path_buf();
         let cant = |error: io::Error| cant_write(&path, &error);
-        let beside = NamedTempFile::new_in(folder).map_err(cant)?;
-        let mut output = BufWriter::new(beside);
-        if append && let Some(old) = self.content(&path)? {
+        let old = if append { self.content(&place)? } else { None };
+        let mut output = NewFile::at(place).map_err(cant)?;
+        if let Some(old) = old {
             output.write_all(&old).map_err(cant)?;
             if old.last().is_some_and(|byte| *byte != b'\n') {
                 output.write_all(b"\n").map_err(cant)?;
             }
         }
-        self.pending.set(path.clone(), Change::Written(output));
+        self.pending.add(output);
         Ok(Unit::Write { path })
     }
 
-    /// The path of a file that may be written or deleted.
-    fn writable(&self, name: &str) -> Result<PathBuf, Box<Diag>> {
-        let folder = self.folders.write.as_deref().ok_or_else(|| not_granted("write"))?;
-        let path = resolve(folder, name)?;
-        self.refuse_open(&path)?;
-        match fs::metadata(&path) {
+    /// A file that may be written or deleted.
+    fn writable(&self, name: &str) -> Result<Place, Box<Diag>> {
+        let folder = self.folders.write.as_ref().ok_or_else(|| not_granted("write"))?;
+        let place = folder.place(name)?;
+        self.refuse_open(place.path())?;
+        match place.metadata() {
             Ok(found) if !found.is_file() || found.permissions().readonly() => {
-                Err(cant_write(&path, &io::Error::from(io::ErrorKind::PermissionDenied)))
+                Err(cant_write(place.path(), &io::ErrorKind::PermissionDenied.into()))
             }
-            _ => Ok(path),
+            _ => Ok(place),
         }
     }
 
     /// The bytes of a file as the script sees it: what it has written itself, else
     /// what is on the disk; `None` where there is no such file.
-    fn content(&mut self, path: &Path) -> Result<Option<Vec<u8>>, Box<Diag>> {
-        let cant = |error: io::Error| cant_read(path, &error);
-        let at = match self.pending.find(path) {
-            Some(Change::Deleted) => return Ok(None),
-            Some(Change::Written(output)) => {
-                output.flush().map_err(cant)?;
-                output.get_ref().path().to_path_buf()
-            }
-            None => path.to_path_buf(),
-        };
-        let found = match fs::metadata(&at) {
+    fn content(&mut self, place: &Place) -> Result<Option<Vec<u8>>, Box<Diag>> {
+        let cant = |error: io::Error| cant_read(place.path(), &error);
+        match self.pending.find(place.path()) {
+            Some(None) => return Ok(None),
+            Some(Some(written)) => return written.content().map(Some).map_err(cant),
+            None => {}
+        }
+        let found = match place.metadata() {
             Ok(found) => found,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(cant(error)),
@@ -185,7 +170,7 @@ impl ScriptFiles {
             let message = format!("no plain file of up to {LARGEST} bytes");
             return Err(cant(io::Error::other(message)));
         }
-        fs::read(&at).map(Some).map_err(cant)
+        place.read().map(Some).map_err(cant)
     }
 
     /// Refuses a file that the other unit has open: what it reads could change.
@@ -222,14 +207,13 @@ impl Files for ScriptFiles {
     }
 
     fn delete(&mut self, name: &str) -> Result<bool, Box<Diag>> {
-        let path = self.writable(name)?;
-        let there = match self.pending.find(&path) {
-            Some(Change::Written(_)) => true,
-            Some(Change::Deleted) => false,
-            None => path.exists(),
+        let place = self.writable(name)?;
+        let there = match self.pending.find(place.path()) {
+            Some(change) => change.is_some(),
+            None => place.metadata().is_ok(),
         };
         if there {
-            self.pending.set(path, Change::Deleted);
+            self.pending.delete(place);
         }
         Ok(there)
     }
@@ -255,36 +239,10 @@ impl Files for ScriptFiles {
 
     fn write_line(&mut self, unit: usize, line: &str) -> Result<(), Box<Diag>> {
         let Some(Unit::Write { path }) = &self.units[unit] else { return Ok(()) };
-        let Some(Change::Written(output)) = self.pending.find(path) else { return Ok(()) };
+        let Some(Some(output)) = self.pending.find(path) else { return Ok(()) };
         let done = output.write_all(line.as_bytes()).and_then(|()| output.write_all(b"\n"));
         done.map_err(|error| cant_write(path, &error))
     }
-}
-
-/// The real path of a name in a folder: the file, or the place where it would be.
-/// Neither `..` nor a link leads out.
-fn resolve(folder: &Path, name: &str) -> Result<PathBuf, Box<Diag>> {
-    let outside =
-        |why: &str| Box::new(Diag::new(RunCode::OutsideFolder, format!("'{name}' {why}")));
-    // Scripts of Windows name their folders with a backslash.
-    let wanted = name.replace('\\', "/");
-    let relative = Path::new(&wanted);
-    let plain = relative.components().all(|part| matches!(part, Component::Normal(_)));
-    let Some(file) = relative.file_name().filter(|_| plain) else {
-        return Err(outside("is no name of a file in the folder"));
-    };
-    if wanted.contains([':', '\0']) {
-        return Err(outside("is no name of a file in the folder"));
-    }
-    let parent = folder.join(relative).parent().unwrap_or(folder).to_path_buf();
-    let parent = parent.canonicalize().map_err(|error| cant_read(&parent, &error))?;
-    let path = parent.join(file);
-    let real = match path.canonicalize() {
-        Ok(real) => real,
-        Err(_) if path.is_symlink() => return Err(outside("is a link to nothing")),
-        Err(_) => path,
-    };
-    if real.starts_with(folder) { Ok(real) } else { Err(outside("leads out of the folder")) }
 }
 
 fn not_granted(what: &str) -> Box<Diag> {
@@ -297,17 +255,4 @@ fn cant_read(path: &Path, error: &io::Error) -> Box<Diag> {
 
 fn cant_write(path: &Path, error: &io::Error) -> Box<Diag> {
     Box::new(Diag::new(RunCode::CantWrite, format!("{}: {error}", path.display())))
-}
-
-/// The real path of a folder that is to be granted.
-///
-/// # Errors
-/// E0701 for what is no folder.
-pub(crate) fn real_folder(folder: &Path) -> Result<PathBuf, Error> {
-    let real = folder.canonicalize().map_err(|error| files::cant_read(folder, &error))?;
-    if real.is_dir() {
-        Ok(real)
-    } else {
-        Err(files::cant_read(folder, &io::Error::from(io::ErrorKind::NotADirectory)))
-    }
 }

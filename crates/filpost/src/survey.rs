@@ -34,7 +34,7 @@ impl<S: Records> Engine<'_, S> {
         let mut next = self.refused(&mut survey, first);
         while matches!(next, Ok(true)) && !self.outside.ended {
             next = self.look_at_next(&mut survey);
-            self.forget_blocks();
+            self.outside.forget_blocks();
             self.outside.report.warnings.truncate(warnings);
         }
         self.outside.map = map;

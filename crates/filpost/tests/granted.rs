@@ -143,6 +143,60 @@ fn no_name_leads_out_of_the_folder() {
     assert_eq!(read(outer.path().join("secret.txt")), "secret\n");
 }
 
+/// A folder that is changed for a link while the run is under way.
+#[cfg(unix)]
+#[test]
+fn no_link_put_in_under_way_leads_out_of_the_folder() {
+    let outer = tempfile::tempdir().expect("a folder");
+    let (granted, elsewhere) = (outer.path().join("granted"), outer.path().join("elsewhere"));
+    std::fs::create_dir_all(granted.join("sub")).expect("a folder");
+    std::fs::create_dir(&elsewhere).expect("a folder");
+    std::fs::write(elsewhere.join("kept.txt"), "kept\n").expect("a file");
+    let swap = || {
+        std::fs::rename(granted.join("sub"), granted.join("was")).expect("moved");
+        std::os::unix::fs::symlink(&elsewhere, granted.join("sub")).expect("a link");
+    };
+    let back = || {
+        std::fs::remove_file(granted.join("sub")).expect("the link");
+        std::fs::rename(granted.join("was"), granted.join("sub")).expect("moved");
+    };
+    for op in
+        ["DMY=FILEF(1,WRITE,'sub/kept.txt')\nWRITE/1,'new'", "DMY=FILEF(1,DELETE,'sub/kept.txt')"]
+    {
+        std::fs::write(granted.join("sub/kept.txt"), "inside\n").expect("a file");
+        let post = with(op).grant_write(&granted).build().expect("a post");
+        let run = post.start().run_pending(Cursor::new(PART), Vec::new());
+        let (_, pending) = run.expect("a run");
+        swap();
+        let error = pending.commit().expect_err("the folder is a link now");
+        assert_eq!(error.diags()[0].code.name(), "E0702");
+        assert_eq!(read(elsewhere.join("kept.txt")), "kept\n");
+        assert_eq!(names(&elsewhere), ["kept.txt"]);
+        back();
+    }
+    // Before the run, but after the folder was granted.
+    let reads = "DMY=FILEF(1,READ,'sub/kept.txt')\nT1=TEXT/READ,1\nPPRINT/T1";
+    let post = with(reads).grant_read(&granted).build().expect("a post");
+    swap();
+    let error = post.run(PART.as_bytes(), Vec::new()).expect_err("a link that leads out");
+    assert_eq!(error.diags()[0].code.name(), "E0706");
+}
+
+#[test]
+fn a_script_does_not_write_over_the_files_of_its_run() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    std::fs::write(at("part.ncl"), PART).expect("a file");
+    for name in ["part.ncl", "part.nc"] {
+        let fil = format!("DMY=FILEF(1,WRITE,'{name}')\nWRITE/1,'new'");
+        let post = with(&fil).grant_write(folder.path()).build().expect("a post");
+        let error = post.run_files(&at("part.ncl"), &at("part.nc")).expect_err("refused");
+        assert_eq!(error.diags()[0].code.name(), "E0702");
+        assert_eq!(names(folder.path()), ["part.ncl"]);
+        assert_eq!(read(at("part.ncl")), PART);
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn no_link_leads_out_of_the_folder() {

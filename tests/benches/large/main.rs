@@ -132,12 +132,7 @@ fn size(command: &Path, folder: &Path, megabytes: u64) -> Outcome<()> {
         report(megabytes, blocks, &job, &ran);
     }
     let page = std::fs::metadata(page)?.len() as f64 / 1e6;
-    let holds = page <= 25.0 * share.max(0.1);
-    println!(
-        "         page of the plot: {page:.1} MB, at most {:.1}, {}",
-        25.0 * share,
-        word(holds)
-    );
+    println!("         page of the plot: {page:.1} MB");
     paths.iter().try_for_each(std::fs::remove_file)?;
     Ok(())
 }

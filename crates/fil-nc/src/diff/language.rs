@@ -1,13 +1,16 @@
 //! Lines of the three families of controls as blocks: words, and a statement for what is
 //! no word of a letter (`TOOL CALL 5 Z`, `MCALL CYCLE81(…)`).
 
+use std::io;
 use std::ops::Range;
 
 use fil_diag::Diag;
 
 use crate::interpret::sinumerik_words;
 use crate::interpret::sinumerik_words::Value;
-use crate::text::{Block, Number, Word, read_block};
+use crate::text::{Block, Number, Word, read_block_into};
+
+use super::source::{Lines, Source};
 
 /// The language of a program, by the signs in its text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,37 +30,56 @@ const SIGNS: [&str; 8] = ["%_N_", ";$PATH=", "MCALL", "CYCLE8", "MSG(", "CR=", "
 const DECIMALS: u8 = 6;
 
 impl Language {
-    pub(super) fn of(text: &[u8]) -> Language {
-        let text = String::from_utf8_lossy(text).to_ascii_uppercase();
-        let first = text.lines().map(bare).find(|line| !line.is_empty()).unwrap_or("");
-        if first.starts_with("BEGIN PGM") {
-            return Language::Klartext;
+    /// The language of a whole text.
+    pub(super) fn of(source: &Source) -> io::Result<Language> {
+        let mut lines = Lines::from(source, 0);
+        let mut first = true;
+        while let Some(line) = lines.next_line()? {
+            // Most lines have nothing that a sign has.
+            if !first && !line.iter().any(|byte| b"%;=(Ll".contains(byte)) {
+                continue;
+            }
+            let line = String::from_utf8_lossy(line).to_ascii_uppercase();
+            let bare = bare(&line);
+            if first && bare.starts_with("BEGIN PGM") {
+                return Ok(Language::Klartext);
+            }
+            first &= bare.is_empty();
+            if has_sign(&line) {
+                return Ok(Language::Sinumerik);
+            }
         }
-        let code =
-            |line: &str| line.split(';').next().unwrap_or("").split('(').next().map(str::len);
-        let says = |line: &str| {
-            SIGNS.iter().any(|sign| match line.find(sign) {
-                // Within a comment of a program of words it says nothing.
-                Some(at) => {
-                    sign.contains(['%', ';', '(']) || code(line).is_some_and(|end| at < end)
-                }
-                None => false,
-            })
-        };
-        if text.lines().any(says) { Language::Sinumerik } else { Language::Words }
+        Ok(Language::Words)
     }
 
-    /// Reads a line.
+    /// Reads a line into a block whose memory is used again.
     ///
     /// # Errors
     /// What can't be read.
-    pub(super) fn read(self, line: &[u8], name: &str, number: u32) -> Result<Block, Box<Diag>> {
+    pub(super) fn read_into(
+        self,
+        block: &mut Block,
+        line: &[u8],
+        name: &str,
+        number: u32,
+    ) -> Result<(), Box<Diag>> {
         match self {
-            Language::Words => read_block(line, name, number),
-            Language::Klartext => Ok(klartext(line, number)),
-            Language::Sinumerik => sinumerik(line, name, number),
+            Language::Words => return read_block_into(block, line, name, number),
+            Language::Klartext => *block = klartext(line, number),
+            Language::Sinumerik => *block = sinumerik(line, name, number)?,
         }
+        Ok(())
     }
+}
+
+/// A line in upper case has what no program of words has.
+fn has_sign(line: &str) -> bool {
+    let code = line.split(';').next().unwrap_or("").split('(').next().map_or(0, str::len);
+    SIGNS.iter().any(|sign| match line.find(sign) {
+        // Within a comment of a program of words it says nothing.
+        Some(at) => sign.contains(['%', ';', '(']) || at < code,
+        None => false,
+    })
 }
 
 /// A line without the number of Klartext.
@@ -264,12 +286,13 @@ mod tests {
             ("N10 G1 X1\nN20 MCALL CYCLE81(5,0,1,-3)\n", Language::Sinumerik),
             ("N10 G3 X1 CR=5\n", Language::Sinumerik),
         ] {
-            assert_eq!(Language::of(text.as_bytes()), language, "{text}");
+            assert_eq!(Language::of(&Source::Memory(text.into())).unwrap(), language, "{text}");
         }
     }
 
     fn said(language: Language, text: &str) -> (String, Option<String>) {
-        let block = language.read(text.as_bytes(), "a", 1).unwrap();
+        let mut block = Block::default();
+        language.read_into(&mut block, text.as_bytes(), "a", 1).unwrap();
         let words = block.words.iter().map(|word| {
             let index = word.index.map_or(String::new(), |index| format!("{index}="));
             format!("{}{index}{}", char::from(word.letter), word.number.value())
@@ -301,7 +324,7 @@ mod tests {
         let options = super::super::Options::default();
         let read = |text: &str| super::super::read(text.as_bytes(), "a", &options).unwrap();
         let (one, two) = (read(one), read(two));
-        let found = super::super::compare(&one, &two, &options);
+        let found = super::super::compare(&one, &two, &options).unwrap();
         let sentence = |one_of: &_| super::super::sentence(one_of, &one, &two);
         found.differences.iter().map(sentence).collect()
     }

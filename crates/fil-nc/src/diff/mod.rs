@@ -15,7 +15,10 @@ mod modal;
 mod pair;
 mod program;
 mod say;
+mod source;
+mod walk;
 
+use std::fs::File;
 use std::ops::Range;
 
 use fil_diag::Diag;
@@ -119,34 +122,59 @@ pub struct Difference {
     pub words: [Option<Range<usize>>; 2],
 }
 
+/// Lines that stand for each other, or lines of one program alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stretch {
+    /// The first line of each program, 1-based; `None` where that program has none.
+    pub lines: [Option<u32>; 2],
+    /// How many lines follow each other so.
+    pub count: u32,
+}
+
 /// What a comparison found.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Comparison {
     /// The differences in the order of the programs.
     pub differences: Vec<Difference>,
-    /// Pairs of lines that were compared, and lines alone, in order.
-    pub pairs: Vec<[Option<u32>; 2]>,
+    /// What was compared with what, in order; none for programs of the same bytes.
+    pub stretches: Vec<Stretch>,
 }
 
-/// Compares two programs.
-pub fn compare(first: &Program, second: &Program, options: &Options) -> Comparison {
-    let pairs = align::align(first, second, options);
-    let mut found = pair::Found::default();
-    for [one, two] in &pairs {
-        match (one.map(|at| &first.lines[at]), two.map(|at| &second.lines[at])) {
-            (Some(one), Some(two)) => pair::compare(one, two, options, &mut found),
-            (Some(one), None) if !one.silent => found.only([Some(one.block.line), None]),
-            (None, Some(two)) if !two.silent => found.only([None, Some(two.block.line)]),
-            _ => {}
+impl Comparison {
+    /// Pairs of lines that were compared, and lines alone, in order; empty lines are
+    /// left out.
+    pub fn pairs(&self) -> impl Iterator<Item = [Option<u32>; 2]> {
+        self.stretches.iter().flat_map(|stretch| {
+            (0..stretch.count).map(|at| stretch.lines.map(|line| line.map(|line| line + at)))
+        })
+    }
+
+    /// Adds a pair, or a line alone.
+    fn note(&mut self, lines: [Option<u32>; 2]) {
+        if let Some(last) = self.stretches.last_mut()
+            && last.lines.map(|line| line.map(|line| line + last.count)) == lines
+        {
+            last.count += 1;
+        } else {
+            self.stretches.push(Stretch { lines, count: 1 });
         }
     }
-    let lines = |pair: &[Option<usize>; 2]| {
-        [
-            pair[0].map(|at| first.lines[at].block.line),
-            pair[1].map(|at| second.lines[at].block.line),
-        ]
-    };
-    Comparison { pairs: pairs.iter().map(lines).collect(), differences: found.finish() }
+}
+
+/// Compares two programs that were read by the same options.
+///
+/// # Errors
+/// E0915 when the file of a program is no longer what it was.
+pub fn compare(
+    first: &Program,
+    second: &Program,
+    options: &Options,
+) -> Result<Comparison, Box<Diag>> {
+    if first.same_as(second) {
+        return Ok(Comparison::default());
+    }
+    let runs = align::align(first, second, options)?;
+    walk::compare(first, second, options, runs)
 }
 
 /// Reads a program for a comparison; `name` is for messages.
@@ -155,4 +183,16 @@ pub fn compare(first: &Program, second: &Program, options: &Options) -> Comparis
 /// The first line that can't be read.
 pub fn read(text: &[u8], name: &str, options: &Options) -> Result<Program, Box<Diag>> {
     Program::read(text, name, options)
+}
+
+/// Reads two programs from files that can be read again; their text is not kept in
+/// memory. The names are for messages.
+///
+/// # Errors
+/// As [`read`].
+pub fn open(
+    [first, second]: [(File, &str); 2],
+    options: &Options,
+) -> Result<[Program; 2], Box<Diag>> {
+    Program::open([first, second], options)
 }

@@ -5,7 +5,7 @@ use super::language::same_statement;
 use super::modal::{group, tenths};
 use super::program::Line;
 use super::{Difference, Options, What};
-use crate::text::Word;
+use crate::text::{Block, Number, Word};
 
 /// Letters whose numbers are lengths or angles.
 const MEASURES: &[u8] = b"XYZABCUVWIJKRQ";
@@ -105,6 +105,27 @@ impl<'l> Pair<'l> {
     }
 }
 
+/// Both blocks have the same words and comments, but for the sequence number.
+pub(super) fn written_alike(one: &Line, two: &Line) -> bool {
+    let (one, two) = (&one.block, &two.block);
+    fn words(block: &Block) -> impl Iterator<Item = (u8, Option<u32>, Number)> {
+        let words = block.words.iter().filter(|word| word.letter != b'N');
+        words.map(|word| (word.letter, word.index, word.number))
+    }
+    (one.skip, one.tape_mark) == (two.skip, two.tape_mark)
+        && words(one).eq(words(two))
+        && one.comments == two.comments
+        && one.statement == two.statement
+}
+
+/// Compares the sequence numbers of two blocks that are [`written_alike`] where the
+/// same is in force.
+pub(super) fn compare_numbers(one: &Line, two: &Line, found: &mut Found) {
+    if one.block.sequence_number() != two.block.sequence_number() {
+        found.numbering(Pair { one, two });
+    }
+}
+
 /// Compares two blocks.
 pub(super) fn compare(one: &Line, two: &Line, options: &Options, found: &mut Found) {
     let pair = Pair { one, two };
@@ -120,9 +141,7 @@ pub(super) fn compare(one: &Line, two: &Line, options: &Options, found: &mut Fou
     if !same_statement(&statements[0], &statements[1], options.tolerance) {
         found.add(pair, What::Statement(statements), [None, None]);
     }
-    if one.block.sequence_number() != two.block.sequence_number() {
-        found.numbering(pair);
-    }
+    compare_numbers(one, two, found);
     compare_functions(pair, b'G', options, found);
     compare_functions(pair, b'M', options, found);
     let arcs = arc::deviation(one, two, options);

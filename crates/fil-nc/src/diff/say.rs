@@ -42,7 +42,8 @@ pub fn sentence(difference: &Difference, first: &Program, second: &Program) -> S
     let said = match &difference.what {
         What::Only => {
             let side = usize::from(difference.lines[0].is_none());
-            let text = difference.lines[side].map_or("", |line| programs[side].text(line));
+            let text =
+                difference.lines[side].map_or_else(String::new, |line| programs[side].text(line));
             let name = second.name();
             let found = [format!("is missing in {name}"), format!("is in {name} alone")];
             return format!("{block} {}: {text}", found[side]);

@@ -60,7 +60,7 @@ pub fn compare_words(
     let compared = match diff::read(wanted, "the second run", &options) {
         Ok(wanted) => {
             let found = diff::read(found, name, &options)?;
-            for difference in diff::compare(&wanted, &found, &options).differences {
+            for difference in diff::compare(&wanted, &found, &options)?.differences {
                 let message = diff::sentence(&difference, &wanted, &found);
                 report.find(block(difference.lines[1], message));
             }

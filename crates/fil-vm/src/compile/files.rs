@@ -25,6 +25,22 @@ pub(crate) struct Found {
     pub included: HashMap<(usize, u32), usize>,
 }
 
+/// Most files that one may include, those that they include counted each time.
+const MOST_FILES: usize = 10_000;
+
+/// Most bytes of these.
+const MOST_BYTES: usize = 64 << 20;
+
+/// Most files that include one another in a row.
+const DEEPEST: usize = 64;
+
+/// What a file comes to.
+#[derive(Clone, Copy)]
+struct Size {
+    files: usize,
+    bytes: usize,
+}
+
 /// Reads files and, through the loader, those they include.
 pub(super) struct Includes<'a> {
     loader: Option<Loader<'a>>,
@@ -32,6 +48,8 @@ pub(super) struct Includes<'a> {
     found: Found,
     /// Units that are being read, outermost first.
     open: Vec<usize>,
+    /// What each unit comes to with all that it includes, each time that it does.
+    sizes: Vec<Size>,
     diags: Vec<Diag>,
 }
 
@@ -42,6 +60,7 @@ impl<'a> Includes<'a> {
             units: Vec::new(),
             found: Found::default(),
             open: Vec::new(),
+            sizes: Vec::new(),
             diags: Vec::new(),
         }
     }
@@ -68,6 +87,7 @@ impl<'a> Includes<'a> {
         let unit = self.units.len();
         let file = File::new(name, text);
         self.units.push(Unit { file, program: Program::default() });
+        self.sizes.push(Size { files: 1, bytes: text.len() });
         let mut wanted = Vec::new();
         for item in &parsed.program.items {
             match item {
@@ -78,7 +98,9 @@ impl<'a> Includes<'a> {
         }
         self.open.push(unit);
         for (name, span) in wanted {
-            if let Some(included) = self.include(unit, &name, span) {
+            if let Some(included) = self.include(unit, &name, span)
+                && self.grow(unit, included, &name, span)
+            {
                 self.found.included.insert((unit, span.start), included);
             }
         }
@@ -106,8 +128,28 @@ impl<'a> Includes<'a> {
                 None
             }
             Some(known) => Some(known),
+            None if self.open.len() >= DEEPEST => {
+                let message = format!("'{name}': more than {DEEPEST} files include each other");
+                self.refuse(from, span, message);
+                None
+            }
             None => Some(self.parse(&included.name, &included.text)),
         }
+    }
+
+    /// Counts an included file; refuses one with which its file would come to too much.
+    fn grow(&mut self, unit: usize, included: usize, name: &str, span: Span) -> bool {
+        let (own, more) = (self.sizes[unit], self.sizes[included]);
+        let size = Size { files: own.files + more.files, bytes: own.bytes + more.bytes };
+        if size.files > MOST_FILES || size.bytes > MOST_BYTES {
+            let message = format!(
+                "'{name}': with it more than {MOST_FILES} files or {MOST_BYTES} bytes are included"
+            );
+            self.refuse(unit, span, message);
+            return false;
+        }
+        self.sizes[unit] = size;
+        true
     }
 
     fn refuse(&mut self, from: usize, span: Span, message: String) {

@@ -5,12 +5,13 @@ use fil_syntax::tree::{Expr, Macro, Name, Span};
 use super::Compiler;
 use crate::errors::CompileCode;
 use crate::ops::Op;
-use crate::resolve::MacroEntry;
 
 impl<'t> Compiler<'t> {
     pub(super) fn macro_definition(&mut self, definition: &'t Macro) {
-        let own = |entry: &MacroEntry<'_>| std::ptr::eq(entry.definition, definition);
-        let Some(id) = self.slots.names.macros.iter().position(own) else { return };
+        // A second one of the name has been reported, and so have more than there are numbers.
+        let id = self.slots.names.macro_id(&definition.name.text).map(usize::from);
+        let own = |id: &usize| std::ptr::eq(self.slots.names.macros[*id].definition, definition);
+        let Some(id) = id.filter(own) else { return };
         let params = definition.params.iter().zip(&self.slots.macros[id]);
         self.slots.params = params.map(|((name, _), reg)| (name.text.as_str(), *reg)).collect();
         self.inside = Some(id as u16);

@@ -259,7 +259,10 @@ impl<'t> Compiler<'t> {
     /// An index that must fit a `u16` field of an operation.
     fn index(&mut self, index: usize, span: Span, what: &str) -> u16 {
         u16::try_from(index).unwrap_or_else(|_| {
-            self.report(CompileCode::TooLarge, span, format!("more than 65536 {what}"));
+            let message = format!("more than 65536 {what}");
+            if self.diags.last().is_none_or(|last| last.message != message) {
+                self.report(CompileCode::TooLarge, span, message);
+            }
             0
         })
     }

@@ -48,6 +48,8 @@ pub struct Limits {
     pub array_elements: usize,
     /// Bytes of text held at a time.
     pub text_bytes: usize,
+    /// Bytes of the program that a run writes; the machine itself does not look at it.
+    pub output_bytes: u64,
 }
 
 impl Default for Limits {
@@ -57,6 +59,7 @@ impl Default for Limits {
             call_depth: 64,
             array_elements: 1_000_000,
             text_bytes: 16 << 20,
+            output_bytes: 64 << 30,
         }
     }
 }

@@ -48,6 +48,7 @@ pub fn run(args: &MachineArgs) -> Result<Status, Error> {
 }
 
 fn import(file: &Path, output: Option<&Path>, encoding: Option<&str>) -> Result<(), Error> {
+    output::refuse_over(output, [file])?;
     let name = file.display().to_string();
     let text = files::read_text(file, encoding)?;
     let imported = settings::read_option_file(&name, &text).map_err(Error::Setup)?;

@@ -45,6 +45,9 @@ pub fn run(args: &TestArgs) -> Result<Status, Error> {
     } else {
         ProgressBar::hidden()
     };
+    let reports = [&args.html, &args.junit].into_iter().flatten().map(PathBuf::as_path);
+    let inputs: Vec<PathBuf> = cases.iter().flat_map(Case::files).collect();
+    output::refuse_over(reports, inputs.iter().map(PathBuf::as_path))?;
     let programs = Programs::new();
     let done: Vec<Done> = cases
         .into_par_iter()

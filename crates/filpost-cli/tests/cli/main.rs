@@ -9,6 +9,7 @@ mod codes;
 mod diff;
 mod explain;
 mod fmt;
+mod hosts;
 mod listing;
 mod machine;
 mod messages;

@@ -160,6 +160,63 @@ fn files_that_are_gone_are_named() {
 }
 
 #[test]
+fn files_are_found_where_they_lay_and_where_the_user_says() {
+    let place = Folder::new().with("cl/part.ncl", CL).with("fil/m.fil", FIL).with("out/x", "");
+    let run = ["post", "cl/part.ncl", "-f", "fil/m.fil", "-o", "out/part.tap", "--map"];
+    assert_eq!(place.run(&run).status, 0);
+    let answer = trace(&place, "out/part.tap:6").out;
+    assert!(answer.contains("cl/part.ncl:4: SPINDL"), "{answer}");
+    assert!(answer.contains("fil/m.fil:2: POSTN"), "{answer}");
+
+    for (old, new) in [("cl/part.ncl", "out/other.ncl"), ("fil/m.fil", "out/other.fil")] {
+        let at = |name: &str| place.0.path().join(name);
+        std::fs::rename(at(old), at(new)).expect("moved");
+    }
+    let answer = trace(&place, "out/part.tap:6").out;
+    assert!(answer.contains("cl/part.ncl is not there"), "{answer}");
+    let named = ["trace", "out/part.tap:6", "--cl", "out/other.ncl", "--fil", "out/other.fil"];
+    let answer = place.run(&named).out;
+    assert!(answer.contains("out/other.ncl:4: SPINDL"), "{answer}");
+    assert!(answer.contains("out/other.fil:2: POSTN"), "{answer}");
+
+    let other = ["trace", "out/part.tap:6", "--cl", "out/part.tap"];
+    assert!(place.run(&other).err.contains("E0708"), "a CL file of another run");
+    let other = ["trace", "out/part.tap:6", "--fil", "out/part.tap"];
+    assert!(place.run(&other).err.contains("E0708"), "a FIL file of another run");
+}
+
+/// Records far into a file are read from a record shortly before them; the answers
+/// are those of reading all that stands before.
+#[test]
+fn answers_far_into_a_file_are_those_of_the_whole_file() {
+    let points: String = (0..3000)
+        .map(|at| match at % 700 {
+            0 => format!("$$ a comment\nFEDRAT / {}, MMPM\n", 100 + at / 70),
+            1 => format!("GOTO / $\n  {at}, 2, 3\n"),
+            _ => format!("GOTO / {at}, {}, 3\n", at % 7),
+        })
+        .collect();
+    let head = "$$* Pro/CLfile  Version Wildfire 5.0 - M110\n";
+    let cl = format!("{head}UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\n{points}FINI\n");
+    let place = Folder::new().with("part.ncl", &cl);
+    assert_eq!(place.run(&["post", "part.ncl", "-o", "part.tap", "--map"]).status, 0);
+    let program = std::fs::read_to_string(place.0.path().join("part.tap")).expect("a program");
+    let lines: Vec<&str> = cl.lines().collect();
+    let mut compared = 0;
+    for (number, block) in (1..).zip(program.lines()).filter(|(number, _)| number % 97 == 0) {
+        let answer = trace(&place, &format!("part.tap:{number}")).out;
+        let from = answer.split("part.ncl:").nth(1).expect("a record");
+        let (line, statement) = from.split_once(": ").expect("a statement");
+        let line: usize = line.parse().expect("a number");
+        let x = lines[line - 1..].iter().find_map(|text| text.split([',', '/']).nth(1));
+        let x: f64 = x.expect("a value").trim().trim_matches('$').parse().unwrap_or(-1.0);
+        assert!(x < 0.0 || statement.contains(&format!(" {x:.1},")), "{block}: {answer}");
+        compared += 1;
+    }
+    assert!(compared > 25, "only {compared} blocks were asked for");
+}
+
+#[test]
 fn maps_that_are_missing_or_broken_are_refused() {
     let place = Folder::new().with("part.ncl", SMALL).with("part.tap", "%\n");
     for question in ["part.tap:1", "part.ncl:1", "nowhere.tap:1"] {

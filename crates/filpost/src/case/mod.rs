@@ -13,7 +13,7 @@ mod recipe;
 mod unified;
 
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use fil_cl::ClDialect;
 use fil_diag::Diag;
@@ -107,6 +107,38 @@ fn dialect<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<ClDialec
 }
 
 impl CaseFile {
+    /// Names of the files that a run reads.
+    fn inputs(&self) -> impl Iterator<Item = &String> {
+        let named = [Some(&self.cl), self.machine.as_ref(), self.option_file.as_ref()];
+        named.into_iter().flatten().chain(&self.fil).chain(&self.compat)
+    }
+
+    /// Refuses an expected file, which an update writes, outside of the folder of the case
+    /// or in place of an input; the text is what is wrong.
+    fn refuse_written_names(&self) -> Result<(), String> {
+        let tidy = |name: &String| -> PathBuf {
+            Path::new(name).components().filter(|part| *part != Component::CurDir).collect()
+        };
+        let inputs: Vec<PathBuf> = self.inputs().map(tidy).collect();
+        let written = [("expect", &self.expect), ("listing", &self.listing)];
+        for (key, name) in written.into_iter().filter_map(|(key, name)| Some((key, name.as_ref()?)))
+        {
+            let path = tidy(name);
+            if path.components().any(|part| !matches!(part, Component::Normal(_))) {
+                return Err(format!("{key} = \"{name}\" leads out of the folder of the case"));
+            }
+            if inputs.contains(&path) || path == Path::new("case.toml") {
+                return Err(format!("{key} = \"{name}\" is what the case reads"));
+            }
+        }
+        match (&self.expect, &self.listing) {
+            (Some(one), Some(two)) if tidy(one) == tidy(two) => {
+                Err(format!("expect and listing are one file, \"{one}\""))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// How the NC programs are compared; the text is what is wrong with it.
     fn comparison(&self) -> Result<diff::Options, String> {
         let tolerance = self.tolerance.unwrap_or(0.0);
@@ -173,7 +205,15 @@ impl Case {
         let file: CaseFile = toml::from_str(&text)
             .map_err(|error| wrong(error.message().to_string(), error.span().unwrap_or(0..0)))?;
         file.comparison().map_err(|message| wrong(message, 0..0))?;
+        file.refuse_written_names().map_err(|message| wrong(message, 0..0))?;
         Ok(Case { folder: folder.to_path_buf(), file })
+    }
+
+    /// The files of the case, those that are compared too.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let expected = self.file.expect.iter().chain(&self.file.listing);
+        let named = self.file.inputs().chain(expected).map(|name| self.folder.join(name));
+        named.chain([self.folder.join("case.toml")]).collect()
     }
 
     /// The program of the case.

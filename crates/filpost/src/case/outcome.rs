@@ -1,6 +1,6 @@
 //! A case run and compared.
 
-use std::io::Cursor;
+use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
 
 use fil_cl::reader;
@@ -11,6 +11,7 @@ use super::{Case, CaseFile, Programs, unified};
 use crate::error::Error;
 use crate::files;
 use crate::listing::Listing;
+use crate::pending::{NewFile, PendingFiles};
 use crate::program::Program;
 
 /// Sentences about a difference that are shown.
@@ -32,6 +33,8 @@ pub enum Verdict {
 pub struct Fresh {
     /// The file.
     pub path: PathBuf,
+    /// The folder of the case, out of which nothing is written.
+    pub folder: PathBuf,
     /// What this run wrote.
     pub text: Vec<u8>,
     /// What changes, as a diff of lines.
@@ -70,11 +73,15 @@ impl Outcome {
     /// # Errors
     /// E0702
     pub fn update(&self) -> Result<(), Error> {
+        let mut pending = PendingFiles::default();
         for fresh in &self.fresh {
-            std::fs::write(&fresh.path, &fresh.text)
-                .map_err(|error| files::cant_write(&fresh.path, &error))?;
+            let cant = |error| files::cant_write(&fresh.path, &error);
+            let name = fresh.path.strip_prefix(&fresh.folder).unwrap_or(&fresh.path);
+            let mut file = NewFile::create_below(&fresh.folder, name)?;
+            file.write_all(&fresh.text).map_err(cant)?;
+            pending.add(file);
         }
-        Ok(())
+        pending.commit()
     }
 }
 
@@ -174,10 +181,9 @@ impl Case {
             }
         }
         if let (Some(name), Some(text)) = (&self.file.listing, &ran.listing) {
-            let path = self.folder.join(name);
-            match expected(&path) {
+            match expected(&self.folder.join(name)) {
                 Ok(wanted) if wanted == String::from_utf8_lossy(text) => {}
-                Ok(wanted) => outcome.differs(name, path, &wanted, text, &[]),
+                Ok(wanted) => outcome.differs(name, &self.folder, &wanted, text, &[]),
                 Err(error) => return Outcome::failed(error.to_string()),
             }
         }
@@ -185,21 +191,20 @@ impl Case {
     }
 
     fn compare_programs(&self, name: &str, wanted: String, nc: &[u8], outcome: &mut Outcome) {
-        let path = self.folder.join(name);
         let by_words = self.file.tolerance.is_some() || !self.file.ignore.is_empty();
         if wanted != String::from_utf8_lossy(nc) {
             match self.sentences(&wanted, nc) {
                 Ok(sentences) if by_words && sentences.is_empty() => {}
                 Ok(sentences) if sentences.is_empty() => {
                     let alike = ["a control reads both alike".to_string()];
-                    outcome.differs(name, path, &wanted, nc, &alike);
+                    outcome.differs(name, &self.folder, &wanted, nc, &alike);
                 }
                 Ok(sentences) => {
-                    outcome.differs(name, path, &wanted, nc, &sentences);
+                    outcome.differs(name, &self.folder, &wanted, nc, &sentences);
                     outcome.differences = sentences;
                 }
                 // What can't be read as words is still a difference of letters.
-                Err(_) => outcome.differs(name, path, &wanted, nc, &[]),
+                Err(_) => outcome.differs(name, &self.folder, &wanted, nc, &[]),
             }
         }
         outcome.wanted = Some(wanted);
@@ -212,7 +217,7 @@ impl Case {
         let name = self.file.expect.as_deref().unwrap_or_default();
         let first = diff::read(wanted.as_bytes(), name, &options)?;
         let second = diff::read(nc, "this run", &options)?;
-        let found = diff::compare(&first, &second, &options).differences;
+        let found = diff::compare(&first, &second, &options)?.differences;
         Ok(found.iter().map(|one| diff::sentence(one, &first, &second)).collect())
     }
 }
@@ -222,7 +227,7 @@ impl Outcome {
     fn differs(
         &mut self,
         name: &str,
-        path: PathBuf,
+        folder: &Path,
         wanted: &str,
         found: &[u8],
         sentences: &[String],
@@ -238,7 +243,8 @@ impl Outcome {
         if let Some(more) = sentences.len().checked_sub(MOST).filter(|more| *more > 0) {
             failure.push_str(&format!("and {more} more\n"));
         }
-        self.fresh.push(Fresh { path, text: found.to_vec(), changes });
+        let (path, folder) = (folder.join(name), folder.to_path_buf());
+        self.fresh.push(Fresh { path, folder, text: found.to_vec(), changes });
     }
 }
 

@@ -15,8 +15,8 @@ pub struct Names {
 
 impl Names {
     /// The name of a file as seen from the folder of the map, with slashes: so
-    /// that a map does not depend on where a project lies. A file that shares
-    /// no folder with the map goes by its plain name.
+    /// that a map does not depend on where a project lies. A file on another
+    /// drive goes by its plain name.
     pub fn from_folder(folder: &Path, file: &Path) -> String {
         relative(folder, file)
             .or_else(|| file.file_name().map(|name| name.to_string_lossy().into_owned()))
@@ -28,8 +28,8 @@ fn relative(folder: &Path, file: &Path) -> Option<String> {
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let (folder, file) = (tidy(here)?, tidy(file)?);
     let shared = folder.iter().zip(&file).take_while(|(one, other)| one == other).count();
-    // The root alone, or a drive, is no shared folder.
-    if !folder[..shared].iter().any(|part| part.1) {
+    // Another drive has no path from here.
+    if shared == 0 {
         return None;
     }
     let up = std::iter::repeat_n("..", folder.len() - shared);
@@ -67,7 +67,7 @@ mod tests {
         assert_eq!(name("out", "cl/part one.ncl"), "../cl/part one.ncl");
         assert_eq!(name("a/b", "a/./b/../part.ncl"), "../part.ncl");
         if cfg!(unix) {
-            assert_eq!(name("/home/me/out", "/srv/cl/part.ncl"), "part.ncl");
+            assert_eq!(name("/home/me/out", "/srv/cl/part.ncl"), "../../../srv/cl/part.ncl");
             assert_eq!(name("/home/me/out", "/home/me/cl/part.ncl"), "../cl/part.ncl");
         }
     }

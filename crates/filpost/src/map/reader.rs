@@ -10,6 +10,7 @@ use serde::Deserialize;
 
 use super::digest::Digest;
 use super::line::{End, Header, ObjectLine, StackLine};
+use super::words::FormWord;
 use super::{VERSION, Word, forms, words};
 use crate::error::{Error, RunCode};
 use crate::files;
@@ -113,20 +114,42 @@ pub struct MapReader<R> {
 
 /// A line of the program that is written out: by how much its CL line and record
 /// come after those of the line before, its words, and the stack if there is one.
-#[derive(Clone, Debug, Deserialize)]
-struct Form(i64, i64, String, #[serde(default)] u32);
+#[derive(Deserialize)]
+struct FormLine<'t>(i64, i64, &'t str, #[serde(default)] u32);
+
+/// What blocks of one form have in common.
+#[derive(Clone, Debug)]
+struct Form {
+    lines: i64,
+    records: i64,
+    words: Vec<FormWord>,
+    stack: u32,
+    /// The highest number of a stack that it names.
+    highest_stack: u32,
+}
 
 impl Form {
-    /// What a block of this form is caused by, and its words, when it comes after a
-    /// block with the cause `last`; `None` for what no map says.
-    fn after(&self, last: Cause) -> Option<(Cause, Vec<Word>)> {
-        let Form(lines, records, words, stack) = self;
-        let line = words::moved(last.line, *lines)?;
-        let record = words::moved(last.record, *records)?;
-        let cause = Cause { record, line, stack: *stack, ..Cause::default() };
-        Some((cause, words::read(words, cause)?))
+    /// Reads a line that is written out; `None` for another.
+    fn read(line: &[u8]) -> Option<Form> {
+        let FormLine(lines, records, words, stack) = parse(line)?;
+        let words = words::read(words)?;
+        let stacks = words.iter().map(FormWord::stack);
+        let highest_stack = stacks.max().unwrap_or(0).max(stack);
+        Some(Form { lines, records, words, stack, highest_stack })
+    }
+
+    /// What a block of this form is caused by when it comes after a block with the
+    /// cause `last`; `None` for what no map says.
+    fn after(&self, last: Cause) -> Option<Cause> {
+        let line = words::moved(last.line, self.lines)?;
+        let record = words::moved(last.record, self.records)?;
+        Some(Cause { record, line, stack: self.stack, ..Cause::default() })
     }
 }
+
+/// Which blocks are asked for: by their stacks known so far, the number of the line,
+/// and a cause, which is that of the block or of one of its words.
+pub(crate) type Wanted<'w> = dyn Fn(&[Stack], u64, Cause) -> bool + 'w;
 
 impl MapReader<File> {
     /// Opens a map.
@@ -226,15 +249,34 @@ impl<R: Read + Seek> MapReader<R> {
         self.stacks.get((cause.stack as usize).checked_sub(1)?)
     }
 
+    /// The FIL call stacks of all entries read so far, by their numbers from 1.
+    pub(crate) fn stacks(&self) -> &[Stack] {
+        &self.stacks
+    }
+
     /// The key of the section a stack began in.
     pub fn section(&self, stack: &Stack) -> Option<&str> {
         self.sections.get(usize::from(stack.section?)).map(String::as_str)
     }
 
-    fn entry(&mut self) -> Result<Option<Entry>, Error> {
+    /// The next block that is wanted, or record without effect; the blocks between
+    /// cost little. Ends after the first error.
+    pub(crate) fn next_where(&mut self, wanted: &Wanted<'_>) -> Option<Result<Entry, Error>> {
+        if self.over {
+            return None;
+        }
+        let entry = self.entry(wanted).transpose();
+        self.over = !matches!(entry, Some(Ok(_)));
+        entry
+    }
+
+    fn entry(&mut self, wanted: &Wanted<'_>) -> Result<Option<Entry>, Error> {
         while self.next_line()? {
             if let Some(b'[' | b'0'..=b'9') = self.line.first() {
-                return self.nc_line().map(|line| Some(Entry::Line(line)));
+                match self.nc_line(wanted)? {
+                    Some(line) => return Ok(Some(Entry::Line(line))),
+                    None => continue,
+                }
             }
             if let Some(line) = parse::<ObjectLine>(&self.line) {
                 match line {
@@ -254,24 +296,35 @@ impl<R: Read + Seek> MapReader<R> {
         Err(self.broken("the map was cut off: its last line is missing"))
     }
 
-    fn nc_line(&mut self) -> Result<NcLine, Error> {
-        let written_out = parse::<Form>(&self.line);
+    fn nc_line(&mut self, wanted: &Wanted<'_>) -> Result<Option<NcLine>, Error> {
+        let written_out = match self.line.first() {
+            Some(b'[') => Some(Form::read(&self.line).ok_or_else(|| self.no_line())?),
+            _ => None,
+        };
         let form = match &written_out {
             Some(form) => form,
             None => {
-                let number: usize = parse(&self.line).ok_or_else(|| self.no_line())?;
+                let number = form_number(&self.line).ok_or_else(|| self.no_line())?;
                 let known = number.checked_sub(1).and_then(|index| self.forms.get(index));
                 known.ok_or_else(|| self.unfit())?
             }
         };
-        let (cause, words) = form.after(self.last).ok_or_else(|| self.no_line())?;
-        let stacks = words.iter().map(|word| word.cause.stack).chain([cause.stack]);
-        let known = stacks.max().is_none_or(|stack| stack as usize <= self.stacks.len());
-        self.known(known)?;
+        let cause = form.after(self.last).ok_or_else(|| self.no_line())?;
+        self.known(form.highest_stack as usize <= self.stacks.len())?;
+        let number = self.read + 1;
+        let asked = |cause| wanted(&self.stacks, number, cause);
+        let mut found = asked(cause);
+        for word in &form.words {
+            found |= asked(word.cause(cause).ok_or_else(|| self.no_line())?);
+        }
+        let words = match found {
+            true => form.words.iter().map_while(|word| word.in_block(cause)).collect(),
+            false => Vec::new(),
+        };
         self.forms.extend(written_out.filter(|_| self.forms.len() < forms::MOST));
-        self.read += 1;
+        self.read = number;
         self.last = cause;
-        Ok(NcLine { number: self.read, cause, words })
+        Ok(found.then_some(NcLine { number, cause, words }))
     }
 
     fn add_stack(&mut self, line: StackLine) -> Result<(), Error> {
@@ -337,13 +390,16 @@ impl<R: Read + Seek> Iterator for MapReader<R> {
 
     /// The next entry; ends after the first error.
     fn next(&mut self) -> Option<Self::Item> {
-        if self.over {
-            return None;
-        }
-        let entry = self.entry().transpose();
-        self.over = !matches!(entry, Some(Ok(_)));
-        entry
+        self.next_where(&|_, _, _| true)
     }
+}
+
+/// The number of a form that a line names.
+fn form_number(line: &[u8]) -> Option<usize> {
+    const MOST_DIGITS: usize = 9;
+    let digits = line.strip_suffix(b"\n").unwrap_or(line).trim_ascii();
+    let plain = digits.len() <= MOST_DIGITS && digits.iter().all(u8::is_ascii_digit);
+    plain.then(|| digits.iter().fold(0, |number, digit| number * 10 + usize::from(digit - b'0')))
 }
 
 fn parse<'a, T: Deserialize<'a>>(line: &'a [u8]) -> Option<T> {

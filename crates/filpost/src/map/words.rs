@@ -77,19 +77,65 @@ pub(super) fn number(number: i64, out: &mut Vec<u8>) {
     out.extend_from_slice(itoa::Buffer::new().format(number).as_bytes());
 }
 
-/// Reads the words of a block; `None` for a text of another form.
-pub(super) fn read(text: &str, block: Cause) -> Option<Vec<Word>> {
+/// A word as all blocks of one form have it.
+#[derive(Clone, Debug)]
+pub(super) struct FormWord {
+    letter: char,
+    range: Range<usize>,
+    word: u16,
+    made_by_fil: bool,
+    from: Origin,
+}
+
+/// Which record caused a word, as seen from that of its block.
+#[derive(Clone, Copy, Debug)]
+enum Origin {
+    Block,
+    Nothing,
+    Near { lines: i64, records: i64, stack: u32 },
+}
+
+impl FormWord {
+    /// Its cause in a block; `None` for what no map says.
+    pub(super) fn cause(&self, block: Cause) -> Option<Cause> {
+        let record = match self.from {
+            Origin::Block => block,
+            Origin::Nothing => Cause::default(),
+            Origin::Near { lines, records, stack } => Cause {
+                line: moved(block.line, lines)?,
+                record: moved(block.record, records)?,
+                stack,
+                ..Cause::default()
+            },
+        };
+        Some(Cause { word: self.word, made_by_fil: self.made_by_fil, ..record })
+    }
+
+    /// The word in a block.
+    pub(super) fn in_block(&self, block: Cause) -> Option<Word> {
+        Some(Word { letter: self.letter, range: self.range.clone(), cause: self.cause(block)? })
+    }
+
+    /// The FIL call stack that it names besides that of its block.
+    pub(super) fn stack(&self) -> u32 {
+        if let Origin::Near { stack, .. } = self.from { stack } else { 0 }
+    }
+}
+
+/// Reads the words of a form; `None` for a text of another kind.
+pub(super) fn read(text: &str) -> Option<Vec<FormWord>> {
     let mut start = 0usize;
     let words = text.split(' ').filter(|_| !text.is_empty());
     words
         .map(|word| {
             let mut characters = word.chars();
             let letter = characters.next().filter(|letter| known(*letter))?;
-            let (shape, record) = match characters.as_str().split_once('@') {
-                Some((shape, record)) => (shape, record_of(record, block)?),
-                None => (characters.as_str(), usual(letter as u8, block)),
+            let (shape, from) = match characters.as_str().split_once('@') {
+                Some((shape, record)) => (shape, origin(record)?),
+                None if letter as u8 == SEQUENCE => (characters.as_str(), Origin::Nothing),
+                None => (characters.as_str(), Origin::Block),
             };
-            let by_fil = shape.contains('*');
+            let made_by_fil = shape.contains('*');
             let (length, item) = match shape.split_once([':', '*']) {
                 Some((length, item)) => (length, plain(item)?),
                 None => (shape, 0),
@@ -97,7 +143,7 @@ pub(super) fn read(text: &str, block: Cause) -> Option<Vec<Word>> {
             let end = start.checked_add(usize::try_from(plain(length)?).ok()?)?;
             let range = std::mem::replace(&mut start, end)..end;
             let word = u16::try_from(item).ok()?;
-            Some(Word { letter, range, cause: Cause { word, made_by_fil: by_fil, ..record } })
+            Some(FormWord { letter, range, word, made_by_fil, from })
         })
         .collect()
 }
@@ -106,15 +152,14 @@ fn known(letter: char) -> bool {
     letter.is_ascii_uppercase() || [TEXT, SKIP, SEQUENCE].map(char::from).contains(&letter)
 }
 
-fn record_of(text: &str, block: Cause) -> Option<Cause> {
+fn origin(text: &str) -> Option<Origin> {
     if text.is_empty() {
-        return Some(Cause::default());
+        return Some(Origin::Nothing);
     }
     let mut parts = text.split(',');
-    let line = moved(block.line, parts.next()?.parse().ok()?)?;
-    let record = moved(block.record, parts.next()?.parse().ok()?)?;
+    let (lines, records) = (parts.next()?.parse().ok()?, parts.next()?.parse().ok()?);
     let stack = plain(parts.next()?)?;
-    parts.next().is_none().then_some(Cause { line, record, stack, ..Cause::default() })
+    parts.next().is_none().then_some(Origin::Near { lines, records, stack })
 }
 
 /// A number of digits alone.
@@ -160,7 +205,8 @@ mod tests {
             noted.block(70..70 + start, block);
             let mut text = Vec::new();
             write(noted.words_of(&noted.blocks[0]), start, block, &mut text);
-            let found = read(std::str::from_utf8(&text).unwrap(), block).unwrap();
+            let form = read(std::str::from_utf8(&text).unwrap()).unwrap();
+            let found: Vec<_> = form.iter().map(|word| word.in_block(block).unwrap()).collect();
             let shown: Vec<_> =
                 found.iter().map(|word| (word.letter, word.range.start, word.cause)).collect();
             prop_assert_eq!(shown, wanted);
@@ -169,7 +215,7 @@ mod tests {
 
         #[test]
         fn no_text_is_too_strange(text in "[XN_/#0-9:*@, é]{0,30}") {
-            let _ = read(&text, Cause::default());
+            let _ = read(&text).map(|form| form.iter().map(|word| word.in_block(Cause::default())).count());
         }
     }
 }

@@ -5,17 +5,20 @@
 //! about files that have changed since.
 
 mod answer;
+mod digests;
+mod line_search;
 mod position;
 mod records;
 mod run_files;
 
-use std::collections::BTreeSet;
+use std::cell::Cell;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use fil_cl::reader;
 use fil_diag::Diag;
-use fil_post::Cause;
+use fil_post::{Cause, Stack};
 
 pub use answer::{Answer, Asked, Line, LineWord, Made, Record, Step, Taken};
 pub use position::{FilePosition, map_of};
@@ -26,7 +29,7 @@ use records::Records;
 use run_files::{Role, RunFiles};
 
 /// How a question is answered.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Most lines of the NC program that are shown; all are counted.
     pub most: usize,
@@ -34,6 +37,10 @@ pub struct Options {
     pub cl: reader::Options,
     /// Encoding of the FIL files; guessed when `None`.
     pub encoding: Option<String>,
+    /// Where the CL file is now; where it lay as seen from the map when `None`.
+    pub cl_file: Option<PathBuf>,
+    /// Where FIL files are now; the others where they lay as seen from the map.
+    pub fil_files: Vec<PathBuf>,
 }
 
 /// Answers a question about a line.
@@ -42,7 +49,7 @@ pub struct Options {
 /// E0707 for a map that can't be used, E0708 for files of another run, E0709
 /// for a line that is not there, E0701 for files that can't be read.
 pub fn trace(place: &FilePosition, map: &Path, options: &Options) -> Result<Answer, Error> {
-    let mut map = Map { reader: MapReader::open(map)?, path: map };
+    let mut map = Map { reader: MapReader::open(map)?, path: map, near: None };
     let files = RunFiles::find(&map.reader, map.path, place, options)?;
     let mut answer = Answer {
         asked: Asked::from(files.role),
@@ -69,7 +76,12 @@ pub fn trace(place: &FilePosition, map: &Path, options: &Options) -> Result<Answ
 struct Map<'p> {
     reader: MapReader<File>,
     path: &'p Path,
+    /// A block not far before the one asked for.
+    near: Option<Cause>,
 }
+
+/// Blocks that [`Map::near`] lies before the one asked for, at least.
+const NEAR: u64 = 64;
 
 /// Lines of the program that belong to an answer; of each only the words that do.
 #[derive(Default)]
@@ -84,10 +96,17 @@ impl Map<'_> {
         if place.line == 0 || place.line > self.reader.nc_lines() {
             return Err(no_line(place, self.reader.nc_lines()));
         }
-        for entry in self.reader.by_ref() {
-            match entry? {
-                Entry::Line(line) if line.number == place.line => return asked(line, place, files),
-                _ => {}
+        let before = Cell::new([Cause::default(); 2]);
+        let wanted = |_: &[Stack], number: u64, cause: Cause| {
+            if number.is_multiple_of(NEAR) && cause.line > 0 {
+                before.set([before.get()[1], cause]);
+            }
+            number == place.line
+        };
+        while let Some(entry) = self.reader.next_where(&wanted) {
+            if let Entry::Line(line) = entry? {
+                self.near = Some(before.get()[0]).filter(|cause| cause.line > 0);
+                return asked(line, place, files);
             }
         }
         Err(no_line(place, self.reader.nc_lines()))
@@ -104,8 +123,9 @@ impl Map<'_> {
         let record = records::at_line(&place.file, place, &options.cl)?;
         let Some(record) = record else { return Ok(Found::default()) };
         let number = record.number;
+        self.near = Some(Cause { record: number, line: record.line, ..Cause::default() });
         answer.record = Some(record);
-        self.matching(options, answer, |_, cause| cause.record == number)
+        self.matching(options, answer, &|_, cause| cause.record == number)
     }
 
     /// What a line of FIL has made or had a part in.
@@ -123,8 +143,9 @@ impl Map<'_> {
         if answer.excerpt.is_none() {
             return Err(no_line(place, lines));
         }
-        self.matching(options, answer, |reader, cause| {
-            let lines = reader.stack(cause).map_or(&[][..], |stack| &stack.lines);
+        self.matching(options, answer, &|stacks, cause| {
+            let stack = (cause.stack as usize).checked_sub(1).and_then(|at| stacks.get(at));
+            let lines = stack.map_or(&[][..], |stack| &stack.lines);
             lines.iter().any(|at| at.file == file && u64::from(at.line) == place.line)
         })
     }
@@ -134,21 +155,18 @@ impl Map<'_> {
         &mut self,
         options: &Options,
         answer: &mut Answer,
-        wanted: impl Fn(&MapReader<File>, Cause) -> bool,
+        wanted: &dyn Fn(&[Stack], Cause) -> bool,
     ) -> Result<Found, Error> {
         let mut found = Found::default();
-        while let Some(entry) = self.reader.next() {
+        while let Some(entry) = self.reader.next_where(&|stacks, _, cause| wanted(stacks, cause)) {
             match entry? {
                 Entry::Line(mut line) => {
-                    let whole = wanted(&self.reader, line.cause);
-                    if !whole {
-                        line.words.retain(|word| wanted(&self.reader, word.cause));
+                    if !wanted(self.reader.stacks(), line.cause) {
+                        line.words.retain(|word| wanted(self.reader.stacks(), word.cause));
                     }
-                    if whole || !line.words.is_empty() {
-                        found.in_all += 1;
-                        if found.lines.len() < options.most {
-                            found.lines.push(line);
-                        }
+                    found.in_all += 1;
+                    if found.lines.len() < options.most {
+                        found.lines.push(line);
                     }
                 }
                 Entry::Taken(taken) => {
@@ -175,9 +193,10 @@ impl Map<'_> {
         let causes = lines
             .iter()
             .flat_map(|line| line.words.iter().map(|word| word.cause).chain([line.cause]));
-        let wanted: BTreeSet<u32> = causes.map(|cause| cause.record).filter(|n| *n > 0).collect();
+        let causes = causes.filter(|cause| cause.record > 0);
+        let wanted: BTreeMap<u32, u32> = causes.map(|cause| (cause.record, cause.line)).collect();
         let records = match files.cl() {
-            Some(path) => records::read(path, &wanted, &options.cl)?,
+            Some(path) => records::read(path, &wanted, self.near, &options.cl)?,
             None => Records::default(),
         };
         let made = |cause: Cause| self.made(cause, &records, files);

@@ -1,14 +1,16 @@
 //! Records of a CL file by number and by line.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{BufRead, BufReader};
+use std::io::{Seek, SeekFrom};
 use std::path::Path;
 
-use fil_cl::record::WordView;
-use fil_cl::{Vocabulary, reader};
+use fil_cl::record::{WordView, kind};
+use fil_cl::{ClDialect, Vocabulary, reader};
+use fil_post::Cause;
 
 use super::answer::Record;
+use super::line_search;
 use super::{FilePosition, no_line};
 use crate::error::Error;
 use crate::files;
@@ -17,24 +19,92 @@ use crate::statement::statement_text;
 /// Records by number.
 pub(super) type Records = BTreeMap<u32, Record>;
 
-/// Reads the wanted records.
+/// Words of a GOTO of three coordinates.
+const PLAIN: usize = 8;
+
+/// Records from which the dialect of a file is told.
+const HEAD: u32 = 1000;
+
+/// Reads the wanted records, given by their numbers and lines; `near` is a record
+/// not far before them.
 ///
 /// # Errors
 /// E0701
 pub(super) fn read(
     path: &Path,
-    wanted: &BTreeSet<u32>,
+    wanted: &BTreeMap<u32, u32>,
+    near: Option<Cause>,
     options: &reader::Options,
 ) -> Result<Records, Error> {
     let mut records = Records::new();
-    let Some(last) = wanted.last() else { return Ok(records) };
+    let Some((last, _)) = wanted.last_key_value() else { return Ok(records) };
+    if let Some(near) = near
+        && let Some(records) = read_near(path, wanted, near, options)?
+    {
+        return Ok(records);
+    }
     each(path, options, |record, vocabulary| {
-        if wanted.contains(&record.number) {
+        if wanted.contains_key(&record.number) {
             records.insert(record.number, shown(record, vocabulary));
         }
         record.number < *last
     })?;
     Ok(records)
+}
+
+/// Reads the wanted records from a record before them on, where what stands before
+/// that can't matter: all that is wanted are GOTO of three coordinates of Creo, and
+/// numbers and lines come out as the run has counted them. `None` otherwise.
+fn read_near(
+    path: &Path,
+    wanted: &BTreeMap<u32, u32>,
+    near: Cause,
+    options: &reader::Options,
+) -> Result<Option<Records>, Error> {
+    if wanted.first_key_value().is_none_or(|(first, _)| *first < near.record) || options.raw {
+        return Ok(None);
+    }
+    let cant = |error| files::cant_read(path, &error);
+    let mut file = File::open(path).map_err(cant)?;
+    if !is_creo(&file, options) {
+        return Ok(None);
+    }
+    file.rewind().map_err(cant)?;
+    let Some(offset) = line_search::offset(&mut file, near.line.into()).map_err(cant)? else {
+        return Ok(None);
+    };
+    file.seek(SeekFrom::Start(offset)).map_err(cant)?;
+    let options = reader::Options { dialect: Some(ClDialect::Creo), ..*options };
+    let mut reader = reader::Reader::new(file, "", options);
+    let (mut vocabulary, mut record) = (Vocabulary::new(), fil_cl::Record::default());
+    let mut records = Records::new();
+    while records.len() < wanted.len() {
+        let Ok(true) = reader.read(&mut vocabulary, &mut record) else { return Ok(None) };
+        if record.number == 1 && record.line != 1 {
+            return Ok(None);
+        }
+        record.number += near.record - 1;
+        record.line += near.line - 1;
+        let Some(line) = wanted.get(&record.number) else {
+            if wanted.last_key_value().is_none_or(|(last, _)| record.number > *last) {
+                return Ok(None);
+            }
+            continue;
+        };
+        if record.kind != kind::MOTION || record.len() != PLAIN || record.line != *line {
+            return Ok(None);
+        }
+        records.insert(record.number, shown(&record, &vocabulary));
+    }
+    Ok(Some(records))
+}
+
+/// The head of a file says that it is one of Creo.
+fn is_creo(file: &File, options: &reader::Options) -> bool {
+    let mut reader = reader::Reader::new(file, "", *options);
+    let (mut vocabulary, mut record) = (Vocabulary::new(), fil_cl::Record::default());
+    while record.number < HEAD && matches!(reader.read(&mut vocabulary, &mut record), Ok(true)) {}
+    reader.recognized().dialect == ClDialect::Creo
 }
 
 /// The record whose statement stands on a line, or the last one before it;
@@ -51,15 +121,18 @@ pub(super) fn at_line(
     if place.line == 0 || place.line > lines {
         return Err(no_line(place, lines));
     }
-    let mut found = None;
+    let mut found = fil_cl::Record::default();
+    let mut words = Vocabulary::new();
     each(path, options, |record, vocabulary| {
         let reached = u64::from(record.line) <= place.line;
         if reached {
-            found = Some(shown(record, vocabulary));
+            std::mem::swap(record, &mut found);
+        } else {
+            words = vocabulary.clone();
         }
         reached
     })?;
-    Ok(found)
+    Ok((found.number > 0).then(|| shown(&found, &words)))
 }
 
 /// Hands out record by record while `more` says so; what comes after the last
@@ -67,13 +140,13 @@ pub(super) fn at_line(
 fn each(
     path: &Path,
     options: &reader::Options,
-    mut more: impl FnMut(&fil_cl::Record, &Vocabulary) -> bool,
+    mut more: impl FnMut(&mut fil_cl::Record, &Vocabulary) -> bool,
 ) -> Result<(), Error> {
     let file = File::open(path).map_err(|error| files::cant_read(path, &error))?;
     let mut reader = reader::Reader::new(file, &path.display().to_string(), *options);
     let (mut vocabulary, mut record) = (Vocabulary::new(), fil_cl::Record::default());
     while let Ok(true) = reader.read(&mut vocabulary, &mut record) {
-        if !more(&record, &vocabulary) {
+        if !more(&mut record, &vocabulary) {
             break;
         }
     }
@@ -97,14 +170,5 @@ fn shown(record: &fil_cl::Record, vocabulary: &Vocabulary) -> Record {
 
 fn count_lines(path: &Path) -> Result<u64, Error> {
     let cant = |error| files::cant_read(path, &error);
-    let mut input = BufReader::with_capacity(1 << 18, File::open(path).map_err(cant)?);
-    let (mut lines, mut open) = (0, false);
-    loop {
-        let bytes = input.fill_buf().map_err(cant)?;
-        let Some(last) = bytes.last() else { return Ok(lines + u64::from(open)) };
-        open = *last != b'\n';
-        lines += bytes.iter().filter(|byte| **byte == b'\n').count() as u64;
-        let count = bytes.len();
-        input.consume(count);
-    }
+    line_search::count(&mut File::open(path).map_err(cant)?).map_err(cant)
 }

@@ -2,12 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Seek, SeekFrom};
 use std::path::{Component, Path, PathBuf};
 
 use fil_diag::Diag;
 
-use super::{FilePosition, Options};
+use super::digests::Digests;
+use super::{FilePosition, Options, line_search};
 use crate::error::{Error, RunCode};
 use crate::files;
 use crate::map::{Digest, MapFile, MapReader};
@@ -53,17 +54,28 @@ impl RunFiles {
         options: &Options,
     ) -> Result<RunFiles, Error> {
         let folder = at.parent().unwrap_or(Path::new(""));
-        let role = role(map, folder, &place.file, options)?;
-        let path = |of: Role, file: &MapFile| match of == role {
-            true => place.file.clone(),
-            false => tidy(&folder.join(&file.name)),
+        let given = &options.cl_file;
+        let long = [map.cl(), map.nc()].map(|file| tidy(&folder.join(&file.name)));
+        let named = given.iter().chain([&place.file]).cloned().chain(long);
+        let mut digests = Digests::of_all(named);
+        let role = role(map, folder, &place.file, options, &mut digests)?;
+        let mut path = |of: Role, file: &MapFile, given: Option<&PathBuf>| match given {
+            _ if of == role => place.file.clone(),
+            Some(given) => given.clone(),
+            None => place_of(file, folder, &mut digests),
         };
+        let mut given_fil = given_fil(map, options)?;
+        let cl_path = path(Role::Cl, map.cl(), given.as_ref());
+        let nc_path = path(Role::Nc, map.nc(), None);
+        let fil_paths: Vec<PathBuf> = (0..)
+            .zip(map.fil())
+            .map(|(number, file)| path(Role::Fil(number), file, given_fil.remove(&number).as_ref()))
+            .collect();
         let mut missing = Vec::new();
-        let cl = at_hand(map.cl(), path(Role::Cl, map.cl()), &mut missing)?;
-        let nc = at_hand(map.nc(), path(Role::Nc, map.nc()), &mut missing)?;
+        let cl = at_hand(map.cl(), cl_path, &mut missing, &mut digests)?;
+        let nc = at_hand(map.nc(), nc_path, &mut missing, &mut digests)?;
         let mut fil = Vec::new();
-        for (number, file) in map.fil().iter().enumerate() {
-            let path = path(Role::Fil(number as u16), file);
+        for (file, path) in map.fil().iter().zip(fil_paths) {
             let lines = fil_lines(file, &path, options, &mut missing)?;
             fil.push((path.display().to_string(), lines));
         }
@@ -100,11 +112,17 @@ impl RunFiles {
     /// Lines of the NC program by number; none when it is not at hand.
     pub fn nc_lines(&self, wanted: &BTreeSet<u64>) -> Result<BTreeMap<u64, String>, Error> {
         let mut found = BTreeMap::new();
-        let (Some(path), Some(last)) = (&self.nc.path, wanted.last()) else { return Ok(found) };
+        let Some(path) = &self.nc.path else { return Ok(found) };
+        let (Some(first), Some(last)) = (wanted.first(), wanted.last()) else { return Ok(found) };
         let cant = |error| files::cant_read(path, &error);
-        let mut input = BufReader::with_capacity(1 << 18, File::open(path).map_err(cant)?);
+        let mut file = File::open(path).map_err(cant)?;
+        let Some(offset) = line_search::offset(&mut file, *first).map_err(cant)? else {
+            return Ok(found);
+        };
+        file.seek(SeekFrom::Start(offset)).map_err(cant)?;
+        let mut input = BufReader::with_capacity(1 << 18, file);
         let mut line = Vec::new();
-        for number in 1..=*last {
+        for number in *first..=*last {
             line.clear();
             if input.read_until(b'\n', &mut line).map_err(cant)? == 0 {
                 break;
@@ -132,15 +150,21 @@ fn role(
     folder: &Path,
     file: &Path,
     options: &Options,
+    digests: &mut Digests,
 ) -> Result<Role, Error> {
     let fil = map.fil().iter().enumerate().map(|(number, file)| (Role::Fil(number as u16), file));
     let files: Vec<(Role, &MapFile)> =
         [(Role::Nc, map.nc()), (Role::Cl, map.cl())].into_iter().chain(fil).collect();
-    let digest = digest(file)?;
-    let text = digest_of_text(file, options).ok();
-    let same = |(role, known): &&(Role, &MapFile)| match role {
-        Role::Fil(_) => text.as_ref() == Some(&known.digest),
-        _ => digest == known.digest,
+    let digest = digests.of(file)?;
+    if digest == map.nc().digest {
+        return Ok(Role::Nc);
+    }
+    if digest == map.cl().digest {
+        return Ok(Role::Cl);
+    }
+    let text = if map.fil().is_empty() { None } else { digest_of_text(file, options).ok() };
+    let same = |(role, known): &&(Role, &MapFile)| {
+        matches!(role, Role::Fil(_)) && text.as_ref() == Some(&known.digest)
     };
     let real = |path: &Path| path.canonicalize().ok();
     let named = |(_, known): &&(Role, &MapFile)| {
@@ -160,9 +184,41 @@ fn role(
     Err(Error::setup(Diag::new(RunCode::OtherRun, message)))
 }
 
-fn digest(path: &Path) -> Result<Digest, Error> {
-    let cant = |error| files::cant_read(path, &error);
-    Digest::of_reader(File::open(path).map_err(cant)?).map_err(cant)
+/// Where a file is: where it lay as seen from the map, else by its plain name beside
+/// the map or in the current folder, if it has not changed.
+fn place_of(file: &MapFile, folder: &Path, digests: &mut Digests) -> PathBuf {
+    let at = tidy(&folder.join(&file.name));
+    if at.is_file() {
+        return at;
+    }
+    let Some(name) = Path::new(&file.name).file_name() else { return at };
+    let others = [folder.join(name), PathBuf::from(name)];
+    let found = others.into_iter().find(|path| {
+        std::fs::metadata(path).is_ok_and(|found| found.is_file())
+            && digests.of(path).is_ok_and(|digest| digest == file.digest)
+    });
+    found.unwrap_or(at)
+}
+
+/// The FIL files that the user names, by their numbers in the map.
+fn given_fil(map: &MapReader<File>, options: &Options) -> Result<BTreeMap<u16, PathBuf>, Error> {
+    let mut given = BTreeMap::new();
+    for path in &options.fil_files {
+        let digest = digest_of_text(path, options)?;
+        let mut numbered = (0..).zip(map.fil());
+        let same = numbered.clone().find(|(_, file)| file.digest == digest);
+        let named =
+            || numbered.find(|(_, file)| Path::new(&file.name).file_name() == path.file_name());
+        let Some((number, _)) = same.or_else(named) else {
+            let names: Vec<&str> = map.fil().iter().map(|file| file.name.as_str()).collect();
+            let shown = path.display();
+            let message =
+                format!("{shown} is none of the FIL files of this map: {}", names.join(", "));
+            return Err(Error::setup(Diag::new(RunCode::OtherRun, message)));
+        };
+        given.insert(number, path.clone());
+    }
+    Ok(given)
 }
 
 fn digest_of_text(path: &Path, options: &Options) -> Result<Digest, Error> {
@@ -171,13 +227,18 @@ fn digest_of_text(path: &Path, options: &Options) -> Result<Digest, Error> {
 }
 
 /// A file where it should be; noted when it is not there.
-fn at_hand(file: &MapFile, path: PathBuf, missing: &mut Vec<String>) -> Result<At, Error> {
+fn at_hand(
+    file: &MapFile,
+    path: PathBuf,
+    missing: &mut Vec<String>,
+    digests: &mut Digests,
+) -> Result<At, Error> {
     let shown = path.display().to_string();
     if !path.is_file() {
         missing.push(shown.clone());
         return Ok(At { shown, path: None });
     }
-    file.check(&shown, &digest(&path)?)?;
+    file.check(&shown, &digests.of(&path)?)?;
     Ok(At { shown, path: Some(path) })
 }
 

@@ -1,0 +1,118 @@
+//! What one record writes beyond what is kept in memory: a loop in a section writes
+//! millions of blocks before the next record is read.
+
+use std::fs::File;
+use std::io::{self, Seek, Write};
+
+use fil_diag::Result;
+use fil_post::Origin;
+
+use crate::error::RunCode;
+use crate::event::Event;
+use crate::outside::Outside;
+use crate::source::Records;
+
+/// Bytes on the tape from which on they leave memory.
+const SPILL: usize = 1 << 20;
+
+/// The blocks of a record that do not lie on the tape any more, in a nameless file.
+#[derive(Default)]
+pub(crate) struct Spilled {
+    file: Option<File>,
+}
+
+impl Spilled {
+    fn take(&mut self, bytes: &[u8]) -> io::Result<()> {
+        let file = match &mut self.file {
+            Some(file) => file,
+            none => none.insert(tempfile::tempfile()?),
+        };
+        file.write_all(bytes)
+    }
+
+    /// Writes what was taken, and forgets it.
+    pub fn hand_out(&mut self, output: &mut dyn Write) -> io::Result<()> {
+        let Some(mut file) = self.file.take() else { return Ok(()) };
+        file.rewind()?;
+        io::copy(&mut file, output).map(|_| ())
+    }
+}
+
+impl<S: Records> Outside<'_, S> {
+    /// Takes blocks off a full tape, where somebody will ask for them by the record.
+    ///
+    /// # Errors
+    /// E0702; E0717
+    pub fn spill(&mut self) -> Result<()> {
+        if self.post.control.tape.text.len() < SPILL {
+            return Ok(());
+        }
+        self.spill_all()
+    }
+
+    #[cold]
+    fn spill_all(&mut self) -> Result<()> {
+        self.check_length()?;
+        if self.pass.is_first() {
+            self.forget_blocks();
+            return Ok(());
+        }
+        let Some(spilled) = &mut self.spilled else { return Ok(()) };
+        let taken = spilled.take(&self.post.control.tape.text);
+        taken.map_err(|error| RunCode::CantWrite.diag(error.to_string()))?;
+        self.show_blocks(|_, _| {});
+        self.give_away_blocks()
+    }
+
+    /// Hands out the blocks that nobody has seen yet.
+    pub fn show_blocks(&mut self, mut take: impl FnMut(&str, &Origin)) {
+        let tape = &self.post.control.tape;
+        let Some(noted) = &tape.noted else { return };
+        for block in &noted.blocks[self.shown..] {
+            let text = String::from_utf8_lossy(&tape.text[block.range.clone()]);
+            let origin = tape.stacks.origin(block.cause);
+            take(&text, &origin);
+            for observer in self.observers.iter_mut() {
+                observer(Event::Block { text: &text, origin: &origin });
+            }
+        }
+        self.shown = noted.blocks.len();
+    }
+
+    /// Gives blocks that were written to the map, and forgets them.
+    ///
+    /// # Errors
+    /// E0717
+    pub fn give_away_blocks(&mut self) -> Result<()> {
+        self.check_length()?;
+        let tape = &mut self.post.control.tape;
+        if let Some(map) = &mut self.map {
+            // The map takes the text along.
+            self.report.bytes += tape.text.len() as u64;
+            map.blocks(tape);
+        }
+        self.forget_blocks();
+        Ok(())
+    }
+
+    /// Forgets blocks that were written.
+    pub fn forget_blocks(&mut self) {
+        let tape = &mut self.post.control.tape;
+        if let Some(noted) = &mut tape.noted {
+            noted.clear();
+        }
+        self.report.bytes += tape.text.len() as u64;
+        tape.text.clear();
+        self.shown = 0;
+    }
+
+    /// Refuses a program that is longer than the host allows.
+    fn check_length(&self) -> Result<()> {
+        let most = self.program.shared.limits.output_bytes;
+        let written = self.report.bytes + self.post.control.tape.text.len() as u64;
+        if written <= most {
+            return Ok(());
+        }
+        Err(RunCode::TooLong.diag(format!("it has more than {most} bytes")))
+    }
+}
