@@ -451,8 +451,8 @@ fn e0702_absent_folder() {
 
 #[test]
 fn e0717_program_too_long() {
-    let fil =
-        "CIMFIL/ON,GOTO\nDO/LAB1,II=1,200000\nPOSTN/OUT,G,4,P,II\nLAB1)CONTIN\nCIMFIL/OFF\nFINI\n";
+    let fil = "CIMFIL/ON,GOTO\nDO/LAB2,JJ=1,40\nDO/LAB1,II=1,5000\nPOSTN/OUT,G,4,P,II\nLAB1)CONTIN\n\
+               LAB2)CONTIN\nCIMFIL/OFF\nFINI\n";
     let shop = Shop::new();
     let post = |output_bytes| {
         let limits = Limits { output_bytes, ..Limits::default() };

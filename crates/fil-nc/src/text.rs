@@ -82,7 +82,7 @@ impl Block {
 
     /// The number of the `N` word.
     pub fn sequence_number(&self) -> Option<i64> {
-        self.word(b'N').map(|word| word.number.digits)
+        self.word(b'N').map(|word| word.number.value() as i64)
     }
 }
 

@@ -50,7 +50,7 @@ fn json_has_the_numbers() {
 
 #[test]
 fn what_is_no_program_is_refused_with_its_place() {
-    let output = diff(RIGHT.as_bytes(), b"0 BEGIN PGM 1 MM\n", &[]);
+    let output = diff(RIGHT.as_bytes(), b"? BEGIN\n", &[]);
     assert!(output.err.contains("E0901"), "{}", output.err);
     assert!(output.err.contains("new.nc:1:1"), "{}", output.err);
     assert_eq!((output.status, output.out.len()), (1, 0));
