@@ -100,7 +100,9 @@ fn klartext(line: &[u8], number: u32) -> Block {
     let mut items = items(&code);
     if items.first().is_some_and(|(text, _)| text.bytes().all(|byte| byte.is_ascii_digit())) {
         let (text, range) = items.remove(0);
-        block.words.extend(word(b'N', &text, &range));
+        let digits = text.parse().unwrap_or(0);
+        let number = Number { digits, decimals: 0, whole: 1, point: false };
+        block.words.push(Word { letter: b'N', index: None, number, range });
     }
     let head = items.first().map_or(String::new(), |(text, _)| text.clone());
     let moves = matches!(head.as_str(), "L" | "C" | "CC" | "CR" | "CP" | "CT")
