@@ -166,13 +166,16 @@ fn links_lead_somewhere() {
             }
             let target = if file.is_empty() { root().join(&name) } else { folder.join(file) };
             assert!(target.is_file(), "{name}: {link}");
+            if anchor.is_empty() {
+                continue;
+            }
             let text = std::fs::read_to_string(&target).expect("the page");
             let has = |line: &str| {
                 line.starts_with('#')
                     && line.trim_start_matches('#').trim().to_lowercase().replace(' ', "-")
                         == anchor
             };
-            assert!(anchor.is_empty() || text.lines().any(has), "{name}: {link}");
+            assert!(text.lines().any(has), "{name}: {link}");
         }
     }
 }

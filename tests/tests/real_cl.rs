@@ -40,7 +40,7 @@ impl Machine {
         let (ready, settings): (&str, &[&str]) = match self {
             Machine::Mill => ("linuxcnc-mill", &[]),
             Machine::Tables => ("fanuc-mill", &tables),
-            Machine::Lathe => ("fanuc-lathe", &[]),
+            Machine::Lathe => ("fanuc-lathe", &["spindle.css_limit=3000"]),
         };
         let builder = filpost::Program::builder().ready(ready);
         settings.iter().fold(builder, |builder, setting| builder.set(setting)).build().unwrap()

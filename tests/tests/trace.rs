@@ -6,6 +6,7 @@ use std::collections::HashMap;
 use std::io::Cursor;
 use std::path::Path;
 
+use fil_machine::locations::{self, ControlFamily};
 use filpost::case::{self, Case};
 use filpost::cl::record::motion;
 use filpost::cl::{ClDialect, Record, Vocabulary, Word, reader};
@@ -76,8 +77,8 @@ fn each_line_is_cut_into_its_words() {
     for case in cases() {
         // A line of Klartext is a phrase and not a row of letters with numbers; a SINUMERIK
         // has named addresses and calls.
-        let other = |part: &std::ffi::OsStr| part == "klartext" || part == "sinumerik";
-        if case.folder.components().any(|part| other(part.as_os_str())) {
+        let Ok(program) = case.program() else { continue };
+        if program.commons().read(locations::CONTROL_FAMILY) != ControlFamily::WordAddress {
             continue;
         }
         let Some((nc, map)) = mapped(&case) else { continue };

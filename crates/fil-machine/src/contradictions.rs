@@ -172,7 +172,6 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     tape(commons, &mut found);
     ranges(commons, &mut found);
     prepared_tools(commons, &mut found);
-    taps_of_a_lathe(commons, &mut found);
     found
 }
 
@@ -386,17 +385,6 @@ fn same_positions(commons: &Commons, found: &mut Vec<Diag>) {
                 "{other} and {letter} are both at tape position {at}"
             )));
         }
-    }
-}
-
-/// Where G98 is the feed a minute, G74 turns: it pecks or faces and taps nothing.
-fn taps_of_a_lathe(commons: &Commons, found: &mut Vec<Diag>) {
-    let turns = commons.read(loc::FEED_UPM_CODE) == Some(98);
-    let taps = commons.read(loc::CYCLE_TAP_CODE).is_some();
-    if turns && taps && commons.read(loc::CYCLE_TAP_LEFT_CODE) == Some(74) {
-        found.push(contradiction(
-            "cycle.tap_left_code is G74, a turning cycle where G98 is a feed".into(),
-        ));
     }
 }
 

@@ -333,6 +333,10 @@ impl Functions {
         let mut any = false;
         for (key, kind) in CYCLES {
             let Some(code) = settings.code(key) else { continue };
+            // A machine without a tapping cycle has none for left-hand threads either.
+            if *kind == CycleKind::TapLeft && settings.code("cycle.tap_code").is_none() {
+                continue;
+            }
             any = true;
             self.add(Some(code), Function::Cycle(standard(code).map_or(*kind, |row| row.1)));
         }

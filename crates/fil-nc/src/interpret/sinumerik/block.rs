@@ -329,16 +329,16 @@ impl Sinumerik<'_> {
 
     /// `G4 F1.5` seconds, `G4 S30` turns: neither is a feed or a speed from then on.
     fn dwell(&mut self, said: &Said) -> Result<(), Fault> {
-        let seconds = match (said.feed, said.speed) {
-            (Some(seconds), None) => Some(seconds),
-            (None, Some(_)) => None,
+        let (seconds, turns) = match (said.feed, said.speed) {
+            (Some(seconds), None) => (Some(seconds), None),
+            (None, Some(turns)) => (None, Some(turns)),
             _ => {
                 let message = "a dwell needs F in seconds or S in turns";
                 return Err(Fault::new(NcCode::MissingWord, message));
             }
         };
         let line = self.state.line;
-        self.state.events.push(Event::Dwell { line, seconds, turns: None });
+        self.state.events.push(Event::Dwell { line, seconds, turns });
         Ok(())
     }
 }

@@ -1,7 +1,7 @@
 //! Codes and placements of spindle, coolant, stops and end.
 
 use fil_machine::commons::Rel;
-use fil_machine::locations::{self as loc, FixtureForm, ThreadCycle};
+use fil_machine::locations::{self as loc, ControlFamily, FixtureForm, ThreadCycle};
 use fil_machine::setting::CodeAt;
 use fil_machine::user_blocks;
 
@@ -199,8 +199,11 @@ impl Settings<'_> {
         self.commons.read(at).map(number)
     }
 
-    /// The machine waits seconds only.
+    /// The machine waits seconds only; a SINUMERIK counts turns too (`G4 S`).
     pub fn waits_seconds(&self) -> bool {
+        if self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik {
+            return false;
+        }
         self.commons.dbl_opt(loc::DWELL_UPR_FACTOR).is_none_or(|factor| factor <= 0.0)
     }
 

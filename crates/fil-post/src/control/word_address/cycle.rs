@@ -53,12 +53,28 @@ fn tap_code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
         return tenths(rigid).map(FunctionCode::tenths);
     }
     // A machine without a tapping cycle has none for left-hand threads either.
-    usual.and(control.code_if_any(code))
+    let code = usual.and(control.code_if_any(code))?;
+    (!(code == G74 && turns_by_g74(control))).then_some(code)
+}
+
+const G74: FunctionCode = FunctionCode::whole(74);
+
+/// Where G98 is the feed a minute, G74 is a turning cycle: it pecks or faces and taps
+/// nothing.
+fn turns_by_g74(control: &Control) -> bool {
+    control.commons.read(loc::FEED_UPM_CODE) == Some(98)
 }
 
 /// Why the machine has no code for a tap that turns as the spindle does.
 pub fn no_tap(control: &Control) -> &'static str {
     match control.state.rotation {
+        Rotation::Counterclockwise
+            if turns_by_g74(control)
+                && control.code_if_any(loc::CYCLE_TAP_LEFT_CODE) == Some(G74) =>
+        {
+            "the spindle turns counterclockwise, and G74 (cycle.tap_left_code) is a turning \
+             cycle where G98 is a feed"
+        }
         Rotation::Counterclockwise if control.code_if_any(loc::CYCLE_TAP_CODE).is_some() => {
             "the spindle turns counterclockwise, and the machine has no cycle for left-hand \
              threads (cycle.tap_left_code, cycle.rigid_tap_left_code)"
