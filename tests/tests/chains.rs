@@ -60,7 +60,7 @@ fn a_chain_is_drawn_from_the_part_to_the_tool() {
 #[test]
 fn a_chain_that_is_not_there_is_refused() {
     let built = Program::builder().ready("fanuc-mill").set("chain=\"tables-xy\"").build();
-    let error = built.err().expect("refused").to_string();
+    let error = built.expect_err("refused").to_string();
     assert!(error.contains("E0605") && error.contains("tables-xy"), "{error}");
 }
 

@@ -335,7 +335,7 @@ fn wrong(post: &Program, form: usize, spec: &Spec, judge: Option<&Path>) -> Opti
     }
     let said = said_against(post, &cl, &nc);
     // The number of passes at the root is the control's own in one block.
-    if !said.is_empty() && !(form == 3 && by_cycle && said.contains("passes at the root")) {
+    if !(said.is_empty() || form == 3 && by_cycle && said.contains("passes at the root")) {
         return tell(said);
     }
     let judge = judge.filter(|_| form == 4)?;

@@ -78,8 +78,8 @@ pub fn interpret(
     }
 }
 
-/// True when the program has blocks that the control leaves out when its switch is on
-/// ([`Dialect::skips_blocks`]).
+/// True when the program has blocks that the control leaves out when its switch for
+/// blocks with a skip mark is on.
 pub fn has_skipped_blocks(text: &[u8], dialect: &Dialect) -> bool {
     dialect.family != Family::Klartext && program::has_skipped_blocks(text, dialect)
 }

@@ -471,8 +471,8 @@ fn is_by_first(thread: &Thread) -> bool {
 /// A frame in which the thread does not lie in the plane of X and Z.
 pub fn on_machine(post: &mut Post, target: Target) -> Result<[f64; 2]> {
     let position = rotary::position_of(post, target)?;
-    for number in 0..3 {
-        post.control.tables.axis(number).check(position[number])?;
+    for (number, along) in position.into_iter().take(3).enumerate() {
+        post.control.tables.axis(number).check(along)?;
     }
     Ok([position[0], position[2]])
 }

@@ -21,7 +21,8 @@ const TO: usize = 4;
 /// Remembers the lead, or cuts a whole thread.
 ///
 /// # Errors
-/// No lead, and as [`automatic`].
+/// No lead; of THREAD/AUTO another order of the points, a value that is missing, and what
+/// the thread itself refuses.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     if items.any_of(&[w::OFF, w::NOMORE]).is_some() {
         return thread::end(post);
@@ -136,8 +137,7 @@ fn side(post: &Post, items: &mut Items, crest: [Target; 2]) -> Result<ThreadSide
 /// No whole number from 1 on.
 pub fn starts(items: &mut Items, word: fil_cl::WordId) -> Result<u32> {
     match items.couplet(word)? {
-        None => Ok(1),
-        Some(starts) if starts == 0.0 => Ok(1),
+        None | Some(0.0) => Ok(1),
         Some(starts)
             if starts.fract() == 0.0 && (1.0..=f64::from(MOST_STARTS)).contains(&starts) =>
         {

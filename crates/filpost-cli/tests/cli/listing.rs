@@ -13,7 +13,7 @@ const SETTINGS: [&str; 4] =
 
 /// The listing of the part with settings on top and a script.
 fn listing(settings: &[&str], fil: &str) -> String {
-    let place = Folder::new().with("part.ncl", PART).with("post.fil", &format!("{fil}FINI\n"));
+    let place = Folder::new().with("part.ncl", PART).with("post.fil", format!("{fil}FINI\n"));
     let mut arguments =
         vec!["post", "part.ncl", "-p", "fanuc-mill", "-f", "post.fil", "--listing", "part.lst"];
     for setting in SETTINGS.iter().chain(settings) {

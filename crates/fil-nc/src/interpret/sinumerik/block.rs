@@ -71,7 +71,7 @@ impl Sinumerik<'_> {
     fn act(&mut self, said: &Said) -> Result<(), Fault> {
         match said.has(8) {
             Some(Function::Dwell) => return self.dwell(said),
-            Some(Function::FixedPoint) => return self.to_fixed_point(said),
+            Some(Function::FixedPoint) => return self.go_to_fixed_point(said),
             _ => {}
         }
         if let Some(feed) = said.feed {

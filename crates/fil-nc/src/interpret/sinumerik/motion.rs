@@ -13,7 +13,7 @@ impl Sinumerik<'_> {
     pub(super) fn motion(&mut self, said: &Said) -> Result<(), Fault> {
         let centered = said.center != [None; 3] || said.radius.is_some();
         let arc = matches!(self.state.motion, Some(Function::Arc { .. }));
-        if !said.moves() && !(arc && centered) {
+        if !(said.moves() || arc && centered) {
             return if centered { Err(no_arc()) } else { Ok(()) };
         }
         match self.state.motion {
@@ -126,7 +126,7 @@ impl Sinumerik<'_> {
     }
 
     /// `G74` and `G75`: the axes go where the machine says; their words have no meaning.
-    pub(super) fn to_fixed_point(&mut self, said: &Said) -> Result<(), Fault> {
+    pub(super) fn go_to_fixed_point(&mut self, said: &Said) -> Result<(), Fault> {
         if !said.moves() {
             return Err(Fault::new(NcCode::MissingWord, "the axes that go there are needed"));
         }
