@@ -102,7 +102,7 @@ impl Script {
         edits.collect()
     }
 
-    /// Refuses a new name that is none, or means something already.
+    /// Refuses a new name that FIL doesn't allow, or that means something already.
     fn is_free(&self, symbol: &Symbol, new: &str) -> Result<(), String> {
         let is_name = new.starts_with(|c: char| c.is_ascii_alphabetic())
             && new.bytes().all(|byte| byte.is_ascii_alphanumeric());

@@ -14,6 +14,7 @@ pub mod chain_drawing;
 pub mod chains;
 pub mod commons;
 pub mod contradictions;
+pub mod cycle_kind;
 pub mod errors;
 pub mod files;
 pub mod function_code;

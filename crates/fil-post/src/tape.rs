@@ -164,14 +164,7 @@ impl Tape {
         commons: &mut Commons,
     ) -> Result<()> {
         let start = self.begin(numbered, tables, commons)?;
-        let base = self.text.len() - start;
-        if let Some(noted) = &mut self.noted {
-            items.iter().for_each(|&(letter, at, cause)| {
-                noted.word(letter, base + at, cause, self.cause);
-            });
-        }
-        self.text.extend_from_slice(text.as_bytes());
-        self.end(start, tables)
+        self.complete(start, text, items, tables)
     }
 
     /// Writes a line of a control whose blocks are no words: its number where it has one,
@@ -191,6 +184,17 @@ impl Tape {
             self.note(SEQUENCE, self.sequence.cause, start);
             self.text.extend_from_slice(format!("{number} ").as_bytes());
         }
+        self.complete(start, text, items, tables)
+    }
+
+    /// Writes the text of a block that begins at `start`, and its end; notes its words.
+    fn complete(
+        &mut self,
+        start: usize,
+        text: &str,
+        items: &[(u8, usize, Cause)],
+        tables: &MachineTables,
+    ) -> Result<()> {
         let base = self.text.len() - start;
         if let Some(noted) = &mut self.noted {
             items.iter().for_each(|&(letter, at, cause)| {

@@ -175,7 +175,7 @@ impl State<'_> {
         self.modes.orientation = None;
     }
 
-    /// Tells the auxiliary functions that are none of spindle, coolant and tool.
+    /// Tells the auxiliary functions other than those of spindle, coolant and tool.
     pub(super) fn auxiliaries(&mut self, words: &Words) {
         for (auxiliary, _) in &words.auxiliaries {
             if let Auxiliary::Other(code) = auxiliary {

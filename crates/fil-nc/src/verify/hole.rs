@@ -4,9 +4,10 @@ use super::ahead::Steps;
 use super::report::FindingKind;
 use super::say::short;
 use super::walk::Walk;
-use super::wanted::{CycleKind, Hole};
+use super::wanted::Hole;
 use crate::forward::Pose;
 use crate::motion::{Course, Event, Move, Spindle};
+use fil_machine::cycle_kind::CycleKind;
 
 /// Most motions over a hole before it is drilled.
 const APPROACH: usize = 6;
@@ -345,21 +346,10 @@ impl<C: Steps> Walk<'_, C> {
         if !self.known[2] || here >= level - slack {
             return;
         }
-        let found = self.next_move().filter(|found| {
-            found.course == Course::Rapid
-                && (found.to.linear[2] - level).abs() <= slack
-                && found.to.linear[..2] == self.at.linear[..2]
-        });
-        match found {
-            Some(found) => {
-                self.take(cl_line, &found);
-                self.next += 1;
-            }
-            None => {
-                let message =
-                    format!("the tool does not go back to Z{} behind the cycle", short(level));
-                self.find(FindingKind::Missing, Some(cl_line), None, message);
-            }
+        if !self.takes_to_level(cl_line, level, true) {
+            let message =
+                format!("the tool does not go back to Z{} behind the cycle", short(level));
+            self.find(FindingKind::Missing, Some(cl_line), None, message);
         }
     }
 

@@ -48,7 +48,7 @@ pub use cl_path::ClPath;
 pub use programs::{compare_programs, compare_words};
 pub use report::{Deviation, Finding, FindingKind, Report, Unverified, Verdict};
 pub use settings::{Due, Settings, Slack};
-pub use wanted::{Arc, CoolantKind, CycleKind, Effect, End, Hole, Step, Wanted, WholeThread};
+pub use wanted::{Arc, CoolantKind, Effect, End, Hole, Step, Wanted, WholeThread};
 
 /// The inputs of a back-check.
 pub struct Check<'a> {

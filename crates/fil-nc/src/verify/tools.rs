@@ -111,19 +111,9 @@ impl<C: Steps> Walk<'_, C> {
     /// The Z motion that calls the length offset, where the settings have one.
     pub(super) fn go_to_offset_level(&mut self, cl_line: u32) {
         let Some(level) = self.settings.offset_level(self.metric) else { return };
-        let found = self.next_move().filter(|found| {
-            (found.to.linear[2] - level).abs() <= self.slack.linear[2]
-                && found.to.linear[..2] == self.at.linear[..2]
-        });
-        match found {
-            Some(found) => {
-                self.take(cl_line, &found);
-                self.next += 1;
-            }
-            None => {
-                let message = format!("the length offset is not called at Z{}", short(level));
-                self.find(FindingKind::Tool, Some(cl_line), None, message);
-            }
+        if !self.takes_to_level(cl_line, level, false) {
+            let message = format!("the length offset is not called at Z{}", short(level));
+            self.find(FindingKind::Tool, Some(cl_line), None, message);
         }
     }
 }

@@ -345,6 +345,21 @@ impl<'a, C: Steps> Walk<'a, C> {
         }
     }
 
+    /// Takes the next motion if it goes along Z alone, to a level, and says whether it did.
+    pub(super) fn takes_to_level(&mut self, cl_line: u32, level: f64, rapid: bool) -> bool {
+        let slack = self.slack.linear[2];
+        let to_level = self.next_move().filter(|found| {
+            (found.course == Course::Rapid || !rapid)
+                && (found.to.linear[2] - level).abs() <= slack
+                && found.to.linear[..2] == self.at.linear[..2]
+        });
+        if let Some(found) = &to_level {
+            self.take(cl_line, found);
+            self.next += 1;
+        }
+        to_level.is_some()
+    }
+
     pub(super) fn at_end(&self) -> bool {
         matches!(self.nc.get(self.next), None | Some(Event::End { .. }))
     }

@@ -1,5 +1,6 @@
 //! What a CL file asks of a machine, as plain data: mm, degrees, mm/min.
 
+use fil_machine::cycle_kind::CycleKind;
 use nalgebra::{Point3, Vector3};
 
 use crate::forward::Pose;
@@ -217,31 +218,6 @@ pub struct WholeThread {
     pub clearance: Option<f64>,
     /// Angle of the profile, degrees.
     pub angle: f64,
-}
-
-/// A kind of cycle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CycleKind {
-    /// DRILL
-    Drill,
-    /// CSINK
-    Csink,
-    /// DEEP
-    Deep,
-    /// BRKCHP
-    Brkchp,
-    /// TAP
-    Tap,
-    /// BORE
-    Bore,
-    /// REAM
-    Ream,
-    /// FACE
-    Face,
-    /// THRU
-    Thru,
-    /// MILL, which the control alone knows
-    Mill,
 }
 
 /// A hole along the tool axis.

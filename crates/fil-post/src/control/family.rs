@@ -10,10 +10,19 @@ use super::word_address::arc::PlaneArc;
 use super::word_address::motion::{self as words, Motion, RapidCode};
 use super::{Control, klartext, sinumerik, word_address};
 use crate::cause::Cause;
+use crate::errors::PostCode;
 use crate::operation::{Dwell, Feed, Lead, Operation, Thread, ToolChange};
 use crate::path::cycle::{Cycle, Hole};
 use crate::path::thread::Shape;
 use crate::post::Post;
+
+/// Refuses what the control's language has no word for.
+///
+/// # Errors
+/// Always.
+pub fn refuse<T>(message: impl Into<String>) -> Result<T> {
+    PostCode::Family.err(message)
+}
 
 /// Writes an operation that does not depend on the path.
 ///
@@ -57,8 +66,8 @@ pub fn feed(control: &mut Control, motion: &Motion, feed: Option<&Feed>) -> Resu
 /// As [`words::thread`]; Klartext has none.
 pub fn thread(control: &mut Control, motion: &Motion, lead: &Lead) -> Result<()> {
     match control.tables.family {
-        ControlFamily::Klartext => klartext::refuse("Klartext has no pass of a thread"),
-        ControlFamily::Sinumerik => sinumerik::refuse("passes of a thread are not written yet"),
+        ControlFamily::Klartext => refuse("Klartext has no pass of a thread"),
+        ControlFamily::Sinumerik => refuse("passes of a thread are not written yet"),
         ControlFamily::WordAddress => words::thread(control, motion, lead),
     }
 }
@@ -84,7 +93,7 @@ pub fn begin_tip_control(control: &mut Control, offset: Option<(i64, Cause)>) ->
         (ControlFamily::WordAddress, Some(offset)) => {
             word_address::tip_control::begin(control, offset)
         }
-        _ => klartext::refuse("tool-tip control"),
+        _ => refuse("tool-tip control"),
     }
 }
 
@@ -95,7 +104,7 @@ pub fn begin_tip_control(control: &mut Control, offset: Option<(i64, Cause)>) ->
 pub fn end_tip_control(control: &mut Control) -> Result<()> {
     match control.tables.family {
         ControlFamily::WordAddress => word_address::tip_control::end(control),
-        _ => klartext::refuse("tool-tip control"),
+        _ => refuse("tool-tip control"),
     }
 }
 

@@ -1,9 +1,8 @@
 //! The canned cycle in force: what its record asks for, and where its holes lie.
 
 use fil_diag::Result;
-use fil_machine::commons::Dbl;
+pub use fil_machine::cycle_kind::CycleKind;
 use fil_machine::locations as loc;
-use fil_machine::setting::CodeAt;
 use nalgebra::Point3;
 
 use super::hole;
@@ -11,63 +10,6 @@ use crate::cause::Cause;
 use crate::control::family;
 use crate::operation::{Feed, Lead};
 use crate::post::Post;
-
-/// A kind of cycle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CycleKind {
-    /// Down at feed, up at rapid.
-    Drill,
-    /// Countersink.
-    Csink,
-    /// In pecks, out of the hole after each.
-    Deep,
-    /// In pecks, lifted a little after each.
-    Brkchp,
-    /// Tap.
-    Tap,
-    /// Bore: up at feed.
-    Bore,
-    /// Ream: up at feed.
-    Ream,
-    /// Face.
-    Face,
-    /// Through.
-    Thru,
-    /// What the control's own cycle does.
-    Mill,
-}
-
-impl CycleKind {
-    /// Location of its code.
-    pub fn code(self) -> CodeAt {
-        self.locations().map_or(loc::CYCLE_MILL_CODE, |(code, _)| code)
-    }
-
-    /// Location of its usual dwell; MILL has none.
-    pub fn dwell(self) -> Option<Dbl> {
-        self.locations().map(|(_, dwell)| dwell)
-    }
-
-    fn locations(self) -> Option<(CodeAt, Dbl)> {
-        Some(match self {
-            CycleKind::Drill => (loc::CYCLE_DRILL_CODE, loc::DWELL_CYCLE_DRILL),
-            CycleKind::Csink => (loc::CYCLE_CSINK_CODE, loc::DWELL_CYCLE_CSINK),
-            CycleKind::Deep => (loc::CYCLE_DEEP_CODE, loc::DWELL_CYCLE_DEEP),
-            CycleKind::Brkchp => (loc::CYCLE_BRKCHP_CODE, loc::DWELL_CYCLE_BRKCHP),
-            CycleKind::Tap => (loc::CYCLE_TAP_CODE, loc::DWELL_CYCLE_TAP),
-            CycleKind::Bore => (loc::CYCLE_BORE_CODE, loc::DWELL_CYCLE_BORE),
-            CycleKind::Ream => (loc::CYCLE_REAM_CODE, loc::DWELL_CYCLE_REAM),
-            CycleKind::Face => (loc::CYCLE_FACE_CODE, loc::DWELL_CYCLE_FACE),
-            CycleKind::Thru => (loc::CYCLE_THRU_CODE, loc::DWELL_CYCLE_THRU),
-            CycleKind::Mill => return None,
-        })
-    }
-
-    /// True for the cycles that go down in pecks.
-    pub fn pecks(self) -> bool {
-        matches!(self, CycleKind::Deep | CycleKind::Brkchp)
-    }
-}
 
 /// How fast the tool goes down.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -13,12 +13,13 @@ use fil_cl::record::{kind, mode};
 use fil_cl::{Circle, Reader, Record, Vocabulary, Word, WordId, words as w};
 use fil_diag::{Diag, TextSpan};
 use fil_machine::Unit;
+use fil_machine::cycle_kind::CycleKind;
 use nalgebra::{Matrix3x4, Point3, Vector3};
 
 use super::statements::{
     compensation, coolant, numbers, numbers_beside, spindle, statement, whole,
 };
-use super::wanted::{CycleKind, Effect, End, Step, Wanted};
+use super::wanted::{Effect, End, Step, Wanted};
 use crate::errors::NcCode;
 use crate::motion::{INCH, Rate};
 
@@ -215,8 +216,8 @@ impl<'r> ClPath<'r> {
     }
 }
 
-/// What words of the user's own can do that are no M and no S: a number that is none of a work
-/// offset's functions chooses none.
+/// What words of the user's own, neither M nor S, can do: only the number of a work offset's
+/// function can choose one.
 fn of_own_words(record: &Record) -> Effect {
     let may_choose = |number: &f64| (WORK_OFFSETS[0]..60.0).contains(number);
     match numbers(record).iter().any(may_choose) {
@@ -485,8 +486,7 @@ impl State {
             depth: depth.abs(),
             clear: number(&[w::RAPTO, w::CLEAR]),
             retract: if pulls_back && !off { Some(0.0) } else { number(&[w::RETURN, w::RTRCTO]) },
-            step: number(&[w::STEP, w::SUBPECK, w::INCR])
-                .filter(|_| matches!(kind, CycleKind::Deep | CycleKind::Brkchp)),
+            step: number(&[w::STEP, w::SUBPECK, w::INCR]).filter(|_| kind.pecks()),
             dwell: record.number_after(w::DWELL),
             rate: rate.or(self.rate),
         });

@@ -7,15 +7,14 @@ mod motions;
 use fil_diag::Diag;
 use fil_machine::address::Addresses;
 use fil_machine::commons::{Commons, Dbl, Int};
+use fil_machine::cycle_kind::CycleKind;
 use fil_machine::letter::{Letter, letters};
 use fil_machine::locations::{
     self as loc, CircleCenter, ControlFamily, InputKind, Placement, RapidSplit, ToolChangeBlock,
     ToolFormat,
 };
-use fil_machine::setting::CodeAt;
 use fil_machine::user_blocks::{self, AroundChange};
 
-use super::wanted::CycleKind;
 use crate::dialect::Dialect;
 use crate::forward::Forward;
 use crate::motion::{FOOT, unit};
@@ -349,7 +348,7 @@ impl<'c> Settings<'c> {
 
     /// Dwell of a cycle when the record gives none, seconds.
     pub fn cycle_dwell(&self, kind: CycleKind) -> f64 {
-        of_kind(kind).1.and_then(|at| self.commons.dbl_opt(at)).unwrap_or(0.0)
+        kind.dwell().and_then(|at| self.commons.dbl_opt(at)).unwrap_or(0.0)
     }
 
     /// A cycle is followed by a way back to the level before it.
@@ -378,7 +377,7 @@ impl<'c> Settings<'c> {
 
     /// G code of a cycle; `None` when holes are single moves.
     pub fn cycle_code(&self, kind: CycleKind) -> Option<i32> {
-        self.commons.read(of_kind(kind).0)
+        self.commons.read(kind.code())
     }
 
     /// A dwell within the machine's range, turns of the spindle.
@@ -426,21 +425,4 @@ fn due(placement: Placement) -> Due {
         Placement::NextZBlock => Due::WithZ,
         Placement::BlockOfItsOwn => Due::Now,
     }
-}
-
-/// Locations of a cycle's G code and of its usual dwell.
-fn of_kind(kind: CycleKind) -> (CodeAt, Option<Dbl>) {
-    let (code, dwell) = match kind {
-        CycleKind::Mill => return (loc::CYCLE_MILL_CODE, None),
-        CycleKind::Drill => (loc::CYCLE_DRILL_CODE, loc::DWELL_CYCLE_DRILL),
-        CycleKind::Csink => (loc::CYCLE_CSINK_CODE, loc::DWELL_CYCLE_CSINK),
-        CycleKind::Deep => (loc::CYCLE_DEEP_CODE, loc::DWELL_CYCLE_DEEP),
-        CycleKind::Brkchp => (loc::CYCLE_BRKCHP_CODE, loc::DWELL_CYCLE_BRKCHP),
-        CycleKind::Tap => (loc::CYCLE_TAP_CODE, loc::DWELL_CYCLE_TAP),
-        CycleKind::Bore => (loc::CYCLE_BORE_CODE, loc::DWELL_CYCLE_BORE),
-        CycleKind::Ream => (loc::CYCLE_REAM_CODE, loc::DWELL_CYCLE_REAM),
-        CycleKind::Face => (loc::CYCLE_FACE_CODE, loc::DWELL_CYCLE_FACE),
-        CycleKind::Thru => (loc::CYCLE_THRU_CODE, loc::DWELL_CYCLE_THRU),
-    };
-    (code, Some(dwell))
 }

@@ -16,6 +16,7 @@ use super::line;
 use super::motion;
 use super::phrase::Head;
 use crate::block::named;
+use crate::control::family::refuse;
 use crate::control::word_address::motion::{self as words, Motion};
 use crate::control::{Control, tap};
 use crate::errors::PostCode;
@@ -52,7 +53,7 @@ pub fn hole(
     hole: &Hole,
 ) -> Result<()> {
     if hole.along != 2 || hole.clear < hole.bottom {
-        return super::refuse("a hole along another axis than -Z, the tool axis of TOOL CALL");
+        return refuse("a hole along another axis than -Z, the tool axis of TOOL CALL");
     }
     let lines = definition(control, cycle, code, hole)?;
     if control.state.cycle != Some(code) || control.klartext.defined != lines {
@@ -109,10 +110,10 @@ fn values(control: &Control, cycle: &Cycle, hole: &Hole) -> Result<Values> {
     let second = below(hole.rest())?;
     let digit = axis.resolution() / 2.0;
     if clear < -digit {
-        return super::refuse("a R level below the surface of the hole (CLEAR below zero)");
+        return refuse("a R level below the surface of the hole (CLEAR below zero)");
     }
     if second < clear - digit {
-        return super::refuse("a return to a level below the R level");
+        return refuse("a return to a level below the R level");
     }
     let z = XYZ[2];
     Ok(Values {
@@ -134,13 +135,13 @@ fn definition(
 ) -> Result<Vec<String>> {
     let number = code.value() as u16;
     let Some((_, name)) = CYCLES.iter().find(|(known, _)| *known == number) else {
-        return super::refuse(format!("CYCL DEF {number} is not known here"));
+        return refuse(format!("CYCL DEF {number} is not known here"));
     };
     if cycle.kind.pecks() != matches!(number, 203 | 205) {
-        return super::refuse(format!("CYCL DEF {number} for {:?}", cycle.kind));
+        return refuse(format!("CYCL DEF {number} for {:?}", cycle.kind));
     }
     if (cycle.kind == CycleKind::Tap) != (number == 207) {
-        return super::refuse(format!("CYCL DEF {number} for {:?}", cycle.kind));
+        return refuse(format!("CYCL DEF {number} for {:?}", cycle.kind));
     }
     let at = values(control, cycle, hole)?;
     let mut lines = vec![format!("CYCL DEF {number} {name}")];
@@ -149,7 +150,7 @@ fn definition(
     say(201, &at.depth, "DEPTH");
     if number == 207 {
         if cycle.dwell > 0.0 {
-            return super::refuse("CYCL DEF 207 does not dwell");
+            return refuse("CYCL DEF 207 does not dwell");
         }
         let pitch = pitch(control, cycle)?;
         say(239, &pitch, "THREAD PITCH");
@@ -190,7 +191,7 @@ fn definition(
         }
         205 => {
             if cycle.kind == CycleKind::Brkchp {
-                return super::refuse("CYCL DEF 205 for BRKCHP");
+                return refuse("CYCL DEF 205 for BRKCHP");
             }
             say(212, "+0", "DECREMENT");
             say(205, "+0", "MIN. PLUNGING DEPTH");
@@ -226,10 +227,10 @@ fn peck_text(control: &Control, peck: f64) -> Result<String> {
 /// The feed of a hole, mm/min.
 fn feed(control: &Control, cycle: &Cycle) -> Result<String> {
     let CycleFeed::Feed(feed) = cycle.feed else {
-        return super::refuse("a lead in place of a feed in a cycle that does not tap");
+        return refuse("a lead in place of a feed in a cycle that does not tap");
     };
     if feed.mode != FeedMode::PerMinute {
-        return super::refuse("a feed a turn of the spindle in a cycle");
+        return refuse("a feed a turn of the spindle in a cycle");
     }
     line::feed(control, feed.value)
 }
@@ -238,9 +239,7 @@ fn feed(control: &Control, cycle: &Cycle) -> Result<String> {
 /// spindle that turns counterclockwise cuts.
 fn pitch(control: &Control, cycle: &Cycle) -> Result<String> {
     let Some(clockwise) = control.klartext.clockwise else {
-        return super::refuse(
-            "TAP before SPINDL: the sign of Q239 says which way the thread turns",
-        );
+        return refuse("TAP before SPINDL: the sign of Q239 says which way the thread turns");
     };
     let pitch = tap::pitch(control, cycle)?;
     Ok(format!("{}{pitch}", if clockwise { '+' } else { '-' }))

@@ -22,6 +22,7 @@ use fil_machine::{FunctionCode, Letter};
 
 use super::{Control, Function, word_address};
 use crate::cause::Cause;
+use crate::control::family::refuse;
 use crate::control_state::Compensation;
 use crate::errors::PostCode;
 use crate::operation::{CutterCompensation, Dwell, Operation};
@@ -42,14 +43,6 @@ pub struct Klartext {
     name: String,
     /// END PGM stands on the tape.
     ended: bool,
-}
-
-/// Refuses what Klartext has no phrase for.
-///
-/// # Errors
-/// Always.
-pub fn refuse<T>(message: impl Into<String>) -> Result<T> {
-    PostCode::Family.err(message)
 }
 
 /// Writes an operation that does not depend on the path.

@@ -9,6 +9,7 @@ use fil_machine::modes::{FeedMode, Plane};
 
 use super::line::{self, Line};
 use super::phrase::Head;
+use crate::control::family::refuse;
 use crate::control::word_address::arc::PlaneArc;
 use crate::control::word_address::motion::{self as words, Motion};
 use crate::control::{Control, Function};
@@ -29,7 +30,7 @@ const PER_MINUTE: FunctionCode = FunctionCode::whole(137);
 /// A value that does not fit, a position outside the travel.
 pub fn rapid(control: &mut Control, motion: &Motion) -> Result<()> {
     if control.commons.read(loc::RAPID_ADDRESS).is_some() {
-        return super::refuse("a word of its own for rapid motions (rapid.address): FMAX has none");
+        return refuse("a word of its own for rapid motions (rapid.address): FMAX has none");
     }
     ready(control)?;
     if words::axis_words(control, motion)? {
@@ -103,7 +104,7 @@ pub fn ready(control: &mut Control) -> Result<()> {
 fn feed_word(control: &mut Control, feed: Option<&Feed>) -> Result<()> {
     let feed = *feed.ok_or_else(|| PostCode::NoFeed.diag("no FEDRAT came before this motion"))?;
     if feed.mode != FeedMode::PerMinute {
-        return super::refuse("a feed a turn of the spindle: F is a feed a minute here");
+        return refuse("a feed a turn of the spindle: F is a feed a minute here");
     }
     if control.state.feed_mode != Some(FeedMode::PerMinute) {
         control.m(PER_MINUTE);
@@ -145,7 +146,7 @@ pub(super) fn write(control: &mut Control, turning: AxisSet) -> Result<()> {
 /// One waits.
 pub fn refuse_unbegun(control: &Control) -> Result<()> {
     if control.waiting.has(Function::Compensation) {
-        return super::refuse(
+        return refuse(
             "CUTCOM without a motion behind it: R0, RL and RR are said in the line of a motion",
         );
     }

@@ -5,6 +5,7 @@ use fil_machine::letters::F;
 
 use super::line::{self, Line};
 use crate::control::Control;
+use crate::control::family::refuse;
 use crate::control_state::Compensation;
 use crate::noted::TEXT;
 
@@ -47,7 +48,7 @@ pub fn write(control: &mut Control) -> Result<()> {
     let phrase = std::mem::take(&mut control.klartext.phrase);
     let block = control.block.take();
     if let Some((code, _)) = block.g_codes().first() {
-        return super::refuse(format!("G{}: Klartext has no G functions", code.value()));
+        return refuse(format!("G{}: Klartext has no G functions", code.value()));
     }
     block.check_functions(&control.tables.addresses)?;
     let cause = block.cause;
@@ -64,7 +65,7 @@ pub fn write(control: &mut Control) -> Result<()> {
             continue;
         };
         if !WORDS.contains(&letter.byte()) {
-            return super::refuse(format!("{letter}: a line of Klartext has no such word"));
+            return refuse(format!("{letter}: a line of Klartext has no such word"));
         }
         let value = line::scaled_text(control, letter, scaled).unwrap_or_default();
         let word = format!("{}{value}", char::from(slot.character));

@@ -7,6 +7,7 @@ use fil_machine::modes::{Plane, Unit};
 use super::line::{self, Line};
 use crate::cause::Cause;
 use crate::control::Control;
+use crate::control::family::refuse;
 
 /// Longest name of a program.
 const NAME: usize = 32;
@@ -18,7 +19,7 @@ const NAME: usize = 32;
 pub fn start(control: &mut Control, blocks: &[String]) -> Result<()> {
     let style = &control.tables.style;
     if style.edits_words || style.edits_lines {
-        return super::refuse("_OUTPTP and _MCDWT: lines of Klartext are not edited");
+        return refuse("_OUTPTP and _MCDWT: lines of Klartext are not edited");
     }
     let unit = control.require_unit()?;
     control.state.unit = Some(unit);

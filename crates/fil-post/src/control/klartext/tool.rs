@@ -8,6 +8,7 @@ use fil_machine::rounding::Rounding;
 use super::line::{self, Line};
 use crate::block::named;
 use crate::control::Control;
+use crate::control::family::refuse;
 use crate::errors::PostCode;
 use crate::noted::TEXT;
 use crate::operation::ToolChange;
@@ -18,7 +19,7 @@ use crate::operation::ToolChange;
 /// An offset of its own; a number that does not fit.
 pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     if wanted.offset_given && wanted.offset != wanted.tool {
-        return super::refuse(format!(
+        return refuse(format!(
             "LOADTL asks for offset {}: the length comes with the tool here",
             wanted.offset
         ));
@@ -69,7 +70,7 @@ pub fn select(control: &mut Control, tool: i64) -> Result<()> {
 /// The tool in the spindle is not known; cutter compensation; a speed that does not fit.
 pub fn speed(control: &mut Control, value: f64) -> Result<()> {
     let Some(tool) = control.state.tool else {
-        return super::refuse(
+        return refuse(
             "a speed before LOADTL: S stands in TOOL CALL, and the tool in the spindle is not known",
         );
     };

@@ -12,8 +12,8 @@ use fil_machine::locations::{self as loc, ControlCycleCall};
 use fil_machine::modes::{FeedMode, INCH, Plane};
 use fil_machine::rounding::Rounding;
 
-use super::refuse;
 use crate::block::named;
+use crate::control::family::refuse;
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::{modes, motion};
 use crate::control::{Control, line, tap};

@@ -21,6 +21,7 @@ use fil_machine::rounding::Rounding;
 
 use super::line::Line;
 use super::{Control, word_address};
+use crate::control::family::refuse;
 use crate::control_state::Compensation;
 use crate::errors::PostCode;
 use crate::operation::{CutterCompensation, Dwell, Operation};
@@ -40,14 +41,6 @@ pub struct Sinumerik {
     edge: Option<i64>,
     /// The spindle was last told to turn clockwise.
     clockwise: Option<bool>,
-}
-
-/// Refuses what the language has no word for.
-///
-/// # Errors
-/// Always.
-pub fn refuse<T>(message: impl Into<String>) -> Result<T> {
-    PostCode::Family.err(message)
 }
 
 /// Writes an operation that does not depend on the path.

@@ -4,8 +4,8 @@ use fil_diag::Result;
 use fil_machine::letters::D;
 use fil_machine::locations as loc;
 
-use super::refuse;
 use crate::control::Control;
+use crate::control::family::refuse;
 use crate::control::word_address::tool as words;
 use crate::operation::ToolChange;
 
