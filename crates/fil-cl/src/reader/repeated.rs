@@ -9,8 +9,11 @@ use rustc_hash::FxHasher;
 use crate::record::{Record, kind};
 use crate::words;
 
-/// Statements kept at a time.
-const KEPT: usize = 64;
+/// Places of statements.
+const PLACES: usize = 64;
+
+/// Statements kept in each place: two that alternate, as RAPID and FEDRAT do, may share one.
+const KEPT: usize = 2;
 
 /// Longest first line of a statement that is kept.
 const LONGEST: usize = 80;
@@ -28,12 +31,12 @@ struct Known {
 
 /// The statements known by now, each in the place its first line names.
 pub(super) struct Repeated {
-    known: Box<[Known; KEPT]>,
+    known: Box<[[Known; KEPT]; PLACES]>,
 }
 
 impl Default for Repeated {
     fn default() -> Self {
-        Repeated { known: Box::new(std::array::from_fn(|_| Known::default())) }
+        Repeated { known: Box::new(std::array::from_fn(|_| Default::default())) }
     }
 }
 
@@ -44,16 +47,16 @@ impl Repeated {
     pub(super) fn read(&self, text: &[u8], record: &mut Record) -> Option<(usize, u32)> {
         let head = &text[..text.len().min(LONGEST)];
         let length = memchr::memchr(b'\n', head)? + 1;
-        let known = &self.known[place(&head[..length])];
-        if known.text.len() < length || !text.starts_with(&known.text) {
-            return None;
-        }
+        let known = self.known[place(&head[..length])]
+            .iter()
+            .find(|known| known.text.len() >= length && text.starts_with(&known.text))?;
         copy(&known.record, record);
         Some((known.text.len(), known.lines))
     }
 
     /// Keeps a whole statement of so many lines, unless its record depends on the
-    /// statements before it or leaves something for those after it.
+    /// statements before it or leaves something for those after it. It takes the room of
+    /// the one that was kept longest in its place.
     pub(super) fn keep(&mut self, text: &[u8], lines: u32, record: &Record) {
         let is_modal = record.kind == kind::MOTION
             || matches!(record.major, words::MULTAX | words::TLAXIS | words::GOHOME);
@@ -62,7 +65,9 @@ impl Repeated {
         if is_modal || is_long || !text.ends_with(b"\n") {
             return;
         }
-        let known = &mut self.known[place(&text[..first])];
+        let place = &mut self.known[place(&text[..first])];
+        place.rotate_right(1);
+        let known = &mut place[0];
         known.text.clear();
         known.text.extend_from_slice(text);
         known.lines = lines;
@@ -84,7 +89,7 @@ fn copy(from: &Record, to: &mut Record) {
 fn place(line: &[u8]) -> usize {
     let mut hasher = FxHasher::default();
     hasher.write(line);
-    hasher.finish() as usize % KEPT
+    hasher.finish() as usize % PLACES
 }
 
 #[cfg(test)]
@@ -153,6 +158,23 @@ mod tests {
         let text = "CUTTER / 1, $\n 2\nCUTTER / 1, $\n 3\nCUTTER / 1, $\n 2, $\n 4\nRAPID\n";
         let lengths: Vec<usize> = read_all(text).iter().map(|record| record.data.len()).collect();
         assert_eq!(lengths, [2, 2, 3, 0]);
+    }
+
+    #[test]
+    fn statements_that_share_a_place_are_kept_both() {
+        let mut repeated = Repeated::default();
+        let rapid = b"RAPID\n";
+        let texts = (0..).map(|number| format!("FEDRAT / {number}, MMPM\n"));
+        let shares = |text: &String| place(text.as_bytes()) == place(rapid);
+        let feeds: Vec<String> = texts.filter(shares).take(KEPT).collect();
+        let record = Record { kind: kind::POST, ..Record::default() };
+        let mut found = Record::default();
+        repeated.keep(rapid, 1, &record);
+        repeated.keep(feeds[0].as_bytes(), 1, &record);
+        assert!(repeated.read(rapid, &mut found).is_some());
+        assert!(repeated.read(feeds[0].as_bytes(), &mut found).is_some());
+        repeated.keep(feeds[1].as_bytes(), 1, &record);
+        assert!(repeated.read(rapid, &mut found).is_none());
     }
 
     #[test]
