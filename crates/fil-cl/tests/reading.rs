@@ -211,6 +211,21 @@ fn a_tool_axis_may_be_rounded() {
 }
 
 #[test]
+fn a_tool_axis_that_comes_again_is_the_same() {
+    let text = "MULTAX/ON\nGOTO/1,2,3, 0,0,1\nGOTO/4,5,6, 0,0,1\nGOTO/7,8,9, 0,0,-1\n\
+                GOTO/7,8,9, 0,0,1.0\nGOTO/1,2,3, 0,0,1 $$ up\nGOTO/1,2,3, 0,1,0\nGOTO/4,5,6, 0,0,1\n";
+    let (records, vocab) = read(text);
+    let axes = records[1..].iter().map(|record| {
+        (9..=11).map(|number| record.value(number, &vocab).unwrap()).collect::<Vec<_>>()
+    });
+    let up = [0.0, 0.0, 1.0];
+    assert_eq!(
+        axes.collect::<Vec<_>>(),
+        [up, up, [0.0, 0.0, -1.0], up, up, [0.0, 1.0, 0.0], up].map(Vec::from)
+    );
+}
+
+#[test]
 fn nx_keeps_the_axis_and_turns_circles() {
     let text = "TOOL PATH/A,TOOL,B\nGOTO/1,2,3,0,0,1\nGOTO/4,5,6\n\
                 CIRCLE/0,0,0,0,0,-1,18,0.06,0.5,40,1,TIMES,2\nEND-OF-PATH\n";

@@ -35,6 +35,7 @@ use crate::record::{Record, Word, kind};
 use crate::vocabulary::Vocabulary;
 use crate::words;
 
+use items::KnownAxis;
 pub(crate) use items::reads_as_text;
 use lines::{Input, LineError, Lines};
 pub(crate) use number::{fixed_point as leading_number, number as plain_number};
@@ -91,6 +92,7 @@ pub struct Reader<'r> {
     lines: Lines<'r>,
     statement: Statement,
     repeated: Repeated,
+    known_axis: KnownAxis,
     /// Start and end of each item in the statement, to point at it.
     item_ranges: Vec<Range<usize>>,
     pending: Pending,
@@ -136,6 +138,7 @@ impl<'r> Reader<'r> {
             lines: Lines::new(input, options.statement_limit),
             statement: Statement::new(),
             repeated: Repeated::default(),
+            known_axis: KnownAxis::default(),
             item_ranges: Vec::new(),
             pending: Pending::default(),
             spline: Gathered::default(),

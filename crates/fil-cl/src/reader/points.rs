@@ -60,9 +60,8 @@ impl Reader<'_> {
     #[inline]
     pub(super) fn read_plain_goto(&mut self, record: &mut Record) -> bool {
         let mut values = [0.0; 6];
-        let Some((count, length)) = items::plain_goto(self.lines.unread(), &mut values) else {
-            return false;
-        };
+        let found = items::plain_goto(self.lines.unread(), &mut values, &mut self.known_axis);
+        let Some((count, length)) = found else { return false };
         let [x, y, z, i, j, k] = values;
         let axis = [i, j, k];
         if count == 6 && !is_unit(axis) || self.modal.forms.watches_motions() {
