@@ -4,6 +4,7 @@ use fil_cl::{Options, Reader};
 use fil_nc::dialect::Dialect;
 use fil_nc::interpret;
 use fil_nc::motion::Event;
+use fil_nc::source::Source;
 use fil_nc::verify::{Allowed, Check, Report, verify};
 use filpost::{Commons, Diag, Unit};
 
@@ -33,7 +34,7 @@ pub fn both(commons: &Commons, nc: &str) -> Result<Both, Box<Diag>> {
     let dialect = Dialect::new(commons)?;
     let nc = nc.as_bytes();
     let all = interpret::events(nc, "out.nc", &dialect)?;
-    let skips = interpret::has_skipped_blocks(nc, &dialect);
+    let skips = interpret::has_skipped_blocks(&Source::memory(nc), "out.nc", &dialect)?;
     let leave_out = || interpret::events(nc, "out.nc", &dialect.skipping_blocks());
     let left_out = skips.then(leave_out).transpose()?;
     Ok(Both { all, left_out })
@@ -50,12 +51,23 @@ pub fn compare(
     (nc, both): (&[u8], &Both),
     allowed: Allowed,
 ) -> Result<Report, Box<Diag>> {
-    let one_way = |events: &[Event], skips_blocks: bool| {
+    let nc = &Source::memory(nc);
+    let one_way = |mut events: &[Event], skips_blocks: bool| {
         let cl_name = "part.ncl";
         let cl = Reader::new(cl, cl_name, Options::default());
         let unit = Unit::of_machine(commons);
         let allowed = allowed.clone();
-        verify(Check { cl, cl_name, unit, nc, events, commons, allowed, skips_blocks })
+        verify(Check {
+            cl,
+            cl_name,
+            unit,
+            nc,
+            nc_name: "out.nc",
+            events: &mut events,
+            commons,
+            allowed,
+            skips_blocks,
+        })
     };
     let report = one_way(&both.all, false)?;
     match &both.left_out {

@@ -12,7 +12,7 @@ use std::time::Instant;
 
 use fil_machine::axis_chain::AxisChain;
 use fil_nc::motion::Event;
-use fil_nc::verify::{Allowed, FindingKind, Report, Verdict, compare_programs};
+use fil_nc::verify::{Allowed, FindingKind, Programs, Report, Verdict, compare_programs};
 use filpost::Diag;
 use filpost::verify::{NcProgram, Reference};
 use filpost_tests::back_check::{self, Both};
@@ -62,13 +62,21 @@ fn left_out(both: &Both) -> &[Event] {
 }
 
 /// Compares with another program, whichever way the switch is.
-fn against_program(original: &Both, found: &Both) -> Report {
-    let report = compare_programs(&original.all, &found.all, None);
+fn against_program(case: &NcCase, original: &Both, found: &Both) -> Report {
+    let compare = |mut reference: &[Event], mut found: &[Event]| {
+        let programs = Programs {
+            reference: &mut reference,
+            found: &mut found,
+            commons: case.post.commons(),
+            allowed: &Allowed::default(),
+        };
+        compare_programs(programs).expect("events that were read")
+    };
+    let report = compare(&original.all, &found.all);
     if original.left_out.is_none() && found.left_out.is_none() {
         return report;
     }
-    let other = compare_programs(left_out(original), left_out(found), None);
-    report.with_blocks_left_out(other)
+    report.with_blocks_left_out(compare(left_out(original), left_out(found)))
 }
 
 fn listed(report: &Report) -> String {
@@ -134,8 +142,11 @@ fn fate(case: &NcCase, original: &Both, nc: &str) -> Fate {
     if same {
         return Fate::Same;
     }
-    let report =
-        if case.fil { Ok(against_program(original, &found)) } else { against_cl(case, nc, &found) };
+    let report = if case.fil {
+        Ok(against_program(case, original, &found))
+    } else {
+        against_cl(case, nc, &found)
+    };
     match report {
         Ok(report) if report.verdict() != Verdict::Differs => Fate::Missed,
         _ => Fate::Reported,

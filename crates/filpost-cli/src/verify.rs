@@ -1,13 +1,14 @@
 //! `filpost verify`
 
-use std::io::{Read, Seek, Write};
+use std::io::{Seek, Write};
 
 use filpost::cl::reader::Options;
 use filpost::nc::decimals;
+use filpost::nc::source::Source;
 use filpost::nc::verify::{
     Allowed, Between, Deviation, Finding, Peak, Report, Unverified, Verdict,
 };
-use filpost::verify::{NcProgram, Reference};
+use filpost::verify::Reference;
 use filpost::{Error, Program, files, select};
 use serde_json::{Value, json};
 
@@ -21,27 +22,26 @@ use crate::{Status, output, setup};
 /// Files that can't be read, a program or a CL file that makes no sense.
 pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
     let mut cl = output::open(&args.cl)?;
-    let mut text = Vec::new();
-    output::open(&args.nc)?
-        .read_to_end(&mut text)
-        .map_err(|error| files::cant_read(&args.nc, &error))?;
+    let nc = Source::file(output::open(&args.nc)?);
     let (program, title) = program(args, &mut cl)?;
     let name = output::input_name(&args.nc);
-    let nc = NcProgram { text: &text, name: &name };
     let offsets = args.allow_offset.clone();
     let allowed = Allowed { tolerance: args.tol, between: args.between, offsets };
     let mut run = program.start().cl_name(&output::input_name(&args.cl)).reading(options(args)?);
     if let Some(unit) = args.units.units {
         run = run.units(unit);
     }
-    let (report, reference) = run.verify(cl, nc, allowed)?;
+    let (report, reference) = run.verify_source(cl, (&nc, &name), allowed)?;
     output::say(&format!("machine: {title}"));
     match args.format {
         args::Report::Json => {
             output::print(format!("{:#}\n", as_json(&report, reference)).as_bytes())?;
         }
         args::Report::Text => {
-            let lines: Vec<&[u8]> = text.split(|byte| *byte == b'\n').collect();
+            let mut wanted: Vec<u32> =
+                report.findings.iter().filter_map(|finding| finding.nc_line).collect();
+            wanted.sort_unstable();
+            let lines = nc.lines(&name, &wanted).map_err(Error::Run)?;
             output::print_with(|out| {
                 for finding in &report.findings {
                     write_finding(out, finding, &lines)?;
@@ -53,6 +53,10 @@ pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
                     let place =
                         open.cl_line.map_or(String::new(), |line| format!("CL line {line}: "));
                     writeln!(out, "not compared: {place}{}", open.what)?;
+                }
+                if report.more_unverified > 0 {
+                    let more = counted(report.more_unverified, "statement");
+                    writeln!(out, "and {more} more not compared")?;
                 }
                 writeln!(out, "{}", conclusion(args, &report, reference))
             })?;
@@ -83,11 +87,15 @@ fn program(args: &VerifyArgs, cl: &mut std::fs::File) -> Result<(Program, String
 }
 
 /// The finding, and the block it is about.
-fn write_finding(out: &mut dyn Write, finding: &Finding, lines: &[&[u8]]) -> std::io::Result<()> {
+fn write_finding(
+    out: &mut dyn Write,
+    finding: &Finding,
+    lines: &[(u32, String)],
+) -> std::io::Result<()> {
     writeln!(out, "{finding}")?;
-    let block = finding.nc_line.and_then(|line| lines.get((line as usize).checked_sub(1)?));
+    let block = lines.iter().find(|(line, _)| Some(*line) == finding.nc_line);
     match block {
-        Some(block) => writeln!(out, "    {}", String::from_utf8_lossy(block).trim_end()),
+        Some((_, block)) => writeln!(out, "    {block}"),
         None => Ok(()),
     }
 }
@@ -171,6 +179,7 @@ fn as_json(report: &Report, reference: Reference) -> Value {
         "findings": report.findings.iter().map(finding).collect::<Value>(),
         "more": report.more,
         "not_compared": report.unverified.iter().map(open).collect::<Value>(),
+        "more_not_compared": report.more_unverified,
         "motions": { "asked": report.compared, "made": report.matched },
         "position": deviation(&report.position),
         "axis": deviation(&report.axis),

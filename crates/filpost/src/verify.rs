@@ -5,23 +5,27 @@
 //! the post runs again in memory and the program is compared with what that run
 //! makes. That finds what was changed in a program, not what a script does wrong.
 
-use std::io::{Cursor, Read};
+use std::io::{self, Read, Seek};
 
 use fil_cl::{Options, Reader};
 use fil_diag::Diag;
-use fil_machine::Commons;
 use fil_nc::dialect::Dialect;
-use fil_nc::interpret;
-use fil_nc::motion::Event;
+use fil_nc::interpret::{Running, has_skipped_blocks};
+use fil_nc::source::Source;
 use fil_nc::verify::{
-    Allowed, Check, Report, compare_programs, compare_words, look_at_blocks, refuse_another_part,
-    verify,
+    Allowed, Check, Programs, Report, Unfollowed, compare_programs, compare_words,
+    refuse_another_part, verify,
 };
+use tempfile::{SpooledData, SpooledTempFile};
 
 use crate::error::Error;
+use crate::files;
 use crate::program::Program;
 use crate::run::Run;
 use crate::units;
+
+/// Bytes that are kept in memory of a text that is read twice; more lie in a file.
+const IN_MEMORY: usize = 1 << 20;
 
 /// What a program is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,58 +69,67 @@ impl Run<'_> {
     /// the second run of a post with FIL refuses.
     pub fn verify(
         self,
-        mut cl: impl Read + Send,
+        cl: impl Read + Send,
         nc: NcProgram<'_>,
         allowed: Allowed,
     ) -> Result<(Report, Reference), Error> {
-        self.against(&mut cl, nc, allowed)
+        self.verify_source(cl, (&Source::memory(nc.text), nc.name), allowed)
     }
 
-    fn against(
+    /// The same for a program wherever its text lies, with its name in messages. Of files
+    /// only what the comparison looks ahead is kept in memory.
+    ///
+    /// # Errors
+    /// As [`Run::verify`].
+    pub fn verify_source(
         self,
-        cl: &mut (dyn Read + Send),
-        nc: NcProgram<'_>,
+        mut cl: impl Read + Send,
+        nc: (&Source<'_>, &str),
         allowed: Allowed,
     ) -> Result<(Report, Reference), Error> {
         let dialect = Dialect::new(self.program.commons()).map_err(Error::Run)?;
-        let name = self.name();
         if !self.program.shared.module.files.is_empty() {
-            let mut text = Vec::new();
-            cl.read_to_end(&mut text)
-                .map_err(|error| crate::files::cant_read(name.as_ref(), &error))?;
-            let report = self.against_second_run(text, nc, &dialect, allowed)?;
+            let text = self.spool(&mut cl)?;
+            let report = self.against_second_run(text, nc, &dialect, &allowed)?;
             return Ok((report, Reference::SecondRun));
         }
-        if !interpret::has_skipped_blocks(nc.text, &dialect) {
-            return Ok((self.against_cl(cl, nc, &dialect, allowed)?, Reference::ClFile));
+        if !has_skipped_blocks(nc.0, nc.1, &dialect).map_err(Error::Run)? {
+            return Ok((self.against_cl(&mut cl, nc, &dialect, allowed)?, Reference::ClFile));
         }
-        // What the operator may leave out is run both ways.
-        let mut text = Vec::new();
-        cl.read_to_end(&mut text)
-            .map_err(|error| crate::files::cant_read(name.as_ref(), &error))?;
-        let report = self.against_cl(&mut &text[..], nc, &dialect, allowed.clone())?;
+        // What the operator may leave out is run both ways, one after the other.
+        let mut text = self.spool(&mut cl)?;
+        let report = self.against_cl(&mut text, nc, &dialect, allowed.clone())?;
+        text.rewind().map_err(|error| files::cant_read(self.name().as_ref(), &error))?;
         let skipping = dialect.skipping_blocks();
-        let left_out = self.against_cl(&mut &text[..], nc, &skipping, allowed)?;
+        let left_out = self.against_cl(&mut text, nc, &skipping, allowed)?;
         Ok((report.with_blocks_left_out(left_out), Reference::ClFile))
+    }
+
+    /// A CL file that can be read twice, at its start.
+    fn spool(&self, cl: &mut dyn Read) -> Result<SpooledTempFile, Error> {
+        let mut text = SpooledTempFile::new(IN_MEMORY);
+        let spooled = io::copy(cl, &mut text).and_then(|_| text.rewind());
+        spooled.map_err(|error| files::cant_read(self.name().as_ref(), &error))?;
+        Ok(text)
     }
 
     /// Compares with the path of the CL file, one way of the switch that leaves blocks out.
     fn against_cl(
         &self,
         cl: &mut (dyn Read + Send),
-        nc: NcProgram<'_>,
+        (nc, nc_name): (&Source<'_>, &str),
         dialect: &Dialect,
         allowed: Allowed,
     ) -> Result<Report, Error> {
         let name = self.name();
-        let events = events(nc, dialect).map_err(Error::Run)?;
         let known = units::known_before(self.units, self.program.commons()).map_err(Error::Run)?;
         let check = Check {
             cl: Reader::new(cl, &name, Options { raw: false, ..self.reading }),
             cl_name: &name,
             unit: known.map(|(unit, _)| unit),
-            nc: nc.text,
-            events: &events,
+            nc,
+            nc_name,
+            events: &mut Running::new(nc, nc_name, dialect),
             commons: self.program.commons(),
             allowed,
             skips_blocks: dialect.leaves_blocks_out(),
@@ -128,52 +141,45 @@ impl Run<'_> {
     /// that run's own program can't be followed, the blocks are compared.
     fn against_second_run(
         self,
-        cl: Vec<u8>,
-        nc: NcProgram<'_>,
+        cl: SpooledTempFile,
+        nc: (&Source<'_>, &str),
         dialect: &Dialect,
-        allowed: Allowed,
+        allowed: &Allowed,
     ) -> Result<Report, Error> {
         let program: Program = self.program.clone();
-        let mut again = Vec::new();
-        self.run_pending(Cursor::new(cl), &mut again)?;
-        let compare = |dialect: &Dialect| {
-            compare_with_run(&again, nc, dialect, program.commons(), &allowed).map_err(Error::Run)
+        let mut again = SpooledTempFile::new(IN_MEMORY);
+        self.run_pending(cl, &mut again)?;
+        let again = match again.into_inner() {
+            SpooledData::InMemory(text) => Source::Memory(text.into_inner().into()),
+            SpooledData::OnDisk(file) => Source::file(file),
         };
-        let mut report = compare(dialect)?;
-        let texts = [&again[..], nc.text];
-        if texts.iter().any(|text| interpret::has_skipped_blocks(text, dialect)) {
-            report = report.with_blocks_left_out(compare(&dialect.skipping_blocks())?);
-        }
+        let again = (&again, "the second run");
+        let compare = |dialect: &Dialect| {
+            let programs = Programs {
+                reference: &mut Running::new(again.0, again.1, dialect),
+                found: &mut Running::new(nc.0, nc.1, dialect),
+                commons: program.commons(),
+                allowed,
+            };
+            match compare_programs(programs) {
+                Ok(report) => Ok(report),
+                Err(Unfollowed::Found(refused)) => Err(refused),
+                Err(Unfollowed::Reference(refused)) => {
+                    compare_words(again.0, nc, &refused, allowed.tolerance)
+                }
+            }
+        };
+        let both_ways = || -> Result<Report, Box<Diag>> {
+            let report = compare(dialect)?;
+            for (text, name) in [again, nc] {
+                if has_skipped_blocks(text, name, dialect)? {
+                    return Ok(report.with_blocks_left_out(compare(&dialect.skipping_blocks())?));
+                }
+            }
+            Ok(report)
+        };
+        let report = both_ways().map_err(Error::Run)?;
         refuse_another_part(&report).map_err(Error::Run)?;
         Ok(report)
     }
-}
-
-/// Compares with a program that the post has made; when that can't be followed, by blocks.
-fn compare_with_run(
-    again: &[u8],
-    nc: NcProgram<'_>,
-    dialect: &Dialect,
-    commons: &Commons,
-    &Allowed { tolerance, between, .. }: &Allowed,
-) -> Result<Report, Box<Diag>> {
-    match interpret::events(again, "the second run", dialect) {
-        Ok(again) => {
-            let events = events(nc, dialect)?;
-            let mut report = compare_programs(&again, &events, tolerance);
-            look_at_blocks(&events, commons, between, &mut report)?;
-            Ok(report)
-        }
-        Err(refused) => compare_words(again, (nc.text, nc.name), &refused, tolerance),
-    }
-}
-
-/// What a program does; a refusal says when blocks are left out.
-fn events(nc: NcProgram<'_>, dialect: &Dialect) -> Result<Vec<Event>, Box<Diag>> {
-    interpret::events(nc.text, nc.name, dialect).map_err(|mut refused| {
-        if dialect.leaves_blocks_out() {
-            refused.message.push_str(", with the blocks behind / left out");
-        }
-        refused
-    })
 }

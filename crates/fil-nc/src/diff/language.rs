@@ -10,7 +10,7 @@ use crate::interpret::sinumerik_words;
 use crate::interpret::sinumerik_words::Value;
 use crate::text::{Block, Number, Word, read_block_into};
 
-use super::source::{Lines, Source};
+use crate::source::{Lines, Source};
 
 /// The language of a program, by the signs in its text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,7 +31,7 @@ const DECIMALS: u8 = 6;
 
 impl Language {
     /// The language of a whole text.
-    pub(super) fn of(source: &Source) -> io::Result<Language> {
+    pub(super) fn of(source: &Source<'_>) -> io::Result<Language> {
         let mut lines = Lines::from(source, 0);
         let mut first = true;
         while let Some(line) = lines.next_line()? {
@@ -288,7 +288,7 @@ mod tests {
             ("N10 G1 X1\nN20 MCALL CYCLE81(5,0,1,-3)\n", Language::Sinumerik),
             ("N10 G3 X1 CR=5\n", Language::Sinumerik),
         ] {
-            assert_eq!(Language::of(&Source::Memory(text.into())).unwrap(), language, "{text}");
+            assert_eq!(Language::of(&Source::memory(text.as_ref())).unwrap(), language, "{text}");
         }
     }
 

@@ -15,13 +15,14 @@ mod modal;
 mod pair;
 mod program;
 mod say;
-mod source;
 mod walk;
 
 use std::fs::File;
 use std::ops::Range;
 
 use fil_diag::Diag;
+
+use crate::source::Source;
 
 pub use program::Program;
 pub use say::sentence;
@@ -183,6 +184,18 @@ pub fn compare(
 /// The first line that can't be read.
 pub fn read(text: &[u8], name: &str, options: &Options) -> Result<Program, Box<Diag>> {
     Program::read(text, name, options)
+}
+
+/// The same from where a text lies.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_source(
+    source: Source<'static>,
+    name: &str,
+    options: &Options,
+) -> Result<Program, Box<Diag>> {
+    Program::index(source, name, options)
 }
 
 /// Reads two programs from files that can be read again; their text is not kept in

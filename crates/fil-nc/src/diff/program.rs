@@ -14,8 +14,7 @@ use fil_diag::{Diag, TextSpan};
 use super::Options;
 use super::language::Language;
 use super::modal::{Modal, group, tenths};
-use super::source::{Lines, Source};
-use crate::errors::NcCode;
+use crate::source::{Lines, Source, changed};
 use crate::text::{Block, Word};
 
 /// Steps of a unit of length that the alignment tells apart.
@@ -59,7 +58,7 @@ struct Index {
 #[derive(Clone, Debug)]
 pub struct Program {
     name: String,
-    pub(super) source: Arc<Source>,
+    pub(super) source: Arc<Source<'static>>,
     options: Arc<Options>,
     index: Arc<Index>,
     /// The lines that were asked for last.
@@ -76,7 +75,7 @@ struct Shown {
 impl Program {
     /// Takes up a text in memory.
     pub(super) fn read(text: &[u8], name: &str, options: &Options) -> Result<Self, Box<Diag>> {
-        Program::index(Source::Memory(text.to_vec()), name, options)
+        Program::index(Source::Memory(text.to_vec().into()), name, options)
     }
 
     /// Takes up two files that stay where they are, side by side; one of them when
@@ -85,8 +84,7 @@ impl Program {
         files: [(File, &str); 2],
         options: &Options,
     ) -> Result<[Self; 2], Box<Diag>> {
-        let [(one, name), (two, other)] =
-            files.map(|(file, name)| (Source::File(Mutex::new(file)), name));
+        let [(one, name), (two, other)] = files.map(|(file, name)| (Source::file(file), name));
         if matches!(one.common(&two), Ok((_, true))) {
             let first = Program::index(one, name, options)?;
             let shown = Arc::default();
@@ -102,7 +100,11 @@ impl Program {
         Ok([first?, second?])
     }
 
-    fn index(source: Source, name: &str, options: &Options) -> Result<Self, Box<Diag>> {
+    pub(super) fn index(
+        source: Source<'static>,
+        name: &str,
+        options: &Options,
+    ) -> Result<Self, Box<Diag>> {
         let cant = |error: io::Error| Box::new(changed(name, &error.to_string()));
         let language = Language::of(&source).map_err(cant)?;
         let mut index = Index { language, tokens: Vec::new(), checkpoints: Vec::new() };
@@ -243,7 +245,7 @@ struct Walk<'p> {
 
 impl<'p> Walk<'p> {
     fn new(
-        source: &'p Source,
+        source: &'p Source<'p>,
         (name, language): (&'p str, Language),
         options: &'p Options,
         from: Checkpoint,
@@ -287,11 +289,6 @@ impl<'p> Walk<'p> {
         line.silent = !options.modal && only_repeats(&line.block, &line.before, &line.after);
         Ok(true)
     }
-}
-
-/// E0915: the text can't be read a second time.
-pub(super) fn changed(name: &str, why: &str) -> Diag {
-    Diag::new(NcCode::Changed, format!("{name}: {why}"))
 }
 
 /// Drops what is not looked at.

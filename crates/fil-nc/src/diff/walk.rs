@@ -4,8 +4,9 @@ use fil_diag::Diag;
 
 use super::align::Run;
 use super::pair::{self, Found};
-use super::program::{Cursor, Program, changed};
+use super::program::{Cursor, Program};
 use super::{Comparison, Options};
+use crate::source::changed;
 
 /// Compares along the runs of an alignment.
 ///

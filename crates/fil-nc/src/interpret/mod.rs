@@ -10,6 +10,7 @@ mod cycle;
 mod klartext;
 mod left_to_control;
 mod modes;
+mod order;
 mod program;
 mod sinumerik;
 mod state;
@@ -20,13 +21,17 @@ mod words;
 #[cfg(test)]
 mod tests;
 
+use std::collections::VecDeque;
+use std::io;
 use std::ops::Range;
 
 use fil_diag::{Diag, TextSpan};
 
 use crate::dialect::{Dialect, Family};
 use crate::errors::NcCode;
+use crate::events::Events;
 use crate::motion::Event;
+use crate::source::{Lines, Source, changed};
 
 pub(crate) use sinumerik::line as sinumerik_words;
 
@@ -60,6 +65,54 @@ impl Fault {
     }
 }
 
+/// A program that is run line by line.
+pub struct Running<'a> {
+    control: Control<'a>,
+    name: &'a str,
+    dialect: &'a Dialect,
+}
+
+/// The control that runs it.
+enum Control<'a> {
+    WordAddress(Box<program::Program<'a>>),
+    Klartext(Box<klartext::Program<'a>>),
+    Sinumerik(Box<sinumerik::Program<'a>>),
+}
+
+impl<'a> Running<'a> {
+    /// Begins a program; `name` is for messages.
+    pub fn new(source: &'a Source<'a>, name: &'a str, dialect: &'a Dialect) -> Self {
+        let control = match dialect.family {
+            Family::WordAddress => {
+                Control::WordAddress(Box::new(program::Program::new(source, dialect)))
+            }
+            Family::Klartext => {
+                Control::Klartext(Box::new(klartext::Program::new(source, dialect)))
+            }
+            Family::Sinumerik => {
+                Control::Sinumerik(Box::new(sinumerik::Program::new(source, dialect)))
+            }
+        };
+        Running { control, name, dialect }
+    }
+}
+
+impl Events for Running<'_> {
+    fn more(&mut self, into: &mut VecDeque<Event>) -> Result<bool, Box<Diag>> {
+        let more = match &mut self.control {
+            Control::WordAddress(program) => program.run_line(self.name, into),
+            Control::Klartext(program) => program.run_line(self.name, into),
+            Control::Sinumerik(program) => program.run_line(self.name, into),
+        };
+        more.map_err(|mut refused| {
+            if self.dialect.leaves_blocks_out() {
+                refused.message.push_str(", with the blocks behind / left out");
+            }
+            refused
+        })
+    }
+}
+
 /// Runs a whole program and hands its events over in order; `name` is for messages.
 ///
 /// # Errors
@@ -71,17 +124,40 @@ pub fn interpret(
     dialect: &Dialect,
     take: &mut dyn FnMut(Event),
 ) -> Result<(), Box<Diag>> {
-    match dialect.family {
-        Family::WordAddress => program::Program::new(text, name, dialect).run(take),
-        Family::Klartext => klartext::run(text, name, dialect, take),
-        Family::Sinumerik => sinumerik::run(text, name, dialect, take),
+    let source = Source::memory(text);
+    let mut running = Running::new(&source, name, dialect);
+    let mut events = VecDeque::new();
+    while running.more(&mut events)? {
+        events.drain(..).for_each(&mut *take);
     }
+    Ok(())
 }
 
 /// True when the program has blocks that the control leaves out when its switch for
-/// blocks with a skip mark is on.
-pub fn has_skipped_blocks(text: &[u8], dialect: &Dialect) -> bool {
-    dialect.family != Family::Klartext && program::has_skipped_blocks(text, dialect)
+/// blocks with a skip mark is on; `name` is for messages.
+///
+/// # Errors
+/// E0915 when its file can't be read.
+pub fn has_skipped_blocks(
+    source: &Source<'_>,
+    name: &str,
+    dialect: &Dialect,
+) -> Result<bool, Box<Diag>> {
+    if dialect.family == Family::Klartext {
+        return Ok(false);
+    }
+    let mut lines = Lines::from(source, 0);
+    while let Some(line) = lines.next_line().map_err(|error| cant_read(name, &error))? {
+        if program::may_be_skipped(&dialect.marks.read(line)) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// E0915
+fn cant_read(name: &str, error: &io::Error) -> Box<Diag> {
+    Box::new(changed(name, &error.to_string()))
 }
 
 /// The events of a whole program.

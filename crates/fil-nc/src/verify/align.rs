@@ -22,9 +22,10 @@ pub(super) enum Detour {
 impl<C: Steps> Walk<'_, C> {
     /// Tells whether path and program agree again after leaving out parts of one.
     pub(super) fn detour(&mut self, step: &Step) -> Detour {
-        if !matches!(self.nc[self.next], Event::Move(_)) {
-            let comes = match self.nc[self.next] {
-                Event::ToolChange { tool, .. } => self.tool_comes(tool),
+        let next = self.nc.get(self.next);
+        if !matches!(next, Some(Event::Move(_))) {
+            let comes = match next {
+                Some(Event::ToolChange { tool, .. }) => self.tool_comes(tool),
                 _ => false,
             };
             return if comes { Detour::Missing } else { Detour::Extra(1) };
@@ -119,9 +120,11 @@ impl<C: Steps> Walk<'_, C> {
         let Some(Event::Move(found)) = self.nc.get(index) else { return false };
         match wanted {
             Wanted::Rapid(pose) => self.rapid_parts(index, pose).is_some(),
-            Wanted::Feed(pose, _) => is_line(found, Course::Feed) && self.reaches(found, pose),
-            Wanted::Thread(pose, _) => is_line(found, Course::Thread) && self.reaches(found, pose),
-            Wanted::Arc(arc, _) => found.arc.is_some() && self.reaches(found, &arc.end),
+            Wanted::Feed(pose, _) => is_line(&found, Course::Feed) && self.reaches(&found, pose),
+            Wanted::Thread(pose, _) => {
+                is_line(&found, Course::Thread) && self.reaches(&found, pose)
+            }
+            Wanted::Arc(arc, _) => found.arc.is_some() && self.reaches(&found, &arc.end),
             Wanted::Hole(hole) => self.is_over_hole(index, hole),
             _ => false,
         }
@@ -140,14 +143,14 @@ impl<C: Steps> Walk<'_, C> {
         }
         let rapid = matches!(step.what, Wanted::Rapid(_));
         let parts = if rapid { self.rapids_ahead().max(1) } else { 1 };
-        let nearest = |index: &usize| match self.nc[*index] {
-            Event::Move(found) => self.gap(&found.to, &pose).tip,
+        let nearest = |index: &usize| match self.nc.get(*index) {
+            Some(Event::Move(found)) => self.gap(&found.to, &pose).tip,
             _ => f64::MAX,
         };
         let chosen = (self.next..self.next + parts)
             .min_by(|a, b| nearest(a).total_cmp(&nearest(b)))
             .unwrap_or(self.next);
-        let Event::Move(found) = self.nc[chosen] else { return };
+        let Some(Event::Move(found)) = self.nc.get(chosen) else { return };
         self.say_way(step, &found);
         self.say_gap(step.line, &found, &pose);
         if found.in_cycle && self.gap(&found.to, &pose).closed() {
@@ -156,7 +159,7 @@ impl<C: Steps> Walk<'_, C> {
             self.find(FindingKind::Extra, Some(step.line), Some(found.line), message);
         }
         for index in self.next..=chosen {
-            if let Event::Move(part) = self.nc[index] {
+            if let Some(Event::Move(part)) = self.nc.get(index) {
                 self.take(step.line, &part);
             }
         }
@@ -165,7 +168,7 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     pub(super) fn rapids_ahead(&self) -> usize {
-        let rapids = self.nc[self.next..].iter().take(RAPID_PARTS);
+        let rapids = self.nc.from(self.next).take(RAPID_PARTS);
         rapids
             .take_while(
                 |event| matches!(event, Event::Move(m) if m.course == Course::Rapid && !m.in_cycle),
@@ -199,7 +202,7 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn extra(&mut self, count: usize, cl_line: u32) {
         for _ in 0..count {
             self.pass(cl_line);
-            let Some(event) = self.nc.get(self.next).copied() else { return };
+            let Some(event) = self.nc.get(self.next) else { return };
             match event {
                 Event::Move(found) => {
                     let what = self.spell_move(&found);
@@ -230,19 +233,19 @@ impl<C: Steps> Walk<'_, C> {
         if !first.in_cycle {
             return index + 1;
         }
-        let same = |event: &&Event| match event {
+        let same = |event: &Event| match event {
             Event::Move(found) => found.in_cycle && found.line == first.line,
             Event::Dwell { line, .. } => *line == first.line,
             _ => false,
         };
-        index + self.nc[index..].iter().take_while(same).count().max(1)
+        index + self.nc.from(index).take_while(same).count().max(1)
     }
 
     /// Goes to where the events before `end` lead.
     pub(super) fn stand_through(&mut self, end: usize) {
         while self.next < end {
-            match self.nc[self.next] {
-                Event::Move(found) => self.stand(&found),
+            match self.nc.get(self.next) {
+                Some(Event::Move(found)) => self.stand(&found),
                 _ => self.next += 1,
             }
         }

@@ -16,11 +16,12 @@ const PARALLEL: f64 = 1e-4;
 /// Most blocks of one arc.
 const MOST_BLOCKS: usize = 100_000;
 
-/// A part of an arc that the program makes.
-struct Part {
-    found: Move,
-    /// Where it ends on the arc, degrees from the start.
-    angle: f64,
+/// The blocks that make an arc.
+struct Parts {
+    /// Where each ends on the arc, degrees from the start.
+    angles: Vec<f64>,
+    /// All of them are straight lines.
+    lines: bool,
 }
 
 impl<C: Steps> Walk<'_, C> {
@@ -29,27 +30,30 @@ impl<C: Steps> Walk<'_, C> {
         let Some(parts) = self.arc_parts(arc) else { return false };
         let from = self.begins();
         let mut before = 0.0;
-        for part in &parts {
-            self.check_rate(cl_line, self.at, &part.found, rate);
-            self.look_between(cl_line, &part.found, &Asked::arc(arc, from, [before, part.angle]));
-            before = part.angle;
-            self.take(cl_line, &part.found);
+        let mut last = None;
+        for angle in parts.angles {
+            let Some(found) = self.next_move() else { break };
+            self.check_rate(cl_line, self.at, &found, rate);
+            self.look_between(cl_line, &found, &Asked::arc(arc, from, [before, angle]));
+            before = angle;
+            self.take(cl_line, &found);
+            self.next += 1;
+            last = Some(found);
         }
-        if let Some(last) = parts.last() {
-            self.measure(&last.found, &arc.end);
+        if let Some(last) = last {
+            self.measure(&last, &arc.end);
         }
-        self.next += parts.len();
         true
     }
 
     /// The motions from here to the end of the arc, when they lie on it.
-    fn arc_parts(&self, arc: &Arc) -> Option<Vec<Part>> {
-        let mut parts: Vec<Part> = Vec::new();
+    fn arc_parts(&self, arc: &Arc) -> Option<Parts> {
+        let mut parts = Parts { angles: Vec::new(), lines: true };
         let mut angle = 0.0;
         let mut from = self.at;
-        while parts.len() < MOST_BLOCKS {
-            let event = self.nc.get(self.next + parts.len())?;
-            let motion::Event::Move(found) = *event else { return None };
+        while parts.angles.len() < MOST_BLOCKS {
+            let event = self.nc.get(self.next + parts.angles.len())?;
+            let motion::Event::Move(found) = event else { return None };
             if found.course != Course::Feed || found.in_cycle {
                 return None;
             }
@@ -63,7 +67,8 @@ impl<C: Steps> Walk<'_, C> {
             if !ends && (angle > arc.sweep + slack || !self.is_on(arc, angle, &found)) {
                 return None;
             }
-            parts.push(Part { found, angle });
+            parts.angles.push(angle);
+            parts.lines &= found.arc.is_none();
             if ends {
                 return self.steps_are_even(arc, &parts).then_some(parts);
             }
@@ -127,12 +132,12 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     /// Short lines divide an arc into even parts.
-    fn steps_are_even(&self, arc: &Arc, parts: &[Part]) -> bool {
-        let lines = parts.len() > 1 && parts.iter().all(|part| part.found.arc.is_none());
+    fn steps_are_even(&self, arc: &Arc, parts: &Parts) -> bool {
+        let angles = &parts.angles;
         let slack = 2.0 * self.angle_slack(arc);
-        let share = arc.sweep / parts.len() as f64;
-        !lines
-            || (1..).zip(parts).all(|(n, part)| (part.angle - share * f64::from(n)).abs() <= slack)
+        let share = arc.sweep / angles.len() as f64;
+        let is_even = |(n, angle): (i32, &f64)| (angle - share * f64::from(n)).abs() <= slack;
+        !parts.lines || angles.len() == 1 || (1..).zip(angles).all(is_even)
     }
 
     /// Angle that the last digits stand for on this arc, degrees.

@@ -1,37 +1,31 @@
 //! Auxiliary functions besides those of spindle, coolant, tool and end: each that the CL
 //! file asks for must be there, and no other.
 
-use std::ops::RangeInclusive;
+use std::collections::HashMap;
 
 use super::blocks::OwnBlocks;
-use super::report::{Finding, FindingKind};
+use super::report::{Finding, FindingKind, Report};
 
 /// What the CL file asks for.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 struct Asked {
     code: u32,
     cl_line: u32,
     /// Lines of the program between which it must stand: that of the last motion before
     /// it, and that of the next.
-    lines: RangeInclusive<u32>,
+    lines: [u32; 2],
 }
 
-/// The functions of a program and those that the CL file asks for.
+/// The functions that the CL file asks for.
 #[derive(Debug, Default)]
 pub(super) struct Auxiliaries {
-    /// Line and number.
-    found: Vec<(u32, u32)>,
     asked: Vec<Asked>,
     /// From this line of the program on nobody knows what must come.
     open_from: Option<u32>,
 }
 
 impl Auxiliaries {
-    pub(super) fn found(&mut self, line: u32, code: u32) {
-        self.found.push((line, code));
-    }
-
-    pub(super) fn ask(&mut self, code: u32, cl_line: u32, lines: RangeInclusive<u32>) {
+    pub(super) fn ask(&mut self, code: u32, cl_line: u32, lines: [u32; 2]) {
         self.asked.push(Asked { code, cl_line, lines });
     }
 
@@ -40,47 +34,52 @@ impl Auxiliaries {
         self.open_from.get_or_insert(line);
     }
 
-    /// What is missing, what nobody asks for, what stands elsewhere. `own`: the blocks of
-    /// the settings and of INSERT.
-    pub(super) fn compare(&self, own: &OwnBlocks<'_>) -> Vec<Finding> {
-        let mut findings = Vec::new();
-        let mut found = self.found.iter().filter(|(line, _)| !own.has(*line));
-        let extra = |findings: &mut Vec<Finding>, line: u32, code: u32| {
-            if self.open_from.is_none_or(|open| line < open) {
-                let message = format!("M{code}: neither the CL file nor the settings ask for it");
-                findings.push(finding(FindingKind::Auxiliary, None, Some(line), message));
-            }
-        };
+    /// What is missing, what nobody asks for, what stands elsewhere. `found`: the line and
+    /// the number of each function of the program; `own`: the blocks of the settings and of
+    /// INSERT.
+    pub(super) fn compare(&self, found: &[(u32, u32)], own: &OwnBlocks<'_>) -> Report {
+        let mut report = Report::default();
+        let mut left: HashMap<u32, usize> = HashMap::new();
+        let of_others = |(line, _): &&(u32, u32)| !own.has(*line);
+        for (_, code) in found.iter().filter(of_others) {
+            *left.entry(*code).or_default() += 1;
+        }
+        let mut found = found.iter().filter(of_others);
         for asked in &self.asked {
             let code = asked.code;
-            let rest = found.clone();
-            let Some(before) = rest.clone().position(|(_, found)| *found == code) else {
+            if left.get(&code).is_none_or(|count| *count == 0) {
                 let message = format!("no M{code}");
-                findings.push(finding(FindingKind::Auxiliary, Some(asked.cl_line), None, message));
+                find(&mut report, Some(asked.cl_line), None, message);
                 continue;
-            };
-            found.by_ref().take(before).for_each(|(line, code)| extra(&mut findings, *line, *code));
-            let Some((line, _)) = found.next() else { continue };
-            if !asked.lines.contains(line) {
-                let message = format!(
-                    "M{code} stands elsewhere, it should be between lines {} and {}",
-                    asked.lines.start(),
-                    asked.lines.end()
-                );
-                let kind = FindingKind::Auxiliary;
-                findings.push(finding(kind, Some(asked.cl_line), Some(*line), message));
+            }
+            for (line, other) in found.by_ref() {
+                *left.entry(*other).or_default() -= 1;
+                if *other != code {
+                    self.extra(&mut report, *line, *other);
+                    continue;
+                }
+                let [first, last] = asked.lines;
+                if !(first..=last).contains(line) {
+                    let message = format!(
+                        "M{code} stands elsewhere, it should be between lines {first} and {last}"
+                    );
+                    find(&mut report, Some(asked.cl_line), Some(*line), message);
+                }
+                break;
             }
         }
-        found.for_each(|(line, code)| extra(&mut findings, *line, *code));
-        findings
+        found.for_each(|(line, code)| self.extra(&mut report, *line, *code));
+        report
+    }
+
+    fn extra(&self, report: &mut Report, line: u32, code: u32) {
+        if self.open_from.is_none_or(|open| line < open) {
+            let message = format!("M{code}: neither the CL file nor the settings ask for it");
+            find(report, None, Some(line), message);
+        }
     }
 }
 
-fn finding(
-    kind: FindingKind,
-    cl_line: Option<u32>,
-    nc_line: Option<u32>,
-    message: String,
-) -> Finding {
-    Finding { kind, cl_line, nc_line, message }
+fn find(report: &mut Report, cl_line: Option<u32>, nc_line: Option<u32>, message: String) {
+    report.find(Finding { kind: FindingKind::Auxiliary, cl_line, nc_line, message });
 }

@@ -11,7 +11,7 @@ impl<C: Steps> Walk<'_, C> {
     /// A dwell in seconds, or in turns of the spindle.
     pub(super) fn dwell(&mut self, cl_line: u32, wanted: Option<f64>, turning: Option<f64>) {
         self.pass(cl_line);
-        let Some(Event::Dwell { line, seconds, turns }) = self.nc.get(self.next).copied() else {
+        let Some(Event::Dwell { line, seconds, turns }) = self.nc.get(self.next) else {
             return self.find(FindingKind::Missing, Some(cl_line), None, "no dwell".to_string());
         };
         self.next += 1;
@@ -49,18 +49,34 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     pub(super) fn insert(&mut self, cl_line: u32, text: &str) {
-        if !self.own.insert(text) {
+        let line = match self.own.insert(text) {
+            Ok(line) => line,
+            Err(failed) => {
+                self.failed = Some(failed);
+                self.over = true;
+                return;
+            }
+        };
+        let Some(line) = line else {
             let message = format!("the block `{text}` of INSERT is not there");
-            self.find(FindingKind::Block, Some(cl_line), None, message);
+            return self.find(FindingKind::Block, Some(cl_line), None, message);
+        };
+        let next = self.nc.get(self.next).map_or(u32::MAX, |event| event.line());
+        // A subprogram may have been called on the way.
+        let last = self.last_line();
+        if last <= next && line > next {
+            let message = format!(
+                "the block `{text}` of INSERT stands elsewhere, it should be between lines {last} and {next}"
+            );
+            self.find(FindingKind::Block, Some(cl_line), Some(line), message);
         }
     }
 
     /// An auxiliary function must stand between the last motion and the next.
     pub(super) fn ask_auxiliary(&mut self, cl_line: u32, code: Option<u32>) {
         let Some(code) = code else { return };
-        let last = self.next.checked_sub(1).and_then(|at| self.nc.get(at)).map_or(1, Event::line);
-        let next = self.nc.get(self.next).map_or(u32::MAX, Event::line);
-        self.auxiliaries.ask(code, cl_line, last..=next);
+        let next = self.nc.get(self.next).map_or(u32::MAX, |event| event.line());
+        self.auxiliaries.ask(code, cl_line, [self.last_line(), next]);
     }
 
     pub(super) fn unknown(&mut self, cl_line: u32, what: &str, effect: Effect) {
@@ -74,13 +90,17 @@ impl<C: Steps> Walk<'_, C> {
             }
         };
         self.report
-            .unverified
-            .push(Unverified { cl_line: Some(cl_line), what: format!("{what}: {open}") });
+            .leave_open(Unverified { cl_line: Some(cl_line), what: format!("{what}: {open}") });
         if matches!(effect, Effect::AnyWords | Effect::Path) {
-            let last = self.next.checked_sub(1).and_then(|at| self.nc.get(at));
-            self.auxiliaries.open(last.map_or(1, Event::line));
+            self.auxiliaries.open(self.last_line());
         }
         self.over |= effect == Effect::Path;
+    }
+
+    /// Line of the last event that was passed.
+    fn last_line(&self) -> u32 {
+        let last = self.next.checked_sub(1).and_then(|at| self.nc.get(at));
+        last.map_or(1, |event| event.line())
     }
 
     pub(super) fn end(&mut self, cl_line: u32, end: End) {
@@ -89,7 +109,7 @@ impl<C: Steps> Walk<'_, C> {
             self.extra(1, cl_line);
             self.pass(cl_line);
         }
-        match self.nc.get(self.next).copied() {
+        match self.nc.get(self.next) {
             Some(Event::End { line, code, modes }) => {
                 self.next += 1;
                 self.check_standing(cl_line, line, &modes, false);
@@ -110,7 +130,7 @@ impl<C: Steps> Walk<'_, C> {
             }
             _ => {}
         }
-        self.extra(self.nc.len() - self.next, cl_line);
+        self.extra(usize::MAX, cl_line);
     }
 
     pub(super) fn ends_early(&mut self, step: &Step) {
@@ -120,7 +140,7 @@ impl<C: Steps> Walk<'_, C> {
         }
         self.report.compared += missing - 1;
         let nc_line = match self.nc.get(self.next) {
-            Some(Event::End { line, .. }) => Some(*line),
+            Some(Event::End { line, .. }) => Some(line),
             _ => None,
         };
         let motions = if missing == 1 { "motion is" } else { "motions are" };

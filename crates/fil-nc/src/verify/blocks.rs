@@ -2,56 +2,92 @@
 
 use std::collections::{HashMap, HashSet};
 
+use fil_diag::Diag;
+
+use crate::source::{Lines, Source, changed};
+
+/// Texts of INSERT that were looked for to the end of the program without being there;
+/// for one more than these only so many lines are read.
+const MISSING: usize = 100;
+const LINES_AHEAD: u32 = 10_000;
+
 /// The lines that must be there as they are.
 pub(super) struct OwnBlocks<'a> {
+    source: &'a Source<'a>,
+    /// Name of the program in messages.
+    name: &'a str,
     /// Blocks of the settings, bare, and whether the program has them.
-    wanted: HashMap<String, bool>,
+    asked: HashMap<Vec<u8>, bool>,
     /// Blocks around tool changes, bare, and how often the program has them.
-    around: HashMap<String, usize>,
+    around: HashMap<Vec<u8>, usize>,
     /// Lines of the program that are such blocks.
     lines: HashSet<u32>,
-    /// The text in which the next INSERT is looked for, and the lines before it.
-    rest: &'a [u8],
+    /// Where the next INSERT is looked for, and the lines before it.
+    from: u64,
     passed: u32,
+    /// Texts of INSERT that don't come any more.
+    missing: HashSet<Vec<u8>>,
 }
 
 impl<'a> OwnBlocks<'a> {
     /// Looks for the blocks of the settings in a program: those at its start and end, and
     /// those around tool changes.
-    pub(super) fn new(text: &'a [u8], blocks: &[String], around: &[String]) -> Self {
-        let mut wanted: HashMap<String, bool> =
-            blocks.iter().map(|block| (bare(block.as_bytes()), false)).collect();
-        let mut lines = HashSet::new();
-        let mut around: HashMap<String, usize> =
-            around.iter().map(|block| (bare(block.as_bytes()), 0)).collect();
-        if !wanted.is_empty() || !around.is_empty() {
-            for (line, text) in numbered(text) {
-                let text = bare(text);
-                if let Some(found) = wanted.get_mut(&text) {
-                    *found = true;
-                    lines.insert(line);
-                }
-                if let Some(found) = around.get_mut(&text) {
-                    *found += 1;
-                    lines.insert(line);
-                }
+    ///
+    /// # Errors
+    /// E0915 when its file can't be read.
+    pub(super) fn new(
+        (source, name): (&'a Source<'a>, &'a str),
+        blocks: &[String],
+        around: &[String],
+    ) -> Result<Self, Box<Diag>> {
+        let bare_block = |block: &String| bare(block.as_bytes());
+        let mut own = OwnBlocks {
+            source,
+            name,
+            asked: blocks.iter().map(|block| (bare_block(block), false)).collect(),
+            around: around.iter().map(|block| (bare_block(block), 0)).collect(),
+            lines: HashSet::new(),
+            from: 0,
+            passed: 0,
+            missing: HashSet::new(),
+        };
+        if !own.asked.is_empty() || !own.around.is_empty() {
+            own.find()?;
+        }
+        Ok(own)
+    }
+
+    fn find(&mut self) -> Result<(), Box<Diag>> {
+        let firsts = Firsts::of(self.asked.keys().chain(self.around.keys()));
+        let mut lines = Lines::from(self.source, 0);
+        for number in 1.. {
+            let Some(line) = next(&mut lines, self.name)? else { break };
+            if !firsts.may_be(line) {
+                continue;
+            }
+            let text = bare(line);
+            if let Some(found) = self.asked.get_mut(&text) {
+                *found = true;
+                self.lines.insert(number);
+            }
+            if let Some(found) = self.around.get_mut(&text) {
+                *found += 1;
+                self.lines.insert(number);
             }
         }
-        OwnBlocks { wanted, around, lines, rest: text, passed: 0 }
+        Ok(())
     }
 
     /// Blocks around tool changes that the program has less often than its tool changes
     /// ask for, sorted.
     pub(super) fn missing_around(&self, asked: &[String]) -> Vec<String> {
-        let mut often: HashMap<String, usize> = HashMap::new();
+        let mut often: HashMap<Vec<u8>, usize> = HashMap::new();
         for block in asked {
             *often.entry(bare(block.as_bytes())).or_default() += 1;
         }
-        let has = |block: &String| self.around.get(block).copied().unwrap_or(0);
-        let missing = often.into_iter().filter(|(block, times)| has(block) < *times);
-        let mut missing: Vec<String> = missing.map(|(block, _)| block).collect();
-        missing.sort();
-        missing
+        let has = |block: &Vec<u8>| self.around.get(block).copied().unwrap_or(0);
+        let missing = often.iter().filter(|(block, times)| has(block) < **times);
+        sorted(missing.map(|(block, _)| block))
     }
 
     /// True when a line is one of those blocks.
@@ -59,35 +95,88 @@ impl<'a> OwnBlocks<'a> {
         self.lines.contains(&line)
     }
 
-    /// Takes the next line that is this text; false when there is none.
-    pub(super) fn insert(&mut self, wanted: &str) -> bool {
-        let wanted = bare(wanted.as_bytes());
-        let Some((line, _)) = numbered(self.rest).find(|(_, text)| bare(text) == wanted) else {
-            return false;
-        };
-        let ends = self.rest.iter().enumerate().filter(|(_, byte)| **byte == b'\n');
-        let start = ends.map(|(at, _)| at + 1).nth(line as usize - 1).unwrap_or(self.rest.len());
-        self.rest = &self.rest[start..];
-        self.passed += line;
-        self.lines.insert(self.passed);
-        true
+    /// Takes the next line that is this text and gives its number; `None` when there is
+    /// none.
+    ///
+    /// # Errors
+    /// E0915 when the file of the program can't be read.
+    pub(super) fn insert(&mut self, text: &str) -> Result<Option<u32>, Box<Diag>> {
+        let text = bare(text.as_bytes());
+        if self.missing.contains(&text) {
+            return Ok(None);
+        }
+        let many = self.missing.len() >= MISSING;
+        let last = if many { self.passed.saturating_add(LINES_AHEAD) } else { u32::MAX };
+        let firsts = Firsts::of([&text].into_iter());
+        let mut lines = Lines::from(self.source, self.from);
+        for number in self.passed.saturating_add(1)..=last {
+            let Some(line) = next(&mut lines, self.name)? else { break };
+            if firsts.may_be(line) && bare(line) == text {
+                self.from = lines.at();
+                self.passed = number;
+                self.lines.insert(number);
+                return Ok(Some(number));
+            }
+        }
+        if !many {
+            self.missing.insert(text);
+        }
+        Ok(None)
     }
 
     /// Blocks of the settings that the program does not have, sorted.
     pub(super) fn missing(&self) -> Vec<String> {
-        let missing = self.wanted.iter().filter(|(_, found)| !**found);
-        let mut missing: Vec<String> = missing.map(|(block, _)| block.clone()).collect();
-        missing.sort();
-        missing
+        sorted(self.asked.iter().filter(|(_, found)| !**found).map(|(block, _)| block))
     }
 }
 
-fn numbered(text: &[u8]) -> impl Iterator<Item = (u32, &[u8])> {
-    (1..).zip(text.split(|byte| *byte == b'\n'))
+/// The bytes that blocks begin with; most lines of a program begin with others.
+struct Firsts {
+    has: [bool; 256],
+    /// One of the blocks is empty, or begins with what a number may stand for.
+    any: bool,
+}
+
+impl Firsts {
+    fn of<'b>(blocks: impl Iterator<Item = &'b Vec<u8>>) -> Self {
+        let mut firsts = Firsts { has: [false; 256], any: false };
+        for block in blocks {
+            match block.first() {
+                Some(first) => firsts.has[usize::from(*first)] = true,
+                None => firsts.any = true,
+            }
+        }
+        firsts
+    }
+
+    /// False for a line that can't be one of the blocks.
+    fn may_be(&self, line: &[u8]) -> bool {
+        let is_number = |byte: &u8| byte.is_ascii_digit() || byte.is_ascii_whitespace();
+        let mut rest = line;
+        loop {
+            rest = &rest[rest.iter().take_while(|byte| is_number(byte)).count()..];
+            match rest {
+                [] => return self.any,
+                [b'N' | b'n', next, ..] if is_number(next) => rest = &rest[1..],
+                [first, ..] => return self.has[usize::from(first.to_ascii_uppercase())],
+            }
+        }
+    }
+}
+
+fn next<'l>(lines: &'l mut Lines<'_>, name: &str) -> Result<Option<&'l [u8]>, Box<Diag>> {
+    lines.next_line().map_err(|error| Box::new(changed(name, &error.to_string())))
+}
+
+fn sorted<'b>(blocks: impl Iterator<Item = &'b Vec<u8>>) -> Vec<String> {
+    let mut sorted: Vec<String> =
+        blocks.map(|block| String::from_utf8_lossy(block).into_owned()).collect();
+    sorted.sort();
+    sorted
 }
 
 /// A block without blanks and sequence number, in upper case.
-fn bare(line: &[u8]) -> String {
+fn bare(line: &[u8]) -> Vec<u8> {
     let mut bare: Vec<u8> =
         line.iter().filter(|byte| !byte.is_ascii_whitespace()).copied().collect();
     bare.make_ascii_uppercase();
@@ -102,5 +191,39 @@ fn bare(line: &[u8]) -> String {
         }
         bare.drain(..=digits);
     }
-    String::from_utf8_lossy(&bare).into_owned()
+    bare
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn own(text: &str, insert: &[&str]) -> Vec<Option<u32>> {
+        let source = Source::memory(text.as_bytes());
+        let mut own = OwnBlocks::new((&source, "nc"), &[], &[]).unwrap();
+        insert.iter().map(|text| own.insert(text).unwrap()).collect()
+    }
+
+    #[test]
+    fn texts_of_insert_come_in_their_order() {
+        let text = "N1 G0 X1.\nN2 M50\n3 m 50\nN4 N7 G4 P1\n/M50\n";
+        assert_eq!(
+            own(text, &["M50", "M50", "N9 G4 P1", "G0X1."]),
+            [Some(2), Some(3), Some(4), None]
+        );
+        assert_eq!(own(text, &["/ M50", "M50"]), [Some(5), None]);
+        assert_eq!(own(text, &["M51", "M50"]), [None, Some(2)]);
+    }
+
+    #[test]
+    fn no_line_that_is_a_block_is_passed_over() {
+        for line in ["N5 G0 X1", "n5g0 x1", " 12 G0 X1", "N 5 N6 G0X1", "12N7 G0 X1", "G0 X1"] {
+            let text = bare(line.as_bytes());
+            let firsts = Firsts::of([&text].into_iter());
+            assert!(firsts.may_be(line.as_bytes()), "{line}");
+        }
+        let firsts = Firsts::of([&bare(b"G0 X1")].into_iter());
+        assert!(!firsts.may_be(b"N5 X1.") && firsts.may_be(b"N5 G1"));
+        assert!(Firsts::of([&bare(b"N5")].into_iter()).may_be(b"N7"));
+    }
 }

@@ -12,6 +12,9 @@ use fil_machine::cycle_kind::CycleKind;
 /// Most motions over a hole before it is drilled.
 const APPROACH: usize = 6;
 
+/// Most pecks of one hole.
+const MOST_PECKS: usize = 10_000;
+
 /// Levels of a hole in the machine's Z, and its place.
 #[derive(Clone, Copy)]
 pub(super) struct Levels {
@@ -75,11 +78,11 @@ impl<C: Steps> Walk<'_, C> {
 
     /// The first motion at feed from `index` on, after motions over the hole.
     fn plunge(&self, index: usize) -> Option<Move> {
-        let motions = self.nc.get(index..)?.iter().take(APPROACH).map_while(|event| match event {
-            Event::Move(found) if found.course != Course::Machine => Some(*found),
+        let mut motions = self.nc.from(index).take(APPROACH).map_while(|event| match event {
+            Event::Move(found) if found.course != Course::Machine => Some(found),
             _ => None,
         });
-        motions.into_iter().find(|found| found.course != Course::Rapid)
+        motions.find(|found| found.course != Course::Rapid)
     }
 
     /// The events from `index` on drill at the place of a hole.
@@ -276,7 +279,7 @@ impl<C: Steps> Walk<'_, C> {
     fn bottom_dwell(&mut self, cl_line: u32, hole: &Hole) -> Result<(), (u32, String)> {
         let wanted = hole.dwell.unwrap_or_else(|| self.settings.cycle_dwell(hole.kind));
         let found = match self.nc.get(self.next) {
-            Some(Event::Dwell { line, seconds, .. }) => Some((*line, *seconds)),
+            Some(Event::Dwell { line, seconds, .. }) => Some((line, seconds)),
             _ => None,
         };
         match found {
@@ -382,8 +385,8 @@ impl<C: Steps> Walk<'_, C> {
         }
     }
 
-    fn next_line(&self) -> u32 {
-        self.nc.get(self.next).map_or(0, Event::line)
+    pub(super) fn next_line(&self) -> u32 {
+        self.nc.get(self.next).map_or(0, |event| event.line())
     }
 
     fn spell_level(&self, what: &str, is: f64, should: f64) -> String {
@@ -412,13 +415,12 @@ pub(super) fn heights(hole: &Hole, levels: Levels, peck_gap: f64) -> Vec<f64> {
     heights
 }
 
-/// Where the pecks end, the last at the bottom.
 /// The levels of the pecks, counted from a level, and the bottom.
 fn depths(hole: &Hole, from: f64, bottom: f64) -> Vec<f64> {
     let mut depths = Vec::new();
     if let Some(step) = hole.step.filter(|step| *step > 1e-6) {
         let mut reached = from - step;
-        while reached > bottom + 1e-9 {
+        while reached > bottom + 1e-9 && depths.len() < MOST_PECKS {
             depths.push(reached);
             reached -= step;
         }

@@ -168,17 +168,17 @@ impl<C: Steps> Walk<'_, C> {
         self.from_hole = Some(from_hole);
         let first = self.next;
         let (mut events, mut said) = (Vec::new(), Vec::new());
-        for event in self.nc[first..].iter().take(MOST + 4 * line.heights.len()) {
-            said.push(match event {
+        for event in self.nc.from(first).take(MOST + 4 * line.heights.len()) {
+            said.push(match &event {
                 Event::Move(found) if self.is_said_anew(found, hole) && found.arc.is_none() => {
                     Event::Move(self.said(found, hole, levels, &line))
                 }
-                Event::Dwell { .. } => *event,
+                Event::Dwell { .. } => event,
                 _ => break,
             });
-            events.push(*event);
+            events.push(event);
         }
-        self.nc.to_mut()[first..first + said.len()].copy_from_slice(&said);
+        self.nc.replace(first, &said);
         let slack = std::mem::replace(&mut self.slack.linear, [DUST; 3]);
         Some(Kept { first, events, slack })
     }
@@ -200,7 +200,7 @@ impl<C: Steps> Walk<'_, C> {
         self.from_hole = None;
         self.slack.linear = kept.slack;
         let end = kept.first + kept.events.len();
-        self.nc.to_mut()[kept.first..end].copy_from_slice(&kept.events);
+        self.nc.replace(kept.first, &kept.events);
         let mut taken = kept.events[..self.next.min(end) - kept.first].iter().rev();
         let last = taken.find_map(|event| match event {
             Event::Move(found) => Some(found.to),

@@ -26,9 +26,9 @@ impl<C: Steps> Walk<'_, C> {
         }
         let Some(count) = self.rapid_parts(self.next, pose) else { return false };
         let last = self.next + count - 1;
-        let Event::Move(end) = self.nc[last] else { return false };
+        let Some(Event::Move(end)) = self.nc.get(last) else { return false };
         for index in self.next..=last {
-            if let Event::Move(part) = self.nc[index] {
+            if let Some(Event::Move(part)) = self.nc.get(index) {
                 self.check_part(cl_line, &part, &end.to);
                 self.take(cl_line, &part);
             }
@@ -58,7 +58,7 @@ impl<C: Steps> Walk<'_, C> {
             _ => corner.tip.z = from.tip.z,
         }
         let two = [self.next, self.next + 1].map(|index| match self.nc.get(index) {
-            Some(Event::Move(found)) if is_line(found, Course::Feed) => Some(*found),
+            Some(Event::Move(found)) if is_line(&found, Course::Feed) => Some(found),
             _ => None,
         });
         let [Some(first), Some(second)] = two else { return false };
@@ -76,12 +76,11 @@ impl<C: Steps> Walk<'_, C> {
 
     /// How many rapids from `index` on reach a pose.
     pub(super) fn rapid_parts(&self, index: usize, pose: &Pose) -> Option<usize> {
-        let rapids =
-            self.nc.get(index..)?.iter().take(RAPID_PARTS).map_while(|event| match event {
-                Event::Move(part) if part.course == Course::Rapid && !part.in_cycle => Some(part),
-                _ => None,
-            });
-        rapids.into_iter().position(|part| self.reaches(part, pose)).map(|at| at + 1)
+        let mut rapids = self.nc.from(index).take(RAPID_PARTS).map_while(|event| match event {
+            Event::Move(part) if part.course == Course::Rapid && !part.in_cycle => Some(part),
+            _ => None,
+        });
+        rapids.position(|part| self.reaches(&part, pose)).map(|at| at + 1)
     }
 
     /// Each axis stays or ends in a part of a rapid, and the height is the safe one.

@@ -1,7 +1,8 @@
 //! Back-check: does an NC program do what the CL file asks for?
 //!
 //! [`ClPath`] reads the CL file without the post, the interpreter reads the program
-//! without the writer; `walk` goes along both at once, `align` finds where they part.
+//! without the writer; `walk` goes along both at once, [`window`] keeps what it looks
+//! ahead, `align` finds where they part.
 //! What the machine's settings lay down where the CL file leaves it open (when codes
 //! stand, what the last digit is) comes from [`Settings`].
 
@@ -27,25 +28,28 @@ mod report;
 mod rules;
 mod say;
 mod settings;
+mod sift;
 mod statements;
 mod thread;
 mod tools;
 mod turning_settings;
 mod walk;
 mod wanted;
+mod window;
 
 use fil_cl::Reader;
 use fil_diag::Diag;
 use fil_machine::{Commons, Unit};
 
 use crate::errors::NcCode;
-use crate::motion::Event;
+use crate::events::Events;
+use crate::source::Source;
 use between::Watch;
 use blocks::OwnBlocks;
 
-pub use between::{Between, Peak, look_at_blocks};
+pub use between::{Between, Peak};
 pub use cl_path::ClPath;
-pub use programs::{compare_programs, compare_words};
+pub use programs::{Programs, Unfollowed, compare_programs, compare_words};
 pub use report::{Deviation, Finding, FindingKind, Report, Unverified, Verdict};
 pub use settings::{Due, Settings, Slack};
 pub use wanted::{Arc, CoolantKind, Effect, End, Hole, Step, Wanted, WholeThread};
@@ -59,9 +63,11 @@ pub struct Check<'a> {
     /// Its unit, where it does not say it itself.
     pub unit: Option<Unit>,
     /// The text of the program.
-    pub nc: &'a [u8],
+    pub nc: &'a Source<'a>,
+    /// Its name in messages.
+    pub nc_name: &'a str,
     /// What the program does.
-    pub events: &'a [Event],
+    pub events: &'a mut dyn Events,
     /// The machine.
     pub commons: &'a Commons,
     /// What is allowed.
@@ -87,19 +93,19 @@ pub struct Allowed {
 /// Compares a program with the CL file it should come from.
 ///
 /// # Errors
-/// A CL file that can't be read, a machine that makes no sense, a program that has
+/// A program that can't be followed, a CL file that can't be read, a machine that makes no sense, a program that has
 /// next to nothing in common with the CL file.
 pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
     let settings = Settings::new(check.commons, check.allowed.tolerance)?;
     let path = ClPath::new(check.cl, check.cl_name, settings.input_shift());
     let path = path.on_machine(settings.shift_along(), settings.matrix_leaves_axis());
     let path = path.in_unit(check.unit).leaving_out(check.skips_blocks);
-    let own = OwnBlocks::new(check.nc, &settings.own_blocks(), &settings.blocks_around_changes());
+    let nc = (check.nc, check.nc_name);
+    let own = OwnBlocks::new(nc, &settings.own_blocks(), &settings.blocks_around_changes())?;
     let watch = Watch::new(check.allowed.between);
     let mut walk = walk::Walk::new(path, check.events, own, &settings, watch);
     walk.modes.allow_offsets(check.allowed.offsets);
-    let mut report = walk.all()?;
-    rules::Rules::check(check.events, &mut report);
+    let report = walk.all()?;
     refuse_another_part(&report)?;
     Ok(report)
 }

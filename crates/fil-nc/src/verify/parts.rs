@@ -96,13 +96,13 @@ impl<C: Steps> Walk<'_, C> {
             let Some(Event::Move(found)) = self.nc.get(self.next + parts.blocks.len()) else {
                 return None;
             };
-            if parts.blocks.len() == MOST_PARTS || !is_line(found, Course::Feed) {
+            if parts.blocks.len() == MOST_PARTS || !is_line(&found, Course::Feed) {
                 return None;
             }
-            parts.blocks.push(*found);
+            parts.blocks.push(found);
             let tip = self.settings.forward.pose(&found.to).tip;
             let slack = self.tip_slack(&found.to);
-            if (tip - pose.tip).norm() < NEAR + slack && self.reaches(found, pose) {
+            if (tip - pose.tip).norm() < NEAR + slack && self.reaches(&found, pose) {
                 break;
             }
             let foot = line.foot(tip, 0.0);

@@ -6,15 +6,22 @@
 //! this finds what was changed in a program, not what was wrong with it from the
 //! start.
 
-use std::borrow::Cow;
+use std::io;
 
 use fil_diag::Diag;
+use fil_machine::Commons;
 
+use super::Allowed;
+use super::between::Blocks;
 use super::report::{Finding, FindingKind, Report, Unverified};
 use super::rules::Rules;
 use super::say::{sense, short, way};
+use super::sift::{Sift, Watcher};
+use super::window::Window;
 use crate::diff;
+use crate::events::Events;
 use crate::motion::{Course, Event, Modes, Move, Rate};
+use crate::source::{Lines, Source, changed};
 
 /// How far to look for the place where two programs agree again.
 const LOOK_AHEAD: usize = 16;
@@ -22,34 +29,87 @@ const LOOK_AHEAD: usize = 16;
 /// What binary fractions may differ by.
 const DUST: f64 = 1e-7;
 
-/// Differences of a program from a reference; `tolerance` in mm and degrees.
-pub fn compare_programs(wanted: &[Event], found: &[Event], tolerance: Option<f64>) -> Report {
-    let [motions, made] = [wanted, found].map(without_left_to_control);
-    let tolerance = tolerance.unwrap_or(0.0) + DUST;
-    let report = Report::default();
-    let mut pair = Pair { wanted: &motions, found: &made, tolerance, report };
-    pair.all();
-    Rules::check(found, &mut pair.report);
-    pair.report
+/// Two programs that should do the same on a machine.
+pub struct Programs<'a> {
+    /// What must be done.
+    pub reference: &'a mut dyn Events,
+    /// What is done.
+    pub found: &'a mut dyn Events,
+    /// The machine.
+    pub commons: &'a Commons,
+    /// What the second may be off by.
+    pub allowed: &'a Allowed,
 }
 
-/// The events without those of modes that a program leaves to the control.
-fn without_left_to_control(events: &[Event]) -> Cow<'_, [Event]> {
-    let is_left = |event: &Event| matches!(event, Event::LeftToControl { .. });
-    if !events.iter().any(is_left) {
-        return Cow::Borrowed(events);
+/// A program that can't be followed, so that nothing was compared.
+#[derive(Debug)]
+pub enum Unfollowed {
+    /// What must be done.
+    Reference(Box<Diag>),
+    /// What is done, or its machine.
+    Found(Box<Diag>),
+}
+
+/// Differences of a program from a reference.
+///
+/// # Errors
+/// One of the two can't be followed; the reference where both can't.
+pub fn compare_programs(programs: Programs<'_>) -> Result<Report, Unfollowed> {
+    let Programs { reference, found, commons, allowed } = programs;
+    let blocks = Blocks::new(commons, allowed.between).map_err(Unfollowed::Found)?;
+    let mut pair = Pair {
+        wanted: Window::new(Sift::new(reference, Count::default())),
+        found: Window::new(Sift::new(found, Looks { rules: Rules::default(), blocks })),
+        tolerance: allowed.tolerance.unwrap_or(0.0) + DUST,
+        report: Report::default(),
+    };
+    pair.all();
+    let Pair { wanted, found, mut report, .. } = pair;
+    report.compared = wanted.finish().map_err(Unfollowed::Reference)?.into_watcher().motions;
+    let Looks { rules, blocks } = found.finish().map_err(Unfollowed::Found)?.into_watcher();
+    report.append(rules.findings);
+    report.between = blocks.report.between;
+    report.append(blocks.report);
+    Ok(report)
+}
+
+/// Counts the motions of a reference.
+#[derive(Default)]
+struct Count {
+    motions: u64,
+}
+
+impl Watcher for Count {
+    fn sees(&mut self, event: &Event) -> bool {
+        self.motions += u64::from(matches!(event, Event::Move(_)));
+        !matches!(event, Event::LeftToControl { .. })
     }
-    events.iter().filter(|event| !is_left(event)).copied().collect()
+}
+
+/// What is looked at in a program whatever the reference does.
+struct Looks {
+    rules: Rules,
+    blocks: Blocks,
+}
+
+impl Watcher for Looks {
+    fn sees(&mut self, event: &Event) -> bool {
+        self.rules.look(event);
+        if let Event::Move(found) = event {
+            self.blocks.look(found);
+        }
+        !matches!(event, Event::LeftToControl { .. })
+    }
 }
 
 /// Compares two programs word by word, for one that the interpreter refuses, so that
 /// its motions are not known; line by line when it is not made of such words.
 ///
 /// # Errors
-/// A line of the program that is no block of words.
+/// A line of the program that is no block of words; E0915 for a file that can't be read.
 pub fn compare_words(
-    wanted: &[u8],
-    (found, name): (&[u8], &str),
+    reference: &Source<'_>,
+    (found, name): (&Source<'_>, &str),
     refused: &Diag,
     tolerance: Option<f64>,
 ) -> Result<Report, Box<Diag>> {
@@ -57,42 +117,49 @@ pub fn compare_words(
     let tolerance = tolerance.unwrap_or(0.0) + DUST;
     let options = diff::Options { tolerance, ignore, ..diff::Options::default() };
     let mut report = Report::default();
-    let compared = match diff::read(wanted, "the second run", &options) {
-        Ok(wanted) => {
-            let found = diff::read(found, name, &options)?;
-            for difference in diff::compare(&wanted, &found, &options)?.differences {
-                let message = diff::sentence(&difference, &wanted, &found);
+    let cant = |error: io::Error| changed(name, &error.to_string());
+    let kept = reference.again().map_err(cant)?;
+    let compared = match diff::read_source(kept, "the second run", &options) {
+        Ok(reference) => {
+            let found = diff::read_source(found.again().map_err(cant)?, name, &options)?;
+            for difference in diff::compare(&reference, &found, &options)?.differences {
+                let message = diff::sentence(&difference, &reference, &found);
                 report.find(block(difference.lines[1], message));
             }
             "its blocks were compared word by word"
         }
         Err(_) => {
-            compare_lines(wanted, found, &mut report);
+            compare_lines(reference, found, &mut report).map_err(cant)?;
             "its lines were compared as text"
         }
     };
     let line = refused.spans.first().map_or(0, |place| place.line);
     let why = &refused.message;
     let what = format!("the program from line {line} on can't be followed ({why}); {compared}");
-    report.unverified.push(Unverified { cl_line: None, what });
+    report.leave_open(Unverified { cl_line: None, what });
     Ok(report)
 }
 
-fn compare_lines(wanted: &[u8], found: &[u8], report: &mut Report) {
-    let lines = |text: &[u8]| -> Vec<String> {
-        let text = String::from_utf8_lossy(text);
-        text.lines().map(|line| line.trim_end().to_string()).collect()
-    };
-    let (wanted, found) = (lines(wanted), lines(found));
-    for number in 0..wanted.len().max(found.len()) {
-        let message = match (wanted.get(number), found.get(number)) {
-            (Some(wanted), Some(found)) if wanted == found => continue,
-            (Some(wanted), Some(_)) => format!("it should be `{wanted}`"),
-            (Some(wanted), None) => format!("`{wanted}` is missing"),
-            (None, _) => "nothing should be here".to_string(),
+fn compare_lines(
+    reference: &Source<'_>,
+    found: &Source<'_>,
+    report: &mut Report,
+) -> io::Result<()> {
+    let [mut reference, mut found] = [reference, found].map(|source| Lines::from(source, 0));
+    let text = |line: &[u8]| String::from_utf8_lossy(line.trim_ascii_end()).into_owned();
+    for number in 1.. {
+        let message = match (reference.next_full_line()?, found.next_full_line()?) {
+            (Some(wanted), Some(found)) if wanted.trim_ascii_end() == found.trim_ascii_end() => {
+                continue;
+            }
+            (Some(wanted), Some(_)) => format!("it should be `{}`", text(wanted)),
+            (Some(wanted), None) => format!("`{}` is missing", text(wanted)),
+            (None, Some(_)) => "nothing should be here".to_string(),
+            (None, None) => break,
         };
-        report.find(block(Some(number as u32 + 1), message));
+        report.find(block(Some(number), message));
     }
+    Ok(())
 }
 
 fn block(nc_line: Option<u32>, message: String) -> Finding {
@@ -100,53 +167,72 @@ fn block(nc_line: Option<u32>, message: String) -> Finding {
 }
 
 struct Pair<'a> {
-    wanted: &'a [Event],
-    found: &'a [Event],
+    wanted: Window<Sift<'a, Count>>,
+    found: Window<Sift<'a, Looks>>,
     tolerance: f64,
     report: Report,
 }
 
 impl Pair<'_> {
     fn all(&mut self) {
-        let motions = self.wanted.iter().filter(|event| matches!(event, Event::Move(_)));
-        self.report.compared = motions.count() as u64;
         let (mut w, mut f) = (0, 0);
-        while let (Some(wanted), Some(found)) = (self.wanted.get(w), self.found.get(f)) {
-            if self.alike(wanted, found) {
-                self.details(wanted, found);
-                (w, f) = (w + 1, f + 1);
-                continue;
-            }
-            let later = |events: &[Event], from: usize, is: &dyn Fn(&Event) -> bool| {
-                events[from..].iter().take(LOOK_AHEAD).position(is)
-            };
-            let missing = later(self.wanted, w, &|wanted| self.alike(wanted, found));
-            let extra = later(self.found, f, &|found| self.alike(wanted, found));
-            match (missing, extra) {
-                (Some(missing), None) => {
-                    (w..w + missing).for_each(|at| self.missing(at));
-                    w += missing;
+        loop {
+            self.wanted.forget(w);
+            self.found.forget(f);
+            match (self.wanted.get(w), self.found.get(f)) {
+                (Some(wanted), Some(found)) => {
+                    let (missing, extra) = self.step((w, &wanted), (f, &found));
+                    (w, f) = (w + missing, f + extra);
                 }
-                (None, Some(extra)) => {
-                    (f..f + extra).for_each(|at| self.extra(at));
-                    f += extra;
+                (Some(wanted), None) => {
+                    self.missing(&wanted);
+                    w += 1;
                 }
-                (Some(missing), Some(extra)) if missing < extra => {
-                    (w..w + missing).for_each(|at| self.missing(at));
-                    w += missing;
+                (None, Some(found)) => {
+                    self.extra(&found);
+                    f += 1;
                 }
-                (Some(_), Some(extra)) => {
-                    (f..f + extra).for_each(|at| self.extra(at));
-                    f += extra;
-                }
-                (None, None) => {
-                    self.other(wanted, found);
-                    (w, f) = (w + 1, f + 1);
-                }
+                (None, None) => return,
             }
         }
-        (w..self.wanted.len()).for_each(|at| self.missing(at));
-        (f..self.found.len()).for_each(|at| self.extra(at));
+    }
+
+    /// Compares two events, or passes over some of one program up to where both agree
+    /// again. Gives how many events of each are done.
+    fn step(
+        &mut self,
+        (w, wanted): (usize, &Event),
+        (f, found): (usize, &Event),
+    ) -> (usize, usize) {
+        if self.alike(wanted, found) {
+            self.details(wanted, found);
+            return (1, 1);
+        }
+        let ahead = |is: &dyn Fn(Event) -> bool, events: &mut dyn Iterator<Item = Event>| {
+            events.take(LOOK_AHEAD).position(is)
+        };
+        let missing = ahead(&|event| self.alike(&event, found), &mut self.wanted.from(w));
+        let extra = ahead(&|event| self.alike(wanted, &event), &mut self.found.from(f));
+        let leaves_out = match (missing, extra) {
+            (Some(missing), Some(extra)) => missing < extra,
+            (missing, _) => missing.is_some(),
+        };
+        match (missing, extra) {
+            (Some(count), _) if leaves_out => {
+                let events: Vec<Event> = self.wanted.from(w).take(count).collect();
+                events.iter().for_each(|event| self.missing(event));
+                (count, 0)
+            }
+            (_, Some(count)) => {
+                let events: Vec<Event> = self.found.from(f).take(count).collect();
+                events.iter().for_each(|event| self.extra(event));
+                (0, count)
+            }
+            _ => {
+                self.other(wanted, found);
+                (1, 1)
+            }
+        }
     }
 
     fn near(&self, a: f64, b: f64) -> bool {
@@ -318,8 +404,8 @@ impl Pair<'_> {
         self.find(kind, found.line(), message);
     }
 
-    fn missing(&mut self, at: usize) {
-        let message = format!("no {}", spell(&self.wanted[at]));
+    fn missing(&mut self, event: &Event) {
+        let message = format!("no {}", spell(event));
         self.report.find(Finding {
             kind: FindingKind::Missing,
             cl_line: None,
@@ -328,9 +414,9 @@ impl Pair<'_> {
         });
     }
 
-    fn extra(&mut self, at: usize) {
-        let message = format!("no {} should be here", spell(&self.found[at]));
-        self.find(FindingKind::Extra, self.found[at].line(), message);
+    fn extra(&mut self, event: &Event) {
+        let message = format!("no {} should be here", spell(event));
+        self.find(FindingKind::Extra, event.line(), message);
     }
 
     fn find(&mut self, kind: FindingKind, line: u32, message: String) {

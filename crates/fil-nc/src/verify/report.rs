@@ -173,6 +173,8 @@ pub struct Report {
     pub more: u64,
     /// What was not compared.
     pub unverified: Vec<Unverified>,
+    /// What further was not compared and is not listed.
+    pub more_unverified: u64,
     /// Motions and holes of the reference that were compared.
     pub compared: u64,
     /// Those of them that the program makes.
@@ -186,7 +188,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// Findings that are listed; the rest is counted.
+    /// Findings that are listed, and of what was not compared; the rest is counted.
     pub const LISTED: usize = 50;
 
     /// How it ends.
@@ -210,10 +212,26 @@ impl Report {
         self.more += other.more;
         for open in other.unverified {
             if !self.unverified.contains(&open) {
-                self.unverified.push(open);
+                self.leave_open(open);
             }
         }
+        self.more_unverified = self.more_unverified.max(other.more_unverified);
         self
+    }
+
+    /// Takes up the findings of another report behind its own.
+    pub(super) fn append(&mut self, other: Report) {
+        other.findings.into_iter().for_each(|finding| self.find(finding));
+        self.more += other.more;
+    }
+
+    /// Takes up what was not compared.
+    pub(super) fn leave_open(&mut self, open: Unverified) {
+        if self.unverified.len() < Self::LISTED {
+            self.unverified.push(open);
+        } else {
+            self.more_unverified += 1;
+        }
     }
 
     pub(super) fn find(&mut self, finding: Finding) {

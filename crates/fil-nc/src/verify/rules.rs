@@ -7,6 +7,8 @@ use crate::motion::{Compensation, Course, Event, Modes, Move};
 /// Looks at the events of a program in their order.
 #[derive(Debug, Default)]
 pub(super) struct Rules {
+    /// What is wrong.
+    pub(super) findings: Report,
     /// Compensation at the last motion.
     compensation: Compensation,
     /// The stray offset that has been said.
@@ -16,70 +18,65 @@ pub(super) struct Rules {
 }
 
 impl Rules {
-    /// Says what is wrong with a whole program.
-    pub(super) fn check(events: &[Event], report: &mut Report) {
-        let mut rules = Rules::default();
-        events.iter().for_each(|event| rules.look(event, report));
-    }
-
-    fn look(&mut self, event: &Event, report: &mut Report) {
+    /// Takes in the next event.
+    pub(super) fn look(&mut self, event: &Event) {
         match event {
+            Event::Move(found) => self.motion(found),
             Event::LeftToControl { line, mode } => {
                 let said =
                     "is left to the control: no block says it, and the machine does not state it";
-                find(report, FindingKind::StartMode, *line, format!("{} {said}", mode.name()));
+                self.find(FindingKind::StartMode, *line, format!("{} {said}", mode.name()));
             }
-            Event::Move(found) => self.motion(found, report),
             Event::ToolChange { line, modes, .. } => {
-                self.stray_offset(*line, modes, report);
-                standing(*line, modes, "while the tool is changed", report);
+                self.stray_offset(*line, modes);
+                self.standing(*line, modes, "while the tool is changed");
             }
             Event::End { line, modes, .. } => {
-                self.stray_offset(*line, modes, report);
-                standing(*line, modes, "at the end", report);
+                self.stray_offset(*line, modes);
+                self.standing(*line, modes, "at the end");
             }
             Event::Dwell { .. } | Event::Auxiliary { .. } => {}
         }
     }
 
-    fn stray_offset(&mut self, line: u32, modes: &Modes, report: &mut Report) {
+    fn stray_offset(&mut self, line: u32, modes: &Modes) {
         if let Some(offset) = modes.stray_offset.filter(|_| self.stray != modes.stray_offset) {
             let said = "stands after a tool change without the function of the length offset";
-            find(report, FindingKind::Tool, line, format!("H{offset} {said}"));
+            self.find(FindingKind::Tool, line, format!("H{offset} {said}"));
         }
         self.stray = modes.stray_offset;
     }
 
-    fn motion(&mut self, found: &Move, report: &mut Report) {
-        self.stray_offset(found.line, &found.modes, report);
+    fn motion(&mut self, found: &Move) {
+        self.stray_offset(found.line, &found.modes);
         let now = found.modes.compensation;
         let before = std::mem::replace(&mut self.compensation, now);
         let is_on = now != Compensation::Off;
         if now != before && found.arc.is_some() {
             let does = if is_on { "begins" } else { "ends" };
             let message = format!("cutter compensation {does} on an arc, it must on a line");
-            find(report, FindingKind::Compensation, found.line, message);
+            self.find(FindingKind::Compensation, found.line, message);
         }
         let drills = found.in_cycle && found.course != Course::Machine;
         if drills && is_on && !self.said_of_cycle {
             let message = "cutter compensation is on in a cycle".to_string();
-            find(report, FindingKind::Compensation, found.line, message);
+            self.find(FindingKind::Compensation, found.line, message);
         }
         self.said_of_cycle = drills && is_on;
     }
-}
 
-/// What must be off where the axes stand.
-fn standing(line: u32, modes: &Modes, place: &str, report: &mut Report) {
-    if modes.compensation != Compensation::Off {
-        let message = format!("cutter compensation is on {place}");
-        find(report, FindingKind::Compensation, line, message);
+    /// What must be off where the axes stand.
+    fn standing(&mut self, line: u32, modes: &Modes, place: &str) {
+        if modes.compensation != Compensation::Off {
+            let message = format!("cutter compensation is on {place}");
+            self.find(FindingKind::Compensation, line, message);
+        }
+        if modes.cycle {
+            self.find(FindingKind::Cycle, line, format!("a cycle is on {place}"));
+        }
     }
-    if modes.cycle {
-        find(report, FindingKind::Cycle, line, format!("a cycle is on {place}"));
-    }
-}
 
-fn find(report: &mut Report, kind: FindingKind, line: u32, message: String) {
-    report.find(Finding { kind, cl_line: None, nc_line: Some(line), message });
+    fn find(&mut self, kind: FindingKind, line: u32, message: String) {
+        self.findings.find(Finding { kind, cl_line: None, nc_line: Some(line), message });
+    }
 }

@@ -183,12 +183,12 @@ impl<C: Steps> Walk<'_, C> {
 
     /// A pass comes after rapids only.
     fn thread_comes(&self) -> bool {
-        let ahead = self.nc[self.next..].iter().take(BETWEEN_PASSES);
-        let first = ahead.map_while(|event| match event {
+        let ahead = self.nc.from(self.next).take(BETWEEN_PASSES);
+        let mut courses = ahead.map_while(|event| match event {
             Event::Move(found) => Some(found.course),
             _ => None,
         });
-        first.into_iter().find(|course| *course != Course::Rapid) == Some(Course::Thread)
+        courses.find(|course| *course != Course::Rapid) == Some(Course::Thread)
     }
 
     fn pass_of(&mut self, cl_line: u32, gauge: &Gauge, found: &Move) -> Found<Pass> {
@@ -300,14 +300,14 @@ impl<C: Steps> Walk<'_, C> {
             if gauge.is_at_a_start(&self.at) && !still_in_cycle(self) {
                 return Ok(());
             }
-            let line = self.nc.get(self.next).map_or(0, Event::line);
+            let line = self.next_line();
             let Some(found) = self.next_move().filter(|found| found.course == Course::Rapid) else {
                 let message = "the tool does not go back to where the thread begins";
                 return Err((line, message.to_string()));
             };
             self.rapid_beside(cl_line, gauge, &found, false)?;
         }
-        let line = self.nc.get(self.next).map_or(0, Event::line);
+        let line = self.next_line();
         Err((line, "the tool does not go back to where the thread begins".to_string()))
     }
 
@@ -315,7 +315,7 @@ impl<C: Steps> Walk<'_, C> {
     fn judge(&self, gauge: &Gauge, passes: &[Pass]) -> Found<()> {
         let thread = gauge.thread;
         let Some(last) = passes.last() else {
-            let line = self.nc.get(self.next).map_or(0, Event::line);
+            let line = self.next_line();
             return Err((line, "the thread is not cut".to_string()));
         };
         let laws = [self.settings.thread_least_depth(), 0.0].map(|least| gauge.rough(least));

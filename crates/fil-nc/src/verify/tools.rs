@@ -27,7 +27,7 @@ impl<C: Steps> Walk<'_, C> {
                 return self.modes.change_tool(number, offset, self.settings);
             }
         }
-        if let Some(Event::ToolChange { line, tool, modes }) = self.nc.get(self.next).copied() {
+        if let Some(Event::ToolChange { line, tool, modes }) = self.nc.get(self.next) {
             self.next += 1;
             self.check_standing(cl_line, line, &modes, true);
             if tool != number {
@@ -86,7 +86,7 @@ impl<C: Steps> Walk<'_, C> {
         if (0..5).all(|n| near(&self.at, &self.known, n)) {
             return;
         }
-        let reached = self.nc[self.next..].iter().take(RAPID_PARTS).position(|event| match event {
+        let reached = self.nc.from(self.next).take(RAPID_PARTS).position(|event| match event {
             Event::Move(found) => {
                 found.course == Course::Rapid && (0..5).all(|n| near(&found.to, &found.known, n))
             }

@@ -1,7 +1,5 @@
 //! Walks along the steps of a CL file and the events of a program at once.
 
-use std::borrow::Cow;
-
 use fil_diag::Diag;
 use nalgebra::{Matrix3, Point3};
 
@@ -15,7 +13,10 @@ use super::modes::{Expected, Moved};
 use super::report::{Finding, FindingKind, Report};
 use super::say::Shape;
 use super::settings::{Settings, Slack};
+use super::sift::{Beside, Sift};
 use super::wanted::{Step, Wanted};
+use super::window::Window;
+use crate::events::Events;
 use crate::forward::Pose;
 use crate::motion::{Course, Event, Modes, Move, Position, Rate};
 
@@ -27,7 +28,7 @@ pub(super) const STILL: f64 = 1e-9;
 
 pub(super) struct Walk<'a, C> {
     pub(super) cl: Ahead<C>,
-    pub(super) nc: Cow<'a, [Event]>,
+    pub(super) nc: Window<Sift<'a, Beside>>,
     /// Index of the next event.
     pub(super) next: usize,
     pub(super) own: OwnBlocks<'a>,
@@ -63,26 +64,26 @@ pub(super) struct Walk<'a, C> {
     /// What was said of the last position, so that one fault is said once.
     pub(super) said: Option<Shape>,
     pub(super) report: Report,
+    /// The program can't be read on.
+    pub(super) failed: Option<Box<Diag>>,
     pub(super) over: bool,
 }
 
 impl<'a, C: Steps> Walk<'a, C> {
     pub(super) fn new(
         cl: C,
-        nc: &'a [Event],
+        nc: &'a mut dyn Events,
         own: OwnBlocks<'a>,
         settings: &'a Settings<'a>,
         watch: Watch,
     ) -> Self {
-        let mut auxiliaries = Auxiliaries::default();
-        let nc = without_auxiliaries(nc, &mut auxiliaries);
         Walk {
             cl: Ahead::new(cl),
-            nc,
+            nc: Window::new(Sift::new(nc, Beside::default())),
             next: 0,
             own,
             changes: 0,
-            auxiliaries,
+            auxiliaries: Auxiliaries::default(),
             settings,
             slack: settings.slack(true),
             metric: true,
@@ -102,6 +103,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             from_hole: None,
             said: None,
             report: Report::default(),
+            failed: None,
             over: false,
         }
     }
@@ -115,7 +117,8 @@ impl<'a, C: Steps> Walk<'a, C> {
             ended = matches!(step.what, Wanted::End(_));
             self.step(&step);
         }
-        if let Some(diag) = self.cl.failed {
+        let beside = self.nc.finish()?.into_watcher();
+        if let Some(diag) = self.failed.or(self.cl.failed) {
             return Err(diag);
         }
         if !self.over && ended {
@@ -130,8 +133,8 @@ impl<'a, C: Steps> Walk<'a, C> {
                 });
             });
         }
-        let auxiliaries = self.auxiliaries.compare(&self.own);
-        auxiliaries.into_iter().for_each(|one| self.report.find(one));
+        self.report.append(self.auxiliaries.compare(&beside.auxiliaries, &self.own));
+        self.report.append(beside.broken_rules());
         // Whatever was not made has been said; this holds if something was forgotten.
         let report = &mut self.report;
         if report.findings.is_empty() && report.matched < report.compared {
@@ -147,6 +150,8 @@ impl<'a, C: Steps> Walk<'a, C> {
     }
 
     pub(super) fn step(&mut self, step: &Step) {
+        // A text may ask which event came before.
+        self.nc.forget(self.next.saturating_sub(1));
         self.modes.take(&step.what, self.settings);
         match &step.what {
             Wanted::Metric(metric) => {
@@ -204,14 +209,7 @@ impl<'a, C: Steps> Walk<'a, C> {
     /// program does not say.
     pub(super) fn scale_x(&mut self, scale: f64) {
         let change = std::mem::replace(&mut self.x_scale, scale) / scale;
-        for event in &mut self.nc.to_mut()[self.next..] {
-            if let Event::Move(found) = event {
-                found.to.linear[0] *= change;
-                if let Some(arc) = &mut found.arc {
-                    arc.center[0] *= change;
-                }
-            }
-        }
+        self.nc.scale_x(self.next, change);
     }
 
     pub(super) fn motion(&mut self, step: &Step) {
@@ -277,7 +275,7 @@ impl<'a, C: Steps> Walk<'a, C> {
     /// blocks of the settings, ways of no length.
     pub(super) fn pass(&mut self, cl_line: u32) {
         loop {
-            match self.nc.get(self.next).copied() {
+            match self.nc.get(self.next) {
                 Some(Event::Move(found)) if self.own.has(found.line) => self.stand(&found),
                 Some(Event::Move(found)) if found.course == Course::Machine => {
                     self.stand(&found);
@@ -340,7 +338,7 @@ impl<'a, C: Steps> Walk<'a, C> {
 
     pub(super) fn next_move(&self) -> Option<Move> {
         match self.nc.get(self.next)? {
-            Event::Move(found) => Some(*found),
+            Event::Move(found) => Some(found),
             _ => None,
         }
     }
@@ -465,22 +463,5 @@ impl<'a, C: Steps> Walk<'a, C> {
         message: String,
     ) {
         self.report.find(Finding { kind, cl_line, nc_line, message });
-    }
-}
-
-/// The events of the axes; the auxiliary functions are kept beside them.
-fn without_auxiliaries<'a>(nc: &'a [Event], kept: &mut Auxiliaries) -> Cow<'a, [Event]> {
-    let is_beside =
-        |event: &Event| matches!(event, Event::Auxiliary { .. } | Event::LeftToControl { .. });
-    let mut any = false;
-    for event in nc.iter().filter(|event| is_beside(event)) {
-        any = true;
-        if let Event::Auxiliary { line, code } = event {
-            kept.found(*line, *code);
-        }
-    }
-    match any {
-        false => Cow::Borrowed(nc),
-        true => nc.iter().filter(|event| !is_beside(event)).copied().collect(),
     }
 }

@@ -9,13 +9,16 @@ mod line;
 mod motion;
 mod tool;
 
+use std::collections::VecDeque;
+
 use fil_diag::{Diag, TextSpan};
 
-use super::Fault;
 use super::state::State;
+use super::{Fault, cant_read};
 use crate::dialect::{Auxiliary, Dialect, FeedMode};
 use crate::errors::NcCode;
 use crate::motion::{Event, Spindle};
+use crate::source::{Lines, Source};
 use cycle::Definition;
 use line::{Line, Word};
 
@@ -49,41 +52,57 @@ struct Klartext<'d> {
     shift: [f64; 3],
 }
 
-/// Runs a program and hands its events over.
-pub(super) fn run(
-    text: &[u8],
-    name: &str,
-    dialect: &Dialect,
-    take: &mut dyn FnMut(Event),
-) -> Result<(), Box<Diag>> {
-    let mut state = State::new(dialect);
-    state.plane = 2;
-    state.feed_mode = FeedMode::PerMinute;
-    let mut control = Klartext {
-        state,
-        part: Part::Head,
-        end_code: None,
-        pole: [None; 2],
-        defined: None,
-        shift: [0.0; 3],
-    };
-    let mut last = 1;
-    for (number, text) in (1u32..).zip(text.split(|byte| *byte == b'\n')) {
+/// A program of Klartext, line by line.
+pub(super) struct Program<'a> {
+    control: Klartext<'a>,
+    lines: Lines<'a>,
+    /// The line that was read last, 1-based, and the last one that is not empty.
+    number: u32,
+    last: u32,
+}
+
+impl<'a> Program<'a> {
+    pub(super) fn new(source: &'a Source<'a>, dialect: &'a Dialect) -> Self {
+        let mut state = State::new(dialect);
+        state.plane = 2;
+        state.feed_mode = FeedMode::PerMinute;
+        let control = Klartext {
+            state,
+            part: Part::Head,
+            end_code: None,
+            pole: [None; 2],
+            defined: None,
+            shift: [0.0; 3],
+        };
+        Program { control, lines: Lines::from(source, 0), number: 0, last: 1 }
+    }
+
+    /// Runs the next line; false behind the last.
+    pub(super) fn run_line(
+        &mut self,
+        name: &str,
+        into: &mut VecDeque<Event>,
+    ) -> Result<bool, Box<Diag>> {
+        let line = self.lines.next_line().map_err(|error| cant_read(name, &error))?;
+        let Some(text) = line else {
+            if self.control.part == Part::Closed {
+                return Ok(false);
+            }
+            let cut_off = Diag::new(NcCode::CutOff, "no END PGM was found");
+            return Err(Box::new(cut_off.at(TextSpan::line(name, self.last, ""))));
+        };
+        self.number += 1;
         let text = text.strip_suffix(b"\r").unwrap_or(text);
         if !text.trim_ascii().is_empty() {
-            last = number;
+            self.last = self.number;
         }
-        let placed = |fault: Fault| fault.place(name, number, text);
+        let placed = |fault: Fault| fault.place(name, self.number, text);
         let line = Line::read(text).map_err(placed)?;
-        control.state.line = number;
-        control.line(&line).map_err(placed)?;
-        control.state.events.drain(..).for_each(&mut *take);
+        self.control.state.line = self.number;
+        self.control.line(&line).map_err(placed)?;
+        into.extend(self.control.state.events.drain(..));
+        Ok(true)
     }
-    if control.part == Part::Closed {
-        return Ok(());
-    }
-    let message = "no END PGM was found";
-    Err(Box::new(Diag::new(NcCode::CutOff, message).at(TextSpan::line(name, last, ""))))
 }
 
 impl Klartext<'_> {

@@ -11,16 +11,17 @@ mod functions;
 pub(crate) mod line;
 mod motion;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 
 use fil_diag::{Diag, TextSpan};
 
-use super::Fault;
 use super::program::may_be_skipped;
 use super::state::State;
+use super::{Fault, cant_read};
 use crate::dialect::Dialect;
 use crate::errors::NcCode;
 use crate::motion::Event;
+use crate::source::{Lines, Source};
 use cycle::Call;
 use line::{Value, Word};
 
@@ -54,42 +55,59 @@ struct Sinumerik<'d> {
 /// The number of the first tool whose name is none.
 const NAMED_TOOLS: u32 = 1_000_001;
 
-/// Runs a program and hands its events over.
-pub(super) fn run(
-    text: &[u8],
-    name: &str,
-    dialect: &Dialect,
-    take: &mut dyn FnMut(Event),
-) -> Result<(), Box<Diag>> {
-    let mut control = Sinumerik {
-        state: State::new(dialect),
-        part: Part::Body,
-        parameters: BTreeMap::new(),
-        called: None,
-        shift: [0.0; 3],
-        metric_feed: dialect.metric,
-        tools: Vec::new(),
-    };
-    let mut last = 1;
-    for (number, text) in (1u32..).zip(text.split(|byte| *byte == b'\n')) {
+/// A program of a SINUMERIK, line by line.
+pub(super) struct Program<'a> {
+    control: Sinumerik<'a>,
+    lines: Lines<'a>,
+    /// The line that was read last, 1-based, and the last one that is not empty.
+    number: u32,
+    last: u32,
+}
+
+impl<'a> Program<'a> {
+    pub(super) fn new(source: &'a Source<'a>, dialect: &'a Dialect) -> Self {
+        let control = Sinumerik {
+            state: State::new(dialect),
+            part: Part::Body,
+            parameters: BTreeMap::new(),
+            called: None,
+            shift: [0.0; 3],
+            metric_feed: dialect.metric,
+            tools: Vec::new(),
+        };
+        Program { control, lines: Lines::from(source, 0), number: 0, last: 1 }
+    }
+
+    /// Runs the next line; false behind the last.
+    pub(super) fn run_line(
+        &mut self,
+        name: &str,
+        into: &mut VecDeque<Event>,
+    ) -> Result<bool, Box<Diag>> {
+        let dialect = self.control.state.dialect;
+        let line = self.lines.next_line().map_err(|error| cant_read(name, &error))?;
+        let Some(text) = line else {
+            if self.control.part != Part::Body || !dialect.has_end {
+                return Ok(false);
+            }
+            let cut_off = Diag::new(NcCode::CutOff, "no end code was found");
+            return Err(Box::new(cut_off.at(TextSpan::line(name, self.last, ""))));
+        };
+        self.number += 1;
         let text = text.strip_suffix(b"\r").unwrap_or(text);
         let text = &*dialect.marks.read(text);
         let left_out = dialect.skips_blocks && may_be_skipped(text);
         if left_out || text.trim_ascii().is_empty() {
-            continue;
+            return Ok(true);
         }
-        last = number;
-        let placed = |fault: Fault| fault.place(name, number, text);
-        control.state.line = number;
-        control.state.events.clear();
-        control.line(text).map_err(placed)?;
-        control.state.events.drain(..).for_each(&mut *take);
+        self.last = self.number;
+        self.control.state.line = self.number;
+        self.control.state.events.clear();
+        let placed = |fault: Fault| fault.place(name, self.number, text);
+        self.control.line(text).map_err(placed)?;
+        into.extend(self.control.state.events.drain(..));
+        Ok(true)
     }
-    if control.part != Part::Body || !dialect.has_end {
-        return Ok(());
-    }
-    let message = "no end code was found";
-    Err(Box::new(Diag::new(NcCode::CutOff, message).at(TextSpan::line(name, last, ""))))
 }
 
 impl Sinumerik<'_> {

@@ -19,7 +19,7 @@ use super::walk::{STILL, Walk};
 use super::wanted::Arc;
 use crate::bend;
 use crate::forward::{Forward, Pose};
-use crate::motion::{Course, Event, Move, Position};
+use crate::motion::{Course, Move, Position};
 use farthest::farthest;
 use way::Way;
 
@@ -154,36 +154,41 @@ fn turns(forward: &Forward, at: &Position, to: &Position) -> bool {
 }
 
 /// Looks at the blocks of a program by themselves, where no CL file says what they
-/// should go along: in each the tip should go straight from end to end. `limit` is
-/// how far it may be off, mm.
-///
-/// # Errors
-/// A machine whose kinematics make no sense.
-pub fn look_at_blocks(
-    events: &[Event],
-    commons: &Commons,
+/// should go along: in each the tip should go straight from end to end.
+pub(super) struct Blocks {
+    forward: Forward,
+    /// How far the tip may be off, mm.
     limit: Option<f64>,
-    report: &mut Report,
-) -> Result<(), Box<Diag>> {
-    let forward = Forward::from_commons(commons)?;
-    let mut before: Option<Move> = None;
-    for event in events {
-        let Event::Move(found) = event else { continue };
-        let Some(last) = before.replace(*found) else { continue };
+    before: Option<Move>,
+    /// What was found.
+    pub(super) report: Report,
+}
+
+impl Blocks {
+    /// # Errors
+    /// A machine whose kinematics make no sense.
+    pub(super) fn new(commons: &Commons, limit: Option<f64>) -> Result<Self, Box<Diag>> {
+        let forward = Forward::from_commons(commons)?;
+        Ok(Blocks { forward, limit, before: None, report: Report::default() })
+    }
+
+    /// Takes in the next motion.
+    pub(super) fn look(&mut self, found: &Move) {
+        let Some(last) = self.before.replace(*found) else { return };
+        let forward = &self.forward;
         let cuts = matches!(found.course, Course::Feed | Course::Thread) && found.arc.is_none();
-        if !cuts || found.known != last.known || !turns(&forward, &last.to, &found.to) {
-            continue;
+        if !cuts || found.known != last.known || !turns(forward, &last.to, &found.to) {
+            return;
         }
         let asked = Asked::line(forward.pose(&last.to), forward.pose(&found.to));
-        let between = report.between.get_or_insert_default();
-        let off = between.add(&forward, &last.to, found, &asked, limit);
-        if let Some(limit) = limit.filter(|limit| off > *limit) {
+        let between = self.report.between.get_or_insert_default();
+        let off = between.add(forward, &last.to, found, &asked, self.limit);
+        if let Some(limit) = self.limit.filter(|limit| off > *limit) {
             let message = said(off, limit);
             let (kind, nc_line) = (FindingKind::Between, Some(found.line));
-            report.find(Finding { kind, cl_line: None, nc_line, message });
+            self.report.find(Finding { kind, cl_line: None, nc_line, message });
         }
     }
-    Ok(())
 }
 
 impl<C: Steps> Walk<'_, C> {

@@ -1,20 +1,77 @@
 //! The text of a program, in memory or in a file that is read as often as it is needed.
 
+use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
+use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
+
+use fil_diag::Diag;
+
+use crate::errors::NcCode;
 
 /// Bytes that are read at once.
 const CHUNK: usize = 64 * 1024;
 
+/// Bytes that are read first behind a jump: few lines may be wanted.
+const FIRST_CHUNK: usize = 4 * 1024;
+
 /// Where the text lies.
 #[derive(Debug)]
-pub(super) enum Source {
-    Memory(Vec<u8>),
+pub enum Source<'t> {
+    /// In memory.
+    Memory(Cow<'t, [u8]>),
+    /// In a file that can be read anywhere.
     File(Mutex<File>),
 }
 
-impl Source {
+impl<'t> Source<'t> {
+    /// A text in memory.
+    pub fn memory(text: &'t [u8]) -> Self {
+        Source::Memory(Cow::Borrowed(text))
+    }
+}
+
+impl Source<'_> {
+    /// A file that can be read anywhere; it is not kept in memory.
+    pub fn file(file: File) -> Self {
+        Source::File(Mutex::new(file))
+    }
+
+    /// The same text to be kept: a file once more, what lies in memory copied.
+    ///
+    /// # Errors
+    /// What the system says when a file can't be opened twice.
+    pub fn again(&self) -> io::Result<Source<'static>> {
+        Ok(match self {
+            Source::Memory(text) => Source::Memory(text.to_vec().into()),
+            Source::File(file) => {
+                Source::file(file.lock().unwrap_or_else(PoisonError::into_inner).try_clone()?)
+            }
+        })
+    }
+
+    /// Texts of some lines, 1-based and ascending; a line that is not there has none.
+    ///
+    /// # Errors
+    /// E0915 when the file can't be read any more; `name` is for the message.
+    pub fn lines(&self, name: &str, wanted: &[u32]) -> Result<Vec<(u32, String)>, Box<Diag>> {
+        let mut lines = Lines::from(self, 0);
+        let mut found = Vec::new();
+        let mut number = 0;
+        for wanted in wanted {
+            while number < *wanted {
+                let text = lines.next_line().map_err(|error| changed(name, &error.to_string()))?;
+                let Some(text) = text else { return Ok(found) };
+                number += 1;
+                if number == *wanted {
+                    found.push((number, String::from_utf8_lossy(text).trim_end().to_string()));
+                }
+            }
+        }
+        Ok(found)
+    }
+
     fn read_at(&self, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
         match self {
             Source::Memory(text) => {
@@ -30,7 +87,7 @@ impl Source {
     }
 
     /// How many bytes at the start are the same in both, and whether that is all of both.
-    pub fn common(&self, other: &Source) -> io::Result<(u64, bool)> {
+    pub(crate) fn common(&self, other: &Source<'_>) -> io::Result<(u64, bool)> {
         let (mut one, mut two) = (vec![0; CHUNK], vec![0; CHUNK]);
         let mut offset = 0;
         loop {
@@ -46,7 +103,7 @@ impl Source {
 }
 
 /// Reads as much as fits, less at the end of the text.
-fn fill(source: &Source, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
+fn fill(source: &Source<'_>, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
     let mut read = 0;
     while read < buffer.len() {
         match source.read_at(offset + read as u64, &mut buffer[read..]) {
@@ -59,9 +116,14 @@ fn fill(source: &Source, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
     Ok(read)
 }
 
+/// E0915: the text can't be read a second time.
+pub(crate) fn changed(name: &str, why: &str) -> Diag {
+    Diag::new(NcCode::Changed, format!("{name}: {why}"))
+}
+
 /// The lines of a text, one after the other.
-pub(super) struct Lines<'s> {
-    source: &'s Source,
+pub(crate) struct Lines<'s> {
+    source: &'s Source<'s>,
     buffer: Vec<u8>,
     /// The part of the buffer that is not yet handed out.
     from: usize,
@@ -73,8 +135,19 @@ pub(super) struct Lines<'s> {
 
 impl<'s> Lines<'s> {
     /// The lines from a place of the text that begins one.
-    pub fn from(source: &'s Source, offset: u64) -> Self {
-        Lines { source, buffer: vec![0; CHUNK], from: 0, to: 0, offset, ended: false }
+    pub fn from(source: &'s Source<'s>, offset: u64) -> Self {
+        let first = if offset == 0 { CHUNK } else { FIRST_CHUNK };
+        Lines { source, buffer: vec![0; first], from: 0, to: 0, offset, ended: false }
+    }
+
+    /// Goes on at another place of the text that begins a line.
+    pub fn go_to(&mut self, offset: u64) {
+        let within = offset.checked_sub(self.offset).and_then(|at| usize::try_from(at).ok());
+        match within.filter(|at| *at <= self.to) {
+            Some(at) => self.from = at,
+            None => (self.from, self.to, self.offset) = (0, 0, offset),
+        }
+        self.ended = false;
     }
 
     /// Where the next line begins.
@@ -85,13 +158,25 @@ impl<'s> Lines<'s> {
     /// The next line without its line feed; what follows the last line feed is a
     /// line too.
     pub fn next_line(&mut self) -> io::Result<Option<&[u8]>> {
+        let range = self.next_range()?;
+        Ok(range.map(|line| &self.buffer[line]))
+    }
+
+    /// The next line without its line feed; what follows the last line feed is a
+    /// line only where something stands there.
+    pub fn next_full_line(&mut self) -> io::Result<Option<&[u8]>> {
+        let range = self.next_range()?.filter(|line| !(self.ended && line.is_empty()));
+        Ok(range.map(|line| &self.buffer[line]))
+    }
+
+    fn next_range(&mut self) -> io::Result<Option<Range<usize>>> {
         let mut searched = self.from;
         loop {
             let found = self.buffer[searched..self.to].iter().position(|byte| *byte == b'\n');
             if let Some(at) = found {
                 let line = self.from..searched + at;
                 self.from = line.end + 1;
-                return Ok(Some(&self.buffer[line]));
+                return Ok(Some(line));
             }
             if self.ended {
                 return Ok(None);
@@ -101,7 +186,7 @@ impl<'s> Lines<'s> {
                 self.ended = true;
                 let line = self.from..self.to;
                 self.from = self.to;
-                return Ok(Some(&self.buffer[line]));
+                return Ok(Some(line));
             }
         }
     }
@@ -112,8 +197,8 @@ impl<'s> Lines<'s> {
         self.buffer.copy_within(self.from..self.to, 0);
         self.offset += self.from as u64;
         (self.from, self.to) = (0, self.to - self.from);
-        if self.to == self.buffer.len() {
-            self.buffer.resize(self.to * 2, 0);
+        if self.to == self.buffer.len() || self.buffer.len() < CHUNK {
+            self.buffer.resize(self.buffer.len() * 2, 0);
         }
         let next = self.offset + self.to as u64;
         let count = fill(self.source, next, &mut self.buffer[self.to..])?;
@@ -127,7 +212,7 @@ mod tests {
     use super::*;
 
     fn lines(text: &[u8]) -> Vec<Vec<u8>> {
-        let source = Source::Memory(text.to_vec());
+        let source = Source::memory(text);
         let mut lines = Lines::from(&source, 0);
         std::iter::from_fn(|| lines.next_line().unwrap().map(<[u8]>::to_vec)).collect()
     }
@@ -142,10 +227,26 @@ mod tests {
     }
 
     #[test]
+    fn reading_goes_on_anywhere() {
+        let text: String = (0..40_000).map(|n| format!("N{n}\n")).collect();
+        let source = Source::memory(text.as_bytes());
+        let start = |n: u32| text.find(&format!("N{n}\n")).unwrap() as u64;
+        let mut lines = Lines::from(&source, start(30_000));
+        for n in [30_000, 5, 39_999, 6, 29_999] {
+            lines.go_to(start(n));
+            for next in n..(n + 9).min(40_000) {
+                assert_eq!(lines.next_line().unwrap(), Some(format!("N{next}").as_bytes()));
+            }
+        }
+        let found = source.lines("nc", &[1, 7, 40_001, 40_002]).unwrap();
+        assert_eq!(found.iter().map(|(n, _)| *n).collect::<Vec<_>>(), [1, 7, 40_001]);
+        assert_eq!(found[1].1, "N6");
+    }
+
+    #[test]
     fn common_bytes_end_at_the_first_difference_or_the_shorter_text() {
-        let common = |one: &[u8], two: &[u8]| {
-            Source::Memory(one.to_vec()).common(&Source::Memory(two.to_vec())).unwrap()
-        };
+        let common =
+            |one: &[u8], two: &[u8]| Source::memory(one).common(&Source::memory(two)).unwrap();
         assert_eq!(common(b"", b""), (0, true));
         assert_eq!(common(b"AB", b"AB"), (2, true));
         assert_eq!(common(b"AB", b"ABC"), (2, false));

@@ -1,0 +1,77 @@
+//! What of a program no step of a CL file asks for is taken out and looked at by itself.
+
+use std::collections::VecDeque;
+
+use fil_diag::Diag;
+
+use super::report::Report;
+use super::rules::Rules;
+use crate::events::Events;
+use crate::motion::Event;
+
+/// The events of a program without those of modes that it leaves to the control.
+pub(super) struct Sift<'a, W> {
+    events: &'a mut dyn Events,
+    watch: W,
+}
+
+/// Sees each event of a program before it is compared.
+pub(super) trait Watcher {
+    /// True for an event that stays among those that are compared.
+    fn sees(&mut self, event: &Event) -> bool;
+}
+
+impl<'a, W: Watcher> Sift<'a, W> {
+    pub(super) fn new(events: &'a mut dyn Events, watch: W) -> Self {
+        Sift { events, watch }
+    }
+
+    pub(super) fn into_watcher(self) -> W {
+        self.watch
+    }
+}
+
+impl<W: Watcher> Events for Sift<'_, W> {
+    fn more(&mut self, into: &mut VecDeque<Event>) -> Result<bool, Box<Diag>> {
+        let mut at = into.len();
+        let more = self.events.more(into);
+        while let Some(event) = into.get(at) {
+            if self.watch.sees(event) {
+                at += 1;
+            } else {
+                into.remove(at);
+            }
+        }
+        more
+    }
+}
+
+/// What a program that is compared with a CL file has besides its motions.
+#[derive(Default)]
+pub(super) struct Beside {
+    rules: Rules,
+    /// Line and number of each auxiliary function.
+    pub(super) auxiliaries: Vec<(u32, u32)>,
+}
+
+impl Beside {
+    /// What was found wrong by the rules that hold for any program.
+    pub(super) fn broken_rules(self) -> Report {
+        self.rules.findings
+    }
+}
+
+impl Watcher for Beside {
+    fn sees(&mut self, event: &Event) -> bool {
+        match event {
+            Event::Auxiliary { line, code } => {
+                self.auxiliaries.push((*line, *code));
+                false
+            }
+            _ => {
+                self.rules.look(event);
+                !matches!(event, Event::LeftToControl { .. })
+            }
+        }
+    }
+}
