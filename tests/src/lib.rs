@@ -25,6 +25,7 @@ pub mod programs;
 pub mod random;
 pub mod rs274;
 pub mod same_events;
+pub mod sample;
 pub mod sinumerik;
 pub mod tip_program;
 pub mod word_pages;

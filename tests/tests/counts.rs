@@ -14,6 +14,7 @@ use filpost_tests::counts::statement::{Change, Statement};
 use filpost_tests::counts::trial::Window;
 use filpost_tests::counts::walk;
 use filpost_tests::posting::Prepared;
+use filpost_tests::sample;
 
 /// Statements of one form that are tried in the normal run.
 const SAMPLE: usize = 2;
@@ -32,7 +33,7 @@ struct Tally {
     quiet: BTreeMap<String, (usize, String)>,
 }
 
-/// One of so many settings is tried in the normal run.
+/// One of so many settings is tried in the whole run, of four times as many in the normal one.
 const SETTINGS_SAMPLE: usize = 8;
 
 /// FILPOST_COUNTS=all tries every statement and every setting, and not a sample.
@@ -132,7 +133,12 @@ fn changed_settings_are_noticed() {
     let mut pairs: Vec<Pair> = parts().into_iter().filter_map(Pair::new).collect();
     assert!(pairs.len() >= 8, "too few pairs to prove anything");
     let rows = TABLE.iter().filter(|row| row.used && !NOT_OF_THE_POST.contains(&row.name));
-    let rows: Vec<&Location> = rows.step_by(if all() { 1 } else { SETTINGS_SAMPLE }).collect();
+    let step = match () {
+        () if all() => 1,
+        () if sample::is_whole() => SETTINGS_SAMPLE,
+        () => 4 * SETTINGS_SAMPLE,
+    };
+    let rows: Vec<&Location> = rows.step_by(step).collect();
     let quiet: Vec<String> = rows.iter().flat_map(|row| unseen(&mut pairs, row)).collect();
     println!("{} settings tried on {} pairs", rows.len(), pairs.len());
     assert!(quiet.is_empty(), "{} values are not noticed:\n{}", quiet.len(), quiet.join("\n"));

@@ -7,12 +7,12 @@ use std::{env, fs};
 use fil_nc::verify::{Allowed, Report, Verdict};
 use filpost::verify::NcProgram;
 use filpost::{Program, Unit};
-use filpost_tests::back_check;
+use filpost_tests::{back_check, sample};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 
-/// Paths posted for random machines.
+/// Paths posted for random machines in the whole run.
 const PATHS: usize = 1_500;
 
 /// Carries, direction, center.
@@ -97,7 +97,7 @@ fn the_tip_stays_near_its_line_and_goes_at_its_feed() {
     let by_lintol = any::<bool>();
     let all = (rotaries(), pivots, targets(), tolerances, by_lintol, 50.0..3000.0f64, 0u8..4);
     let (mut paths, mut divided) = (0, 0);
-    for _ in 0..PATHS {
+    for _ in 0..sample::of(PATHS) {
         let (rotaries, pivot, targets, tolerance, by_lintol, feed, form) =
             all.new_tree(&mut runner).unwrap().current();
         let (of_machine, lintol) =
@@ -112,7 +112,7 @@ fn the_tip_stays_near_its_line_and_goes_at_its_feed() {
         divided += usize::from(blocks > 4 * targets.len());
     }
     println!("{paths} paths agree, {divided} of them divided");
-    assert!(paths > PATHS / 3 && divided * 3 > paths, "{divided} of {paths}");
+    assert!(paths > sample::of(PATHS) / 3 && divided * 3 > paths, "{divided} of {paths}");
 }
 
 /// Without division the tip leaves its line, which is said.

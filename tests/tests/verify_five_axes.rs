@@ -6,7 +6,7 @@ use fil_nc::forward::Forward;
 use fil_nc::motion::{Event, Move};
 use fil_nc::verify::{Allowed, FindingKind, Report, Verdict};
 use filpost::{Commons, Program};
-use filpost_tests::back_check;
+use filpost_tests::{back_check, sample};
 use nalgebra::Point3;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
@@ -137,7 +137,7 @@ fn with_tip_control(rotaries: &[Rotary; 2], targets: &[Target], plain: &str) -> 
     Some(nc + "G49\nM30\n")
 }
 
-/// Paths posted for random machines.
+/// Paths posted for random machines in the whole run.
 const PATHS: usize = 2_000;
 
 /// Programs of which a last digit was changed, and those of them that were reported.
@@ -162,7 +162,7 @@ impl Faults {
     fn are_found(&self) {
         let Faults { put, found } = self;
         println!("{found} of {put} changed last digits found");
-        assert!(*put > PATHS / 2 && found * 1000 >= put * 998, "{found} of {put}");
+        assert!(*put > sample::of(PATHS) / 2 && found * 1000 >= put * 998, "{found} of {put}");
     }
 }
 
@@ -172,7 +172,7 @@ fn posted_paths_agree_and_a_changed_last_digit_is_found() {
     let pivots = proptest::option::of(80.0..300.0f64);
     let all = (rotaries(), pivots, any::<bool>(), targets(), any::<usize>());
     let mut faults = Faults::default();
-    for _ in 0..PATHS {
+    for _ in 0..sample::of(PATHS) {
         let (rotaries, pivot, split, targets, which) = all.new_tree(&mut runner).unwrap().current();
         let post = post(&rotaries, pivot, split);
         let cl = cl(&targets);
@@ -280,7 +280,7 @@ fn divided_lines_agree_and_a_point_left_out_is_found() {
     let pivots = proptest::option::of(80.0..300.0f64);
     let all = (rotaries(), pivots, proptest::collection::vec(target(), 2), any::<bool>());
     let (mut lines, mut worse) = (0, 0);
-    for _ in 0..PATHS / 4 {
+    for _ in 0..sample::of(PATHS / 4) {
         let (rotaries, pivot, mut targets, in_plane) = all.new_tree(&mut runner).unwrap().current();
         (targets[0].3, targets[1].3) = (true, false);
         let post = &mut post(&rotaries, pivot, false);
@@ -313,7 +313,7 @@ fn divided_lines_agree_and_a_point_left_out_is_found() {
         worse += usize::from(found);
     }
     println!("{lines} divided lines agree; without a point {worse} are off by more");
-    assert!(lines > PATHS / 8 && worse * 3 > lines, "{worse} of {lines}");
+    assert!(lines > sample::of(PATHS) / 8 && worse * 3 > lines, "{worse} of {lines}");
 }
 
 #[test]
@@ -321,7 +321,7 @@ fn paths_with_tool_tip_control_agree_and_a_changed_last_digit_is_found() {
     let mut runner = TestRunner::deterministic();
     let all = (rotaries(), proptest::option::of(80.0..300.0f64), targets(), any::<usize>());
     let mut faults = Faults::default();
-    for _ in 0..PATHS {
+    for _ in 0..sample::of(PATHS) {
         let (rotaries, pivot, targets, which) = all.new_tree(&mut runner).unwrap().current();
         let post = post(&rotaries, pivot, false);
         let cl = cl(&targets);

@@ -1,6 +1,7 @@
 //! The run-out script and the library function, proved on a simulated machine: what is
 //! left at a displaced and tilted cylinder after one program has gone round it.
 
+mod left;
 mod tilt;
 
 use std::fs;
@@ -11,10 +12,11 @@ use filpost::check::{self, Options};
 use filpost::{Argument, Error, Event, Program, case::Case};
 use filpost_simulation::runout::solve::{Bounds, Placing, Reading, RunOut, Section};
 use filpost_simulation::runout::{
-    Cylinder, Probe, Probed, Random, Residual, SECTIONS, Search, TURNS, cl_file, deviations,
-    drawing, positions, residual, tool,
+    Cylinder, Probe, Probed, Random, SECTIONS, Search, TURNS, cl_file, deviations, drawing,
+    positions, residual, tool,
 };
 use filpost_tests::root;
+use left::{EXACT, worst};
 use nalgebra::{Point3, Unit, Vector3};
 
 const PLACINGS: [Placing; 3] = [Placing::Parallel, Placing::Intersecting, Placing::Skew];
@@ -103,49 +105,15 @@ fn probe(cylinder: &Cylinder, noise: f64, search: Search, seed: u64) -> [Probed;
     sections
 }
 
-/// The worst of all poses of a placing.
-fn worst(machine: &str, script: &str, on: &str, placing: Placing, probed: Probing) -> Residual {
-    let post = post(machine, script);
-    let mut worst = Residual::default();
-    for (seed, cylinder) in poses(placing) {
-        let sections = probe(&cylinder, probed.0, probed.1, seed);
-        let nc = run(&post, &cl_file(&sections, on)).expect("the path is posted");
-        worst = worst.worse(residual(&nc, &cylinder));
-    }
-    worst
-}
-
-/// Noise and search.
-type Probing = (f64, Search);
-const EXACT: Probing = (0.0, Search::FourTouches);
-const NOISY: Probing = (NOISE, Search::FourTouches);
-const ROUGH: Probing = (NOISE, Search::Lowest);
-
 #[test]
 fn without_compensation_the_run_out_is_that_of_the_paper() {
+    let post = post(&five_axes(), &script());
+    let nc = run(&post, &cl_file(&[], "$$")).expect("the path is posted");
     for placing in PLACINGS {
         for (seed, cylinder) in poses(placing) {
-            let nc = run(&post(&five_axes(), &script()), &cl_file(&[], "$$"));
-            let left = residual(&nc.expect("the path is posted"), &cylinder);
+            let left = residual(&nc, &cylinder);
             assert!((left.run_out - 0.2).abs() < 0.001, "{placing:?} {seed}: {left:?}");
         }
-    }
-}
-
-#[test]
-fn without_noise_less_than_half_a_micron_is_left() {
-    for placing in PLACINGS {
-        let left = worst(&five_axes(), &script(), ON, placing, EXACT);
-        assert!(left.radial < 0.0005 && left.place < 0.0005, "{placing:?}: {left:?}");
-        assert!(left.lean < 0.001, "{placing:?}: {left:?}");
-    }
-}
-
-#[test]
-fn a_probe_to_a_micron_leaves_a_few_microns() {
-    for placing in PLACINGS {
-        let left = worst(&five_axes(), &script(), ON_NOISY, placing, NOISY);
-        assert!(left.radial < 0.003 && left.place < 0.003, "{placing:?}: {left:?}");
     }
 }
 
@@ -166,42 +134,6 @@ fn noise_is_no_lean() {
                 RUNOUT / ON";
     let nc = run(&posts[1], &cl_file(&[], text)).expect("the path is posted");
     assert!(nc.contains("(RUN-OUT PARALLEL 0.0006 DEG 0.0003 MM)"), "{nc}");
-}
-
-/// The least reading lies where the run-out hardly changes: a micron of noise moves it by
-/// several degrees, and more is left than the paper's 0.01 mm.
-#[test]
-fn the_lowest_of_noisy_readings_is_too_rough_a_search() {
-    for placing in PLACINGS {
-        let left = worst(&five_axes(), &script(), ON_NOISY, placing, ROUGH);
-        assert!(left.run_out > 0.01 && left.run_out < 0.03, "{placing:?}: {left:?}");
-    }
-}
-
-#[test]
-fn three_decimals_are_enough() {
-    for placing in PLACINGS {
-        let left = worst(&three_decimals(), &script(), ON, placing, EXACT);
-        assert!(left.radial < 0.002 && left.place < 0.002, "{placing:?}: {left:?}");
-    }
-}
-
-/// The table of the page: run-out in microns, the worst of all poses.
-#[test]
-fn the_page_shows_what_is_measured() {
-    let page = text("docs/papers/run-out.md");
-    for placing in PLACINGS {
-        let measured = [
-            worst(&five_axes(), &script(), ON, placing, EXACT),
-            worst(&three_decimals(), &script(), ON, placing, EXACT),
-            worst(&five_axes(), &script(), ON_NOISY, placing, NOISY),
-            worst(&five_axes(), &script(), ON_NOISY, placing, ROUGH),
-        ];
-        let cells = measured.map(|left| format!("{:.1}", left.run_out * 1000.0));
-        let name = format!("{placing:?}").to_lowercase();
-        let row = format!("| {name} | {} |", cells.join(" | "));
-        assert!(page.contains(&row), "the page lacks {row}");
-    }
 }
 
 #[test]
