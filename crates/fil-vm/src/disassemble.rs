@@ -95,6 +95,12 @@ fn show(module: &Module, op: Op) -> String {
             format!("call {}", module.chunks[usize::from(chunk)].title)
         }
         Op::Return => "return".to_string(),
+        Op::Statement => "statement".to_string(),
+        Op::Enter => "enter".to_string(),
+        Op::Leave => "leave".to_string(),
+        Op::Branch { number } => {
+            format!("outcome {:?}", module.branches[usize::from(number)].outcome)
+        }
     }
 }
 

@@ -4,8 +4,9 @@ use fil_cl::Record;
 use fil_cl::Vocabulary;
 use fil_diag::Diag;
 
+use crate::debug::Probe;
 use crate::errors::RunCode;
-use crate::machine::Values;
+use crate::machine::{Values, View};
 use crate::moment::Moment;
 use crate::totals::{TotalsOf, TotalsText, TotalsWord};
 
@@ -150,6 +151,11 @@ pub trait Host {
     /// Asked from time to time while FIL runs, and before each call that leaves
     /// it: an error stops the run.
     fn check_cancelled(&mut self) -> Result<(), Box<Diag>> {
+        Ok(())
+    }
+
+    /// Told of each step of a debug build of the bytecode; an error stops the run.
+    fn probe(&mut self, _probe: Probe<'_>, _view: &mut View<'_>) -> Result<(), Box<Diag>> {
         Ok(())
     }
 

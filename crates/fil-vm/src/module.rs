@@ -7,6 +7,7 @@ use fil_cl::{Record, Vocabulary, WordId};
 use fil_diag::{LineIndex, TextSpan};
 use fil_syntax::tree::Span;
 
+use crate::debug::BranchOutcome;
 use crate::library::LibraryCall;
 use crate::matcher::Matcher;
 use crate::ops::{Op, Reg};
@@ -70,6 +71,8 @@ pub(crate) struct Chunk {
     pub code: Vec<Op>,
     /// For each operation its index in [`Module::statements`].
     pub statements: Vec<u32>,
+    /// The parameters of a macro.
+    pub parameters: Vec<(String, Reg)>,
 }
 
 /// A CIMFIL section.
@@ -159,6 +162,21 @@ pub struct Module {
     pub(crate) asks_totals: bool,
     /// Numbers of arguments of the embedding program's functions.
     pub(crate) host_arity: Vec<u16>,
+    /// The outcomes of conditions, in a debug build alone.
+    pub(crate) branches: Vec<Branch>,
+    /// The bytecode tells its host of each statement.
+    pub(crate) debug: bool,
+}
+
+/// An outcome of a condition, in a debug build.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Branch {
+    /// The statement whose outcomes belong together, in [`Module::statements`].
+    pub opening: u32,
+    /// The statement with the condition: another one for ELSEIF and WHEN.
+    pub statement: u32,
+    /// Which one it is.
+    pub outcome: BranchOutcome,
 }
 
 /// An array in the array store.

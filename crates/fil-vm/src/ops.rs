@@ -92,6 +92,15 @@ pub enum Op {
     Call { macro_id: u16 },
     /// Ends a macro, a section or the global area.
     Return,
+    /// The statement of this operation runs next. This and the operations below exist only
+    /// in a debug build of the bytecode.
+    Statement,
+    /// The global area, a section or a macro begins.
+    Enter,
+    /// It ends.
+    Leave,
+    /// An outcome of a condition, by its number in [`Module::branches`](crate::Module).
+    Branch { number: u16 },
 }
 
 #[cfg(test)]

@@ -160,6 +160,10 @@ pub struct PostArgs {
     /// Write the line map for `filpost trace`; OUT.map when no FILE is given
     #[arg(long, value_name = "FILE")]
     pub map: Option<Option<PathBuf>>,
+    /// Tell where the time goes, by CL word, section and line of FIL; with a FILE draw it as a
+    /// flame graph (SVG) too
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
+    pub profile: Option<Option<PathBuf>>,
     /// A folder to look in for the option file that MACHIN names (may be given again)
     #[arg(long, value_name = "DIR")]
     pub post_path: Vec<PathBuf>,
@@ -457,8 +461,21 @@ pub struct TestArgs {
     /// Write a report for continuous integration: JUnit XML
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
+    /// Say which lines, outcomes of conditions, sections and settings no case has exercised
+    #[arg(long)]
+    pub coverage: bool,
+    /// Write the coverage as a page for people
+    #[arg(long, value_name = "FILE", requires = "coverage")]
+    pub coverage_html: Option<PathBuf>,
+    /// Write the coverage for editors and code hosts: a tracefile of lcov
+    #[arg(long, value_name = "FILE", requires = "coverage")]
+    pub lcov: Option<PathBuf>,
+    /// Change the FIL and the settings of the posts, one small change at a time, and name the
+    /// changes that no case notices
+    #[arg(long, conflicts_with = "update")]
+    pub mutate: bool,
     /// Make a case in this folder from --cl, --nc and a post, and run it
-    #[arg(long, value_name = "FOLDER", requires = "cl", requires = "nc", conflicts_with_all = ["dir", "update", "html", "junit"])]
+    #[arg(long, value_name = "FOLDER", requires = "cl", requires = "nc", conflicts_with_all = ["dir", "update", "html", "junit", "coverage", "mutate"])]
     pub init: Option<PathBuf>,
     /// The CL file of the case
     #[arg(long, value_name = "PART", requires = "init")]

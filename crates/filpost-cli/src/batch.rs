@@ -56,6 +56,8 @@ fn misused(args: &PostArgs) -> Option<&'static str> {
         Some("several programs need a folder, -o DIR")
     } else if args.listing.is_some() {
         Some("--listing names one file; post the CL files one by one for it")
+    } else if args.profile.is_some() {
+        Some("--profile takes the time of one run; post the CL files one by one for it")
     } else if matches!(args.map, Some(Some(_))) {
         Some("--map takes no name with several CL files: each map lies beside its program")
     } else {

@@ -3,11 +3,14 @@
 use std::fs::File;
 use std::io::{self, Read, Seek};
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use filpost::cl::reader::Options;
+use filpost::debug::SharedDebugger;
 use filpost::listing::Listing;
 use filpost::map::Names;
+use filpost::profile::Profile;
 use filpost::{Diag, Error, PendingFiles, Program, Report, files, select};
 use indicatif::ProgressBar;
 
@@ -15,6 +18,7 @@ use crate::args::PostArgs;
 use crate::errors::CommandCode;
 use crate::output::{self, Target, over_input};
 use crate::posts::{Built, Posts};
+use crate::profile;
 use crate::setup::{self, From};
 use crate::summary;
 
@@ -70,7 +74,8 @@ fn post(
     let mut input = output::open(&job.cl)?;
     let args = posts.args();
     let (built, from) = built(posts, job, &mut input)?;
-    refuse_over_input(job, &built.inputs)?;
+    let picture = args.profile.as_ref().and_then(Option::as_ref);
+    refuse_over_input(job, picture, &built.inputs)?;
     (outcome.title, outcome.note) = (built.title, built.note);
     let program = built.program;
     let options = options(args)?;
@@ -78,6 +83,7 @@ fn post(
     let mut nc = Target::new(job.output.as_deref()).stage()?;
     let mut map = job.map.as_ref().map(stage).transpose()?;
     let mut listing = job.listing.as_ref().map(stage).transpose()?.map(Listing::new);
+    let profile = args.profile.is_some().then(Arc::<Mutex<Profile>>::default);
 
     let mut run = program.start().cl_name(&output::input_name(&job.cl)).reading(options);
     if let Some(unit) = args.units.units {
@@ -85,6 +91,10 @@ fn post(
     }
     if let Some(listing) = &mut listing {
         run = run.observe(listing.observer());
+    }
+    if let Some(profile) = &profile {
+        let debugger: SharedDebugger = profile.clone();
+        run = run.debug(&debugger);
     }
     let input = Watched { input, bar, at: 0, furthest: 0 };
     let (report, pending) = match (&mut map, &job.map) {
@@ -107,6 +117,10 @@ fn post(
     deny(args.deny_warnings, outcome.warnings.len())?;
     refuse_scripts(job, &built.inputs, &program, &pending)?;
     output::commit([Some(nc), map, listing].into_iter().flatten(), pending)?;
+    if let (Some(profile), Some(picture)) = (profile, &args.profile) {
+        let profile = profile.lock().unwrap_or_else(PoisonError::into_inner);
+        profile::tell(&profile, &program, picture.as_deref())?;
+    }
     Ok(report)
 }
 
@@ -195,8 +209,13 @@ fn deny(denied: bool, warnings: usize) -> Result<(), Error> {
 
 /// Refuses an output that is one of the inputs, or another output. A map never
 /// overwrites a file that is not a map.
-fn refuse_over_input(job: &Job, inputs: &[PathBuf]) -> Result<(), Error> {
-    let outputs = job.output.iter().chain(&job.listing).chain(&job.map).map(PathBuf::as_path);
+fn refuse_over_input(
+    job: &Job,
+    picture: Option<&PathBuf>,
+    inputs: &[PathBuf],
+) -> Result<(), Error> {
+    let outputs = job.output.iter().chain(&job.listing).chain(&job.map).chain(picture);
+    let outputs = outputs.map(PathBuf::as_path);
     let inputs = inputs.iter().chain([&job.cl]).map(PathBuf::as_path);
     output::refuse_over(outputs, inputs)?;
     match &job.map {

@@ -21,6 +21,7 @@ mod output;
 mod plot;
 mod post;
 mod posts;
+mod profile;
 mod refused;
 mod render;
 mod sarif;

@@ -59,6 +59,7 @@ impl<'a> Posts<'a> {
 
 fn build(args: &PostArgs, from: &From) -> Result<Built, Error> {
     let named = setup::for_run(&args.chosen, &args.fil, &args.reading, from)?;
-    let program = setup::granted(named.builder, &args.grants).build()?;
+    let builder = named.builder.debug(args.profile.is_some());
+    let program = setup::granted(builder, &args.grants).build()?;
     Ok(Built { program, title: named.title, note: named.note, inputs: named.inputs })
 }

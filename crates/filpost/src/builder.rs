@@ -58,6 +58,7 @@ pub struct Builder {
     spawn: Option<Spawn>,
     read: Option<PathBuf>,
     write: Option<PathBuf>,
+    debug: bool,
 }
 
 /// Gives a file that INCLUD names.
@@ -80,6 +81,7 @@ impl Builder {
             spawn: None,
             read: None,
             write: None,
+            debug: false,
         }
     }
 
@@ -143,6 +145,13 @@ impl Builder {
     /// Refuses extensions of filpost, so that scripts stay portable.
     pub fn strict(mut self, strict: bool) -> Self {
         self.strict = strict;
+        self
+    }
+
+    /// Makes a debug build: bytecode that tells a [`Debugger`](crate::debug::Debugger) of each
+    /// statement and each outcome of a condition. It writes the same program, more slowly.
+    pub fn debug(mut self, debug: bool) -> Self {
+        self.debug = debug;
         self
     }
 
@@ -259,6 +268,7 @@ impl Builder {
                 facts: MachineFacts { takes_creo_records, edits, ..MachineFacts::default() },
                 functions: Some(&self.functions),
                 loader: includes.as_mut().map(|loader| loader as Loader<'_>),
+                debug: self.debug,
                 ..LoadOptions::default()
             },
         );

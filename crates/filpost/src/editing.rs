@@ -11,8 +11,10 @@ use fil_machine::commons::EMPTY;
 use fil_machine::locations::{self as loc, TapeBlockMacro};
 use fil_machine::{Commons, Letter};
 use fil_post::editing::Editor;
-use fil_vm::{CommonKind, Edits, Host, Interpreter, OutputMacro, Site, Values};
+use fil_vm::debug::Probe;
+use fil_vm::{CommonKind, Edits, Host, Interpreter, OutputMacro, Site, Values, View};
 
+use crate::debug::{self, DebugState, SharedDebugger, World};
 use crate::error::RunCode;
 use crate::outside::common_kind;
 
@@ -34,18 +36,28 @@ struct MacroRunner {
     interpreter: Interpreter,
     vocabulary: Vocabulary,
     warnings: Vec<Diag>,
+    debugger: Option<SharedDebugger>,
 }
 
 impl SharedEditor {
     /// An editor whose machine takes the place of another one of the same module.
-    pub fn new(interpreter: Interpreter, vocabulary: Vocabulary) -> Self {
-        let runner = MacroRunner { interpreter, vocabulary, warnings: Vec::new() };
+    pub fn new(
+        interpreter: Interpreter,
+        vocabulary: Vocabulary,
+        debugger: Option<SharedDebugger>,
+    ) -> Self {
+        let runner = MacroRunner { interpreter, vocabulary, warnings: Vec::new(), debugger };
         SharedEditor(Arc::new(Mutex::new(runner)))
     }
 
     /// The editor as the post calls it.
     pub fn boxed(&self) -> Box<dyn Editor> {
         Box::new(self.clone())
+    }
+
+    /// Lets no debugger look on any more.
+    pub fn end_debugging(&self) {
+        self.with(|runner| runner.debugger = None);
     }
 
     /// Exchanges the values with the machine of the sections.
@@ -69,8 +81,8 @@ impl SharedEditor {
         commons: &Commons,
     ) -> Result<bool> {
         self.with(|runner| {
-            let MacroRunner { interpreter, vocabulary, warnings } = runner;
-            let mut host = WhileWriting { commons, warnings };
+            let MacroRunner { interpreter, vocabulary, warnings, debugger } = runner;
+            let mut host = WhileWriting { commons, warnings, debugger };
             let found = interpreter.edits(what);
             interpreter.edit_line(what, line, vocabulary, &mut host).map(|()| found)
         })
@@ -86,8 +98,8 @@ impl Editor for SharedEditor {
         let mut plain: Vec<(u8, f64)> =
             words.iter().map(|(letter, value)| (letter.byte(), *value)).collect();
         let found = self.with(|runner| {
-            let MacroRunner { interpreter, vocabulary, warnings } = runner;
-            let mut host = WhileWriting { commons, warnings };
+            let MacroRunner { interpreter, vocabulary, warnings, debugger } = runner;
+            let mut host = WhileWriting { commons, warnings, debugger };
             let found = interpreter.edits(OutputMacro::Words);
             interpreter.edit_words(&mut plain, vocabulary, &mut host).map(|()| found)
         })?;
@@ -108,6 +120,7 @@ impl Editor for SharedEditor {
 struct WhileWriting<'a> {
     commons: &'a Commons,
     warnings: &'a mut Vec<Diag>,
+    debugger: &'a Option<SharedDebugger>,
 }
 
 fn refused<T>(what: &str) -> Result<T> {
@@ -137,6 +150,12 @@ impl Host for WhileWriting<'_> {
 
     fn seek_record(&mut self, _: u32, _: &mut Record, _: &mut Vocabulary) -> Result<bool> {
         refused("no record is read")
+    }
+
+    fn probe(&mut self, probe: Probe<'_>, view: &mut View<'_>) -> Result<()> {
+        let Some(debugger) = self.debugger else { return Ok(()) };
+        let mut state = DebugState { fil: view, world: World::Writing(self.commons) };
+        debug::tell(debugger, debug::event(probe), &mut state)
     }
 
     fn warn(&mut self, diag: Diag) {

@@ -9,6 +9,7 @@ use fil_diag::Result;
 use fil_post::Origin;
 use fil_vm::{Interpreter, SectionId, SectionMode};
 
+use crate::debug::{self, DebugEvent, DebugState, World};
 use crate::editing::SharedEditor;
 use crate::error::{Error, RunCode};
 use crate::map;
@@ -54,7 +55,8 @@ impl<'o, S: Records> Engine<'o, S> {
         if shared.module.edits_output() {
             let module = Arc::clone(&shared.module);
             let second = Interpreter::new(module, shared.limits, Arc::clone(&shared.functions));
-            let editor = SharedEditor::new(second, shared.vocabulary.clone());
+            let debugger = outside.debugger.clone();
+            let editor = SharedEditor::new(second, shared.vocabulary.clone(), debugger);
             outside.post.control.tape.editor.0 = Some(editor.boxed());
             outside.editor = Some(editor);
         }
@@ -77,10 +79,12 @@ impl<'o, S: Records> Engine<'o, S> {
     /// Runs to the end; what the script wrote is not under its names yet.
     pub(crate) fn run(&mut self, nc: &mut dyn Write) -> Result<(Report, PendingFiles), Error> {
         let observed = !self.outside.observers.is_empty();
+        let debugged = self.outside.debugger.is_some();
         self.outside.spilled = Some(Spilled::default());
         let mut more = true;
         while more {
-            let step = self.advance().map_err(|first| self.survey(first));
+            let step = if debugged { self.advance_debugged() } else { self.advance() };
+            let step = step.map_err(|first| self.survey(first));
             if observed || !matches!(step, Ok(true)) {
                 self.outside.note_counts();
             }
@@ -144,7 +148,9 @@ impl<'o, S: Records> Engine<'o, S> {
         if let Some(failure) = &self.failure {
             return Err(failure.clone());
         }
-        let result = self.advance().map_err(|first| self.survey(first));
+        let debugged = self.outside.debugger.is_some();
+        let result = if debugged { self.advance_debugged() } else { self.advance() };
+        let result = result.map_err(|first| self.survey(first));
         self.outside.note_counts();
         if let Err(error) = &result {
             self.failure = Some(error.clone());
@@ -167,6 +173,16 @@ impl<'o, S: Records> Engine<'o, S> {
     }
 
     fn advance(&mut self) -> Result<bool> {
+        if !self.next()? {
+            return Ok(false);
+        }
+        self.carry_out()
+    }
+
+    /// Reads the next record; at the first one the global areas have run, at the end the
+    /// program is complete.
+    #[inline(always)]
+    fn next(&mut self) -> Result<bool> {
         if !std::mem::replace(&mut self.started, true) {
             self.outside.begin()?;
             let done = self.machine.run_globals(&mut self.vocabulary, &mut self.outside);
@@ -180,6 +196,12 @@ impl<'o, S: Records> Engine<'o, S> {
             return Ok(false);
         }
         self.watch_progress()?;
+        Ok(true)
+    }
+
+    /// Carries out the record that was read; false when the program is complete.
+    #[inline(always)]
+    fn carry_out(&mut self) -> Result<bool> {
         match self.section() {
             Some(section) => self.run_section(section)?,
             None => {
@@ -192,6 +214,44 @@ impl<'o, S: Records> Engine<'o, S> {
             return Ok(false);
         }
         Ok(true)
+    }
+
+    /// As [`Engine::advance`], with a debugger that is told of records and errors; of FIL the
+    /// bytecode tells it.
+    #[cold]
+    #[inline(never)]
+    fn advance_debugged(&mut self) -> Result<bool> {
+        let done = self.next().and_then(|more| {
+            if !more {
+                return Ok(false);
+            }
+            self.tell_debugger(DebugEvent::Record)?;
+            let more = self.carry_out()?;
+            self.tell_debugger(DebugEvent::RecordDone)?;
+            Ok(more)
+        });
+        if let Err(diag) = &done {
+            let told = if self.outside.told_failure {
+                Ok(())
+            } else {
+                self.tell_debugger(DebugEvent::Failed(diag))
+            };
+            // What is looked at from now on to find further errors is no run any more.
+            self.outside.debugger = None;
+            self.outside.editor.iter().for_each(SharedEditor::end_debugging);
+            told?;
+        }
+        done
+    }
+
+    fn tell_debugger(&mut self, event: DebugEvent<'_>) -> Result<()> {
+        let Some(debugger) = self.outside.debugger.clone() else { return Ok(()) };
+        self.exchange_values();
+        let mut view = self.machine.view(Some(&mut self.record), &mut self.vocabulary);
+        let world = World::Post(&mut self.outside.post);
+        let told = debug::tell(&debugger, event, &mut DebugState { fil: &mut view, world });
+        self.exchange_values();
+        told
     }
 
     /// The section that takes the current record.

@@ -14,10 +14,11 @@ use fil_post::FilLine;
 use fil_post::errors::PostCode;
 use fil_vm::{
     CommonKind, Files, Host, Module, Moment, OutputMacro, SectionId, Site, TotalsOf, TotalsText,
-    TotalsWord, Values,
+    TotalsWord, Values, View, debug::Probe,
 };
 
 use crate::cancel::CancelToken;
+use crate::debug::{self, DebugState, SharedDebugger, World};
 use crate::editing::{SharedEditor, edits};
 use crate::error::RunCode;
 use crate::event::{Event, LineEditor, Observer, RunEnd};
@@ -86,12 +87,16 @@ pub(crate) struct Outside<'o, S> {
     pub shown: usize,
     /// What the current record has written beyond what is kept in memory.
     pub spilled: Option<Spilled>,
+    /// Who debugs the run.
+    pub debugger: Option<SharedDebugger>,
+    /// The debugger knows of the error that ends the run.
+    pub told_failure: bool,
 }
 
 impl<'o, S: Records> Outside<'o, S> {
     /// Everything as it is before the first record.
     pub fn new(start: Start<'o>, records: S) -> Self {
-        let Start { program, cl_name, raw, units, cancel, observers, map, pass } = start;
+        let Start { program, cl_name, raw, units, cancel, observers, map, pass, debugger } = start;
         let shared = &program.shared;
         let counts = !observers.is_empty() || !matches!(pass, Pass::Only);
         let module = Arc::clone(&shared.module);
@@ -119,6 +124,8 @@ impl<'o, S: Records> Outside<'o, S> {
             granted: Granted::new(shared.clock, shared.folders.clone()),
             shown: 0,
             spilled: None,
+            debugger,
+            told_failure: false,
             program,
         }
     }
@@ -543,6 +550,13 @@ impl<S: Records> Host for Outside<'_, S> {
             *record = found;
         }
         Ok(there)
+    }
+
+    fn probe(&mut self, probe: Probe<'_>, view: &mut View<'_>) -> Result<(), Box<Diag>> {
+        let Some(debugger) = &self.debugger else { return Ok(()) };
+        self.told_failure |= matches!(probe, Probe::Failed(_));
+        let mut state = DebugState { fil: view, world: World::Post(&mut self.post) };
+        debug::tell(debugger, debug::event(probe), &mut state)
     }
 
     fn check_cancelled(&mut self) -> Result<(), Box<Diag>> {

@@ -7,7 +7,8 @@ use std::sync::Arc;
 
 use fil_cl::{Record, Vocabulary};
 use fil_diag::Diag;
-use fil_machine::Commons;
+use fil_machine::locations::Location;
+use fil_machine::{Commons, contradictions};
 use fil_vm::{Functions, Limits, Module};
 
 use crate::blocks::Blocks;
@@ -174,6 +175,45 @@ impl Program {
     /// names is looked up or added here, and [`Run::run_records`] takes the result.
     pub fn vocabulary(&self) -> Vocabulary {
         self.shared.vocabulary.clone()
+    }
+
+    /// The same FIL on a machine with a setting at its default.
+    ///
+    /// # Errors
+    /// Settings that make no machine any more, or contradict each other.
+    pub(crate) fn without(&self, setting: &Location) -> Result<Program, Error> {
+        let mut commons = self.commons().clone();
+        let (number, value) = (u32::from(setting.number), setting.default_value());
+        commons.set(setting.kind, number, value).map_err(|diag| Error::Setup(vec![*diag]))?;
+        let wrong = contradictions::all(&commons);
+        if !wrong.is_empty() {
+            return Err(Error::Setup(wrong));
+        }
+        let shared = &self.shared;
+        let prototype = fil_post::Post::new(commons).map_err(|diag| Error::Setup(vec![*diag]))?;
+        let shared = Shared {
+            prototype,
+            module: Arc::clone(&shared.module),
+            vocabulary: shared.vocabulary.clone(),
+            functions: Arc::clone(&shared.functions),
+            limits: shared.limits,
+            warnings: shared.warnings.clone(),
+            clock: shared.clock,
+            spawn: None,
+            folders: shared.folders.clone(),
+        };
+        Ok(Program { shared: Arc::new(shared) })
+    }
+
+    /// Name and text of the FIL files, by the numbers in [`crate::FilLine::file`].
+    pub fn fil_texts(&self) -> Vec<(String, Arc<str>)> {
+        let files = self.shared.module.files.iter();
+        files.map(|file| (file.name.clone(), Arc::clone(&file.text))).collect()
+    }
+
+    /// What a debug build can tell of; empty for any other.
+    pub fn outline(&self) -> crate::debug::Outline {
+        self.shared.module.outline()
     }
 
     /// Names of the FIL files, by the numbers in [`crate::FilLine::file`].

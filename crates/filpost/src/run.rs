@@ -10,6 +10,7 @@ use fil_machine::Unit;
 
 use crate::blocks::Blocks;
 use crate::cancel::CancelToken;
+use crate::debug::SharedDebugger;
 use crate::engine::Engine;
 use crate::error::Error;
 use crate::event::{Event, Observer};
@@ -49,6 +50,7 @@ pub struct Run<'o> {
     pub(crate) units: Option<Unit>,
     cancel: Option<CancelToken>,
     observers: Vec<Observer<'o>>,
+    debugger: Option<SharedDebugger>,
 }
 
 /// What an engine needs of a run besides its records.
@@ -61,6 +63,7 @@ pub(crate) struct Start<'o> {
     pub observers: Vec<Observer<'o>>,
     pub map: Option<map::Writer<'o>>,
     pub pass: Pass,
+    pub debugger: Option<SharedDebugger>,
 }
 
 impl<'o> Run<'o> {
@@ -72,6 +75,7 @@ impl<'o> Run<'o> {
             units: None,
             cancel: None,
             observers: Vec::new(),
+            debugger: None,
         }
     }
 
@@ -117,6 +121,14 @@ impl<'o> Run<'o> {
     /// It may borrow what lives longer than the run.
     pub fn observe(mut self, observer: impl FnMut(Event<'_>) + Send + 'o) -> Self {
         self.observers.push(Box::new(observer));
+        self
+    }
+
+    /// Hands the run to a debugger, see [`crate::debug`]. Of FIL it is told in a program that
+    /// was built with [`Builder::debug`](crate::Builder::debug); in any other it is told of CL
+    /// records only. A first pass over the CL file is not shown to it.
+    pub fn debug(mut self, debugger: &SharedDebugger) -> Self {
+        self.debugger = Some(SharedDebugger::clone(debugger));
         self
     }
 
@@ -274,8 +286,8 @@ impl<'o> Run<'o> {
 
     fn begin(self, map: Option<map::Writer<'o>>, pass: Pass) -> Start<'o> {
         let (cl_name, raw) = (self.name(), self.reading.raw);
-        let Run { program, units, cancel, observers, .. } = self;
-        Start { program, cl_name, raw, units, cancel, observers, map, pass }
+        let Run { program, units, cancel, observers, debugger, .. } = self;
+        Start { program, cl_name, raw, units, cancel, observers, map, pass, debugger }
     }
 
     /// Counts what the FIL asks of the whole program, where it does; the input then stands
@@ -297,6 +309,7 @@ impl<'o> Run<'o> {
             units: *units,
             cancel: cancel.clone(),
             observers: Vec::new(),
+            debugger: None,
         };
         let found = Engine::new(first.begin(None, pass), reader, false).count();
         cl.seek(SeekFrom::Start(start)).map_err(cant)?;

@@ -119,8 +119,10 @@ impl Compiler<'_> {
         let outer = std::mem::take(&mut self.chunk);
         self.begin_statement(span);
         let opening = self.chunk.statement;
+        self.probe(Op::Enter);
         body(self);
         self.chunk.statement = opening;
+        self.probe(Op::Leave);
         self.chunk.emit(Op::Return);
         self.chunk.patch();
         let built = std::mem::replace(&mut self.chunk, outer);
@@ -128,7 +130,8 @@ impl Compiler<'_> {
             let message = format!("{title} has {} operations", built.code.len());
             self.report(CompileCode::TooLarge, span, message);
         }
-        let chunk = Chunk { title, code: built.code, statements: built.statements };
+        let ChunkBuilder { code, statements, .. } = built;
+        let chunk = Chunk { title, code, statements, parameters: Vec::new() };
         self.module.chunks.push(chunk);
         self.index(self.module.chunks.len() - 1, span, "sections and macros")
     }

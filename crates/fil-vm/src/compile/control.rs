@@ -4,6 +4,7 @@ use fil_syntax::tree::{DoRange, Expr, Name, Span, Stmt, StmtKind, Target, When};
 
 use super::Compiler;
 use super::chunk::{Label, NamedLabel};
+use crate::debug::BranchOutcome;
 use crate::errors::CompileCode;
 use crate::ops::Op;
 use crate::tree::inner_bodies;
@@ -62,16 +63,20 @@ impl Compiler<'_> {
         for (index, (condition, body)) in arms.iter().enumerate() {
             if index > 0 {
                 self.begin_statement(condition.span);
+                self.probe(Op::Statement);
             }
             let next = self.chunk.label();
             self.branch(condition, false, next);
+            self.outcome(opening, BranchOutcome::True);
             self.statements(body);
-            if index + 1 < arms.len() || otherwise.is_some() {
+            // In a debug build something follows in any case: what tells that no arm was taken.
+            if index + 1 < arms.len() || otherwise.is_some() || self.module.debug {
                 self.chunk.statement = opening;
                 self.chunk.jump(end);
             }
             self.chunk.place(next);
         }
+        self.outcome(opening, BranchOutcome::Else);
         self.statements(otherwise.unwrap_or_default());
         self.chunk.place(end);
     }
@@ -80,7 +85,7 @@ impl Compiler<'_> {
     pub(super) fn if_one(&mut self, condition: &Expr, then: &Stmt) {
         if let StmtKind::Jump { label } = &then.kind {
             match self.destination(label) {
-                Some(to) if !self.chunk.is_placed(to) => {
+                Some(to) if !self.chunk.is_placed(to) && !self.module.debug => {
                     self.branch(condition, true, to);
                     return;
                 }
@@ -88,14 +93,17 @@ impl Compiler<'_> {
                 _ => {}
             }
         }
+        let opening = self.chunk.statement;
         let skip = self.chunk.label();
         self.branch(condition, false, skip);
+        self.outcome(opening, BranchOutcome::True);
         self.statements(std::slice::from_ref(then));
-        self.chunk.place(skip);
+        self.skipped(opening, skip, BranchOutcome::Else);
     }
 
     /// Arithmetic IF.
     pub(super) fn if_sign(&mut self, value: &Expr, labels: &[Name; 3]) {
+        let opening = self.chunk.statement;
         let mark = self.mark();
         let a = self.expression(value);
         let zero = self.number(0.0, value.span);
@@ -103,10 +111,13 @@ impl Compiler<'_> {
         self.chunk.emit_to(negative, |to| Op::JumpLt { a, b: zero, to });
         self.chunk.emit_to(null, |to| Op::JumpEq { a, b: zero, to });
         self.release(mark);
+        self.outcome(opening, BranchOutcome::Positive);
         self.jump(&labels[2]);
         self.chunk.place(negative);
+        self.outcome(opening, BranchOutcome::Negative);
         self.jump(&labels[0]);
         self.chunk.place(null);
+        self.outcome(opening, BranchOutcome::Zero);
         self.jump(&labels[1]);
     }
 
@@ -138,13 +149,14 @@ impl Compiler<'_> {
         self.expression_into(&range.from, var);
         let (exit, again) = (self.chunk.label(), self.chunk.label());
         self.chunk.emit_to(exit, |exit| Op::DoEnter { var, base, exit });
+        self.outcome(opening, BranchOutcome::Pass);
         self.chunk.place(again);
         self.chunk.loops.push((self.unit, stmt.span.start));
         self.statements(body);
         self.chunk.loops.pop();
         self.chunk.statement = opening;
         self.chunk.emit_to(again, |body| Op::DoNext { var, base, body });
-        self.chunk.place(exit);
+        self.skipped(opening, exit, BranchOutcome::NoPass);
     }
 
     pub(super) fn case(&mut self, subject: &Expr, whens: &[When], other: Option<&[Stmt]>) {
@@ -155,8 +167,10 @@ impl Compiler<'_> {
         let a = self.temporary(subject.span);
         self.expression_into(subject, a);
         let bodies: Vec<Label> = whens.iter().map(|_| self.chunk.label()).collect();
+        let mut tested = Vec::with_capacity(whens.len());
         for (when, body) in whens.iter().zip(&bodies) {
             self.begin_statement(when.span);
+            tested.push(self.chunk.statement);
             for value in &when.values {
                 let inner = self.mark();
                 let b = self.expression(value);
@@ -167,11 +181,14 @@ impl Compiler<'_> {
         self.release(mark);
         let end = self.chunk.label();
         self.chunk.statement = opening;
+        self.outcome(opening, BranchOutcome::Else);
         self.statements(other.unwrap_or_default());
-        for (when, body) in whens.iter().zip(&bodies) {
+        for ((when, body), statement) in whens.iter().zip(&bodies).zip(tested) {
             self.chunk.statement = opening;
             self.chunk.jump(end);
             self.chunk.place(*body);
+            self.chunk.statement = statement;
+            self.outcome(opening, BranchOutcome::When);
             self.statements(&when.body);
         }
         self.chunk.place(end);

@@ -21,6 +21,8 @@ impl<'t> Compiler<'t> {
             this.statements(&definition.body);
         });
         self.module.macros[id] = chunk;
+        let parameters = self.slots.params.iter().map(|(name, reg)| (name.to_string(), *reg));
+        self.module.chunks[usize::from(chunk)].parameters = parameters.collect();
         self.inside = None;
         self.slots.params.clear();
     }

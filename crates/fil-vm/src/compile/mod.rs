@@ -7,6 +7,7 @@ mod arrays;
 mod chunk;
 mod conditions;
 mod control;
+mod debug;
 mod expressions;
 pub(crate) mod files;
 mod functions;
@@ -76,6 +77,9 @@ pub struct LoadOptions<'a> {
     pub functions: Option<&'a Functions>,
     /// Where INCLUD gets its files; without it INCLUD is refused.
     pub loader: Option<Loader<'a>>,
+    /// Make a debug build: bytecode that tells its host of each statement and each outcome
+    /// of a condition, and does the same otherwise.
+    pub debug: bool,
 }
 
 /// A module and the warnings of its making.
@@ -125,7 +129,8 @@ pub fn analyze(
     vocab: &mut Vocabulary,
     options: LoadOptions<'_>,
 ) -> Analysis {
-    let LoadOptions { compat, limits, strict, lint, allow, facts, functions, loader } = options;
+    let LoadOptions { compat, limits, strict, lint, allow, facts, functions, loader, debug } =
+        options;
     let mut includes = Includes::new(loader);
     for file in files {
         includes.read(file.name, file.text);
@@ -140,6 +145,7 @@ pub fn analyze(
         files: units.iter().map(|unit| unit.file.clone()).collect(),
         compat,
         host_arity: functions.map_or_else(Vec::new, Functions::arities),
+        debug,
         ..Module::default()
     };
     let mut compiler = Compiler {

@@ -44,6 +44,7 @@ impl Compiler<'_> {
             let label = named.label;
             self.chunk.place(label);
         }
+        self.probe_statement(&stmt.kind);
         let mark = self.mark();
         match &stmt.kind {
             StmtKind::Assign { target, value } => self.assign(target, value),

@@ -4,6 +4,7 @@ use fil_diag::Diag;
 
 use super::{Registers, Vm};
 use crate::builtins::{BUILTINS, FunctionKind};
+use crate::debug::Probe;
 use crate::host::Host;
 use crate::ops::{Op, Reg, Target};
 use crate::value::Value::{self, Number};
@@ -86,6 +87,10 @@ impl<H: Host + ?Sized> Vm<'_, H> {
                 self.post(registers, template)?;
                 return Ok(None);
             }
+            Op::Statement => return self.probe(registers, Probe::Statement),
+            Op::Enter => return self.probe(registers, Probe::Enter),
+            Op::Leave => return self.probe(registers, Probe::Leave),
+            Op::Branch { number } => return self.probe(registers, Probe::Branch(number)),
             _ => unreachable!("the loop carries out {op:?} itself"),
         };
         Ok(jumps.then_some(to))

@@ -11,6 +11,7 @@ mod run;
 mod slow;
 mod texts;
 mod totals;
+mod view;
 
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -25,6 +26,7 @@ use crate::module::{ChunkId, Constant, Module, SectionId};
 use crate::value::{Slot, Texts, Value};
 
 pub use output::Values;
+pub use view::{Held, StackFrame, View};
 
 /// The register file: indexed by `u16`, so no access is out of bounds.
 pub(crate) type Registers = [Slot; 1 << 16];
@@ -231,7 +233,7 @@ impl Interpreter {
         };
         match vm.execute(&mut self.registers, chunk) {
             Ok(()) => Ok(vm.outcome),
-            Err(diag) => Err(vm.locate(&self.registers, diag)),
+            Err(diag) => Err(vm.failed(&mut self.registers, diag)),
         }
     }
 }

@@ -1,14 +1,20 @@
 //! `filpost test`: regression cases, all at once, and what is reported of them.
 
+mod coverage;
 mod init;
 mod junit;
+mod mutate;
 mod report;
 
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use filpost::case::{self, Case, Outcome, Programs};
+use filpost::coverage::Recorder;
+use filpost::debug::SharedDebugger;
+use filpost::locations::{Location, TABLE};
 use filpost::{Diag, Error, files};
 use indicatif::{ParallelProgressIterator, ProgressBar};
 use rayon::prelude::*;
@@ -22,6 +28,8 @@ struct Done {
     name: String,
     case: Case,
     outcome: Outcome,
+    /// What of FIL has run, where that was looked at.
+    recorder: Recorder,
     time: Duration,
 }
 
@@ -45,14 +53,18 @@ pub fn run(args: &TestArgs) -> Result<Status, Error> {
     } else {
         ProgressBar::hidden()
     };
-    let reports = [&args.html, &args.junit].into_iter().flatten().map(PathBuf::as_path);
+    let reports = [&args.html, &args.junit, &args.coverage_html, &args.lcov]
+        .into_iter()
+        .flatten()
+        .map(PathBuf::as_path);
     let inputs: Vec<PathBuf> = cases.iter().flat_map(Case::files).collect();
     output::refuse_over(reports, inputs.iter().map(PathBuf::as_path))?;
-    let programs = Programs::new();
+    let looks_on = args.coverage || args.mutate;
+    let programs = if looks_on { Programs::for_debugging() } else { Programs::new() };
     let done: Vec<Done> = cases
         .into_par_iter()
         .progress_with(progress)
-        .map(|case| run_case(&folder, case, &programs))
+        .map(|case| run_case(&folder, case, &programs, looks_on))
         .collect();
     let failed = say(&done, args.update)?;
     if let Some(path) = &args.html {
@@ -61,16 +73,29 @@ pub fn run(args: &TestArgs) -> Result<Status, Error> {
     if let Some(path) = &args.junit {
         write(path, &junit::xml(&done))?;
     }
+    if args.coverage {
+        coverage::tell(&done, &programs, args)?;
+    }
+    if args.mutate {
+        mutate::tell(&done, &programs)?;
+    }
     Ok(if failed == 0 { Status::Done } else { Status::Failed })
 }
 
-fn run_case(root: &Path, case: Case, programs: &Programs) -> Done {
+fn run_case(root: &Path, case: Case, programs: &Programs, looks_on: bool) -> Done {
     let start = Instant::now();
-    let outcome = case.outcome_with(programs);
+    let recorder = Arc::<Mutex<Recorder>>::default();
+    let outcome = if looks_on {
+        let debugger: SharedDebugger = recorder.clone();
+        case.outcome_debugged(programs, &debugger)
+    } else {
+        case.outcome_with(programs)
+    };
     let below = case.folder.strip_prefix(root).unwrap_or(&case.folder);
     let below = if below.as_os_str().is_empty() { &case.folder } else { below };
     let name = below.display().to_string().replace('\\', "/");
-    Done { name, case, outcome, time: start.elapsed() }
+    let recorder = recorder.lock().unwrap_or_else(PoisonError::into_inner).clone();
+    Done { name, case, outcome, recorder, time: start.elapsed() }
 }
 
 /// Tells how each case ended, in the order of their folders; with `update`
@@ -93,6 +118,29 @@ fn say(done: &[Done], update: bool) -> Result<usize, Error> {
     let passed = done.len() - failed;
     output::print(format!("{passed} passed, {failed} failed\n").as_bytes())?;
     Ok(failed)
+}
+
+/// The settings of a case that are not the default and act, with a name for where they come
+/// from: cases with the same one have the same machine.
+fn settings_of(done: &Done, programs: &Programs) -> Vec<(String, &'static Location)> {
+    let Ok(program) = programs.get(&done.case) else { return Vec::new() };
+    let commons = program.commons();
+    let differs = |row: &&'static Location| {
+        let value = commons.get(row.kind, u32::from(row.number));
+        row.used && value.is_ok_and(|value| value != row.default_value())
+    };
+    let source = machine_of(&done.case);
+    TABLE.iter().filter(differs).map(|row| (source.clone(), row)).collect()
+}
+
+/// Where the machine of a case comes from.
+fn machine_of(case: &Case) -> String {
+    let file = &case.file;
+    let path = file.machine.as_ref().or(file.option_file.as_ref()).map(|name| {
+        let path = case.folder.join(name);
+        path.canonicalize().unwrap_or(path).display().to_string()
+    });
+    path.or_else(|| file.ready.clone()).unwrap_or_else(|| "the generic mill".to_string())
 }
 
 fn write(path: &Path, text: &str) -> Result<(), Error> {

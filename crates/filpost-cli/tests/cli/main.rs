@@ -6,6 +6,7 @@ mod cases;
 mod check;
 mod cl;
 mod codes;
+mod coverage;
 mod diff;
 mod explain;
 mod fmt;

@@ -8,6 +8,7 @@
 //! when none is given); `expect_warnings`; `expect_at` (`file:line` of the error or of the
 //! first warning expected); `origin` and `repairs` for people.
 
+mod mutants;
 mod outcome;
 mod recipe;
 mod unified;
@@ -27,6 +28,7 @@ use crate::files;
 use crate::program::Program;
 use crate::units::unit_named;
 
+pub use mutants::{Mutant, mutants};
 pub use outcome::{Fresh, Outcome, Verdict};
 pub use recipe::Programs;
 use recipe::Recipe;

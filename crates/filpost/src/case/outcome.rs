@@ -5,14 +5,18 @@ use std::path::{Path, PathBuf};
 
 use fil_cl::reader;
 use fil_diag::Diag;
+use fil_machine::locations::Location;
 use fil_nc::diff;
 
+use super::recipe::Recipe;
 use super::{Case, CaseFile, Programs, unified};
+use crate::debug::SharedDebugger;
 use crate::error::Error;
 use crate::files;
 use crate::listing::Listing;
 use crate::pending::{NewFile, PendingFiles};
 use crate::program::Program;
+use crate::run::Run;
 
 /// Sentences about a difference that are shown.
 const MOST: usize = 20;
@@ -91,7 +95,7 @@ impl Case {
     /// # Errors
     /// As [`Case::program`] and [`crate::Run::run`].
     pub fn run(&self) -> Result<(Vec<u8>, Vec<Diag>), Error> {
-        self.run_whole(&self.program()?).map(|ran| (ran.nc, ran.warnings))
+        self.run_whole(&self.program()?, None).map(|ran| (ran.nc, ran.warnings))
     }
 
     /// Runs the case and compares; with `update` the expected files are written anew.
@@ -117,8 +121,29 @@ impl Case {
         self.outcome_of(programs.get(self))
     }
 
+    /// The same, with a debugger that looks on; of FIL it is told in programs
+    /// [for debugging](Programs::for_debugging).
+    pub fn outcome_debugged(&self, programs: &Programs, debugger: &SharedDebugger) -> Outcome {
+        let ran = programs.get(self).and_then(|program| self.run_whole(&program, Some(debugger)));
+        self.judge(ran)
+    }
+
+    /// The outcome with another text for one of its FIL files.
+    pub fn outcome_with_text(&self, name: &str, text: String) -> Outcome {
+        self.outcome_of(Recipe::of(self).and_then(|recipe| recipe.with_change(name, text).build()))
+    }
+
+    /// The outcome with a setting of the machine at its default.
+    pub fn outcome_without(&self, programs: &Programs, setting: &Location) -> Outcome {
+        self.outcome_of(programs.get(self).and_then(|program| program.without(setting)))
+    }
+
     fn outcome_of(&self, program: Result<Program, Error>) -> Outcome {
-        let ran = program.and_then(|program| self.run_whole(&program));
+        self.judge(program.and_then(|program| self.run_whole(&program, None)))
+    }
+
+    /// Compares what came of a run with what is expected.
+    fn judge(&self, ran: Result<Ran, Error>) -> Outcome {
         match (ran, &self.file.expect_error) {
             (Err(error), Some(code)) => self
                 .expect_code(code, error.diags(), true)
@@ -131,14 +156,35 @@ impl Case {
         }
     }
 
-    fn run_whole(&self, program: &Program) -> Result<Ran, Error> {
-        let cl = files::read(&self.folder.join(&self.file.cl))?;
-        let (mut nc, mut listing) = (Vec::new(), Listing::new(Vec::new()));
+    /// The CL file of the case.
+    ///
+    /// # Errors
+    /// E0701
+    pub fn cl_text(&self) -> Result<Vec<u8>, Error> {
+        files::read(&self.folder.join(&self.file.cl))
+    }
+
+    /// A run of a program that reads CL text as the case says.
+    pub fn start<'o>(&self, program: &Program) -> Run<'o> {
         let CaseFile { dialect, raw_records: raw, .. } = self.file;
         let reading = reader::Options { dialect, raw, ..reader::Options::default() };
-        let mut run = program.start().cl_name(&self.file.cl).reading(reading);
-        if let Some(unit) = self.file.units {
-            run = run.units(unit);
+        let run = program.start().cl_name(&self.file.cl).reading(reading);
+        match self.file.units {
+            Some(unit) => run.units(unit),
+            None => run,
+        }
+    }
+
+    fn run_whole(
+        &self,
+        program: &Program,
+        debugger: Option<&SharedDebugger>,
+    ) -> Result<Ran, Error> {
+        let cl = self.cl_text()?;
+        let (mut nc, mut listing) = (Vec::new(), Listing::new(Vec::new()));
+        let mut run = self.start(program);
+        if let Some(debugger) = debugger {
+            run = run.debug(debugger);
         }
         if self.file.listing.is_some() {
             run = run.observe(listing.observer());

@@ -32,6 +32,9 @@ pub(super) struct Recipe {
     read: Option<PathBuf>,
     clock: Option<String>,
     fuel: Option<u64>,
+    debug: bool,
+    /// Another text for a FIL file, one that INCLUD brings in too.
+    changed: Option<Named>,
 }
 
 impl Recipe {
@@ -62,6 +65,8 @@ impl Recipe {
             read: file.read.as_ref().map(|folder| case.folder.join(folder)),
             clock: file.clock.clone(),
             fuel: file.fuel,
+            debug: false,
+            changed: None,
         })
     }
 
@@ -70,7 +75,7 @@ impl Recipe {
     /// # Errors
     /// As [`Builder::build`].
     pub fn build(&self) -> Result<Program, Error> {
-        let mut builder = Program::builder().strict(self.strict);
+        let mut builder = Program::builder().strict(self.strict).debug(self.debug);
         for name in &self.allow {
             builder = builder.allow(crate::allowable(name).map_err(Error::setup)?);
         }
@@ -96,11 +101,30 @@ impl Recipe {
     }
 
     fn with_fil(&self, mut builder: Builder) -> Builder {
+        let other = |name: &str| {
+            self.changed.as_ref().filter(|(known, _)| known == name).map(|(_, text)| text.clone())
+        };
         for (name, text) in &self.fil {
-            builder = builder.fil(name, text);
+            builder = builder.fil(name, other(name).as_deref().unwrap_or(text));
         }
         let paths: Vec<PathBuf> = self.fil.iter().map(|(name, _)| PathBuf::from(name)).collect();
-        builder.includes(includes::beside(&paths, None))
+        let mut include = includes::beside(&paths, None);
+        let changed = self.changed.clone();
+        builder.includes(move |from, name| {
+            let mut included = include(from, name)?;
+            if let Some((_, text)) = changed.as_ref().filter(|(known, _)| *known == included.name) {
+                included.text.clone_from(text);
+            }
+            Ok(included)
+        })
+    }
+
+    /// The same with another text for a FIL file, and with less fuel: a change may make a
+    /// loop without end.
+    pub fn with_change(mut self, name: &str, text: String) -> Recipe {
+        self.changed = Some((name.to_string(), text));
+        self.fuel = Some(self.fuel.unwrap_or(FUEL_OF_CHANGED));
+        self
     }
 
     fn granted(&self, mut builder: Builder) -> Result<Builder, Error> {
@@ -115,6 +139,9 @@ impl Recipe {
         Ok(builder.clock(Clock::Fixed(moment)))
     }
 }
+
+/// Fuel of a section whose FIL was changed to see whether a case notices.
+const FUEL_OF_CHANGED: u64 = 2_000_000;
 
 /// A path without `folder/..`, so that cases in two folders call a file that both
 /// use by one name. A path that a link makes lead elsewhere stays as it is.
@@ -140,6 +167,7 @@ type Cell = Arc<OnceLock<Result<Program, Error>>>;
 #[derive(Default)]
 pub struct Programs {
     built: Mutex<HashMap<Recipe, Cell>>,
+    debug: bool,
 }
 
 impl Programs {
@@ -148,12 +176,17 @@ impl Programs {
         Programs::default()
     }
 
+    /// The same, of debug builds (see [`Builder::debug`](crate::Builder::debug)).
+    pub fn for_debugging() -> Self {
+        Programs { debug: true, ..Programs::default() }
+    }
+
     /// The program of a case.
     ///
     /// # Errors
     /// As [`Case::program`].
     pub fn get(&self, case: &Case) -> Result<Program, Error> {
-        let recipe = Recipe::of(case)?;
+        let recipe = Recipe { debug: self.debug, ..Recipe::of(case)? };
         // Nothing is left half done in the table, whoever panicked.
         let mut built = self.built.lock().unwrap_or_else(PoisonError::into_inner);
         let cell = Arc::clone(built.entry(recipe.clone()).or_default());
