@@ -1,5 +1,6 @@
-//! The points of Heidenhain programs that a CAM system wrote beside its CL files: enough of
-//! the conversational format for them, and nothing that a post of ours has a part in.
+//! The points of Heidenhain programs that a CAM system wrote beside its CL files, and of ours
+//! for the same files: enough of the conversational format for them, and nothing that a post
+//! of ours has a part in.
 
 /// What a program does at a point; lengths in mm, in the frame of the program.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,8 +23,12 @@ pub fn steps(text: &str) -> Result<Vec<Step>, String> {
     let mut found = Vec::new();
     let (mut at, mut center, mut depth) = ([f64::NAN; 3], [0.0; 2], 0.0);
     for line in text.lines() {
-        let words: Vec<&str> = line.split_whitespace().skip(1).collect();
         let wrong = || format!("can't read `{line}`");
+        if let Some(value) = line.trim_start().strip_prefix("Q201=") {
+            let value = value.split_whitespace().next().unwrap_or_default();
+            depth = -value.parse::<f64>().map_err(|_| wrong())?;
+        }
+        let words: Vec<&str> = line.split_whitespace().skip(1).collect();
         match words[..] {
             ["CYCL", "DEF", "1.2", word] => {
                 let value: f64 = word.trim_start_matches("DEPTH").parse().map_err(|_| wrong())?;
@@ -93,5 +98,9 @@ mod tests {
             ]
         );
         assert!(steps("1 C X+1\n").is_err());
+        let cycle = "1 CYCL DEF 200 DRILLING ~\n  Q200=+2 ;SET-UP ~\n  Q201=-4.5 ;DEPTH\n\
+                     2 L X+1 Y+2 FMAX M99\n";
+        let at = [1.0, 2.0];
+        assert_eq!(steps(cycle).unwrap().last(), Some(&Step::Hole(at, 4.5)));
     }
 }

@@ -278,24 +278,80 @@ fn agree(a: &Step, b: &Step) -> bool {
     }
 }
 
+/// CL files of a CAM system with the Heidenhain programs that it wrote beside them.
+const PAIRS: [(&str, &[&str]); 2] =
+    [("Teflon-gasket", &["11.h"]), ("shimemcunha", &["11.h", "12.h"])];
+
+/// The CL text of a pair and the steps of its programs.
+fn pair(data: &Path, part: &str, programs: &[&str]) -> (Vec<u8>, Vec<Step>) {
+    let (cl, _) = read(&data.join(format!("cl/solidworks-cam/{part}.apt")));
+    let mut found = Vec::new();
+    for program in programs {
+        let path = data.join(format!("nc/heidenhain/{part}/{program}"));
+        found.extend(klartext::steps(&fs::read_to_string(path).unwrap()).unwrap());
+    }
+    (cl, found)
+}
+
+fn assert_same(part: &str, wanted: &[Step], found: &[Step]) {
+    let differs = wanted.iter().zip(found).position(|(a, b)| !agree(a, b));
+    if let Some(at) = differs {
+        panic!("{part}, step {at}: {:?} and {:?}", wanted[at], found[at]);
+    }
+    assert_eq!(wanted.len(), found.len(), "{part}");
+    println!("{part}: {} steps agree", found.len());
+}
+
 /// The programs that the CAM system wrote beside two of its CL files go to the same points,
 /// by the same arcs, and drill the same holes.
 #[test]
 fn heidenhain_programs_have_the_same_points() {
     let Some(data) = data() else { return };
-    for (part, programs) in [("Teflon-gasket", &["11.h"][..]), ("shimemcunha", &["11.h", "12.h"])] {
-        let (cl, _) = read(&data.join(format!("cl/solidworks-cam/{part}.apt")));
-        let wanted = steps_of(&cl);
-        let mut found = Vec::new();
-        for program in programs {
-            let path = data.join(format!("nc/heidenhain/{part}/{program}"));
-            found.extend(klartext::steps(&fs::read_to_string(path).unwrap()).unwrap());
+    for (part, programs) in PAIRS {
+        let (cl, found) = pair(&data, part, programs);
+        assert_same(part, &steps_of(&cl), &found);
+    }
+}
+
+/// A CL text whose tool axes lie across Y, each turned into Z by a TRANS before its points.
+fn turned_upright(cl: &[u8]) -> String {
+    let mut text = String::new();
+    let mut axis = [0.0, 1.0];
+    for line in String::from_utf8_lossy(cl).lines() {
+        let point = line.strip_prefix("GOTO/").map(|numbers| {
+            let numbers = numbers.split(',').map(|number| number.trim().parse().unwrap());
+            numbers.collect::<Vec<f64>>()
+        });
+        if let Some(point) = point {
+            let now = if let [_, _, _, i, _, k] = point[..] { [i, k] } else { [0.0, 1.0] };
+            if std::mem::replace(&mut axis, now) != now {
+                let [i, k] = now;
+                text += &format!("TRANS/{k},0,{},0,0,1,0,0,{i},0,{k},0\n", -i);
+            }
         }
-        let differs = wanted.iter().zip(&found).position(|(a, b)| !agree(a, b));
-        if let Some(at) = differs {
-            panic!("{part}, step {at}: {:?} and {:?}", wanted[at], found[at]);
-        }
-        assert_eq!(wanted.len(), found.len(), "{part}");
-        println!("{part}: {} steps agree", found.len());
+        text += line;
+        text.push('\n');
+    }
+    text
+}
+
+/// Ours for the same files go to the points of those programs, by arcs of the same sense and
+/// the same holes.
+#[test]
+fn our_klartext_has_the_points_of_the_pairs() {
+    let Some(data) = data() else { return };
+    let post = filpost::Program::builder().ready("heidenhain-tnc640").set("rapid.split=0");
+    let post = post.build().unwrap();
+    for (part, programs) in PAIRS {
+        let (cl, wanted) = pair(&data, part, programs);
+        let mut nc = Vec::new();
+        let upright = turned_upright(&cl);
+        post.start().run(upright.as_bytes(), &mut nc).unwrap();
+        let nc = String::from_utf8(nc).unwrap();
+        let found = klartext::steps(&nc).unwrap();
+        assert_same(part, &wanted, &found);
+        let turned = nc.replacen(" DR-", " DR+", 1);
+        let other = klartext::steps(&turned).unwrap();
+        assert!(turned == nc || wanted.iter().zip(&other).any(|(a, b)| !agree(a, b)), "{part}");
     }
 }

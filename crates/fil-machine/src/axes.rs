@@ -183,6 +183,11 @@ impl Axis {
         self.scale
     }
 
+    /// Added to values on the tape after the scale, mm, inch or degrees.
+    pub fn translation(&self) -> f64 {
+        self.translate
+    }
+
     /// True when the output scale leaves circles circles: 1, or X a diameter.
     pub fn keeps_circles(&self) -> bool {
         self.scale == 1.0 || self.diameter

@@ -26,7 +26,7 @@ const AXIS_NAMES: [&str; 6] = ["x", "y", "z", "a", "b", "c"];
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scale {
     factor: f64,
-    shift: f64,
+    pub(crate) shift: f64,
 }
 
 impl Scale {

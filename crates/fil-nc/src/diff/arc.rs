@@ -18,6 +18,8 @@ const SAME: f64 = 1e-9;
 
 /// An arc in its plane.
 struct Arc {
+    /// Start and end, as the words say them.
+    ends: [[f64; 2]; 2],
     center: [f64; 2],
     radius: f64,
     /// Direction of the start, radians.
@@ -54,11 +56,11 @@ pub(super) fn deviation(one: &Line, two: &Line, options: &Options) -> Option<f64
 
 /// How far the ends are apart, whichever is more.
 fn end_difference(one: &Arc, two: &Arc) -> f64 {
-    let apart = |share: f64| {
-        let ([x1, y1], [x2, y2]) = (one.point(share), two.point(share));
+    let apart = |end: usize| {
+        let ([x1, y1], [x2, y2]) = (one.ends[end], two.ends[end]);
         (x1 - x2).hypot(y1 - y2)
     };
-    apart(0.0).max(apart(1.0))
+    apart(0).max(apart(1))
 }
 
 fn arc(line: &Line, options: &Options) -> Option<Arc> {
@@ -99,7 +101,7 @@ fn arc(line: &Line, options: &Options) -> Option<Arc> {
     while !ccw && sweep >= 0.0 {
         sweep -= TAU;
     }
-    Some(Arc { center, radius, from, sweep })
+    Some(Arc { ends: [start, end], center, radius, from, sweep })
 }
 
 /// Center of an arc given by its radius; a negative one goes the long way.

@@ -100,13 +100,19 @@ impl State<'_> {
             CenterForm::FromStart => [start[0] + by[0], start[1] + by[1]],
             CenterForm::FromCenter => [start[0] - by[0], start[1] - by[1]],
             CenterForm::Absolute => match given {
-                [Some(first), Some(second)] => [first, second],
+                [Some(_), Some(_)] => [0, 1].map(|index| self.moved(plane[index], by[index])),
                 _ => return Err(Fault::new(NcCode::NoCenter, "the center needs both coordinates")),
             },
             CenterForm::Unsigned => self.unsigned(plane, by, to, ccw)?,
         };
         self.check_radii(plane, center, to)?;
         Ok(center)
+    }
+
+    /// A coordinate of a center on an axis whose positions are moved on the tape.
+    pub(super) fn moved(&self, axis: usize, center: f64) -> f64 {
+        let scale = self.dialect.scales[axis];
+        center - scale.map_or(0.0, |scale| scale.shift) * self.unit()
     }
 
     /// Of the four centers without signs the one that makes an arc within a quadrant.

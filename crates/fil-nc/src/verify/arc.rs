@@ -93,8 +93,28 @@ impl<C: Steps> Walk<'_, C> {
             (given - arc.radius()).abs() <= self.slack.radius
         } else {
             (0..3).filter(in_plane).all(|n| off(n) <= self.center_slack(n))
+                || self.settings.turns_by_angles() && self.follows(arc, from, found, part)
         };
         radius.then_some(part.angle)
+    }
+
+    /// True for a helix about a pole that lies elsewhere than the center, so that the angle
+    /// ends where it should: its points lie on the arc all the same.
+    fn follows(&self, arc: &Arc, from: &Position, found: &Move, part: &motion::Arc) -> bool {
+        let rises = found.to.linear[part.normal] != from.linear[part.normal];
+        let slack = 2.0 * self.slack.linear.iter().fold(0.0f64, |a, b| a.max(*b));
+        let [first, second] = [(part.normal + 1) % 3, (part.normal + 2) % 3];
+        let arm = [first, second].map(|axis| from.linear[axis] - part.center[axis]);
+        rises
+            && [0.25, 0.5, 0.75].into_iter().all(|share| {
+                let angle = if part.ccw { part.angle } else { -part.angle } * share;
+                let (sine, cosine) = angle.to_radians().sin_cos();
+                let mut to = found.to;
+                to.linear[first] = part.center[first] + arm[0] * cosine - arm[1] * sine;
+                to.linear[second] = part.center[second] + arm[0] * sine + arm[1] * cosine;
+                let pose = self.settings.forward.pose(&to);
+                (arc.spoke(pose.tip).norm() - arc.radius()).abs() <= slack
+            })
     }
 
     /// The center is written from the start as it is rounded on the tape. When
@@ -124,10 +144,12 @@ impl<C: Steps> Walk<'_, C> {
         let slack = 2.0 * self.slack.linear.iter().fold(0.0f64, |a, b| a.max(*b));
         let share = angle / arc.sweep;
         let rise = arc.rise_of(arc.end.tip) * share;
+        // A last digit along the arc is more of them along the axis of a steep helix.
+        let slope = arc.rise_of(arc.end.tip).abs() / (arc.sweep.to_radians() * arc.radius());
         let behind = (arc.angle_of(tip) - angle).rem_euclid(360.0);
         let along = behind.min(360.0 - behind).to_radians() * arc.radius();
         (arc.spoke(tip).norm() - arc.radius()).abs() <= slack
-            && (arc.rise_of(tip) - rise).abs() <= slack
+            && (arc.rise_of(tip) - rise).abs() <= slack * (1.0 + slope)
             && along <= slack
     }
 

@@ -116,7 +116,10 @@ impl<C: Steps> Walk<'_, C> {
         let in_cycle = self.next_move().is_some_and(|found| found.in_cycle);
         let from_surface = in_cycle && self.settings.pecks_from_surface();
         let first = if from_surface { levels.at[2] } else { levels.clear };
-        for depth in depths(hole, first, levels.bottom) {
+        let step = hole.step.filter(|_| in_cycle);
+        let step = step.map(|step| self.settings.peck_on_tape(step, self.metric));
+        let pecks = Hole { step: step.or(hole.step), ..*hole };
+        for depth in depths(&pecks, first, levels.bottom) {
             if reached != levels.clear {
                 self.between_pecks(cl_line, hole, levels, reached)?;
             }

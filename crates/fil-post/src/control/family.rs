@@ -131,12 +131,31 @@ pub fn ready_for_hole(control: &mut Control, in_cycle: bool) -> Result<()> {
     }
 }
 
-/// True when the control has arcs in a plane; `rise` is how far one goes across it.
-pub fn has_arc(control: &Control, plane: Plane, rise: f64) -> bool {
+/// True when the control has arcs and helices in a plane.
+pub fn has_arc(control: &Control, plane: Plane) -> bool {
     match control.tables.family {
-        ControlFamily::Klartext => klartext::motion::has_arc(control, plane, rise),
+        ControlFamily::Klartext => klartext::motion::has_arc(plane),
         _ => true,
     }
+}
+
+/// True when the control reads an arc from its rounded words as it is meant.
+///
+/// # Errors
+/// A position that does not fit its address.
+#[inline]
+pub fn reads_as_meant(control: &Control, arc: &PlaneArc) -> Result<bool> {
+    match control.tables.family {
+        ControlFamily::Klartext => klartext::motion::reads_as_meant(control, arc),
+        _ => word_address::arc::reads_as_meant(control, arc),
+    }
+}
+
+/// Where an arc begins for the control, in the axes of its plane: where the tape stands, but
+/// behind a helix of Klartext, whose end no word says.
+#[inline]
+pub fn start_of_arc(control: &Control, on_tape: [f64; 2]) -> [f64; 2] {
+    control.klartext.start(on_tape)
 }
 
 /// Writes the block of an arc.

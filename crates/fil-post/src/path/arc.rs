@@ -66,10 +66,11 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
              moved the axes, or no motion came before",
         );
     };
-    whole.start = whole.plane.axes().map(|number| stands[number]);
+    whole.start =
+        family::start_of_arc(&post.control, whole.plane.axes().map(|number| stands[number]));
     if usual_step(post, &whole) == Step::Turns
         && sweep <= FULL
-        && words::reads_as_meant(&post.control, &whole)?
+        && family::reads_as_meant(&post.control, &whole)?
     {
         let feed = feed_rules::of_arc(post, &whole)?;
         family::arc(&mut post.control, &whole, feed.as_ref())?;
@@ -223,8 +224,7 @@ fn in_plane(
     let found =
         Plane::ALL.into_iter().find(|plane| normal[plane.normal()].abs() > 1.0 - NEAR_PLANE);
     let Some(plane) = found else { return Ok(None) };
-    let along = plane.normal();
-    if !family::has_arc(&post.control, plane, to[along] - from[along]) {
+    if !family::has_arc(&post.control, plane) {
         return Ok(None);
     }
     let most = post.control.commons.dbl_opt(loc::CIRCLE_MAX_RADIUS);
@@ -303,7 +303,7 @@ fn parts(post: &Post, arc: &PlaneArc) -> Result<Option<Vec<PlaneArc>>> {
         let parts = divided(post, arc, &stops(arc, *step, least))?;
         let mut meant = true;
         for part in &parts {
-            meant &= words::reads_as_meant(&post.control, part)?;
+            meant &= family::reads_as_meant(&post.control, part)?;
         }
         if meant {
             return Ok(Some(parts));

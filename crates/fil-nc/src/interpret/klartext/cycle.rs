@@ -231,7 +231,7 @@ impl Klartext<'_> {
             self.check_sense(definition.get("Q239")?)?;
             Rate::PerTurn(length("Q239")?.abs())
         } else {
-            Rate::PerMinute(length("Q206")?)
+            self.rate_of(definition.get("Q206")?)
         };
         match definition.number {
             200 => step = length("Q202")?,
@@ -311,7 +311,7 @@ impl Klartext<'_> {
             rest: clear,
             step,
             dwell: definition.get("DWELL")?,
-            rate: Rate::PerMinute(length("F")?),
+            rate: self.rate_of(definition.get("F")?),
             again: GAP,
             breaks: 0,
             lift: 0.0,

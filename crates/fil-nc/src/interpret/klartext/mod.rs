@@ -1,6 +1,6 @@
 //! Heidenhain Klartext to events: lines of phrases in their order.
 //!
-//! Followed are `L`, `CC`, `C`, `CR`, `TOOL CALL`, the drilling cycles 200, 201, 203,
+//! Followed are `L`, `CC`, `C`, `CR`, `CP`, `TOOL CALL`, the drilling cycles 200, 201, 203,
 //! 205, 207 and the old cycle 1 with `M99` or `CYCL CALL`, dwell and datum shift. What
 //! else moves, calculates or jumps is refused.
 
@@ -153,6 +153,7 @@ impl Klartext<'_> {
             ["L", ..] => self.straight(&line.words[1..]),
             ["CC", ..] => self.pole(&line.words[1..]),
             ["C", ..] => self.arc(&line.words[1..]),
+            ["CP", ..] => self.polar_arc(&line.words[1..]),
             ["CR", ..] => self.arc_of_radius(&line.words[1..]),
             [first, ..] if first.starts_with('M') => self.functions(&line.words),
             _ => {

@@ -7,8 +7,13 @@ use super::{After, Klartext};
 use crate::errors::NcCode;
 use crate::motion::{Arc, Compensation, Course, Rate};
 
+const FULL: f64 = 360.0;
+
 /// In a program in inches F counts tenths of an inch a minute.
 const TENTHS: f64 = 0.1;
+
+/// The largest polar angle of a helix, degrees: fifteen turns.
+const MOST_TURNED: f64 = 5400.0;
 
 /// What a line of a motion says.
 #[derive(Default)]
@@ -19,6 +24,8 @@ struct Said {
     /// DR: counterclockwise.
     ccw: Option<bool>,
     radius: Option<f64>,
+    /// PA, or IPA where it is an increment, degrees.
+    angle: Option<(f64, bool)>,
     machine: bool,
     calls: bool,
     ends: bool,
@@ -28,7 +35,7 @@ impl Klartext<'_> {
     /// `L X+10 Y+5 R0 FMAX M3`.
     pub(super) fn straight(&mut self, words: &[Word]) -> Result<(), Fault> {
         let said = self.said(words)?;
-        if said.ccw.is_some() || said.radius.is_some() {
+        if said.ccw.is_some() || said.radius.is_some() || said.angle.is_some() {
             return Err(Fault::new(NcCode::NoMeaning, "a line has no sense and no radius"));
         }
         if said.axes != [None; 5] {
@@ -63,7 +70,7 @@ impl Klartext<'_> {
     /// `CC X+1 Y+2`; without coordinates the tool stands at the pole.
     pub(super) fn pole(&mut self, words: &[Word]) -> Result<(), Fault> {
         let said = self.said(words)?;
-        if said.axes[2..].iter().any(Option::is_some) {
+        if said.axes[2..].iter().any(Option::is_some) || said.angle.is_some() {
             return Err(Fault::new(NcCode::ForeignCode, "a pole outside of the XY plane"));
         }
         let none = said.axes[0].is_none() && said.axes[1].is_none();
@@ -113,8 +120,46 @@ impl Klartext<'_> {
         self.after(&said)
     }
 
+    /// `CP PA+90 DR+` and `CP IPA+720 IZ-2 DR+`: about the pole, at the radius where the tool
+    /// stands; Z goes along with the angle.
+    pub(super) fn polar_arc(&mut self, words: &[Word]) -> Result<(), Fault> {
+        let mut said = self.said(words)?;
+        let [Some(first), Some(second)] = self.pole else {
+            return Err(Fault::new(NcCode::NoCenter, "no CC came before"));
+        };
+        if said.radius.is_some() || said.axes[..2] != [None; 2] {
+            let message = "X, Y and a radius have no place beside a polar angle";
+            return Err(Fault::new(NcCode::Twice, message));
+        }
+        let missing = || Fault::new(NcCode::MissingWord, "CP needs PA or IPA");
+        let (angle, increment) = said.angle.take().ok_or_else(missing)?;
+        let (mut to, known) = self.target(&said);
+        said.axes[2] = None;
+        let (ccw, rate) = self.of_arc(&said)?;
+        let [x, y] = [self.state.at[0] - first, self.state.at[1] - second];
+        let sense = if ccw { 1.0 } else { -1.0 };
+        let turned = match increment {
+            true => angle * sense,
+            false => ((angle - y.atan2(x).to_degrees()) * sense).rem_euclid(FULL),
+        };
+        if turned <= 0.0 || turned > MOST_TURNED {
+            let message = "IPA has the sign of DR, and is no more than fifteen turns";
+            return Err(Fault::new(NcCode::BadNumber, message));
+        }
+        let (sine, cosine) = (turned * sense).to_radians().sin_cos();
+        to[0] = first + x * cosine - y * sine;
+        to[1] = second + x * sine + y * cosine;
+        let center = [first, second, self.state.at[2]];
+        let arc = Arc { center, normal: 2, ccw, angle: turned };
+        self.state.travel((to, known), Course::Feed, Some(rate), Some(arc));
+        self.after(&said)
+    }
+
     /// Sense and feed of an arc.
     fn of_arc(&self, said: &Said) -> Result<(bool, Rate), Fault> {
+        if said.angle.is_some() {
+            return Err(Fault::new(NcCode::NoMeaning, "a polar angle without CP"));
+        }
         if said.axes[2..].iter().any(Option::is_some) || said.machine || said.rapid {
             let message = "an arc outside of the XY plane, at FMAX or in the machine frame";
             return Err(Fault::new(NcCode::ForeignCode, message));
@@ -133,6 +178,12 @@ impl Klartext<'_> {
             Rate::PerMinute(rate) if !self.state.metric => Rate::PerMinute(rate * TENTHS),
             rate => rate,
         })
+    }
+
+    /// What a feed a minute of a cycle stands for: it counts as F does.
+    pub(super) fn rate_of(&self, feed: f64) -> Rate {
+        let tenths = if self.state.metric { 1.0 } else { TENTHS };
+        Rate::PerMinute(feed * tenths * self.state.unit())
     }
 
     fn target(&self, said: &Said) -> ([f64; 5], [bool; 5]) {
@@ -190,6 +241,13 @@ impl Klartext<'_> {
         if let Some(radius) = word.value("R") {
             said.radius = Some(radius?);
             return Ok(());
+        }
+        for (name, increment) in [("PA", false), ("IPA", true)] {
+            if let Some(angle) = word.value(name) {
+                let before = said.angle.replace((angle?, increment));
+                let twice = || Fault::new(NcCode::Twice, "two angles").at(&word.range);
+                return if before.is_some() { Err(twice()) } else { Ok(()) };
+            }
         }
         let increment = word.text.starts_with('I');
         let text = word.text.strip_prefix('I').unwrap_or(&word.text);

@@ -297,8 +297,8 @@ impl Sinumerik<'_> {
 
     /// A new tool comes with an edge that the machine chooses, until D names it.
     fn change(&mut self, tool: u32) {
-        self.state.change(tool);
         self.state.modes.length_offset = None;
+        self.state.change(tool);
     }
 
     fn spindle(&mut self, said: &Said) {

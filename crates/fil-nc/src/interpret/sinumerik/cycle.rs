@@ -6,7 +6,7 @@ use super::Sinumerik;
 use super::line::{Value, Word};
 use crate::dialect::CycleKind;
 use crate::errors::NcCode;
-use crate::motion::{Course, Event, Rate, Speed, Spindle};
+use crate::motion::{Course, Event, INCH, Rate, Speed, Spindle};
 
 /// Most pecks of a hole.
 const MAX_PECKS: f64 = 10_000.0;
@@ -32,7 +32,13 @@ const NAMES: &[(u32, &[&str])] = &[
             "AXN", "MDEP", "VRT", "DTD", "DIS1",
         ],
     ),
-    (84, &["RTP", "RFP", "SDIS", "DP", "DPR", "DTB", "SDAC", "MPIT", "PIT", "POSS", "SST", "SST1"]),
+    (
+        84,
+        &[
+            "RTP", "RFP", "SDIS", "DP", "DPR", "DTB", "SDAC", "MPIT", "PIT", "POSS", "SST", "SST1",
+            "AXN", "PITA", "TECHNO", "VARI",
+        ],
+    ),
     (85, &["RTP", "RFP", "SDIS", "DP", "DPR", "DTB", "FFR", "RFF"]),
     (86, &["RTP", "RFP", "SDIS", "DP", "DPR", "DTB", "SDIR", "RPA", "RPO", "RPAP", "POSS"]),
     (89, &["RTP", "RFP", "SDIS", "DP", "DPR", "DTB"]),
@@ -54,6 +60,14 @@ impl Call {
         self.get(name).ok_or_else(|| {
             Fault::new(NcCode::MissingWord, format!("CYCLE{} needs {name}", self.number))
         })
+    }
+
+    /// Refuses a drilling axis other than the third one.
+    fn check_axis(&self) -> Result<(), Fault> {
+        if self.get("AXN").is_some_and(|axis| !matches!(axis as i64, 0 | 3)) {
+            return Err(Fault::new(NcCode::ForeignCode, "AXN other than 3 is not followed"));
+        }
+        Ok(())
     }
 
     /// Refuses values other than zero: what they do is not followed.
@@ -180,9 +194,7 @@ impl Sinumerik<'_> {
         if call.get("FRF").is_some_and(|share| share != 1.0) {
             return Err(Fault::new(NcCode::ForeignCode, "FRF other than 1 is not followed"));
         }
-        if call.get("AXN").is_some_and(|axis| !matches!(axis as i64, 0 | 3)) {
-            return Err(Fault::new(NcCode::ForeignCode, "AXN other than 3 is not followed"));
-        }
+        call.check_axis()?;
         let first = match (call.get("FDEP"), call.get("FDPR")) {
             (Some(depth), _) => self.state.position(at.axis, depth),
             (None, Some(depth)) => at.surface - depth.abs() * unit,
@@ -218,12 +230,10 @@ impl Sinumerik<'_> {
 
     /// In step with the spindle, down and up; SDAC is how it turns afterwards.
     fn tap(&mut self, call: &Call, at: &Levels) -> Result<(), Fault> {
-        call.refuse(&["MPIT"])?;
-        if !self.state.metric {
-            let message = "the unit of PIT in a program in inches is not certain";
-            return Err(Fault::new(NcCode::ForeignCode, message));
-        }
+        call.refuse(&["MPIT", "TECHNO", "VARI"])?;
+        call.check_axis()?;
         let (pitch, speed) = (call.need("PIT")?, call.need("SST")?);
+        let pitch = self.pitch(pitch, call.get("PITA").unwrap_or(0.0))?;
         if pitch == 0.0 || speed <= 0.0 {
             return Err(Fault::new(NcCode::BadNumber, "PIT and SST must not be zero"));
         }
@@ -242,6 +252,22 @@ impl Sinumerik<'_> {
         self.go(at, at.clear, Course::Thread, rate);
         self.state.modes.spindle = sense(call.need("SDAC")?)?;
         Ok(())
+    }
+
+    /// A pitch in mm: PITA 0 counts as the software does, 1 in mm, 2 in turns an inch, 3 in
+    /// inches.
+    fn pitch(&self, pitch: f64, unit: f64) -> Result<f64, Fault> {
+        match unit {
+            0.0 if self.state.metric => Ok(pitch),
+            0.0 => {
+                let message = "the unit of PIT in a program in inches is not certain without PITA";
+                Err(Fault::new(NcCode::ForeignCode, message))
+            }
+            1.0 => Ok(pitch),
+            2.0 if pitch != 0.0 => Ok(INCH / pitch),
+            3.0 => Ok(pitch * INCH),
+            _ => Err(Fault::new(NcCode::ForeignCode, "PITA of another unit is not followed")),
+        }
     }
 
     fn ream(&mut self, call: &Call, at: &Levels) -> Result<(), Fault> {

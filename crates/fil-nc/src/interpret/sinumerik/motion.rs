@@ -105,7 +105,7 @@ impl Sinumerik<'_> {
         }
         let unit = self.state.unit();
         let of = |axis: usize| match said.center[axis] {
-            Some((value, Some(true))) => value * unit,
+            Some((value, Some(true))) => self.state.moved(axis, value * unit),
             Some((value, _)) => self.state.at[axis] + value * unit,
             None => self.state.at[axis],
         };

@@ -165,6 +165,19 @@ impl<'c> Settings<'c> {
         }
     }
 
+    /// A peck as a cycle of the control has it, mm: its last digit counts once for each peck.
+    pub fn peck_on_tape(&self, step: f64, metric: bool) -> f64 {
+        let letter = match self.commons.read(loc::CONTROL_FAMILY) {
+            ControlFamily::WordAddress => self.commons.read(loc::CYCLE_STEP_ADDRESS),
+            _ => Some(letters::XYZ[2]),
+        };
+        let addresses = Addresses::from_commons(self.commons, metric);
+        let format = letter.and_then(|letter| addresses.format(letter).copied());
+        let Some(format) = format else { return step };
+        let digit = 0.1f64.powi(format.decimals.into()) * unit(metric);
+        (step / digit).round() * digit
+    }
+
     /// What a resolution set by hand may take from a position, in the unit of the program.
     fn by_hand(&self) -> f64 {
         let is_set =
@@ -411,6 +424,11 @@ impl<'c> Settings<'c> {
 
     fn writes(&self, letter: Letter) -> bool {
         Addresses::from_commons(self.commons, true).position(letter).is_some()
+    }
+
+    /// True for a control that turns helices by angles: their ends are coordinates of no word.
+    pub fn turns_by_angles(&self) -> bool {
+        self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext
     }
 
     /// True when an arc is written with its radius.

@@ -9,7 +9,7 @@ use fil_diag::Result;
 use fil_machine::FunctionCode;
 use fil_machine::axes::AxisSet;
 use fil_machine::letters::XYZ;
-use fil_machine::modes::FeedMode;
+use fil_machine::modes::{FeedMode, INCH};
 use fil_machine::rounding::Rounding;
 
 use super::line;
@@ -23,7 +23,13 @@ use crate::errors::PostCode;
 use crate::path::cycle::{Cycle, CycleFeed, CycleKind, Hole};
 
 /// By which 203 lifts to break chips, and 205 stops before the last depth, mm.
-const GAP: &str = "+0.2";
+const GAP: f64 = 0.2;
+
+/// Q208 of a retraction at rapid traverse: the highest feed that the control reads.
+const RAPID_OUT: &str = "+99999";
+
+/// Digits after the point of a pitch in mm and in inches.
+const PITCH_DIGITS: [usize; 2] = [4, 5];
 
 /// The cycles that are known, with their names.
 const CYCLES: [(u16, &str); 5] = [
@@ -35,9 +41,9 @@ const CYCLES: [(u16, &str); 5] = [
 ];
 
 /// The number of the cycle that the settings name for a kind; `None` where they name
-/// none, and in a program in inches, where what its feeds count is not certain.
+/// none.
 pub fn code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
-    control.code_if_any(cycle.kind.code()).filter(|_| control.is_metric())
+    control.code_if_any(cycle.kind.code())
 }
 
 /// Writes the definition of the cycle unless the control has it, and the line of the
@@ -166,9 +172,10 @@ fn definition(
         None => at.deep.max(at.way),
     };
     let plunge = peck_text(control, peck)?;
+    let gap = peck_text(control, if control.is_metric() { GAP } else { GAP / INCH })?;
     if number == 201 {
         say(211, &dwell, "DWELL TIME AT DEPTH");
-        say(208, "+0", "RETRACTION FEED RATE");
+        say(208, &feed, "RETRACTION FEED RATE");
         say(203, &at.surface, "SURFACE COORDINATE");
         say(204, &at.second, "2ND SET-UP CLEARANCE");
         return Ok(lines);
@@ -186,8 +193,8 @@ fn definition(
             say(213, &breaks.to_string(), "NR OF BREAKS");
             say(205, "+0", "MIN. PLUNGING DEPTH");
             say(211, &dwell, "DWELL TIME AT DEPTH");
-            say(208, "+99999", "RETRACTION FEED RATE");
-            say(256, GAP, "DIST FOR CHIP BRKNG");
+            say(208, RAPID_OUT, "RETRACTION FEED RATE");
+            say(256, &gap, "DIST FOR CHIP BRKNG");
         }
         205 => {
             if cycle.kind == CycleKind::Brkchp {
@@ -195,10 +202,10 @@ fn definition(
             }
             say(212, "+0", "DECREMENT");
             say(205, "+0", "MIN. PLUNGING DEPTH");
-            say(258, GAP, "UPPER ADV STOP DIST");
-            say(259, GAP, "LOWER ADV STOP DIST");
+            say(258, &gap, "UPPER ADV STOP DIST");
+            say(259, &gap, "LOWER ADV STOP DIST");
             say(257, "+0", "DEPTH FOR CHIP BRKNG");
-            say(256, GAP, "DIST FOR CHIP BRKNG");
+            say(256, &gap, "DIST FOR CHIP BRKNG");
             say(211, &dwell, "DWELL TIME AT DEPTH");
             say(379, "+0", "STARTING POINT");
             say(253, "+0", "F PRE-POSITIONING");
@@ -224,7 +231,7 @@ fn peck_text(control: &Control, peck: f64) -> Result<String> {
     Ok(line::scaled_text(control, z, scaled).unwrap_or_default())
 }
 
-/// The feed of a hole, mm/min.
+/// The feed of a hole as F would say it: mm a minute, or tenths of an inch.
 fn feed(control: &Control, cycle: &Cycle) -> Result<String> {
     let CycleFeed::Feed(feed) = cycle.feed else {
         return refuse("a lead in place of a feed in a cycle that does not tap");
@@ -232,7 +239,7 @@ fn feed(control: &Control, cycle: &Cycle) -> Result<String> {
     if feed.mode != FeedMode::PerMinute {
         return refuse("a feed a turn of the spindle in a cycle");
     }
-    line::feed(control, feed.value)
+    line::feed(control, motion::spelled(control, feed.value))
 }
 
 /// The lead of a tap with the sign of its sense: minus for a left-hand thread, which the
@@ -241,6 +248,7 @@ fn pitch(control: &Control, cycle: &Cycle) -> Result<String> {
     let Some(clockwise) = control.klartext.clockwise else {
         return refuse("TAP before SPINDL: the sign of Q239 says which way the thread turns");
     };
-    let pitch = tap::pitch(control, cycle)?;
+    let digits = PITCH_DIGITS[usize::from(!control.is_metric())];
+    let pitch = tap::text(tap::pitch(control, cycle)?, digits)?;
     Ok(format!("{}{pitch}", if clockwise { '+' } else { '-' }))
 }

@@ -6,6 +6,7 @@
 //! absolute. What Klartext can't say is refused by [`refuse`].
 
 pub mod cycle;
+pub mod helix;
 pub mod line;
 pub mod motion;
 pub mod phrase;
@@ -39,10 +40,20 @@ pub struct Klartext {
     defined: Vec<String>,
     /// The spindle was last told to turn clockwise.
     clockwise: Option<bool>,
+    /// Where a helix has left the tool in X and Y, mm or inch, within half a last digit of
+    /// what the tape said last; `None` for an axis that a word has moved since.
+    stands: [Option<f64>; 2],
     /// Name of the program, between BEGIN PGM and END PGM.
     name: String,
     /// END PGM stands on the tape.
     ended: bool,
+}
+
+impl Klartext {
+    /// Where the tool stands in X and Y, mm or inch, as a helix may have left it there.
+    pub fn start(&self, on_tape: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| self.stands[axis].unwrap_or(on_tape[axis]))
+    }
 }
 
 /// Writes an operation that does not depend on the path.

@@ -1,16 +1,17 @@
-//! Motions: `L` at FMAX or at feed, `CC` and `C`.
+//! Motions: `L` at FMAX or at feed, `CC` and `C` or `CP`.
 
 use fil_diag::Result;
 use fil_machine::FunctionCode;
 use fil_machine::axes::AxisSet;
-use fil_machine::letters::{F, IJK};
+use fil_machine::letters::{F, IJK, XYZ};
 use fil_machine::locations as loc;
 use fil_machine::modes::{FeedMode, Plane};
 
+use super::helix::{self, Helix};
 use super::line::{self, Line};
 use super::phrase::Head;
 use crate::control::family::refuse;
-use crate::control::word_address::arc::PlaneArc;
+use crate::control::word_address::arc::{self, PlaneArc};
 use crate::control::word_address::motion::{self as words, Motion};
 use crate::control::{Control, Function};
 use crate::control_state::Compensation;
@@ -55,24 +56,34 @@ pub fn feed(control: &mut Control, motion: &Motion, feed: Option<&Feed>) -> Resu
     Ok(())
 }
 
-/// True for a flat arc across the tool axis, which is Z.
-pub fn has_arc(control: &Control, plane: Plane, rise: f64) -> bool {
-    plane == Plane::Xy && rise.abs() < control.tables.axis(plane.normal()).resolution() / 2.0
+/// True for an arc or a helix about the tool axis, which is Z.
+pub fn has_arc(plane: Plane) -> bool {
+    plane == Plane::Xy
 }
 
-/// An arc: its pole, and the line to its end.
+/// True when the control reads an arc or a helix from its rounded words as it is meant.
+///
+/// # Errors
+/// A position that does not fit its address.
+pub fn reads_as_meant(control: &Control, arc: &PlaneArc) -> Result<bool> {
+    if helix::rises(control, arc)? {
+        return Ok(helix::of(control, arc, arc.start)?.is_some());
+    }
+    arc::reads_as_meant(control, arc)
+}
+
+/// An arc: its pole, and the line to its end; a helix turns by an angle instead.
 ///
 /// # Errors
 /// As [`feed`].
 pub fn arc(control: &mut Control, arc: &PlaneArc, feed: Option<&Feed>) -> Result<()> {
     ready(control)?;
-    let mut pole = Line::default();
-    pole.item(TEXT, "CC", arc.cause);
-    for (number, center) in arc.plane.axes().into_iter().zip(arc.center) {
-        let (text, _) = line::length(control, IJK[number], center)?;
-        let letter = control.tables.axis(number).letter;
-        pole.item(IJK[number].byte(), &format!("{letter}{text}"), arc.cause);
+    let stands = control.klartext.start(arc.start);
+    let helix = if helix::rises(control, arc)? { helix::of(control, arc, stands)? } else { None };
+    if let Some(helix) = helix {
+        return turn(control, arc, helix, feed);
     }
+    let pole = pole(control, arc, arc.center)?;
     let end = Motion { position: arc.to, axes: AxisSet::LINEAR, word: arc.word };
     for number in arc.plane.axes() {
         words::axis_word(control, number, &end)?;
@@ -81,6 +92,43 @@ pub fn arc(control: &mut Control, arc: &PlaneArc, feed: Option<&Feed>) -> Result
     line::put(control, &pole)?;
     control.klartext.phrase.head = Head::Arc { ccw: arc.counterclockwise };
     write(control, AxisSet::XY)
+}
+
+/// `CC`: the center itself, with the digits of I and J.
+fn pole(control: &Control, arc: &PlaneArc, center: [f64; 2]) -> Result<Line> {
+    let mut pole = Line::default();
+    pole.item(TEXT, "CC", arc.cause);
+    for (number, center) in arc.plane.axes().into_iter().zip(center) {
+        let axis = control.tables.axis(number);
+        let (text, _) = line::length(control, IJK[number], center + axis.translation())?;
+        pole.item(IJK[number].byte(), &format!("{}{text}", axis.letter), arc.cause);
+    }
+    Ok(pole)
+}
+
+/// `CP IPA+360 IZ-1 DR+`: no word says where X and Y end, but the next motions count from
+/// there.
+fn turn(control: &mut Control, arc: &PlaneArc, helix: Helix, feed: Option<&Feed>) -> Result<()> {
+    let mut ends = [(XYZ[2], 0.0); 3];
+    for (number, end) in ends.iter_mut().enumerate() {
+        let axis = control.tables.axis(number);
+        axis.check(arc.to[number])?;
+        *end = (axis.letter, axis.value(arc.to[number])?);
+    }
+    let (letter, end) = ends[2];
+    let format = control.tables.addresses.format(letter).copied().unwrap_or_default();
+    let from = control.last_value(letter).map_or(Ok(0), |from| format.scale(from))?;
+    let rise = format.scale(end)? - from;
+    let pole = pole(control, arc, helix.pole)?;
+    feed_word(control, feed)?;
+    line::put(control, &pole)?;
+    control.klartext.phrase.head = Head::Helix { degrees: helix.angle, rise };
+    write(control, AxisSet::XY)?;
+    control.klartext.stands = helix.end.map(Some);
+    for (letter, end) in ends {
+        control.commons.set_last_output(letter, end);
+    }
+    Ok(())
 }
 
 /// Refuses a motion while it is not known what the control does with the radius of the
@@ -111,8 +159,13 @@ fn feed_word(control: &mut Control, feed: Option<&Feed>) -> Result<()> {
         control.state.feed_mode = Some(FeedMode::PerMinute);
         control.state.doubt(F);
     }
-    let value = if control.is_metric() { feed.value } else { feed.value * TENTHS };
+    let value = spelled(control, feed.value);
     control.modal_feed(F, &Feed { value, ..feed })
+}
+
+/// A feed a minute as the language counts it.
+pub(super) fn spelled(control: &Control, feed: f64) -> f64 {
+    if control.is_metric() { feed } else { feed * TENTHS }
 }
 
 /// Writes the line of a motion with the words that wait for it.
@@ -132,7 +185,18 @@ pub(super) fn write(control: &mut Control, turning: AxisSet) -> Result<()> {
     if !control.waiting.is_empty() {
         control.take_waiting(turning);
     }
-    control.write_block()?;
+    for number in [0, 1] {
+        if control.block_has(control.tables.axis(number).letter) {
+            control.klartext.stands[number] = None;
+        }
+    }
+    if control.block.is_empty() {
+        // A helix may have no word that the block counts.
+        control.refuse_after_end()?;
+        super::phrase::write(control)?;
+    } else {
+        control.write_block()?;
+    }
     if in_plane && control.state.compensates() {
         control.state.moved_in_plane();
     }

@@ -10,7 +10,7 @@ use crate::control_state::Compensation;
 use crate::noted::TEXT;
 
 /// How a line begins.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Head {
     /// With its functions: `M5 M9`.
     #[default]
@@ -22,10 +22,20 @@ pub enum Head {
         /// Counterclockwise.
         ccw: bool,
     },
+    /// `CP`, the angle and the rise of a helix, and its sense.
+    Helix {
+        /// Degrees, counterclockwise above zero.
+        degrees: f64,
+        /// Along Z, scaled as its address writes it.
+        rise: i64,
+    },
 }
 
+/// Decimals of a polar angle.
+const ANGLE: usize = 4;
+
 /// What the line under construction says besides words.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Phrase {
     /// How it begins.
     pub head: Head,
@@ -57,6 +67,13 @@ pub fn write(control: &mut Control) -> Result<()> {
         Head::Functions => {}
         Head::Line => line.item(TEXT, "L", cause),
         Head::Arc { .. } => line.item(TEXT, "C", cause),
+        Head::Helix { degrees, rise } => {
+            line.item(TEXT, "CP", cause);
+            line.item(TEXT, &format!("IPA{}", angle(degrees)), cause);
+            let z = control.tables.axis(2).letter;
+            let rise = line::scaled_text(control, z, rise).unwrap_or_default();
+            line.item(z.byte(), &format!("I{z}{rise}"), cause);
+        }
     }
     let mut feed = None;
     for position in block.positions() {
@@ -77,7 +94,12 @@ pub fn write(control: &mut Control) -> Result<()> {
             line.item(letter.byte(), &word, word_cause);
         }
     }
-    if let Head::Arc { ccw } = phrase.head {
+    let ccw = match phrase.head {
+        Head::Arc { ccw } => Some(ccw),
+        Head::Helix { degrees, .. } => Some(degrees > 0.0),
+        Head::Functions | Head::Line => None,
+    };
+    if let Some(ccw) = ccw {
         line.item(TEXT, if ccw { "DR+" } else { "DR-" }, cause);
     }
     if let Some(side) = phrase.side {
@@ -102,6 +124,12 @@ pub fn write(control: &mut Control) -> Result<()> {
         control.state.compensation_begun = false;
     }
     Ok(())
+}
+
+/// `+360`, `-90.25`.
+fn angle(degrees: f64) -> String {
+    let text = format!("{degrees:+.ANGLE$}");
+    text.trim_end_matches('0').trim_end_matches('.').to_string()
 }
 
 fn side_text(side: Compensation) -> &'static str {

@@ -33,6 +33,9 @@ const BORE_AT_FEED: u16 = 89;
 /// Digits after the point of seconds.
 const SECONDS: usize = 3;
 
+/// Digits after the point of a pitch, mm.
+const PITCH_DIGITS: usize = 4;
+
 /// The number of the cycle that the settings name for a kind; `None` where they name
 /// none, so that it is written as single moves.
 pub fn code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
@@ -233,20 +236,21 @@ fn peck_words(
     })
 }
 
-/// DTB, the direction after the cycle, the pitch, the angle to begin at and the speed.
+/// DTB, the direction after the cycle, the pitch, the angle to begin at and the speed. In
+/// a program in inches PITA says that the pitch counts millimeters, which software without
+/// that parameter refuses.
 fn tap_words(control: &mut Control, cycle: &Cycle, dwell: &str) -> Result<String> {
-    if !control.is_metric() {
-        return refuse("a tap in inches: the unit of PIT is not certain on each software");
-    }
     let Some(SpindleSpeed::Revolutions(speed)) = control.speed else {
         return refuse("TAP before SPINDL: CYCLE84 needs the turns of the spindle");
     };
-    let (sense, pitch) = (sense(control)?, tap::pitch(control, cycle)?);
+    let sense = sense(control)?;
+    let (unit, in_mm) = if control.is_metric() { (1.0, "") } else { (INCH, ",,1") };
+    let pitch = tap::text(tap::pitch(control, cycle)? * unit, PITCH_DIGITS)?;
     let sign = if sense == 4 { "-" } else { "" };
     let format = control.tables.addresses.format(S).copied().unwrap_or_default();
     let scaled = Rounding::Rate.scale(speed, &format).map_err(|diag| named(diag, S))?;
     let speed = line::scaled_text(control, S, scaled).unwrap_or_default();
-    Ok(format!(",,{dwell},{sense},,{sign}{pitch},0,{speed},{speed}"))
+    Ok(format!(",,{dwell},{sense},,{sign}{pitch},0,{speed},{speed}{in_mm}"))
 }
 
 /// 3 for a spindle that turns clockwise, 4 for one that turns the other way.

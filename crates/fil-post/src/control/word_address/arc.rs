@@ -136,15 +136,33 @@ fn reads_when_rounded(control: &Control, arc: &PlaneArc) -> Result<bool> {
     }
     let [at_start, at_end] = [start, end].map(|point| distance(point, center));
     let sweep = sweep_on_tape(arc, start, end, center);
-    let length = |sweep: f64, radius: f64| sweep.to_radians() * radius;
     let between = [0.25, 0.5, 0.75].map(|share| distance(arc.point_at(share), center));
     Ok((at_start - at_end).abs() <= allowed / 2.0
         && between.into_iter().all(|radius| (radius - at_start).abs() <= allowed)
-        && (length(sweep, at_start) - length(arc.sweep, arc.radius)).abs() <= allowed)
+        && (sweep - arc.sweep).abs().to_radians() * arc.radius <= allowed)
 }
 
-fn distance(one: [f64; 2], other: [f64; 2]) -> f64 {
+/// How far two points lie apart.
+pub fn distance(one: [f64; 2], other: [f64; 2]) -> f64 {
     (one[0] - other[0]).hypot(one[1] - other[1])
+}
+
+/// True when a control that turns the tool about a pole, by so many degrees from where it
+/// stands, goes along the arc: it ends where the arc does, so it keeps within a last digit.
+pub fn turns_as_meant(
+    control: &Control,
+    arc: &PlaneArc,
+    stands: [f64; 2],
+    (pole, degrees): ([f64; 2], f64),
+) -> bool {
+    let digits = arc.plane.axes().map(|number| control.tables.axis(number).resolution());
+    let digit = digits[0].max(digits[1]);
+    let radius = distance(stands, pole);
+    let between = [0.25, 0.5, 0.75].map(|share| distance(arc.point_at(share), pole));
+    arc.sweep >= LEAST_SWEEP
+        && arc.radius >= LEAST_RADIUS * digit
+        && between.into_iter().all(|other| (other - radius).abs() <= digit)
+        && (degrees - arc.sweep).abs().to_radians() * arc.radius <= DIGITS * digit
 }
 
 /// Degrees from start to end about a center as a control counts them: a start that
@@ -183,7 +201,10 @@ fn center_on_tape(
         let rounded = |value: f64| format.scale(value).map(|scaled| format.unscale(scaled));
         let offset = arc.center[index] - start[index];
         center[index] = match form {
-            CircleCenter::AbsoluteCenter => rounded(arc.center[index])?,
+            CircleCenter::AbsoluteCenter => {
+                let moved = control.tables.axis(number).translation();
+                rounded(arc.center[index] + moved)? - moved
+            }
             _ => start[index] + rounded(offset)?,
         };
         digit = digit.max(format.unscale(1));
@@ -330,7 +351,7 @@ fn center_words(control: &mut Control, arc: &PlaneArc) -> Result<()> {
     for (number, (start, center)) in arc.plane.axes().into_iter().zip(starts) {
         let value = match form {
             CircleCenter::CenterToStartSigned => start - center,
-            CircleCenter::AbsoluteCenter => center,
+            CircleCenter::AbsoluteCenter => center + control.tables.axis(number).translation(),
             CircleCenter::StartToCenterUnsigned => (center - start).abs(),
             CircleCenter::StartToCenterSigned | CircleCenter::Radius => center - start,
         };
