@@ -5,19 +5,22 @@
   window.requestAnimationFrame = (work) => setTimeout(work, 1);
   window.cancelAnimationFrame = clearTimeout;
   const said = {};
+  const failed = document.getElementById("wait");
+  for (let count = 0; count < 2000 && !document.documentElement.dataset.ready; count++)
+    await new Promise((done) => setTimeout(done, 5));
   const plot = document.getElementById("plot"), over = document.getElementById("over");
   const tip = document.getElementById("tip"), upto = document.getElementById("upto");
   const frames = async () => {
     for (let count = 0; count < 3; count++) await new Promise(requestAnimationFrame);
   };
   const click = (selector) => document.querySelector(selector).click();
-  const colours = Object.fromEntries(
-    JSON.parse(document.getElementById("data").textContent)
-      .strokes.map(({ name, colour }) => [name, colour]));
+  const data = JSON.parse(document.getElementById("data").textContent);
+  const colours = Object.fromEntries(data.strokes.map(({ name, colour }) => [name, colour]));
 
   /** Places of a colour on the canvas, in its pixels. */
   function places(name) {
-    const wanted = [1, 3, 5].map((at) => parseInt(colours[name].slice(at, at + 2), 16));
+    const colour = colours[name] || name;
+    const wanted = [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
     const { width, height } = plot;
     const pixels = plot.getContext("2d").getImageData(0, 0, width, height).data;
     const found = [];
@@ -39,6 +42,13 @@
   }
 
   try {
+    if (!failed.hidden) throw new Error(failed.textContent);
+    said.rows = [...document.querySelectorAll("#rows div")].map((row) => row.textContent);
+    said.legend = document.getElementById("layers").textContent;
+    said.axes = places(data.axisColour).length;
+    said.extent = document.getElementById("extent").textContent;
+    said.opened = document.querySelector("#views .chosen").dataset.view;
+    said.slider = upto.value === upto.max;
     said.views = {};
     for (const name of ["xy", "zx", "zy", "iso"]) {
       click(`[data-view=${name}]`);
@@ -69,12 +79,15 @@
     click("#fit");
 
     const all = places("feed").length;
-    const box = [...document.querySelectorAll("#layers label")]
-      .find((label) => label.textContent.includes("feed")).querySelector("input");
-    box.click();
-    said.without = places("feed").length;
-    box.click();
-    said.again = places("feed").length === all;
+    const label = [...document.querySelectorAll("#layers label")]
+      .find((label) => label.textContent.includes("feed"));
+    if (label) {
+      const box = label.querySelector("input");
+      box.click();
+      said.without = places("feed").length;
+      box.click();
+      said.again = places("feed").length === all;
+    }
     const chosen = () => document.querySelector("#rows .chosen")?.textContent;
     const inForce = said.tips.feed;
     said.inForce = inForce;
@@ -112,6 +125,14 @@
     click("#theme");
     said.dark = document.documentElement.dataset.theme;
     click("#theme");
+    // Playback adds to the picture; what is there before it, and after it, is the same.
+    const end = Number(upto.max);
+    for (let step = 0; step <= Math.min(end, 40); step++) {
+      upto.value = step === 40 ? end : step;
+      upto.dispatchEvent(new Event("input"));
+      await frames();
+    }
+    said.whole = places("feed").length / all;
     upto.value = 1;
     upto.dispatchEvent(new Event("input"));
     await frames();

@@ -1,7 +1,9 @@
 //! A headless browser: Debian's chromium.
 
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::time::Duration;
 use std::{env, fs};
 
 /// Keeps the browser from asking anything of anybody.
@@ -36,14 +38,20 @@ pub fn program() -> Option<PathBuf> {
     found
 }
 
-fn run(program: &Path, folder: &Path, arguments: &[String]) -> Result<Vec<u8>, String> {
-    let output = Command::new(program)
+fn command(program: &Path, folder: &Path) -> Command {
+    let mut command = Command::new(program);
+    command
         .current_dir(folder)
         .env("HOME", folder)
         .args(QUIET)
         .arg(format!("--user-data-dir={}", folder.join("profile").display()))
+        .stdin(Stdio::null());
+    command
+}
+
+fn run(program: &Path, folder: &Path, arguments: &[String]) -> Result<Vec<u8>, String> {
+    let output = command(program, folder)
         .args(arguments)
-        .stdin(Stdio::null())
         .output()
         .map_err(|error| format!("{}: {error}", program.display()))?;
     if output.status.success() {
@@ -68,6 +76,38 @@ pub fn dom(program: &Path, page: &str, seconds: u32) -> Result<String, String> {
     ];
     let dom = run(program, folder.path(), &arguments)?;
     Ok(String::from_utf8_lossy(&dom).into_owned())
+}
+
+/// The JSON that a page writes to the console after `said: `, in real time.
+///
+/// # Errors
+/// Why the browser could not be run, or that the page said nothing in `seconds`.
+pub fn said(program: &Path, page: &str, seconds: u64) -> Result<String, String> {
+    let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
+    let file = folder.path().join("page.html");
+    fs::write(&file, page).map_err(|error| error.to_string())?;
+    let mut child = command(program, folder.path())
+        .args(["--enable-logging=stderr", "--log-level=0"])
+        .arg(format!("file://{}", file.display()))
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .map_err(|error| format!("{}: {error}", program.display()))?;
+    let log = child.stderr.take().ok_or("no log")?;
+    let (tell, told) = std::sync::mpsc::channel();
+    let reader = std::thread::spawn(move || {
+        let lines = BufReader::new(log).split(b'\n').map_while(Result::ok);
+        let texts = lines.map(|line| String::from_utf8_lossy(&line).into_owned());
+        let mut said = texts.filter_map(|text| Some(text.split_once("\"said: ")?.1.to_string()));
+        // Who asked may have given up.
+        let _ = said.next().map(|text| tell.send(text));
+    });
+    let said = told.recv_timeout(Duration::from_secs(seconds));
+    let ended = child.kill().and_then(|()| child.wait());
+    ended.map_err(|error| error.to_string())?;
+    let _ = reader.join();
+    let text = said.map_err(|_| format!("the page said nothing in {seconds} seconds"))?;
+    Ok(text.rsplit_once("\", source:").map_or(text.clone(), |(text, _)| text.to_string()))
 }
 
 /// A screenshot of a file (its ending says what it is) as rows of RGB.

@@ -74,8 +74,9 @@ pub fn lines(text: &str, dialect: &Dialect) -> (Vec<String>, Option<Box<Diag>>) 
     let mut modes = Modes::default();
     let refused = interpret(text.as_bytes(), "out.nc", dialect, &mut |event| match event {
         Event::Move(motion) => {
-            if motion.modes != modes {
-                modes = motion.modes;
+            let now = Modes { inch: modes.inch, ..motion.modes };
+            if now != modes {
+                modes = now;
                 lines.push(modes_line(&modes));
             }
             lines.push(motion_line(&motion));

@@ -1,6 +1,6 @@
 //! Whether two programs make a machine do the same.
 
-use fil_nc::motion::{Arc, Event, Move, Rate};
+use fil_nc::motion::{Arc, Event, Modes, Move, Rate};
 
 /// How far two ways may lie apart that are one: twice the last digit of a program in mm,
 /// once for the rounded end of a part of an arc and once for the center it gives.
@@ -16,6 +16,8 @@ pub fn same(one: &[Event], other: &[Event]) -> bool {
 /// What the machine does, without the lines that make it and without motions that go
 /// nowhere: what is in force there is in force at the next event too, or of no account.
 fn bare(events: &[Event]) -> Vec<Event> {
+    // The unit is how lengths are written, and no mode of the machine.
+    let plain = |modes: Modes| Modes { inch: false, ..modes };
     let mut before: Option<Move> = None;
     let mut bare = Vec::new();
     for event in events {
@@ -27,13 +29,16 @@ fn bare(events: &[Event]) -> Vec<Event> {
                 if still {
                     continue;
                 }
-                Event::Move(Move { line: 0, in_cycle: false, rate, ..found })
+                let modes = plain(found.modes);
+                Event::Move(Move { line: 0, in_cycle: false, rate, modes, ..found })
             }
-            Event::ToolChange { tool, modes, .. } => Event::ToolChange { line: 0, tool, modes },
+            Event::ToolChange { tool, modes, .. } => {
+                Event::ToolChange { line: 0, tool, modes: plain(modes) }
+            }
             Event::Dwell { seconds, turns, .. } => Event::Dwell { line: 0, seconds, turns },
             Event::Auxiliary { code, .. } => Event::Auxiliary { line: 0, code },
             Event::LeftToControl { mode, .. } => Event::LeftToControl { line: 0, mode },
-            Event::End { code, modes, .. } => Event::End { line: 0, code, modes },
+            Event::End { code, modes, .. } => Event::End { line: 0, code, modes: plain(modes) },
         });
     }
     bare

@@ -40,6 +40,25 @@ CIMFIL/OFF
 FINI
 ";
 
+/// Cuts along a line, while the tool tilts about X.
+const TILTED: &str = "\
+PARTNO / 8
+UNITS / MM
+MULTAX / ON
+LOADTL / 1
+SPINDL / RPM, 900, CLW
+RAPID
+GOTO / 0, 0, 60, 0, 0, 1
+FEDRAT / 200, MMPM
+GOTO / 0, 0, 0, 0, 0, 1
+GOTO / 20, 0, 0, 0, -0.08715574, 0.99619470
+GOTO / 40, 10, 0, 0, -0.17364818, 0.98480775
+GOTO / 60, 20, 0, 0, -0.25881905, 0.96592583
+GOTO / 80, 40, 0, 0, -0.34202014, 0.93969262
+GOTO / 100, 60, 0, 0, -0.42261826, 0.90630779
+FINI
+";
+
 /// A CL file that says its unit itself.
 fn cl_text(text: Text<'_>) -> ClText<'_> {
     ClText { text, options: Options::default(), unit: None }
@@ -133,22 +152,162 @@ fn the_page_draws_tells_and_zooms() {
     assert_eq!(operations.len(), 3, "all tools, T1, T2: {said:#}");
     assert!(said["played"].as_u64() > Some(1), "{said:#}");
     assert_eq!(said["dark"], "dark", "{said:#}");
+    // What is drawn piece by piece lies in another order where lines cross.
+    let whole = said["whole"].as_f64().unwrap();
+    assert!((0.9..1.1).contains(&whole), "{said:#}");
+    assert!(text("extent").ends_with("Z 0 to 20 mm"), "{said:#}");
+    let fil =
+        said["rows"].as_array().expect("the program").iter().any(|row| row == "6N40 G0 X0. Y0.");
+    assert!(fil, "{said:#}");
 }
 
-/// The picture of the page in docs/plot.md, as a browser shows it; `FILPOST_UPDATE=1` takes
-/// it anew. Fonts differ from machine to machine, so it is not compared.
-#[test]
-fn the_page_of_the_docs_is_a_screenshot() {
-    let file = root().join("docs/plot-page.png");
-    if std::env::var_os("FILPOST_UPDATE").is_some_and(|value| value == "1")
-        && let Some(browser) = browser::program()
-    {
-        let page = html(&drawing());
-        browser::picture(&browser, "page.html", &page, &file).expect("a screenshot");
-    }
-    let picture = std::fs::read(file).expect("docs/plot-page.png");
-    assert!(picture.starts_with(b"\x89PNG") && picture.len() > 10_000);
+/// A program as it is drawn for a ready post.
+fn page_of(ready: &str, name: &str, nc: &str) -> String {
+    let post = Program::builder().ready(ready).build().unwrap();
+    html(&plot::program(Text { name, bytes: nc.as_bytes() }, post.commons()).unwrap())
 }
+
+#[test]
+fn a_tilting_tool_shows_its_axis() {
+    let Some(browser) = browser::program() else { return };
+    let post = Program::builder().ready("fanuc-5x-tables").build().unwrap();
+    let mut nc = Vec::new();
+    post.start().run(Cursor::new(TILTED), &mut nc).unwrap();
+    let text = Text { name: "out.nc", bytes: &nc };
+    let drawing = plot::program(text, post.commons()).unwrap();
+    let cl = plot::cl_file(cl_text(Text { name: "part.ncl", bytes: TILTED.as_bytes() })).unwrap();
+    for drawing in [drawing, cl] {
+        assert!(drawing.path.axes.len() > 3, "{:?}", drawing.path.axes);
+        assert!(svg(&drawing, &View::ALL).contains(">tool axis<"));
+        let said = said(&browser, &html(&drawing));
+        assert_eq!(said["error"], Value::Null, "{said:#}");
+        assert!(said["axes"].as_u64() > Some(20), "{said:#}");
+        assert!(said["legend"].as_str().unwrap().contains("tool axis"), "{said:#}");
+        assert!(said["tips"]["feed"].as_str().unwrap().contains("\ntool axis 0"), "{said:#}");
+    }
+}
+
+/// Lengths are told in the unit of the program, and what counts in it too.
+#[test]
+fn a_program_in_inch_is_told_in_inch() {
+    let Some(browser) = browser::program() else { return };
+    let nc = "G20 G90 G94 G17\nM6 T1\nG0 X0. Y0. Z1.\nS900 M3\nG1 Z0. F10.\nX1.2345\nY2.\nM30\n";
+    let page = page_of("fanuc-mill", "out.nc", nc);
+    let said = said(&browser, &page);
+    assert_eq!(said["error"], Value::Null, "{said:#}");
+    assert_eq!(said["extent"], "X 0 to 1.2345 · Y 0 to 2 · Z 0 to 1 inch");
+    let tip = said["tips"]["feed"].as_str().unwrap();
+    assert!(tip.contains("feed to X1.2345 Y") && tip.contains("F 10 inch/min"), "{tip}");
+}
+
+/// Texts that would end a script, and letters of other languages, stand as they are.
+#[test]
+fn texts_of_a_program_stay_texts() {
+    let Some(browser) = browser::program() else { return };
+    let nc = "(</script><script>document.title=1</script> \u{424}\u{440}\u{435}\u{437}\u{430} & <!--)\n\
+              G21 G90 G94 G17\nG0 X0. Y0. Z5.\nG1 Z0. F100.\nX50. (&lt; \u{2028} {{data}} \u{43e}\u{43a})\nM30\n";
+    let said = said(&browser, &page_of("fanuc-mill", "</script><b>&.nc", nc));
+    assert_eq!(said["error"], Value::Null, "{said:#}");
+    let rows = said["rows"].as_array().unwrap();
+    let first =
+        "1(</script><script>document.title=1</script> \u{424}\u{440}\u{435}\u{437}\u{430} & <!--)";
+    assert_eq!(rows[0], first, "{said:#}");
+    assert_eq!(rows[4], "5X50. (&lt; \u{2028} {{data}} \u{43e}\u{43a})", "{said:#}");
+}
+
+#[test]
+fn a_program_without_motions_opens() {
+    let Some(browser) = browser::program() else { return };
+    for nc in ["M30\n", "G21 G90\nG0 X5.\nM30\n", "G21 G90\nG0 X0. Y0. Z0.\nX1.\nM30\n"] {
+        let said = said(&browser, &page_of("fanuc-mill", "out.nc", nc));
+        assert_eq!(said["error"], Value::Null, "{nc}: {said:#}");
+    }
+}
+
+/// A drawing of the program that a ready post makes of a CL file.
+fn posted(ready: &str, cl: &str) -> Drawing {
+    let post = Program::builder().ready(ready).build().unwrap();
+    let mut nc = Vec::new();
+    post.start().run(Cursor::new(cl.to_string()), &mut nc).unwrap();
+    plot::program(Text { name: "out.nc", bytes: &nc }, post.commons()).unwrap()
+}
+
+/// The pictures of pages in docs/plot.md, as a browser shows them after a few touches;
+/// `FILPOST_UPDATE=1` takes them anew. Fonts differ from machine to machine, so they are not
+/// compared.
+#[test]
+fn the_pages_of_the_docs_are_screenshots() {
+    let pages = [
+        ("plot-page.png", drawing as fn() -> Drawing, include_str!("../plot/hover.js")),
+        (
+            "plot-five-axes.png",
+            || posted("fanuc-5x-tables", &tilting_row()),
+            include_str!("../plot/play.js"),
+        ),
+        ("plot-lathe.png", || posted("fanuc-lathe", SHAFT), ""),
+    ];
+    for (name, drawing, script) in pages {
+        let file = root().join("docs").join(name);
+        if std::env::var_os("FILPOST_UPDATE").is_some_and(|value| value == "1")
+            && let Some(browser) = browser::program()
+        {
+            let script = format!("<script>{script}</script></body>");
+            let page = html(&drawing()).replace("</body>", &script);
+            browser::picture(&browser, "page.html", &page, &file).expect("a screenshot");
+        }
+        let picture = std::fs::read(file).unwrap_or_else(|_| panic!("docs/{name}"));
+        assert!(picture.starts_with(b"\x89PNG") && picture.len() > 10_000, "{name}");
+    }
+}
+
+/// Passes over a dome, the tool along its normal.
+fn tilting_row() -> String {
+    let mut cl = String::from(
+        "UNITS / MM\nMULTAX / ON\nLOADTL / 5\nSPINDL / RPM, 8000, CLW\nRAPID\nGOTO / -40, -30, 120, 0, 0, 1\nFEDRAT / 1200, MMPM\n",
+    );
+    for row in 0..9 {
+        for step in 0..=20 {
+            let (y, x) = (f64::from(row) * 7.5 - 30.0, f64::from(step) * 4.0 - 40.0);
+            let x = if row % 2 == 0 { x } else { -x };
+            let z = (100.0f64 * 100.0 - x * x - y * y).sqrt();
+            let point =
+                [x, y, z, x / 100.0, y / 100.0, z / 100.0].map(|value| format!("{value:.6}"));
+            cl.push_str(&format!("GOTO / {}\n", point.join(", ")));
+        }
+    }
+    cl + "FINI\n"
+}
+
+/// A shaft turned in three cuts and finished, with an arc at its shoulder.
+const SHAFT: &str = "\
+UNITS / MM
+TURRET / 1
+SPINDL / SMM, 180, CLW, MAXRPM, 2000
+RAPID
+GOTO / 31, 0, 2
+FEDRAT / 0.25, MMPR
+GOTO / 26, 0, 2
+GOTO / 26, 0, -60
+GOTO / 30, 0, -60
+RAPID
+GOTO / 31, 0, 2
+RAPID
+GOTO / 22, 0, 2
+GOTO / 22, 0, -45
+GOTO / 27, 0, -45
+RAPID
+GOTO / 31, 0, 2
+TURRET / 3
+RAPID
+GOTO / 20, 0, 2
+FEDRAT / 0.1, MMPR
+GOTO / 20, 0, -40
+CIRCLE / 25, 0, -40, 0, -1, 0, 5
+GOTO / 25, 0, -45
+GOTO / 30, 0, -60
+GOTO / 33, 0, -60
+FINI
+";
 
 /// A lathe's page says so, and holds what is in force.
 #[test]
@@ -157,6 +316,9 @@ fn a_lathe_is_drawn_lying() {
     let nc = "G21 G18 G97 S500 M3\nT0101\nG0 X40. Z2.\nG99 G1 Z-20. F0.2\nX44.\nM30\n";
     let drawing =
         plot::program(Text { name: "out.nc", bytes: nc.as_bytes() }, post.commons()).unwrap();
+    let Some(browser) = browser::program() else { return };
+    let said = said(&browser, &html(&drawing));
+    assert_eq!((&said["error"], &said["opened"]), (&Value::Null, &"zx".into()), "{said:#}");
     assert!(drawing.lathe && html(&drawing).contains("\"lathe\":true"));
     let feed = drawing.path.in_force.last().and_then(|now| now.feed);
     assert_eq!(feed, Some(fil_nc::motion::Rate::PerTurn(0.2)));
@@ -209,8 +371,9 @@ fn a_turning_table_is_drawn_on_the_part() {
 #[test]
 fn notes_name_the_fil_line() {
     let drawing = drawing();
-    let note = drawing.notes.iter().find(|note| note.text.contains("X30. Y60.")).unwrap();
-    assert!(note.origin.contains("part.ncl:13  DELAY / 2\nmill.fil:2  POSTN/OUT"), "{note:?}");
+    let at = drawing.notes.text.lines().position(|line| line.contains("X30. Y60."));
+    let origin = drawing.notes.origin(at.expect("the block") + 1);
+    assert!(origin.contains("part.ncl:13  DELAY / 2\nmill.fil:2  POSTN/OUT"), "{origin}");
 }
 
 #[test]
@@ -254,5 +417,6 @@ fn two_hundred_thousand_motions_are_readable() {
     let said = said(&browser, &page);
     assert_eq!(said["error"], Value::Null, "{said:#}");
     assert!(said["views"]["xy"][1].as_u64() > Some(1000), "{said:#}");
+    assert_eq!(said["slider"], true, "{said:#}");
     assert!(said["tips"]["feed"].as_str().is_some_and(|tip| tip.contains("feed to")), "{said:#}");
 }

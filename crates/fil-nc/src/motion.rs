@@ -175,6 +175,8 @@ pub struct Modes {
     /// function its tenths and the number (541003 for `G54.1 P3`), for one of a word
     /// 1000000 and the number.
     pub fixture: Option<u32>,
+    /// Lengths of the program are inches.
+    pub inch: bool,
     /// A drilling cycle is on; said where a tool is changed and at the end.
     pub cycle: bool,
     /// The auxiliary function of the coolant that was switched on last; `None` when off.

@@ -7,8 +7,8 @@ use fil_machine::Unit;
 use fil_machine::commons::{Commons, Kind};
 use fil_nc::dialect::Dialect;
 use fil_nc::forward::Forward;
-use fil_nc::interpret::events;
-use fil_nc::plot::{Drawing, Note, Trace, cl_trace, nc_trace};
+use fil_nc::plot::{Drawing, LineCause, Notes, Trace, cl_trace, nc_trace};
+use fil_post::FilLine;
 
 use crate::error::Error;
 use crate::map::{Digest, Entry, MapReader};
@@ -16,6 +16,10 @@ use crate::units;
 
 /// Lines looked at to tell a CL file from an NC program.
 const FIRST_LINES: usize = 50;
+
+/// Longest CL or FIL file whose lines are shown, bytes: of a longer one a picture tells the
+/// numbers of its lines alone, so that it does not grow with a file that it is not of.
+const LONGEST_SOURCE: usize = 8 << 20;
 
 /// A text and its name in messages and notes.
 #[derive(Clone, Copy, Debug)]
@@ -63,10 +67,9 @@ pub fn is_cl(bytes: &[u8]) -> bool {
 pub fn program(nc: Text<'_>, commons: &Commons) -> Result<Drawing, Error> {
     let dialect = Dialect::new(commons).map_err(Error::Run)?;
     let forward = Forward::from_commons(commons).map_err(Error::Run)?;
-    let events = events(nc.bytes, nc.name, &dialect).map_err(Error::Run)?;
     Ok(Drawing {
         title: nc.name.to_string(),
-        path: nc_trace(&events, &forward),
+        path: nc_trace(nc.bytes, nc.name, &dialect, &forward).map_err(Error::Run)?,
         lathe: dialect.lathe,
         notes: notes(nc.bytes),
         ..Drawing::default()
@@ -103,7 +106,9 @@ pub fn lay_under(
     });
     drawing.under = Some(cl.trace(shift)?);
     drawing.under_name = "CL file";
-    drawing.under_notes = notes(cl.text.bytes);
+    if cl.text.bytes.len() <= LONGEST_SOURCE {
+        drawing.under_notes = notes(cl.text.bytes);
+    }
     Ok(())
 }
 
@@ -120,44 +125,43 @@ pub fn add_origins<R: Read + Seek>(
     read: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
 ) -> Result<(), Error> {
     map.nc().check(nc.name, &Digest::of(nc.bytes))?;
-    let mut lines_of = |file: &crate::map::MapFile| {
-        let text = read(&file.name).filter(|bytes| Digest::of(bytes) == file.digest);
-        (file.name.clone(), text.map(|bytes| lines(&bytes)).unwrap_or_default())
+    let mut text_of = |file: &crate::map::MapFile| {
+        let bytes = read(&file.name).filter(|bytes| Digest::of(bytes) == file.digest);
+        bytes.filter(|bytes| bytes.len() <= LONGEST_SOURCE).map(|bytes| text(&bytes))
     };
-    let cl = lines_of(map.cl());
-    let fil: Vec<_> = map.fil().iter().map(&mut lines_of).collect();
-    let shown = |(name, lines): &(String, Vec<String>), line: u32| {
-        let text = lines.get((line as usize).wrapping_sub(1)).map_or("", |text| text.trim());
-        format!("{name}:{line}  {text}").trim_end().to_string()
+    let notes = &mut drawing.notes;
+    notes.source_name = map.cl().name.clone();
+    notes.source = text_of(map.cl());
+    let fil: Vec<(String, Option<String>)> =
+        map.fil().iter().map(|file| (file.name.clone(), text_of(file))).collect();
+    let shown = |line: &FilLine| {
+        let (name, text) = fil.get(usize::from(line.file))?;
+        let at = (line.line as usize).checked_sub(1)?;
+        let text = text.as_deref().and_then(|text| text.lines().nth(at));
+        let text = text.unwrap_or_default().trim();
+        Some(format!("{name}:{}  {text}", line.line).trim_end().to_string())
     };
-    while let Some(entry) = map.next() {
+    while let Some(entry) = map.next_where(&|_, _, _| true) {
         let Entry::Line(line) = entry? else { continue };
-        let Some(note) = drawing.notes.get_mut((line.number as usize).wrapping_sub(1)) else {
-            continue;
-        };
-        let mut origin = Vec::new();
-        if line.cause.line > 0 {
-            origin.push(shown(&cl, line.cause.line));
-        }
-        if let Some(stack) = map.stack(line.cause) {
-            for place in &stack.lines {
-                if let Some(file) = fil.get(usize::from(place.file)) {
-                    origin.push(shown(file, place.line));
-                }
-            }
-        }
-        note.origin = origin.join("\n");
+        let cause = LineCause { line: line.cause.line, stack: line.cause.stack };
+        notes.causes.resize((line.number as usize).saturating_sub(1), LineCause::default());
+        notes.causes.push(cause);
     }
+    let stacks = map.stacks().iter();
+    notes.stacks = stacks
+        .map(|stack| stack.lines.iter().filter_map(shown).collect::<Vec<_>>().join("\n"))
+        .collect();
     Ok(())
 }
 
-fn notes(bytes: &[u8]) -> Vec<Note> {
-    lines(bytes).into_iter().map(|text| Note { text, ..Note::default() }).collect()
+/// The lines of a text, for people.
+fn notes(bytes: &[u8]) -> Notes {
+    Notes { text: text(bytes), ..Notes::default() }
 }
 
-/// The lines of a text, for people.
-fn lines(bytes: &[u8]) -> Vec<String> {
+/// A text in any encoding, its lines without what stands behind them.
+fn text(bytes: &[u8]) -> String {
     let text = fil_syntax::decode(bytes, None)
         .map_or_else(|_| String::from_utf8_lossy(bytes), |(text, _)| text);
-    text.lines().map(|line| line.trim_end().to_string()).collect()
+    if text.contains('\r') { text.replace("\r\n", "\n") } else { text.into_owned() }
 }

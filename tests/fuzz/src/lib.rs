@@ -11,7 +11,7 @@ use fil_nc::diff;
 use fil_nc::forward::Forward;
 use fil_nc::interpret::interpret;
 use fil_nc::motion::Event;
-use fil_nc::plot::{Drawing, View, nc_trace, svg};
+use fil_nc::plot::{Drawing, View, html, nc_trace, svg};
 use fil_nc::text::read_block;
 use fil_nc::verify::Allowed;
 use filpost::map::{Digest, Entry, MapReader};
@@ -286,9 +286,14 @@ pub fn nc_bytes(data: &[u8]) {
             events.push(event);
         }
     });
-    let drawing = Drawing { path: nc_trace(&events, forward), ..Drawing::default() };
-    let picture = svg(&drawing, &View::ALL);
-    assert!(!picture.contains("NaN") && !picture.contains("inf"), "{picture}");
+    let drawn = (events.len() < DRAWN).then(|| nc_trace(nc, "fuzz.nc", dialect, forward));
+    if let Some(Ok(path)) = drawn {
+        let drawing = Drawing { path, ..Drawing::default() };
+        for picture in [svg(&drawing, &View::ALL), html(&drawing)] {
+            let data = picture.split("<script type=\"module\">").next().unwrap_or_default();
+            assert!(!data.contains("NaN,") && !data.contains("inf,"), "{data}");
+        }
+    }
     compare(nc);
     let allowed = Allowed { between: Some(0.01), ..Allowed::default() };
     let both = Both { all: events, left_out: None };

@@ -19,7 +19,7 @@ impl State<'_> {
             if self.metric != metric {
                 self.feed = None;
             }
-            self.metric = metric;
+            self.set_metric(metric);
         }
         if let Some(Function::Feed(mode)) = words.function(Group::Feed) {
             self.certain.say(StartMode::Feed);

@@ -70,9 +70,15 @@ impl<'d> State<'d> {
             pass: None,
             setup: None,
             next_tool: None,
-            modes: Modes::default(),
+            modes: Modes { inch: !dialect.metric, ..Modes::default() },
             events: Vec::new(),
         }
+    }
+
+    /// Takes the unit of what follows.
+    pub(super) fn set_metric(&mut self, metric: bool) {
+        self.metric = metric;
+        self.modes.inch = !metric;
     }
 
     /// Millimetres of a unit of length on the tape.

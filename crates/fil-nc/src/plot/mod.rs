@@ -7,6 +7,8 @@
 
 mod encode;
 mod html;
+mod pack;
+mod program;
 mod sample;
 mod simplify;
 mod svg;
@@ -17,9 +19,12 @@ mod view;
 mod tests;
 
 pub use html::html;
+pub use program::nc_trace;
 pub use svg::svg;
-pub use trace::{cl_trace, nc_trace};
+pub use trace::cl_trace;
 pub use view::{Extent, View};
+
+use fil_machine::Unit;
 
 use crate::motion::{Rate, Speed, Spindle};
 
@@ -67,6 +72,9 @@ impl Stroke {
 /// Colour of a CL path that lies under a program, `#rrggbb`.
 pub const CL_COLOUR: &str = "#f0a830";
 
+/// Colour of the directions of a tilting tool, `#rrggbb`.
+pub const AXIS_COLOUR: &str = "#8a94a0";
+
 /// Part of a path that one block or CL record makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Piece {
@@ -90,6 +98,8 @@ pub struct Change {
     pub tool: u32,
     /// Line of the NC program or of the CL file, 1-based.
     pub line: u32,
+    /// Index of the first piece after it.
+    pub from: usize,
 }
 
 /// What is in force from a piece of a path on.
@@ -104,6 +114,8 @@ pub struct InForce {
     pub feed: Option<Rate>,
     /// Speed of the spindle.
     pub speed: Option<Speed>,
+    /// What surface speed may turn the spindle up to, turns/min.
+    pub speed_limit: Option<f64>,
     /// What the spindle does.
     pub spindle: Spindle,
     /// The work offset, as [`Modes::fixture`](crate::motion::Modes::fixture).
@@ -124,15 +136,58 @@ pub struct Trace {
     /// Directions of the tool, each from the piece on that ends with it; none where the tool
     /// always stands upright.
     pub axes: Vec<(usize, Point)>,
+    /// Lengths are told in inch, as in the program or the CL file; else in mm.
+    pub inch: bool,
 }
 
-/// What is said of a line when its piece is pointed at.
+impl Trace {
+    /// The unit in which lengths are told.
+    pub fn unit(&self) -> Unit {
+        if self.inch { Unit::Inch } else { Unit::Mm }
+    }
+}
+
+/// What made a line of a program.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LineCause {
+    /// Line of the CL file, 1-based; 0 for none.
+    pub line: u32,
+    /// Which of [`Notes::stacks`], from 1; 0 for none.
+    pub stack: u32,
+}
+
+/// What is said of lines when their pieces are pointed at.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Note {
-    /// The line of the program or of the CL file.
+pub struct Notes {
+    /// The program or the CL file.
     pub text: String,
-    /// What made it: CL record, FIL line.
-    pub origin: String,
+    /// What made each of its lines; may be shorter than the text.
+    pub causes: Vec<LineCause>,
+    /// What the CL file of the causes is called.
+    pub source_name: String,
+    /// Its text, where it is at hand.
+    pub source: Option<String>,
+    /// FIL lines that called one another, innermost first, a line each.
+    pub stacks: Vec<String>,
+}
+
+impl Notes {
+    /// What made a line, 1-based: the line of the CL file, then those of FIL.
+    pub fn origin(&self, line: usize) -> String {
+        let Some(cause) = line.checked_sub(1).and_then(|at| self.causes.get(at)) else {
+            return String::new();
+        };
+        let mut parts = Vec::new();
+        if let Some(at) = (cause.line as usize).checked_sub(1) {
+            let text = self.source.as_deref().and_then(|text| text.lines().nth(at));
+            let text = text.unwrap_or_default().trim();
+            let told = format!("{}:{}  {text}", self.source_name, cause.line);
+            parts.push(told.trim_end().to_string());
+        }
+        let stack = (cause.stack as usize).checked_sub(1).and_then(|at| self.stacks.get(at));
+        parts.extend(stack.cloned());
+        parts.join("\n")
+    }
 }
 
 /// All that a picture shows.
@@ -148,11 +203,10 @@ pub struct Drawing {
     pub under: Option<Trace>,
     /// What the path under it is called in a legend.
     pub under_name: &'static str,
-    /// Notes on the lines of the path: `notes[0]` is on line 1. May be shorter than
-    /// the program.
-    pub notes: Vec<Note>,
+    /// Notes on the lines of the path.
+    pub notes: Notes,
     /// Notes on the lines of the path under it.
-    pub under_notes: Vec<Note>,
+    pub under_notes: Notes,
 }
 
 impl Drawing {

@@ -1,10 +1,13 @@
 //! Views as SVG.
 
+use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
+
+use fil_machine::Unit;
 
 use super::simplify::{Dot, Lines, dot};
 use super::view::{Extent, View};
-use super::{CL_COLOUR, Drawing, Stroke, Trace};
+use super::{AXIS_COLOUR, CL_COLOUR, Drawing, Stroke, Trace};
 
 /// Width of a view's field, pixels.
 const WIDTH: f64 = 560.0;
@@ -17,6 +20,14 @@ const GAP: f64 = 16.0;
 
 /// Room for the heading and the legend, pixels.
 const HEAD: f64 = 64.0;
+
+/// Side of a cell that shows one direction of a tilting tool, and the length of that, pixels.
+const CELL: f64 = 20.0;
+const AXIS: f64 = 16.0;
+
+/// Most tools told at one place, and most tool changes told in a view.
+const TOOLS: usize = 8;
+const CHANGES: usize = 400;
 
 /// Least size of what is drawn, mm, so that a single point has a scale.
 const LEAST: f64 = 1e-3;
@@ -103,18 +114,22 @@ fn legend(out: &mut String, drawing: &Drawing, extent: Option<&Extent>) {
     if drawing.under.is_some() {
         sample(out, CL_COLOUR, drawing.under_name, UNDER);
     }
-    if let Some(extent) = extent {
-        let range =
-            |axis: usize| format!("{} to {}", short(extent.min[axis]), short(extent.max[axis]));
-        let _ = writeln!(
-            out,
-            "<text x=\"{}\" y=\"50\" fill=\"#444444\">X {}   Y {}   Z {}</text>",
-            x + GAP,
-            range(0),
-            range(1),
-            range(2)
-        );
+    if !drawing.path.axes.is_empty() {
+        sample(out, AXIS_COLOUR, "tool axis", "");
     }
+    if let Some(extent) = extent {
+        let (x, sides) = (x + GAP, sides(extent, drawing.path.unit()));
+        let _ = writeln!(out, "<text x=\"{x}\" y=\"50\" fill=\"#444444\">{sides}</text>");
+    }
+}
+
+/// From where to where a box goes, in a unit.
+pub(super) fn sides(extent: &Extent, unit: Unit) -> String {
+    let side = |axis: usize| {
+        let [from, to] = [extent.min, extent.max].map(|end| short(end[axis], unit));
+        format!("{from} to {to}")
+    };
+    format!("X {} · Y {} · Z {} {unit}", side(0), side(1), side(2))
 }
 
 const UNDER: &str = " stroke-width=\"5\" stroke-opacity=\"0.5\"";
@@ -160,6 +175,7 @@ fn field(
             let lines = collect(&drawing.path, &frame, |of| of == stroke);
             path(out, &lines, stroke.colour(), style(stroke));
         }
+        tool_axes(out, &drawing.path, &frame);
         changes(out, drawing, &frame);
     }
     out.push_str("</g>\n");
@@ -204,17 +220,43 @@ fn tenths(value: i32) -> String {
     }
 }
 
-/// Tool changes: a ring and the number, once at each place.
-fn changes(out: &mut String, drawing: &Drawing, frame: &Frame) {
-    let mut seen = Vec::new();
-    for change in &drawing.path.changes {
-        let [x, y] = frame.place(&change.at);
-        let key = (dot([x, y]), change.tool);
-        if seen.contains(&key) {
+/// Directions of a tilting tool at the ends of motions, one in each cell of the picture.
+fn tool_axes(out: &mut String, trace: &Trace, frame: &Frame) {
+    if trace.axes.is_empty() {
+        return;
+    }
+    let mut seen = HashSet::new();
+    let mut axes = trace.axes.iter().peekable();
+    let mut axis = [0.0, 0.0, 1.0];
+    let _ = write!(out, "<path fill=\"none\" stroke=\"{AXIS_COLOUR}\" d=\"");
+    for (index, piece) in trace.pieces.iter().enumerate() {
+        while let Some((_, next)) = axes.next_if(|(from, _)| *from <= index) {
+            axis = *next;
+        }
+        let place = frame.place(&trace.points[piece.end - 1]);
+        if !seen.insert(place.map(|value| (value / CELL).floor() as i64)) {
             continue;
         }
-        let above = seen.iter().filter(|(place, _)| *place == key.0).count() as f64 * 14.0;
-        seen.push(key);
+        let [right, up] = frame.view.project(&axis).map(|part| part * AXIS);
+        let [x, y] = dot(place).map(tenths);
+        let _ = write!(out, "M{x} {y}l{right:.1} {:.1}", -up);
+    }
+    out.push_str("\"/>\n");
+}
+
+/// Tool changes: a ring and the number, once at each place; so many that they can be told apart.
+fn changes(out: &mut String, drawing: &Drawing, frame: &Frame) {
+    let mut places: HashMap<Dot, Vec<u32>> = HashMap::new();
+    let mut shown = 0;
+    for change in &drawing.path.changes {
+        let [x, y] = frame.place(&change.at);
+        let tools = places.entry(dot([x, y])).or_default();
+        if tools.contains(&change.tool) || tools.len() == TOOLS || shown == CHANGES {
+            continue;
+        }
+        let above = tools.len() as f64 * 14.0;
+        tools.push(change.tool);
+        shown += 1;
         let _ = writeln!(
             out,
             "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"#ffffff\" stroke=\"#222222\"/>\
@@ -246,9 +288,10 @@ fn axes(out: &mut String, view: View, corner: [f64; 2]) {
     }
 }
 
-/// A length with at most three digits after the point.
-pub(super) fn short(value: f64) -> String {
-    ((value * 1e3).round() / 1e3 + 0.0).to_string()
+/// A length of mm in a unit, with the digits after the point that its programs have.
+fn short(length: f64, unit: Unit) -> String {
+    let digits = if unit.is_metric() { 1e3 } else { 1e4 };
+    ((length / unit.in_mm() * digits).round() / digits + 0.0).to_string()
 }
 
 /// Text within SVG and HTML.

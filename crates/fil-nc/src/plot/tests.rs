@@ -1,4 +1,3 @@
-use super::encode::{Numbers, json};
 use super::simplify::Lines;
 use super::*;
 
@@ -63,16 +62,6 @@ fn a_picture_does_not_grow_with_the_motions() {
     };
     let (few, many) = (picture(10), picture(200_000));
     assert!(many.len() < few.len() + 4_000, "{} {}", few.len(), many.len());
-}
-
-#[test]
-fn numbers_are_packed_as_the_page_reads_them() {
-    let mut numbers = Numbers::default();
-    numbers.push(300);
-    numbers.push_signed(-2);
-    // 300 is 2 * 128 + 44; -2 becomes 3.
-    assert_eq!(numbers.base64(), "rAID");
-    assert_eq!(json("a<\"\\\n\u{1}"), "\"a\\u003c\\\"\\\\\\n\\u0001\"");
 }
 
 #[test]

@@ -1,13 +1,12 @@
-//! Programs and CL files to traces.
+//! Pieces put together to a trace, and CL files as traces.
 
 use fil_cl::Reader;
 use fil_diag::Diag;
 use nalgebra::{Point3, Rotation3, Unit};
 
-use super::sample::{arc_step, tip, tips};
+use super::sample::arc_step;
 use super::{Change, Extent, InForce, Piece, Point, Stroke, Trace};
-use crate::forward::Forward;
-use crate::motion::{Course, Event, Modes, Move, Position, Rate};
+use crate::motion::{Modes, Move, Rate};
 use crate::verify::{Arc, ClPath, Hole, Wanted};
 
 /// Chords of arcs leave them by this part of the size of the picture.
@@ -16,27 +15,34 @@ const FINENESS: f64 = 1.0 / 20_000.0;
 /// Least chord tolerance, mm.
 const LEAST: f64 = 1e-4;
 
+/// What lies farther is not drawn, mm.
+const FARTHEST: f64 = 1e12;
+
 /// Puts pieces together.
 #[derive(Default)]
-struct Builder {
-    trace: Trace,
+pub(super) struct Builder {
+    pub(super) trace: Trace,
     /// Where the pen stands; `None` while that is not known.
-    pen: Option<Point>,
+    pub(super) pen: Option<Point>,
     /// Tool changes before the first point.
     waiting: Vec<(u32, u32)>,
 }
 
 impl Builder {
     /// Lifts the pen to a point.
-    fn put(&mut self, to: Point) {
-        self.pen = Some(to);
+    pub(super) fn put(&mut self, to: Point) {
+        self.pen = is_place(&to).then_some(to);
+        if self.pen.is_none() {
+            return;
+        }
+        let from = self.trace.pieces.len();
         for (line, tool) in std::mem::take(&mut self.waiting) {
-            self.trace.changes.push(Change { at: to, tool, line });
+            self.trace.changes.push(Change { at: to, tool, line, from });
         }
     }
 
     /// Draws through points; what has no length is left out. True when a piece was made.
-    fn draw(
+    pub(super) fn draw(
         &mut self,
         stroke: Stroke,
         line: u32,
@@ -48,7 +54,7 @@ impl Builder {
             points.push(from);
         }
         let start = points.len() - 1;
-        for point in through {
+        for point in through.into_iter().filter(is_place) {
             if points.last() != Some(&point) {
                 points.push(point);
             }
@@ -63,7 +69,7 @@ impl Builder {
     }
 
     /// Notes what is in force at the piece that was drawn last, where it is something else.
-    fn note(&mut self, motion: &Move, axis: Point) {
+    pub(super) fn note(&mut self, motion: &Move, axis: Point) {
         let from = self.trace.pieces.len() - 1;
         let last = self.trace.in_force.last();
         let feed = match (motion.rate, last) {
@@ -73,11 +79,16 @@ impl Builder {
             }
             (rate, _) => rate,
         };
-        let Modes { tool, speed, spindle, fixture, .. } = motion.modes;
-        let now = InForce { from, tool, feed, speed, spindle, fixture };
+        let Modes { tool, speed, speed_limit, spindle, fixture, .. } = motion.modes;
+        let now = InForce { from, tool, feed, speed, speed_limit, spindle, fixture };
         if last.is_none_or(|last| InForce { from, ..*last } != now) {
             self.trace.in_force.push(now);
         }
+        self.note_axis(axis, from);
+    }
+
+    /// Notes the direction of the tool from a piece on, where it is another.
+    fn note_axis(&mut self, axis: Point, from: usize) {
         let upright = [0.0, 0.0, 1.0];
         if self.trace.axes.last().map_or(upright, |(_, axis)| *axis) != axis {
             self.trace.axes.push((from, axis));
@@ -93,69 +104,25 @@ impl Builder {
         points.windows(2).map(step).sum()
     }
 
-    fn change(&mut self, line: u32, tool: u32) {
+    pub(super) fn change(&mut self, line: u32, tool: u32) {
         match self.pen {
-            Some(at) => self.trace.changes.push(Change { at, tool, line }),
+            Some(at) => {
+                let from = self.trace.pieces.len();
+                self.trace.changes.push(Change { at, tool, line, from });
+            }
             None => self.waiting.push((line, tool)),
         }
     }
 }
 
-/// The trace of a program from its events.
-///
-/// Motions from or to a place that is not known are left out, and so are those to
-/// points of the machine.
-pub fn nc_trace(events: &[Event], forward: &Forward) -> Trace {
-    let moves = || {
-        events.iter().filter_map(|event| match event {
-            Event::Move(motion) => Some(motion),
-            _ => None,
-        })
-    };
-    // An axis that no block names does not move: it is known well enough.
-    let mut named = [false; 5];
-    moves().for_each(|m| (0..5).for_each(|axis| named[axis] |= m.known[axis]));
-    let known = |motion: &Move| (0..5).all(|axis| motion.known[axis] || !named[axis]);
-    let ends: Vec<Point> = moves().filter(|m| known(m)).map(|m| tip(forward, &m.to)).collect();
-    let tolerance = tolerance(&ends);
-    let mut builder = Builder::default();
-    let mut at = Position::default();
-    for event in events {
-        match event {
-            Event::Move(motion) => {
-                if motion.course == Course::Machine || !known(motion) {
-                    builder.pen = None;
-                } else if builder.pen.is_none() {
-                    builder.put(tip(forward, &motion.to));
-                } else {
-                    let points = tips(forward, (&at, &motion.to), motion.arc.as_ref(), tolerance);
-                    if builder.draw(stroke(motion), motion.line, points) {
-                        builder.note(motion, forward.axis(motion.to.rotary).into());
-                    }
-                }
-                at = motion.to;
-            }
-            Event::ToolChange { line, tool, .. } => builder.change(*line, *tool),
-            Event::Dwell { .. }
-            | Event::Auxiliary { .. }
-            | Event::LeftToControl { .. }
-            | Event::End { .. } => {}
-        }
-    }
-    builder.trace
+/// A place that can be drawn: programs may hold numbers that are too large for one.
+pub(super) fn is_place(point: &Point) -> bool {
+    point.iter().all(|value| value.abs() < FARTHEST)
 }
 
-fn stroke(motion: &Move) -> Stroke {
-    match (motion.course, motion.arc) {
-        (Course::Thread, _) => Stroke::Thread,
-        (Course::Rapid | Course::Machine, _) => Stroke::Rapid,
-        (Course::Feed, Some(_)) => Stroke::Arc,
-        (Course::Feed, None) => Stroke::Feed,
-    }
-}
-
-fn tolerance(points: &[Point]) -> f64 {
-    (Extent::of(points).map_or(0.0, |extent| extent.size()) * FINENESS).max(LEAST)
+/// How far chords of arcs may leave them, in a picture of this extent.
+pub(super) fn tolerance(extent: Option<Extent>) -> f64 {
+    (extent.map_or(0.0, |extent| extent.size()) * FINENESS).max(LEAST)
 }
 
 /// The trace of a CL file; `name` is for messages, `unit` that of a file which does not
@@ -173,16 +140,22 @@ pub fn cl_trace(
     for step in ClPath::new(cl, name, shift).in_unit(unit) {
         steps.push(step?);
     }
-    let ends: Vec<Point> =
-        steps.iter().filter_map(|step| Some(step.what.end()?.tip.into())).collect();
-    let tolerance = tolerance(&ends);
+    let ends: Vec<Point> = steps
+        .iter()
+        .filter_map(|step| Some(step.what.end()?.tip.into()))
+        .filter(is_place)
+        .collect();
+    let tolerance = tolerance(Extent::of(&ends));
     let mut builder = Builder::default();
     let mut drilling = None;
     for step in &steps {
         if let Some(first) = step.what.end().filter(|_| builder.pen.is_none()) {
             builder.put(first.tip.into());
         }
+        let pieces = builder.trace.pieces.len();
         match &step.what {
+            // A path of both units would need two scales: the first one is told.
+            Wanted::Metric(metric) if pieces == 0 => builder.trace.inch = !metric,
             Wanted::Rapid(to) => {
                 builder.draw(Stroke::Rapid, step.line, [to.tip.into()]);
             }
@@ -202,6 +175,9 @@ pub fn cl_trace(
             Wanted::CycleEnd => drilling = None,
             Wanted::Tool { number, .. } => builder.change(step.line, *number),
             _ => {}
+        }
+        if let Some(end) = step.what.end().filter(|_| builder.trace.pieces.len() > pieces) {
+            builder.note_axis(end.axis.into(), pieces);
         }
     }
     Ok(builder.trace)

@@ -14,14 +14,16 @@ pub struct Extent {
 impl Extent {
     /// The box around points; `None` without any.
     pub fn of<'p>(points: impl IntoIterator<Item = &'p Point>) -> Option<Extent> {
-        points.into_iter().fold(None, |extent, point| {
-            Some(match extent {
-                None => Extent { min: *point, max: *point },
-                Some(Extent { min, max }) => Extent {
-                    min: std::array::from_fn(|axis| min[axis].min(point[axis])),
-                    max: std::array::from_fn(|axis| max[axis].max(point[axis])),
-                },
-            })
+        let one = |point: &Point| Some(Extent { min: *point, max: *point });
+        points.into_iter().map(one).fold(None, Extent::joined)
+    }
+
+    /// The box around two, where there are two.
+    pub(super) fn joined(one: Option<Extent>, other: Option<Extent>) -> Option<Extent> {
+        let (Some(a), Some(b)) = (one, other) else { return one.or(other) };
+        Some(Extent {
+            min: std::array::from_fn(|axis| a.min[axis].min(b.min[axis])),
+            max: std::array::from_fn(|axis| a.max[axis].max(b.max[axis])),
         })
     }
 

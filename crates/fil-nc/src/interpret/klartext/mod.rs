@@ -113,7 +113,7 @@ impl Klartext<'_> {
         }
         match (self.part, &words[..]) {
             (Part::Head, ["BEGIN", "PGM", .., unit @ ("MM" | "INCH")]) => {
-                self.state.metric = *unit == "MM";
+                self.state.set_metric(*unit == "MM");
                 self.part = Part::Body;
                 return Ok(());
             }

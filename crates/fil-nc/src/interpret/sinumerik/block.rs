@@ -233,7 +233,7 @@ impl Sinumerik<'_> {
                     state.modes.compensation_offset = None;
                 }
                 Function::Units { metric, feeds } => {
-                    state.metric = metric;
+                    state.set_metric(metric);
                     if feeds && self.metric_feed != metric {
                         self.metric_feed = metric;
                         state.feed = None;

@@ -1,0 +1,111 @@
+//! A trace as the script of the page reads it.
+
+use fil_machine::Unit;
+
+use super::encode::{columns, json, packed};
+use super::{Extent, InForce, Notes, Point, Stroke, Trace};
+use crate::motion::{Rate, Speed, Spindle};
+
+/// Steps of a unit in which feeds, speeds and directions are kept.
+const FINE: f64 = 1e4;
+
+/// Most steps over the longest side of a path: the page keeps them in 32 bits.
+const STEPS: f64 = 1e9;
+
+/// The grid on which the points of a page lie.
+pub(super) struct Grid {
+    /// Its origin, mm.
+    pub(super) min: Point,
+    /// Its step, mm.
+    pub(super) step: f64,
+}
+
+impl Grid {
+    /// A grid of a tenth of the last digit that programs of a unit have; coarser, where a path
+    /// is too long for it.
+    pub(super) fn new(extent: &Extent, unit: Unit) -> Self {
+        let mut step = if unit.is_metric() { 1e-4 } else { 1e-5 * unit.in_mm() };
+        let size = extent.size().min(f64::MAX);
+        while size / step > STEPS {
+            step *= 10.0;
+        }
+        Grid { min: extent.min, step }
+    }
+
+    fn steps(&self, point: &Point) -> [i64; 3] {
+        std::array::from_fn(|axis| ((point[axis] - self.min[axis]) / self.step).round() as i64)
+    }
+}
+
+/// A trace with its notes, as JSON; `source` is the text of the CL file of its causes.
+pub(super) fn trace(trace: &Trace, notes: &Notes, source: &str, grid: &Grid) -> String {
+    let points = columns(trace.points.iter().map(|point| grid.steps(point)));
+    let changes = columns(trace.changes.iter().map(|change| {
+        let [x, y, z] = grid.steps(&change.at);
+        [change.from as i64, x, y, z, change.tool.into(), change.line.into()]
+    }));
+    let axes = columns(trace.axes.iter().map(|(from, axis)| {
+        let [i, j, k] = axis.map(|part| (part * FINE).round() as i64);
+        [*from as i64, i, j, k]
+    }));
+    let causes = columns(notes.causes.iter().map(|cause| [cause.line.into(), cause.stack.into()]));
+    let stacks: Vec<String> = notes.stacks.iter().map(|stack| json(stack)).collect();
+    let fields = [
+        ("points", points),
+        ("pieces", pieces(trace)),
+        ("inForce", columns(trace.in_force.iter().map(in_force))),
+        ("axes", axes),
+        ("changes", changes),
+        ("text", quoted(&notes.text)),
+        ("causes", causes),
+        ("source", quoted(source)),
+        ("sourceName", json(&notes.source_name)),
+        ("stacks", quoted(&format!("[{}]", stacks.join(",")))),
+    ];
+    let fields = fields.map(|(name, value)| format!("\"{name}\":{value}"));
+    format!("{{{}}}", fields.join(",\n"))
+}
+
+/// A text, packed.
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", packed(text.as_bytes()))
+}
+
+/// Pieces: number of points, whether it goes on from the one before, stroke; line.
+fn pieces(trace: &Trace) -> String {
+    let mut end = 0;
+    columns(trace.pieces.iter().map(|piece| {
+        let goes_on = piece.start + 1 == end;
+        end = piece.end;
+        let stroke = Stroke::ALL.iter().position(|stroke| *stroke == piece.stroke).unwrap_or(0);
+        let count = piece.end - piece.start;
+        [(count << 3 | usize::from(goes_on) << 2 | stroke) as i64, piece.line.into()]
+    }))
+}
+
+/// What is in force: its first piece; tool; feed a minute (1), a turn (2) or none (0), and the
+/// feed; speed in turns (1), at the surface (2) or none (0), and the speed; spindle off (0),
+/// clockwise (1), counterclockwise (2); work offset and 1, or 0 without one; the limit of the
+/// speed, or 0 without one.
+fn in_force(now: &InForce) -> [i64; 9] {
+    let fine = |value: f64| (value.max(0.0) * FINE).round() as i64;
+    let (feed_kind, feed) = match now.feed {
+        Some(Rate::PerMinute(feed)) => (1, feed),
+        Some(Rate::PerTurn(feed)) => (2, feed),
+        Some(Rate::Inverse(_)) | None => (0, 0.0),
+    };
+    let (speed_kind, speed) = match now.speed {
+        Some(Speed::Turns(speed)) => (1, speed),
+        Some(Speed::Surface(speed)) => (2, speed),
+        None => (0, 0.0),
+    };
+    let spindle = match now.spindle {
+        Spindle::Off => 0,
+        Spindle::Clockwise => 1,
+        Spindle::Counterclockwise => 2,
+    };
+    let fixture = now.fixture.map_or(0, |fixture| i64::from(fixture) + 1);
+    let limit = fine(now.speed_limit.unwrap_or(0.0));
+    let (from, tool) = (now.from as i64, now.tool.into());
+    [from, tool, feed_kind, fine(feed), speed_kind, fine(speed), spindle, fixture, limit]
+}

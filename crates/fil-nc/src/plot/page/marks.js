@@ -1,0 +1,117 @@
+// What stands on the path: origin, tool changes, axes, a scale.
+
+/** Colours of texts, by the theme. */
+const ink = (name) => getComputedStyle(document.body).getPropertyValue(`--${name}`).trim();
+/** Most labels on the canvas, and most tools that one of them names. */
+const LABELS = 200, TOOLS = 4;
+
+/** A way of a direction, with its name at the end; nothing where it leads away from the eye. */
+function arrow(pen, [x, y], way, size, name) {
+  const [dx, dy] = lead(way).map((part) => part * size);
+  if (Math.hypot(dx, dy) < 4) return;
+  pen.beginPath();
+  pen.moveTo(x, y);
+  pen.lineTo(x + dx, y + dy);
+  pen.stroke();
+  pen.fillText(name, x + dx * 1.2 - 4, y + dy * 1.2 + 4);
+}
+
+const AXES = { X: [1, 0, 0], Y: [0, 1, 0], Z: [0, 0, 1] };
+
+/** The origin of the part, and the directions of its axes. */
+function drawOrigin(pen) {
+  const at = project([0, 0, 0]);
+  pen.font = "12px sans-serif";
+  pen.strokeStyle = pen.fillStyle = ink("origin");
+  pen.lineWidth = 1.5;
+  pen.beginPath();
+  pen.arc(...at, 5, 0, 2 * Math.PI);
+  pen.stroke();
+  for (const [name, way] of Object.entries(AXES)) arrow(pen, at, way, 36, name);
+}
+
+/** The axes once more in the corner, for when the origin is out of sight. */
+function drawAxes(pen) {
+  pen.font = "12px sans-serif";
+  pen.strokeStyle = pen.fillStyle = ink("faint");
+  pen.lineWidth = 1.2;
+  for (const [name, way] of Object.entries(AXES)) arrow(pen, [44, plot.clientHeight - 44], way, 30, name);
+}
+
+/** Puts a label beside a point, where none stands yet. */
+function putLabel(pen, taken, label, px, py) {
+  const width = pen.measureText(label).width;
+  for (let ring = 0; ring < 6; ring++) {
+    const up = -6 - 15 * ring, down = 16 + 15 * ring;
+    for (const [dx, dy] of [[7, up], [7, down], [-width - 7, up], [-width - 7, down]]) {
+      const box = [px + dx, py + dy - 12, px + dx + width, py + dy + 3];
+      const inside = box[0] > 0 && box[1] > 0 && box[2] < plot.clientWidth && box[3] < plot.clientHeight;
+      const free = inside && taken.every((b) => box[2] < b[0] || box[0] > b[2] || box[3] < b[1] || box[1] > b[3]);
+      if (!free) continue;
+      taken.push(box);
+      pen.strokeText(label, px + dx, py + dy);
+      pen.fillText(label, px + dx, py + dy);
+      return;
+    }
+  }
+}
+
+/** The tool changes in sight, those at one place together. */
+function changesInSight() {
+  const { from, tool } = path.changes, to = projection(), { x, y, z } = path.changes;
+  const places = new Map();
+  for (let change = 0; change < from.length; change++) {
+    if (path.shown < path.total && from[change] >= path.shown) continue;
+    const px = to.x + x[change] * to.a + y[change] * to.b + z[change] * to.c;
+    const py = to.y + x[change] * to.d + y[change] * to.e + z[change] * to.f;
+    if (px < 0 || py < 0 || px > plot.clientWidth || py > plot.clientHeight) continue;
+    const key = Math.round(px) + 16384 * Math.round(py);
+    const place = places.get(key);
+    if (!place) places.set(key, { px, py, tools: [tool[change]], more: 0 });
+    else if (place.tools.includes(tool[change])) continue;
+    else if (place.tools.length < TOOLS) place.tools.push(tool[change]);
+    else place.more++;
+  }
+  return [...places.values()];
+}
+
+function drawChanges(pen) {
+  const places = changesInSight();
+  pen.fillStyle = ink("paper");
+  pen.strokeStyle = ink("text");
+  pen.lineWidth = 1.2;
+  for (const { px, py } of places) {
+    pen.beginPath();
+    pen.arc(px, py, 4, 0, 2 * Math.PI);
+    pen.fill();
+    pen.stroke();
+  }
+  pen.font = "13px sans-serif";
+  pen.fillStyle = ink("text");
+  pen.strokeStyle = ink("paper");
+  pen.lineWidth = 4;
+  const taken = [];
+  for (const { px, py, tools, more } of places.slice(0, LABELS)) {
+    const names = tools.map((tool) => `T${tool}`).join(" ");
+    putLabel(pen, taken, more ? `${names} and more` : names, px, py);
+  }
+}
+
+/** A bar of a round length. */
+function drawScale(pen) {
+  const wanted = 120 / view.scale / data.unit.size;
+  const power = 10 ** Math.floor(Math.log10(wanted));
+  const size = [5, 2, 1].map((digit) => digit * power).find((value) => value <= wanted);
+  const x = plot.clientWidth - 20, y = plot.clientHeight - 20;
+  pen.beginPath();
+  pen.moveTo(x - size * data.unit.size * view.scale, y);
+  pen.lineTo(x, y);
+  pen.strokeStyle = ink("faint");
+  pen.lineWidth = 2;
+  pen.stroke();
+  pen.textAlign = "right";
+  pen.fillStyle = ink("faint");
+  pen.font = "12px sans-serif";
+  pen.fillText(`${Number(size.toPrecision(1))} ${data.unit.name}`, x, y - 6);
+  pen.textAlign = "left";
+}
