@@ -44,3 +44,56 @@ pub(crate) use writer::Writer;
 
 /// The version of the format that is written, and the only one that is read.
 pub const VERSION: u32 = 3;
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use super::*;
+    use crate::Program;
+
+    /// A map of some hundred blocks: forms that come again, FIL, records that a section takes.
+    fn map() -> Vec<u8> {
+        let fil = "CIMFIL/ON,DELAY\nPOSTN/OUT,24,NN\nNN=NN+1\nCIMFIL/OFF\nCIMFIL/ON,STOP\n\
+                   CIMFIL/OFF\nNN=1\nFINI\n";
+        let mut cl = String::from("UNITS / MM\nFEDRAT / 200, MMPM\n");
+        for number in 0..300 {
+            let x = f64::from(number * 7 % 50);
+            cl.push_str(&format!("GOTO / {x}, {}, 0\n", number / 2));
+            cl.push_str(if number % 40 == 9 { "DELAY / 1\n" } else { "" });
+            cl.push_str(if number % 70 == 3 { "STOP\n" } else { "" });
+        }
+        let post = Program::builder().ready("fanuc-mill").fil("mill.fil", fil).build().unwrap();
+        let names =
+            Names { cl: "part.ncl".into(), nc: "out.nc".into(), fil: vec!["mill.fil".into()] };
+        let (mut nc, mut lines) = (Vec::new(), Vec::new());
+        post.start().run_mapped(Cursor::new(cl + "FINI\n"), &mut nc, &names, &mut lines).unwrap();
+        lines
+    }
+
+    #[test]
+    fn blocks_passed_over_leave_the_rest_as_it_is() {
+        let map = map();
+        let reader = || MapReader::new("out.nc.map", Cursor::new(&map)).unwrap();
+        let lines = |reader: MapReader<_>| {
+            let entries = reader.map(|entry| entry.unwrap());
+            entries.filter(|entry| matches!(entry, Entry::Line(_))).collect::<Vec<_>>()
+        };
+        let all = lines(reader());
+        assert!(all.len() > 300, "{} blocks", all.len());
+        for number in 0..all.len() as u64 + 3 {
+            let mut passing = reader();
+            passing.pass_to(number).unwrap();
+            let passed = all.len().min(number.saturating_sub(1) as usize);
+            let cause = match passed.checked_sub(1).map(|at| &all[at]) {
+                Some(Entry::Line(line)) => line.cause,
+                _ => fil_post::Cause::default(),
+            };
+            assert_eq!(
+                (passing.last_cause().record, passing.last_cause().line),
+                (cause.record, cause.line)
+            );
+            assert_eq!(lines(passing), all[passed..], "from block {number}");
+        }
+    }
+}

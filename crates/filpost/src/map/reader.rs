@@ -147,6 +147,16 @@ impl Form {
     }
 }
 
+/// What a line of a map was.
+enum Step {
+    /// An entry that is wanted, or a record without effect.
+    Entry(Entry),
+    /// Another one.
+    Passed,
+    /// The last line.
+    End,
+}
+
 /// Which blocks are asked for: by their stacks known so far, the number of the line,
 /// and a cause, which is that of the block or of one of its words.
 pub(crate) type Wanted<'w> = dyn Fn(&[Stack], u64, Cause) -> bool + 'w;
@@ -270,30 +280,74 @@ impl<R: Read + Seek> MapReader<R> {
         entry
     }
 
-    fn entry(&mut self, wanted: &Wanted<'_>) -> Result<Option<Entry>, Error> {
-        while self.next_line()? {
-            if let Some(b'[' | b'0'..=b'9') = self.line.first() {
-                match self.nc_line(wanted)? {
-                    Some(line) => return Ok(Some(Entry::Line(line))),
-                    None => continue,
-                }
-            }
-            if let Some(line) = parse::<ObjectLine>(&self.line) {
-                match line {
-                    ObjectLine::Stack(stack) => self.add_stack(stack)?,
-                    ObjectLine::Taken(taken) => {
-                        self.known(usize::from(taken.section) < self.sections.len())?;
-                        let (line, record) = taken.taken;
-                        let section = taken.section;
-                        return Ok(Some(Entry::Taken(Taken { line, record, section })));
-                    }
-                }
-            } else {
-                self.end()?;
-                return Ok(None);
+    /// Passes over the blocks before a line of the program: what their words are caused by
+    /// is not looked at. What cannot be passed over so is left to [`MapReader::next_where`].
+    pub(crate) fn pass_to(&mut self, number: u64) -> Result<(), Error> {
+        while !self.over && self.read + 1 < number {
+            self.pass_repeated(number)?;
+            if self.read + 1 < number {
+                self.over = matches!(self.step(&|_, _, _| false)?, Step::End);
             }
         }
-        Err(self.broken("the map was cut off: its last line is missing"))
+        Ok(())
+    }
+
+    /// The cause of the block that was read or passed over last.
+    pub(crate) fn last_cause(&self) -> Cause {
+        self.last
+    }
+
+    /// Passes over blocks that repeat a form, as far as they are in memory; the first of
+    /// them that is not as it should be stays.
+    fn pass_repeated(&mut self, number: u64) -> Result<(), Error> {
+        let cant = |error| files::cant_read(Path::new(&self.name), &error);
+        let buffer = self.input.fill_buf().map_err(cant)?;
+        let (mut used, mut lines) = (0, 0);
+        while self.read + 1 < number {
+            let Some((form, length)) = repeated(&buffer[used..]) else { break };
+            let Some(form) = form.checked_sub(1).and_then(|at| self.forms.get(at)) else { break };
+            let Some(cause) = form.after(self.last) else { break };
+            if form.highest_stack as usize > self.stacks.len() {
+                break;
+            }
+            self.last = cause;
+            self.read += 1;
+            used += length;
+            lines += 1;
+        }
+        self.input.consume(used);
+        self.number = self.number.saturating_add(lines);
+        Ok(())
+    }
+
+    fn entry(&mut self, wanted: &Wanted<'_>) -> Result<Option<Entry>, Error> {
+        loop {
+            match self.step(wanted)? {
+                Step::Entry(entry) => return Ok(Some(entry)),
+                Step::Passed => {}
+                Step::End => return Ok(None),
+            }
+        }
+    }
+
+    /// Reads the next line of the map.
+    fn step(&mut self, wanted: &Wanted<'_>) -> Result<Step, Error> {
+        if !self.next_line()? {
+            return Err(self.broken("the map was cut off: its last line is missing"));
+        }
+        if let Some(b'[' | b'0'..=b'9') = self.line.first() {
+            let line = self.nc_line(wanted)?;
+            return Ok(line.map_or(Step::Passed, |line| Step::Entry(Entry::Line(line))));
+        }
+        match parse::<ObjectLine>(&self.line) {
+            Some(ObjectLine::Stack(stack)) => self.add_stack(stack).map(|()| Step::Passed),
+            Some(ObjectLine::Taken(taken)) => {
+                self.known(usize::from(taken.section) < self.sections.len())?;
+                let (line, record) = taken.taken;
+                Ok(Step::Entry(Entry::Taken(Taken { line, record, section: taken.section })))
+            }
+            None => self.end().map(|()| Step::End),
+        }
     }
 
     fn nc_line(&mut self, wanted: &Wanted<'_>) -> Result<Option<NcLine>, Error> {
@@ -392,6 +446,22 @@ impl<R: Read + Seek> Iterator for MapReader<R> {
     fn next(&mut self) -> Option<Self::Item> {
         self.next_where(&|_, _, _| true)
     }
+}
+
+/// The number of a form at the start of some bytes, and the length of its line; `None` where
+/// there is no such line, or not all of it.
+fn repeated(bytes: &[u8]) -> Option<(usize, usize)> {
+    const MOST: usize = 10;
+    let (mut number, mut length) = (0, 0);
+    for byte in &bytes[..bytes.len().min(MOST)] {
+        length += 1;
+        match byte {
+            b'0'..=b'9' => number = number * 10 + usize::from(byte - b'0'),
+            b'\n' if length > 1 => return Some((number, length)),
+            _ => return None,
+        }
+    }
+    None
 }
 
 /// The number of a form that a line names.

@@ -11,7 +11,6 @@ mod position;
 mod records;
 mod run_files;
 
-use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -80,7 +79,7 @@ struct Map<'p> {
     near: Option<Cause>,
 }
 
-/// Blocks that [`Map::near`] lies before the one asked for, at least.
+/// How many blocks [`Map::near`] lies before the one asked for.
 const NEAR: u64 = 64;
 
 /// Lines of the program that belong to an answer; of each only the words that do.
@@ -96,16 +95,11 @@ impl Map<'_> {
         if place.line == 0 || place.line > self.reader.nc_lines() {
             return Err(no_line(place, self.reader.nc_lines()));
         }
-        let before = Cell::new([Cause::default(); 2]);
-        let wanted = |_: &[Stack], number: u64, cause: Cause| {
-            if number.is_multiple_of(NEAR) && cause.line > 0 {
-                before.set([before.get()[1], cause]);
-            }
-            number == place.line
-        };
+        self.reader.pass_to(place.line.saturating_sub(NEAR))?;
+        self.near = Some(self.reader.last_cause()).filter(|cause| cause.line > 0);
+        let wanted = |_: &[Stack], number: u64, _: Cause| number == place.line;
         while let Some(entry) = self.reader.next_where(&wanted) {
             if let Entry::Line(line) = entry? {
-                self.near = Some(before.get()[0]).filter(|cause| cause.line > 0);
                 return asked(line, place, files);
             }
         }
