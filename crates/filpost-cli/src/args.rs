@@ -1,10 +1,20 @@
 //! The command line.
 
+mod machine;
+mod plot;
+mod test;
+mod trace;
+
 use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use filpost::cl::ClDialect;
 use filpost::{Code, Moment, Unit};
+
+pub use machine::{MachineArgs, MachineCommand};
+pub use plot::{PlotArgs, Seen};
+pub use test::{Shard, TestArgs};
+pub use trace::{AnswerFormat, TraceArgs};
 
 /// Posts CL files with FIL macros into NC programs.
 #[derive(Debug, Parser)]
@@ -368,48 +378,6 @@ pub struct VerifyArgs {
     pub format: Report,
 }
 
-/// `filpost plot`
-#[derive(Debug, ClapArgs)]
-pub struct PlotArgs {
-    /// The CL file or the NC program; - reads standard input
-    pub file: PathBuf,
-    /// The machine that the program is for
-    #[command(flatten)]
-    pub chosen: Chosen,
-    #[command(flatten)]
-    pub units: Units,
-    /// A CL file whose path is drawn under that of the program
-    #[arg(long, value_name = "PART")]
-    pub cl: Option<PathBuf>,
-    /// The line map of the program; FILE.map when it is there
-    #[arg(long, value_name = "FILE")]
-    pub map: Option<PathBuf>,
-    /// The picture, .svg or .html; SVG to standard output when left out
-    #[arg(short, long, value_name = "OUT")]
-    pub output: Option<PathBuf>,
-    /// Views of an SVG; all of them when left out
-    #[arg(long, value_enum, value_name = "VIEWS", value_delimiter = ',')]
-    pub view: Vec<Seen>,
-    #[command(flatten)]
-    pub cl_reading: ClReading,
-    /// Encoding of the CL file's texts (utf-8, cp1251, koi8-r, …); guessed when left out
-    #[arg(long, value_name = "LABEL")]
-    pub encoding: Option<String>,
-}
-
-/// A view of `filpost plot`.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum Seen {
-    /// From above
-    Xy,
-    /// As at a lathe: Z to the right, X up
-    Zx,
-    /// Z to the right, Y up
-    Zy,
-    /// Isometric
-    Iso,
-}
-
 /// How a finding about NC programs is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Report {
@@ -447,156 +415,10 @@ pub struct WatchArgs {
     pub runs: Option<u32>,
 }
 
-/// `filpost test`
-#[derive(Debug, ClapArgs)]
-pub struct TestArgs {
-    /// Folder to look for cases in; `corpus` where there is one, else this folder
-    pub dir: Option<PathBuf>,
-    /// Show each difference and write the expected files anew
-    #[arg(long)]
-    pub update: bool,
-    /// Write a report for people: one HTML file
-    #[arg(long, value_name = "FILE")]
-    pub html: Option<PathBuf>,
-    /// Write a report for continuous integration: JUnit XML
-    #[arg(long, value_name = "FILE")]
-    pub junit: Option<PathBuf>,
-    /// Say which lines, outcomes of conditions, sections and settings no case has exercised
-    #[arg(long)]
-    pub coverage: bool,
-    /// Write the coverage as a page for people
-    #[arg(long, value_name = "FILE", requires = "coverage")]
-    pub coverage_html: Option<PathBuf>,
-    /// Write the coverage for editors and code hosts: a tracefile of lcov
-    #[arg(long, value_name = "FILE", requires = "coverage")]
-    pub lcov: Option<PathBuf>,
-    /// Change the FIL and the settings of the posts, one small change at a time, and name the
-    /// changes that no case notices
-    #[arg(long, conflicts_with = "update")]
-    pub mutate: bool,
-    /// Make a case in this folder from --cl, --nc and a post, and run it
-    #[arg(long, value_name = "FOLDER", requires = "cl", requires = "nc", conflicts_with_all = ["dir", "update", "html", "junit", "coverage", "mutate"])]
-    pub init: Option<PathBuf>,
-    /// The CL file of the case
-    #[arg(long, value_name = "PART", requires = "init")]
-    pub cl: Option<PathBuf>,
-    /// The dialect of that CL file, where it is not recognized
-    #[arg(long, value_name = "NAME", requires = "init")]
-    pub dialect: Option<ClDialect>,
-    /// The proven NC program of the case
-    #[arg(long, value_name = "NC", requires = "init")]
-    pub nc: Option<PathBuf>,
-    /// The post of the case
-    #[command(flatten)]
-    pub chosen: Chosen,
-    /// The unit of the case's CL file, where it has no UNITS statement: mm or inch
-    #[arg(long, value_name = "UNIT", value_parser = unit, requires = "init")]
-    pub units: Option<Unit>,
-    /// A FIL file of the case (may be given again)
-    #[arg(short, long, value_name = "FILE", requires = "init")]
-    pub fil: Vec<PathBuf>,
-    /// Lengths and angles of the case that differ by no more are the same
-    #[arg(long, value_name = "STEP", requires = "init", value_parser = tolerance)]
-    pub tol: Option<f64>,
-    /// What the case does not look at: n, comments, dates, points, letters
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = ignored, requires = "init")]
-    pub ignore: Vec<String>,
-}
-
-/// `filpost trace`
-#[derive(Debug, ClapArgs)]
-pub struct TraceArgs {
-    /// FILE:LINE of an NC program, a CL file or a FIL file; FILE:LINE:COLUMN of an NC program
-    #[arg(value_name = "FILE:LINE[:COLUMN]")]
-    pub place: String,
-    /// The line map of the run; FILE.map, or the one beside that knows FILE, when left out
-    #[arg(long, value_name = "FILE")]
-    pub map: Option<PathBuf>,
-    /// The CL file of the run, where it is now; where it lay as seen from the map when left out
-    #[arg(long, value_name = "FILE")]
-    pub cl: Option<PathBuf>,
-    /// A FIL file of the run, where it is now
-    #[arg(long, value_name = "FILE")]
-    pub fil: Vec<PathBuf>,
-    /// How the answer is written
-    #[arg(long, value_enum, default_value_t = AnswerFormat::Text)]
-    pub format: AnswerFormat,
-    #[command(flatten)]
-    pub cl_reading: ClReading,
-    #[command(flatten)]
-    pub raw: RawRecords,
-    /// Most lines of the NC program that are shown; all are counted
-    #[arg(long, value_name = "N", default_value_t = 20)]
-    pub most: usize,
-    /// Encoding of CL and FIL texts (utf-8, cp1251, koi8-r, …); guessed when left out
-    #[arg(long, value_name = "LABEL")]
-    pub encoding: Option<String>,
-}
-
-/// How `filpost trace` writes its answer.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum AnswerFormat {
-    /// For people
-    Text,
-    /// One JSON object
-    Json,
-}
-
 /// `filpost explain`
 #[derive(Debug, ClapArgs)]
 pub struct ExplainArgs {
     /// E0123 | POSTF 13 | DBLCOM 486 | rapid.split | CYCLE | SQRTF | fanuc-mill
     #[arg(required = true)]
     pub subject: Vec<String>,
-}
-
-/// `filpost machine`
-#[derive(Debug, ClapArgs)]
-pub struct MachineArgs {
-    /// What to do.
-    #[command(subcommand)]
-    pub command: MachineCommand,
-}
-
-/// The commands for machine settings.
-#[derive(Debug, Subcommand)]
-pub enum MachineCommand {
-    /// Turn an option file into a machine.toml
-    Import {
-        /// The option file (uncx01.pNN)
-        file: PathBuf,
-        /// The machine.toml; standard output when left out or -
-        #[arg(short, long, value_name = "OUT")]
-        output: Option<PathBuf>,
-        /// Encoding of the option file; guessed when left out
-        #[arg(long, value_name = "LABEL")]
-        encoding: Option<String>,
-    },
-    /// Show what a machine sets otherwise than the default one; with a prefix or --all every
-    /// setting with value, unit, meaning and evidence
-    Show {
-        #[command(flatten)]
-        chosen: Chosen,
-        /// Every setting, with value, unit, meaning and evidence
-        #[arg(long)]
-        all: bool,
-        /// The chain of axes: what turns what, from the part to the tool
-        #[arg(long, conflicts_with_all = ["all", "prefix"])]
-        chain: bool,
-        /// The chain of axes as an SVG picture
-        #[arg(long, conflicts_with_all = ["all", "prefix", "chain"])]
-        chain_svg: bool,
-        /// Only settings whose name starts with this
-        #[arg(value_name = "PREFIX")]
-        prefix: Option<String>,
-    },
-    /// Say in which settings two machines differ
-    Diff {
-        /// A ready post, a folder with machine.toml, a machine.toml or an option file
-        first: PathBuf,
-        /// What it is compared with
-        second: PathBuf,
-    },
-    /// Print the JSON schema of machine.toml
-    Schema,
 }

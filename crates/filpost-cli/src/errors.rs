@@ -39,5 +39,9 @@ fil_diag::codes! {
         NoName = 809, Error, "no name for the new post",
             "The post has the name of its folder, and this path ends with none.",
             "Write the name of the folder: filpost new my-post.";
+        /// `filpost test --init` with a folder that can't be copied.
+        NotCopied = 810, Error, "the folder can't be part of a case",
+            "A case holds a copy of the folder that its scripts read: files and folders, at most 1000 of them and 64 MB. A link could lead out of it.",
+            "Grant a folder with the files that the scripts read, and nothing else.";
     }
 }

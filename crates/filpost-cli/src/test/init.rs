@@ -1,15 +1,20 @@
 //! `filpost test --init`: a case from a CL file, a post and a proven program.
 
 use std::fmt::Write as _;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
 use filpost::case::Case;
-use filpost::{Builder, Diag, Error, Program, files, includes, select};
+use filpost::{Builder, Diag, Error, NewFile, PendingFiles, Program, files, includes, select};
 
 use crate::args::{Chosen, TestArgs};
 use crate::errors::CommandCode;
 use crate::{Status, output, setup};
+
+/// Most that is copied of a folder that scripts read: a case is kept with the scripts.
+const MOST_FILES: usize = 1000;
+const MOST_BYTES: u64 = 64 << 20;
 
 /// Makes a folder with a copy of each file and a case.toml, and runs the case.
 ///
@@ -23,17 +28,33 @@ pub fn run(folder: &Path, args: &TestArgs) -> Result<Status, Error> {
     }
     let mut making = Making::default();
     let toml = making.describe(args)?;
+    making.refuse_others(folder)?;
     std::fs::create_dir_all(folder).map_err(|error| files::cant_write(folder, &error))?;
+    let mut pending = PendingFiles::default();
     for (name, from) in &making.copies {
         let to = folder.join(name);
+        if lies_there(&to, from) {
+            continue;
+        }
         let parent = to.parent().unwrap_or(folder);
-        let copied =
-            std::fs::create_dir_all(parent).and_then(|()| std::fs::copy(from, &to).map(|_| ()));
-        copied.map_err(|error| files::cant_write(&to, &error))?;
+        std::fs::create_dir_all(parent).map_err(|error| files::cant_write(&to, &error))?;
+        pending.add(written(&to, &files::read(from)?)?);
     }
-    let path = folder.join("case.toml");
-    std::fs::write(&path, toml).map_err(|error| files::cant_write(&path, &error))?;
+    pending.add(written(&folder.join("case.toml"), toml.as_bytes())?);
+    pending.commit()?;
     report(folder)
+}
+
+/// A file in the making with its content.
+fn written(path: &Path, content: &[u8]) -> Result<NewFile, Error> {
+    let mut file = NewFile::create(path)?;
+    file.write_all(content).map_err(|error| files::cant_write(path, &error))?;
+    Ok(file)
+}
+
+/// True when a file of the case lies where it belongs already.
+fn lies_there(to: &Path, from: &Path) -> bool {
+    to.canonicalize().is_ok_and(|to| from.canonicalize().is_ok_and(|from| from == to))
 }
 
 fn report(folder: &Path) -> Result<Status, Error> {
@@ -73,6 +94,12 @@ impl Making {
         self.included(&fil)?;
         list(&mut text, "fil", &names);
         list(&mut text, "set", &args.chosen.set);
+        if let Some(granted) = &args.grant {
+            let _ = writeln!(text, "read = {}", quoted(&self.folder(granted)?));
+        }
+        if let Some(moment) = args.set_clock {
+            let _ = writeln!(text, "clock = {}", quoted(&moment.to_string()));
+        }
         if let Some(unit) = args.units {
             let _ = writeln!(text, "units = {}", quoted(&unit.to_string()));
         }
@@ -137,6 +164,54 @@ impl Making {
                 Ok(name)
             }
         }
+    }
+
+    /// Notes the files of a folder that scripts read, and of the folders in it; gives its name
+    /// in the case.
+    fn folder(&mut self, folder: &Path) -> Result<String, Error> {
+        let name =
+            files::real_path(folder).file_name().map(|name| name.to_string_lossy().into_owned());
+        let name = name.unwrap_or_else(|| "read".to_string());
+        let mut waiting = vec![(name.clone(), folder.to_path_buf())];
+        let mut bytes = 0;
+        while let Some((name, folder)) = waiting.pop() {
+            let cant = |error| files::cant_read(&folder, &error);
+            for entry in std::fs::read_dir(&folder).map_err(cant)? {
+                let entry = entry.map_err(cant)?;
+                let (path, found) = (entry.path(), entry.metadata().map_err(cant)?);
+                let name = format!("{name}/{}", entry.file_name().to_string_lossy());
+                bytes += found.len();
+                if found.is_dir() {
+                    waiting.push((name, path));
+                } else if !found.is_file() {
+                    let message = format!("{} is neither a file nor a folder", path.display());
+                    return Err(Error::Run(Box::new(Diag::new(CommandCode::NotCopied, message))));
+                } else {
+                    self.note(name, &path)?;
+                }
+                if bytes > MOST_BYTES || self.copies.len() > MOST_FILES {
+                    let message = format!(
+                        "{} holds more than {MOST_FILES} files or {} MB",
+                        folder.display(),
+                        MOST_BYTES >> 20
+                    );
+                    return Err(Error::Run(Box::new(Diag::new(CommandCode::NotCopied, message))));
+                }
+            }
+        }
+        Ok(name)
+    }
+
+    /// Refuses a folder in which a file of the case would take the place of another one.
+    fn refuse_others(&self, folder: &Path) -> Result<(), Error> {
+        for (name, from) in &self.copies {
+            let to = folder.join(name);
+            if to.exists() && !lies_there(&to, from) && files::read(&to)? != files::read(from)? {
+                let message = format!("{} is there and is not {}", to.display(), from.display());
+                return Err(Error::Run(Box::new(Diag::new(CommandCode::SameName, message))));
+            }
+        }
+        Ok(())
     }
 
     /// Files that INCLUD reads, under their names relative to the FIL files.

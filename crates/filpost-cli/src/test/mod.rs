@@ -19,7 +19,7 @@ use filpost::{Diag, Error, files};
 use indicatif::{ParallelProgressIterator, ProgressBar};
 use rayon::prelude::*;
 
-use crate::args::TestArgs;
+use crate::args::{Shard, TestArgs};
 use crate::errors::CommandCode;
 use crate::{Status, output};
 
@@ -43,11 +43,7 @@ pub fn run(args: &TestArgs) -> Result<Status, Error> {
         return init::run(folder, args);
     }
     let folder = args.dir.clone().unwrap_or_else(default_folder);
-    let cases = case::find(&folder)?;
-    if cases.is_empty() {
-        let message = format!("{} holds no folder with a case.toml", folder.display());
-        return Err(Error::Run(Box::new(Diag::new(CommandCode::NoCases, message))));
-    }
+    let cases = cases(&folder, args.shard)?;
     let progress = if std::io::stderr().is_terminal() {
         ProgressBar::new(cases.len() as u64)
     } else {
@@ -80,6 +76,22 @@ pub fn run(args: &TestArgs) -> Result<Status, Error> {
         mutate::tell(&done, &programs)?;
     }
     Ok(if failed == 0 { Status::Done } else { Status::Failed })
+}
+
+/// The cases below a folder, or one part of them.
+fn cases(folder: &Path, shard: Option<Shard>) -> Result<Vec<Case>, Error> {
+    let mut cases = case::find(folder)?;
+    if cases.is_empty() {
+        let message = format!("{} holds no folder with a case.toml", folder.display());
+        return Err(Error::Run(Box::new(Diag::new(CommandCode::NoCases, message))));
+    }
+    let Some(shard) = shard else { return Ok(cases) };
+    let all = cases.len();
+    let mut index = 0..;
+    cases.retain(|_| index.next().is_some_and(|index| shard.has(index)));
+    let Shard { number, of } = shard;
+    output::say(&format!("part {number} of {of}: {} of {all} cases", cases.len()));
+    Ok(cases)
 }
 
 fn run_case(root: &Path, case: Case, programs: &Programs, looks_on: bool) -> Done {

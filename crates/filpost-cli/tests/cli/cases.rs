@@ -1,4 +1,4 @@
-//! `filpost test` as its users meet it: reports, tolerances, cases made.
+//! `filpost test` as its users meet it: reports, tolerances.
 
 use crate::support::{Folder, NC, SMALL};
 
@@ -40,10 +40,31 @@ fn reports_for_people_and_for_servers() {
     assert!(html.contains("block N40: Z deeper by 0.5 (3 instead of 3.5)"), "{html}");
     assert!(html.contains("<svg") && html.contains("proven program"), "{html}");
     assert!(!html.contains("src=") && !html.contains("<link"), "it needs no other file");
+    let row = "<th>6</th><td class=\"gone\">N40 G1 G43 X1. Y2. <mark>Z3.5 </mark>F200. H1</td>\
+               <th>6</th><td class=\"new\">N40 G1 G43 X1. Y2. <mark>Z3. </mark>F200. H1</td>";
+    assert!(html.contains(row), "{html}");
+    assert!(
+        html.contains("<th>5</th><td>N30 S900 M3</td><th>5</th><td>N30 S900 M3</td>"),
+        "{html}"
+    );
     let xml = place.text("r.xml").unwrap_or_default();
     assert!(xml.contains("tests=\"10\"") && xml.contains("failures=\"1\""), "{xml}");
     assert!(xml.contains("<testcase name=\"case-7\""), "{xml}");
     assert!(xml.contains("message=\"block N40: Z deeper by 0.5"), "{xml}");
+}
+
+#[test]
+fn texts_of_programs_are_texts_in_the_report() {
+    let nc = NC.replace("(7)", "(</td><script>1</script> \u{424}\u{440}\u{435}\u{437}\u{430})");
+    let place = place(&[("part.ncl", SMALL), ("case.toml", CASE), ("part.nc", &nc)]);
+    assert_eq!(place.run(&["test", ".", "--html", "r.html"]).status, 1);
+    let html = place.text("r.html").unwrap_or_default();
+    assert!(html.contains("(&lt;/td&gt;&lt;script&gt;1&lt;/script&gt; \u{424}"), "{html}");
+    assert!(!html.contains("<script>"), "{html}");
+    assert!(
+        html.contains("Content-Security-Policy") && html.contains("default-src 'none'"),
+        "{html}"
+    );
 }
 
 #[test]
@@ -98,68 +119,4 @@ fn a_listing_is_compared() {
     place.run(&["post", "part.ncl", "-p", "fanuc-mill", "-o", "x.nc", "--listing", "x.lst"]);
     assert_eq!(place.text("part.lst").unwrap_or_default(), place.text("x.lst").unwrap_or_default());
     assert_eq!(place.run(&["test", "."]).status, 0);
-}
-
-const INIT: [&str; 10] = [
-    "test",
-    "--init",
-    "cases/one",
-    "--cl",
-    "part.ncl",
-    "--nc",
-    "out/part.nc",
-    "-m",
-    "m.toml",
-    "--ignore=n",
-];
-
-#[test]
-fn a_case_is_made_from_files_that_are_there() {
-    let fil = "INCLUD/'lib/speed.fil'\nFINI\n";
-    let speed = "CIMFIL/ON,SPINDL\nDMY=POSTF(13)\nCIMFIL/OFF\n";
-    let place = place(&[
-        ("part.ncl", SMALL),
-        ("out/part.nc", NC),
-        ("m.toml", "name = 'mine'\nseqno.increment = 10\n"),
-        ("scripts/all.fil", fil),
-        ("scripts/lib/speed.fil", speed),
-    ]);
-    let arguments: Vec<&str> = INIT.into_iter().chain(["-f", "scripts/all.fil"]).collect();
-    let ran = place.run(&arguments);
-    let said = ran.out + &ran.err;
-    assert!(said.starts_with("cases/one is made; "), "{said}");
-    assert_eq!(place.text("cases/one/part.nc").unwrap_or_default(), NC);
-    assert_eq!(place.text("cases/one/lib/speed.fil").unwrap_or_default(), speed);
-    let toml = place.text("cases/one/case.toml").unwrap_or_default();
-    assert!(
-        toml.contains("machine = \"m.toml\"") && toml.contains("fil = [\"all.fil\"]"),
-        "{toml}"
-    );
-    assert!(toml.contains("ignore = [\"n\"]"), "{toml}");
-    let again = place.run(&arguments);
-    assert_eq!(again.status, 1);
-    assert!(again.err.contains("E0804"), "{}", again.err);
-}
-
-#[test]
-fn a_case_that_fails_when_it_is_made_says_so() {
-    let nc = NC.replace("S900", "S950");
-    let place = place(&[("part.ncl", SMALL), ("part.nc", &nc)]);
-    let arguments =
-        ["test", "--init", "c", "--cl", "part.ncl", "--nc", "part.nc", "-p", "fanuc-mill"];
-    let ran = place.run(&arguments);
-    assert_eq!(ran.status, 1);
-    assert!(ran.out.contains("it fails now:"), "{}", ran.out);
-    assert!(ran.out.contains("spindle speed"), "{}", ran.out);
-}
-
-#[test]
-fn a_case_is_not_made_of_two_files_of_one_name() {
-    let place = place(&[("part.ncl", SMALL), ("out/part.ncl", NC)]);
-    let arguments =
-        ["test", "--init", "c", "--cl", "part.ncl", "--nc", "out/part.ncl", "-p", "fanuc-mill"];
-    let ran = place.run(&arguments);
-    assert!(ran.err.contains("E0805"), "{}", ran.err);
-    assert!(!place.0.path().join("c").exists(), "nothing is left");
-    assert_eq!(place.run(&["test", "--init", "c"]).status, 2);
 }

@@ -11,8 +11,8 @@ const TESTED: &[(&str, &str, &str)] = &[
     ("E0801", include_str!("post.rs"), "denied_warnings_keep_the_files_of_scripts_back"),
     ("E0802", include_str!("output.rs"), "an_output_never_replaces_an_input"),
     ("E0803", include_str!("test.rs"), "a_test_run_without_cases_fails"),
-    ("E0804", include_str!("cases.rs"), "a_case_is_made_from_files_that_are_there"),
-    ("E0805", include_str!("cases.rs"), "a_case_is_not_made_of_two_files_of_one_name"),
+    ("E0804", include_str!("making_cases.rs"), "a_case_is_made_from_files_that_are_there"),
+    ("E0805", include_str!("making_cases.rs"), "a_case_is_not_made_of_two_files_of_one_name"),
     ("E0806", include_str!("trace.rs"), "places_that_are_not_there_are_refused"),
     ("E0807", include_str!("batch.rs"), "what_makes_no_sense_for_several_files_is_wrong_usage"),
     ("E0808", include_str!("new.rs"), "nothing_is_written_over"),
@@ -21,6 +21,7 @@ const TESTED: &[(&str, &str, &str)] = &[
         include_str!("new.rs"),
         "a_path_without_a_name_and_a_base_that_is_not_there_are_refused",
     ),
+    ("E0810", include_str!("making_cases.rs"), "a_folder_that_cant_be_part_of_a_case_is_refused"),
 ];
 
 /// What `filpost explain` says of each code there is, by its name.

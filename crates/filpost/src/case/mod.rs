@@ -11,6 +11,7 @@
 mod mutants;
 mod outcome;
 mod recipe;
+mod side_by_side;
 mod unified;
 
 use std::ops::Range;
@@ -32,6 +33,7 @@ pub use mutants::{Mutant, mutants};
 pub use outcome::{Fresh, Outcome, Verdict};
 pub use recipe::Programs;
 use recipe::Recipe;
+pub use side_by_side::{Row, side_by_side};
 
 /// The text of a `case.toml`.
 #[derive(Clone, Debug, Deserialize)]

@@ -39,6 +39,8 @@ pub struct Fresh {
     pub path: PathBuf,
     /// The folder of the case, out of which nothing is written.
     pub folder: PathBuf,
+    /// What stands there now.
+    pub expected: String,
     /// What this run wrote.
     pub text: Vec<u8>,
     /// What changes, as a diff of lines.
@@ -278,8 +280,7 @@ impl Outcome {
         found: &[u8],
         sentences: &[String],
     ) {
-        let text = String::from_utf8_lossy(found);
-        let changes = unified::difference(name, wanted, &text);
+        let changes = unified::difference(name, wanted, &String::from_utf8_lossy(found));
         let failure = self.failure.get_or_insert_default();
         failure.push_str(&changes);
         for sentence in sentences.iter().take(MOST) {
@@ -290,7 +291,8 @@ impl Outcome {
             failure.push_str(&format!("and {more} more\n"));
         }
         let (path, folder) = (folder.join(name), folder.to_path_buf());
-        self.fresh.push(Fresh { path, folder, text: found.to_vec(), changes });
+        let (expected, text) = (wanted.to_string(), found.to_vec());
+        self.fresh.push(Fresh { path, folder, expected, text, changes });
     }
 }
 

@@ -1,0 +1,58 @@
+//! The command line of `filpost machine`.
+
+use std::path::PathBuf;
+
+use clap::{Args as ClapArgs, Subcommand};
+
+use super::Chosen;
+
+/// `filpost machine`
+#[derive(Debug, ClapArgs)]
+pub struct MachineArgs {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: MachineCommand,
+}
+
+/// The commands for machine settings.
+#[derive(Debug, Subcommand)]
+pub enum MachineCommand {
+    /// Turn an option file into a machine.toml
+    Import {
+        /// The option file (uncx01.pNN)
+        file: PathBuf,
+        /// The machine.toml; standard output when left out or -
+        #[arg(short, long, value_name = "OUT")]
+        output: Option<PathBuf>,
+        /// Encoding of the option file; guessed when left out
+        #[arg(long, value_name = "LABEL")]
+        encoding: Option<String>,
+    },
+    /// Show what a machine sets otherwise than the default one; with a prefix or --all every
+    /// setting with value, unit, meaning and evidence
+    Show {
+        #[command(flatten)]
+        chosen: Chosen,
+        /// Every setting, with value, unit, meaning and evidence
+        #[arg(long)]
+        all: bool,
+        /// The chain of axes: what turns what, from the part to the tool
+        #[arg(long, conflicts_with_all = ["all", "prefix"])]
+        chain: bool,
+        /// The chain of axes as an SVG picture
+        #[arg(long, conflicts_with_all = ["all", "prefix", "chain"])]
+        chain_svg: bool,
+        /// Only settings whose name starts with this
+        #[arg(value_name = "PREFIX")]
+        prefix: Option<String>,
+    },
+    /// Say in which settings two machines differ
+    Diff {
+        /// A ready post, a folder with machine.toml, a machine.toml or an option file
+        first: PathBuf,
+        /// What it is compared with
+        second: PathBuf,
+    },
+    /// Print the JSON schema of machine.toml
+    Schema,
+}
