@@ -54,6 +54,8 @@ pub enum Command {
     Watch(WatchArgs),
     /// Serve an editor: the language server, over standard input and output
     Lsp,
+    /// Serve an editor: the debugger, over standard input and output
+    Dap,
     /// Make a folder to start an own post from
     New(NewArgs),
     /// Print the manual page

@@ -88,13 +88,8 @@ fn run(command: &Command) -> Result<Status, Error> {
         Command::Explain(args) => explain::run(&args.subject),
         Command::Machine(args) => machine::run(args),
         Command::Watch(args) => watch::run(args),
-        Command::Lsp => Ok(match filpost_lsp::serve_stdio() {
-            Ok(()) => Status::Done,
-            Err(message) => {
-                output::say(&message);
-                Status::Failed
-            }
-        }),
+        Command::Lsp => Ok(served(filpost_lsp::serve_stdio())),
+        Command::Dap => Ok(served(filpost_dap::serve_stdio())),
         Command::New(args) => new::run(args),
         Command::Man => {
             let mut page = Vec::new();
@@ -108,6 +103,17 @@ fn run(command: &Command) -> Result<Status, Error> {
             clap_complete::generate(*shell, &mut Args::command(), "filpost", &mut text);
             output::print(&text)?;
             Ok(Status::Done)
+        }
+    }
+}
+
+/// How a server ended.
+fn served(ended: Result<(), String>) -> Status {
+    match ended {
+        Ok(()) => Status::Done,
+        Err(message) => {
+            output::say(&message);
+            Status::Failed
         }
     }
 }

@@ -7,6 +7,7 @@ mod check;
 mod cl;
 mod codes;
 mod coverage;
+mod dap;
 mod diff;
 mod explain;
 mod fmt;

@@ -1,0 +1,43 @@
+//! The debug adapter: a run of filpost behind the debug adapter protocol, over standard input
+//! and output.
+//!
+//! One thread reads the client's requests, another one runs the program. While the run stands
+//! still, the requests that look at it go to its own thread, as only that one holds its state.
+//! Going back is a new run from the start to the place: a run with the same input does the
+//! same.
+
+mod breakpoints;
+mod edits;
+mod hook;
+mod inspect;
+mod launch;
+mod session;
+mod shared;
+mod wire;
+
+use std::io::{BufRead, Write};
+
+pub use session::Session;
+
+/// Serves one client over standard input and output until it disconnects.
+///
+/// # Errors
+/// What went wrong with the connection, in a sentence.
+pub fn serve_stdio() -> Result<(), String> {
+    serve(std::io::stdin().lock(), std::io::stdout())
+}
+
+/// Serves one client over a connection until it disconnects.
+///
+/// # Errors
+/// What went wrong with the connection, in a sentence.
+pub fn serve(mut input: impl BufRead, output: impl Write + Send + 'static) -> Result<(), String> {
+    let mut session = Session::new(Box::new(output));
+    while let Some(request) = wire::read(&mut input)? {
+        if !session.request(&request) {
+            break;
+        }
+    }
+    session.end();
+    Ok(())
+}
