@@ -313,6 +313,48 @@ const EXAMPLES: &[(&str, &str)] = &[
         "ICODEF",
         "CIMFIL/ON,COOLNT\nIF(POSTF(7,4).EQ.ICODEF(FLOOD))OPSTOP\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
     ),
+    (
+        "POSTF(15)",
+        "$$ looks at the record behind STOP, and goes back to STOP\nCIMFIL/ON,STOP\nATEND=POSTF(14)\nIF(ATEND.EQ.0)THEN\nIF(POSTF(7,2).EQ.5000)OPSTOP\nDMY=POSTF(15)\nENDIF\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
+    ),
+    (
+        "POSTF(16)",
+        "$$ counts the tool changes, and goes back to the first record\nCIMFIL/ON,PARTNO\nHERE=POSTF(17)\nCHANGS=0\nLN) ATEND=POSTF(14)\nIF(ATEND.EQ.0)THEN\nIF(POSTF(7,3).EQ.ICODEF(LOADTL))CHANGS=CHANGS+1\nJUMPTO/LN\nENDIF\nDMY=POSTF(16,HERE)\nDMY=POSTF(13)\nIF(CHANGS.GT.24)WARN/'MORE TOOLS THAN THE MAGAZINE HOLDS'\nCIMFIL/OFF\nFINI\n",
+    ),
+    (
+        "POSTF(17)",
+        "CIMFIL/ON,STOP\nPPRINT/'STOP OF RECORD ',POSTF(17)\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
+    ),
+    (
+        "TOOLF",
+        "CIMFIL/ON,LOADTL\nDMY=POSTF(13)\nNEXTTL=TOOLF(NEXT)\nIF(NEXTTL.NE.POSTF(4))PPRINT/'THEN TOOL ',NEXTTL\nCIMFIL/OFF\nFINI\n",
+    ),
+    (
+        "PROGF",
+        "CIMFIL/ON,LOADTL\nDMY=POSTF(13)\nPPRINT/'MINUTES IN ALL ',TEXTF(PROGF(TIME),0,1)\nCIMFIL/OFF\nFINI\n",
+    ),
+    (
+        "TLISTF",
+        "CIMFIL/ON,LOADTL\nDMY=POSTF(13)\nDO/LA,II=1,PROGF(TOOLS)\nPPRINT/'TOOL ',TLISTF(II,NUMBER),' CUTS ',TEXTF(TLISTF(II,CUTTIM),0,1),' MIN'\nLA) CONTIN\nCIMFIL/OFF\nFINI\n",
+    ),
+    (
+        "OPERF",
+        "CIMFIL/ON,LOADTL\nDMY=POSTF(13)\nDO/LA,II=1,PROGF(OPERS)\nNAME=TEXT/OPER,II\nPPRINT/NAME,' DOWN TO Z',TEXTF(OPERF(II,ZMIN),0,3)\nLA) CONTIN\nCIMFIL/OFF\nFINI\n",
+    ),
+    (
+        "COMF",
+        "CIMFIL/ON,FEDRAT\nIF(POSTF(7,4).GT.COMF('feed.upm_max'))OPSTOP\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
+    ),
+    ("SIZEF", "RESERV/DIA,20\nDO/LA,II=1,SIZEF(DIA)\nDIA(II)=0\nLA) CONTIN\nFINI\n"),
+    (
+        "INDXF",
+        "$$ PPRINT STOCK 12.5 stops the machine where more than 10 mm are left\nCIMFIL/ON,PPRINT\nTT=TEXT/CLW\nAT=INDXF(TT,'STOCK ')\nIF(AT.GT.0)THEN\nVV=TEXT/PART,TT,AT+6\nIF(SCALF(VV).GT.10)STOP\nENDIF\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
+    ),
+    ("SCALF", "TT=TEXT/PART,'DEPTH 12.5',7\nDEPTHS=SCALF(TT)+1\nFINI\n"),
+    (
+        "TEXTF",
+        "CIMFIL/ON,LOADTL\nPPRINT/'TOOL ',TEXTF(POSTF(7,4),3,ZEROS)\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n",
+    ),
 ];
 
 /// The part of a page with its example; nothing where there is none.

@@ -105,6 +105,7 @@ pub(crate) fn needs_items(major: WordId) -> bool {
             | words::TRANS
             | words::TRACUT
             | words::REPEAT
+            | words::REPLAC
             | words::POSTN
             | words::ROTATE
             | words::ROTABL

@@ -1,17 +1,20 @@
 //! Settings that contradict each other: no machine is like that, and a program made
 //! with them would be read otherwise than it is meant.
 
+mod numbers;
+
 use fil_diag::{Diag, Result};
 
 use crate::address::{Addresses, TapePosition};
 use crate::axis_chain::AxisChain;
-use crate::commons::{Commons, Dbl, Int, Rel};
+use crate::commons::{Commons, Int};
 use crate::errors::MachineCode;
 use crate::letter::{Letter, letters};
 use crate::locations::{
-    self as loc, ControlFamily, SeqnoAlign, TapeEndOfBlock, ToolChangeBlock, ToolFormat,
+    self as loc, ControlFamily, CycleReturnCodes, SeqnoAlign, TapeEndOfBlock, TapePartnoText,
+    ToolChangeBlock, ToolFormat,
 };
-use crate::setting::{CodeAt, LetterAt};
+use crate::setting::{CharacterAt, CodeAt, LetterAt};
 
 /// Codes of which no two may be the same: one motion, mode or command each.
 const DIFFERENT: &[&[(CodeAt, &str)]] = &[
@@ -102,36 +105,13 @@ const COMMANDS: &[(CodeAt, &str)] = &[
 const COOLANTS: &[(CodeAt, &str)] =
     &[(loc::COOLANT_FLOOD_CODE, "flood coolant"), (loc::COOLANT_MIST_CODE, "mist coolant")];
 
-/// Numbers that must be above zero where they are given.
-const POSITIVE: &[(Dbl, &str)] = &[
-    (loc::FEED_UPM_FACTOR, "the factor of feeds"),
-    (loc::FEED_UPM_MAX_Y, "the largest feed of Y"),
-    (loc::FEED_UPM_MAX_Z, "the largest feed of Z"),
-    (loc::FEED_INVERSE_FACTOR, "the factor of inverse time"),
-    (loc::FEED_INVERSE_MAX, "the largest inverse time"),
-    (loc::CIRCLE_CHORD_TOLERANCE, "the chord tolerance"),
-    (loc::SEQNO_INCREMENT, "the step of sequence numbers"),
-    (loc::SEQNO_MAX, "the largest sequence number"),
-    (loc::CIRCLE_MAX_RADIUS, "the largest radius"),
-    (loc::MOTION_RESOLUTION, "the resolution of the linear axes"),
-];
-
-/// Numbers that must not be below zero where they are given.
-const NOT_NEGATIVE: &[(Dbl, &str)] = &[
-    (loc::FEED_UPM_MIN, "the least feed"),
-    (loc::FEED_UPM_MAX, "the largest feed"),
-    (loc::FEED_INVERSE_MIN, "the least inverse time"),
-    (loc::FEED_INVERSE_MIN_TIME, "the shortest time of a motion"),
-    (loc::RAPID_SHORT_DISTANCE, "the length of short rapids"),
-    (loc::CIRCLE_Z_TOLERANCE, "the deviation of flat arcs"),
-    (loc::CIRCLE_CORRECTION_MAX, "the largest correction of an arc"),
-    (loc::DWELL_UPM_FACTOR, "the factor of dwells in seconds"),
-    (loc::DWELL_UPR_FACTOR, "the factor of dwells in turns"),
-    (loc::CYCLE_AUTO_CLEARANCE, "the clearance of cycles"),
-    (loc::CIRCLE_MIN_RADIUS, "the least radius"),
-    (loc::TAPE_LEADER, "the length of the leader"),
-    (loc::TAPE_TRAILER, "the length of the trailer"),
-    (loc::MOTION_SAME_TOLERANCE, "the tolerance of unchanged coordinates"),
+/// Characters that begin or end a line: letters and digits would be words, parentheses
+/// comments.
+const MARKS: &[(CharacterAt, &str)] = &[
+    (loc::TAPE_START_CHAR, "tape.start_char"),
+    (loc::TAPE_END_CHAR, "tape.end_char"),
+    (loc::TAPE_START_CODE, "tape.start_code"),
+    (loc::TAPE_OPSKIP_CHAR, "tape.opskip_char"),
 ];
 
 /// Farthest that the end of an arc may be corrected, mm or inch.
@@ -155,6 +135,8 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
         same_codes(commons, group, &mut found);
     }
     codes_of_two_modes(commons, &mut found);
+    return_levels(commons, &mut found);
+    calls(commons, &mut found);
     coolants(commons, &mut found);
     incremental_start(commons, &mut found);
     start_modes(commons, &mut found);
@@ -168,15 +150,21 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     axis_letters(commons, &mut found);
     word_letters(commons, &mut found);
     absent_axes(commons, &mut found);
-    numbers(commons, &mut found);
+    numbers::numbers(commons, &mut found);
     tape(commons, &mut found);
-    ranges(commons, &mut found);
+    numbers::ranges(commons, &mut found);
     prepared_tools(commons, &mut found);
     found
 }
 
 /// Marks of the tape that are asked for and not there, or mean something else.
 fn tape(commons: &Commons, found: &mut Vec<Diag>) {
+    let has_text = commons.read(loc::TAPE_PARTNO_TEXT) == TapePartnoText::Yes;
+    if has_text && commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik {
+        found.push(contradiction(
+            "tape.partno_text asks for a line before the head of a SINUMERIK program".into(),
+        ));
+    }
     let aligns = commons.read(loc::SEQNO_ALIGN) == SeqnoAlign::ToolChanges;
     match commons.read(loc::TAPE_ALIGN_CHAR) {
         _ if !aligns => {}
@@ -192,6 +180,14 @@ fn tape(commons: &Commons, found: &mut Vec<Diag>) {
             )));
         }
         Some(_) => {}
+    }
+    for (at, name) in MARKS {
+        let skips = *at == loc::TAPE_OPSKIP_CHAR;
+        let is_no_mark =
+            |c: &char| c.is_alphanumeric() || "()\"'.+-".contains(*c) || (*c == '%' && skips);
+        if let Some(mark) = commons.read(*at).filter(is_no_mark) {
+            found.push(contradiction(format!("{name} is `{mark}`, which means something else")));
+        }
     }
     let length = commons.dbl_opt(loc::TAPE_LEADER).unwrap_or(0.0);
     let has_leader = !commons.read(loc::TAPE_DNC) && length != 0.0;
@@ -227,6 +223,38 @@ fn codes_of_two_modes(commons: &Commons, found: &mut Vec<Diag>) {
             if let Some((other, _)) = MODES[..index].iter().find(|(_, group)| has(group)) {
                 found.push(contradiction(format!("G{code} is both {other} and {what}")));
             }
+        }
+    }
+}
+
+/// A control that returns from holes by code means nothing else by it.
+fn return_levels(commons: &Commons, found: &mut Vec<Diag>) {
+    // A machine without a tapping cycle has none for left-hand threads either.
+    let mut cycles = loc::CYCLE_CODES.iter().filter(|at| **at != loc::CYCLE_TAP_LEFT_CODE);
+    if !cycles.any(|at| commons.read(*at).is_some())
+        || commons.read(loc::CYCLE_RETURN_CODES) == CycleReturnCodes::No
+        || commons.read(loc::CONTROL_FAMILY) != ControlFamily::WordAddress
+    {
+        return;
+    }
+    let levels = [loc::CYCLE_RETURN_INITIAL_CODE, loc::CYCLE_RETURN_CLEAR_CODE];
+    for code in levels.iter().filter_map(|at| commons.read(*at)) {
+        let has = |group: &[CodeAt]| group.iter().any(|at| commons.read(*at) == Some(code));
+        if let Some((what, _)) = MODES.iter().find(|(_, group)| has(group)) {
+            found.push(contradiction(format!(
+                "G{code} is both {what} and the level that cycles return to"
+            )));
+        }
+    }
+}
+
+/// No command of the machine calls a program or goes back from one; the end of a program may.
+fn calls(commons: &Commons, found: &mut Vec<Diag>) {
+    const CALLS: [i32; 4] = [97, 98, 99, 198];
+    let ends = |at: &CodeAt| [loc::PROGRAM_END_CODE, loc::PROGRAM_REWIND_CODE].contains(at);
+    for (at, what) in COMMANDS.iter().chain(COOLANTS).filter(|(at, _)| !ends(at)) {
+        if let Some(code) = commons.read(*at).filter(|code| CALLS.contains(code)) {
+            found.push(contradiction(format!("M{code} calls programs, and is {what} here")));
         }
     }
 }
@@ -430,7 +458,10 @@ fn word_letters(commons: &Commons, found: &mut Vec<Diag>) {
     ];
     for (at, what) in named {
         let is_offset = |letter: &Letter| what == "the cutter offset" && letter.byte() == b'H';
-        if let Some(letter) = of(at).filter(|letter| taken(*letter) && !is_offset(letter)) {
+        let of_cycles = [loc::CYCLE_STEP_ADDRESS, loc::CYCLE_DWELL_ADDRESS].contains(&at);
+        let is_level = |letter: &Letter| of_cycles && letter.byte() == b'R';
+        let is_taken = |letter: &Letter| (taken(*letter) && !is_offset(letter)) || is_level(letter);
+        if let Some(letter) = of(at).filter(is_taken) {
             found.push(contradiction(format!("{letter} is {what} and something else")));
         }
     }
@@ -459,43 +490,6 @@ fn absent_axes(commons: &Commons, found: &mut Vec<Diag>) {
                 letter.to_ascii_uppercase()
             )));
         }
-    }
-}
-
-fn numbers(commons: &Commons, found: &mut Vec<Diag>) {
-    for (at, what) in POSITIVE {
-        if let Some(value) = commons.read(*at).filter(|value| *value <= 0.0) {
-            found.push(contradiction(format!("{what} is {value}, it must be above zero")));
-        }
-    }
-    for (at, what) in NOT_NEGATIVE {
-        if let Some(value) = commons.read(*at).filter(|value| *value < 0.0) {
-            found.push(contradiction(format!("{what} is {value}, it must not be below zero")));
-        }
-    }
-}
-
-/// Lowest and highest values that are the wrong way round.
-fn ranges(commons: &Commons, found: &mut Vec<Diag>) {
-    let mut range = |low: Option<f64>, high: Option<f64>, what: &str| {
-        if let (Some(low), Some(high)) = (low, high)
-            && low > high
-        {
-            found.push(contradiction(format!(
-                "{what}: the least, {low}, is above the most, {high}"
-            )));
-        }
-    };
-    let dbl = |at: Dbl| commons.read(at);
-    let rel = |at: Rel| commons.read(at);
-    for ((low, high), name) in loc::LINEAR_LIMITS.into_iter().zip(letters::XYZ) {
-        range(dbl(low), dbl(high), &format!("travel of {name}"));
-    }
-    range(dbl(loc::FEED_UPM_MIN), dbl(loc::FEED_UPM_MAX), "feed");
-    range(dbl(loc::ROTARY_PRIMARY_MIN), dbl(loc::ROTARY_PRIMARY_MAX), "first rotary axis");
-    range(dbl(loc::ROTARY_SECONDARY_MIN), dbl(loc::ROTARY_SECONDARY_MAX), "second rotary axis");
-    for (index, (low, high)) in loc::RANGE_SPEEDS.into_iter().enumerate() {
-        range(rel(low), rel(high), &format!("spindle range {}", index + 1));
     }
 }
 
@@ -552,6 +546,14 @@ mod tests {
             "tool.preselect=1\ntool.format=2",
             "dwell.upm_format=3241",
             "cycle.tap_left_code=81",
+            "program.opstop_code=99",
+            "rapid.code_xy=99",
+            "dwell.cycle_drill=-0.001",
+            "scale.x=0.000001",
+            "cycle.dwell_address=R",
+            "tape.opskip_char=%",
+            "tape.start_char=(",
+            "control.family=2\ntape.partno_text=1",
             "input.along_tool_axis=5\nrotary.primary_kind=1\nrotary.primary_axis=3",
         ] {
             let mut commons = default_commons();

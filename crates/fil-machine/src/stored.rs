@@ -158,19 +158,38 @@ pub fn is_idle(kind: Kind, number: u32, value: f64) -> bool {
         Some(row) => value != row.default_value(),
         None => value != EMPTY && value != BLANKS,
     };
-    said && !acts(kind, number)
+    said && !acts(kind, number) && !is_title(kind, number)
+}
+
+/// The packed text of the machine's name, which stands in the second line of an option file
+/// too.
+fn is_title(kind: Kind, number: u32) -> bool {
+    kind == Kind::Int && (2019..=2039).contains(&number)
 }
 
 /// W0651 for these locations, which the post does not act on.
 pub fn without_effect(locations: &[(Kind, u32)]) -> Diag {
+    let (named, others): (Vec<_>, Vec<_>) = locations
+        .iter()
+        .copied()
+        .partition(|(kind, number)| Location::numbered(*kind, *number).is_some());
+    let named: Vec<String> = named.into_iter().map(|(kind, number)| title(kind, number)).collect();
+    let (named, others) = (named.join(", "), ranges(&others).join(", "));
+    let message = match (named.as_str(), others.as_str()) {
+        (named, "") => format!("the post does not act on {named}"),
+        ("", others) => format!("the post does not act on {others}"),
+        (named, others) => {
+            format!("the post does not act on {named}; what {others} mean is not published")
+        }
+    };
+    *MachineCode::UnusedSetting.diag(message)
+}
+
+/// Locations without a name, those that follow each other as `INTCOM 4601 to 4606`.
+fn ranges(locations: &[(Kind, u32)]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     let mut last = None;
     for &(kind, number) in locations {
-        if Location::numbered(kind, number).is_some() {
-            names.push(title(kind, number));
-            last = None;
-            continue;
-        }
         match (names.last_mut(), last) {
             (Some(name), Some((first, before))) if before == (kind, number.wrapping_sub(1)) => {
                 *name = format!("{} {first} to {number}", kind.name());
@@ -182,7 +201,7 @@ pub fn without_effect(locations: &[(Kind, u32)]) -> Diag {
             }
         }
     }
-    *MachineCode::UnusedSetting.diag(format!("the post does not act on {}", names.join(", ")))
+    names
 }
 
 #[cfg(test)]

@@ -79,6 +79,7 @@ pub const HANDLERS: &[(WordId, Handler)] = &[
     (w::PREFUN, I(word::prefun::prefun)),
     (w::RAPID, I(word::rapid::handle)),
     (w::REPEAT, I(word::repeat::handle)),
+    (w::REPLAC, I(word::replac::handle)),
     (w::RETRCT, I(word::home::retrct)),
     (w::REWIND, I(word::end::rewind)),
     (w::ROTABL, Refused),

@@ -201,6 +201,15 @@ impl<'a> Items<'a> {
         self.record.text.trim()
     }
 
+    /// Takes all texts that are left.
+    pub fn texts(&mut self) -> Vec<&'a str> {
+        let texts = (0..self.len()).filter(|at| self.is_left(*at));
+        let texts: Vec<usize> =
+            texts.filter(|at| matches!(self.record.data[*at], Word::Text { .. })).collect();
+        texts.iter().for_each(|at| self.take(*at));
+        texts.into_iter().map(|at| self.record.text_of(self.record.data[at])).collect()
+    }
+
     /// The arc of a CIRCLE record; its head is crossed off.
     pub fn circle(&mut self) -> Option<fil_cl::Circle> {
         const HEAD: usize = 12;

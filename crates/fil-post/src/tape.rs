@@ -12,6 +12,7 @@ use fil_machine::{Commons, Letter};
 
 use crate::block::{Block, function, named};
 use crate::cause::{Cause, Stacks};
+use crate::control::replaced::Replaced;
 use crate::editing::EditorSlot;
 use crate::errors::PostCode;
 use crate::noted::{Noted, SEQUENCE, SKIP, TEXT};
@@ -46,6 +47,8 @@ pub struct Tape {
     pub skip: Option<Cause>,
     /// Who edits blocks and lines.
     pub editor: EditorSlot,
+    /// Texts that are written otherwise.
+    pub replaced: Replaced,
     sequence: Sequence,
 }
 

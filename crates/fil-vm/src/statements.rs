@@ -41,10 +41,6 @@ pub(crate) const ELSEWHERE: &[(&str, &str)] = &[
     ("OTHER", "the part of a CASE for all that is left is WHEN/OTHER"),
     ("OTHERWISE", "the part of a CASE for all that is left is WHEN/OTHER"),
     ("READ", "FILEF opens a file, name=TEXT/READ,unit reads a line of it"),
-    (
-        "REPLAC",
-        "filpost does not carry out REPLAC; POSTF(8,n,value) changes a record, POSTN/OUT writes a block",
-    ),
     ("RETURN", "write JUMPTO/label to a label before CIMFIL/OFF or TERMAC"),
     ("SYN", "filpost does not carry out SYN; write the word itself"),
     ("THEN", "THEN stands behind the condition, on the same line: IF(condition)THEN"),
@@ -143,6 +139,15 @@ pub const STATEMENTS: &[Statement] = &[
               refused.",
         grade: Grade::Inferred,
         example: "",
+    },
+    Statement {
+        word: "REPLAC",
+        form: "REPLAC/'old','new'[,'old','new'…]\nREPLAC/OFF",
+        doc: "Has texts replaced in each line of the tape that comes, comments too: words are \
+              found whole, M6 not in M60. OFF ends it. A text that stood in no line is warned of.",
+        grade: Grade::Own,
+        example: "REPLAC/'M8','M50','G54','G55'\nCIMFIL/ON,END\nREPLAC/OFF\nDMY=POSTF(13)\n\
+                  CIMFIL/OFF\nFINI\n",
     },
     Statement {
         word: "PRINT",

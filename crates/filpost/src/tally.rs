@@ -122,6 +122,10 @@ pub struct Motion {
     pub rapid: bool,
     /// Its feed, per minute or per revolution; `None` for a rapid motion.
     pub feed: Option<f64>,
+    /// Its feed counts revolutions of the spindle.
+    pub per_revolution: bool,
+    /// Turns of the spindle a minute, where the CL file gives them.
+    pub turns: Option<f64>,
     /// Its length; of a hole the way to it.
     pub length: f64,
     /// Its time; `None` where it can't be told.
@@ -203,21 +207,32 @@ fn motion(before: &Before, post: &Post) -> Option<Motion> {
         let way = rate.map(|rate| (length + down) / rate * 60.0);
         let hole = feed.and_then(|feed| at_feed(down, &feed, post));
         let seconds = way.zip(hole).map(|(way, hole)| way + hole);
-        return Some(Motion {
-            point,
-            rapid: false,
-            feed: feed.map(|feed| feed.value),
-            length,
-            seconds,
-            reach,
-        });
+        return Some(Motion { length, seconds, ..at_rate(point, feed, reach, post) });
     }
     if before.rapid && before.arc.is_none() {
         let seconds = rate.map(|rate| length / rate * 60.0);
-        return Some(Motion { point, rapid: true, feed: None, length, seconds, reach });
+        return Some(Motion { rapid: true, length, seconds, ..at_rate(point, None, reach, post) });
     }
     let seconds = feed.and_then(|feed| at_feed(length, &feed, post));
-    Some(Motion { point, rapid: false, feed: feed.map(|feed| feed.value), length, seconds, reach })
+    Some(Motion { length, seconds, ..at_rate(point, feed, reach, post) })
+}
+
+/// A motion with its feed, whose length and time are still to be told.
+fn at_rate(point: [f64; 3], feed: Option<Feed>, reach: Extents, post: &Post) -> Motion {
+    let turns = match post.control.speed {
+        Some(SpindleSpeed::Revolutions(turns)) => Some(turns),
+        _ => None,
+    };
+    Motion {
+        point,
+        rapid: false,
+        feed: feed.map(|feed| feed.value),
+        per_revolution: feed.is_some_and(|feed| feed.mode == FeedMode::PerRevolution),
+        turns,
+        length: 0.0,
+        seconds: None,
+        reach,
+    }
 }
 
 /// The box around a motion to a point: an arc, a hole down to its bottom, or a line.

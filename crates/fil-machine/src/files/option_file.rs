@@ -5,6 +5,8 @@
 //! differs from the vendor's own defaults is stored; the defaults that a report
 //! shows and the file leaves out are set here first.
 
+use std::collections::HashMap;
+
 use fil_diag::{Diag, Result, TextSpan};
 
 use crate::commons::{Commons, EMPTY, Kind};
@@ -87,6 +89,7 @@ pub fn read_option_file(file: &str, text: &str) -> Result<OptionFile, Vec<Diag>>
         title: String::new(),
         open: None,
         lists: Vec::new(),
+        given: HashMap::new(),
         idle: Vec::new(),
         first_idle: None,
         warnings: Vec::new(),
@@ -148,6 +151,8 @@ struct Reader<'a> {
     open: Option<OpenList>,
     /// The lists that were begun.
     lists: Vec<Kind>,
+    /// The values of the locations so far.
+    given: HashMap<(Kind, u32), f64>,
     /// Locations that the post does not act on.
     idle: Vec<(Kind, u32)>,
     first_idle: Option<TextSpan>,
@@ -205,6 +210,14 @@ impl Reader<'_> {
         line: &str,
     ) -> Result<(), Diag> {
         self.commons.set(kind, location, value).map_err(|diag| *diag)?;
+        if let Some(before) = self.given.insert((kind, location), value)
+            && before != value
+        {
+            return Err(*MachineCode::OptionFile.diag(format!(
+                "{} {location} is given twice, as {before} and as {value}",
+                kind.name()
+            )));
+        }
         let place = || TextSpan::line(self.file, number, line);
         self.warnings.extend(doubt(kind, location, value).map(|diag| diag.at(place())));
         let value = self.commons.get(kind, location).unwrap_or(value);
@@ -274,8 +287,21 @@ fn pair(line: &str) -> Option<(u32, f64)> {
     (fields.next().is_none() && value.is_finite()).then_some((location, value))
 }
 
+/// Numbers of choices that a report puts into words beside a file that holds them: units as
+/// the CL file has them, arcs by their radius, cycle words at the first hole only, and axis
+/// words at each. Other numbers of these locations are ours.
+const REPORTED: &[(Kind, u32, f64)] = &[
+    (Kind::Int, 1833, 13.0),
+    (Kind::Int, 1924, 3.0),
+    (Kind::Int, 4337, 3.0),
+    (Kind::Int, 4635, -1.0),
+];
+
 /// A warning where a stored value has a meaning we gave its number ourselves.
 fn doubt(kind: Kind, location: u32, value: f64) -> Option<Diag> {
+    if REPORTED.contains(&(kind, location, value)) {
+        return None;
+    }
     let row = Location::numbered(kind, location)?;
     let ours = row.evidence == Evidence::Own && location < 9001;
     let strange = stored::check(kind, location, value).is_err();
@@ -337,6 +363,13 @@ mod tests {
     }
 
     #[test]
+    fn a_location_with_two_values_is_refused() {
+        let two = SMALL.replace("13     53", "471 81\r\n471 82");
+        assert_eq!(errors("uncx01.p09", &two), [("E0606".into(), 5)]);
+        assert!(read_option_file("uncx01.p09", &two.replace("82", "81")).is_ok());
+    }
+
+    #[test]
     fn a_lathes_file_is_refused() {
         let lathe = SMALL.replace("UNCX01.P09", "UNCL01.P09");
         assert_eq!(errors("uncx01.p09", &lathe), [("E0608".into(), 1)]);
@@ -350,12 +383,15 @@ mod tests {
 
     #[test]
     fn what_does_not_act_is_named_once() {
-        let text = SMALL.replace("13     53", "2025 1\r\n2026 2\r\n1868 1\r\n3000 -32767");
+        let text = SMALL.replace("13     53", "2082 1\r\n2083 2\r\n1868 1\r\n3000 -32767");
         let file = read_option_file("uncx01.p09", &text).unwrap();
         let said: Vec<String> = file.warnings.iter().map(ToString::to_string).collect();
         assert_eq!(
             said,
-            ["W0651 uncx01.p09:4:1: the post does not act on INTCOM 2025 to 2026, program.merging"]
+            [concat!(
+                "W0651 uncx01.p09:4:1: the post does not act on program.merging; ",
+                "what INTCOM 2082 to 2083 mean is not published"
+            )]
         );
     }
 }

@@ -16,6 +16,9 @@ const PECK_GAP: f64 = 0.254;
 /// Most pecks of a hole.
 const MAX_PECKS: f64 = 10_000.0;
 
+/// Levels nearer than this are one level, mm or inch.
+const SAME_LEVEL: f64 = 1e-9;
+
 /// A cycle in force.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cycle {
@@ -42,6 +45,12 @@ impl Cycle {
     pub(super) fn of_hole(kind: CycleKind, initial: f64, initial_known: bool) -> Self {
         let (bottom, clear, step, dwell) = (None, None, None, None);
         Cycle { kind, initial, initial_known, bottom, clear, step, dwell }
+    }
+
+    /// The level before the cycle is the R level: the tool returns there by any code.
+    pub(super) fn keeps_its_level(&self) -> bool {
+        let is_it = |clear: f64| (clear - self.initial).abs() < SAME_LEVEL;
+        self.initial_known && self.clear.is_some_and(is_it)
     }
 }
 

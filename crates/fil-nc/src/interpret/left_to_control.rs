@@ -47,7 +47,9 @@ impl State<'_> {
                     || of_cycle(found)
                     || found.modes.compensation != Compensation::Off
             }),
-            StartMode::ReturnLevel => self.cycle.is_some() && any(&of_cycle),
+            StartMode::ReturnLevel => {
+                self.cycle.is_some_and(|cycle| !cycle.keeps_its_level()) && any(&of_cycle)
+            }
             StartMode::Surface => uses.speed && self.modes.speed.is_some(),
         }
     }

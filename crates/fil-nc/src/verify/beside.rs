@@ -5,6 +5,7 @@ use super::report::{FindingKind, Unverified};
 use super::say::short;
 use super::walk::Walk;
 use super::wanted::{Effect, End, Step};
+use crate::dialect::Auxiliary;
 use crate::motion::Event;
 
 impl<C: Steps> Walk<'_, C> {
@@ -77,6 +78,15 @@ impl<C: Steps> Walk<'_, C> {
         let Some(code) = code else { return };
         let next = self.nc.get(self.next).map_or(u32::MAX, |event| event.line());
         self.auxiliaries.ask(code, cl_line, [self.last_line(), next]);
+    }
+
+    /// A function that the CL file asks for by its number. What spindle and coolant do is
+    /// compared with the modes of the motions.
+    pub(super) fn auxiliary(&mut self, cl_line: u32, code: u32) {
+        if matches!(self.settings.dialect.auxiliary(i64::from(code)), Auxiliary::Other(_)) {
+            self.unknown(cl_line, "AUXFUN", Effect::Auxiliary);
+            self.ask_auxiliary(cl_line, Some(code));
+        }
     }
 
     pub(super) fn unknown(&mut self, cl_line: u32, what: &str, effect: Effect) {

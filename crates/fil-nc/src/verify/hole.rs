@@ -1,5 +1,7 @@
 //! Holes of the path against canned cycles, or single moves, of the program.
 
+use fil_machine::locations::CycleBoreOut;
+
 use super::ahead::Steps;
 use super::report::FindingKind;
 use super::say::short;
@@ -40,12 +42,24 @@ impl<C: Steps> Walk<'_, C> {
             return false;
         }
         let Some(plunge) = self.plunge(self.next) else { return false };
+        self.check_direction(cl_line, &plunge, hole);
         let drills = self.in_axes(&plunge, hole);
         let levels = self.levels(hole, &drills);
         let kept = self.say_in_axes(hole, levels);
         self.drill_at(cl_line, hole, levels, &drills);
         self.say_again(kept);
         true
+    }
+
+    /// The tool must lie along the hole, also where tool-tip control keeps the tip over it.
+    fn check_direction(&mut self, cl_line: u32, plunge: &Move, hole: &Hole) {
+        if !plunge.to.tip_control {
+            return;
+        }
+        if let Some(angle) = self.gap(&plunge.to, &hole.start).turned {
+            let message = format!("the tool is tilted {} degrees away from the hole", short(angle));
+            self.find(FindingKind::Axis, Some(cl_line), Some(plunge.line), message);
+        }
     }
 
     /// Takes the events of a hole that is not where it should be; false when the next
@@ -307,10 +321,10 @@ impl<C: Steps> Walk<'_, C> {
         (rest, turning): (f64, Spindle),
     ) -> Result<(), (u32, String)> {
         let kind = hole.kind;
-        let out = self.way_out(kind);
         let Some(first) = self.next_move() else {
             return Err((self.next_line(), "the tool stays in the hole".to_string()));
         };
+        let (out, stands) = self.way_out(kind, first.in_cycle);
         let course = match out {
             Out::Rapid => first.course == Course::Rapid,
             Out::Feed => first.course == Course::Feed,
@@ -323,9 +337,9 @@ impl<C: Steps> Walk<'_, C> {
         if matches!(first.course, Course::Feed | Course::Thread) {
             self.check_rate(cl_line, self.at, &first, hole.rate);
         }
-        let spindle = match (self.settings.cycle_code(kind), out) {
-            (Some(86), _) => Spindle::Off,
-            (_, Out::Thread) => reversed(turning),
+        let spindle = match out {
+            _ if stands => Spindle::Off,
+            Out::Thread => reversed(turning),
             _ => turning,
         };
         if first.modes.spindle != spindle {
@@ -359,9 +373,18 @@ impl<C: Steps> Walk<'_, C> {
         }
     }
 
-    /// How the tool leaves the hole, by the code of the cycle.
-    fn way_out(&self, kind: CycleKind) -> Out {
-        match (self.settings.cycle_code(kind), kind) {
+    /// How the tool leaves the hole, and whether the spindle stands: by the settings of a
+    /// bored hole of single moves, else by the code of the cycle.
+    fn way_out(&self, kind: CycleKind, in_cycle: bool) -> (Out, bool) {
+        if kind == CycleKind::Bore && !in_cycle {
+            match self.settings.bore_out() {
+                CycleBoreOut::AtFeedTheSpindleTurning => return (Out::Feed, false),
+                CycleBoreOut::AtRapidTheSpindleStanding => return (Out::Rapid, true),
+                CycleBoreOut::NotSaid => {}
+            }
+        }
+        let code = self.settings.cycle_code(kind);
+        let out = match (code, kind) {
             (Some(84 | 74 | 207), _) => Out::Thread,
             (Some(85 | 89 | 201), _) => Out::Feed,
             (Some(73 | 81 | 82 | 83 | 86 | 200 | 203 | 205), _) => Out::Rapid,
@@ -369,7 +392,8 @@ impl<C: Steps> Walk<'_, C> {
             (None, CycleKind::Bore | CycleKind::Ream) => Out::Feed,
             (None, CycleKind::Tap) => Out::Thread,
             (None, _) => Out::Rapid,
-        }
+        };
+        (out, code == Some(86))
     }
 
     /// Passes over what is left of a hole that went wrong.

@@ -60,7 +60,8 @@ impl Expected {
         }
     }
 
-    fn insert_auxiliary(&mut self, auxiliary: Auxiliary) {
+    /// What an auxiliary function switches, in a text or by AUXFUN.
+    pub(super) fn insert_auxiliary(&mut self, auxiliary: Auxiliary) {
         let mut spindle = |turns: Option<Spindle>| {
             self.spindle.set(turns, Due::Now);
             self.orientation = None;

@@ -216,6 +216,10 @@ impl Expected {
                 self.fixture = None;
             }
             Wanted::Unknown { effect: Effect::Auxiliary, .. } => self.range = None,
+            Wanted::Auxiliary(code) => {
+                self.range = None;
+                self.insert_auxiliary(settings.dialect.auxiliary(i64::from(*code)));
+            }
             _ => {}
         }
     }
@@ -310,6 +314,11 @@ impl Expected {
         self.spindle.moved(moved);
         self.speed.moved(moved);
         self.coolant.moved(moved);
+        if cuts {
+            // What turns the spindle waits for no other axis.
+            self.spindle.flush();
+            self.speed.flush();
+        }
         self.offset_on = modes.length_offset;
         let doing = if cuts { Doing::Cutting } else { Doing::Moving };
         let wrong = self.wrong(modes, doing, slack);

@@ -198,7 +198,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             }
             Wanted::RigidTap => self.ask_auxiliary(step.line, self.settings.rigid_tap_mode()),
             Wanted::Clamp(on) => self.ask_auxiliary(step.line, self.settings.clamp_code(*on)),
-            Wanted::Auxiliary(code) => self.ask_auxiliary(step.line, Some(*code)),
+            Wanted::Auxiliary(code) => self.auxiliary(step.line, *code),
             Wanted::End(end) => self.end(step.line, *end),
             _ if step.what.end().is_some() => self.motion(step),
             _ => {}

@@ -25,7 +25,8 @@ impl Control {
     pub(super) fn write_with_care(&mut self) -> Result<()> {
         self.begin()?;
         let style = &self.tables.style;
-        let (edits_words, edits_lines) = (style.edits_words, style.edits_lines);
+        let edits_words = style.edits_words;
+        let edits_lines = style.edits_lines || !self.tape.replaced.is_empty();
         let family = self.tables.family;
         self.straight = !edits_words && !edits_lines && family == ControlFamily::WordAddress;
         if self.straight {
@@ -110,20 +111,17 @@ impl Control {
     /// # Errors
     /// What the editor refuses, and a line that must not reach the tape.
     pub(super) fn edit_line(&mut self, start: usize) -> Result<bool> {
-        if !self.tables.style.edits_lines || self.tape.text.len() == start {
+        let replaces = !self.tape.replaced.is_empty();
+        if !(replaces || self.tables.style.edits_lines) || self.tape.text.len() == start {
             return Ok(false);
         }
         let before = self.tape.last_line(start, &self.tables);
         let mut after = before.clone();
-        let Some(editor) = &mut self.tape.editor.0 else {
-            self.warn_no_macro("tape.block_macro", "_MCDWT");
-            return Ok(false);
-        };
-        let found = editor.line(&mut after, &self.commons)?;
-        let warnings = editor.take_warnings();
-        self.warnings.list.extend(warnings);
-        if !found {
-            self.warn_no_macro("tape.block_macro", "_MCDWT");
+        if replaces {
+            after = self.with_texts_replaced(&after);
+        }
+        if self.tables.style.edits_lines && !after.is_empty() {
+            self.edit_by_macro(&mut after)?;
         }
         if after == before {
             return Ok(false);
@@ -136,6 +134,21 @@ impl Control {
         self.learn_edited(&before, &after);
         self.refuse_in_compensation(known)?;
         Ok(true)
+    }
+
+    /// Has the macro _MCDWT edit a line.
+    fn edit_by_macro(&mut self, line: &mut String) -> Result<()> {
+        let Some(editor) = &mut self.tape.editor.0 else {
+            self.warn_no_macro("tape.block_macro", "_MCDWT");
+            return Ok(());
+        };
+        let found = editor.line(line, &self.commons)?;
+        let warnings = editor.take_warnings();
+        self.warnings.list.extend(warnings);
+        if !found {
+            self.warn_no_macro("tape.block_macro", "_MCDWT");
+        }
+        Ok(())
     }
 
     /// Learns from a line that was edited. Words that are the same in both are on the

@@ -13,6 +13,7 @@ pub mod family;
 pub mod klartext;
 pub(crate) mod line;
 pub mod program;
+pub mod replaced;
 pub mod sinumerik;
 mod skip;
 mod tap;
@@ -217,9 +218,31 @@ impl Control {
     /// # Errors
     /// The setting names none.
     pub fn letter(&self, at: LetterAt, what: &str) -> Result<Letter> {
-        self.commons.read(at).ok_or_else(|| {
+        let letter = self.commons.read(at).ok_or_else(|| {
             PostCode::NoCode.diag(format!("the machine has no letter for {what} (INTCOM {})", at.0))
-        })
+        })?;
+        self.require_on_tape(letter, what)?;
+        Ok(letter)
+    }
+
+    /// Refuses a word without which its block means something else.
+    ///
+    /// # Errors
+    /// The machine does not write the letter.
+    pub fn require_on_tape(&self, letter: Letter, what: &str) -> Result<()> {
+        match self.tables.addresses.required(letter)? {
+            Some(_) => Ok(()),
+            None => PostCode::NoCode.err(format!(
+                "{what} needs {letter}, which the machine does not write (tape position 53)"
+            )),
+        }
+    }
+
+    /// Warns of words that the machine does not write.
+    #[cold]
+    fn warn_off_tape(&mut self, letter: Letter) {
+        let message = format!("{letter} has no tape position (53); its words are not written");
+        self.warnings.add(PostCode::IgnoredPart, message);
     }
 
     /// Warns that the machine has no code for something it may do by other means.
@@ -240,6 +263,9 @@ impl Control {
 
     /// Adds an auxiliary function, with the cause of the block.
     pub fn m(&mut self, code: FunctionCode) {
+        if self.tables.addresses.position(M).is_none() {
+            self.warn_off_tape(M);
+        }
         self.block.m(code, self.block.cause);
     }
 
@@ -256,7 +282,11 @@ impl Control {
     /// # Errors
     /// As [`Block::word`].
     pub fn word_rounded(&mut self, letter: Letter, value: f64, rounding: Rounding) -> Result<()> {
-        self.block.word(letter, value, rounding, &self.tables.addresses).map(|_| ())
+        let put = self.block.word(letter, value, rounding, &self.tables.addresses)?;
+        if put.is_none() && !matches!(letter, G | M) {
+            self.warn_off_tape(letter);
+        }
+        Ok(())
     }
 
     /// Adds a feed word unless the control has that value; notes its cause.
@@ -266,7 +296,10 @@ impl Control {
             return Ok(());
         }
         let addresses = &self.tables.addresses;
-        let Some(position) = addresses.required(letter)? else { return Ok(()) };
+        let Some(position) = addresses.required(letter)? else {
+            self.warn_off_tape(letter);
+            return Ok(());
+        };
         let format = &addresses.slot(position).format;
         let scaled = Rounding::Rate.scale(feed.value, format);
         let scaled = scaled.map_err(|diag| crate::block::named(diag, letter))?;

@@ -163,6 +163,7 @@ pub fn close_ended(control: &mut Control) -> Result<()> {
 
 fn close(control: &mut Control) -> Result<()> {
     control.head.closed = true;
+    control.end_replacing();
     if control.tables.family == ControlFamily::Klartext {
         return super::klartext::program::end(control);
     }
@@ -215,6 +216,9 @@ fn program_number(control: &mut Control) -> Result<()> {
 /// Writes date and time as a comment, where the machine wants them.
 fn time_stamp(control: &mut Control) -> Result<()> {
     let Some(time) = control.head.time.clone() else { return Ok(()) };
+    if control.tables.family == ControlFamily::Sinumerik {
+        return control.put_line(&format!(";{time}"), false).map(|_| ());
+    }
     let open = control.commons.read(loc::MESSAGE_OUT_CHAR).unwrap_or('(');
     let close = control.commons.read(loc::MESSAGE_IN_CHAR).unwrap_or(')');
     control.put_line(&format!("{open}{time}{close}"), false).map(|_| ())

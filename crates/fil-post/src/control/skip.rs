@@ -32,7 +32,8 @@ impl Control {
             self.state.skip_begins(&self.commons);
         } else {
             self.tape.skip = None;
-            self.state.skip_ends(&mut self.commons);
+            let z_counts_down = self.tables.axis(2).scale() < 0.0;
+            self.state.skip_ends(&mut self.commons, z_counts_down);
         }
         Ok(())
     }

@@ -48,6 +48,10 @@ pub enum Meaning {
 const CLOCKWISE: FunctionCode = FunctionCode::whole(3);
 const COUNTERCLOCKWISE: FunctionCode = FunctionCode::whole(4);
 
+/// The usual functions that stop it.
+const STOP: FunctionCode = FunctionCode::whole(5);
+const ORIENT: FunctionCode = FunctionCode::whole(19);
+
 /// The functions of a machine.
 #[derive(Clone, Debug)]
 pub struct Codes {
@@ -58,8 +62,8 @@ pub struct Codes {
     has_cycle_off: bool,
     /// Auxiliary functions of the spindle ranges.
     ranges: Vec<FunctionCode>,
-    /// Auxiliary functions that turn the spindle.
-    turns: [(FunctionCode, Rotation); 2],
+    /// Auxiliary functions that turn the spindle or stop it.
+    turns: [(FunctionCode, Rotation); 4],
     /// The lowest and the highest code of the work offsets.
     fixtures: Option<(FunctionCode, FunctionCode)>,
     /// The functions are those of a SINUMERIK.
@@ -87,6 +91,8 @@ impl Codes {
                     code(loc::SPINDLE_CCW_CODE).unwrap_or(COUNTERCLOCKWISE),
                     Rotation::Counterclockwise,
                 ),
+                (code(loc::SPINDLE_STOP_CODE).unwrap_or(STOP), Rotation::Standing),
+                (code(loc::SPINDLE_ORIENT_CODE).unwrap_or(ORIENT), Rotation::Standing),
             ],
         };
         let codes_are_calls = codes.sinumerik;

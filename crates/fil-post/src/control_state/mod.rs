@@ -49,6 +49,8 @@ pub enum Rotation {
     Counterclockwise,
     /// It turned counterclockwise, and may not any more.
     InDoubt,
+    /// It stands.
+    Standing,
 }
 
 impl Rotation {
@@ -57,7 +59,17 @@ impl Rotation {
     fn doubted(self) -> Self {
         match self {
             Rotation::Counterclockwise => Rotation::InDoubt,
+            Rotation::Standing => Rotation::Unsaid,
             other => other,
+        }
+    }
+
+    /// What holds when one of the two may be in force.
+    fn or(self, other: Self) -> Self {
+        match (self, other) {
+            _ if self == other => self,
+            (Rotation::Standing, turning) | (turning, Rotation::Standing) => turning.doubted(),
+            _ => Rotation::InDoubt,
         }
     }
 }
@@ -445,15 +457,16 @@ impl ControlState {
 
     /// The blocks that may be skipped are over: what they changed is unknown. Of two
     /// levels of Z the lower one counts as the last value, so that a rapid motion goes
-    /// up before it goes across.
-    pub fn skip_ends(&mut self, commons: &mut Commons) {
+    /// up before it goes across; on an axis that counts downwards the higher one does.
+    pub fn skip_ends(&mut self, commons: &mut Commons, z_counts_down: bool) {
         let Some(before) = self.before_skip.take() else { return };
         let (state, values) = *before;
         for (letter, (now, then)) in Letter::all().zip(last_values(commons).iter().zip(values)) {
             if *now != then {
                 self.doubt(letter);
                 if letter == letters::XYZ[2] && then != EMPTY {
-                    commons.set_last_output(letter, now.min(then));
+                    let lower = if z_counts_down { now.max(then) } else { now.min(then) };
+                    commons.set_last_output(letter, lower);
                 }
             }
         }
@@ -486,9 +499,7 @@ impl ControlState {
         agree(&mut self.speed_limit, &other.speed_limit);
         agree(&mut self.range, &other.range);
         agree(&mut self.return_level, &other.return_level);
-        if self.rotation != other.rotation {
-            self.rotation = Rotation::InDoubt;
-        }
+        self.rotation = self.rotation.or(other.rotation);
         self.compensation_begun &= other.compensation_begun;
         self.doubtful.0 |= other.doubtful.0;
     }

@@ -2,7 +2,7 @@
 
 use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
-use fil_machine::locations as loc;
+use fil_machine::locations::{self as loc, CycleBoreOut};
 use fil_machine::modes::{FeedMode, INCH};
 
 use super::cycle::{Cycle, CycleFeed, CycleKind, Hole};
@@ -43,6 +43,10 @@ pub fn hole(control: &mut Control, cycle: &Cycle, at: &Motion, hole: &Hole) -> R
 /// # Errors
 /// Any other machine; a spindle that stands or turns at surface speed; a dwell.
 fn tap(control: &mut Control, cycle: &Cycle, at: &Motion, hole: &Hole) -> Result<()> {
+    if spindle::stands(control) {
+        return PostCode::CycleForm
+            .err("a tap while the spindle stands; SPINDL before it turns it");
+    }
     if !control.commons.read(loc::THREAD_TAP) {
         return cant_tap(control);
     }
@@ -88,6 +92,53 @@ fn cant_tap(control: &Control) -> Result<()> {
     PostCode::NoCode.err(words::no_tap(control))
 }
 
+/// How the tool leaves a hole that is written as single moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum WayOut {
+    /// At rapid, the spindle turning.
+    Rapid,
+    /// At feed to the R level, the spindle turning.
+    Feed,
+    /// At rapid, the spindle standing.
+    Standing,
+}
+
+/// The way out of a hole: that of the machine's own cycle where it has one.
+///
+/// # Errors
+/// A bored or reamed hole whose cycle does at the bottom what single moves can't say.
+pub(super) fn way_out(control: &mut Control, cycle: &Cycle) -> Result<WayOut> {
+    let bored = matches!(cycle.kind, CycleKind::Bore | CycleKind::Ream);
+    if cycle.kind == CycleKind::Bore {
+        match control.commons.read(loc::CYCLE_BORE_OUT) {
+            CycleBoreOut::AtFeedTheSpindleTurning => return Ok(WayOut::Feed),
+            CycleBoreOut::AtRapidTheSpindleStanding => return Ok(WayOut::Standing),
+            CycleBoreOut::NotSaid => {}
+        }
+    }
+    let code = control.commons.read(cycle.kind.code());
+    match code {
+        Some(85 | 89 | 201) => Ok(WayOut::Feed),
+        Some(86) => Ok(WayOut::Standing),
+        Some(73 | 81 | 82 | 83 | 200 | 203 | 205) => Ok(WayOut::Rapid),
+        Some(code) if bored => {
+            let mut diag = PostCode::CycleForm.diag(format!(
+                "what cycle {code} of the control does at the bottom can't be said in single moves"
+            ));
+            diag.hint = Some("Say how the tool leaves a bored hole with cycle.bore_out.".into());
+            Err(diag)
+        }
+        Some(_) => Ok(WayOut::Rapid),
+        None if cycle.kind == CycleKind::Bore => {
+            let message = "CYCLE/BORE: the tool leaves the hole at feed, the spindle turning";
+            control.warnings.add(PostCode::BoreOut, message.to_string());
+            Ok(WayOut::Feed)
+        }
+        None if bored => Ok(WayOut::Feed),
+        None => Ok(WayOut::Rapid),
+    }
+}
+
 /// All axes but one.
 pub(super) fn without(axis: usize) -> AxisSet {
     AxisSet::ALL
@@ -116,10 +167,18 @@ impl Moves<'_> {
             let cause = self.cycle.due_to(self.cycle.words.dwell);
             self.control.because(cause, |control| family::dwell(control, seconds))?;
         }
-        if matches!(self.cycle.kind, CycleKind::Bore | CycleKind::Ream) {
-            self.feed(self.hole.clear)?;
+        match way_out(self.control, self.cycle)? {
+            WayOut::Rapid => self.rapid(self.hole.rest()),
+            WayOut::Feed => {
+                self.feed(self.hole.clear)?;
+                self.rapid(self.hole.rest())
+            }
+            WayOut::Standing => {
+                let clockwise = spindle::stand(self.control)?;
+                self.rapid(self.hole.rest())?;
+                spindle::turn_on(self.control, clockwise)
+            }
         }
-        self.rapid(self.hole.rest())
     }
 
     /// DEEP comes out to the R level after each peck, BRKCHP only lifts.

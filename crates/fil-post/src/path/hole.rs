@@ -4,14 +4,16 @@
 use fil_diag::Result;
 use fil_machine::axes::{AXES, AxisSet, Position};
 use fil_machine::locations::{
-    self as loc, CycleMultax, CycleMultaxAny, CycleMultaxXy, CycleMultaxYz, CycleMultaxZx,
+    self as loc, ControlFamily, CycleMultax, CycleMultaxAny, CycleMultaxXy, CycleMultaxYz,
+    CycleMultaxZx, CycleReturnCodes,
 };
 
-use super::cycle::{Cycle, Hole};
+use super::cycle::{Cycle, CycleKind, Hole};
 use super::{expand, rapid, rotary, tip_control};
 use crate::control::family;
 use crate::control::word_address::cycle as words;
 use crate::control::word_address::motion::Motion;
+use crate::control::word_address::spindle;
 use crate::control_state::Compensation;
 use crate::errors::PostCode;
 use crate::operation::Target;
@@ -45,6 +47,10 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
             .err("a hole in cutter compensation; CUTCOM/OFF must come before it");
     }
     post.control.flush_waiting()?;
+    if cycle.kind != CycleKind::Tap && spindle::stands(&post.control) {
+        let message = "CYCLE: the spindle stands".to_string();
+        post.warn(PostCode::SpindleStands, message);
+    }
     if post.control.tables.tip_output {
         return tip_control::hole(post, cycle, target);
     }
@@ -69,12 +75,52 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
             let cause = post.control.block.cause;
             rapid::rapid(&mut post.control, &at.of(across), cause)?;
         }
+        let level = without_return_code(post, &at, &mut hole)?;
         family::hole(&mut post.control, cycle, code, &at, &hole)?;
         cycle.in_force = Some(hole);
+        if let Some(level) = level {
+            return go_up(post, cycle, &hole, level);
+        }
     } else {
         expand::hole(&mut post.control, cycle, &at, &hole)?;
     }
     words::stands_at(&mut post.control, hole.along, hole.rest())
+}
+
+/// On a control without G98 and G99 nobody says which level a cycle returns to: it begins
+/// on the R level then, which is both. Gives the level to go up to after the hole.
+fn without_return_code(post: &mut Post, at: &Motion, hole: &mut Hole) -> Result<Option<f64>> {
+    let control = &mut post.control;
+    let says_it = control.commons.read(loc::CYCLE_RETURN_CODES) == CycleReturnCodes::Yes
+        || control.tables.family != ControlFamily::WordAddress;
+    if says_it || (hole.initial - hole.clear).abs() <= SAME_LEVEL {
+        return Ok(None);
+    }
+    if control.state.in_cycle != Some(true) {
+        let cause = control.block.cause;
+        rapid::rapid(control, &at.of(expand::without(hole.along)), cause)?;
+        let clear = along(hole.along, hole.clear);
+        rapid::rapid(control, &clear, cause)?;
+    }
+    let level = hole.to_initial.then_some(hole.initial);
+    (hole.initial, hole.to_initial) = (hole.clear, false);
+    Ok(level)
+}
+
+/// Ends the control's cycle after a hole and goes up to the level before it.
+fn go_up(post: &mut Post, cycle: &mut Cycle, hole: &Hole, level: f64) -> Result<()> {
+    words::stands_at(&mut post.control, hole.along, hole.clear)?;
+    family::cancel_cycle(&mut post.control)?;
+    cycle.in_force = None;
+    let cause = cycle.cause;
+    post.control.because(cause, |control| rapid::rapid(control, &along(hole.along, level), cause))
+}
+
+/// A motion of one axis.
+fn along(number: usize, level: f64) -> Motion {
+    let mut position = Position::default();
+    position[number] = level;
+    Motion { position, axes: AxisSet::of(number), word: 0 }
 }
 
 /// The machine wants single moves for a hole of this direction while MULTAX is on
@@ -107,11 +153,8 @@ pub fn retract(post: &mut Post, ended: &Cycle) -> Result<()> {
     if here.is_none_or(|here| (here - level).abs() <= SAME_LEVEL) {
         return Ok(());
     }
-    let mut position = Position::default();
-    position[along] = level;
-    let motion = Motion { position, axes: AxisSet::of(along), word: 0 };
     let cause = post.control.block.cause;
-    rapid::rapid(&mut post.control, &motion, cause)
+    rapid::rapid(&mut post.control, &self::along(along, level), cause)
 }
 
 /// Where the hole lies: the position above it, and its levels along the axis that it
@@ -157,9 +200,7 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, start: f64) -> Res
     if below {
         family::cancel_cycle(&mut post.control)?;
         cycle.in_force = None;
-        let mut position = Position::default();
-        position[hole.along] = wanted;
-        let motion = Motion { position, axes: AxisSet::of(hole.along), word: 0 };
+        let motion = along(hole.along, wanted);
         let cause = cycle.cause;
         post.control.because(cause, |control| rapid::rapid(control, &motion, cause))?;
     }

@@ -55,5 +55,6 @@ fn split(control: &mut Control, motion: &Motion, z_first: bool, cause: Cause) ->
 fn retracts(control: &Control, motion: &Motion) -> Result<bool> {
     let axis = control.tables.axis(2);
     let last = control.commons.last_output(axis.letter);
-    Ok(last != EMPTY && axis.value(motion.position[2])? > last)
+    let above = (axis.value(motion.position[2])? - last) * axis.scale();
+    Ok(last != EMPTY && above > 0.0)
 }

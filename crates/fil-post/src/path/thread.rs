@@ -12,6 +12,7 @@ use nalgebra::Vector3;
 
 use super::{carry_out as carry, rotary};
 use crate::control::family;
+use crate::control::word_address::spindle;
 use crate::control_state::Compensation;
 use crate::errors::PostCode;
 use crate::operation::{
@@ -184,11 +185,15 @@ pub fn counted_lead(post: &Post, lead: Lead, target: Target) -> Result<Lead> {
     Ok(Lead { value: lead.value * share, ..lead })
 }
 
-/// Refuses a thread at surface speed: each pass would begin at another angle of the spindle.
+/// Refuses a thread at surface speed, as each pass would begin at another angle of the
+/// spindle, and one with the spindle standing.
 ///
 /// # Errors
-/// The last SPINDL gave one.
+/// The last SPINDL gave one, or stopped the spindle.
 pub fn check_speed(post: &Post) -> Result<()> {
+    if spindle::stands(&post.control) {
+        return PostCode::Thread.err("the spindle stands; SPINDL before the thread turns it");
+    }
     match post.control.speed {
         Some(SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_)) => PostCode::Thread
             .err("the spindle turns at constant surface speed, so that the passes would not meet"),

@@ -15,9 +15,11 @@ use fil_machine::locations::{self as loc, ControlFamily, RotaryTipControl};
 use nalgebra::{Point3, Vector3};
 
 use super::cycle::{AboveHoles, Cycle, CycleFeed, CycleKind};
+use super::expand::{WayOut, way_out};
 use super::{linear, rapid, rotary};
 use crate::control::family;
 use crate::control::word_address::motion::Motion;
+use crate::control::word_address::spindle;
 use crate::control::{Control, Function};
 use crate::control_state::{Compensation, Meaning};
 use crate::errors::PostCode;
@@ -234,10 +236,18 @@ impl Moves<'_> {
             family::dwell(&mut self.post.control, Dwell::Seconds(self.cycle.dwell))?;
             self.post.control.block.cause = self.cycle.cause;
         }
-        if matches!(self.cycle.kind, CycleKind::Bore | CycleKind::Ream) {
-            self.feed(clear)?;
+        match way_out(&mut self.post.control, self.cycle)? {
+            WayOut::Rapid => self.rapid(rest),
+            WayOut::Feed => {
+                self.feed(clear)?;
+                self.rapid(rest)
+            }
+            WayOut::Standing => {
+                let clockwise = spindle::stand(&mut self.post.control)?;
+                self.rapid(rest)?;
+                spindle::turn_on(&mut self.post.control, clockwise)
+            }
         }
-        self.rapid(rest)
     }
 
     /// DEEP comes out to the R level after each peck, BRKCHP only lifts.

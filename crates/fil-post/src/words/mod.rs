@@ -31,6 +31,7 @@ pub mod prefun;
 pub mod pseudo;
 pub mod rapid;
 pub mod repeat;
+pub mod replac;
 pub mod seqno;
 pub mod set;
 pub mod spindl;

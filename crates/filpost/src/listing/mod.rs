@@ -11,6 +11,7 @@ use fil_cl::{Record, words};
 
 use crate::event::{Event, LineEditor};
 use crate::statement::statement_text;
+use crate::tally::Motion;
 
 pub use rules::ListingRules;
 
@@ -87,7 +88,7 @@ impl<W: Write + Send> Listing<W> {
                     format!("{:>BLOCK$}{text}{}", "", fil.concat()),
                 ));
             }
-            Event::Motion(motion) => self.pending.push((Row::Position, texts::position(motion))),
+            Event::Motion(motion) => self.pending.push((Row::Position(*motion), String::new())),
             Event::Message(text) => {
                 self.pending.push((Row::Message, format!("{:>17}{text}", "")));
             }
@@ -105,6 +106,9 @@ impl<W: Write + Send> Listing<W> {
         for (row, mut line) in std::mem::take(&mut self.pending) {
             if !rules.shows(row) {
                 continue;
+            }
+            if let Row::Position(motion) = &row {
+                line = texts::position(motion, rules.feeds);
             }
             if let Row::Block { length } = row
                 && rules.bare_blocks
@@ -140,7 +144,7 @@ impl<W: Write + Send> Listing<W> {
 const BLOCK: usize = 20;
 
 /// What a line of a listing is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Row {
     /// A statement of the CL file.
     Statement,
@@ -157,8 +161,8 @@ enum Row {
         /// Its bytes.
         length: usize,
     },
-    /// Where a motion ends.
-    Position,
+    /// Where a motion ends; its text depends on the rules.
+    Position(Motion),
     /// A message that stays off the tape.
     Message,
     /// A warning.

@@ -1,7 +1,7 @@
 //! Which lines a listing has, as the settings of the machine say.
 
 use fil_machine::Commons;
-use fil_machine::locations::{self as loc, ListTapeImage, ToolListTimes};
+use fil_machine::locations::{self as loc, FeedListUnits, ListTapeImage, ToolListTimes};
 
 use super::Row;
 
@@ -13,6 +13,8 @@ pub struct ListingRules {
     pub statements: bool,
     /// Where each motion ends.
     pub positions: bool,
+    /// What the feeds there count.
+    pub feeds: FeedListUnits,
     /// Warnings.
     pub warnings: bool,
     /// Blocks.
@@ -32,6 +34,7 @@ impl Default for ListingRules {
         ListingRules {
             statements: true,
             positions: true,
+            feeds: FeedListUnits::default(),
             warnings: true,
             blocks: true,
             bare_blocks: false,
@@ -51,6 +54,7 @@ impl ListingRules {
         ListingRules {
             statements: commons.read(loc::LIST_INPUT),
             positions: commons.read(loc::LIST_VERIFICATION),
+            feeds: commons.read(loc::FEED_LIST_UNITS),
             warnings: !commons.read(loc::LIST_SUPPRESS_WARNINGS),
             blocks: image != ListTapeImage::None,
             bare_blocks: image == ListTapeImage::AsWritten,
@@ -74,7 +78,7 @@ impl ListingRules {
             Row::Partno => self.statements && keeps(PARTNO),
             Row::Section => keeps(FIL),
             Row::Block { .. } => self.blocks,
-            Row::Position => self.positions,
+            Row::Position(_) => self.positions,
             Row::Message => keeps(PPRINT),
             Row::Warning => self.warnings,
             Row::Total => true,

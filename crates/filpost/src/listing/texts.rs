@@ -1,5 +1,6 @@
 //! The texts of a listing: positions, and the totals at its end.
 
+use fil_machine::locations::FeedListUnits;
 use fil_nc::decimals;
 
 use super::Row;
@@ -12,15 +13,29 @@ const CHARACTERS_AN_INCH: f64 = 10.0;
 const METERS_IN_AN_INCH: f64 = 0.0254;
 
 /// Where a motion ends, its feed and its time.
-pub(super) fn position(motion: &Motion) -> String {
+pub(super) fn position(motion: &Motion, feeds: FeedListUnits) -> String {
     let [x, y, z] = motion.point.map(length);
     let feed = match (motion.rapid, motion.feed) {
         (true, _) => "rapid".to_string(),
-        (false, Some(feed)) => format!("feed {}", length(feed)),
+        (false, Some(feed)) => feed_text(feed, motion, feeds),
         (false, None) => "no feed".to_string(),
     };
     let time = motion.seconds.map_or_else(|| "time unknown".to_string(), seconds);
     format!("{:>22}X {x}  Y {y}  Z {z}  {feed}  way {}  {time}", "at ", length(motion.length))
+}
+
+/// A feed as it was asked for, or as the machine lists feeds where the turns of the spindle
+/// are known.
+fn feed_text(feed: f64, motion: &Motion, feeds: FeedListUnits) -> String {
+    let turns = motion.turns.filter(|turns| *turns > 0.0);
+    match (motion.per_revolution, feeds, turns) {
+        (true, FeedListUnits::AMinute, Some(turns)) => format!("feed {}", length(feed * turns)),
+        (false, FeedListUnits::ARevolution, Some(turns)) => {
+            format!("feed {} a revolution", decimals::short(feed / turns, 4))
+        }
+        (true, ..) => format!("feed {} a revolution", decimals::short(feed, 4)),
+        (false, ..) => format!("feed {}", length(feed)),
+    }
 }
 
 /// In the place of the extents.

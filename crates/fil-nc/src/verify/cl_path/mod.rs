@@ -383,10 +383,11 @@ impl State {
             w::REWIND => vec![Wanted::End(End::Rewind)],
             w::CLAMP => vec![Wanted::Clamp(record.has(w::ON))],
             w::AUXFUN => {
-                let mut wanted = unknown(Effect::Auxiliary);
                 let code = numbers(record).first().and_then(|code| whole(*code));
-                wanted.extend(code.map(Wanted::Auxiliary));
-                wanted
+                code.map_or_else(
+                    || unknown(Effect::Auxiliary),
+                    |code| vec![Wanted::Auxiliary(code)],
+                )
             }
             major if ENDS_THE_PATH.contains(&major) => unknown(Effect::Path),
             major if OWN_WORDS.contains(&major) => {

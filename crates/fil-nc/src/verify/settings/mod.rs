@@ -10,8 +10,8 @@ use fil_machine::commons::{Commons, Dbl, Int};
 use fil_machine::cycle_kind::CycleKind;
 use fil_machine::letter::{Letter, letters};
 use fil_machine::locations::{
-    self as loc, CircleCenter, ControlFamily, InputKind, Placement, RapidSplit, ToolChangeBlock,
-    ToolFormat,
+    self as loc, CircleCenter, ControlFamily, CycleBoreOut, InputKind, Placement, RapidSplit,
+    ToolChangeBlock, ToolFormat,
 };
 use fil_machine::user_blocks::{self, AroundChange};
 
@@ -391,6 +391,11 @@ impl<'c> Settings<'c> {
     /// G code of a cycle; `None` when holes are single moves.
     pub fn cycle_code(&self, kind: CycleKind) -> Option<i32> {
         self.commons.read(kind.code())
+    }
+
+    /// How the tool leaves a bored hole of single moves.
+    pub fn bore_out(&self) -> CycleBoreOut {
+        self.commons.read(loc::CYCLE_BORE_OUT)
     }
 
     /// A dwell within the machine's range, turns of the spindle.

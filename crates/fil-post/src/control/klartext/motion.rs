@@ -183,6 +183,9 @@ pub(super) fn write(control: &mut Control, turning: AxisSet) -> Result<()> {
         control.klartext.phrase.side = Some(Compensation::Off);
     }
     if !control.waiting.is_empty() {
+        if !control.klartext.phrase.rapid {
+            control.comes_with_any_motion(Function::Spindle);
+        }
         control.take_waiting(turning);
     }
     for number in [0, 1] {

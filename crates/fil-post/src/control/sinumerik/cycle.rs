@@ -15,7 +15,7 @@ use fil_machine::rounding::Rounding;
 use crate::block::named;
 use crate::control::family::refuse;
 use crate::control::word_address::motion::Motion;
-use crate::control::word_address::{modes, motion};
+use crate::control::word_address::{modes, motion, spindle};
 use crate::control::{Control, line, tap};
 use crate::errors::PostCode;
 use crate::operation::{Feed, SpindleSpeed};
@@ -240,9 +240,10 @@ fn peck_words(
 /// a program in inches PITA says that the pitch counts millimeters, which software without
 /// that parameter refuses.
 fn tap_words(control: &mut Control, cycle: &Cycle, dwell: &str) -> Result<String> {
-    let Some(SpindleSpeed::Revolutions(speed)) = control.speed else {
+    let Some(asked @ SpindleSpeed::Revolutions(_)) = control.speed else {
         return refuse("TAP before SPINDL: CYCLE84 needs the turns of the spindle");
     };
+    let speed = spindle::value_of(control, asked);
     let sense = sense(control)?;
     let (unit, in_mm) = if control.is_metric() { (1.0, "") } else { (INCH, ",,1") };
     let pitch = tap::text(tap::pitch(control, cycle)? * unit, PITCH_DIGITS)?;

@@ -88,7 +88,9 @@ fn offset_word(control: &mut Control, given: Option<(f64, u16)>) -> Result<()> {
         }
         return Ok(());
     };
-    let letter = control.letter(loc::CUTCOM_ADDRESS, "the offset's address")?;
+    let Some(letter) = control.commons.read(loc::CUTCOM_ADDRESS) else {
+        return PostCode::NoCode.err("the machine has no letter for the offset (cutcom.address)");
+    };
     if given.is_some() {
         control.require_letter(letter)?;
     }

@@ -12,7 +12,7 @@ use fil_machine::modes::{FeedMode, Plane};
 use fil_machine::rounding::Rounding;
 
 use super::motion::{self, Motion};
-use super::{dwell, modes};
+use super::{dwell, modes, spindle};
 use crate::control::{Control, sinumerik};
 use crate::control_state::Rotation;
 use crate::errors::PostCode;
@@ -45,7 +45,9 @@ fn tap_code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
     let (code, rigid) = match control.state.rotation {
         Rotation::Unsaid | Rotation::Clockwise => (loc::CYCLE_TAP_CODE, loc::CYCLE_RIGID_TAP_CODE),
         Rotation::Counterclockwise => (loc::CYCLE_TAP_LEFT_CODE, loc::CYCLE_RIGID_TAP_LEFT_CODE),
-        Rotation::InDoubt => return None,
+        // A rigid tap turns the spindle by itself.
+        Rotation::Standing if cycle.rigid => (loc::CYCLE_TAP_CODE, loc::CYCLE_RIGID_TAP_CODE),
+        Rotation::InDoubt | Rotation::Standing => return None,
     };
     let usual = control.code_if_any(loc::CYCLE_TAP_CODE);
     let tenths = |at| control.commons.int_opt(at).and_then(|tenths| u32::try_from(tenths).ok());
@@ -137,6 +139,9 @@ fn write_hole(
         return motion::write_motion(control);
     }
     modes::plane_of_its_own(control, Plane::across(hole.along))?;
+    if cycle.kind == CycleKind::Tap {
+        check_tap_speed(control, cycle)?;
+    }
     control.because(cycle.cause, |control| rigid_mode(control, cycle))?;
     control.because(cycle.cause, |control| codes(control, code, hole))?;
     for number in AxisSet::LINEAR.numbers().filter(|number| *number != hole.along) {
@@ -165,6 +170,26 @@ fn repeated_axes(control: &mut Control, across: &Motion, of: AxisSet) -> Result<
     Ok(())
 }
 
+/// Refuses a tap whose feed a minute no longer fits its speed.
+///
+/// # Errors
+/// The machine has brought the speed within its range.
+fn check_tap_speed(control: &mut Control, cycle: &Cycle) -> Result<()> {
+    let (CycleFeed::Feed(feed), Some(asked @ SpindleSpeed::Revolutions(turns))) =
+        (cycle.feed, control.speed)
+    else {
+        return Ok(());
+    };
+    let speed = spindle::value_of(control, asked);
+    if feed.mode != FeedMode::PerMinute || speed == turns {
+        return Ok(());
+    }
+    PostCode::CycleForm.err(format!(
+        "a tap at a feed a minute, and its speed of {turns} turns became {speed}: the pitch would \
+         be another one"
+    ))
+}
+
 /// The block that puts the control in step with the spindle, before a rigid tap.
 ///
 /// # Errors
@@ -185,10 +210,11 @@ fn rigid_mode(control: &mut Control, cycle: &Cycle) -> Result<()> {
     if control.state.in_cycle == Some(true) {
         return Ok(());
     }
-    let Some(SpindleSpeed::Revolutions(speed)) = control.speed else {
+    let Some(asked @ SpindleSpeed::Revolutions(_)) = control.speed else {
         return PostCode::CycleForm
             .err("a rigid tap needs the turns of the spindle, and no SPINDL gave them");
     };
+    let speed = spindle::value_of(control, asked);
     let waiting = control.block.take();
     control.m(mode);
     control.word(S, speed)?;
@@ -273,6 +299,7 @@ fn level_words(control: &mut Control, cycle: &Cycle, hole: &Hole) -> Result<()> 
         CycleDepthOutput::IncrementalUnsigned => ((bottom - clear).abs(), (clear - start).abs()),
         CycleDepthOutput::Absolute => (bottom, clear),
     };
+    control.require_on_tape(R, "the R level of a cycle")?;
     control.because(cycle.due_to(cycle.words.depth), |control| control.word(axis.letter, z))?;
     control.because(cycle.due_to(cycle.words.clear), |control| control.word(R, r))
 }

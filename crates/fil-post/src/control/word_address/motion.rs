@@ -9,8 +9,8 @@ use fil_machine::{FunctionCode, locations as loc};
 
 use super::modes;
 use crate::cause::Cause;
-use crate::control::Control;
-use crate::control_state::Compensation;
+use crate::control::{Control, Function};
+use crate::control_state::{Compensation, Meaning};
 use crate::errors::PostCode;
 use crate::operation::{Feed, Lead};
 
@@ -318,6 +318,9 @@ pub fn write_motion(control: &mut Control) -> Result<()> {
 pub fn write_turning(control: &mut Control, turning: AxisSet) -> Result<()> {
     if !control.waiting.is_empty() {
         control.work_offset_first(turning)?;
+        if cuts(control) {
+            control.comes_with_any_motion(Function::Spindle);
+        }
         control.take_waiting(turning);
         length_offset_words(control)?;
     }
@@ -333,6 +336,16 @@ pub fn write_turning(control: &mut Control, turning: AxisSet) -> Result<()> {
         control.state.moved_in_plane();
     }
     Ok(())
+}
+
+/// True for a block that moves at feed: the spindle must turn in it, whichever axes move.
+#[cold]
+fn cuts(control: &Control) -> bool {
+    let rapid = [loc::RAPID_CODE_XY, loc::RAPID_CODE_Z].map(|at| control.code_if_any(at));
+    let mut said = control.block.g_codes().iter().map(|(code, _)| *code);
+    let motion = said.rfind(|code| control.meaning(*code) == Meaning::Motion);
+    let motion = motion.or(control.state.motion);
+    !rapid.contains(&motion)
 }
 
 /// True when the block moves an axis of the plane in force.

@@ -7,6 +7,7 @@ use fil_machine::rounding::Rounding;
 use fil_machine::setting::CodeAt;
 
 use crate::control::{Control, Function};
+use crate::control_state::Rotation;
 use crate::errors::PostCode;
 use crate::operation::{SideSpindle, Spindle, SpindleRange, SpindleSpeed, SpindleTurn};
 
@@ -176,15 +177,56 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
 /// # Errors
 /// It does not turn, or nothing has said which way; the machine has no such code.
 pub fn turn_back(control: &mut Control) -> Result<bool> {
-    let Some(clockwise) = control.turning else {
+    let Some(clockwise) = clockwise(control) else {
         return PostCode::CycleForm.err("a tap, and which way the spindle turns is not known");
     };
-    let at = if clockwise { loc::SPINDLE_CCW_CODE } else { loc::SPINDLE_CW_CODE };
-    let code = control.code(at, "the spindle turned back")?;
+    turn_on(control, !clockwise)?;
+    Ok(clockwise)
+}
+
+/// Stops the spindle in a hole, in a block of its own; says which way it turned.
+///
+/// # Errors
+/// As [`turn_back`].
+pub fn stand(control: &mut Control) -> Result<bool> {
+    let Some(clockwise) = clockwise(control) else {
+        return PostCode::CycleForm.err(
+            "a bored hole that is left with the spindle standing, and which way it turns is not \
+             known",
+        );
+    };
+    let code = control.code(loc::SPINDLE_STOP_CODE, "the spindle that stands")?;
     control.m(code);
     control.write_block()?;
-    control.turning = Some(!clockwise);
     Ok(clockwise)
+}
+
+/// Turns the spindle with the speed that it had, in a block of its own.
+///
+/// # Errors
+/// The machine has no such code.
+pub fn turn_on(control: &mut Control, clockwise: bool) -> Result<()> {
+    let at = if clockwise { loc::SPINDLE_CW_CODE } else { loc::SPINDLE_CCW_CODE };
+    let code = control.code(at, "the spindle turned again")?;
+    control.m(code);
+    control.write_block()?;
+    control.turning = Some(clockwise);
+    Ok(())
+}
+
+/// The spindle turns clockwise: as the tape says it, else as the CL file does.
+fn clockwise(control: &Control) -> Option<bool> {
+    match control.state.rotation {
+        Rotation::Clockwise => Some(true),
+        Rotation::Counterclockwise => Some(false),
+        Rotation::Unsaid => control.turning,
+        Rotation::InDoubt | Rotation::Standing => None,
+    }
+}
+
+/// The spindle is known to stand, and nothing that waits for a motion turns it.
+pub fn stands(control: &Control) -> bool {
+    control.turning.is_none() && control.state.rotation == Rotation::Standing
 }
 
 /// Adds S, and on a lathe the code for revolutions or surface speed.

@@ -99,11 +99,14 @@ pub(in crate::control) fn restate(control: &mut Control) {
 /// # Errors
 /// A number that does not fit.
 pub(in crate::control) fn tool_blocks(control: &mut Control, tool: i64) -> Result<()> {
-    control.word(T, tool as f64)?;
+    let code = control.code_if_any(loc::TOOL_CHANGE_CODE);
+    if code.is_some() || control.tables.addresses.required(T)?.is_some() {
+        control.word(T, tool as f64)?;
+    }
     if control.commons.read(loc::TOOL_SEPARATE_BLOCKS) {
         control.write_block()?;
     }
-    match control.code_if_any(loc::TOOL_CHANGE_CODE) {
+    match code {
         Some(code) => control.block.m(code, control.block.cause.whole()),
         None => without_code(control, tool)?,
     }
