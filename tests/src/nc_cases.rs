@@ -77,7 +77,6 @@ const NOT_FROM_CL: &[&str] = &[
     "repeat-off-leaves-no-axis-elsewhere",
     "repeat-off-leaves-no-feed-in-force",
     "repeat-off-warns-of-what-stays",
-    "rotary-tip-control-and-gohome",
 ];
 
 /// Files of `tests/words` that are posted.

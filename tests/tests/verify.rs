@@ -8,6 +8,8 @@ use std::collections::{BTreeMap, HashSet};
 use std::fmt::Write as _;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use fil_machine::axis_chain::AxisChain;
@@ -25,7 +27,7 @@ use filpost_tests::same_events;
 const FOUND: f64 = 0.998;
 
 /// Of so many faults one is tried in the normal run; all with `FILPOST_FAULTS=all`.
-const SAMPLE: usize = 8;
+const SAMPLE: usize = 16;
 
 /// Programs with axis words whose last digit a rounding may leave open: points between the
 /// ends of lines that another post has divided, points of arcs that are lines, values half
@@ -167,39 +169,67 @@ fn of_rotary_posts(case: &NcCase) -> bool {
     case.name.starts_with("corpus/posts/") || is_ready && chain.has_rotary()
 }
 
+/// How many faults of each fate a program has, and a list of those that nobody sees.
+type Fates = (BTreeMap<Fate, usize>, String);
+
+/// What becomes of the faults of a program.
+fn faults_of(case: &NcCase, step: usize, first: usize) -> Fates {
+    let (mut fates, mut missed) = (BTreeMap::new(), String::new());
+    let Ok(original) = events(case, &case.nc) else { return (fates, missed) };
+    for mutant in mutants::all(&case.nc, step, first) {
+        let fate = fate(case, &original, &mutant.text);
+        *fates.entry(fate).or_default() += 1;
+        if fate == Fate::Missed {
+            let axis = mutant.word.is_some_and(|word| b"XYZABCUVW".contains(&word));
+            let rounded = ROUNDED.iter().any(|name| case.name.starts_with(name));
+            assert!(!axis || rounded, "{} line {}: {}", case.name, mutant.line, mutant.fault);
+            let _ = writeln!(missed, "{} line {}: {}", case.name, mutant.line, mutant.fault);
+        }
+    }
+    (fates, missed)
+}
+
+/// Programs that get faults, each with its number among all.
+fn cases_for_faults() -> Vec<(usize, NcCase)> {
+    let mut of_mills = HashSet::new();
+    // The ready mills write many programs alike: one of those gets the faults. Those of the
+    // posts with rotary axes have the forms of other cases, and arcs as lines whose last digit
+    // the rounding leaves open.
+    let mut gets_faults = |case: &NcCase| {
+        (!case.name.starts_with("corpus/mills/") || of_mills.insert(unnumbered(&case.nc)))
+            && !of_rotary_posts(case)
+    };
+    nc_cases::all().into_iter().enumerate().filter(|(_, case)| gets_faults(case)).collect()
+}
+
 #[test]
 fn faults_are_found() {
     let all = std::env::var_os("FILPOST_FAULTS").is_some_and(|value| value == "all");
-    let mut fates: BTreeMap<Fate, usize> = BTreeMap::new();
-    let mut missed = String::new();
-    let mut of_mills = HashSet::new();
-    for (turn, case) in nc_cases::all().into_iter().enumerate() {
-        // The ready mills write many programs alike: one of those gets the faults.
-        if case.name.starts_with("corpus/mills/") && !of_mills.insert(unnumbered(&case.nc)) {
-            continue;
+    let step = if all { 1 } else { SAMPLE };
+    let cases = cases_for_faults();
+    // Each processor takes the next program that is left.
+    let next = AtomicUsize::new(0);
+    let found: Mutex<BTreeMap<usize, Fates>> = Mutex::default();
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..processors {
+            scope.spawn(|| {
+                while let Some((turn, case)) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let of_case = faults_of(case, step, *turn);
+                    found.lock().expect("no thread failed").insert(*turn, of_case);
+                }
+            });
         }
-        // Those of the posts with rotary axes have the forms of other cases, and arcs as lines
-        // whose last digit the rounding leaves open.
-        if of_rotary_posts(&case) {
-            continue;
-        }
-        let Ok(original) = events(&case, &case.nc) else { continue };
-        let step = if all { 1 } else { SAMPLE };
-        for mutant in mutants::all(&case.nc, step, turn) {
-            let fate = fate(&case, &original, &mutant.text);
-            *fates.entry(fate).or_default() += 1;
-            if fate == Fate::Missed {
-                let axis = mutant.word.is_some_and(|word| b"XYZABCUVW".contains(&word));
-                let rounded = ROUNDED.iter().any(|name| case.name.starts_with(name));
-                assert!(!axis || rounded, "{} line {}: {}", case.name, mutant.line, mutant.fault);
-                let _ = writeln!(missed, "{} line {}: {}", case.name, mutant.line, mutant.fault);
-            }
-        }
+    });
+    let (mut fates, mut missed) = (BTreeMap::new(), String::new());
+    for (of_case, of_case_missed) in found.into_inner().expect("no thread failed").values() {
+        of_case.iter().for_each(|(fate, count)| *fates.entry(*fate).or_default() += count);
+        missed.push_str(of_case_missed);
     }
     let count = |fate| fates.get(&fate).copied().unwrap_or(0);
-    let found = count(Fate::Refused) + count(Fate::Reported);
     println!("{fates:?}\n{missed}");
-    assert!(count(Fate::Reported) > 5_000, "only {} faults were put in", count(Fate::Reported));
+    let least = if all { 50_000 } else { 2_500 };
+    assert!(count(Fate::Reported) > least, "only {} faults were put in", count(Fate::Reported));
     if !all {
         let listed = std::fs::read_to_string(root().join("tests/verify/faults.txt"));
         let listed = listed.expect("the list");
@@ -209,7 +239,7 @@ fn faults_are_found() {
     }
     let share = count(Fate::Reported) as f64 / (count(Fate::Reported) + count(Fate::Missed)) as f64;
     assert!(share >= FOUND, "{share}:\n{missed}");
-    assert!(found > 0);
+    assert!(count(Fate::Refused) > 0);
     same_as("faults.txt", &missed);
 }
 

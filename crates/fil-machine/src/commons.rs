@@ -79,6 +79,8 @@ pub struct Commons {
     generation: u32,
     /// Major words whose records the machine passes over.
     without_effect: Vec<String>,
+    /// Work offsets that a program may choose where no CL file asks for one.
+    allowed_offsets: Vec<String>,
 }
 
 impl Commons {
@@ -90,6 +92,7 @@ impl Commons {
             dbl: vec![EMPTY; DBL_LOCATIONS + 1],
             generation: 0,
             without_effect: Vec::new(),
+            allowed_offsets: Vec::new(),
         }
     }
 
@@ -138,6 +141,22 @@ impl Commons {
         if !self.without_effect.contains(&word) {
             self.without_effect.push(word);
         }
+    }
+
+    /// Work offsets by their names in a program (`G54`, `G54.1P3`), in capitals, that a
+    /// program may choose where its CL file asks for none.
+    pub fn allowed_offsets(&self) -> &[String] {
+        &self.allowed_offsets
+    }
+
+    /// Allows a work offset, in any case of letters; false for what is no name of one.
+    pub fn allow_offset(&mut self, name: &str) -> bool {
+        let name = name.trim().to_ascii_uppercase();
+        let is_name = is_offset(&name);
+        if is_name && !self.allowed_offsets.contains(&name) {
+            self.allowed_offsets.push(name);
+        }
+        is_name
     }
 
     /// Generation of the settings; the last output values do not count.
@@ -216,6 +235,27 @@ fn integer(location: u32, value: f64) -> Result<i32> {
             .err(format!("INTCOM {location} holds whole numbers, not {value}"));
     }
     Ok(value as i32)
+}
+
+/// `G54`, `G54.1P3`, or another letter with a number.
+fn is_offset(name: &str) -> bool {
+    let is_number =
+        |text: &str| (1..=3).contains(&text.len()) && text.bytes().all(|b| b.is_ascii_digit());
+    let Some((letter, rest)) = name.split_at_checked(1) else { return false };
+    let (code, extended) = match rest.split_once('P') {
+        Some((code, number)) => (code, Some(number)),
+        None => (rest, None),
+    };
+    let (whole, tenth) = match code.split_once('.') {
+        Some((whole, tenth)) => (whole, Some(tenth)),
+        None => (code, None),
+    };
+    let is_extended = extended.is_some_and(is_number)
+        && letter == "G"
+        && tenth.is_none_or(|tenth| tenth.len() == 1 && is_number(tenth));
+    letter.as_bytes()[0].is_ascii_uppercase()
+        && is_number(whole)
+        && (is_extended || (extended.is_none() && tenth.is_none()))
 }
 
 #[cfg(test)]

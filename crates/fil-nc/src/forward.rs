@@ -137,6 +137,9 @@ impl Forward {
 
     /// Where the linear axes count from in the part, without tool-tip control.
     pub fn frame(&self, rotary: [f64; 2]) -> Frame {
+        if !self.has_rotary() {
+            return Frame::PART;
+        }
         let tool = self.machine.tool.into_inner();
         let mut head = tool;
         let mut frame = Frame { turn: Matrix3::identity(), origin: Point3::origin() };
@@ -169,6 +172,9 @@ impl Forward {
     /// Rotary positions near `rotary` at which the tool lies exactly along `axis`,
     /// by Newton's method; positions that do not turn the tool stay as they are.
     pub fn refine(&self, rotary: [f64; 2], axis: Vector3<f64>) -> [f64; 2] {
+        if !self.has_rotary() {
+            return rotary;
+        }
         let mut at = rotary;
         for _ in 0..STEPS {
             let off = axis - self.axis(at);

@@ -97,8 +97,8 @@ fil_diag::codes! {
             "Shorten the text, drop blanks with tape.blank, or correct tape.max_block of the machine.";
         /// A motion of too many parts.
         TooManyParts = 580, Error, "a motion would be divided too often",
-            "While rotary axes turn, the tip leaves its line; to keep it there, or to say its feed, takes too many blocks.",
-            "Give a larger LINTOL or rotary.tolerance, or a higher feed; check that the part lies near the rotary axes.";
+            "While rotary axes turn, the tip leaves its line; to keep it there, or to say its feed, takes too many blocks. So do the lines of an arc of many turns.",
+            "Give a larger LINTOL, rotary.tolerance or circle.chord_tolerance, fewer TIMES, or a higher feed; check that the part lies near the rotary axes.";
         /// A feed a revolution while the machine turns.
         RotaryFeedUnknown = 581, Error, "feed of a motion that turns the machine is not known",
             "The time of such a motion is found from the way of the tip and its feed a minute.",

@@ -3,7 +3,8 @@
 //! `base = "NAME"` names the machine it begins from. Keys are the names of the table of locations (`rapid.split = 1`), or
 //! `int.1870 = 1`, `rel.11 = 1.0`, `dbl.486 = 2.0`; `[address.X]` holds `slot`,
 //! `format`, `spec` and `char` of a letter; `blocks.start` and `blocks.end` are
-//! lists of texts, and so is `words.without_effect`, the major words that pass. A flag takes true or false, a letter or character a text of
+//! lists of texts, and so are `words.without_effect`, the major words that pass, and
+//! `verify.allowed_offsets`, what a program may choose unasked. A flag takes true or false, a letter or character a text of
 //! one character, and every setting takes `"none"` for absent.
 
 use std::borrow::Cow;
@@ -28,6 +29,9 @@ const NO_POSITION: u32 = OFF as u32;
 
 /// Most words that a machine lists as without effect.
 const MOST_WORDS: usize = 1000;
+
+/// Most work offsets that a machine allows without being asked for.
+const MOST_OFFSETS: usize = 1000;
 
 /// What a `machine.toml` may say about itself without it being a setting.
 const ABOUT: &[&str] = &["name", "description", "origin"];
@@ -268,6 +272,16 @@ impl<'a> TomlReader<'a> {
             words.iter().for_each(|word| commons.list_without_effect(word));
             return Ok(());
         }
+        if name == "verify.allowed_offsets" {
+            for offset in self.texts(value, MOST_OFFSETS)? {
+                if !commons.allow_offset(&offset) {
+                    let message = format!("`{offset}` is no work offset; one is G54 or G54.1P3");
+                    let wrong = Diag::new(MachineCode::SettingValue, message);
+                    return Err(self.at(value.span(), wrong));
+                }
+            }
+            return Ok(());
+        }
         if let Some((kind, number)) = name.strip_prefix(IMPORTED).and_then(numbered) {
             return self.imported(commons, (kind, number), value, key);
         }
@@ -372,7 +386,7 @@ impl<'a> TomlReader<'a> {
         })
     }
 
-    /// A list of texts: `blocks.start`, `words.without_effect`.
+    /// A list of texts: `blocks.start`, `words.without_effect`, `verify.allowed_offsets`.
     fn texts(&self, value: &Spanned<DeValue>, most: usize) -> Result<Vec<String>> {
         let longest = usize::from(BLOCK_INTEGERS) * 2;
         let wrong = |span: Range<usize>, message: String| {
@@ -665,6 +679,21 @@ mod tests {
         assert_eq!((commons.int(Int(13)), commons.int_opt(Int(11))), (8, None));
         apply_setting(&mut commons, "address.Q.slot=8").unwrap();
         assert_eq!((commons.int(Int(17)), commons.int_opt(Int(13))), (8, None));
+    }
+
+    #[test]
+    fn allowed_offsets_are_names_of_offsets() {
+        let read = |list: &str| {
+            let text = format!("verify.allowed_offsets = {list}");
+            read_toml("machine.toml", &text).map(|(commons, _)| commons)
+        };
+        let commons = read("['G54', 'g54.1p3', 'E2']").unwrap();
+        assert_eq!(commons.allowed_offsets(), ["G54", "G54.1P3", "E2"]);
+        let text = crate::files::write_toml(&commons);
+        assert!(text.contains("verify.allowed_offsets = [\"G54\", \"G54.1P3\", \"E2\"]"), "{text}");
+        for wrong in ["G", "G54.1", "G54P", "54", "E2P1", "G54 P1 X", "G5.10P1", "É1", "G1234"] {
+            assert!(read(&format!("['{wrong}']")).is_err(), "{wrong}");
+        }
     }
 
     #[test]

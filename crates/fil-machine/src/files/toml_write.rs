@@ -25,6 +25,9 @@ pub fn write_toml(commons: &Commons) -> String {
     if !commons.words_without_effect().is_empty() {
         let _ = writeln!(out, "words.without_effect = {:?}", commons.words_without_effect());
     }
+    if !commons.allowed_offsets().is_empty() {
+        let _ = writeln!(out, "verify.allowed_offsets = {:?}", commons.allowed_offsets());
+    }
     unnamed(commons, &defaults, &mut out);
     out
 }

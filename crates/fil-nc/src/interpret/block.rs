@@ -39,16 +39,24 @@ impl State<'_> {
     pub(super) fn run(&mut self, block: &Block) -> Result<Outcome, Fault> {
         self.line = block.line;
         self.events.clear();
-        let mut words = Words::read(block, self.dialect, self.metric)?;
-        let outcome = self.outcome(&mut words)?;
-        self.check_tip_control(&words)?;
+        let mut words = std::mem::take(&mut self.words);
+        words.read(block, self.dialect, self.metric)?;
+        let outcome = self.follow(&mut words)?;
+        // The next block uses its memory again.
+        self.words = words;
+        Ok(outcome)
+    }
+
+    fn follow(&mut self, words: &mut Words) -> Result<Outcome, Fault> {
+        let outcome = self.outcome(words)?;
+        self.check_tip_control(words)?;
         let begins = words.peek(Group::Length) == Some(Function::TipControl);
         let (stood, known) = (self.at, self.known);
-        let uses = Uses::of(&words, self.dialect);
-        self.modes(&mut words)?;
-        self.tool_and_spindle(&mut words)?;
-        self.auxiliaries(&words);
-        self.motion(&mut words)?;
+        let uses = Uses::of(words, self.dialect);
+        self.modes(words)?;
+        self.tool_and_spindle(words)?;
+        self.auxiliaries(words);
+        self.motion(words)?;
         if begins {
             self.check_begun(&stood, &known)?;
         }

@@ -96,7 +96,8 @@ impl State<'_> {
             }
             step => step,
         };
-        let across: Vec<AxisWord> = axes.into_iter().filter(|w| w.axis != hole.axis).collect();
+        let across: Vec<AxisWord> =
+            axes.iter().filter(|word| word.axis != hole.axis).copied().collect();
         let (to, known) = self.target(&across);
         if to != self.at || known != self.known {
             self.go((to, known), Course::Rapid, None);

@@ -3,7 +3,7 @@
 use super::Fault;
 use super::cycle::Cycle;
 use super::thread::{Pass, Setup};
-use super::words::AxisWord;
+use super::words::{AxisWord, Words};
 use crate::dialect::{Certain, Dialect, FeedMode, Function};
 use crate::errors::NcCode;
 use crate::motion::{Arc, Course, Event, Modes, Move, Position, Rate, unit};
@@ -44,6 +44,8 @@ pub(super) struct State<'d> {
     pub(super) modes: Modes,
     /// Events of the block; they count when the whole block has a meaning.
     pub(super) events: Vec<Event>,
+    /// The words of the block before, whose memory is used again.
+    pub(super) words: Words,
 }
 
 impl<'d> State<'d> {
@@ -72,6 +74,7 @@ impl<'d> State<'d> {
             next_tool: None,
             modes: Modes { inch: !dialect.metric, ..Modes::default() },
             events: Vec::new(),
+            words: Words::default(),
         }
     }
 

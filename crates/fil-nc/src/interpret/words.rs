@@ -1,6 +1,6 @@
 //! The words of a block, each to be taken by the function that it belongs to.
 
-use std::ops::Range;
+use std::ops::{Deref, Range};
 
 use super::Fault;
 use crate::dialect::{Address, Auxiliary, Dialect, Function, Group, Unreadable};
@@ -19,6 +19,9 @@ pub(super) struct Item {
     range: Range<usize>,
 }
 
+/// X, Y, Z and two rotary axes.
+const AXES: usize = 5;
+
 /// An axis word.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AxisWord {
@@ -28,6 +31,34 @@ pub(super) struct AxisWord {
     pub(super) value: f64,
     /// U, V or W.
     pub(super) increment: bool,
+}
+
+/// The axis words of a block, at most one an axis, by their axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AxisWords {
+    words: [AxisWord; AXES],
+    count: usize,
+}
+
+impl AxisWords {
+    fn new() -> Self {
+        let none = AxisWord { axis: 0, value: 0.0, increment: false };
+        AxisWords { words: [none; AXES], count: 0 }
+    }
+
+    /// Adds a word of an axis that has none yet.
+    fn push(&mut self, word: AxisWord) {
+        self.words[self.count] = word;
+        self.count += 1;
+    }
+}
+
+impl Deref for AxisWords {
+    type Target = [AxisWord];
+
+    fn deref(&self) -> &[AxisWord] {
+        &self.words[..self.count]
+    }
 }
 
 /// A block, sorted.
@@ -44,9 +75,17 @@ pub(super) const fn letter(name: u8) -> u8 {
 }
 
 impl Words {
-    /// Sorts the words of a block.
-    pub(super) fn read(block: &Block, dialect: &Dialect, metric: bool) -> Result<Self, Fault> {
-        let mut words = Words::default();
+    /// Sorts the words of a block; what was sorted before is forgotten.
+    pub(super) fn read(
+        &mut self,
+        block: &Block,
+        dialect: &Dialect,
+        metric: bool,
+    ) -> Result<(), Fault> {
+        let words = self;
+        words.functions.clear();
+        words.auxiliaries.clear();
+        words.items.clear();
         for word in &block.words {
             match word.letter {
                 _ if word.index.is_some() => {
@@ -65,7 +104,7 @@ impl Words {
         for word in block.words.iter().filter(|word| !matches!(word.letter, b'N' | b'G' | b'M')) {
             words.add_item(word, dialect, metric)?;
         }
-        Ok(words)
+        Ok(())
     }
 
     fn add_function(&mut self, word: &Word, dialect: &Dialect) -> Result<(), Fault> {
@@ -201,22 +240,20 @@ impl Words {
     }
 
     /// Takes all axis words.
-    pub(super) fn take_axes(&mut self, dialect: &Dialect) -> Result<Vec<AxisWord>, Fault> {
-        let mut axes: Vec<AxisWord> = Vec::new();
-        let mut left = Vec::new();
-        for item in std::mem::take(&mut self.items) {
-            match dialect.axis(item.letter) {
-                Some(axis) => {
-                    if axes.iter().any(|word| word.axis == axis) {
-                        return Err(twice("two words of one axis".to_string(), &item.range));
-                    }
-                    axes.push(AxisWord { axis, value: item.read()?, increment: item.increment });
-                }
-                None => left.push(item),
+    pub(super) fn take_axes(&mut self, dialect: &Dialect) -> Result<AxisWords, Fault> {
+        let mut axes = AxisWords::new();
+        for item in &self.items {
+            let Some(axis) = dialect.axis(item.letter) else { continue };
+            if axes.iter().any(|word| word.axis == axis) {
+                return Err(twice("two words of one axis".to_string(), &item.range));
             }
+            axes.push(AxisWord { axis, value: item.read()?, increment: item.increment });
         }
-        self.items = left;
-        axes.sort_by_key(|word| word.axis);
+        if !axes.is_empty() {
+            self.items.retain(|item| dialect.axis(item.letter).is_none());
+        }
+        let count = axes.count;
+        axes.words[..count].sort_by_key(|word| word.axis);
         Ok(axes)
     }
 

@@ -34,7 +34,7 @@ impl<C: Steps> Walk<'_, C> {
         for angle in parts.angles {
             let Some(found) = self.next_move() else { break };
             self.check_rate(cl_line, self.at, &found, rate);
-            self.look_between(cl_line, &found, &Asked::arc(arc, from, [before, angle]));
+            self.look_between(cl_line, &found, |_| Asked::arc(arc, from, [before, angle]));
             before = angle;
             self.take(cl_line, &found);
             self.next += 1;
@@ -58,7 +58,7 @@ impl<C: Steps> Walk<'_, C> {
                 return None;
             }
             let swept = match &found.arc {
-                Some(part) => self.on_arc(arc, &from, &found, part)?,
+                Some(part) => self.on_arc(arc, angle, (&from, &found), part)?,
                 None => self.on_chord(arc, angle, &found)?,
             };
             angle += swept;
@@ -78,24 +78,64 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     /// The angle an arc block sweeps, when its center, plane and sense are right.
-    fn on_arc(&self, arc: &Arc, from: &Position, found: &Move, part: &motion::Arc) -> Option<f64> {
+    fn on_arc(
+        &self,
+        arc: &Arc,
+        before: f64,
+        (from, found): (&Position, &Move),
+        part: &motion::Arc,
+    ) -> Option<f64> {
         let frame = self.settings.forward.frame_of(&found.to);
         let mut normal = Vector3::zeros();
         normal[part.normal] = if part.ccw { 1.0 } else { -1.0 };
         if (frame.turn * normal - arc.normal).norm() > PARALLEL {
             return None;
         }
+        if self.settings.writes_radius() {
+            return self.on_arc_of_radius(arc, before, (from, found), part);
+        }
         let center = frame.linear(arc.center);
         let off = |n: usize| (part.center[n] - center[n]).abs();
         let in_plane = |n: &usize| *n != part.normal;
-        let radius = if self.settings.writes_radius() {
-            let given = distance(part.center, from.linear, part.normal);
-            (given - arc.radius()).abs() <= self.slack.radius
-        } else {
-            (0..3).filter(in_plane).all(|n| off(n) <= self.center_slack(n))
-                || self.settings.turns_by_angles() && self.follows(arc, from, found, part)
-        };
-        radius.then_some(part.angle)
+        let is_right = (0..3).filter(in_plane).all(|n| off(n) <= self.center_slack(n))
+            || self.settings.turns_by_angles() && self.follows(arc, from, found, part);
+        is_right.then_some(part.angle)
+    }
+
+    /// The same for an arc that is written with its radius. Where its center lies follows from
+    /// rounded ends and the rounded radius, so the ends say how far it sweeps; the center may be
+    /// off by what these roundings explain, and half a turn must not lie between both.
+    fn on_arc_of_radius(
+        &self,
+        arc: &Arc,
+        before: f64,
+        (from, found): (&Position, &Move),
+        part: &motion::Arc,
+    ) -> Option<f64> {
+        let given = distance(part.center, from.linear, part.normal);
+        if (given - arc.radius()).abs() > self.slack.radius {
+            return None;
+        }
+        let swept = self.angle_behind(arc, before, found) - before;
+        let at_half = (swept - 180.0).abs() <= self.angle_slack(arc);
+        if (swept > 180.0) != (part.angle > 180.0) && !at_half {
+            return None;
+        }
+        let slack = self.slack.linear.iter().fold(0.0f64, |a, b| a.max(*b));
+        let chord = distance(from.linear, found.to.linear, part.normal);
+        let height = (given * given - chord * chord / 4.0).max(0.0).sqrt();
+        let rounded = given * self.slack.radius + chord * slack;
+        let along = (rounded / height).min((2.0 * rounded).sqrt());
+        let center = self.settings.forward.frame_of(&found.to).linear(arc.center);
+        let off = distance(part.center, center, part.normal);
+        (off <= along + 2.0 * slack).then_some(swept)
+    }
+
+    /// The angle from the start of an arc at which a motion ends, behind another angle.
+    fn angle_behind(&self, arc: &Arc, before: f64, found: &Move) -> f64 {
+        let turns = (before / 360.0).floor() * 360.0;
+        let angle = turns + arc.angle_of(self.tip(found));
+        if angle <= before { angle + 360.0 } else { angle }
     }
 
     /// True for a helix about a pole that lies elsewhere than the center, so that the angle
@@ -126,13 +166,7 @@ impl<C: Steps> Walk<'_, C> {
 
     /// The angle a straight line sweeps, when it stays within the chord tolerance.
     fn on_chord(&self, arc: &Arc, before: f64, found: &Move) -> Option<f64> {
-        let tip = self.tip(found);
-        let turns = (before / 360.0).floor() * 360.0;
-        let mut angle = turns + arc.angle_of(tip);
-        if angle <= before {
-            angle += 360.0;
-        }
-        let swept = angle - before;
+        let swept = self.angle_behind(arc, before, found) - before;
         let sagitta = arc.radius() * (1.0 - (swept / 2.0).to_radians().cos());
         let allowed = self.settings.chord_tolerance() + 2.0 * self.slack.linear[0];
         (swept < 180.0 && sagitta <= allowed).then_some(swept)

@@ -50,6 +50,7 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     pub(super) fn insert(&mut self, cl_line: u32, text: &str) {
+        self.pass_own();
         let line = match self.own.insert(text) {
             Ok(line) => line,
             Err(failed) => {

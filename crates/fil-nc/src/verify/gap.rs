@@ -41,7 +41,8 @@ impl Gap {
         last: [f64; 2],
     ) -> Gap {
         let forward = &settings.forward;
-        let slack = &beside_the_pole(settings, slack, at, pose);
+        let widened = forward.has_rotary().then(|| beside_the_pole(settings, slack, at, pose));
+        let slack = widened.as_ref().unwrap_or(slack);
         let stays = |n: usize| (last[n] - at.rotary[n]).abs() <= slack.rotary[n];
         let kept = [0, 1].map(|n| if stays(n) { last[n] } else { at.rotary[n] });
         let gap = Gap::at(settings, slack, at, pose, forward.refine(kept, pose.axis));
@@ -57,9 +58,10 @@ impl Gap {
     fn at(settings: &Settings, slack: &Slack, at: &Position, pose: &Pose, exact: [f64; 2]) -> Gap {
         let forward = &settings.forward;
         let stands = forward.pose(at);
-        let axis = stands.axis.angle(&pose.axis).to_degrees();
+        let same = stands.axis == pose.axis && exact == at.rotary;
+        let axis = if same { 0.0 } else { stands.axis.angle(&pose.axis).to_degrees() };
         let near = |n: usize| (exact[n] - at.rotary[n]).abs() <= slack.rotary[n];
-        let reached = (forward.axis(exact) - pose.axis).norm() < REACHED;
+        let reached = same || (forward.axis(exact) - pose.axis).norm() < REACHED;
         let solved = reached && near(0) && near(1);
         let mut gap = Gap {
             linear: [0.0; 3],

@@ -148,7 +148,7 @@ impl<C: Steps> Walk<'_, C> {
             reached = depth;
         }
         self.bottom_dwell(cl_line, hole)?;
-        self.retract(cl_line, hole, levels.clear, (rest, turning))
+        self.leave(cl_line, hole, levels.clear, (rest, turning))
     }
 
     /// The motions over the hole, down to the R level. Gives the level to return to.
@@ -313,7 +313,7 @@ impl<C: Steps> Walk<'_, C> {
         }
     }
 
-    fn retract(
+    fn leave(
         &mut self,
         cl_line: u32,
         hole: &Hole,

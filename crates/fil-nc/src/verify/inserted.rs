@@ -1,10 +1,24 @@
 //! What a block of INSERT switches, the CL file asks for.
 
+use super::ahead::Steps;
 use super::modes::Expected;
 use super::settings::{Due, Settings};
+use super::walk::Walk;
 use crate::dialect::{Auxiliary, Function};
 use crate::motion::{Compensation, Speed, Spindle};
 use crate::text::{Block, read_block};
+
+impl<C: Steps> Walk<'_, C> {
+    /// The auxiliary functions among words of the user's own must be there.
+    pub(super) fn ask_words(&mut self, cl_line: u32, text: &str) {
+        let Ok(block) = read_block(text.as_bytes(), "POSTN", 1) else { return };
+        for word in block.words.iter().filter(|word| word.letter == b'M') {
+            let code = word.number.digits;
+            let Auxiliary::Other(code) = self.settings.dialect.auxiliary(code) else { continue };
+            self.ask_auxiliary(cl_line, Some(code));
+        }
+    }
+}
 
 impl Expected {
     /// Takes up what the words of a text switch; of a text that can't be read the program
@@ -80,5 +94,8 @@ impl Expected {
     /// A tool that a block of INSERT or of the settings changes to.
     pub(super) fn insert_tool(&mut self, tool: u32) {
         self.tool = Some(tool);
+        self.loaded = Some(tool);
+        // A post does not trust it: LOADTL of the same tool changes it again.
+        self.loaded_offset = None;
     }
 }

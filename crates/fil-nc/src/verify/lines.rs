@@ -87,8 +87,10 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn check_part(&mut self, cl_line: u32, part: &Move, end: &Position) {
         let splits = self.splits_rapids;
         let forward = &self.settings.forward;
-        let at = forward.restated(&self.at, end.tip_control).linear;
-        let to = forward.restated(&part.to, end.tip_control).linear;
+        // Each part as its own X, Y, Z are meant.
+        let at = forward.restated(&self.at, part.to.tip_control).linear;
+        let end = forward.restated(end, part.to.tip_control);
+        let to = part.to.linear;
         let known: [bool; 3] = std::array::from_fn(|n| self.known[n] && part.known[n]);
         let same = |a: f64, b: f64| (a - b).abs() <= STILL;
         let moved = |n: usize| !same(to[n], at[n]);
@@ -124,7 +126,7 @@ impl<C: Steps> Walk<'_, C> {
         match self.next_move() {
             Some(found) if is_line(&found, course) && self.reaches(&found, pose) => {
                 self.check_rate(cl_line, self.at, &found, rate);
-                self.look_between(cl_line, &found, &Asked::line(self.begins(), *pose));
+                self.look_between(cl_line, &found, |walk| Asked::line(walk.begins(), *pose));
                 self.take(cl_line, &found);
                 self.measure(&found, pose);
                 self.next += 1;

@@ -1,20 +1,69 @@
 //! Motions whose end the settings of the machine give or correct.
 
 use super::ahead::Steps;
+use super::lines::RAPID_PARTS;
+use super::report::FindingKind;
+use super::say::short;
 use super::walk::Walk;
-use super::wanted::{Effect, Step, Wanted};
+use super::wanted::{Step, Wanted};
+use crate::motion::{Course, Event, Position};
 
 impl<C: Steps> Walk<'_, C> {
-    /// A rapid to a position of the linear axes, mm. With rotary axes it is not followed.
-    pub(super) fn go_to_machine(&mut self, cl_line: u32, to: [Option<f64>; 3], what: &str) {
-        let mut pose = self.settings.forward.pose(&self.at);
-        if self.settings.forward.has_rotary() {
-            return self.unknown(cl_line, what, Effect::Path);
+    /// A rapid to a position of the linear axes, mm; the others stay, and the rotary axes.
+    pub(super) fn go_to_machine(&mut self, cl_line: u32, to: [Option<f64>; 3]) {
+        self.report.compared += 1;
+        self.initial = None;
+        self.pass(cl_line);
+        let count = self.parts_to_machine(to);
+        let Some(count) = count else {
+            let axes = ["X", "Y", "Z"].iter().zip(to);
+            let axes = axes.filter_map(|(axis, value)| Some(format!(" {axis}{}", short(value?))));
+            let message = format!("no rapid to{}", axes.collect::<String>());
+            return self.find(FindingKind::Missing, Some(cl_line), None, message);
+        };
+        let last = self.next + count;
+        let end = last.checked_sub(1).and_then(|at| self.nc.get(at));
+        while self.next < last {
+            if let (Some(part), Some(Event::Move(end))) = (self.next_move(), &end) {
+                self.check_part(cl_line, &part, &end.to);
+                self.take(cl_line, &part);
+            }
+            self.next += 1;
         }
-        for (n, value) in to.into_iter().enumerate() {
-            pose.tip[n] = value.unwrap_or(pose.tip[n]);
+        self.report.matched += 1;
+        self.settle(cl_line);
+        self.watch.stand(None);
+    }
+
+    /// How many rapids reach a position of the linear axes; none where the axes stand there.
+    fn parts_to_machine(&self, to: [Option<f64>; 3]) -> Option<usize> {
+        let stands = self.settings.forward.restated(&self.at, false);
+        let reached = |found: &Position, known: &[bool; 5]| {
+            let at = self.settings.forward.restated(found, false);
+            let near = |a: f64, b: f64, n: usize| (a - b).abs() <= self.slack.linear[n];
+            let arrives = |n: usize| match to[n] {
+                Some(value) => known[n] && near(at.linear[n], value, n),
+                None => !(known[n] && self.known[n]) || near(at.linear[n], stands.linear[n], n),
+            };
+            (0..3).all(arrives) && at.rotary == stands.rotary
+        };
+        if reached(&self.at, &self.known) {
+            return Some(0);
         }
-        self.motion(&Step { line: cl_line, what: Wanted::Rapid(pose) });
+        let mut rapids = self.nc.from(self.next).take(RAPID_PARTS).map_while(|event| match event {
+            Event::Move(part) if part.course == Course::Rapid && !part.in_cycle => Some(part),
+            _ => None,
+        });
+        rapids.position(|part| reached(&part.to, &part.known)).map(|at| at + 1)
+    }
+
+    /// RETRCT: up to the level of the settings, never down.
+    pub(super) fn retract(&mut self, cl_line: u32) {
+        let Some(level) = self.settings.retract_level(self.metric) else { return };
+        let stands = self.settings.forward.restated(&self.at, false).linear[2];
+        if !(self.known[2] && stands >= level) {
+            self.go_to_machine(cl_line, [None, None, Some(level)]);
+        }
     }
 
     /// An arc as the settings of the machine correct it; `None` where they leave it.

@@ -21,6 +21,7 @@ mod inserted;
 mod lines;
 mod machine_ends;
 mod modes;
+mod modes_said;
 mod parts;
 mod programs;
 mod rate;
@@ -43,6 +44,7 @@ use fil_machine::{Commons, Unit};
 
 use crate::errors::NcCode;
 use crate::events::Events;
+use crate::motion::work_offset;
 use crate::source::Source;
 use between::Watch;
 use blocks::OwnBlocks;
@@ -104,7 +106,8 @@ pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
     let own = OwnBlocks::new(nc, &settings.own_blocks(), &settings.blocks_around_changes())?;
     let watch = Watch::new(check.allowed.between);
     let mut walk = walk::Walk::new(path, check.events, own, &settings, watch);
-    walk.modes.allow_offsets(check.allowed.offsets);
+    let of_machine = check.commons.allowed_offsets().iter().filter_map(|name| work_offset(name));
+    walk.modes.allow_offsets(check.allowed.offsets.into_iter().chain(of_machine).collect());
     let report = walk.all()?;
     refuse_another_part(&report)?;
     Ok(report)

@@ -3,11 +3,13 @@
 //! A post may let a word wait for a motion of certain axes. Until then both the
 //! state before and the state asked for are right; after it only the latter is.
 
+use super::modes_said::{
+    name_of_fixture, said_of_compensation, said_of_offset, said_of_speed, said_of_spindle,
+};
 use super::report::FindingKind;
-use super::say::short;
 use super::settings::{Due, Settings, Slack};
 use super::wanted::{CoolantKind, Effect, Wanted};
-use crate::motion::{Compensation, Modes, Speed, Spindle, WORD_OFFSETS};
+use crate::motion::{Compensation, Modes, Speed, Spindle};
 
 /// Allowed deviation of an oriented spindle, degrees.
 const ANGLE: f64 = 6e-4;
@@ -77,10 +79,10 @@ enum Doing {
 #[derive(Clone, Debug)]
 pub(super) struct Expected {
     pub(super) tool: Option<u32>,
-    /// The tool that LOADTL named last.
-    loaded: Option<u32>,
-    /// The offset that it named.
-    loaded_offset: Option<u32>,
+    /// The tool that LOADTL or a text named last.
+    pub(super) loaded: Option<u32>,
+    /// The offset that LOADTL named.
+    pub(super) loaded_offset: Option<u32>,
     pub(super) offset: Lag<Option<u32>>,
     /// The side, and the number of the offset.
     pub(super) compensation: Lag<(Compensation, Option<u32>)>,
@@ -198,7 +200,9 @@ impl Expected {
                 self.compensation.set((*side, offset), settings.compensation_due());
             }
             Wanted::Stop { .. } | Wanted::End(_) => self.flush(),
-            Wanted::Insert(text) => self.insert(text, settings),
+            Wanted::Insert(text) | Wanted::Words(text) | Wanted::Repeated(text) => {
+                self.insert(text, settings);
+            }
             Wanted::WorkOffset(number) => {
                 self.fixture = settings.work_offset(*number).map(Some);
                 self.asks_fixture = true;
@@ -441,62 +445,6 @@ fn same_speed(must: Speed, found: Option<Speed>, slack: &Slack) -> bool {
             (must - found).abs() <= slack.surface
         }
         _ => false,
-    }
-}
-
-fn said_of_speed(speed: Speed) -> String {
-    match speed {
-        Speed::Turns(speed) => format!("{} turns/min", short(speed)),
-        Speed::Surface(speed) => format!("a surface speed of {} m/min", short(speed)),
-    }
-}
-
-fn said_of_offset(found: Option<u32>, must: Option<u32>) -> String {
-    match (found, must) {
-        (Some(found), Some(must)) => format!("length offset {found} is on, it should be {must}"),
-        (Some(found), None) => format!("length offset {found} is on, none is asked for"),
-        (None, Some(must)) => format!("no length offset is on, it should be {must}"),
-        (None, None) => String::new(),
-    }
-}
-
-type Side = (Compensation, Option<u32>);
-
-fn said_of_compensation((found, offset): Side, (must, must_offset): Side) -> String {
-    let side = |side| match side {
-        Compensation::Off => "off",
-        Compensation::Left => "left",
-        Compensation::Right => "right",
-    };
-    if must == Compensation::Off {
-        return format!("cutter compensation {} is left on", side(found));
-    }
-    let with = |offset: Option<u32>| offset.map_or(String::new(), |n| format!(" with offset {n}"));
-    let (found, must) = (side(found), side(must));
-    let (found_offset, must_offset) = (with(offset), with(must_offset));
-    format!("cutter compensation is {found}{found_offset}, it should be {must}{must_offset}")
-}
-
-fn said_of_spindle(found: Spindle, must: Spindle, cuts: bool) -> String {
-    let turn = |turn| match turn {
-        Spindle::Off => "off",
-        Spindle::Clockwise => "clockwise",
-        Spindle::Counterclockwise => "counterclockwise",
-    };
-    if found == Spindle::Off && cuts {
-        return "the spindle is off while the tool cuts".to_string();
-    }
-    format!("the spindle is {}, it should be {}", turn(found), turn(must))
-}
-
-fn name_of_fixture(fixture: u32) -> String {
-    match fixture {
-        0..1000 => format!("G{fixture}"),
-        1000..WORD_OFFSETS => {
-            let (tenths, number) = (fixture / 1000, fixture % 1000);
-            format!("G{}.{} P{number}", tenths / 10, tenths % 10)
-        }
-        _ => format!("number {}", fixture - WORD_OFFSETS),
     }
 }
 

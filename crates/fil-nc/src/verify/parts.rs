@@ -70,10 +70,10 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     fn take_parts(&mut self, cl_line: u32, parts: &Parts, pose: &Pose, rate: Option<Rate>) {
-        let asked = Asked::line(self.begins(), *pose);
+        let from = self.begins();
         for part in &parts.blocks {
             self.check_rate(cl_line, self.at, part, rate);
-            self.look_between(cl_line, part, &asked);
+            self.look_between(cl_line, part, |_| Asked::line(from, *pose));
             self.take(cl_line, part);
         }
         if let Some(last) = parts.blocks.last() {

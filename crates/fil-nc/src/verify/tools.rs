@@ -10,6 +10,8 @@ use crate::motion::{Course, Event, Position};
 impl<C: Steps> Walk<'_, C> {
     pub(super) fn tool(&mut self, cl_line: u32, number: u32, offset: u32) {
         self.initial = None;
+        // A text may have changed the tool.
+        self.pass(cl_line);
         let same = self.modes.tool() == Some(number)
             && self.modes.loaded_offset() == Some(offset)
             && self.settings.tool_is_modal();

@@ -159,16 +159,8 @@ impl<'a, C: Steps> Walk<'a, C> {
                 self.slack = self.settings.slack(*metric);
                 self.travel = self.settings.travel(*metric);
             }
-            Wanted::Home => {
-                self.go_to_machine(step.line, self.settings.home(self.metric), "GOHOME")
-            }
-            Wanted::Retract => {
-                let level = self.settings.retract_level(self.metric);
-                let is_above = level.is_some_and(|z| self.known[2] && self.at.linear[2] >= z);
-                if level.is_some() && !is_above {
-                    self.go_to_machine(step.line, [None, None, level], "RETRCT");
-                }
-            }
+            Wanted::Home => self.go_to_machine(step.line, self.settings.home(self.metric)),
+            Wanted::Retract => self.retract(step.line),
             Wanted::Cutter(diameter) => self.cutter = Some(*diameter),
             Wanted::XScale(scale) => self.scale_x(*scale),
             Wanted::CycleEnd => self.end_cycle(step.line),
@@ -185,6 +177,7 @@ impl<'a, C: Steps> Walk<'a, C> {
                 self.dwell(step.line, seconds, Some(*turns));
             }
             Wanted::Insert(text) => self.insert(step.line, text),
+            Wanted::Words(text) => self.ask_words(step.line, text),
             Wanted::WholeThread(thread) => self.whole_thread(step.line, thread),
             Wanted::SideSpindle(turn) => {
                 self.ask_auxiliary(step.line, self.settings.side_spindle_code(*turn));
@@ -275,8 +268,8 @@ impl<'a, C: Steps> Walk<'a, C> {
     /// blocks of the settings, ways of no length.
     pub(super) fn pass(&mut self, cl_line: u32) {
         loop {
+            self.pass_own();
             match self.nc.get(self.next) {
-                Some(Event::Move(found)) if self.own.has(found.line) => self.stand(&found),
                 Some(Event::Move(found)) if found.course == Course::Machine => {
                     self.stand(&found);
                     let message = "goes to a point of the machine that neither the CL file nor the settings ask for";
@@ -291,11 +284,21 @@ impl<'a, C: Steps> Walk<'a, C> {
                     self.take(cl_line, &found);
                     self.next += 1;
                 }
-                Some(Event::Dwell { line, .. }) if self.own.has(line) => self.next += 1,
-                Some(Event::ToolChange { line, tool, .. }) if self.own.has(line) => {
+                _ => return,
+            }
+        }
+    }
+
+    /// Passes over events of blocks of the settings and of INSERT.
+    pub(super) fn pass_own(&mut self) {
+        while let Some(event) = self.nc.get(self.next).filter(|event| self.own.has(event.line())) {
+            match event {
+                Event::Move(found) => self.stand(&found),
+                Event::ToolChange { tool, .. } => {
                     self.modes.insert_tool(tool);
                     self.next += 1;
                 }
+                Event::Dwell { .. } => self.next += 1,
                 _ => return,
             }
         }

@@ -94,6 +94,10 @@ pub enum Wanted {
     Auxiliary(u32),
     /// A line of the tape, as it stands.
     Insert(String),
+    /// Words of the user's own that the CL file says, in a block of their own.
+    Words(String),
+    /// Words of the user's own in each motion that follows.
+    Repeated(String),
     /// The end of the program.
     End(End),
     /// Something whose effect on the machine is not known from the CL file.
@@ -260,6 +264,7 @@ impl Wanted {
                     | Wanted::Clamp(_)
                     | Wanted::Auxiliary(_)
                     | Wanted::Insert(_)
+                    | Wanted::Words(_)
             )
     }
 

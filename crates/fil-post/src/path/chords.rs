@@ -5,12 +5,17 @@ use fil_machine::locations as loc;
 
 use super::arc::flat;
 use super::{linear, linearization};
+use crate::errors::PostCode;
 use crate::operation::{Arc, MotionKind, Target};
 use crate::post::Post;
 use nalgebra::{Point3, Vector3};
 
 /// Smallest angle of a chord, degrees.
 const FINEST: f64 = 0.05;
+
+/// Most lines of one CIRCLE, all its turns taken together: they are one record, which is kept
+/// until it is whole.
+const MOST_LINES: u32 = 100_000;
 
 /// Chord tolerance where the machine names none, mm.
 const TOLERANCE: f64 = 0.005;
@@ -28,6 +33,10 @@ pub fn carry_out(
 ) -> Result<()> {
     let chords = Chords::new(post, arc, start, sweep, target);
     let count = chords.count(post)?;
+    if count > MOST_LINES {
+        let message = format!("the arc with all its turns is {count} lines, {MOST_LINES} at most");
+        return PostCode::TooManyParts.err(message);
+    }
     for number in 1..count {
         let point = chords.at(f64::from(number) / f64::from(count));
         linear::carry_out(post, point, MotionKind::Feed)?;

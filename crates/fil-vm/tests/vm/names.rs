@@ -174,3 +174,23 @@ fn what_two_includes_bring_is_reported_once() {
     let symbol = named(&analysis.resolution, SymbolKind::Unknown, "NOSUCH");
     assert_eq!(symbol.uses.len(), 1);
 }
+
+/// Each file includes the next one twice: a thousand bytes in forty files would be 2 to the
+/// 40 statements.
+#[test]
+fn files_that_multiply_are_refused_before_they_are_read_out() {
+    let files = [FilFile { name: "0", text: "INCLUD/1\nINCLUD/1\nFINI\n" }];
+    let mut asked = 0;
+    let mut loader = |_: &str, name: &str| {
+        asked += 1;
+        let next = name.parse::<u32>().map_err(|error| error.to_string())? + 1;
+        let text =
+            if next < 40 { format!("INCLUD/{next}\nINCLUD/{next}\n") } else { "A=1\n".into() };
+        Ok(Included { name: name.into(), text })
+    };
+    let options = LoadOptions { loader: Some(&mut loader), ..LoadOptions::default() };
+    let analysis = analyze(&files, &mut Vocabulary::new(), options);
+    let refused = analysis.diags.iter().find(|diag| diag.code.number == 214).expect("refused");
+    assert!(refused.message.contains("10000 files"), "{}", refused.message);
+    assert!(asked < 1000, "{asked} files were read");
+}

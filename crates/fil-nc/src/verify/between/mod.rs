@@ -217,14 +217,20 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     /// Looks how far a motion from where the axes stand leaves what is asked for.
-    pub(super) fn look_between(&mut self, cl_line: u32, found: &Move, asked: &Asked) {
+    pub(super) fn look_between(
+        &mut self,
+        cl_line: u32,
+        found: &Move,
+        asked: impl FnOnce(&Self) -> Asked,
+    ) {
         let known = self.is_known(&self.known) && self.is_known(&found.known);
         if !known || !turns(&self.settings.forward, &self.at, &found.to) {
             return;
         }
+        let asked = asked(self);
         let between = self.report.between.get_or_insert_default();
         let forward = &self.settings.forward;
-        let off = between.add(forward, &self.at, found, asked, self.watch.limit);
+        let off = between.add(forward, &self.at, found, &asked, self.watch.limit);
         if let Some(limit) = self.watch.limit.filter(|limit| off > *limit) {
             let message = said(off, limit);
             self.find(FindingKind::Between, Some(cl_line), Some(found.line), message);

@@ -4,6 +4,7 @@
 //! frame after TRANS and the input translation, in mm. A statement whose effect is
 //! not known from the CL file alone becomes [`Wanted::Unknown`].
 
+mod own_words;
 mod path;
 mod thread;
 
@@ -25,9 +26,6 @@ use crate::motion::{INCH, Rate};
 
 /// What X is multiplied by when it is a diameter.
 const DIAMETER: f64 = 2.0;
-
-/// Preparatory functions of work offsets on every control.
-const WORK_OFFSETS: [f64; 6] = [54.0, 55.0, 56.0, 57.0, 58.0, 59.0];
 
 /// Statements that move the tool or the frame by rules that are not public.
 const ENDS_THE_PATH: [WordId; 11] = [
@@ -202,6 +200,11 @@ impl<'r> ClPath<'r> {
             let line = self.record.line;
             self.require_unit()?;
             self.refuse_other_unit()?;
+            if self.is_plain_motion() {
+                let motion = self.state.motion(&self.record, &self.vocabulary);
+                self.ready.extend(motion.map(|what| Step { line, what }));
+                continue;
+            }
             let mut steps = self.state.take(&self.record, &self.vocabulary);
             if self.record.kind == kind::POST && self.record.major == w::OPSKIP {
                 self.skips = self.record.has(w::ON);
@@ -216,22 +219,17 @@ impl<'r> ClPath<'r> {
     }
 }
 
-/// What words of the user's own, neither M nor S, can do: only the number of a work offset's
-/// function can choose one.
-fn of_own_words(record: &Record) -> Effect {
-    let may_choose = |number: &f64| (WORK_OFFSETS[0]..60.0).contains(number);
-    match numbers(record).iter().any(may_choose) {
-        true => Effect::WordsOrOffset,
-        false => Effect::Words,
-    }
-}
-
 /// The unit of a UNITS statement.
 fn said(record: &Record) -> Unit {
     if record.has(w::INCHES) { Unit::Inch } else { Unit::Mm }
 }
 
 impl ClPath<'_> {
+    /// A motion that nothing leaves out: most records are.
+    fn is_plain_motion(&self) -> bool {
+        self.record.kind == kind::MOTION && !self.record.inert && !(self.leaves_out && self.skips)
+    }
+
     /// Refuses lengths and feeds before anything has said the unit.
     fn require_unit(&self) -> Result<(), Box<Diag>> {
         let record = &self.record;
@@ -286,7 +284,7 @@ impl State {
             return Vec::new();
         }
         match record.kind {
-            kind::MOTION => self.motion(record, vocabulary),
+            kind::MOTION => self.motion(record, vocabulary).into_iter().collect(),
             kind::SURFACE => {
                 self.circle = record.circle().map(|circle| Waiting {
                     circle,
@@ -346,8 +344,10 @@ impl State {
             w::GOHOME if record.data.is_empty() => self.go_to_machine(Wanted::Home),
             w::RETRCT if record.data.is_empty() => self.go_to_machine(Wanted::Retract),
             w::GOHOME => match numbers(record)[..] {
-                [x, y, z] => self.line_to(Point3::new(x, y, z), self.axis),
-                [x, y, z, i, j, k] => self.line_to(Point3::new(x, y, z), Vector3::new(i, j, k)),
+                [x, y, z] => vec![self.line_to(Point3::new(x, y, z), self.axis)],
+                [x, y, z, i, j, k] => {
+                    vec![self.line_to(Point3::new(x, y, z), Vector3::new(i, j, k))]
+                }
                 _ => unknown(Effect::Path),
             },
             w::LOADTL | w::LOAD | w::TURRET => {
@@ -369,8 +369,10 @@ impl State {
             w::MODE if record.has(w::TURN) => vec![Wanted::XScale(DIAMETER)],
             w::MODE if record.has(w::MILL) => vec![Wanted::XScale(1.0)],
             w::PREFUN => match numbers(record)[..] {
-                [code] if WORK_OFFSETS.contains(&code) => vec![Wanted::Fixture(code as u32)],
-                _ => unknown(of_own_words(record)),
+                [code] if own_words::WORK_OFFSETS.contains(&code) => {
+                    vec![Wanted::Fixture(code as u32)]
+                }
+                _ => unknown(own_words::effect(record)),
             },
             w::SET if record.has(w::OFSETL) => {
                 vec![Wanted::WorkOffset(numbers(record).first().copied())]
@@ -391,12 +393,13 @@ impl State {
             }
             major if ENDS_THE_PATH.contains(&major) => unknown(Effect::Path),
             major if OWN_WORDS.contains(&major) => {
-                let is_m_or_s = |word: &Word| match word {
-                    Word::Minor(id) => matches!(vocabulary.name(*id), "M" | "S"),
-                    _ => false,
+                let (effect, words) = match major {
+                    w::POSTN => own_words::once(record, vocabulary),
+                    _ => own_words::repeated(record, vocabulary),
                 };
-                let any = record.data.iter().any(is_m_or_s);
-                unknown(if any { Effect::AnyWords } else { of_own_words(record) })
+                let mut wanted = unknown(effect);
+                wanted.push(words);
+                wanted
             }
             _ => Vec::new(),
         }

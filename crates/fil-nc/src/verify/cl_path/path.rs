@@ -17,50 +17,57 @@ const SAME_POINT: f64 = 1e-6;
 const CLOSES: f64 = 1e-3;
 
 impl State {
-    pub(super) fn motion(&mut self, record: &Record, vocabulary: &Vocabulary) -> Vec<Wanted> {
+    pub(super) fn motion(&mut self, record: &Record, vocabulary: &Vocabulary) -> Option<Wanted> {
         let axis = record.axis().map_or(self.axis, Vector3::from);
-        let point = match (record.sub, record.point(), &numbers(record)[..]) {
-            (motion::GODLTA, _, [along]) => self.point.map(|point| point + self.axis * *along),
-            (motion::GODLTA, Some(by), _) => self.point.map(|point| point + Vector3::from(by)),
-            (_, Some(point), _) => Some(Point3::from(point)),
-            _ => None,
+        let point = match record.point() {
+            by if record.sub == motion::GODLTA => self.point_beside(record, by),
+            point => point.map(Point3::from),
         };
         let Some(point) = point else {
             let what = statement(record, vocabulary);
-            return vec![Wanted::Unknown { what, effect: Effect::Path }];
+            return Some(Wanted::Unknown { what, effect: Effect::Path });
         };
         if record.sub == motion::FROM {
             self.point = Some(point);
             self.axis = axis;
-            return Vec::new();
+            return None;
         }
         if record.sub == motion::GODLTA {
-            return self.line_to(point, axis);
+            return Some(self.line_to(point, axis));
         }
         if self.awaited.is_some() && !self.rapid {
             self.axis = axis;
             return self.point_of_thread(point);
         }
-        match (self.circle.take(), self.cycle) {
+        Some(match (self.circle.take(), self.cycle) {
             (Some(waiting), _) => self.arc_to(&waiting, point, axis),
             (None, Some(cycle)) if !self.rapid => {
                 self.point = Some(point);
                 self.axis = axis;
-                vec![Wanted::Hole(self.hole(&cycle, self.pose(point, axis)))]
+                Wanted::Hole(self.hole(&cycle, self.pose(point, axis)))
             }
             _ => self.line_to(point, axis),
+        })
+    }
+
+    /// Where GODLTA leads from the last point: along the tool axis, or by a vector.
+    fn point_beside(&self, record: &Record, by: Option<[f64; 3]>) -> Option<Point3<f64>> {
+        let point = self.point?;
+        match numbers(record)[..] {
+            [along] => Some(point + self.axis * along),
+            _ => by.map(|by| point + Vector3::from(by)),
         }
     }
 
-    pub(super) fn line_to(&mut self, point: Point3<f64>, axis: Vector3<f64>) -> Vec<Wanted> {
+    pub(super) fn line_to(&mut self, point: Point3<f64>, axis: Vector3<f64>) -> Wanted {
         self.point = Some(point);
         self.axis = axis;
         let pose = self.pose(point, axis);
-        vec![match self.thread {
+        match self.thread {
             _ if std::mem::take(&mut self.rapid) => Wanted::Rapid(pose),
             Some(pitch) => Wanted::Thread(pose, pitch),
             None => Wanted::Feed(pose, self.rate),
-        }]
+        }
     }
 
     fn hole(&self, cycle: &Cycle, start: Pose) -> Hole {
@@ -80,7 +87,7 @@ impl State {
 
     /// The arc by the right-hand rule from the last point to this one; TIMES are
     /// full turns besides. In a frame that keeps no circles it is not followed.
-    fn arc_to(&mut self, waiting: &Waiting, end: Point3<f64>, axis: Vector3<f64>) -> Vec<Wanted> {
+    fn arc_to(&mut self, waiting: &Waiting, end: Point3<f64>, axis: Vector3<f64>) -> Wanted {
         self.rapid = false;
         let keeps_circles = self.matrix.as_ref().is_none_or(|matrix| {
             let turn = matrix.rows.fixed_columns::<3>(0).into_owned();
@@ -88,11 +95,11 @@ impl State {
         });
         let normal = Vector3::from(waiting.circle.axis);
         let (Some(start), Some(normal)) = (self.point, normal.try_normalize(1e-9)) else {
-            return vec![Wanted::Unknown { what: "CIRCLE".to_string(), effect: Effect::Path }];
+            return Wanted::Unknown { what: "CIRCLE".to_string(), effect: Effect::Path };
         };
         if !keeps_circles {
             let what = "an arc in a frame that makes no circle of it".to_string();
-            return vec![Wanted::Unknown { what, effect: Effect::Path }];
+            return Wanted::Unknown { what, effect: Effect::Path };
         }
         let bare = Arc {
             center: Point3::from(waiting.circle.center),
@@ -104,7 +111,7 @@ impl State {
         let sweep = full_sweep(&bare, waiting.turns);
         self.point = Some(end);
         self.axis = axis;
-        vec![Wanted::Arc(self.in_frame(&Arc { sweep, ..bare }), self.rate)]
+        Wanted::Arc(self.in_frame(&Arc { sweep, ..bare }), self.rate)
     }
 
     /// The arc as TRANS places it; a mirror turns its sense.

@@ -118,15 +118,15 @@ impl State {
     }
 
     /// A point behind OP/THREAD: the first begins the crest, the second ends it.
-    pub(super) fn point_of_thread(&mut self, point: Point3<f64>) -> Vec<Wanted> {
-        let Some(mut awaited) = self.awaited.take() else { return Vec::new() };
+    pub(super) fn point_of_thread(&mut self, point: Point3<f64>) -> Option<Wanted> {
+        let mut awaited = self.awaited.take()?;
         let Some(begin) = awaited.start else {
             awaited.start = Some(point);
             self.awaited = Some(awaited);
-            return Vec::new();
+            return None;
         };
         let open = Wanted::Unknown { what: "OP/THREAD".to_string(), effect: Effect::Path };
-        let Some(from) = awaited.from else { return vec![open] };
+        let Some(from) = awaited.from else { return Some(open) };
         let out = match awaited.on_face {
             true => Vector3::z() * (from.z - begin.z).signum(),
             false if from.x.abs() < begin.x.abs() => inwards(begin, point),
@@ -146,7 +146,7 @@ impl State {
             angle: 0.0,
         };
         self.point = None;
-        vec![Wanted::WholeThread(self.on_machine(&thread))]
+        Some(Wanted::WholeThread(self.on_machine(&thread)))
     }
 
     /// The thread as TRANS places it, in mm; its lead is in mm already.
