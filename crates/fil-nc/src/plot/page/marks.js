@@ -3,7 +3,7 @@
 /** Colours of texts, by the theme. */
 const ink = (name) => getComputedStyle(document.body).getPropertyValue(`--${name}`).trim();
 /** Most labels on the canvas, and most tools that one of them names. */
-const LABELS = 200, TOOLS = 4;
+const LABELS = 60, TOOLS = 4;
 
 /** A way of a direction, with its name at the end; nothing where it leads away from the eye. */
 function arrow(pen, [x, y], way, size, name) {
@@ -44,7 +44,7 @@ function putLabel(pen, taken, label, px, py) {
   for (let ring = 0; ring < 6; ring++) {
     const up = -6 - 15 * ring, down = 16 + 15 * ring;
     for (const [dx, dy] of [[7, up], [7, down], [-width - 7, up], [-width - 7, down]]) {
-      const box = [px + dx, py + dy - 12, px + dx + width, py + dy + 3];
+      const box = [px + dx - 3, py + dy - 12, px + dx + width + 3, py + dy + 3];
       const inside = box[0] > 0 && box[1] > 0 && box[2] < plot.clientWidth && box[3] < plot.clientHeight;
       const free = inside && taken.every((b) => box[2] < b[0] || box[0] > b[2] || box[3] < b[1] || box[1] > b[3]);
       if (!free) continue;
@@ -56,16 +56,20 @@ function putLabel(pen, taken, label, px, py) {
   }
 }
 
+/** Side of a cell whose tool changes are told together, in pixels: rings of so many must not
+ *  hide the path. */
+const CHANGE = path.changes.from.length > 2000 ? 24 : 6;
+
 /** The tool changes in sight, those at one place together. */
 function changesInSight() {
-  const { from, tool } = path.changes, to = projection(), { x, y, z } = path.changes;
+  const { from, tool, x, y, z } = path.changes, to = projection();
   const places = new Map();
   for (let change = 0; change < from.length; change++) {
     if (path.shown < path.total && from[change] >= path.shown) continue;
     const px = to.x + x[change] * to.a + y[change] * to.b + z[change] * to.c;
     const py = to.y + x[change] * to.d + y[change] * to.e + z[change] * to.f;
     if (px < 0 || py < 0 || px > plot.clientWidth || py > plot.clientHeight) continue;
-    const key = Math.round(px) + 16384 * Math.round(py);
+    const key = Math.round(px / CHANGE) + 16384 * Math.round(py / CHANGE);
     const place = places.get(key);
     if (!place) places.set(key, { px, py, tools: [tool[change]], more: 0 });
     else if (place.tools.includes(tool[change])) continue;
@@ -80,12 +84,13 @@ function drawChanges(pen) {
   pen.fillStyle = ink("paper");
   pen.strokeStyle = ink("text");
   pen.lineWidth = 1.2;
+  pen.beginPath();
   for (const { px, py } of places) {
-    pen.beginPath();
+    pen.moveTo(px + 4, py);
     pen.arc(px, py, 4, 0, 2 * Math.PI);
-    pen.fill();
-    pen.stroke();
   }
+  pen.fill();
+  pen.stroke();
   pen.font = "13px sans-serif";
   pen.fillStyle = ink("text");
   pen.strokeStyle = ink("paper");
