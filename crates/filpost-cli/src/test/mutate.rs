@@ -77,7 +77,8 @@ pub fn tell(done: &[Done], programs: &Programs) -> Result<(), Error> {
 }
 
 fn end_of(mutant: &Mutant, name: &str, fil: &str, cases: &[&Passed]) -> End {
-    let runs = |case: &&&Passed| mutant.drops_section || case.coverage.has_run(name, mutant.line);
+    let runs =
+        |case: &&&Passed| mutant.drops_section || case.coverage.has_run(name, mutant.statement);
     let mut cases = cases.iter().filter(runs).peekable();
     if cases.peek().is_none() {
         return End::NeverRun;

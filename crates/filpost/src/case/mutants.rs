@@ -9,6 +9,8 @@ use fil_syntax::tree::{Expr, ExprKind, Item, Span, Stmt, StmtKind};
 pub struct Mutant {
     /// Line of what is changed, 1-based.
     pub line: u32,
+    /// Line that the statement begins in, which runs when the change is reached.
+    pub statement: u32,
     /// The change in words: `the condition XX.GT.5 is turned`.
     pub what: String,
     /// The section itself is taken away; the lines of its body need not have run.
@@ -31,8 +33,8 @@ pub fn mutants(name: &str, text: &str) -> Vec<Mutant> {
     if parsed.diags.iter().any(fil_diag::Diag::is_error) {
         return Vec::new();
     }
-    let mut finder =
-        Finder { text, mark: if text.starts_with('\u{feff}') { 3 } else { 0 }, found: Vec::new() };
+    let mark = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
+    let mut finder = Finder { text, mark, statement: 0, found: Vec::new() };
     for item in &parsed.program.items {
         match item {
             Item::Section(section) => {
@@ -52,15 +54,20 @@ struct Finder<'t> {
     text: &'t str,
     /// Bytes of a byte order mark, which spans do not count.
     mark: usize,
+    /// Line of the statement that is looked at.
+    statement: u32,
     found: Vec<Mutant>,
 }
 
 impl Finder<'_> {
     fn push(&mut self, span: Span, what: String, new: String) {
-        let range = self.range(span);
-        let line = 1 + self.text[..range.start].matches('\n').count() as u32;
-        let drops_section = false;
-        self.found.push(Mutant { line, what, drops_section, range, new });
+        let (range, line) = (self.range(span), self.line(span));
+        let (statement, drops_section) = (self.statement, false);
+        self.found.push(Mutant { line, statement, what, drops_section, range, new });
+    }
+
+    fn line(&self, span: Span) -> u32 {
+        1 + self.text[..self.range(span).start].matches('\n').count() as u32
     }
 
     fn range(&self, span: Span) -> Range<usize> {
@@ -85,9 +92,19 @@ impl Finder<'_> {
     }
 
     fn statement(&mut self, stmt: &Stmt) {
+        let line = self.line(stmt.span);
+        let outer = std::mem::replace(&mut self.statement, line);
+        self.parts(stmt);
+        self.statement = outer;
+    }
+
+    fn parts(&mut self, stmt: &Stmt) {
         match &stmt.kind {
             StmtKind::If { arms, otherwise } => {
-                for (condition, body) in arms {
+                for (index, (condition, body)) in arms.iter().enumerate() {
+                    if index > 0 {
+                        self.statement = self.line(condition.span);
+                    }
                     self.condition(condition);
                     self.statements(body);
                 }
@@ -177,6 +194,15 @@ fn short(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::mutants;
+
+    #[test]
+    fn a_change_in_a_further_line_of_a_statement_is_reached_by_its_first_line() {
+        let text = "AA=1\nIF(AA.EQ.0)THEN\nBB=$\n2\nELSEIF(AA.EQ.$\n1)THEN\nBB=3\nENDIF\nFINI\n";
+        let found = mutants("a.fil", text);
+        let lines: Vec<(u32, u32)> = found.iter().map(|m| (m.line, m.statement)).collect();
+        let expected = [(1, 1), (2, 2), (2, 2), (4, 3), (5, 5), (6, 5), (7, 7)];
+        assert_eq!(lines, expected, "{found:?}");
+    }
 
     #[test]
     fn each_condition_constant_and_section_is_changed_once() {
