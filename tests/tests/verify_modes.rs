@@ -153,3 +153,65 @@ fn a_rounded_dwell_of_klartext_agrees() {
     assert_eq!(check(&nc), Verdict::Agrees, "{nc}");
     assert_eq!(check(&nc.replace("3.438", "3.439")), Verdict::Differs, "{nc}");
 }
+
+/// The same for a SINUMERIK, whose functions have other numbers.
+#[test]
+fn what_a_sinumerik_may_be_in_is_found() {
+    let cases = nc_cases::posted(&root().join("tests/cl/planes.ncl.1"));
+    let case = cases.iter().find(|case| case.name.starts_with("sinumerik")).expect("a program");
+    for (old, mode) in [
+        ("G710 ", "the unit"),
+        ("G90 ", "whether axis words are positions or increments"),
+        ("G94 ", "what F means"),
+        (" G17", "the plane"),
+    ] {
+        assert!(case.nc.contains(old), "{old}:\n{}", case.nc);
+        let report = check(case, &case.nc.replacen(old, "", 1)).expect("a report");
+        let found = |(kind, message): (FindingKind, &str)| {
+            kind == FindingKind::StartMode && message.starts_with(mode)
+        };
+        let mut findings = report.findings.iter();
+        assert!(findings.any(|one| found((one.kind, &one.message))), "{old}{}", listed(&report));
+    }
+}
+
+/// A text of INSERT has its place between two motions.
+#[test]
+fn a_text_of_insert_that_is_moved_is_found() {
+    let post = filpost::Program::builder().ready("fanuc-mill").build().expect("a post");
+    let cl = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\nRAPID\nGOTO / 0, 0, 50\n\
+              INSERT / M50\nFEDRAT / 100, MMPM\nGOTO / 1, 0, 50\nGOTO / 2, 0, 50\nFINI\n";
+    let mut nc = Vec::new();
+    post.run(cl.as_bytes(), &mut nc).expect("a program");
+    let nc = String::from_utf8(nc).expect("ASCII");
+    let check = |nc: &str| back_check::check(post.commons(), cl, nc, Allowed::default());
+    assert_eq!(check(&nc).expect("a report").verdict(), Verdict::Agrees);
+    let mut lines: Vec<&str> = nc.lines().collect();
+    let text = lines.iter().position(|line| line.ends_with("M50")).expect("the text");
+    let moved = lines.remove(text);
+    lines.insert(text + 1, moved);
+    let report = check(&lines.join("\n")).expect("a report");
+    assert!(report.findings[0].message.contains("stands elsewhere"), "{}", listed(&report));
+}
+
+/// The machine may name the work offsets that its programs choose.
+#[test]
+fn a_machine_allows_offsets() {
+    let cl = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\nRAPID\nGOTO / 0, 0, 50\nFINI\n";
+    let machine = |allowed: &str| {
+        let text = format!("base = \"fanuc-mill\"\nverify.allowed_offsets = [{allowed}]\n");
+        filpost::Program::builder().machine("machine.toml", &text).build().expect("a post")
+    };
+    let post = machine("");
+    let mut nc = Vec::new();
+    post.run(cl.as_bytes(), &mut nc).expect("a program");
+    let nc = String::from_utf8(nc).expect("ASCII").replacen("G0 X", "G55 G0 X", 1);
+    let verdict = |allowed: &str| {
+        let post = machine(allowed);
+        let report = back_check::check(post.commons(), cl, &nc, Allowed::default());
+        report.expect("a report").verdict()
+    };
+    assert_eq!(verdict(""), Verdict::Differs);
+    assert_eq!(verdict("'G54'"), Verdict::Differs);
+    assert_eq!(verdict("'G54', 'G55'"), Verdict::Agrees);
+}

@@ -6,12 +6,12 @@ use crate::dialect::Dialect;
 use crate::motion::{Compensation, Course, Event, Move, StartMode};
 
 /// What the words of a block may depend on.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Uses {
     /// An axis word that is a position or an increment.
-    positions: bool,
+    pub(super) positions: bool,
     /// S.
-    speed: bool,
+    pub(super) speed: bool,
 }
 
 impl Uses {

@@ -1,12 +1,13 @@
 //! A block of words: modes first, then tool and spindle, then the motion.
 
 use super::super::Fault;
+use super::super::left_to_control::Uses;
 use super::functions::{Function, function};
 use super::line::{Value, Word};
 use super::{Part, Sinumerik};
 use crate::dialect::{Auxiliary, FeedMode, ToolCall};
 use crate::errors::NcCode;
-use crate::motion::{Event, FOOT, Speed, Spindle};
+use crate::motion::{Event, FOOT, Speed, Spindle, StartMode};
 
 /// A coordinate: its value, and whether it is a position; `None` for what is in force.
 pub(super) type Coordinate = (f64, Option<bool>);
@@ -47,6 +48,10 @@ impl Sinumerik<'_> {
         for word in words {
             self.take(word, &mut said)?;
         }
+        self.uses = Uses {
+            positions: said.axes.iter().flatten().any(|(_, absolute)| absolute.is_none()),
+            speed: said.speed.is_some(),
+        };
         self.modes(&said);
         self.tool(&said)?;
         self.spindle(&said);
@@ -227,25 +232,33 @@ impl Sinumerik<'_> {
                 Function::Arc { ccw } => {
                     state.motion = Some(crate::dialect::Function::Arc { ccw });
                 }
-                Function::Plane(normal) => state.plane = normal,
+                Function::Plane(normal) => {
+                    state.plane = normal;
+                    state.certain.say(StartMode::Plane);
+                }
                 Function::Compensation(side) => {
                     state.modes.compensation = side;
                     state.modes.compensation_offset = None;
                 }
                 Function::Units { metric, feeds } => {
+                    state.certain.say(StartMode::Unit);
                     state.set_metric(metric);
                     if feeds && self.metric_feed != metric {
                         self.metric_feed = metric;
                         state.feed = None;
                     }
                 }
-                Function::Positions { absolute } => state.absolute = absolute,
+                Function::Positions { absolute } => {
+                    state.absolute = absolute;
+                    state.certain.say(StartMode::Positions);
+                }
                 Function::Feed(mode) => self.feed_mode(mode),
                 Function::Surface(on) => {
                     if on != state.surface {
                         state.modes.speed = None;
                     }
                     state.surface = on;
+                    state.certain.say(StartMode::Surface);
                     self.feed_mode(FeedMode::PerTurn);
                 }
                 Function::Offset(code) => self.offset(code),
@@ -259,6 +272,7 @@ impl Sinumerik<'_> {
             self.state.feed = None;
         }
         self.state.feed_mode = mode;
+        self.state.certain.say(StartMode::Feed);
     }
 
     /// Another work offset: where the axes stand in it is not known.

@@ -15,12 +15,13 @@ use std::collections::{BTreeMap, VecDeque};
 
 use fil_diag::{Diag, TextSpan};
 
+use super::left_to_control::Uses;
 use super::program::may_be_skipped;
 use super::state::State;
 use super::{Fault, cant_read};
 use crate::dialect::Dialect;
 use crate::errors::NcCode;
-use crate::motion::Event;
+use crate::motion::{Event, StartMode};
 use crate::source::{Lines, Source};
 use cycle::Call;
 use line::{Value, Word};
@@ -50,6 +51,8 @@ struct Sinumerik<'d> {
     metric_feed: bool,
     /// Names of tools that are no numbers, in the order of their first call.
     tools: Vec<String>,
+    /// What the words of the line may depend on.
+    uses: Uses,
 }
 
 /// The number of the first tool whose name is none.
@@ -66,7 +69,7 @@ pub(super) struct Program<'a> {
 
 impl<'a> Program<'a> {
     pub(super) fn new(source: &'a Source<'a>, dialect: &'a Dialect) -> Self {
-        let control = Sinumerik {
+        let mut control = Sinumerik {
             state: State::new(dialect),
             part: Part::Body,
             parameters: BTreeMap::new(),
@@ -74,7 +77,10 @@ impl<'a> Program<'a> {
             shift: [0.0; 3],
             metric_feed: dialect.metric,
             tools: Vec::new(),
+            uses: Uses::default(),
         };
+        // Cycles say the level they return to.
+        control.state.certain.say(StartMode::ReturnLevel);
         Program { control, lines: Lines::from(source, 0), number: 0, last: 1 }
     }
 
@@ -103,8 +109,13 @@ impl<'a> Program<'a> {
         self.last = self.number;
         self.control.state.line = self.number;
         self.control.state.events.clear();
+        self.control.uses = Uses::default();
         let placed = |fault: Fault| fault.place(name, self.number, text);
         self.control.line(text).map_err(placed)?;
+        if !self.control.state.certain.all() {
+            let uses = self.control.uses;
+            self.control.state.tell_left_to_control(uses);
+        }
         into.extend(self.control.state.events.drain(..));
         Ok(true)
     }
