@@ -203,7 +203,7 @@ fn random_poses_on_random_chains_come_back() {
                 assert!(within, "{angle} {rotary:?}");
             }
             let linear = chain.linear(tip, rotary);
-            let at = Position { linear: linear.coords.into(), rotary, tip_control: false };
+            let at = Position { linear: linear.coords.into(), rotary, ..Position::default() };
             let pose = forward.pose(&at);
             let off = ((pose.tip - tip).norm(), (pose.axis - axis).norm());
             assert!(off.0 < 1e-6 && off.1 < 1e-9, "{off:?} {chain:?} {axis} {rotary:?}");

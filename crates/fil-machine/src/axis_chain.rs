@@ -136,16 +136,7 @@ impl AxisChain {
     pub fn solve(&self, axis: Vector3<f64>, last: [f64; 2]) -> Result<[f64; 2]> {
         let axis = Unit::try_new(axis, 1e-9)
             .ok_or_else(|| MachineCode::ToolAxis.diag("the tool axis has length zero"))?;
-        let solutions = match &self.rotaries {
-            [None, None] => self.fixed(axis, last),
-            [Some(one), None] => single(one, axis, self.tool, last[0])
-                .map(|angle| vec![[angle, last[1]]])
-                .unwrap_or_default(),
-            [None, Some(one)] => single(one, axis, self.tool, last[1])
-                .map(|angle| vec![[last[0], angle]])
-                .unwrap_or_default(),
-            [Some(first), Some(second)] => pair(first, second, axis, self.tool, last),
-        };
+        let solutions = self.all(axis, last);
         if solutions.is_empty() {
             return Err(Box::new(Diag::new(
                 MachineCode::ToolAxis,
@@ -158,6 +149,25 @@ impl AxisChain {
             MachineCode::AxisLimit
                 .diag(format!("rotary positions {} lie outside the limits", angles.join(" and ")))
         })
+    }
+
+    /// All pairs of rotary positions that bring the tool along `axis`, in degrees from -180
+    /// to 180, whatever the limits; an axis that does not turn the tool stays at `last`.
+    pub fn solutions(&self, axis: Vector3<f64>, last: [f64; 2]) -> Vec<[f64; 2]> {
+        Unit::try_new(axis, 1e-9).map(|axis| self.all(axis, last)).unwrap_or_default()
+    }
+
+    fn all(&self, axis: Unit<Vector3<f64>>, last: [f64; 2]) -> Vec<[f64; 2]> {
+        match &self.rotaries {
+            [None, None] => self.fixed(axis, last),
+            [Some(one), None] => single(one, axis, self.tool, last[0])
+                .map(|angle| vec![[angle, last[1]]])
+                .unwrap_or_default(),
+            [None, Some(one)] => single(one, axis, self.tool, last[1])
+                .map(|angle| vec![[last[0], angle]])
+                .unwrap_or_default(),
+            [Some(first), Some(second)] => pair(first, second, axis, self.tool, last),
+        }
     }
 
     /// Machine position of the linear axes for a tool tip in the part frame, in the

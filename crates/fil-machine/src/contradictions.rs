@@ -9,6 +9,7 @@ use crate::address::{Addresses, TapePosition};
 use crate::axis_chain::AxisChain;
 use crate::commons::{Commons, Int};
 use crate::errors::MachineCode;
+use crate::frame_rules;
 use crate::letter::{Letter, letters};
 use crate::locations::{
     self as loc, ControlFamily, CycleReturnCodes, SeqnoAlign, TapeEndOfBlock, TapePartnoText,
@@ -146,6 +147,7 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     dwell_formats(commons, &mut found);
     order_of_axes(commons, &mut found);
     shift_along(commons, &mut found);
+    frame_rules::check(commons, &mut found);
     same_positions(commons, &mut found);
     axis_letters(commons, &mut found);
     word_letters(commons, &mut found);

@@ -17,6 +17,7 @@ pub mod contradictions;
 pub mod cycle_kind;
 pub mod errors;
 pub mod files;
+mod frame_rules;
 pub mod function_code;
 pub mod letter;
 pub mod locations;

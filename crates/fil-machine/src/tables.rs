@@ -10,7 +10,7 @@ use crate::axis_chain::{AxisChain, ROTARY_LETTERS};
 use crate::commons::Commons;
 use crate::errors::MachineCode;
 use crate::letter::letters::F;
-use crate::locations::{self as loc, ControlFamily, RotaryTipOutput};
+use crate::locations::{self as loc, ControlFamily, RotaryFrameOutput, RotaryTipOutput};
 use crate::modes::FeedMode;
 use crate::motion_rules::{FeedFormats, MotionRules};
 use crate::numbering::Numbering;
@@ -32,6 +32,8 @@ pub struct MachineTables {
     pub family: ControlFamily,
     /// Motions are written under tool-tip control.
     pub tip_output: bool,
+    /// Motions under a tool axis that stands still are written in tilted frames.
+    pub frame_output: bool,
     axes: Vec<Axis>,
     /// The travel of X, Y and Z where their words name the tip in the part.
     travel: Vec<Axis>,
@@ -73,6 +75,8 @@ impl MachineTables {
         self.present = AxisSet::LINEAR;
         self.tip_output = self.chain.has_rotary()
             && commons.read(loc::ROTARY_TIP_OUTPUT) == RotaryTipOutput::ToolTipControl;
+        self.frame_output = self.chain.has_rotary()
+            && commons.read(loc::ROTARY_FRAME_OUTPUT) == RotaryFrameOutput::TiltedFrame;
         self.input_shift =
             Vector3::from(loc::INPUT_TRANSLATE.map(|at| commons.dbl_opt(at).unwrap_or(0.0)));
         let along = commons.dbl_opt(loc::INPUT_ALONG_TOOL_AXIS).unwrap_or(0.0);
@@ -101,14 +105,14 @@ impl MachineTables {
             }
         }
         self.travel = self.axes[..3].to_vec();
-        if self.tip_output {
+        if self.tip_output || self.frame_output {
             self.axes[..3].iter_mut().for_each(|axis| axis.limit(None, None));
         }
         Ok(())
     }
 
     /// Refuses a position of the machine outside the travel of X, Y and Z: under tool-tip
-    /// control the words themselves do not say it.
+    /// control and in tilted frames the words themselves do not say it.
     ///
     /// # Errors
     /// It lies outside.

@@ -78,7 +78,7 @@ impl Moving {
 /// tool-tip control no rotary axis bends its path.
 pub fn of_tip(forward: &Forward, from: &Position, to: &Position, arc: Option<&Arc>) -> f64 {
     let mut point = Moving::linear(forward, from, to, arc);
-    if to.tip_control {
+    if to.names_tip() {
         return point.bend;
     }
     let tool = forward.tool();

@@ -91,15 +91,23 @@ impl Forward {
 
     /// Where X, Y, Z of a position count from in the part.
     pub fn frame_of(&self, position: &Position) -> Frame {
-        if position.tip_control { Frame::PART } else { self.frame(position.rotary) }
+        match position.tilt {
+            Some(tilt) => {
+                Frame { turn: *tilt.turn.to_rotation_matrix().matrix(), origin: tilt.origin }
+            }
+            None if position.tip_control => Frame::PART,
+            None => self.frame(position.rotary),
+        }
     }
 
-    /// The same stand with X, Y, Z said under tool-tip control, or without it.
-    pub fn restated(&self, position: &Position, tip_control: bool) -> Position {
-        if position.tip_control == tip_control {
+    /// The same stand with X, Y, Z said as another position says them: under tool-tip
+    /// control, in a tilted frame, or as positions of the axes.
+    pub fn restated(&self, position: &Position, like: &Position) -> Position {
+        let Position { tip_control, tilt, .. } = *like;
+        if position.tip_control == tip_control && position.tilt == tilt {
             return *position;
         }
-        let stands = Position { tip_control, ..*position };
+        let stands = Position { tip_control, tilt, ..*position };
         let linear = self.frame_of(&stands).linear(self.pose(position).tip);
         Position { linear, ..stands }
     }
@@ -107,12 +115,13 @@ impl Forward {
     /// Where the axes stand at a share (0 to 1) of a motion that ends at `to`: X, Y, Z
     /// and the rotary axes go evenly, X, Y, Z as they are meant at the end.
     pub fn along(&self, from: &Position, to: &Position, arc: Option<&Arc>, share: f64) -> Position {
-        let from = self.restated(from, to.tip_control);
+        let from = self.restated(from, to);
         let mix = |a: f64, b: f64| a + (b - a) * share;
         let mut at = Position {
             linear: std::array::from_fn(|axis| mix(from.linear[axis], to.linear[axis])),
             rotary: std::array::from_fn(|axis| mix(from.rotary[axis], to.rotary[axis])),
             tip_control: to.tip_control,
+            tilt: to.tilt,
         };
         if let Some(arc) = arc {
             let [first, second] = arc.plane();
@@ -308,8 +317,12 @@ pub(crate) mod tests {
     fn the_tip_goes_straight_under_tool_tip_control() {
         let table = Some((Carries::Table, [0.0, 0.0, 1.0], [0.0; 3]));
         let forward = Forward { machine: machine([table, None], None) };
-        let at =
-            |linear, turned, tip_control| Position { linear, rotary: [turned, 0.0], tip_control };
+        let at = |linear, turned, tip_control| Position {
+            linear,
+            rotary: [turned, 0.0],
+            tip_control,
+            tilt: None,
+        };
         // Half way from the table at 0 to the table at 90 degrees.
         let tip = |from, to| forward.pose(&forward.along(&from, &to, None, 0.5)).tip.coords;
         let straight = tip(at([10.0, 0.0, 0.0], 0.0, true), at([0.0, 10.0, 0.0], 90.0, true));
@@ -362,14 +375,15 @@ pub(crate) mod tests {
             let rotary = machine.solve(axis, last).unwrap();
             let linear = machine.linear(Point3::from(tip), rotary);
             let forward = Forward { machine };
-            let position = Position { linear: linear.coords.into(), rotary, tip_control: false };
+            let position = Position { linear: linear.coords.into(), rotary, ..Position::default() };
+            let controlled = Position { tip_control: true, ..position };
             let pose = forward.pose(&position);
             prop_assert!(near(pose.tip.coords, Vector3::from(tip), 1e-6), "{:?}", pose);
             prop_assert!(near(pose.axis, axis, 2e-5), "{:?}", pose);
-            let restated = forward.restated(&position, true);
+            let restated = forward.restated(&position, &controlled);
             prop_assert!(near(Vector3::from(restated.linear), Vector3::from(tip), 1e-6));
             prop_assert_eq!(forward.pose(&restated), pose);
-            let back = forward.restated(&restated, false);
+            let back = forward.restated(&restated, &position);
             prop_assert!(near(Vector3::from(back.linear), linear.coords, 1e-9));
         }
 

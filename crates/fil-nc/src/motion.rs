@@ -1,6 +1,8 @@
 //! What an NC program does, as plain data: millimetres, degrees, absolute
 //! positions of the machine's axes.
 
+use nalgebra::{Point3, UnitQuaternion};
+
 /// Millimetres of an inch.
 pub(crate) const INCH: f64 = 25.4;
 
@@ -10,6 +12,15 @@ pub(crate) const FOOT: f64 = 0.3048;
 /// Millimetres of a unit of length.
 pub(crate) fn unit(metric: bool) -> f64 {
     if metric { 1.0 } else { INCH }
+}
+
+/// How a tilted frame lies in the part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tilt {
+    /// Turns directions of the frame into those of the part.
+    pub turn: UnitQuaternion<f64>,
+    /// Its zero in the part, mm.
+    pub origin: Point3<f64>,
 }
 
 /// Where the axes stand.
@@ -22,6 +33,16 @@ pub struct Position {
     /// Tool-tip control is on: X, Y, Z are the tip in the frame of the part, and not
     /// positions of the machine's axes.
     pub tip_control: bool,
+    /// The tilted frame that X, Y, Z are positions of the tip in; no rotary axis turns
+    /// while one is in force.
+    pub tilt: Option<Tilt>,
+}
+
+impl Position {
+    /// X, Y, Z are the tip in a frame of the part, wherever the rotary axes stand.
+    pub fn names_tip(&self) -> bool {
+        self.tip_control || self.tilt.is_some()
+    }
 }
 
 /// How a motion is driven.
@@ -155,6 +176,8 @@ pub struct Modes {
     pub stray_offset: Option<u32>,
     /// Tool-tip control is on.
     pub tip_control: bool,
+    /// A tilted frame is in force.
+    pub tilted: bool,
     /// Cutter compensation.
     pub compensation: Compensation,
     /// Number of its offset; `None` when off or not said.

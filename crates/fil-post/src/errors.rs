@@ -123,6 +123,10 @@ fil_diag::codes! {
         TipControl = 588, Error, "not under tool-tip control",
             "The control needs the length of the tool for it, and ends it only where the machine may turn its tables back to zero.",
             "Put LOADTL before it, or write positions of the axes with rotary.tip_output = 0.";
+        /// Something in a tilted frame.
+        Frame = 589, Error, "not in a tilted frame",
+            "A tilted frame stands still, and the machine turns to it only where the tool is away from the part.",
+            "Put LOADTL, GOHOME or RETRCT before the new tool axis, give home.retract_z, or write positions of the axes with rotary.frame_output = 0.";
         /// Too many functions in a block.
         Crowded = 542, Error, "functions that the control does not take in one block",
             "The control takes one preparatory function in a block, and each of these needs the words that stand there.",

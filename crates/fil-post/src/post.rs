@@ -100,6 +100,14 @@ impl Post {
         self.path.sense_is_chosen = true;
     }
 
+    /// Motions are written under tool-tip control: on a machine that writes tilted frames
+    /// too, those under MULTAX/ON.
+    #[inline]
+    pub(crate) fn writes_tip(&self) -> bool {
+        let tables = &self.control.tables;
+        tables.tip_output && (!tables.frame_output || self.path.multax == Some(true))
+    }
+
     /// The last CL point, in CL units.
     pub fn point(&self) -> Option<[f64; 3]> {
         self.path.point.map(|p| [p.x, p.y, p.z])

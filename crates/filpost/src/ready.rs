@@ -46,6 +46,7 @@ pub const READY: &[ReadyPost] = ready![
     "mitsubishi-mill",
     "okuma-lathe",
     "okuma-mill",
+    "sinumerik-5x",
     "sinumerik-840d",
 ];
 

@@ -87,6 +87,12 @@ pub enum Function {
     TipControl,
     /// The same by the direction of the tool.
     TipControlByDirection,
+    /// A tilted frame begins.
+    Tilt,
+    /// The tool turns along its Z.
+    AlignTool,
+    /// It ends.
+    TiltOff,
     /// Work offset.
     Fixture(u32),
     /// Work offset by a number of its own; the code in tenths.
@@ -128,6 +134,8 @@ pub enum Group {
     Compensation,
     /// Tool length.
     Length,
+    /// Tilted frames.
+    Tilt,
     /// Work offsets.
     Fixture,
     /// Speed modes.
@@ -159,6 +167,7 @@ impl Function {
             Function::Length(_) | Function::TipControl | Function::TipControlByDirection => {
                 Group::Length
             }
+            Function::Tilt | Function::TiltOff => Group::Tilt,
             Function::Fixture(_) | Function::NumberedFixture(_) => Group::Fixture,
             Function::Surface(_) => Group::Surface,
             Function::PathControl => Group::PathControl,
@@ -168,6 +177,7 @@ impl Function {
             | Function::SpeedLimit
             | Function::Dwell
             | Function::MachineFrame
+            | Function::AlignTool
             | Function::Reference => Group::Once,
         }
     }
@@ -303,7 +313,23 @@ impl Functions {
         for (code, function) in STANDARD {
             table.add(Some(*code), *function);
         }
+        if has_rotary && !lathe {
+            table.add_tilts(settings);
+        }
         table
+    }
+
+    /// Tilted frames: those that the settings name, and the usual ones.
+    fn add_tilts(&mut self, settings: &Settings) {
+        let code = |key, usual: i64| settings.code(key).map_or(usual, i64::from);
+        let tilts = [
+            (code("rotary.frame_code", 682), Function::Tilt),
+            (code("rotary.frame_align_code", 531), Function::AlignTool),
+            (code("rotary.frame_cancel_code", 69) * 10, Function::TiltOff),
+        ];
+        for (tenths, function) in tilts {
+            self.0.entry(tenths).or_insert(function);
+        }
     }
 
     /// A code that two settings name stays with the first of them.

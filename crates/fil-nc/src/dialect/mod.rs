@@ -14,6 +14,7 @@ use fil_machine::axis_chain::{AxisChain, Carries};
 use fil_machine::commons::{Commons, EMPTY, Kind};
 use fil_machine::locations::Location;
 
+use crate::forward::Forward;
 use codes::{Auxiliaries, Functions};
 pub use codes::{Auxiliary, CycleKind, FeedMode, Function, Group};
 pub use numbers::{Address, Unreadable};
@@ -114,6 +115,8 @@ pub struct Dialect {
     pub(crate) axis_letters: [u8; 5],
     /// Which of the two rotary axes turn the part.
     pub(crate) tables: [bool; 2],
+    /// How the axes lead the tool.
+    pub(crate) forward: Forward,
     /// Tool-tip control may begin wherever the tables stand.
     pub(crate) tip_control_anywhere: bool,
     /// The machine turns parts: X may be a diameter, threads have cycles.
@@ -252,6 +255,7 @@ impl Dialect {
             scales,
             axis_letters,
             tables,
+            forward: Forward::new(kinematics),
             tip_control_anywhere: settings.code("rotary.tip_control") == Some(1),
             lathe,
             metric: start::metric(&settings),

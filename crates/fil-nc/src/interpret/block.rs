@@ -48,8 +48,12 @@ impl State<'_> {
     }
 
     fn follow(&mut self, words: &mut Words) -> Result<Outcome, Fault> {
+        if self.tilted_block(words)? {
+            return Ok(Outcome::Next);
+        }
         let outcome = self.outcome(words)?;
         self.check_tip_control(words)?;
+        self.check_tilt(words)?;
         let begins = words.peek(Group::Length) == Some(Function::TipControl);
         let (stood, known) = (self.at, self.known);
         let uses = Uses::of(words, self.dialect);

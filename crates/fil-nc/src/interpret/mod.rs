@@ -15,6 +15,7 @@ mod program;
 mod sinumerik;
 mod state;
 mod thread;
+mod tilt;
 mod tip_control;
 mod words;
 

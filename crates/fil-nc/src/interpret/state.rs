@@ -6,7 +6,7 @@ use super::thread::{Pass, Setup};
 use super::words::{AxisWord, Words};
 use crate::dialect::{Certain, Dialect, FeedMode, Function};
 use crate::errors::NcCode;
-use crate::motion::{Arc, Course, Event, Modes, Move, Position, Rate, unit};
+use crate::motion::{Arc, Course, Event, Modes, Move, Position, Rate, Tilt, unit};
 
 /// X, Y, Z in mm, primary and secondary rotary axis in degrees.
 pub(super) type Axes = [f64; 5];
@@ -37,6 +37,10 @@ pub(super) struct State<'d> {
     /// The modes that a block has said, or the machine.
     pub(super) certain: Certain,
     pub(super) cycle: Option<Cycle>,
+    /// The tilted frame in force.
+    pub(super) tilt: Option<Tilt>,
+    /// The tool lies along its Z.
+    pub(super) aligned: bool,
     pub(super) pass: Option<Pass>,
     pub(super) setup: Option<Setup>,
     /// Tool that the next change takes.
@@ -69,6 +73,8 @@ impl<'d> State<'d> {
             return_initial: dialect.return_initial,
             certain: dialect.certain,
             cycle: None,
+            tilt: None,
+            aligned: false,
             pass: None,
             setup: None,
             next_tool: None,
@@ -158,6 +164,7 @@ impl<'d> State<'d> {
                 linear: [x, y, z],
                 rotary: [primary, secondary],
                 tip_control: self.modes.tip_control,
+                tilt: self.tilt,
             },
             arc,
             rate,

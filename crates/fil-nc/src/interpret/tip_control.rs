@@ -127,6 +127,35 @@ impl State<'_> {
         }
     }
 
+    /// Takes up tool-tip control by a statement of its own (`TRAORI`, `M128`), with the
+    /// length that the tool has already.
+    pub(super) fn begin_stated_tip_control(&mut self) -> Result<(), Fault> {
+        let refuse = |why: &str| Err(Fault::new(NcCode::NoMeaning, why));
+        if self.modes.compensation != Compensation::Off {
+            return refuse("tool-tip control begins under cutter compensation");
+        }
+        if self.tilt.is_some() {
+            return refuse("tool-tip control begins in a tilted plane");
+        }
+        for axis in (0..2).filter(|axis| self.dialect.tables[*axis]).map(|axis| axis + 3) {
+            let stands = self.known[axis] && is_zero(self.at[axis]);
+            if !(stands || self.dialect.tip_control_anywhere) {
+                return refuse(
+                    "tool-tip control begins with a table away from 0, where controls differ in \
+                     how the part lies, or where it stands is not known",
+                );
+            }
+        }
+        self.modes.tip_control = true;
+        self.lose_tip();
+        Ok(())
+    }
+
+    /// Refuses what controls take in different ways while tool-tip control is on.
+    pub(super) fn refuse_under_tip_control(&self, what: &str) -> Result<(), Fault> {
+        if self.modes.tip_control { Err(differ(what)) } else { Ok(()) }
+    }
+
     /// Takes up tool-tip control with its length offset.
     pub(super) fn begin_tip_control(&mut self, words: &mut Words) -> Result<(), Fault> {
         let offset = words.take_whole(H)?;

@@ -228,6 +228,11 @@ impl Words {
         self.items.iter().any(plain)
     }
 
+    /// True when a word of a rotary axis is left.
+    pub(super) fn has_rotary(&self, dialect: &Dialect) -> bool {
+        self.items.iter().any(|item| dialect.axis(item.letter).is_some_and(|axis| axis > 2))
+    }
+
     /// Where the first axis word stands that is left.
     pub(super) fn first_axis(&self, dialect: &Dialect) -> Option<&Range<usize>> {
         let axis = self.items.iter().find(|item| dialect.axis(item.letter).is_some());

@@ -31,7 +31,7 @@ pub(super) fn tips(
 
 /// Degrees of the rotary axes that bend the way of the tip.
 fn turned(from: &Position, to: &Position) -> f64 {
-    if to.tip_control {
+    if to.names_tip() {
         return 0.0;
     }
     (0..2).map(|axis| (to.rotary[axis] - from.rotary[axis]).abs()).fold(0.0, f64::max)

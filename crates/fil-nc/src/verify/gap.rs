@@ -12,6 +12,10 @@ const REACHED: f64 = 1.1e-5;
 /// axes lie at 45 degrees to each other, once for each way to lean.
 const LEAN: f64 = 3.0;
 
+/// A tilted frame this near (radians) to the tool axis asked for is the one asked for: its
+/// angles stand on the tape rounded, three of them to half a thousandth of a degree.
+const FRAMED: f64 = 3e-5;
+
 /// The difference between where the axes stand and where they should.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gap {
@@ -63,10 +67,11 @@ impl Gap {
         let near = |n: usize| (exact[n] - at.rotary[n]).abs() <= slack.rotary[n];
         let reached = same || (forward.axis(exact) - pose.axis).norm() < REACHED;
         let solved = reached && near(0) && near(1);
+        let framed = at.tilt.is_some() && (stands.axis - pose.axis).norm() < FRAMED;
         let mut gap = Gap {
             linear: [0.0; 3],
             excess: [false; 3],
-            turned: (!solved).then_some(axis),
+            turned: (!solved && !framed).then_some(axis),
             rotary: if solved { exact } else { at.rotary },
             tip: (stands.tip - pose.tip).norm(),
             axis,
@@ -106,7 +111,7 @@ fn beside_the_pole(settings: &Settings, slack: &Slack, at: &Position, pose: &Pos
     if lean >= REACHED {
         return slack;
     }
-    let lever = if at.tip_control { 0.0 } else { settings.forward.lever(pose.tip) };
+    let lever = if at.names_tip() { 0.0 } else { settings.forward.lever(pose.tip) };
     for n in 0..3 {
         slack.linear[n] += LEAN * lean * lever;
     }

@@ -111,7 +111,10 @@ impl<C: Steps> Walk<'_, C> {
 
     fn levels(&self, hole: &Hole, plunge: &Move) -> Levels {
         let rotary = self.gap(&plunge.to, &hole.start).rotary;
-        let frame = self.hole_frame(rotary, hole);
+        let frame = match plunge.to.tilt {
+            Some(_) => self.settings.forward.frame_of(&plunge.to),
+            None => self.hole_frame(rotary, hole),
+        };
         let above = |by: f64| frame.linear(hole.start.tip + hole.start.axis * by);
         let clear = hole.clear.unwrap_or_else(|| self.settings.cycle_clearance(self.metric));
         Levels { at: above(0.0), clear: above(clear)[2], bottom: above(-hole.depth)[2] }

@@ -95,7 +95,7 @@ impl<C: Steps> Walk<'_, C> {
         }
         let rotary = self.gap(&found.to, &hole.start).rotary;
         let linear = self.hole_frame(rotary, hole).linear(self.tip_over(found, hole));
-        Move { to: Position { linear, rotary, tip_control: false }, ..*found }
+        Move { to: Position { linear, rotary, tip_control: false, tilt: None }, ..*found }
     }
 
     /// The tip of a motion over a hole, with the tool exactly along it.
@@ -110,7 +110,8 @@ impl<C: Steps> Walk<'_, C> {
         if found.to.tip_control {
             return true;
         }
-        if !self.settings.forward.has_rotary() || found.course == Course::Machine {
+        let in_frame = found.to.tilt.is_some();
+        if in_frame || !self.settings.forward.has_rotary() || found.course == Course::Machine {
             return false;
         }
         let rotary = self.gap(&found.to, &hole.start).rotary;

@@ -85,11 +85,14 @@ impl<C: Steps> Walk<'_, C> {
 
     /// Each axis stays or ends in a part of a rapid, and the height is the safe one.
     pub(super) fn check_part(&mut self, cl_line: u32, part: &Move, end: &Position) {
+        if part.to.tilt != end.tilt {
+            return self.check_before_frame(cl_line, part);
+        }
         let splits = self.splits_rapids;
         let forward = &self.settings.forward;
         // Each part as its own X, Y, Z are meant.
-        let at = forward.restated(&self.at, part.to.tip_control).linear;
-        let end = forward.restated(end, part.to.tip_control);
+        let at = forward.restated(&self.at, &part.to).linear;
+        let end = forward.restated(end, &part.to);
         let to = part.to.linear;
         let known: [bool; 3] = std::array::from_fn(|n| self.known[n] && part.known[n]);
         let same = |a: f64, b: f64| (a - b).abs() <= STILL;
@@ -112,6 +115,19 @@ impl<C: Steps> Walk<'_, C> {
         let across = (moved(0) || moved(1)) && !moved(2);
         if across && end.linear[2] > at[2] + STILL {
             say("rapid goes across before Z has gone up".to_string());
+        }
+    }
+
+    /// Before the tilted frame that a rapid ends in the machine may go up and turn.
+    fn check_before_frame(&mut self, cl_line: u32, part: &Move) {
+        let at = self.settings.forward.restated(&self.at, &part.to).linear;
+        let way = |n: usize| match self.known[n] && part.known[n] {
+            true => part.to.linear[n] - at[n],
+            false => 0.0,
+        };
+        if way(0).abs() > STILL || way(1).abs() > STILL || way(2) < -STILL {
+            let message = "rapid before its tilted frame begins, which is no way up".to_string();
+            self.find(FindingKind::Order, Some(cl_line), Some(part.line), message);
         }
     }
 
@@ -142,7 +158,7 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     pub(super) fn check_limits(&mut self, cl_line: u32, found: &Move) {
-        let axes = self.settings.forward.restated(&found.to, false).linear;
+        let axes = self.settings.forward.restated(&found.to, &Position::default()).linear;
         let axes = match self.from_hole {
             Some(turn) => (turn * Vector3::from(axes)).into(),
             None => axes,

@@ -6,7 +6,7 @@ use super::report::FindingKind;
 use super::say::short;
 use super::walk::Walk;
 use super::wanted::{Step, Wanted};
-use crate::motion::{Course, Event, Position};
+use crate::motion::{Course, Event, Move, Position};
 
 impl<C: Steps> Walk<'_, C> {
     /// A rapid to a position of the linear axes, mm; the others stay, and the rotary axes.
@@ -37,9 +37,9 @@ impl<C: Steps> Walk<'_, C> {
 
     /// How many rapids reach a position of the linear axes; none where the axes stand there.
     fn parts_to_machine(&self, to: [Option<f64>; 3]) -> Option<usize> {
-        let stands = self.settings.forward.restated(&self.at, false);
+        let stands = self.settings.forward.restated(&self.at, &Position::default());
         let reached = |found: &Position, known: &[bool; 5]| {
-            let at = self.settings.forward.restated(found, false);
+            let at = self.settings.forward.restated(found, &Position::default());
             let near = |a: f64, b: f64, n: usize| (a - b).abs() <= self.slack.linear[n];
             let arrives = |n: usize| match to[n] {
                 Some(value) => known[n] && near(at.linear[n], value, n),
@@ -60,10 +60,25 @@ impl<C: Steps> Walk<'_, C> {
     /// RETRCT: up to the level of the settings, never down.
     pub(super) fn retract(&mut self, cl_line: u32) {
         let Some(level) = self.settings.retract_level(self.metric) else { return };
-        let stands = self.settings.forward.restated(&self.at, false).linear[2];
+        let stands = self.settings.forward.restated(&self.at, &Position::default()).linear[2];
         if !(self.known[2] && stands >= level) {
             self.go_to_machine(cl_line, [None, None, Some(level)]);
         }
+    }
+
+    /// The machine turns right after a tool change, where the tool is away from the part,
+    /// for a frame or tool-tip control that the next motion is in.
+    pub(super) fn turns_away(&self, found: &Move) -> bool {
+        let stands = (0..3).all(|n| found.to.linear[n] == self.at.linear[n] || !found.known[n]);
+        let turns = found.to.rotary != self.at.rotary || self.known[3..] != found.known[3..];
+        if found.course != Course::Rapid || found.to.names_tip() || !stands || !turns {
+            return false;
+        }
+        let behind = self.nc.from(self.next + 1).find_map(|event| match event {
+            Event::Move(next) => Some(next.to.names_tip()),
+            _ => None,
+        });
+        found.modes.tool != self.moved_tool && behind == Some(true)
     }
 
     /// An arc as the settings of the machine correct it; `None` where they leave it.

@@ -288,6 +288,10 @@ impl Expected {
             let said = "tool-tip control is on, it should be off";
             wrong.push((FindingKind::Tool, said.to_string()));
         }
+        if modes.tilted {
+            let said = "a tilted frame is in force, it should be ended";
+            wrong.push((FindingKind::Tool, said.to_string()));
+        }
         self.news(wrong)
     }
 

@@ -258,6 +258,7 @@ impl Pair<'_> {
         (0..3).all(|n| self.near(a.to.linear[n], b.to.linear[n]))
             && (0..2).all(|n| self.near(a.to.rotary[n], b.to.rotary[n]))
             && a.to.tip_control == b.to.tip_control
+            && a.to.tilt == b.to.tilt
             && a.known == b.known
     }
 
@@ -356,6 +357,11 @@ impl Pair<'_> {
                 a.tip_control != b.tip_control,
                 FindingKind::Tool,
                 "tool-tip control is not as it should be".to_string(),
+            ),
+            (
+                a.tilted != b.tilted,
+                FindingKind::Tool,
+                "the tilted frame is not as it should be".to_string(),
             ),
             (
                 (a.compensation, a.compensation_offset) != (b.compensation, b.compensation_offset),

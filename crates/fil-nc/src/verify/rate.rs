@@ -135,7 +135,7 @@ impl<C: Steps> Walk<'_, C> {
     /// motions that turn it, and leads the tip as fast as asked for.
     fn says_the_time(&self, from: Position, found: &Move, wanted: Rate) -> bool {
         let turned = turned(&from, found);
-        if turned == 0.0 || from.tip_control || found.to.tip_control {
+        if turned == 0.0 || from.names_tip() || found.to.names_tip() {
             return false;
         }
         let rate = match (wanted, found.modes.speed.and_then(Speed::turns)) {

@@ -75,7 +75,11 @@ impl<C: Steps> Walk<'_, C> {
         let wanted = self.settings.change_position(self.metric);
         let forward = &self.settings.forward;
         let value = |at: &Position, n: usize| {
-            if n < 3 { forward.restated(at, false).linear[n] } else { at.rotary[n - 3] }
+            if n < 3 {
+                forward.restated(at, &Position::default()).linear[n]
+            } else {
+                at.rotary[n - 3]
+            }
         };
         let near = |at: &Position, known: &[bool; 5], n: usize| match wanted[n] {
             Some(_) if !known[n] => false,

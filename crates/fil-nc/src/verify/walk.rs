@@ -51,6 +51,8 @@ pub(super) struct Walk<'a, C> {
     /// Where the program stands.
     pub(super) at: Position,
     pub(super) known: [bool; 5],
+    /// The tool of the last motion.
+    pub(super) moved_tool: u32,
     /// Exact rotary positions that the tape shows rounded.
     pub(super) exact: [f64; 2],
     /// Line of the last motion taken.
@@ -95,6 +97,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             x_scale: settings.x_scale(),
             at: Position::default(),
             known: [false; 5],
+            moved_tool: 0,
             exact: [0.0; 2],
             line: 0,
             modes: Expected::new(settings),
@@ -280,7 +283,7 @@ impl<'a, C: Steps> Walk<'a, C> {
                         message.to_string(),
                     );
                 }
-                Some(Event::Move(found)) if self.is_still(&found) => {
+                Some(Event::Move(found)) if self.is_still(&found) || self.turns_away(&found) => {
                     self.take(cl_line, &found);
                     self.next += 1;
                 }
@@ -308,6 +311,7 @@ impl<'a, C: Steps> Walk<'a, C> {
     pub(super) fn stand(&mut self, found: &Move) {
         self.at = found.to;
         self.known = found.known;
+        self.moved_tool = found.modes.tool;
         self.next += 1;
     }
 
@@ -325,7 +329,7 @@ impl<'a, C: Steps> Walk<'a, C> {
     /// Where the axes stand, X, Y, Z as a motion means them; those it leaves unknown keep
     /// their last value.
     fn at_as(&self, found: &Move) -> Position {
-        let mut at = self.settings.forward.restated(&self.at, found.to.tip_control);
+        let mut at = self.settings.forward.restated(&self.at, &found.to);
         for n in (0..3).filter(|n| !found.known[*n]) {
             at.linear[n] = self.at.linear[n];
         }
@@ -420,6 +424,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         self.check_limits(cl_line, found);
         self.line = found.line;
         self.at = found.to;
+        self.moved_tool = found.modes.tool;
         self.known = found.known;
     }
 

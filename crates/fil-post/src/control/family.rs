@@ -5,6 +5,7 @@ use fil_diag::Result;
 use fil_machine::FunctionCode;
 use fil_machine::locations::ControlFamily;
 use fil_machine::modes::Plane;
+use nalgebra::Rotation3;
 
 use super::word_address::arc::PlaneArc;
 use super::word_address::motion::{self as words, Motion, RapidCode};
@@ -87,13 +88,15 @@ pub fn thread_cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32)
 /// Begins tool-tip control, with the length offset of the tool.
 ///
 /// # Errors
-/// As [`word_address::tip_control::begin`]; Klartext has no such function yet.
+/// As [`word_address::tip_control::begin`].
 pub fn begin_tip_control(control: &mut Control, offset: Option<(i64, Cause)>) -> Result<()> {
     match (control.tables.family, offset) {
         (ControlFamily::WordAddress, Some(offset)) => {
             word_address::tip_control::begin(control, offset)
         }
-        _ => refuse("tool-tip control"),
+        (ControlFamily::WordAddress, None) => Ok(()),
+        (ControlFamily::Klartext, _) => klartext::frame::begin_tip_control(control),
+        (ControlFamily::Sinumerik, _) => sinumerik::swivel::begin_tip_control(control),
     }
 }
 
@@ -104,7 +107,42 @@ pub fn begin_tip_control(control: &mut Control, offset: Option<(i64, Cause)>) ->
 pub fn end_tip_control(control: &mut Control) -> Result<()> {
     match control.tables.family {
         ControlFamily::WordAddress => word_address::tip_control::end(control),
-        _ => refuse("tool-tip control"),
+        ControlFamily::Klartext => klartext::frame::end_tip_control(control),
+        ControlFamily::Sinumerik => sinumerik::swivel::end_tip_control(control),
+    }
+}
+
+/// Begins a tilted frame in which the rotary axes stand, at the higher of two positions of
+/// the machine's reference axis or at the lower one; says how it lies on the tape.
+///
+/// # Errors
+/// As [`word_address::frame::begin`].
+pub fn begin_frame(
+    control: &mut Control,
+    turn: &Rotation3<f64>,
+    higher: [bool; 2],
+) -> Result<Rotation3<f64>> {
+    let turn = match control.tables.family {
+        ControlFamily::WordAddress => word_address::frame::begin(control, turn),
+        ControlFamily::Klartext => klartext::frame::begin(control, turn),
+        ControlFamily::Sinumerik => {
+            let higher = higher[sinumerik::swivel::reference(control)];
+            sinumerik::swivel::begin(control, turn, higher)
+        }
+    }?;
+    control.state.tilted = Some(true);
+    Ok(turn)
+}
+
+/// Ends a tilted frame.
+///
+/// # Errors
+/// As [`word_address::frame::end`].
+pub fn end_frame(control: &mut Control) -> Result<()> {
+    match control.tables.family {
+        ControlFamily::WordAddress => word_address::frame::end(control),
+        ControlFamily::Klartext => klartext::frame::end(control),
+        ControlFamily::Sinumerik => sinumerik::swivel::end(control),
     }
 }
 

@@ -40,6 +40,8 @@ pub enum Meaning {
     /// It moves the zero, or the axes by a way of its own: where they stand in the
     /// program is not known.
     Frame,
+    /// It begins, moves or ends a tilted frame.
+    Tilt,
     /// Not known.
     Unknown,
 }
@@ -121,6 +123,7 @@ impl Codes {
         let extended = tenths(loc::FIXTURE_EXTENDED_CODE);
         let taps = [loc::CYCLE_RIGID_TAP_CODE, loc::CYCLE_RIGID_TAP_LEFT_CODE].map(tenths);
         let tip = tenths(loc::ROTARY_TIP_CODE);
+        let tilts = [loc::ROTARY_FRAME_CODE, loc::ROTARY_FRAME_ALIGN_CODE].map(tenths);
         if !turning {
             name(loc::MODE_PRESET_CODE, Meaning::Frame);
             name(loc::MODE_ABSOLUTE_CODE, Meaning::Distance(Distance::Absolute));
@@ -128,6 +131,7 @@ impl Codes {
         }
         codes.named.extend(extended.map(|code| (code, Meaning::Frame)));
         codes.named.extend(tip.map(|code| (code, Meaning::TipControl)));
+        codes.named.extend(tilts.into_iter().flatten().map(|code| (code, Meaning::Tilt)));
         codes.named.extend(taps.into_iter().flatten().map(|code| (code, Meaning::Cycle)));
         codes
     }
@@ -197,7 +201,8 @@ impl Codes {
             96..=99 => Meaning::OneBlock,
             4 | 9 | 61 | 64 => Meaning::OneBlock,
             43 | 44 | 49 => Meaning::ToolLength,
-            10 | 27..=30 | 50 | 52..=59 | 68 | 69 | 92 => Meaning::Frame,
+            10 | 27..=30 | 50 | 52..=59 | 92 => Meaning::Frame,
+            68 | 69 => Meaning::Tilt,
             _ => Meaning::Unknown,
         }
     }
@@ -208,9 +213,8 @@ impl Codes {
 fn of_tenths(code: FunctionCode) -> Meaning {
     const HIGH_SPEED: FunctionCode = FunctionCode::tenths(51);
     const TIP: [FunctionCode; 2] = [FunctionCode::tenths(434), FunctionCode::tenths(435)];
-    const FRAMES: [FunctionCode; 5] = [
+    const TILTS: [FunctionCode; 4] = [
         FunctionCode::tenths(531),
-        FunctionCode::tenths(541),
         FunctionCode::tenths(682),
         FunctionCode::tenths(683),
         FunctionCode::tenths(684),
@@ -219,7 +223,8 @@ fn of_tenths(code: FunctionCode) -> Meaning {
     match code {
         HIGH_SPEED => Meaning::OneBlock,
         _ if TIP.contains(&code) => Meaning::TipControl,
-        _ if offset || FRAMES.contains(&code) => Meaning::Frame,
+        _ if TILTS.contains(&code) => Meaning::Tilt,
+        _ if offset => Meaning::Frame,
         _ => Meaning::Unknown,
     }
 }

@@ -137,6 +137,8 @@ pub struct ControlState {
     pub feed_mode: Option<FeedMode>,
     /// Tool-tip control.
     pub tip_control: Option<bool>,
+    /// X, Y and Z count in a tilted frame.
+    pub tilted: Option<bool>,
     /// Cutter compensation.
     pub compensation: Option<Compensation>,
     /// A motion has been made since compensation was switched on.
@@ -178,6 +180,7 @@ impl ControlState {
             unit,
             feed_mode: Some(feed_mode),
             tip_control: Some(false),
+            tilted: Some(false),
             compensation: Some(Compensation::Off),
             compensation_begun: false,
             in_cycle: Some(false),
@@ -236,6 +239,7 @@ impl ControlState {
             unit: None,
             feed_mode: None,
             tip_control: None,
+            tilted: None,
             compensation: None,
             compensation_begun: self.compensation_begun,
             in_cycle: None,
@@ -296,7 +300,7 @@ impl ControlState {
         for (letter, value) in words.clone() {
             match (letter, FunctionCode::of_value(value)) {
                 (letters::G, Some(code)) => {
-                    frame |= codes.meaning(code) == Meaning::Frame;
+                    frame |= matches!(codes.meaning(code), Meaning::Frame | Meaning::Tilt);
                     self.learn_code(code, codes);
                 }
                 (letters::M, Some(code)) => {
@@ -379,6 +383,10 @@ impl ControlState {
                 self.doubt_axes();
             }
             Meaning::Frame => self.doubt_axes(),
+            Meaning::Tilt => {
+                self.tilted = None;
+                self.doubt_axes();
+            }
             Meaning::Unknown => self.forget(),
         }
     }
@@ -491,6 +499,7 @@ impl ControlState {
         agree(&mut self.unit, &other.unit);
         agree(&mut self.feed_mode, &other.feed_mode);
         agree(&mut self.tip_control, &other.tip_control);
+        agree(&mut self.tilted, &other.tilted);
         agree(&mut self.compensation, &other.compensation);
         agree(&mut self.in_cycle, &other.in_cycle);
         agree(&mut self.cycle, &other.cycle);

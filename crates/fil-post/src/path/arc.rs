@@ -200,7 +200,7 @@ fn in_plane(
     (radius, sweep): (f64, f64),
     target: Target,
 ) -> Result<Option<PlaneArc>> {
-    if post.control.tables.tip_output {
+    if post.writes_tip() {
         return Ok(None);
     }
     let transformation = post.path.transformation.as_ref();

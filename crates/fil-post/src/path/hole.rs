@@ -9,7 +9,7 @@ use fil_machine::locations::{
 };
 
 use super::cycle::{Cycle, CycleKind, Hole};
-use super::{expand, rapid, rotary, tip_control};
+use super::{expand, frame, rapid, rotary, tip_control};
 use crate::control::family;
 use crate::control::word_address::cycle as words;
 use crate::control::word_address::motion::Motion;
@@ -51,8 +51,11 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
         let message = "CYCLE: the spindle stands".to_string();
         post.warn(PostCode::SpindleStands, message);
     }
-    if post.control.tables.tip_output {
+    if post.writes_tip() {
         return tip_control::hole(post, cycle, target);
+    }
+    if post.control.tables.frame_output && frame::turn_to(post, target, false)? {
+        (cycle.initial, cycle.above, cycle.in_force) = (None, None, None);
     }
     family::ready_for_hole(&mut post.control, cycle.in_force.is_some())?;
     let (position, mut hole) = locate(post, cycle, target)?;
@@ -163,6 +166,10 @@ fn locate(post: &mut Post, cycle: &Cycle, target: Target) -> Result<(Position, H
     let axis = target.axis.normalize();
     let offset = |by: f64| Target { point: target.point + axis * by, ..target };
     let at = rotary::position_of(post, target)?;
+    if post.control.tables.frame_output {
+        let [bottom, clear] = [at[2] - cycle.depth, at[2] + cycle.clear];
+        return Ok((at, Hole { along: 2, bottom, clear, initial: clear, to_initial: false }));
+    }
     let bottom = rotary::position_of(post, offset(-cycle.depth))?;
     let clear = rotary::position_of(post, offset(cycle.clear))?;
     let differs = |axis: &usize| (clear[*axis] - bottom[*axis]).abs() > SAME;
@@ -193,7 +200,11 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, start: f64) -> Res
         _ => hole.clear,
     };
     let below = match here {
-        Some(here) => above(wanted, here) > SAME_LEVEL,
+        // Where the tool stands is rounded on the tape, and less would be no motion.
+        Some(here) => {
+            let rounding = post.control.tables.axis(hole.along).resolution() / 2.0;
+            above(wanted, here) > rounding.max(SAME_LEVEL)
+        }
         None => cycle.retract.is_some(),
     };
     let level = if below { wanted } else { initial.unwrap_or(wanted) };

@@ -3,7 +3,7 @@
 use fil_diag::Result;
 use fil_machine::axes::AxisSet;
 
-use super::{feed_rules, linearization, rapid, rotary, thread};
+use super::{feed_rules, frame, linearization, rapid, rotary, thread};
 use crate::control::family;
 use crate::control::word_address::motion::Motion;
 use crate::errors::PostCode;
@@ -27,6 +27,10 @@ pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
     } else {
         post.path.course.interrupt();
     }
+    if post.control.tables.frame_output && !post.writes_tip() {
+        let at_feed = !matches!(kind, MotionKind::Rapid(_));
+        frame::turn_to(post, target, at_feed)?;
+    }
     let before = post.path.rotary;
     let position = rotary::position_of(post, target)?;
     let word = rotary::word_of(post, target);
@@ -37,14 +41,14 @@ pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
             None => rapid::rapid(&mut post.control, &motion, cause)?,
         },
         MotionKind::Feed => match rotary::turned(before, post.path.rotary)? {
-            Some(before) if !post.control.tables.tip_output => {
+            Some(before) if !post.writes_tip() => {
                 linearization::feed(post, before, position, target)?;
             }
             _ if feed_rules::apply(post) => feed_rules::line(post, &motion, target)?,
             _ => family::feed(&mut post.control, &motion, post.path.feed.as_ref())?,
         },
         MotionKind::Thread(lead) => {
-            if post.control.tables.tip_output {
+            if post.writes_tip() {
                 return PostCode::TipControl.err("a thread");
             }
             rotary::refuse_thread(before, post.path.rotary)?;

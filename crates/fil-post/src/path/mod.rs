@@ -9,8 +9,10 @@
 pub mod arc;
 mod chords;
 pub mod cycle;
+pub mod euler;
 mod expand;
 mod feed_rules;
+pub mod frame;
 pub mod hole;
 mod linear;
 pub mod linearization;
@@ -53,6 +55,10 @@ pub struct Path {
     pub multax: Option<bool>,
     /// Last rotary positions in degrees; `None` before the first motion.
     pub rotary: Option<[f64; 2]>,
+    /// The tilted frame that motions were last written in.
+    pub(crate) frame: Option<frame::TiltedFrame>,
+    /// How many frames have begun.
+    pub(crate) frames: u32,
     /// How far the tip may leave its line while the machine turns.
     pub straightness: Straightness,
     /// The last feed motion was written in inverse time, in which the control still is.
@@ -93,6 +99,8 @@ impl Default for Path {
             axis: Vector3::z(),
             multax: None,
             rotary: None,
+            frame: None,
+            frames: 0,
             straightness: Straightness::default(),
             writes_inverse_time: false,
             rapid: None,
@@ -146,6 +154,9 @@ pub fn carry_out(post: &mut Post, operation: Operation) -> Result<()> {
 fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
     if post.control.tables.tip_output {
         tip_control::before(&mut post.control, &operation)?;
+    }
+    if post.control.tables.frame_output {
+        frame::before(&mut post.control, &operation)?;
     }
     match operation {
         Operation::MachinePosition(to) => machine_position::carry_out(post, to),

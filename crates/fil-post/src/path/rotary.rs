@@ -4,7 +4,7 @@ use fil_diag::Result;
 use fil_machine::axes::Position;
 use nalgebra::{Point3, Vector3};
 
-use super::tip_control;
+use super::{frame, tip_control};
 use crate::errors::PostCode;
 use crate::operation::Target;
 use crate::post::Post;
@@ -27,8 +27,11 @@ pub fn position_of(post: &mut Post, target: Target) -> Result<Position> {
     if !chain.has_rotary() && axis == chain.tool.into_inner() {
         return Ok([point.x, point.y, point.z, 0.0, 0.0]);
     }
-    if post.control.tables.tip_output {
+    if post.writes_tip() {
         return tip_control::position_of(post, point, axis);
+    }
+    if post.control.tables.frame_output {
+        return frame::position_of(post, point, axis);
     }
     let last = post.path.rotary.unwrap_or_else(|| on_tape(post));
     let angles = chain.solve(axis, last)?;

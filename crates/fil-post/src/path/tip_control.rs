@@ -16,7 +16,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::cycle::{AboveHoles, Cycle, CycleFeed, CycleKind};
 use super::expand::{WayOut, way_out};
-use super::{linear, rapid, rotary};
+use super::{frame, linear, rapid, rotary};
 use crate::control::family;
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::spindle;
@@ -67,6 +67,9 @@ fn begin(post: &mut Post) -> Result<()> {
         return PostCode::CompensationOn.err("where tool-tip control begins");
     }
     family::cancel_cycle(control)?;
+    frame::end(control)?;
+    post.path.frame = None;
+    let control = &mut post.control;
     let of_tool = control.tip.offset;
     if of_tool.is_none() && control.tables.family == ControlFamily::WordAddress {
         return PostCode::TipControl
@@ -93,7 +96,7 @@ fn turn_tables_to_zero(post: &mut Post) -> Result<()> {
     let control = &mut post.control;
     let anywhere =
         control.commons.read(loc::ROTARY_TIP_CONTROL) == RotaryTipControl::BeginsAnywhere;
-    if anywhere || control.tables.family != ControlFamily::WordAddress {
+    if anywhere {
         return Ok(());
     }
     let mut tables = AxisSet::NONE;
@@ -143,7 +146,9 @@ pub fn end(control: &mut Control) -> Result<()> {
         let letter = control.tables.axis(number).letter;
         control.commons.set_last_output(letter, EMPTY);
     }
-    control.waiting.length_offset = control.tip.offset;
+    if control.tables.family == ControlFamily::WordAddress {
+        control.waiting.length_offset = control.tip.offset;
+    }
     Ok(())
 }
 

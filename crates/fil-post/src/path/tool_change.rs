@@ -7,7 +7,7 @@ use fil_machine::axes::{AxisSet, Position};
 use fil_machine::locations::{self as loc, ToolChangeBlock};
 use fil_machine::user_blocks::{self, AroundChange, UserBlocks};
 
-use super::{rapid, tip_control};
+use super::{frame, rapid, tip_control};
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family;
@@ -33,6 +33,7 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
         return Ok(());
     }
     tip_control::end(control)?;
+    frame::end(control)?;
     control.tape.align();
     let around = around(control, &wanted);
     control.changes += 1;

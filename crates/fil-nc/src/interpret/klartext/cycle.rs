@@ -155,6 +155,7 @@ impl Klartext<'_> {
 
     /// Runs the cycle that is defined where the tool stands.
     pub(super) fn call_cycle(&mut self) -> Result<(), Fault> {
+        self.state.refuse_under_tip_control("a cycle")?;
         let missing = || Fault::new(NcCode::MissingWord, "no cycle is defined");
         let definition = self.defined.clone().ok_or_else(missing)?;
         let hole = self.hole(&definition)?;

@@ -1,12 +1,13 @@
 //! Heidenhain Klartext to events: lines of phrases in their order.
 //!
-//! Followed are `L`, `CC`, `C`, `CR`, `CP`, `TOOL CALL`, the drilling cycles 200, 201, 203,
+//! Followed are `L`, `CC`, `C`, `CR`, `CP`, `PLANE SPATIAL`, `TOOL CALL`, the drilling cycles 200, 201, 203,
 //! 205, 207 and the old cycle 1 with `M99` or `CYCL CALL`, dwell and datum shift. What
 //! else moves, calculates or jumps is refused.
 
 mod cycle;
 mod line;
 mod motion;
+mod plane;
 mod tool;
 
 use std::collections::VecDeque;
@@ -151,7 +152,25 @@ impl Klartext<'_> {
                 self.call_cycle()
             }
             ["L", ..] => self.straight(&line.words[1..]),
+            ["PLANE", "SPATIAL", ..] => self.plane(&line.words[2..]),
+            ["PLANE", "RESET", rest @ ..] => {
+                plane::check_reset(rest, &line.words[2..])?;
+                self.state.end_tilt();
+                Ok(())
+            }
+            ["FUNCTION", "TCPM", rest @ ..] => {
+                plane::check_tcpm(rest)?;
+                self.state.begin_stated_tip_control()
+            }
+            ["FUNCTION", "RESET", "TCPM"] | ["M129"] => {
+                self.state.end_tip_control();
+                Ok(())
+            }
+            ["M128"] => self.state.begin_stated_tip_control(),
             ["CC", ..] => self.pole(&line.words[1..]),
+            ["C" | "CR" | "CP", ..] if self.state.modes.tip_control => {
+                self.state.refuse_under_tip_control("an arc")
+            }
             ["C", ..] => self.arc(&line.words[1..]),
             ["CP", ..] => self.polar_arc(&line.words[1..]),
             ["CR", ..] => self.arc_of_radius(&line.words[1..]),

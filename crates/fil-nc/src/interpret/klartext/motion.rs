@@ -39,6 +39,15 @@ impl Klartext<'_> {
             return Err(Fault::new(NcCode::NoMeaning, "a line has no sense and no radius"));
         }
         if said.axes != [None; 5] {
+            if said.machine {
+                self.state.refuse_under_tip_control("a point of the machine")?;
+            }
+            if said.machine && self.state.tilt.is_some() {
+                let message = "a point of the machine in a tilted plane";
+                return Err(Fault::new(NcCode::NoMeaning, message));
+            }
+            let turns = said.axes[3..].iter().any(Option::is_some);
+            self.state.check_tilted_motion(turns)?;
             let (to, known) = self.target(&said);
             if said.machine {
                 let mut lost = self.state.known;
@@ -208,8 +217,11 @@ impl Klartext<'_> {
             match word.text.as_str() {
                 "FMAX" => said.rapid = true,
                 "R0" => self.compensate(Compensation::Off),
-                "RL" => self.compensate(Compensation::Left),
-                "RR" => self.compensate(Compensation::Right),
+                "RL" | "RR" => {
+                    self.state.refuse_under_tip_control("cutter compensation")?;
+                    let left = word.text == "RL";
+                    self.compensate(if left { Compensation::Left } else { Compensation::Right });
+                }
                 "DR+" => said.ccw = Some(true),
                 "DR-" => said.ccw = Some(false),
                 _ => self.word(word, &mut said)?,

@@ -52,6 +52,19 @@ impl Sinumerik<'_> {
             positions: said.axes.iter().flatten().any(|(_, absolute)| absolute.is_none()),
             speed: said.speed.is_some(),
         };
+        if matches!(said.has(3), Some(Function::Compensation(side)) if side != crate::motion::Compensation::Off)
+        {
+            self.state.refuse_under_tip_control("cutter compensation")?;
+        }
+        if matches!(said.has(7), Some(Function::Offset(code)) if self.state.moves_fixture(code)) {
+            self.state.refuse_under_tip_control("another work offset")?;
+        }
+        if self.state.tilt.is_some()
+            && matches!(said.has(7), Some(Function::Offset(code)) if self.state.moves_fixture(code))
+        {
+            let message = "another work offset in a tilted plane";
+            return Err(Fault::new(NcCode::NoMeaning, message));
+        }
         self.modes(&said);
         self.tool(&said)?;
         self.spindle(&said);

@@ -112,6 +112,7 @@ impl Sinumerik<'_> {
 
     /// Runs a cycle where the tool stands.
     pub(super) fn drill(&mut self, call: &Call) -> Result<(), Fault> {
+        self.state.refuse_under_tip_control("a cycle")?;
         let at = self.levels(call)?;
         let kind = match call.number {
             81 | 82 => CycleKind::Drill,

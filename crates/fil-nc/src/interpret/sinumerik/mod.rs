@@ -2,7 +2,7 @@
 //!
 //! Followed are G0 to G3 with `CR=` or a center, modes, tools by number or name, D,
 //! named addresses, TRANS and ATRANS, work offsets, R parameters that are given numbers,
-//! and the cycles 81 to 86 and 89, called once or by MCALL. What else moves, calculates
+//! CYCLE800, and the cycles 81 to 86 and 89, called once or by MCALL. What else moves, calculates
 //! or jumps is refused.
 
 mod block;
@@ -10,6 +10,7 @@ mod cycle;
 mod functions;
 pub(crate) mod line;
 mod motion;
+mod swivel;
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -141,6 +142,20 @@ impl Sinumerik<'_> {
         match (first.name.as_str(), &first.arguments) {
             ("MSG" | "WORKPIECE" | "CYCLE832" | "GROUP_BEGIN" | "GROUP_END", _) => Ok(()),
             ("MCALL", _) => self.call_at_each(&words[1..]),
+            ("TRAORI", arguments) if words.len() == 1 => {
+                if arguments.as_ref().is_some_and(|given| given.iter().any(Option::is_some)) {
+                    return Err(first.foreign("with a number or more is not followed"));
+                }
+                if self.called.is_some() {
+                    return Err(first.foreign("while MCALL calls a cycle"));
+                }
+                self.state.begin_stated_tip_control()
+            }
+            ("TRAFOOF", None) if words.len() == 1 => {
+                self.state.end_tip_control();
+                Ok(())
+            }
+            ("CYCLE800", Some(_)) if words.len() == 1 => self.swivel(first),
             (_, Some(_)) if words.len() == 1 => {
                 let call = self.call_of(first)?;
                 self.drill(&call)
@@ -163,6 +178,9 @@ impl Sinumerik<'_> {
     /// TRANS places the zero from that of the work offset, ATRANS from where it lies:
     /// where the axes stand in it is not known.
     fn translate(&mut self, statement: &Word, words: &[Word]) -> Result<(), Fault> {
+        if self.state.tilt.is_some() {
+            return Err(statement.foreign("in a tilted plane is not followed"));
+        }
         let mut shift = if statement.name == "ATRANS" { self.shift } else { [0.0; 3] };
         for word in words {
             let axis = self.axis(&word.name).filter(|axis| *axis < 3);

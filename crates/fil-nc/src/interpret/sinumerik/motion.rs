@@ -16,6 +16,7 @@ impl Sinumerik<'_> {
         if !(said.moves() || arc && centered) {
             return if centered { Err(no_arc()) } else { Ok(()) };
         }
+        self.state.check_tilted_motion(said.axes[3..].iter().any(Option::is_some))?;
         match self.state.motion {
             Some(Function::Rapid) if !centered => {
                 let target = self.target(said);
@@ -26,7 +27,10 @@ impl Sinumerik<'_> {
                 let target = self.target(said);
                 self.state.go(target, Course::Feed, rate);
             }
-            Some(Function::Arc { ccw }) => self.arc(said, ccw)?,
+            Some(Function::Arc { ccw }) => {
+                self.state.refuse_under_tip_control("an arc")?;
+                self.arc(said, ccw)?;
+            }
             Some(_) => return Err(no_arc()),
             None => {
                 let message = "no G word says how the axes move";
@@ -121,8 +125,7 @@ impl Sinumerik<'_> {
         if self.called.is_some() {
             return Err(Fault::new(NcCode::Twice, "a cycle of MCALL in the frame of the machine"));
         }
-        self.machine_motion(said);
-        Ok(())
+        self.machine_motion(said)
     }
 
     /// `G74` and `G75`: the axes go where the machine says; their words have no meaning.
@@ -130,13 +133,17 @@ impl Sinumerik<'_> {
         if !said.moves() {
             return Err(Fault::new(NcCode::MissingWord, "the axes that go there are needed"));
         }
-        self.machine_motion(said);
-        Ok(())
+        self.machine_motion(said)
     }
 
-    fn machine_motion(&mut self, said: &Said) {
+    fn machine_motion(&mut self, said: &Said) -> Result<(), Fault> {
         if !said.moves() {
-            return;
+            return Ok(());
+        }
+        self.state.refuse_under_tip_control("a point of the machine")?;
+        if self.state.tilt.is_some() {
+            let message = "a point of the machine in a tilted plane";
+            return Err(Fault::new(NcCode::NoMeaning, message));
         }
         let (to, _) = self.target(said);
         let mut lost = self.state.known;
@@ -145,6 +152,7 @@ impl Sinumerik<'_> {
             lost[axis] = false;
         }
         self.state.go((to, lost), Course::Machine, None);
+        Ok(())
     }
 }
 

@@ -206,7 +206,7 @@ impl<C: Steps> Walk<'_, C> {
     /// How far rounding on the tape can bring the tip from a point, mm.
     pub(super) fn tip_slack(&self, at: &Position) -> f64 {
         let forward = &self.settings.forward;
-        let lever = if at.tip_control { 0.0 } else { forward.lever(forward.pose(at).tip) };
+        let lever = if at.names_tip() { 0.0 } else { forward.lever(forward.pose(at).tip) };
         Vector3::from(self.slack.linear).norm() + self.axis_slack() * lever
     }
 

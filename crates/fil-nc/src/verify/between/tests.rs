@@ -24,7 +24,7 @@ fn machine(rotaries: [Option<Rotary>; 2], pivot: Option<f64>) -> Forward {
 }
 
 fn at(linear: [f64; 3], rotary: [f64; 2]) -> Position {
-    Position { linear, rotary, tip_control: false }
+    Position { linear, rotary, ..Position::default() }
 }
 
 fn feed(to: Position, arc: Option<motion::Arc>) -> Move {

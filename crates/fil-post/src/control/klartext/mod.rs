@@ -6,6 +6,7 @@
 //! absolute. What Klartext can't say is refused by [`refuse`].
 
 pub mod cycle;
+pub mod frame;
 pub mod helix;
 pub mod line;
 pub mod motion;

@@ -11,6 +11,7 @@ mod frame;
 pub mod program;
 pub mod reader;
 mod spindle;
+pub mod swivel;
 pub mod tool;
 
 use fil_diag::Result;

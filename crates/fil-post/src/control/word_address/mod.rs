@@ -7,6 +7,7 @@ pub(super) mod coolant;
 pub mod cycle;
 pub mod dwell;
 pub(super) mod fixture;
+pub mod frame;
 mod function;
 pub mod modes;
 pub mod motion;

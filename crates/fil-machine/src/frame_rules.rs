@@ -1,0 +1,41 @@
+//! Settings that tilted frames do not go with.
+
+use fil_diag::Diag;
+use nalgebra::Vector3;
+
+use crate::axis_chain::AxisChain;
+use crate::commons::Commons;
+use crate::errors::MachineCode;
+use crate::locations::{self as loc, RotaryFrameOutput};
+
+/// Scales and shifts of X, Y and Z on the tape.
+const SCALES: [(crate::commons::Dbl, f64); 6] = [
+    (loc::SCALE_X, 1.0),
+    (loc::SCALE_Y, 1.0),
+    (loc::SCALE_Z, 1.0),
+    (loc::OUTPUT_TRANSLATE_X, 0.0),
+    (loc::OUTPUT_TRANSLATE_Y, 0.0),
+    (loc::OUTPUT_TRANSLATE_Z, 0.0),
+];
+
+/// Contradictions of a machine that writes tilted frames.
+pub(crate) fn check(commons: &Commons, found: &mut Vec<Diag>) {
+    if commons.read(loc::ROTARY_FRAME_OUTPUT) != RotaryFrameOutput::TiltedFrame {
+        return;
+    }
+    let Ok(chain) = AxisChain::from_commons(commons) else { return };
+    if !chain.has_rotary() {
+        return;
+    }
+    let mut add = |message: &str| found.push(Diag::new(MachineCode::Contradiction, message));
+    if (chain.tool.into_inner() - Vector3::z()).norm() > 1e-9 {
+        add("rotary.frame_output asks for tilted frames, whose Z is the tool, and the tool does \
+             not lie along Z where the machine stands at zero");
+    }
+    let scaled =
+        SCALES.iter().any(|(at, usual)| commons.dbl_opt(*at).is_some_and(|value| value != *usual));
+    if scaled || commons.read(loc::LATHE_DIAMETER) {
+        add("rotary.frame_output asks for tilted frames, and X, Y or Z is scaled or shifted on \
+             the tape");
+    }
+}

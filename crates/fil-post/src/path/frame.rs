@@ -1,0 +1,309 @@
+//! Tilted frames: while the tool axis stands still, X, Y and Z count in a frame of the
+//! control that lies as the machine's axes do when the tables and heads have turned there.
+//!
+//! So arcs and cycles stay what they are on the face they are cut on. The machine turns
+//! where a tool change or a position of the machine has brought the tool away, or after a
+//! way up to `home.retract_z`; then the frame begins. It ends before the next tool, a
+//! position of the machine, another work offset and the end of the program.
+
+use fil_diag::Result;
+use fil_machine::axes::{AxisSet, Position};
+use fil_machine::axis_chain::{AxisChain, Carries};
+use fil_machine::commons::EMPTY;
+use fil_machine::locations as loc;
+use nalgebra::{Point3, Rotation3, Vector3};
+
+use super::{machine_position, rotary, tip_control};
+use crate::control::word_address::motion::{Motion, RapidCode};
+use crate::control::{Control, Function, family};
+use crate::control_state::Meaning;
+use crate::errors::PostCode;
+use crate::operation::{Operation, Target};
+use crate::post::Post;
+
+/// Two tool axes nearer than this are one.
+const SAME_AXIS: f64 = 1e-6;
+
+/// A smaller turn of a rotary axis counts as none, degrees.
+const STILL: f64 = 1e-9;
+
+/// A rotary axis that would turn by more for the angles on the tape stands elsewhere, degrees.
+const ELSEWHERE: f64 = 0.05;
+
+/// The frame that motions are written in.
+#[derive(Clone, Copy, Debug)]
+pub struct TiltedFrame {
+    /// Tool axis in the part.
+    axis: Vector3<f64>,
+    /// Where the rotary axes stand, degrees.
+    angles: [f64; 2],
+    /// Turns directions of the frame, as the tape has it, into those of the part; `None`
+    /// where the machine stands at zero and the control is in no frame.
+    turn: Option<Rotation3<f64>>,
+}
+
+/// The words of a motion to a point, in the frame in force.
+///
+/// # Errors
+/// As [`turn_to`]; a position outside the travel.
+#[cold]
+pub(super) fn position_of(
+    post: &mut Post,
+    point: Point3<f64>,
+    axis: Vector3<f64>,
+) -> Result<Position> {
+    let frame = frame_for(post, axis, false)?;
+    post.control.tip.is_away = false;
+    let tables = &post.control.tables;
+    let linear = tables.chain().linear(point, frame.angles);
+    tables.check_travel(&[linear.x, linear.y, linear.z, 0.0, 0.0], AxisSet::LINEAR)?;
+    let point = frame.turn.map_or(point, |turn| turn.inverse() * point);
+    Ok([point.x, point.y, point.z, frame.angles[0], frame.angles[1]])
+}
+
+/// Brings the machine and the control into the frame of a target; says whether it began
+/// there.
+///
+/// # Errors
+/// A motion at feed that would turn the machine; as [`frame_for`].
+#[cold]
+pub(super) fn turn_to(post: &mut Post, target: Target, at_feed: bool) -> Result<bool> {
+    let (_, axis) = rotary::transformed(post, target);
+    let frames = post.path.frames;
+    frame_for(post, axis, at_feed)?;
+    Ok(post.path.frames != frames)
+}
+
+fn frame_for(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<TiltedFrame> {
+    let Some(axis) = axis.try_normalize(1e-9) else {
+        return PostCode::AxisLength.err("the tool axis has length zero");
+    };
+    let tilted = post.control.state.tilted;
+    let same = post.path.frame.filter(|frame| (frame.axis - axis).norm() < SAME_AXIS);
+    if let Some(frame) = same.filter(|frame| {
+        tilted == Some(frame.turn.is_some()) && stands_at(&post.control, frame.angles)
+    }) {
+        return Ok(frame);
+    }
+    if at_feed && same.is_none() && post.path.frame.is_some() && !post.control.tip.is_away {
+        return PostCode::Frame.err(
+            "the tool axis changes in a motion at feed, and a tilted frame stands still; \
+             rotary.tip_output = 1 takes it under MULTAX/ON",
+        );
+    }
+    begin(post, axis, at_feed)
+}
+
+/// Turns the machine to a tool axis and begins the frame there.
+fn begin(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<TiltedFrame> {
+    let control = &mut post.control;
+    control.begin()?;
+    control.require_unit()?;
+    if control.is_compensated() {
+        return PostCode::CompensationOn.err("where a tilted frame begins");
+    }
+    if control.state.may_be_skipped() {
+        return PostCode::SkippedPart.err(
+            "a tilted frame would begin or end on one side of OPSKIP, and the motions of the \
+             other would count in it",
+        );
+    }
+    family::cancel_cycle(control)?;
+    control.flush_function(Function::WorkOffset)?;
+    let stands = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post));
+    let chain = post.control.tables.chain();
+    let angles = match zero(chain, axis) {
+        true => [0.0; 2],
+        false => chain.solve(axis, stands)?,
+    };
+    let turn = turn_of(chain, angles);
+    let known = knows_rotary(&post.control);
+    let rests = known && still(stands, angles);
+    if at_feed && !rests && !post.control.tip.is_away && post.path.point.is_some() {
+        return PostCode::Frame.err(
+            "the machine turns, or a text or another work offset may have turned it, before a \
+             motion at feed; RAPID brings the tool there anew",
+        );
+    }
+    tip_control::end(&mut post.control)?;
+    end(&mut post.control)?;
+    turn_machine(post, (stands, known), angles)?;
+    let flat = (turn.matrix() - Rotation3::identity().matrix()).amax() < SAME_AXIS;
+    let higher = higher(post.control.tables.chain(), axis, angles);
+    let turn = match flat {
+        true => None,
+        false => Some(family::begin_frame(&mut post.control, &turn, higher)?),
+    };
+    if let Some(turn) = turn {
+        check_rounded(post.control.tables.chain(), turn, angles)?;
+        forget_positions(&mut post.control, true);
+    }
+    post.path.interrupt();
+    let frame = TiltedFrame { axis, angles, turn };
+    post.path.frame = Some(frame);
+    post.path.frames += 1;
+    post.path.rotary = Some(angles);
+    Ok(frame)
+}
+
+/// The tool lies along an axis where the machine stands at zero, and it can stand there.
+fn zero(chain: &AxisChain, axis: Vector3<f64>) -> bool {
+    let reaches = chain.rotaries.iter().flatten().all(|rotary| {
+        rotary.min.is_none_or(|min| min <= 0.0) && rotary.max.is_none_or(|max| max >= 0.0)
+    });
+    reaches && (axis - chain.tool.into_inner()).norm() < SAME_AXIS
+}
+
+/// How the machine's axes lie in the part where its rotary axes stand.
+fn turn_of(chain: &AxisChain, angles: [f64; 2]) -> Rotation3<f64> {
+    let turns = chain.rotaries.iter().zip(angles).map(|(rotary, degrees)| match rotary {
+        Some(rotary) => Rotation3::from_axis_angle(&rotary.direction, degrees.to_radians()),
+        None => Rotation3::identity(),
+    });
+    turns.fold(Rotation3::identity(), |turn, next| turn * next)
+}
+
+/// Which rotary axes stand at the higher one of the two positions that bring the tool along
+/// an axis, counted from -180 to 180 degrees.
+fn higher(chain: &AxisChain, axis: Vector3<f64>, angles: [f64; 2]) -> [bool; 2] {
+    let usual = |angle: f64| angle - 360.0 * (angle / 360.0).round();
+    let solutions = chain.solutions(axis, angles);
+    [0, 1].map(|n| {
+        let here = usual(angles[n]);
+        solutions.iter().any(|other| usual(other[n]) < here - STILL)
+    })
+}
+
+/// Refuses a frame whose angles, rounded, want the machine elsewhere: where it reaches a tool
+/// axis only just, or any turn of an axis leaves it as it is.
+fn check_rounded(chain: &AxisChain, turn: Rotation3<f64>, angles: [f64; 2]) -> Result<()> {
+    let near = |found: [f64; 2]| found.iter().zip(angles).all(|(a, b)| (a - b).abs() < ELSEWHERE);
+    match chain.solve(turn * Vector3::z(), angles) {
+        Ok(found) if near(found) => Ok(()),
+        _ => PostCode::Frame.err(
+            "the tool axis lies at a pole of the machine or at the end of what it reaches, and the \
+             angles of a tilted frame can't name it exactly enough",
+        ),
+    }
+}
+
+/// Turns the rotary axes, where nothing is beside the tool.
+fn turn_machine(
+    post: &mut Post,
+    (stands, known): ([f64; 2], bool),
+    angles: [f64; 2],
+) -> Result<()> {
+    if known && still(stands, angles) {
+        return Ok(());
+    }
+    if !post.control.tip.is_away {
+        if leans(post.control.tables.chain(), stands) {
+            return PostCode::Frame.err(
+                "a head leans the tool, and straight up to home.retract_z would not be along it: \
+                 GOHOME or RETRCT must bring it away",
+            );
+        }
+        let Some(level) = post.control.commons.dbl_opt(loc::HOME_RETRACT_Z) else {
+            return PostCode::Frame.err(
+                "the machine would turn beside the part: no tool change, GOHOME or RETRCT came \
+                 before, and no level to go up to is known",
+            );
+        };
+        machine_position::carry_out(post, [None, None, Some(level)])?;
+    }
+    let position = [0.0, 0.0, 0.0, angles[0], angles[1]];
+    let motion = Motion { position, axes: AxisSet::ROTARY, word: 0 };
+    let cause = post.control.block.cause;
+    family::rapid(&mut post.control, &motion, RapidCode::Turning, cause)
+}
+
+/// The rotary axes need not turn.
+fn still(from: [f64; 2], to: [f64; 2]) -> bool {
+    from.iter().zip(to).all(|(from, to)| (from - to).abs() <= STILL)
+}
+
+/// A head holds the tool away from the machine's Z.
+fn leans(chain: &AxisChain, angles: [f64; 2]) -> bool {
+    let heads = chain.rotaries.iter().zip(angles).map(|(rotary, degrees)| match rotary {
+        Some(rotary) if rotary.carries == Carries::Head => {
+            Rotation3::from_axis_angle(&rotary.direction, degrees.to_radians())
+        }
+        _ => Rotation3::identity(),
+    });
+    let turn = heads.fold(Rotation3::identity(), |turn, next| turn * next);
+    let tool = chain.tool.into_inner();
+    (turn * tool - tool).norm() > SAME_AXIS
+}
+
+/// The control has the rotary axes at these angles, to their last digits.
+fn stands_at(control: &Control, angles: [f64; 2]) -> bool {
+    knows_rotary(control)
+        && control.tables.present().and(AxisSet::ROTARY).numbers().all(|number| {
+            let resolution = control.tables.axis(number).resolution();
+            let here = control.axis_position(number);
+            here.is_some_and(|here| (here - angles[number - 3]).abs() <= resolution)
+        })
+}
+
+/// The control has the rotary axes where the program has last brought them.
+fn knows_rotary(control: &Control) -> bool {
+    let tables = &control.tables;
+    tables.present().and(AxisSet::ROTARY).numbers().all(|number| {
+        let letter = tables.axis(number).letter;
+        control.commons.last_output(letter) != EMPTY && control.state.has_last(letter)
+    })
+}
+
+/// Where X, Y and Z stand in another frame is not known; the rotary axes stay.
+fn forget_positions(control: &mut Control, knows_rotary: bool) {
+    for number in AxisSet::ROTARY.numbers().filter(|_| knows_rotary) {
+        let letter = control.tables.axis(number).letter;
+        control.state.trust(letter);
+    }
+    for number in AxisSet::LINEAR.numbers() {
+        let letter = control.tables.axis(number).letter;
+        control.commons.set_last_output(letter, EMPTY);
+    }
+}
+
+/// Ends a tilted frame where the control may be in one.
+///
+/// # Errors
+/// The machine has no code for it; blocks that may be skipped.
+pub fn end(control: &mut Control) -> Result<()> {
+    if !control.tables.frame_output || control.state.tilted == Some(false) {
+        return Ok(());
+    }
+    if control.state.may_be_skipped() {
+        return PostCode::SkippedPart.err("a tilted frame would end on one side of OPSKIP");
+    }
+    family::cancel_cycle(control)?;
+    let known = knows_rotary(control);
+    family::end_frame(control)?;
+    control.state.tilted = Some(false);
+    forget_positions(control, known);
+    Ok(())
+}
+
+/// What an operation that is no motion of the path asks of a tilted frame.
+///
+/// # Errors
+/// Functions that would change the frame.
+pub(super) fn before(control: &mut Control, operation: &Operation) -> Result<()> {
+    match operation {
+        Operation::MachinePosition(_) | Operation::WorkOffset(_) | Operation::End(_) => {
+            end(control)
+        }
+        Operation::Function(letter, code)
+            if *letter == fil_machine::letters::G && control.state.tilted != Some(false) =>
+        {
+            match control.meaning(*code) {
+                Meaning::Frame | Meaning::Tilt | Meaning::TipControl | Meaning::Unit(_) => {
+                    PostCode::Frame.err("PREFUN: the function would move the frame in force")
+                }
+                _ => Ok(()),
+            }
+        }
+        _ => Ok(()),
+    }
+}
