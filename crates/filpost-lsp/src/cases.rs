@@ -15,6 +15,8 @@ const MOST: usize = 2000;
 pub(crate) struct Group {
     pub files: Vec<PathBuf>,
     pub machine: Option<PathBuf>,
+    /// The folder of the case.
+    pub case: Option<PathBuf>,
 }
 
 /// What the cases of a folder say.
@@ -58,7 +60,7 @@ impl Cases {
         }
         let machine = path.parent().map(|folder| folder.join("machine.toml"));
         let machine = machine.filter(|machine| machine.is_file());
-        Group { files: vec![path.to_path_buf()], machine }
+        Group { files: vec![path.to_path_buf()], machine, case: None }
     }
 }
 
@@ -102,5 +104,5 @@ fn of_case(case: &Case) -> Option<Group> {
     let real = |name: &String| case.folder.join(name).canonicalize().ok();
     let files: Option<Vec<PathBuf>> = case.file.fil.iter().map(real).collect();
     let machine = case.file.machine.as_ref().and_then(real);
-    Some(Group { files: files?, machine })
+    Some(Group { files: files?, machine, case: Some(case.folder.clone()) })
 }

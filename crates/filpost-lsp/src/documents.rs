@@ -8,6 +8,7 @@ use fil_ide::{Script, Text};
 use filpost::{Included, files, includes};
 
 use crate::cases::Cases;
+use crate::last_run::LastRun;
 use crate::uri::path_of;
 
 /// What a document is.
@@ -63,6 +64,8 @@ pub(crate) struct Documents {
     /// Analyses of FIL documents; thrown away with each change.
     scripts: HashMap<String, Script>,
     cases: Cases,
+    /// The runs of cases, by their folders, until a file is saved.
+    runs: HashMap<PathBuf, LastRun>,
 }
 
 impl Documents {
@@ -93,6 +96,22 @@ impl Documents {
     pub fn forget(&mut self) {
         self.cases.forget();
         self.scripts.clear();
+        self.runs.clear();
+    }
+
+    /// What a word held, or which record there was, when a line of a script ran last in its
+    /// case. A document with changes that are not saved has none.
+    pub fn last_run(&mut self, uri: &str, line: u32, word: &str) -> Option<String> {
+        self.cases.look();
+        let document = self.open.get(uri)?;
+        let path = path_of(uri)?;
+        if files::read_text(&path, None).ok()? != document.raw {
+            return None;
+        }
+        let root = root_of(&path, &self.texts()).unwrap_or_else(|| path.clone());
+        let case = self.cases.group_of(&root).case?;
+        let run = self.runs.entry(case.clone()).or_insert_with(|| LastRun::of(&case));
+        run.told(&path.canonicalize().ok()?, line + 1, word)
     }
 
     pub fn get(&self, uri: &str) -> Option<&Document> {

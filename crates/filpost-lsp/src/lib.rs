@@ -8,6 +8,7 @@ mod answer;
 mod capabilities;
 mod cases;
 mod documents;
+mod last_run;
 mod server;
 mod uri;
 

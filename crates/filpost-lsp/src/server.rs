@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fil_ide::{Item, Outline, Position, Script, cl_file, machine};
+use fil_ide::{Item, Outline, Position, Range, Script, cl_file, machine};
 use serde_json::{Value, json};
 
 use crate::answer;
@@ -23,6 +23,8 @@ const METHOD_NOT_FOUND: i32 = -32601;
 const REQUEST_FAILED: i32 = -32803;
 
 type Answer = Result<Value, Fault>;
+/// Markdown, and the word it speaks of.
+type Hover = (String, Range);
 
 /// The state of one editor's documents.
 #[derive(Default)]
@@ -149,7 +151,10 @@ impl Server {
 
     fn hover(&mut self, uri: &str, at: Position) -> Value {
         let found = match self.kind(uri) {
-            Some(Kind::Fil) => self.documents.script(uri).and_then(|script| script.hover(at)),
+            Some(Kind::Fil) => {
+                let found = self.documents.script(uri).and_then(|script| script.hover(at));
+                found.map(|found| self.with_last_run(uri, found))
+            }
             Some(Kind::Machine) => {
                 self.documents.get(uri).and_then(|own| machine::hover(&own.text, at))
             }
@@ -160,6 +165,19 @@ impl Server {
             let contents = json!({ "kind": "markdown", "value": markdown });
             json!({ "contents": contents, "range": answer::range(range) })
         })
+    }
+
+    /// A hover, and below it what the word held when its line ran last.
+    fn with_last_run(&mut self, uri: &str, (markdown, range): Hover) -> Hover {
+        let word = self.documents.get(uri).map(|own| {
+            let bytes = own.text.byte(range.start)..own.text.byte(range.end);
+            own.text.as_str()[bytes].to_ascii_uppercase()
+        });
+        let told = word.and_then(|word| self.documents.last_run(uri, range.start.line, &word));
+        match told {
+            Some(told) => (format!("{markdown}\n\n{told}"), range),
+            None => (markdown, range),
+        }
     }
 
     fn complete(&mut self, uri: &str, at: Position) -> Value {

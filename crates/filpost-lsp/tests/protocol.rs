@@ -390,6 +390,48 @@ fn files_of_a_case_are_checked_together_for_its_machine() {
 }
 
 #[test]
+fn a_hover_tells_what_a_name_held_in_the_last_run_of_its_case() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write =
+        |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("written");
+    let fil = "NN=0\nCIMFIL/ON,GOTO\nNN=NN+1\nXX=POSTF(7,6)*NN\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
+    write("post.fil", fil);
+    write(
+        "part.ncl",
+        "UNITS / MM\nLOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nGOTO / 4, 2, 3\nFINI\n",
+    );
+    write(
+        "case.toml",
+        "cl = \"part.ncl\"\nready = \"fanuc-mill\"\nfil = [\"post.fil\"]\norigin = \"x\"\n",
+    );
+    let uri = |name: &str| format!("file://{}", folder.path().join(name).display());
+    let params = json!({ "workspaceFolders": [{ "uri": uri("") }] });
+    let hover = |marked: &str| {
+        let mut editor = Editor::open_in(&params, &uri("post.fil"), "fil", marked);
+        let found = editor.ask("textDocument/hover");
+        found["contents"]["value"].as_str().unwrap_or_default().to_string()
+    };
+    let at = |before: &str| fil.replacen(before, &format!("{before}|"), 1);
+    assert!(
+        hover(&at("XX=POSTF(7,6)*N")).ends_with(": `NN = 2`"),
+        "{}",
+        hover(&at("XX=POSTF(7,6)*N"))
+    );
+    assert!(hover(&at("NN=N")).ends_with(": `NN = 1`"), "before the line");
+    let record = hover(&at("XX=POS"));
+    assert!(record.contains("record 5, CL line 5: 2 = `5000`, 3 = `5`"), "{record}");
+    assert!(record.contains("6 = `4`"), "{record}");
+    // What is not saved has not run.
+    let edited = at("XX=POSTF(7,6)*N").replace("NN=0", "NN=5");
+    assert!(!hover(&edited).contains("line ran last"));
+    // A line that has never run, and a script without end, hold nothing up.
+    let endless = "LA) XX=1\nJUMPTO/LA\nFINI\n";
+    write("post.fil", endless);
+    let told = hover("LA) X|X=1\nJUMPTO/LA\nFINI\n");
+    assert!(told.ends_with("`XX = 1`"), "{told}");
+}
+
+#[test]
 fn a_session_over_a_connection() {
     let (editor, server) = Connection::memory();
     let thread = thread::spawn(move || serve(&server));

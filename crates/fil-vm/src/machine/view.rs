@@ -93,6 +93,14 @@ impl View<'_> {
         names
     }
 
+    /// The names of the statement that runs next, with their values.
+    pub fn used(&self) -> Vec<(String, Held)> {
+        let Some(statement) = self.statement() else { return Vec::new() };
+        let names = self.module.statements[statement as usize].names.iter();
+        let named = names.filter_map(|reg| Some((self.module.names.get(reg)?.clone(), *reg)));
+        named.map(|(name, reg)| (name, self.held(reg))).collect()
+    }
+
     /// The parameters of the macro that runs.
     pub fn parameters(&self) -> Vec<(String, Held)> {
         let Some(part) = self.part() else { return Vec::new() };
