@@ -3,7 +3,7 @@
 use super::Fault;
 use super::state::State;
 use super::words::{Words, letter};
-use crate::dialect::{Auxiliary, Function, Group, ToolCall};
+use crate::dialect::{Auxiliary, Family, Function, Group, ToolCall};
 use crate::errors::NcCode;
 use crate::motion::{Compensation, Event, FOOT, Modes, Speed, Spindle, StartMode, WORD_OFFSETS};
 
@@ -209,6 +209,10 @@ impl State<'_> {
         let modes = Modes { cycle: self.cycle.is_some(), ..self.modes };
         self.events.push(Event::ToolChange { line: self.line, tool, modes });
         self.length_is_on = false;
+        if self.modes.tool != tool && self.dialect.family != Family::WordAddress {
+            // The change brings the length of the tool: its tip is not where the last one was.
+            self.known[2] = false;
+        }
         self.modes.tool = tool;
     }
 }

@@ -126,9 +126,11 @@ impl<C: Steps> Walk<'_, C> {
         let height = (given * given - chord * chord / 4.0).max(0.0).sqrt();
         let rounded = given * self.slack.radius + chord * slack;
         let along = (rounded / height).min((2.0 * rounded).sqrt());
+        // The ends of a short chord turn it as they are rounded, and the center with it.
+        let turned = given * (2.0 * slack / chord).min(2.0);
         let center = self.settings.forward.frame_of(&found.to).linear(arc.center);
         let off = distance(part.center, center, part.normal);
-        (off <= along + 2.0 * slack).then_some(swept)
+        (off <= along + turned + 2.0 * slack).then_some(swept)
     }
 
     /// The angle from the start of an arc at which a motion ends, behind another angle.

@@ -130,7 +130,7 @@ impl<C: Steps> Walk<'_, C> {
                     let message = format!("the program ends {found}, it should be M{must}");
                     self.find(FindingKind::End, Some(cl_line), Some(line), message);
                 }
-                if !self.settings.has_end_code() && !self.own.has(line) {
+                if code.is_some() && !self.settings.has_end_code() && !self.own.has(line) {
                     let message = "the program ends here, the settings have no code for it";
                     self.find(FindingKind::End, Some(cl_line), Some(line), message.to_string());
                 }

@@ -95,13 +95,21 @@ impl<C: Steps> Walk<'_, C> {
         let end = forward.restated(end, &part.to);
         let to = part.to.linear;
         let known: [bool; 3] = std::array::from_fn(|n| self.known[n] && part.known[n]);
+        // From an unknown place X and Y go to the end; only Z may go up first.
+        let found_out: [bool; 2] = std::array::from_fn(|n| !self.known[n] && part.known[n]);
         let same = |a: f64, b: f64| (a - b).abs() <= STILL;
         let moved = |n: usize| !same(to[n], at[n]);
         let arrived = |n: usize| same(to[n], end.linear[n]);
+        let is_level = self.is_retract_level(to[2]);
         let mut say = |message: String| {
             self.find(FindingKind::Order, Some(cl_line), Some(part.line), message);
         };
-        if (0..3).any(|n| moved(n) && !arrived(n) && known[n]) {
+        let leaves = |n: usize| moved(n) && known[n] && !arrived(n);
+        // Before it turns its rotary axes the machine may go up to its level.
+        let turns = part.to.rotary != end.rotary;
+        let lifts = turns && is_level && to[2] > at[2] && !leaves(0) && !leaves(1);
+        let strays = (0..2).any(|n| found_out[n] && !arrived(n));
+        if strays || (0..3).any(|n| leaves(n) && !(n == 2 && lifts)) {
             let [x, y, z] = to.map(short);
             say(format!("rapid by way of X{x} Y{y} Z{z}, which is on no way to its end"));
         }
@@ -118,6 +126,12 @@ impl<C: Steps> Walk<'_, C> {
         }
     }
 
+    /// A position of Z is the level that the machine goes up to.
+    fn is_retract_level(&self, z: f64) -> bool {
+        let level = self.settings.retract_level(self.metric);
+        level.is_some_and(|level| (z - level).abs() <= self.slack.linear[2])
+    }
+
     /// Before the tilted frame that a rapid ends in the machine may go up and turn.
     fn check_before_frame(&mut self, cl_line: u32, part: &Move) {
         let at = self.settings.forward.restated(&self.at, &part.to).linear;
@@ -125,7 +139,9 @@ impl<C: Steps> Walk<'_, C> {
             true => part.to.linear[n] - at[n],
             false => 0.0,
         };
-        if way(0).abs() > STILL || way(1).abs() > STILL || way(2) < -STILL {
+        let raises = part.known[2] && (!self.known[2] || way(2) > STILL);
+        let astray = raises && !self.is_retract_level(part.to.linear[2]);
+        if way(0).abs() > STILL || way(1).abs() > STILL || way(2) < -STILL || astray {
             let message = "rapid before its tilted frame begins, which is no way up".to_string();
             self.find(FindingKind::Order, Some(cl_line), Some(part.line), message);
         }

@@ -26,8 +26,8 @@ impl Pair {
             }
             _ => false,
         };
-        let ends = self.old.chars().next_back().filter(|last| !last.is_alphabetic());
-        !joined(before, self.old.chars().next()) && !joined(ends, behind.chars().next())
+        !joined(before, self.old.chars().next())
+            && !joined(self.old.chars().next_back(), behind.chars().next())
     }
 }
 
