@@ -1,7 +1,7 @@
 //! Back-check: does an NC program do what the CL file asks for?
 //!
 //! [`ClPath`] reads the CL file without the post, the interpreter reads the program
-//! without the writer; `walk` goes along both at once, [`window`] keeps what it looks
+//! without the writer; `walk` goes along both at once, `window` keeps what it looks
 //! ahead, `align` finds where they part.
 //! What the machine's settings lay down where the CL file leaves it open (when codes
 //! stand, what the last digit is) comes from [`Settings`].
