@@ -21,6 +21,7 @@ mod shapes;
 mod structure;
 mod token;
 pub mod tree;
+pub mod walk;
 
 lalrpop_util::lalrpop_mod!(
     #[allow(clippy::all, missing_docs, unused, rustdoc::all)]

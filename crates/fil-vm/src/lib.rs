@@ -29,7 +29,6 @@ pub mod resolve;
 pub mod statements;
 mod texts;
 mod totals;
-mod tree;
 mod value;
 
 pub use allow::is_allowable;

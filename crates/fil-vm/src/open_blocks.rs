@@ -18,7 +18,7 @@ use crate::constant::constant;
 use crate::errors::CompileCode;
 use crate::postf::{Compat, PostfOp};
 use crate::resolve::Names;
-use crate::tree::{expressions, inner_bodies};
+use fil_syntax::walk::{all_expressions, inner_bodies};
 
 /// Calls of macros and INCLUD that are followed; deeper ones are taken to send.
 const DEEPEST: u32 = 50;
@@ -74,7 +74,7 @@ impl Search<'_> {
             return Some("a deep call".to_string());
         }
         let mut sent = None;
-        expressions(stmt, &mut |expr| sent = sent.take().or_else(|| self.postf(expr)));
+        all_expressions(stmt, &mut |expr| sent = sent.take().or_else(|| self.postf(expr)));
         if sent.is_some() {
             return sent;
         }

@@ -171,7 +171,7 @@ impl When {
     /// What the client asks for.
     ///
     /// # Errors
-    /// A count of hits that is none.
+    /// A count of hits that can't be read as one.
     pub fn read(asked: &Value) -> Result<When, String> {
         let text = |key: &str| {
             let value = asked.get(key).and_then(Value::as_str).map(str::trim);

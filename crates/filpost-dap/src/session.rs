@@ -155,7 +155,7 @@ impl Session {
         self.shared.run.store(0, Ordering::SeqCst);
         if let Some((asks, thread)) = self.run.take() {
             drop(asks);
-            // Whether it panicked is of no matter any more.
+            // Nobody waits for its result, so a panic in it changes nothing.
             let _ = thread.join();
         }
         self.shared.is_stopped.store(false, Ordering::SeqCst);

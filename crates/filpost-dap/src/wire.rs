@@ -10,7 +10,7 @@ const LONGEST: usize = 64 << 20;
 /// The next message; `None` at the end of the input.
 ///
 /// # Errors
-/// A header or a body that is none, in a sentence.
+/// A header that gives no length, a body that is too long or no JSON, in a sentence.
 pub fn read(input: &mut impl BufRead) -> Result<Option<Value>, String> {
     let mut length = None;
     loop {

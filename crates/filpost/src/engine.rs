@@ -236,7 +236,7 @@ impl<'o, S: Records> Engine<'o, S> {
             } else {
                 self.tell_debugger(DebugEvent::Failed(diag))
             };
-            // What is looked at from now on to find further errors is no run any more.
+            // The run has ended: what comes behind is only looked at for further errors.
             self.outside.debugger = None;
             self.outside.editor.iter().for_each(SharedEditor::end_debugging);
             told?;

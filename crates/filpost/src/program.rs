@@ -180,7 +180,7 @@ impl Program {
     /// The same FIL on a machine with a setting at its default.
     ///
     /// # Errors
-    /// Settings that make no machine any more, or contradict each other.
+    /// Without the setting the others are refused, or contradict each other.
     pub(crate) fn without(&self, setting: &Location) -> Result<Program, Error> {
         let mut commons = self.commons().clone();
         let (number, value) = (u32::from(setting.number), setting.default_value());

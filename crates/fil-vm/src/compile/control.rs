@@ -7,7 +7,7 @@ use super::chunk::{Label, NamedLabel};
 use crate::debug::BranchOutcome;
 use crate::errors::CompileCode;
 use crate::ops::Op;
-use crate::tree::inner_bodies;
+use fil_syntax::walk::inner_bodies;
 
 impl Compiler<'_> {
     /// Finds the labels of a chunk before its code is made: jumps go forward too.

@@ -164,6 +164,6 @@ fn inclusions(body: &[Stmt], wanted: &mut Vec<(String, Span)>) {
         if let StmtKind::Includ { file } = &stmt.kind {
             wanted.push((file.clone(), stmt.span));
         }
-        crate::tree::inner_bodies(stmt, &mut |inner| inclusions(inner, wanted));
+        fil_syntax::walk::inner_bodies(stmt, &mut |inner| inclusions(inner, wanted));
     }
 }

@@ -5,7 +5,7 @@ use fil_syntax::tree::{Item, Span, Stmt, StmtKind};
 
 use super::context::Context;
 use crate::errors::LintCode;
-use crate::tree::inner_bodies;
+use fil_syntax::walk::inner_bodies;
 
 /// Warns at the one-line IF.
 pub(super) fn look(context: &mut Context<'_>) {

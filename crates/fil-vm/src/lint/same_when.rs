@@ -6,7 +6,7 @@ use fil_syntax::tree::{Expr, ExprKind, Span, Stmt, StmtKind, When};
 use super::context::{Context, Owner};
 use crate::constant::code;
 use crate::errors::LintCode;
-use crate::tree::inner_bodies;
+use fil_syntax::walk::inner_bodies;
 
 /// A value of a WHEN that is the same in every run.
 #[derive(PartialEq)]

@@ -6,7 +6,7 @@ use fil_syntax::tree::{Expr, ExprKind, Item, Macro, Span, Stmt, StmtKind};
 use super::{ArrayEntry, ArraySize, FileSpan, MacroEntry, Resolver, SymbolKind};
 use crate::builtins;
 use crate::errors::CompileCode;
-use crate::tree::inner_bodies;
+use fil_syntax::walk::inner_bodies;
 
 impl<'t> Resolver<'t, '_> {
     /// Declares the names of all files.

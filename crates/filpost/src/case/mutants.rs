@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use fil_syntax::tree::{Expr, ExprKind, Item, Span, Stmt, StmtKind};
+use fil_syntax::walk;
 
 /// A small change of a FIL file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -114,37 +115,10 @@ impl Finder<'_> {
                 self.condition(condition);
                 self.statement(then);
             }
-            StmtKind::Do { range, body, .. } => {
-                range.values().for_each(|value| self.constants(value));
-                self.statements(body);
+            _ => {
+                walk::expressions(stmt, &mut |expr| self.constants(expr));
+                walk::inner_bodies(stmt, &mut |body| self.statements(body));
             }
-            StmtKind::Case { subject, whens, other } => {
-                self.constants(subject);
-                for when in whens {
-                    when.values.iter().for_each(|value| self.constants(value));
-                    self.statements(&when.body);
-                }
-                self.statements(other.as_deref().unwrap_or_default());
-            }
-            StmtKind::Assign { target, value } => {
-                target.index.iter().for_each(|index| self.constants(index));
-                self.constants(value);
-            }
-            StmtKind::Text { target, args } => {
-                target.index.iter().for_each(|index| self.constants(index));
-                args.iter().for_each(|arg| self.constants(arg));
-            }
-            StmtKind::Post { args, .. } => args.iter().for_each(|arg| self.constants(arg)),
-            StmtKind::IfSign { value, .. } => self.constants(value),
-            StmtKind::Call { args, .. } => args.iter().for_each(|(_, arg)| self.constants(arg)),
-            StmtKind::PostText { .. }
-            | StmtKind::Jump { .. }
-            | StmtKind::Reserv { .. }
-            | StmtKind::Print { .. }
-            | StmtKind::Redef { .. }
-            | StmtKind::Includ { .. }
-            | StmtKind::Contin
-            | StmtKind::Fini => {}
         }
     }
 

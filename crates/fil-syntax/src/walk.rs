@@ -1,9 +1,9 @@
 //! Walking over trees.
 
-use fil_syntax::tree::{Expr, ExprKind, Stmt, StmtKind, Target};
+use crate::tree::{Expr, ExprKind, Stmt, StmtKind, Target};
 
 /// The statement lists inside a statement.
-pub(crate) fn inner_bodies<'t>(stmt: &'t Stmt, visit: &mut dyn FnMut(&'t [Stmt])) {
+pub fn inner_bodies<'t>(stmt: &'t Stmt, visit: &mut dyn FnMut(&'t [Stmt])) {
     match &stmt.kind {
         StmtKind::If { arms, otherwise } => {
             arms.iter().for_each(|(_, body)| visit(body));
@@ -21,10 +21,14 @@ pub(crate) fn inner_bodies<'t>(stmt: &'t Stmt, visit: &mut dyn FnMut(&'t [Stmt])
 
 /// Every expression of a statement, those inside of others too, but not those of the
 /// statements inside of it.
-pub(crate) fn expressions<'t>(stmt: &'t Stmt, visit: &mut dyn FnMut(&'t Expr)) {
-    let mut all = |exprs: &mut dyn Iterator<Item = &'t Expr>| {
-        exprs.for_each(|expr| within(expr, visit));
-    };
+pub fn all_expressions<'t>(stmt: &'t Stmt, visit: &mut dyn FnMut(&'t Expr)) {
+    expressions(stmt, &mut |expr| within(expr, visit));
+}
+
+/// The expressions of a statement, without those inside of them and those of the statements
+/// inside of it.
+pub fn expressions<'t>(stmt: &'t Stmt, visit: &mut dyn FnMut(&'t Expr)) {
+    let mut all = |exprs: &mut dyn Iterator<Item = &'t Expr>| exprs.for_each(&mut *visit);
     let index = |target: &'t Target| target.index.as_deref().into_iter();
     match &stmt.kind {
         StmtKind::Assign { target, value } => all(&mut index(target).chain([value])),
