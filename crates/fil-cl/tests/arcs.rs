@@ -45,7 +45,7 @@ fn unit(a: Vector) -> Vector {
 impl Arc {
     fn at(&self, angle: f64) -> Vector {
         let across = cross(self.axis, self.out);
-        let round = add(self.out.map(|part| part * angle.cos()), across, angle.sin());
+        let round = add(self.out.map(|part| part * libm::cos(angle)), across, libm::sin(angle));
         let up = add(self.center, self.axis, self.rise * angle / self.sweep);
         add(up, round, self.radius)
     }
@@ -71,7 +71,7 @@ impl Arc {
     /// Distance in the plane between the end and the start, or the point opposite of it.
     fn chords(&self) -> [f64; 2] {
         let half = self.sweep / 2.0;
-        [half.sin(), half.cos()].map(|part| 2.0 * self.radius * part.abs())
+        [libm::sin(half), libm::cos(half)].map(|part| 2.0 * self.radius * part.abs())
     }
 }
 
@@ -120,8 +120,8 @@ prop_compose! {
         other[least] = 1.0;
         let first = unit(cross(axis, other));
         let second = cross(axis, first);
-        let out = add(first.map(|part| part * begin.cos()), second, begin.sin());
-        let radius = 10f64.powf(size);
+        let out = add(first.map(|part| part * libm::cos(begin)), second, libm::sin(begin));
+        let radius = libm::exp10(size);
         let rise = if rises { rise * radius } else { 0.0 };
         Arc { center, axis, out, radius, sweep: TAU * (part + f64::from(turns)), rise }
     }
@@ -167,7 +167,7 @@ fn read(text: &str) -> Result<Found, String> {
 /// The arc that is read back is the one that was written, within what `decimals` can hold.
 fn check(arc: &Arc, text: &str, decimals: usize) -> Result<(), TestCaseError> {
     let found = read(text).map_err(|diag| TestCaseError::fail(format!("{diag}\n{text}")))?;
-    let last = 10f64.powi(-(decimals as i32));
+    let last = libm::exp10(-(decimals as f64));
     prop_assert!(norm(add(found.start, arc.start(), -1.0)) < 2.0 * last, "start\n{}", text);
     // The end lies in the plane across the axis, which has seven decimals.
     let slack = 3.0 * last + 2e-7 * arc.radius;
@@ -186,7 +186,7 @@ fn check(arc: &Arc, text: &str, decimals: usize) -> Result<(), TestCaseError> {
         let out = add(point, found.circle.center, -1.0);
         add(out, axis, -dot(out, axis))
     });
-    let turn = dot(axis, cross(from, to)).atan2(dot(from, to)).rem_euclid(TAU);
+    let turn = libm::atan2(dot(axis, cross(from, to)), dot(from, to)).rem_euclid(TAU);
     let rest = arc.sweep - TAU * arc.turns();
     let slack = 8.0 * last / arc.radius + 2e-5;
     let off = (turn - rest).rem_euclid(TAU);

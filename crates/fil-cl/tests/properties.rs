@@ -31,7 +31,8 @@ fn point() -> impl Strategy<Value = [f64; 3]> {
 fn axis() -> impl Strategy<Value = [f64; 3]> {
     (0.0..360.0f64, -90.0..90.0f64).prop_map(|(turn, lift)| {
         let (turn, lift) = (turn.to_radians(), lift.to_radians());
-        [turn.cos() * lift.cos(), turn.sin() * lift.cos(), lift.sin()].map(|part| part + 0.0)
+        [libm::cos(turn) * libm::cos(lift), libm::sin(turn) * libm::cos(lift), libm::sin(lift)]
+            .map(|part| part + 0.0)
     })
 }
 

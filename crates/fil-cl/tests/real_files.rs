@@ -93,7 +93,8 @@ fn arcs_of_creo_close() {
             let Some(circle) = three[1].circle() else { continue };
             for end in [&three[0], &three[2]] {
                 let point = end.point().unwrap();
-                let distance = (0..3).map(|i| (point[i] - circle.center[i]).powi(2)).sum::<f64>();
+                let ways = (0..3).map(|i| point[i] - circle.center[i]);
+                let distance = ways.map(|way| way * way).sum::<f64>();
                 assert!((distance.sqrt() - circle.radius.unwrap()).abs() < 1e-6);
             }
             arcs += 1;
@@ -238,7 +239,7 @@ fn words_are_refused_where_the_path_contradicts_them() {
             let out = [end[0] - circle.center[0], end[1] - circle.center[1]];
             let way = [next[0] - end[0], next[1] - end[1]];
             let along = out[0] * way[1] - out[1] * way[0];
-            let length = out[0].hypot(out[1]) * way[0].hypot(way[1]);
+            let length = libm::hypot(out[0], out[1]) * libm::hypot(way[0], way[1]);
             assert!(along > -0.9 * length, "line {}", four[1].line);
             judged += usize::from(sweep(&circle, start, end) > 4.0);
         }
@@ -250,6 +251,6 @@ fn words_are_refused_where_the_path_contradicts_them() {
 fn sweep(circle: &Circle, start: [f64; 3], end: [f64; 3]) -> f64 {
     let from = |p: [f64; 3]| [p[0] - circle.center[0], p[1] - circle.center[1]];
     let (a, b) = (from(start), from(end));
-    let turn = (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]);
+    let turn = libm::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
     (turn * circle.axis[2]).rem_euclid(std::f64::consts::TAU)
 }

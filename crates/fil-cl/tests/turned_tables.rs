@@ -49,7 +49,7 @@ fn points_of_a_turned_table() {
     assert!(near(&found[0], &[1.0, -3.0, 2.0, 0.0, -1.0, 0.0]), "{found:?}");
     assert!(near(&found[1], &[0.0, -3.0, 2.0, 0.0, -1.0, 0.0, 1.0]), "{found:?}");
     assert!(near(&found[2], &[0.0, -3.0, 3.0, 0.0, -1.0, 0.0]), "{found:?}");
-    let (sine, cosine) = 0.5f64.sin_cos();
+    let (sine, cosine) = libm::sincos(0.5);
     for turn in ["ROTABL/ 0.5,BAXIS,TABLE,CCLW", "ROTABL/TABLE,BAXIS,CLW,-28.64789"] {
         let text =
             format!("{CAMWORKS}TLAXIS/{sine:.6},0,{cosine:.6}\n{turn}\nGOTO/1,2,3\nGOTO/4,5,6\n");

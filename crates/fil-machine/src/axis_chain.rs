@@ -244,7 +244,7 @@ fn turn(about: Unit<Vector3<f64>>, from: Vector3<f64>, to: Vector3<f64>, free: f
     }
     let sine = about.dot(&flat_from.cross(&flat_to));
     let cosine = flat_from.dot(&flat_to);
-    Some(sine.atan2(cosine).to_degrees())
+    Some(libm::atan2(sine, cosine).to_degrees())
 }
 
 fn single(
@@ -372,9 +372,11 @@ mod tests {
     fn one_table_about_y_brings_the_point_under_the_tool() {
         let machine = machine(axis(Carries::Table, [0.0, 1.0, 0.0]), None);
         let c = 4.884_f64.to_radians();
-        let angles = machine.solve(Vector3::new(c.sin(), 0.0, c.cos()), [0.0; 2]).unwrap();
+        let angles =
+            machine.solve(Vector3::new(libm::sin(c), 0.0, libm::cos(c)), [0.0; 2]).unwrap();
         assert!((angles[0] - 4.884).abs() < 1e-9);
-        let point = machine.linear(Point3::new(81.0 * c.sin(), 7.0, 81.0 * c.cos()), angles);
+        let point =
+            machine.linear(Point3::new(81.0 * libm::sin(c), 7.0, 81.0 * libm::cos(c)), angles);
         assert!((point - Point3::new(0.0, 7.0, 81.0)).norm() < 1e-9);
         let sideways = machine.solve(Vector3::new(0.0, 0.3, 1.0), [0.0; 2]);
         assert_eq!(sideways.unwrap_err().code.name(), "E0508");
@@ -395,8 +397,11 @@ mod tests {
                 for step in 0..60 {
                     let tilt = f64::from(step) * 0.026;
                     let turn = f64::from(step) * 0.41;
-                    let want =
-                        Vector3::new(tilt.sin() * turn.cos(), tilt.sin() * turn.sin(), tilt.cos());
+                    let want = Vector3::new(
+                        libm::sin(tilt) * libm::cos(turn),
+                        libm::sin(tilt) * libm::sin(turn),
+                        libm::cos(tilt),
+                    );
                     let angles = machine.solve(want, [0.0; 2]).unwrap();
                     assert!((forward(&machine, angles) - want).norm() < 1e-6, "{angles:?}");
                 }
@@ -410,8 +415,9 @@ mod tests {
         second.min = Some(0.0);
         let machine = machine(axis(Carries::Table, [0.0, 0.0, 1.0]), Some(second));
         for tilt in [0.2_f64, -0.2] {
-            let angles =
-                machine.solve(Vector3::new(0.0, tilt.sin(), tilt.cos()), [0.0; 2]).unwrap();
+            let angles = machine
+                .solve(Vector3::new(0.0, libm::sin(tilt), libm::cos(tilt)), [0.0; 2])
+                .unwrap();
             assert!(angles[1] >= 0.0);
         }
     }

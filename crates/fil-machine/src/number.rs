@@ -318,7 +318,7 @@ mod tests {
     proptest::proptest! {
         #[test]
         fn rounding_agrees_with_the_standard_library(value in -1e18f64..1e18, scale in 0..20) {
-            let value = value / 10f64.powi(scale);
+            let value = value / libm::exp10(f64::from(scale));
             proptest::prop_assume!((value.fract().abs() - HALF).abs() > 1e-6);
             proptest::prop_assert_eq!(round(value), value.round() as i64);
         }

@@ -39,7 +39,7 @@ impl Moving {
         if let Some(arc) = arc {
             let spoke = at(0.0) - Vector3::from(arc.center);
             let [first, second] = arc.plane();
-            let radius = spoke[first].hypot(spoke[second]);
+            let radius = libm::hypot(spoke[first], spoke[second]);
             let swept = arc.angle.to_radians();
             point.away += 2.0 * radius;
             point.speed += swept * radius;

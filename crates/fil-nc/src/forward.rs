@@ -126,7 +126,7 @@ impl Forward {
         if let Some(arc) = arc {
             let [first, second] = arc.plane();
             let turned = (arc.angle * share * if arc.ccw { 1.0 } else { -1.0 }).to_radians();
-            let (sine, cosine) = turned.sin_cos();
+            let (sine, cosine) = libm::sincos(turned);
             let arm =
                 [from.linear[first] - arc.center[first], from.linear[second] - arc.center[second]];
             at.linear[first] = arc.center[first] + arm[0] * cosine - arm[1] * sine;
@@ -371,7 +371,7 @@ pub(crate) mod tests {
         ) {
             let axes = [0, 1].map(|n| Some((carries[n], directions[n], centers[n])));
             let machine = machine(axes, pivot);
-            let axis = Vector3::new(tilt.sin() * around.cos(), tilt.sin() * around.sin(), tilt.cos());
+            let axis = Vector3::new(libm::sin(tilt) * libm::cos(around), libm::sin(tilt) * libm::sin(around), libm::cos(tilt));
             let rotary = machine.solve(axis, last).unwrap();
             let linear = machine.linear(Point3::from(tip), rotary);
             let forward = Forward { machine };

@@ -93,8 +93,8 @@ impl Arc {
     /// Length from its start to its end, mm.
     pub fn length(&self, from: [f64; 3], to: [f64; 3]) -> f64 {
         let [first, second] = self.plane().map(|axis| from[axis] - self.center[axis]);
-        let round = self.angle.to_radians() * first.hypot(second);
-        round.hypot(to[self.normal] - from[self.normal])
+        let round = self.angle.to_radians() * libm::hypot(first, second);
+        libm::hypot(round, to[self.normal] - from[self.normal])
     }
 }
 

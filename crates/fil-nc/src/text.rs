@@ -40,7 +40,7 @@ impl Number {
     /// The value as a human reads it.
     pub fn value(self) -> f64 {
         let power = POWERS.get(usize::from(self.decimals)).copied();
-        self.digits as f64 / power.unwrap_or_else(|| 10f64.powi(self.decimals.into()))
+        self.digits as f64 / power.unwrap_or_else(|| libm::pow(10.0, self.decimals.into()))
     }
 }
 

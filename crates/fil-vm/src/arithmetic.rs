@@ -2,13 +2,13 @@
 
 /// Angle of the point `x = a[1]`, `y = a[0]` in degrees.
 pub(crate) fn arc_tangent(a: &[f64]) -> Option<f64> {
-    (a[0] != 0.0 || a[1] != 0.0).then(|| a[0].atan2(a[1]).to_degrees())
+    (a[0] != 0.0 || a[1] != 0.0).then(|| libm::atan2(a[0], a[1]).to_degrees())
 }
 
 /// Distance of two points.
 pub(crate) fn distance(a: &[f64]) -> Option<f64> {
     let (x, y, z) = (a[3] - a[0], a[4] - a[1], a[5] - a[2]);
-    Some(x.hypot(y).hypot(z))
+    Some(libm::hypot(libm::hypot(x, y), z))
 }
 
 /// Sine of degrees, exact where the sine is 0, 1/2 or 1: an axis position must
@@ -21,8 +21,8 @@ pub(crate) fn sin_degrees(x: f64) -> f64 {
     let sine = match angle {
         0.0 => return 0.0,
         30.0 => 0.5,
-        _ if angle > 45.0 => (90.0 - angle).to_radians().cos(),
-        _ => angle.to_radians().sin(),
+        _ if angle > 45.0 => libm::cos((90.0 - angle).to_radians()),
+        _ => libm::sin(angle.to_radians()),
     };
     sign * sine
 }
@@ -40,8 +40,8 @@ mod tests {
     fn sine_and_cosine_agree_with_radians() {
         for step in -1000..1000 {
             let angle = f64::from(step) * 0.777;
-            assert!((sin_degrees(angle) - angle.to_radians().sin()).abs() < 1e-14, "{angle}");
-            assert!((cos_degrees(angle) - angle.to_radians().cos()).abs() < 1e-14, "{angle}");
+            assert!((sin_degrees(angle) - libm::sin(angle.to_radians())).abs() < 1e-14, "{angle}");
+            assert!((cos_degrees(angle) - libm::cos(angle.to_radians())).abs() < 1e-14, "{angle}");
         }
     }
 }

@@ -55,7 +55,7 @@ pub(crate) fn digits(number: f64, decimals: Option<usize>, rules: NumberRules) -
     let mut text = match decimals {
         None => format!("{}", number.abs()),
         Some(decimals) => {
-            let scaled = (number.abs() * 10f64.powi(decimals as i32)).round();
+            let scaled = (number.abs() * 10u64.pow(decimals as u32) as f64).round();
             if scaled >= EXACT {
                 return None;
             }

@@ -41,7 +41,7 @@ impl ArcPath {
 
     /// Length of the path.
     pub fn length(&self) -> f64 {
-        (self.radius * self.angle).hypot(self.high - self.low)
+        libm::hypot(self.radius * self.angle, self.high - self.low)
     }
 
     /// Widens a box to where the arc reaches farthest along each axis between its ends; of a
@@ -74,7 +74,7 @@ impl ArcPath {
 
 /// Angle from one direction to another about an axis, 0 to a full turn.
 fn turn(axis: Vector, from: Vector, to: Vector) -> f64 {
-    let angle = dot(axis, cross(from, to)).atan2(dot(from, to));
+    let angle = libm::atan2(dot(axis, cross(from, to)), dot(from, to));
     if angle < 0.0 { angle + TAU } else { angle }
 }
 

@@ -109,7 +109,7 @@ impl Oracle<'_> {
             BinaryOp::Sub => one - other,
             BinaryOp::Mul => one * other,
             BinaryOp::Div => one / other,
-            _ => one.powf(other),
+            _ => libm::pow(one, other),
         };
         if result.is_finite() { Ok(Value::Number(result)) } else { self.fault(Class::Domain, span) }
     }

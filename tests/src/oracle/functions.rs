@@ -10,14 +10,14 @@ pub fn call(name: &str, a: &[f64]) -> Option<Result<f64, Class>> {
         ("SINF", [x]) => sine(*x),
         ("COSF", [x]) => sine(90.0 - (x % 360.0).abs()),
         ("TANF", [x]) => sine(*x) / sine(90.0 - (x % 360.0).abs()),
-        ("ASINF", [x]) => x.asin().to_degrees(),
-        ("ACOSF", [x]) => x.acos().to_degrees(),
-        ("ATANF", [x]) => x.atan().to_degrees(),
+        ("ASINF", [x]) => libm::asin(*x).to_degrees(),
+        ("ACOSF", [x]) => libm::acos(*x).to_degrees(),
+        ("ATANF", [x]) => libm::atan(*x).to_degrees(),
         ("ATAN2F", [y, x]) if *y == 0.0 && *x == 0.0 => f64::NAN,
-        ("ATAN2F", [y, x]) => y.atan2(*x).to_degrees(),
-        ("LOGF", [x]) => x.ln(),
-        ("LOG10F", [x]) => x.log10(),
-        ("EXPF", [x]) => x.exp(),
+        ("ATAN2F", [y, x]) => libm::atan2(*y, *x).to_degrees(),
+        ("LOGF", [x]) => libm::log(*x),
+        ("LOG10F", [x]) => libm::log10(*x),
+        ("EXPF", [x]) => libm::exp(*x),
         ("INTF", [x]) => x.trunc(),
         ("NINTF" | "ROUNDF", [x]) => x.round(),
         ("MODF", [a, b]) => a % b,
@@ -25,7 +25,7 @@ pub fn call(name: &str, a: &[f64]) -> Option<Result<f64, Class>> {
         ("SIGNF", [a, _]) => a.abs(),
         ("MAXF" | "MAX1F", [first, rest @ ..]) => rest.iter().fold(*first, |m, x| m.max(*x)),
         ("MINF" | "MIN1F", [first, rest @ ..]) => rest.iter().fold(*first, |m, x| m.min(*x)),
-        ("DISTF", [a, b, c, x, y, z]) => (x - a).hypot(y - b).hypot(z - c),
+        ("DISTF", [a, b, c, x, y, z]) => libm::hypot(libm::hypot(x - a, y - b), z - c),
         ("DOTF", [a, b, c, x, y, z]) => a * x + b * y + c * z,
         _ => return None,
     };
@@ -44,9 +44,9 @@ fn sine(degrees: f64) -> f64 {
     } else if quarter == 30.0 {
         0.5
     } else if quarter <= 45.0 {
-        quarter.to_radians().sin()
+        libm::sin(quarter.to_radians())
     } else {
-        (90.0 - quarter).to_radians().cos()
+        libm::cos((90.0 - quarter).to_radians())
     };
     if below { -size } else { size }
 }

@@ -141,7 +141,7 @@ fn ways(
     let out = across(sub(from.start, round.center), axis);
     let mut ways = [half, -half].map(|by| {
         let point = add(foot, along, by);
-        let turn = dot(axis, cross(out, point)).atan2(dot(out, point));
+        let turn = libm::atan2(dot(axis, cross(out, point)), dot(out, point));
         let is_start = norm(sub(point, out)) < NEAR;
         let angle = if is_start { 0.0 } else { turn.rem_euclid(std::f64::consts::TAU) };
         Way { angle, point }
@@ -244,7 +244,8 @@ pub(crate) fn helix(from: Departure, helix: &Helix) -> Result<Path, String> {
         return Err("PITCH, ROUND and HEIGHT do not agree".to_string());
     }
     let [out, end] = [from.start, helix.end].map(|point| across(sub(point, helix.center), axis));
-    let turn = dot(axis, cross(out, end)).atan2(dot(out, end)).to_degrees().rem_euclid(360.0);
+    let turn =
+        libm::atan2(dot(axis, cross(out, end)), dot(out, end)).to_degrees().rem_euclid(360.0);
     // A degree of a circle as small as this is below what points near each other tell.
     let slack = (2.0 * NEAR / helix.radius).to_degrees();
     let turns = ((helix.angle - turn) / 360.0).round();

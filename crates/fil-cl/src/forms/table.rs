@@ -154,7 +154,7 @@ fn proved_position(table: &Table) -> Result<Position, FormError> {
         [] => (None, vec![UPRIGHT]),
         [about @ 0..=1] => {
             let along = |unit: f64| {
-                let (sine, cosine) = (table.angles[about] * unit).sin_cos();
+                let (sine, cosine) = libm::sincos(table.angles[about] * unit);
                 if about == 0 { [0.0, -sine, cosine] } else { [sine, 0.0, cosine] }
             };
             (Some(about), vec![along(1.0), along(DEGREE)])

@@ -51,7 +51,7 @@ impl Reader<'_> {
             return refuse(&message);
         };
         let [from, to] = [start, end].map(|point| across(sub(point, arc.center), arc.axis));
-        let turn = dot(arc.axis, cross(from, to)).atan2(dot(from, to)).to_degrees();
+        let turn = libm::atan2(dot(arc.axis, cross(from, to)), dot(from, to)).to_degrees();
         // From a whole turn to none it is a small step.
         let off = (turn - arc.degrees).rem_euclid(360.0);
         let off = off.min(360.0 - off);

@@ -71,7 +71,7 @@ impl Address {
             (true, true) => missing,
             _ => 0,
         };
-        Ok(number.digits as f64 * 10f64.powi(filled as i32 - digits.decimals as i32))
+        Ok(number.digits as f64 * libm::exp10(f64::from(filled) - f64::from(digits.decimals)))
     }
 }
 

@@ -32,7 +32,10 @@ impl Arc {
     /// The point after a share of the way.
     fn point(&self, share: f64) -> [f64; 2] {
         let angle = self.from + self.sweep * share;
-        [self.center[0] + self.radius * angle.cos(), self.center[1] + self.radius * angle.sin()]
+        [
+            self.center[0] + self.radius * libm::cos(angle),
+            self.center[1] + self.radius * libm::sin(angle),
+        ]
     }
 }
 
@@ -47,7 +50,7 @@ pub(super) fn deviation(one: &Line, two: &Line, options: &Options) -> Option<f64
     let apart = |step: u32| {
         let share = f64::from(step) / f64::from(SAMPLES);
         let ([x1, y1], [x2, y2]) = (one.point(share), two.point(share));
-        (x1 - x2).hypot(y1 - y2)
+        libm::hypot(x1 - x2, y1 - y2)
     };
     // The ends are words of their own; between them the center shows.
     Some((1..SAMPLES).map(apart).fold(0.0, f64::max) - end_difference(&one, &two))
@@ -58,7 +61,7 @@ pub(super) fn deviation(one: &Line, two: &Line, options: &Options) -> Option<f64
 fn end_difference(one: &Arc, two: &Arc) -> f64 {
     let apart = |end: usize| {
         let ([x1, y1], [x2, y2]) = (one.ends[end], two.ends[end]);
-        (x1 - x2).hypot(y1 - y2)
+        libm::hypot(x1 - x2, y1 - y2)
     };
     apart(0).max(apart(1))
 }
@@ -86,13 +89,13 @@ fn arc(line: &Line, options: &Options) -> Option<Arc> {
     };
     let from_center = |point: [f64; 2]| [point[0] - center[0], point[1] - center[1]];
     let (s, e) = (from_center(start), from_center(end));
-    let radius = s[0].hypot(s[1]);
-    if (e[0].hypot(e[1]) - radius).abs() > ROUND * radius {
+    let radius = libm::hypot(s[0], s[1]);
+    if (libm::hypot(e[0], e[1]) - radius).abs() > ROUND * radius {
         return None;
     }
-    let from = s[1].atan2(s[0]);
-    let mut sweep = e[1].atan2(e[0]) - from;
-    if (start[0] - end[0]).hypot(start[1] - end[1]) < SAME {
+    let from = libm::atan2(s[1], s[0]);
+    let mut sweep = libm::atan2(e[1], e[0]) - from;
+    if libm::hypot(start[0] - end[0], start[1] - end[1]) < SAME {
         sweep = 0.0;
     }
     while ccw && sweep <= 0.0 {
@@ -107,7 +110,7 @@ fn arc(line: &Line, options: &Options) -> Option<Arc> {
 /// Center of an arc given by its radius; a negative one goes the long way.
 fn center_of_radius(start: [f64; 2], end: [f64; 2], radius: f64, ccw: bool) -> Option<[f64; 2]> {
     let chord = [end[0] - start[0], end[1] - start[1]];
-    let length = chord[0].hypot(chord[1]);
+    let length = libm::hypot(chord[0], chord[1]);
     let height = radius * radius - length * length / 4.0;
     if length == 0.0 || height < -ROUND * radius * radius {
         return None;

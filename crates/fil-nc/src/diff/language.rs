@@ -173,7 +173,7 @@ fn word(letter: u8, text: &str, range: &Range<usize>) -> Option<Word> {
 }
 
 fn exact(value: f64) -> Number {
-    let digits = (value * 10f64.powi(DECIMALS.into())).round() as i64;
+    let digits = (value * libm::exp10(DECIMALS.into())).round() as i64;
     Number { digits, decimals: DECIMALS, whole: 1, point: true }
 }
 

@@ -142,7 +142,7 @@ impl State<'_> {
         to: &Axes,
     ) -> Result<(), Fault> {
         let radius =
-            |point: &Axes| (point[plane[0]] - center[0]).hypot(point[plane[1]] - center[1]);
+            |point: &Axes| libm::hypot(point[plane[0]] - center[0], point[plane[1]] - center[1]);
         let (start, end) = (radius(&self.at), radius(to));
         let tolerance = if self.metric { RADIUS_TOLERANCE } else { INCH_TOLERANCE };
         if (start - end).abs() > tolerance || start < SAME_POINT {
@@ -162,7 +162,7 @@ impl State<'_> {
     ) -> Result<([f64; 2], f64), Fault> {
         let start = plane.map(|axis| self.at[axis]);
         let chord = [to[plane[0]] - start[0], to[plane[1]] - start[1]];
-        let length = chord[0].hypot(chord[1]);
+        let length = libm::hypot(chord[0], chord[1]);
         if length < SAME_POINT {
             return Err(Fault::new(NcCode::NoCenter, "a radius can't make a full circle"));
         }
@@ -186,10 +186,10 @@ impl State<'_> {
 pub(super) fn sweep(plane: [usize; 2], center: [f64; 2], from: &Axes, to: &Axes, ccw: bool) -> f64 {
     let arm = |point: &Axes| [point[plane[0]] - center[0], point[plane[1]] - center[1]];
     let (a, b) = (arm(from), arm(to));
-    if (a[0] - b[0]).hypot(a[1] - b[1]) < SAME_POINT {
+    if libm::hypot(a[0] - b[0], a[1] - b[1]) < SAME_POINT {
         return FULL;
     }
-    let turned = (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]).to_degrees();
+    let turned = libm::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]).to_degrees();
     let turned = if ccw { turned } else { -turned };
     if turned <= 0.0 { turned + FULL } else { turned }
 }

@@ -64,7 +64,7 @@ impl State<'_> {
     /// What the longest axis has of the way to a point.
     fn share(&self, to: &[f64; 5]) -> f64 {
         let ways = [0, 1, 2].map(|axis| (to[axis] - self.at[axis]).abs());
-        let length = ways[0].hypot(ways[1]).hypot(ways[2]);
+        let length = libm::hypot(libm::hypot(ways[0], ways[1]), ways[2]);
         let longest = ways.into_iter().fold(0.0, f64::max);
         if length > 0.0 { longest / length } else { 1.0 }
     }
@@ -195,7 +195,7 @@ impl State<'_> {
         let first = words.take(J)?.ok_or_else(|| missing("its first depth (J)"))?;
         let height = words.take(K)?.ok_or_else(|| missing("its height (K)"))?;
         let power = words.take(R)?.unwrap_or(1.0).max(1.0);
-        let slope = words.take(Q)?.unwrap_or(0.0).to_radians().tan();
+        let slope = libm::tan(words.take(Q)?.unwrap_or(0.0).to_radians());
         let springs = words.take_whole(H)?.unwrap_or(0);
         let axes = words.take_axes(self.dialect)?;
         let [end] = axes[..] else { return Err(missing("Z and no other axis")) };
@@ -209,7 +209,7 @@ impl State<'_> {
         let (drive, begin) = (self.at[X], self.at[Z]);
         let z = self.target(&axes).0[Z];
         let (into, towards) = (to_crest.signum(), (z - begin).signum());
-        let count = (1..).map(|pass| first * f64::from(pass).powf(1.0 / power));
+        let count = (1..).map(|pass| first * libm::pow(f64::from(pass), 1.0 / power));
         let mut depths: Vec<f64> =
             count.take_while(|depth| *depth < height).take(MAX_PASSES + 1).collect();
         if depths.len() > MAX_PASSES {
@@ -237,7 +237,7 @@ impl State<'_> {
     /// full height.
     fn passes(&mut self, thread: &Thread) -> Result<(), Fault> {
         let out = (self.at[X] - thread.last.x).signum();
-        let slope = (thread.setup.angle / 2.0).to_radians().tan();
+        let slope = libm::tan((thread.setup.angle / 2.0).to_radians());
         self.pass = Some(thread.last);
         for depth in depths(thread)? {
             let x = thread.last.x + out * (thread.height - depth);

@@ -39,14 +39,14 @@ fn turned(from: &Position, to: &Position) -> f64 {
 
 /// Degrees of an arc whose chord stays within the tolerance.
 pub(super) fn arc_step(radius: f64, tolerance: f64) -> f64 {
-    let step = 2.0 * (1.0 - tolerance / radius.max(1e-9)).clamp(-1.0, 1.0).acos().to_degrees();
+    let step = 2.0 * libm::acos((1.0 - tolerance / radius.max(1e-9)).clamp(-1.0, 1.0)).to_degrees();
     step.clamp(0.5, 60.0)
 }
 
 fn radius(arc: &Arc, from: &Position) -> f64 {
     let [first, second] = arc.plane();
     let center = arc.center;
-    (from.linear[first] - center[first]).hypot(from.linear[second] - center[second])
+    libm::hypot(from.linear[first] - center[first], from.linear[second] - center[second])
 }
 
 /// The tool tip in the part frame.

@@ -105,7 +105,7 @@ impl Straight {
     /// The stretch up to a further dot; `None` when it would not be straight.
     fn longer(self, from: Dot, end: Dot) -> Option<Self> {
         let arm = [0, 1].map(|axis| f64::from(end[axis]) - f64::from(from[axis]));
-        let distance = arm[0].hypot(arm[1]);
+        let distance = libm::hypot(arm[0], arm[1]);
         if distance < self.reach - FLAT {
             return None;
         }
@@ -113,7 +113,7 @@ impl Straight {
         if distance <= FLAT {
             return Some(Straight { end, reach, ..self });
         }
-        let (towards, width) = (arm[1].atan2(arm[0]), (FLAT / distance).asin());
+        let (towards, width) = (libm::atan2(arm[1], arm[0]), libm::asin(FLAT / distance));
         let cone = match self.cone {
             None => (towards, width),
             Some((middle, half)) => {

@@ -275,7 +275,7 @@ fn axes(out: &mut String, view: View, corner: [f64; 2]) {
         let mut unit = [0.0; 3];
         unit[axis] = 26.0;
         let [right, up] = view.project(&unit);
-        if right.hypot(up) > 1.0 {
+        if libm::hypot(right, up) > 1.0 {
             let _ = writeln!(
                 out,
                 "<path d=\"M{x} {y}l{right:.1} {:.1}\" stroke=\"#999999\"/>\

@@ -99,8 +99,10 @@ impl Builder {
     fn length(&self, piece: usize) -> f64 {
         let piece = &self.trace.pieces[piece];
         let points = &self.trace.points[piece.start..piece.end];
-        let step =
-            |pair: &[Point]| (0..3).map(|n| (pair[1][n] - pair[0][n]).powi(2)).sum::<f64>().sqrt();
+        let step = |pair: &[Point]| {
+            let ways = [0, 1, 2].map(|n| pair[1][n] - pair[0][n]);
+            ways.map(|way| way * way).iter().sum::<f64>().sqrt()
+        };
         points.windows(2).map(step).sum()
     }
 

@@ -150,7 +150,7 @@ impl<C: Steps> Walk<'_, C> {
         rises
             && [0.25, 0.5, 0.75].into_iter().all(|share| {
                 let angle = if part.ccw { part.angle } else { -part.angle } * share;
-                let (sine, cosine) = angle.to_radians().sin_cos();
+                let (sine, cosine) = libm::sincos(angle.to_radians());
                 let mut to = found.to;
                 to.linear[first] = part.center[first] + arm[0] * cosine - arm[1] * sine;
                 to.linear[second] = part.center[second] + arm[0] * sine + arm[1] * cosine;
@@ -169,7 +169,7 @@ impl<C: Steps> Walk<'_, C> {
     /// The angle a straight line sweeps, when it stays within the chord tolerance.
     fn on_chord(&self, arc: &Arc, before: f64, found: &Move) -> Option<f64> {
         let swept = self.angle_behind(arc, before, found) - before;
-        let sagitta = arc.radius() * (1.0 - (swept / 2.0).to_radians().cos());
+        let sagitta = arc.radius() * (1.0 - libm::cos((swept / 2.0).to_radians()));
         let allowed = self.settings.chord_tolerance() + 2.0 * self.slack.linear[0];
         (swept < 180.0 && sagitta <= allowed).then_some(swept)
     }
@@ -245,6 +245,6 @@ impl<C: Steps> Walk<'_, C> {
 
 /// Distance of two points in the plane of a normal.
 fn distance(a: [f64; 3], b: [f64; 3], normal: usize) -> f64 {
-    let squares = (0..3).filter(|n| *n != normal).map(|n| (a[n] - b[n]).powi(2));
-    squares.sum::<f64>().sqrt()
+    let ways = (0..3).filter(|n| *n != normal).map(|n| a[n] - b[n]);
+    ways.map(|way| way * way).sum::<f64>().sqrt()
 }

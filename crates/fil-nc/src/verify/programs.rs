@@ -267,8 +267,9 @@ impl Pair<'_> {
         match (wanted, found) {
             (Event::Move(a), Event::Move(b)) => {
                 self.report.matched += 1;
-                let off = (0..3).map(|n| (a.to.linear[n] - b.to.linear[n]).powi(2)).sum::<f64>();
-                self.report.position.add(off.sqrt(), b.line);
+                let ways = (0..3).map(|n| a.to.linear[n] - b.to.linear[n]);
+                let off = ways.map(|way| way * way).sum::<f64>().sqrt();
+                self.report.position.add(off, b.line);
                 let turned = (0..2).map(|n| (a.to.rotary[n] - b.to.rotary[n]).abs());
                 self.report.axis.add(turned.fold(0.0, f64::max), b.line);
                 self.rates(a, b);

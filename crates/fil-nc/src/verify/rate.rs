@@ -71,7 +71,7 @@ impl<C: Steps> Walk<'_, C> {
             Compensation::Right => !arc.ccw,
         };
         let [first, second] = arc.plane().map(|axis| from.linear[axis] - arc.center[axis]);
-        let (radius, cutter) = (first.hypot(second), self.cutter.unwrap_or(0.0));
+        let (radius, cutter) = (libm::hypot(first, second), self.cutter.unwrap_or(0.0));
         let of_center = if inside { radius - cutter / 2.0 } else { radius + cutter / 2.0 };
         if of_center <= 0.0 {
             return rate;

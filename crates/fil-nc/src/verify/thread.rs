@@ -157,7 +157,7 @@ impl<C: Steps> Walk<'_, C> {
             axis,
             towards: way[axis].signum(),
             length: way[axis].abs(),
-            slope: (thread.angle / 2.0).to_radians().tan(),
+            slope: libm::tan((thread.angle / 2.0).to_radians()),
             clear: clearance + way.dot(&thread.out).max(0.0),
             slack: 2.0 * self.slack.linear[0].max(self.slack.linear[2]) + 1e-9,
             digits: if axis == 2 {

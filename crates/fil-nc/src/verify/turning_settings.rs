@@ -17,7 +17,7 @@ impl Settings<'_> {
     /// as units of length of the program; `None` where it is that of the tip.
     pub fn counted_way(&self, from: &Position, to: &Position, metric: bool) -> Option<f64> {
         let unit = unit(metric);
-        let squares = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum();
+        let squares = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
         let linear: f64 = squares(&from.linear, &to.linear);
         let turns: f64 = squares(&from.rotary, &to.rotary);
         let turns = turns * unit * unit;

@@ -290,7 +290,7 @@ impl Arc {
     pub(super) fn from(&self, start: Option<Point3<f64>>) -> Arc {
         let Some(start) = start else { return *self };
         let (old, new) = (self.spoke(self.start), self.spoke(start));
-        let turned = self.normal.dot(&old.cross(&new)).atan2(old.dot(&new)).to_degrees();
+        let turned = libm::atan2(self.normal.dot(&old.cross(&new)), old.dot(&new)).to_degrees();
         Arc { start, sweep: self.sweep - turned, ..*self }
     }
 
@@ -302,7 +302,7 @@ impl Arc {
     /// Angle from the start about the normal, degrees, 0 to 360.
     pub fn angle_of(&self, point: Point3<f64>) -> f64 {
         let (from, to) = (self.spoke(self.start), self.spoke(point));
-        let angle = self.normal.dot(&from.cross(&to)).atan2(from.dot(&to)).to_degrees();
+        let angle = libm::atan2(self.normal.dot(&from.cross(&to)), from.dot(&to)).to_degrees();
         angle.rem_euclid(360.0)
     }
 

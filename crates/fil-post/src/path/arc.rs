@@ -186,7 +186,7 @@ fn sweep(arc: &Arc, [from, to]: [Vector3<f64>; 2]) -> f64 {
     if arc.turns == 0.0 && apart < SAME_POINT {
         return FULL;
     }
-    let angle = arc.axis.dot(&from.cross(&to)).atan2(from.dot(&to)).to_degrees();
+    let angle = libm::atan2(arc.axis.dot(&from.cross(&to)), from.dot(&to)).to_degrees();
     let whole_turns = arc.turns > 0.0 && apart < RADIUS_TOLERANCE;
     let part = if angle <= 0.0 && !whole_turns { angle + FULL } else { angle };
     part + FULL * arc.turns
@@ -231,7 +231,7 @@ fn in_plane(
     let least = post.control.commons.dbl_opt(loc::CIRCLE_MIN_RADIUS);
     let axes = plane.axes();
     // A large arc leaves the plane by more than a last digit at a smaller angle.
-    let aside = normal[axes[0]].hypot(normal[axes[1]]);
+    let aside = libm::hypot(normal[axes[0]], normal[axes[1]]);
     let last_digit = post.control.tables.axis(plane.normal()).resolution();
     if aside * radius > last_digit {
         return Ok(None);
@@ -263,7 +263,7 @@ fn check_travel(post: &Post, arc: &PlaneArc) -> Result<()> {
         return Ok(());
     }
     for angle in extremes(arc) {
-        let (sine, cosine) = angle.to_radians().sin_cos();
+        let (sine, cosine) = libm::sincos(angle.to_radians());
         for ((axis, center), part) in axes.iter().zip(arc.center).zip([cosine, sine]) {
             axis.check(center + arc.radius * part)?;
         }
@@ -287,7 +287,7 @@ fn extremes(arc: &PlaneArc) -> impl Iterator<Item = f64> + use<> {
 /// Angle of the start from the first axis of the plane, degrees.
 fn start_angle(arc: &PlaneArc) -> f64 {
     let [first, second] = arc.plane.axes();
-    (arc.from[second] - arc.center[1]).atan2(arc.from[first] - arc.center[0]).to_degrees()
+    libm::atan2(arc.from[second] - arc.center[1], arc.from[first] - arc.center[0]).to_degrees()
 }
 
 /// The parts that the control reads as they are meant: as few as the machine's rules
@@ -386,7 +386,7 @@ fn divided(post: &Post, arc: &PlaneArc, stops: &[f64]) -> Result<Vec<PlaneArc>> 
         let last = stop >= arc.sweep;
         if !last {
             let turned = if arc.counterclockwise { stop } else { -stop };
-            let (sine, cosine) = (angle + turned).to_radians().sin_cos();
+            let (sine, cosine) = libm::sincos((angle + turned).to_radians());
             let [first, second] = arc.plane.axes();
             next[first] = arc.center[0] + arc.radius * cosine;
             next[second] = arc.center[1] + arc.radius * sine;

@@ -74,7 +74,7 @@ impl Chords {
         if share >= 1.0 {
             return self.end;
         }
-        let (sine, cosine) = (self.sweep * share).to_radians().sin_cos();
+        let (sine, cosine) = libm::sincos((self.sweep * share).to_radians());
         let point = self.base + self.from * cosine + self.across * sine + self.rise * share;
         let axis = self.axes[0].lerp(&self.axes[1], share).normalize();
         Target { point, axis, word: 0 }
@@ -90,7 +90,7 @@ impl Chords {
         let chord = post.control.commons.dbl_opt(loc::CIRCLE_CHORD_TOLERANCE).unwrap_or(TOLERANCE);
         let within = |tolerance: f64| {
             let radius = self.from.norm();
-            let step = 2.0 * (1.0 - tolerance / radius).clamp(-1.0, 1.0).acos().to_degrees();
+            let step = 2.0 * libm::acos((1.0 - tolerance / radius).clamp(-1.0, 1.0)).to_degrees();
             (self.sweep / step.max(FINEST)).ceil().max(1.0) as u32
         };
         let allowed = linearization::tolerance(post)?;

@@ -42,30 +42,30 @@ impl Euler {
 }
 
 fn zxz(m: &Matrix3<f64>) -> [f64; 3] {
-    let sine = m[(0, 2)].hypot(m[(1, 2)]);
-    let tilt = sine.atan2(m[(2, 2)]);
+    let sine = libm::hypot(m[(0, 2)], m[(1, 2)]);
+    let tilt = libm::atan2(sine, m[(2, 2)]);
     if sine < POLE {
-        return [m[(1, 0)].atan2(m[(0, 0)]), tilt, 0.0];
+        return [libm::atan2(m[(1, 0)], m[(0, 0)]), tilt, 0.0];
     }
-    [m[(0, 2)].atan2(-m[(1, 2)]), tilt, m[(2, 0)].atan2(m[(2, 1)])]
+    [libm::atan2(m[(0, 2)], -m[(1, 2)]), tilt, libm::atan2(m[(2, 0)], m[(2, 1)])]
 }
 
 fn fixed_xyz(m: &Matrix3<f64>) -> [f64; 3] {
-    let cosine = m[(0, 0)].hypot(m[(1, 0)]);
-    let second = (-m[(2, 0)]).atan2(cosine);
+    let cosine = libm::hypot(m[(0, 0)], m[(1, 0)]);
+    let second = libm::atan2(-m[(2, 0)], cosine);
     if cosine < POLE {
-        return [(second.signum() * m[(0, 1)]).atan2(m[(1, 1)]), second, 0.0];
+        return [libm::atan2(second.signum() * m[(0, 1)], m[(1, 1)]), second, 0.0];
     }
-    [m[(2, 1)].atan2(m[(2, 2)]), second, m[(1, 0)].atan2(m[(0, 0)])]
+    [libm::atan2(m[(2, 1)], m[(2, 2)]), second, libm::atan2(m[(1, 0)], m[(0, 0)])]
 }
 
 fn moving_xyz(m: &Matrix3<f64>) -> [f64; 3] {
-    let cosine = m[(0, 0)].hypot(m[(0, 1)]);
-    let second = m[(0, 2)].atan2(cosine);
+    let cosine = libm::hypot(m[(0, 0)], m[(0, 1)]);
+    let second = libm::atan2(m[(0, 2)], cosine);
     if cosine < POLE {
-        return [m[(2, 1)].atan2(m[(1, 1)]), second, 0.0];
+        return [libm::atan2(m[(2, 1)], m[(1, 1)]), second, 0.0];
     }
-    [(-m[(1, 2)]).atan2(m[(2, 2)]), second, (-m[(0, 1)]).atan2(m[(0, 0)])]
+    [libm::atan2(-m[(1, 2)], m[(2, 2)]), second, libm::atan2(-m[(0, 1)], m[(0, 0)])]
 }
 
 #[cfg(test)]

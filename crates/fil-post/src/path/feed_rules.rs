@@ -176,12 +176,12 @@ pub fn of_arc(post: &mut Post, arc: &PlaneArc) -> Result<Option<Feed>> {
     }
     let along = arc.plane.normal();
     let rise = (arc.to[along] - arc.from[along]).abs();
-    let length = (arc.sweep.to_radians() * arc.radius).hypot(rise);
+    let length = libm::hypot(arc.sweep.to_radians() * arc.radius, rise);
     let shares = [1, 2].map(|axis| if axis == along { (rise / length).min(1.0) } else { 1.0 });
     feed = within_shares(post, feed, shares);
     let chord = || {
-        let squares = [0, 1, 2].map(|axis| (arc.to[axis] - arc.from[axis]).powi(2));
-        squares.iter().sum::<f64>().sqrt()
+        let ways = [0, 1, 2].map(|axis| arc.to[axis] - arc.from[axis]);
+        ways.map(|way| way * way).iter().sum::<f64>().sqrt()
     };
     let by_chord =
         post.control.commons.read(loc::FEED_INVERSE_LENGTH) == FeedInverseLength::LengthOfTheChord;

@@ -252,7 +252,7 @@ impl Shape {
             crest: thread.crest,
             out,
             slant: way / along.abs(),
-            flank: (thread.angle / 2.0).to_radians().tan(),
+            flank: libm::tan((thread.angle / 2.0).to_radians()),
             pitch: thread.lead.value / f64::from(thread.starts),
             clearance: thread.clearance + way.dot(&out).max(0.0),
             depths,

@@ -118,8 +118,9 @@ impl TurningFeed {
         if time == 0.0 {
             time = turned / self.rate;
         }
-        let linear = (0..3).map(|n| (to[n] - from[n]).powi(2)).sum::<f64>();
-        let turns = (3..5).map(|n| (to[n] - from[n]).powi(2)).sum::<f64>();
+        let square = |n: usize| (to[n] - from[n]) * (to[n] - from[n]);
+        let linear = (0..3).map(square).sum::<f64>();
+        let turns = (3..5).map(square).sum::<f64>();
         let (value, most, mode) = match self.form {
             RotaryFeed::InverseTime => {
                 ((1.0 / time).max(self.inverse[0]), self.inverse[1], FeedMode::InverseTime)
@@ -175,8 +176,8 @@ fn turns(control: &Control) -> Result<f64> {
 /// Last digit of F in inverse time.
 fn inverse_digit(control: &Control) -> f64 {
     match control.commons.int_opt(loc::FEED_INVERSE_FORMAT) {
-        Some(format) if control.is_metric() => 0.1f64.powi(format % 10),
-        Some(format) => 0.1f64.powi(format / 100 % 10),
+        Some(format) if control.is_metric() => libm::exp10(-f64::from(format % 10)),
+        Some(format) => libm::exp10(-f64::from(format / 100 % 10)),
         None => control.tables.addresses.format(F).map_or(1.0, |format| format.unscale(1)),
     }
 }

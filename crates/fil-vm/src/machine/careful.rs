@@ -28,7 +28,7 @@ impl<H: Host + ?Sized> Vm<'_, H> {
             Op::Mul { dst, a, b } => (dst, self.arithmetic(registers, a, b, "*", |x, y| x * y)?),
             Op::AddProduct { dst, a, b } => (dst, self.add_product(registers, dst, a, b)?),
             Op::Div { dst, a, b } => (dst, self.arithmetic(registers, a, b, "/", |x, y| x / y)?),
-            Op::Pow { dst, a, b } => (dst, self.arithmetic(registers, a, b, "**", f64::powf)?),
+            Op::Pow { dst, a, b } => (dst, self.arithmetic(registers, a, b, "**", libm::pow)?),
             Op::Load { dst, array, index } => (dst, self.load(registers, array, index)?),
             Op::Function { dst, function, base } => (dst, self.builtin(registers, function, base)?),
             Op::HostFunction { dst, function, base } => {

@@ -118,7 +118,7 @@ fn binary(op: BinaryOp, left: &Expr, right: &Expr, state: &DebugState<'_, '_>) -
         Sub => finite(x - y),
         Mul => finite(x * y),
         Div => finite(x / y),
-        Pow => finite(x.powf(y)),
+        Pow => finite(libm::pow(x, y)),
         Eq | Ne | Lt | Le | Gt | Ge | And | Or => compared(op, (x + 0.0).total_cmp(&(y + 0.0))),
     }
 }

@@ -149,13 +149,13 @@ impl Klartext<'_> {
         let sense = if ccw { 1.0 } else { -1.0 };
         let turned = match increment {
             true => angle * sense,
-            false => ((angle - y.atan2(x).to_degrees()) * sense).rem_euclid(FULL),
+            false => ((angle - libm::atan2(y, x).to_degrees()) * sense).rem_euclid(FULL),
         };
         if turned <= 0.0 || turned > MOST_TURNED {
             let message = "IPA has the sign of DR, and is no more than fifteen turns";
             return Err(Fault::new(NcCode::BadNumber, message));
         }
-        let (sine, cosine) = (turned * sense).to_radians().sin_cos();
+        let (sine, cosine) = libm::sincos((turned * sense).to_radians());
         to[0] = first + x * cosine - y * sine;
         to[1] = second + x * sine + y * cosine;
         let center = [first, second, self.state.at[2]];

@@ -142,9 +142,9 @@ fn axis_off(
     let axis = |share| forward.axis(forward.along(at, &found.to, None, share).rotary);
     let way = Way::turn(from.axis, to.axis, axis(0.5));
     let curve = |share| Point3::from(axis(share));
-    let chord = 2.0 * (enough.to_radians() / 2.0).sin();
+    let chord = 2.0 * libm::sin(enough.to_radians() / 2.0);
     let off = farthest(curve, &way, bend::of_axis(forward, at, &found.to), chord, EXACT_AXIS);
-    2.0 * (off / 2.0).min(1.0).asin().to_degrees()
+    2.0 * libm::asin((off / 2.0).min(1.0)).to_degrees()
 }
 
 /// True when a rotary axis moves.

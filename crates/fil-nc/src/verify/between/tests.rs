@@ -227,8 +227,11 @@ fn from_plane(axis: Vector3<f64>, a: Vector3<f64>, b: Vector3<f64>) -> f64 {
     let normal = a.cross(&b).normalize();
     let beside = axis - normal * normal.dot(&axis);
     let within = a.cross(&beside).dot(&normal) >= 0.0 && beside.cross(&b).dot(&normal) >= 0.0;
-    let off =
-        if within { normal.dot(&axis).asin().abs() } else { axis.angle(&a).min(axis.angle(&b)) };
+    let off = if within {
+        libm::asin(normal.dot(&axis)).abs()
+    } else {
+        axis.angle(&a).min(axis.angle(&b))
+    };
     off.to_degrees()
 }
 
@@ -249,7 +252,7 @@ proptest! {
         let dense = samples().map(|share| from_segment(tip(share), a, b)).fold(0.0, f64::max);
         let (found, _) = off(&forward, from, to);
         // Between two samples the path can be farther by an eighth of its bend.
-        let coarse = bend::of_tip(&forward, &from, &to, None) / 8.0 / f64::from(SAMPLES).powi(2);
+        let coarse = bend::of_tip(&forward, &from, &to, None) / 8.0 / f64::from(SAMPLES * SAMPLES);
         prop_assert!(found >= dense - EXACT_TIP, "{found} {dense}");
         prop_assert!(found <= dense + coarse + EXACT_TIP, "{found} {dense}");
     }
@@ -281,7 +284,7 @@ proptest! {
         let start = forward.pose(&from).tip;
         let spoke = Vector3::new(radius, 0.0, 0.0);
         let on = |degrees: f64| {
-            let (sine, cosine) = degrees.to_radians().sin_cos();
+            let (sine, cosine) = libm::sincos(degrees.to_radians());
             start - spoke + Vector3::new(cosine, sine, 0.0) * radius
         };
         let end = Pose { tip: on(sweep), axis: Vector3::z() };
@@ -298,7 +301,7 @@ proptest! {
         // same angle need not be the nearest.
         let spacing = radius * sweep.to_radians() / 1e3;
         prop_assert!(found >= dense - spacing - EXACT_TIP, "{found} {dense}");
-        let coarse = bend::of_tip(&forward, &from, &to, None) / 8.0 / 300f64.powi(2);
+        let coarse = bend::of_tip(&forward, &from, &to, None) / 8.0 / 90_000.0;
         let far = dense > radius / 2.0;
         prop_assert!(far || found <= dense + coarse + spacing + EXACT_TIP, "{found} {dense}");
     }

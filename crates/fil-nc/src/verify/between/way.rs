@@ -102,7 +102,8 @@ impl Way {
             // The chord between the feet, and how far the arc is from that; or as far as
             // the point is from the nearer end of its chord.
             Way::Arc(turn) => {
-                let sagitta = turn.spoke.norm() * (b.along - a.along).powi(2) / 8.0;
+                let turned = b.along - a.along;
+                let sagitta = turn.spoke.norm() * (turned * turned) / 8.0;
                 ends + sagitta.min(0.5 * (b.point - a.point).norm())
             }
         }
@@ -115,13 +116,14 @@ impl Turn {
     fn foot(&self, point: Point3<f64>, share: f64) -> Foot {
         let from = point - self.center;
         let aside = self.normal.cross(&self.spoke);
-        let angle = aside.dot(&from).atan2(self.spoke.dot(&from));
+        let angle = libm::atan2(aside.dot(&from), self.spoke.dot(&from));
         let expected = self.part[0] + (self.part[1] - self.part[0]) * share;
         let turns = ((expected - angle) / TAU).round();
         let feet = [0.0, -1.0, 1.0].map(|turn| {
             let along = (angle + (turns + turn) * TAU).clamp(0.0, self.sweep);
             let rise = self.normal * (self.rise * along / self.sweep.max(f64::MIN_POSITIVE));
-            let place = self.center + self.spoke * along.cos() + aside * along.sin() + rise;
+            let place =
+                self.center + self.spoke * libm::cos(along) + aside * libm::sin(along) + rise;
             Foot { point, distance: (place - point).norm(), along }
         });
         feet.into_iter().min_by(|a, b| a.distance.total_cmp(&b.distance)).unwrap_or(feet[0])

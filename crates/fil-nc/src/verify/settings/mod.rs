@@ -123,13 +123,13 @@ impl<'c> Settings<'c> {
         let addresses = Addresses::from_commons(self.commons, metric);
         let unit = unit(metric);
         let half = |letter: Letter| match addresses.format(letter) {
-            Some(format) => 0.5 * 0.1f64.powi(format.decimals.into()),
+            Some(format) => 0.5 * format.unscale(1),
             None => NOT_WRITTEN,
         };
         let half_of_feed = |at: Int| match self.commons.int_opt(at) {
             Some(format) => {
                 let decimals = if metric { format % 10 } else { format / 100 % 10 };
-                0.5 * 0.1f64.powi(decimals)
+                0.5 * libm::exp10(-f64::from(decimals))
             }
             None => half(letters::F),
         };
@@ -174,7 +174,7 @@ impl<'c> Settings<'c> {
         let addresses = Addresses::from_commons(self.commons, metric);
         let format = letter.and_then(|letter| addresses.format(letter).copied());
         let Some(format) = format else { return step };
-        let digit = 0.1f64.powi(format.decimals.into()) * unit(metric);
+        let digit = format.unscale(1) * unit(metric);
         (step / digit).round() * digit
     }
 
@@ -208,7 +208,7 @@ impl<'c> Settings<'c> {
         let coarse = own.map_or(0.0, |digits| {
             // The last digit of each half of the format says its decimals; the fewer count.
             let decimals = (digits / 100 % 10).min(digits % 10);
-            0.5 * 10f64.powi(-decimals)
+            0.5 * libm::exp10(-f64::from(decimals))
         });
         half(letter).max(coarse) / factor.unwrap_or(1.0) + DUST
     }

@@ -74,7 +74,7 @@ fn on_bisector(center: [f64; 2], from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
 
 /// Degrees from start to end about a pole in the sense of the arc, above 0.
 fn turned(arc: &PlaneArc, pole: [f64; 2], from: [f64; 2], to: [f64; 2]) -> f64 {
-    let angle = |point: [f64; 2]| (point[1] - pole[1]).atan2(point[0] - pole[0]).to_degrees();
+    let angle = |point: [f64; 2]| libm::atan2(point[1] - pole[1], point[0] - pole[0]).to_degrees();
     let turned = angle(to) - angle(from);
     let turned = if arc.counterclockwise { turned } else { -turned };
     turned.rem_euclid(360.0)
@@ -82,6 +82,6 @@ fn turned(arc: &PlaneArc, pole: [f64; 2], from: [f64; 2], to: [f64; 2]) -> f64 {
 
 fn rotated(pole: [f64; 2], point: [f64; 2], angle: f64) -> [f64; 2] {
     let [x, y] = [point[0] - pole[0], point[1] - pole[1]];
-    let (sine, cosine) = angle.to_radians().sin_cos();
+    let (sine, cosine) = libm::sincos(angle.to_radians());
     [pole[0] + x * cosine - y * sine, pole[1] + x * sine + y * cosine]
 }

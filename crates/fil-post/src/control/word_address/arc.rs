@@ -68,7 +68,7 @@ impl PlaneArc {
         let [x, y] = self.flat(&self.from);
         let [x, y] = [x - self.center[0], y - self.center[1]];
         let turned = if self.counterclockwise { self.sweep } else { -self.sweep } * share;
-        let (sine, cosine) = turned.to_radians().sin_cos();
+        let (sine, cosine) = libm::sincos(turned.to_radians());
         [self.center[0] + x * cosine - y * sine, self.center[1] + x * sine + y * cosine]
     }
 }
@@ -101,15 +101,16 @@ fn reads_at_a_glance(control: &Control, arc: &PlaneArc) -> bool {
         }
         digit = digit.max(axis);
     }
-    let squared = |[x, y]: [f64; 2], [i, j]: [f64; 2]| (x - i).powi(2) + (y - j).powi(2);
+    let squared = |[x, y]: [f64; 2], [i, j]: [f64; 2]| (x - i) * (x - i) + (y - j) * (y - j);
     let end = arc.flat(&arc.to);
     let round = |point| {
-        let off = squared(point, arc.center) - arc.radius.powi(2);
+        let off = squared(point, arc.center) - arc.radius * arc.radius;
         off.abs() <= 1.5 * digit * arc.radius
     };
+    let least_chord = 8.0 * DIGITS * digit;
     arc.sweep >= LEAST_SWEEP
         && arc.radius >= LEAST_RADIUS * digit
-        && squared(arc.start, end) > (8.0 * DIGITS * digit).powi(2)
+        && squared(arc.start, end) > least_chord * least_chord
         && round(arc.start)
         && round(end)
 }
@@ -144,7 +145,7 @@ fn reads_when_rounded(control: &Control, arc: &PlaneArc) -> Result<bool> {
 
 /// How far two points lie apart.
 pub fn distance(one: [f64; 2], other: [f64; 2]) -> f64 {
-    (one[0] - other[0]).hypot(one[1] - other[1])
+    libm::hypot(one[0] - other[0], one[1] - other[1])
 }
 
 /// True when a control that turns the tool about a pole, by so many degrees from where it
@@ -171,7 +172,8 @@ fn sweep_on_tape(arc: &PlaneArc, start: [f64; 2], end: [f64; 2], center: [f64; 2
     if start == end {
         return 360.0;
     }
-    let angle = |point: [f64; 2]| (point[1] - center[1]).atan2(point[0] - center[0]).to_degrees();
+    let angle =
+        |point: [f64; 2]| libm::atan2(point[1] - center[1], point[0] - center[0]).to_degrees();
     let turned = angle(end) - angle(start);
     let turned = if arc.counterclockwise { turned } else { -turned };
     if turned <= 0.0 { turned + 360.0 } else { turned }
