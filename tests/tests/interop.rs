@@ -10,6 +10,7 @@ use filpost_tests::compare::compare;
 use filpost_tests::nc_path::nc_path;
 use filpost_tests::path::{Action, ToolPath};
 use filpost_tests::rs274::{self, Call, Canon};
+use rayon::prelude::*;
 
 /// The files of `tests/cl` and the real ones; where these are absent, the reason is printed.
 fn cl_files() -> Vec<PathBuf> {
@@ -66,11 +67,11 @@ fn count(path: &ToolPath, wanted: fn(&Action) -> bool) -> usize {
 #[test]
 fn cl_files_become_the_same_path() {
     let Some(program) = rs274::program() else { return };
-    for cl in cl_files() {
-        let nc = String::from_utf8(post_with("linuxcnc-mill", &cl)).unwrap();
+    cl_files().par_iter().for_each(|cl| {
+        let nc = String::from_utf8(post_with("linuxcnc-mill", cl)).unwrap();
         let name = cl.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let calls = rs274::run(&program, &nc).unwrap_or_else(|said| panic!("{name}: {said}"));
-        let (wanted, found) = (expected(&cl), nc_path(&calls, &nc).unwrap());
+        let (wanted, found) = (expected(cl), nc_path(&calls, &nc).unwrap());
         let differences = compare(&wanted, &found);
         let list: String = differences.iter().map(|one| format!("\n  {one}")).collect();
         assert!(differences.is_empty(), "{name}:{list}\n{nc}");
@@ -81,7 +82,7 @@ fn cl_files_become_the_same_path() {
             count(&wanted, |action| matches!(action, Action::Hole(..))),
             count(&wanted, |action| matches!(action, Action::Tool(_))),
         );
-    }
+    });
 }
 
 /// Words that the interpreter has not, or reads otherwise: work offsets and taps of other
@@ -93,21 +94,23 @@ const NOT_ITS: [&str; 6] = ["G154", "G54.1", "G84.2", "G4 ", "G82 ", "G86 "];
 fn programs_of_the_ready_mills_make_the_path_of_their_cl_file() {
     let Some(program) = rs274::program() else { return };
     let posts = ["fanuc-mill", "haas-mill", "mazak-mill", "mitsubishi-mill", "brother-mill"];
-    let mut judged = 0;
-    for ready in posts.into_iter().chain(["mach3-mill", "mach4-mill"]) {
-        for cl in mills_taken_by(ready) {
-            let nc = String::from_utf8(post_with(ready, &cl)).unwrap();
-            if NOT_ITS.iter().any(|word| nc.contains(word)) {
-                continue;
-            }
-            let calls = rs274::run(&program, &nc);
-            let calls = calls.unwrap_or_else(|said| panic!("{ready} {}: {said}", cl.display()));
-            let differences = compare(&expected(&cl), &nc_path(&calls, &nc).unwrap());
-            let list: String = differences.iter().map(|one| format!("\n  {one}")).collect();
-            assert!(differences.is_empty(), "{ready} {}:{list}\n{nc}", cl.display());
-            judged += 1;
+    let posts = posts.into_iter().chain(["mach3-mill", "mach4-mill"]);
+    let programs: Vec<_> = posts
+        .flat_map(|ready| mills_taken_by(ready).into_iter().map(move |cl| (ready, cl)))
+        .collect();
+    let is_judged = |ready: &str, cl: &Path| {
+        let nc = String::from_utf8(post_with(ready, cl)).unwrap();
+        if NOT_ITS.iter().any(|word| nc.contains(word)) {
+            return false;
         }
-    }
+        let calls = rs274::run(&program, &nc);
+        let calls = calls.unwrap_or_else(|said| panic!("{ready} {}: {said}", cl.display()));
+        let differences = compare(&expected(cl), &nc_path(&calls, &nc).unwrap());
+        let list: String = differences.iter().map(|one| format!("\n  {one}")).collect();
+        assert!(differences.is_empty(), "{ready} {}:{list}\n{nc}", cl.display());
+        true
+    };
+    let judged = programs.par_iter().filter(|(ready, cl)| is_judged(ready, cl)).count();
     assert!(judged > 40, "only {judged} programs");
     println!("{judged} programs agree");
 }
@@ -120,13 +123,14 @@ fn each_turned_arc_is_noticed() {
         let nc = String::from_utf8(post_with("linuxcnc-mill", &cl)).unwrap();
         let wanted = expected(&cl);
         for (own, other) in [("G2 ", "G3 "), ("G3 ", "G2 ")] {
-            for (at, _) in nc.match_indices(own) {
+            let arcs: Vec<usize> = nc.match_indices(own).map(|(at, _)| at).collect();
+            arcs.par_iter().for_each(|at| {
                 let mut changed = nc.clone();
-                changed.replace_range(at..at + own.len(), other);
+                changed.replace_range(*at..at + own.len(), other);
                 let found = rs274::run(&program, &changed).and_then(|calls| nc_path(&calls, &nc));
                 let noticed = found.map_or(true, |path| !compare(&wanted, &path).is_empty());
                 assert!(noticed, "{}: arc at byte {at}", cl.display());
-            }
+            });
         }
     }
 }

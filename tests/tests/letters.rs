@@ -7,6 +7,7 @@ use std::env;
 use filpost_tests::counts::corpus::{Part, parts};
 use filpost_tests::counts::letter::{excuse, mutants};
 use filpost_tests::counts::walk;
+use rayon::prelude::*;
 
 /// Statements of one form that are tried in the normal run, and in a whole one.
 const SAMPLE: [usize; 2] = [1, 5];
@@ -40,11 +41,13 @@ fn try_part(part: &Part, seen: &mut HashMap<String, usize>, tally: &mut Tally) {
             let first = (statement.line + setting.at) % STEP;
             let step = if all() { 1 } else { STEP };
             let chosen = mutants(&statement.text).into_iter().skip(if all() { 0 } else { first });
-            for mutant in chosen.step_by(step) {
-                tally.tried += 1;
-                if window.notices(machine, &mutant.text) {
-                    continue;
-                }
+            let chosen: Vec<_> = chosen.step_by(step).collect();
+            tally.tried += chosen.len();
+            let not_noticed: Vec<_> = chosen
+                .into_par_iter()
+                .filter(|mutant| !window.notices(machine, &mutant.text))
+                .collect();
+            for mutant in not_noticed {
                 match excuse(&setting, &mutant) {
                     Some(reason) => *tally.excused.entry(reason).or_default() += 1,
                     None if statement.is_text() && window.is_ignored() => {

@@ -11,6 +11,7 @@ use filpost_tests::event_path::{differences, event_path};
 use filpost_tests::motions::Head;
 use filpost_tests::nc_path::nc_path;
 use filpost_tests::rs274;
+use rayon::prelude::*;
 
 /// LinuxCNC prints four decimals of the active unit.
 const TOLERANCE: f64 = 0.002;
@@ -36,13 +37,12 @@ fn ready_programs_are_read_as_linuxcnc_reads_them() {
     let mut files = files_in(&here.join("cl"), "");
     files.extend(files_in(&here.join("words"), ".ncl"));
     files.extend(files_in(&data.join("cl/creo"), ".ncl"));
-    let (mut compared, mut steps) = (0, 0);
-    for cl in files {
+    let steps_compared = |cl: &Path| {
         let post = filpost::Program::builder().ready("linuxcnc-mill").build().unwrap();
         let dialect = Dialect::new(post.commons()).unwrap();
         let mut nc = Vec::new();
-        if post.run(fs::File::open(&cl).unwrap(), &mut nc).is_err() {
-            continue;
+        if post.run(fs::File::open(cl).unwrap(), &mut nc).is_err() {
+            return None;
         }
         let nc = String::from_utf8(nc).unwrap();
         let name = cl.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -54,14 +54,14 @@ fn ready_programs_are_read_as_linuxcnc_reads_them() {
                     "{name}: LinuxCNC refuses: {said}; ours: {:?}",
                     ours.err().map(|d| d.to_string())
                 );
-                continue;
+                return None;
             }
         };
         let theirs = match nc_path(&calls, &nc) {
             Ok(path) => path,
             Err(said) => {
                 println!("{name}: {said}");
-                continue;
+                return None;
             }
         };
         let ours = ours.unwrap_or_else(|diag| panic!("{name}: {diag}\n{nc}"));
@@ -73,10 +73,10 @@ fn ready_programs_are_read_as_linuxcnc_reads_them() {
             list[..list.len().min(5)].join("\n"),
             if nc.len() < 3000 { nc.as_str() } else { "" }
         );
-        compared += 1;
-        steps += ours.steps.len();
-    }
-    println!("{compared} programs, {steps} steps");
+        Some(ours.steps.len())
+    };
+    let steps: Vec<usize> = files.par_iter().filter_map(|cl| steps_compared(cl)).collect();
+    println!("{} programs, {} steps", steps.len(), steps.iter().sum::<usize>());
 }
 
 /// A program that goes from G99 to G98 within a cycle: LinuxCNC raises the tool before

@@ -14,6 +14,7 @@ use filpost::nc::verify::Allowed;
 use filpost::verify::NcProgram;
 use filpost_tests::programs::Dice;
 use filpost_tests::rs274::{self, Canon};
+use rayon::prelude::*;
 
 /// A thread, mm; X as a radius.
 #[derive(Debug)]
@@ -366,14 +367,14 @@ fn every_form_cuts_the_same_thread() {
     let judge = rs274::program();
     for (form, (ready, settings)) in FORMS.iter().enumerate() {
         let post = post_of(ready, settings);
-        let mut cycles = 0;
-        for seed in seeds() {
+        let by_g76 = |seed: u64| {
             let spec = Spec::random(seed);
             if let Some(said) = wrong(&post, form, &spec, judge.as_deref()) {
                 panic!("seed {seed}, {ready} {settings:?}: {said}");
             }
-            cycles += u64::from(nc_of(&post, &spec.cl()).unwrap().contains("G76"));
-        }
+            nc_of(&post, &spec.cl()).unwrap().contains("G76")
+        };
+        let cycles = seeds().into_par_iter().filter(|seed| by_g76(*seed)).count();
         println!("{ready} {settings:?}: {} threads, {cycles} by G76", seeds().count());
         assert_eq!(cycles > 0, form > 1, "{ready}");
     }

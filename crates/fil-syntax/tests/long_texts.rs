@@ -38,15 +38,23 @@ fn noise_is_read_to_its_end() {
 
 #[test]
 fn long_files_are_formatted_to_their_end() {
+    format_long_files(0);
+}
+
+#[test]
+fn long_files_in_deep_blocks_are_formatted_to_their_end() {
+    format_long_files(99);
+}
+
+/// Formats long files whose lines stand in so many blocks.
+fn format_long_files(depth: usize) {
+    let (opened, closed) = ("IF(A)THEN\n".repeat(depth), "ENDIF\n".repeat(depth));
     let size = 1 << 19;
     let sum = format!("A=1{}\n", "+$\n1".repeat(199));
     let list = format!("A=MAXF(1{})\n", ",1".repeat(4000));
     for piece in ["$$\n", "$$==\n", "\n", "A=1;$\n", "A $ $$ b\n\n", &sum, &list] {
         let body = piece.repeat(size / piece.len());
-        for depth in [0, 99] {
-            let (opened, closed) = ("IF(A)THEN\n".repeat(depth), "ENDIF\n".repeat(depth));
-            let source = format!("{opened}{body}\n{closed}FINI\n");
-            assert!(format("t.fil", &source).is_ok(), "{piece:.40}");
-        }
+        let source = format!("{opened}{body}\n{closed}FINI\n");
+        assert!(format("t.fil", &source).is_ok(), "{piece:.40}");
     }
 }

@@ -4,6 +4,7 @@ use std::sync::LazyLock;
 
 use filpost_simulation::runout::solve::Placing;
 use filpost_simulation::runout::{Residual, Search, cl_file, residual};
+use rayon::prelude::*;
 
 use super::{
     NOISE, ON, ON_NOISY, PLACINGS, five_axes, poses, post, probe, run, script, text, three_decimals,
@@ -18,13 +19,12 @@ pub(super) fn worst(
     probed: Probing,
 ) -> Residual {
     let post = post(machine, script);
-    let mut worst = Residual::default();
-    for (seed, cylinder) in poses(placing) {
+    let left = poses(placing).par_bridge().map(|(seed, cylinder)| {
         let sections = probe(&cylinder, probed.0, probed.1, seed);
         let nc = run(&post, &cl_file(&sections, on)).expect("the path is posted");
-        worst = worst.worse(residual(&nc, &cylinder));
-    }
-    worst
+        residual(&nc, &cylinder)
+    });
+    left.reduce(Residual::default, Residual::worse)
 }
 
 /// What is left of the run-out in the worst pose of each placing.

@@ -18,6 +18,7 @@ use filpost_simulation::runout::{
 use filpost_tests::root;
 use left::{EXACT, worst};
 use nalgebra::{Point3, Unit, Vector3};
+use rayon::prelude::*;
 
 const PLACINGS: [Placing; 3] = [Placing::Parallel, Placing::Intersecting, Placing::Skew];
 /// Poses of each placing.
@@ -90,7 +91,7 @@ fn pose(placing: Placing, random: &mut Random) -> Cylinder {
     }
 }
 
-fn poses(placing: Placing) -> impl Iterator<Item = (u64, Cylinder)> {
+fn poses(placing: Placing) -> impl Iterator<Item = (u64, Cylinder)> + Send {
     let mut random = Random(placing as u64);
     (0..POSES as u64).map(move |index| (index, pose(placing, &mut random)))
 }
@@ -121,13 +122,13 @@ fn without_compensation_the_run_out_is_that_of_the_paper() {
 #[test]
 fn noise_is_no_lean() {
     let posts = [five_axes(), four_axes()].map(|machine| post(&machine, &script()));
-    for (seed, cylinder) in poses(Placing::Parallel) {
+    poses(Placing::Parallel).par_bridge().for_each(|(seed, cylinder)| {
         let sections = probe(&cylinder, NOISE, Search::FourTouches, seed);
         for post in &posts {
             let nc = run(post, &cl_file(&sections, ON_NOISY)).expect("the path is posted");
             assert!(nc.contains("(RUN-OUT PARALLEL"), "{seed}: {nc}");
         }
-    }
+    });
     // A part without run-out, whose MIN may come out above its MAX.
     let text = "RUNOUT / PROBE, 1, ZCOORD, 20, MIN, 50.0012, CMIN, 180, MAX, 50.0, CMAX, 0\n\
                 RUNOUT / PROBE, 2, ZCOORD, 80, MIN, 50.0, CMIN, 180, MAX, 50.0012, CMAX, 0\n\
@@ -171,11 +172,11 @@ fn the_placing_is_named_in_the_program() {
     let post = post(&five_axes(), &script());
     for placing in PLACINGS {
         let name = format!("(RUN-OUT {} ", format!("{placing:?}").to_uppercase());
-        for (seed, cylinder) in poses(placing) {
+        poses(placing).par_bridge().for_each(|(seed, cylinder)| {
             let sections = probe(&cylinder, 0.0, Search::FourTouches, seed);
             let nc = run(&post, &cl_file(&sections, ON)).expect("the path is posted");
             assert!(nc.contains(&name), "{seed}: no {name} in\n{nc}");
-        }
+        });
     }
 }
 

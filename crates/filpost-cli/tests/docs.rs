@@ -1,9 +1,7 @@
 //! The documentation holds what it says: its commands run as printed, its
 //! links lead somewhere, and its tables have a row for each thing of the code.
 
-use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use std::sync::OnceLock;
 
 use filpost::builtins::BUILTINS;
 use filpost::locations::{Evidence, TABLE};
@@ -36,38 +34,13 @@ fn pages() -> Vec<(String, String)> {
     pages
 }
 
-/// The command, built once: as the tests of the whole workspace build it, so that they
-/// have it already.
-fn filpost() -> &'static Path {
-    static BINARY: OnceLock<PathBuf> = OnceLock::new();
-    BINARY.get_or_init(|| {
-        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        let built = Command::new(cargo)
-            .args(["test", "-q", "--workspace", "--test", "cli", "--no-run"])
-            .arg("--message-format=json")
-            .current_dir(root())
-            .output()
-            .expect("cargo runs");
-        assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
-        let messages = String::from_utf8_lossy(&built.stdout).into_owned();
-        let messages = messages.lines().filter_map(|line| serde_json::from_str(line).ok());
-        let mut binaries = messages.filter_map(|message: serde_json::Value| {
-            let is_command = message["target"]["name"] == "filpost"
-                && message["target"]["kind"] == serde_json::json!(["bin"])
-                && message["profile"]["test"] == false;
-            message["executable"].as_str().filter(|_| is_command).map(PathBuf::from)
-        });
-        binaries.next().expect("the command is built for its tests")
-    })
-}
-
 /// Runs a command as it is printed, in the folder of the workspace.
 fn shell(line: &str) -> Output {
     let arguments = line
         .strip_prefix(BY_CARGO)
         .or_else(|| line.strip_prefix("filpost "))
         .unwrap_or_else(|| panic!("`{line}` is no command of filpost; mark its block as text"));
-    Command::new(filpost())
+    Command::new(env!("CARGO_BIN_EXE_filpost"))
         .args(arguments.split_whitespace())
         .current_dir(root())
         .output()
