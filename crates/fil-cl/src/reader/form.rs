@@ -4,7 +4,7 @@ use fil_diag::{Diag, Result};
 
 use super::arc::has_radius;
 use super::spline::Gathered;
-use super::{Meaning, Reader, items};
+use super::{Meaning, Reader, plain};
 use crate::errors::ClCode;
 use crate::forms::arc::{self, Departure, Path};
 use crate::forms::geometry::Part;
@@ -91,7 +91,9 @@ impl Reader<'_> {
             return false;
         }
         let mut values = [0.0; 6];
-        let Some(length) = items::plain_direction(self.lines.unread(), &mut values) else {
+        let Some(length) =
+            plain::plain_direction(self.lines.unread(), &mut values, &mut self.known_numbers)
+        else {
             return false;
         };
         self.take_lines(length, 1);

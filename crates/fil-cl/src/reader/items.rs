@@ -5,7 +5,7 @@ use std::ops::Range;
 use fil_diag::Result;
 
 use super::names::disguise;
-use super::number::{fixed_point, number};
+use super::number::number;
 use super::statement::{decoded, is_blank};
 use super::{Reader, is_control};
 use crate::errors::ClCode;
@@ -23,119 +23,6 @@ const MAX_NAMES: usize = 20_000;
 
 /// A name is not longer than this; in bytes.
 const MAX_NAME: usize = 64;
-
-/// Longest text of a tool axis that is kept.
-const LONGEST_AXIS: usize = 64;
-
-/// The end of the last GOTO with a tool axis, from its fourth value to the line end: three-axis
-/// files of some systems write the same axis in each line.
-pub(super) struct KnownAxis {
-    text: [u8; LONGEST_AXIS],
-    length: usize,
-    values: [f64; 3],
-}
-
-impl Default for KnownAxis {
-    fn default() -> Self {
-        KnownAxis { text: [0; LONGEST_AXIS], length: 0, values: [0.0; 3] }
-    }
-}
-
-impl KnownAxis {
-    /// The axis that `text` begins with and the length of its text, when it is known.
-    #[inline]
-    fn read(&self, text: &[u8]) -> Option<([f64; 3], usize)> {
-        let known = &self.text[..self.length];
-        (!known.is_empty() && text.starts_with(known)).then_some((self.values, self.length))
-    }
-
-    fn keep(&mut self, text: &[u8], values: [f64; 3]) {
-        let Some(known) = self.text.get_mut(..text.len()) else { return };
-        known.copy_from_slice(text);
-        (self.length, self.values) = (text.len(), values);
-    }
-}
-
-/// Reads the values of a `GOTO` that fills one line; gives how many they are and
-/// the length of the line including its line end; `None` when anything about it is
-/// unusual.
-#[inline]
-pub(super) fn plain_goto(
-    text: &[u8],
-    values: &mut [f64; 6],
-    known: &mut KnownAxis,
-) -> Option<(usize, usize)> {
-    let found = plain_values(text, b"GOTO", values, |rest| known.read(rest))?;
-    if found.count == 6 && !found.is_known {
-        let [_, _, _, i, j, k] = *values;
-        known.keep(&text[found.axis..found.length], [i, j, k]);
-    }
-    matches!(found.count, 3 | 6).then_some((found.count, found.length))
-}
-
-/// The same for `INDIRV` with three values; gives the length of the line.
-pub(super) fn plain_direction(text: &[u8], values: &mut [f64; 6]) -> Option<usize> {
-    let found = plain_values(text, b"INDIRV", values, |_| None)?;
-    (found.count == 3).then_some(found.length)
-}
-
-/// The values of a statement that fills one line.
-struct Plain {
-    count: usize,
-    /// Bytes of the line, its end included.
-    length: usize,
-    /// Where the fourth value begins.
-    axis: usize,
-    /// The last three were known by their text.
-    is_known: bool,
-}
-
-/// Reads the values of a statement that fills one line; `known` is asked for the last three.
-#[inline(always)]
-fn plain_values(
-    text: &[u8],
-    major: &[u8],
-    values: &mut [f64; 6],
-    known: impl Fn(&[u8]) -> Option<([f64; 3], usize)>,
-) -> Option<Plain> {
-    let mut rest = skip_blanks(text.strip_prefix(major)?).strip_prefix(b"/")?;
-    let (mut count, mut axis) = (0, 0);
-    loop {
-        let (value, behind) = fixed_point(skip_blanks(rest))?;
-        *values.get_mut(count)? = value;
-        count += 1;
-        rest = match skip_blanks(behind) {
-            [b',', rest @ ..] => rest,
-            [b'\n', rest @ ..] | [b'\r', b'\n', rest @ ..] => {
-                return Some(Plain {
-                    count,
-                    length: text.len() - rest.len(),
-                    axis,
-                    is_known: false,
-                });
-            }
-            _ => return None,
-        };
-        if count == 3 {
-            axis = text.len() - rest.len();
-            if let Some((found, length)) = known(rest) {
-                values[3..].copy_from_slice(&found);
-                return Some(Plain { count: 6, length: axis + length, axis, is_known: true });
-            }
-        }
-    }
-}
-
-#[inline]
-fn skip_blanks(mut text: &[u8]) -> &[u8] {
-    while let [first, rest @ ..] = text
-        && *first <= b' '
-        && matches!(*first, b' ' | b'\t')
-    {
-        text = rest;
-    }
-    text
-}
 
 /// How strictly the items of a statement are read.
 #[derive(Clone, Copy)]

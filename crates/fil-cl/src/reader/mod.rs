@@ -10,9 +10,11 @@ mod complete;
 mod finish;
 mod form;
 mod items;
+mod known;
 mod lines;
 mod names;
 mod number;
+mod plain;
 mod points;
 mod raw;
 mod repeated;
@@ -35,8 +37,8 @@ use crate::record::{Record, Word, kind};
 use crate::vocabulary::Vocabulary;
 use crate::words;
 
-use items::KnownAxis;
 pub(crate) use items::reads_as_text;
+use known::{KnownAxis, KnownNumbers};
 use lines::{Input, LineError, Lines};
 pub(crate) use number::{fixed_point as leading_number, number as plain_number};
 use points::Pending;
@@ -92,6 +94,7 @@ pub struct Reader<'r> {
     lines: Lines<'r>,
     statement: Statement,
     repeated: Repeated,
+    known_numbers: KnownNumbers,
     known_axis: KnownAxis,
     /// Start and end of each item in the statement, to point at it.
     item_ranges: Vec<Range<usize>>,
@@ -138,6 +141,7 @@ impl<'r> Reader<'r> {
             lines: Lines::new(input, options.statement_limit),
             statement: Statement::new(),
             repeated: Repeated::default(),
+            known_numbers: KnownNumbers::default(),
             known_axis: KnownAxis::default(),
             item_ranges: Vec::new(),
             pending: Pending::default(),

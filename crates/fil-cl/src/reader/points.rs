@@ -2,7 +2,7 @@
 
 use fil_diag::Result;
 
-use super::{Meaning, Reader, items};
+use super::{Meaning, Reader, plain};
 use crate::dialect::AxisRule;
 use crate::errors::ClCode;
 use crate::layout::{is_unit, length};
@@ -60,7 +60,12 @@ impl Reader<'_> {
     #[inline]
     pub(super) fn read_plain_goto(&mut self, record: &mut Record) -> bool {
         let mut values = [0.0; 6];
-        let found = items::plain_goto(self.lines.unread(), &mut values, &mut self.known_axis);
+        let found = plain::plain_goto(
+            self.lines.unread(),
+            &mut values,
+            &mut self.known_numbers,
+            &mut self.known_axis,
+        );
         let Some((count, length)) = found else { return false };
         let [x, y, z, i, j, k] = values;
         let axis = [i, j, k];
