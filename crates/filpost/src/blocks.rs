@@ -2,9 +2,11 @@
 
 use std::collections::VecDeque;
 use std::iter::FusedIterator;
+use std::ops::Range;
 
 use fil_cl::reader::Reader;
-use fil_post::Origin;
+use fil_post::noted::{BlockInfo, Noted};
+use fil_post::{Origin, tape::Tape};
 
 use crate::engine::Engine;
 use crate::error::Error;
@@ -20,6 +22,63 @@ pub struct Block {
     pub text: String,
     /// The CL record and the FIL lines that made it.
     pub origin: Origin,
+    /// Its words in order, each with what made it.
+    pub words: Vec<WordOrigin>,
+}
+
+/// A word of a block and what made it.
+///
+/// ```
+/// let program = filpost::Program::builder().ready("fanuc-mill").build()?;
+/// let cl = "UNITS / MM\nLOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n";
+/// let blocks: Vec<_> = program.blocks(cl.as_bytes()).collect::<Result<_, _>>()?;
+/// let moved = blocks.iter().find(|block| block.text.contains("X1.")).expect("the motion");
+/// let of = |letter| moved.words.iter().find(|word| word.letter == letter).expect("a word");
+/// // X is due to the fourth line and F to the third one.
+/// assert_eq!((of('X').text(&moved.text), of('X').origin.line), ("X1.", 4));
+/// assert_eq!((of('F').text(&moved.text), of('F').origin.line), ("F200.", 3));
+/// # Ok::<(), filpost::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct WordOrigin {
+    /// Its letter, `A` to `Z`; `_` for a text, `/` for the block-delete character, `#`
+    /// for a sequence number.
+    pub letter: char,
+    /// Byte range in the text of the block, with the blank that follows.
+    pub range: Range<usize>,
+    /// The CL record and the FIL lines that ask for it; record 0 where the settings of the
+    /// machine do.
+    pub origin: Origin,
+    /// The word of the record, as POSTF(7,n) counts; 0 for the record as a whole.
+    pub record_word: u16,
+    /// A FIL statement made the record whose words `record_word` counts.
+    pub made_by_fil: bool,
+}
+
+impl WordOrigin {
+    /// The word as it stands in the text of its block; empty for the text of another one.
+    pub fn text<'a>(&self, block: &'a str) -> &'a str {
+        block.get(self.range.clone()).unwrap_or("").trim_end()
+    }
+}
+
+/// The words of a block on the tape.
+pub(crate) fn words_of(tape: &Tape, noted: &Noted, block: &BlockInfo) -> Vec<WordOrigin> {
+    let mut words: Vec<WordOrigin> = Vec::with_capacity(block.words.len());
+    for (word, cause) in noted.words_of(block) {
+        if let Some(before) = words.last_mut() {
+            before.range.end = word.start();
+        }
+        words.push(WordOrigin {
+            letter: word.letter().into(),
+            range: word.start()..block.range.len(),
+            origin: tape.stacks.origin(cause),
+            record_word: cause.word,
+            made_by_fil: cause.made_by_fil,
+        });
+    }
+    words
 }
 
 /// Iterator over the blocks of a run; ends after the first error. Take it by
@@ -47,9 +106,14 @@ impl<'o> Blocks<'o> {
     fn take_blocks(&mut self) {
         let mut number = self.number;
         let ready = &mut self.ready;
-        self.engine.take_blocks(|text, origin| {
+        self.engine.take_blocks(|block| {
             number += 1;
-            ready.push_back(Block { number, text: text.to_string(), origin: origin.clone() });
+            ready.push_back(Block {
+                number,
+                text: block.text.to_string(),
+                origin: block.origin.clone(),
+                words: (block.words)(),
+            });
         });
         self.number = number;
     }

@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use fil_cl::{Record, Vocabulary, record::kind};
 use fil_diag::Result;
-use fil_post::Origin;
 use fil_vm::{Interpreter, SectionId, SectionMode};
 
 use crate::debug::{self, DebugEvent, DebugState, World};
@@ -20,7 +19,7 @@ use crate::report::Report;
 use crate::run::Start;
 use crate::script_files::ScriptFiles;
 use crate::source::Records;
-use crate::spilled::Spilled;
+use crate::spilled::{Shown, Spilled};
 
 /// Bytes of finished blocks that are kept before they go to the writer.
 const FLUSH: usize = 64 * 1024;
@@ -90,7 +89,7 @@ impl<'o, S: Records> Engine<'o, S> {
             }
             more = step?;
             if observed {
-                self.outside.show_blocks(|_, _| {});
+                self.outside.show_blocks(|_| {});
                 self.outside.record_done().map_err(Error::Run)?;
             }
             if !more || self.outside.post.control.tape.text.len() >= FLUSH {
@@ -159,7 +158,7 @@ impl<'o, S: Records> Engine<'o, S> {
     }
 
     /// Hands the finished blocks out and forgets them.
-    pub(crate) fn take_blocks(&mut self, take: impl FnMut(&str, &Origin)) {
+    pub(crate) fn take_blocks(&mut self, take: impl FnMut(Shown<'_>)) {
         self.outside.show_blocks(take);
         self.outside.forget_blocks();
     }

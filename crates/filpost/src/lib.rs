@@ -65,7 +65,7 @@ pub mod word_pages;
 mod written;
 
 pub use allow::allowable;
-pub use blocks::{Block, Blocks};
+pub use blocks::{Block, Blocks, WordOrigin};
 pub use builder::Builder;
 pub use cancel::CancelToken;
 pub use compat::{CompatFile, operation_name, read_compat};

@@ -7,6 +7,7 @@ use std::io::{self, Seek, Write};
 use fil_diag::Result;
 use fil_post::Origin;
 
+use crate::blocks::{WordOrigin, words_of};
 use crate::error::RunCode;
 use crate::event::Event;
 use crate::outside::Outside;
@@ -38,6 +39,15 @@ impl Spilled {
     }
 }
 
+/// A block that is handed out.
+pub(crate) struct Shown<'a> {
+    /// Without line end.
+    pub text: &'a str,
+    pub origin: &'a Origin,
+    /// Its words, made when they are asked for.
+    pub words: &'a dyn Fn() -> Vec<WordOrigin>,
+}
+
 impl<S: Records> Outside<'_, S> {
     /// Takes blocks off a full tape, where somebody will ask for them by the record.
     ///
@@ -60,18 +70,18 @@ impl<S: Records> Outside<'_, S> {
         let Some(spilled) = &mut self.spilled else { return Ok(()) };
         let taken = spilled.take(&self.post.control.tape.text);
         taken.map_err(|error| RunCode::CantWrite.diag(error.to_string()))?;
-        self.show_blocks(|_, _| {});
+        self.show_blocks(|_| {});
         self.give_away_blocks()
     }
 
     /// Hands out the blocks that nobody has seen yet.
-    pub fn show_blocks(&mut self, mut take: impl FnMut(&str, &Origin)) {
+    pub fn show_blocks(&mut self, mut take: impl FnMut(Shown<'_>)) {
         let tape = &self.post.control.tape;
         let Some(noted) = &tape.noted else { return };
         for block in &noted.blocks[self.shown..] {
             let text = String::from_utf8_lossy(&tape.text[block.range.clone()]);
             let origin = tape.stacks.origin(block.cause);
-            take(&text, &origin);
+            take(Shown { text: &text, origin: &origin, words: &|| words_of(tape, noted, block) });
             for observer in self.observers.iter_mut() {
                 observer(Event::Block { text: &text, origin: &origin });
             }

@@ -1,0 +1,89 @@
+"""What users give, in the forms that the native half takes."""
+
+from __future__ import annotations
+
+import inspect
+import os
+from typing import Any, BinaryIO, Callable, Iterable, TextIO, Union
+
+#: A CL file or an NC program: its text, its name (``pathlib.Path``), or an open file.
+Source = Union[str, bytes, "os.PathLike[str]", BinaryIO, TextIO]
+
+#: A FIL or machine file: name and text, or its name (``pathlib.Path``).
+Named = Union["tuple[str, str]", "os.PathLike[str]"]
+
+
+def cl(source: Source) -> bytes | os.PathLike[str]:
+    """A CL file as bytes or a name; an open file is read to its end."""
+    if isinstance(source, os.PathLike):
+        return source
+    if isinstance(source, str):
+        return source.encode()
+    if isinstance(source, (bytes, bytearray, memoryview)):
+        return bytes(source)
+    read = getattr(source, "read", None)
+    if read is None:
+        kind = type(source).__name__
+        raise TypeError(f"a text, bytes, a pathlib.Path or an open file is needed, not {kind}")
+    text = read()
+    return text.encode() if isinstance(text, str) else bytes(text)
+
+
+def nc(source: Any, name: str | None) -> tuple[bytes, str]:
+    """An NC program as bytes, and its name in messages."""
+    if isinstance(getattr(source, "nc", None), bytes):  # a Result
+        source = source.nc
+    if isinstance(source, os.PathLike):
+        with open(source, "rb") as file:
+            return file.read(), name or os.fspath(source)
+    taken = cl(source)
+    assert isinstance(taken, bytes)
+    return taken, name or "NC"
+
+
+def named(source: Named | str, name: str) -> tuple[str, str]:
+    """Name and text; a plain text gets the name that is told."""
+    if isinstance(source, os.PathLike):
+        with open(source, "rb") as file:
+            return os.fspath(source), _text(file.read())
+    if isinstance(source, str):
+        return name, source
+    given, text = source
+    return str(given), text if isinstance(text, str) else _text(bytes(text))
+
+
+def _text(given: bytes) -> str:
+    try:
+        return given.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise ValueError(
+            f"this file is not UTF-8 ({error}); decode it and give (name, text)"
+        ) from error
+
+
+def functions(given: dict[str, Any]) -> list[tuple[str, int, Callable[..., Any]]]:
+    """Name, number of arguments and callable of each function."""
+    return [(name, *_function(name, value)) for name, value in given.items()]
+
+
+def _function(name: str, value: Any) -> tuple[int, Callable[..., Any]]:
+    if isinstance(value, tuple):
+        arity, function = value
+        return int(arity), function
+    if not callable(value):
+        raise TypeError(f"{name}: a callable is needed, not {type(value).__name__}")
+    try:
+        parameters = inspect.signature(value).parameters.values()
+    except ValueError:
+        parameters = None
+    if parameters is None or any(p.kind is p.VAR_POSITIONAL for p in parameters):
+        raise TypeError(f"{name}: give (number of arguments, callable), the callable does not say")
+    positional = [p for p in parameters if p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)]
+    return sum(p.default is p.empty for p in positional), value
+
+
+def texts(given: Iterable[str], what: str) -> list[str]:
+    """A list of texts; a single text is most likely a mistake."""
+    if isinstance(given, str):
+        raise TypeError(f"{what}: a list of texts is needed, not a text")
+    return list(given)

@@ -1,0 +1,125 @@
+//! What needs no program: codes, checks, comparisons, pictures of CL files.
+
+use filpost::nc::diff::{self as nc_diff, Ignore, sentence};
+use filpost::nc::plot::{html, svg};
+use filpost::plot::{self, ClText, Text};
+use pyo3::exceptions::{PyKeyError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::pybacked::PyBackedBytes;
+use pyo3::types::{PyDict, PyTuple};
+
+use crate::build::{self, NamedText};
+use crate::input::Given;
+use crate::{diag, path, post};
+
+/// Names of the posts inside the package.
+#[pyfunction]
+pub fn ready_posts() -> Vec<&'static str> {
+    filpost::ready::READY.iter().map(|post| post.name).collect()
+}
+
+/// Title, reason and hint of a code.
+#[pyfunction]
+pub fn explain(code: &str) -> PyResult<(&'static str, &'static str, &'static str)> {
+    let found = filpost::all_codes().into_iter().find(|row| row.name().eq_ignore_ascii_case(code));
+    let row = found.ok_or_else(|| PyKeyError::new_err(format!("there is no code {code}")))?;
+    Ok((row.title, row.reason, row.hint))
+}
+
+/// What a run would refuse or warn of in FIL files, and lints.
+#[pyfunction]
+pub fn check<'py>(
+    py: Python<'py>,
+    files: Vec<NamedText>,
+    strict: bool,
+) -> PyResult<Bound<'py, PyTuple>> {
+    let files: Vec<(&str, &str)> =
+        files.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
+    let found = py.detach(|| {
+        let options = filpost::check::Options { strict, ..Default::default() };
+        filpost::check::check(&files, options)
+    });
+    diag::diagnostics(py, &found)
+}
+
+type Differences = Vec<(Option<u32>, Option<u32>, String)>;
+
+/// Line of the first program, line of the second, and a sentence, for each difference.
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "names and order are those of Python's side")]
+pub fn diff(
+    py: Python<'_>,
+    first: PyBackedBytes,
+    second: PyBackedBytes,
+    names: (String, String),
+    tolerance: f64,
+    ignore: Vec<String>,
+    modal: bool,
+    diameter: bool,
+) -> PyResult<Differences> {
+    if !tolerance.is_finite() || tolerance < 0.0 {
+        return Err(PyValueError::new_err("tolerance must be 0 or more"));
+    }
+    let mut ignored = Ignore::default();
+    for entry in &ignore {
+        ignored.add(entry).map_err(|entry| {
+            PyValueError::new_err(format!(
+                "`{entry}` can't be ignored: n, comments, dates, points, spaces or a letter can"
+            ))
+        })?;
+    }
+    let options = nc_diff::Options { tolerance, ignore: ignored, modal, diameter };
+    let compared = py.detach(|| {
+        let first = nc_diff::read(&first, &names.0, &options)?;
+        let second = nc_diff::read(&second, &names.1, &options)?;
+        let found = nc_diff::compare(&first, &second, &options)?;
+        let told = found.differences.iter().map(|difference| {
+            let [one, two] = difference.lines;
+            (one, two, sentence(difference, &first, &second))
+        });
+        Ok(told.collect())
+    });
+    compared.map_err(|wrong: Box<filpost::Diag>| diag::refused(py, &wrong))
+}
+
+/// A picture of a CL file.
+#[pyfunction]
+pub fn plot_cl(
+    py: Python<'_>,
+    cl: Given,
+    name: Option<String>,
+    dialect: Option<&str>,
+    unit: Option<&str>,
+    page: bool,
+    views: Vec<String>,
+) -> PyResult<String> {
+    let views = post::views_named(&views)?;
+    let drawing = draw(py, cl, name, dialect, unit)?;
+    Ok(py.detach(|| if page { html(&drawing) } else { svg(&drawing, &views) }))
+}
+
+/// Fields of a `filpost.Path`.
+#[pyfunction]
+pub fn cl_path<'py>(
+    py: Python<'py>,
+    cl: Given,
+    name: Option<String>,
+    dialect: Option<&str>,
+    unit: Option<&str>,
+) -> PyResult<Bound<'py, PyDict>> {
+    path::arrays(py, draw(py, cl, name, dialect, unit)?.path)
+}
+
+fn draw(
+    py: Python<'_>,
+    cl: Given,
+    name: Option<String>,
+    dialect: Option<&str>,
+    unit: Option<&str>,
+) -> PyResult<filpost::nc::plot::Drawing> {
+    let (options, unit) = (build::reading(dialect, false)?, build::unit(unit)?);
+    let (bytes, name) = cl.read(py, name)?;
+    let text = Text { name: &name, bytes: &bytes };
+    let drawn = py.detach(|| plot::cl_file(ClText { text, options, unit }));
+    drawn.map_err(|error| diag::error(py, &error))
+}
