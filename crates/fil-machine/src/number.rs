@@ -112,6 +112,18 @@ impl NumberFormat {
     /// As [`NumberFormat::scale`]; a value that the format would round; one below zero.
     #[inline]
     pub fn exact(&self, value: f64) -> Result<i64> {
+        let whole = value as i64;
+        // A whole number of a format of whole numbers is its own scaled value.
+        if self.decimals == 0
+            && whole as f64 == value
+            && (0..LIMITS[self.whole as usize]).contains(&whole)
+        {
+            return Ok(whole);
+        }
+        self.exact_decimal(value)
+    }
+
+    fn exact_decimal(&self, value: f64) -> Result<i64> {
         if value < 0.0 {
             return Err(self.negative(value));
         }

@@ -190,14 +190,25 @@ impl<'o, S: Records> Outside<'o, S> {
     ///
     /// # Errors
     /// A file that can't be gone back in.
-    #[inline]
+    #[inline(always)]
     pub fn look_ahead(
         &mut self,
         record: &Record,
         vocabulary: &mut Vocabulary,
     ) -> Result<(), Box<Diag>> {
-        if record.kind != kind::MOTION && changes_tool(record) && self.post.looks_ahead_for_tools()
-        {
+        if record.kind != kind::MOTION && changes_tool(record) {
+            return self.look_for_tools(record, vocabulary);
+        }
+        Ok(())
+    }
+
+    #[cold]
+    fn look_for_tools(
+        &mut self,
+        record: &Record,
+        vocabulary: &mut Vocabulary,
+    ) -> Result<(), Box<Diag>> {
+        if self.post.looks_ahead_for_tools() {
             self.post.path.next_tools = self.source.next_tools(record, vocabulary)?;
         }
         Ok(())
