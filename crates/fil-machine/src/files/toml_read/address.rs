@@ -1,0 +1,126 @@
+//! The letters of a machine: `[address.X]`.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use fil_diag::{Diag, Result};
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::TomlReader;
+use crate::address::OFF;
+use crate::commons::{Commons, EMPTY, Kind};
+use crate::errors::MachineCode;
+use crate::letter::Letter;
+use crate::stored;
+
+/// The tape position of a letter that the machine does not have.
+const NO_POSITION: u32 = OFF as u32;
+
+impl TomlReader<'_> {
+    /// `[address.X]`: tape position, format, specification, printed character.
+    pub(super) fn address(
+        &mut self,
+        commons: &mut Commons,
+        key: &Spanned<Cow<'_, str>>,
+        value: &Spanned<DeValue>,
+    ) {
+        let unknown = |message: &str| Diag::new(MachineCode::UnknownSetting, message);
+        let name = key.get_ref().as_bytes();
+        let (&[name], DeValue::Table(fields)) = (name, value.get_ref()) else {
+            return self.refuse(key.span(), unknown("an address is a letter with a table"));
+        };
+        if !name.is_ascii_uppercase() {
+            return self.refuse(key.span(), unknown("addresses are the letters A to Z"));
+        }
+        let position = self.position(commons, name, fields.get("slot"));
+        let Some(position) = self.noted(key.span(), position) else { return };
+        for (field, value) in fields.iter() {
+            let base = match field.get_ref().as_ref() {
+                "slot" => continue,
+                "format" => 105,
+                "spec" => 158,
+                "char" => 52,
+                other => {
+                    self.refuse(field.span(), unknown(&format!("no field `{other}`")));
+                    continue;
+                }
+            };
+            let number = match value.get_ref() {
+                DeValue::String(text) if base == 52 && text.len() == 1 => {
+                    Ok(f64::from(text.as_bytes()[0]))
+                }
+                _ => self.plain_number(value),
+            };
+            let at = (Kind::Int, base + position.min(NO_POSITION));
+            let name = (char::from(name), field.get_ref().as_ref());
+            let set = number.and_then(|number| self.cell(commons, name, at, number, field.span()));
+            self.noted(value.span(), set);
+        }
+        if fields.get("char").is_none() && position < NO_POSITION {
+            let set = commons.set(Kind::Int, 52 + position, f64::from(name));
+            self.noted(key.span(), set);
+        }
+        let said = fields.get("slot").map_or(key.span(), Spanned::span);
+        self.named.push((name, position, said));
+    }
+
+    /// Stores a field of an address; one that can't hold the value is named as it is
+    /// written, `address.X.slot`, and not by its number.
+    fn cell(
+        &mut self,
+        commons: &mut Commons,
+        (letter, field): (char, &str),
+        at: (Kind, u32),
+        value: f64,
+        key: Range<usize>,
+    ) -> Result<()> {
+        stored::check(at.0, at.1, value).map_err(|mut diag| {
+            diag.message = format!("`address.{letter}.{field}` can't be {value}");
+            diag
+        })?;
+        self.store(commons, at, value, key)
+    }
+
+    /// The tape position of a letter: the one given, else the one it has.
+    fn position(
+        &mut self,
+        commons: &mut Commons,
+        name: u8,
+        slot: Option<&Spanned<DeValue>>,
+    ) -> Result<u32> {
+        let index = u32::from(Letter::of(name).number());
+        let Some(slot) = slot else {
+            return commons.get(Kind::Int, index).map(|number| number as u32);
+        };
+        let number = self.plain_number(slot)?;
+        let at = (Kind::Int, index);
+        let set = self.cell(commons, (char::from(name), "slot"), at, number, slot.span());
+        set.map_err(|diag| if diag.spans.is_empty() { self.at(slot.span(), *diag) } else { diag })?;
+        Ok(number as u32)
+    }
+
+    /// Two letters at one tape position would be written as one of them. A letter
+    /// the file does not name gives way: the machine does not have it.
+    pub(super) fn one_letter_a_position(&mut self, commons: &mut Commons) {
+        let named = std::mem::take(&mut self.named);
+        for (at, (name, slot, span)) in named.iter().enumerate() {
+            if *slot >= NO_POSITION {
+                continue;
+            }
+            if let Some((other, ..)) = named[..at].iter().find(|other| other.1 == *slot) {
+                let (one, other) = (char::from(*other), char::from(*name));
+                let message = format!("{one} and {other} are both at tape position {slot}");
+                self.refuse(span.clone(), Diag::new(MachineCode::SettingValue, message));
+                continue;
+            }
+            for other in (b'A'..=b'Z').filter(|other| other != name) {
+                let index = u32::from(Letter::of(other).number());
+                if commons.get(Kind::Int, index).is_ok_and(|held| held == f64::from(*slot)) {
+                    let given = commons.set(Kind::Int, index, EMPTY);
+                    self.noted(span.clone(), given);
+                }
+            }
+        }
+    }
+}
