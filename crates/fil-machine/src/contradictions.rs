@@ -1,6 +1,7 @@
 //! Settings that contradict each other: no machine is like that, and a program made
 //! with them would be read otherwise than it is meant.
 
+mod letters;
 mod numbers;
 
 use fil_diag::{Diag, Result};
@@ -10,12 +11,12 @@ use crate::axis_chain::AxisChain;
 use crate::commons::{Commons, Int};
 use crate::errors::MachineCode;
 use crate::frame_rules;
-use crate::letter::{Letter, letters};
+use crate::letter::{self, Letter};
 use crate::locations::{
     self as loc, ControlFamily, CycleReturnCodes, SeqnoAlign, TapeEndOfBlock, TapePartnoText,
     ToolChangeBlock, ToolFormat,
 };
-use crate::setting::{CharacterAt, CodeAt, LetterAt};
+use crate::setting::{CharacterAt, CodeAt};
 
 /// Codes of which no two may be the same: one motion, mode or command each.
 const DIFFERENT: &[&[(CodeAt, &str)]] = &[
@@ -149,8 +150,7 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     shift_along(commons, &mut found);
     frame_rules::check(commons, &mut found);
     same_positions(commons, &mut found);
-    axis_letters(commons, &mut found);
-    word_letters(commons, &mut found);
+    letters::check(commons, &mut found);
     absent_axes(commons, &mut found);
     numbers::numbers(commons, &mut found);
     tape(commons, &mut found);
@@ -323,7 +323,7 @@ fn rapid_rules(commons: &Commons, found: &mut Vec<Diag>) {
         )));
     }
     if let Some(letter) = word.0
-        && (letters::XYZ.contains(&letter) || b"ABCFGHIJKMNRST".contains(&letter.byte()))
+        && (letter::letters::XYZ.contains(&letter) || b"ABCFGHIJKMNRST".contains(&letter.byte()))
     {
         found.push(contradiction(format!("{letter} is the word of rapids and something else")));
     }
@@ -339,7 +339,7 @@ fn rapid_rules(commons: &Commons, found: &mut Vec<Diag>) {
 /// Formats of F by its mode need the point: without it a reader would have to know the mode.
 fn feed_formats(commons: &Commons, found: &mut Vec<Diag>) {
     let addresses = Addresses::from_commons(commons, true);
-    let pointless = addresses.format(letters::F).is_some_and(|format| !format.point);
+    let pointless = addresses.format(letter::letters::F).is_some_and(|format| !format.point);
     for (at, name) in [
         (loc::FEED_UPM_FORMAT, "feed.upm_format"),
         (loc::FEED_INVERSE_FORMAT, "feed.inverse_format"),
@@ -432,48 +432,6 @@ fn prepared_tools(commons: &Commons, found: &mut Vec<Diag>) {
     }
 }
 
-/// The letters of rotary axes: neither each other's nor those of X, Y and Z.
-fn axis_letters(commons: &Commons, found: &mut Vec<Diag>) {
-    let rotary =
-        [loc::ROTARY_PRIMARY_LETTER, loc::ROTARY_SECONDARY_LETTER].map(|at| commons.read(at));
-    for letter in rotary.into_iter().flatten() {
-        if letters::XYZ.contains(&letter) {
-            found.push(contradiction(format!("{letter} is a linear and a rotary axis")));
-        }
-    }
-    if rotary[0].is_some() && rotary[0] == rotary[1] {
-        found.push(contradiction("both rotary axes have the same letter".into()));
-    }
-}
-
-/// Letters of words that may stand in a block together: different, and neither an
-/// axis nor a function.
-fn word_letters(commons: &Commons, found: &mut Vec<Diag>) {
-    let of = |at: LetterAt| commons.read(at);
-    let taken =
-        |letter: Letter| letters::XYZ.contains(&letter) || b"FGHMNST".contains(&letter.byte());
-    let named = [
-        (loc::CYCLE_STEP_ADDRESS, "the peck"),
-        (loc::CYCLE_DWELL_ADDRESS, "the dwell of a cycle"),
-        (loc::CIRCLE_RADIUS_ADDRESS, "the radius"),
-        (loc::CUTCOM_ADDRESS, "the cutter offset"),
-    ];
-    for (at, what) in named {
-        let is_offset = |letter: &Letter| what == "the cutter offset" && letter.byte() == b'H';
-        let of_cycles = [loc::CYCLE_STEP_ADDRESS, loc::CYCLE_DWELL_ADDRESS].contains(&at);
-        let is_level = |letter: &Letter| of_cycles && letter.byte() == b'R';
-        let is_taken = |letter: &Letter| (taken(*letter) && !is_offset(letter)) || is_level(letter);
-        if let Some(letter) = of(at).filter(is_taken) {
-            found.push(contradiction(format!("{letter} is {what} and something else")));
-        }
-    }
-    if let (Some(step), Some(dwell)) = (of(named[0].0), of(named[1].0))
-        && step == dwell
-    {
-        found.push(contradiction(format!("{step} is both the peck and the dwell of a cycle")));
-    }
-}
-
 /// Settings of rotary axes that the machine does not have. A zero is what files of
 /// machines without the axis hold.
 fn absent_axes(commons: &Commons, found: &mut Vec<Diag>) {
@@ -496,74 +454,4 @@ fn absent_axes(commons: &Commons, found: &mut Vec<Diag>) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::files::apply_setting;
-    use crate::locations::default_commons;
-
-    #[test]
-    fn the_default_machine_does_not_contradict_itself() {
-        assert!(check(&default_commons()).is_ok());
-    }
-
-    #[test]
-    fn positions_of_axes_that_the_machine_has_are_taken() {
-        let axis = "rotary.primary_kind=1\nrotary.primary_letter=B\nrotary.primary_axis=2";
-        for setting in ["tool.change_block=2\ntool.change_b=10", "output.translate_b=5"] {
-            let mut commons = default_commons();
-            for part in axis.lines().chain(setting.lines()) {
-                apply_setting(&mut commons, part).unwrap();
-            }
-            assert!(check(&commons).is_ok(), "{setting}");
-        }
-    }
-
-    #[test]
-    fn contradictions_are_found() {
-        for setting in [
-            "circle.cw_code=3",
-            "linear.code=0",
-            "mode.position=91",
-            "int.5=3",
-            "feed.upm_factor=-1",
-            "limits.x_min=5\nlimits.x_max=1",
-            "cycle.dwell_address=Q",
-            "rotary.primary_letter=X",
-            "spindle.stop_code=3",
-            "spindle.orient_code=3",
-            "coolant.mist_code=3",
-            "cycle.off_code=81",
-            "cycle.drill_code=17",
-            "cycle.deep_code=81",
-            "spindle.css_code=97\nspindle.rpm_code=97",
-            "thread.code=0",
-            "tool.length_code=40",
-            "mode.position=89",
-            "circle.plane=20",
-            "circle.max_degrees=45",
-            "circle.radius_address=H",
-            "tool.change_block=2\ntool.change_b=10",
-            "output.translate_c=5",
-            "tool.preselect=1\ntool.change_code=none",
-            "tool.preselect=1\ntool.format=2",
-            "dwell.upm_format=3241",
-            "cycle.tap_left_code=81",
-            "program.opstop_code=99",
-            "rapid.code_xy=99",
-            "dwell.cycle_drill=-0.001",
-            "scale.x=0.000001",
-            "cycle.dwell_address=R",
-            "tape.opskip_char=%",
-            "tape.start_char=(",
-            "control.family=2\ntape.partno_text=1",
-            "input.along_tool_axis=5\nrotary.primary_kind=1\nrotary.primary_axis=3",
-        ] {
-            let mut commons = default_commons();
-            for part in setting.lines() {
-                apply_setting(&mut commons, part).unwrap();
-            }
-            let refused = check(&commons).expect_err(setting);
-            assert_eq!(refused.code.name(), "E0607", "{setting}: {refused}");
-        }
-    }
-}
+mod tests;

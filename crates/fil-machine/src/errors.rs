@@ -54,7 +54,7 @@ fil_diag::codes! {
         /// The option file of a lathe.
         LatheOptionFile = 608, Error, "option file of a lathe",
             "An option file holds what differs from the vendor's own machine, and what the vendor's lathe is has never been published. Read over a mill it would be another machine.",
-            "Set the lathe by name: a machine.toml that begins with the settings of `filpost machine show --all -p fanuc-lathe`.";
+            "Name the lathe that it is laid over: `-p fanuc-lathe -m FILE` posts with it, `filpost machine import -p fanuc-lathe FILE` writes all of it as a machine.toml; then check diameters, feeds and threads.";
         /// A setting nobody reads.
         UnusedSetting = 651, Warning, "setting without effect",
             "A value in this location is kept, and nothing reads it: the program is the same without it.",

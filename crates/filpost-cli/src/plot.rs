@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use filpost::cl::reader::Options;
 use filpost::map::MapReader;
 use filpost::nc::plot::{Drawing, View, html, svg};
+use filpost::nc::source::Source;
 use filpost::plot::{self, ClText, Text};
 use filpost::{Error, Program, files, select};
 
@@ -77,7 +78,7 @@ fn cl_text<'t>(args: &PlotArgs, text: Text<'t>) -> Result<ClText<'t>, Error> {
 fn program(args: &PlotArgs, nc: Text<'_>) -> Result<(Drawing, String), Error> {
     let cl = args.cl.as_ref().map(|path| Ok((path, read(path)?))).transpose()?;
     let (program, title) =
-        machine(args, cl.as_ref().map(|(path, bytes)| (path.as_path(), &bytes[..])))?;
+        machine(args, nc, cl.as_ref().map(|(path, bytes)| (path.as_path(), &bytes[..])))?;
     let mut drawing = plot::program(nc, program.commons())?;
     if let Some((path, bytes)) = &cl {
         let name = output::input_name(path);
@@ -101,8 +102,13 @@ fn origins(drawing: &mut Drawing, nc: Text<'_>, path: &Path) -> Result<(), Error
 }
 
 /// The machine of the command line, else the one that the CL file asks for, else the
-/// generic mill; and what it is called.
-fn machine(args: &PlotArgs, cl: Option<(&Path, &[u8])>) -> Result<(Program, String), Error> {
+/// generic mill of the program's family; and what it is called.
+fn machine(
+    args: &PlotArgs,
+    nc: Text<'_>,
+    cl: Option<(&Path, &[u8])>,
+) -> Result<(Program, String), Error> {
+    let source = Source::memory(nc.bytes);
     let encoding = args.encoding.as_deref();
     let named = match cl {
         Some((path, bytes)) => {
@@ -110,11 +116,15 @@ fn machine(args: &PlotArgs, cl: Option<(&Path, &[u8])>) -> Result<(Program, Stri
             let options = options(args)?;
             let name = output::input_name(path);
             let from =
-                setup::from(&args.chosen, &folders, || select::asked(bytes, &name, options))?;
+                setup::from(&args.chosen, &folders, || select::asked(bytes, &name, options))?
+                    .or_text_of(&args.chosen, &source, nc.name)?;
             setup::confirm(&from, || select::machines(bytes, &name, options), &name)?;
             setup::machine(&args.chosen, encoding, &from)?
         }
-        None => setup::machine(&args.chosen, encoding, &From::CommandLine)?,
+        None => {
+            let from = From::CommandLine.or_text_of(&args.chosen, &source, nc.name)?;
+            setup::machine(&args.chosen, encoding, &from)?
+        }
     };
     Ok((named.builder.build()?, named.title))
 }

@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
+use filpost::nc::dialect::Family;
+use filpost::nc::source::Source;
 use filpost::select::{self, Asked, Choice, Machin};
 use filpost::{Builder, Clock, CompatFile, Error, Program, files, includes, ready};
 
@@ -113,6 +115,29 @@ pub enum From {
     CommandLine,
     /// From what the CL file asks for.
     ClFile(Choice, Option<Machin>),
+    /// From the text of an NC program, as neither names one.
+    Program(Family),
+}
+
+impl From {
+    /// Where the post of an NC program comes from: a program whose machine neither the
+    /// command line nor a CL file names is read by a post of the family of its text. A
+    /// lathe's keeps the generic lathe: the other families have no ready one.
+    ///
+    /// # Errors
+    /// A program that can't be read.
+    pub fn or_text_of(self, chosen: &Chosen, nc: &Source<'_>, name: &str) -> Result<From, Error> {
+        let unnamed = match &self {
+            From::CommandLine => chosen.post.is_none() && chosen.machine.is_none(),
+            From::ClFile(Choice::Generic { turning, .. }, _) => turning.is_none(),
+            From::ClFile(..) | From::Program(_) => false,
+        };
+        if !unnamed {
+            return Ok(self);
+        }
+        let family = Family::of(nc).map_err(|error| files::cant_read(name.as_ref(), &error))?;
+        Ok(if family == Family::WordAddress { self } else { From::Program(family) })
+    }
 }
 
 /// Where the post of a CL file comes from: what the command line names, else what
@@ -145,6 +170,7 @@ pub fn confirm(
 ) -> Result<(), Error> {
     match from {
         From::CommandLine => Ok(()),
+        From::Program(_) => select::confirm(None, &machines()?, cl_name),
         From::ClFile(_, machin) => select::confirm(machin.as_ref(), &machines()?, cl_name),
     }
 }
@@ -162,6 +188,11 @@ pub fn machine(chosen: &Chosen, encoding: Option<&str>, from: &From) -> Result<N
         From::ClFile(choice, machin) => {
             let named = asked_for(choice, machin.as_ref(), encoding)?;
             Ok(with_settings(named, &chosen.set))
+        }
+        From::Program(family) => {
+            let name = ready::generic_for(*family);
+            let title = format!("{name} (the program is {}; no post is named)", family.title());
+            Ok(with_settings(Named::new(Program::builder().ready(name), title), &chosen.set))
         }
     }
 }

@@ -23,8 +23,8 @@ use crate::{Status, output, setup};
 pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
     let mut cl = output::open(&args.cl)?;
     let nc = Source::file(output::open(&args.nc)?);
-    let (program, title) = program(args, &mut cl)?;
     let name = output::input_name(&args.nc);
+    let (program, title) = program(args, &mut cl, (&nc, &name))?;
     let offsets = args.allow_offset.clone();
     let allowed = Allowed { tolerance: args.tol, between: args.between, offsets };
     let mut run = program.start().cl_name(&output::input_name(&args.cl)).reading(options(args)?);
@@ -70,11 +70,16 @@ fn options(args: &VerifyArgs) -> Result<Options, Error> {
 }
 
 /// The post that the program should come from, and what it is called.
-fn program(args: &VerifyArgs, cl: &mut std::fs::File) -> Result<(Program, String), Error> {
+fn program(
+    args: &VerifyArgs,
+    cl: &mut std::fs::File,
+    (nc, nc_name): (&Source<'_>, &str),
+) -> Result<(Program, String), Error> {
     let folders = select::beside_first(&args.cl, &args.post_path);
     let name = output::input_name(&args.cl);
     let options = options(args)?;
-    let from = setup::from(&args.chosen, &folders, || select::asked(&mut *cl, &name, options))?;
+    let from = setup::from(&args.chosen, &folders, || select::asked(&mut *cl, &name, options))?
+        .or_text_of(&args.chosen, nc, nc_name)?;
     let named = setup::for_run(&args.chosen, &args.fil, &args.reading, &from)?;
     let cant_rewind = |error| files::cant_read(&args.cl, &error);
     cl.rewind().map_err(cant_rewind)?;

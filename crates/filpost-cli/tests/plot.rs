@@ -86,6 +86,26 @@ fn a_program_of_another_dialect_is_refused_and_nothing_written() {
 }
 
 #[test]
+fn a_program_whose_machine_nobody_names_is_read_by_the_family_of_its_text() {
+    let place = Folder::new();
+    for post in ["heidenhain-tnc640", "sinumerik-840d"] {
+        let posted = place.run(&["post", "a part.ncl", "-p", post, "-o", "out.nc"]);
+        assert_eq!(posted.status.code(), Some(0), "{}", text(&posted.stderr));
+        let verified = place.run(&["verify", "a part.ncl", "out.nc"]);
+        assert!(text(&verified.stderr).contains(post), "{}", text(&verified.stderr));
+        assert_eq!(verified.status.code(), Some(0), "{}", text(&verified.stdout));
+        let drawn = place.run(&["plot", "out.nc", "-o", "path.svg"]);
+        assert_eq!(drawn.status.code(), Some(0), "{}", text(&drawn.stderr));
+        assert!(text(&drawn.stderr).contains(post), "{}", text(&drawn.stderr));
+        let other = place.run(&["plot", "out.nc", "-p", "linuxcnc-lathe", "-o", "path.svg"]);
+        if post.starts_with("heidenhain") {
+            assert_eq!(other.status.code(), Some(1));
+            assert!(text(&other.stderr).contains("is Klartext"), "{}", text(&other.stderr));
+        }
+    }
+}
+
+#[test]
 fn options_of_a_program_do_not_go_with_a_cl_file() {
     let place = Folder::new();
     let output = place.run(&["plot", "a part.ncl", "--cl", "a part.ncl"]);

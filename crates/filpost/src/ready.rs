@@ -1,5 +1,7 @@
 //! The posts inside the crate: folders of `fil-scripts/posts/`.
 
+use fil_nc::dialect::Family;
+
 /// A ready post: the files of its folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ReadyPost {
@@ -55,6 +57,15 @@ pub const GENERIC_MILL: &str = "fanuc-mill";
 
 /// The post for a CL file that names none and is for a lathe.
 pub const GENERIC_LATHE: &str = "fanuc-lathe";
+
+/// The post for an NC program whose machine nobody names, by the family that its text is of.
+pub fn generic_for(family: Family) -> &'static str {
+    match family {
+        Family::WordAddress => GENERIC_MILL,
+        Family::Klartext => "heidenhain-tnc640",
+        Family::Sinumerik => "sinumerik-840d",
+    }
+}
 
 /// The ready post of a name; letters in any case.
 pub fn find(name: &str) -> Option<&'static ReadyPost> {

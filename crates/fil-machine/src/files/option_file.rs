@@ -83,9 +83,36 @@ const HEAD: u32 = 2;
 /// that are no pairs, locations out of range, lists that are missing, come twice or
 /// have no end.
 pub fn read_option_file(file: &str, text: &str) -> Result<OptionFile, Vec<Diag>> {
+    if let Err(diag) = refuse_a_lathe(file, text) {
+        return Err(vec![*diag]);
+    }
+    read(vendor_commons(), file, text)
+}
+
+/// Lays an option file over the settings of a machine, of a lathe too: what the file
+/// leaves out stays as it is there.
+///
+/// # Errors
+/// As [`read_option_file`], but the file of a lathe is taken.
+pub fn lay_option_file_over(
+    commons: &mut Commons,
+    file: &str,
+    text: &str,
+) -> Result<Vec<Diag>, Vec<Diag>> {
+    let laid = read(commons.clone(), file, text)?;
+    *commons = laid.commons;
+    Ok(laid.warnings)
+}
+
+/// True for a text with the lists of an option file; a `machine.toml` has none.
+pub fn is_option_text(text: &str) -> bool {
+    text.lines().take(10).any(|line| list_start(line) == Some(Kind::Int))
+}
+
+fn read(commons: Commons, file: &str, text: &str) -> Result<OptionFile, Vec<Diag>> {
     let mut reader = Reader {
         file,
-        commons: vendor_commons(),
+        commons,
         title: String::new(),
         open: None,
         lists: Vec::new(),
@@ -95,9 +122,6 @@ pub fn read_option_file(file: &str, text: &str) -> Result<OptionFile, Vec<Diag>>
         warnings: Vec::new(),
         errors: Vec::new(),
     };
-    if let Err(diag) = refuse_a_lathe(file, text) {
-        return Err(vec![*diag]);
-    }
     for (number, line) in (1u32..).zip(text.lines()) {
         let line = line.trim_end();
         if let Err(diag) = reader.line(number, line) {
@@ -379,6 +403,20 @@ mod tests {
         }
         assert!(read_option_file("uncl/uncx01.p09", SMALL).is_ok());
         assert!(read_option_file("uncle.p09", SMALL).is_ok());
+    }
+
+    #[test]
+    fn a_lathes_file_is_laid_over_a_machine() {
+        let lathe = SMALL.replace("UNCX01.P09", "UNCL01.P09");
+        let mut commons = default_commons();
+        crate::files::apply_setting(&mut commons, "feed.mode=99").unwrap();
+        lay_option_file_over(&mut commons, "uncl01.p09", &lathe).unwrap();
+        assert_eq!(commons.dbl(loc::SCALE_X), 2.0);
+        assert_eq!(commons.read(loc::FEED_MODE), Some(99));
+        let before = commons.clone();
+        assert!(lay_option_file_over(&mut commons, "uncl01.p09", &lathe[..90]).is_err());
+        assert_eq!(commons.dbl(loc::SCALE_X), before.dbl(loc::SCALE_X));
+        assert!(is_option_text(&lathe) && !is_option_text("name = \"INTCOM:\"\n"));
     }
 
     #[test]

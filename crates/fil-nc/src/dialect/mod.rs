@@ -4,6 +4,7 @@
 //! understands them; the post's own output code has no part in it.
 
 mod codes;
+mod family;
 mod marks;
 mod numbers;
 mod start;
@@ -17,6 +18,7 @@ use fil_machine::locations::Location;
 use crate::forward::Forward;
 use codes::{Auxiliaries, Functions};
 pub use codes::{Auxiliary, CycleKind, FeedMode, Function, Group};
+pub use family::Family;
 pub use numbers::{Address, Unreadable};
 pub(crate) use start::Certain;
 
@@ -86,17 +88,6 @@ pub enum ToolCall {
     Word,
     /// `T0102` changes to tool 1 with offset 2.
     WithOffset,
-}
-
-/// The family of a control.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Family {
-    /// Words of a letter and a number (ISO 6983).
-    WordAddress,
-    /// Heidenhain Klartext.
-    Klartext,
-    /// SINUMERIK 840D.
-    Sinumerik,
 }
 
 /// The language of a machine's NC programs.

@@ -1,90 +1,35 @@
 //! Lines of the three families of controls as blocks: words, and a statement for what is
 //! no word of a letter (`TOOL CALL 5 Z`, `MCALL CYCLE81(…)`).
 
-use std::io;
 use std::ops::Range;
 
 use fil_diag::Diag;
 
+use crate::dialect::Family;
 use crate::interpret::sinumerik_words;
 use crate::interpret::sinumerik_words::Value;
 use crate::text::{Block, Number, Word, read_block_into};
 
-use crate::source::{Lines, Source};
-
-/// The language of a program, by the signs in its text.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Language {
-    /// Words of a letter and a number.
-    Words,
-    /// Heidenhain Klartext.
-    Klartext,
-    /// SINUMERIK.
-    Sinumerik,
-}
-
-/// What no program of words has, and each of a SINUMERIK that needs another reading.
-const SIGNS: [&str; 8] = ["%_N_", ";$PATH=", "MCALL", "CYCLE8", "MSG(", "CR=", "T=\"", "=AC("];
-
 /// Decimals of the exact form of a number.
 const DECIMALS: u8 = 6;
 
-impl Language {
-    /// The language of a whole text.
-    pub(super) fn of(source: &Source<'_>) -> io::Result<Language> {
-        let mut lines = Lines::from(source, 0);
-        let mut first = true;
-        while let Some(line) = lines.next_line()? {
-            // Most lines have nothing that a sign has.
-            if !first && !line.iter().any(|byte| b"%;=(Ll".contains(byte)) {
-                continue;
-            }
-            let line = String::from_utf8_lossy(line).to_ascii_uppercase();
-            let bare = bare(&line);
-            if first && bare.starts_with("BEGIN PGM") {
-                return Ok(Language::Klartext);
-            }
-            first &= bare.is_empty();
-            if has_sign(&line) {
-                return Ok(Language::Sinumerik);
-            }
-        }
-        Ok(Language::Words)
+/// Reads a line of a family of controls into a block whose memory is used again.
+///
+/// # Errors
+/// What can't be read.
+pub(super) fn read_into(
+    family: Family,
+    block: &mut Block,
+    line: &[u8],
+    name: &str,
+    number: u32,
+) -> Result<(), Box<Diag>> {
+    match family {
+        Family::WordAddress => return read_block_into(block, line, name, number),
+        Family::Klartext => *block = klartext(line, number),
+        Family::Sinumerik => *block = sinumerik(line, name, number)?,
     }
-
-    /// Reads a line into a block whose memory is used again.
-    ///
-    /// # Errors
-    /// What can't be read.
-    pub(super) fn read_into(
-        self,
-        block: &mut Block,
-        line: &[u8],
-        name: &str,
-        number: u32,
-    ) -> Result<(), Box<Diag>> {
-        match self {
-            Language::Words => return read_block_into(block, line, name, number),
-            Language::Klartext => *block = klartext(line, number),
-            Language::Sinumerik => *block = sinumerik(line, name, number)?,
-        }
-        Ok(())
-    }
-}
-
-/// A line in upper case has what no program of words has.
-fn has_sign(line: &str) -> bool {
-    let code = line.split(';').next().unwrap_or("").split('(').next().map_or(0, str::len);
-    SIGNS.iter().any(|sign| match line.find(sign) {
-        // Within a comment of a program of words it says nothing.
-        Some(at) => sign.contains(['%', ';', '(']) || at < code,
-        None => false,
-    })
-}
-
-/// A line without the number of Klartext.
-fn bare(line: &str) -> &str {
-    line.trim().trim_start_matches(|c: char| c.is_ascii_digit()).trim_start()
+    Ok(())
 }
 
 /// `12 L X+10 R0 FMAX M3 ; over the hole`: axes, F and M are words, FMAX and its lack are
@@ -279,22 +224,9 @@ fn parts(text: &str) -> Vec<Part<'_>> {
 mod tests {
     use super::*;
 
-    #[test]
-    fn languages_are_told_by_their_signs() {
-        for (text, language) in [
-            ("%\nO100 (CYCLE81)\nG1 X1. (CR=5)\n", Language::Words),
-            ("\n0 BEGIN PGM A MM\n", Language::Klartext),
-            ("%_N_A_MPF\nG1 X1\n", Language::Sinumerik),
-            ("N10 G1 X1\nN20 MCALL CYCLE81(5,0,1,-3)\n", Language::Sinumerik),
-            ("N10 G3 X1 CR=5\n", Language::Sinumerik),
-        ] {
-            assert_eq!(Language::of(&Source::memory(text.as_ref())).unwrap(), language, "{text}");
-        }
-    }
-
-    fn said(language: Language, text: &str) -> (String, Option<String>) {
+    fn said(family: Family, text: &str) -> (String, Option<String>) {
         let mut block = Block::default();
-        language.read_into(&mut block, text.as_bytes(), "a", 1).unwrap();
+        read_into(family, &mut block, text.as_bytes(), "a", 1).unwrap();
         let words = block.words.iter().map(|word| {
             let index = word.index.map_or(String::new(), |index| format!("{index}="));
             format!("{}{index}{}", char::from(word.letter), word.number.value())
@@ -304,7 +236,7 @@ mod tests {
 
     #[test]
     fn lines_of_klartext_are_words_and_statements() {
-        let read = |text: &str| said(Language::Klartext, text);
+        let read = |text: &str| said(Family::Klartext, text);
         assert_eq!(read("7 L X+10 Y-2.5 R0 FMAX M3"), ("N7 X10 Y-2.5 G40 G0 M3".into(), None));
         assert_eq!(read("8 CC X+1 Y+2"), ("N8 I1 J2".into(), Some("CC".into())));
         assert_eq!(read("9 C X+1 DR-"), ("N9 X1".into(), Some("C DR-".into())));
@@ -314,7 +246,7 @@ mod tests {
 
     #[test]
     fn blocks_of_a_sinumerik_are_words_and_statements() {
-        let read = |text: &str| said(Language::Sinumerik, text);
+        let read = |text: &str| said(Family::Sinumerik, text);
         assert_eq!(read("N10 G3 X1=5 Y2 CR=4 ; A"), ("N10 G3 X1=5 Y2 R4".into(), None));
         let call = "MCALL CYCLE81(5,0,1,-3)";
         assert_eq!(read("N20 MCALL CYCLE81(5, 0,1,-3)"), ("N20".into(), Some(call.into())));

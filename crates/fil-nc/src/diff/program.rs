@@ -12,8 +12,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use fil_diag::{Diag, TextSpan};
 
 use super::Options;
-use super::language::Language;
+use super::language::read_into;
 use super::modal::{Modal, group, tenths};
+use crate::dialect::Family;
 use crate::source::{Lines, Source, changed};
 use crate::text::{Block, Word};
 
@@ -48,7 +49,7 @@ pub(super) struct Checkpoint {
 /// What stands for the blocks of a program.
 #[derive(Debug)]
 struct Index {
-    language: Language,
+    family: Family,
     /// The same for blocks that say the same; one for each line that is not empty.
     tokens: Vec<u64>,
     checkpoints: Vec<Checkpoint>,
@@ -106,9 +107,9 @@ impl Program {
         options: &Options,
     ) -> Result<Self, Box<Diag>> {
         let cant = |error: io::Error| Box::new(changed(name, &error.to_string()));
-        let language = Language::of(&source).map_err(cant)?;
-        let mut index = Index { language, tokens: Vec::new(), checkpoints: Vec::new() };
-        let mut walk = Walk::new(&source, (name, language), options, Checkpoint::default());
+        let family = Family::of(&source).map_err(cant)?;
+        let mut index = Index { family, tokens: Vec::new(), checkpoints: Vec::new() };
+        let mut walk = Walk::new(&source, (name, family), options, Checkpoint::default());
         let mut said = Vec::new();
         let mut due = 0;
         while walk.line_ahead() {
@@ -166,7 +167,7 @@ impl Program {
     pub fn sequence_number(&self, line: u32) -> Option<i64> {
         let mut block = Block::default();
         let text = self.text(line);
-        self.index.language.read_into(&mut block, text.as_bytes(), &self.name, line).ok()?;
+        read_into(self.index.family, &mut block, text.as_bytes(), &self.name, line).ok()?;
         leave_out(&mut block, &self.options);
         block.sequence_number()
     }
@@ -199,7 +200,7 @@ impl Program {
     pub(super) fn cursor(&self, block: usize) -> Cursor<'_> {
         let from = self.checkpoint_of(block);
         let next = from.blocks;
-        let named = (self.name.as_str(), self.index.language);
+        let named = (self.name.as_str(), self.index.family);
         Cursor { walk: Walk::new(&self.source, named, &self.options, from), next }
     }
 }
@@ -236,7 +237,7 @@ impl Cursor<'_> {
 struct Walk<'p> {
     lines: Lines<'p>,
     name: &'p str,
-    language: Language,
+    family: Family,
     options: &'p Options,
     number: u32,
     line: Line,
@@ -246,13 +247,13 @@ struct Walk<'p> {
 impl<'p> Walk<'p> {
     fn new(
         source: &'p Source<'p>,
-        (name, language): (&'p str, Language),
+        (name, family): (&'p str, Family),
         options: &'p Options,
         from: Checkpoint,
     ) -> Self {
         let line = Line { after: from.modal, ..Line::default() };
         let lines = Lines::from(source, from.offset);
-        Walk { lines, name, language, options, number: from.line, line, ended: false }
+        Walk { lines, name, family, options, number: from.line, line, ended: false }
     }
 
     fn line_ahead(&self) -> bool {
@@ -271,7 +272,7 @@ impl<'p> Walk<'p> {
 
     /// Takes the next line up; false when it is empty, or there is none.
     fn next_line(&mut self) -> Result<bool, Box<Diag>> {
-        let Walk { lines, name, language, options, number, line, ended } = self;
+        let Walk { lines, name, family, options, number, line, ended } = self;
         let text =
             lines.next_line().map_err(|error| Box::new(changed(name, &error.to_string())))?;
         let Some(text) = text else {
@@ -279,7 +280,7 @@ impl<'p> Walk<'p> {
             return Ok(false);
         };
         *number += 1;
-        language.read_into(&mut line.block, text, name, *number)?;
+        read_into(*family, &mut line.block, text, name, *number)?;
         leave_out(&mut line.block, options);
         line.before.clone_from(&line.after);
         line.after.take(&line.block);

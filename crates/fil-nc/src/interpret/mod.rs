@@ -69,6 +69,7 @@ impl Fault {
 /// A program that is run line by line.
 pub struct Running<'a> {
     control: Control<'a>,
+    source: &'a Source<'a>,
     name: &'a str,
     dialect: &'a Dialect,
 }
@@ -94,7 +95,7 @@ impl<'a> Running<'a> {
                 Control::Sinumerik(Box::new(sinumerik::Program::new(source, dialect)))
             }
         };
-        Running { control, name, dialect }
+        Running { control, source, name, dialect }
     }
 }
 
@@ -109,7 +110,24 @@ impl Events for Running<'_> {
             if self.dialect.leaves_blocks_out() {
                 refused.message.push_str(", with the blocks behind / left out");
             }
-            refused
+            match self.of_another_family() {
+                Some(note) => Box::new(refused.note(note)),
+                None => refused,
+            }
+        })
+    }
+}
+
+impl Running<'_> {
+    /// The note on a program that is not for the family of the machine. A text without
+    /// signs says nothing: any family may have such a program.
+    #[cold]
+    fn of_another_family(&self) -> Option<String> {
+        let told = Family::of(self.source).ok()?;
+        let machine = self.dialect.family;
+        (told != machine && told != Family::WordAddress).then(|| {
+            let (told, machine) = (told.title(), machine.title());
+            format!("the text of the program is {told}, the machine is read as {machine}")
         })
     }
 }

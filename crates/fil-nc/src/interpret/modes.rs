@@ -75,7 +75,7 @@ impl State<'_> {
     }
 
     /// Another work offset: where the axes stand in it is not known.
-    fn fixture(&mut self, code: u32) {
+    pub(super) fn fixture(&mut self, code: u32) {
         if self.moves_fixture(code) {
             for axis in (0..5).filter(|axis| self.dialect.scales[*axis].is_some()) {
                 self.known[axis] = false;

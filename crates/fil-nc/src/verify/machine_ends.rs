@@ -13,6 +13,13 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn go_to_machine(&mut self, cl_line: u32, to: [Option<f64>; 3]) {
         self.report.compared += 1;
         self.initial = None;
+        if self.settings.names_machine_positions() {
+            let [x, y, z] = to;
+            if self.go_in_machine_frame(cl_line, [x, y, z, None, None]) {
+                self.report.matched += 1;
+            }
+            return;
+        }
         self.pass(cl_line);
         let count = self.parts_to_machine(to);
         let Some(count) = count else {
@@ -33,6 +40,48 @@ impl<C: Steps> Walk<'_, C> {
         self.report.matched += 1;
         self.settle(cl_line);
         self.watch.stand(None);
+    }
+
+    /// Motions to a point in the frame of the machine, mm and degrees, Z before all others; an
+    /// axis without a value stays. True when they are as they must be.
+    pub(super) fn go_in_machine_frame(&mut self, cl_line: u32, to: [Option<f64>; 5]) -> bool {
+        self.pass_still(cl_line);
+        let mut open = to;
+        while open.iter().any(Option::is_some) {
+            let found = self.next_move().filter(|found| found.course == Course::Machine);
+            let Some(found) = found else {
+                let message = "no motion to the position of the machine".to_string();
+                self.find(FindingKind::Missing, Some(cl_line), None, message);
+                return false;
+            };
+            let value = |at: &Position, n: usize| match n {
+                0..3 => at.linear[n],
+                _ => at.rotary[n - 3],
+            };
+            let slack = |n: usize| match n {
+                0..3 => self.slack.linear[n],
+                _ => self.slack.rotary[n - 3],
+            };
+            let moved = |n: &usize| value(&found.to, *n) != value(&self.at, *n);
+            let arrives = |n: usize| {
+                to[n].is_some_and(|to| {
+                    !found.known[n] && (value(&found.to, n) - to).abs() <= slack(n)
+                })
+            };
+            let astray = (0..5).filter(moved).any(|n| !arrives(n));
+            for n in (0..5).filter(|n| arrives(*n)) {
+                open[n] = None;
+            }
+            let rises = open[2].is_none();
+            self.stand(&found);
+            if astray || !rises {
+                let message = "goes to another position of the machine".to_string();
+                self.find(FindingKind::Extra, Some(cl_line), Some(found.line), message);
+                return false;
+            }
+        }
+        self.watch.stand(None);
+        true
     }
 
     /// How many rapids reach a position of the linear axes; none where the axes stand there.
@@ -61,7 +110,8 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn retract(&mut self, cl_line: u32) {
         let Some(level) = self.settings.retract_level(self.metric) else { return };
         let stands = self.settings.forward.restated(&self.at, &Position::default()).linear[2];
-        if !(self.known[2] && stands >= level) {
+        let is_above = self.known[2] && stands >= level;
+        if !is_above || self.settings.names_machine_positions() {
             self.go_to_machine(cl_line, [None, None, Some(level)]);
         }
     }

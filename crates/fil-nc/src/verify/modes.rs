@@ -193,7 +193,13 @@ impl Expected {
                 let of_tool = self.loaded.filter(|_| settings.offsets_diameters_by_tool());
                 // The nose of a turning tool is in the offset of its T word.
                 let has_number = !settings.calls_tools_with_offset() && *side != Compensation::Off;
-                let offset = offset.or(of_tool).filter(|_| has_number);
+                // A tool that brings its own radius, which only an edge has a number for.
+                let offset = if settings.takes_offsets_of_tools() {
+                    self.loaded.filter(|_| !settings.has_edges())
+                } else {
+                    offset.or(of_tool)
+                };
+                let offset = offset.filter(|_| has_number);
                 // The radius is that of the edge in force, which is said once.
                 let edge = self.offset.now.filter(|_| settings.has_edges());
                 let offset = offset.filter(|offset| Some(*offset) != edge);

@@ -43,6 +43,13 @@ impl<C: Steps> Walk<'_, C> {
                 let agrees = |speed: f64| (a - b * speed).abs() <= self.slack.feed + PITCH * a;
                 found.modes.speed.and_then(Speed::turns).is_some_and(agrees)
             }
+            // A cycle that knows feeds a minute only is told one at the speed of the spindle.
+            (Rate::PerTurn(a), Some(Rate::PerMinute(b)))
+                if self.settings.feeds_holes_a_minute() =>
+            {
+                let agrees = |speed: f64| (a * speed - b).abs() <= self.slack.feed;
+                found.modes.speed.and_then(Speed::turns).is_some_and(agrees)
+            }
             (Rate::PerMinute(rate), Some(Rate::Inverse(inverse))) => {
                 return self.check_time(cl_line, (from, found), rate, inverse);
             }

@@ -11,7 +11,10 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn tool(&mut self, cl_line: u32, number: u32, offset: u32) {
         self.initial = None;
         // A text may have changed the tool.
-        self.pass(cl_line);
+        match self.settings.names_machine_positions() {
+            true => self.pass_still(cl_line),
+            false => self.pass(cl_line),
+        }
         let same = self.modes.tool() == Some(number)
             && self.modes.loaded_offset() == Some(offset)
             && self.settings.tool_is_modal();
@@ -71,8 +74,12 @@ impl<C: Steps> Walk<'_, C> {
 
     /// The rapids to the position where the machine changes tools.
     pub(super) fn go_to_change_position(&mut self, cl_line: u32) {
-        self.pass(cl_line);
         let wanted = self.settings.change_position(self.metric);
+        if self.settings.names_machine_positions() {
+            self.go_in_machine_frame(cl_line, wanted);
+            return;
+        }
+        self.pass(cl_line);
         let forward = &self.settings.forward;
         let value = |at: &Position, n: usize| {
             if n < 3 {

@@ -271,7 +271,7 @@ impl<'a, C: Steps> Walk<'a, C> {
     /// blocks of the settings, ways of no length.
     pub(super) fn pass(&mut self, cl_line: u32) {
         loop {
-            self.pass_own();
+            self.pass_still(cl_line);
             match self.nc.get(self.next) {
                 Some(Event::Move(found)) if found.course == Course::Machine => {
                     self.stand(&found);
@@ -283,7 +283,20 @@ impl<'a, C: Steps> Walk<'a, C> {
                         message.to_string(),
                     );
                 }
-                Some(Event::Move(found)) if self.is_still(&found) || self.turns_away(&found) => {
+                _ => return,
+            }
+        }
+    }
+
+    /// The same, up to a motion to a point of the machine, which may be asked for.
+    pub(super) fn pass_still(&mut self, cl_line: u32) {
+        loop {
+            self.pass_own();
+            match self.nc.get(self.next) {
+                Some(Event::Move(found))
+                    if found.course != Course::Machine
+                        && (self.is_still(&found) || self.turns_away(&found)) =>
+                {
                     self.take(cl_line, &found);
                     self.next += 1;
                 }

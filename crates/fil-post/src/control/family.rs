@@ -221,6 +221,11 @@ pub fn cycle_code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
     }
 }
 
+/// True when a cycle of the control drills a hole that lies like this one.
+pub fn drills(control: &Control, hole: &Hole) -> bool {
+    control.tables.family != ControlFamily::Klartext || klartext::cycle::drills(hole)
+}
+
 /// Writes the block of a hole.
 ///
 /// # Errors

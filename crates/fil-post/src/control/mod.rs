@@ -12,6 +12,8 @@ mod edit;
 pub mod family;
 pub mod klartext;
 pub(crate) mod line;
+pub mod machine_frame;
+mod own_offsets;
 pub mod program;
 pub mod replaced;
 pub mod sinumerik;

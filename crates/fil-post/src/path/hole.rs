@@ -68,7 +68,8 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
         post.control.tables.axis(hole.along).check(level)?;
     }
     let at = Motion { position, axes: AxisSet::ALL, word };
-    let code = family::cycle_code(&post.control, cycle).filter(|_| !as_single_moves(post, target));
+    let has_cycle = family::drills(&post.control, &hole) && !as_single_moves(post, target);
+    let code = family::cycle_code(&post.control, cycle).filter(|_| has_cycle);
     cycle.along = Some(hole.along);
     if let Some(code) = code {
         if post.control.state.in_cycle != Some(true)
@@ -196,6 +197,12 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, start: f64) -> Res
         (Some(0.0), Some(initial)) if above(initial, hole.clear) > 0.0 => initial,
         (Some(level), _) if level > 0.0 && above(start + level * out, hole.clear) > 0.0 => {
             start + level * out
+        }
+        (Some(level), _) if level > 0.0 && above(hole.clear, start + level * out) > SAME_LEVEL => {
+            let message = "CYCLE: the level to return to is below the R level; the tool returns \
+                           to the R level";
+            post.warn(PostCode::IgnoredPart, message.to_string());
+            hole.clear
         }
         _ => hole.clear,
     };

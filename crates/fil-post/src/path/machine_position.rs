@@ -3,7 +3,8 @@
 use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
 
-use super::rapid;
+use super::{frame, rapid, tip_control};
+use crate::control::machine_frame::{self, Before};
 use crate::control::word_address::cycle;
 use crate::control::word_address::motion::Motion;
 use crate::errors::PostCode;
@@ -28,9 +29,16 @@ pub fn carry_out(post: &mut Post, to: [Option<f64>; 3]) -> Result<()> {
             axes = axes.or(AxisSet::of(number));
         }
     }
-    post.control.tables.check_travel(&position, axes)?;
     let cause = post.control.block.cause.whole();
-    rapid::to_machine_position(&mut post.control, &Motion { position, axes, word: 0 }, cause)?;
+    let motion = Motion { position, axes, word: 0 };
+    if machine_frame::is_meant(&post.control) {
+        tip_control::end(&mut post.control)?;
+        frame::end(&mut post.control)?;
+        machine_frame::go(&mut post.control, &motion, Before::Others, cause)?;
+    } else {
+        post.control.tables.check_travel(&position, axes)?;
+        rapid::to_machine_position(&mut post.control, &motion, cause)?;
+    }
     post.control.tip.is_away = true;
     post.path.rapid = None;
     post.path.point = None;

@@ -11,6 +11,7 @@ use super::{frame, rapid, tip_control};
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family;
+use crate::control::machine_frame::{self, Before};
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::tool;
 use crate::errors::PostCode;
@@ -104,6 +105,10 @@ fn go_to_change_position(control: &mut Control, cause: Cause) -> Result<()> {
             moving = moving.or(AxisSet::of(number));
         }
     }
+    let motion = Motion { position, axes: moving, word: 0 };
+    if machine_frame::is_meant(control) {
+        return machine_frame::go(control, &motion, Before::ToolChange, cause);
+    }
     control.tables.check_travel(&position, moving)?;
-    rapid::to_machine_position(control, &Motion { position, axes: moving, word: 0 }, cause)
+    rapid::to_machine_position(control, &motion, cause)
 }

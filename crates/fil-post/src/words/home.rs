@@ -5,6 +5,7 @@ use fil_diag::Result;
 use fil_machine::locations as loc;
 
 use super::goto;
+use crate::control::machine_frame;
 use crate::items::Items;
 use crate::operation::Operation;
 use crate::path::carry_out;
@@ -23,7 +24,8 @@ pub fn gohome(post: &mut Post, items: &Items) -> Result<()> {
     carry_out(post, Operation::MachinePosition(home))
 }
 
-/// RETRCT: up to the level that the machine names for it; never down.
+/// RETRCT: up to the level that the machine names for it; never down, as far as it counts in
+/// the frame of the part.
 ///
 /// # Errors
 /// A machine that names none, unless it lists the word as without effect; RETRCT with items.
@@ -42,7 +44,8 @@ pub fn retrct(post: &mut Post, items: &mut Items) -> Result<()> {
     items.deny_rest()?;
     goto::refuse_waiting_arc(post)?;
     let is_above = post.control.axis_position(2).is_some_and(|z| z >= level);
-    if is_above {
+    // How high the tool stands in the frame of the machine is not known.
+    if is_above && !machine_frame::is_meant(&post.control) {
         return Ok(());
     }
     carry_out(post, Operation::MachinePosition([None, None, Some(level)]))

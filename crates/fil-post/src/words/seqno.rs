@@ -20,7 +20,11 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     match items.any_of(&[w::ON, w::OFF]) {
         Some(word) => post.control.tape.switch_numbers(word == w::ON),
         None if post.control.tables.family == ControlFamily::Klartext => {
-            return PostCode::Family.err("the lines of Klartext are numbered by the control");
+            let next = items.required("the number")?;
+            let by = increment.map_or(String::new(), |increment| format!(" by {increment}"));
+            let message =
+                format!("SEQNO from {next}{by}: the lines of Klartext are numbered by the control");
+            post.warn(PostCode::IgnoredPart, message);
         }
         None => {
             let next = items.required("the number")?;

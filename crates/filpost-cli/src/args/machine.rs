@@ -21,6 +21,9 @@ pub enum MachineCommand {
     Import {
         /// The option file (uncx01.pNN)
         file: PathBuf,
+        /// The ready post that the file is laid over; a lathe's option file needs one
+        #[arg(short, long, value_name = "POST")]
+        post: Option<String>,
         /// The machine.toml; standard output when left out or -
         #[arg(short, long, value_name = "OUT")]
         output: Option<PathBuf>,

@@ -6,7 +6,7 @@ mod show;
 
 use std::path::Path;
 
-use filpost::{Commons, Error, Kind, chain_drawing, files, settings};
+use filpost::{Commons, Error, Kind, Program, chain_drawing, files, settings};
 use serde_json::Value;
 
 use crate::args::{MachineArgs, MachineCommand};
@@ -29,8 +29,8 @@ const NOT_USED: f64 = 53.0;
 /// Files that can't be read or written; wrong settings.
 pub fn run(args: &MachineArgs) -> Result<Status, Error> {
     match &args.command {
-        MachineCommand::Import { file, output, encoding } => {
-            import(file, output.as_deref(), encoding.as_deref())?;
+        MachineCommand::Import { file, post, output, encoding } => {
+            import(file, post.as_deref(), output.as_deref(), encoding.as_deref())?;
         }
         MachineCommand::Show { chosen, chain: true, .. } => {
             show::chain(chosen, chain_drawing::text)?;
@@ -47,17 +47,33 @@ pub fn run(args: &MachineArgs) -> Result<Status, Error> {
     Ok(Status::Done)
 }
 
-fn import(file: &Path, output: Option<&Path>, encoding: Option<&str>) -> Result<(), Error> {
+fn import(
+    file: &Path,
+    post: Option<&str>,
+    output: Option<&Path>,
+    encoding: Option<&str>,
+) -> Result<(), Error> {
     output::refuse_over(output, [file])?;
     let name = file.display().to_string();
     let text = files::read_text(file, encoding)?;
-    let imported = settings::read_option_file(&name, &text).map_err(Error::Setup)?;
-    let title = Value::String(imported.title).to_string();
-    let toml = format!("name = {title}\n\n{}", settings::write_toml(&imported.commons));
+    let (commons, warnings) = match post {
+        None => {
+            let imported = settings::read_option_file(&name, &text).map_err(Error::Setup)?;
+            (imported.commons, imported.warnings)
+        }
+        Some(post) => {
+            let program = Program::builder().ready(post).build()?;
+            let mut commons = program.commons().clone();
+            let warnings = settings::lay_over(&mut commons, &name, &text).map_err(Error::Setup)?;
+            (commons, warnings)
+        }
+    };
+    let title = Value::String(text.lines().nth(1).unwrap_or_default().trim().into()).to_string();
+    let toml = format!("name = {title}\n\n{}", settings::write_toml(&commons));
     Target::new(output).write(|writer| {
         writer.write_all(toml.as_bytes()).map_err(|error| output::stdout_error(&error))
     })?;
-    summary::warnings(&imported.warnings);
+    summary::warnings(&warnings);
     Ok(())
 }
 

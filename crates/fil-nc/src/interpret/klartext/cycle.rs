@@ -6,9 +6,9 @@ use super::super::Fault;
 use super::super::cycle::{Cycle, reversed};
 use super::Klartext;
 use super::line::Word;
-use crate::dialect::CycleKind;
+use crate::dialect::{CycleKind, FeedMode};
 use crate::errors::NcCode;
-use crate::motion::{Course, Event, Rate, Spindle};
+use crate::motion::{Course, Event, Rate, Spindle, WORD_OFFSETS};
 
 /// Most pecks of a hole.
 const MAX_PECKS: f64 = 10_000.0;
@@ -19,6 +19,9 @@ const GAP: f64 = 0.2;
 
 /// Q208 of this size is rapid traverse, mm/min.
 const RAPID_OUT: f64 = 99_999.0;
+
+/// The last row of the table of presets.
+const LAST_PRESET: f64 = 9999.0;
 
 /// A cycle as it is defined: its number and its values.
 #[derive(Clone, Debug)]
@@ -59,6 +62,7 @@ impl Definition {
     pub(super) fn check_whole(&self) -> Result<(), Fault> {
         match self.number {
             200 | 201 | 203 | 205 => self.get("Q206").and(self.get("Q203")).map(|_| ()),
+            247 => self.get("Q339").map(|_| ()),
             207 => self.get("Q239").and(self.get("Q203")).map(|_| ()),
             _ => Ok(()),
         }
@@ -74,6 +78,16 @@ impl Klartext<'_> {
         let number: u32 = number.parse().map_err(|_| first.no_meaning())?;
         match (number, part) {
             (1, "0") | (200 | 201 | 203 | 205 | 207, "0") => {
+                self.defined =
+                    Some(Definition { number, values: BTreeMap::new(), rapid_out: false });
+                Ok(())
+            }
+            (247, "0") => {
+                self.state.refuse_under_tip_control("another preset")?;
+                if self.state.tilt.is_some() {
+                    let message = "another preset in a tilted plane";
+                    return Err(Fault::new(NcCode::NoMeaning, message));
+                }
                 self.defined =
                     Some(Definition { number, values: BTreeMap::new(), rapid_out: false });
                 Ok(())
@@ -109,7 +123,19 @@ impl Klartext<'_> {
             if definition.values.insert(name.to_string(), value).is_some() {
                 return Err(Fault::new(NcCode::Twice, format!("two {name}")).at(&word.range));
             }
+            if definition.number == 247 {
+                self.preset(name, value, word)?;
+            }
         }
+        Ok(())
+    }
+
+    /// A row of the table of presets: the axes stand elsewhere in it.
+    fn preset(&mut self, name: &str, row: f64, word: &Word) -> Result<(), Fault> {
+        if name != "Q339" || row.fract() != 0.0 || !(0.0..=LAST_PRESET).contains(&row) {
+            return Err(word.no_meaning());
+        }
+        self.state.fixture(WORD_OFFSETS + row as u32);
         Ok(())
     }
 
@@ -158,6 +184,10 @@ impl Klartext<'_> {
         self.state.refuse_under_tip_control("a cycle")?;
         let missing = || Fault::new(NcCode::MissingWord, "no cycle is defined");
         let definition = self.defined.clone().ok_or_else(missing)?;
+        if self.state.feed_mode != FeedMode::PerMinute {
+            let message = "a cycle under M136: whether it takes its feed a turn is not followed";
+            return Err(Fault::new(NcCode::ForeignCode, message));
+        }
         let hole = self.hole(&definition)?;
         if hole.bottom >= hole.surface || hole.clear < hole.surface {
             return Err(Fault::new(NcCode::ForeignCode, "a hole that goes up is not followed"));

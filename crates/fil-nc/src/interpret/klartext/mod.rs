@@ -188,6 +188,14 @@ impl Klartext<'_> {
         self.part = Part::Ended;
     }
 
+    /// What F counts: another mode needs another F.
+    pub(super) fn feed_mode(&mut self, mode: FeedMode) {
+        if self.state.feed_mode != mode {
+            self.state.feed = None;
+        }
+        self.state.feed_mode = mode;
+    }
+
     /// The M functions of a line that has nothing else.
     fn functions(&mut self, words: &[Word]) -> Result<(), Fault> {
         let mut calls = false;
@@ -211,11 +219,11 @@ impl Klartext<'_> {
             }
             91 | 92 => return Ok(After::InMachineFrame),
             99 => return Ok(After::CallsCycle),
-            137 => {
-                self.state.feed_mode = FeedMode::PerMinute;
+            136 | 137 => {
+                self.feed_mode(if code == 136 { FeedMode::PerTurn } else { FeedMode::PerMinute });
                 return Ok(After::Nothing);
             }
-            80.. => {
+            89.. => {
                 let message = format!("M{code} changes what motions or cycles do");
                 return Err(Fault::new(NcCode::ForeignCode, message).at(&word.range));
             }

@@ -4,6 +4,7 @@ use super::super::Fault;
 use super::super::arc::sweep;
 use super::line::Word;
 use super::{After, Klartext};
+use crate::dialect::FeedMode;
 use crate::errors::NcCode;
 use crate::motion::{Arc, Compensation, Course, Rate};
 
@@ -185,6 +186,10 @@ impl Klartext<'_> {
         let rate = self.state.rate()?;
         Ok(match rate {
             Rate::PerMinute(rate) if !self.state.metric => Rate::PerMinute(rate * TENTHS),
+            Rate::PerTurn(_) if !self.state.metric => {
+                let message = "a feed a turn in inches: what F counts then is not followed";
+                return Err(Fault::new(NcCode::ForeignCode, message));
+            }
             rate => rate,
         })
     }
@@ -213,6 +218,14 @@ impl Klartext<'_> {
     /// Takes up the words of a line that moves.
     fn said(&mut self, words: &[Word]) -> Result<Said, Fault> {
         let mut said = Said::default();
+        // They act from the start of the line, so on its F.
+        for word in words {
+            match word.text.as_str() {
+                "M136" => self.feed_mode(FeedMode::PerTurn),
+                "M137" => self.feed_mode(FeedMode::PerMinute),
+                _ => {}
+            }
+        }
         for word in words {
             match word.text.as_str() {
                 "FMAX" => said.rapid = true,

@@ -136,11 +136,11 @@ impl Settings<'_> {
         let code = |at: CodeAt| u32::try_from(self.commons.read(at)?).ok();
         let by_word = self.chooses_offsets_by_word();
         let Some(number) = number else {
-            return code(loc::FIXTURE_DEFAULT_CODE).filter(|_| !by_word);
+            return code(loc::FIXTURE_DEFAULT_CODE).filter(|_| !by_word && !self.is_klartext());
         };
         let index = number as i64 + i64::from(self.commons.int_opt(loc::FIXTURE_BASE).unwrap_or(0));
         let index = u32::try_from(index).ok()?;
-        if by_word {
+        if by_word || self.is_klartext() {
             return Some(WORD_OFFSETS + index);
         }
         if self.has_edges() {
@@ -160,6 +160,16 @@ impl Settings<'_> {
             Some(tenths) => Some(tenths.unsigned_abs() * 1000 + index.checked_sub(plain)?),
             None => (first..=last).contains(&index).then_some(index),
         }
+    }
+
+    /// Feeds of cycles are written a minute, whatever mode they are asked for in.
+    pub fn feeds_holes_a_minute(&self) -> bool {
+        self.is_klartext()
+    }
+
+    /// The control reads Klartext: rows of its table of presets are work offsets.
+    fn is_klartext(&self) -> bool {
+        self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext
     }
 
     /// A word chooses the work offset, and not a function.

@@ -10,8 +10,8 @@ use fil_machine::commons::{Commons, Dbl, Int};
 use fil_machine::cycle_kind::CycleKind;
 use fil_machine::letter::{Letter, letters};
 use fil_machine::locations::{
-    self as loc, CircleCenter, ControlFamily, CycleBoreOut, InputKind, Placement, RapidSplit,
-    ToolChangeBlock, ToolFormat,
+    self as loc, CircleCenter, ControlFamily, ControlToolOffsets, CycleBoreOut, InputKind,
+    Placement, RapidSplit, ToolChangeBlock, ToolFormat,
 };
 use fil_machine::user_blocks::{self, AroundChange};
 
@@ -311,7 +311,14 @@ impl<'c> Settings<'c> {
     /// The offset that a tool comes with: that of its record, else its own number or,
     /// where D chooses an edge, the first.
     pub fn tool_offset(&self, number: u32, given: Option<u32>) -> u32 {
+        let given = given.filter(|_| !self.takes_offsets_of_tools());
         given.unwrap_or(if self.has_edges() { 1 } else { number })
+    }
+
+    /// The numbers of offsets are left out: length and radius come with the tool.
+    pub fn takes_offsets_of_tools(&self) -> bool {
+        self.commons.read(loc::CONTROL_FAMILY) != ControlFamily::WordAddress
+            && self.commons.read(loc::CONTROL_TOOL_OFFSETS) == ControlToolOffsets::OfTheTool
     }
 
     /// Z that the length offset is called with, mm.

@@ -1,7 +1,9 @@
 //! What the settings of a machine make of lines, rapids, arcs and feeds.
 
 use fil_machine::commons::Dbl;
-use fil_machine::locations::{self as loc, CircleCorrection, FeedInverseLength, LinearMethod};
+use fil_machine::locations::{
+    self as loc, CircleCorrection, FeedInverseLength, HomeFrame, LinearMethod,
+};
 use nalgebra::Point3;
 
 use super::Settings;
@@ -36,6 +38,11 @@ impl Settings<'_> {
             if feed * share > largest * unit { largest * unit / share } else { feed }
         };
         [(1, loc::FEED_UPM_MAX_Y), (2, loc::FEED_UPM_MAX_Z)].into_iter().fold(feed, within)
+    }
+
+    /// Home, retract and change positions are coordinates of the machine.
+    pub fn names_machine_positions(&self) -> bool {
+        self.commons.read(loc::HOME_FRAME) == HomeFrame::OfTheMachine
     }
 
     /// X, Y, Z of the home position, mm.

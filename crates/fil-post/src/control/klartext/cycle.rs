@@ -17,6 +17,7 @@ use super::motion;
 use super::phrase::Head;
 use crate::block::named;
 use crate::control::family::refuse;
+use crate::control::word_address::dwell::turns_a_minute;
 use crate::control::word_address::motion::{self as words, Motion};
 use crate::control::{Control, tap};
 use crate::errors::PostCode;
@@ -46,6 +47,11 @@ pub fn code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
     control.code_if_any(cycle.kind.code())
 }
 
+/// True for a hole along the tool axis of TOOL CALL; others are written as single moves.
+pub fn drills(hole: &Hole) -> bool {
+    hole.along == 2 && hole.clear >= hole.bottom
+}
+
 /// Writes the definition of the cycle unless the control has it, and the line of the
 /// hole.
 ///
@@ -58,9 +64,6 @@ pub fn hole(
     at: &Motion,
     hole: &Hole,
 ) -> Result<()> {
-    if hole.along != 2 || hole.clear < hole.bottom {
-        return refuse("a hole along another axis than -Z, the tool axis of TOOL CALL");
-    }
     let lines = definition(control, cycle, code, hole)?;
     if control.state.cycle != Some(code) || control.klartext.defined != lines {
         define(control, cycle, &lines)?;
@@ -72,6 +75,8 @@ pub fn hole(
         words::axis_word(control, 0, &across)?;
         words::axis_word(control, 1, &across)?;
     }
+    // Its feeds are written a minute.
+    motion::say_mode(control, FeedMode::PerMinute);
     let phrase = &mut control.klartext.phrase;
     (phrase.head, phrase.rapid, phrase.calls_cycle) = (Head::Line, true, true);
     motion::write(control, AxisSet::NONE)
@@ -231,15 +236,18 @@ fn peck_text(control: &Control, peck: f64) -> Result<String> {
     Ok(line::scaled_text(control, z, scaled).unwrap_or_default())
 }
 
-/// The feed of a hole as F would say it: mm a minute, or tenths of an inch.
+/// The feed of a hole as F would say it: mm a minute, or tenths of an inch. One a turn of
+/// the spindle is that at its speed: a new speed makes a new definition.
 fn feed(control: &Control, cycle: &Cycle) -> Result<String> {
     let CycleFeed::Feed(feed) = cycle.feed else {
         return refuse("a lead in place of a feed in a cycle that does not tap");
     };
-    if feed.mode != FeedMode::PerMinute {
-        return refuse("a feed a turn of the spindle in a cycle");
-    }
-    line::feed(control, motion::spelled(control, feed.value))
+    let value = match feed.mode {
+        FeedMode::PerMinute => feed.value,
+        FeedMode::PerRevolution => feed.value * turns_a_minute(control)?,
+        FeedMode::InverseTime => return refuse("inverse time in a cycle"),
+    };
+    line::feed(control, motion::spelled(control, value))
 }
 
 /// The lead of a tap with the sign of its sense: minus for a left-hand thread, which the

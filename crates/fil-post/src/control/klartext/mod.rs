@@ -6,6 +6,7 @@
 //! absolute. What Klartext can't say is refused by [`refuse`].
 
 pub mod cycle;
+mod datum;
 pub mod frame;
 pub mod helix;
 pub mod line;
@@ -22,7 +23,8 @@ use fil_machine::locations::{self as loc, Placement};
 use fil_machine::modes::Plane;
 use fil_machine::{FunctionCode, Letter};
 
-use super::{Control, Function, word_address};
+use super::word_address::dwell::seconds_of_turns;
+use super::{Control, Function, own_offsets, word_address};
 use crate::cause::Cause;
 use crate::control::family::refuse;
 use crate::control_state::Compensation;
@@ -75,9 +77,7 @@ pub fn write(control: &mut Control, operation: Operation) -> Result<()> {
         Operation::Words(words) => write_words(control, &words),
         Operation::Repeat(words) if words.is_empty() => Ok(()),
         Operation::Repeat(_) => refuse("REPEAT: a line of Klartext takes no words of others"),
-        Operation::WorkOffset(_) => {
-            refuse("a work offset by its number: the datum is chosen on a TNC")
-        }
+        Operation::WorkOffset(number) => datum::write(control, number),
         Operation::Message(text) => message(control, &text),
         Operation::Skip(true) => refuse("OPSKIP: what a TNC skips is chosen line by line there"),
         Operation::Skip(false) => Ok(()),
@@ -85,10 +85,11 @@ pub fn write(control: &mut Control, operation: Operation) -> Result<()> {
     }
 }
 
-/// Cycle 9 waits.
+/// Cycle 9 waits; it counts seconds only.
 fn write_dwell(control: &mut Control, dwell: Dwell) -> Result<()> {
-    let Dwell::Seconds(seconds) = dwell else {
-        return refuse("a dwell in turns of the spindle");
+    let seconds = match dwell {
+        Dwell::Seconds(seconds) => seconds,
+        Dwell::Revolutions(turns) => seconds_of_turns(control, turns)?,
     };
     control.begin()?;
     let seconds = line::seconds(control, seconds)?;
@@ -105,9 +106,10 @@ fn compensate(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
     if let Some((offset, _)) = wanted.offset {
         let of_tool = control.state.tool.is_some_and(|tool| tool as f64 == offset);
         if !of_tool && wanted.side != Compensation::Off {
-            return refuse(format!(
+            let message = format!(
                 "CUTCOM with offset {offset}: RL and RR take the radius of the tool that was called"
-            ));
+            );
+            own_offsets::leave_out(control, offset, &message)?;
         }
     }
     control.asked = wanted.side;

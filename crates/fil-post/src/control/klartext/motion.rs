@@ -22,7 +22,10 @@ use crate::operation::Feed;
 /// In a program in inches F counts tenths of an inch a minute.
 const TENTHS: f64 = 10.0;
 
-/// M137: F is a feed a minute again, where a text may have said M136.
+/// M136: F is a feed a turn of the spindle.
+const PER_REVOLUTION: FunctionCode = FunctionCode::whole(136);
+
+/// M137: F is a feed a minute again.
 const PER_MINUTE: FunctionCode = FunctionCode::whole(137);
 
 /// Rapid traverse in one line.
@@ -35,17 +38,25 @@ pub fn rapid(control: &mut Control, motion: &Motion) -> Result<()> {
     }
     ready(control)?;
     if words::axis_words(control, motion)? {
-        control.klartext.phrase.head = Head::Line;
-        control.klartext.phrase.rapid = true;
-        write(control, AxisSet::NONE)?;
+        write_rapid(control)?;
     }
     Ok(())
+}
+
+/// Writes the words of the block as a line in rapid traverse.
+///
+/// # Errors
+/// As [`rapid`].
+pub fn write_rapid(control: &mut Control) -> Result<()> {
+    control.klartext.phrase.head = Head::Line;
+    control.klartext.phrase.rapid = true;
+    write(control, AxisSet::NONE)
 }
 
 /// A straight line at feed.
 ///
 /// # Errors
-/// As [`rapid`]; no feed, or one a turn of the spindle.
+/// As [`rapid`]; no feed, or one that F can't say.
 pub fn feed(control: &mut Control, motion: &Motion, feed: Option<&Feed>) -> Result<()> {
     ready(control)?;
     if words::axis_words(control, motion)? {
@@ -151,16 +162,27 @@ pub fn ready(control: &mut Control) -> Result<()> {
 /// Adds F where the control does not have it.
 fn feed_word(control: &mut Control, feed: Option<&Feed>) -> Result<()> {
     let feed = *feed.ok_or_else(|| PostCode::NoFeed.diag("no FEDRAT came before this motion"))?;
-    if feed.mode != FeedMode::PerMinute {
-        return refuse("a feed a turn of the spindle: F is a feed a minute here");
-    }
-    if control.state.feed_mode != Some(FeedMode::PerMinute) {
-        control.m(PER_MINUTE);
-        control.state.feed_mode = Some(FeedMode::PerMinute);
+    let value = match feed.mode {
+        FeedMode::PerMinute => spelled(control, feed.value),
+        FeedMode::PerRevolution if control.is_metric() => feed.value,
+        FeedMode::PerRevolution => {
+            return refuse(
+                "a feed a turn of the spindle in inches: what M136 counts there is not known",
+            );
+        }
+        FeedMode::InverseTime => return refuse("inverse time: F is a feed here"),
+    };
+    say_mode(control, feed.mode);
+    control.modal_feed(F, &Feed { value, ..feed })
+}
+
+/// Says whether F is a feed a minute or a turn, where the control may take it otherwise.
+pub(super) fn say_mode(control: &mut Control, mode: FeedMode) {
+    if control.state.feed_mode != Some(mode) {
+        control.m(if mode == FeedMode::PerRevolution { PER_REVOLUTION } else { PER_MINUTE });
+        control.state.feed_mode = Some(mode);
         control.state.doubt(F);
     }
-    let value = spelled(control, feed.value);
-    control.modal_feed(F, &Feed { value, ..feed })
 }
 
 /// A feed a minute as the language counts it.

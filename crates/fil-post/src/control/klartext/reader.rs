@@ -15,17 +15,20 @@ pub enum Auxiliary {
     End,
     /// F is a feed a minute from here on.
     PerMinute,
+    /// F is a feed a turn of the spindle from here on.
+    PerTurn,
     /// It changes how motions, feeds or cycles are meant.
     Changes,
 }
 
-/// What the number of an M function means. From 80 on lie those of the control that
+/// What the number of an M function means. From 89 on lie those of the control that
 /// change how it moves.
 pub fn meaning(number: f64) -> Auxiliary {
     match number as i64 {
         2 | 30 => Auxiliary::End,
+        136 => Auxiliary::PerTurn,
         137 => Auxiliary::PerMinute,
-        0..80 if number.fract() == 0.0 => Auxiliary::Harmless,
+        0..89 if number.fract() == 0.0 => Auxiliary::Harmless,
         _ => Auxiliary::Changes,
     }
 }
@@ -113,6 +116,10 @@ fn word(control: &mut Control, item: &str) {
             Auxiliary::End => control.state.ended = true,
             Auxiliary::PerMinute => {
                 control.state.feed_mode = Some(fil_machine::modes::FeedMode::PerMinute);
+            }
+            Auxiliary::PerTurn => {
+                control.state.feed_mode = Some(fil_machine::modes::FeedMode::PerRevolution);
+                control.state.doubt(letters::F);
             }
             // In the frame of the machine for this line only, and a call of the cycle.
             Auxiliary::Changes if matches!(number as i64, 91 | 92 | 99) => {

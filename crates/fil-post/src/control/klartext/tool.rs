@@ -7,8 +7,8 @@ use fil_machine::rounding::Rounding;
 
 use super::line::{self, Line};
 use crate::block::named;
-use crate::control::Control;
 use crate::control::family::refuse;
+use crate::control::{Control, own_offsets};
 use crate::errors::PostCode;
 use crate::noted::TEXT;
 use crate::operation::ToolChange;
@@ -19,10 +19,9 @@ use crate::operation::ToolChange;
 /// An offset of its own; a number that does not fit.
 pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     if wanted.offset_given && wanted.offset != wanted.tool {
-        return refuse(format!(
-            "LOADTL asks for offset {}: the length comes with the tool here",
-            wanted.offset
-        ));
+        let offset = wanted.offset;
+        let message = format!("LOADTL asks for offset {offset}: the length comes with the tool");
+        own_offsets::leave_out(control, offset as f64, &message)?;
     }
     let number = number(control, wanted.tool)?;
     let mut line = Line::default();
@@ -35,7 +34,7 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     }
     control.state.tool_changes += 1;
     control.state.tool = Some(wanted.tool);
-    control.state.tool_offset = Some(wanted.offset);
+    control.state.tool_offset = Some(wanted.tool);
     Ok(())
 }
 

@@ -21,7 +21,7 @@ use fil_machine::modes::Unit;
 use fil_machine::rounding::Rounding;
 
 use super::line::Line;
-use super::{Control, word_address};
+use super::{Control, own_offsets, word_address};
 use crate::control::family::refuse;
 use crate::control_state::Compensation;
 use crate::errors::PostCode;
@@ -42,6 +42,13 @@ pub struct Sinumerik {
     edge: Option<i64>,
     /// The spindle was last told to turn clockwise.
     clockwise: Option<bool>,
+}
+
+impl Sinumerik {
+    /// The cutting edge in force; `None` when it is not known.
+    pub fn edge(&self) -> Option<i64> {
+        self.edge
+    }
 }
 
 /// Writes an operation that does not depend on the path.
@@ -79,10 +86,11 @@ fn compensate(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
     if let Some((offset, _)) = wanted.offset.filter(|_| wanted.side != Compensation::Off) {
         let in_force = control.sinumerik.edge.is_some_and(|edge| edge as f64 == offset);
         if !in_force {
-            return refuse(format!(
+            let message = format!(
                 "CUTCOM with offset {offset}: D{offset} would choose another cutting edge with \
                  its length; OSETNO of LOADTL chooses it"
-            ));
+            );
+            own_offsets::leave_out(control, offset, &message)?;
         }
     }
     word_address::write(

@@ -4,9 +4,9 @@ use fil_diag::Result;
 use fil_machine::letters::D;
 use fil_machine::locations as loc;
 
-use crate::control::Control;
 use crate::control::family::refuse;
 use crate::control::word_address::tool as words;
+use crate::control::{Control, own_offsets};
 use crate::operation::ToolChange;
 
 /// The highest number of a cutting edge.
@@ -18,12 +18,14 @@ const EDGES: i64 = 9;
 /// # Errors
 /// A tool that does not fit; an edge that no tool has.
 pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
-    let edge = if wanted.offset_given { wanted.offset } else { 1 };
-    if !(1..=EDGES).contains(&edge) {
-        return refuse(format!(
+    let mut edge = if wanted.offset_given { wanted.offset } else { 1 };
+    if !(1..=EDGES).contains(&edge) || edge > 1 && own_offsets::of_tool(control) {
+        let message = format!(
             "LOADTL asks for offset {edge}: D names one of the cutting edges 1 to {EDGES} of the \
              tool"
-        ));
+        );
+        own_offsets::leave_out(control, edge as f64, &message)?;
+        edge = 1;
     }
     words::tool_blocks(control, wanted.tool)?;
     words::restate(control);

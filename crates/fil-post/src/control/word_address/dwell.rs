@@ -113,10 +113,18 @@ fn in_seconds(control: &mut Control, seconds: f64) -> f64 {
     within(control, seconds, (loc::DWELL_UPM_MIN, loc::DWELL_UPM_MAX)) * factor.unwrap_or(1.0)
 }
 
+/// Turns of the spindle as the seconds that they take.
+///
+/// # Errors
+/// How fast the spindle turns is not known.
+pub(in crate::control) fn seconds_of_turns(control: &Control, turns: f64) -> Result<f64> {
+    Ok(turns * 60.0 / turns_a_minute(control)?)
+}
+
 fn in_revolutions(control: &mut Control, turns: f64) -> Result<f64> {
     let factor = control.commons.dbl_opt(loc::DWELL_UPR_FACTOR).filter(|factor| *factor > 0.0);
     let Some(factor) = factor else {
-        let seconds = turns * 60.0 / turns_a_minute(control)?;
+        let seconds = seconds_of_turns(control, turns)?;
         return Ok(in_seconds(control, seconds));
     };
     // Code and letter are those of a dwell in seconds: the feed mode tells them apart.
@@ -131,7 +139,7 @@ fn in_revolutions(control: &mut Control, turns: f64) -> Result<f64> {
 ///
 /// # Errors
 /// None is known, or it changes with the radius.
-fn turns_a_minute(control: &Control) -> Result<f64> {
+pub(in crate::control) fn turns_a_minute(control: &Control) -> Result<f64> {
     let of_turns = matches!(control.speed, Some(SpindleSpeed::Revolutions(_)));
     let speed = control.last_value(S).filter(|speed| of_turns && *speed > 0.0);
     speed.ok_or_else(|| {

@@ -51,7 +51,10 @@ pub(in crate::control) fn write_code(control: &mut Control, code: FunctionCode) 
 }
 
 /// Ends what a change of the work offset must not interrupt.
-fn prepare(control: &mut Control) -> Result<()> {
+///
+/// # Errors
+/// Cutter compensation.
+pub(in crate::control) fn prepare(control: &mut Control) -> Result<()> {
     control.begin()?;
     cycle::cancel(control)?;
     if control.is_compensated() {

@@ -1,0 +1,133 @@
+//! Letters of words that a control would read as something else.
+
+use fil_diag::Diag;
+
+use super::contradiction;
+use crate::commons::Commons;
+use crate::letter::{Letter, letters};
+use crate::locations::{self as loc, ControlFamily, FixtureForm};
+use crate::setting::LetterAt;
+
+/// What the control of a family reads a word of these settings as.
+struct Rule {
+    at: LetterAt,
+    what: &'static str,
+    /// Letters that a control of words reads as something else.
+    taken: &'static [u8],
+}
+
+/// Letters of words with a place of their own in each control of words.
+const RULES: &[Rule] = &[
+    Rule {
+        at: loc::PROGRAM_NUMBER_ADDRESS,
+        what: "the number of the program",
+        taken: b"ABCDEFGHIJKLMQRSTUVWXYZ",
+    },
+    Rule { at: loc::DWELL_ADDRESS, what: "a dwell", taken: b"ABCDGHIJKMNOSTYZ" },
+    Rule { at: loc::FIXTURE_ADDRESS, what: "the work offset", taken: b"FGIJKMNORSTXYZ" },
+    Rule {
+        at: loc::FIXTURE_EXTENDED_ADDRESS,
+        what: "the number of a further work offset",
+        taken: b"FGMNOSTXYZ",
+    },
+    Rule { at: loc::SPINDLE_ORIENT_ADDRESS, what: "the angle of the spindle", taken: b"FGMNOTXYZ" },
+    Rule { at: loc::SPINDLE_MAX_ADDRESS, what: "the limit of the speed", taken: b"FGMNOSTXYZ" },
+];
+
+/// The letters that a SINUMERIK has for them; none where it says them otherwise.
+const SINUMERIK: &[(LetterAt, &str, Option<u8>)] = &[
+    (loc::PROGRAM_NUMBER_ADDRESS, "program.number_address", None),
+    (loc::DWELL_ADDRESS, "dwell.address", Some(b'F')),
+    (loc::CUTCOM_ADDRESS, "cutcom.address", Some(b'D')),
+    (loc::RAPID_ADDRESS, "rapid.address", None),
+];
+
+/// Finds letters that mean two things.
+pub(super) fn check(commons: &Commons, found: &mut Vec<Diag>) {
+    axis_letters(commons, found);
+    word_letters(commons, found);
+    match commons.read(loc::CONTROL_FAMILY) {
+        ControlFamily::WordAddress => of_words(commons, found),
+        ControlFamily::Sinumerik => of_sinumerik(commons, found),
+        // Klartext says each of them by a word of its own.
+        ControlFamily::Klartext => {}
+    }
+}
+
+fn of_words(commons: &Commons, found: &mut Vec<Diag>) {
+    for Rule { at, what, taken } in RULES {
+        let acts =
+            *at != loc::FIXTURE_ADDRESS || commons.read(loc::FIXTURE_FORM) == FixtureForm::Word;
+        let letter = commons.read(*at).filter(|letter| acts && taken.contains(&letter.byte()));
+        if let Some(letter) = letter {
+            found.push(contradiction(format!(
+                "{letter} can't be {what}; a control reads it as something else"
+            )));
+        }
+    }
+}
+
+fn of_sinumerik(commons: &Commons, found: &mut Vec<Diag>) {
+    for (at, name, wanted) in SINUMERIK {
+        let letter = commons.read(*at);
+        match (letter, wanted) {
+            (Some(letter), Some(wanted)) if letter.byte() != *wanted => {
+                let wanted = char::from(*wanted);
+                found.push(contradiction(format!(
+                    "{name} is {letter}, and a SINUMERIK reads {wanted} there"
+                )));
+            }
+            (Some(letter), None) => found.push(contradiction(format!(
+                "{name} is {letter}, and a SINUMERIK has no such word; \"none\" leaves it out"
+            ))),
+            _ => {}
+        }
+    }
+}
+
+/// The letters of rotary axes: neither each other's nor those of X, Y and Z.
+fn axis_letters(commons: &Commons, found: &mut Vec<Diag>) {
+    let rotary =
+        [loc::ROTARY_PRIMARY_LETTER, loc::ROTARY_SECONDARY_LETTER].map(|at| commons.read(at));
+    for letter in rotary.into_iter().flatten() {
+        if letters::XYZ.contains(&letter) {
+            found.push(contradiction(format!("{letter} is a linear and a rotary axis")));
+        }
+    }
+    if rotary[0].is_some() && rotary[0] == rotary[1] {
+        found.push(contradiction("both rotary axes have the same letter".into()));
+    }
+}
+
+/// Letters of words that may stand in a block together: different, and neither an
+/// axis nor a function.
+fn word_letters(commons: &Commons, found: &mut Vec<Diag>) {
+    let of = |at: LetterAt| commons.read(at);
+    let taken =
+        |letter: Letter| letters::XYZ.contains(&letter) || b"FGHMNST".contains(&letter.byte());
+    let is_center = |letter: Letter| b"IJK".contains(&letter.byte());
+    if let Some(letter) = of(loc::CIRCLE_RADIUS_ADDRESS).filter(|letter| is_center(*letter)) {
+        found.push(contradiction(format!("{letter} is the radius and the center of an arc")));
+    }
+    let named = [
+        (loc::CYCLE_STEP_ADDRESS, "the peck"),
+        (loc::CYCLE_DWELL_ADDRESS, "the dwell of a cycle"),
+        (loc::CIRCLE_RADIUS_ADDRESS, "the radius"),
+        (loc::CUTCOM_ADDRESS, "the cutter offset"),
+    ];
+    for (at, what) in named {
+        let is_offset = |letter: &Letter| what == "the cutter offset" && letter.byte() == b'H';
+        let of_cycles = [loc::CYCLE_STEP_ADDRESS, loc::CYCLE_DWELL_ADDRESS].contains(&at);
+        let is_level = |letter: &Letter| of_cycles && letter.byte() == b'R';
+        let is_taken = |letter: &Letter| (taken(*letter) && !is_offset(letter)) || is_level(letter);
+        if let Some(letter) = of(at).filter(is_taken) {
+            found.push(contradiction(format!("{letter} is {what} and something else")));
+        }
+    }
+    for (one, other) in [(0, 1), (2, 3)] {
+        let [(one, what), (other, another)] = [named[one], named[other]];
+        if let Some(letter) = of(one).filter(|letter| of(other) == Some(*letter)) {
+            found.push(contradiction(format!("{letter} is both {what} and {another}")));
+        }
+    }
+}

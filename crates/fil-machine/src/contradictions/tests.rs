@@ -1,0 +1,102 @@
+use super::*;
+use crate::files::apply_setting;
+use crate::locations::default_commons;
+
+#[test]
+fn the_default_machine_does_not_contradict_itself() {
+    assert!(check(&default_commons()).is_ok());
+}
+
+#[test]
+fn letters_that_a_control_reads_as_they_are_meant_are_taken() {
+    for setting in [
+        "dwell.address=X",
+        "dwell.address=F",
+        "program.number_address=P",
+        "circle.radius_address=U",
+        "fixture.form=2\nfixture.address=H",
+        "fixture.form=1\nfixture.address=X",
+        "control.family=1\ndwell.address=Z",
+        "control.family=2\nprogram.number_address=none\ndwell.address=F",
+    ] {
+        let mut commons = default_commons();
+        for part in setting.lines() {
+            apply_setting(&mut commons, part).unwrap();
+        }
+        assert!(check(&commons).is_ok(), "{setting}: {:?}", check(&commons));
+    }
+}
+
+#[test]
+fn positions_of_axes_that_the_machine_has_are_taken() {
+    let axis = "rotary.primary_kind=1\nrotary.primary_letter=B\nrotary.primary_axis=2";
+    for setting in ["tool.change_block=2\ntool.change_b=10", "output.translate_b=5"] {
+        let mut commons = default_commons();
+        for part in axis.lines().chain(setting.lines()) {
+            apply_setting(&mut commons, part).unwrap();
+        }
+        assert!(check(&commons).is_ok(), "{setting}");
+    }
+}
+
+#[test]
+fn contradictions_are_found() {
+    for setting in [
+        "circle.cw_code=3",
+        "linear.code=0",
+        "mode.position=91",
+        "int.5=3",
+        "feed.upm_factor=-1",
+        "limits.x_min=5\nlimits.x_max=1",
+        "cycle.dwell_address=Q",
+        "rotary.primary_letter=X",
+        "spindle.stop_code=3",
+        "spindle.orient_code=3",
+        "coolant.mist_code=3",
+        "cycle.off_code=81",
+        "cycle.drill_code=17",
+        "cycle.deep_code=81",
+        "spindle.css_code=97\nspindle.rpm_code=97",
+        "thread.code=0",
+        "tool.length_code=40",
+        "mode.position=89",
+        "circle.plane=20",
+        "circle.max_degrees=45",
+        "circle.radius_address=H",
+        "tool.change_block=2\ntool.change_b=10",
+        "output.translate_c=5",
+        "tool.preselect=1\ntool.change_code=none",
+        "tool.preselect=1\ntool.format=2",
+        "dwell.upm_format=3241",
+        "cycle.tap_left_code=81",
+        "program.opstop_code=99",
+        "rapid.code_xy=99",
+        "dwell.cycle_drill=-0.001",
+        "scale.x=0.000001",
+        "cycle.dwell_address=R",
+        "circle.radius_address=I",
+        "circle.radius_address=D",
+        "program.number_address=X",
+        "dwell.address=Z",
+        "spindle.orient_address=Y",
+        "spindle.max_address=X",
+        "fixture.form=2\nfixture.address=R",
+        "fixture.extended_address=X",
+        "control.family=2\nprogram.number_address=none",
+        "control.family=2\ndwell.address=F",
+        "control.family=2\nprogram.number_address=none\ndwell.address=F\ncutcom.address=H",
+        "control.family=2\nprogram.number_address=none\ndwell.address=F\nrapid.address=Q\n\
+         rapid.value=1",
+        "tape.opskip_char=%",
+        "tape.start_char=(",
+        "control.family=2\ntape.partno_text=1",
+        "input.along_tool_axis=5\nrotary.primary_kind=1\nrotary.primary_axis=3",
+    ] {
+        let mut commons = default_commons();
+        for part in setting.lines() {
+            apply_setting(&mut commons, part).unwrap();
+        }
+        let refused = check(&commons).expect_err(setting);
+        assert_eq!(refused.code.name(), "E0607", "{setting}: {refused}");
+    }
+}

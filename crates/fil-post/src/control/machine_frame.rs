@@ -1,0 +1,103 @@
+//! Rapid motions to positions in the frame of the machine: `G53 G0 Z0.`, `L Z+0 R0 FMAX M91`.
+
+use fil_diag::Result;
+use fil_machine::FunctionCode;
+use fil_machine::axes::AxisSet;
+use fil_machine::commons::EMPTY;
+use fil_machine::letters::D;
+use fil_machine::locations::{self as loc, ControlFamily, HomeFrame};
+
+use super::word_address::motion::Motion;
+use super::{Control, family, klartext};
+use crate::cause::Cause;
+use crate::control_state::Compensation;
+use crate::errors::PostCode;
+
+/// The axes of the block go where they say in the frame of the machine.
+const MACHINE: FunctionCode = FunctionCode::whole(53);
+
+/// The same in a line of Klartext.
+const MACHINE_LINE: FunctionCode = FunctionCode::whole(91);
+
+/// True for a machine whose home, retract and change positions are its own coordinates.
+pub fn is_meant(control: &Control) -> bool {
+    control.commons.read(loc::HOME_FRAME) == HomeFrame::OfTheMachine
+}
+
+/// What comes behind the motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Before {
+    /// A tool change, which says the offset of the new tool.
+    ToolChange,
+    /// Anything else: the offset of the tool stays.
+    Others,
+}
+
+/// Goes to a position of the machine, Z before X and Y before the rotary axes: where the tool
+/// stands in this frame is not known, so nothing goes across before it is up. Where the
+/// axes stand in the part is not known behind it.
+///
+/// # Errors
+/// Cutter compensation; a value that does not fit; on a SINUMERIK a cutting edge that is not
+/// known, and would be lost.
+pub fn go(control: &mut Control, motion: &Motion, before: Before, cause: Cause) -> Result<()> {
+    if !matches!(control.state.compensation, Some(Compensation::Off) | None) {
+        return PostCode::CompensationOn.err("at a motion to a position of the machine");
+    }
+    let present = control.tables.present();
+    if motion.axes.and(present).is_empty() {
+        return Ok(());
+    }
+    let of_sinumerik = control.tables.family == ControlFamily::Sinumerik;
+    let edge = control.sinumerik.edge().filter(|_| of_sinumerik);
+    if of_sinumerik && edge.is_none() && before == Before::Others {
+        return family::refuse(
+            "a position of the machine while the cutting edge in force is not known: the D word \
+             that ends the length of the tool could not be taken back",
+        );
+    }
+    for group in [AxisSet::Z, AxisSet::XY, AxisSet::ROTARY] {
+        let axes = group.and(motion.axes).and(present);
+        if !axes.is_empty() {
+            control.because(cause, |control| block(control, &motion.of(axes)))?;
+        }
+    }
+    match edge.filter(|_| before == Before::Others) {
+        Some(edge) => control.because(cause, |control| {
+            control.word(D, edge as f64)?;
+            control.write_block()
+        }),
+        None => Ok(()),
+    }
+}
+
+fn block(control: &mut Control, motion: &Motion) -> Result<()> {
+    family::ready(control)?;
+    for number in motion.axes.numbers() {
+        let axis = *control.tables.axis(number);
+        let Some(position) = axis.tape_position()? else { continue };
+        control.block.put(position, axis.scaled(motion.position[number])?);
+    }
+    match control.tables.family {
+        ControlFamily::Klartext => {
+            control.m(MACHINE_LINE);
+            klartext::motion::write_rapid(control)?;
+        }
+        family => {
+            let code = control.code(loc::RAPID_CODE_Z, "rapid motion")?;
+            control.g(MACHINE);
+            control.g(code);
+            if family == ControlFamily::Sinumerik {
+                // The length of the tool would count in it.
+                control.word(D, 0.0)?;
+            }
+            control.write_block()?;
+        }
+    }
+    for number in motion.axes.numbers() {
+        let letter = control.tables.axis(number).letter;
+        control.commons.set_last_output(letter, EMPTY);
+        control.state.doubt(letter);
+    }
+    Ok(())
+}

@@ -1,0 +1,27 @@
+//! Controls whose tools bring length and radius with them: what becomes of the numbers of
+//! offsets that a CL file gives for another control.
+
+use fil_diag::Result;
+use fil_machine::locations::{self as loc, ControlToolOffsets};
+
+use super::Control;
+use super::family::refuse;
+use crate::errors::PostCode;
+
+/// True where the tool's own length and radius take the place of each offset.
+pub fn of_tool(control: &Control) -> bool {
+    control.commons.read(loc::CONTROL_TOOL_OFFSETS) == ControlToolOffsets::OfTheTool
+}
+
+/// Leaves out the number of an offset with a warning where the machine wants that.
+///
+/// # Errors
+/// It does not: `message` says why the control can't take the number.
+pub fn leave_out(control: &mut Control, offset: f64, message: &str) -> Result<()> {
+    if !of_tool(control) {
+        return refuse(format!("{message} (control.tool_offsets = 1 leaves the number out)"));
+    }
+    let message = format!("offset {offset}: length and radius come with the tool");
+    control.warnings.add(PostCode::IgnoredPart, message);
+    Ok(())
+}
