@@ -19,7 +19,7 @@ impl Script {
         }
         let name = text[word.clone()].to_ascii_uppercase();
         let range = self.text.range(word.clone());
-        let numbered = self.postf_number(byte);
+        let numbered = self.postf_number(byte).or_else(|| self.postf_before(&name, word.end));
         let found = numbered.or_else(|| {
             let symbols = self.symbols_at(byte);
             symbols.iter().find_map(|symbol| self.of_symbol(symbol))
@@ -44,6 +44,19 @@ impl Script {
             (2, 1..=3) => tables::common(number(1)?, number(2)?),
             _ => None,
         }
+    }
+
+    /// The operation of the call whose POSTF ends at a byte.
+    fn postf_before(&self, name: &str, end: usize) -> Option<String> {
+        if name != "POSTF" {
+            return None;
+        }
+        let text = self.text.as_str();
+        let first = postf_calls(&self.text).into_iter().find_map(|call| {
+            let first = call.arguments.into_iter().next()?;
+            (text.get(end..first.start)?.trim() == "(").then_some(first)
+        })?;
+        tables::postf(text.get(first)?.parse().ok()?)
     }
 
     fn of_symbol(&self, symbol: &Symbol) -> Option<String> {

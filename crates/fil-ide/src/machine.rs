@@ -3,13 +3,16 @@
 use filpost::locations::{Location, TABLE};
 use filpost::{Diag, settings};
 
+use crate::actions::Fix;
 use crate::complete::{Item, ItemKind};
+use crate::navigate::{Edit, Place};
+use crate::script::Finding;
 use crate::symbols::{Outline, OutlineKind};
 use crate::tables;
 use crate::text::{Position, Range, Text};
 
-/// What is wrong in a `machine.toml`: place, code, sentence with its hint.
-pub fn findings(name: &str, text: &Text) -> Vec<(Range, &'static filpost::Code, String)> {
+/// What is wrong in a `machine.toml`.
+pub fn findings(name: &str, text: &Text) -> Vec<Finding> {
     let diags: Vec<Diag> = match settings::read_toml(name, text.as_str()) {
         Ok((_, warnings)) => warnings,
         Err(diags) => diags,
@@ -22,10 +25,43 @@ pub fn findings(name: &str, text: &Text) -> Vec<(Range, &'static filpost::Code, 
             place.map_or(bytes.start, |place| (bytes.start + place.span.start).min(bytes.end));
         let to =
             place.map_or(bytes.end, |place| (bytes.start + place.span.end).clamp(from, bytes.end));
-        let hint = diag.hint.as_deref().unwrap_or(diag.code.hint);
-        (text.range(from..to), diag.code, format!("{}\n{hint}", diag.message))
+        let hint = diag.hint.as_deref().unwrap_or(diag.code.hint).to_string();
+        let message = format!("{}\n{hint}", diag.message);
+        Finding { range: text.range(from..to), code: diag.code, message, hint }
     });
     found.collect()
+}
+
+/// Repairs for what is wrong in some lines of a `machine.toml`: the setting that was meant.
+pub fn fixes(name: &str, text: &Text, range: Range) -> Vec<Fix> {
+    let here = |finding: &Finding| {
+        finding.range.start.line <= range.end.line && finding.range.end.line >= range.start.line
+    };
+    let found = findings(name, text).into_iter().filter(here).filter_map(|finding| {
+        let meant = finding.hint.strip_prefix("did you mean ")?.split('?').next()?;
+        let (bytes, new) = meant_edit(text, finding.range.start.line as usize, meant)?;
+        let place = Place { file: name.to_string(), range: text.range(bytes) };
+        let edits = vec![Edit { place, text: new }];
+        Some(Fix { title: format!("write {meant}"), edits, finding, preferred: true })
+    });
+    found.collect()
+}
+
+/// The edit that makes the key of a line another one: its own word, or the table above it.
+fn meant_edit(text: &Text, line: usize, meant: &str) -> Option<(std::ops::Range<usize>, String)> {
+    let (own, bytes) = key_at(text, line)?;
+    let Some(table) = table_of(text, line) else { return Some((bytes, meant.to_string())) };
+    if let Some(name) = meant.strip_prefix(table).and_then(|rest| rest.strip_prefix('.')) {
+        return Some((bytes, name.to_string()));
+    }
+    let (meant_table, name) = meant.rsplit_once('.')?;
+    if own.strip_prefix(table)?.strip_prefix('.')? != name {
+        return None;
+    }
+    let head = (0..line).rev().find(|above| text.line(*above).trim().starts_with('['))?;
+    let bytes = text.line_bytes(head);
+    let start = bytes.start + text.line(head).find(table)?;
+    Some((start..start + table.len(), meant_table.to_string()))
 }
 
 /// The dotted key of a line: the table above it and what stands before `=`.
@@ -118,4 +154,121 @@ pub fn outline(text: &Text) -> Vec<Outline> {
         }
     }
     found
+}
+
+/// The keys with their values as they are written; those over several lines are left out.
+pub fn values(text: &Text) -> Vec<(String, String)> {
+    let values = (0..text.line_count()).filter_map(|line| {
+        let (key, _) = key_at(text, line).filter(|_| text.line(line).contains('='))?;
+        let bytes = value_bytes(text, line).ok()?;
+        Some((key, text.as_str()[bytes].to_string()))
+    });
+    values.collect()
+}
+
+/// The default of a setting as it is shown.
+pub fn default_of(row: &Location) -> String {
+    tables::value(row.default_value())
+}
+
+/// The edit that gives a key a value as TOML writes it, or takes the key away.
+///
+/// # Errors
+/// Why not, in a sentence: a value that the key can't have, a value over several lines.
+pub fn edit(text: &Text, key: &str, value: Option<&str>) -> Result<(Range, String), String> {
+    if value.is_some_and(|value| value.contains(['\n', '\r'])) {
+        return Err("a value over several lines is edited in the text".to_string());
+    }
+    let found = (0..text.line_count()).find(|line| {
+        key_at(text, *line).is_some_and(|(own, _)| own == key) && text.line(*line).contains('=')
+    });
+    let (bytes, new) = match (found, value) {
+        (None, None) => return Err(format!("{key} is not in this file")),
+        (Some(line), None) => (whole_line(text, line)?, String::new()),
+        (Some(line), Some(value)) => (value_bytes(text, line)?, value.to_string()),
+        (None, Some(value)) => added(text, key, value),
+    };
+    let whole = text.as_str();
+    let after = format!("{}{new}{}", &whole[..bytes.start], &whole[bytes.end..]);
+    let errors = |text: &str| match settings::read_toml("machine.toml", text) {
+        Ok(_) => Vec::new(),
+        Err(diags) => diags,
+    };
+    let before = errors(whole).len();
+    let wrong = errors(&after);
+    if wrong.len() > before {
+        let diag = wrong.last();
+        return Err(diag.map_or_else(String::new, |diag| diag.message.clone()));
+    }
+    Ok((text.range(bytes), new))
+}
+
+/// Where a new key goes: behind the last line of its table, else in a new table at the end.
+fn added(text: &Text, key: &str, value: &str) -> (std::ops::Range<usize>, String) {
+    let (table, name) = match key.rsplit_once('.') {
+        Some((table, name)) => (Some(table), name),
+        None => (None, key),
+    };
+    let of_table = (0..text.line_count()).filter(|line| {
+        let own = text.line(*line).trim();
+        let heads = own.strip_prefix('[').and_then(|rest| rest.split(']').next()).map(str::trim);
+        let within = heads.or_else(|| table_of(text, *line)) == table;
+        within && !own.is_empty() && !own.starts_with('#')
+    });
+    let end = text.as_str().len();
+    match of_table.last() {
+        Some(line) => {
+            let at = text.line_bytes(line).end;
+            (at..at, format!("\n{name} = {value}"))
+        }
+        None if table.is_none() => (0..0, format!("{name} = {value}\n")),
+        None => {
+            let gap = if text.as_str().is_empty() || text.as_str().ends_with("\n\n") {
+                ""
+            } else if text.as_str().ends_with('\n') {
+                "\n"
+            } else {
+                "\n\n"
+            };
+            let table = table.unwrap_or_default();
+            (end..end, format!("{gap}[{table}]\n{name} = {value}\n"))
+        }
+    }
+}
+
+/// The bytes of the value of a line, without the comment behind it.
+fn value_bytes(text: &Text, line: usize) -> Result<std::ops::Range<usize>, String> {
+    let bytes = text.line_bytes(line);
+    let own = text.line(line);
+    let from = own.find('=').map_or(own.len(), |at| at + 1);
+    let (mut quote, mut depth, mut to) = (None, 0i32, own.len());
+    for (at, sign) in own.char_indices().skip_while(|(at, _)| *at < from) {
+        match (sign, quote) {
+            ('"' | '\'', None) => quote = Some(sign),
+            (_, Some(open)) if sign == open => quote = None,
+            ('[' | '{', None) => depth += 1,
+            (']' | '}', None) => depth -= 1,
+            ('#', None) => {
+                to = at;
+                break;
+            }
+            _ => {}
+        }
+    }
+    if depth != 0 || quote.is_some() || own.contains("\"\"\"") {
+        return Err("a value over several lines is edited in the text".to_string());
+    }
+    let value = &own[from..to];
+    let start = from + value.len() - value.trim_start().len();
+    let end = start + value.trim().len();
+    Ok(bytes.start + start..bytes.start + end)
+}
+
+/// A line with its end.
+fn whole_line(text: &Text, line: usize) -> Result<std::ops::Range<usize>, String> {
+    value_bytes(text, line)?;
+    let bytes = text.line_bytes(line);
+    let end =
+        if line + 1 < text.line_count() { text.line_bytes(line + 1).start } else { bytes.end };
+    Ok(bytes.start..end)
 }

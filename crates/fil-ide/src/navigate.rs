@@ -2,6 +2,7 @@
 
 use filpost::resolve::{FileSpan, Symbol, SymbolKind};
 
+use crate::context::code;
 use crate::script::Script;
 use crate::tables;
 use crate::text::{Position, Range, Text};
@@ -38,11 +39,32 @@ impl Script {
     /// Where the name at a place is defined.
     pub fn definition(&self, position: Position) -> Vec<Place> {
         let byte = self.text.byte(position);
+        if let Some(file) = self.included_at(position) {
+            return vec![Place { file, range: Range::default() }];
+        }
         let symbols = self.symbols_at(byte);
         let found = symbols.iter().find(|symbol| !symbol.definitions.is_empty());
         found.map_or_else(Vec::new, |symbol| {
             symbol.definitions.iter().filter_map(|location| self.place(location)).collect()
         })
+    }
+
+    /// The file that an INCLUD in the line of a place brings in.
+    fn included_at(&self, position: Position) -> Option<String> {
+        let (line, _) = code(self.text.line(position.line as usize));
+        let (word, name) = line.split_once('/')?;
+        if !word.trim().eq_ignore_ascii_case("INCLUD") {
+            return None;
+        }
+        let parts = |name: &str| -> Vec<String> {
+            let parts = name.split(['/', '\\']).filter(|part| !part.is_empty() && *part != ".");
+            parts.map(str::to_ascii_uppercase).collect()
+        };
+        let wanted = parts(name.trim().trim_matches('\''));
+        let is_wanted = |file: &&str| !wanted.is_empty() && parts(file).ends_with(&wanted);
+        let files = self.analysis.files.iter().enumerate();
+        let others = files.filter(|(index, _)| *index != self.file);
+        others.map(|(_, file)| file.name.as_str()).find(is_wanted).map(str::to_string)
     }
 
     /// All places of the name at a place, its definitions among them on demand.

@@ -79,7 +79,8 @@ pub(crate) fn location(row: &Location) -> String {
         text.push_str(&format!("- {number}: {meaning}\n"));
     }
     let acts = if row.used { "The post acts on it." } else { "The post does **not** act on it." };
-    text.push_str(&format!("\n{acts} *Evidence: {}*", row.evidence));
+    let why = if row.idle.is_empty() { String::new() } else { format!(" {}", row.idle) };
+    text.push_str(&format!("\n{acts}{why} *Evidence: {}*", row.evidence));
     text
 }
 

@@ -17,10 +17,10 @@ fn read(name: &str) -> String {
     std::fs::read_to_string(root().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-/// README.md and the pages of docs/ and docs/papers/.
+/// README.md and the pages of docs/, docs/papers/ and docs/editors/.
 fn pages() -> Vec<(String, String)> {
     let mut pages = vec![("README.md".to_string(), read("README.md"))];
-    for folder in ["docs", "docs/papers"] {
+    for folder in ["docs", "docs/papers", "docs/editors"] {
         for entry in std::fs::read_dir(root().join(folder)).into_iter().flatten() {
             let path = entry.expect("an entry").path();
             if path.extension().is_some_and(|ending| ending == "md") {

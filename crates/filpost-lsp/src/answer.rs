@@ -27,20 +27,16 @@ pub(crate) fn read_range(value: &Value) -> Option<Range> {
 }
 
 pub(crate) fn finding(found: &Finding) -> Value {
-    diagnostic(found.range, found.code, &found.message)
-}
-
-pub(crate) fn diagnostic(place: Range, code: &filpost::Code, message: &str) -> Value {
-    let severity = match code.severity {
+    let severity = match found.severity() {
         Severity::Error => 1,
         Severity::Warning => 2,
     };
     json!({
-        "range": range(place),
+        "range": range(found.range),
         "severity": severity,
-        "code": code.name(),
+        "code": found.code.name(),
         "source": "filpost",
-        "message": message,
+        "message": found.message,
     })
 }
 

@@ -8,7 +8,7 @@ pub(crate) fn own() -> Value {
     json!({
         "positionEncoding": "utf-16",
         // The whole text with each change.
-        "textDocumentSync": { "openClose": true, "change": 1, "save": false },
+        "textDocumentSync": { "openClose": true, "change": 1, "save": true },
         "hoverProvider": true,
         "completionProvider": { "triggerCharacters": ["/", ",", "(", "=", "'"] },
         "signatureHelpProvider": { "triggerCharacters": ["(", ",", "/"] },

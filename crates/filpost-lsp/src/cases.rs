@@ -17,6 +17,8 @@ pub(crate) struct Group {
     pub machine: Option<PathBuf>,
     /// The folder of the case.
     pub case: Option<PathBuf>,
+    /// The CL file of the case.
+    pub cl: Option<PathBuf>,
 }
 
 /// What the cases of a folder say.
@@ -50,6 +52,16 @@ impl Cases {
         }
     }
 
+    /// The case whose CL file or machine a file is.
+    pub fn case_with(&self, path: &Path) -> Option<PathBuf> {
+        let real = path.canonicalize().ok()?;
+        let mut groups = self.groups.iter().flatten();
+        let named = groups.find(|group| {
+            [&group.cl, &group.machine].into_iter().any(|file| file.as_ref() == Some(&real))
+        });
+        named?.case.clone()
+    }
+
     /// The files that a FIL file is given with; itself where no case names it. The machine
     /// is that of the case, or the `machine.toml` beside the file.
     pub fn group_of(&self, path: &Path) -> Group {
@@ -60,7 +72,7 @@ impl Cases {
         }
         let machine = path.parent().map(|folder| folder.join("machine.toml"));
         let machine = machine.filter(|machine| machine.is_file());
-        Group { files: vec![path.to_path_buf()], machine, case: None }
+        Group { files: vec![path.to_path_buf()], machine, ..Group::default() }
     }
 }
 
@@ -98,11 +110,12 @@ fn walk(folder: &Path, depth: usize, groups: &mut Vec<Group>) {
 
 /// The files of a case; none of one that must be refused.
 fn of_case(case: &Case) -> Option<Group> {
-    if case.file.fil.is_empty() || case.file.expect_error.is_some() {
+    if case.file.expect_error.is_some() {
         return None;
     }
     let real = |name: &String| case.folder.join(name).canonicalize().ok();
     let files: Option<Vec<PathBuf>> = case.file.fil.iter().map(real).collect();
     let machine = case.file.machine.as_ref().and_then(real);
-    Some(Group { files: files?, machine, case: Some(case.folder.clone()) })
+    let (cl, case) = (real(&case.file.cl), Some(case.folder.clone()));
+    Some(Group { files: files?, machine, case, cl })
 }

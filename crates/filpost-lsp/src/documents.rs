@@ -55,6 +55,8 @@ pub(crate) struct Document {
     pub text: Text,
     /// As the editor sent it.
     pub raw: String,
+    /// Changed since it was opened or saved.
+    pub changed: bool,
 }
 
 /// All open documents.
@@ -81,9 +83,17 @@ impl Documents {
             (None, Some(document)) => document.kind,
             (None, None) => Kind::of(uri, ""),
         };
-        let document = Document { kind, text: Text::new(text), raw: text.to_string() };
+        let changed = language.is_none();
+        let document = Document { kind, text: Text::new(text), raw: text.to_string(), changed };
         self.open.insert(uri.to_string(), document);
         self.scripts.clear();
+    }
+
+    /// A document was saved.
+    pub fn saved(&mut self, uri: &str) {
+        if let Some(document) = self.open.get_mut(uri) {
+            document.changed = false;
+        }
     }
 
     /// A document was closed.
@@ -187,6 +197,29 @@ impl Documents {
             Some(edited) => analyzed(&edited),
             None => script,
         }
+    }
+
+    /// Texts of changed documents by their paths without links. One that is as it was saved
+    /// is read from its file: an editor may have read another code page into it.
+    pub fn unsaved(&self) -> HashMap<PathBuf, String> {
+        let changed = self.open.iter().filter(|(_, document)| document.changed);
+        let of_file = changed.filter_map(|(uri, document)| {
+            Some((path_of(uri)?.canonicalize().ok()?, document.raw.clone()))
+        });
+        of_file.collect()
+    }
+
+    /// The folder of the case that a document belongs to: one whose CL file, machine or FIL
+    /// file it is, else the nearest one above with a case.toml.
+    pub fn case_of(&mut self, uri: &str) -> Option<PathBuf> {
+        self.cases.look();
+        let path = path_of(uri)?;
+        let root = root_of(&path, &self.texts()).unwrap_or_else(|| path.clone());
+        let named = self.cases.group_of(&root).case.or_else(|| self.cases.case_with(&path));
+        named.or_else(|| {
+            let above = path.ancestors().skip(1).find(|folder| folder.join("case.toml").is_file());
+            above.map(Path::to_path_buf)
+        })
     }
 
     /// Texts of open FIL documents by their paths, real ones too.

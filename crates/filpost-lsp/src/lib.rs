@@ -9,11 +9,17 @@ mod capabilities;
 mod cases;
 mod documents;
 mod last_run;
+mod preview;
 mod server;
 mod uri;
 
-use lsp_server::{Connection, Message, Notification, Response};
+use std::collections::HashMap;
+use std::path::PathBuf;
 
+use filpost::CancelToken;
+use lsp_server::{Connection, Message, Notification, Request, Response};
+
+pub use preview::Preview;
 pub use server::{Fault, Server};
 
 /// Serves one editor over standard input and output until it says exit.
@@ -34,11 +40,17 @@ pub fn serve_stdio() -> Result<(), String> {
 pub fn serve(connection: &Connection) -> Result<(), String> {
     let params = connection.initialize(capabilities::own()).map_err(|error| error.to_string())?;
     let mut server = Server::new(&params);
+    let mut posting: HashMap<PathBuf, CancelToken> = HashMap::new();
     for message in &connection.receiver {
         match message {
             Message::Request(request) => {
                 if connection.handle_shutdown(&request).map_err(|error| error.to_string())? {
+                    posting.values().for_each(CancelToken::cancel);
                     return Ok(());
+                }
+                if request.method == PREVIEW {
+                    post_aside(connection, &server, request, &mut posting)?;
+                    continue;
                 }
                 let response = match server.request(&request.method, &request.params) {
                     Ok(value) => Response::new_ok(request.id, value),
@@ -57,6 +69,36 @@ pub fn serve(connection: &Connection) -> Result<(), String> {
             Message::Response(_) => {}
         }
     }
+    Ok(())
+}
+
+/// The request for a case as it stands in the editor, posted.
+const PREVIEW: &str = "filpost/preview";
+
+/// Posts a case in a thread of its own: a long part holds up no keystroke. Of the previews of a
+/// case only the last one counts; the one before is ended.
+fn post_aside(
+    connection: &Connection,
+    server: &Server,
+    request: Request,
+    posting: &mut HashMap<PathBuf, CancelToken>,
+) -> Result<(), String> {
+    let preview = match server.preview(&request.params) {
+        Ok(preview) => preview,
+        Err(fault) => {
+            let response = Response::new_err(request.id, fault.code, fault.message);
+            return send(connection, Message::Response(response));
+        }
+    };
+    let (sender, token) = (connection.sender.clone(), CancelToken::new());
+    if let Some(before) = posting.insert(preview.case.clone(), token.clone()) {
+        before.cancel();
+    }
+    std::thread::spawn(move || {
+        let response = Response::new_ok(request.id, preview.answer(&token));
+        // An editor that is gone asks for nothing.
+        let _ = sender.send(Message::Response(response));
+    });
     Ok(())
 }
 

@@ -1,12 +1,15 @@
 //! Requests and notifications, each with its answer.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use fil_ide::{Item, Outline, Position, Range, Script, cl_file, machine};
-use serde_json::{Value, json};
+use filpost::locations::TABLE;
+use filpost::{CancelToken, ready};
+use serde_json::{Map, Value, json};
 
 use crate::answer;
 use crate::documents::{Documents, Kind};
+use crate::preview::Preview;
 use crate::uri::{path_of, uri_of};
 
 /// A request that can't be answered.
@@ -47,8 +50,11 @@ impl Server {
     /// # Errors
     /// Wrong parameters, unknown methods, a name that can't be changed.
     pub fn request(&mut self, method: &str, params: &Value) -> Answer {
-        if method == "workspace/symbol" {
-            return Ok(self.search(params));
+        match method {
+            "workspace/symbol" => return Ok(self.search(params)),
+            "filpost/posts" => return Ok(ready::READY.iter().map(|post| post.name).collect()),
+            "filpost/preview" => return Ok(self.preview(params)?.answer(&CancelToken::new())),
+            _ => {}
         }
         let uri = params.pointer("/textDocument/uri").and_then(Value::as_str);
         let uri =
@@ -80,17 +86,18 @@ impl Server {
             "textDocument/codeAction" => {
                 let range = params.get("range").and_then(answer::read_range);
                 let range = range.ok_or_else(|| fault(INVALID_PARAMS, "range is missing"))?;
-                let script = self.documents.script(&uri);
-                let fixes = script.map_or_else(Vec::new, |script| script.fixes(range));
-                Ok(fixes
-                    .iter()
-                    .map(|fix| answer::fix(fix, |file| uri_of_file(file, &uri)))
-                    .collect())
+                Ok(self.fixes(&uri, range))
             }
             "textDocument/semanticTokens/full" => {
                 let script = self.documents.script(&uri);
                 Ok(answer::tokens(&script.map_or_else(Vec::new, Script::tokens)))
             }
+            "filpost/caseOf" => {
+                let case = self.documents.case_of(&uri);
+                Ok(case.map_or(Value::Null, |case| json!(case.display().to_string())))
+            }
+            "filpost/settings" => self.settings(&uri),
+            "filpost/setting" => self.setting(&uri, params),
             _ => Err(fault(METHOD_NOT_FOUND, method)),
         }
     }
@@ -114,7 +121,11 @@ impl Server {
                 }
             }
             "textDocument/didClose" => self.documents.close(uri),
-            "textDocument/didSave" | "workspace/didChangeWatchedFiles" => self.documents.forget(),
+            "textDocument/didSave" => {
+                self.documents.saved(uri);
+                self.documents.forget();
+            }
+            "workspace/didChangeWatchedFiles" => self.documents.forget(),
             _ => return Vec::new(),
         }
         self.diagnostics(uri)
@@ -127,10 +138,7 @@ impl Server {
             && document.kind == Some(Kind::Machine)
         {
             let wrong = machine::findings("machine.toml", &document.text);
-            let wrong = wrong
-                .iter()
-                .map(|(range, code, message)| answer::diagnostic(*range, code, message));
-            found.push((uri.to_string(), wrong.collect()));
+            found.push((uri.to_string(), wrong.iter().map(answer::finding).collect()));
         }
         for open in self.documents.scripts_open() {
             if let Some(script) = self.documents.script(&open) {
@@ -147,6 +155,64 @@ impl Server {
             ("textDocument/publishDiagnostics".to_string(), params)
         })
         .collect()
+    }
+
+    /// Repairs for what is wrong in a range.
+    fn fixes(&mut self, uri: &str, range: Range) -> Value {
+        if self.kind(uri) == Some(Kind::Machine) {
+            let own = self.documents.get(uri);
+            let fixes = own.map_or_else(Vec::new, |own| machine::fixes(uri, &own.text, range));
+            return fixes.iter().map(|fix| answer::fix(fix, |_| uri.to_string())).collect();
+        }
+        let script = self.documents.script(uri);
+        let fixes = script.map_or_else(Vec::new, |script| script.fixes(range));
+        fixes.iter().map(|fix| answer::fix(fix, |file| uri_of_file(file, uri))).collect()
+    }
+
+    /// A case with the documents as they stand in the editor.
+    ///
+    /// # Errors
+    /// No case is named.
+    pub fn preview(&self, params: &Value) -> Result<Preview, Fault> {
+        let case = params.get("case").and_then(Value::as_str);
+        let case = case.ok_or_else(|| fault(INVALID_PARAMS, "case is missing"))?;
+        let draws = params.get("plot").and_then(Value::as_bool).unwrap_or(false);
+        Ok(Preview { case: PathBuf::from(case), unsaved: self.documents.unsaved(), draws })
+    }
+
+    /// The values of a `machine.toml` as they are written, and the rows of the table of settings.
+    fn settings(&self, uri: &str) -> Answer {
+        let own = self.documents.get(uri).filter(|own| own.kind == Some(Kind::Machine));
+        let own = own.ok_or_else(|| fault(REQUEST_FAILED, "no machine.toml"))?;
+        let values: Map<String, Value> = machine::values(&own.text)
+            .into_iter()
+            .map(|(key, value)| (key, json!(value)))
+            .collect();
+        let rows: Map<String, Value> = TABLE
+            .iter()
+            .map(|row| {
+                let about = json!({
+                    "unit": row.unit.to_string(),
+                    "default": machine::default_of(row),
+                    "acts": row.used,
+                    "idle": row.idle,
+                });
+                (row.name.to_string(), about)
+            })
+            .collect();
+        Ok(json!({ "values": values, "rows": rows }))
+    }
+
+    /// The edit that gives a setting of a `machine.toml` a value, or takes it away.
+    fn setting(&self, uri: &str, params: &Value) -> Answer {
+        let own = self.documents.get(uri).filter(|own| own.kind == Some(Kind::Machine));
+        let own = own.ok_or_else(|| fault(REQUEST_FAILED, "no machine.toml"))?;
+        let key = params.get("key").and_then(Value::as_str);
+        let key = key.ok_or_else(|| fault(INVALID_PARAMS, "key is missing"))?;
+        let value = params.get("value").and_then(Value::as_str);
+        let edit = machine::edit(&own.text, key, value);
+        let (range, text) = edit.map_err(|message| fault(REQUEST_FAILED, &message))?;
+        Ok(json!([{ "range": answer::range(range), "newText": text }]))
     }
 
     fn hover(&mut self, uri: &str, at: Position) -> Value {

@@ -151,6 +151,7 @@ fn hover_explains_names_functions_numbers_and_words() {
     for (text, wanted) in [
         ("XX=SQR|TF(2)\nFINI\n", "square root"),
         ("XX=POSTF(1|3)\nFINI\n", "POSTF(13)"),
+        ("XX=POSTF(1)+POS|TF(13)\nFINI\n", "POSTF(13)"),
         ("XX=POSTF(2,3,48|7,1)\nFINI\n", "487"),
         ("XX=POSTF(3,3,37|4)\nFINI\n", "last output value of S"),
         ("CIMFIL/ON,CYC|LE\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n", "CYCLE"),
@@ -327,6 +328,22 @@ fn settings_are_checked_explained_and_completed() {
     assert!(choices.labels().contains(&"1".to_string()));
     let symbols = editor.ask("textDocument/documentSymbol");
     assert_eq!(symbols[1]["name"], "rapid", "{symbols}");
+    for (before, after) in [
+        ("[rapid]\nsp|lt = 1\n", "[rapid]\nsplit = 1\n"),
+        ("rapid.sp|lt = 1\n", "rapid.split = 1\n"),
+        ("[seqnoo]\nincr|ement = 3\n", "[seqno]\nincrement = 3\n"),
+    ] {
+        let mut editor = Editor::open(uri, "toml", before);
+        let fixes = editor.fixes();
+        assert_eq!(fixes.len(), 1, "{before}: {fixes:?}");
+        assert_eq!(editor.applied(&before.replacen('|', "", 1), &fixes[0]), after);
+    }
+    let idle = Editor::open(uri, "toml", "[rapid]\nsplit = 1\n");
+    assert!(idle.diagnostics().is_empty(), "{:?}", idle.diagnostics());
+    let mut idle = Editor::open(uri, "toml", "[program]\nmerg|ing = 1\n");
+    assert_eq!(idle.diagnostics()[0]["code"], "W0651", "{:?}", idle.diagnostics());
+    let hover = idle.ask("textDocument/hover");
+    assert!(hover["contents"]["value"].as_str().unwrap_or_default().contains("does **not** act"));
 }
 
 #[test]
@@ -355,6 +372,9 @@ fn included_files_share_their_names() {
     let mut main = Editor::open(&uri("main.fil"), "fil", main);
     let found = main.ask("textDocument/definition");
     assert_eq!(found[0]["uri"], uri("parts/one.fil"), "{found}");
+    main.line = 1;
+    let found = main.ask("textDocument/definition");
+    assert_eq!(found[0]["uri"], uri("parts/one.fil"), "INCLUD leads to its file: {found}");
     let included = Editor::open(&uri("parts/one.fil"), "fil", one);
     assert!(included.diagnostics().is_empty(), "{:?}", included.diagnostics());
     // What is wrong in the edited text of the included file is seen, not what the disk has.

@@ -9,6 +9,7 @@ mod codes;
 mod coverage;
 mod dap;
 mod diff;
+mod editors;
 mod explain;
 mod fmt;
 mod hosts;

@@ -31,8 +31,8 @@ use crate::units::unit_named;
 
 pub use mutants::{Mutant, mutants};
 pub use outcome::{Fresh, Outcome, Verdict};
-pub use recipe::Programs;
 use recipe::Recipe;
+pub use recipe::{Programs, Unsaved};
 pub use side_by_side::{Row, side_by_side};
 
 /// The text of a `case.toml`.
@@ -226,5 +226,14 @@ impl Case {
     /// As [`crate::Builder::build`]; files that can't be read.
     pub fn program(&self) -> Result<Program, Error> {
         Recipe::of(self)?.build()
+    }
+
+    /// The program of the case with unsaved texts in place of its machine, its FIL files and
+    /// what they include.
+    ///
+    /// # Errors
+    /// As [`Case::program`].
+    pub fn program_with(&self, unsaved: &Unsaved) -> Result<Program, Error> {
+        Recipe::with_unsaved(self, unsaved)?.build()
     }
 }

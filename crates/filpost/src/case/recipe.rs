@@ -35,6 +35,17 @@ pub(super) struct Recipe {
     debug: bool,
     /// Another text for a FIL file, one that INCLUD brings in too.
     changed: Option<Named>,
+    /// Texts in place of files that INCLUD brings in, by their paths without links.
+    unsaved: Vec<(PathBuf, String)>,
+}
+
+/// Texts that stand for files of a case: documents of an editor that are not saved yet, by
+/// their paths without links.
+pub type Unsaved = HashMap<PathBuf, String>;
+
+/// The unsaved text of a file.
+fn unsaved_text<'u>(unsaved: &'u Unsaved, path: &Path) -> Option<&'u String> {
+    unsaved.get(&path.canonicalize().ok()?)
 }
 
 impl Recipe {
@@ -43,13 +54,34 @@ impl Recipe {
     /// # Errors
     /// Files that can't be read.
     pub fn of(case: &Case) -> Result<Recipe, Error> {
+        Recipe::reading(case, &|path| files::read_text(path, None))
+    }
+
+    /// The same with unsaved texts in place of their files.
+    ///
+    /// # Errors
+    /// Files that can't be read.
+    pub fn with_unsaved(case: &Case, unsaved: &Unsaved) -> Result<Recipe, Error> {
+        let mut recipe = Recipe::reading(case, &|path| match unsaved_text(unsaved, path) {
+            Some(text) => Ok(text.clone()),
+            None => files::read_text(path, None),
+        })?;
+        recipe.unsaved = unsaved.iter().map(|(path, text)| (path.clone(), text.clone())).collect();
+        recipe.unsaved.sort_unstable();
+        Ok(recipe)
+    }
+
+    fn reading(
+        case: &Case,
+        read: &dyn Fn(&Path) -> Result<String, Error>,
+    ) -> Result<Recipe, Error> {
         let text = |name: &String| {
-            let text = files::read_text(&case.folder.join(name), None)?;
+            let text = read(&case.folder.join(name))?;
             Ok::<Named, Error>((name.clone(), text))
         };
         let script = |name: &String| {
             let path = plain(&case.folder.join(name));
-            let text = files::read_text(&path, None)?;
+            let text = read(&path)?;
             Ok::<Named, Error>((path.display().to_string(), text))
         };
         let file = &case.file;
@@ -67,6 +99,7 @@ impl Recipe {
             fuel: file.fuel,
             debug: false,
             changed: None,
+            unsaved: Vec::new(),
         })
     }
 
@@ -110,8 +143,12 @@ impl Recipe {
         let paths: Vec<PathBuf> = self.fil.iter().map(|(name, _)| PathBuf::from(name)).collect();
         let mut include = includes::beside(&paths, None);
         let changed = self.changed.clone();
+        let unsaved: Unsaved = self.unsaved.iter().cloned().collect();
         builder.includes(move |from, name| {
             let mut included = include(from, name)?;
+            if let Some(text) = unsaved_text(&unsaved, Path::new(&included.name)) {
+                included.text.clone_from(text);
+            }
             if let Some((_, text)) = changed.as_ref().filter(|(known, _)| *known == included.name) {
                 included.text.clone_from(text);
             }
