@@ -67,7 +67,9 @@ pub const MACHINES: [Machine; 3] = [
 ];
 
 /// Settings of all of them.
-const COMMON: [&str; 9] = [
+const COMMON: [&str; 10] = [
+    // The programs end tool-tip control where the tool stands.
+    "rotary.tip_end_retract=0",
     "rotary.primary_axis=3",
     "rotary.primary_i=0",
     "rotary.primary_j=0",

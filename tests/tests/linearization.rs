@@ -15,6 +15,9 @@ use proptest::test_runner::TestRunner;
 /// Paths posted for random machines in the whole run.
 const PATHS: usize = 1_500;
 
+/// Paths that come to a limit, in the whole run.
+const LIMITED: usize = 400;
+
 /// Carries, direction, center.
 type Rotary = (u8, [f64; 3], [f64; 3]);
 
@@ -47,6 +50,8 @@ fn post(rotaries: &[Rotary; 2], pivot: Option<f64>, tolerance: f64, form: u8) ->
         format!("rotary.tolerance={tolerance}"),
         format!("rotary.feed={form}"),
         "rotary.feed_max=100000".to_string(),
+        // Random tool axes pass poles.
+        "rotary.axis_tolerance=0".to_string(),
         "feed.upm_max=99999".to_string(),
         "feed.inverse_max=99999".to_string(),
     ];
@@ -113,6 +118,72 @@ fn the_tip_stays_near_its_line_and_goes_at_its_feed() {
     }
     println!("{paths} paths agree, {divided} of them divided");
     assert!(paths > sample::of(PATHS) / 3 && divided * 3 > paths, "{divided} of {paths}");
+}
+
+/// A path that goes steadily round, so that it comes to the limits of the primary axis:
+/// start and step of the turn in degrees, the tilt, and how many points.
+fn winding() -> impl Strategy<Value = (f64, f64, f64, usize)> {
+    let step = prop_oneof![5.0..40.0f64, -40.0..-5.0f64];
+    (-180.0..180.0f64, step, 10.0..60.0f64, 4usize..40)
+}
+
+fn winding_cl((start, step, tilt, count): (f64, f64, f64, usize)) -> String {
+    let mut cl = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\nMULTAX / ON\n".to_string();
+    cl += "FEDRAT / 500, MMPM\nRAPID\n";
+    for number in 0..count {
+        let (turn, tilt) = ((start + step * number as f64).to_radians(), tilt.to_radians());
+        let (i, j, k) = (tilt.sin() * turn.cos(), tilt.sin() * turn.sin(), tilt.cos());
+        let (x, y, z) = (40.0 * turn.cos(), 40.0 * turn.sin(), 0.5 * number as f64);
+        cl += &format!("GOTO / {x:.9}, {y:.9}, {z:.9}, {i:.12}, {j:.12}, {k:.12}\n");
+    }
+    cl + "FINI\n"
+}
+
+/// At a limit of the primary axis the tool goes out, the machine turns, and the tool comes
+/// back: the back-check agrees, and no axis is ever past its limit. Where nothing leads on,
+/// no program is written.
+#[test]
+fn at_a_limit_the_tool_goes_out_and_comes_back() {
+    let mut runner = TestRunner::deterministic();
+    let kinds = prop_oneof![Just([1u8, 1]), Just([1, 2]), Just([2, 2])];
+    let flags = proptest::array::uniform6(any::<bool>());
+    let all = (kinds, -400.0..-100.0f64, 100.0..400.0f64, winding(), flags, 0u8..4);
+    let (mut changes, mut refused) = (0, 0);
+    for _ in 0..sample::of(LIMITED) {
+        let (kinds, min, max, path, flags, form) = all.new_tree(&mut runner).unwrap().current();
+        let table = |kind, direction| (kind, direction, [3.0, -7.0, -20.0]);
+        let rotaries = [table(kinds[0], [0.0, 0.0, 1.0]), table(kinds[1], [0.0, 1.0, 0.0])];
+        let plain = post(&rotaries, Some(150.0), 0.05, form);
+        let [spindle, coolant, one_block, next_axis, split, stop] = flags.map(u8::from);
+        let settings = [
+            format!("rotary.primary_min={min:.3}"),
+            format!("rotary.primary_max={max:.3}"),
+            "repos.feed_method=1".to_string(),
+            "repos.retract_distance=50".to_string(),
+            "repos.approach_distance=5".to_string(),
+            format!("repos.retract_spindle={spindle}"),
+            format!("repos.approach_spindle={spindle}"),
+            format!("repos.retract_coolant={coolant}"),
+            format!("repos.approach_coolant={coolant}"),
+            format!("repos.retract_opstop={stop}"),
+            format!("repos.skip_rotary={one_block}"),
+            format!("repos.new_tool_axis={next_axis}"),
+            format!("rapid.split={split}"),
+        ];
+        let builder = Program::builder().commons(plain.commons().clone());
+        let machine = settings.iter().fold(builder, |builder, set| builder.set(set));
+        let machine = machine.build().expect("a machine");
+        let cl = winding_cl(path).replace("MULTAX", "COOLNT / ON\nMULTAX");
+        let Some((nc, report)) = checked(&machine, &cl, 0.05) else {
+            refused += 1;
+            continue;
+        };
+        let seen = format!("{:#?}\n{settings:?} {kinds:?} {form}\n{cl}\n{nc}", report.findings);
+        assert_eq!(report.verdict(), Verdict::Agrees, "{seen}");
+        changes += usize::from(checked(&plain, &cl, 0.05).is_some_and(|(other, _)| other != nc));
+    }
+    println!("{changes} paths change positions at a limit, {refused} are refused");
+    assert!(changes > sample::of(LIMITED) / 8, "{changes}");
 }
 
 /// Without division the tip leaves its line, which is said.

@@ -57,6 +57,8 @@ fn post(rotaries: &[Rotary; 2], pivot: Option<f64>, split: bool) -> Program {
         let builder_now = std::mem::replace(&mut builder, Program::builder());
         builder = builder_now.set(&format!("{key}={value}"));
     };
+    // Programs made by hand end tool-tip control where the tool stands.
+    set("rotary.tip_end_retract", 0.0);
     let names = ["primary", "secondary"];
     for ((rotary, name), letter) in rotaries.iter().zip(names).zip([3.0, 2.0]) {
         set(&format!("rotary.{name}_kind"), rotary.kind.into());

@@ -21,6 +21,9 @@ use fil_diag::{Diag, Result};
 /// Directions closer than this (radians, about 0.0006 degrees) count as equal.
 const SAME: f64 = 1e-5;
 
+/// Whole turns to either side in which other positions of a limited axis are looked for.
+pub const TURNS: i32 = 12;
+
 use crate::modes::INCH;
 
 /// Letters of rotary axes about X, Y and Z (ISO 841).
@@ -157,6 +160,62 @@ impl AxisChain {
         Unit::try_new(axis, 1e-9).map(|axis| self.all(axis, last)).unwrap_or_default()
     }
 
+    /// True when the travel of a rotary axis is limited.
+    pub fn is_limited(&self) -> bool {
+        self.rotaries.iter().flatten().any(|rotary| rotary.min.is_some() || rotary.max.is_some())
+    }
+
+    /// True when the rotary axes can stand at these positions, degrees.
+    pub fn reaches(&self, angles: [f64; 2]) -> bool {
+        let reaches = |(rotary, angle): (&Option<Rotary>, f64)| {
+            rotary.as_ref().is_none_or(|rotary| rotary.reaches(angle))
+        };
+        self.rotaries.iter().zip(angles).all(reaches)
+    }
+
+    /// The tool axis in the part where the rotary axes stand at these positions, degrees.
+    pub fn axis_at(&self, angles: [f64; 2]) -> Vector3<f64> {
+        self.rotaries.iter().zip(angles).rev().fold(self.tool.into_inner(), |tool, (rotary, at)| {
+            match rotary {
+                Some(rotary) => {
+                    Rotation3::from_axis_angle(&rotary.direction, at.to_radians()) * tool
+                }
+                None => tool,
+            }
+        })
+    }
+
+    /// As [`AxisChain::solve`] on a machine whose rotary axes have no limits; `None` where
+    /// no position brings the tool along `axis`.
+    pub fn nearest_anywhere(&self, axis: Vector3<f64>, last: [f64; 2]) -> Option<[f64; 2]> {
+        let near = |angle: f64, last: f64| angle + 360.0 * ((last - angle) / 360.0).round();
+        let solutions = self.solutions(axis, last).into_iter();
+        solutions
+            .map(|found| [near(found[0], last[0]), near(found[1], last[1])])
+            .min_by(|a, b| travel(a, &last).total_cmp(&travel(b, &last)))
+    }
+
+    /// All positions within the limits that bring the tool along `axis`, degrees, with up to
+    /// [`TURNS`] whole turns from `last`; an axis that does not turn the tool stays at `last`,
+    /// or goes by whole turns.
+    pub fn positions(&self, axis: Vector3<f64>, last: [f64; 2]) -> Vec<[f64; 2]> {
+        let turns = |index: usize, angle: f64| {
+            let near = angle + 360.0 * ((last[index] - angle) / 360.0).round();
+            let rotary = self.rotaries[index].as_ref();
+            let limited = rotary.is_some_and(|axis| axis.min.is_some() || axis.max.is_some());
+            let most = if limited { TURNS } else { 0 };
+            (-most..=most)
+                .map(move |turn| near + 360.0 * f64::from(turn))
+                .filter(move |angle| rotary.is_none_or(|rotary| rotary.reaches(*angle)))
+        };
+        let solutions = self.solutions(axis, last).into_iter();
+        solutions
+            .flat_map(|found| {
+                turns(0, found[0]).flat_map(move |r1| turns(1, found[1]).map(move |r2| [r1, r2]))
+            })
+            .collect()
+    }
+
     fn all(&self, axis: Unit<Vector3<f64>>, last: [f64; 2]) -> Vec<[f64; 2]> {
         match &self.rotaries {
             [None, None] => self.fixed(axis, last),
@@ -212,17 +271,19 @@ impl AxisChain {
 }
 
 impl Rotary {
+    /// True when the axis can stand at this position, degrees.
+    pub fn reaches(&self, angle: f64) -> bool {
+        self.min.is_none_or(|min| angle >= min - 1e-9)
+            && self.max.is_none_or(|max| angle <= max + 1e-9)
+    }
+
     /// The angle plus whole turns that lies nearest to `last` and within the limits.
     fn turn_near(&self, angle: f64, last: f64) -> Option<f64> {
         let near = angle + 360.0 * ((last - angle) / 360.0).round();
-        let allowed = |angle: f64| {
-            self.min.is_none_or(|min| angle >= min - 1e-9)
-                && self.max.is_none_or(|max| angle <= max + 1e-9)
-        };
         [0.0, 360.0, -360.0, 720.0, -720.0]
             .into_iter()
             .map(|turn| near + turn)
-            .filter(|angle| allowed(*angle))
+            .filter(|angle| self.reaches(*angle))
             .min_by(|a, b| (a - last).abs().total_cmp(&(b - last).abs()))
     }
 }

@@ -123,6 +123,11 @@ impl MachineTables {
         Ok(())
     }
 
+    /// True when the travel of X, Y or Z is bounded where their words name the tip.
+    pub fn limits_travel(&self) -> bool {
+        self.travel.iter().any(Axis::is_limited)
+    }
+
     /// F is written as this mode asks for from now on.
     pub fn format_feed(&mut self, mode: FeedMode) {
         if let Some(format) = self.feed_formats.of(mode) {

@@ -35,9 +35,11 @@ pub enum Handler {
     Items(fn(&mut Post, &mut Items) -> Result<()>),
     /// A word that changes the path or the frame in a way the post does not know.
     Refused,
+    /// One that it knows where the machine says what it means; else false, and refused.
+    Chosen(fn(&mut Post, &mut Items) -> Result<bool>),
 }
 
-use Handler::{Items as I, Point as P, Refused};
+use Handler::{Chosen, Items as I, Point as P, Refused};
 
 /// Major words and their handlers.
 pub const HANDLERS: &[(WordId, Handler)] = &[
@@ -72,7 +74,7 @@ pub const HANDLERS: &[(WordId, Handler)] = &[
     (w::OP, I(word::op::handle)),
     (w::OPSKIP, I(word::opskip::handle)),
     (w::OPSTOP, I(word::stop::opstop)),
-    (w::ORIGIN, Refused),
+    (w::ORIGIN, Chosen(word::trans::origin)),
     (w::PARTNO, I(word::partno::handle)),
     (w::POSTN, I(word::postn::handle)),
     (w::PPRINT, I(word::pprint::handle)),
@@ -82,8 +84,8 @@ pub const HANDLERS: &[(WordId, Handler)] = &[
     (w::REPLAC, I(word::replac::handle)),
     (w::RETRCT, I(word::home::retrct)),
     (w::REWIND, I(word::end::rewind)),
-    (w::ROTABL, Refused),
-    (w::ROTATE, Refused),
+    (w::ROTABL, Chosen(word::rotabl::handle)),
+    (w::ROTATE, Chosen(word::rotabl::handle)),
     (w::ROTHED, Refused),
     (w::SELCTL, I(word::loadtl::select)),
     (w::SELECT, I(word::loadtl::select)),
@@ -95,7 +97,7 @@ pub const HANDLERS: &[(WordId, Handler)] = &[
     (w::SYNC, Refused),
     (w::THREAD, I(word::thread::handle)),
     (w::TLAXIS, I(word::multax::tlaxis)),
-    (w::TRACUT, Refused),
+    (w::TRACUT, Chosen(word::trans::tracut)),
     (w::TRANS, I(word::trans::handle)),
     (w::TURRET, I(word::loadtl::handle)),
     (w::UNIT, I(word::units::handle)),
@@ -149,8 +151,17 @@ pub fn dispatch(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Re
             handle(post, &mut items)?;
             items.deny_rest()
         }
-        Some(Handler::Refused) | None if is_without_effect(post, vocabulary.name(record.major)) => {
+        Some(Handler::Refused | Handler::Chosen(_)) | None
+            if is_without_effect(post, vocabulary.name(record.major)) =>
+        {
             Ok(())
+        }
+        Some(Handler::Chosen(handle)) => {
+            let mut items = Items::new(record, vocabulary)?;
+            if handle(post, &mut items)? {
+                return items.deny_rest();
+            }
+            Err(refused(record, vocabulary))
         }
         Some(Handler::Refused) => Err(refused(record, vocabulary)),
         None => Err(unknown(record.major, vocabulary)),
@@ -229,9 +240,9 @@ fn refused(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
         w::ROTATE => (
             "it turns a table or a head, and whether the angle counts from zero and the points turn \
              with it is not in the file",
-            "Give the tool axis with each point (MULTAX/ON, GOTO/x,y,z,i,j,k): the post turns the \
-             axes then, and ROTATE can stand under words.without_effect in machine.toml. Else let \
-             a FIL section take it: POSTN writes the position of the axis, TRANS turns the points.",
+            "Say it with rotary.table_words: 1 where the points stay, 2 where they turn with the \
+             table. Or give the tool axis with each point (MULTAX/ON, GOTO/x,y,z,i,j,k): the post \
+             turns the axes then, and ROTATE can stand under words.without_effect in machine.toml.",
         ),
         w::HEAD => (
             "it chooses a spindle or channel, and the machine of the post has one",
@@ -239,16 +250,17 @@ fn refused(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
              else post each head from a CL file and with a machine of its own.",
         ),
         w::ORIGIN => (
-            "it moves the zero of the machine against that of the part, and work offsets do that \
-             on the control",
-            "Choose the work offset by SET/OFSETL,n, or move the points by TRANS/x,y,z; where the \
-             points need no move, list ORIGIN under words.without_effect in machine.toml.",
+            "it moves the zero of the machine against that of the part, and which of the two it \
+             names is not in the file",
+            "Say it with input.origin: 1 takes x, y, z off each point, 2 adds them. Or choose the \
+             work offset by SET/OFSETL,n; where the points need no move, list ORIGIN under \
+             words.without_effect in machine.toml.",
         ),
         w::TRACUT => (
             "the CAM system or APT processor transforms the path by it; in a CL file it is not \
              known whether the points are transformed already",
             "Where they are, list TRACUT under words.without_effect in machine.toml; where they \
-             are not, write TRANS with the twelve numbers of the matrix.",
+             are not, input.tracut = 1 moves them.",
         ),
         w::COPY | w::INDEX => (
             "an APT processor writes the repeated path out; in a CL file the copies would be \
@@ -259,8 +271,8 @@ fn refused(record: &Record, vocabulary: &Vocabulary) -> Box<Diag> {
         w::ROTABL => (
             "it turns the part, and whether the angle counts from zero and the points turn with \
              it is not in the file",
-            "Let a FIL section take it: POSTN writes the position of the axis, and TRANS turns \
-             the points where they do not turn with the table. Where each point of the file has its \
+            "Say it with rotary.table_words: 1 where the points stay, 2 where they turn with the \
+             table. Where each point of the file has its \
              tool axis in the part (MULTAX/ON), the axes turn the table already: list ROTABL under \
              words.without_effect in machine.toml.",
         ),

@@ -81,8 +81,20 @@ fil_diag::codes! {
             "Choose the dialect of the CL file with --dialect; write sharp reversals as lines.";
         /// A rotary axis the long way round.
         Unwinding = 524, Error, "a rotary axis would unwind while cutting",
-            "Its limits leave only the long way round, and the tool would cut on the way.",
-            "Retract before it, or give the axis more travel.";
+            "Its limits leave only another way to the tool axis, and the tool would cut on the way.",
+            "Have the tool retract there (repos.feed_method = 1 with repos.retract_distance), retract before it in the CL file, or give the axis more travel.";
+        /// A limit that nothing leads past.
+        NoAlternative = 527, Error, "a rotary axis is at its limit, and nothing leads on",
+            "The tool would retract, the machine turn to other positions for the same tool axis, and the tool return; here there are none from which the motion goes on, or the way out is not known.",
+            "Give repos.retract_distance, give the axis more travel, or divide the path in the CAM system and retract between its parts.";
+        /// A pole at feed.
+        Pole = 528, Error, "a pole of the machine lies on a feed motion",
+            "Beside the direction of a rotary axis the machine turns far for a small change of the tool axis, and the tool leans out of the plane of its ends on the way.",
+            "Have the CAM system give more points there or keep the tool axis away from the pole; rotary.axis_tolerance is what is allowed, 0 looks at none.";
+        /// A retract at a limit.
+        Repositioned = 529, Warning, "the tool retracts at the limit of a rotary axis",
+            "The machine turns to other positions for the same tool axis, and the tool comes back to the same point.",
+            "Look whether the retract is far enough for the part to turn; repos.feed_warning = 0 says nothing.";
         /// Length of a tool axis.
         AxisLength = 525, Error, "not a tool axis",
             "A tool axis has length 1; six values of another length may be two points. After MULTAX / OFF there is none but 0,0,1.",

@@ -303,6 +303,8 @@ pub enum Operation {
     /// A rapid motion to a position of X, Y and Z on the machine, mm or inch; an axis
     /// without one stays.
     MachinePosition([Option<f64>; 3]),
+    /// A rotary axis, 0 or 1, turns to a position at rapid, degrees.
+    Turn(usize, f64),
     /// An arc to a point.
     Arc(Arc, Target),
     /// A hole of the active cycle.

@@ -4,6 +4,7 @@ use fil_cl::Record;
 use fil_cl::vocabulary::Vocabulary;
 use fil_diag::{Diag, Result};
 use fil_machine::Commons;
+use fil_machine::locations as loc;
 use fil_machine::modes::{FeedMode, Unit};
 
 use crate::cause::Cause;
@@ -127,6 +128,14 @@ impl Post {
     /// them by `path.next_tools` before a record that changes the tool.
     pub fn looks_ahead_for_tools(&self) -> bool {
         tool_change::looks_ahead(&self.control.commons)
+    }
+
+    /// True when rotary positions are chosen by the motions behind a RAPID: whoever drives the
+    /// post tells their tool axes by `path.coming` before the record.
+    pub fn looks_ahead_for_axes(&self) -> bool {
+        let tables = &self.control.tables;
+        let of_axes = tables.chain().has_rotary() && !tables.tip_output && !tables.frame_output;
+        of_axes && self.control.commons.read(loc::REPOS_OPTIMISE)
     }
 
     /// Takes the warnings away.

@@ -25,6 +25,7 @@ mod builder;
 mod cancel;
 pub mod case;
 pub mod check;
+mod coming;
 mod compat;
 pub mod coverage;
 pub mod debug;

@@ -185,8 +185,8 @@ impl<'o, S: Records> Outside<'o, S> {
         if is_note { None } else { self.module.find(record, vocabulary) }
     }
 
-    /// Tells the post which tools come behind a record that takes one, where its machine
-    /// asks for it.
+    /// Tells the post which tools come behind a record that takes one, and which tool axes
+    /// behind a RAPID, where its machine asks for it.
     ///
     /// # Errors
     /// A file that can't be gone back in.
@@ -199,7 +199,17 @@ impl<'o, S: Records> Outside<'o, S> {
         if record.kind != kind::MOTION && changes_tool(record) {
             return self.look_for_tools(record, vocabulary);
         }
+        if record.kind != kind::MOTION && record.major == words::RAPID {
+            self.look_for_axes(vocabulary);
+        }
         Ok(())
+    }
+
+    #[cold]
+    fn look_for_axes(&mut self, vocabulary: &mut Vocabulary) {
+        if self.post.looks_ahead_for_axes() {
+            self.post.path.coming = self.source.axes_ahead(vocabulary);
+        }
     }
 
     #[cold]

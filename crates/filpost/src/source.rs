@@ -233,7 +233,11 @@ impl<S: Records> Source<S> {
     }
 
     /// The record so many places behind the next one; nothing is consumed.
-    fn ahead(&mut self, index: usize, vocabulary: &mut Vocabulary) -> Result<Option<&Record>> {
+    pub(crate) fn ahead(
+        &mut self,
+        index: usize,
+        vocabulary: &mut Vocabulary,
+    ) -> Result<Option<&Record>> {
         if index == self.ahead.len() {
             let mut next = Record::default();
             if !self.reader.read(vocabulary, &mut next)? {

@@ -116,6 +116,35 @@ impl<C: Steps> Walk<'_, C> {
         }
     }
 
+    /// A rotary axis turns by itself to a position, at rapid.
+    pub(super) fn turn(&mut self, cl_line: u32, index: usize, angle: f64) {
+        self.report.compared += 1;
+        self.initial = None;
+        // A turn to where the axis stands is no motion that is passed over.
+        self.pass_own();
+        let slack = self.slack.rotary[index];
+        let there = |at: &Position| (at.rotary[index] - angle).abs() <= slack;
+        if self.known[index + 3] && there(&self.at) {
+            self.report.matched += 1;
+            return;
+        }
+        let other = 1 - index;
+        let found = self.next_move().filter(|found| {
+            let stays = (0..3).all(|n| !found.known[n] || found.to.linear[n] == self.at.linear[n]);
+            let alone = found.to.rotary[other] == self.at.rotary[other];
+            found.course == Course::Rapid && there(&found.to) && stays && alone
+        });
+        let Some(found) = found else {
+            let message = format!("no rapid turn to {} degrees", short(angle));
+            return self.find(FindingKind::Missing, Some(cl_line), None, message);
+        };
+        self.take(cl_line, &found);
+        self.next += 1;
+        self.exact[index] = angle;
+        self.report.matched += 1;
+        self.watch.stand(None);
+    }
+
     /// The machine turns right after a tool change, where the tool is away from the part,
     /// for a frame or tool-tip control that the next motion is in.
     pub(super) fn turns_away(&self, found: &Move) -> bool {

@@ -28,7 +28,7 @@ impl<C: Steps> Walk<'_, C> {
             Some(Rate::PerMinute(rate)) => {
                 let rate = self.settings.feed_within(rate, self.metric);
                 let rate = self.at_the_edge(&from, found, rate);
-                let turns = turned(&from, found) > 0.0;
+                let turns = turned(&from, found) != [0.0; 2];
                 let within = self.settings.feed_within_axes(rate, &from, found, self.metric);
                 Rate::PerMinute(if turns { rate } else { within })
             }
@@ -122,7 +122,7 @@ impl<C: Steps> Walk<'_, C> {
 
     /// Inverse time where the tip stands: the turn takes as long as the machine needs for it,
     /// where its settings say that.
-    fn check_turn(&mut self, cl_line: u32, found: &Move, turned: f64, inverse: f64) {
+    fn check_turn(&mut self, cl_line: u32, found: &Move, turned: [f64; 2], inverse: f64) {
         let time = self.settings.turning_time(0.0, turned);
         if time == 0.0 {
             return;
@@ -142,7 +142,7 @@ impl<C: Steps> Walk<'_, C> {
     /// motions that turn it, and leads the tip as fast as asked for.
     fn says_the_time(&self, from: Position, found: &Move, wanted: Rate) -> bool {
         let turned = turned(&from, found);
-        if turned == 0.0 || from.names_tip() || found.to.names_tip() {
+        if turned == [0.0; 2] || from.names_tip() || found.to.names_tip() {
             return false;
         }
         let rate = match (wanted, found.modes.speed.and_then(Speed::turns)) {
@@ -179,7 +179,7 @@ impl<C: Steps> Walk<'_, C> {
     }
 }
 
-/// The largest turn of a rotary axis, degrees.
-fn turned(from: &Position, found: &Move) -> f64 {
-    (0..2).map(|n| (found.to.rotary[n] - from.rotary[n]).abs()).fold(0.0, f64::max)
+/// How far each rotary axis turns, degrees.
+fn turned(from: &Position, found: &Move) -> [f64; 2] {
+    [0, 1].map(|n| (found.to.rotary[n] - from.rotary[n]).abs())
 }

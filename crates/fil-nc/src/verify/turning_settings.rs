@@ -6,11 +6,15 @@ use super::settings::Settings;
 use crate::motion::{Position, unit};
 
 impl Settings<'_> {
-    /// Minutes of a motion that turns the machine: as long as asked for, or as the turn
-    /// (degrees) takes at least.
-    pub fn turning_time(&self, asked: f64, turned: f64) -> f64 {
-        let most = self.commons.dbl_opt(loc::ROTARY_FEED_MAX).filter(|most| *most > 0.0);
-        asked.max(most.map_or(0.0, |most| turned / most))
+    /// Minutes of a motion that turns the machine: as long as asked for, or as the turn of
+    /// each axis (degrees) takes at least.
+    pub fn turning_time(&self, asked: f64, turned: [f64; 2]) -> f64 {
+        let first = self.commons.dbl_opt(loc::ROTARY_FEED_MAX);
+        let second = self.commons.dbl_opt(loc::ROTARY_SECONDARY_FEED_MAX).or(first);
+        let least = |(turned, most): (f64, Option<f64>)| {
+            most.filter(|most| *most > 0.0).map_or(0.0, |most| turned / most)
+        };
+        turned.into_iter().zip([first, second]).map(least).fold(asked, f64::max)
     }
 
     /// The way over which F counts in a motion that turns the machine, in mm: with degrees

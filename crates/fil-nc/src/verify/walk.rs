@@ -63,6 +63,8 @@ pub(super) struct Walk<'a, C> {
     pub(super) initial: Option<f64>,
     /// Turns directions of the hole, in which its moves are said, into those of the axes.
     pub(super) from_hole: Option<Matrix3<f64>>,
+    /// The tool has gone up for the end of tool-tip control.
+    pub(super) is_up: bool,
     /// What was said of the last position, so that one fault is said once.
     pub(super) said: Option<Shape>,
     pub(super) report: Report,
@@ -104,6 +106,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             watch,
             initial: None,
             from_hole: None,
+            is_up: false,
             said: None,
             report: Report::default(),
             failed: None,
@@ -164,6 +167,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             }
             Wanted::Home => self.go_to_machine(step.line, self.settings.home(self.metric)),
             Wanted::Retract => self.retract(step.line),
+            Wanted::Turn { index, angle } => self.turn(step.line, *index, *angle),
             Wanted::Cutter(diameter) => self.cutter = Some(*diameter),
             Wanted::XScale(scale) => self.scale_x(*scale),
             Wanted::CycleEnd => self.end_cycle(step.line),
@@ -224,6 +228,11 @@ impl<'a, C: Steps> Walk<'a, C> {
         loop {
             self.pass(step.line);
             self.restate();
+            if let Wanted::Feed(pose, rate) = &step.what
+                && self.repositions(step.line, pose, *rate)
+            {
+                continue;
+            }
             if self.makes(step) {
                 self.report.matched += 1;
                 self.settle(step.line);
@@ -292,7 +301,13 @@ impl<'a, C: Steps> Walk<'a, C> {
     pub(super) fn pass_still(&mut self, cl_line: u32) {
         loop {
             self.pass_own();
+            self.check_tip_end(cl_line);
             match self.nc.get(self.next) {
+                Some(Event::Move(found)) if self.goes_up_at_tip_end(&found) => {
+                    self.take(cl_line, &found);
+                    self.next += 1;
+                    self.is_up = true;
+                }
                 Some(Event::Move(found))
                     if found.course != Course::Machine
                         && (self.is_still(&found) || self.turns_away(&found)) =>
@@ -435,6 +450,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             self.find(kind, Some(cl_line), Some(found.line), message);
         }
         self.check_limits(cl_line, found);
+        self.is_up = false;
         self.line = found.line;
         self.at = found.to;
         self.moved_tool = found.modes.tool;

@@ -38,6 +38,13 @@ pub enum Wanted {
     Home,
     /// Rapid traverse up to the machine's level for it.
     Retract,
+    /// A rotary axis turns to a position at rapid, where the tool stands.
+    Turn {
+        /// The axis, 0 or 1.
+        index: usize,
+        /// Its position, degrees.
+        angle: f64,
+    },
     /// A cutter of this diameter, mm.
     Cutter(f64),
     /// How far the tip may leave its line between the ends of a motion, mm; `None` for
@@ -253,6 +260,7 @@ impl Wanted {
                 self,
                 Wanted::Home
                     | Wanted::Retract
+                    | Wanted::Turn { .. }
                     | Wanted::Tool { .. }
                     | Wanted::Dwell(..)
                     | Wanted::DwellTurns(_)

@@ -3,7 +3,7 @@
 use fil_diag::Result;
 use fil_machine::axes::AxisSet;
 
-use super::{feed_rules, frame, linearization, rapid, rotary, thread};
+use super::{feed_rules, frame, rapid, rotary, solution, thread, turning};
 use crate::control::family;
 use crate::control::word_address::motion::Motion;
 use crate::errors::PostCode;
@@ -26,6 +26,9 @@ pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
         post.path.course.line(target.point - from)?;
     } else {
         post.path.course.interrupt();
+        if !post.path.coming.is_empty() {
+            solution::choose(post, target, kind);
+        }
     }
     if post.control.tables.frame_output && !post.writes_tip() {
         let at_feed = !matches!(kind, MotionKind::Rapid(_));
@@ -40,10 +43,8 @@ pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
             Some(feed) => family::feed(&mut post.control, &motion, Some(&feed))?,
             None => rapid::rapid(&mut post.control, &motion, cause)?,
         },
-        MotionKind::Feed => match rotary::turned(before, post.path.rotary)? {
-            Some(before) if !post.writes_tip() => {
-                linearization::feed(post, before, position, target)?;
-            }
+        MotionKind::Feed => match rotary::turned(before, post.path.rotary) {
+            Some(before) => turning::feed(post, before, &motion, target)?,
             _ if feed_rules::apply(post) => feed_rules::line(post, &motion, target)?,
             _ => family::feed(&mut post.control, &motion, post.path.feed.as_ref())?,
         },

@@ -14,17 +14,21 @@ mod expand;
 mod feed_rules;
 pub mod frame;
 pub mod hole;
+mod index;
 mod linear;
 pub mod linearization;
 mod machine_position;
 pub mod rapid;
+mod reposition;
 pub mod rotary;
 pub(crate) mod sense;
+mod solution;
 pub mod thread;
 mod tip;
 pub mod tip_control;
 pub mod tool_change;
 mod transformation;
+mod turning;
 mod turning_feed;
 
 use fil_diag::Result;
@@ -79,12 +83,21 @@ pub struct Path {
     pub thread: Option<Lead>,
     /// A whole thread that waits for its points, or has them.
     pub(crate) awaited_thread: Option<Box<thread::Awaited>>,
-    /// TRANS.
+    /// TRANS or TRACUT.
     pub transformation: Option<Transformation>,
+    /// The translation of the input is that of ORIGIN.
+    pub(crate) has_origin: bool,
+    /// The transformation is that of TRACUT.
+    pub(crate) has_tracut: bool,
+    /// The transformation is that of a table that ROTABL has turned under the points.
+    pub(crate) has_index: bool,
     /// Diameter of the cutter, mm or inch.
     pub cutter: Option<f64>,
     /// The tool changes behind the next one, where whoever drives the post has looked.
     pub next_tools: NextTools,
+    /// Tool axes of the motions behind a RAPID, where whoever drives the post has looked;
+    /// `None` for one that keeps the axis before it.
+    pub coming: Vec<Option<[f64; 3]>>,
     /// How the last feed motion ended, to judge the sense of arcs.
     pub(crate) course: sense::Course,
     /// Whoever chose the dialect has said which way arcs turn.
@@ -112,8 +125,12 @@ impl Default for Path {
             thread: None,
             awaited_thread: None,
             transformation: None,
+            has_origin: false,
+            has_tracut: false,
+            has_index: false,
             cutter: None,
             next_tools: NextTools::default(),
+            coming: Vec::new(),
             course: sense::Course::default(),
             sense_is_chosen: false,
         }
@@ -160,6 +177,7 @@ fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
     }
     match operation {
         Operation::MachinePosition(to) => machine_position::carry_out(post, to),
+        Operation::Turn(index, to) => index::turn(post, index, to),
         Operation::Hole(target) => hole::carry_out(post, target),
         Operation::Thread(thread) => thread::carry_out(post, &thread),
         Operation::ToolChange(change) => tool_change::change(&mut post.control, change),

@@ -19,6 +19,14 @@ pub fn rapid(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()>
     if of_tip || control.commons.read(loc::RAPID_SPLIT) == RapidSplit::OneBlock {
         return family::rapid(control, motion, RapidCode::Across, cause);
     }
+    in_parts(control, motion, cause)
+}
+
+/// Makes a rapid motion X and Y, then the rotary axes, then Z; Z first where it goes up.
+///
+/// # Errors
+/// As [`family::rapid`].
+pub(super) fn in_parts(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()> {
     let z_first = motion.axes.has(2) && retracts(control, motion)?;
     split(control, motion, z_first, cause)
 }

@@ -1,17 +1,13 @@
 //! From a point and a tool axis in the part to positions of the machine's axes.
 
 use fil_diag::Result;
-use fil_machine::axes::Position;
+use fil_machine::axes::{AxisSet, Position};
 use nalgebra::{Point3, Vector3};
 
 use super::{frame, tip_control};
 use crate::errors::PostCode;
 use crate::operation::Target;
 use crate::post::Post;
-
-/// Largest turn of a rotary axis in one feed motion, degrees: more would be the
-/// way round that a limit forces.
-const HALF_TURN: f64 = 180.0 + 1e-6;
 
 /// A smaller turn of a rotary axis counts as none, degrees.
 const STILL: f64 = 1e-9;
@@ -42,22 +38,11 @@ pub fn position_of(post: &mut Post, target: Target) -> Result<Position> {
 
 /// Where the rotary axes stood before a feed motion that turns them; `None` for one that
 /// does not, or where they stood is not known.
-///
-/// # Errors
-/// A rotary axis would go the long way round because its limits leave no other: the
-/// part would be cut on the way.
 #[inline]
-pub fn turned(before: Option<[f64; 2]>, now: Option<[f64; 2]>) -> Result<Option<[f64; 2]>> {
-    let (Some(before), Some(now)) = (before, now) else { return Ok(None) };
-    for (from, to) in before.into_iter().zip(now) {
-        if (to - from).abs() > HALF_TURN {
-            return PostCode::Unwinding.err(format!(
-                "a rotary axis would turn from {from:.3} to {to:.3} degrees in a feed motion"
-            ));
-        }
-    }
+pub fn turned(before: Option<[f64; 2]>, now: Option<[f64; 2]>) -> Option<[f64; 2]> {
+    let (before, now) = (before?, now?);
     let turns = before.into_iter().zip(now).any(|(from, to)| (to - from).abs() > STILL);
-    Ok(turns.then_some(before))
+    turns.then_some(before)
 }
 
 /// Refuses a pass of a thread in which a rotary axis would turn: its block has none.
@@ -65,10 +50,26 @@ pub fn turned(before: Option<[f64; 2]>, now: Option<[f64; 2]>) -> Result<Option<
 /// # Errors
 /// One would.
 pub fn refuse_thread(before: Option<[f64; 2]>, now: Option<[f64; 2]>) -> Result<()> {
-    match turned(before, now)? {
+    match turned(before, now) {
         Some(_) => PostCode::ThreadTurns.err("the tool axis changes in a pass of a thread"),
         None => Ok(()),
     }
+}
+
+/// The words of a motion to a point in the part, after TRANS, with the rotary axes at these
+/// angles: positions of the axes, or the tip under tool-tip control.
+///
+/// # Errors
+/// A position outside the travel.
+pub(super) fn words_at(post: &Post, point: Point3<f64>, angles: [f64; 2]) -> Result<Position> {
+    let tables = &post.control.tables;
+    let linear = tables.chain().linear(point, angles);
+    let at = |point: Point3<f64>| [point.x, point.y, point.z, angles[0], angles[1]];
+    if post.writes_tip() {
+        tables.check_travel(&at(linear), AxisSet::LINEAR)?;
+        return Ok(at(point));
+    }
+    Ok(at(linear))
 }
 
 /// The target after TRANS and the input translation (DBLCOM 286–288).

@@ -18,7 +18,7 @@ use super::cycle::{AboveHoles, Cycle, CycleFeed, CycleKind};
 use super::expand::{WayOut, way_out};
 use super::{frame, linear, rapid, rotary};
 use crate::control::family;
-use crate::control::word_address::motion::Motion;
+use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::word_address::spindle;
 use crate::control::{Control, Function};
 use crate::control_state::{Compensation, Meaning};
@@ -136,10 +136,13 @@ fn turn_tables_to_zero(post: &mut Post) -> Result<()> {
 /// still has the length of the tool, with its motion of Z.
 ///
 /// # Errors
-/// The machine has no code for it.
+/// The machine has no code for it; as [`go_up`].
 pub fn end(control: &mut Control) -> Result<()> {
     if !control.tables.tip_output || control.state.tip_control == Some(false) {
         return Ok(());
+    }
+    if control.tables.family == ControlFamily::WordAddress {
+        go_up(control)?;
     }
     family::end_tip_control(control)?;
     for number in AxisSet::LINEAR.numbers() {
@@ -150,6 +153,43 @@ pub fn end(control: &mut Control) -> Result<()> {
         control.waiting.length_offset = control.tip.offset;
     }
     Ok(())
+}
+
+/// Goes up along the tool before G49, at which a control may come down by the length of the
+/// tool.
+///
+/// # Errors
+/// Where the tool stands is not known; a position outside the travel; cutter compensation.
+fn go_up(control: &mut Control) -> Result<()> {
+    let distance = control.commons.dbl_opt(loc::ROTARY_TIP_END_RETRACT).unwrap_or(0.0);
+    if distance <= 0.0 {
+        return Ok(());
+    }
+    let distance = distance / control.require_unit()?.in_mm();
+    let known = |number: &usize| {
+        let letter = control.tables.axis(*number).letter;
+        control.axis_position(*number).filter(|_| control.state.has_last(letter))
+    };
+    let mut position = Position::default();
+    for number in control.tables.present().numbers() {
+        let Some(stands) = known(&number) else {
+            return PostCode::TipControl.err(
+                "tool-tip control ends, and where the tool stands is not known: it can't go up \
+                 before (rotary.tip_end_retract)",
+            );
+        };
+        position[number] = stands;
+    }
+    let chain = control.tables.chain();
+    let angles = [position[3], position[4]];
+    let tip = Point3::new(position[0], position[1], position[2]);
+    let up = tip + chain.axis_at(angles) * distance;
+    let linear = chain.linear(up, angles);
+    control.tables.check_travel(&[linear.x, linear.y, linear.z, 0.0, 0.0], AxisSet::LINEAR)?;
+    position[..3].copy_from_slice(&[up.x, up.y, up.z]);
+    let motion = Motion { position, axes: AxisSet::LINEAR, word: 0 };
+    let cause = control.block.cause.whole();
+    family::rapid(control, &motion, RapidCode::Along, cause)
 }
 
 /// What an operation that is no motion of the path asks of tool-tip control.

@@ -31,8 +31,8 @@ pub(super) struct TurningFeed {
     given: Feed,
     /// Way of the tip, mm or inch a minute.
     rate: f64,
-    /// Most that a rotary axis may turn, degrees a minute.
-    most_turn: f64,
+    /// Most that each rotary axis may turn, degrees a minute.
+    most_turn: [f64; 2],
     /// Least time of a motion, minutes.
     least_time: f64,
     inverse: [f64; 2],
@@ -75,11 +75,13 @@ impl TurningFeed {
         };
         let most = |at| commons.dbl_opt(at).filter(|most| *most > 0.0).unwrap_or(f64::INFINITY);
         let digits = inverse_digit(&post.control);
+        let own = commons.dbl_opt(loc::ROTARY_SECONDARY_FEED_MAX).is_some();
+        let second = if own { loc::ROTARY_SECONDARY_FEED_MAX } else { loc::ROTARY_FEED_MAX };
         Ok(TurningFeed {
             form,
             given,
             rate,
-            most_turn: most(loc::ROTARY_FEED_MAX),
+            most_turn: [most(loc::ROTARY_FEED_MAX), most(second)],
             least_time: commons.dbl_opt(loc::FEED_INVERSE_MIN_TIME).unwrap_or(0.0).max(0.0) / 60.0,
             inverse: [
                 commons.dbl_opt(loc::FEED_INVERSE_MIN).unwrap_or(0.0),
@@ -112,11 +114,12 @@ impl TurningFeed {
         if self.form == RotaryFeed::AsFedratSays {
             return Ok(PartFeed { feed: self.given, slowed: false });
         }
-        let turned = (3..5).map(|n| (to[n] - from[n]).abs()).fold(0.0, f64::max);
+        let turned = [3, 4].map(|n: usize| (to[n] - from[n]).abs());
+        let of_turn = turned.iter().zip(self.most_turn).map(|(turned, most)| turned / most);
         let asked = if way > STANDS { way / self.rate } else { 0.0 };
-        let mut time = asked.max(turned / self.most_turn).max(self.least_time);
+        let mut time = of_turn.fold(asked, f64::max).max(self.least_time);
         if time == 0.0 {
-            time = turned / self.rate;
+            time = turned[0].max(turned[1]) / self.rate;
         }
         let square = |n: usize| (to[n] - from[n]) * (to[n] - from[n]);
         let linear = (0..3).map(square).sum::<f64>();

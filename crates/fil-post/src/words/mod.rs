@@ -32,6 +32,7 @@ pub mod pseudo;
 pub mod rapid;
 pub mod repeat;
 pub mod replac;
+pub mod rotabl;
 pub mod seqno;
 pub mod set;
 pub mod spindl;

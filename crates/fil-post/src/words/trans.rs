@@ -1,4 +1,4 @@
-//! TRANS: transformation of the input.
+//! TRANS, and ORIGIN and TRACUT under its name: transformation of the input.
 //!
 //! `TRANS/x,y,z` is a translation (DBLCOM 286–288). Twelve numbers are the rows
 //! of a 3x4 matrix: X' = X*a1 + Y*b1 + Z*c1 + d1, and so on. With OPTION,10 it acts
@@ -8,7 +8,7 @@
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 use fil_machine::Kind;
-use fil_machine::locations::{self as loc, InputKind};
+use fil_machine::locations::{self as loc, InputKind, InputOrigin, InputTracut};
 use nalgebra::Matrix3x4;
 
 use crate::errors::PostCode;
@@ -25,8 +25,9 @@ const POINTS_ONLY: f64 = 10.0;
 /// Other than 3 or 12 numbers, an OPTION that is not known, a transformation between
 /// a CIRCLE and its end.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
-    if post.path.arc.is_some() {
-        return PostCode::ArcEnd.err("TRANS came between a CIRCLE and its GOTO");
+    refuse_on_arc(post, "TRANS")?;
+    if post.path.has_origin || post.path.has_tracut || post.path.has_index {
+        return Err(items.error("ORIGIN, TRACUT or ROTABL moves the points already"));
     }
     if items.any_of(&[w::NOMORE, w::OFF]).is_some() {
         items.deny_rest()?;
@@ -53,6 +54,80 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         matrix: Matrix3x4::from_row_slice(&numbers),
         turns_axis: option.is_none() && kind != InputKind::MatrixOnPoints,
     });
+    Ok(())
+}
+
+/// ORIGIN/x,y,z: the zero of the machine in the part or that of the part on the machine, as
+/// the machine says; false where it does not. ORIGIN/NOMORE ends it. It is the translation of
+/// `TRANS/x,y,z` under another name, so the two do not go together.
+///
+/// # Errors
+/// Other than three numbers, another translation in force, a place between a CIRCLE and its
+/// end.
+pub fn origin(post: &mut Post, items: &mut Items) -> Result<bool> {
+    let sign = match post.control.commons.read(loc::INPUT_ORIGIN) {
+        InputOrigin::Refused => return Ok(false),
+        InputOrigin::ZeroOfTheMachineInThePart => -1.0,
+        InputOrigin::ZeroOfThePartOnTheMachine => 1.0,
+    };
+    refuse_on_arc(post, "ORIGIN")?;
+    if post.path.has_index {
+        return Err(items.error("ROTABL moves the points already"));
+    }
+    let stands = loc::INPUT_TRANSLATE
+        .iter()
+        .any(|at| post.control.commons.dbl_opt(*at).is_some_and(|value| value != 0.0));
+    if stands && !post.path.has_origin {
+        return Err(items.error("TRANS or the machine moves the points already"));
+    }
+    if items.any_of(&[w::NOMORE, w::OFF]).is_some() {
+        post.path.has_origin = false;
+        translate(post, [0.0; 3])?;
+        return Ok(true);
+    }
+    let [x, y, z] = items.numbers()[..] else {
+        return Err(items.error("three numbers x, y, z, or NOMORE, are needed"));
+    };
+    post.path.has_origin = true;
+    translate(post, [sign * x, sign * y, sign * z])?;
+    Ok(true)
+}
+
+/// TRACUT with twelve numbers, as TRANS, where the machine says that the points are not moved
+/// yet; false where it does not. TRACUT/NOMORE ends it.
+///
+/// # Errors
+/// Other than twelve numbers, a matrix of TRANS in force, a place between a CIRCLE and its
+/// end.
+pub fn tracut(post: &mut Post, items: &mut Items) -> Result<bool> {
+    if post.control.commons.read(loc::INPUT_TRACUT) == InputTracut::Refused {
+        return Ok(false);
+    }
+    refuse_on_arc(post, "TRACUT")?;
+    if post.path.transformation.is_some() && !post.path.has_tracut {
+        return Err(items.error("TRANS moves the points already"));
+    }
+    if items.any_of(&[w::NOMORE, w::OFF]).is_some() {
+        post.path.transformation = None;
+        post.path.has_tracut = false;
+        return Ok(true);
+    }
+    let numbers = items.numbers();
+    if numbers.len() != 12 {
+        return Err(
+            items.error(format!("12 numbers, or NOMORE, are needed, not {}", numbers.len()))
+        );
+    }
+    post.path.has_tracut = true;
+    let matrix = Matrix3x4::from_row_slice(&numbers);
+    post.path.transformation = Some(Transformation { matrix, turns_axis: true });
+    Ok(true)
+}
+
+fn refuse_on_arc(post: &Post, word: &str) -> Result<()> {
+    if post.path.arc.is_some() {
+        return PostCode::ArcEnd.err(format!("{word} came between a CIRCLE and its GOTO"));
+    }
     Ok(())
 }
 

@@ -4,6 +4,7 @@
 //! frame after TRANS and the input translation, in mm. A statement whose effect is
 //! not known from the CL file alone becomes [`Wanted::Unknown`].
 
+mod frame_words;
 mod own_words;
 mod path;
 mod thread;
@@ -21,6 +22,8 @@ use super::statements::{
     compensation, coolant, numbers, numbers_beside, spindle, statement, whole,
 };
 use super::wanted::{Effect, End, Step, Wanted};
+pub use frame_words::FrameWords;
+
 use crate::errors::NcCode;
 use crate::motion::{INCH, Rate};
 
@@ -28,19 +31,8 @@ use crate::motion::{INCH, Rate};
 const DIAMETER: f64 = 2.0;
 
 /// Statements that move the tool or the frame by rules that are not public.
-const ENDS_THE_PATH: [WordId; 11] = [
-    w::TRACUT,
-    w::ORIGIN,
-    w::COPY,
-    w::INDEX,
-    w::ROTABL,
-    w::ROTATE,
-    w::ROTHED,
-    w::HEAD,
-    w::CALSUB,
-    w::DEFSUB,
-    w::ENDSUB,
-];
+const ENDS_THE_PATH: [WordId; 9] =
+    [w::COPY, w::INDEX, w::ROTABL, w::ROTATE, w::ROTHED, w::HEAD, w::CALSUB, w::DEFSUB, w::ENDSUB];
 
 /// Statements besides motion that hold lengths or feeds.
 const MEASURES: [WordId; 6] = [w::FEDRAT, w::CYCLE, w::THREAD, w::OP, w::LINTOL, w::GOHOME];
@@ -108,6 +100,7 @@ struct State {
     leaves_axis: bool,
     /// LINTOL, mm.
     straight: Option<f64>,
+    words: FrameWords,
 }
 
 /// Goes through a CL file.
@@ -153,6 +146,7 @@ impl<'r> ClPath<'r> {
                 along: Vector3::zeros(),
                 leaves_axis: false,
                 straight: None,
+                words: FrameWords::default(),
             },
             ready: VecDeque::new(),
             over: false,
@@ -173,6 +167,12 @@ impl<'r> ClPath<'r> {
     pub fn on_machine(mut self, along: [f64; 3], leaves_axis: bool) -> Self {
         self.state.along = Vector3::from(along);
         self.state.leaves_axis = leaves_axis;
+        self
+    }
+
+    /// What the machine takes words for that move the frame.
+    pub fn with_frame_words(mut self, words: FrameWords) -> Self {
+        self.state.words = words;
         self
     }
 
@@ -340,6 +340,9 @@ impl State {
                 Vec::new()
             }
             w::TRANS => self.trans(record),
+            w::ORIGIN => self.origin(record).unwrap_or_else(|| unknown(Effect::Path)),
+            w::TRACUT => self.tracut(record).unwrap_or_else(|| unknown(Effect::Path)),
+            w::ROTABL | w::ROTATE => self.table(record).unwrap_or_else(|| unknown(Effect::Path)),
             w::CYCLE => self.cycle(record, vocabulary),
             w::GOHOME if record.data.is_empty() => self.go_to_machine(Wanted::Home),
             w::RETRCT if record.data.is_empty() => self.go_to_machine(Wanted::Retract),
@@ -440,26 +443,6 @@ impl State {
         let within = numbers(record).first().copied().filter(|within| *within > 0.0);
         self.straight = within.map(|within| within * self.unit()).or(self.straight);
         vec![Wanted::Straight(self.straight)]
-    }
-
-    fn trans(&mut self, record: &Record) -> Vec<Wanted> {
-        if record.has(w::NOMORE) || record.has(w::OFF) {
-            self.matrix = None;
-            self.shift = Vector3::zeros();
-            return Vec::new();
-        }
-        let option = record.number_after(w::OPTION);
-        let values = numbers_beside(record, &[w::OPTION]);
-        match values[..] {
-            [x, y, z] => self.shift = Vector3::new(x, y, z),
-            _ if values.len() == 12 => {
-                let rows = Matrix3x4::from_row_slice(&values);
-                self.matrix =
-                    Some(Matrix { rows, turns_axis: option.is_none() && !self.leaves_axis });
-            }
-            _ => return vec![Wanted::Unknown { what: "TRANS".to_string(), effect: Effect::Path }],
-        }
-        Vec::new()
     }
 
     fn cycle(&mut self, record: &Record, vocabulary: &Vocabulary) -> Vec<Wanted> {

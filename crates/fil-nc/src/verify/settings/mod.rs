@@ -18,6 +18,7 @@ use fil_machine::user_blocks::{self, AroundChange};
 use crate::dialect::Dialect;
 use crate::forward::Forward;
 use crate::motion::{FOOT, unit};
+use crate::verify::cl_path::FrameWords;
 
 /// How far an axis may be asked to stand from 0 when the program never writes it, mm.
 const NOT_WRITTEN: f64 = 1e-3;
@@ -111,6 +112,17 @@ impl<'c> Settings<'c> {
             .map(|at| self.commons.dbl_opt(at).unwrap_or(0.0));
         let length = axis.iter().map(|part| part * part).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
         axis.map(|part| part / length * along)
+    }
+
+    /// What the machine takes ORIGIN, TRACUT and ROTABL for.
+    pub fn frame_words(&self) -> FrameWords {
+        FrameWords {
+            origin: self.commons.read(loc::INPUT_ORIGIN),
+            tracut: self.commons.read(loc::INPUT_TRACUT),
+            table: self.commons.read(loc::ROTARY_TABLE_WORDS),
+            forward: self.forward.has_rotary().then(|| self.forward.clone()),
+            turned: [None; 2],
+        }
     }
 
     /// True when a matrix of TRANS leaves the tool axis alone.

@@ -48,6 +48,7 @@ pub fn write(control: &mut Control, operation: Operation) -> Result<()> {
         Operation::Skip(on) => control.skip_blocks(on),
         Operation::Linear(..)
         | Operation::MachinePosition(_)
+        | Operation::Turn(..)
         | Operation::Arc(..)
         | Operation::Hole(_)
         | Operation::Thread(_)

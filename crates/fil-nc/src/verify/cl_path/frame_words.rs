@@ -1,0 +1,124 @@
+//! Words that move points and tool axes: TRANS, and ORIGIN and TRACUT as the machine reads
+//! them.
+
+use fil_cl::{Record, words as w};
+use fil_machine::axis_chain::{Carries, Rotary};
+use fil_machine::locations::{InputOrigin, InputTracut, RotaryTableWords};
+use nalgebra::{Matrix3x4, Vector3};
+
+use super::{Matrix, State};
+use crate::forward::Forward;
+use crate::motion::Position;
+use crate::verify::statements::{numbers, numbers_beside};
+use crate::verify::wanted::{Effect, Wanted};
+
+/// What a machine takes words that move the frame for.
+#[derive(Clone, Debug, Default)]
+pub struct FrameWords {
+    /// What ORIGIN names.
+    pub origin: InputOrigin,
+    /// What TRACUT does.
+    pub tracut: InputTracut,
+    /// What ROTABL does to the points.
+    pub table: RotaryTableWords,
+    /// The rotary axes; `None` for a machine without one.
+    pub forward: Option<Forward>,
+    /// Where ROTABL has turned them, degrees; `None` for one that it has not.
+    pub turned: [Option<f64>; 2],
+}
+
+impl State {
+    pub(super) fn trans(&mut self, record: &Record) -> Vec<Wanted> {
+        if record.has(w::NOMORE) || record.has(w::OFF) {
+            self.matrix = None;
+            self.shift = Vector3::zeros();
+            return Vec::new();
+        }
+        let option = record.number_after(w::OPTION);
+        let values = numbers_beside(record, &[w::OPTION]);
+        match values[..] {
+            [x, y, z] => self.shift = Vector3::new(x, y, z),
+            _ if values.len() == 12 => {
+                let rows = Matrix3x4::from_row_slice(&values);
+                self.matrix =
+                    Some(Matrix { rows, turns_axis: option.is_none() && !self.leaves_axis });
+            }
+            _ => return vec![Wanted::Unknown { what: "TRANS".to_string(), effect: Effect::Path }],
+        }
+        Vec::new()
+    }
+
+    /// ORIGIN as the machine reads it; `None` where it does not.
+    pub(super) fn origin(&mut self, record: &Record) -> Option<Vec<Wanted>> {
+        let sign = match self.words.origin {
+            InputOrigin::Refused => return None,
+            InputOrigin::ZeroOfTheMachineInThePart => -1.0,
+            InputOrigin::ZeroOfThePartOnTheMachine => 1.0,
+        };
+        if record.has(w::NOMORE) || record.has(w::OFF) {
+            self.shift = Vector3::zeros();
+            return Some(Vec::new());
+        }
+        let [x, y, z] = numbers(record)[..] else { return None };
+        self.shift = Vector3::new(x, y, z) * sign;
+        Some(Vec::new())
+    }
+
+    /// TRACUT as the machine reads it; `None` where it does not.
+    pub(super) fn tracut(&mut self, record: &Record) -> Option<Vec<Wanted>> {
+        if self.words.tracut == InputTracut::Refused {
+            return None;
+        }
+        if record.has(w::NOMORE) || record.has(w::OFF) {
+            self.matrix = None;
+            return Some(Vec::new());
+        }
+        let values = numbers(record);
+        let rows = (values.len() == 12).then(|| Matrix3x4::from_row_slice(&values))?;
+        self.matrix = Some(Matrix { rows, turns_axis: true });
+        Some(Vec::new())
+    }
+
+    /// ROTABL and ROTATE/TABLE as the machine reads them; `None` where it does not, or where
+    /// the angle hangs on motions before.
+    pub(super) fn table(&mut self, record: &Record) -> Option<Vec<Wanted>> {
+        if self.words.table == RotaryTableWords::Refused {
+            return None;
+        }
+        let forward = self.words.forward.as_ref()?;
+        let named = [w::AAXIS, w::BAXIS, w::CAXIS].iter().position(|axis| record.has(*axis));
+        let is_meant = |rotary: &Rotary| {
+            rotary.carries == Carries::Table && named.is_none_or(|named| named == rotary.axis)
+        };
+        let index =
+            forward.rotaries().iter().position(|rotary| rotary.as_ref().is_some_and(is_meant))?;
+        let [angle] = numbers(record)[..] else { return None };
+        let from = if record.has(w::INCR) { self.words.turned[index]? } else { 0.0 };
+        let angle = from + angle;
+        self.words.turned[index] = Some(angle);
+        let turned = self.words.turned.map(Option::unwrap_or_default);
+        let unit = self.unit();
+        match self.words.table {
+            RotaryTableWords::PointsStay => {
+                let at = |linear: [f64; 3]| {
+                    let at = Position { linear, rotary: turned, ..Position::default() };
+                    forward.pose(&at).tip / unit
+                };
+                let zero = at([0.0; 3]);
+                let along = |n: usize| {
+                    let mut linear = [0.0; 3];
+                    linear[n] = unit;
+                    at(linear) - zero
+                };
+                let columns = [along(0), along(1), along(2), zero.coords];
+                let rows = Matrix3x4::from_columns(&columns);
+                self.matrix = Some(Matrix { rows, turns_axis: true });
+            }
+            _ => {
+                self.axis = forward.axis(turned);
+                self.point = None;
+            }
+        }
+        Some(vec![Wanted::Turn { index, angle }])
+    }
+}

@@ -1,0 +1,193 @@
+//! A way out and back in the middle of a feed motion, by which a machine whose rotary axis is
+//! at its limit turns to other positions for the same tool axis.
+//!
+//! The tool must go out along its axis, the rotary axes turn there only, and the tool come
+//! back straight to the same point with the same tool axis.
+
+use fil_machine::commons::Dbl;
+use fil_machine::locations::{self as loc, ReposFeedMethod};
+
+use super::ahead::Steps;
+use super::between::way::Way;
+use super::lines::is_line;
+use super::report::FindingKind;
+use super::say::short;
+use super::settings::Settings;
+use super::walk::Walk;
+use crate::forward::Pose;
+use crate::motion::{Course, Event, Move, Position, Rate, unit};
+
+/// Most blocks of the way out, the turn and the way back.
+const MOST: usize = 8;
+
+/// Most blocks of the part of a line before it.
+const MOST_BEFORE: usize = 1_000;
+
+/// A turn of less than this is none, degrees.
+const SMALL: f64 = 0.01;
+
+/// The settings of the way out and back.
+pub(super) struct Reposition {
+    /// How far the tool goes out, mm.
+    distance: f64,
+    /// It goes out along the tool axis of the next point.
+    along_next: bool,
+    /// Feeds out and back, where the settings name them.
+    rates: [Option<Rate>; 2],
+    /// The program stops after the way out: the codes that say so.
+    stops: [Option<u32>; 2],
+}
+
+impl Settings<'_> {
+    /// How the machine repositions in feed motions; `None` where it does not.
+    pub(super) fn reposition(&self, metric: bool) -> Option<Reposition> {
+        let commons = self.commons;
+        let does = commons.read(loc::REPOS_FEED_METHOD) == ReposFeedMethod::RetractAndApproach;
+        let distance = commons.dbl_opt(loc::REPOS_RETRACT_DISTANCE).filter(|_| does)?;
+        let rate = |at: Dbl| {
+            let feed = commons.dbl_opt(at).filter(|feed| *feed > 0.0)?;
+            Some(Rate::PerMinute(feed * unit(metric)))
+        };
+        let stop = |on: bool, optional| if on { self.stop_code(optional) } else { None };
+        Some(Reposition {
+            distance: distance * unit(metric),
+            along_next: commons.read(loc::REPOS_NEW_TOOL_AXIS),
+            rates: [rate(loc::REPOS_RETRACT_FEED), rate(loc::REPOS_APPROACH_FEED)],
+            stops: [
+                stop(commons.read(loc::REPOS_RETRACT_OPSTOP), true),
+                stop(commons.read(loc::REPOS_RETRACT_STOP), false),
+            ],
+        })
+    }
+}
+
+impl<C: Steps> Walk<'_, C> {
+    /// Takes the blocks of a way out and back, with the part of the line before it; false
+    /// when none comes before the end of the line.
+    pub(super) fn repositions(&mut self, cl_line: u32, pose: &Pose, rate: Option<Rate>) -> bool {
+        let Some(how) = self.settings.reposition(self.metric) else { return false };
+        if !self.is_known(&self.known) {
+            return false;
+        }
+        let Some((before, count)) = self.way_out_ahead(pose, &how) else { return false };
+        if before > 0 {
+            let Some(Event::Move(last)) = self.nc.get(self.next + before - 1) else { return false };
+            let middle = self.settings.forward.pose(&last.to);
+            if !self.parts(cl_line, &middle, rate) {
+                return false;
+            }
+            self.watch.stand(Some(middle));
+        }
+        let stands = self.begins();
+        self.take_way(cl_line, count, &how, rate);
+        self.exact = self.settings.forward.refine(self.at.rotary, stands.axis);
+        self.watch.stand(Some(stands));
+        true
+    }
+
+    /// After how many blocks of a line a way out and back begins, and how many it has.
+    fn way_out_ahead(&self, pose: &Pose, how: &Reposition) -> Option<(usize, usize)> {
+        let from = self.begins();
+        let line = Way::line(from.tip, pose.tip);
+        let mut at = self.at;
+        for before in 0..MOST_BEFORE {
+            let index = self.next + before;
+            if let Some(count) = self.blocks_out_and_back(index, &at, pose, how) {
+                return Some((before, count));
+            }
+            let Some(Event::Move(found)) = self.nc.get(index) else { return None };
+            let tip = self.settings.forward.pose(&found.to).tip;
+            let beside = line.foot(tip, 0.0).distance > self.tip_slack(&found.to);
+            if !is_line(&found, Course::Feed) || beside || self.reaches(&found, pose) {
+                return None;
+            }
+            at = found.to;
+        }
+        None
+    }
+
+    /// How many blocks from `index` on lead out and back, if they do.
+    fn blocks_out_and_back(
+        &self,
+        index: usize,
+        at: &Position,
+        next: &Pose,
+        how: &Reposition,
+    ) -> Option<usize> {
+        let forward = &self.settings.forward;
+        let stands = forward.pose(at);
+        let direction = if how.along_next { next.axis } else { stands.axis };
+        let mut rotary = at.rotary;
+        for count in 1..=MOST {
+            let Some(Event::Move(found)) = self.nc.get(index + count - 1) else { return None };
+            let pose = forward.pose(&found.to);
+            let way = pose.tip - stands.tip;
+            let slack = self.tip_slack(&found.to);
+            let turns = (0..2).any(|n| (found.to.rotary[n] - rotary[n]).abs() > SMALL);
+            if found.arc.is_some() || found.in_cycle {
+                return None;
+            }
+            if count == 1 {
+                let aside = (way - direction * way.dot(&direction)).norm();
+                if turns || aside > slack || way.dot(&direction) < how.distance - slack {
+                    return None;
+                }
+                continue;
+            }
+            let turned = (0..2).any(|n| (found.to.rotary[n] - at.rotary[n]).abs() > SMALL);
+            let back = way.norm() <= slack && pose.axis.angle(&stands.axis) <= self.axis_slack();
+            if turned && back && !turns && count > 2 {
+                return self.comes_straight(index + count - 1, &stands).then_some(count);
+            }
+            if turns && found.course != Course::Rapid {
+                return None;
+            }
+            rotary = found.to.rotary;
+        }
+        None
+    }
+
+    /// A block comes to a point from one over it, along the tool.
+    fn comes_straight(&self, index: usize, stands: &Pose) -> bool {
+        let Some(Event::Move(before)) = self.nc.get(index - 1) else { return false };
+        let pose = self.settings.forward.pose(&before.to);
+        let way = pose.tip - stands.tip;
+        let along = way.dot(&stands.axis);
+        let aside = (way - stands.axis * along).norm();
+        along > 0.0 && aside <= self.tip_slack(&before.to)
+    }
+
+    /// Takes the blocks: out and back with all that must be in force, the turn where the
+    /// tool is away.
+    fn take_way(&mut self, cl_line: u32, count: usize, how: &Reposition, rate: Option<Rate>) {
+        for number in 0..count {
+            let Some(Event::Move(found)) = self.nc.get(self.next) else { return };
+            let cuts = number == 0 || number + 1 == count;
+            if cuts && found.course == Course::Feed {
+                let own = how.rates[usize::from(number > 0)];
+                self.check_rate(cl_line, self.at, &found, own.or(rate));
+            }
+            if cuts {
+                self.take(cl_line, &found);
+                self.next += 1;
+                let stops = if number == 0 { how.stops } else { [None; 2] };
+                stops.into_iter().for_each(|code| self.ask_auxiliary(cl_line, code));
+            } else {
+                self.check_limits(cl_line, &found);
+                self.check_turn_away(cl_line, &found);
+                self.stand(&found);
+            }
+        }
+    }
+
+    /// While the machine turns the tool is away by no less than the settings say.
+    fn check_turn_away(&mut self, cl_line: u32, found: &Move) {
+        let turns = (0..2).any(|n| (found.to.rotary[n] - self.at.rotary[n]).abs() > SMALL);
+        let plunges = found.to.linear[2] < self.at.linear[2] - self.slack.linear[2];
+        if turns && plunges && !found.to.names_tip() && self.splits_rapids {
+            let z = short(found.to.linear[2]);
+            let message = format!("rapid turns the machine and plunges to Z{z} in one block");
+            self.find(FindingKind::Order, Some(cl_line), Some(found.line), message);
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! The end of tool-tip control: a control may take the length of the tool off by moving, so
+//! the tool must have gone up along its axis before.
+
+use fil_machine::locations::{self as loc, ControlFamily};
+
+use super::ahead::Steps;
+use super::report::FindingKind;
+use super::settings::Settings;
+use super::walk::Walk;
+use crate::motion::{Course, Event, Move};
+
+impl Settings<'_> {
+    /// How far the tool must go up before tool-tip control ends, mm; `None` for a control
+    /// that does not move then.
+    pub(super) fn way_up_at_tip_end(&self) -> Option<f64> {
+        let moves = self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::WordAddress;
+        let way = self.commons.dbl_opt(loc::ROTARY_TIP_END_RETRACT);
+        way.filter(|way| moves && *way > 0.0)
+    }
+}
+
+impl<C: Steps> Walk<'_, C> {
+    /// A rapid straight along the tool, away from the part and as far as the settings ask
+    /// for, behind which tool-tip control ends, or nothing moves any more.
+    pub(super) fn goes_up_at_tip_end(&self, found: &Move) -> bool {
+        let Some(way_up) = self.settings.way_up_at_tip_end() else { return false };
+        let along_tool = found.course == Course::Rapid
+            && found.to.tip_control
+            && self.at.tip_control
+            && found.to.rotary == self.at.rotary
+            && !found.in_cycle;
+        if !along_tool || self.ends_tip_control(self.next + 1) == Some(false) {
+            return false;
+        }
+        let forward = &self.settings.forward;
+        let stands = forward.pose(&self.at);
+        let way = forward.pose(&found.to).tip - stands.tip;
+        let along = way.dot(&stands.axis);
+        let slack = 2.0 * self.tip_slack(&found.to) + self.axis_slack() * way_up;
+        (way - stands.axis * along).norm() <= slack && along >= way_up - slack
+    }
+
+    /// Tool-tip control ends before an event; `None` where no event says it.
+    fn ends_tip_control(&self, index: usize) -> Option<bool> {
+        self.nc.from(index).find_map(|event| match event {
+            Event::Move(next) => Some(!next.modes.tip_control),
+            Event::ToolChange { modes, .. } | Event::End { modes, .. } => Some(!modes.tip_control),
+            _ => None,
+        })
+    }
+
+    /// Says it where tool-tip control has ended and the tool had not gone up.
+    pub(super) fn check_tip_end(&mut self, cl_line: u32) {
+        let here = self.at.tip_control && !self.is_up && self.known[..3] == [true; 3];
+        if !here || self.settings.way_up_at_tip_end().is_none() {
+            return;
+        }
+        let is_own = self.nc.get(self.next).is_some_and(|event| self.own.has(event.line()));
+        if is_own || self.ends_tip_control(self.next) != Some(true) {
+            return;
+        }
+        self.is_up = true;
+        let line = self.nc.get(self.next).map(|event| event.line());
+        let message = "tool-tip control has ended where the tool stands, and the control may come \
+                       down by the length of the tool"
+            .to_string();
+        self.find(FindingKind::Order, Some(cl_line), line, message);
+    }
+}

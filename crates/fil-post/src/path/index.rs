@@ -1,0 +1,90 @@
+//! A table that turns to an angle by itself (ROTABL), and what the points after it count in.
+
+use fil_diag::Result;
+use fil_machine::axes::{AxisSet, Position};
+use fil_machine::axis_chain::Carries;
+use fil_machine::locations::{self as loc, RotaryTableWords};
+use nalgebra::{Matrix3x4, Vector3};
+
+use super::{Transformation, rapid, rotary, tip};
+use crate::control::family;
+use crate::control::word_address::motion::Motion;
+use crate::errors::PostCode;
+use crate::post::Post;
+
+/// Turns a rotary axis at rapid, where the tool stands.
+///
+/// # Errors
+/// Output in frames or under tool-tip control; cutter compensation; an angle outside the
+/// travel; points that something else moves already; a head that leans the tool.
+pub(super) fn turn(post: &mut Post, index: usize, to: f64) -> Result<()> {
+    let tables = &post.control.tables;
+    if tables.tip_output || tables.frame_output {
+        return PostCode::WordForm.err(
+            "ROTABL: under tool-tip control and in tilted frames a table turns with the tool axis \
+             of the points only",
+        );
+    }
+    if post.control.is_compensated() {
+        return PostCode::CompensationOn.err("where ROTABL turns a table");
+    }
+    let chain = post.control.tables.chain();
+    let mut angles = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post));
+    angles[index] = to;
+    if !chain.reaches(angles) {
+        return PostCode::WordForm
+            .err(format!("ROTABL: {to} degrees lie outside the travel of the table"));
+    }
+    let points_stay =
+        post.control.commons.read(loc::ROTARY_TABLE_WORDS) == RotaryTableWords::PointsStay;
+    let moved = if points_stay { Some(under_points(post, angles)?) } else { None };
+    post.path.interrupt();
+    family::cancel_cycle(&mut post.control)?;
+    let mut position = Position::default();
+    position[index + 3] = to;
+    let motion = Motion { position, axes: AxisSet::of(index + 3), word: 0 };
+    let cause = post.control.block.cause.whole();
+    rapid::rapid(&mut post.control, &motion, cause)?;
+    post.path.rotary = Some(angles);
+    match moved {
+        Some(transformation) => {
+            post.path.has_index = transformation.is_some();
+            post.path.transformation = transformation;
+        }
+        None => {
+            post.path.axis = post.control.tables.chain().axis_at(angles);
+            post.path.point = None;
+        }
+    }
+    Ok(())
+}
+
+/// Brings points of the machine into the part, with the tables at these angles; `None` where
+/// they stand at zero.
+///
+/// # Errors
+/// TRANS, ORIGIN or TRACUT moves the points too; a head that leans the tool.
+fn under_points(post: &Post, angles: [f64; 2]) -> Result<Option<Transformation>> {
+    let moves = post.path.transformation.is_some() && !post.path.has_index;
+    if moves || post.control.tables.input_shift() != Vector3::zeros() {
+        return PostCode::WordForm.err(
+            "ROTABL: TRANS, ORIGIN or the machine moves the points too, in an order left open",
+        );
+    }
+    let chain = post.control.tables.chain();
+    let head = |(rotary, angle): (&Option<fil_machine::axis_chain::Rotary>, f64)| {
+        rotary.as_ref().is_some_and(|rotary| rotary.carries == Carries::Head) && angle != 0.0
+    };
+    if chain.rotaries.iter().zip(angles).any(head) {
+        return PostCode::WordForm.err("ROTABL: a head leans the tool");
+    }
+    if angles == [0.0; 2] {
+        return Ok(None);
+    }
+    let at = |x: f64, y: f64, z: f64| tip::tip(chain, &[x, y, z, angles[0], angles[1]]);
+    let zero = at(0.0, 0.0, 0.0);
+    let columns =
+        [at(1.0, 0.0, 0.0) - zero, at(0.0, 1.0, 0.0) - zero, at(0.0, 0.0, 1.0) - zero, zero.coords];
+    let matrix = Matrix3x4::from_columns(&columns);
+    Ok(Some(Transformation { matrix, turns_axis: true }))
+}

@@ -1,0 +1,311 @@
+//! A rotary axis at its limit in a feed motion: the tool retracts along its axis, the
+//! machine turns to other positions for the same tool axis, the tool returns, and the
+//! motion goes on.
+//!
+//! The change is made where the motion begins, if the machine can go on to its end from
+//! there; else where an axis comes to its limit. So the part is cut where the CL file says,
+//! and nowhere twice.
+
+use fil_diag::Result;
+use fil_machine::axes::{AxisSet, Position};
+use fil_machine::axis_chain::AxisChain;
+use fil_machine::commons::{Commons, Dbl};
+use fil_machine::locations::{self as loc, ReposFeedMethod};
+use fil_machine::modes::FeedMode;
+use nalgebra::{Point3, Vector3};
+
+use super::turning::{apart, go, spelled};
+use super::{rapid, rotary};
+use crate::control::family;
+use crate::control::word_address::motion::{Motion, RapidCode};
+use crate::control::word_address::spindle;
+use crate::errors::PostCode;
+use crate::operation::{Coolant, Feed, Operation, Stop, Target};
+use crate::post::Post;
+
+/// A smaller part of a motion is none.
+const NO_PART: f64 = 1e-9;
+
+/// A smaller turn is none, degrees.
+const STILL: f64 = 1e-6;
+
+/// Most that an axis may turn from its new position to the end of the motion, degrees.
+const HALF_TURN: f64 = 180.0 + 1e-6;
+
+/// Where in a motion the rotary axes change their positions.
+struct Change {
+    /// Share of the motion made before.
+    share: f64,
+    /// Where they stand then, degrees.
+    from: [f64; 2],
+    /// Other positions for the same tool axis.
+    to: [f64; 2],
+    /// Where the motion ends then.
+    end: [f64; 2],
+}
+
+/// The values of the settings for the way out and back, lengths in the program's unit.
+struct Ways {
+    /// How far the tool goes out along its axis.
+    retract: f64,
+    /// From where it comes back at feed.
+    approach: f64,
+    /// Its feed; `None` at rapid.
+    feed_out: Option<Feed>,
+    /// The same for the way back.
+    feed_back: Option<Feed>,
+}
+
+/// Moves at feed to a target that the rotary axes would reach at `free` if they had no
+/// limits, from where they stood before.
+///
+/// # Errors
+/// The machine is not to reposition; no other positions lead on; no retract is known; all
+/// that the motions refuse.
+pub(super) fn feed(
+    post: &mut Post,
+    before: [f64; 2],
+    free: [f64; 2],
+    target: Target,
+) -> Result<()> {
+    if post.control.commons.read(loc::REPOS_FEED_METHOD) != ReposFeedMethod::RetractAndApproach {
+        return PostCode::Unwinding.err(format!(
+            "the rotary axes would turn from {} to {} degrees in a feed motion, past a limit",
+            spelled(before),
+            spelled(free)
+        ));
+    }
+    let Some(start) = post.path.point.filter(|_| !post.path.in_chords) else {
+        return PostCode::NoAlternative
+            .err("a limit of a rotary axis lies on an arc, or where the tool stands is not known");
+    };
+    let (_, end_axis) = rotary::transformed(post, target);
+    let Some(change) = find(post.control.tables.chain(), before, free, end_axis) else {
+        return PostCode::NoAlternative.err(format!(
+            "the rotary axes would turn from {} to {} degrees in a feed motion, past a limit, \
+             and from no other positions for the same tool axis can they go on",
+            spelled(before),
+            spelled(free)
+        ));
+    };
+    let ways = Ways::of(post)?;
+    let middle = Target { point: start + (target.point - start) * change.share, ..target };
+    let (place, _) = rotary::transformed(post, middle);
+    if change.share > NO_PART {
+        let position = rotary::words_at(post, place, change.from)?;
+        let motion = Motion { position, axes: AxisSet::ALL, word: 0 };
+        go(post, before, &motion, Target { word: 0, ..middle })?;
+        post.path.point = Some(middle.point);
+    }
+    out_and_back(post, place, &change, &ways, end_axis)?;
+    let (end, _) = rotary::transformed(post, target);
+    let position = rotary::words_at(post, end, change.end)?;
+    post.path.rotary = Some(change.end);
+    let word = rotary::word_of(post, target);
+    go(post, change.to, &Motion { position, axes: AxisSet::ALL, word }, target)
+}
+
+/// Where the positions change: at the beginning of the motion or at a limit; to those that
+/// leave most travel beyond the end of the motion, and of such to the nearest.
+fn find(
+    chain: &AxisChain,
+    before: [f64; 2],
+    free: [f64; 2],
+    end_axis: Vector3<f64>,
+) -> Option<Change> {
+    let limit = share_to_limit(chain, before, free);
+    let shares = [0.0, limit];
+    shares.into_iter().find_map(|share| {
+        let from = [0, 1].map(|n| before[n] + (free[n] - before[n]) * share);
+        let others = chain.positions(chain.axis_at(from), from).into_iter();
+        let leads_on = others.filter(|to| apart(*to, from)).filter_map(|to| {
+            let end = chain.nearest_anywhere(end_axis, to)?;
+            let short = (0..2).all(|n| (end[n] - to[n]).abs() <= HALF_TURN);
+            (short && chain.reaches(end)).then_some(Change { share, from, to, end })
+        });
+        leads_on.max_by(|a, b| {
+            let (room, other) = (room(chain, a), room(chain, b));
+            room.total_cmp(&other).then(turn_of(b).total_cmp(&turn_of(a)))
+        })
+    })
+}
+
+/// The largest share of an even turn at which no axis is past its limit.
+fn share_to_limit(chain: &AxisChain, from: [f64; 2], to: [f64; 2]) -> f64 {
+    let shares = chain.rotaries.iter().enumerate().filter_map(|(n, rotary)| {
+        let rotary = rotary.as_ref()?;
+        let limit = if to[n] > from[n] { rotary.max } else { rotary.min }?;
+        (!rotary.reaches(to[n])).then(|| ((limit - from[n]) / (to[n] - from[n])).clamp(0.0, 1.0))
+    });
+    shares.fold(1.0, f64::min)
+}
+
+/// How far the limited axes can still turn beyond the end of the motion, degrees.
+fn room(chain: &AxisChain, change: &Change) -> f64 {
+    let rooms = chain.rotaries.iter().enumerate().filter_map(|(n, rotary)| {
+        let rotary = rotary.as_ref()?;
+        let turn = change.end[n] - change.to[n];
+        let limit = if turn > 0.0 { rotary.max } else { rotary.min }?;
+        (turn.abs() > STILL).then(|| (limit - change.end[n]).abs())
+    });
+    rooms.fold(f64::INFINITY, f64::min)
+}
+
+fn turn_of(change: &Change) -> f64 {
+    (0..2).map(|n| (change.to[n] - change.from[n]).abs()).sum()
+}
+
+impl Ways {
+    /// # Errors
+    /// No retract is known; no feed.
+    fn of(post: &Post) -> Result<Ways> {
+        let commons = &post.control.commons;
+        let length = |at: Dbl| commons.dbl_opt(at).filter(|length| *length > 0.0);
+        let Some(retract) = length(loc::REPOS_RETRACT_DISTANCE) else {
+            return PostCode::NoAlternative.err(
+                "a rotary axis is at its limit, and how far the tool shall retract is not known \
+                 (repos.retract_distance)",
+            );
+        };
+        let approach = length(loc::REPOS_APPROACH_DISTANCE).unwrap_or(retract);
+        Ok(Ways {
+            retract,
+            approach: approach.min(retract),
+            feed_out: feed_of(post, commons, loc::REPOS_RETRACT_FEED)?,
+            feed_back: feed_of(post, commons, loc::REPOS_APPROACH_FEED)?,
+        })
+    }
+}
+
+/// A feed of the settings: absent is the present one, 0 is rapid.
+fn feed_of(post: &Post, commons: &Commons, at: Dbl) -> Result<Option<Feed>> {
+    let present =
+        post.path.feed.ok_or_else(|| PostCode::NoFeed.diag("no FEDRAT came before this motion"))?;
+    Ok(match commons.dbl_opt(at) {
+        None => Some(present),
+        Some(value) if value > 0.0 => Some(Feed { value, mode: FeedMode::PerMinute, ..present }),
+        Some(_) => None,
+    })
+}
+
+/// Takes the tool out, turns the machine and brings the tool back to the same point.
+fn out_and_back(
+    post: &mut Post,
+    place: Point3<f64>,
+    change: &Change,
+    ways: &Ways,
+    next_axis: Vector3<f64>,
+) -> Result<()> {
+    if post.control.is_compensated() {
+        return PostCode::CompensationOn.err("where a rotary axis is at its limit");
+    }
+    let commons = &post.control.commons;
+    if commons.read(loc::REPOS_FEED_WARNING) {
+        let (from, to) = (spelled(change.from), spelled(change.to));
+        let message = format!("the tool retracts, and the rotary axes go from {from} to {to}");
+        post.warn(PostCode::Repositioned, message);
+    }
+    let commons = &post.control.commons;
+    let own = post.control.tables.chain().axis_at(change.from);
+    let along_next = commons.read(loc::REPOS_NEW_TOOL_AXIS);
+    let out = if along_next { next_axis.normalize() } else { own };
+    let away = rotary::words_at(post, place + out * ways.retract, change.from)?;
+    straight(post, away, ways.feed_out)?;
+    let flows = stop_around(post)?;
+    turn(post, place + own * ways.retract, change)?;
+    if ways.approach < ways.retract {
+        let near = rotary::words_at(post, place + own * ways.approach, change.to)?;
+        straight(post, near, None)?;
+    }
+    start_again(post, flows)?;
+    let back = rotary::words_at(post, place, change.to)?;
+    straight(post, back, ways.feed_back)?;
+    post.path.rotary = Some(change.to);
+    Ok(())
+}
+
+/// A straight way out or back, in which no rotary axis turns. At rapid only along one axis of
+/// the machine, since controls need not go straight in others.
+fn straight(post: &mut Post, to: Position, feed: Option<Feed>) -> Result<()> {
+    let motion = Motion { position: to, axes: AxisSet::ALL, word: 0 };
+    let control = &mut post.control;
+    let moves = |n: &usize| {
+        let least = control.tables.axis(*n).resolution();
+        control.axis_position(*n).is_none_or(|stands| (stands - to[*n]).abs() > least)
+    };
+    let along_one = AxisSet::LINEAR.numbers().filter(moves).count() <= 1;
+    match feed.or(post.path.feed.filter(|_| !along_one)) {
+        Some(feed) => family::feed(control, &motion, Some(&feed)),
+        None => {
+            let cause = control.block.cause.whole();
+            family::rapid(control, &motion, RapidCode::Along, cause)
+        }
+    }
+}
+
+/// Turns the rotary axes where the tool is out.
+fn turn(post: &mut Post, place: Point3<f64>, change: &Change) -> Result<()> {
+    let position = rotary::words_at(post, place, change.to)?;
+    let motion = Motion { position, axes: AxisSet::ALL, word: 0 };
+    let of_tip = post.writes_tip();
+    let control = &mut post.control;
+    let cause = control.block.cause.whole();
+    if of_tip || control.commons.read(loc::REPOS_SKIP_ROTARY) {
+        return family::rapid(control, &motion, RapidCode::Across, cause);
+    }
+    rapid::in_parts(control, &motion, cause)
+}
+
+/// What stood still while the machine turned.
+struct Stopped {
+    spindle: Option<bool>,
+    coolant: Option<fil_machine::setting::CodeAt>,
+}
+
+/// Stops the spindle and the coolant, and the program, where the machine asks for it.
+///
+/// # Errors
+/// What stops would not start again.
+fn stop_around(post: &mut Post) -> Result<Stopped> {
+    let control = &mut post.control;
+    let read = |at| control.commons.read(at);
+    let stops = read(loc::REPOS_RETRACT_SPINDLE);
+    if stops && !read(loc::REPOS_APPROACH_SPINDLE) {
+        return PostCode::NoAlternative.err(
+            "repos.retract_spindle stops the spindle, and nothing starts it for the way back",
+        );
+    }
+    let (ends, optional, always) = (
+        read(loc::REPOS_RETRACT_COOLANT),
+        read(loc::REPOS_RETRACT_OPSTOP),
+        read(loc::REPOS_RETRACT_STOP),
+    );
+    let turns = control.turning.is_some();
+    let spindle = if stops && turns { Some(spindle::stand(control)?) } else { None };
+    let coolant = control.coolant.filter(|_| ends);
+    if coolant.is_some() {
+        family::write(control, Operation::Coolant(Coolant::Off))?;
+    }
+    for (asked, stop) in [(optional, Stop::Optional), (always, Stop::Always)] {
+        if asked {
+            family::write(control, Operation::Stop(stop))?;
+        }
+    }
+    Ok(Stopped { spindle, coolant })
+}
+
+/// Starts again what was stopped.
+fn start_again(post: &mut Post, stopped: Stopped) -> Result<()> {
+    let control = &mut post.control;
+    if let Some(clockwise) = stopped.spindle {
+        spindle::turn_on(control, clockwise)?;
+    }
+    let starts = control.commons.read(loc::REPOS_APPROACH_COOLANT);
+    if let Some(at) = stopped.coolant.filter(|_| starts) {
+        let code = control.code(at, "the coolant that flows again")?;
+        control.coolant = Some(at);
+        control.m(code);
+        control.write_block()?;
+    }
+    Ok(())
+}

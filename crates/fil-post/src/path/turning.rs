@@ -1,0 +1,156 @@
+//! Feed motions in which a rotary axis turns: whether the machine may make them at all.
+
+use fil_diag::Result;
+use fil_machine::axes::AxisSet;
+use fil_machine::axis_chain::AxisChain;
+use fil_machine::locations as loc;
+use nalgebra::Vector3;
+
+use super::{feed_rules, linearization, reposition, rotary};
+use crate::control::family;
+use crate::control::word_address::motion::Motion;
+use crate::errors::PostCode;
+use crate::operation::Target;
+use crate::post::Post;
+
+/// Turns of less than this can't take the tool far out of its plane, degrees.
+const SMALL_TURN: f64 = 2.0;
+
+/// Points between the ends at which the tool is looked at.
+const SAMPLES: u32 = 32;
+
+/// Positions of a rotary axis nearer than this are one, degrees.
+const SAME: f64 = 1e-6;
+
+/// Moves at feed while the rotary axes turn from where they stood before.
+///
+/// # Errors
+/// A limit or a pole on the way; all that the motion refuses.
+#[cold]
+pub(super) fn feed(
+    post: &mut Post,
+    before: [f64; 2],
+    motion: &Motion,
+    target: Target,
+) -> Result<()> {
+    let chain = post.control.tables.chain();
+    let now = [motion.position[3], motion.position[4]];
+    if chain.is_limited() {
+        let (_, axis) = rotary::transformed(post, target);
+        let free = chain.nearest_anywhere(axis, before);
+        if let Some(free) = free.filter(|free| apart(*free, now)) {
+            return reposition::feed(post, before, free, target);
+        }
+    }
+    go(post, before, motion, target)
+}
+
+/// Moves at feed where no limit lies on the way.
+///
+/// # Errors
+/// As [`feed`].
+pub(super) fn go(post: &mut Post, before: [f64; 2], motion: &Motion, target: Target) -> Result<()> {
+    let now = [motion.position[3], motion.position[4]];
+    refuse_pole(post, before, now)?;
+    if post.writes_tip() && post.control.tables.limits_travel() {
+        check_on_the_way(post, before, now, target)?;
+    }
+    match () {
+        () if !post.writes_tip() => linearization::feed(post, before, motion.position, target),
+        () if feed_rules::apply(post) => feed_rules::line(post, motion, target),
+        () => family::feed(&mut post.control, motion, post.path.feed.as_ref()),
+    }
+}
+
+/// True for other positions of the rotary axes.
+pub(super) fn apart(a: [f64; 2], b: [f64; 2]) -> bool {
+    a.iter().zip(b).any(|(a, b)| (a - b).abs() > SAME)
+}
+
+/// Under tool-tip control the axes go along curves while the tip goes straight: X, Y and Z
+/// must stay within their travel there too.
+///
+/// # Errors
+/// A position on the way lies outside.
+fn check_on_the_way(post: &Post, from: [f64; 2], to: [f64; 2], target: Target) -> Result<()> {
+    let Some(start) = post.path.point else { return Ok(()) };
+    let tables = &post.control.tables;
+    for number in 1..SAMPLES {
+        let share = f64::from(number) / f64::from(SAMPLES);
+        let point = start + (target.point - start) * share;
+        let (point, _) = rotary::transformed(post, Target { point, ..target });
+        let angles = [0, 1].map(|n| from[n] + (to[n] - from[n]) * share);
+        let at = tables.chain().linear(point, angles);
+        tables.check_travel(&[at.x, at.y, at.z, 0.0, 0.0], AxisSet::LINEAR)?;
+    }
+    Ok(())
+}
+
+/// Refuses a motion on whose way the tool leaves the plane of its ends: beside a pole the
+/// axes go round it, and the tool would cut into what lies there.
+fn refuse_pole(post: &Post, from: [f64; 2], to: [f64; 2]) -> Result<()> {
+    let most = post.control.commons.dbl_opt(loc::ROTARY_AXIS_TOLERANCE).unwrap_or(0.0);
+    let small = (0..2).all(|n| (to[n] - from[n]).abs() < SMALL_TURN);
+    let chain = post.control.tables.chain();
+    // One rotary axis has one way round, and no pole.
+    let has_pole = chain.rotaries.iter().all(Option::is_some);
+    if small || most <= 0.0 || !has_pole {
+        return Ok(());
+    }
+    let off = off_its_plane(chain, from, to);
+    if off <= most {
+        return Ok(());
+    }
+    PostCode::Pole.err(format!(
+        "the rotary axes turn from {} to {} degrees in a motion at feed, and the tool leans \
+         {off:.3} degrees out of the plane of its ends on the way",
+        spelled(from),
+        spelled(to)
+    ))
+}
+
+/// Two positions of rotary axes in a message.
+pub(super) fn spelled(angles: [f64; 2]) -> String {
+    format!("{:.3}/{:.3}", angles[0], angles[1])
+}
+
+/// The largest angle between the tool and the way that turns it straight from one end to
+/// the other, degrees, while the rotary axes go evenly.
+pub(super) fn off_its_plane(chain: &AxisChain, from: [f64; 2], to: [f64; 2]) -> f64 {
+    let [first, last] = [from, to].map(|angles| chain.axis_at(angles));
+    (1..SAMPLES)
+        .map(|number| {
+            let share = f64::from(number) / f64::from(SAMPLES);
+            let angles = [0, 1].map(|n| from[n] + (to[n] - from[n]) * share);
+            off_the_way(first, last, chain.axis_at(angles))
+        })
+        .fold(0.0, f64::max)
+}
+
+/// The angle between a direction and the nearest one on the shorter turn from one to
+/// another, degrees.
+fn off_the_way(from: Vector3<f64>, to: Vector3<f64>, at: Vector3<f64>) -> f64 {
+    let nearer = from.angle(&at).min(to.angle(&at));
+    let normal = from.cross(&to);
+    let Some(normal) = normal.try_normalize(1e-9) else { return nearer.to_degrees() };
+    let foot = at - normal * normal.dot(&at);
+    let between = from.cross(&foot).dot(&normal) >= 0.0 && foot.cross(&to).dot(&normal) >= 0.0;
+    let off = if between { libm::asin(normal.dot(&at).abs().min(1.0)) } else { nearer };
+    off.to_degrees()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_direction_beside_the_way_is_as_far_as_its_nearest_point() {
+        let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
+        assert!((off_the_way(x, y, z) - 90.0).abs() < 1e-9);
+        assert!(off_the_way(x, y, (x + y).normalize()) < 1e-9);
+        assert!((off_the_way(x, y, (x - y).normalize()) - 45.0).abs() < 1e-9);
+        assert!((off_the_way(z, z, (x + z).normalize()) - 45.0).abs() < 1e-9);
+        let leaning = (x + y).normalize() * 0.8 + z * 0.6;
+        assert!((off_the_way(x, y, leaning) - libm::asin(0.6).to_degrees()).abs() < 1e-9);
+    }
+}
