@@ -96,4 +96,29 @@ mod tests {
             assert_eq!(lines(passing), all[passed..], "from block {number}");
         }
     }
+
+    #[test]
+    fn blocks_of_a_line_are_those_that_it_has() {
+        let map = map();
+        let reader = || MapReader::new("out.nc.map", Cursor::new(&map)).unwrap();
+        let all: Vec<Entry> = reader().map(|entry| entry.unwrap()).collect();
+        let mut words_alone = 0;
+        for line in 1..330 {
+            let is_of = |entry: &&Entry| match entry {
+                Entry::Line(block) => {
+                    let of_word = block.words.iter().any(|word| word.cause.line == line);
+                    words_alone += u32::from(of_word && block.cause.line != line);
+                    of_word || block.cause.line == line
+                }
+                Entry::Taken(taken) => taken.line == line,
+            };
+            let wanted: Vec<Entry> = all.iter().filter(is_of).cloned().collect();
+            let mut passing = reader();
+            let found: Vec<Entry> = std::iter::from_fn(|| passing.next_of_line(line))
+                .map(|entry| entry.unwrap())
+                .collect();
+            assert_eq!(found, wanted, "line {line}");
+        }
+        assert!(words_alone > 0, "words of other lines than that of their block");
+    }
 }

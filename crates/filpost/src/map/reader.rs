@@ -1,5 +1,7 @@
 //! Reading a map, block by block.
 
+mod passing;
+
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
@@ -126,6 +128,8 @@ struct Form {
     stack: u32,
     /// The highest number of a stack that it names.
     highest_stack: u32,
+    /// CL lines from that of the block to those of its words, least and most.
+    reach: [i64; 2],
 }
 
 impl Form {
@@ -135,7 +139,11 @@ impl Form {
         let words = words::read(words)?;
         let stacks = words.iter().map(FormWord::stack);
         let highest_stack = stacks.max().unwrap_or(0).max(stack);
-        Some(Form { lines, records, words, stack, highest_stack })
+        let reach = words
+            .iter()
+            .map(FormWord::lines)
+            .fold([0, 0], |[least, most], lines| [least.min(lines), most.max(lines)]);
+        Some(Form { lines, records, words, stack, highest_stack, reach })
     }
 
     /// What a block of this form is caused by when it comes after a block with the
@@ -280,44 +288,9 @@ impl<R: Read + Seek> MapReader<R> {
         entry
     }
 
-    /// Passes over the blocks before a line of the program: what their words are caused by
-    /// is not looked at. What cannot be passed over so is left to [`MapReader::next_where`].
-    pub(crate) fn pass_to(&mut self, number: u64) -> Result<(), Error> {
-        while !self.over && self.read + 1 < number {
-            self.pass_repeated(number)?;
-            if self.read + 1 < number {
-                self.over = matches!(self.step(&|_, _, _| false)?, Step::End);
-            }
-        }
-        Ok(())
-    }
-
     /// The cause of the block that was read or passed over last.
     pub(crate) fn last_cause(&self) -> Cause {
         self.last
-    }
-
-    /// Passes over blocks that repeat a form, as far as they are in memory; the first of
-    /// them that is not as it should be stays.
-    fn pass_repeated(&mut self, number: u64) -> Result<(), Error> {
-        let cant = |error| files::cant_read(Path::new(&self.name), &error);
-        let buffer = self.input.fill_buf().map_err(cant)?;
-        let (mut used, mut lines) = (0, 0);
-        while self.read + 1 < number {
-            let Some((form, length)) = repeated(&buffer[used..]) else { break };
-            let Some(form) = form.checked_sub(1).and_then(|at| self.forms.get(at)) else { break };
-            let Some(cause) = form.after(self.last) else { break };
-            if form.highest_stack as usize > self.stacks.len() {
-                break;
-            }
-            self.last = cause;
-            self.read += 1;
-            used += length;
-            lines += 1;
-        }
-        self.input.consume(used);
-        self.number = self.number.saturating_add(lines);
-        Ok(())
     }
 
     fn entry(&mut self, wanted: &Wanted<'_>) -> Result<Option<Entry>, Error> {
@@ -446,22 +419,6 @@ impl<R: Read + Seek> Iterator for MapReader<R> {
     fn next(&mut self) -> Option<Self::Item> {
         self.next_where(&|_, _, _| true)
     }
-}
-
-/// The number of a form at the start of some bytes, and the length of its line; `None` where
-/// there is no such line, or not all of it.
-fn repeated(bytes: &[u8]) -> Option<(usize, usize)> {
-    const MOST: usize = 10;
-    let (mut number, mut length) = (0, 0);
-    for byte in &bytes[..bytes.len().min(MOST)] {
-        length += 1;
-        match byte {
-            b'0'..=b'9' => number = number * 10 + usize::from(byte - b'0'),
-            b'\n' if length > 1 => return Some((number, length)),
-            _ => return None,
-        }
-    }
-    None
 }
 
 /// The number of a form that a line names.

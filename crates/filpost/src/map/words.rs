@@ -116,6 +116,11 @@ impl FormWord {
         Some(Word { letter: self.letter, range: self.range.clone(), cause: self.cause(block)? })
     }
 
+    /// CL lines from that of its block to its own.
+    pub(super) fn lines(&self) -> i64 {
+        if let Origin::Near { lines, .. } = self.from { lines } else { 0 }
+    }
+
     /// The FIL call stack that it names besides that of its block.
     pub(super) fn stack(&self) -> u32 {
         if let Origin::Near { stack, .. } = self.from { stack } else { 0 }

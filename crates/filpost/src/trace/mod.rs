@@ -23,7 +23,7 @@ pub use answer::{Answer, Asked, Line, LineWord, Made, Record, Step, Taken};
 pub use position::{FilePosition, map_of};
 
 use crate::error::{Error, RunCode};
-use crate::map::{Entry, MapReader, NcLine};
+use crate::map::{self, Entry, MapReader, NcLine};
 use records::Records;
 use run_files::{Role, RunFiles};
 
@@ -87,6 +87,24 @@ const NEAR: u64 = 64;
 struct Found {
     lines: Vec<NcLine>,
     in_all: u64,
+    /// Records without effect.
+    taken: Vec<map::Taken>,
+}
+
+impl Found {
+    /// What the lines, their words and the records without effect come from.
+    fn causes(&self) -> impl Iterator<Item = Cause> {
+        let of_lines = self
+            .lines
+            .iter()
+            .flat_map(|line| line.words.iter().map(|word| word.cause).chain([line.cause]));
+        let of_taken = self.taken.iter().map(|taken| Cause {
+            record: taken.record,
+            line: taken.line,
+            ..Cause::default()
+        });
+        of_lines.chain(of_taken)
+    }
 }
 
 impl Map<'_> {
@@ -114,12 +132,49 @@ impl Map<'_> {
         answer: &mut Answer,
     ) -> Result<Found, Error> {
         refuse_column(place)?;
+        if let Some(found) = self.of_line(place, options, answer)? {
+            return Ok(found);
+        }
+        self.reader = MapReader::open(self.path)?;
         let record = records::at_line(&place.file, place, &options.cl)?;
         let Some(record) = record else { return Ok(Found::default()) };
         let number = record.number;
         self.near = Some(Cause { record: number, line: record.line, ..Cause::default() });
         answer.record = Some(record);
-        self.matching(options, answer, &|_, cause| cause.record == number)
+        let wanted = |_: &[Stack], cause: Cause| cause.record == number;
+        let mut found = Found::default();
+        while let Some(entry) = self.reader.next_where(&|stacks, _, cause| wanted(stacks, cause)) {
+            self.take(entry?, options, &wanted, &mut found);
+        }
+        self.name_taken(&found, answer);
+        Ok(found)
+    }
+
+    /// The same where that line is a statement like most, which can be read without what
+    /// stands before it, and the map has blocks of it; `None` otherwise.
+    fn of_line(
+        &mut self,
+        place: &FilePosition,
+        options: &Options,
+        answer: &mut Answer,
+    ) -> Result<Option<Found>, Error> {
+        let Ok(line) = u32::try_from(place.line) else { return Ok(None) };
+        let wanted = |_: &[Stack], cause: Cause| cause.line == line;
+        let mut found = Found::default();
+        while let Some(entry) = self.reader.next_of_line(line) {
+            self.take(entry?, options, &wanted, &mut found);
+        }
+        let Some(cause) = found.causes().find(|cause| cause.line == line) else { return Ok(None) };
+        let record = records::plain(&place.file, cause, &options.cl)?;
+        if record.is_none()
+            || found.causes().any(|other| other.line == line && other.record != cause.record)
+        {
+            return Ok(None);
+        }
+        self.near = Some(cause);
+        answer.record = record;
+        self.name_taken(&found, answer);
+        Ok(Some(found))
     }
 
     /// What a line of FIL has made or had a part in.
@@ -137,42 +192,53 @@ impl Map<'_> {
         if answer.excerpt.is_none() {
             return Err(no_line(place, lines));
         }
-        self.matching(options, answer, &|stacks, cause| {
+        let wanted = |stacks: &[Stack], cause: Cause| {
             let stack = (cause.stack as usize).checked_sub(1).and_then(|at| stacks.get(at));
             let lines = stack.map_or(&[][..], |stack| &stack.lines);
             lines.iter().any(|at| at.file == file && u64::from(at.line) == place.line)
-        })
-    }
-
-    /// The lines whose cause, or the cause of a word of which, is wanted.
-    fn matching(
-        &mut self,
-        options: &Options,
-        answer: &mut Answer,
-        wanted: &dyn Fn(&[Stack], Cause) -> bool,
-    ) -> Result<Found, Error> {
+        };
         let mut found = Found::default();
         while let Some(entry) = self.reader.next_where(&|stacks, _, cause| wanted(stacks, cause)) {
-            match entry? {
-                Entry::Line(mut line) => {
-                    if !wanted(self.reader.stacks(), line.cause) {
-                        line.words.retain(|word| wanted(self.reader.stacks(), word.cause));
-                    }
-                    found.in_all += 1;
-                    if found.lines.len() < options.most {
-                        found.lines.push(line);
-                    }
+            self.take(entry?, options, &wanted, &mut found);
+        }
+        Ok(found)
+    }
+
+    /// Adds a line of which the cause, or that of a word, is wanted, or a record without
+    /// effect.
+    fn take(
+        &self,
+        entry: Entry,
+        options: &Options,
+        wanted: &dyn Fn(&[Stack], Cause) -> bool,
+        found: &mut Found,
+    ) {
+        match entry {
+            Entry::Line(mut line) => {
+                if !wanted(self.reader.stacks(), line.cause) {
+                    line.words.retain(|word| wanted(self.reader.stacks(), word.cause));
                 }
-                Entry::Taken(taken) => {
-                    let of_record = answer.record.as_ref().map(|record| record.number);
-                    if of_record == Some(taken.record) {
-                        let section = self.reader.sections()[usize::from(taken.section)].clone();
-                        answer.taken.push(Taken { record: taken.record, section });
-                    }
+                found.in_all += 1;
+                if found.lines.len() < options.most {
+                    found.lines.push(line);
+                }
+            }
+            Entry::Taken(taken) => {
+                let (record, line) = (taken.record, taken.line);
+                if wanted(&[], Cause { record, line, ..Cause::default() }) {
+                    found.taken.push(taken);
                 }
             }
         }
-        Ok(found)
+    }
+
+    /// The records without effect, with the sections that took them.
+    fn name_taken(&self, found: &Found, answer: &mut Answer) {
+        let named = found.taken.iter().map(|taken| Taken {
+            record: taken.record,
+            section: self.reader.sections()[usize::from(taken.section)].clone(),
+        });
+        answer.taken = named.collect();
     }
 
     /// The lines with the texts of all that they name.
@@ -239,7 +305,7 @@ fn asked(mut line: NcLine, place: &FilePosition, files: &RunFiles) -> Result<Fou
         let word = byte.and_then(|byte| line.word_at(byte)).cloned();
         line.words = vec![word.ok_or_else(|| no_column(place, column))?];
     }
-    Ok(Found { lines: vec![line], in_all: 1 })
+    Ok(Found { lines: vec![line], in_all: 1, taken: Vec::new() })
 }
 
 /// Column, from 1 and in characters, of a byte of a line.

@@ -99,6 +99,21 @@ fn read_near(
     Ok(Some(records))
 }
 
+/// A record by its number and line, where nothing that stands before it can matter; `None`
+/// otherwise.
+///
+/// # Errors
+/// E0701
+pub(super) fn plain(
+    path: &Path,
+    cause: Cause,
+    options: &reader::Options,
+) -> Result<Option<Record>, Error> {
+    let wanted = BTreeMap::from([(cause.record, cause.line)]);
+    let records = read_near(path, &wanted, cause, options)?;
+    Ok(records.and_then(|mut records| records.remove(&cause.record)))
+}
+
 /// The head of a file says that it is one of Creo.
 fn is_creo(file: &File, options: &reader::Options) -> bool {
     let mut reader = reader::Reader::new(file, "", *options);
