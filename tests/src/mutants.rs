@@ -2,6 +2,8 @@
 //! another function of the same group, a missing block, a block that may be skipped, a word
 //! too many.
 
+mod phrases;
+
 use fil_nc::text::{Block, Word, read_block};
 
 /// A program with one fault.
@@ -20,7 +22,12 @@ pub struct Mutant {
 /// numbers.
 pub fn all(nc: &str, step: usize, first: usize) -> impl Iterator<Item = Mutant> {
     let lines: Vec<&str> = nc.split('\n').collect();
-    let faults = |index: usize| of_line(lines[index]).into_iter().map(move |fault| (index, fault));
+    let klartext = phrases::is_klartext(nc);
+    let faults = |index: usize| {
+        let of_words = if klartext { None } else { of_line(lines[index]) };
+        let faults = of_words.unwrap_or_else(|| phrases::of_line(lines[index], klartext));
+        faults.into_iter().map(move |fault| (index, fault))
+    };
     let faults: Vec<(usize, Fault)> = (0..lines.len()).flat_map(faults).collect();
     let chosen = faults.into_iter().skip(first % step).step_by(step);
     chosen.map(move |(index, fault)| {
@@ -60,11 +67,12 @@ const EXCHANGED: [(&str, &str); 14] = [
     ("M2", "M30"),
 ];
 
-/// What can be wrong with a line, and the line with it.
-fn of_line(line: &str) -> Vec<Fault> {
-    let Ok(block) = read_block(line.as_bytes(), "nc", 1) else { return Vec::new() };
+/// What can be wrong with a line of letters and numbers, and the line with it; `None` for
+/// any other line.
+fn of_line(line: &str) -> Option<Vec<Fault>> {
+    let block = read_block(line.as_bytes(), "nc", 1).ok()?;
     if block.words.is_empty() {
-        return Vec::new();
+        return Some(Vec::new());
     }
     let whole = |said: String, changed: String| Fault { said, changed, word: None };
     let mut faults = vec![whole(format!("without `{line}`"), String::new())];
@@ -75,7 +83,7 @@ fn of_line(line: &str) -> Vec<Fault> {
         faults.push(whole(format!("`{line}` with {word}"), format!("{line} {word}")));
     }
     faults.extend(block.words.iter().flat_map(|word| of_word(line, word)));
-    faults
+    Some(faults)
 }
 
 /// What can be wrong with a word of a line.
@@ -91,13 +99,12 @@ fn of_word(line: &str, word: &Word) -> Vec<Fault> {
     if word.letter == b'N' {
         return faults;
     }
-    let mut others: Vec<String> = exchanged(text).map(str::to_string).collect();
+    let mut others: Vec<String> = pairs(&EXCHANGED, text).map(str::to_string).collect();
     others.extend(text.contains('-').then(|| text.replace('-', "")));
     for (at, digit) in text.char_indices().filter(|(_, c)| c.is_ascii_digit()) {
-        others.extend([1, 9].map(|step| {
+        others.extend(neighbours(digit).map(|other| {
             let mut changed = text.to_string();
-            let other = (digit as u8 - b'0' + step) % 10 + b'0';
-            changed.replace_range(at..=at, &char::from(other).to_string());
+            changed.replace_range(at..=at, &other.to_string());
             changed
         }));
     }
@@ -118,11 +125,16 @@ fn is(word: &Word, function: &str) -> bool {
     function[1..].parse() == Ok(word.number.value())
 }
 
-/// The functions that one is taken for.
-fn exchanged(word: &str) -> impl Iterator<Item = &'static str> {
-    EXCHANGED.into_iter().filter_map(move |(one, other)| match word {
-        _ if word == one => Some(other),
-        _ if word == other => Some(one),
+/// The digits beside one, round the corner.
+fn neighbours(digit: char) -> [char; 2] {
+    [1, 9].map(|step| char::from((digit as u8 - b'0' + step) % 10 + b'0'))
+}
+
+/// The words that one is taken for.
+fn pairs(exchanged: &'static [(&str, &str)], word: &str) -> impl Iterator<Item = &'static str> {
+    exchanged.iter().filter_map(move |(one, other)| match word {
+        _ if word == *one => Some(*other),
+        _ if word == *other => Some(*one),
         _ => None,
     })
 }

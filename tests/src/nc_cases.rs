@@ -69,7 +69,6 @@ const NOT_FROM_CL: &[&str] = &[
     "insert-of-a-call-may-have-done-anything",
     "insert-of-a-parameter-changes-nothing",
     "insert-of-a-statement-may-have-done-anything",
-    "insert-with-the-end-of-block-character-is-two-blocks",
     "postn-of-g91-is-undone",
     "postn-work-offset-with-a-decimal",
     "prefun-of-the-other-unit-is-undone",

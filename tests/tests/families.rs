@@ -2,7 +2,8 @@
 //! nothing may be found, or the post must have refused them.
 //!
 //! `FILPOST_FAMILIES=FIRST..LAST` runs more seeds than the sample of each test run, and
-//! `FILPOST_FAMILIES_KEEP=FOLDER` keeps the programs in which something is found.
+//! `FILPOST_FAMILIES_KEEP=FOLDER` keeps the programs in which something is found;
+//! `FILPOST_FAMILIES_SET="KEY=VALUE KEY=VALUE"` gives every odd machine these settings.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -36,11 +37,13 @@ fn seeds() -> Range<u64> {
     range.unwrap_or(SAMPLE)
 }
 
-/// Settings that another machine of the family may have; a seed takes one of them.
+/// Settings that another machine of the family may have, divided by blanks; a seed takes one
+/// of these lists.
 fn odd_settings(ready: &str) -> &'static [&'static str] {
     match ready {
         "sinumerik-840d" => &[
             "circle.center=4",
+            "circle.center=3 circle.full_circle=0",
             "control.cycle_call=1",
             "control.tool_call=1",
             "control.spindle_index=1",
@@ -64,6 +67,7 @@ fn odd_settings(ready: &str) -> &'static [&'static str] {
             "rapid.split=0",
             "motion.modal=0",
             "cycle.deep_code=none",
+            "cycle.deep_code=203",
             "cycle.bore_code=200",
             "tool.preselect=1",
         ],
@@ -90,6 +94,7 @@ fn cause(job: &Job) -> String {
 fn verified(ready: &str, odd: &[&str]) -> (u64, BTreeMap<String, u64>) {
     let (mut agree, mut refused) = (0, BTreeMap::new());
     let mut found = Vec::new();
+    let given = std::env::var("FILPOST_FAMILIES_SET").ok();
     for seed in seeds() {
         let cl = cl_text(&program(seed));
         let of = |name: &str| Job {
@@ -105,8 +110,10 @@ fn verified(ready: &str, odd: &[&str]) -> (u64, BTreeMap<String, u64>) {
             *refused.entry("not compared".to_string()).or_default() += 1;
             continue;
         }
-        let settings = odd.get(seed as usize % odd.len().max(1));
-        let settings = settings.iter().map(|setting| setting.to_string()).collect();
+        let settings = odd.get(seed as usize % odd.len().max(1)).copied();
+        let settings = settings.map(|usual| given.as_deref().unwrap_or(usual)).into_iter();
+        let settings = settings.flat_map(|list| list.split(' '));
+        let settings = settings.map(str::to_string).collect();
         let job = Job { settings, ..of(ready) };
         match posting::verify(&job) {
             // A function that the generator takes from other controls.

@@ -31,8 +31,13 @@ const SAMPLE: usize = 16;
 
 /// Programs with axis words whose last digit a rounding may leave open: points between the
 /// ends of lines that another post has divided, points of arcs that are lines, values half
-/// way between two.
-const ROUNDED: [&str; 11] = [
+/// way between two; poles of helices and arcs of Klartext.
+const ROUNDED: [&str; 15] = [
+    // The height of the first rapid said before its X and Y, from an unknown place.
+    "heidenhain-tnc640/holes",
+    "corpus/klartext/helices",
+    "five-axes/two-tables-axes",
+    "heidenhain-tnc640/inches",
     "verify/linearized-",
     "verify/inverse-time-",
     "words/circle-below-the-least-radius-becomes-lines",
@@ -172,23 +177,30 @@ fn of_rotary_posts(case: &NcCase) -> bool {
 }
 
 /// How many faults of each fate a program has, and a list of those that nobody sees.
-type Fates = (BTreeMap<Fate, usize>, String);
+#[derive(Default)]
+struct Fates {
+    counts: BTreeMap<Fate, usize>,
+    missed: String,
+    /// Those of them that move an axis by more than a rounding.
+    of_axes: String,
+}
 
 /// What becomes of the faults of a program.
 fn faults_of(case: &NcCase, step: usize, first: usize) -> Fates {
-    let (mut fates, mut missed) = (BTreeMap::new(), String::new());
-    let Ok(original) = events(case, &case.nc) else { return (fates, missed) };
+    let mut fates = Fates::default();
+    let Ok(original) = events(case, &case.nc) else { return fates };
     for mutant in mutants::all(&case.nc, step, first) {
         let fate = fate(case, &original, &mutant.text);
-        *fates.entry(fate).or_default() += 1;
+        *fates.counts.entry(fate).or_default() += 1;
         if fate == Fate::Missed {
             let axis = mutant.word.is_some_and(|word| b"XYZABCUVW".contains(&word));
             let rounded = ROUNDED.iter().any(|name| case.name.starts_with(name));
-            assert!(!axis || rounded, "{} line {}: {}", case.name, mutant.line, mutant.fault);
-            let _ = writeln!(missed, "{} line {}: {}", case.name, mutant.line, mutant.fault);
+            let said = format!("{} line {}: {}\n", case.name, mutant.line, mutant.fault);
+            fates.of_axes.push_str(if axis && !rounded { &said } else { "" });
+            fates.missed.push_str(&said);
         }
     }
-    (fates, missed)
+    fates
 }
 
 /// Programs that get faults, each with its number among all.
@@ -223,13 +235,15 @@ fn faults_are_found() {
             });
         }
     });
-    let (mut fates, mut missed) = (BTreeMap::new(), String::new());
-    for (of_case, of_case_missed) in found.into_inner().expect("no thread failed").values() {
-        of_case.iter().for_each(|(fate, count)| *fates.entry(*fate).or_default() += count);
-        missed.push_str(of_case_missed);
+    let Fates { mut counts, mut missed, mut of_axes } = Fates::default();
+    for of_case in found.into_inner().expect("no thread failed").values() {
+        of_case.counts.iter().for_each(|(fate, count)| *counts.entry(*fate).or_default() += count);
+        missed.push_str(&of_case.missed);
+        of_axes.push_str(&of_case.of_axes);
     }
-    let count = |fate| fates.get(&fate).copied().unwrap_or(0);
-    println!("{fates:?}\n{missed}");
+    let count = |fate| counts.get(&fate).copied().unwrap_or(0);
+    println!("{counts:?}\n{missed}");
+    assert!(of_axes.is_empty(), "{of_axes}");
     let least = if all { 50_000 } else { 2_500 };
     assert!(count(Fate::Reported) > least, "only {} faults were put in", count(Fate::Reported));
     if !all {

@@ -172,7 +172,7 @@ impl<'s> Lines<'s> {
     fn next_range(&mut self) -> io::Result<Option<Range<usize>>> {
         let mut searched = self.from;
         loop {
-            let found = self.buffer[searched..self.to].iter().position(|byte| *byte == b'\n');
+            let found = memchr::memchr(b'\n', &self.buffer[searched..self.to]);
             if let Some(at) = found {
                 let line = self.from..searched + at;
                 self.from = line.end + 1;

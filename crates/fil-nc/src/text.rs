@@ -164,6 +164,9 @@ impl Scan<'_> {
     /// its sign.
     fn message_sign(&self, block: &Block) -> Option<usize> {
         let rest = &self.text[self.at..];
+        if !matches!(rest.first(), Some(b'M' | b'!' | b'*')) {
+            return None;
+        }
         let sign = [&b"MSG("[..], b"!", b"* -"].into_iter().find(|sign| rest.starts_with(sign));
         sign.filter(|_| block.words.iter().all(|word| word.letter == b'N')).map(<[u8]>::len)
     }
@@ -207,20 +210,23 @@ impl Scan<'_> {
             self.at += 1;
         }
         let (mut digits, mut whole, mut decimals, mut point) = (0i64, 0u32, 0u32, false);
-        while let Some(byte) = self.peek() {
+        let mut length = 0;
+        for byte in &self.text[self.at..] {
             match byte {
                 b'.' if !point => point = true,
+                b'0'..=b'9' if whole + decimals == MAX_DIGITS => {
+                    self.at += length;
+                    return Err(self.refuse(NcCode::BadNumber, start));
+                }
                 b'0'..=b'9' => {
-                    if whole + decimals == MAX_DIGITS {
-                        return Err(self.refuse(NcCode::BadNumber, start));
-                    }
                     digits = digits * 10 + i64::from(byte - b'0');
                     *(if point { &mut decimals } else { &mut whole }) += 1;
                 }
                 _ => break,
             }
-            self.at += 1;
+            length += 1;
         }
+        self.at += length;
         if whole + decimals == 0 || self.peek() == Some(b'.') {
             return Err(self.refuse(NcCode::BadNumber, start));
         }

@@ -1,4 +1,4 @@
-//! How fast FIL is read and compiled:
+//! How fast FIL is read and compiled, and how that grows with the number of macros:
 //! `cargo bench -p filpost-tests --bench compile`.
 
 use std::fmt::Write as _;
@@ -18,6 +18,12 @@ const REPEATS: usize = 5;
 
 /// Lines a second that are promised.
 const PROMISE: f64 = 200_000.0;
+
+/// Numbers of macros that are compiled, least first.
+const MACROS: [usize; 3] = [3_000, 30_000, 300_000];
+
+/// A macro among the most of them may take so many times as long as one among the least.
+const GROWTH: f64 = 1.5;
 
 /// Macros of statements as scripts have them.
 fn script() -> String {
@@ -52,13 +58,22 @@ fn push_macro(text: &mut String, number: usize) {
     );
 }
 
-fn main() {
-    let text = script();
-    let lines = text.lines().count();
+/// Short macros, each with a name of its own.
+fn macros(count: usize) -> String {
+    let mut text = String::new();
+    for number in 0..count {
+        let _ = write!(text, "MAC{number}=MACRO/PX,PY=0\nZVAL=PX*2+PY\nTERMAC\n");
+    }
+    text.push_str("FINI\n");
+    text
+}
+
+/// Seconds that a script takes, the best of some runs.
+fn seconds(text: &str) -> f64 {
     let mut best = f64::INFINITY;
     for _ in 0..REPEATS {
         let mut vocabulary = Vocabulary::new();
-        let file = FilFile { name: "script.fil", text: &text };
+        let file = FilFile { name: "script.fil", text };
         let start = Instant::now();
         let loaded = fil_vm::load(&[file], &mut vocabulary, LoadOptions::default());
         best = best.min(start.elapsed().as_secs_f64());
@@ -66,7 +81,28 @@ fn main() {
             panic!("the script is refused: {}", diags[0]);
         }
     }
+    best
+}
+
+fn word(holds: bool) -> &'static str {
+    if holds { "holds" } else { "DOES NOT HOLD" }
+}
+
+fn main() {
+    let text = script();
+    let lines = text.lines().count();
+    let best = seconds(&text);
     let rate = lines as f64 / best;
-    let verdict = if rate >= PROMISE { "holds" } else { "DOES NOT HOLD" };
+    let verdict = word(rate >= PROMISE);
     println!("{lines} lines of FIL read and compiled in {best:.3} s: {rate:.0} lines/s, {verdict}");
+    let mut least = None;
+    for count in MACROS {
+        let each = seconds(&macros(count)) / count as f64;
+        let least = *least.get_or_insert(each);
+        let verdict = word(each <= least * GROWTH);
+        println!(
+            "{count} macros: {:.0} ns each, at most {GROWTH} times the first {verdict}",
+            each * 1e9
+        );
+    }
 }

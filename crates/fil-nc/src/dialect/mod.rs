@@ -19,6 +19,7 @@ use crate::forward::Forward;
 use codes::{Auxiliaries, Functions};
 pub use codes::{Auxiliary, CycleKind, FeedMode, Function, Group};
 pub use family::Family;
+pub(crate) use marks::Marks;
 pub use numbers::{Address, Unreadable};
 pub(crate) use start::Certain;
 
@@ -97,7 +98,7 @@ pub struct Dialect {
     pub family: Family,
     functions: Functions,
     auxiliaries: Auxiliaries,
-    pub(crate) marks: marks::Marks,
+    pub(crate) marks: Marks,
     /// By printed letter.
     addresses: [Option<Address>; 26],
     /// X Y Z and the two rotary axes; `None` without one.
@@ -257,7 +258,7 @@ impl Dialect {
             skips_blocks: false,
             functions,
             auxiliaries: Auxiliaries::new(&settings),
-            marks: marks::Marks::new(&settings),
+            marks: Marks::new(&settings),
             center: match settings.code("circle.center") {
                 Some(2) => CenterForm::FromCenter,
                 Some(4) => CenterForm::Absolute,

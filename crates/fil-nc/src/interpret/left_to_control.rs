@@ -25,11 +25,11 @@ impl State<'_> {
     /// once, before what the block does.
     #[cold]
     pub(super) fn tell_left_to_control(&mut self, uses: Uses) {
-        let left = StartMode::ALL.into_iter().filter(|mode| !self.certain.has(*mode));
-        let left: Vec<StartMode> = left.filter(|mode| self.depends_on(*mode, uses)).collect();
-        for mode in left.into_iter().rev() {
-            self.certain.say(mode);
-            self.events.insert(0, Event::LeftToControl { line: self.line, mode });
+        for mode in StartMode::ALL.into_iter().rev() {
+            if !self.certain.has(mode) && self.depends_on(mode, uses) {
+                self.certain.say(mode);
+                self.events.insert(0, Event::LeftToControl { line: self.line, mode });
+            }
         }
     }
 

@@ -1,5 +1,7 @@
 //! Arcs of the path against arcs, or short lines, of the program.
 
+use std::f64::consts::SQRT_2;
+
 use nalgebra::{Point3, Vector3};
 
 use super::ahead::Steps;
@@ -8,6 +10,7 @@ use super::report::FindingKind;
 use super::say::short;
 use super::walk::Walk;
 use super::wanted::{Arc, Step, Wanted};
+use crate::forward::Pose;
 use crate::motion::{self, Course, Move, Position, Rate};
 
 /// Directions nearer than this are the same.
@@ -27,7 +30,7 @@ struct Parts {
 impl<C: Steps> Walk<'_, C> {
     /// Takes the blocks that make an arc; false when they don't.
     pub(super) fn arc(&mut self, cl_line: u32, arc: &Arc, rate: Option<Rate>) -> bool {
-        let Some(parts) = self.arc_parts(arc) else { return false };
+        let Some(parts) = self.arc_parts(arc) else { return self.stands_for(arc) };
         let from = self.begins();
         let mut before = 0.0;
         let mut last = None;
@@ -44,6 +47,11 @@ impl<C: Steps> Walk<'_, C> {
             self.measure(&last, &arc.end);
         }
         true
+    }
+
+    /// True for a whole circle no wider than the chord tolerance, which no line is left of.
+    fn stands_for(&mut self, arc: &Arc) -> bool {
+        2.0 * arc.radius() <= self.chord_slack() && self.stands_at(&arc.end)
     }
 
     /// The motions from here to the end of the arc, when they lie on it.
@@ -70,7 +78,8 @@ impl<C: Steps> Walk<'_, C> {
             parts.angles.push(angle);
             parts.lines &= found.arc.is_none();
             if ends {
-                return self.steps_are_even(arc, &parts).then_some(parts);
+                let is_right = self.steps_are_even(arc, &parts) && self.chords_end_on(arc, &parts);
+                return is_right.then_some(parts);
             }
             from = found.to;
         }
@@ -126,8 +135,9 @@ impl<C: Steps> Walk<'_, C> {
         let height = (given * given - chord * chord / 4.0).max(0.0).sqrt();
         let rounded = given * self.slack.radius + chord * slack;
         let along = (rounded / height).min((2.0 * rounded).sqrt());
-        // The ends of a short chord turn it as they are rounded, and the center with it.
-        let turned = given * (2.0 * slack / chord).min(2.0);
+        // The ends of a short chord turn it as they are rounded in both axes, and the center
+        // with it.
+        let turned = given * (2.0 * SQRT_2 * slack / chord).min(2.0);
         let center = self.settings.forward.frame_of(&found.to).linear(arc.center);
         let off = distance(part.center, center, part.normal);
         (off <= along + turned + 2.0 * slack).then_some(swept)
@@ -170,8 +180,12 @@ impl<C: Steps> Walk<'_, C> {
     fn on_chord(&self, arc: &Arc, before: f64, found: &Move) -> Option<f64> {
         let swept = self.angle_behind(arc, before, found) - before;
         let sagitta = arc.radius() * (1.0 - libm::cos((swept / 2.0).to_radians()));
-        let allowed = self.settings.chord_tolerance() + 2.0 * self.slack.linear[0];
-        (swept < 180.0 && sagitta <= allowed).then_some(swept)
+        (sagitta <= self.chord_slack()).then_some(swept)
+    }
+
+    /// How far a line may leave its arc, mm.
+    fn chord_slack(&self) -> f64 {
+        self.settings.chord_tolerance() + 2.0 * self.slack.linear[0]
     }
 
     /// The end of a part lies on the arc, at the height of its share.
@@ -196,6 +210,22 @@ impl<C: Steps> Walk<'_, C> {
         let share = arc.sweep / angles.len() as f64;
         let is_even = |(n, angle): (i32, &f64)| (angle - share * f64::from(n)).abs() <= slack;
         !parts.lines || angles.len() == 1 || (1..).zip(angles).all(is_even)
+    }
+
+    /// Each of the short lines that divide an arc ends where its share of the arc does. A
+    /// machine that turns its axes has its own rounding there.
+    fn chords_end_on(&self, arc: &Arc, parts: &Parts) -> bool {
+        let count = parts.angles.len();
+        if !parts.lines || self.slack.kept > 0.0 || self.settings.forward.has_rotary() {
+            return true;
+        }
+        (1..count).all(|n| match self.nc.get(self.next + n - 1) {
+            Some(motion::Event::Move(found)) => {
+                let tip = arc.at(n as f64 / count as f64);
+                self.gap(&found.to, &Pose { tip, ..arc.end }).closed()
+            }
+            _ => false,
+        })
     }
 
     /// Angle that the last digits stand for on this arc, degrees.

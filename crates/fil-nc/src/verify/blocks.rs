@@ -1,9 +1,10 @@
 //! Lines of a program that stand word for word in the settings or in INSERT.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use fil_diag::Diag;
 
+use crate::dialect::Marks;
 use crate::source::{Lines, Source, changed};
 
 /// Texts of INSERT that were looked for to the end of the program without being there;
@@ -16,12 +17,14 @@ pub(super) struct OwnBlocks<'a> {
     source: &'a Source<'a>,
     /// Name of the program in messages.
     name: &'a str,
+    /// What begins and ends the blocks of the machine.
+    marks: &'a Marks,
     /// Blocks of the settings, bare, and whether the program has them.
     asked: HashMap<Vec<u8>, bool>,
     /// Blocks around tool changes, bare, and how often the program has them.
     around: HashMap<Vec<u8>, usize>,
     /// Lines of the program that are such blocks.
-    lines: HashSet<u32>,
+    lines: BTreeSet<u32>,
     /// Where the next INSERT is looked for, and the lines before it.
     from: u64,
     passed: u32,
@@ -37,16 +40,18 @@ impl<'a> OwnBlocks<'a> {
     /// E0915 when its file can't be read.
     pub(super) fn new(
         (source, name): (&'a Source<'a>, &'a str),
+        marks: &'a Marks,
         blocks: &[String],
         around: &[String],
     ) -> Result<Self, Box<Diag>> {
-        let bare_block = |block: &String| bare(block.as_bytes());
+        let bare_block = |block: &String| bare(&marks.read(block.as_bytes()));
         let mut own = OwnBlocks {
             source,
             name,
+            marks,
             asked: blocks.iter().map(|block| (bare_block(block), false)).collect(),
             around: around.iter().map(|block| (bare_block(block), 0)).collect(),
-            lines: HashSet::new(),
+            lines: BTreeSet::new(),
             from: 0,
             passed: 0,
             missing: HashSet::new(),
@@ -62,10 +67,11 @@ impl<'a> OwnBlocks<'a> {
         let mut lines = Lines::from(self.source, 0);
         for number in 1.. {
             let Some(line) = next(&mut lines, self.name)? else { break };
-            if !firsts.may_be(line) {
+            let line = self.marks.read(line);
+            if !firsts.may_be(&line) {
                 continue;
             }
-            let text = bare(line);
+            let text = bare(&line);
             if let Some(found) = self.asked.get_mut(&text) {
                 *found = true;
                 self.lines.insert(number);
@@ -83,7 +89,7 @@ impl<'a> OwnBlocks<'a> {
     pub(super) fn missing_around(&self, asked: &[String]) -> Vec<String> {
         let mut often: HashMap<Vec<u8>, usize> = HashMap::new();
         for block in asked {
-            *often.entry(bare(block.as_bytes())).or_default() += 1;
+            *often.entry(bare(&self.marks.read(block.as_bytes()))).or_default() += 1;
         }
         let has = |block: &Vec<u8>| self.around.get(block).copied().unwrap_or(0);
         let missing = often.iter().filter(|(block, times)| has(block) < **times);
@@ -101,7 +107,7 @@ impl<'a> OwnBlocks<'a> {
     /// # Errors
     /// E0915 when the file of the program can't be read.
     pub(super) fn insert(&mut self, text: &str) -> Result<Option<u32>, Box<Diag>> {
-        let text = bare(text.as_bytes());
+        let text = bare(&self.marks.read(text.as_bytes()));
         if self.missing.contains(&text) {
             return Ok(None);
         }
@@ -111,7 +117,8 @@ impl<'a> OwnBlocks<'a> {
         let mut lines = Lines::from(self.source, self.from);
         for number in self.passed.saturating_add(1)..=last {
             let Some(line) = next(&mut lines, self.name)? else { break };
-            if firsts.may_be(line) && bare(line) == text {
+            let line = self.marks.read(line);
+            if firsts.may_be(&line) && bare(&line) == text {
                 self.from = lines.at();
                 self.passed = number;
                 self.lines.insert(number);
@@ -199,8 +206,8 @@ mod tests {
     use super::*;
 
     fn own(text: &str, insert: &[&str]) -> Vec<Option<u32>> {
-        let source = Source::memory(text.as_bytes());
-        let mut own = OwnBlocks::new((&source, "nc"), &[], &[]).unwrap();
+        let (source, marks) = (Source::memory(text.as_bytes()), Marks::default());
+        let mut own = OwnBlocks::new((&source, "nc"), &marks, &[], &[]).unwrap();
         insert.iter().map(|text| own.insert(text).unwrap()).collect()
     }
 

@@ -1,6 +1,9 @@
 //! How far the axes stand from where a pose asks them to be.
 
+use nalgebra::Point3;
+
 use super::settings::{Settings, Slack};
+use super::walk::STILL;
 use crate::forward::Pose;
 use crate::motion::Position;
 
@@ -45,6 +48,9 @@ impl Gap {
         last: [f64; 2],
     ) -> Gap {
         let forward = &settings.forward;
+        if !forward.has_rotary() && !at.names_tip() && pose.axis == forward.tool() {
+            return Gap::upright(slack, at, pose);
+        }
         let widened = forward.has_rotary().then(|| beside_the_pole(settings, slack, at, pose));
         let slack = widened.as_ref().unwrap_or(slack);
         let stays = |n: usize| (last[n] - at.rotary[n]).abs() <= slack.rotary[n];
@@ -55,7 +61,31 @@ impl Gap {
         }
         // A post need not turn for a difference that small.
         let unturned = Gap::at(settings, slack, at, pose, last);
-        if unturned.closed() { unturned } else { gap }
+        if unturned.closed() {
+            return unturned;
+        }
+        // An axis that turned the tool before may have come to rest on its rounded position.
+        let said = Gap::at(settings, slack, at, pose, forward.refine(at.rotary, pose.axis));
+        let nearer = said.turned.is_none() && said.off() < gap.off() - STILL;
+        if said.closed() || nearer { said } else { gap }
+    }
+
+    /// Sum of what X, Y and Z are off by, mm.
+    fn off(&self) -> f64 {
+        self.linear.iter().map(|off| off.abs()).sum()
+    }
+
+    /// The gap of a machine of three axes along its tool: X, Y, Z are the tip.
+    fn upright(slack: &Slack, at: &Position, pose: &Pose) -> Gap {
+        let (mut linear, mut excess) = ([0.0; 3], [false; 3]);
+        for n in 0..3 {
+            let wanted = pose.tip[n];
+            let written = slack.rounded[n].map_or(wanted, |digit| rounded(wanted, digit));
+            linear[n] = at.linear[n] - written;
+            excess[n] = linear[n].abs() > slack.linear[n];
+        }
+        let tip = (Point3::from(at.linear) - pose.tip).norm();
+        Gap { linear, excess, turned: None, rotary: at.rotary, tip, axis: 0.0 }
     }
 
     /// The gap when these are the exact rotary positions.

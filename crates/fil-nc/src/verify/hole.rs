@@ -189,6 +189,11 @@ impl<C: Steps> Walk<'_, C> {
                     format!("{}, which is not over the hole", self.spell_move(&found)),
                 ));
             }
+            let lower = self.known[2] && to[2] < self.at.linear[2] - slack[2];
+            if lower && !arrives && self.known[0] && self.known[1] {
+                let message = "rapid goes down before X and Y are over the hole".to_string();
+                return Err((found.line, message));
+            }
             let low = self.at.linear[2].min(to[2]) < levels.clear - slack[2];
             if across && self.known[2] && low {
                 return Err((found.line, "rapid goes across below the R level".to_string()));
@@ -236,11 +241,15 @@ impl<C: Steps> Walk<'_, C> {
         }
         let Some(back) = self.next_move() else { return Ok(()) };
         self.vertical(&back)?;
-        let (slack, peck_gap) = (self.slack.linear[2], self.settings.peck_gap());
+        let slack = self.slack.linear[2];
         let gap = back.to.linear[2] - reached;
         // How far a control comes back by itself is a parameter of it, or a word of its cycle.
-        let by_itself = back.in_cycle && !self.settings.says_peck_gap();
-        let right = if by_itself { gap > 0.0 } else { (gap - peck_gap).abs() <= 2.0 * slack };
+        let said = match back.in_cycle {
+            true => self.settings.cycle_peck_gap(hole.kind, levels.clear - levels.at[2]),
+            false => Some(self.settings.peck_gap()),
+        };
+        let peck_gap = said.unwrap_or(self.settings.peck_gap());
+        let right = said.map_or(gap > 0.0, |said| (gap - said).abs() <= 2.0 * slack);
         let above = (back.to.linear[2] - levels.clear).abs() <= slack && gap <= peck_gap + slack;
         let lifts = back.in_cycle && self.settings.lifts_at_feed() && hole.kind != CycleKind::Deep;
         let course = back.course == Course::Rapid || (lifts && back.course == Course::Feed);

@@ -35,6 +35,7 @@ impl<C: Steps> Walk<'_, C> {
         }
         self.measure(&end, pose);
         self.next = last + 1;
+        self.rapid_end = Some(*pose);
         true
     }
 
@@ -83,6 +84,13 @@ impl<C: Steps> Walk<'_, C> {
         rapids.position(|part| self.reaches(&part, pose)).map(|at| at + 1)
     }
 
+    /// A rapid to where the last one has ended already: a coordinate half way between two
+    /// last digits may be written once as each.
+    pub(super) fn goes_there_again(&self, found: &Move) -> bool {
+        let rapid = found.course == Course::Rapid && !found.in_cycle;
+        rapid && self.rapid_end.is_some_and(|pose| self.reaches(found, &pose))
+    }
+
     /// Each axis stays or ends in a part of a rapid, and the height is the safe one.
     pub(super) fn check_part(&mut self, cl_line: u32, part: &Move, end: &Position) {
         if part.to.tilt != end.tilt {
@@ -101,9 +109,6 @@ impl<C: Steps> Walk<'_, C> {
         let moved = |n: usize| !same(to[n], at[n]);
         let arrived = |n: usize| same(to[n], end.linear[n]);
         let is_level = self.is_retract_level(to[2]);
-        let mut say = |message: String| {
-            self.find(FindingKind::Order, Some(cl_line), Some(part.line), message);
-        };
         let leaves = |n: usize| moved(n) && known[n] && !arrived(n);
         // Before it turns its rotary axes the machine may go up to its level.
         let turns = part.to.rotary != end.rotary;
@@ -111,19 +116,26 @@ impl<C: Steps> Walk<'_, C> {
         let strays = (0..2).any(|n| found_out[n] && !arrived(n));
         if strays || (0..3).any(|n| leaves(n) && !(n == 2 && lifts)) {
             let [x, y, z] = to.map(short);
-            say(format!("rapid by way of X{x} Y{y} Z{z}, which is on no way to its end"));
+            let message = format!("rapid by way of X{x} Y{y} Z{z}, which is on no way to its end");
+            self.say_order(cl_line, part, message);
         }
         if !splits || !known[2] {
             return;
         }
         let lower = moved(2) && to[2] < at[2];
         if lower && !(arrived(0) && arrived(1)) {
-            say("rapid plunges before X and Y have arrived".to_string());
+            let message = "rapid plunges before X and Y have arrived".to_string();
+            self.say_order(cl_line, part, message);
         }
         let across = (moved(0) || moved(1)) && !moved(2);
         if across && end.linear[2] > at[2] + STILL {
-            say("rapid goes across before Z has gone up".to_string());
+            let message = "rapid goes across before Z has gone up".to_string();
+            self.say_order(cl_line, part, message);
         }
+    }
+
+    fn say_order(&mut self, cl_line: u32, part: &Move, message: String) {
+        self.find(FindingKind::Order, Some(cl_line), Some(part.line), message);
     }
 
     /// A position of Z is the level that the machine goes up to.
@@ -155,22 +167,20 @@ impl<C: Steps> Walk<'_, C> {
         course: Course,
         rate: Option<Rate>,
     ) -> bool {
-        match self.next_move() {
-            Some(found) if is_line(&found, course) && self.reaches(&found, pose) => {
-                self.check_rate(cl_line, self.at, &found, rate);
-                self.look_between(cl_line, &found, |walk| Asked::line(walk.begins(), *pose));
-                self.take(cl_line, &found);
-                self.measure(&found, pose);
-                self.next += 1;
-                true
-            }
-            _ => {
-                let cuts = course == Course::Feed;
-                self.stands_at(pose)
-                    || (cuts && self.corner(cl_line, pose, rate))
-                    || (cuts && self.parts(cl_line, pose, rate))
-            }
+        if let Some(found) = self.next_move().filter(|found| is_line(found, course))
+            && let Some(gap) = self.gap_reached(&found, pose)
+        {
+            self.check_rate(cl_line, self.at, &found, rate);
+            self.look_between(cl_line, &found, |walk| Asked::line(walk.begins(), *pose));
+            self.take(cl_line, &found);
+            self.measure_gap(&found, &gap);
+            self.next += 1;
+            return true;
         }
+        let cuts = course == Course::Feed;
+        self.stands_at(pose)
+            || (cuts && self.corner(cl_line, pose, rate))
+            || (cuts && self.parts(cl_line, pose, rate))
     }
 
     pub(super) fn check_limits(&mut self, cl_line: u32, found: &Move) {

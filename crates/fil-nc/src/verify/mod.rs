@@ -106,7 +106,8 @@ pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
     let path = path.with_frame_words(settings.frame_words());
     let path = path.in_unit(check.unit).leaving_out(check.skips_blocks);
     let nc = (check.nc, check.nc_name);
-    let own = OwnBlocks::new(nc, &settings.own_blocks(), &settings.blocks_around_changes())?;
+    let (around, marks) = (settings.blocks_around_changes(), &settings.dialect.marks);
+    let own = OwnBlocks::new(nc, marks, &settings.own_blocks(), &around)?;
     let watch = Watch::new(check.allowed.between);
     let mut walk = walk::Walk::new(path, check.events, own, &settings, watch);
     let of_machine = check.commons.allowed_offsets().iter().filter_map(|name| work_offset(name));

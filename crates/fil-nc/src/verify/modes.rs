@@ -206,9 +206,10 @@ impl Expected {
                 self.compensation.set((*side, offset), settings.compensation_due());
             }
             Wanted::Stop { .. } | Wanted::End(_) => self.flush(),
-            Wanted::Insert(text) | Wanted::Words(text) | Wanted::Repeated(text) => {
-                self.insert(text, settings);
+            Wanted::Insert(text) => {
+                settings.blocks_of_text(text).for_each(|text| self.insert(text, settings));
             }
+            Wanted::Words(text) | Wanted::Repeated(text) => self.insert(text, settings),
             Wanted::WorkOffset(number) => {
                 self.fixture = settings.work_offset(*number).map(Some);
                 self.asks_fixture = true;

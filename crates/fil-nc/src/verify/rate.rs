@@ -4,6 +4,7 @@ use super::ahead::Steps;
 use super::report::FindingKind;
 use super::say::{short, spell_rate};
 use super::walk::Walk;
+use crate::dialect::Family;
 use crate::motion::{Compensation, Course, Move, Position, Rate, Speed};
 
 /// Share of a feed that the rounding of a pitch may change.
@@ -37,7 +38,9 @@ impl<C: Steps> Walk<'_, C> {
         };
         let agrees = match (wanted, found.rate) {
             (Rate::PerMinute(a), Some(Rate::PerMinute(b))) => (a - b).abs() <= self.slack.feed,
-            (Rate::PerTurn(a), Some(Rate::PerTurn(b))) => (a - b).abs() <= self.slack.turn,
+            (Rate::PerTurn(a), Some(Rate::PerTurn(b))) => {
+                (a - b).abs() <= self.slack_of_lead(found, a)
+            }
             // A control that is told the pitch goes as fast as the spindle turns.
             (Rate::PerMinute(a), Some(Rate::PerTurn(b))) if found.course == Course::Thread => {
                 let agrees = |speed: f64| (a - b * speed).abs() <= self.slack.feed + PITCH * a;
@@ -64,6 +67,14 @@ impl<C: Steps> Walk<'_, C> {
             let message = format!("feed {found_rate}, it should be {}", spell_rate(wanted));
             self.find(FindingKind::Feed, Some(cl_line), Some(found.line), message);
         }
+    }
+
+    /// How far a lead may be off: a cycle that says it in a word of its own has more digits
+    /// than F.
+    fn slack_of_lead(&self, found: &Move, lead: f64) -> f64 {
+        let of_cycle = found.in_cycle && found.course == Course::Thread;
+        let by_letters = self.settings.dialect.family == Family::WordAddress;
+        if of_cycle && !by_letters { PITCH * lead } else { self.slack.turn }
     }
 
     /// The feed of the center of the cutter on a compensated arc, where the machine's

@@ -13,7 +13,9 @@ impl<C: Steps> Walk<'_, C> {
         // A text may have changed the tool.
         match self.settings.names_machine_positions() {
             true => self.pass_still(cl_line),
-            false => self.pass(cl_line),
+            false => {
+                self.pass(cl_line);
+            }
         }
         let same = self.modes.tool() == Some(number)
             && self.modes.loaded_offset() == Some(offset)

@@ -40,6 +40,8 @@ pub(super) struct Walk<'a, C> {
     pub(super) metric: bool,
     /// Diameter of the cutter, mm.
     pub(super) cutter: Option<f64>,
+    /// Where the rapid has ended that is the last motion.
+    pub(super) rapid_end: Option<Pose>,
     /// End of the last arc in the CL file, and as the machine corrects it.
     pub(super) corrected_end: Option<[Point3<f64>; 2]>,
     /// Travel of the linear axes, mm.
@@ -92,6 +94,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             slack: settings.slack(true),
             metric: true,
             cutter: None,
+            rapid_end: None,
             corrected_end: None,
             travel: settings.travel(true),
             written: settings.written(),
@@ -183,7 +186,9 @@ impl<'a, C: Steps> Walk<'a, C> {
                 });
                 self.dwell(step.line, seconds, Some(*turns));
             }
-            Wanted::Insert(text) => self.insert(step.line, text),
+            Wanted::Insert(text) => {
+                self.settings.blocks_of_text(text).for_each(|text| self.insert(step.line, text));
+            }
             Wanted::Words(text) => self.ask_words(step.line, text),
             Wanted::WholeThread(thread) => self.whole_thread(step.line, thread),
             Wanted::SideSpindle(turn) => {
@@ -226,8 +231,9 @@ impl<'a, C: Steps> Walk<'a, C> {
             self.initial = None;
         }
         loop {
-            self.pass(step.line);
-            self.restate();
+            if let Some(next) = self.pass(step.line) {
+                self.at = self.at_as(&next);
+            }
             if let Wanted::Feed(pose, rate) = &step.what
                 && self.repositions(step.line, pose, *rate)
             {
@@ -277,12 +283,13 @@ impl<'a, C: Steps> Walk<'a, C> {
     }
 
     /// Passes over events that no step asks for: motions to points of the machine,
-    /// blocks of the settings, ways of no length.
-    pub(super) fn pass(&mut self, cl_line: u32) {
+    /// blocks of the settings, ways of no length. Gives the motion that comes next, when
+    /// it is one.
+    pub(super) fn pass(&mut self, cl_line: u32) -> Option<Move> {
         loop {
             self.pass_still(cl_line);
-            match self.nc.get(self.next) {
-                Some(Event::Move(found)) if found.course == Course::Machine => {
+            match self.nc.get(self.next)? {
+                Event::Move(found) if found.course == Course::Machine => {
                     self.stand(&found);
                     let message = "goes to a point of the machine that neither the CL file nor the settings ask for";
                     self.find(
@@ -292,7 +299,8 @@ impl<'a, C: Steps> Walk<'a, C> {
                         message.to_string(),
                     );
                 }
-                _ => return,
+                Event::Move(found) => return Some(found),
+                _ => return None,
             }
         }
     }
@@ -310,7 +318,9 @@ impl<'a, C: Steps> Walk<'a, C> {
                 }
                 Some(Event::Move(found))
                     if found.course != Course::Machine
-                        && (self.is_still(&found) || self.turns_away(&found)) =>
+                        && (self.is_still(&found)
+                            || self.turns_away(&found)
+                            || self.goes_there_again(&found)) =>
                 {
                     self.take(cl_line, &found);
                     self.next += 1;
@@ -322,7 +332,8 @@ impl<'a, C: Steps> Walk<'a, C> {
 
     /// Passes over events of blocks of the settings and of INSERT.
     pub(super) fn pass_own(&mut self) {
-        while let Some(event) = self.nc.get(self.next).filter(|event| self.own.has(event.line())) {
+        while self.nc.line(self.next).is_some_and(|line| self.own.has(line)) {
+            let Some(event) = self.nc.get(self.next) else { return };
             match event {
                 Event::Move(found) => self.stand(&found),
                 Event::ToolChange { tool, .. } => {
@@ -340,6 +351,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         self.at = found.to;
         self.known = found.known;
         self.moved_tool = found.modes.tool;
+        self.rapid_end = None;
         self.next += 1;
     }
 
@@ -362,13 +374,6 @@ impl<'a, C: Steps> Walk<'a, C> {
             at.linear[n] = self.at.linear[n];
         }
         at
-    }
-
-    /// Says X, Y, Z of where the axes stand as the next motion means them.
-    fn restate(&mut self) {
-        if let Some(found) = self.next_move() {
-            self.at = self.at_as(&found);
-        }
     }
 
     pub(super) fn next_move(&self) -> Option<Move> {
@@ -408,7 +413,13 @@ impl<'a, C: Steps> Walk<'a, C> {
     }
 
     pub(super) fn reaches(&self, found: &Move, pose: &Pose) -> bool {
-        self.is_known(&found.known) && self.gap(&found.to, pose).closed()
+        self.gap_reached(found, pose).is_some()
+    }
+
+    /// The gap at the end of a motion that reaches a pose.
+    pub(super) fn gap_reached(&self, found: &Move, pose: &Pose) -> Option<Gap> {
+        let known = self.is_known(&found.known);
+        known.then(|| self.gap(&found.to, pose)).filter(Gap::closed)
     }
 
     /// The gap between where the axes stand and a pose.
@@ -450,7 +461,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             self.find(kind, Some(cl_line), Some(found.line), message);
         }
         self.check_limits(cl_line, found);
-        self.is_up = false;
+        (self.is_up, self.rapid_end) = (false, None);
         self.line = found.line;
         self.at = found.to;
         self.moved_tool = found.modes.tool;
@@ -484,6 +495,11 @@ impl<'a, C: Steps> Walk<'a, C> {
     /// Adds a motion to the deviations.
     pub(super) fn measure(&mut self, found: &Move, pose: &Pose) {
         let gap = self.gap(&found.to, pose);
+        self.measure_gap(found, &gap);
+    }
+
+    /// The same for a gap that is known.
+    pub(super) fn measure_gap(&mut self, found: &Move, gap: &Gap) {
         self.report.position.add(gap.tip, found.line);
         self.report.axis.add(gap.axis, found.line);
         if gap.closed() {

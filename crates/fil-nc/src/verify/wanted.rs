@@ -302,6 +302,14 @@ impl Arc {
         Arc { start, sweep: self.sweep - turned, ..*self }
     }
 
+    /// The point at a share of the arc, from 0 to 1.
+    pub fn at(&self, share: f64) -> Point3<f64> {
+        let from = self.spoke(self.start);
+        let (sine, cosine) = libm::sincos((self.sweep * share).to_radians());
+        let rise = self.normal * (self.rise_of(self.end.tip) * share);
+        self.start - from + from * cosine + self.normal.cross(&from) * sine + rise
+    }
+
     /// Radius at the start, mm.
     pub fn radius(&self) -> f64 {
         self.spoke(self.start).norm()

@@ -67,6 +67,16 @@ impl<E: Events> Window<E> {
         inner.seen.get(at).copied()
     }
 
+    /// The line of an event that is not forgotten; `None` behind the last.
+    pub(super) fn line(&self, index: usize) -> Option<u32> {
+        let mut inner = self.inner.borrow_mut();
+        let at = index.checked_sub(inner.first)?;
+        if at >= inner.seen.len() {
+            inner.read_to(index);
+        }
+        inner.seen.get(at).map(Event::line)
+    }
+
     /// The events from an index on.
     pub(super) fn from(&self, index: usize) -> impl Iterator<Item = Event> + '_ {
         (index..).map_while(|index| self.get(index))

@@ -58,7 +58,9 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
 fn further(items: &mut Items, axis: Vector3<f64>) -> Result<f64> {
     let turns = items.couplet(w::TIMES)?.unwrap_or(0.0);
     if turns.fract() != 0.0 || !(0.0..=MAX_TURNS).contains(&turns) {
-        return Err(items.error(format!("TIMES must be an integer, not {turns}")));
+        return Err(
+            items.error(format!("TIMES must be a whole number, at most {MAX_TURNS}, not {turns}"))
+        );
     }
     check_direction(items, axis)?;
     let rest = items.numbers().len();

@@ -58,14 +58,26 @@ impl Definition {
         })
     }
 
-    /// Refuses a definition that the next line does not go on with.
+    /// Refuses a definition that the next line does not go on with. What a control takes for
+    /// a value that is not there hangs on its software: all that the cycle has always had must
+    /// be said. Q253 and Q379 of cycle 205 came later; without them nothing is done.
     pub(super) fn check_whole(&self) -> Result<(), Fault> {
-        match self.number {
-            200 | 201 | 203 | 205 => self.get("Q206").and(self.get("Q203")).map(|_| ()),
-            247 => self.get("Q339").map(|_| ()),
-            207 => self.get("Q239").and(self.get("Q203")).map(|_| ()),
-            _ => Ok(()),
-        }
+        let asked: &[&str] = match self.number {
+            200 => &["Q200", "Q201", "Q206", "Q202", "Q210", "Q203", "Q204", "Q211"],
+            201 => &["Q200", "Q201", "Q206", "Q211", "Q208", "Q203", "Q204"],
+            203 => &[
+                "Q200", "Q201", "Q206", "Q202", "Q210", "Q203", "Q204", "Q212", "Q213", "Q205",
+                "Q211", "Q256",
+            ],
+            205 => &[
+                "Q200", "Q201", "Q206", "Q202", "Q203", "Q204", "Q212", "Q205", "Q258", "Q259",
+                "Q257", "Q256", "Q211",
+            ],
+            247 => &["Q339"],
+            207 => &["Q200", "Q201", "Q239", "Q203", "Q204"],
+            _ => &[],
+        };
+        asked.iter().try_for_each(|name| self.get(name).map(|_| ()))
     }
 }
 

@@ -246,6 +246,12 @@ impl<'c> Settings<'c> {
         blocks
     }
 
+    /// The blocks of a text of INSERT, which the machine's end-of-block character divides.
+    pub fn blocks_of_text<'t>(&self, text: &'t str) -> impl Iterator<Item = &'t str> {
+        let end = self.commons.read(loc::TAPE_END_OF_BLOCK_CHAR);
+        text.split(move |c| Some(c) == end).map(str::trim).filter(|block| !block.is_empty())
+    }
+
     /// The blocks that may stand around tool changes.
     pub fn blocks_around_changes(&self) -> Vec<String> {
         let kinds =
@@ -398,12 +404,20 @@ impl<'c> Settings<'c> {
         self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik
     }
 
-    /// The cycles of the control have a word for how far it comes back between pecks.
-    pub fn says_peck_gap(&self) -> bool {
+    /// How far above the last peck a cycle of the control goes on, mm, where a word of the
+    /// cycle says it; `clear` is its set-up clearance.
+    pub fn cycle_peck_gap(&self, kind: CycleKind, clear: f64) -> Option<f64> {
+        let gap = Some(self.peck_gap());
         match self.commons.read(loc::CONTROL_FAMILY) {
-            ControlFamily::WordAddress => false,
-            ControlFamily::Klartext => true,
-            ControlFamily::Sinumerik => self.peck_gap() > 0.0,
+            ControlFamily::WordAddress => None,
+            // Cycle 203 goes on at its set-up clearance above the last peck.
+            ControlFamily::Klartext
+                if kind == CycleKind::Deep && self.cycle_code(kind) == Some(203) =>
+            {
+                Some(clear).filter(|clear| *clear > 0.0)
+            }
+            ControlFamily::Klartext => gap,
+            ControlFamily::Sinumerik => gap.filter(|gap| *gap > 0.0),
         }
     }
 

@@ -9,6 +9,7 @@ use fil_diag::Result;
 use fil_machine::FunctionCode;
 use fil_machine::axes::AxisSet;
 use fil_machine::letters::XYZ;
+use fil_machine::locations as loc;
 use fil_machine::modes::{FeedMode, INCH};
 use fil_machine::rounding::Rounding;
 
@@ -177,7 +178,7 @@ fn definition(
         None => at.deep.max(at.way),
     };
     let plunge = peck_text(control, peck)?;
-    let gap = peck_text(control, if control.is_metric() { GAP } else { GAP / INCH })?;
+    let gap = gap(control)?;
     if number == 201 {
         say(211, &dwell, "DWELL TIME AT DEPTH");
         say(208, &feed, "RETRACTION FEED RATE");
@@ -223,6 +224,15 @@ fn definition(
 /// Pecks of a hole but the last: as many times chips are broken.
 fn breaks(at: &Values, peck: f64) -> u32 {
     (at.way / peck).ceil().clamp(1.0, 99999.0) as u32
+}
+
+/// How far above the last depth a peck goes on, and by which it lifts to break chips.
+fn gap(control: &Control) -> Result<String> {
+    let gap = control.commons.dbl_opt(loc::CYCLE_PECK_GAP).unwrap_or(GAP);
+    match if control.is_metric() { gap } else { gap / INCH } {
+        gap if gap > 0.0 => peck_text(control, gap),
+        _ => Ok("+0".to_string()),
+    }
 }
 
 /// A peck, positive.
