@@ -13,7 +13,8 @@ use crate::text::{Position, Range, Text};
 
 /// What is wrong in a `machine.toml`.
 pub fn findings(name: &str, text: &Text) -> Vec<Finding> {
-    let diags: Vec<Diag> = match settings::read_toml(name, text.as_str()) {
+    let ready = |base: &str| filpost::ready::find(base).map(|post| post.machine);
+    let diags: Vec<Diag> = match settings::read_toml_with(name, text.as_str(), &ready) {
         Ok((_, warnings)) => warnings,
         Err(diags) => diags,
     };

@@ -5,6 +5,7 @@
 //! and names; layout decides about blanks, line breaks and indentation only.
 
 mod blocks;
+#[cfg(feature = "code-pages")]
 mod bytes;
 mod collect;
 mod gap;
@@ -18,6 +19,7 @@ use crate::parse::{MAX_FILE, parse};
 use crate::print::print;
 use crate::tree::Program;
 use blocks::{Blocks, Depth};
+#[cfg(feature = "code-pages")]
 pub use bytes::format_bytes;
 use collect::{Above, Layout, Line, Rest, Statement};
 

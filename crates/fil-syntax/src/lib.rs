@@ -5,6 +5,10 @@
 //! writes a tree back as FIL text, [`format()`] gives a text its canonical layout.
 
 mod adapter;
+#[cfg(feature = "code-pages")]
+mod encoding;
+#[cfg(not(feature = "code-pages"))]
+#[path = "encoding_utf8.rs"]
 mod encoding;
 mod errors;
 mod expr;
@@ -30,6 +34,8 @@ lalrpop_util::lalrpop_mod!(
 
 pub use encoding::decode;
 pub use errors::SyntaxCode;
-pub use format::{format, format_bytes};
+pub use format::format;
+#[cfg(feature = "code-pages")]
+pub use format::format_bytes;
 pub use parse::{Parsed, parse};
 pub use token::is_statement_word;

@@ -1,6 +1,7 @@
 //! Building a program: machine, FIL files, limits, functions, grants.
 
-use std::path::{Path, PathBuf};
+#[cfg(feature = "files")]
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use fil_cl::Vocabulary;
@@ -18,7 +19,7 @@ use crate::error::{Error, RunCode};
 use crate::granted::{Clock, Spawn};
 use crate::program::{Program, Shared};
 use crate::ready;
-use crate::script_files::{Folder, Folders};
+use crate::script_files::Folders;
 
 /// Where the settings of the machine come from.
 enum Machine {
@@ -56,7 +57,9 @@ pub struct Builder {
     includes: Option<Includes>,
     clock: Option<Clock>,
     spawn: Option<Spawn>,
+    #[cfg(feature = "files")]
     read: Option<PathBuf>,
+    #[cfg(feature = "files")]
     write: Option<PathBuf>,
     debug: bool,
 }
@@ -79,7 +82,9 @@ impl Builder {
             includes: None,
             clock: None,
             spawn: None,
+            #[cfg(feature = "files")]
             read: None,
+            #[cfg(feature = "files")]
             write: None,
             debug: false,
         }
@@ -212,6 +217,7 @@ impl Builder {
     }
 
     /// Lets scripts read files of a folder and below it.
+    #[cfg(feature = "files")]
     pub fn grant_read(mut self, folder: impl Into<PathBuf>) -> Self {
         self.read = Some(folder.into());
         self
@@ -219,6 +225,7 @@ impl Builder {
 
     /// Lets scripts write and delete files of a folder and below it. What they
     /// write appears only when the run went well.
+    #[cfg(feature = "files")]
     pub fn grant_write(mut self, folder: impl Into<PathBuf>) -> Self {
         self.write = Some(folder.into());
         self
@@ -246,7 +253,7 @@ impl Builder {
     /// All that is wrong with the machine, the settings on top, the FIL files and the
     /// names of added functions; E0701 for a granted folder that is not there.
     pub fn build(self) -> Result<Program, Error> {
-        let folders = folders(self.read.as_deref(), self.write.as_deref())?;
+        let folders = self.folders()?;
         let post = post(self.machine, &self.over, &self.settings, &self.compat.without_effect);
         let mut vocabulary = Vocabulary::new();
         let files: Vec<FilFile<'_>> =
@@ -293,16 +300,22 @@ impl Builder {
         };
         Ok(Program { shared: Arc::new(shared) })
     }
-}
 
-/// The granted folders; `None` without any.
-fn folders(read: Option<&Path>, write: Option<&Path>) -> Result<Option<Arc<Folders>>, Error> {
-    let folders = Folders {
-        read: read.map(Folder::open).transpose()?,
-        write: write.map(Folder::open).transpose()?,
-    };
-    let any = folders.read.is_some() || folders.write.is_some();
-    Ok(any.then(|| Arc::new(folders)))
+    /// The granted folders; `None` without any.
+    #[cfg(feature = "files")]
+    fn folders(&self) -> Result<Option<Arc<Folders>>, Error> {
+        let open = |folder: &Option<PathBuf>| {
+            folder.as_deref().map(crate::script_files::Folder::open).transpose()
+        };
+        let folders = Folders { read: open(&self.read)?, write: open(&self.write)? };
+        let any = folders.read.is_some() || folders.write.is_some();
+        Ok(any.then(|| Arc::new(folders)))
+    }
+
+    #[cfg(not(feature = "files"))]
+    fn folders(&self) -> Result<Option<Arc<Folders>>, Error> {
+        Ok(None)
+    }
 }
 
 /// The post of a machine with settings on top, and the warnings of both.

@@ -7,8 +7,10 @@ use std::path::{Path, PathBuf};
 use fil_diag::Diag;
 
 use crate::error::{Error, RunCode};
+#[cfg(feature = "files")]
 use crate::pending::{NewFile, PendingFiles};
 
+#[cfg(feature = "files")]
 pub use crate::pending::give_up;
 
 /// Reads a whole file.
@@ -33,6 +35,7 @@ pub fn read_text(path: &Path, encoding: Option<&str>) -> Result<String, Error> {
 ///
 /// # Errors
 /// What `write` returns; E0702 for the file itself.
+#[cfg(feature = "files")]
 pub fn write_whole<T>(
     path: &Path,
     write: impl FnOnce(&mut NewFile) -> Result<T, Error>,

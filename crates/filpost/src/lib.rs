@@ -23,6 +23,7 @@ mod allow;
 mod blocks;
 mod builder;
 mod cancel;
+#[cfg(feature = "files")]
 pub mod case;
 pub mod check;
 mod coming;
@@ -43,6 +44,10 @@ mod memory;
 mod outside;
 mod overview;
 mod passes;
+#[cfg(feature = "files")]
+mod pending;
+#[cfg(not(feature = "files"))]
+#[path = "pending/none.rs"]
 mod pending;
 pub mod plot;
 pub mod profile;
@@ -52,10 +57,15 @@ pub mod ready;
 mod refusals;
 mod report;
 mod run;
+#[cfg(feature = "files")]
+mod script_files;
+#[cfg(not(feature = "files"))]
+#[path = "no_script_files.rs"]
 mod script_files;
 pub mod select;
 mod source;
 mod spilled;
+mod spool;
 mod statement;
 mod survey;
 pub mod tally;
@@ -73,7 +83,9 @@ pub use compat::{CompatFile, operation_name, read_compat};
 pub use error::{Error, RunCode, all_codes};
 pub use event::{Event, LineEditor, RunEnd};
 pub use granted::Clock;
-pub use pending::{NewFile, PendingFiles};
+#[cfg(feature = "files")]
+pub use pending::NewFile;
+pub use pending::PendingFiles;
 pub use program::Program;
 pub use refusals::{MOST_KINDS, Refusals};
 pub use report::{Extents, Report};

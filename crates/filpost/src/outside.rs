@@ -592,8 +592,14 @@ impl<S: Records> Host for Outside<'_, S> {
         self.trace = on;
     }
 
+    #[cfg(feature = "files")]
     fn files(&mut self) -> Option<&mut dyn Files> {
         self.granted.files.as_mut().map(|files| files as &mut dyn Files)
+    }
+
+    #[cfg(not(feature = "files"))]
+    fn files(&mut self) -> Option<&mut dyn Files> {
+        None
     }
 
     fn now(&mut self) -> Option<Moment> {

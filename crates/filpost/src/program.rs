@@ -2,13 +2,15 @@
 
 use std::fmt;
 use std::io::{Read, Seek, Write};
+#[cfg(feature = "files")]
 use std::path::Path;
 use std::sync::Arc;
 
 use fil_cl::{Record, Vocabulary};
 use fil_diag::Diag;
-use fil_machine::locations::Location;
-use fil_machine::{Commons, contradictions};
+use fil_machine::Commons;
+#[cfg(feature = "files")]
+use fil_machine::{contradictions, locations::Location};
 use fil_vm::{Functions, Limits, Module};
 
 use crate::blocks::Blocks;
@@ -139,6 +141,7 @@ impl Program {
     ///
     /// # Errors
     /// As [`Run::run_files`].
+    #[cfg(feature = "files")]
     pub fn run_files(&self, cl: &Path, nc: &Path) -> Result<Report, Error> {
         self.start().run_files(cl, nc)
     }
@@ -181,6 +184,7 @@ impl Program {
     ///
     /// # Errors
     /// Without the setting the others are refused, or contradict each other.
+    #[cfg(feature = "files")]
     pub(crate) fn without(&self, setting: &Location) -> Result<Program, Error> {
         let mut commons = self.commons().clone();
         let (number, value) = (u32::from(setting.number), setting.default_value());

@@ -44,6 +44,15 @@ impl ArcPath {
         libm::hypot(self.radius * self.angle, self.high - self.low)
     }
 
+    /// True when a box holds the point that is `out` off the center along a coordinate, at
+    /// whatever height of the path.
+    fn is_inside(&self, extents: Option<&Extents>, along: usize, out: f64) -> bool {
+        let Some(extents) = extents else { return false };
+        let held = extents.min[along]..=extents.max[along];
+        let at = |height: f64| self.center[along] + out + self.axis[along] * height;
+        held.contains(&at(self.low)) && held.contains(&at(self.high))
+    }
+
     /// Widens a box to where the arc reaches farthest along each axis between its ends; of a
     /// helix the last turn and the first one count.
     pub fn widen(&self, extents: &mut Option<Extents>) {
@@ -57,6 +66,10 @@ impl ArcPath {
             }
             for sign in [self.radius / size, -self.radius / size] {
                 let out = farthest.map(|part| part * sign);
+                // Most arcs lie inside of what was reached before: no angle is needed then.
+                if self.is_inside(extents.as_ref(), along, out[along]) {
+                    continue;
+                }
                 let first = turn(self.axis, self.start, out);
                 if first > self.angle {
                     continue;

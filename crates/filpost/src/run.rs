@@ -1,7 +1,10 @@
 //! One run: its options, then the CL stream it takes through the program.
 
+#[cfg(feature = "files")]
 use std::fs::File;
-use std::io::{self, Read, Seek, SeekFrom, Write};
+#[cfg(feature = "files")]
+use std::io;
+use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use fil_cl::reader::{self, Reader};
@@ -18,7 +21,9 @@ use crate::files;
 use crate::map;
 use crate::memory::Memory;
 use crate::passes::{FirstPass, Pass};
-use crate::pending::{NewFile, PendingFiles};
+#[cfg(feature = "files")]
+use crate::pending::NewFile;
+use crate::pending::PendingFiles;
 use crate::program::Program;
 use crate::report::Report;
 use crate::source::Records;
@@ -183,6 +188,7 @@ impl<'o> Run<'o> {
     ///
     /// # Errors
     /// As [`Run::run`]; E0701 and E0702 for files that can't be read or written.
+    #[cfg(feature = "files")]
     pub fn run_files(mut self, cl: &Path, nc: &Path) -> Result<Report, Error> {
         let input = File::open(cl).map_err(|error| files::cant_read(cl, &error))?;
         if input.metadata().is_ok_and(|found| found.is_dir()) {

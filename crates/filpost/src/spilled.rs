@@ -1,7 +1,6 @@
 //! What one record writes beyond what is kept in memory: a loop in a section writes
 //! millions of blocks before the next record is read.
 
-use std::fs::File;
 use std::io::{self, Seek, Write};
 
 use fil_diag::Result;
@@ -12,30 +11,28 @@ use crate::error::RunCode;
 use crate::event::Event;
 use crate::outside::Outside;
 use crate::source::Records;
+use crate::spool::{Spool, spool};
 
 /// Bytes on the tape from which on they leave memory.
 const SPILL: usize = 1 << 20;
 
-/// The blocks of a record that do not lie on the tape any more, in a nameless file.
+/// The blocks of a record that do not lie on the tape any more.
 #[derive(Default)]
 pub(crate) struct Spilled {
-    file: Option<File>,
+    taken: Option<Spool>,
 }
 
 impl Spilled {
     fn take(&mut self, bytes: &[u8]) -> io::Result<()> {
-        let file = match &mut self.file {
-            Some(file) => file,
-            none => none.insert(tempfile::tempfile()?),
-        };
-        file.write_all(bytes)
+        // What comes here has left memory: none of it is kept there where files are.
+        self.taken.get_or_insert_with(|| spool(0)).write_all(bytes)
     }
 
     /// Writes what was taken, and forgets it.
     pub fn hand_out(&mut self, output: &mut dyn Write) -> io::Result<()> {
-        let Some(mut file) = self.file.take() else { return Ok(()) };
-        file.rewind()?;
-        io::copy(&mut file, output).map(|_| ())
+        let Some(mut taken) = self.taken.take() else { return Ok(()) };
+        taken.rewind()?;
+        io::copy(&mut taken, output).map(|_| ())
     }
 }
 

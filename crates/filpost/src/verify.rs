@@ -16,12 +16,12 @@ use fil_nc::verify::{
     Allowed, Check, Programs, Report, Unfollowed, compare_programs, compare_words,
     refuse_another_part, verify,
 };
-use tempfile::{SpooledData, SpooledTempFile};
 
 use crate::error::Error;
 use crate::files;
 use crate::program::Program;
 use crate::run::Run;
+use crate::spool::{Spool, into_source, spool};
 use crate::units;
 
 /// Bytes that are kept in memory of a text that is read twice; more lie in a file.
@@ -106,8 +106,8 @@ impl Run<'_> {
     }
 
     /// A CL file that can be read twice, at its start.
-    fn spool(&self, cl: &mut dyn Read) -> Result<SpooledTempFile, Error> {
-        let mut text = SpooledTempFile::new(IN_MEMORY);
+    fn spool(&self, cl: &mut dyn Read) -> Result<Spool, Error> {
+        let mut text = spool(IN_MEMORY);
         let spooled = io::copy(cl, &mut text).and_then(|_| text.rewind());
         spooled.map_err(|error| files::cant_read(self.name().as_ref(), &error))?;
         Ok(text)
@@ -141,18 +141,15 @@ impl Run<'_> {
     /// that run's own program can't be followed, the blocks are compared.
     fn against_second_run(
         self,
-        cl: SpooledTempFile,
+        cl: Spool,
         nc: (&Source<'_>, &str),
         dialect: &Dialect,
         allowed: &Allowed,
     ) -> Result<Report, Error> {
         let program: Program = self.program.clone();
-        let mut again = SpooledTempFile::new(IN_MEMORY);
+        let mut again = spool(IN_MEMORY);
         self.run_pending(cl, &mut again)?;
-        let again = match again.into_inner() {
-            SpooledData::InMemory(text) => Source::Memory(text.into_inner().into()),
-            SpooledData::OnDisk(file) => Source::file(file),
-        };
+        let again = into_source(again);
         let again = (&again, "the second run");
         let compare = |dialect: &Dialect| {
             let programs = Programs {

@@ -1,0 +1,118 @@
+//! What an editor asks of a text: findings, hover, proposals.
+
+use fil_ide::{Item, Position, Range, Script, Text, cl_file, machine};
+use filpost::{Code, Commons, Included, settings};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use crate::diagnostics::severity;
+use crate::job::Named;
+
+/// What language a text is in.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Language {
+    Fil,
+    Cl,
+    Machine,
+}
+
+/// An edited text, and a place in it.
+#[derive(Deserialize)]
+pub(crate) struct Edited {
+    language: Language,
+    name: String,
+    text: String,
+    /// Line, counted from 0.
+    #[serde(default)]
+    line: u32,
+    /// UTF-16 units from the start of the line.
+    #[serde(default)]
+    character: u32,
+    /// The `machine.toml` that FIL runs on.
+    machine: Option<String>,
+    #[serde(default)]
+    includes: Vec<Named>,
+}
+
+impl Edited {
+    /// Findings as `{line, from, to_line, to, code, severity, message}`; places as editors
+    /// count them. A CL file is judged by posting it.
+    pub fn findings(&self) -> Value {
+        match self.language {
+            Language::Cl => json!([]),
+            Language::Machine => {
+                let found = machine::findings(&self.name, &Text::new(&self.text)).into_iter();
+                found.map(|found| finding(found.range, found.code, &found.message)).collect()
+            }
+            Language::Fil => self.with_script(|script| {
+                let found = script.findings().into_iter();
+                found.map(|found| finding(found.range, found.code, &found.message)).collect()
+            }),
+        }
+    }
+
+    /// What stands at the place: Markdown and its range, or null.
+    pub fn hover(&self) -> Value {
+        let position = Position { line: self.line, character: self.character };
+        let found = match self.language {
+            Language::Cl => cl_file::hover(&Text::new(&self.text), position),
+            Language::Machine => machine::hover(&Text::new(&self.text), position),
+            Language::Fil => self.with_script(|script| script.hover(position)),
+        };
+        found.map_or(
+            Value::Null,
+            |(markdown, range)| json!({ "markdown": markdown, "range": places(range) }),
+        )
+    }
+
+    /// What may stand at the place: `{label, detail, kind, range}` of each.
+    pub fn complete(&self) -> Value {
+        let position = Position { line: self.line, character: self.character };
+        let items: Vec<Item> = match self.language {
+            Language::Cl => Vec::new(),
+            Language::Machine => machine::complete(&Text::new(&self.text), position),
+            Language::Fil => self.with_script(|script| script.complete(position)),
+        };
+        let item = |item: Item| {
+            let kind = format!("{:?}", item.kind).to_ascii_lowercase();
+            json!({
+                "label": item.label,
+                "detail": item.detail,
+                "kind": kind,
+                "range": places(item.range),
+            })
+        };
+        items.into_iter().map(item).collect()
+    }
+
+    fn with_script<T>(&self, ask: impl FnOnce(&Script) -> T) -> T {
+        let mut includes = |_: &str, name: &str| {
+            let found = self.includes.iter().find(|file| file.name == name);
+            match found {
+                Some(file) => Ok(Included { name: file.name.clone(), text: file.text.clone() }),
+                None => Err(format!("there is no {name} here")),
+            }
+        };
+        let machine: Option<Commons> = self.machine.as_ref().and_then(|text| {
+            let ready = |base: &str| filpost::ready::find(base).map(|post| post.machine);
+            settings::read_toml_with("machine.toml", text, &ready).ok().map(|(commons, _)| commons)
+        });
+        let files = [(self.name.as_str(), self.text.as_str())];
+        ask(&Script::new(&files, &self.name, Some(&mut includes), machine.as_ref()))
+    }
+}
+
+fn finding(range: Range, code: &Code, message: &str) -> Value {
+    json!({
+        "range": places(range),
+        "code": code.name(),
+        "severity": severity(code.severity),
+        "message": message,
+    })
+}
+
+/// A range as `[line, character, line, character]`, from 0.
+fn places(range: Range) -> [u32; 4] {
+    [range.start.line, range.start.character, range.end.line, range.end.character]
+}

@@ -1,0 +1,120 @@
+//! Requests and their answers, as a page gets them.
+
+use serde_json::{Value, json};
+
+const CL: &str = "UNITS / MM\nLOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n";
+
+fn ask(request: &Value) -> Value {
+    serde_json::from_slice(&filpost_wasm::answer(request.to_string().as_bytes())).unwrap()
+}
+
+#[test]
+fn a_program_comes_with_what_made_its_lines() {
+    let fil = "CIMFIL/ON,LOADTL\nDMY=POSTF(13)\nPOSTN/OUT,G,0,Z,100\nCIMFIL/OFF\nFINI\n";
+    let answer = ask(&json!({
+        "do": "post", "ready": "fanuc-mill", "cl": CL,
+        "fil": [{ "name": "raise.fil", "text": fil }], "plot": true,
+    }));
+    let nc: Vec<&str> = answer["nc"].as_str().unwrap().lines().collect();
+    let origins = answer["origins"].as_array().unwrap();
+    assert_eq!(nc.len(), origins.len());
+    let raised = nc.iter().position(|line| line.contains("Z100.")).unwrap();
+    assert_eq!(origins[raised], json!([2, 2, [["raise.fil", 3]]]));
+    let goto = nc.iter().position(|line| line.contains("X1. Y2.")).unwrap();
+    assert_eq!(origins[goto], json!([4, 4, []]));
+    assert_eq!(answer["records"], 5);
+    assert!(answer["plot"].as_str().unwrap().contains("<canvas"));
+}
+
+#[test]
+fn what_is_refused_has_no_program() {
+    let wrong = CL.replace("GOTO / 1", "GOTO / 1,1");
+    let answer = ask(&json!({ "do": "post", "ready": "fanuc-mill", "cl": wrong }));
+    assert!(answer.get("nc").is_none() && answer.get("plot").is_none());
+    assert_eq!(answer["errors"][0]["code"], "E0407");
+    assert_eq!(answer["errors"][0]["places"][0]["line"], 4);
+    let answer = ask(&json!({ "do": "post", "ready": "no-such-mill", "cl": CL }));
+    assert_eq!(answer["errors"][0]["code"], "E0703");
+}
+
+#[test]
+fn a_script_gets_no_file() {
+    let fil = "CIMFIL/ON,LOADTL\nST=FILEF(0,READ,'tools.txt')\nCIMFIL/OFF\nFINI\n";
+    let answer = ask(&json!({
+        "do": "post", "cl": CL, "fil": [{ "name": "read.fil", "text": fil }],
+    }));
+    assert_eq!(answer["errors"][0]["code"], "E0321", "{answer}");
+}
+
+#[test]
+fn included_texts_come_from_the_request() {
+    let job = |includes: Value| {
+        let fil =
+            "INCLUD/more.fil\nCIMFIL/ON,LOADTL\nCALL/GREET\nDMY=POSTF(13)\nCIMFIL/OFF\nFINI\n";
+        json!({
+            "do": "post", "cl": CL, "fil": [{ "name": "main.fil", "text": fil }],
+            "includes": includes,
+        })
+    };
+    let more = json!([{ "name": "more.fil", "text": "GREET=MACRO\nPPRINT/'HELLO'\nTERMAC\n" }]);
+    let answer = ask(&job(more));
+    assert!(answer["nc"].as_str().is_some_and(|nc| nc.contains("(HELLO)")), "{answer}");
+    assert_eq!(ask(&job(json!([])))["errors"][0]["code"], "E0214");
+}
+
+#[test]
+fn places_count_as_pages_count() {
+    let cl = CL.replace("FINI", "$$ \u{1f600}\nCOOLNT / \u{1f600}\nFINI");
+    let answer = ask(&json!({ "do": "post", "cl": cl }));
+    let place = &answer["errors"][0]["places"][0];
+    assert_eq!(place["line"], 6, "{answer}");
+    assert!(place["to"].as_u64().unwrap() <= "COOLNT / \u{1f600}".encode_utf16().count() as u64);
+}
+
+#[test]
+fn an_editor_is_answered() {
+    let text = "XX=SQRTF(4)\nYY=XX+\nFINI\n";
+    let edited = |what: &str, line: u32, character: u32| {
+        ask(&json!({
+            "do": what, "language": "fil", "name": "a.fil", "text": text,
+            "line": line, "character": character,
+        }))
+    };
+    let findings = edited("findings", 0, 0);
+    assert_eq!(findings[0]["severity"], "error");
+    assert_eq!(findings[0]["range"][0], 1);
+    assert!(edited("hover", 0, 5)["markdown"].as_str().unwrap().contains("square root"));
+    let labels = edited("complete", 0, 6).to_string();
+    assert!(labels.contains("SQRTF"), "{labels}");
+    let machine = |what: &str| {
+        ask(&json!({
+            "do": what, "language": "machine", "name": "machine.toml",
+            "text": "base = \"fanuc-mill\"\nrapid.split = 1\nrapid.splat = 1\n",
+            "line": 1, "character": 3,
+        }))
+    };
+    assert_eq!(machine("findings").as_array().unwrap().len(), 1);
+    assert!(machine("hover")["markdown"].is_string());
+    let cl =
+        ask(&json!({ "do": "hover", "language": "cl", "name": "a.ncl", "text": CL, "line": 3 }));
+    assert!(cl["markdown"].as_str().unwrap().contains("GOTO"));
+}
+
+#[test]
+fn what_is_no_request_is_said() {
+    for request in
+        ["", "{}", "[1]", r#"{"do": "dance"}"#, r#"{"do": "post", "cl": "", "clock": "noon"}"#]
+    {
+        let answer = filpost_wasm::answer(request.as_bytes());
+        let answer: Value = serde_json::from_slice(&answer).unwrap();
+        assert!(answer["misuse"].is_string(), "{request}: {answer}");
+    }
+    let misspelled = ask(&json!({ "do": "post", "cl": CL, "machin": "x" }));
+    assert!(misspelled["misuse"].as_str().unwrap().contains("machin"));
+}
+
+#[test]
+fn every_ready_post_is_there() {
+    let posts = ask(&json!({ "do": "ready" }));
+    assert_eq!(posts.as_array().unwrap().len(), filpost::ready::READY.len());
+}

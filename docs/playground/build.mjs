@@ -1,0 +1,48 @@
+// Builds the page: node build.mjs WASM FOLDER. Needs the packages of package.json.
+//
+// What comes out is one folder of static files. The page opens from a server or from a
+// disk, so nothing is fetched: the module and the examples are scripts.
+import { copyFileSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { basename, dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { build } from "esbuild";
+import { examples } from "./examples.mjs";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const [wasm, folder] = process.argv.slice(2);
+
+const common = { bundle: true, minify: true, format: "iife", target: "es2022", legalComments: "eof" };
+
+/** `worker:FILE` is the text of a script with all that it imports. */
+const workers = {
+  name: "workers",
+  setup(host) {
+    host.onResolve({ filter: /^worker:/ }, ({ path, resolveDir }) => {
+      return { path: join(resolveDir, path.slice("worker:".length)), namespace: "worker" };
+    });
+    host.onLoad({ filter: /.*/, namespace: "worker" }, async ({ path }) => {
+      const made = await build({ ...common, entryPoints: [path], write: false });
+      return { contents: made.outputFiles[0].text, loader: "text" };
+    });
+  },
+};
+
+mkdirSync(folder, { recursive: true });
+await build({
+  ...common,
+  entryPoints: [join(here, "playground.js")],
+  outfile: join(folder, "playground.js"),
+  plugins: [workers],
+  nodePaths: (process.env.NODE_PATH ?? "").split(":").filter(Boolean),
+});
+for (const name of ["index.html", "page.css"]) copyFileSync(join(here, name), join(folder, name));
+
+const letters = readFileSync(wasm).toString("base64");
+const bytes = `() => Uint8Array.from(atob("${letters}"), (letter) => letter.charCodeAt(0))`;
+writeFileSync(join(folder, "filpost.wasm.js"), `(globalThis.filpost ??= {}).bytes = ${bytes};\n`);
+
+const list = examples(join(here, "../../corpus"));
+const shown = list.map(({ expected, ...example }) => example);
+const text = JSON.stringify(shown).replaceAll("<", "\\u003c");
+writeFileSync(join(folder, "examples.js"), `(globalThis.filpost ??= {}).examples = ${text};\n`);
+console.log(`${basename(folder)}: ${list.length} examples`);

@@ -1,0 +1,28 @@
+// filpost.wasm behind one function: a request goes in, an answer comes out, both plain
+// objects. The requests are those of crates/filpost-wasm.
+
+/**
+ * Loads the module. `bytes` are those of filpost.wasm. What comes back answers requests one
+ * by one; a request that breaks the module (its stack or its memory is full) throws, and the
+ * next one begins with a fresh module.
+ */
+export async function load(bytes) {
+  const module = await WebAssembly.compile(bytes);
+  let instance = null;
+
+  return function ask(request) {
+    instance ??= new WebAssembly.Instance(module, {});
+    const { memory, filpost_request, filpost_answer, filpost_answered } = instance.exports;
+    const text = new TextEncoder().encode(JSON.stringify(request));
+    try {
+      const at = filpost_request(text.length);
+      new Uint8Array(memory.buffer, at, text.length).set(text);
+      const length = filpost_answer();
+      const answer = new Uint8Array(memory.buffer, filpost_answered(), length);
+      return JSON.parse(new TextDecoder().decode(answer));
+    } catch (error) {
+      instance = null;
+      throw error;
+    }
+  };
+}
