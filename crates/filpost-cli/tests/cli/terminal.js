@@ -87,7 +87,7 @@ const uses = {
     keys('C-x', 'C-o');
     await shows('minor word of CYCLE');
     keys('C-e', 'Escape', 'd', 'd');
-    keys('/POSTF(7', 'Enter', 'K');
+    keys('/7', 'Enter', 'K');
     await shows('of the current record');
     await picture('neovim');
     keys('Escape', ':qa!', 'Enter');

@@ -296,7 +296,6 @@ async function fromNothing(editor) {
   await page.keyboard.type('FINI');
   await page.keyboard.press('Escape');
   await editor.line('(posted).nc', '(COOLANT CHANGES)').waitFor({ timeout: LONG });
-  await editor.picture('section');
   await editor.save();
   // Its breakpoint stops.
   const stop = below(script).split('\n').lastIndexOf('DMY = POSTF(13)') + 1 || below(script).split('\n').findLastIndex((line) => line.includes('POSTF(13)')) + 1;
