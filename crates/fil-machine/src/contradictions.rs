@@ -16,6 +16,7 @@ use crate::locations::{
     self as loc, ControlFamily, CycleReturnCodes, SeqnoAlign, TapeEndOfBlock, TapePartnoText,
     ToolChangeBlock, ToolFormat,
 };
+use crate::mill_turn;
 use crate::setting::{CharacterAt, CodeAt};
 
 /// Codes of which no two may be the same: one motion, mode or command each.
@@ -149,6 +150,7 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     order_of_axes(commons, &mut found);
     shift_along(commons, &mut found);
     frame_rules::check(commons, &mut found);
+    found.extend(mill_turn::check(commons).err().map(|diag| *diag));
     same_positions(commons, &mut found);
     letters::check(commons, &mut found);
     absent_axes(commons, &mut found);

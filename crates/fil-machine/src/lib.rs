@@ -21,6 +21,7 @@ mod frame_rules;
 pub mod function_code;
 pub mod letter;
 pub mod locations;
+pub mod mill_turn;
 pub mod modes;
 pub mod motion_rules;
 pub mod number;

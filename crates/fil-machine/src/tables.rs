@@ -10,7 +10,10 @@ use crate::axis_chain::{AxisChain, ROTARY_LETTERS};
 use crate::commons::Commons;
 use crate::errors::MachineCode;
 use crate::letter::letters::F;
-use crate::locations::{self as loc, ControlFamily, RotaryFrameOutput, RotaryTipOutput};
+use crate::locations::{
+    self as loc, ControlFamily, MillTurnMode, RotaryFrameOutput, RotaryTipOutput,
+};
+use crate::mill_turn;
 use crate::modes::FeedMode;
 use crate::motion_rules::{FeedFormats, MotionRules};
 use crate::numbering::Numbering;
@@ -34,6 +37,11 @@ pub struct MachineTables {
     pub tip_output: bool,
     /// Motions under a tool axis that stands still are written in tilted frames.
     pub frame_output: bool,
+    /// What a mill-turn machine does; `None` for another machine.
+    pub mill_turn: Option<MillTurnMode>,
+    /// A motion asks something of the machine before it is made: a tilted frame, or the
+    /// mode of a mill-turn machine that mills.
+    pub prepares: bool,
     axes: Vec<Axis>,
     /// The travel of X, Y and Z where their words name the tip in the part.
     travel: Vec<Axis>,
@@ -68,6 +76,10 @@ impl MachineTables {
         self.feed_formats = FeedFormats::from_commons(&self.addresses, commons, metric);
         self.format_feed(FeedMode::PerMinute);
         let chain = AxisChain::from_commons(commons)?;
+        let has_rotary = chain.has_rotary();
+        let rotary_letter = mill_turn::letter(&chain);
+        self.mill_turn = mill_turn::mode(commons);
+        let chain = mill_turn::chain_in(self.mill_turn, chain);
         self.chain = if metric { chain } else { chain.in_inches() };
         self.axes = linear_letters()
             .map(|(common, letter)| Axis::new(letter, common, &self.addresses, commons))
@@ -80,7 +92,8 @@ impl MachineTables {
         self.input_shift =
             Vector3::from(loc::INPUT_TRANSLATE.map(|at| commons.dbl_opt(at).unwrap_or(0.0)));
         let along = commons.dbl_opt(loc::INPUT_ALONG_TOOL_AXIS).unwrap_or(0.0);
-        if !self.chain.has_rotary() {
+        self.prepares = self.frame_output || self.mills();
+        if !has_rotary {
             self.input_shift += self.chain.tool.into_inner() * along;
         }
         for (index, rotary) in self.chain.rotaries.iter().enumerate() {
@@ -105,10 +118,28 @@ impl MachineTables {
             }
         }
         self.travel = self.axes[..3].to_vec();
+        if let (Some(MillTurnMode::PolarInterpolation), Some(letter)) =
+            (self.mill_turn, rotary_letter)
+        {
+            // The second axis of the plane is C, in mm or inch, and no slide of the machine; X
+            // goes as far as the plane says only where C is 0.
+            self.axes[0].limit(None, None);
+            self.axes[1] = Axis::new(letter, 1, &self.addresses, commons);
+        }
         if self.tip_output || self.frame_output {
             self.axes[..3].iter_mut().for_each(|axis| axis.limit(None, None));
         }
         Ok(())
+    }
+
+    /// The main spindle of a mill-turn machine is the axis C.
+    pub fn mills(&self) -> bool {
+        self.mill_turn.is_some_and(|mode| mode != MillTurnMode::Turning)
+    }
+
+    /// X and C are a plane of mm or inch.
+    pub fn is_polar(&self) -> bool {
+        self.mill_turn == Some(MillTurnMode::PolarInterpolation)
     }
 
     /// Refuses a position of the machine outside the travel of X, Y and Z: under tool-tip

@@ -21,6 +21,9 @@ const EXACT: f64 = 1e-12;
 /// Angle in degrees of the difference quotients of [`Forward::refine`].
 const NUDGE: f64 = 1e-3;
 
+/// A tool axis with less than this of Z is square to it.
+const SQUARE: f64 = 1e-5;
+
 /// Least change of the tool axis by a degree of an axis that counts as turning it.
 const TURNS: f64 = 2e-7;
 
@@ -75,6 +78,17 @@ impl Forward {
     /// Direction from the tip to the spindle when the rotary axes stand at zero.
     pub fn tool(&self) -> Vector3<f64> {
         self.machine.tool.into_inner()
+    }
+
+    /// The same machine with its tool along X at zero, where a tool axis square to Z asks
+    /// for a live tool that lies so.
+    #[must_use]
+    pub fn with_tool_for(&self, axis: Vector3<f64>) -> Forward {
+        let mut radial = self.clone();
+        if axis.z.abs() < SQUARE {
+            radial.machine.tool = Vector3::x_axis();
+        }
+        radial
     }
 
     /// Distance of the tip from the pivot of the heads, mm; `None` when the control

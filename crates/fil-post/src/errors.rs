@@ -139,6 +139,18 @@ fil_diag::codes! {
         Frame = 589, Error, "not in a tilted frame",
             "A tilted frame stands still, and the machine turns to it only where the tool is away from the part.",
             "Put LOADTL, GOHOME or RETRCT before the new tool axis, give home.retract_z, or write positions of the axes with rotary.frame_output = 0.";
+        /// Something in the wrong mode of a mill-turn machine.
+        MillTurn = 561, Error, "not in this mode of a mill-turn machine",
+            "MODE/MILL makes the main spindle an axis that live tools mill by; MODE/TURN makes it a spindle again. What belongs to one of the two can't be done in the other.",
+            "Put MODE/MILL or MODE/TURN before it, or take the record with a FIL section.";
+        /// A motion that polar interpolation can't make.
+        Polar = 562, Error, "not in polar interpolation",
+            "Without Y a live tool along Z mills in the plane of X and C. That begins at a rapid motion, and the spindle can't turn by half a turn at once where the path crosses its axis.",
+            "Put RAPID before the first motion, and keep the path away from the axis of the spindle.";
+        /// A motion that cylindrical interpolation can't make.
+        Cylinder = 563, Error, "not on a cylinder about the spindle",
+            "A live tool along X that cuts while C turns goes along a cylinder of one radius, and its feed counts there.",
+            "Cut at one distance from the axis of the spindle with the tool axis through it, at a feed a minute; plunge and retract while C stands.";
         /// Too many functions in a block.
         Crowded = 542, Error, "functions that the control does not take in one block",
             "The control takes one preparatory function in a block, and each of these needs the words that stand there.",

@@ -32,6 +32,7 @@ pub const READY: &[ReadyPost] = ready![
     "fanuc-mill",
     "fanuc-mill-a",
     "fanuc-mill-b",
+    "fanuc-mill-turn",
     "grbl",
     "haas-lathe",
     "haas-mill",
@@ -50,6 +51,7 @@ pub const READY: &[ReadyPost] = ready![
     "okuma-mill",
     "sinumerik-5x",
     "sinumerik-840d",
+    "sinumerik-lathe",
 ];
 
 /// The post for a CL file that names none and is for a mill.

@@ -9,6 +9,9 @@ use super::geometry::distance;
 use super::machine::{NcAct, NcStep};
 use super::setup::{CenterForm, Setup};
 
+/// What the rounding of the ends of a leaning thread may change its lead by, as a part of it.
+const SHARE: f64 = 2e-5;
+
 /// A difference; two of one kind have the same name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
@@ -242,7 +245,10 @@ impl<'a> Comparer<'a> {
     fn thread(&mut self, to: Point, lead: f64, step: &Step) -> Outcome {
         match self.peek() {
             Some(NcStep { act: NcAct::Thread { to: end, lead: found }, .. })
-                if self.near(*end, to) && (found - lead).abs() <= self.tolerance.lead =>
+                if self.near(*end, to)
+                    // A lead along the path is counted on its longer axis, whose share is that
+                    // of rounded ends.
+                    && (found - lead).abs() <= self.tolerance.lead + SHARE * lead =>
             {
                 self.modes(&step.modes, &self.found[self.next], false)?;
                 self.consume();

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::Settings;
-use crate::motion::Compensation;
+use crate::motion::{Compensation, Spindle};
 
 /// How a feed is counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -93,6 +93,10 @@ pub enum Function {
     AlignTool,
     /// It ends.
     TiltOff,
+    /// X and C become a plane of lengths, or no longer.
+    Polar(bool),
+    /// The feed counts on a cylinder whose radius is the word of C, or no longer.
+    Cylinder,
     /// Work offset.
     Fixture(u32),
     /// Work offset by a number of its own; the code in tenths.
@@ -136,6 +140,8 @@ pub enum Group {
     Length,
     /// Tilted frames.
     Tilt,
+    /// Polar and cylindrical interpolation.
+    Interpolation,
     /// Work offsets.
     Fixture,
     /// Speed modes.
@@ -168,6 +174,7 @@ impl Function {
                 Group::Length
             }
             Function::Tilt | Function::TiltOff => Group::Tilt,
+            Function::Polar(_) | Function::Cylinder => Group::Interpolation,
             Function::Fixture(_) | Function::NumberedFixture(_) => Group::Fixture,
             Function::Surface(_) => Group::Surface,
             Function::PathControl => Group::PathControl,
@@ -194,6 +201,10 @@ pub enum Auxiliary {
     SpindleOff,
     /// Spindle stands where the machine orients it.
     Orient,
+    /// The main spindle becomes the axis C, or a spindle again; with the number.
+    CAxis(bool, u32),
+    /// The live tool turns or stands.
+    Live(Spindle),
     /// A range of spindle speeds, from 1.
     SpindleRange(u8),
     /// The coolant of this number flows; `None`: it stops.
@@ -222,6 +233,8 @@ impl Auxiliary {
                     | Auxiliary::Counterclockwise
                     | Auxiliary::SpindleOff
                     | Auxiliary::Orient
+                    | Auxiliary::CAxis(..)
+                    | Auxiliary::Live(_)
             )
         };
         match (self, other) {
@@ -316,6 +329,9 @@ impl Functions {
         if has_rotary && !lathe {
             table.add_tilts(settings);
         }
+        if settings.code("mill_turn.milling_code").is_some() {
+            table.add_interpolations(settings);
+        }
         table
     }
 
@@ -329,6 +345,20 @@ impl Functions {
         ];
         for (tenths, function) in tilts {
             self.0.entry(tenths).or_insert(function);
+        }
+    }
+
+    /// What a live tool mills by where the spindle is the axis C.
+    fn add_interpolations(&mut self, settings: &Settings) {
+        let named = [
+            ("mill_turn.polar_code", Function::Polar(true)),
+            ("mill_turn.polar_end_code", Function::Polar(false)),
+            ("mill_turn.cylinder_code", Function::Cylinder),
+        ];
+        for (key, function) in named {
+            if let Some(tenths) = settings.code(key).filter(|code| *code > 0) {
+                self.0.entry(i64::from(tenths)).or_insert(function);
+            }
         }
     }
 
@@ -490,6 +520,9 @@ impl Auxiliaries {
             ("spindle.range4_code", A::SpindleRange(4)),
             ("spindle.range5_code", A::SpindleRange(5)),
             ("spindle.range6_code", A::SpindleRange(6)),
+            ("mill_turn.live_cw_code", A::Live(Spindle::Clockwise)),
+            ("mill_turn.live_ccw_code", A::Live(Spindle::Counterclockwise)),
+            ("mill_turn.live_stop_code", A::Live(Spindle::Off)),
             ("coolant.off_code", A::Coolant(None)),
             ("tool.change_code", A::ToolChange),
         ];
@@ -497,6 +530,12 @@ impl Auxiliaries {
         for (key, auxiliary) in named {
             if let Some(code) = settings.code(key) {
                 table.entry(i64::from(code)).or_insert(auxiliary);
+            }
+        }
+        let modes = [("mill_turn.milling_code", true), ("mill_turn.turning_code", false)];
+        for (key, on) in modes {
+            if let Some(code) = settings.code(key) {
+                table.entry(i64::from(code)).or_insert(A::CAxis(on, code.unsigned_abs()));
             }
         }
         for code in COOLANTS.iter().filter_map(|key| settings.code(key)) {

@@ -109,6 +109,13 @@ pub struct Dialect {
     pub(crate) tables: [bool; 2],
     /// How the axes lead the tool.
     pub(crate) forward: Forward,
+    /// The main spindle can become the axis C: whether it is one when the program begins.
+    pub(crate) live_at_start: Option<bool>,
+    /// One code turns the main spindle and the live tool, whichever is in use: by clockwise,
+    /// counterclockwise and stop.
+    pub(crate) one_code: [bool; 3],
+    /// The feed that stands for rapid motions in polar interpolation, mm a minute.
+    pub(crate) polar_rapid: Option<f64>,
     /// Tool-tip control may begin wherever the tables stand.
     pub(crate) tip_control_anywhere: bool,
     /// The machine turns parts: X may be a diameter, threads have cycles.
@@ -248,6 +255,14 @@ impl Dialect {
             axis_letters,
             tables,
             forward: Forward::new(kinematics),
+            live_at_start: settings
+                .code("mill_turn.milling_code")
+                .map(|_| settings.code("mill_turn.mode").is_some_and(|mode| mode != 0)),
+            one_code: ["cw", "ccw", "stop"].map(|turn| {
+                let code = |of: &str| settings.code(&format!("{of}{turn}_code"));
+                code("mill_turn.live_") == code("spindle.")
+            }),
+            polar_rapid: settings.number("mill_turn.polar_rapid"),
             tip_control_anywhere: settings.code("rotary.tip_control") == Some(1),
             lathe,
             metric: start::metric(&settings),

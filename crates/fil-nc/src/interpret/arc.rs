@@ -52,6 +52,10 @@ impl State<'_> {
             }
         };
         self.check_helix(words, &to, angle)?;
+        if self.polar && to[2] != self.at[2] {
+            let message = "Z moves along an arc in polar interpolation";
+            return Err(Fault::new(NcCode::NoMeaning, message));
+        }
         let mut point = [0.0; 3];
         point[self.plane] = self.at[self.plane];
         (point[plane[0]], point[plane[1]]) = (center[0], center[1]);

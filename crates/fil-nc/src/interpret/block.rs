@@ -48,7 +48,7 @@ impl State<'_> {
     }
 
     fn follow(&mut self, words: &mut Words) -> Result<Outcome, Fault> {
-        if self.tilted_block(words)? {
+        if self.tilted_block(words)? || self.interpolation_block(words)? {
             return Ok(Outcome::Next);
         }
         let outcome = self.outcome(words)?;
@@ -57,9 +57,11 @@ impl State<'_> {
         let begins = words.peek(Group::Length) == Some(Function::TipControl);
         let (stood, known) = (self.at, self.known);
         let uses = Uses::of(words, self.dialect);
+        self.check_live_words(words)?;
         self.modes(words)?;
         self.tool_and_spindle(words)?;
         self.auxiliaries(words);
+        self.check_live(words)?;
         self.motion(words)?;
         if begins {
             self.check_begun(&stood, &known)?;
@@ -199,6 +201,11 @@ impl State<'_> {
         }
         let axes = words.take_axes(self.dialect)?;
         let target = self.target(&axes);
+        if self.dialect.live_at_start.is_some() {
+            let course = self.live_course(&target.0, course)?;
+            self.go(target, course, rate.filter(|_| course == Course::Feed));
+            return Ok(());
+        }
         self.go(target, course, rate);
         Ok(())
     }

@@ -9,6 +9,7 @@ mod block;
 mod cycle;
 mod klartext;
 mod left_to_control;
+mod live;
 mod modes;
 mod order;
 mod program;

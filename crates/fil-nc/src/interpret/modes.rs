@@ -121,7 +121,8 @@ impl State<'_> {
         Ok(())
     }
 
-    /// Speed, tool and M words.
+    /// Speed, tool and M words. S is the speed of the live tool where the main spindle is
+    /// an axis.
     pub(super) fn tool_and_spindle(&mut self, words: &mut Words) -> Result<(), Fault> {
         if let Some(Function::Surface(on)) = words.function(Group::Surface) {
             if on != self.surface {
@@ -155,6 +156,13 @@ impl State<'_> {
         self.tool(words)?;
         for (auxiliary, _) in &words.auxiliaries {
             match auxiliary {
+                Auxiliary::CAxis(on, code) => self.change_spindle(*on, *code)?,
+                Auxiliary::Live(turn) => self.turn_live_tool(*turn)?,
+                Auxiliary::Clockwise if self.live => self.turn_main(Spindle::Clockwise)?,
+                Auxiliary::Counterclockwise if self.live => {
+                    self.turn_main(Spindle::Counterclockwise)?;
+                }
+                Auxiliary::SpindleOff if self.live => self.turn_main(Spindle::Off)?,
                 Auxiliary::Clockwise => self.turn_spindle(Spindle::Clockwise),
                 Auxiliary::Counterclockwise => self.turn_spindle(Spindle::Counterclockwise),
                 Auxiliary::SpindleOff => self.turn_spindle(Spindle::Off),
@@ -170,7 +178,7 @@ impl State<'_> {
         Ok(())
     }
 
-    fn turn_spindle(&mut self, spindle: Spindle) {
+    pub(super) fn turn_spindle(&mut self, spindle: Spindle) {
         self.modes.spindle = spindle;
         self.modes.orientation = None;
     }

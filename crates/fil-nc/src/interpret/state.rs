@@ -39,6 +39,14 @@ pub(super) struct State<'d> {
     pub(super) cycle: Option<Cycle>,
     /// The tilted frame in force.
     pub(super) tilt: Option<Tilt>,
+    /// The main spindle of a mill-turn machine is the axis C.
+    pub(super) live: bool,
+    /// X and C are a plane of lengths.
+    pub(super) polar: bool,
+    /// The plane in force before it.
+    pub(super) plane_before: usize,
+    /// Radius of the cylinder on which the feed counts, mm.
+    pub(super) cylinder: Option<f64>,
     /// The tool lies along its Z.
     pub(super) aligned: bool,
     pub(super) pass: Option<Pass>,
@@ -59,7 +67,8 @@ impl<'d> State<'d> {
             line: 0,
             at: dialect.start.map(|position| position.unwrap_or(0.0)),
             known: std::array::from_fn(|axis| {
-                dialect.start[axis].is_some() || dialect.scales[axis].is_none()
+                let is_spindle = axis == 3 && dialect.live_at_start == Some(false);
+                dialect.start[axis].is_some() || dialect.scales[axis].is_none() || is_spindle
             }),
             motion: None,
             plane: dialect.plane,
@@ -75,6 +84,10 @@ impl<'d> State<'d> {
             cycle: None,
             tilt: None,
             aligned: false,
+            live: dialect.live_at_start == Some(true),
+            polar: false,
+            plane_before: dialect.plane,
+            cylinder: None,
             pass: None,
             setup: None,
             next_tool: None,
@@ -115,6 +128,7 @@ impl<'d> State<'d> {
     pub(super) fn target(&self, words: &[AxisWord]) -> (Axes, [bool; 5]) {
         let (mut to, mut known) = (self.at, self.known);
         for word in words {
+            let word = &self.in_plane(*word);
             if self.absolute && !word.increment {
                 to[word.axis] = self.position(word.axis, word.value);
                 known[word.axis] = true;

@@ -120,6 +120,9 @@ impl<C: Steps> Walk<'_, C> {
             self.extra(1, cl_line);
             self.pass(cl_line);
         }
+        if self.modes.ends_milling(self.settings) {
+            self.ask_auxiliary(cl_line, self.settings.spindle_mode_code(false));
+        }
         match self.nc.get(self.next) {
             Some(Event::End { line, code, modes }) => {
                 self.next += 1;

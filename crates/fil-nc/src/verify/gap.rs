@@ -47,6 +47,9 @@ impl Gap {
         pose: &Pose,
         last: [f64; 2],
     ) -> Gap {
+        if settings.is_mill_turn() {
+            return Gap::of_live_tool(settings, slack, at, pose);
+        }
         let forward = &settings.forward;
         if !forward.has_rotary() && !at.names_tip() && pose.axis == forward.tool() {
             return Gap::upright(slack, at, pose);
@@ -86,6 +89,30 @@ impl Gap {
         }
         let tip = (Point3::from(at.linear) - pose.tip).norm();
         Gap { linear, excess, turned: None, rotary: at.rotary, tip, axis: 0.0 }
+    }
+
+    /// The gap of a tool of a mill-turn machine: C stands where the tape has it, and X, Y and
+    /// Z are compared there. What rounding of C leaves across the tool no axis can make good
+    /// where the machine has no Y.
+    fn of_live_tool(settings: &Settings, slack: &Slack, at: &Position, pose: &Pose) -> Gap {
+        let forward = settings.forward.with_tool_for(pose.axis);
+        let stands = forward.pose(at);
+        let half_digit = slack.rotary[0].to_radians();
+        let axis = stands.axis.angle(&pose.axis);
+        let mut slack = *slack;
+        if !settings.written()[1] {
+            slack.linear[1] += half_digit * libm::hypot(pose.tip.x, pose.tip.y);
+        }
+        let mut gap = Gap {
+            linear: [0.0; 3],
+            excess: [false; 3],
+            turned: (axis > half_digit + REACHED).then_some(axis.to_degrees()),
+            rotary: at.rotary,
+            tip: (stands.tip - pose.tip).norm(),
+            axis: axis.to_degrees(),
+        };
+        gap.compare(settings, &slack, at, pose);
+        gap
     }
 
     /// The gap when these are the exact rotary positions.

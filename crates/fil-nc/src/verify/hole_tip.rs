@@ -19,6 +19,9 @@ use crate::motion::{Course, Event, Move, Position};
 /// The machine's Z and a tool this far apart are parallel.
 const PARALLEL: f64 = 1e-6;
 
+/// The same of a live tool of a mill-turn machine, radians.
+const LIVE_PARALLEL: f64 = 1e-4;
+
 /// Motions to and from a hole, at most.
 const MOST: usize = 12;
 
@@ -116,6 +119,12 @@ impl<C: Steps> Walk<'_, C> {
         }
         let rotary = self.gap(&found.to, &hole.start).rotary;
         let up = self.settings.forward.frame(rotary).turn.column(2).into_owned();
+        if self.settings.is_mill_turn() {
+            // A live tool square to Z; C is rounded on the tape.
+            let tool = self.settings.forward.with_tool_for(hole.start.axis);
+            let along = (tool.axis(rotary) - hole.start.axis).norm() < LIVE_PARALLEL;
+            return along && (up - hole.start.axis).norm() > LIVE_PARALLEL;
+        }
         let along = (self.settings.forward.axis(rotary) - hole.start.axis).norm() < PARALLEL;
         along && (up - hole.start.axis).norm() > PARALLEL
     }
@@ -134,6 +143,10 @@ impl<C: Steps> Walk<'_, C> {
 
     /// A motion ends over a hole, or in it.
     pub(super) fn ends_over(&self, found: &Move, hole: &Hole, over: [f64; 3]) -> bool {
+        // Behind polar interpolation X and C are not known before their next words.
+        if self.settings.is_mill_turn() && !self.is_known(&found.known) {
+            return false;
+        }
         if self.is_said_anew(found, hole) {
             return self.line_of(hole).range(self.tip_over(found, hole).coords.into()).is_some();
         }
@@ -141,10 +154,17 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     fn line_of(&self, hole: &Hole) -> Line {
+        let mut slack = self.slack.linear;
+        if self.settings.is_mill_turn() {
+            // X of a hole at any C, which is rounded on the tape.
+            let most = slack.into_iter().fold(0.0, f64::max);
+            let reach = libm::hypot(hole.start.tip.x, hole.start.tip.y);
+            slack = [most + self.slack.rotary[0].to_radians() * reach; 3];
+        }
         Line {
             start: hole.start.tip,
             axis: hole.start.axis,
-            slack: self.slack.linear,
+            slack,
             heights: Vec::new(),
             before: f64::NAN,
         }
@@ -155,7 +175,10 @@ impl<C: Steps> Walk<'_, C> {
         let next = self.next_move().filter(|next| self.is_said_anew(next, hole))?;
         let mut line = self.line_of(hole);
         line.heights = heights(hole, levels, self.settings.peck_gap());
-        let stands = Move { to: self.at, ..next };
+        // The spindle turns the part under a live tool that stands: its height stays.
+        let turned = self.settings.is_mill_turn();
+        let rotary = if turned { next.to.rotary } else { self.at.rotary };
+        let stands = Move { to: Position { rotary, ..self.at }, ..next };
         self.at = self.said(&stands, hole, levels, &line).to;
         let known = self.known[..3].iter().all(|known| *known);
         let tip = self.settings.forward.pose(&stands.to).tip;

@@ -12,6 +12,10 @@ use fil_machine::locations::LinearMethod;
 use crate::forward::Pose;
 use crate::motion::{Course, Event, Move, Position, Rate};
 
+/// Distances from the axis of the spindle nearer than this are one where each coordinate is
+/// rounded, mm.
+const AROUND: f64 = 3e-3;
+
 /// Most blocks of one rapid.
 pub(super) const RAPID_PARTS: usize = 4;
 
@@ -96,6 +100,9 @@ impl<C: Steps> Walk<'_, C> {
         if part.to.tilt != end.tilt {
             return self.check_before_frame(cl_line, part);
         }
+        if self.settings.is_mill_turn() && self.goes_around(part, end) {
+            return;
+        }
         let splits = self.splits_rapids;
         let forward = &self.settings.forward;
         // Each part as its own X, Y, Z are meant.
@@ -136,6 +143,16 @@ impl<C: Steps> Walk<'_, C> {
 
     fn say_order(&mut self, cl_line: u32, part: &Move, message: String) {
         self.find(FindingKind::Order, Some(cl_line), Some(part.line), message);
+    }
+
+    /// A part of a rapid of a mill-turn machine that mills in polar interpolation: at C zero and
+    /// the distance of the end from the axis, or around the axis there; Z stays, or goes up
+    /// before.
+    fn goes_around(&self, part: &Move, end: &Position) -> bool {
+        let distance = |at: &Position| libm::hypot(at.linear[0], at.linear[1]);
+        let around = (distance(&part.to) - distance(end)).abs() <= AROUND;
+        let stays = (part.to.linear[2] - self.at.linear[2]).abs() <= STILL;
+        around && (stays || !part.known[2]) && part.to.rotary[0] == 0.0
     }
 
     /// A position of Z is the level that the machine goes up to.
@@ -187,6 +204,10 @@ impl<C: Steps> Walk<'_, C> {
         let axes = self.settings.forward.restated(&found.to, &Position::default()).linear;
         let axes = match self.from_hole {
             Some(turn) => (turn * Vector3::from(axes)).into(),
+            // In the plane of X and C the slide stands at the distance from the axis.
+            None if self.modes.mills_without_y(self.settings) => {
+                [libm::hypot(axes[0], axes[1]), 0.0, axes[2]]
+            }
             None => axes,
         };
         for (n, (min, max)) in self.travel.into_iter().enumerate() {

@@ -91,10 +91,13 @@ impl<C: Steps> Walk<'_, C> {
             let at = self.settings.forward.restated(found, &Position::default());
             let near = |a: f64, b: f64, n: usize| (a - b).abs() <= self.slack.linear[n];
             let arrives = |n: usize| match to[n] {
+                // In polar interpolation it is the way of C.
+                None if n == 1 && self.modes.mills_without_y(self.settings) => true,
                 Some(value) => known[n] && near(at.linear[n], value, n),
                 None => !(known[n] && self.known[n]) || near(at.linear[n], stands.linear[n], n),
             };
-            (0..3).all(arrives) && at.rotary == stands.rotary
+            let turns = at.rotary != stands.rotary && !self.settings.is_mill_turn();
+            (0..3).all(arrives) && !turns
         };
         if reached(&self.at, &self.known) {
             return Some(0);

@@ -109,6 +109,10 @@ pub(super) struct Expected {
     asks_fixture: bool,
     /// The length offset seen last.
     offset_on: Option<u32>,
+    /// Live tools mill: the main spindle is the axis C.
+    mills: bool,
+    /// MODE has just changed that.
+    mode_changed: bool,
     /// What was wrong at the last motion, so that it is said once.
     said: Vec<(FindingKind, String)>,
 }
@@ -134,6 +138,8 @@ impl Expected {
             allowed_offsets: Vec::new(),
             asks_fixture: false,
             offset_on: None,
+            mills: settings.begins_milling(),
+            mode_changed: false,
             said: Vec::new(),
         }
     }
@@ -205,6 +211,7 @@ impl Expected {
                 let offset = offset.filter(|offset| Some(*offset) != edge);
                 self.compensation.set((*side, offset), settings.compensation_due());
             }
+            Wanted::Mills(mills) if settings.is_mill_turn() => self.change_spindle(*mills),
             Wanted::Stop { .. } | Wanted::End(_) => self.flush(),
             Wanted::Insert(text) => {
                 settings.blocks_of_text(text).for_each(|text| self.insert(text, settings));
@@ -235,6 +242,37 @@ impl Expected {
         }
     }
 
+    /// The main spindle becomes an axis or a spindle again: neither it nor a live tool turns.
+    fn change_spindle(&mut self, mills: bool) {
+        self.mode_changed = self.mills != mills;
+        if self.mode_changed {
+            self.flush();
+            self.mills = mills;
+            self.spindle.set(Some(Spindle::Off), Due::Now);
+            self.speed.set(None, Due::Now);
+        }
+    }
+
+    /// The MODE that was taken up last has changed what the main spindle is.
+    pub(super) fn changes_spindle(&self, mills: bool) -> bool {
+        self.mode_changed && self.mills == mills
+    }
+
+    /// Live tools mill on a machine without Y.
+    pub(super) fn mills_without_y(&self, settings: &Settings) -> bool {
+        self.mills && settings.is_mill_turn() && !settings.written()[1]
+    }
+
+    /// The program ends with a main spindle that is an axis, and begins with one that is none:
+    /// the end makes it a spindle again.
+    pub(super) fn ends_milling(&mut self, settings: &Settings) -> bool {
+        let ends = settings.is_mill_turn() && self.mills && !settings.begins_milling();
+        if ends {
+            self.change_spindle(false);
+        }
+        ends
+    }
+
     /// The speed that must be in force, turns/min; `None` for a surface speed, and where
     /// none is known.
     pub(super) fn turns_a_minute(&self) -> Option<f64> {
@@ -252,6 +290,7 @@ impl Expected {
                 }
                 speed
             }
+            Speed::Turns(_) if self.mills => speed,
             Speed::Turns(asked) => {
                 if !self.range_is_named {
                     let within = settings.speed_within(asked, None);

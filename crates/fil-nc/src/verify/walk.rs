@@ -20,6 +20,9 @@ use crate::events::Events;
 use crate::forward::Pose;
 use crate::motion::{Course, Event, Modes, Move, Position, Rate};
 
+/// What X is multiplied by when it is a diameter.
+const DIAMETER: f64 = 2.0;
+
 /// How far to look for the place where path and program agree again.
 pub(super) const LOOK_AHEAD: usize = 8;
 
@@ -172,7 +175,13 @@ impl<'a, C: Steps> Walk<'a, C> {
             Wanted::Retract => self.retract(step.line),
             Wanted::Turn { index, angle } => self.turn(step.line, *index, *angle),
             Wanted::Cutter(diameter) => self.cutter = Some(*diameter),
-            Wanted::XScale(scale) => self.scale_x(*scale),
+            Wanted::Mills(mills) if self.settings.is_mill_turn() => {
+                if self.modes.changes_spindle(*mills) {
+                    let code = self.settings.spindle_mode_code(*mills);
+                    self.ask_auxiliary(step.line, code);
+                }
+            }
+            Wanted::Mills(mills) => self.scale_x(if *mills { 1.0 } else { DIAMETER }),
             Wanted::CycleEnd => self.end_cycle(step.line),
             Wanted::Straight(within) => self.watch.ask(*within),
             Wanted::Tool { number, offset } => {

@@ -79,8 +79,8 @@ pub enum Wanted {
     Fixture(u32),
     /// A work offset by its number from 1; `None` for the machine's usual one.
     WorkOffset(Option<f64>),
-    /// The program multiplies X by this from here on.
-    XScale(f64),
+    /// MODE: live tools mill from here on, or the machine turns.
+    Mills(bool),
     /// The program waits, seconds.
     Dwell(Option<f64>),
     /// The program waits turns of the spindle.

@@ -68,7 +68,7 @@ pub fn feed(control: &mut Control, motion: &Motion, feed: Option<&Feed>) -> Resu
 pub fn thread(control: &mut Control, motion: &Motion, lead: &Lead) -> Result<()> {
     match control.tables.family {
         ControlFamily::Klartext => refuse("Klartext has no pass of a thread"),
-        ControlFamily::Sinumerik => refuse("passes of a thread are not written yet"),
+        ControlFamily::Sinumerik => sinumerik::thread::pass(control, motion, lead),
         ControlFamily::WordAddress => words::thread(control, motion, lead),
     }
 }

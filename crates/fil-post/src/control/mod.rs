@@ -29,8 +29,10 @@ use fil_diag::{Diag, Result};
 use fil_machine::address::no_address;
 use fil_machine::commons::EMPTY;
 use fil_machine::contradictions;
+use fil_machine::errors::MachineCode;
 use fil_machine::letters::{G, M};
-use fil_machine::locations::ControlFamily;
+use fil_machine::locations::{ControlFamily, MillTurnMode};
+use fil_machine::mill_turn;
 use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::rounding::Rounding;
 use fil_machine::setting::{CodeAt, LetterAt};
@@ -128,6 +130,7 @@ impl Control {
     /// Settings that make no machine.
     pub fn new(commons: Commons) -> Result<Self> {
         contradictions::check(&commons)?;
+        refuse_milling_start(&commons)?;
         let mut tables = MachineTables::default();
         tables.refresh(&commons, true)?;
         let unit = Unit::of_machine(&commons);
@@ -393,6 +396,9 @@ impl Control {
         }
         self.refuse_after_end()?;
         texts::check(text)?;
+        if self.tables.family == ControlFamily::Sinumerik {
+            sinumerik::reader::refuse_other_diameters(self, text)?;
+        }
         if self.put_line(text, numbered)? {
             return Ok(());
         }
@@ -553,4 +559,14 @@ impl Control {
     pub fn take_warnings(&mut self) -> Vec<Diag> {
         std::mem::take(&mut self.warnings.list)
     }
+}
+
+/// Refuses a machine that would begin a program while its spindle is an axis: the code that
+/// makes it one would be missing.
+fn refuse_milling_start(commons: &Commons) -> Result<()> {
+    let mode = mill_turn::mode(commons);
+    if mode.is_none_or(|mode| mode == MillTurnMode::Turning) {
+        return Ok(());
+    }
+    MachineCode::SettingValue.err("mill_turn.mode: programs begin with turning (0)")
 }

@@ -118,7 +118,11 @@ fn write_start(control: &mut Control) -> Result<()> {
     if !own_start {
         mode_codes(control);
     }
-    control.write_block()
+    control.write_block()?;
+    if control.tables.family == ControlFamily::Sinumerik {
+        super::sinumerik::program::say_diameters(control)?;
+    }
+    Ok(())
 }
 
 /// Writes the end of the program.

@@ -1,7 +1,8 @@
 //! What the preparatory functions of a machine mean: the codes its settings name,
 //! and for texts of others the usual ones (ISO 6983, RS-274).
 
-use fil_machine::locations::{self as loc, ControlFamily};
+use fil_machine::locations::{self as loc, ControlFamily, MillTurnMode};
+use fil_machine::mill_turn;
 use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::setting::CodeAt;
 use fil_machine::{Commons, FunctionCode};
@@ -87,15 +88,7 @@ impl Codes {
                 .iter()
                 .filter_map(|at| commons.read(*at).and_then(FunctionCode::of_setting))
                 .collect(),
-            turns: [
-                (code(loc::SPINDLE_CW_CODE).unwrap_or(CLOCKWISE), Rotation::Clockwise),
-                (
-                    code(loc::SPINDLE_CCW_CODE).unwrap_or(COUNTERCLOCKWISE),
-                    Rotation::Counterclockwise,
-                ),
-                (code(loc::SPINDLE_STOP_CODE).unwrap_or(STOP), Rotation::Standing),
-                (code(loc::SPINDLE_ORIENT_CODE).unwrap_or(ORIENT), Rotation::Standing),
-            ],
+            turns: turns(commons),
         };
         let codes_are_calls = codes.sinumerik;
         let mut name = |at: CodeAt, meaning: Meaning| {
@@ -116,6 +109,7 @@ impl Codes {
         for at in cycles {
             name(*at, Meaning::Cycle);
         }
+        let mills = mill_turn::mode(commons).is_some();
         let tenths = |at| {
             let code = commons.int_opt(at).and_then(|code| u32::try_from(code).ok());
             code.map(FunctionCode::tenths)
@@ -123,12 +117,19 @@ impl Codes {
         let extended = tenths(loc::FIXTURE_EXTENDED_CODE);
         let taps = [loc::CYCLE_RIGID_TAP_CODE, loc::CYCLE_RIGID_TAP_LEFT_CODE].map(tenths);
         let tip = tenths(loc::ROTARY_TIP_CODE);
+        let planes = [
+            loc::MILL_TURN_POLAR_CODE,
+            loc::MILL_TURN_POLAR_END_CODE,
+            loc::MILL_TURN_CYLINDER_CODE,
+        ];
+        let planes = planes.map(tenths).into_iter().flatten();
         let tilts = [loc::ROTARY_FRAME_CODE, loc::ROTARY_FRAME_ALIGN_CODE].map(tenths);
         if !turning {
             name(loc::MODE_PRESET_CODE, Meaning::Frame);
             name(loc::MODE_ABSOLUTE_CODE, Meaning::Distance(Distance::Absolute));
             name(loc::MODE_INCREMENTAL_CODE, Meaning::Distance(Distance::Incremental));
         }
+        codes.named.extend(planes.filter(|_| mills).map(|code| (code, Meaning::Frame)));
         codes.named.extend(extended.map(|code| (code, Meaning::Frame)));
         codes.named.extend(tip.map(|code| (code, Meaning::TipControl)));
         codes.named.extend(tilts.into_iter().flatten().map(|code| (code, Meaning::Tilt)));
@@ -206,6 +207,28 @@ impl Codes {
             _ => Meaning::Unknown,
         }
     }
+}
+
+/// The functions that turn the spindle in use or stop it: of a mill-turn machine that mills
+/// the live tool, whatever functions of the main spindle a text may hold.
+fn turns(commons: &Commons) -> [(FunctionCode, Rotation); 4] {
+    let mills = mill_turn::mode(commons).is_some_and(|mode| mode != MillTurnMode::Turning);
+    let [clockwise, counterclockwise, stop] = match mills {
+        true => [
+            loc::MILL_TURN_LIVE_CW_CODE,
+            loc::MILL_TURN_LIVE_CCW_CODE,
+            loc::MILL_TURN_LIVE_STOP_CODE,
+        ],
+        false => [loc::SPINDLE_CW_CODE, loc::SPINDLE_CCW_CODE, loc::SPINDLE_STOP_CODE],
+    };
+    let code =
+        |at: CodeAt, usual| commons.read(at).and_then(FunctionCode::of_setting).unwrap_or(usual);
+    [
+        (code(clockwise, CLOCKWISE), Rotation::Clockwise),
+        (code(counterclockwise, COUNTERCLOCKWISE), Rotation::Counterclockwise),
+        (code(stop, STOP), Rotation::Standing),
+        (code(loc::SPINDLE_ORIENT_CODE, ORIENT), Rotation::Standing),
+    ]
 }
 
 /// What the codes with a decimal do that controls of today share: high-speed modes,

@@ -6,7 +6,7 @@
 //! be told is unknown (`None`), and whoever depends on it says it again.
 
 mod codes;
-mod text;
+pub(crate) mod text;
 
 pub use codes::{Codes, Meaning};
 pub use text::{TextWords, read as text_words};

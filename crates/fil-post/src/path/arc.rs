@@ -181,7 +181,7 @@ pub fn flat(arc: &Arc, point: Point3<f64>) -> Vector3<f64> {
 /// Angle from start to end about the axis, degrees: above 0, at most 360 and
 /// the full turns on top. A start above the end is one turn, or TIMES turns, of which
 /// rounded points may lack a little.
-fn sweep(arc: &Arc, [from, to]: [Vector3<f64>; 2]) -> f64 {
+pub(super) fn sweep(arc: &Arc, [from, to]: [Vector3<f64>; 2]) -> f64 {
     let apart = (from - to).norm();
     if arc.turns == 0.0 && apart < SAME_POINT {
         return FULL;

@@ -47,7 +47,8 @@ fn tap(control: &mut Control, cycle: &Cycle, at: &Motion, hole: &Hole) -> Result
         return PostCode::CycleForm
             .err("a tap while the spindle stands; SPINDL before it turns it");
     }
-    if !control.commons.read(loc::THREAD_TAP) {
+    // A threading move counts the turns of the main spindle, not of a live tool.
+    if !control.commons.read(loc::THREAD_TAP) || control.tables.mills() {
         return cant_tap(control);
     }
     if cycle.dwell > 0.0 || cycle.rigid {

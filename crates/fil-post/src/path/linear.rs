@@ -3,7 +3,7 @@
 use fil_diag::Result;
 use fil_machine::axes::AxisSet;
 
-use super::{feed_rules, frame, rapid, rotary, solution, thread, turning};
+use super::{feed_rules, frame, mill_turn, rapid, rotary, solution, thread, turning};
 use crate::control::family;
 use crate::control::word_address::motion::Motion;
 use crate::errors::PostCode;
@@ -30,9 +30,8 @@ pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
             solution::choose(post, target, kind);
         }
     }
-    if post.control.tables.frame_output && !post.writes_tip() {
-        let at_feed = !matches!(kind, MotionKind::Rapid(_));
-        frame::turn_to(post, target, at_feed)?;
+    if post.control.tables.prepares && prepare(post, target, kind)? {
+        return Ok(());
     }
     let before = post.path.rotary;
     let position = rotary::position_of(post, target)?;
@@ -61,4 +60,17 @@ pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
     post.path.point = Some(target.point);
     post.path.axis = target.axis;
     Ok(())
+}
+
+/// What the machine needs before the motion; true where that made the motion itself.
+#[cold]
+fn prepare(post: &mut Post, target: Target, kind: MotionKind) -> Result<bool> {
+    if post.control.tables.mills() {
+        return mill_turn::prepare(post, target, kind);
+    }
+    if !post.writes_tip() {
+        let at_feed = !matches!(kind, MotionKind::Rapid(_));
+        frame::turn_to(post, target, at_feed)?;
+    }
+    Ok(false)
 }

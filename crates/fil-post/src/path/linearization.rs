@@ -11,9 +11,9 @@ use fil_machine::axis_chain::AxisChain;
 use fil_machine::locations as loc;
 use nalgebra::Point3;
 
-use super::rotary;
 use super::tip::{largest_distance, tip};
 use super::turning_feed::TurningFeed;
+use super::{mill_turn, rotary};
 use crate::control::family;
 use crate::control::word_address::motion::Motion;
 use crate::errors::PostCode;
@@ -72,6 +72,9 @@ pub(super) fn tolerance(post: &Post) -> Result<Option<f64>> {
 #[cold]
 pub(super) fn feed(post: &mut Post, before: [f64; 2], to: Position, target: Target) -> Result<()> {
     let from = stands(post, before);
+    if post.control.tables.mills() {
+        return mill_turn::turning_feed(post, from, to, target);
+    }
     let word = rotary::word_of(post, target);
     let allowed = tolerance(post)?;
     let turning = Turning::new(post, from, to);

@@ -18,6 +18,7 @@ mod index;
 mod linear;
 pub mod linearization;
 mod machine_position;
+pub mod mill_turn;
 pub mod rapid;
 mod reposition;
 pub mod rotary;
@@ -63,6 +64,8 @@ pub struct Path {
     pub(crate) frame: Option<frame::TiltedFrame>,
     /// How many frames have begun.
     pub(crate) frames: u32,
+    /// The radius of the cylinder in force about the spindle of a mill-turn machine.
+    pub(crate) cylinder: Option<f64>,
     /// How far the tip may leave its line while the machine turns.
     pub straightness: Straightness,
     /// The last feed motion was written in inverse time, in which the control still is.
@@ -114,6 +117,7 @@ impl Default for Path {
             rotary: None,
             frame: None,
             frames: 0,
+            cylinder: None,
             straightness: Straightness::default(),
             writes_inverse_time: false,
             rapid: None,
@@ -158,7 +162,12 @@ impl Path {
 pub fn carry_out(post: &mut Post, operation: Operation) -> Result<()> {
     match operation {
         Operation::Linear(target, kind) => linear::carry_out(post, target, kind),
-        Operation::Arc(arc, target) => arc::carry_out(post, &arc, target),
+        Operation::Arc(arc, target) => {
+            if post.control.tables.mills() {
+                mill_turn::before_arc(post, &arc, target)?;
+            }
+            arc::carry_out(post, &arc, target)
+        }
         other => {
             if std::mem::take(&mut post.path.writes_inverse_time) {
                 motion::leave_inverse_time(&mut post.control)?;
@@ -174,6 +183,12 @@ fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
     }
     if post.control.tables.frame_output {
         frame::before(&mut post.control, &operation)?;
+    }
+    if post.control.tables.mill_turn.is_some() {
+        mill_turn::refuse_modes_of_others(&post.control, &operation)?;
+    }
+    if post.control.tables.mills() {
+        mill_turn::before(post, &operation)?;
     }
     match operation {
         Operation::MachinePosition(to) => machine_position::carry_out(post, to),

@@ -4,7 +4,7 @@ use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
 use nalgebra::{Point3, Vector3};
 
-use super::{frame, tip_control};
+use super::{frame, mill_turn, tip_control};
 use crate::errors::PostCode;
 use crate::operation::Target;
 use crate::post::Post;
@@ -22,6 +22,9 @@ pub fn position_of(post: &mut Post, target: Target) -> Result<Position> {
     let chain = post.control.tables.chain();
     if !chain.has_rotary() && axis == chain.tool.into_inner() {
         return Ok([point.x, point.y, point.z, 0.0, 0.0]);
+    }
+    if post.control.tables.mills() {
+        return mill_turn::position_of(post, point, axis);
     }
     if post.writes_tip() {
         return tip_control::position_of(post, point, axis);

@@ -33,6 +33,9 @@ pub(super) fn feed(
     motion: &Motion,
     target: Target,
 ) -> Result<()> {
+    if post.control.tables.mills() {
+        return linearization::feed(post, before, motion.position, target);
+    }
     let chain = post.control.tables.chain();
     let now = [motion.position[3], motion.position[4]];
     if chain.is_limited() {

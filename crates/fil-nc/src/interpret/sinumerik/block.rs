@@ -193,10 +193,19 @@ impl Sinumerik<'_> {
         }
         match word.name.as_str() {
             "SUPA" => said.functions.push(Function::Machine),
+            "DIAMON" if self.writes_diameters() => {}
+            "DIAMOF" if self.writes_diameters() => {
+                return Err(word.foreign("on a machine whose X is a diameter"));
+            }
             name if HARMLESS.contains(&name) => {}
             _ => return Err(word.foreign("is not followed")),
         }
         Ok(())
+    }
+
+    /// X of the machine's programs is a diameter.
+    fn writes_diameters(&self) -> bool {
+        self.state.dialect.scales[0].is_some_and(|x| x.way(2.0) == 1.0)
     }
 
     fn function(&mut self, word: &Word, value: &Value, said: &mut Said) -> Result<(), Fault> {
@@ -245,6 +254,7 @@ impl Sinumerik<'_> {
                 Function::Arc { ccw } => {
                     state.motion = Some(crate::dialect::Function::Arc { ccw });
                 }
+                Function::Thread => state.motion = Some(crate::dialect::Function::Thread),
                 Function::Plane(normal) => {
                     state.plane = normal;
                     state.certain.say(StartMode::Plane);
@@ -265,7 +275,14 @@ impl Sinumerik<'_> {
                     state.absolute = absolute;
                     state.certain.say(StartMode::Positions);
                 }
-                Function::Feed(mode) => self.feed_mode(mode),
+                Function::Feed(mode) => {
+                    // One group with G96: a feed mode ends a surface speed.
+                    if state.surface {
+                        state.surface = false;
+                        state.modes.speed = None;
+                    }
+                    self.feed_mode(mode);
+                }
                 Function::Surface(on) => {
                     if on != state.surface {
                         state.modes.speed = None;

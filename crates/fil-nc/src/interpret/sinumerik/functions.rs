@@ -11,6 +11,8 @@ pub(super) enum Function {
     Arc {
         ccw: bool,
     },
+    /// One pass of a thread.
+    Thread,
     Plane(usize),
     Compensation(Compensation),
     /// Inches or millimeters; of lengths alone, or of feeds too.
@@ -39,7 +41,7 @@ impl Function {
     /// Functions of a group exclude each other.
     pub(super) fn group(self) -> u8 {
         match self {
-            Function::Rapid | Function::Linear | Function::Arc { .. } => 1,
+            Function::Rapid | Function::Linear | Function::Arc { .. } | Function::Thread => 1,
             Function::Plane(_) => 2,
             Function::Compensation(_) => 3,
             Function::Units { .. } => 4,
@@ -64,6 +66,7 @@ pub(super) fn function(code: u32) -> Option<Function> {
         17 => F::Plane(2),
         18 => F::Plane(1),
         19 => F::Plane(0),
+        33 => F::Thread,
         40 => F::Compensation(Compensation::Off),
         41 => F::Compensation(Compensation::Left),
         42 => F::Compensation(Compensation::Right),

@@ -27,6 +27,7 @@ impl Sinumerik<'_> {
                 let target = self.target(said);
                 self.state.go(target, Course::Feed, rate);
             }
+            Some(Function::Thread) => self.thread(said)?,
             Some(Function::Arc { ccw }) => {
                 self.state.refuse_under_tip_control("an arc")?;
                 self.arc(said, ccw)?;
@@ -41,6 +42,29 @@ impl Sinumerik<'_> {
             Some(call) => self.drill(&call),
             None => Ok(()),
         }
+    }
+
+    /// A pass of a thread: its lead is I where X goes the longer way, else K.
+    fn thread(&mut self, said: &Said) -> Result<(), Fault> {
+        let target = self.target(said);
+        if !(self.state.known[0] && self.state.known[2]) {
+            return Err(Fault::new(NcCode::NoCenter, "it is not known where the thread begins"));
+        }
+        let way = |axis: usize| (target.0[axis] - self.state.at[axis]).abs();
+        let across = way(0) > way(2);
+        let (given, other) = match across {
+            true => (said.center[0], said.center[2]),
+            false => (said.center[2], said.center[0]),
+        };
+        let lead = given.map(|(lead, _)| lead).filter(|lead| *lead > 0.0);
+        let (Some(lead), None, None) = (lead, other, said.center[1]) else {
+            let letter = if across { "I" } else { "K" };
+            let message = format!("the thread needs its lead, {letter}, and no other");
+            return Err(Fault::new(NcCode::MissingWord, message));
+        };
+        let lead = lead * self.state.unit();
+        self.state.go(target, Course::Thread, Some(Rate::PerTurn(lead)));
+        Ok(())
     }
 
     /// The feed in force. G70 and G71 change lengths and not feeds.

@@ -229,7 +229,9 @@ impl<C: Steps> Walk<'_, C> {
         }
         let asked = asked(self);
         let between = self.report.between.get_or_insert_default();
-        let forward = &self.settings.forward;
+        let live = self.settings.is_mill_turn();
+        let of_tool = live.then(|| self.settings.forward.with_tool_for(asked.ends[1].axis));
+        let forward = of_tool.as_ref().unwrap_or(&self.settings.forward);
         let off = between.add(forward, &self.at, found, &asked, self.watch.limit);
         if let Some(limit) = self.watch.limit.filter(|limit| off > *limit) {
             let message = said(off, limit);

@@ -27,9 +27,6 @@ pub use frame_words::FrameWords;
 use crate::errors::NcCode;
 use crate::motion::{INCH, Rate};
 
-/// What X is multiplied by when it is a diameter.
-const DIAMETER: f64 = 2.0;
-
 /// Statements that move the tool or the frame by rules that are not public.
 const ENDS_THE_PATH: [WordId; 9] =
     [w::COPY, w::INDEX, w::ROTABL, w::ROTATE, w::ROTHED, w::HEAD, w::CALSUB, w::DEFSUB, w::ENDSUB];
@@ -369,8 +366,8 @@ impl State {
                 }]
             }
             w::OP | w::THREAD => self.thread(record).unwrap_or_else(|| unknown(Effect::Path)),
-            w::MODE if record.has(w::TURN) => vec![Wanted::XScale(DIAMETER)],
-            w::MODE if record.has(w::MILL) => vec![Wanted::XScale(1.0)],
+            w::MODE if record.has(w::TURN) => vec![Wanted::Mills(false)],
+            w::MODE if record.has(w::MILL) => vec![Wanted::Mills(true)],
             w::PREFUN => match numbers(record)[..] {
                 [code] if own_words::WORK_OFFSETS.contains(&code) => {
                     vec![Wanted::Fixture(code as u32)]

@@ -253,6 +253,12 @@ impl Settings<'_> {
         self.commons.read(loc::SPINDLE_MAX_ADDRESS).is_some()
     }
 
+    /// The code that makes the main spindle the axis C, or a spindle again.
+    pub fn spindle_mode_code(&self, mills: bool) -> Option<u32> {
+        let at = if mills { loc::MILL_TURN_MILLING_CODE } else { loc::MILL_TURN_TURNING_CODE };
+        self.commons.read(at).map(number)
+    }
+
     /// The code of CLAMP.
     pub fn clamp_code(&self, on: bool) -> Option<u32> {
         let at = if on { loc::ROTARY_CLAMP_CODE } else { loc::ROTARY_UNCLAMP_CODE };

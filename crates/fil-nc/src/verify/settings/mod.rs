@@ -100,6 +100,16 @@ impl<'c> Settings<'c> {
         Ok(Settings { commons, forward, dialect: Dialect::new(commons)?, tolerance })
     }
 
+    /// The main spindle can become the axis C.
+    pub fn is_mill_turn(&self) -> bool {
+        self.dialect.live_at_start.is_some()
+    }
+
+    /// The main spindle is the axis C when the program begins.
+    pub fn begins_milling(&self) -> bool {
+        self.dialect.live_at_start == Some(true)
+    }
+
     /// Translation of the input, CL units.
     pub fn input_shift(&self) -> [f64; 3] {
         loc::INPUT_TRANSLATE.map(|at| self.commons.dbl_opt(at).unwrap_or(0.0))

@@ -10,8 +10,9 @@ pub mod cycle;
 mod frame;
 pub mod program;
 pub mod reader;
-mod spindle;
+pub(super) mod spindle;
 pub mod swivel;
+pub mod thread;
 pub mod tool;
 
 use fil_diag::Result;

@@ -26,6 +26,17 @@ pub fn head(control: &mut Control) -> Result<()> {
     Ok(())
 }
 
+/// Says that X is a diameter, on a lathe.
+///
+/// # Errors
+/// As a line on the tape.
+pub fn say_diameters(control: &mut Control) -> Result<()> {
+    if !control.commons.read(loc::LATHE_DIAMETER) {
+        return Ok(());
+    }
+    super::put_text(control, "DIAMON")
+}
+
 /// The number of the program where the machine fixes it, else the name of PARTNO in
 /// letters, digits and underscores. A name begins with two letters.
 fn name(control: &Control) -> String {

@@ -1,10 +1,12 @@
 //! The small reader of blocks that others put on the tape. It is made to say "I can't"
 //! rather than guess; then all is unknown.
 
-use fil_machine::{Letter, letters};
+use fil_diag::Result;
+use fil_machine::{Letter, letters, locations as loc};
 
 use crate::cause::Cause;
 use crate::control::Control;
+use crate::control::family::refuse;
 use crate::control_state::TextWords;
 
 /// Statements that change nothing the post counts on: how the path is smoothed and
@@ -29,6 +31,7 @@ const HARMLESS: &[&str] = &[
     "STOPRE",
     "UPATH",
     "SPATH",
+    "DIAMON",
     "DIAMOF",
     "WALIMON",
     "WALIMOF",
@@ -54,6 +57,20 @@ const HARMLESS_CALLS: &[&str] = &["MSG", "WORKPIECE", "CYCLE832", "GROUP_BEGIN",
 /// Statements and calls that move the frame of the program or the axes in it.
 const FRAMES: &[&str] =
     &["TRANS", "ATRANS", "ROT", "AROT", "SCALE", "ASCALE", "MIRROR", "AMIRROR", "SUPA", "CYCLE800"];
+
+/// Refuses a text that changes what X of a lathe means.
+///
+/// # Errors
+/// It does.
+pub fn refuse_other_diameters(control: &Control, text: &str) -> Result<()> {
+    let changes = ["DIAMOF", "DIAM90", "DIAMCHAN"];
+    let said = items(without_comment(text));
+    let is_lathe = control.commons.read(loc::LATHE_DIAMETER);
+    match said.iter().find(|item| is_lathe && changes.contains(&item.as_str())) {
+        Some(item) => refuse(format!("{item}: the post writes X as a diameter")),
+        None => Ok(()),
+    }
+}
 
 /// Learns from a block of others.
 pub fn learn(control: &mut Control, text: &str) {

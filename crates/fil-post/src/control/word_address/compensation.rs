@@ -23,7 +23,9 @@ pub fn write(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
         Compensation::Right => loc::CUTCOM_RIGHT_CODE,
         Compensation::Off => loc::CUTCOM_OFF_CODE,
     };
-    if let Some((plane, word)) = wanted.plane {
+    if control.tables.mills() {
+        plane_of_live_tool(control, wanted)?;
+    } else if let Some((plane, word)) = wanted.plane {
         control.block.cause.word = word;
         modes::plane_of_its_own(control, plane)?;
     } else if wanted.side != Compensation::Off {
@@ -41,11 +43,32 @@ pub fn write(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
     let with_motion = control.commons.read(loc::CUTCOM_WITH_MOTION);
     let placement = if with_motion { Placement::NextXyBlock } else { Placement::BlockOfItsOwn };
     control.place_block(Function::Compensation, placement)?;
-    if control.commons.read(loc::LATHE_DIAMETER) {
+    if control.commons.read(loc::LATHE_DIAMETER) && !control.tables.mills() {
         // Its plane is that of X and Z, and no motion leaves it.
         control.comes_with_any_motion(Function::Compensation);
     }
     Ok(())
+}
+
+/// The plane of a live tool: in polar interpolation that of X and C, which no code says;
+/// else it must be said.
+///
+/// # Errors
+/// Another plane in polar interpolation; none outside of it.
+fn plane_of_live_tool(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
+    match wanted.plane {
+        Some((plane, _)) if control.tables.is_polar() && plane != Plane::Xy => {
+            PostCode::MillTurn.err("CUTCOM: polar interpolation has the plane XYPLAN")
+        }
+        Some((plane, word)) if !control.tables.is_polar() => {
+            control.block.cause.word = word;
+            modes::plane_of_its_own(control, plane)
+        }
+        None if !control.tables.is_polar() && wanted.side != Compensation::Off => {
+            PostCode::MillTurn.err("CUTCOM of a live tool needs its plane (XYPLAN, YZPLAN, ZXPLAN)")
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The plane a machine works in: the one its program starts in, else ZX on a lathe and XY

@@ -3,13 +3,14 @@
 use fil_diag::Result;
 use fil_machine::axes::{AXES, AxisSet, Position};
 use fil_machine::letters::{F, H};
+use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::modes::FeedMode;
 use fil_machine::setting::CodeAt;
-use fil_machine::{FunctionCode, locations as loc};
+use fil_machine::{FunctionCode, Letter};
 
 use super::modes;
 use crate::cause::Cause;
-use crate::control::{Control, Function};
+use crate::control::{Control, Function, sinumerik};
 use crate::control_state::{Compensation, Meaning};
 use crate::errors::PostCode;
 use crate::operation::{Feed, Lead};
@@ -98,13 +99,26 @@ pub fn feed(control: &mut Control, motion: &Motion, feed: Option<&Feed>) -> Resu
 /// # Errors
 /// As [`rapid`]; the machine has no thread code; a lead that the address can't hold.
 pub fn thread(control: &mut Control, motion: &Motion, lead: &Lead) -> Result<()> {
+    let letter = control.letter(loc::THREAD_LEAD_ADDRESS, "the lead of a thread")?;
+    thread_by(control, motion, lead, letter)
+}
+
+/// The same with the letter of its lead.
+///
+/// # Errors
+/// As [`thread`].
+pub fn thread_by(
+    control: &mut Control,
+    motion: &Motion,
+    lead: &Lead,
+    letter: Letter,
+) -> Result<()> {
     ready(control)?;
     if !axis_words(control, motion)? {
         return Ok(());
     }
     let code = control.code(loc::THREAD_CODE, "a thread")?;
     motion_code(control, code, false, lead.cause.whole());
-    let letter = control.letter(loc::THREAD_LEAD_ADDRESS, "the lead of a thread")?;
     control.because(lead.cause, |control| {
         control.word_rounded(letter, lead.value, fil_machine::rounding::Rounding::Lead)
     })?;
@@ -266,6 +280,9 @@ pub fn feed_mode(control: &mut Control, feed: &Feed) -> Result<()> {
 
 #[cold]
 fn say_feed_mode(control: &mut Control, feed: &Feed) -> Result<()> {
+    if control.tables.family == ControlFamily::Sinumerik {
+        sinumerik::spindle::check_feed_mode(control)?;
+    }
     let code = control.code(feed_mode_code(feed.mode), "this feed mode")?;
     control.tables.format_feed(feed.mode);
     if control.commons.read(loc::FEED_CODE_WITH_MOTION) {

@@ -2,11 +2,11 @@
 
 use fil_diag::Result;
 use fil_machine::letters::S;
-use fil_machine::locations as loc;
+use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::rounding::Rounding;
 use fil_machine::setting::CodeAt;
 
-use crate::control::{Control, Function};
+use crate::control::{Control, Function, sinumerik};
 use crate::control_state::Rotation;
 use crate::errors::PostCode;
 use crate::operation::{SideSpindle, Spindle, SpindleRange, SpindleSpeed, SpindleTurn};
@@ -23,6 +23,7 @@ const SMALLEST_ANGLE: f64 = 1e-3;
 /// # Errors
 /// A code the machine lacks, or a speed that does not fit.
 pub fn write(control: &mut Control, spindle: Spindle) -> Result<()> {
+    refuse_of_live_tool(control, &spindle)?;
     match spindle {
         Spindle::Off => off(control),
         Spindle::Orient(angle) => orient(control, angle),
@@ -41,10 +42,48 @@ pub fn write(control: &mut Control, spindle: Spindle) -> Result<()> {
     }
 }
 
+/// Refuses what only a main spindle does, while it is an axis and the live tool turns.
+fn refuse_of_live_tool(control: &Control, spindle: &Spindle) -> Result<()> {
+    let what = match spindle {
+        _ if !control.tables.mills() => return Ok(()),
+        Spindle::Orient(_) => "SPINDL/ORIENT",
+        Spindle::Range(_) => "SPINDL/RANGE",
+        Spindle::Limit(_) => "SPINDL/MAXRPM",
+        Spindle::Turn(SpindleTurn {
+            speed: Some(SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_)),
+            ..
+        }) => "a surface speed",
+        _ => return Ok(()),
+    };
+    PostCode::MillTurn.err(format!("{what} of a live tool"))
+}
+
+/// The codes that turn the spindle clockwise and counterclockwise and stop it: those of the
+/// live tool where the main spindle is an axis.
+fn codes(control: &Control) -> [CodeAt; 3] {
+    match control.tables.mills() {
+        true => [
+            loc::MILL_TURN_LIVE_CW_CODE,
+            loc::MILL_TURN_LIVE_CCW_CODE,
+            loc::MILL_TURN_LIVE_STOP_CODE,
+        ],
+        false => [loc::SPINDLE_CW_CODE, loc::SPINDLE_CCW_CODE, loc::SPINDLE_STOP_CODE],
+    }
+}
+
+/// The spindle turns, or it is not known to stand.
+pub fn may_turn(control: &Control) -> bool {
+    control.turning.is_some()
+        || !matches!(control.state.rotation, Rotation::Unsaid | Rotation::Standing)
+}
+
 /// Says the highest speed, in a block of its own or later in that of the surface speed.
 fn limit_block(control: &mut Control, limit: f64) -> Result<()> {
     control.begin()?;
     control.state.speed_limit = Some(limit);
+    if control.tables.family == ControlFamily::Sinumerik {
+        return sinumerik::spindle::limit(control, limit);
+    }
     if control.commons.read(loc::SPINDLE_MAX_ADDRESS).is_some() {
         return Ok(());
     }
@@ -94,7 +133,8 @@ fn side_spindle(control: &mut Control, side: SideSpindle) -> Result<()> {
 fn off(control: &mut Control) -> Result<()> {
     control.flush_waiting()?;
     control.turning = None;
-    match control.code_if_any(loc::SPINDLE_STOP_CODE) {
+    let [.., stop] = codes(control);
+    match control.code_if_any(stop) {
         Some(code) => control.m(code),
         None => control.warn_no_code("SPINDL/OFF"),
     }
@@ -146,7 +186,9 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
         diag.hint = Some("Write S in a FIL section for SPINDL.".into());
         return Err(diag);
     }
-    let by_speed = !turn.in_named_range && control.commons.read(loc::SPINDLE_AUTO_RANGE);
+    let by_speed = !turn.in_named_range
+        && control.commons.read(loc::SPINDLE_AUTO_RANGE)
+        && !control.tables.mills();
     if let (Some(SpindleSpeed::Revolutions(speed)), true) = (turn.speed, by_speed) {
         take_range_of(control, speed)?;
     }
@@ -164,10 +206,13 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
         Some(control.code_if_any(loc::SPINDLE_CW_CODE) == Some(code))
     };
     control.turning = turn.clockwise.or_else(usual);
-    let direction = match turn.clockwise {
-        Some(true) => loc::SPINDLE_CW_CODE,
-        Some(false) => loc::SPINDLE_CCW_CODE,
-        None => loc::SPINDLE_DEFAULT_CODE,
+    let [clockwise, counterclockwise, _] = codes(control);
+    let direction = match (turn.clockwise, control.turning) {
+        (Some(true), _) => clockwise,
+        (Some(false), _) => counterclockwise,
+        (None, Some(false)) if control.tables.mills() => counterclockwise,
+        (None, _) if control.tables.mills() => clockwise,
+        (None, _) => loc::SPINDLE_DEFAULT_CODE,
     };
     place(control, direction, "the spindle")
 }
@@ -195,7 +240,8 @@ pub fn stand(control: &mut Control) -> Result<bool> {
              known",
         );
     };
-    let code = control.code(loc::SPINDLE_STOP_CODE, "the spindle that stands")?;
+    let [.., stop] = codes(control);
+    let code = control.code(stop, "the spindle that stands")?;
     control.m(code);
     control.write_block()?;
     Ok(clockwise)
@@ -206,7 +252,8 @@ pub fn stand(control: &mut Control) -> Result<bool> {
 /// # Errors
 /// The machine has no such code.
 pub fn turn_on(control: &mut Control, clockwise: bool) -> Result<()> {
-    let at = if clockwise { loc::SPINDLE_CW_CODE } else { loc::SPINDLE_CCW_CODE };
+    let [right, left, _] = codes(control);
+    let at = if clockwise { right } else { left };
     let code = control.code(at, "the spindle turned again")?;
     control.m(code);
     control.write_block()?;
@@ -263,6 +310,9 @@ pub(in crate::control) fn value_of(control: &mut Control, speed: SpindleSpeed) -
 /// Brings a speed within the range that was chosen, else within the ranges of the
 /// machine, with a warning.
 fn within_range(control: &mut Control, speed: f64) -> f64 {
+    if control.tables.mills() {
+        return speed;
+    }
     let commons = &control.commons;
     let open = match control.range {
         Some(chosen) => chosen..chosen + 1,

@@ -3,7 +3,7 @@
 use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
 use fil_machine::letters::{H, T};
-use fil_machine::locations::{self as loc, ToolFormat};
+use fil_machine::locations::{self as loc, ControlFamily, ToolFormat};
 
 use super::motion::{self, Motion};
 use crate::control::Control;
@@ -123,7 +123,10 @@ fn without_code(control: &mut Control, tool: i64) -> Result<()> {
              file, or take LOADTL with a FIL section that stops the program"
         ));
     }
-    control.warn_no_code("a tool change");
+    // T of a SINUMERIK without a code changes the tool at once.
+    if !(calls && control.tables.family == ControlFamily::Sinumerik) {
+        control.warn_no_code("a tool change");
+    }
     Ok(())
 }
 

@@ -1,0 +1,77 @@
+//! Mill-turn machines: a main spindle that is the axis C while live tools mill.
+
+use fil_diag::Result;
+
+use crate::axis_chain::{AxisChain, Carries};
+use crate::commons::Commons;
+use crate::errors::MachineCode;
+use crate::letter::Letter;
+use crate::locations::{
+    self as loc, ControlFamily, MillTurnMode, RotaryFrameOutput, RotaryTipOutput,
+};
+
+/// Directions nearer than this are one.
+const SAME: f64 = 1e-9;
+
+/// What a mill-turn machine does; `None` for a machine without a code that makes its
+/// spindle an axis.
+pub fn mode(commons: &Commons) -> Option<MillTurnMode> {
+    commons.read(loc::MILL_TURN_MILLING_CODE)?;
+    Some(commons.read(loc::MILL_TURN_MODE))
+}
+
+/// The letter of the axis that the spindle becomes.
+pub(crate) fn letter(chain: &AxisChain) -> Option<Letter> {
+    chain.rotaries[0].as_ref().map(|rotary| rotary.letter)
+}
+
+/// The axes as they are in a mode: C is an axis of the chain only while the machine mills
+/// and C counts degrees.
+pub(crate) fn chain_in(mode: Option<MillTurnMode>, chain: AxisChain) -> AxisChain {
+    match mode {
+        None | Some(MillTurnMode::Milling) => chain,
+        Some(_) => AxisChain { rotaries: [None, None], ..chain },
+    }
+}
+
+/// Refuses settings with which no mill-turn machine can work.
+///
+/// # Errors
+/// Another axis than one table C about the spindle; a live tool or a way back to turning
+/// without a code.
+pub(crate) fn check(commons: &Commons) -> Result<()> {
+    if mode(commons).is_none() {
+        return Ok(());
+    }
+    let refuse = |what: &str| MachineCode::SettingValue.err(format!("mill_turn: {what}"));
+    let chain = AxisChain::from_commons(commons)?;
+    let [Some(spindle), None] = &chain.rotaries else {
+        return refuse("the spindle is the only rotary axis (rotary.primary_kind = 1)");
+    };
+    let along_z = (spindle.direction.z - 1.0).abs() < SAME && spindle.carries == Carries::Table;
+    let in_the_middle = libm::hypot(spindle.center.x, spindle.center.y) < SAME;
+    if !along_z || !in_the_middle || (chain.tool.z - 1.0).abs() > SAME || chain.pivot.is_some() {
+        return refuse("the spindle turns the part about Z through X0 Y0, and tools have no head");
+    }
+    let scale = commons.dbl_opt(loc::SCALE_C).unwrap_or(1.0);
+    let shift = commons.dbl_opt(loc::OUTPUT_TRANSLATE_C).unwrap_or(0.0);
+    if spindle.axis != 2 || scale != 1.0 || shift != 0.0 {
+        return refuse("C is written as it is (rotary.primary_axis = 3, scale.c = 1)");
+    }
+    let frames = commons.read(loc::ROTARY_FRAME_OUTPUT) == RotaryFrameOutput::TiltedFrame;
+    let tips = commons.read(loc::ROTARY_TIP_OUTPUT) == RotaryTipOutput::ToolTipControl;
+    if frames || tips || commons.read(loc::CONTROL_FAMILY) != ControlFamily::WordAddress {
+        return refuse("only a word-address control without frames and tool-tip control has it");
+    }
+    let codes = [
+        (loc::MILL_TURN_TURNING_CODE, "turning_code"),
+        (loc::MILL_TURN_LIVE_CW_CODE, "live_cw_code"),
+        (loc::MILL_TURN_LIVE_CCW_CODE, "live_ccw_code"),
+        (loc::MILL_TURN_LIVE_STOP_CODE, "live_stop_code"),
+    ];
+    let missing = codes.iter().find(|(at, _)| commons.read(*at).is_none());
+    match missing {
+        Some((_, name)) => refuse(&format!("{name} is not there")),
+        None => Ok(()),
+    }
+}

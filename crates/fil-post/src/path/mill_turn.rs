@@ -1,0 +1,372 @@
+//! Mill-turn machines: what live tools need where the main spindle is the axis C.
+//!
+//! A tool along Z drills at X and C; it mills by X and Y where the machine has a Y, else
+//! in polar interpolation. A tool square to Z turns C to where it looks, and goes along a
+//! cylinder while C turns.
+
+mod cylinder;
+mod polar;
+
+use fil_diag::Result;
+use fil_machine::axes::{AxisSet, Position};
+use fil_machine::commons::{EMPTY, Kind};
+use fil_machine::locations::{self as loc, MillTurnMode};
+use fil_machine::modes::FeedMode;
+use fil_machine::{FunctionCode, Letter, letters};
+use nalgebra::{Point3, Vector3};
+
+use super::cycle::CycleFeed;
+use super::{rotary, thread};
+use crate::control::Control;
+use crate::control::family;
+use crate::control::word_address::motion::{Motion, RapidCode};
+use crate::control::word_address::spindle;
+use crate::control_state::{Meaning, Rotation, text};
+use crate::errors::PostCode;
+use crate::operation::{Arc, MotionKind, Operation, Spindle, Target};
+use crate::post::Post;
+
+/// Tool axes nearer than this are one.
+const SAME_AXIS: f64 = 1e-5;
+
+/// A tool nearer than this to the axis of the spindle leaves C open, mm or inch.
+const CENTER: f64 = 1e-9;
+
+const FULL: f64 = 360.0;
+
+/// How a live tool lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Lie {
+    /// Along Z.
+    Axial,
+    /// Square to it.
+    Radial,
+}
+
+fn lie(axis: Vector3<f64>) -> Result<Lie> {
+    let axis = axis.normalize();
+    if (axis - Vector3::z()).norm() < SAME_AXIS {
+        return Ok(Lie::Axial);
+    }
+    if axis.z.abs() < SAME_AXIS {
+        return Ok(Lie::Radial);
+    }
+    PostCode::MillTurn.err(
+        "the tool axis lies neither along Z nor square to it, and no axis of the machine leans a tool",
+    )
+}
+
+/// The machine mills by Y.
+fn has_y(control: &Control) -> bool {
+    !control.tables.axis(1).is_off()
+}
+
+/// Takes the machine from turning to milling or back.
+///
+/// # Errors
+/// Cutter compensation, a cycle or a thread in force; blocks that may be skipped.
+pub fn switch(post: &mut Post, mills: bool) -> Result<()> {
+    if post.control.tables.mills() == mills {
+        return Ok(());
+    }
+    thread::end(post)?;
+    if post.path.cycle.is_some() {
+        return PostCode::InCycle.err("MODE; CYCLE/OFF must come before it");
+    }
+    if post.control.is_compensated() {
+        return PostCode::CompensationOn.err("at MODE; CUTCOM/OFF must come before it");
+    }
+    refuse_skipped(&post.control)?;
+    leave(post)?;
+    let control = &mut post.control;
+    control.begin()?;
+    control.flush_waiting()?;
+    if spindle::may_turn(control) {
+        family::write(control, Operation::Spindle(Spindle::Off))?;
+    }
+    let (mode, at) = match mills {
+        true => (MillTurnMode::Milling, loc::MILL_TURN_MILLING_CODE),
+        false => (MillTurnMode::Turning, loc::MILL_TURN_TURNING_CODE),
+    };
+    let code = control.code(at, "this mode of the main spindle")?;
+    control.m(code);
+    control.write_block()?;
+    set_mode(control, mode)?;
+    control.state.rotation = Rotation::Standing;
+    (control.turning, control.speed, control.range) = (None, None, None);
+    post.path.feed = None;
+    post.path.rotary = None;
+    post.path.interrupt();
+    Ok(())
+}
+
+/// The settings and tables of a mode; what the letter of C meant before it is forgotten.
+fn set_mode(control: &mut Control, mode: MillTurnMode) -> Result<()> {
+    let number = match mode {
+        MillTurnMode::Turning => 0.0,
+        MillTurnMode::Milling => 1.0,
+        MillTurnMode::PolarInterpolation => 2.0,
+    };
+    for axis in [1, 3] {
+        let letter = control.tables.axis(axis).letter;
+        control.commons.set_last_output(letter, EMPTY);
+    }
+    control.commons.set(Kind::Int, loc::MILL_TURN_MODE.number.into(), number)?;
+    control.refresh()?;
+    control.state.doubt_axes();
+    Ok(())
+}
+
+/// Ends polar and cylindrical interpolation, where they are on.
+///
+/// # Errors
+/// Cutter compensation, blocks that may be skipped.
+fn leave(post: &mut Post) -> Result<()> {
+    polar::end(post)?;
+    cylinder::end(post)
+}
+
+fn refuse_skipped(control: &Control) -> Result<()> {
+    if control.state.may_be_skipped() {
+        return PostCode::SkippedPart.err(
+            "the mode of the machine would change on one side of OPSKIP, and the motions of the \
+             other would be read in it",
+        );
+    }
+    Ok(())
+}
+
+/// The positions of the axes for a live tool: C rounded as the tape has it, so that X, Y
+/// and Z belong to where it really stands.
+///
+/// # Errors
+/// A tool axis the machine can't reach; a way beside the axis of the spindle without Y.
+pub(super) fn position_of(
+    post: &mut Post,
+    point: Point3<f64>,
+    axis: Vector3<f64>,
+) -> Result<Position> {
+    let last = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post))[0];
+    let has_y = has_y(&post.control);
+    let asked = match lie(axis)? {
+        Lie::Axial if has_y || libm::hypot(point.x, point.y) < CENTER => last,
+        Lie::Axial => libm::atan2(point.y, point.x).to_degrees(),
+        Lie::Radial => libm::atan2(axis.y, axis.x).to_degrees(),
+    };
+    let tables = &post.control.tables;
+    let c = tables.axis(3).on_tape(within_travel(post, asked, last)?)?;
+    let mut linear = tables.chain().linear(point, [c, 0.0]);
+    if !has_y {
+        let half_digit = tables.axis(3).resolution().to_radians();
+        let most = libm::hypot(point.x, point.y) * half_digit + CENTER;
+        if linear.y.abs() > most.max(tables.axis(0).resolution()) {
+            return PostCode::MillTurn.err(format!(
+                "the tool would stand {:.4} beside the axis of the spindle, and the machine has no Y",
+                linear.y
+            ));
+        }
+        linear.y = 0.0;
+    }
+    post.path.rotary = Some([c, 0.0]);
+    Ok([linear.x, linear.y, linear.z, c, 0.0])
+}
+
+/// The angle and whole turns on top that lies nearest to the last one within the travel.
+fn within_travel(post: &Post, angle: f64, last: f64) -> Result<f64> {
+    let Some(spindle) = &post.control.tables.chain().rotaries[0] else { return Ok(angle) };
+    let near = angle + FULL * ((last - angle) / FULL).round();
+    let allowed = |angle: &f64| {
+        spindle.min.is_none_or(|min| *angle >= min) && spindle.max.is_none_or(|max| *angle <= max)
+    };
+    let found = [0.0, FULL, -FULL, 2.0 * FULL, -2.0 * FULL].map(|turn| near + turn);
+    found.into_iter().find(allowed).ok_or_else(|| {
+        fil_machine::errors::MachineCode::AxisLimit
+            .diag(format!("{}{near:.3} lies outside the travel", spindle.letter))
+    })
+}
+
+/// What a motion of a live tool asks for before it is made; true where that made the
+/// motion itself.
+///
+/// # Errors
+/// A thread, a feed a turn, and what polar interpolation refuses.
+#[cold]
+pub(super) fn prepare(post: &mut Post, target: Target, kind: MotionKind) -> Result<bool> {
+    let (point, axis) = rotary::transformed(post, target);
+    let axial = lie(axis)? == Lie::Axial;
+    match kind {
+        MotionKind::Thread(_) => return PostCode::MillTurn.err("a thread by a live tool"),
+        MotionKind::Feed => {
+            refuse_feed_a_turn(post.path.feed.map(|feed| feed.mode))?;
+            refuse_unknown_c(post)?;
+        }
+        MotionKind::Rapid(_) => cylinder::end(post)?,
+    }
+    if post.control.tables.is_polar() {
+        if axial {
+            polar::line(post, target, point, kind)?;
+            return Ok(true);
+        }
+        polar::end(post)?;
+    }
+    let by_polar = axial
+        && post.path.cycle.is_none()
+        && !has_y(&post.control)
+        && polar::code(&post.control).is_some();
+    match kind {
+        MotionKind::Rapid(_) if by_polar && turns(post, point) => {
+            polar::begin(post, target, point, kind)?;
+            Ok(true)
+        }
+        MotionKind::Rapid(cause) if !axial => {
+            // Which way is away from the part Z does not say: all axes go at once.
+            let position = position_of(post, point, axis)?;
+            let word = rotary::word_of(post, target);
+            let motion = Motion { position, axes: AxisSet::ALL, word };
+            family::rapid(&mut post.control, &motion, RapidCode::Across, cause)?;
+            post.path.point = Some(target.point);
+            post.path.axis = target.axis;
+            Ok(true)
+        }
+        _ => Ok(false),
+    }
+}
+
+/// C must turn for an axial tool to come to a point, or X is not known.
+fn turns(post: &Post, point: Point3<f64>) -> bool {
+    let Some(here) = post.path.point.filter(|_| post.path.rotary.is_some()) else { return true };
+    let here = rotary::transformed(post, Target { point: here, axis: Vector3::z(), word: 0 }).0;
+    (here - point).xy().norm() > CENTER
+}
+
+/// Refuses a motion at feed while nobody knows where C stands: its word would turn it there at
+/// feed, by any number of turns.
+fn refuse_unknown_c(post: &Post) -> Result<()> {
+    let known = post.path.rotary.is_some() && post.control.axis_position(3).is_some();
+    if known || post.control.tables.is_polar() {
+        return Ok(());
+    }
+    PostCode::MillTurn
+        .err("a motion at feed, and where C stands is not known; RAPID turns it there")
+}
+
+fn refuse_feed_a_turn(mode: Option<FeedMode>) -> Result<()> {
+    if mode == Some(FeedMode::PerRevolution) {
+        return PostCode::MillTurn
+            .err("a feed a turn counts the turns of the main spindle, which is an axis now");
+    }
+    Ok(())
+}
+
+/// A feed motion of a live tool in which C turns.
+///
+/// # Errors
+/// A tool along Z; as [`cylinder::feed`].
+pub(super) fn turning_feed(
+    post: &mut Post,
+    from: Position,
+    to: Position,
+    target: Target,
+) -> Result<()> {
+    let (_, axis) = rotary::transformed(post, target);
+    if lie(axis)? == Lie::Axial {
+        return PostCode::Polar.err(
+            "C would turn in a motion at feed of a tool along Z; polar interpolation \
+             (mill_turn.polar_code) begins at a rapid motion",
+        );
+    }
+    cylinder::feed(post, from, to, target)
+}
+
+/// What an operation that is no straight motion asks of a machine that mills.
+///
+/// # Errors
+/// Threads, functions that controls take in different ways, a feed a turn.
+pub(super) fn before(post: &mut Post, operation: &Operation) -> Result<()> {
+    match operation {
+        Operation::Thread(_) => PostCode::MillTurn.err("a thread by a live tool"),
+        Operation::Hole(_) => {
+            let feed = post.path.cycle.as_ref().map(|cycle| cycle.feed);
+            if let Some(CycleFeed::Feed(feed)) = feed {
+                refuse_feed_a_turn(Some(feed.mode))?;
+            }
+            leave(post)
+        }
+        Operation::End(_) => {
+            post.path.cycle = None;
+            switch(post, false)
+        }
+        Operation::MachinePosition(_) | Operation::ToolChange(_) | Operation::WorkOffset(_) => {
+            leave(post)
+        }
+        Operation::Function(letter, code) if *letter == letters::G => {
+            match post.control.meaning(*code) {
+                Meaning::Frame | Meaning::Cycle | Meaning::Plane(_) | Meaning::Unit(_) => {
+                    leave(post)
+                }
+                _ => Ok(()),
+            }
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Refuses functions of others that change what C and the main spindle are: the post would not
+/// know in which mode the control is.
+///
+/// # Errors
+/// A text, POSTN, PREFUN or AUXFUN with one of them.
+pub(super) fn refuse_modes_of_others(control: &Control, operation: &Operation) -> Result<()> {
+    if matches!(operation, Operation::Turn(..)) {
+        return PostCode::MillTurn
+            .err("ROTABL: C turns with the points and tool axes of live tools");
+    }
+    let of_g =
+        [loc::MILL_TURN_POLAR_CODE, loc::MILL_TURN_POLAR_END_CODE, loc::MILL_TURN_CYLINDER_CODE];
+    let of_g = of_g.map(|at| polar::tenths(control, at));
+    let of_m = [loc::MILL_TURN_MILLING_CODE, loc::MILL_TURN_TURNING_CODE];
+    let of_m = of_m.map(|at| control.code_if_any(at));
+    let changes = |letter: Letter, code: Option<FunctionCode>| match letter {
+        letters::G => code.is_some() && of_g.contains(&code),
+        letters::M => code.is_some() && of_m.contains(&code),
+        _ => false,
+    };
+    let by_value = |(letter, value): (Letter, f64)| changes(letter, FunctionCode::of_value(value));
+    let found = match operation {
+        Operation::Function(letter, code) => changes(*letter, Some(*code)),
+        Operation::WithMotion(code) => changes(letters::M, Some(*code)),
+        Operation::Words(words) | Operation::Repeat(words) => {
+            words.iter().any(|(letter, value, _)| by_value((*letter, *value)))
+        }
+        Operation::Text(text) => {
+            text::read(text).is_some_and(|read| read.words.into_iter().any(by_value))
+        }
+        _ => false,
+    };
+    match found {
+        true => PostCode::MillTurn.err(
+            "a function that changes what C and the main spindle are; MODE/MILL and MODE/TURN do it",
+        ),
+        false => Ok(()),
+    }
+}
+
+/// What an arc of a live tool asks for.
+///
+/// # Errors
+/// A feed a turn; an arc about Z without Y and without polar interpolation.
+#[cold]
+pub(super) fn before_arc(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
+    refuse_feed_a_turn(post.path.feed.map(|feed| feed.mode))?;
+    cylinder::end(post)?;
+    let axial = lie(rotary::transformed(post, target).1)? == Lie::Axial;
+    match (axial, post.control.tables.is_polar()) {
+        (true, true) => polar::check_arc(post, arc, target),
+        (false, true) => polar::end(post),
+        (true, false) if !has_y(&post.control) => PostCode::Polar.err(
+            "an arc by a tool along Z; polar interpolation (mill_turn.polar_code) begins at a \
+             rapid motion",
+        ),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,114 @@
+//! Cylindrical interpolation (G7.1): C is an angle, and the feed of a motion in which it
+//! turns counts on a cylinder.
+
+use fil_diag::Result;
+use fil_machine::axes::{AxisSet, Position};
+use fil_machine::locations as loc;
+
+use super::polar::tenths;
+use crate::control::Control;
+use crate::control::family;
+use crate::control::word_address::motion::{self, Motion};
+use crate::errors::PostCode;
+use crate::operation::Target;
+use crate::path::{linearization, rotary};
+use crate::post::Post;
+
+/// Largest turn of C in one motion at feed, degrees: more would be the way round that its
+/// travel forces.
+const HALF_TURN: f64 = 180.0 + 1e-6;
+
+/// Cuts along a cylinder.
+///
+/// # Errors
+/// Another radius at the end than at the start, or none; a tool beside the axis; a line
+/// that the cylinder leaves by more than the tolerance; no feed a minute.
+pub(super) fn feed(post: &mut Post, from: Position, to: Position, target: Target) -> Result<()> {
+    let resolution = post.control.tables.axis(0).resolution();
+    let radius = to[0];
+    if from[1].abs() > resolution || to[1].abs() > resolution {
+        return PostCode::Cylinder.err("the tool axis does not go through the axis of the spindle");
+    }
+    if radius <= resolution {
+        return PostCode::Cylinder.err("the cylinder has no radius: the tip is at the axis");
+    }
+    if (from[0] - radius).abs() > resolution {
+        return PostCode::Cylinder.err(format!(
+            "C turns while the tip goes from {:.4} to {radius:.4} from the axis of the spindle",
+            from[0]
+        ));
+    }
+    if (to[3] - from[3]).abs() > HALF_TURN {
+        return PostCode::Cylinder.err(format!(
+            "C would turn the long way round, from {:.3} to {:.3} degrees, as its travel ends",
+            from[3], to[3]
+        ));
+    }
+    let turn = (to[3] - from[3]).to_radians();
+    let off = radius * (1.0 - libm::cos(turn / 2.0));
+    if let Some(allowed) = linearization::tolerance(post)?.filter(|allowed| off > *allowed) {
+        return PostCode::Cylinder.err(format!(
+            "the cylinder leaves the line to the next point by {off:.4}, {allowed:.4} is allowed"
+        ));
+    }
+    if post.path.cylinder.is_none_or(|now| (now - radius).abs() > resolution) {
+        end(post)?;
+        begin(post, radius)?;
+    }
+    let motion = Motion { position: to, axes: AxisSet::ALL, word: rotary::word_of(post, target) };
+    let feed = post.path.feed;
+    family::feed(&mut post.control, &motion, feed.as_ref())
+}
+
+/// Begins it; the control must be in G1.
+fn begin(post: &mut Post, radius: f64) -> Result<()> {
+    let control = &mut post.control;
+    if control.is_compensated() {
+        return PostCode::CompensationOn.err("where cylindrical interpolation begins");
+    }
+    super::refuse_skipped(control)?;
+    motion::ready(control)?;
+    let line = control.code(loc::LINEAR_CODE, "linear motion")?;
+    if control.state.motion != Some(line) {
+        control.g(line);
+        control.write_block()?;
+    }
+    call(control, radius)?;
+    control.state.motion = Some(line);
+    post.path.cylinder = Some(radius);
+    Ok(())
+}
+
+/// Ends it where it is on.
+///
+/// # Errors
+/// Cutter compensation, blocks that may be skipped.
+pub(super) fn end(post: &mut Post) -> Result<()> {
+    if post.path.cylinder.take().is_none() {
+        return Ok(());
+    }
+    let control = &mut post.control;
+    if control.is_compensated() {
+        return PostCode::CompensationOn.err("where cylindrical interpolation ends");
+    }
+    super::refuse_skipped(control)?;
+    let waiting = control.block.take();
+    call(control, 0.0)?;
+    control.block = waiting;
+    Ok(())
+}
+
+/// The block of a radius; what C says in it is no angle.
+fn call(control: &mut Control, radius: f64) -> Result<()> {
+    let Some(code) = tenths(control, loc::MILL_TURN_CYLINDER_CODE) else {
+        return PostCode::Cylinder.err("the machine has no code for it (mill_turn.cylinder_code)");
+    };
+    let letter = control.tables.axis(3).letter;
+    let stands = control.commons.last_output(letter);
+    control.g_of_record(code);
+    control.word(letter, radius)?;
+    control.write_block()?;
+    control.commons.set_last_output(letter, stands);
+    control.state.doubt(letter);
+    Ok(())
+}

@@ -1,0 +1,255 @@
+//! Polar interpolation (G12.1, G13.1): X and C are a plane of lengths, and the control
+//! turns the spindle.
+//!
+//! It begins with C at 0, so that controls that count the plane from where C stands and
+//! those that count it from its zero agree. It takes no G0: rapid motions are made at the
+//! feed `mill_turn.polar_rapid`.
+
+use fil_diag::Result;
+use fil_machine::FunctionCode;
+use fil_machine::axes::{AxisSet, Position};
+use fil_machine::commons::Int;
+use fil_machine::locations::{self as loc, MillTurnMode};
+use fil_machine::modes::{FeedMode, Plane};
+use nalgebra::{Point2, Point3, Rotation3, Unit};
+
+use crate::control::Control;
+use crate::control::family;
+use crate::control::word_address::motion::Motion;
+use crate::errors::PostCode;
+use crate::operation::{Arc, Feed, MotionKind, Target};
+use crate::path::arc::{flat, sweep};
+use crate::path::{rapid, rotary};
+use crate::post::Post;
+
+/// Nearest to the axis of the spindle that a path may pass, mm: nearer, C would have to
+/// turn faster than it can.
+const NEAREST: f64 = 0.05;
+
+/// Positions nearer than this are one, mm or inch.
+const SAME: f64 = 1e-4;
+
+/// Points of an arc at which the travel of X is looked at.
+const ARC_STEPS: u32 = 180;
+
+/// A way around the axis to the first point is made of lines that turn no more than this,
+/// so that none comes near the axis, radians.
+const MOST_TURN: f64 = std::f64::consts::FRAC_PI_2;
+
+/// The function that begins it, where the machine has it.
+pub(super) fn code(control: &Control) -> Option<FunctionCode> {
+    tenths(control, loc::MILL_TURN_POLAR_CODE)
+}
+
+/// A function by a setting in tenths.
+pub(super) fn tenths(control: &Control, at: Int) -> Option<FunctionCode> {
+    let code = control.commons.int_opt(at).and_then(|code| u32::try_from(code).ok());
+    code.filter(|code| *code > 0).map(FunctionCode::tenths)
+}
+
+/// Begins it at a rapid motion, and goes to the target.
+///
+/// # Errors
+/// Cutter compensation, blocks that may be skipped; as a motion.
+pub(super) fn begin(
+    post: &mut Post,
+    target: Target,
+    point: Point3<f64>,
+    kind: MotionKind,
+) -> Result<()> {
+    let control = &mut post.control;
+    let Some(code) = code(control) else { return PostCode::Polar.err("the machine has none") };
+    if control.is_compensated() {
+        return PostCode::CompensationOn.err("where polar interpolation begins");
+    }
+    super::refuse_skipped(control)?;
+    control.begin()?;
+    control.require_unit()?;
+    let cause = control.block.cause;
+    let radius = libm::hypot(point.x, point.y);
+    let lifts = control.axis_position(2).is_some_and(|here| point.z > here);
+    let at = |axes| Motion { position: [radius, 0.0, point.z, 0.0, 0.0], axes, word: 0 };
+    if lifts {
+        rapid::rapid(control, &at(AxisSet::Z), cause)?;
+    }
+    rapid::rapid(control, &at(AxisSet::of(0).or(AxisSet::of(3))), cause)?;
+    control.g_of_record(code);
+    control.write_block()?;
+    super::set_mode(control, MillTurnMode::PolarInterpolation)?;
+    control.state.plane = Some(Plane::Xy);
+    let end = Point2::new(point.x, point.y);
+    let turn = libm::atan2(point.y, point.x);
+    let parts = (turn.abs() / MOST_TURN).ceil().max(1.0) as u32;
+    let feed = feed_of(post, kind)?;
+    for number in 1..parts {
+        let (sine, cosine) = libm::sincos(turn * f64::from(number) / f64::from(parts));
+        go(post, [radius * cosine, radius * sine, point.z], AxisSet::XY, &feed, 0)?;
+    }
+    go(post, [end.x, end.y, point.z], AxisSet::XY, &feed, rotary::word_of(post, target))?;
+    go(post, [end.x, end.y, point.z], AxisSet::Z, &feed, rotary::word_of(post, target))?;
+    arrive(post, target);
+    Ok(())
+}
+
+/// A straight motion.
+///
+/// # Errors
+/// A way that passes the axis of the spindle; no feed; as a motion.
+pub(super) fn line(
+    post: &mut Post,
+    target: Target,
+    point: Point3<f64>,
+    kind: MotionKind,
+) -> Result<()> {
+    if let Some(from) = post.path.point {
+        let from = rotary::transformed(post, Target { point: from, ..target }).0;
+        let nearest = nearest(from.xy(), point.xy());
+        let moves = (from.xy() - point.xy()).norm() > super::CENTER;
+        if moves && nearest < least(post)? {
+            return passes(nearest);
+        }
+    }
+    let feed = feed_of(post, kind)?;
+    let word = rotary::word_of(post, target);
+    let to = point.coords.into();
+    match rising(post, point) {
+        Some(_) if kind == MotionKind::Feed => return with_z(),
+        Some(true) => {
+            go(post, to, AxisSet::Z, &feed, word)?;
+            go(post, to, AxisSet::XY, &feed, word)?;
+        }
+        Some(false) => {
+            go(post, to, AxisSet::XY, &feed, word)?;
+            go(post, to, AxisSet::Z, &feed, word)?;
+        }
+        None => go(post, to, AxisSet::LINEAR, &feed, word)?,
+    }
+    arrive(post, target);
+    Ok(())
+}
+
+/// A motion moves Z together with X and C, and upwards or not; `None` for any other.
+fn rising(post: &Post, to: Point3<f64>) -> Option<bool> {
+    let from = post.path.point.map(|point| Target { point, axis: post.path.axis, word: 0 });
+    let from = from.map(|target| rotary::transformed(post, target).0);
+    let moves = |number: usize| {
+        let on_tape = post.control.tables.axis(number).on_tape(to[number]);
+        match (post.control.axis_position(number), on_tape, from) {
+            (Some(here), Ok(there), _) => (here - there).abs() > super::CENTER,
+            // A text has moved nothing, but may have: the words are written again.
+            (None, _, Some(from)) => (from[number] - to[number]).abs() > super::CENTER,
+            _ => true,
+        }
+    };
+    let across = moves(0) || moves(1);
+    (across && moves(2)).then(|| post.control.axis_position(2).is_some_and(|z| z < to.z))
+}
+
+fn with_z() -> Result<()> {
+    PostCode::Polar.err(
+        "Z moves together with X and C: controls move it by itself then, and not along the line",
+    )
+}
+
+fn arrive(post: &mut Post, target: Target) {
+    post.path.point = Some(target.point);
+    post.path.axis = target.axis;
+    post.path.rotary = None;
+}
+
+fn go(post: &mut Post, [x, y, z]: [f64; 3], axes: AxisSet, feed: &Feed, word: u16) -> Result<()> {
+    let of_slides: Position = [libm::hypot(x, y), 0.0, z, 0.0, 0.0];
+    post.control.tables.check_travel(&of_slides, axes)?;
+    let position: Position = [x, y, z, 0.0, 0.0];
+    family::feed(&mut post.control, &Motion { position, axes, word }, Some(feed))
+}
+
+/// The feed of a motion: that of the machine for rapid ones.
+fn feed_of(post: &Post, kind: MotionKind) -> Result<Feed> {
+    let MotionKind::Rapid(cause) = kind else {
+        return post
+            .path
+            .feed
+            .ok_or_else(|| PostCode::NoFeed.diag("no FEDRAT came before this motion"));
+    };
+    let mm = post.control.require_unit()?.in_mm();
+    let value = post.control.commons.dbl_opt(loc::MILL_TURN_POLAR_RAPID).filter(|feed| *feed > 0.0);
+    let Some(value) = value else {
+        return PostCode::Polar.err("mill_turn.polar_rapid gives no feed for a rapid motion");
+    };
+    Ok(Feed { value: value / mm, mode: FeedMode::PerMinute, cause })
+}
+
+/// Refuses an arc whose circle passes the axis of the spindle, or that leaves the travel.
+///
+/// # Errors
+/// It does.
+pub(super) fn check_arc(post: &Post, arc: &Arc, target: Target) -> Result<()> {
+    let Some(start) = post.path.point else { return Ok(()) };
+    let place = |point| rotary::transformed(post, Target { point, ..target }).0;
+    let ends = [start, target.point].map(|point| flat(arc, point));
+    let center = place(arc.center);
+    let nearest = (libm::hypot(center.x, center.y) - ends[0].norm()).abs();
+    if nearest < least(post)? {
+        return passes(nearest);
+    }
+    if arc.axis.dot(&(target.point - start)).abs() > SAME {
+        return with_z();
+    }
+    let sweep = sweep(arc, ends).to_radians();
+    for step in 0..=ARC_STEPS {
+        let angle = sweep * f64::from(step) / f64::from(ARC_STEPS);
+        let spoke = Rotation3::from_axis_angle(&Unit::new_normalize(arc.axis), angle) * ends[0];
+        let at = place(arc.center + spoke);
+        let of_slides: Position = [libm::hypot(at.x, at.y), 0.0, 0.0, 0.0, 0.0];
+        post.control.tables.check_travel(&of_slides, AxisSet::of(0))?;
+    }
+    Ok(())
+}
+
+fn least(post: &Post) -> Result<f64> {
+    Ok(NEAREST / post.control.require_unit()?.in_mm())
+}
+
+fn passes(nearest: f64) -> Result<()> {
+    PostCode::Polar.err(format!("the path passes the axis of the spindle at {nearest:.4}"))
+}
+
+/// Nearest that a line comes to the axis.
+fn nearest(from: Point2<f64>, to: Point2<f64>) -> f64 {
+    let way = to - from;
+    let along = if way.norm_squared() > 0.0 {
+        (-from.coords.dot(&way) / way.norm_squared()).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    (from.coords + way * along).norm()
+}
+
+/// Ends it where it is on.
+///
+/// # Errors
+/// Cutter compensation, blocks that may be skipped.
+pub(super) fn end(post: &mut Post) -> Result<()> {
+    let control = &mut post.control;
+    if !control.tables.is_polar() {
+        return Ok(());
+    }
+    if control.is_compensated() {
+        return PostCode::CompensationOn.err("where polar interpolation ends");
+    }
+    super::refuse_skipped(control)?;
+    let Some(code) = tenths(control, loc::MILL_TURN_POLAR_END_CODE) else {
+        return PostCode::NoCode.err("mill_turn.polar_end_code names no function");
+    };
+    let waiting = control.block.take();
+    control.g_of_record(code);
+    control.write_block()?;
+    control.block = waiting;
+    super::set_mode(control, MillTurnMode::Milling)?;
+    control.state.plane = None;
+    let here = post.path.point.map(|point| Target { point, axis: post.path.axis, word: 0 });
+    let here = here.map(|target| rotary::transformed(post, target).0);
+    post.path.rotary = here.map(|point| [libm::atan2(point.y, point.x).to_degrees(), 0.0]);
+    Ok(())
+}
