@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::json;
 
-use crate::client::{CL, Client, FIL, of};
+use crate::client::{Client, FIL, of};
 
 #[test]
 fn going_back_is_a_replay_and_sets_again_what_was_set() {
