@@ -164,7 +164,10 @@ impl Faults {
     fn are_found(&self) {
         let Faults { put, found } = self;
         println!("{found} of {put} changed last digits found");
-        assert!(*put > sample::of(PATHS) / 2 && found * 1000 >= put * 998, "{found} of {put}");
+        // An axis that rests may stand at its exact position or at its rounded one, so that
+        // either of two last digits is right.
+        let most_missed = 1 + put * 6 / 1000;
+        assert!(*put > sample::of(PATHS) / 2 && put - found <= most_missed, "{found} of {put}");
     }
 }
 

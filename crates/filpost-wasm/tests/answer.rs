@@ -39,7 +39,7 @@ fn what_is_refused_has_no_program() {
 
 #[test]
 fn a_script_gets_no_file() {
-    let fil = "CIMFIL/ON,LOADTL\nST=FILEF(0,READ,'tools.txt')\nCIMFIL/OFF\nFINI\n";
+    let fil = "CIMFIL/ON,LOADTL\nST=FILEF(1,READ,'tools.txt')\nCIMFIL/OFF\nFINI\n";
     let answer = ask(&json!({
         "do": "post", "cl": CL, "fil": [{ "name": "read.fil", "text": fil }],
     }));
