@@ -1,0 +1,92 @@
+//! Events that no step asks for, which the walk passes over.
+
+use super::ahead::Steps;
+use super::report::FindingKind;
+use super::walk::{STILL, Walk};
+use crate::motion::{Course, Event, Move};
+
+impl<C: Steps> Walk<'_, C> {
+    /// Passes over events that no step asks for: motions to points of the machine,
+    /// blocks of the settings, ways of no length. Gives the motion that comes next, when
+    /// it is one.
+    pub(super) fn pass(&mut self, cl_line: u32) -> Option<Move> {
+        loop {
+            self.pass_still(cl_line);
+            match self.nc.get(self.next)? {
+                Event::Move(found) if found.course == Course::Machine => {
+                    self.stand(&found);
+                    let message = "goes to a point of the machine that neither the CL file nor the settings ask for";
+                    self.find(
+                        FindingKind::Extra,
+                        Some(cl_line),
+                        Some(found.line),
+                        message.to_string(),
+                    );
+                }
+                Event::Move(found) => return Some(found),
+                _ => return None,
+            }
+        }
+    }
+
+    /// The same, up to a motion to a point of the machine, which may be asked for.
+    pub(super) fn pass_still(&mut self, cl_line: u32) {
+        loop {
+            self.pass_own();
+            self.check_tip_end(cl_line);
+            match self.nc.get(self.next) {
+                Some(Event::Move(found)) if self.goes_up_at_tip_end(&found) => {
+                    self.take(cl_line, &found);
+                    self.next += 1;
+                    self.is_up = true;
+                }
+                Some(Event::Move(found))
+                    if found.course != Course::Machine
+                        && (self.is_still(&found)
+                            || self.turns_away(&found)
+                            || self.goes_there_again(&found)) =>
+                {
+                    self.take(cl_line, &found);
+                    self.next += 1;
+                }
+                _ => return,
+            }
+        }
+    }
+
+    /// Passes over events of blocks of the settings and of INSERT.
+    pub(super) fn pass_own(&mut self) {
+        while self.nc.line(self.next).is_some_and(|line| self.own.has(line)) {
+            let Some(event) = self.nc.get(self.next) else { return };
+            match event {
+                Event::Move(found) => self.stand(&found),
+                Event::ToolChange { tool, .. } => {
+                    self.modes.insert_tool(tool);
+                    self.next += 1;
+                }
+                Event::Dwell { .. } => self.next += 1,
+                _ => return,
+            }
+        }
+    }
+
+    /// Goes where a motion goes without a look at it.
+    pub(super) fn stand(&mut self, found: &Move) {
+        self.at = found.to;
+        self.known = found.known;
+        self.moved_tool = found.modes.tool;
+        self.rapid_end = None;
+        self.next += 1;
+    }
+
+    /// Goes nowhere. X, Y or Z that was not known before may have come from anywhere.
+    pub(super) fn is_still(&self, found: &Move) -> bool {
+        let at = self.at_as(found);
+        let same = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= STILL);
+        let found_out = (0..3).any(|n| found.known[n] && !self.known[n]);
+        found.arc.is_none()
+            && !found_out
+            && same(&found.to.linear, &at.linear)
+            && same(&found.to.rotary, &at.rotary)
+    }
+}

@@ -1,0 +1,22 @@
+//! MODE: what X and the main spindle are from here on.
+
+use super::ahead::Steps;
+use super::walk::Walk;
+
+impl<C: Steps> Walk<'_, C> {
+    /// X on the tape is another multiple of its position from here on, which the
+    /// program does not say.
+    pub(super) fn scale_x(&mut self, scale: f64) {
+        let change = std::mem::replace(&mut self.x_scale, scale) / scale;
+        self.nc.scale_x(self.next, change);
+    }
+
+    /// Asks for the code of the main spindle, as an axis or as a spindle, where MODE has
+    /// changed what it is.
+    pub(super) fn ask_spindle_mode(&mut self, cl_line: u32, mills: bool) {
+        if self.modes.changes_spindle(mills) {
+            let code = self.settings.spindle_mode_code(mills);
+            self.ask_auxiliary(cl_line, code);
+        }
+    }
+}
