@@ -210,14 +210,14 @@ fn added(text: &Text, key: &str, value: &str) -> (std::ops::Range<usize>, String
         Some((table, name)) => (Some(table), name),
         None => (None, key),
     };
-    let of_table = (0..text.line_count()).filter(|line| {
+    let mut of_table = (0..text.line_count()).filter(|line| {
         let own = text.line(*line).trim();
         let heads = own.strip_prefix('[').and_then(|rest| rest.split(']').next()).map(str::trim);
         let within = heads.or_else(|| table_of(text, *line)) == table;
         within && !own.is_empty() && !own.starts_with('#')
     });
     let end = text.as_str().len();
-    match of_table.last() {
+    match of_table.next_back() {
         Some(line) => {
             let at = text.line_bytes(line).end;
             (at..at, format!("\n{name} = {value}"))
