@@ -323,6 +323,30 @@ def test_many_runs_keep_memory():
     assert runs(1000) - before < 4096, "kilobytes"
 
 
+def test_a_fleet_writes_each_program_once(tmp_path):
+    from filpost import fleet
+
+    files = []
+    for name, text in [("good", CL), ("wrong", CL.replace("GOTO", "BANANA")), ("more", CL)]:
+        (tmp_path / f"{name}.ncl").write_text(text)
+        files.append((str(tmp_path / f"{name}.ncl"), str(tmp_path / f"{name}.nc")))
+    files.append((str(tmp_path / "none.ncl"), str(tmp_path / "none.nc")))
+    first = list(fleet.here(mill(), files))
+    assert [one.verdict for one in first] == ["agrees", "refused", "agrees", "refused"]
+    assert [one.written for one in first] == [True, False, True, False]
+    assert sorted(one.name for one in tmp_path.glob("*.nc")) == ["good.nc", "more.nc"]
+    stamps = [one.stat().st_mtime_ns for one in sorted(tmp_path.glob("*.nc"))]
+    # The same again writes nothing; another program under the name refuses the file.
+    again = list(fleet.here(mill(), files))
+    assert [one.verdict for one in again] == [one.verdict for one in first]
+    assert not any(one.written for one in again)
+    assert stamps == [one.stat().st_mtime_ns for one in sorted(tmp_path.glob("*.nc"))]
+    (tmp_path / "good.nc").write_text("G0 X0\n")
+    assert next(fleet.here(mill(), files)).verdict == "refused"
+    assert (tmp_path / "good.nc").read_text() == "G0 X0\n"
+    assert not list(tmp_path.glob(".filpost-*"))
+
+
 def test_the_notebook_of_the_documentation_runs():
     nbformat = pytest.importorskip("nbformat")
     nbclient = pytest.importorskip("nbclient")
