@@ -136,7 +136,7 @@ fn turn_tables_to_zero(post: &mut Post) -> Result<()> {
 /// still has the length of the tool, with its motion of Z.
 ///
 /// # Errors
-/// The machine has no code for it; as [`go_up`].
+/// The machine has no code for it; as the way up that comes before it.
 pub fn end(control: &mut Control) -> Result<()> {
     if !control.tables.tip_output || control.state.tip_control == Some(false) {
         return Ok(());
