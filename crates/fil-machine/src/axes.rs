@@ -152,6 +152,12 @@ impl Axis {
         }
     }
 
+    /// Makes positions count from a zero of the control that lies here, mm or inch.
+    pub(crate) fn count_from(&mut self, zero: f64) {
+        self.translate -= zero;
+        self.is_plain &= zero == 0.0;
+    }
+
     /// Writes diameters, on top of an output scale of 1.
     ///
     /// # Errors

@@ -13,8 +13,8 @@ use crate::errors::MachineCode;
 use crate::frame_rules;
 use crate::letter::{self, Letter};
 use crate::locations::{
-    self as loc, ControlFamily, CycleReturnCodes, SeqnoAlign, TapeEndOfBlock, TapePartnoText,
-    ToolChangeBlock, ToolFormat,
+    self as loc, ControlFamily, ControlTranslation, CycleReturnCodes, SeqnoAlign, TapeEndOfBlock,
+    TapePartnoText, ToolChangeBlock, ToolFormat,
 };
 use crate::mill_turn;
 use crate::setting::{CharacterAt, CodeAt};
@@ -149,6 +149,7 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     dwell_formats(commons, &mut found);
     order_of_axes(commons, &mut found);
     shift_along(commons, &mut found);
+    translation(commons, &mut found);
     frame_rules::check(commons, &mut found);
     found.extend(mill_turn::check(commons).err().map(|diag| *diag));
     same_positions(commons, &mut found);
@@ -376,9 +377,28 @@ fn dwell_formats(commons: &Commons, found: &mut Vec<Diag>) {
 /// an arc would have to go along.
 fn shift_along(commons: &Commons, found: &mut Vec<Diag>) {
     let shifts = commons.dbl_opt(loc::INPUT_ALONG_TOOL_AXIS).is_some_and(|by| by != 0.0);
+    if shifts && frame_rules::is_scaled(commons) {
+        found.push(contradiction(
+            "control.translation shifts the zero of the control, and X, Y or Z is scaled or \
+             shifted on the tape"
+                .into(),
+        ));
+    }
     if shifts && AxisChain::from_commons(commons).is_ok_and(|chain| chain.has_rotary()) {
         found.push(contradiction(
             "input.along_tool_axis shifts the points, and the machine has a rotary axis".into(),
+        ));
+    }
+}
+
+/// The zero that TRANS shifts does not turn with the part.
+fn translation(commons: &Commons, found: &mut Vec<Diag>) {
+    let shifts = commons.read(loc::CONTROL_TRANSLATION) == ControlTranslation::ByTrans
+        && commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik;
+    if shifts && AxisChain::from_commons(commons).is_ok_and(|chain| chain.has_rotary()) {
+        found.push(contradiction(
+            "control.translation shifts the zero of the control, and the machine has a rotary axis"
+                .into(),
         ));
     }
 }

@@ -18,9 +18,16 @@ const SCALES: [(crate::commons::Dbl, f64); 6] = [
     (loc::OUTPUT_TRANSLATE_Z, 0.0),
 ];
 
+/// True for a machine that cuts under a tilted axis in a frame of its control: by our own
+/// setting, or by the vendor's for planar machining (INTCOM 4687).
+pub(crate) fn asks_for_frames(commons: &Commons) -> bool {
+    commons.read(loc::ROTARY_FRAME_OUTPUT) == RotaryFrameOutput::TiltedFrame
+        || commons.read(loc::MOTION_PLANAR)
+}
+
 /// Contradictions of a machine that writes tilted frames.
 pub(crate) fn check(commons: &Commons, found: &mut Vec<Diag>) {
-    if commons.read(loc::ROTARY_FRAME_OUTPUT) != RotaryFrameOutput::TiltedFrame {
+    if !asks_for_frames(commons) {
         return;
     }
     let Ok(chain) = AxisChain::from_commons(commons) else { return };
@@ -32,10 +39,14 @@ pub(crate) fn check(commons: &Commons, found: &mut Vec<Diag>) {
         add("rotary.frame_output asks for tilted frames, whose Z is the tool, and the tool does \
              not lie along Z where the machine stands at zero");
     }
-    let scaled =
-        SCALES.iter().any(|(at, usual)| commons.dbl_opt(*at).is_some_and(|value| value != *usual));
-    if scaled || commons.read(loc::LATHE_DIAMETER) {
+    if is_scaled(commons) {
         add("rotary.frame_output asks for tilted frames, and X, Y or Z is scaled or shifted on \
              the tape");
     }
+}
+
+/// True for a machine whose X, Y or Z is scaled or shifted on the tape.
+pub(crate) fn is_scaled(commons: &Commons) -> bool {
+    let other = |(at, usual): &(_, f64)| commons.dbl_opt(*at).is_some_and(|value| value != *usual);
+    SCALES.iter().any(other) || commons.read(loc::LATHE_DIAMETER)
 }

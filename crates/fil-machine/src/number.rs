@@ -127,6 +127,15 @@ impl NumberFormat {
         if value < 0.0 {
             return Err(self.negative(value));
         }
+        self.exact_length(value)
+    }
+
+    /// The value as a scaled integer, for a length of either sign that each point takes: a
+    /// rest that the format drops would be an error of all of them.
+    ///
+    /// # Errors
+    /// As [`NumberFormat::scale`]; a value that the format would round.
+    pub fn exact_length(&self, value: f64) -> Result<i64> {
         let scaled = self.scale(value)?;
         if (self.unscale(scaled) - value).abs() > EXACT * value.abs().max(1.0) {
             return Err(self.inexact(value, scaled));

@@ -19,8 +19,10 @@ const LEAD: f64 = 0.0005;
 pub enum Rounding {
     /// To the nearest last digit: positions, angles, arc centers.
     Nearest,
-    /// Not at all: tools, offsets, sequence and program numbers.
+    /// Not at all, and never below zero: tools, offsets, sequence and program numbers.
     Exact,
+    /// Not at all, and of either sign: a shift of the zero, an angle to stop at.
+    ExactLength,
     /// A little, and never to zero: feeds, speeds, pecks, dwells.
     Rate,
     /// Next to nothing: the lead of a thread or a tap.
@@ -47,6 +49,7 @@ impl Rounding {
         match self {
             Rounding::Nearest => format.scale(value),
             Rounding::Exact => format.exact(value),
+            Rounding::ExactLength => format.exact_length(value),
             Rounding::Rate => format.within(value, RATE),
             Rounding::Lead => format.within(value, LEAD),
         }

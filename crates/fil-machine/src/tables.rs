@@ -9,10 +9,9 @@ use crate::axes::{Axis, AxisSet, Position, linear_letters};
 use crate::axis_chain::{AxisChain, ROTARY_LETTERS};
 use crate::commons::Commons;
 use crate::errors::MachineCode;
+use crate::frame_rules;
 use crate::letter::letters::F;
-use crate::locations::{
-    self as loc, ControlFamily, MillTurnMode, RotaryFrameOutput, RotaryTipOutput,
-};
+use crate::locations::{self as loc, ControlFamily, MillTurnMode, RotaryTipOutput};
 use crate::mill_turn;
 use crate::modes::FeedMode;
 use crate::motion_rules::{FeedFormats, MotionRules};
@@ -48,6 +47,8 @@ pub struct MachineTables {
     chain: AxisChain,
     present: AxisSet,
     input_shift: Vector3<f64>,
+    /// Where the control has its zero, X Y Z, mm or inch.
+    zero: [f64; 3],
     made_for: Option<(u32, bool)>,
 }
 
@@ -87,8 +88,7 @@ impl MachineTables {
         self.present = AxisSet::LINEAR;
         self.tip_output = self.chain.has_rotary()
             && commons.read(loc::ROTARY_TIP_OUTPUT) == RotaryTipOutput::ToolTipControl;
-        self.frame_output = self.chain.has_rotary()
-            && commons.read(loc::ROTARY_FRAME_OUTPUT) == RotaryFrameOutput::TiltedFrame;
+        self.frame_output = self.chain.has_rotary() && frame_rules::asks_for_frames(commons);
         self.input_shift =
             Vector3::from(loc::INPUT_TRANSLATE.map(|at| commons.dbl_opt(at).unwrap_or(0.0)));
         let along = commons.dbl_opt(loc::INPUT_ALONG_TOOL_AXIS).unwrap_or(0.0);
@@ -106,6 +106,7 @@ impl MachineTables {
             }
             self.axes.push(Axis::new(letter, common, &self.addresses, commons));
         }
+        self.axes.iter_mut().zip(self.zero).for_each(|(axis, zero)| axis.count_from(zero));
         if self.axes.iter().any(|axis| axis.scale() == 0.0) {
             return MachineCode::SettingValue.err("an output scale is zero");
         }
@@ -130,6 +131,18 @@ impl MachineTables {
             self.axes[..3].iter_mut().for_each(|axis| axis.limit(None, None));
         }
         Ok(())
+    }
+
+    /// Where the control has its zero, X Y Z, mm or inch: words of X, Y and Z count from there.
+    pub fn zero(&self) -> [f64; 3] {
+        self.zero
+    }
+
+    /// The control has its zero elsewhere, X Y Z, mm or inch; [`MachineTables::refresh`] makes
+    /// the axes anew.
+    pub fn set_zero(&mut self, zero: [f64; 3]) {
+        self.zero = zero;
+        self.made_for = None;
     }
 
     /// The main spindle of a mill-turn machine is the axis C.

@@ -90,6 +90,10 @@ fn contradictions_are_found() {
         "tape.opskip_char=%",
         "tape.start_char=(",
         "control.family=2\ntape.partno_text=1",
+        "control.family=2\nprogram.number_address=none\ndwell.address=F\ncontrol.translation=1\n\
+         rotary.primary_kind=1\nrotary.primary_axis=3",
+        "control.family=2\nprogram.number_address=none\ndwell.address=F\ncontrol.translation=1\n\
+         output.translate_x=5",
         "input.along_tool_axis=5\nrotary.primary_kind=1\nrotary.primary_axis=3",
     ] {
         let mut commons = default_commons();

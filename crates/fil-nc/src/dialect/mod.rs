@@ -178,6 +178,9 @@ pub struct Dialect {
     pub(crate) axis_index: Option<i32>,
     pub(crate) rotary_index: Option<i32>,
     pub(crate) spindle_index: Option<i32>,
+    /// TRANS of a SINUMERIK is the translation of the CL file, so that positions count from
+    /// where the zero was before.
+    pub(crate) translates: bool,
     /// Programs end with a code; without one the last block is the end.
     pub(crate) has_end: bool,
 }
@@ -325,6 +328,7 @@ impl Dialect {
             axis_index: settings.code("control.axis_index"),
             rotary_index: settings.code("control.rotary_index"),
             spindle_index: settings.code("control.spindle_index"),
+            translates: settings.code("control.translation") == Some(1),
             has_end: ["program.end_code", "program.rewind_code"]
                 .iter()
                 .any(|key| settings.code(key).is_some()),

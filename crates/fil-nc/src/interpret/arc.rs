@@ -116,7 +116,7 @@ impl State<'_> {
     /// A coordinate of a center on an axis whose positions are moved on the tape.
     pub(super) fn moved(&self, axis: usize, center: f64) -> f64 {
         let scale = self.dialect.scales[axis];
-        center - scale.map_or(0.0, |scale| scale.shift) * self.unit()
+        center - scale.map_or(0.0, |scale| scale.shift) * self.unit() + self.zero[axis]
     }
 
     /// Of the four centers without signs the one that makes an arc within a quadrant.

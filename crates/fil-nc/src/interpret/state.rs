@@ -18,6 +18,8 @@ pub(super) struct State<'d> {
     pub(super) line: u32,
     pub(super) at: Axes,
     pub(super) known: [bool; 5],
+    /// Where the zero of the program lies, X Y Z, mm.
+    pub(super) zero: [f64; 3],
     /// Motion function in force.
     pub(super) motion: Option<Function>,
     pub(super) plane: usize,
@@ -70,6 +72,7 @@ impl<'d> State<'d> {
                 let is_spindle = axis == 3 && dialect.live_at_start == Some(false);
                 dialect.start[axis].is_some() || dialect.scales[axis].is_none() || is_spindle
             }),
+            zero: [0.0; 3],
             motion: None,
             plane: dialect.plane,
             metric: dialect.metric,
@@ -111,7 +114,8 @@ impl<'d> State<'d> {
     /// Position of an axis that a value on the tape stands for.
     pub(super) fn position(&self, axis: usize, value: f64) -> f64 {
         let scale = self.dialect.scales[axis];
-        scale.map_or(value, |scale| scale.position(value)) * self.axis_unit(axis)
+        let zero = self.zero.get(axis).copied().unwrap_or(0.0);
+        scale.map_or(value, |scale| scale.position(value)) * self.axis_unit(axis) + zero
     }
 
     /// Way of an axis that an increment on the tape stands for.

@@ -73,10 +73,13 @@ pub fn go(control: &mut Control, motion: &Motion, before: Before, cause: Cause) 
 
 fn block(control: &mut Control, motion: &Motion) -> Result<()> {
     family::ready(control)?;
+    // A zero that the control has shifted does not count in this frame.
+    let zero = control.tables.zero();
     for number in motion.axes.numbers() {
         let axis = *control.tables.axis(number);
         let Some(position) = axis.tape_position()? else { continue };
-        control.block.put(position, axis.scaled(motion.position[number])?);
+        let to = motion.position[number] + zero.get(number).copied().unwrap_or(0.0);
+        control.block.put(position, axis.scaled(to)?);
     }
     match control.tables.family {
         ControlFamily::Klartext => {

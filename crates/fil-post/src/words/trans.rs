@@ -3,7 +3,8 @@
 //! `TRANS/x,y,z` is a translation (DBLCOM 286–288). Twelve numbers are the rows
 //! of a 3x4 matrix: X' = X*a1 + Y*b1 + Z*c1 + d1, and so on. With OPTION,10 it acts
 //! on points only; without OPTION on points and tool axis, unless the machine says
-//! otherwise (INTCOM 2093). `TRANS/NOMORE` ends both.
+//! otherwise (INTCOM 2093). `TRANS/NOMORE` ends both. A SINUMERIK may shift its zero by a
+//! TRANS of its own instead of the points (`control.translation`).
 
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
@@ -11,6 +12,7 @@ use fil_machine::Kind;
 use fil_machine::locations::{self as loc, InputKind, InputOrigin, InputTracut};
 use nalgebra::Matrix3x4;
 
+use crate::control::sinumerik::translation;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::path::Transformation;
@@ -132,6 +134,10 @@ fn refuse_on_arc(post: &Post, word: &str) -> Result<()> {
 }
 
 fn translate(post: &mut Post, by: [f64; 3]) -> Result<()> {
+    if translation::is_of_control(&post.control) {
+        post.path.interrupt();
+        translation::write(&mut post.control, by)?;
+    }
     for (location, value) in loc::INPUT_TRANSLATE.into_iter().zip(by) {
         post.control.commons.set(Kind::Dbl, u32::from(location.0), value)?;
     }

@@ -189,6 +189,10 @@ impl Sinumerik<'_> {
             };
             shift[axis] += self.number(word, value)? * self.state.unit();
         }
+        if self.state.dialect.translates {
+            (self.shift, self.state.zero) = (shift, shift);
+            return Ok(());
+        }
         for (axis, to) in shift.into_iter().enumerate() {
             if to != self.shift[axis] {
                 self.state.known[axis] = false;

@@ -169,8 +169,11 @@ impl Sinumerik<'_> {
             let message = "a point of the machine in a tilted plane";
             return Err(Fault::new(NcCode::NoMeaning, message));
         }
-        let (to, _) = self.target(said);
+        let (mut to, _) = self.target(said);
         let mut lost = self.state.known;
+        for axis in (0..3).filter(|axis| said.axes[*axis].is_some()) {
+            to[axis] -= self.state.zero[axis];
+        }
         let named = |word: &Option<Coordinate>| word.is_some();
         for axis in (0..5).filter(|axis| named(&said.axes[*axis])) {
             lost[axis] = false;

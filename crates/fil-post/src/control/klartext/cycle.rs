@@ -18,7 +18,6 @@ use super::motion;
 use super::phrase::Head;
 use crate::block::named;
 use crate::control::family::refuse;
-use crate::control::word_address::dwell::turns_a_minute;
 use crate::control::word_address::motion::{self as words, Motion};
 use crate::control::{Control, tap};
 use crate::errors::PostCode;
@@ -254,7 +253,7 @@ fn feed(control: &Control, cycle: &Cycle) -> Result<String> {
     };
     let value = match feed.mode {
         FeedMode::PerMinute => feed.value,
-        FeedMode::PerRevolution => feed.value * turns_a_minute(control)?,
+        FeedMode::PerRevolution => motion::a_minute(control, feed.value)?,
         FeedMode::InverseTime => return refuse("inverse time in a cycle"),
     };
     line::feed(control, motion::spelled(control, value))

@@ -12,6 +12,7 @@ use super::line::{self, Line};
 use super::phrase::Head;
 use crate::control::family::refuse;
 use crate::control::word_address::arc::{self, PlaneArc};
+use crate::control::word_address::dwell::known_speed;
 use crate::control::word_address::motion::{self as words, Motion};
 use crate::control::{Control, Function};
 use crate::control_state::Compensation;
@@ -165,15 +166,24 @@ fn feed_word(control: &mut Control, feed: Option<&Feed>) -> Result<()> {
     let value = match feed.mode {
         FeedMode::PerMinute => spelled(control, feed.value),
         FeedMode::PerRevolution if control.is_metric() => feed.value,
-        FeedMode::PerRevolution => {
-            return refuse(
-                "a feed a turn of the spindle in inches: what M136 counts there is not known",
-            );
-        }
+        FeedMode::PerRevolution => spelled(control, a_minute(control, feed.value)?),
         FeedMode::InverseTime => return refuse("inverse time: F is a feed here"),
     };
-    say_mode(control, feed.mode);
+    let is_metric = control.is_metric();
+    say_mode(control, if is_metric { feed.mode } else { FeedMode::PerMinute });
     control.modal_feed(F, &Feed { value, ..feed })
+}
+
+/// A feed a turn of the spindle as one a minute, at the speed that it has. What M136 counts
+/// in inches is not known, and cycles know no other feeds.
+///
+/// # Errors
+/// How fast the spindle turns is not known.
+pub(super) fn a_minute(control: &Control, feed: f64) -> Result<f64> {
+    match known_speed(control) {
+        Some(speed) => Ok(feed * speed),
+        None => refuse("a feed a turn of the spindle while its speed is not known"),
+    }
 }
 
 /// Says whether F is a feed a minute or a turn, where the control may take it otherwise.

@@ -14,6 +14,7 @@ pub(super) mod spindle;
 pub mod swivel;
 pub mod thread;
 pub mod tool;
+pub mod translation;
 
 use fil_diag::Result;
 use fil_machine::letters::{F, S};

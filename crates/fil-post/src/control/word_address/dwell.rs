@@ -135,14 +135,19 @@ fn in_revolutions(control: &mut Control, turns: f64) -> Result<f64> {
     Ok(within(control, turns, (loc::DWELL_UPR_MIN, loc::DWELL_UPR_MAX)) * factor)
 }
 
+/// The speed of the spindle, turns a minute; `None` where it is not known or changes with the
+/// radius.
+pub(in crate::control) fn known_speed(control: &Control) -> Option<f64> {
+    let of_turns = matches!(control.speed, Some(SpindleSpeed::Revolutions(_)));
+    control.last_value(S).filter(|speed| of_turns && *speed > 0.0)
+}
+
 /// The speed of the spindle, for a machine that waits seconds only.
 ///
 /// # Errors
 /// None is known, or it changes with the radius.
-pub(in crate::control) fn turns_a_minute(control: &Control) -> Result<f64> {
-    let of_turns = matches!(control.speed, Some(SpindleSpeed::Revolutions(_)));
-    let speed = control.last_value(S).filter(|speed| of_turns && *speed > 0.0);
-    speed.ok_or_else(|| {
+fn turns_a_minute(control: &Control) -> Result<f64> {
+    known_speed(control).ok_or_else(|| {
         let mut diag = PostCode::NoCode.diag(
             "the machine can't dwell in revolutions, and how fast the spindle turns is not known",
         );
