@@ -1,0 +1,285 @@
+//! Random programs for a mill-turn machine: turning, holes along Z and square to it, milling in
+//! polar interpolation, grooves on a cylinder. The back-check, which has its own reading of
+//! G12.1 and G7.1, must find nothing in the program of the post, and something in one with a
+//! changed coordinate.
+
+use std::env;
+use std::fmt::Write;
+use std::io::Cursor;
+
+use filpost::Program;
+use filpost::nc::verify::Allowed;
+use filpost::verify::NcProgram;
+use filpost_tests::programs::Dice;
+
+/// Programs in the normal run.
+const SAMPLE: u64 = 60;
+
+/// CL of a random part.
+struct Part {
+    text: String,
+    mills: bool,
+    /// Inches are millimetres less a factor.
+    scale: f64,
+    feeds: [&'static str; 2],
+}
+
+impl Part {
+    fn random(seed: u64) -> String {
+        let mut dice = Dice::from_seed(seed);
+        let inch = dice.once_in(4);
+        let mut part = Part {
+            text: if inch { "UNITS / INCHES\n" } else { "UNITS / MM\n" }.to_string(),
+            mills: false,
+            scale: if inch { 1.0 / 25.4 } else { 1.0 },
+            feeds: if inch { ["IPM", "IPR"] } else { ["MMPM", "MMPR"] },
+        };
+        for _ in 0..1 + dice.below(5) {
+            match dice.below(5) {
+                0 => part.turn(&mut dice),
+                1 => part.axial_holes(&mut dice),
+                2 => part.radial_holes(&mut dice),
+                3 => part.contour(&mut dice),
+                _ => part.groove(&mut dice),
+            }
+        }
+        part.text.push_str("FINI\n");
+        part.text
+    }
+
+    fn line(&mut self, text: &str) {
+        self.text.push_str(text);
+        self.text.push('\n');
+    }
+
+    fn goto(&mut self, point: [f64; 3]) {
+        let [x, y, z] = point.map(|value| value * self.scale);
+        writeln!(self.text, "GOTO / {x:.6}, {y:.6}, {z:.6}").unwrap();
+    }
+
+    /// A point on a radius at an angle, with the tool looking at the axis.
+    fn goto_around(&mut self, radius: f64, angle: f64, z: f64) {
+        let (sine, cosine) = libm::sincos(angle.to_radians());
+        let [x, y, z] = [radius * cosine, radius * sine, z].map(|value| value * self.scale);
+        writeln!(self.text, "GOTO / {x:.6}, {y:.6}, {z:.6}, {cosine:.9}, {sine:.9}, 0").unwrap();
+    }
+
+    fn begin(&mut self, dice: &mut Dice<'_>, mills: bool) {
+        if self.mills != mills {
+            let mode = if mills { "MODE / MILL" } else { "MODE / TURN" };
+            self.line(mode);
+            self.mills = mills;
+        }
+        let tool = 1 + dice.below(12);
+        self.line(&format!("LOADTL / {tool}"));
+        let direction = dice.pick(&["CLW", "CCLW"]).to_string();
+        self.line(&format!("SPINDL / RPM, {}, {direction}", 300 + dice.below(3000)));
+    }
+
+    fn turn(&mut self, dice: &mut Dice<'_>) {
+        self.begin(dice, false);
+        let per_turn = self.feeds[1];
+        self.line(&format!("FEDRAT / {:.4}, {per_turn}", dice.between(0.1, 0.4) * self.scale));
+        let radius = dice.between(5.0, 30.0);
+        self.line("RAPID");
+        self.goto([radius, 0.0, 3.0]);
+        self.goto([radius, 0.0, -dice.between(5.0, 40.0)]);
+        self.goto([radius + 4.0, 0.0, -45.0]);
+        self.line("RAPID");
+        self.goto([60.0, 0.0, 60.0]);
+    }
+
+    fn cycle(&mut self, dice: &mut Dice<'_>) {
+        let kind = ["DRILL", "DEEP", "BRKCHP"][dice.below(3)];
+        let (depth, step) = (dice.between(3.0, 15.0), dice.between(1.0, 6.0));
+        let [depth, step, clear] = [depth, step, 2.0].map(|value| value * self.scale);
+        let step = if kind == "DRILL" { String::new() } else { format!("STEP, {step:.4}, ") };
+        let (feed, unit) = (dice.between(40.0, 200.0) * self.scale, self.feeds[0]);
+        self.line(&format!(
+            "CYCLE / {kind}, DEPTH, {depth:.4}, {step}{unit}, {feed:.2}, CLEAR, {clear:.4}"
+        ));
+    }
+
+    fn axial_holes(&mut self, dice: &mut Dice<'_>) {
+        self.begin(dice, true);
+        let radius = dice.between(4.0, 40.0);
+        self.line("RAPID");
+        self.goto([radius, 0.0, 5.0]);
+        self.cycle(dice);
+        for _ in 0..1 + dice.below(4) {
+            let (sine, cosine) = libm::sincos(dice.between(-3.1, 3.1));
+            self.goto([radius * cosine, radius * sine, 0.0]);
+        }
+        self.line("CYCLE / OFF");
+    }
+
+    fn radial_holes(&mut self, dice: &mut Dice<'_>) {
+        self.begin(dice, true);
+        self.line("MULTAX / ON");
+        let radius = dice.between(18.0, 60.0);
+        let mut angle = dice.between(-180.0, 180.0);
+        let z = -dice.between(1.0, 30.0);
+        self.line("RAPID");
+        self.goto_around(radius + 5.0, angle, z);
+        self.cycle(dice);
+        for _ in 0..1 + dice.below(4) {
+            self.goto_around(radius, angle, z - dice.between(0.0, 5.0));
+            angle += dice.between(-170.0, 170.0);
+        }
+        self.line("CYCLE / OFF");
+        self.line("RAPID");
+        self.goto_around(radius + 20.0, angle, z);
+        self.line("MULTAX / OFF");
+    }
+
+    /// A contour around the axis: lines no nearer than the least radius, and an arc.
+    fn contour(&mut self, dice: &mut Dice<'_>) {
+        self.begin(dice, true);
+        let side = dice.between(6.0, 25.0);
+        let turned = dice.between(-3.1, 3.1);
+        let corner = |number: usize| {
+            let (sine, cosine) = libm::sincos(turned + number as f64 * 1.1);
+            [side * cosine, side * sine]
+        };
+        let [x, y] = corner(0);
+        self.line("RAPID");
+        self.goto([x, y, 5.0]);
+        let (feed, unit) = (dice.between(50.0, 400.0) * self.scale, self.feeds[0]);
+        self.line(&format!("FEDRAT / {feed:.2}, {unit}"));
+        self.goto([x, y, -2.0]);
+        let mut last = [x, y];
+        for number in 1..2 + dice.below(5) {
+            let [x, y] = corner(number);
+            self.goto([x, y, -2.0]);
+            last = [x, y];
+            if dice.once_in(3) {
+                // An arc about the axis to the next corner.
+                let [radius, depth] = [side, -2.0].map(|value| value * self.scale);
+                self.line(&format!("CIRCLE / 0, 0, {depth:.6}, 0, 0, 1, {radius:.6}"));
+                let (sine, cosine) = libm::sincos(turned + number as f64 * 1.1 + 0.7);
+                last = [side * cosine, side * sine];
+                self.goto([last[0], last[1], -2.0]);
+                break;
+            }
+        }
+        self.line("RAPID");
+        self.goto([last[0], last[1], 5.0]);
+    }
+
+    fn groove(&mut self, dice: &mut Dice<'_>) {
+        self.begin(dice, true);
+        self.line("MULTAX / ON");
+        let radius = dice.between(10.0, 50.0);
+        let mut angle = dice.between(-180.0, 180.0);
+        let mut z = -dice.between(1.0, 20.0);
+        self.line("RAPID");
+        self.goto_around(radius + 5.0, angle, z);
+        let (feed, unit) = (dice.between(50.0, 400.0) * self.scale, self.feeds[0]);
+        self.line(&format!("FEDRAT / {feed:.2}, {unit}"));
+        self.goto_around(radius, angle, z);
+        let way = if dice.once_in(2) { 1.0 } else { -1.0 };
+        for _ in 0..2 + dice.below(8) {
+            angle += way * dice.between(0.5, 4.0);
+            z -= dice.between(0.0, 1.0);
+            self.goto_around(radius, angle, z);
+        }
+        self.line("RAPID");
+        self.goto_around(radius + 5.0, angle, z);
+        self.line("MULTAX / OFF");
+    }
+}
+
+fn nc_of(post: &Program, cl: &str) -> Result<String, String> {
+    let mut nc = Vec::new();
+    match post.run(cl.as_bytes(), &mut nc) {
+        Ok(_) => Ok(String::from_utf8(nc).unwrap()),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+/// What the back-check says against a program; empty when it agrees.
+fn said_against(post: &Program, cl: &str, nc: &str) -> String {
+    let program = NcProgram { text: nc.as_bytes(), name: "out.nc" };
+    match post.start().verify(Cursor::new(cl.to_string()), program, Allowed::default()) {
+        Ok((report, _)) if report.compared == 0 => "nothing was compared".to_string(),
+        Ok((report, _)) => {
+            let mut said: String = report.findings.iter().map(|one| format!("{one}\n")).collect();
+            said.extend(report.unverified.iter().map(|one| format!("{one:?}\n")));
+            said
+        }
+        Err(error) => error.to_string(),
+    }
+}
+
+/// The seeds: a sample, or what `FILPOST_MILL_TURN=first,count` says.
+fn seeds() -> std::ops::Range<u64> {
+    let said = env::var("FILPOST_MILL_TURN").ok();
+    let range = said.as_deref().and_then(|said| said.split_once(','));
+    match range.map(|(first, count)| (first.parse::<u64>(), count.parse::<u64>())) {
+        Some((Ok(first), Ok(count))) => first..first + count,
+        _ => 0..SAMPLE,
+    }
+}
+
+fn post() -> Program {
+    Program::builder().ready("fanuc-mill-turn").build().unwrap()
+}
+
+#[test]
+fn random_programs_agree_with_their_cl() {
+    let post = post();
+    let mut wrong = Vec::new();
+    let mut kinds = [0; 3];
+    for seed in seeds() {
+        let cl = Part::random(seed);
+        let said = match nc_of(&post, &cl) {
+            Err(said) => format!("refused: {said}"),
+            Ok(nc) => {
+                for (count, sign) in kinds.iter_mut().zip(["M51", "G12.1", "G7.1"]) {
+                    *count += u32::from(nc.contains(sign));
+                }
+                let said = said_against(&post, &cl, &nc);
+                if said.is_empty() { said } else { format!("{said}{nc}") }
+            }
+        };
+        if !said.is_empty() {
+            wrong.push(format!("seed {seed}: {said}\n{cl}"));
+        }
+    }
+    let count = wrong.len();
+    assert!(
+        wrong.is_empty(),
+        "{count} differ; the first two:\n{}",
+        wrong[..count.min(2)].join("\n")
+    );
+    assert!(kinds.iter().all(|count| *count > 5), "{kinds:?}");
+}
+
+#[test]
+fn a_changed_coordinate_is_found() {
+    let post = post();
+    let mut changed = 0;
+    for seed in 0..20 {
+        let cl = Part::random(seed);
+        let nc = nc_of(&post, &cl).unwrap();
+        let lines: Vec<&str> = nc.lines().collect();
+        for (number, line) in lines.iter().enumerate().step_by(5) {
+            let Some(at) = line.rfind([' ']).map(|at| at + 1) else { continue };
+            let is_coordinate = line[at..].starts_with(['X', 'Z', 'C']) && !line.contains("G7.1");
+            let Ok(value) = line[at + 1..].parse::<f64>() else { continue };
+            if !is_coordinate {
+                continue;
+            }
+            let other = format!("{}{:.3}", &line[..at + 1], value + 1.25);
+            let text: String = lines
+                .iter()
+                .enumerate()
+                .map(|(n, line)| if n == number { &*other } else { *line })
+                .map(|line| format!("{line}\n"))
+                .collect();
+            assert!(!said_against(&post, &cl, &text).is_empty(), "seed {seed}: {other}\n{text}");
+            changed += 1;
+        }
+    }
+    assert!(changed > 40, "{changed}");
+}
