@@ -123,11 +123,9 @@ fn changed_items_are_noticed() {
 }
 
 /// Settings whose value in a file changes no program, and what they are there for.
-const NOT_SEEN_IN_PROGRAMS: [&str; 2] = [
+const NOT_SEEN_IN_PROGRAMS: [&str; 1] = [
     // Says to `verify` how a program with tool-tip control begins.
     "rotary.tip_control",
-    // Tells FIL what is in force: a program begins with turning, whatever a file says.
-    "mill_turn.mode",
 ];
 
 #[test]

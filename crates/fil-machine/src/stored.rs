@@ -10,7 +10,7 @@ use crate::address::OFF;
 use crate::commons::{EMPTY, Kind, LAST_OUTPUT, NA};
 use crate::errors::MachineCode;
 use crate::letter::Letter;
-use crate::locations::{Location, ValueUnit};
+use crate::locations::{self as loc, Location, ValueUnit};
 use crate::user_blocks;
 
 /// The tables of letters and tape positions: their last locations, and what they hold.
@@ -113,6 +113,21 @@ pub fn check(kind: Kind, number: u32, value: f64) -> Result<()> {
         Some(row) if !takes(row, value) => Err(wrong_value(row, &value.to_string())),
         _ => Ok(()),
     }
+}
+
+/// Refuses what a script or a debugger can't store while a program is written: a number that
+/// the location can't hold, and the mode of a mill-turn machine, which changes with a block.
+///
+/// # Errors
+/// E0605, as [`check`].
+pub fn check_in_run(kind: Kind, number: u32, value: f64) -> Result<()> {
+    let mode = loc::MILL_TURN_MODE;
+    if (kind, number) == (Kind::Int, mode.number.into()) {
+        let message = "mill_turn.mode: no block would bring the machine to that mode";
+        let diag = MachineCode::SettingValue.diag(message);
+        return Err(Box::new(diag.hint("carry out MODE/MILL or MODE/TURN")));
+    }
+    check(kind, number, value)
 }
 
 /// E0605 for a value that a setting does not take.

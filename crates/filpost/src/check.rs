@@ -85,7 +85,7 @@ fn carries_out(word: WordId) -> bool {
 /// What is wrong with storing a value, as a run would say it.
 fn storing(kind: CommonKind, number: u32, value: Option<f64>) -> Option<Diag> {
     let kind = common_kind(kind);
-    if let Some(Err(diag)) = value.map(|value| stored::check(kind, number, value)) {
+    if let Some(Err(diag)) = value.map(|value| stored::check_in_run(kind, number, value)) {
         return Some(*diag);
     }
     (!stored::acts(kind, number)).then(|| stored::without_effect(&[(kind, number)]))

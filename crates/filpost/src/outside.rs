@@ -501,7 +501,7 @@ impl<S: Records> Host for Outside<'_, S> {
         value: f64,
     ) -> Result<Option<Box<Diag>>, Box<Diag>> {
         let kind = common_kind(kind);
-        stored::check(kind, location, value)?;
+        stored::check_in_run(kind, location, value)?;
         self.post.control.commons.set(kind, location, value)?;
         let is_first = !stored::acts(kind, location) && self.idle.insert((kind, location));
         Ok(is_first.then(|| Box::new(stored::without_effect(&[(kind, location)]))))

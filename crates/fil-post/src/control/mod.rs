@@ -31,8 +31,7 @@ use fil_machine::commons::EMPTY;
 use fil_machine::contradictions;
 use fil_machine::errors::MachineCode;
 use fil_machine::letters::{G, M};
-use fil_machine::locations::{ControlFamily, MillTurnMode};
-use fil_machine::mill_turn;
+use fil_machine::locations::{self as loc, ControlFamily, MillTurnMode};
 use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::rounding::Rounding;
 use fil_machine::setting::{CodeAt, LetterAt};
@@ -564,9 +563,9 @@ impl Control {
 /// Refuses a machine that would begin a program while its spindle is an axis: the code that
 /// makes it one would be missing.
 fn refuse_milling_start(commons: &Commons) -> Result<()> {
-    let mode = mill_turn::mode(commons);
-    if mode.is_none_or(|mode| mode == MillTurnMode::Turning) {
+    if commons.read(loc::MILL_TURN_MODE) == MillTurnMode::Turning {
         return Ok(());
     }
-    MachineCode::SettingValue.err("mill_turn.mode: programs begin with turning (0)")
+    let diag = MachineCode::SettingValue.diag("mill_turn.mode: programs begin with turning (0)");
+    Err(Box::new(diag.hint("MODE/MILL in the CL file makes the spindle an axis.")))
 }

@@ -41,7 +41,7 @@ impl DebugState<'_, '_> {
             return RunCode::WhileWriting
                 .err("nothing is set while a block is on its way to the tape");
         };
-        stored::check(kind, location, value)?;
+        stored::check_in_run(kind, location, value)?;
         post.control.commons.set(kind, location, value)
     }
 
