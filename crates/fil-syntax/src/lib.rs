@@ -27,10 +27,10 @@ mod token;
 pub mod tree;
 pub mod walk;
 
-lalrpop_util::lalrpop_mod!(
-    #[allow(clippy::all, missing_docs, unused, rustdoc::all)]
-    grammar
-);
+/// Made from `grammar.lalrpop` by `FILPOST_UPDATE=1 cargo test -p filpost-grammar`.
+#[rustfmt::skip]
+#[allow(clippy::all, missing_docs, unused, rustdoc::all)]
+mod grammar;
 
 pub use encoding::decode;
 pub use errors::SyntaxCode;

@@ -4,7 +4,6 @@ use std::collections::VecDeque;
 use std::iter::FusedIterator;
 use std::ops::Range;
 
-use fil_cl::reader::Reader;
 use fil_post::noted::{BlockInfo, Noted};
 use fil_post::{Origin, tape::Tape};
 
@@ -86,14 +85,14 @@ pub(crate) fn words_of(tape: &Tape, noted: &Noted, block: &BlockInfo) -> Vec<Wor
 ///
 /// Files that scripts write appear when the last block is handed out.
 pub struct Blocks<'o> {
-    engine: Engine<'o, Reader<'o>>,
+    engine: Engine<'o, 'o>,
     ready: VecDeque<Block>,
     number: u64,
     over: bool,
 }
 
 impl<'o> Blocks<'o> {
-    pub(crate) fn new(engine: Engine<'o, Reader<'o>>) -> Self {
+    pub(crate) fn new(engine: Engine<'o, 'o>) -> Self {
         Blocks { engine, ready: VecDeque::new(), number: 0, over: false }
     }
 

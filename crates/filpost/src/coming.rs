@@ -3,12 +3,12 @@
 
 use fil_cl::{Vocabulary, record::kind, words};
 
-use crate::source::{Records, Source, changes_tool};
+use crate::source::{Source, changes_tool};
 
 /// Most records that are looked through.
 const MOST: usize = 2000;
 
-impl<S: Records> Source<S> {
+impl Source<'_> {
     /// Tool axes of the motions behind the current record up to the next RAPID or tool; `None`
     /// for a motion that keeps the one before. Nothing is consumed, and what is wrong with a
     /// record is said when it is read.

@@ -18,7 +18,7 @@ use crate::pending::PendingFiles;
 use crate::report::Report;
 use crate::run::Start;
 use crate::script_files::ScriptFiles;
-use crate::source::Records;
+use crate::source::Stream;
 use crate::spilled::{Shown, Spilled};
 
 /// Bytes of finished blocks that are kept before they go to the writer.
@@ -29,8 +29,8 @@ const FLUSH: usize = 64 * 1024;
 const FUEL_OF_READING_AGAIN: u64 = 100;
 
 /// A run of a [`Program`](crate::Program).
-pub(crate) struct Engine<'o, S> {
-    pub(crate) outside: Outside<'o, S>,
+pub(crate) struct Engine<'o, 'r> {
+    pub(crate) outside: Outside<'o, 'r>,
     pub(crate) vocabulary: Vocabulary,
     machine: Interpreter,
     has_sections: bool,
@@ -43,10 +43,10 @@ pub(crate) struct Engine<'o, S> {
     failure: Option<Error>,
 }
 
-impl<'o, S: Records> Engine<'o, S> {
+impl<'o, 'r> Engine<'o, 'r> {
     /// A run from the start. `observed`: keep the provenance of blocks; so does
     /// a run with a map.
-    pub(crate) fn new(start: Start<'o>, records: S, observed: bool) -> Self {
+    pub(crate) fn new(start: Start<'o>, records: Stream<'r>, observed: bool) -> Self {
         let shared = Arc::clone(&start.program.shared);
         let functions = Arc::clone(&shared.functions);
         let machine = Interpreter::new(Arc::clone(&shared.module), shared.limits, functions);

@@ -1,15 +1,15 @@
 //! Records that a program hands over from memory.
 
-use fil_cl::{ClCode, Recognized, Record, SplineCounts, Vocabulary};
+use fil_cl::{ClCode, Record, Vocabulary};
 use fil_diag::{Diag, Result, TextSpan};
 
 use crate::error::{Error, RunCode};
 use crate::program::Program;
-use crate::source::{Records, Unread};
+use crate::source::Unread;
 
 /// Hands out records that are already there, after a look at each.
 pub(crate) struct Memory<'r> {
-    records: Box<dyn Iterator<Item = Record> + 'r>,
+    records: Box<dyn Iterator<Item = Record> + Send + 'r>,
     /// The words of the records, until the run takes them.
     vocabulary: Option<Vocabulary>,
     /// How messages call the records.
@@ -24,7 +24,7 @@ impl<'r> Memory<'r> {
     /// E0712 for a vocabulary that does not begin with that of the program: its
     /// numbers would mean other words.
     pub fn new(
-        records: impl Iterator<Item = Record> + 'r,
+        records: impl Iterator<Item = Record> + Send + 'r,
         vocabulary: Vocabulary,
         program: &Program,
         name: &str,
@@ -44,8 +44,9 @@ impl<'r> Memory<'r> {
     }
 }
 
-impl Records for Memory<'_> {
-    fn read(&mut self, vocabulary: &mut Vocabulary, record: &mut Record) -> Result<bool> {
+impl Memory<'_> {
+    /// As [`Stream::read`](crate::source::Stream).
+    pub fn read(&mut self, vocabulary: &mut Vocabulary, record: &mut Record) -> Result<bool> {
         if let Some(words) = self.vocabulary.take() {
             *vocabulary = words;
         }
@@ -67,32 +68,20 @@ impl Records for Memory<'_> {
         }
     }
 
-    fn seek(&mut self, number: u32) -> Result<()> {
+    /// Why record `number` can't be gone to.
+    pub fn cant_seek(&self, number: u32) -> Box<Diag> {
         let message = format!("record {number} is asked for after record {}", self.number);
-        Err(Box::new(ClCode::NotSeekable.diag(message).at(TextSpan::line(
-            &self.name,
-            self.number,
-            "",
-        ))))
+        let place = TextSpan::line(&self.name, self.number, "");
+        Box::new(ClCode::NotSeekable.diag(message).at(place))
     }
 
-    fn recognized(&self) -> Option<Recognized> {
-        None
-    }
-
-    fn splines(&self) -> SplineCounts {
-        SplineCounts::default()
-    }
-
-    fn can_go_back(&self) -> bool {
-        false
-    }
-
-    fn has_failed(&self) -> bool {
+    /// True when the last record was refused.
+    pub fn has_failed(&self) -> bool {
         self.failed
     }
 
-    fn resume(&mut self) -> Option<Unread> {
+    /// Goes on behind a record that was refused.
+    pub fn resume(&mut self) -> Option<Unread> {
         let unread = Unread { word: None, leans_on_earlier: false, goes_on: true };
         std::mem::take(&mut self.failed).then_some(unread)
     }

@@ -31,18 +31,18 @@ use crate::program::Program;
 use crate::report::{Extents, Report};
 use crate::run::Start;
 use crate::select;
-use crate::source::{Records, Source, changes_tool};
+use crate::source::{Source, Stream, changes_tool};
 use crate::spilled::Spilled;
 use crate::statement::statement_text;
 use crate::tally::{Before, Tally};
 use crate::units::{self, UnitSource};
 
 /// What a FIL machine reaches while it runs: reader and post.
-pub(crate) struct Outside<'o, S> {
+pub(crate) struct Outside<'o, 'r> {
     /// The program of the run.
     pub program: Program,
     /// The CL records.
-    pub source: Source<S>,
+    pub source: Source<'r>,
     /// The compiled FIL.
     pub module: Arc<Module>,
     /// The post.
@@ -93,9 +93,9 @@ pub(crate) struct Outside<'o, S> {
     pub told_failure: bool,
 }
 
-impl<'o, S: Records> Outside<'o, S> {
+impl<'o, 'r> Outside<'o, 'r> {
     /// Everything as it is before the first record.
-    pub fn new(start: Start<'o>, records: S) -> Self {
+    pub fn new(start: Start<'o>, records: Stream<'r>) -> Self {
         let Start { program, cl_name, raw, units, cancel, observers, map, pass, debugger } = start;
         let shared = &program.shared;
         let counts = !observers.is_empty() || !matches!(pass, Pass::Only);
@@ -489,7 +489,7 @@ impl<'o, S: Records> Outside<'o, S> {
     }
 }
 
-impl<S: Records> Host for Outside<'_, S> {
+impl Host for Outside<'_, '_> {
     fn common(&mut self, kind: CommonKind, location: u32) -> Result<f64, Box<Diag>> {
         self.post.control.commons.get(common_kind(kind), location)
     }

@@ -153,7 +153,7 @@ impl Program {
     pub fn run_records(
         &self,
         vocabulary: Vocabulary,
-        records: impl IntoIterator<Item = Record>,
+        records: impl IntoIterator<Item = Record, IntoIter: Send>,
         nc: impl Write,
     ) -> Result<Report, Error> {
         self.start().run_records(vocabulary, records, nc)

@@ -26,7 +26,7 @@ use crate::pending::NewFile;
 use crate::pending::PendingFiles;
 use crate::program::Program;
 use crate::report::Report;
-use crate::source::Records;
+use crate::source::Stream;
 
 /// A run that has not begun: options first, then one of the methods that take a
 /// CL stream. Options that are left out are those of [`Program::run`].
@@ -233,7 +233,7 @@ impl<'o> Run<'o> {
     pub fn run_records(
         self,
         vocabulary: Vocabulary,
-        records: impl IntoIterator<Item = Record>,
+        records: impl IntoIterator<Item = Record, IntoIter: Send>,
         mut nc: impl Write,
     ) -> Result<Report, Error> {
         let memory = Memory::new(records.into_iter(), vocabulary, &self.program, &self.name())?;
@@ -282,7 +282,8 @@ impl<'o> Run<'o> {
     /// ```
     pub fn blocks(self, cl: impl Read + Send + 'o) -> Blocks<'o> {
         let reader = Reader::new(cl, &self.name(), self.reading);
-        Blocks::new(Engine::new(self.begin(None, Pass::Only), reader, true))
+        let records = Stream::Cl(Box::new(reader));
+        Blocks::new(Engine::new(self.begin(None, Pass::Only), records, true))
     }
 
     /// The name of the CL file in messages.
@@ -317,7 +318,8 @@ impl<'o> Run<'o> {
             observers: Vec::new(),
             debugger: None,
         };
-        let found = Engine::new(first.begin(None, pass), reader, false).count();
+        let found =
+            Engine::new(first.begin(None, pass), Stream::Cl(Box::new(reader)), false).count();
         cl.seek(SeekFrom::Start(start)).map_err(cant)?;
         Ok(Some(found))
     }
@@ -331,16 +333,16 @@ impl<'o> Run<'o> {
         map: Option<map::Writer<'o>>,
         nc: &mut dyn Write,
     ) -> Done<'o> {
-        self.drive(reader, Pass::writing(first), map, nc)
+        self.drive(Stream::Cl(Box::new(reader)), Pass::writing(first), map, nc)
     }
 
     fn post_memory(self, memory: Memory<'_>, nc: &mut dyn Write) -> Result<Report, Error> {
-        commit(self.drive(memory, Pass::Only, None, nc).0)
+        commit(self.drive(Stream::Memory(memory), Pass::Only, None, nc).0)
     }
 
     fn drive(
         self,
-        records: impl Records,
+        records: Stream<'_>,
         pass: Pass,
         map: Option<map::Writer<'o>>,
         nc: &mut dyn Write,

@@ -4,12 +4,12 @@
 use std::collections::VecDeque;
 
 use fil_cl::{
-    Meaning, Recognized, Record, SplineCounts, Vocabulary, Word, WordId, reader::Reader,
-    record::kind, words,
+    Recognized, Record, SplineCounts, Vocabulary, Word, WordId, reader::Reader, record::kind, words,
 };
 use fil_diag::Result;
 use fil_post::operation::NextTools;
 
+use crate::memory::Memory;
 use crate::written::Written;
 
 /// Records NEXTF looks through for the next motion.
@@ -23,41 +23,67 @@ const TOOLS_AHEAD: usize = 100_000;
 pub(crate) type Coordinates = [Option<f64>; 7];
 
 /// Gives the records of a run in their order.
-pub(crate) trait Records {
+pub(crate) enum Stream<'r> {
+    /// From a CL file.
+    Cl(Box<Reader<'r>>),
+    /// From the embedding program.
+    Memory(Memory<'r>),
+}
+
+impl Stream<'_> {
     /// Puts the next record into `record`; false at the end.
     ///
     /// # Errors
     /// What is wrong with the record.
-    fn read(&mut self, vocabulary: &mut Vocabulary, record: &mut Record) -> Result<bool>;
+    #[inline(always)]
+    fn read(&mut self, vocabulary: &mut Vocabulary, record: &mut Record) -> Result<bool> {
+        match self {
+            Stream::Cl(reader) => reader.read(vocabulary, record),
+            Stream::Memory(memory) => memory.read(vocabulary, record),
+        }
+    }
 
     /// Makes record `number` (from 1) the next one.
     ///
     /// # Errors
     /// Records that can't go back; a number past the last record, or 0.
-    fn seek(&mut self, number: u32) -> Result<()>;
-
-    /// The dialect of a CL text, as far as it was read; `None` for records that come from
-    /// no text.
-    fn recognized(&self) -> Option<Recognized>;
-
-    /// The splines that were read as lines so far.
-    fn splines(&self) -> SplineCounts;
-
-    /// What the record read last means, where it is given as it is written and means
-    /// something else than it says.
-    fn meaning(&self) -> Option<&Meaning> {
-        None
+    fn seek(&mut self, number: u32) -> Result<()> {
+        match self {
+            Stream::Cl(reader) => reader.seek_record(number),
+            Stream::Memory(memory) => Err(memory.cant_seek(number)),
+        }
     }
 
-    /// True for records that can go back.
-    fn can_go_back(&self) -> bool;
+    /// The CL text; `None` for records that come from no text.
+    fn text(&self) -> Option<&Reader<'_>> {
+        match self {
+            Stream::Cl(reader) => Some(reader),
+            Stream::Memory(_) => None,
+        }
+    }
 
     /// True when the last record could not be read.
-    fn has_failed(&self) -> bool;
+    fn has_failed(&self) -> bool {
+        match self {
+            Stream::Cl(reader) => reader.has_failed(),
+            Stream::Memory(memory) => memory.has_failed(),
+        }
+    }
 
     /// Goes on behind a record that could not be read, to find further errors; `None` when
     /// there was no such record.
-    fn resume(&mut self) -> Option<Unread>;
+    fn resume(&mut self) -> Option<Unread> {
+        match self {
+            Stream::Cl(reader) => {
+                let (word, leans_on_earlier) = (reader.last_word(), reader.leans_on_earlier());
+                reader.has_failed().then(|| {
+                    let goes_on = reader.resume();
+                    Unread { word, leans_on_earlier, goes_on }
+                })
+            }
+            Stream::Memory(memory) => memory.resume(),
+        }
+    }
 }
 
 /// A record that could not be read.
@@ -71,47 +97,9 @@ pub(crate) struct Unread {
     pub goes_on: bool,
 }
 
-impl Records for Reader<'_> {
-    fn read(&mut self, vocabulary: &mut Vocabulary, record: &mut Record) -> Result<bool> {
-        Reader::read(self, vocabulary, record)
-    }
-
-    fn seek(&mut self, number: u32) -> Result<()> {
-        self.seek_record(number)
-    }
-
-    fn recognized(&self) -> Option<Recognized> {
-        Some(Reader::recognized(self))
-    }
-
-    fn splines(&self) -> SplineCounts {
-        Reader::splines(self)
-    }
-
-    fn meaning(&self) -> Option<&Meaning> {
-        Reader::meaning(self)
-    }
-
-    fn can_go_back(&self) -> bool {
-        Reader::can_go_back(self)
-    }
-
-    fn has_failed(&self) -> bool {
-        Reader::has_failed(self)
-    }
-
-    fn resume(&mut self) -> Option<Unread> {
-        let (word, leans_on_earlier) = (self.last_word(), self.leans_on_earlier());
-        Reader::has_failed(self).then(|| {
-            let goes_on = Reader::resume(self);
-            Unread { word, leans_on_earlier, goes_on }
-        })
-    }
-}
-
 /// The records with their neighbourhood.
-pub(crate) struct Source<S> {
-    reader: S,
+pub(crate) struct Source<'r> {
+    reader: Stream<'r>,
     /// Records that were looked at and nobody has read yet.
     ahead: VecDeque<Record>,
     /// The last two motions read, and whether the current record is the last of them.
@@ -130,9 +118,9 @@ pub(crate) struct Source<S> {
     pub records: u64,
 }
 
-impl<S: Records> Source<S> {
+impl<'r> Source<'r> {
     /// `keeps_motions`: [`Source::previous`] will be asked for, or what records mean.
-    pub fn new(reader: S, keeps_motions: bool) -> Self {
+    pub fn new(reader: Stream<'r>, keeps_motions: bool) -> Self {
         Source {
             reader,
             ahead: VecDeque::new(),
@@ -150,12 +138,12 @@ impl<S: Records> Source<S> {
 
     /// The dialect of the CL text, as far as it was read.
     pub fn recognized(&self) -> Option<Recognized> {
-        self.reader.recognized()
+        self.reader.text().map(Reader::recognized)
     }
 
     /// The splines that were read as lines so far.
     pub fn splines(&self) -> SplineCounts {
-        self.reader.splines()
+        self.reader.text().map(Reader::splines).unwrap_or_default()
     }
 
     /// True when the last record could be read.
@@ -163,7 +151,7 @@ impl<S: Records> Source<S> {
         !self.reader.has_failed()
     }
 
-    /// As [`Records::resume`].
+    /// As [`Stream::resume`].
     pub fn resume(&mut self) -> Option<Unread> {
         self.reader.resume()
     }
@@ -182,7 +170,7 @@ impl<S: Records> Source<S> {
             None => {
                 let more = self.reader.read(vocabulary, record)?;
                 if self.keeps_motions && more {
-                    self.written.keep(record, self.reader.meaning());
+                    self.written.keep(record, self.reader.text().and_then(Reader::meaning));
                 }
                 more
             }
@@ -243,7 +231,7 @@ impl<S: Records> Source<S> {
             if !self.reader.read(vocabulary, &mut next)? {
                 return Ok(None);
             }
-            self.written.keep(&next, self.reader.meaning());
+            self.written.keep(&next, self.reader.text().and_then(Reader::meaning));
             self.ahead.push_back(next);
         }
         Ok(self.ahead.get(index))
@@ -293,7 +281,7 @@ impl<S: Records> Source<S> {
             }
             at += 1;
         }
-        if self.reader.can_go_back() {
+        if self.reader.text().is_some_and(Reader::can_go_back) {
             return self.read_on_for_tools(seen, vocabulary);
         }
         while at < TOOLS_AHEAD {

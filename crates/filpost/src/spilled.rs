@@ -10,7 +10,6 @@ use crate::blocks::{WordOrigin, words_of};
 use crate::error::RunCode;
 use crate::event::Event;
 use crate::outside::Outside;
-use crate::source::Records;
 use crate::spool::{Spool, spool};
 
 /// Bytes on the tape from which on they leave memory.
@@ -45,7 +44,7 @@ pub(crate) struct Shown<'a> {
     pub words: &'a dyn Fn() -> Vec<WordOrigin>,
 }
 
-impl<S: Records> Outside<'_, S> {
+impl Outside<'_, '_> {
     /// Takes blocks off a full tape, where somebody will ask for them by the record.
     ///
     /// # Errors

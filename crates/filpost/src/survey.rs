@@ -11,7 +11,6 @@ use crate::doubt::{Doubt, left_without, rests_on};
 use crate::engine::Engine;
 use crate::error::{Error, RunCode};
 use crate::refusals::Refusals;
-use crate::source::Records;
 
 /// What was found by now, and what can't be judged any more.
 #[derive(Default)]
@@ -20,7 +19,7 @@ struct Survey {
     doubt: Doubt,
 }
 
-impl<S: Records> Engine<'_, S> {
+impl Engine<'_, '_> {
     /// All that is wrong with the CL file from the record on that was refused.
     pub(crate) fn survey(&mut self, first: Box<Diag>) -> Error {
         let at_start = self.outside.source.records == 0 && self.outside.source.is_sound();
