@@ -377,13 +377,6 @@ fn dwell_formats(commons: &Commons, found: &mut Vec<Diag>) {
 /// an arc would have to go along.
 fn shift_along(commons: &Commons, found: &mut Vec<Diag>) {
     let shifts = commons.dbl_opt(loc::INPUT_ALONG_TOOL_AXIS).is_some_and(|by| by != 0.0);
-    if shifts && frame_rules::is_scaled(commons) {
-        found.push(contradiction(
-            "control.translation shifts the zero of the control, and X, Y or Z is scaled or \
-             shifted on the tape"
-                .into(),
-        ));
-    }
     if shifts && AxisChain::from_commons(commons).is_ok_and(|chain| chain.has_rotary()) {
         found.push(contradiction(
             "input.along_tool_axis shifts the points, and the machine has a rotary axis".into(),
@@ -395,6 +388,13 @@ fn shift_along(commons: &Commons, found: &mut Vec<Diag>) {
 fn translation(commons: &Commons, found: &mut Vec<Diag>) {
     let shifts = commons.read(loc::CONTROL_TRANSLATION) == ControlTranslation::ByTrans
         && commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik;
+    if shifts && frame_rules::is_scaled(commons) {
+        found.push(contradiction(
+            "control.translation shifts the zero of the control, and X, Y or Z is scaled or \
+             shifted on the tape"
+                .into(),
+        ));
+    }
     if shifts && AxisChain::from_commons(commons).is_ok_and(|chain| chain.has_rotary()) {
         found.push(contradiction(
             "control.translation shifts the zero of the control, and the machine has a rotary axis"
