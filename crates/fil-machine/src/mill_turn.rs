@@ -9,9 +9,18 @@ use crate::letter::Letter;
 use crate::locations::{
     self as loc, ControlFamily, MillTurnMode, RotaryFrameOutput, RotaryTipOutput,
 };
+use crate::setting::CodeAt;
 
 /// Directions nearer than this are one.
 const SAME: f64 = 1e-9;
+
+/// The cycles of live tools.
+pub const CYCLE_CODES: [CodeAt; 4] = [
+    loc::MILL_TURN_FACE_DRILL_CODE,
+    loc::MILL_TURN_SIDE_DRILL_CODE,
+    loc::MILL_TURN_FACE_TAP_CODE,
+    loc::MILL_TURN_SIDE_TAP_CODE,
+];
 
 /// What a mill-turn machine does; `None` for a machine without a code that makes its
 /// spindle an axis.
@@ -70,8 +79,12 @@ pub(crate) fn check(commons: &Commons) -> Result<()> {
         (loc::MILL_TURN_LIVE_STOP_CODE, "live_stop_code"),
     ];
     let missing = codes.iter().find(|(at, _)| commons.read(*at).is_none());
-    match missing {
-        Some((_, name)) => refuse(&format!("{name} is not there")),
-        None => Ok(()),
+    if let Some((_, name)) = missing {
+        return refuse(&format!("{name} is not there"));
     }
+    let drills = CYCLE_CODES.iter().any(|at| commons.read(*at).is_some());
+    if drills && commons.read(loc::CYCLE_OFF_CODE).is_none() {
+        return refuse("a cycle of live tools needs its end (cycle.off_code)");
+    }
+    Ok(())
 }

@@ -57,6 +57,13 @@ pub enum Function {
     ThreadPassesByPitch,
     /// Drilling cycle.
     Cycle(CycleKind),
+    /// Drilling cycle of a lathe for live tools.
+    LiveCycle {
+        /// Along X; along Z else.
+        side: bool,
+        /// What it does at and from the bottom.
+        kind: CycleKind,
+    },
     /// End of a drilling cycle.
     CycleOff,
     /// Level to return to after a hole.
@@ -163,7 +170,7 @@ impl Function {
             | Function::Arc { .. }
             | Function::Thread
             | Function::ThreadPass => Group::Motion,
-            Function::Cycle(_) | Function::CycleOff => Group::Cycle,
+            Function::Cycle(_) | Function::LiveCycle { .. } | Function::CycleOff => Group::Cycle,
             Function::Return { .. } => Group::Return,
             Function::Plane(_) => Group::Plane,
             Function::Units { .. } => Group::Units,
@@ -283,6 +290,15 @@ const STANDARD_CYCLES: &[(i32, CycleKind)] = &[
     (89, CycleKind::FeedOut),
 ];
 
+/// Cycles of live tools: their settings, Fanuc's numbers on a lathe, along X or not, and what
+/// they do. A drilling cycle with pecks is a matter of a parameter.
+const LIVE_CYCLES: &[(&str, i32, bool, CycleKind)] = &[
+    ("mill_turn.face_drill_code", 83, false, CycleKind::Drill),
+    ("mill_turn.side_drill_code", 87, true, CycleKind::Drill),
+    ("mill_turn.face_tap_code", 84, false, CycleKind::Tap),
+    ("mill_turn.side_tap_code", 88, true, CycleKind::Tap),
+];
+
 /// Functions that each control of this family has and no setting names.
 const STANDARD: &[(i32, Function)] = &[
     (28, Function::Reference),
@@ -360,6 +376,11 @@ impl Functions {
                 self.0.entry(i64::from(tenths)).or_insert(function);
             }
         }
+        for (key, usual, side, kind) in LIVE_CYCLES {
+            let code = settings.code(key).unwrap_or(*usual);
+            self.add(Some(code), Function::LiveCycle { side: *side, kind: *kind });
+        }
+        self.add(Some(80), Function::CycleOff);
     }
 
     /// A code that two settings name stays with the first of them.

@@ -4,7 +4,7 @@ use super::Fault;
 use super::left_to_control::Uses;
 use super::state::State;
 use super::words::{Words, letter};
-use crate::dialect::{Auxiliary, CycleKind, FeedMode, Function, Group};
+use crate::dialect::{Auxiliary, FeedMode, Function, Group};
 use crate::errors::NcCode;
 use crate::motion::{Course, Event, Modes};
 use crate::text::Block;
@@ -125,8 +125,12 @@ impl State<'_> {
             }
             _ => {}
         }
-        if let Some(kind) = self.take_motion(words)? {
-            return self.begin_cycle(kind, words);
+        match self.take_motion(words)? {
+            Some(Function::Cycle(kind)) => return self.begin_cycle(kind, words),
+            Some(Function::LiveCycle { side, kind }) => {
+                return self.begin_live_cycle(side, kind, words);
+            }
+            _ => {}
         }
         if self.cycle.is_some() && (words.has_axes(self.dialect) || words.has(letter(b'R'))) {
             return self.hole(words);
@@ -157,7 +161,7 @@ impl State<'_> {
 
     /// Takes up the motion function and the cycle function of a block. Says which
     /// cycle begins.
-    fn take_motion(&mut self, words: &mut Words) -> Result<Option<CycleKind>, Fault> {
+    fn take_motion(&mut self, words: &mut Words) -> Result<Option<Function>, Fault> {
         let motion = words.function(Group::Motion);
         let cycle = words.function(Group::Cycle);
         if motion.is_some() || cycle == Some(Function::CycleOff) {
@@ -166,13 +170,13 @@ impl State<'_> {
             self.pass = None;
         }
         match cycle {
-            Some(Function::Cycle(_)) if motion.is_some() => {
+            Some(Function::Cycle(_) | Function::LiveCycle { .. }) if motion.is_some() => {
                 Err(Fault::new(NcCode::Twice, "a motion and a cycle in one block"))
             }
-            Some(Function::Cycle(kind)) => {
+            Some(Function::Cycle(_) | Function::LiveCycle { .. }) => {
                 self.motion = None;
                 self.pass = None;
-                Ok(Some(kind))
+                Ok(cycle)
             }
             _ => Ok(None),
         }

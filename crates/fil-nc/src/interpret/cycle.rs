@@ -7,7 +7,7 @@ use crate::dialect::{CycleKind, DepthForm};
 use crate::errors::NcCode;
 use crate::motion::{Course, Event, Spindle};
 
-const R: u8 = letter(b'R');
+pub(super) const R: u8 = letter(b'R');
 
 /// Distance above the last depth at which a peck begins to feed, and by which a
 /// chip-breaking peck lifts, mm: a parameter of the control; this is LinuxCNC's.
@@ -22,14 +22,17 @@ const SAME_LEVEL: f64 = 1e-9;
 /// A cycle in force.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cycle {
-    kind: CycleKind,
+    pub(super) kind: CycleKind,
+    /// The axis that its holes run along, of a live tool on a lathe; the normal of the plane
+    /// else.
+    pub(super) live: Option<usize>,
     /// Level before the cycle, along the plane's normal.
-    initial: f64,
-    initial_known: bool,
-    bottom: Option<f64>,
-    clear: Option<f64>,
-    step: Option<f64>,
-    dwell: Option<f64>,
+    pub(super) initial: f64,
+    pub(super) initial_known: bool,
+    pub(super) bottom: Option<f64>,
+    pub(super) clear: Option<f64>,
+    pub(super) step: Option<f64>,
+    pub(super) dwell: Option<f64>,
 }
 
 /// A cycle whose levels are all there.
@@ -44,7 +47,7 @@ impl Cycle {
     /// A cycle of another family, whose levels its own file follows.
     pub(super) fn of_hole(kind: CycleKind, initial: f64, initial_known: bool) -> Self {
         let (bottom, clear, step, dwell) = (None, None, None, None);
-        Cycle { kind, initial, initial_known, bottom, clear, step, dwell }
+        Cycle { kind, live: None, initial, initial_known, bottom, clear, step, dwell }
     }
 
     /// The level before the cycle is the R level: the tool returns there by any code.
@@ -60,6 +63,7 @@ impl State<'_> {
         let axis = self.plane;
         let fresh = Cycle {
             kind,
+            live: None,
             initial: self.at[axis],
             initial_known: self.known[axis],
             bottom: None,
@@ -79,12 +83,15 @@ impl State<'_> {
         let Some(mut cycle) = self.cycle else { return Ok(()) };
         self.feed_word(words)?;
         let axes = words.take_axes(self.dialect)?;
-        self.levels(&mut cycle, words, &axes)?;
+        match cycle.live {
+            Some(along) => self.live_levels(&mut cycle, along, words, &axes)?,
+            None => self.levels(&mut cycle, words, &axes)?,
+        }
         self.cycle = Some(cycle);
         let missing =
             |what: &str| Fault::new(NcCode::MissingWord, format!("the cycle needs {what}"));
         let hole = Hole {
-            axis: self.plane,
+            axis: cycle.live.unwrap_or(self.plane),
             clear: cycle.clear.ok_or_else(|| missing("its R level"))?,
             bottom: cycle.bottom.ok_or_else(|| missing("its depth"))?,
         };

@@ -10,6 +10,7 @@ mod cycle;
 mod klartext;
 mod left_to_control;
 mod live;
+mod live_cycle;
 mod modes;
 mod order;
 mod program;

@@ -258,6 +258,11 @@ impl Expected {
         self.mode_changed && self.mills == mills
     }
 
+    /// Live tools mill.
+    pub(super) fn mills(&self) -> bool {
+        self.mills
+    }
+
     /// Live tools mill on a machine without Y.
     pub(super) fn mills_without_y(&self, settings: &Settings) -> bool {
         self.mills && settings.is_mill_turn() && !settings.written()[1]

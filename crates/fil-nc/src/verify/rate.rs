@@ -48,7 +48,7 @@ impl<C: Steps> Walk<'_, C> {
             }
             // A cycle that knows feeds a minute only is told one at the speed of the spindle.
             (Rate::PerTurn(a), Some(Rate::PerMinute(b)))
-                if self.settings.feeds_holes_a_minute() =>
+                if self.settings.feeds_holes_a_minute() || self.taps_by_a_live_tool(found) =>
             {
                 let agrees = |speed: f64| (a * speed - b).abs() <= self.slack.feed;
                 found.modes.speed.and_then(Speed::turns).is_some_and(agrees)
@@ -67,6 +67,12 @@ impl<C: Steps> Walk<'_, C> {
             let message = format!("feed {found_rate}, it should be {}", spell_rate(wanted));
             self.find(FindingKind::Feed, Some(cl_line), Some(found.line), message);
         }
+    }
+
+    /// A turn of the main spindle is no measure while it is an axis: the turns of a cycle are
+    /// those of the live tool.
+    fn taps_by_a_live_tool(&self, found: &Move) -> bool {
+        found.in_cycle && self.settings.is_mill_turn() && self.modes.mills()
     }
 
     /// How far a lead may be off: a cycle that says it in a word of its own has more digits

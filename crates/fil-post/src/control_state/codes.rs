@@ -110,6 +110,9 @@ impl Codes {
             name(*at, Meaning::Cycle);
         }
         let mills = mill_turn::mode(commons).is_some();
+        for at in mill_turn::CYCLE_CODES.into_iter().filter(|_| mills) {
+            name(at, Meaning::Cycle);
+        }
         let tenths = |at| {
             let code = commons.int_opt(at).and_then(|code| u32::try_from(code).ok());
             code.map(FunctionCode::tenths)

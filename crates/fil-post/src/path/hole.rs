@@ -9,11 +9,11 @@ use fil_machine::locations::{
 };
 
 use super::cycle::{Cycle, CycleKind, Hole};
-use super::{expand, frame, rapid, rotary, tip_control};
-use crate::control::family;
+use super::{expand, frame, mill_turn, rapid, rotary, tip_control};
 use crate::control::word_address::cycle as words;
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::spindle;
+use crate::control::{Control, family};
 use crate::control_state::Compensation;
 use crate::errors::PostCode;
 use crate::operation::Target;
@@ -59,6 +59,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     }
     family::ready_for_hole(&mut post.control, cycle.in_force.is_some())?;
     let (position, mut hole) = locate(post, cycle, target)?;
+    refuse_beside_the_axis(&post.control, &position, &hole)?;
     post.path.point = Some(target.point);
     post.path.axis = target.axis;
     let word = rotary::word_of(post, target);
@@ -71,7 +72,9 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     let has_cycle = family::drills(&post.control, &hole) && !as_single_moves(post, target);
     let code = family::cycle_code(&post.control, cycle).filter(|_| has_cycle);
     cycle.along = Some(hole.along);
-    if let Some(code) = code {
+    if let Some(code) = mill_turn::hole::code(&post.control, cycle, &hole) {
+        mill_turn::hole::drill(&mut post.control, cycle, &at, &hole, code)?;
+    } else if let Some(code) = code {
         if post.control.state.in_cycle != Some(true)
             && post.control.commons.read(loc::CYCLE_APPROACH_BLOCK)
         {
@@ -89,6 +92,23 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
         expand::hole(&mut post.control, cycle, &at, &hole)?;
     }
     words::stands_at(&mut post.control, hole.along, hole.rest())
+}
+
+/// Refuses a hole that does not lie on the axis of a part that turns: the drill would cut a
+/// ring, and break.
+fn refuse_beside_the_axis(control: &Control, at: &Position, hole: &Hole) -> Result<()> {
+    let turns = control.commons.read(loc::LATHE_DIAMETER)
+        && !control.tables.mills()
+        && spindle::may_turn(control);
+    let beside = libm::hypot(at[0], at[1]);
+    if !turns || hole.along == 2 && beside <= control.tables.axis(0).resolution() {
+        return Ok(());
+    }
+    let message = format!("a hole {beside:.4} beside the axis of a part that turns");
+    let diag = PostCode::CycleForm.diag(message);
+    Err(Box::new(diag.hint(
+        "A live tool drills it: MODE/MILL on a mill-turn machine, or a spindle that stands.",
+    )))
 }
 
 /// On a control without G98 and G99 nobody says which level a cycle returns to: it begins

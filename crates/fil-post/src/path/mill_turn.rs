@@ -5,6 +5,7 @@
 //! cylinder while C turns.
 
 mod cylinder;
+pub(super) mod hole;
 mod polar;
 
 use fil_diag::Result;
@@ -15,7 +16,7 @@ use fil_machine::modes::FeedMode;
 use fil_machine::{FunctionCode, Letter, letters};
 use nalgebra::{Point3, Vector3};
 
-use super::cycle::CycleFeed;
+use super::cycle::{CycleFeed, CycleKind};
 use super::{rotary, thread};
 use crate::control::Control;
 use crate::control::family;
@@ -286,8 +287,9 @@ pub(super) fn before(post: &mut Post, operation: &Operation) -> Result<()> {
     match operation {
         Operation::Thread(_) => PostCode::MillTurn.err("a thread by a live tool"),
         Operation::Hole(_) => {
-            let feed = post.path.cycle.as_ref().map(|cycle| cycle.feed);
-            if let Some(CycleFeed::Feed(feed)) = feed {
+            // The turns of a tap are those of the live tool.
+            let drills = post.path.cycle.as_ref().filter(|cycle| cycle.kind != CycleKind::Tap);
+            if let Some(CycleFeed::Feed(feed)) = drills.map(|cycle| cycle.feed) {
                 refuse_feed_a_turn(Some(feed.mode))?;
             }
             leave(post)

@@ -5,19 +5,20 @@ use fil_diag::Result;
 
 use crate::items::Items;
 use crate::operation::Operation;
-use crate::path::carry_out;
+use crate::path::{carry_out, thread};
 use crate::post::Post;
 
 /// Switches the block-delete character on or off.
 ///
 /// # Errors
-/// Neither ON nor OFF.
+/// Neither ON nor OFF; OP/THREAD still waits for its points.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let on = match items.any_of(&[w::ON, w::OFF]) {
         Some(word) => word == w::ON,
         None => return Err(items.error("ON or OFF is needed")),
     };
     items.deny_rest()?;
+    thread::refuse_awaited(post)?;
     if let Some(cycle) = &mut post.path.cycle {
         cycle.in_force = None;
     }

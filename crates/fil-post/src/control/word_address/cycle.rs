@@ -154,6 +154,41 @@ fn write_hole(
     motion::write_motion(control)
 }
 
+/// Writes the block of a hole of a live tool, which stands on the R level.
+///
+/// # Errors
+/// A letter the machine lacks, a value that does not fit, a rigid tap.
+#[cold]
+pub fn live_hole(
+    control: &mut Control,
+    cycle: &Cycle,
+    feed: &Feed,
+    hole: &Hole,
+    code: FunctionCode,
+) -> Result<()> {
+    if cycle.rigid {
+        return PostCode::CycleForm.err(
+            "CYCLE/TAP,HIGH by a live tool: what brings one in step with its axis is a matter of \
+             the machine",
+        );
+    }
+    let usual = dwell::format_of_cycle(control);
+    let axis = *control.tables.axis(hole.along);
+    let bottom = axis.value(hole.bottom)?;
+    control.g_of_record(code);
+    control
+        .because(cycle.due_to(cycle.words.depth), |control| control.word(axis.letter, bottom))?;
+    control.require_on_tape(R, "the R level of a cycle")?;
+    control.word(R, 0.0)?;
+    dwell_word(control, cycle)?;
+    let rounding = if cycle.kind == CycleKind::Tap { Rounding::Lead } else { Rounding::Rate };
+    motion::feed_mode(control, feed)?;
+    control.because(feed.cause, |control| control.word_rounded(F, feed.value, rounding))?;
+    motion::write_motion(control)?;
+    dwell::restore_format(control, usual);
+    Ok(())
+}
+
 /// Adds the words of those axes that each hole says again, whether or not they have
 /// changed.
 fn repeated_axes(control: &mut Control, across: &Motion, of: AxisSet) -> Result<()> {

@@ -298,7 +298,7 @@ fn speed_words(control: &mut Control, speed: SpindleSpeed) -> Result<()> {
 
 /// What S says: turns a minute within the range, or a surface speed, which counts meters
 /// a minute in a metric program and feet in one in inches.
-pub(in crate::control) fn value_of(control: &mut Control, speed: SpindleSpeed) -> f64 {
+pub(crate) fn value_of(control: &mut Control, speed: SpindleSpeed) -> f64 {
     match (speed, control.is_metric()) {
         (SpindleSpeed::Revolutions(asked), _) => within_range(control, asked),
         (SpindleSpeed::Meters(value), true) | (SpindleSpeed::Feet(value), false) => value,

@@ -1,0 +1,119 @@
+//! Holes of live tools by the cycles of a lathe's control: G83 and G84 along Z, G87 and G88
+//! along X.
+//!
+//! The tool stands on the R level before the block, so that R is 0: controls differ in
+//! whether it is a radius there, and the level that they return to is the same one. Pecks
+//! stay single moves, as a parameter of the control says how far each comes out.
+
+use fil_diag::Result;
+use fil_machine::FunctionCode;
+use fil_machine::axes::{AxisSet, Position};
+use fil_machine::locations as loc;
+use fil_machine::modes::FeedMode;
+
+use crate::control::Control;
+use crate::control::word_address::cycle as words;
+use crate::control::word_address::motion::Motion;
+use crate::control::word_address::spindle;
+use crate::control_state::Rotation;
+use crate::errors::PostCode;
+use crate::operation::{Feed, SpindleSpeed};
+use crate::path::cycle::{Cycle, CycleFeed, CycleKind, Hole};
+use crate::path::{expand, rapid};
+
+/// The code of a hole of a live tool; `None` where the machine has none, or the hole is
+/// none of the kinds that it drills.
+pub fn code(control: &Control, cycle: &Cycle, hole: &Hole) -> Option<FunctionCode> {
+    if !control.tables.mills() {
+        return None;
+    }
+    let at = match (cycle.kind, hole.along) {
+        (CycleKind::Tap, 2) => loc::MILL_TURN_FACE_TAP_CODE,
+        (CycleKind::Tap, 0) => loc::MILL_TURN_SIDE_TAP_CODE,
+        (_, 2) if is_plain(cycle) => loc::MILL_TURN_FACE_DRILL_CODE,
+        (_, 0) if is_plain(cycle) => loc::MILL_TURN_SIDE_DRILL_CODE,
+        _ => return None,
+    };
+    control.code_if_any(at)
+}
+
+/// In one go to the bottom, and out at rapid.
+fn is_plain(cycle: &Cycle) -> bool {
+    use CycleKind::{Csink, Drill, Face, Thru};
+    matches!(cycle.kind, Drill | Csink | Face | Thru) && cycle.step.is_none()
+}
+
+/// Drills or taps a hole.
+///
+/// # Errors
+/// A tap whose live tool does not turn clockwise, or whose lead is not known; a value that
+/// does not fit its address.
+pub fn drill(
+    control: &mut Control,
+    cycle: &Cycle,
+    at: &Motion,
+    hole: &Hole,
+    code: FunctionCode,
+) -> Result<()> {
+    let feed = match cycle.kind {
+        CycleKind::Tap => feed_of_tap(control, cycle)?,
+        _ => match cycle.feed {
+            CycleFeed::Feed(feed) => feed,
+            CycleFeed::Lead(_) => {
+                return PostCode::CycleForm.err("a lead of a hole that is no tap");
+            }
+        },
+    };
+    let across = at.of(expand::without(hole.along));
+    rapid::rapid(control, &across, control.block.cause)?;
+    control.because(cycle.cause, |control| {
+        let cause = control.block.cause;
+        rapid::rapid(control, &level(hole.along, hole.clear), cause)?;
+        control.flush_waiting()?;
+        words::live_hole(control, cycle, &feed, hole, code)?;
+        words::cancel(control)?;
+        words::stands_at(control, hole.along, hole.clear)?;
+        rapid::rapid(control, &level(hole.along, hole.rest()), cause)
+    })
+}
+
+/// The lead of a tap times the turns of the live tool.
+fn feed_of_tap(control: &mut Control, cycle: &Cycle) -> Result<Feed> {
+    match control.state.rotation {
+        Rotation::Clockwise => {}
+        Rotation::Standing | Rotation::Unsaid => {
+            return PostCode::CycleForm
+                .err("a tap while the live tool stands; SPINDL before it turns it");
+        }
+        Rotation::Counterclockwise => {
+            return PostCode::NoCode.err(
+                "the live tool turns counterclockwise, and the machine has no cycle of live \
+                 tools for left-hand threads",
+            );
+        }
+        Rotation::InDoubt => {
+            return PostCode::NoCode
+                .err("how the live tool turns is not known here; SPINDL before the tap says it");
+        }
+    }
+    let Some(asked @ SpindleSpeed::Revolutions(turns)) = control.speed else {
+        return PostCode::CycleForm.err("a tap needs the turns of the live tool (SPINDL / RPM)");
+    };
+    let speed = spindle::value_of(control, asked);
+    let (lead, cause) = match cycle.feed {
+        CycleFeed::Lead(lead) => (lead.value, lead.cause),
+        CycleFeed::Feed(feed) if feed.mode == FeedMode::PerRevolution => (feed.value, feed.cause),
+        CycleFeed::Feed(feed) if feed.mode == FeedMode::PerMinute && turns > 0.0 => {
+            (feed.value / turns, feed.cause)
+        }
+        CycleFeed::Feed(_) => return PostCode::CycleForm.err("a tap at inverse time"),
+    };
+    Ok(Feed { value: lead * speed, mode: FeedMode::PerMinute, cause })
+}
+
+/// A motion of one axis.
+fn level(along: usize, level: f64) -> Motion {
+    let mut position = Position::default();
+    position[along] = level;
+    Motion { position, axes: AxisSet::of(along), word: 0 }
+}
