@@ -22,8 +22,13 @@ use filpost_tests::programs::{Dice, case};
 use filpost_tests::tip_program;
 
 /// Small, so that an input takes milliseconds at most.
-const LIMITS: Limits =
-    Limits { fuel: 2_000, call_depth: 16, array_elements: 10_000, text_bytes: 1 << 20 };
+const LIMITS: Limits = Limits {
+    fuel: 2_000,
+    call_depth: 16,
+    array_elements: 10_000,
+    text_bytes: 1 << 20,
+    output_bytes: 1 << 24,
+};
 
 /// Records for any FIL text.
 const RECORDS: &str = "\

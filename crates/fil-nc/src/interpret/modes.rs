@@ -218,8 +218,9 @@ impl State<'_> {
         self.events.push(Event::ToolChange { line: self.line, tool, modes });
         self.length_is_on = false;
         if self.modes.tool != tool && self.dialect.family != Family::WordAddress {
-            // The change brings the length of the tool: its tip is not where the last one was.
-            self.known[2] = false;
+            // The change is a program of the builder, which may leave the axes elsewhere, and
+            // brings the length of the tool: its tip is not where the last one was.
+            self.known[..3].fill(false);
         }
         self.modes.tool = tool;
     }

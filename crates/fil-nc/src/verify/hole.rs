@@ -46,8 +46,13 @@ impl<C: Steps> Walk<'_, C> {
         let drills = self.in_axes(&plunge, hole);
         let levels = self.levels(hole, &drills);
         let kept = self.say_in_axes(hole, levels);
-        self.drill_at(cl_line, hole, levels, &drills);
+        let rest = self.drill_at(cl_line, hole, levels, &drills);
         self.say_again(kept);
+        // The next hole may round the level over this one to its other last digit.
+        self.rapid_end = rest.map(|rest| {
+            let tip = hole.start.tip + hole.start.axis * (rest - levels.at[2]);
+            Pose { tip, ..hole.start }
+        });
         true
     }
 
@@ -82,11 +87,23 @@ impl<C: Steps> Walk<'_, C> {
         true
     }
 
-    fn drill_at(&mut self, cl_line: u32, hole: &Hole, levels: Levels, plunge: &Move) {
+    /// Goes through a hole, and gives the level over it where the tool rests; `None` for a hole
+    /// that went wrong.
+    fn drill_at(
+        &mut self,
+        cl_line: u32,
+        hole: &Hole,
+        levels: Levels,
+        plunge: &Move,
+    ) -> Option<f64> {
         let first = self.next;
-        if let Err((line, message)) = self.drill(cl_line, hole, levels, plunge.modes.spindle) {
-            self.find(FindingKind::Cycle, Some(cl_line), Some(line), message);
-            self.leave_hole(first, plunge);
+        match self.drill(cl_line, hole, levels, plunge.modes.spindle) {
+            Ok(rest) => Some(rest),
+            Err((line, message)) => {
+                self.find(FindingKind::Cycle, Some(cl_line), Some(line), message);
+                self.leave_hole(first, plunge);
+                None
+            }
         }
     }
 
@@ -120,14 +137,14 @@ impl<C: Steps> Walk<'_, C> {
         Levels { at: above(0.0), clear: above(clear)[2], bottom: above(-hole.depth)[2] }
     }
 
-    /// Goes through the hole.
+    /// Goes through the hole; gives the level where the tool rests behind it.
     fn drill(
         &mut self,
         cl_line: u32,
         hole: &Hole,
         levels: Levels,
         turning: Spindle,
-    ) -> Result<(), (u32, String)> {
+    ) -> Result<f64, (u32, String)> {
         let rest = self.approach(cl_line, hole, levels)?;
         let mut reached = levels.clear;
         let in_cycle = self.next_move().is_some_and(|found| found.in_cycle);
@@ -151,7 +168,8 @@ impl<C: Steps> Walk<'_, C> {
             reached = depth;
         }
         self.bottom_dwell(cl_line, hole)?;
-        self.leave(cl_line, hole, levels.clear, (rest, turning))
+        self.leave(cl_line, hole, levels.clear, (rest, turning))?;
+        Ok(rest)
     }
 
     /// The motions over the hole, down to the R level. Gives the level to return to.

@@ -54,10 +54,26 @@ impl Line {
     fn height(&self, tip: [f64; 3]) -> Option<f64> {
         let [low, high] = self.range(tip)?;
         let within = |height: f64, by: f64| (low - by..=high + by).contains(&height);
-        let asked = self.heights.iter().copied().find(|height| within(*height, DUST));
-        let digits: f64 = (0..3).map(|n| self.axis[n].abs() * self.slack[n]).sum();
-        let before = Some(self.before).filter(|height| within(*height, digits));
-        Some(asked.or(before).unwrap_or(0.5 * (low + high)))
+        let middle = 0.5 * (low + high);
+        let off = |height: &f64| (height - middle).abs();
+        let asked = self.heights.iter().copied().filter(|height| within(*height, DUST));
+        let nearest = asked.min_by(|a, b| off(a).total_cmp(&off(b)));
+        let before = Some(self.before).filter(|height| within(*height, self.digits()));
+        Some(nearest.or(before).unwrap_or(middle))
+    }
+
+    /// What the last digits leave open along the line, mm.
+    fn digits(&self) -> f64 {
+        (0..3).map(|n| self.axis[n].abs() * self.slack[n]).sum()
+    }
+
+    /// The largest step between two heights asked for that the last digits can't tell from
+    /// each other, such as a last peck and the bottom, mm.
+    fn doubt(&self) -> f64 {
+        let mut heights = self.heights.clone();
+        heights.sort_unstable_by(f64::total_cmp);
+        let steps = heights.windows(2).map(|pair| pair[1] - pair[0]);
+        steps.filter(|step| *step <= 2.0 * (self.digits() + DUST)).fold(0.0, f64::max)
     }
 
     /// The height asked for that a tip beside the line is at, to its last digits.
@@ -66,7 +82,7 @@ impl Line {
             return None;
         }
         let height = (Point3::from(tip) - self.start).dot(&self.axis);
-        let digits: f64 = (0..3).map(|n| self.axis[n].abs() * self.slack[n]).sum();
+        let digits = self.digits();
         self.heights.iter().copied().find(|asked| (asked - height).abs() <= digits + DUST)
     }
 
@@ -203,7 +219,8 @@ impl<C: Steps> Walk<'_, C> {
             events.push(event);
         }
         self.nc.replace(first, &said);
-        let slack = std::mem::replace(&mut self.slack.linear, [DUST; 3]);
+        let along = DUST + line.doubt();
+        let slack = std::mem::replace(&mut self.slack.linear, [DUST, DUST, along]);
         Some(Kept { first, events, slack })
     }
 

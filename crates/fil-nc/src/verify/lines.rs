@@ -31,9 +31,15 @@ impl<C: Steps> Walk<'_, C> {
         let Some(count) = self.rapid_parts(self.next, pose) else { return false };
         let last = self.next + count - 1;
         let Some(Event::Move(end)) = self.nc.get(last) else { return false };
+        let linear = self.settings.forward.frame_of(&end.to).linear(pose.tip);
+        let exact = Position { linear, ..end.to };
         for index in self.next..=last {
             if let Some(Event::Move(part)) = self.nc.get(index) {
-                self.check_part(cl_line, &part, &end.to);
+                match self.settings.is_mill_turn() && self.goes_around(&part, &exact) {
+                    true => {}
+                    false => self.check_part(cl_line, &part, &end.to),
+                }
+                self.check_turn_is_away(cl_line, &part);
                 self.take(cl_line, &part);
             }
         }
@@ -89,19 +95,26 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     /// A rapid to where the last one has ended already: a coordinate half way between two
-    /// last digits may be written once as each.
+    /// last digits may be written once as each. A mill-turn machine goes to the level of the
+    /// next hole, which may lie a last digit apart, before C turns there.
     pub(super) fn goes_there_again(&self, found: &Move) -> bool {
         let rapid = found.course == Course::Rapid && !found.in_cycle;
-        rapid && self.rapid_end.is_some_and(|pose| self.reaches(found, &pose))
+        let near = |n: usize| {
+            let way = (found.to.linear[n] - self.at.linear[n]).abs();
+            way <= 2.0 * self.slack.linear[n] + STILL
+        };
+        let a_digit = || self.settings.is_mill_turn() && (0..3).all(near);
+        let stays = || found.to.rotary == self.at.rotary && found.known == self.known;
+        rapid
+            && self
+                .rapid_end
+                .is_some_and(|pose| self.reaches(found, &pose) || (a_digit() && stays()))
     }
 
     /// Each axis stays or ends in a part of a rapid, and the height is the safe one.
     pub(super) fn check_part(&mut self, cl_line: u32, part: &Move, end: &Position) {
         if part.to.tilt != end.tilt {
             return self.check_before_frame(cl_line, part);
-        }
-        if self.settings.is_mill_turn() && self.goes_around(part, end) {
-            return;
         }
         let splits = self.splits_rapids;
         let forward = &self.settings.forward;
@@ -126,6 +139,13 @@ impl<C: Steps> Walk<'_, C> {
             let message = format!("rapid by way of X{x} Y{y} Z{z}, which is on no way to its end");
             self.say_order(cl_line, part, message);
         }
+        let is_mill = self.written == [true; 3];
+        let comes_later = is_mill && (0..2).any(|n| !part.known[n] || !arrived(n));
+        let finds_height = !self.known[2] && part.known[2] && !is_level;
+        if splits && finds_height && comes_later {
+            let message = "rapid goes to its height before X and Y have arrived".to_string();
+            self.say_order(cl_line, part, message);
+        }
         if !splits || !known[2] {
             return;
         }
@@ -146,11 +166,13 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     /// A part of a rapid of a mill-turn machine that mills in polar interpolation: at C zero and
-    /// the distance of the end from the axis, or around the axis there; Z stays, or goes up
-    /// before.
-    fn goes_around(&self, part: &Move, end: &Position) -> bool {
+    /// the distance of the end from the axis, which only X rounds, or around the axis there; Z
+    /// stays, or goes up before.
+    pub(super) fn goes_around(&self, part: &Move, end: &Position) -> bool {
         let distance = |at: &Position| libm::hypot(at.linear[0], at.linear[1]);
-        let around = (distance(&part.to) - distance(end)).abs() <= AROUND;
+        let in_plane = part.to.linear[1] != 0.0;
+        let slack = if in_plane { AROUND } else { self.slack.linear[0] };
+        let around = (distance(&part.to) - distance(end)).abs() <= slack;
         let stays = (part.to.linear[2] - self.at.linear[2]).abs() <= STILL;
         around && (stays || !part.known[2]) && part.to.rotary[0] == 0.0
     }

@@ -32,12 +32,16 @@ impl<C: Steps> Walk<'_, C> {
         let end = last.checked_sub(1).and_then(|at| self.nc.get(at));
         while self.next < last {
             if let (Some(part), Some(Event::Move(end))) = (self.next_move(), &end) {
-                self.check_part(cl_line, &part, &end.to);
+                match self.settings.is_mill_turn() && self.goes_around(&part, &end.to) {
+                    true => {}
+                    false => self.check_part(cl_line, &part, &end.to),
+                }
                 self.take(cl_line, &part);
             }
             self.next += 1;
         }
         self.report.matched += 1;
+        self.is_away = true;
         self.settle(cl_line);
         self.watch.stand(None);
     }
@@ -73,6 +77,7 @@ impl<C: Steps> Walk<'_, C> {
                 open[n] = None;
             }
             let rises = open[2].is_none();
+            self.check_edge_is_off(cl_line, &found);
             self.stand(&found);
             if astray || !rises {
                 let message = "goes to another position of the machine".to_string();
@@ -80,8 +85,20 @@ impl<C: Steps> Walk<'_, C> {
                 return false;
             }
         }
+        self.is_away = true;
         self.watch.stand(None);
         true
+    }
+
+    /// The length of an edge in force shifts where the spindle goes in the frame of the machine.
+    fn check_edge_is_off(&mut self, cl_line: u32, found: &Move) {
+        let edge = found.modes.length_offset.filter(|_| self.settings.has_edges());
+        if let Some(edge) = edge {
+            let message = format!(
+                "D{edge} is in force on the way to a position of the machine, which its length shifts"
+            );
+            self.find(FindingKind::Tool, Some(cl_line), Some(found.line), message);
+        }
     }
 
     /// How many rapids reach a position of the linear axes; none where the axes stand there.
@@ -141,6 +158,7 @@ impl<C: Steps> Walk<'_, C> {
             let message = format!("no rapid turn to {} degrees", short(angle));
             return self.find(FindingKind::Missing, Some(cl_line), None, message);
         };
+        self.check_turn_is_away(cl_line, &found);
         self.take(cl_line, &found);
         self.next += 1;
         self.exact[index] = angle;

@@ -10,6 +10,7 @@ mod ahead;
 mod align;
 mod arc;
 mod auxiliaries;
+mod away;
 mod beside;
 mod between;
 mod blocks;

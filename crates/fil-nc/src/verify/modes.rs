@@ -183,7 +183,7 @@ impl Expected {
             Wanted::SpeedLimit(limit) => self.speed_limit = Some(Some(*limit)),
             Wanted::Orient(angle) => {
                 self.spindle.set(None, Due::Now);
-                self.speed.set(None, Due::Now);
+                self.speed.flush();
                 self.orientation = *angle;
             }
             Wanted::Coolant(kind) => {
@@ -250,6 +250,8 @@ impl Expected {
             self.mills = mills;
             self.spindle.set(Some(Spindle::Off), Due::Now);
             self.speed.set(None, Due::Now);
+            // The other spindle has no speed before one is asked for.
+            self.has_speed = false;
         }
     }
 

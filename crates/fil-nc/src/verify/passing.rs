@@ -29,7 +29,24 @@ impl<C: Steps> Walk<'_, C> {
         }
     }
 
-    /// The same, up to a motion to a point of the machine, which may be asked for.
+    /// The next event is a motion at feed that goes on from where the axes stand: nothing is
+    /// passed over. Most motions are.
+    pub(super) fn goes_on(&self) -> bool {
+        let goes_on = |event: &Event| match event {
+            Event::Move(found) => {
+                found.course == Course::Feed
+                    && found.known == self.known
+                    && !self.at.names_tip()
+                    && !found.to.names_tip()
+                    && (0..3).any(|n| (found.to.linear[n] - self.at.linear[n]).abs() > STILL)
+                    && !self.own.has(found.line)
+            }
+            _ => false,
+        };
+        self.nc.look(self.next, goes_on) == Some(true)
+    }
+
+    /// As [`Walk::pass`], up to a motion to a point of the machine, which may be asked for.
     pub(super) fn pass_still(&mut self, cl_line: u32) {
         loop {
             self.pass_own();
@@ -72,6 +89,7 @@ impl<C: Steps> Walk<'_, C> {
 
     /// Goes where a motion goes without a look at it.
     pub(super) fn stand(&mut self, found: &Move) {
+        self.leaves_or_comes(found);
         self.at = found.to;
         self.known = found.known;
         self.moved_tool = found.modes.tool;

@@ -15,7 +15,7 @@ use super::say::short;
 use super::settings::Settings;
 use super::walk::Walk;
 use crate::forward::Pose;
-use crate::motion::{Course, Event, Move, Position, Rate, unit};
+use crate::motion::{Course, Event, Modes, Move, Position, Rate, Spindle, unit};
 
 /// Most blocks of the way out, the turn and the way back.
 const MOST: usize = 8;
@@ -30,12 +30,18 @@ const SMALL: f64 = 0.01;
 pub(super) struct Reposition {
     /// How far the tool goes out, mm.
     distance: f64,
+    /// From how far it may come back at feed, mm.
+    approach: f64,
     /// It goes out along the tool axis of the next point.
     along_next: bool,
     /// Feeds out and back, where the settings name them.
     rates: [Option<Rate>; 2],
     /// The program stops after the way out: the codes that say so.
     stops: [Option<u32>; 2],
+    /// The spindle stands while the machine turns.
+    stands: bool,
+    /// Coolant is off then.
+    dry: bool,
 }
 
 impl Settings<'_> {
@@ -49,8 +55,12 @@ impl Settings<'_> {
             Some(Rate::PerMinute(feed * unit(metric)))
         };
         let stop = |on: bool, optional| if on { self.stop_code(optional) } else { None };
+        let approach = commons.dbl_opt(loc::REPOS_APPROACH_DISTANCE).filter(|far| *far > 0.0);
         Some(Reposition {
             distance: distance * unit(metric),
+            approach: approach.unwrap_or(distance).min(distance) * unit(metric),
+            stands: commons.read(loc::REPOS_RETRACT_SPINDLE),
+            dry: commons.read(loc::REPOS_RETRACT_COOLANT),
             along_next: commons.read(loc::REPOS_NEW_TOOL_AXIS),
             rates: [rate(loc::REPOS_RETRACT_FEED), rate(loc::REPOS_APPROACH_FEED)],
             stops: [
@@ -129,7 +139,8 @@ impl<C: Steps> Walk<'_, C> {
             }
             if count == 1 {
                 let aside = (way - direction * way.dot(&direction)).norm();
-                if turns || aside > slack || way.dot(&direction) < how.distance - slack {
+                let off = way.dot(&direction) - how.distance;
+                if turns || aside > slack || off.abs() > slack {
                     return None;
                 }
                 continue;
@@ -160,8 +171,13 @@ impl<C: Steps> Walk<'_, C> {
     /// Takes the blocks: out and back with all that must be in force, the turn where the
     /// tool is away.
     fn take_way(&mut self, cl_line: u32, count: usize, how: &Reposition, rate: Option<Rate>) {
+        let stands = self.begins();
+        let mut before = Modes::default();
         for number in 0..count {
             let Some(Event::Move(found)) = self.nc.get(self.next) else { return };
+            if number == 0 {
+                before = found.modes;
+            }
             let cuts = number == 0 || number + 1 == count;
             if cuts && found.course == Course::Feed {
                 let own = how.rates[usize::from(number > 0)];
@@ -175,8 +191,44 @@ impl<C: Steps> Walk<'_, C> {
             } else {
                 self.check_limits(cl_line, &found);
                 self.check_turn_away(cl_line, &found);
+                self.check_comes_near(cl_line, &found, &stands, how);
+                self.check_stands_still(cl_line, &found.modes, (&before, found.line), how);
                 self.stand(&found);
             }
+        }
+    }
+
+    /// The rapid back ends where the way at feed begins, or farther away.
+    fn check_comes_near(&mut self, cl_line: u32, found: &Move, stands: &Pose, how: &Reposition) {
+        let way = self.settings.forward.pose(&found.to).tip - stands.tip;
+        let near = way.norm() < how.approach - self.tip_slack(&found.to);
+        if near && found.course == Course::Rapid {
+            let (is, must) = (short(way.norm()), short(how.approach));
+            let message = format!("rapid to {is} from the part, it should stay {must} away");
+            self.find(FindingKind::Order, Some(cl_line), Some(found.line), message);
+        }
+    }
+
+    /// While the machine turns, spindle and coolant do what they did before, or are off where
+    /// the settings say so.
+    fn check_stands_still(
+        &mut self,
+        cl_line: u32,
+        found: &Modes,
+        (before, line): (&Modes, u32),
+        how: &Reposition,
+    ) {
+        let spindle = if how.stands { Spindle::Off } else { before.spindle };
+        if found.spindle != spindle {
+            let does = if how.stands { "stand" } else { "go on as before" };
+            let message = format!("the spindle should {does} while the machine turns");
+            self.find(FindingKind::Spindle, Some(cl_line), Some(line), message);
+        }
+        let coolant = if how.dry { None } else { before.coolant };
+        if found.coolant != coolant {
+            let does = if how.dry { "be off" } else { "go on as before" };
+            let message = format!("coolant should {does} while the machine turns");
+            self.find(FindingKind::Coolant, Some(cl_line), Some(line), message);
         }
     }
 

@@ -7,6 +7,7 @@ use super::ahead::Steps;
 use super::report::FindingKind;
 use super::settings::Settings;
 use super::walk::Walk;
+use super::wanted::{Step, Wanted};
 use crate::motion::{Course, Event, Move};
 
 impl Settings<'_> {
@@ -38,6 +39,15 @@ impl<C: Steps> Walk<'_, C> {
         let along = way.dot(&stands.axis);
         let slack = 2.0 * self.tip_slack(&found.to) + self.axis_slack() * way_up;
         (way - stands.axis * along).norm() <= slack && along >= way_up - slack
+    }
+
+    /// The CL file stays where the tool is, and the program goes up for the end of tool-tip
+    /// control, which no step asks for: the way up comes behind all steps that stay.
+    #[cold]
+    pub(super) fn rests_before_tip_end(&mut self, step: &Step) -> bool {
+        let (Wanted::Rapid(pose) | Wanted::Feed(pose, _)) = &step.what else { return false };
+        let goes_up = self.next_move().is_some_and(|found| self.goes_up_at_tip_end(&found));
+        goes_up && self.stands_at(pose)
     }
 
     /// Tool-tip control ends before an event; `None` where no event says it.

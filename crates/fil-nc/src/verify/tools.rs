@@ -36,6 +36,7 @@ impl<C: Steps> Walk<'_, C> {
         }
         if let Some(Event::ToolChange { line, tool, modes }) = self.nc.get(self.next) {
             self.next += 1;
+            self.is_away = true;
             self.check_standing(cl_line, line, &modes, true);
             if tool != number {
                 let message = format!("changes to tool {tool}, it should be tool {number}");

@@ -49,7 +49,7 @@ pub(super) struct Walk<'a, C> {
     pub(super) corrected_end: Option<[Point3<f64>; 2]>,
     /// Travel of the linear axes, mm.
     pub(super) travel: [(f64, f64); 3],
-    written: [bool; 3],
+    pub(super) written: [bool; 3],
     pub(super) splits_rapids: bool,
     /// What the program multiplies X by.
     pub(super) x_scale: f64,
@@ -70,6 +70,8 @@ pub(super) struct Walk<'a, C> {
     pub(super) from_hole: Option<Matrix3<f64>>,
     /// The tool has gone up for the end of tool-tip control.
     pub(super) is_up: bool,
+    /// A tool change or a position of the machine has brought the tool away from the part.
+    pub(super) is_away: bool,
     /// What was said of the last position, so that one fault is said once.
     pub(super) said: Option<Shape>,
     pub(super) report: Report,
@@ -113,6 +115,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             initial: None,
             from_hole: None,
             is_up: false,
+            is_away: true,
             said: None,
             report: Report::default(),
             failed: None,
@@ -229,8 +232,14 @@ impl<'a, C: Steps> Walk<'a, C> {
         if !matches!(step.what, Wanted::Hole(_)) {
             self.initial = None;
         }
+        if self.at.tip_control && self.rests_before_tip_end(step) {
+            self.report.matched += 1;
+            return true;
+        }
         loop {
-            if let Some(next) = self.pass(step.line) {
+            if !self.goes_on()
+                && let Some(next) = self.pass(step.line)
+            {
                 self.at = self.at_as(&next);
             }
             if let Wanted::Feed(pose, rate) = &step.what
@@ -292,10 +301,7 @@ impl<'a, C: Steps> Walk<'a, C> {
     }
 
     pub(super) fn next_move(&self) -> Option<Move> {
-        match self.nc.get(self.next)? {
-            Event::Move(found) => Some(found),
-            _ => None,
-        }
+        self.nc.motion(self.next)
     }
 
     /// Takes the next motion if it goes along Z alone, to a level, and says whether it did.
@@ -376,6 +382,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             self.find(kind, Some(cl_line), Some(found.line), message);
         }
         self.check_limits(cl_line, found);
+        self.leaves_or_comes(found);
         (self.is_up, self.rapid_end) = (false, None);
         self.line = found.line;
         self.at = found.to;

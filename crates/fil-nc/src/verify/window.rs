@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 use fil_diag::Diag;
 
 use crate::events::Events;
-use crate::motion::Event;
+use crate::motion::{Event, Move};
 
 /// The events to come, each by its index from the start of the program.
 pub(super) struct Window<E> {
@@ -59,22 +59,31 @@ impl<E: Events> Window<E> {
 
     /// An event that is not forgotten; `None` behind the last.
     pub(super) fn get(&self, index: usize) -> Option<Event> {
-        let mut inner = self.inner.borrow_mut();
-        let at = index.checked_sub(inner.first)?;
-        if at >= inner.seen.len() {
-            inner.read_to(index);
-        }
-        inner.seen.get(at).copied()
+        self.look(index, |event| *event)
+    }
+
+    /// The motion that an event is, which is a long piece to copy about.
+    pub(super) fn motion(&self, index: usize) -> Option<Move> {
+        let motion = |event: &Event| match event {
+            Event::Move(found) => Some(*found),
+            _ => None,
+        };
+        self.look(index, motion).flatten()
     }
 
     /// The line of an event that is not forgotten; `None` behind the last.
     pub(super) fn line(&self, index: usize) -> Option<u32> {
+        self.look(index, Event::line)
+    }
+
+    /// What an event is found to be where it lies; `at` may not ask for other events.
+    pub(super) fn look<R>(&self, index: usize, at: impl FnOnce(&Event) -> R) -> Option<R> {
         let mut inner = self.inner.borrow_mut();
-        let at = index.checked_sub(inner.first)?;
-        if at >= inner.seen.len() {
+        let place = index.checked_sub(inner.first)?;
+        if place >= inner.seen.len() {
             inner.read_to(index);
         }
-        inner.seen.get(at).map(Event::line)
+        inner.seen.get(place).map(at)
     }
 
     /// The events from an index on.
@@ -136,7 +145,7 @@ fn scale<'e>(events: impl Iterator<Item = &'e mut Event>, by: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::{Course, Modes, Move, Position};
+    use crate::motion::{Course, Modes, Position};
 
     fn moves(count: u32) -> Vec<Event> {
         let line = |line: u32| Move {

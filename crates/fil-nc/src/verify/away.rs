@@ -1,0 +1,63 @@
+//! Turns of the machine for tilted frames: nothing may stand beside the tool while the tables or
+//! heads turn. So a tool change or a position of the machine has come before, or a way up to the
+//! level of the settings.
+
+use fil_machine::locations::{self as loc, RotaryFrameOutput};
+
+use super::ahead::Steps;
+use super::report::FindingKind;
+use super::say::short;
+use super::settings::Settings;
+use super::walk::{STILL, Walk};
+use crate::motion::{Course, Move, Position};
+
+impl Settings<'_> {
+    /// Motions under a tool axis that stands still are written in tilted frames.
+    fn turns_for_frames(&self) -> bool {
+        self.commons.read(loc::ROTARY_FRAME_OUTPUT) == RotaryFrameOutput::TiltedFrame
+    }
+}
+
+impl<C: Steps> Walk<'_, C> {
+    /// The rotary axes turn in this motion, and X, Y and Z stay.
+    fn only_turns(&self, found: &Move) -> bool {
+        let at = self.at_as(found);
+        let moves =
+            (0..3).any(|n| found.known[n] && (found.to.linear[n] - at.linear[n]).abs() > STILL);
+        let turns = (0..2).any(|n| (found.to.rotary[n] - at.rotary[n]).abs() > STILL);
+        found.course == Course::Rapid && turns && !moves && found.arc.is_none()
+    }
+
+    /// The tool has come away from the part, or goes to it, by this motion.
+    pub(super) fn leaves_or_comes(&mut self, found: &Move) {
+        self.is_away = match found.course {
+            Course::Machine => true,
+            _ => self.is_away && self.only_turns(found),
+        };
+    }
+
+    /// A turn of the machine for a tilted frame, or out of one, where the tool is not away from
+    /// the part.
+    pub(super) fn check_turn_is_away(&mut self, cl_line: u32, found: &Move) {
+        let frames = self.settings.turns_for_frames() && !found.to.names_tip();
+        let changed = found.modes.tool != self.moved_tool;
+        if !frames || self.is_away || changed || !self.only_turns(found) {
+            return;
+        }
+        let Some(level) = self.settings.retract_level(self.metric) else { return };
+        let stands = self.settings.forward.restated(&self.at, &Position::default()).linear[2];
+        let slack = self.slack.linear[2];
+        if self.known[2] && stands >= level - slack {
+            return;
+        }
+        let place = match self.known[2] {
+            true => format!("at Z{}", short(stands)),
+            false => "where Z has not been said since the last frame".to_string(),
+        };
+        let message = format!(
+            "the machine turns {place}, the tool must have gone up to Z{} before",
+            short(level)
+        );
+        self.find(FindingKind::Order, Some(cl_line), Some(found.line), message);
+    }
+}

@@ -1,0 +1,90 @@
+//! What the back-check says of ways that the CL file leaves to the machine: to an unknown place,
+//! before the machine turns, while it repositions, to positions of the machine, to polar
+//! interpolation.
+
+use fil_nc::verify::Allowed;
+use filpost_tests::back_check;
+use filpost_tests::nc_cases::{self, NcCase};
+
+/// The findings of a program of a case in which a piece of text is another.
+fn said(case: &NcCase, old: &str, new: &str) -> String {
+    assert!(case.nc.contains(old), "{}: no {old} in\n{}", case.name, case.nc);
+    let nc = case.nc.replacen(old, new, 1);
+    let cl = String::from_utf8(case.cl.clone()).expect("a text");
+    match back_check::check(case.post.commons(), &cl, &nc, Allowed::default()) {
+        Ok(report) => report.findings.iter().map(|finding| format!("{finding}\n")).collect(),
+        Err(refused) => refused.to_string(),
+    }
+}
+
+#[test]
+fn a_fault_on_a_way_that_no_record_names_is_found() {
+    let cases = nc_cases::all();
+    for (name, old, new, message) in [
+        (
+            "heidenhain-tnc640/holes.ncl.1",
+            "5 L X+0 Y+0 R0 FMAX",
+            "5 L Y+0 R0 FMAX",
+            "rapid goes to its height before X and Y have arrived",
+        ),
+        // A change is a program of the builder, which may leave X and Y elsewhere.
+        ("corpus/klartext/tools", "\n16 L X+30 Y+0 FMAX", "", "it should be a rapid"),
+        ("corpus/sinumerik/tools", "\nN170 G0 X30 Y0", "\nN170 G0", "it should be a rapid"),
+        (
+            "words/rotary-tilted-frame-after-a-way-up",
+            "G0 Z200.\n",
+            "G0\n",
+            "the machine turns at Z34.66, the tool must have gone up to Z200 before",
+        ),
+        (
+            "corpus/sinumerik/machine-positions",
+            "N20 G53 G0 Z0 D0",
+            "N20 G53 G0 Z0 D1",
+            "D1 is in force on the way to a position of the machine, which its length shifts",
+        ),
+        ("corpus/sinumerik/machine-positions", "N100 G53 G0 Z0 D0", "N100 G53 G0 Z0", "D1 is in"),
+        (
+            "corpus/lathe/fanuc-mill-turn/compensated",
+            "M30",
+            "M30 S77",
+            "the spindle has 77 turns/min, none is asked for",
+        ),
+        (
+            "corpus/lathe/fanuc-mill-turn/turn-then-drill",
+            "T0505",
+            "T0505 S77",
+            "the spindle has 77 turns/min, none is asked for",
+        ),
+        ("corpus/sinumerik/orient", "N120 M5", "N120 M5 S77", "the spindle has 77 turns/min"),
+        (
+            "words/rotary-limit-retracts-and-returns",
+            "M5\n",
+            "",
+            "the spindle should stand while the machine turns",
+        ),
+        (
+            "words/rotary-limit-retracts-and-returns",
+            "M9\n",
+            "",
+            "coolant should be off while the machine turns",
+        ),
+        (
+            "words/rotary-limit-retracts-and-returns",
+            "Z4.508",
+            "Z3.508",
+            "from the part, it should stay 5 away",
+        ),
+        (
+            "corpus/lathe/fanuc-mill-turn/polar-square",
+            "G0 X83.522 C0.",
+            "G0 X83.523 C0.",
+            "which is on no way to its end",
+        ),
+    ] {
+        let case = cases.iter().find(|case| case.name == name);
+        let case = case.unwrap_or_else(|| panic!("no case {name}"));
+        assert!(said(case, old, old).is_empty(), "{name}: {}", said(case, old, old));
+        let found = said(case, old, new);
+        assert!(found.contains(message), "{name}, `{old}` is `{new}`:\n{found}");
+    }
+}
