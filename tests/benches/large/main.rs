@@ -3,11 +3,13 @@
 //!
 //! CL files of 10 and of 100 MB; with `-- --gigabyte` one of 1 GB too, which needs 4 GB
 //! in the folder for temporary files. What is promised is promised of 1.5 million blocks.
-//! Pages of a plot are opened in chromium, where it is there.
+//! Pages of a plot are opened in chromium, where it is there. At the end the table of
+//! `docs/performance.md` is printed as it stands there.
 
 mod page;
 mod programs;
 mod run;
+mod table;
 
 use std::fs::File;
 use std::io::{BufRead, BufReader};
@@ -15,6 +17,7 @@ use std::path::Path;
 
 use filpost_tests::cl_file;
 use run::Run;
+use table::Table;
 
 type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 
@@ -45,13 +48,15 @@ fn main() -> Outcome<()> {
         sizes.push(1000);
     }
     println!("{:<8} {:>10} {:<26} {:>8} {:>6}", "CL, MB", "blocks", "run", "seconds", "MiB");
+    let mut table = Table::default();
     for megabytes in sizes {
-        size(&command, folder.path(), megabytes)?;
+        size(&command, folder.path(), megabytes, &mut table)?;
     }
+    print!("\n{table}");
     Ok(())
 }
 
-fn size(command: &Path, folder: &Path, megabytes: u64) -> Outcome<()> {
+fn size(command: &Path, folder: &Path, megabytes: u64, table: &mut Table) -> Outcome<()> {
     let paths = ["part.ncl", "out.nc", "same.nc", "edited.nc", "moved.nc", "out.html"];
     let paths = paths.map(|name| folder.join(name));
     let [cl, nc, same, edited, moved, html] = &paths;
@@ -62,10 +67,12 @@ fn size(command: &Path, folder: &Path, megabytes: u64) -> Outcome<()> {
     let plain = run::best(command, &post)?;
     let mapped = run::best(command, &[&post[..], &["--map"]].concat())?;
     let blocks = BufReader::new(File::open(nc)?).lines().count();
+    table.size(megabytes, blocks);
     let memory = Some(32.0);
     for (name, ran) in [("post", &plain), ("post --map", &mapped)] {
         let job = Job { name, arguments: Vec::new(), seconds: None, memory };
         report(megabytes, blocks, &job, ran);
+        table.ran(name, ran);
     }
     std::fs::copy(nc, same)?;
     programs::edit(nc, edited, blocks)?;
@@ -82,8 +89,10 @@ fn size(command: &Path, folder: &Path, megabytes: u64) -> Outcome<()> {
         job.memory = job.memory.map(|memory| memory * share.max(1.0));
         let ran = run::best(command, &job.arguments)?;
         report(megabytes, blocks, &job, &ran);
+        table.ran(job.name, &ran);
         if job.name.starts_with("plot") {
             page::report(html, share)?;
+            table.page(job.name, std::fs::metadata(html)?.len());
         }
     }
     paths.iter().try_for_each(std::fs::remove_file)?;
