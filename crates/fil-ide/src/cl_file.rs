@@ -1,8 +1,13 @@
 //! CL files in an editor: numbered words of a statement, tools and operations.
 
-use filpost::cl::Vocabulary;
+use std::io::Read;
+
+use filpost::cl::reader::{self, Reader};
+use filpost::cl::record::WordView;
+use filpost::cl::{Record, Vocabulary};
 
 use crate::context::parts;
+use crate::positions::meaning;
 use crate::symbols::{Outline, OutlineKind};
 use crate::tables;
 use crate::text::{Position, Range, Text};
@@ -42,25 +47,77 @@ fn statement_at(text: &Text, line: usize) -> Statement {
 /// its major word means.
 pub fn hover(text: &Text, position: Position) -> Option<(String, Range)> {
     let statement = statement_at(text, position.line as usize);
-    let (major, items) = split(&statement.text)?;
-    let coordinates = ["x", "y", "z", "i", "j", "k"];
-    let is_motion = matches!(major.as_str(), "GOTO" | "FROM" | "GODLTA");
-    let mut shown = format!("```text\n   3  {major}\n");
-    if is_motion {
-        // A motion record has its number of values at 4 and the record's name at 5.
-        shown = "```text\n".to_string();
-    }
-    let first = if is_motion { 6 } else { 4 };
-    for (index, item) in items.iter().enumerate() {
-        let name = coordinates.get(index).filter(|_| is_motion).copied().unwrap_or_default();
-        shown += &format!("{:>4}  {:<12} {name}\n", index + first, item);
-    }
-    shown += "```\n";
+    let major = major_word(&statement.text)?;
     let range = Range {
         start: text.range(text.line_bytes(statement.first)).start,
         end: text.range(text.line_bytes(statement.last)).end,
     };
-    Some((format!("{shown}\n{}", tables::word(&major)), range))
+    let shown: String = records(text, &statement)
+        .iter()
+        .map(|(vocabulary, record)| format!("```text\n{}```\n\n", words(record, vocabulary)))
+        .collect();
+    Some((format!("{shown}{}", tables::word(&major)), range))
+}
+
+/// Records of one statement that are shown: some dialects make several of one.
+const MOST_RECORDS: usize = 3;
+
+/// The records of a statement as the reader of CL files gives them, in the dialect of the
+/// file; none of a statement that it can't read.
+fn records(text: &Text, statement: &Statement) -> Vec<(Vocabulary, Record)> {
+    let end = text.line_bytes(statement.last).end;
+    let above = &text.as_str()[..end];
+    let lines = statement.first as u32 + 1..=statement.last as u32 + 1;
+    // A statement at the end of the text is whole here: more may be typed below it.
+    let ended = above.as_bytes().chain(&b"\n"[..]);
+    let mut reader = Reader::new(ended, "", reader::Options::default());
+    let mut vocabulary = Vocabulary::new();
+    let mut record = Record::default();
+    let mut found = Vec::new();
+    while found.len() < MOST_RECORDS {
+        match reader.read(&mut vocabulary, &mut record) {
+            Ok(true) if lines.contains(&record.line) => {
+                found.push((vocabulary.clone(), record.clone()));
+            }
+            Ok(true) => {}
+            Ok(false) => break,
+            Err(_) if reader.resume() => {}
+            Err(_) => break,
+        }
+    }
+    found
+}
+
+/// `   4  DRILL        type, or OFF`, a line for each word.
+fn words(record: &Record, vocabulary: &Vocabulary) -> String {
+    let named = |n: usize| match record.word(n, vocabulary) {
+        Some(WordView::Word { name, .. }) => Some(name.to_string()),
+        _ => None,
+    };
+    let (major, minor) = (vocabulary.name(record.major), named(4));
+    let mut shown = String::new();
+    for n in 1..=record.len() {
+        let word = match record.word(n, vocabulary) {
+            Some(WordView::Number(number)) => number.to_string(),
+            Some(WordView::Word { name, .. }) => name.to_string(),
+            Some(WordView::Text(text)) => format!("'{text}'"),
+            Some(WordView::Empty) => "EMPTY".to_string(),
+            None => continue,
+        };
+        let meaning = meaning(major, minor.as_deref(), n).unwrap_or_default();
+        let line = format!("{n:>4}  {word:<12} {meaning}");
+        shown.push_str(line.trim_end());
+        shown.push('\n');
+    }
+    shown
+}
+
+/// The major word of a statement, behind which a text may stand without a slash (PPRINT);
+/// `None` for comments and empty lines.
+fn major_word(statement: &str) -> Option<String> {
+    let own = statement.trim_start();
+    let end = own.find(|c: char| !c.is_ascii_alphanumeric()).unwrap_or(own.len());
+    (end > 0).then(|| own[..end].to_ascii_uppercase())
 }
 
 /// Major word and items of a statement; `None` for comments and empty lines.

@@ -196,3 +196,44 @@ pub(crate) fn postf_calls(text: &Text) -> Vec<PostfCall> {
     }
     found
 }
+
+/// The statements of a text, each with its first byte, without labels and the conditions
+/// before them. Comments and the ends of lines that go on are blanks.
+pub(crate) fn statements(text: &Text) -> Vec<(usize, String)> {
+    let mut found = Vec::new();
+    let mut line = 0;
+    while line < text.line_count() {
+        let mut from = text.line_bytes(line).start;
+        let mut joined = String::new();
+        loop {
+            let own = text.line(line);
+            let kept = code(own).0;
+            let is_last = !continues(own) || line + 1 == text.line_count();
+            if is_last {
+                joined.push_str(kept);
+                break;
+            }
+            let kept = kept.trim_end();
+            joined.push_str(kept.strip_suffix('$').unwrap_or(kept));
+            line += 1;
+            let before = text.line_bytes(line).start - from;
+            joined.extend(std::iter::repeat_n(' ', before - joined.len()));
+        }
+        for piece in split_at_semicolons(&joined) {
+            let own = statement(piece);
+            found.push((from + piece.len() - own.len(), own.to_string()));
+            from += piece.len() + 1;
+        }
+        line += 1;
+    }
+    found
+}
+
+/// Pieces between semicolons that stand in no text.
+fn split_at_semicolons(text: &str) -> impl Iterator<Item = &str> {
+    let mut quoted = false;
+    text.split(move |character| {
+        quoted ^= character == '\'';
+        character == ';' && !quoted
+    })
+}

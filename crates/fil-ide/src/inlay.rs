@@ -1,9 +1,13 @@
 //! Hints inside the text: what a number stands for.
 
+use std::ops::Range as Bytes;
+
+use filpost::Letter;
 use filpost::postf::POSTF;
 use filpost::resolve::SymbolKind;
 
-use crate::context::postf_calls;
+use crate::context::{parts, postf_calls, statements};
+use crate::positions::meaning;
 use crate::script::Script;
 use crate::tables;
 use crate::text::Position;
@@ -17,48 +21,87 @@ pub struct Inlay {
     pub label: String,
 }
 
-/// Words 6 to 11 of a motion record.
-const POINT: [&str; 6] = ["x", "y", "z", "i", "j", "k"];
-const FIRST_COORDINATE: u32 = 6;
-
 impl Script {
-    /// Operations of POSTF, names of commons, coordinates of motion records.
+    /// Operations of POSTF, names of commons and of words of the record, letters behind the
+    /// numbers of addresses.
     pub fn inlays(&self) -> Vec<Inlay> {
-        let text = self.text.as_str();
         let mut found = Vec::new();
         for call in postf_calls(&self.text) {
-            let number =
-                |index: usize| text.get(call.arguments.get(index)?.clone())?.parse::<u32>().ok();
-            let behind = |index: usize| self.text.position(call.arguments[index].end);
-            let Some(operation) = number(0) else { continue };
-            let row = POSTF.iter().find(|row| u32::from(row.number) == operation);
-            if let Some(row) = row {
-                let label = format!(": {}", filpost::operation_name(row.op));
-                found.push(Inlay { position: behind(0), label });
-            }
-            let more = match (operation, number(1), number(2)) {
-                (1..=3, Some(kind), Some(common)) => {
-                    tables::common_name(kind, common).map(|name| (2, name))
-                }
-                (7 | 8, Some(word), _) if self.in_motion(call.arguments[0].start) => {
-                    let at = word.checked_sub(FIRST_COORDINATE);
-                    at.and_then(|at| POINT.get(at as usize)).map(|name| (1, (*name).to_string()))
-                }
-                _ => None,
-            };
-            if let Some((index, name)) = more {
-                found.push(Inlay { position: behind(index), label: format!(": {name}") });
-            }
+            self.of_call(&call.arguments, &mut found);
         }
+        for (range, letter) in self.letters() {
+            found.push(self.behind(range, letter.to_string()));
+        }
+        found.sort_by_key(|inlay| inlay.position);
         found
     }
 
-    /// True inside of a section for GOTO, FROM or GODLTA, whose words have one order.
-    fn in_motion(&self, byte: usize) -> bool {
-        self.section_at(byte).is_some_and(|name| {
-            let major = name.split(',').next().unwrap_or_default();
-            ["GOTO", "FROM"].contains(&major)
-        })
+    fn behind(&self, range: Bytes<usize>, label: String) -> Inlay {
+        Inlay { position: self.text.position(range.end), label: format!(": {label}") }
+    }
+
+    fn of_call(&self, arguments: &[Bytes<usize>], found: &mut Vec<Inlay>) {
+        let text = self.text.as_str();
+        let number = |index: usize| text.get(arguments.get(index)?.clone())?.parse::<u32>().ok();
+        let mut tell = |index: usize, label: Option<String>| {
+            let named = arguments.get(index).zip(label);
+            found.extend(named.map(|(range, label)| self.behind(range.clone(), label)));
+        };
+        let Some(operation) = number(0) else { return };
+        let row = POSTF.iter().find(|row| u32::from(row.number) == operation);
+        tell(0, row.map(|row| filpost::operation_name(row.op).to_string()));
+        match (operation, number(1), number(2)) {
+            (1..=3, Some(kind), Some(common)) => {
+                tell(2, tables::common_name(kind, common));
+                let holds_letter = tables::holds_letter(kind, common);
+                tell(3, number(3).filter(|_| holds_letter).and_then(letter_of).map(String::from));
+            }
+            (6..=8, Some(word), _) => {
+                tell(1, self.word_at(arguments[0].start, word as usize).map(str::to_string));
+            }
+            _ => {}
+        }
+    }
+
+    /// What a word of the record is, in the section around a byte.
+    fn word_at(&self, byte: usize, word: usize) -> Option<&str> {
+        let section = self.section_at(byte)?;
+        let (major, minor) = match section.split_once(',') {
+            Some((major, minor)) => (major, Some(minor)),
+            None => (section, None),
+        };
+        // The minor word that a section asks for is there.
+        if word == FIRST_MINOR && minor.is_some() {
+            return minor;
+        }
+        meaning(major, minor, word)
+    }
+
+    /// Numbers that stand for letters: addresses of POSTN and REPEAT.
+    fn letters(&self) -> Vec<(Bytes<usize>, char)> {
+        let mut found = Vec::new();
+        for (start, statement) in statements(&self.text) {
+            let Some((word, items)) = statement.split_once('/') else { continue };
+            // POSTN has its word OUT or NORMAL before the pairs.
+            let first = match word.trim().to_ascii_uppercase().as_str() {
+                "POSTN" => 1,
+                "REPEAT" => 0,
+                _ => continue,
+            };
+            let mut at = start + word.len() + 1;
+            for (index, item) in parts(items).into_iter().enumerate() {
+                let own = at + (item.len() - item.trim_start().len());
+                let letter = item.trim().parse().ok().and_then(letter_of);
+                if index >= first
+                    && (index - first).is_multiple_of(2)
+                    && let Some(letter) = letter
+                {
+                    found.push((own..own + item.trim().len(), letter));
+                }
+                at += item.len() + 1;
+            }
+        }
+        found
     }
 
     /// The key of the section around a byte.
@@ -71,4 +114,12 @@ impl Script {
         });
         around.next().map(|section| section.name.as_str())
     }
+}
+
+/// Number of the word that a section with a minor word asks for.
+const FIRST_MINOR: usize = 4;
+
+/// The letter of an address by its number, A is 1.
+fn letter_of(number: u32) -> Option<char> {
+    Letter::numbered(i32::try_from(number).ok()?).map(Letter::character)
 }

@@ -13,6 +13,7 @@ mod hover;
 mod inlay;
 pub mod machine;
 mod navigate;
+mod positions;
 mod script;
 mod signature;
 mod symbols;

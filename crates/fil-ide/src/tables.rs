@@ -2,7 +2,7 @@
 
 use filpost::builtins::BUILTINS;
 use filpost::cl::Vocabulary;
-use filpost::locations::{Location, TABLE};
+use filpost::locations::{Location, TABLE, ValueUnit};
 use filpost::postf::{Grade, POSTF, PostfInfo};
 use filpost::statements::STATEMENTS;
 use filpost::{CommonKind, Kind, check, commons, dispatch, word_pages};
@@ -113,6 +113,17 @@ pub(crate) fn common_name(kind: u32, number: u32) -> Option<String> {
         _ => return None,
     };
     check::name_of_common(kind, number)
+}
+
+/// True for a common whose value is the number of a letter.
+pub(crate) fn holds_letter(kind: u32, number: u32) -> bool {
+    let kind = match kind {
+        1 => Kind::Int,
+        2 => Kind::Rel,
+        3 => Kind::Dbl,
+        _ => return false,
+    };
+    Location::numbered(kind, number).is_some_and(|row| row.unit == ValueUnit::Letter)
 }
 
 /// Minor words of a post word: those of the forms and examples of its page, and of CYCLE the

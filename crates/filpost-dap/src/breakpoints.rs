@@ -296,7 +296,7 @@ pub fn watched_by(id: &str) -> Option<What> {
 }
 
 /// The identifier of what a client wants to watch: a name of FIL, a setting by its name,
-/// `INTCOM 1861`, or a letter that the control has.
+/// `INTCOM 1861`, or a letter that the control has; `address X` where X is a name too.
 pub fn watch_id(name: &str, is_letter: bool, state: &DebugState<'_, '_>) -> Option<String> {
     let name = name.trim();
     if is_letter || (name.len() == 1 && state.fil.value(name).is_none()) {
@@ -311,6 +311,10 @@ pub fn watch_id(name: &str, is_letter: bool, state: &DebugState<'_, '_>) -> Opti
     }
     let upper = name.to_ascii_uppercase();
     let id = upper.split_whitespace().collect::<Vec<_>>().join(" ");
+    let letter = id.strip_prefix("ADDRESS ").filter(|letter| letter.len() == 1);
+    if let Some(letter) = letter.filter(|letter| letter.as_bytes()[0].is_ascii_uppercase()) {
+        return Some(format!("address {letter}"));
+    }
     matches!(watched_by(&id), Some(What::Common(..))).then_some(id)
 }
 

@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use filpost::case::Case;
 use filpost::{Commons, files, settings};
 
+use crate::documents::Kind;
+
 /// Folders below the open one that are looked into.
 const DEPTH: usize = 6;
 /// Cases that are read; a folder with more of them is a corpus, not a post.
@@ -52,6 +54,15 @@ impl Cases {
         }
     }
 
+    /// The FIL files of the folder.
+    pub fn scripts(&self) -> Vec<PathBuf> {
+        let mut found = Vec::new();
+        if let Some(root) = &self.root {
+            scripts_below(root, DEPTH, &mut found);
+        }
+        found
+    }
+
     /// The case whose CL file or machine a file is.
     pub fn case_with(&self, path: &Path) -> Option<PathBuf> {
         let real = path.canonicalize().ok()?;
@@ -94,18 +105,52 @@ fn walk(folder: &Path, depth: usize, groups: &mut Vec<Group>) {
     {
         groups.extend(of_case(&case));
     }
-    let Ok(entries) = std::fs::read_dir(folder) else { return };
-    let mut folders: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
-    folders.sort_unstable();
-    for below in folders.into_iter().filter(|path| path.is_dir()) {
-        let hidden = below.file_name().is_some_and(|name| {
-            let name = name.to_string_lossy();
-            name.starts_with('.') || name == "target" || name == "node_modules"
-        });
-        if depth > 1 && !hidden {
-            walk(&below, depth - 1, groups);
+    for below in entries(folder).iter().filter(|path| is_looked_into(path)) {
+        if depth > 1 {
+            walk(below, depth - 1, groups);
         }
     }
+}
+
+/// What stands in a folder, by name.
+fn entries(folder: &Path) -> Vec<PathBuf> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
+    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    paths.sort_unstable();
+    paths
+}
+
+/// True for a folder of the user's own.
+fn is_looked_into(path: &Path) -> bool {
+    path.is_dir()
+        && path.file_name().is_some_and(|name| {
+            let name = name.to_string_lossy();
+            !name.starts_with('.') && name != "target" && name != "node_modules"
+        })
+}
+
+/// FIL files that are read for a search; each takes some milliseconds.
+const MOST_SCRIPTS: usize = 500;
+/// Bytes of a FIL file; a longer one is something else.
+const LONGEST_SCRIPT: u64 = 2 << 20;
+
+fn scripts_below(folder: &Path, depth: usize, found: &mut Vec<PathBuf>) {
+    for path in entries(folder) {
+        if found.len() >= MOST_SCRIPTS {
+            return;
+        }
+        if depth > 1 && is_looked_into(&path) {
+            scripts_below(&path, depth - 1, found);
+        } else if is_script(&path) {
+            found.extend(path.canonicalize());
+        }
+    }
+}
+
+fn is_script(path: &Path) -> bool {
+    let name = path.display().to_string();
+    let is_file = path.metadata().is_ok_and(|own| own.is_file() && own.len() <= LONGEST_SCRIPT);
+    is_file && Kind::of(&name, "") == Some(Kind::Fil)
 }
 
 /// The files of a case; none of one that must be refused.

@@ -1,10 +1,10 @@
 //! The open documents, and the files they are checked with.
 
 use std::cell::RefCell;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
-use fil_ide::{Script, Text};
+use fil_ide::{Outline, Script, Text};
 use filpost::{Included, files, includes};
 
 use crate::cases::Cases;
@@ -24,7 +24,7 @@ pub(crate) enum Kind {
 
 impl Kind {
     /// By the name of the document; what the editor says wins.
-    fn of(uri: &str, language: &str) -> Option<Self> {
+    pub fn of(uri: &str, language: &str) -> Option<Self> {
         match language {
             "fil" => return Some(Kind::Fil),
             "cl" | "ncl" => return Some(Kind::Cl),
@@ -68,7 +68,12 @@ pub(crate) struct Documents {
     cases: Cases,
     /// The runs of cases, by their folders, until a file is saved.
     runs: HashMap<PathBuf, LastRun>,
+    /// Symbols of the files that are not open, until a file on the disk changes.
+    closed: Option<Vec<Symbols>>,
 }
+
+/// A file and its symbols.
+pub(crate) type Symbols = (PathBuf, Vec<Outline>);
 
 impl Documents {
     /// Documents of an editor that has a folder open.
@@ -107,6 +112,7 @@ impl Documents {
         self.cases.forget();
         self.scripts.clear();
         self.runs.clear();
+        self.closed = None;
     }
 
     /// What a word held, or which record there was, when a line of a script ran last in its
@@ -134,6 +140,15 @@ impl Documents {
         let mut found: Vec<String> = fil.map(|(uri, _)| uri.clone()).collect();
         found.sort_unstable();
         found
+    }
+
+    /// Symbols of the FIL files of the open folder and of what they include. They are read
+    /// when they are first asked for.
+    pub fn symbols_on_disk(&mut self) -> &[Symbols] {
+        if self.closed.is_none() {
+            self.closed = Some(symbols_of(&self.cases.scripts()));
+        }
+        self.closed.as_deref().unwrap_or_default()
     }
 
     /// The analysis of an open FIL document.
@@ -234,6 +249,28 @@ impl Documents {
         }
         found
     }
+}
+
+/// Symbols of files and of those they include, each file once.
+fn symbols_of(paths: &[PathBuf]) -> Vec<Symbols> {
+    let mut found: Vec<Symbols> = Vec::new();
+    let mut known: HashSet<PathBuf> = HashSet::new();
+    for path in paths {
+        if known.contains(path) {
+            continue;
+        }
+        let Ok(text) = files::read_text(path, None) else { continue };
+        let name = path.display().to_string();
+        let mut loader = includes::beside(std::slice::from_ref(path), None);
+        let script = Script::new(&[(&name, &text)], &name, Some(&mut loader), None);
+        for (file, outline) in script.outlines() {
+            let real = Path::new(file).canonicalize().unwrap_or_else(|_| PathBuf::from(file));
+            if known.insert(real.clone()) {
+                found.push((real, outline));
+            }
+        }
+    }
+    found
 }
 
 /// The file beside or above that includes this one: names of both are one name space.

@@ -1,5 +1,6 @@
 //! Requests and notifications, each with its answer.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use fil_ide::{Item, Outline, Position, Range, Script, cl_file, machine};
@@ -24,6 +25,12 @@ pub struct Fault {
 const INVALID_PARAMS: i32 = -32602;
 const METHOD_NOT_FOUND: i32 = -32601;
 const REQUEST_FAILED: i32 = -32803;
+
+/// Symbols that a search gives.
+const MOST_SYMBOLS: usize = 2000;
+
+/// Items that a completion gives at once.
+const MOST_ITEMS: usize = 1500;
 
 type Answer = Result<Value, Fault>;
 /// Markdown, and the word it speaks of.
@@ -257,7 +264,24 @@ impl Server {
             }
             _ => Vec::new(),
         };
-        items.iter().map(answer::item).collect()
+        if items.len() <= MOST_ITEMS {
+            return items.iter().map(answer::item).collect();
+        }
+        // Of more than an editor can show: those that begin as what is typed. It asks again.
+        let typed = self.typed(uri, at, &items);
+        let fits = items.iter().filter(|item| item.label.to_ascii_uppercase().starts_with(&typed));
+        let shown: Vec<Value> = fits.take(MOST_ITEMS).map(answer::item).collect();
+        json!({ "isIncomplete": true, "items": shown })
+    }
+
+    /// What stands before a place of the word that items would replace, in upper case.
+    fn typed(&self, uri: &str, at: Position, items: &[Item]) -> String {
+        let own = self.documents.get(uri).zip(items.first());
+        let typed = own.and_then(|(own, item)| {
+            let bytes = own.text.byte(item.range.start)..own.text.byte(at);
+            own.text.as_str().get(bytes)
+        });
+        typed.unwrap_or_default().to_ascii_uppercase()
     }
 
     fn signature(&mut self, uri: &str, at: Position) -> Value {
@@ -313,23 +337,33 @@ impl Server {
         entries.iter().map(answer::outline).collect()
     }
 
-    /// Symbols of all open scripts and of what they include whose names hold a text.
+    /// Symbols whose names hold a text: of the open scripts as they stand in the editor, then
+    /// of the other FIL files of the folder, with what all of them include.
     fn search(&mut self, params: &Value) -> Value {
         let query = params.get("query").and_then(Value::as_str).unwrap_or_default();
         let query = query.to_ascii_uppercase();
+        let mut seen: HashSet<PathBuf> = HashSet::new();
         let mut found: Vec<Value> = Vec::new();
+        let mut add = |entries: &[Outline], uri: &str| {
+            let fits = entries.iter().filter(|entry| entry.name.contains(&query));
+            found.extend(fits.map(|entry| answer::symbol(entry, uri)));
+        };
         for uri in self.documents.scripts_open() {
             let Some(script) = self.documents.script(&uri) else { continue };
             for (file, entries) in script.outlines() {
                 let own = uri_of_file(file, &uri);
-                let fits = entries.iter().filter(|entry| entry.name.contains(&query));
-                for symbol in fits.map(|entry| answer::symbol(entry, &own)) {
-                    if !found.contains(&symbol) {
-                        found.push(symbol);
-                    }
+                let path = path_of(&own).unwrap_or_else(|| PathBuf::from(&own));
+                if seen.insert(path.canonicalize().unwrap_or(path)) {
+                    add(&entries, &own);
                 }
             }
         }
+        for (path, entries) in self.documents.symbols_on_disk() {
+            if !seen.contains(path) {
+                add(entries, &uri_of(path));
+            }
+        }
+        found.truncate(MOST_SYMBOLS);
         Value::Array(found)
     }
 

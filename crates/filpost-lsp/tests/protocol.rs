@@ -193,6 +193,27 @@ fn completion_proposes_what_is_legal_there() {
     assert!(Editor::new("PPRINT/'CIM|'\nFINI\n").labels().is_empty());
 }
 
+/// Of thousands of names those that begin as what is typed; the editor asks again.
+#[test]
+fn a_long_list_is_cut_to_what_is_typed() {
+    let names: String = (0..2000).map(|number| format!("NAME{number}=1\n")).collect();
+    let ask = |typed: &str| {
+        let text = format!("{names}XX={typed}|\nFINI\n");
+        Editor::new(&text).ask("textDocument/completion")
+    };
+    let all = ask("");
+    assert_eq!(all["isIncomplete"], true);
+    assert_eq!(all["items"].as_array().map(Vec::len), Some(1500));
+    let some = ask("name19");
+    let items = some["items"].as_array().expect("a list");
+    assert!(items.iter().any(|item| item["label"] == "NAME1999"), "{some}");
+    assert!(
+        items.iter().all(|item| {
+            item["label"].as_str().is_some_and(|label| label.starts_with("NAME19"))
+        })
+    );
+}
+
 #[test]
 fn signature_help_counts_arguments() {
     for (text, label, active) in [
@@ -291,6 +312,126 @@ fn symbols_folds_hints_and_tokens() {
     assert_eq!(data[..5], [json!(0), json!(0), json!(6), json!(0), json!(0)]);
 }
 
+/// The hints of a script, each with the text before it in its line.
+fn hints(text: &str) -> Vec<String> {
+    let hints = Editor::new(text).ask("textDocument/inlayHint");
+    let told = |hint: &Value| {
+        let number = |name: &str| hint["position"][name].as_u64().expect("a number") as usize;
+        let line = text.lines().nth(number("line")).expect("a line");
+        let label = hint["label"].as_str().expect("a label");
+        format!("{}{label}", &line[..number("character")])
+    };
+    hints.as_array().expect("a list").iter().map(told).collect()
+}
+
+#[test]
+fn words_of_records_are_named_where_their_numbers_are_fixed() {
+    for (section, word, name) in [
+        ("GOTO", "7", Some("y")),
+        ("GOTO", "11", Some("k")),
+        ("GOTO", "12", None),
+        ("CIRCLE", "15", Some("radius")),
+        ("LOADTL", "4", Some("tool")),
+        ("LOADTL", "6", None),
+        ("CYCLE,DEEP", "4", Some("DEEP")),
+        ("CYCLE,DEEP", "6", None),
+        ("CYCLE", "4", Some("type, or OFF")),
+        ("THREAD,AUTO", "11", Some("z")),
+        ("SPINDL", "3", Some("major word")),
+        ("SPINDL", "4", None),
+        ("PPRINT", "1", Some("number of the record")),
+    ] {
+        let text = format!("CIMFIL/ON,{section}\nXX=POSTF(7,{word})\nCIMFIL/OFF\nFINI\n");
+        let found = hints(&text);
+        let named: Vec<&String> =
+            found.iter().filter(|hint| hint.starts_with("XX=POSTF(7,")).collect();
+        let wanted = name.map(|name| format!("XX=POSTF(7,{word}: {name}"));
+        assert_eq!(named, wanted.iter().collect::<Vec<_>>(), "{section} {word}");
+    }
+    // Outside of a section nobody knows the record.
+    assert!(hints("XX=POSTF(7,6)\nFINI\n").iter().all(|hint| !hint.starts_with("XX=POSTF(7,")));
+}
+
+#[test]
+fn numbers_of_addresses_are_named_by_their_letters() {
+    for (text, wanted) in [
+        ("POSTN/OUT,7,28,26,0\nFINI\n", &["POSTN/OUT,7: G", "POSTN/OUT,7,28,26: Z"][..]),
+        (
+            "POSTN/OUT,G,28,26,NN*2,3,1\nNN=1\nFINI\n",
+            &["POSTN/OUT,G,28,26: Z", "POSTN/OUT,G,28,26,NN*2,3: C"],
+        ),
+        ("REPEAT/26,5.5\nFINI\n", &["REPEAT/26: Z"]),
+        ("REPEAT/OFF\nPOSTN/OUT,53,1\nFINI\n", &[]),
+        ("$$ POSTN/OUT,7,28\nFINI\n", &[]),
+        (
+            "IF(1.EQ.1)POSTN/OUT,7,28; REPEAT/24,1\nFINI\n",
+            &["IF(1.EQ.1)POSTN/OUT,7: G", "IF(1.EQ.1)POSTN/OUT,7,28; REPEAT/24: X"],
+        ),
+        ("POSTN/OUT,7, $ $$ first, second\n  28,26,0\nFINI\n", &["POSTN/OUT,7: G", "  28,26: Z"]),
+        (
+            "XX=POSTF(3,3,379)\nFINI\n",
+            &["XX=POSTF(3: clear-common", "XX=POSTF(3,3,379: the last output value of X"],
+        ),
+        // A setting that holds a letter, and one that holds a count.
+        (
+            "XX=POSTF(2,1,487,21)\nFINI\n",
+            &[
+                "XX=POSTF(2: set-common",
+                "XX=POSTF(2,1,487: dwell.address",
+                "XX=POSTF(2,1,487,21: U",
+            ],
+        ),
+    ] {
+        assert_eq!(hints(text), wanted, "{text}");
+    }
+}
+
+#[test]
+fn symbols_of_the_folder_are_found_in_files_that_are_not_open() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+        fs::write(path, text).expect("written");
+    };
+    write("open.fil", "OLDNAME=MACRO\nTERMAC\nFINI\n");
+    write("posts/mill.fil", "INCLUD/shared.txt\nMILLONE=MACRO\nTERMAC\nFINI\n");
+    write("posts/shared.txt", "SHAREDONE=MACRO\nTERMAC\nFINI\n");
+    write("posts/uncx01.f12", "TWELVE=MACRO\nTERMAC\nFINI\n");
+    write("node_modules/x.fil", "HIDDENONE=MACRO\nTERMAC\nFINI\n");
+    write("notes.txt", "NOSCRIPT=MACRO\nTERMAC\nFINI\n");
+    let uri = |name: &str| format!("file://{}", folder.path().join(name).display());
+    let params = json!({ "workspaceFolders": [{ "uri": uri("") }] });
+    let own = "NEWNAME=MACRO\nTERMAC\nFINI\n";
+    let mut editor = Editor::open_in(&params, &uri("open.fil"), "fil", own);
+    let mut names = |query: &str| -> Vec<String> {
+        let found = editor.server.request("workspace/symbol", &json!({ "query": query }));
+        let found = found.expect("answered");
+        let name = |symbol: &Value| {
+            let file = symbol["location"]["uri"].as_str().expect("a file");
+            format!("{} {}", symbol["name"].as_str().expect("a name"), &file[uri("").len()..])
+        };
+        found.as_array().expect("a list").iter().map(name).collect()
+    };
+    assert_eq!(
+        names(""),
+        [
+            "NEWNAME open.fil",
+            "MILLONE posts/mill.fil",
+            "SHAREDONE posts/shared.txt",
+            "TWELVE posts/uncx01.f12"
+        ]
+    );
+    assert_eq!(names("millo"), ["MILLONE posts/mill.fil"]);
+    assert!(names("OLDNAME").is_empty(), "the text of the editor counts");
+    // What is saved is read again.
+    write("posts/mill.fil", "MILLTWO=MACRO\nTERMAC\nFINI\n");
+    let saved = json!({ "textDocument": { "uri": uri("posts/mill.fil") } });
+    editor.server.notification("textDocument/didSave", &saved);
+    let found = editor.server.request("workspace/symbol", &json!({ "query": "MILL" }));
+    assert_eq!(found.expect("answered")[0]["name"], "MILLTWO");
+}
+
 #[test]
 fn formatting_is_that_of_fmt() {
     let mut editor = Editor::new("cimfil/on,cycle\ndmy=postf(13)\ncimfil/off\nfini\n");
@@ -353,6 +494,21 @@ fn statements_of_a_cl_file_show_their_words() {
     let hover = editor.ask("textDocument/hover");
     let shown = hover["contents"]["value"].as_str().unwrap_or_default();
     assert!(shown.contains("   4  DRILL") && shown.contains("   7  CLEAR"), "{shown}");
+    for (statement, lines) in [
+        ("GOTO / 1, 2, 3", &["   3  5            subtype", "   7  2            y"][..]),
+        ("CIRCLE / 0, 0, 0, 0, 0, 1, 7", &["   2  3000         type", "  15  7            radius"]),
+        ("MULTAX / ON", &["   3  2            subtype", "   4  ON           ON or OFF"]),
+        ("PPRINT ONE, TWO", &["   4  'ONE, TWO'   text"]),
+        ("LOADTL / 4", &["   1  3            number of the record", "   4  4            tool"]),
+    ] {
+        // The statement before it is refused, and stops nothing.
+        let text = format!("PARTNO / 7\nGOTO / 1, 2, 3\nLOADTL / (\n{statement}|");
+        let hover = Editor::open("file:///x/part.ncl", "cl", &text).ask("textDocument/hover");
+        let shown = hover["contents"]["value"].as_str().unwrap_or_default();
+        for line in lines {
+            assert!(shown.contains(&format!("{line}\n")), "{statement}: {line}\n{shown}");
+        }
+    }
     let symbols = editor.ask("textDocument/documentSymbol");
     assert_eq!(symbols[1]["name"], "LOADTL / 3", "{symbols}");
     assert_eq!(symbols[1]["children"][0]["kind"], 5, "{symbols}");

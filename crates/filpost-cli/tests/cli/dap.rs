@@ -1,7 +1,7 @@
 //! `filpost dap`
 
 use std::io::{Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use crate::support::{Folder, SMALL};
@@ -49,10 +49,10 @@ fn a_client_launches_a_run_over_standard_input_and_output() {
 
 #[test]
 fn a_client_of_vs_code_goes_through_breakpoints_of_each_kind() {
-    let Some(modules) = std::env::var_os("FILPOST_DAP_NODE") else {
-        eprintln!(
-            "skipped: FILPOST_DAP_NODE names no folder with @vscode/debugadapter-testsupport"
-        );
+    let named = std::env::var_os("FILPOST_EDITORS").map(PathBuf::from);
+    let client = "node_modules/@vscode/debugadapter-testsupport";
+    let Some(modules) = named.filter(|folder| folder.join(client).is_dir()) else {
+        eprintln!("skipped: FILPOST_EDITORS names no folder with {client}");
         return;
     };
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -66,8 +66,8 @@ fn a_client_of_vs_code_goes_through_breakpoints_of_each_kind() {
         .arg(env!("CARGO_BIN_EXE_filpost"))
         .args([&case, &script])
         .arg(line.to_string())
-        .arg(case.join("part.ncl"))
-        .env("NODE_PATH", Path::new(&modules).join("node_modules"))
+        .args([case.join("part.ncl"), case.join("expected.nc")])
+        .env("NODE_PATH", modules.join("node_modules"))
         .output()
         .expect("node starts");
     let said = String::from_utf8_lossy(&output.stdout).into_owned();

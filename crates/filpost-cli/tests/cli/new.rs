@@ -88,6 +88,30 @@ fn the_page_of_the_folder_can_be_followed() {
     assert_eq!(shown[1..], steps[..2]);
 }
 
+/// A newcomer meets no warning: the commands of the tutorial before the post of one's own.
+#[test]
+fn the_tutorial_runs_without_warnings() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let own = include_str!("../../../../docs/tutorial.md");
+    let own = own.split("## A post of your own").next().expect("the steps before");
+    let shown = commands(own);
+    assert!(shown.len() > 3, "{shown:?}");
+    let place = Folder::new();
+    for step in shown {
+        let words: Vec<&str> = step.iter().map(String::as_str).collect();
+        let ran = place.command(&words).current_dir(&root).output().expect("it runs");
+        let said = String::from_utf8_lossy(&ran.stderr);
+        assert!(ran.status.success(), "{step:?}: {said}");
+        let warns = said.contains(" warning") && !said.contains(" 0 warnings");
+        assert!(!warns && !said.contains("W0"), "{step:?}: {said}");
+    }
+    let scripts = ["check", "corpus/tutorial/mill.fil", "-m", "corpus/tutorial/machine.toml"];
+    for words in [&scripts[..], &["check", "corpus/tutorial/first.fil"]] {
+        let ran = place.command(words).arg("--deny-warnings").current_dir(&root).output();
+        assert!(ran.expect("it runs").status.success(), "{words:?}");
+    }
+}
+
 #[test]
 fn nothing_is_written_over() {
     let place = Folder::new().folder("empty").with("file", "text");

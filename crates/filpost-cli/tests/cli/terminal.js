@@ -71,6 +71,8 @@ function start(program, ...args) {
 
 const line = 1 + fs.readFileSync(path.join(workspace, 'mill.fil'), 'utf8').split('\n').findIndex((text) => text.includes('FIRST = 1'));
 
+const stop = 1 + fs.readFileSync(path.join(workspace, 'mill.fil'), 'utf8').split('\n').findIndex((text) => text.includes('IF (FIRST.EQ.0)'));
+
 const uses = {
   async neovim() {
     write('config/nvim/init.lua', recipe('neovim.md', 'lua'));
@@ -107,10 +109,24 @@ const uses = {
     keys('o');
     type('CYCLE/DRI');
     await shows('DRILL');
+    keys('Escape', 'Escape', ':reload', 'Enter');
+    await pause(500);
+    // The debugger, which Helix has itself. Its menu stays until Escape.
+    keys(`${stop}G`, 'Space', 'G', 'b');
+    await pause(500);
+    keys('Escape');
+    type(':debug-start case .');
+    keys('Enter');
+    await shows('stopped because of breakpoint');
+    keys('Space', 'G', 'v');
+    await shows('NUM = 1');
+    await shows('LOADTL (word 1055)');
+    await picture('helix-debugger');
     keys('Escape', 'Escape', ':q!', 'Enter');
   },
   async emacs() {
-    write('.emacs.d/init.el', `(setq inhibit-startup-screen t frame-background-mode 'light)\n(menu-bar-mode -1)\n${recipe('emacs.md', 'elisp')}`);
+    const { dape, config } = debuggerOfEmacs();
+    write('.emacs.d/init.el', `(setq inhibit-startup-screen t frame-background-mode 'light)\n(menu-bar-mode -1)\n${recipe('emacs.md', 'elisp')}${config}`);
     start('emacs', '-nw', `+${line}`, 'mill.fil');
     await shows('FIRST = 1');
     await shows('eglot');
@@ -122,11 +138,54 @@ const uses = {
     keys('Enter');
     await shows('SPINDEL is in no');
     await picture('emacs');
+    if (dape) {
+      await debugInEmacs();
+    } else {
+      console.log('emacs: no dape, its debugger was not tried');
+    }
     keys('C-x', 'C-c');
     await pause(500);
     type('n');
   },
 };
+
+/** Debian's package of dape with its configuration of the page, where the tools have it. */
+function debuggerOfEmacs() {
+  const packages = path.join(tools, 'root/usr/share/emacs/site-lisp/elpa-src');
+  const names = fs.existsSync(packages) ? fs.readdirSync(packages) : [];
+  const dape = names.find((name) => name.startsWith('dape-'));
+  const config = dape ? `(add-to-list 'load-path "${path.join(packages, dape)}")\n${recipe('emacs.md', 'elisp dape')}` : '';
+  return { dape, config };
+}
+
+async function debugInEmacs() {
+  const command = async (name) => {
+    keys('M-x');
+    await shows('M-x');
+    type(name);
+    keys('Enter');
+    await pause(500);
+  };
+  // The text as it was saved, alone on the screen.
+  await command('delete-other-windows');
+  keys('C-x', 'b');
+  type('mill.fil');
+  keys('Enter');
+  await command('revert-buffer-quick');
+  await pause(500);
+  type('yes');
+  keys('Enter');
+  await command('goto-line');
+  type(String(stop));
+  keys('Enter');
+  await command('dape-breakpoint-toggle');
+  await command('dape');
+  await shows('Run adapter: filpost');
+  keys('Enter');
+  await shows('NUM');
+  await shows('=>section LOADTL');
+  await picture('emacs-debugger');
+}
 
 /** The screen of the terminal as a picture: its colors become spans of a page. */
 async function picture(name) {

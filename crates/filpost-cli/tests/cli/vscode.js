@@ -80,12 +80,19 @@ class Editor {
   }
 
   async open(file) {
-    await this.page.keyboard.press('Control+P');
-    await this.page.locator('.quick-input-widget input').first().waitFor({ state: 'visible' });
-    await this.page.keyboard.type(file);
-    await this.page.locator('.quick-input-list .monaco-list-row', { hasText: path.basename(file) }).first().waitFor();
-    await this.enter();
-    await this.page.locator('.tab.active', { hasText: path.basename(file) }).first().waitFor();
+    const tab = this.page.locator('.tab.active', { hasText: path.basename(file) }).first();
+    // The list may still be that of the files before the name was typed: then it is asked again.
+    for (let left = 4; ; left -= 1) {
+      await this.page.keyboard.press('Control+P');
+      await this.page.locator('.quick-input-widget input').first().waitFor({ state: 'visible' });
+      await this.page.keyboard.type(file);
+      await this.page.locator('.quick-input-list .monaco-list-row', { hasText: path.basename(file) }).first().waitFor();
+      await this.enter();
+      if (await tab.waitFor({ timeout: 10000 }).then(() => true, () => false)) {
+        break;
+      }
+      assert(left > 0, `${file} is not opened`);
+    }
     await this.page.locator('.editor-group-container.active .view-line').first().waitFor();
   }
 
@@ -95,6 +102,17 @@ class Editor {
     await this.page.locator('.quick-input-widget input').first().waitFor({ state: 'visible' });
     await this.page.keyboard.type(`${line}:${column}`);
     await this.enter();
+  }
+
+  /** Presses a key until something is seen: the editor may still be at what came before. */
+  async until(key, seen) {
+    for (const began = Date.now(); Date.now() - began < LONG;) {
+      await this.page.keyboard.press(key);
+      if (await seen.waitFor({ timeout: 5000 }).then(() => true, () => false)) {
+        return;
+      }
+    }
+    throw new Error(`${key} shows nothing`);
   }
 
   async save() {
@@ -112,6 +130,20 @@ class Editor {
   line(tab, text) {
     const words = text.split(' ').map((word) => word.replace(/[.*+?^${}()|[\]\\]/g, '\\$&'));
     return this.group(tab).locator('.view-line', { hasText: new RegExp(words.join('\\s')) }).first();
+  }
+
+  /** Waits until a line of text is marked: as the one that made, or was made by, what was clicked. */
+  async marked(tab, text) {
+    const line = await this.line(tab, text).evaluate((node) => node.style.top);
+    const marks = this.group(tab).locator('.view-overlays > div', { has: this.page.locator('.cdr') });
+    for (const began = Date.now(); Date.now() - began < LONG; await this.page.waitForTimeout(100)) {
+      const tops = await marks.evaluateAll((nodes) => nodes.map((node) => node.style.top));
+      const now = await this.line(tab, text).evaluate((node) => node.style.top);
+      if (tops.includes(now)) {
+        return;
+      }
+    }
+    throw new Error(`${tab}: "${text}" is not marked (${line})`);
   }
 
   /** Waits until the cursor is in a line. */
@@ -142,8 +174,7 @@ async function diagnostic(editor) {
   await editor.picture('diagnostic');
   await editor.open('mill.fil');
   await editor.goto(lineOf('mill.fil', 'FIRST = 1') + 1, 3);
-  await page.keyboard.press('Control+.');
-  await page.locator('.action-widget', { hasText: 'write SPINDL' }).first().waitFor({ timeout: LONG });
+  await editor.until('Control+.', page.locator('.action-widget', { hasText: 'write SPINDL' }).first());
   await page.keyboard.press('Enter');
   await editor.line('mill.fil', 'SPINDL/ON').waitFor({ timeout: LONG });
   // Away with the list of problems.
@@ -183,10 +214,10 @@ async function breakpoint(editor) {
     await names.click();
     await page.keyboard.press('ArrowRight');
   }
-  const tool = page.locator('.debug-view-content .monaco-list-row', { hasText: 'TOOL' }).first();
+  const tool = page.locator('.debug-view-content .monaco-list-row', { hasText: 'NUM' }).first();
   await tool.waitFor({ timeout: LONG });
   const shown = (await tool.innerText()).replace(/\s+/g, ' ');
-  assert.match(shown, /TOOL ?[:=] ?1/, shown);
+  assert.match(shown, /NUM ?[:=] ?1/, shown);
   await editor.picture('debugger');
   await page.keyboard.press('Shift+F5');
   await page.locator('.debug-toolbar').first().waitFor({ state: 'hidden', timeout: LONG }).catch(() => {});
@@ -222,6 +253,23 @@ async function preview(editor) {
   // A click in FIL shows the lines that it made.
   await editor.line('mill.fil', 'PPRINT DRILL 5').click();
   await editor.group('(posted).nc').locator('.cdr').first().waitFor({ timeout: LONG });
+  await records(editor);
+}
+
+/** From a block to its CL record by the command and by a click, and from a record to its blocks. */
+async function records(editor) {
+  const { page } = editor;
+  await editor.line('(posted).nc', 'N45 X40.').click();
+  await editor.command('filpost: Go to the CL record');
+  await page.locator('.tab.active', { hasText: 'plate.ncl' }).first().waitFor({ timeout: LONG });
+  await editor.isAt(lineOf('plate.ncl', 'GOTO / 40.'));
+  // With the CL file in view a click shows the record there, and one in the record its block.
+  await editor.line('(posted).nc', 'N95 G43 Z20. H2').click();
+  await editor.marked('plate.ncl', 'GOTO / 10.0000000000, 10.0000000000, 20.');
+  await editor.line('plate.ncl', 'GOTO / 30.').click();
+  await editor.marked('(posted).nc', 'N105 X30.');
+  await editor.picture('records');
+  await page.locator('.tab', { hasText: 'mill.fil' }).first().click();
 }
 
 /** The path beside, and the machine as a form whose change is an edit of machine.toml. */
@@ -231,6 +279,9 @@ async function panels(editor) {
   await editor.command('filpost: Show the plot beside');
   const plot = page.frameLocator('iframe.webview').last().frameLocator('iframe').first();
   await plot.locator('svg, canvas').first().waitFor({ timeout: LONG });
+  // A line of the program in the plot leads to what made it.
+  await plot.locator('#rows [data-line]', { hasText: '(DRILL 5)' }).first().click({ timeout: LONG });
+  await editor.marked('mill.fil', 'PPRINT DRILL 5');
   await page.keyboard.press('Control+B');
   await page.waitForTimeout(1000);
   await editor.picture('plot');

@@ -22,6 +22,7 @@ over.addEventListener("pointerup", (event) => {
   if (!near || near.trace !== path) return;
   choose(near.line);
   goTo(near.line);
+  tell(near.line);
 });
 over.addEventListener("pointermove", (event) => {
   if (!(event.buttons & 3)) {

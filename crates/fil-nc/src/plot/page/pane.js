@@ -44,6 +44,11 @@ function goTo(line) {
   writeRows();
 }
 
+/** Tells a page around this one, such as an editor, of the line that was chosen. */
+function tell(line) {
+  document.dispatchEvent(new CustomEvent("line-chosen", { detail: line }));
+}
+
 pane.addEventListener("scroll", writeRows);
 rows.addEventListener("click", (event) => {
   const row = event.target.closest("[data-line]");
@@ -51,5 +56,6 @@ rows.addEventListener("click", (event) => {
   current = Number(row.dataset.line);
   writeRows();
   choose(current);
+  tell(current);
 });
 new ResizeObserver(writeRows).observe(pane);

@@ -7,6 +7,12 @@ const SCHEME = 'filpost-nc';
 /** From the last keystroke to the post, milliseconds. */
 const PAUSE = 200;
 
+/** Behind the page of a plot: the line of the program that is chosen there is told to the editor. */
+const TELLS = `<script>
+  const editor = acquireVsCodeApi();
+  document.addEventListener('line-chosen', (event) => editor.postMessage({ line: event.detail }));
+</script>`;
+
 /** The programs of cases, by their folders. */
 class Preview {
   constructor(context, request, caseOf) {
@@ -67,6 +73,7 @@ class Preview {
       const view = { viewColumn: vscode.ViewColumn.Beside, preserveFocus: true };
       const panel = vscode.window.createWebviewPanel('filpostPlot', title, view, { enableScripts: true });
       panel.onDidDispose(() => this.plots.delete(folder));
+      panel.webview.onDidReceiveMessage(({ line }) => this.fromPlot(folder, line));
       this.plots.set(folder, panel);
     }
     await this.post(folder);
@@ -112,7 +119,7 @@ class Preview {
     const panel = this.plots.get(folder);
     if (panel) {
       const refused = made.refused?.join('\n\n') ?? made.page?.refused;
-      panel.webview.html = refused ? `<pre>${escaped(refused)}</pre>` : made.page;
+      panel.webview.html = refused ? `<pre>${escaped(refused)}</pre>` : made.page + TELLS;
     }
     this.tell(made);
   }
@@ -176,10 +183,23 @@ class Preview {
     }
   }
 
+  /** A line of the program was chosen in its plot, 1-based. */
+  async fromPlot(folder, line) {
+    this.clear();
+    const program = visible(uriOf(folder))[0];
+    program?.setDecorations(this.mark, [lineRange(line - 1)]);
+    program?.revealRange(lineRange(line - 1), vscode.TextEditorRevealType.InCenterIfOutsideViewport);
+    await this.show(this.causes(uriOf(folder), line - 1));
+  }
+
   async fromProgram(editor, line) {
-    const causes = this.causes(editor.document.uri, line);
     this.clear();
     editor.setDecorations(this.mark, [lineRange(line)]);
+    await this.show(this.causes(editor.document.uri, line));
+  }
+
+  /** Shows what made a line of a program. */
+  async show(causes) {
     const shown = (location) => visible(location.uri).length > 0;
     const wanted = causes.filter((cause) => shown(cause.location));
     // With neither file in view, the innermost cause is opened.
