@@ -81,6 +81,13 @@ impl<C: Steps> Walk<'_, C> {
         self.auxiliaries.ask(code, cl_line, [self.last_line(), next]);
     }
 
+    /// A live tool is brought in step before each tap, as the end of the cycle ends that too.
+    pub(super) fn ask_rigid(&mut self, cl_line: u32, tap: u32) {
+        if let Some(code) = self.settings.rigid_tap_mode() {
+            self.auxiliaries.ask(code, cl_line, [self.last_line(), tap]);
+        }
+    }
+
     /// A function that the CL file asks for by its number. What spindle and coolant do is
     /// compared with the modes of the motions.
     pub(super) fn auxiliary(&mut self, cl_line: u32, code: u32) {

@@ -97,6 +97,9 @@ impl<C: Steps> Walk<'_, C> {
         plunge: &Move,
     ) -> Option<f64> {
         let first = self.next;
+        if hole.rigid && self.settings.is_mill_turn() && self.modes.mills() {
+            self.ask_rigid(cl_line, plunge.line);
+        }
         match self.drill(cl_line, hole, levels, plunge.modes.spindle) {
             Ok(rest) => Some(rest),
             Err((line, message)) => {

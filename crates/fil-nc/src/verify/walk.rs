@@ -210,6 +210,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             Wanted::OverrideLock(on) => {
                 self.ask_auxiliary(step.line, self.settings.override_lock(*on))
             }
+            Wanted::RigidTap if self.settings.is_mill_turn() && self.modes.mills() => {}
             Wanted::RigidTap => self.ask_auxiliary(step.line, self.settings.rigid_tap_mode()),
             Wanted::Clamp(on) => self.ask_auxiliary(step.line, self.settings.clamp_code(*on)),
             Wanted::Auxiliary(code) => self.auxiliary(step.line, *code),

@@ -250,6 +250,8 @@ pub struct Hole {
     pub dwell: Option<f64>,
     /// Feed.
     pub rate: Option<Rate>,
+    /// A tap in step with the spindle.
+    pub rigid: bool,
 }
 
 impl Wanted {

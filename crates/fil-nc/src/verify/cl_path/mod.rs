@@ -61,6 +61,7 @@ struct Cycle {
     step: Option<f64>,
     dwell: Option<f64>,
     rate: Option<Rate>,
+    rigid: bool,
 }
 
 /// A CIRCLE that waits for its end.
@@ -465,6 +466,7 @@ impl State {
         let tapped = self.lead(record).filter(|_| kind == CycleKind::Tap && record.has(w::TPI));
         let rate = tapped.map(Rate::PerTurn).or(rate);
         let begins = self.cycle.is_none();
+        let rigid = kind == CycleKind::Tap && record.has(w::HIGH);
         self.cycle = Some(Cycle {
             kind,
             depth: depth.abs(),
@@ -473,8 +475,8 @@ impl State {
             step: number(&[w::STEP, w::SUBPECK, w::INCR]).filter(|_| kind.pecks()),
             dwell: record.number_after(w::DWELL),
             rate: rate.or(self.rate),
+            rigid,
         });
-        let rigid = kind == CycleKind::Tap && record.has(w::HIGH);
         let begins = begins.then_some(Wanted::CycleEnd);
         begins.into_iter().chain(rigid.then_some(Wanted::RigidTap)).collect()
     }

@@ -82,6 +82,7 @@ impl State {
             step: mm(cycle.step),
             dwell: cycle.dwell,
             rate: cycle.rate,
+            rigid: cycle.rigid,
         }
     }
 

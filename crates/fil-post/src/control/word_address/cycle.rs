@@ -166,12 +166,11 @@ pub fn live_hole(
     hole: &Hole,
     code: FunctionCode,
 ) -> Result<()> {
-    if cycle.rigid {
-        return PostCode::CycleForm.err(
-            "CYCLE/TAP,HIGH by a live tool: what brings one in step with its axis is a matter of \
-             the machine",
-        );
+    if cycle.rigid && control.code_if_any(loc::CYCLE_RIGID_TAP_MODE).is_none() {
+        return PostCode::NoCode
+            .err("CYCLE/TAP,HIGH by a live tool needs a code before it (cycle.rigid_tap_mode)");
     }
+    rigid_mode(control, cycle)?;
     let usual = dwell::format_of_cycle(control);
     let axis = *control.tables.axis(hole.along);
     let bottom = axis.value(hole.bottom)?;
