@@ -49,6 +49,8 @@ fn odd_settings(ready: &str) -> &'static [&'static str] {
             "control.spindle_index=1",
             "control.axis_index=1",
             "control.messages=1",
+            "control.translation=1",
+            "control.machine_frame=1 home.frame=1",
             "cycle.bore_code=86",
             "cycle.ream_code=89",
             "output.translate_x=5",
@@ -70,6 +72,7 @@ fn odd_settings(ready: &str) -> &'static [&'static str] {
             "cycle.deep_code=203",
             "cycle.bore_code=200",
             "tool.preselect=1",
+            "cycle.tap_code=206",
         ],
     }
 }

@@ -21,6 +21,7 @@ fn main() -> ExitCode {
     let pages = files("docs/howto", "md");
     let mut trials: Vec<Trial> = pages.into_iter().map(page_trial).collect();
     trials.extend(files("fil-scripts/lib", "fil").into_iter().map(file_trial));
+    trials.push(Trial::test("habits", habits));
     libtest_mimic::run(&arguments, trials).exit_code()
 }
 
@@ -45,6 +46,37 @@ fn page_trial(path: PathBuf) -> Trial {
 
 fn file_trial(path: PathBuf) -> Trial {
     Trial::test(format!("file/{}", stem(&path)), move || file(&path))
+}
+
+/// `docs/habits.md` says of each case what its header says, and misses no case of a habit.
+fn habits() -> Result<(), Failed> {
+    let page = std::fs::read_to_string(root().join("docs/habits.md"))?;
+    let mut told = Vec::new();
+    for row in page.lines().filter(|line| line.starts_with("| ") && line.contains('`')) {
+        let columns: Vec<&str> = row.trim_matches('|').split(" | ").map(str::trim).collect();
+        let [_, says, case] = columns[..] else { return Err(format!("columns: {row}").into()) };
+        let case = case.trim_matches('`');
+        let folder = if case.ends_with(".fil") { "tests/language" } else { "tests/words" };
+        let text = std::fs::read_to_string(root().join(folder).join(case))
+            .map_err(|error| format!("{case}: {error}"))?;
+        let code = |key: &str| {
+            let code = text.lines().find_map(|line| line.strip_prefix(key))?;
+            code.split_whitespace().next().map(str::to_string)
+        };
+        let expected = match (code("$$ error: "), code("$$ warning: ")) {
+            (Some(code), _) => format!("refused, [{code}](errors/{code}.md)"),
+            (None, Some(code)) => format!("warns, [{code}](errors/{code}.md)"),
+            (None, None) => "works".to_string(),
+        };
+        same(&expected, says, case)?;
+        told.push(case.to_string());
+    }
+    let missing: Vec<String> = files("tests/language", "fil")
+        .iter()
+        .map(|path| format!("{}.fil", stem(path)))
+        .filter(|name| name.starts_with("habit-") && !told.contains(name))
+        .collect();
+    same("", &missing.join("\n"), "cases of habits that the page misses")
 }
 
 /// One page: its examples in order.

@@ -9,6 +9,7 @@ use fil_cl::{Record, WordId};
 use fil_diag::{Diag, Result};
 use nalgebra::{Point3, Vector3};
 
+use crate::control::sinumerik::tool_names;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::no_effect;
@@ -139,6 +140,7 @@ pub fn dispatch(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Re
         return word::pseudo::handle(post, &mut Items::new(record, vocabulary)?);
     }
     if record.inert {
+        tool_names::note(&mut post.control, record);
         return Ok(());
     }
     match post.dispatcher.handler(record.major) {
@@ -154,6 +156,7 @@ pub fn dispatch(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Re
         Some(Handler::Refused | Handler::Chosen(_)) | None
             if is_without_effect(post, vocabulary.name(record.major)) =>
         {
+            tool_names::note(&mut post.control, record);
             Ok(())
         }
         Some(Handler::Chosen(handle)) => {

@@ -183,11 +183,29 @@ impl Tape {
         tables: &MachineTables,
     ) -> Result<()> {
         let start = self.text.len();
+        if let Some(cause) = self.skip {
+            self.note(SKIP, cause, start);
+            self.skip_mark(tables)?;
+        }
         if let Some(number) = number {
             self.note(SEQUENCE, self.sequence.cause, start);
             self.text.extend_from_slice(format!("{number} ").as_bytes());
         }
         self.complete(start, text, items, tables)
+    }
+
+    /// Puts a line on the tape that goes on with the block before it, so it has neither a
+    /// number nor a skip mark of its own.
+    ///
+    /// # Errors
+    /// As [`Tape::phrase`].
+    pub(crate) fn phrase_more(
+        &mut self,
+        text: &str,
+        items: &[(u8, usize, Cause)],
+        tables: &MachineTables,
+    ) -> Result<()> {
+        self.complete(self.text.len(), text, items, tables)
     }
 
     /// Writes the text of a block that begins at `start`, and its end; notes its words.

@@ -53,6 +53,29 @@ impl Totals {
 
     /// Counts a motion.
     pub(crate) fn add(&mut self, motion: &Motion) {
+        if let Some(hole) = motion.hole {
+            self.add_hole(motion, hole);
+        } else {
+            self.add_way(motion);
+        }
+        Extents::add(&mut self.extents, motion.point);
+        self.widen(&motion.reach);
+    }
+
+    /// The way to a hole and out of it is rapid, the way down at feed.
+    fn add_hole(&mut self, motion: &Motion, hole: Hole) {
+        self.rapid_length += motion.length + hole.down;
+        self.cutting_length += hole.down;
+        match (motion.seconds, hole.seconds) {
+            (Some(all), Some(down)) => {
+                self.cutting_seconds += down;
+                self.rapid_seconds += all - down;
+            }
+            _ => self.untimed += 1,
+        }
+    }
+
+    fn add_way(&mut self, motion: &Motion) {
         let (length, seconds) = if motion.rapid {
             (&mut self.rapid_length, &mut self.rapid_seconds)
         } else {
@@ -63,8 +86,6 @@ impl Totals {
             Some(time) => *seconds += time,
             None => self.untimed += 1,
         }
-        Extents::add(&mut self.extents, motion.point);
-        self.widen(&motion.reach);
     }
 
     fn widen(&mut self, to: &Extents) {
@@ -132,6 +153,17 @@ pub struct Motion {
     pub seconds: Option<f64>,
     /// The box around it, without its start.
     pub(crate) reach: Extents,
+    /// What it does at feed where it ends in a hole.
+    pub(crate) hole: Option<Hole>,
+}
+
+/// The way down a hole.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Hole {
+    /// From the R level to the bottom, in the unit of the CL file.
+    pub(crate) down: f64,
+    /// Its time; `None` where it can't be told.
+    seconds: Option<f64>,
 }
 
 /// What the post knew before a record.
@@ -205,9 +237,10 @@ fn motion(before: &Before, post: &Post) -> Option<Motion> {
             CycleFeed::Lead(_) => None,
         };
         let way = rate.map(|rate| (length + down) / rate * 60.0);
-        let hole = feed.and_then(|feed| at_feed(down, &feed, post));
-        let seconds = way.zip(hole).map(|(way, hole)| way + hole);
-        return Some(Motion { length, seconds, ..at_rate(point, feed, reach, post) });
+        let time = feed.and_then(|feed| at_feed(down, &feed, post));
+        let seconds = way.zip(time).map(|(way, time)| way + time);
+        let hole = Some(Hole { down, seconds: time });
+        return Some(Motion { length, seconds, hole, ..at_rate(point, feed, reach, post) });
     }
     if before.rapid && before.arc.is_none() {
         let seconds = rate.map(|rate| length / rate * 60.0);
@@ -232,6 +265,7 @@ fn at_rate(point: [f64; 3], feed: Option<Feed>, reach: Extents, post: &Post) -> 
         length: 0.0,
         seconds: None,
         reach,
+        hole: None,
     }
 }
 

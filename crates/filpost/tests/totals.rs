@@ -41,7 +41,7 @@ fn header(statements: &str, cl: &str) -> Vec<String> {
 fn the_program_has_times_lengths_and_extents() {
     // 100 at 50 a minute, half a circle of radius 10, half a minute; the hole is 50 away at
     // 5000 a minute, 8 down at 40 and 8 back at 5000.
-    let cut = 100.0 + 10.0 * std::f64::consts::PI + 50.0;
+    let cut = 100.0 + 10.0 * std::f64::consts::PI + 8.0;
     let time = (100.0 + 10.0 * std::f64::consts::PI) / 50.0 + 0.5 + 58.0 / 5000.0 + 8.0 / 40.0;
     let fil = "T1=TEXT/'LENGTH ',TEXTF(PROGF(CUTLEN),0,3),' TIME ',TEXTF(PROGF(TIME),0,4)\nPPRINT/T1\n\
         T1=TEXT/PROGF(XMIN),' ',PROGF(XMAX),' ',PROGF(YMIN),' ',PROGF(YMAX),' ',PROGF(ZMIN),' ',PROGF(ZMAX)\n\
@@ -57,7 +57,7 @@ fn the_tool_list_has_each_tool_once() {
         IF(DD.EQ.999999)DD=0\nLL=TLISTF(II,LENGTH)\nIF(LL.EQ.999999)LL=0\n\
         NAME=TEXT/'T',TLISTF(II,NUMBER),' D',DD,' L',LL,' ',TEXTF(TLISTF(II,CUTLEN),0,1),' ',NAME\n\
         PPRINT/NAME\nLAST)CONTIN";
-    assert_eq!(header(fil, CL), ["T7 D12 L85 150.0 END MILL", "T3 D0 L0 31.4"]);
+    assert_eq!(header(fil, CL), ["T7 D12 L85 108.0 END MILL", "T3 D0 L0 31.4"]);
 }
 
 #[test]
@@ -66,15 +66,15 @@ fn an_operation_begins_where_the_cam_system_says_so() {
         IF(FF.EQ.999999)FF=0\nNAME=TEXT/FF,' T',OPERF(II,TOOL),' ',TEXTF(OPERF(II,CUTLEN),0,1),' ',TEXTF(OPERF(II,ZMIN)),' ',NAME\n\
         PPRINT/NAME\nLAST)CONTIN";
     // FEATNO starts operations; the message within the first one does not.
-    assert_eq!(header(fil, CL), ["11 T7 100.0 0 ROUGH", "12 T3 31.4 0", "13 T7 50.0 -7 HOLES"]);
+    assert_eq!(header(fil, CL), ["11 T7 100.0 0 ROUGH", "12 T3 31.4 0", "13 T7 8.0 -7 HOLES"]);
     // Without FEATNO messages do, without messages tool changes.
     let without = CL.replace("$$-> FEATNO", "$$-> MFGNO");
     let named = header(fil, &without);
-    assert_eq!(named, ["0 T7 100.0 0 ROUGH", "0 T3 31.4 0 WITHIN", "0 T7 50.0 -7 HOLES"]);
+    assert_eq!(named, ["0 T7 100.0 0 ROUGH", "0 T3 31.4 0 WITHIN", "0 T7 8.0 -7 HOLES"]);
     let bare = without.replace("PPRINT / ", "REMARK / ");
     assert_eq!(header(fil, &bare).len(), 3);
     let catia = without.replace("PPRINT / ROUGH", "PPRINT OPERATION NAME : Rough.1");
-    assert_eq!(header(fil, &catia), ["0 T7 181.4 -7 Rough.1"]);
+    assert_eq!(header(fil, &catia), ["0 T7 139.4 -7 Rough.1"]);
 }
 
 #[test]

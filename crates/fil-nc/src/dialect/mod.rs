@@ -181,6 +181,8 @@ pub struct Dialect {
     /// TRANS of a SINUMERIK is the translation of the CL file, so that positions count from
     /// where the zero was before.
     pub(crate) translates: bool,
+    /// A SINUMERIK calls tools by the names that the CL file has for them.
+    pub(crate) names_tools: bool,
     /// Programs end with a code; without one the last block is the end.
     pub(crate) has_end: bool,
 }
@@ -328,6 +330,7 @@ impl Dialect {
             axis_index: settings.code("control.axis_index"),
             rotary_index: settings.code("control.rotary_index"),
             spindle_index: settings.code("control.spindle_index"),
+            names_tools: settings.code("control.tool_call") == Some(2),
             translates: settings.code("control.translation") == Some(1),
             has_end: ["program.end_code", "program.rewind_code"]
                 .iter()

@@ -37,6 +37,7 @@ use crate::motion::Event;
 use crate::source::{Lines, Source, changed};
 
 pub(crate) use sinumerik::line as sinumerik_words;
+pub(crate) use sinumerik::number_of_tool;
 
 /// A refusal, before it has its place.
 #[derive(Debug)]
@@ -164,9 +165,6 @@ pub fn has_skipped_blocks(
     name: &str,
     dialect: &Dialect,
 ) -> Result<bool, Box<Diag>> {
-    if dialect.family == Family::Klartext {
-        return Ok(false);
-    }
     let mut lines = Lines::from(source, 0);
     while let Some(line) = lines.next_line().map_err(|error| cant_read(name, &error))? {
         if program::may_be_skipped(&dialect.marks.read(line)) {

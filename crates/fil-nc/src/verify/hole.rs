@@ -418,7 +418,7 @@ impl<C: Steps> Walk<'_, C> {
         }
         let code = self.settings.cycle_code(kind);
         let out = match (code, kind) {
-            (Some(84 | 74 | 207), _) => Out::Thread,
+            (Some(84 | 74 | 206 | 207), _) => Out::Thread,
             (Some(85 | 89 | 201), _) => Out::Feed,
             (Some(73 | 81 | 82 | 83 | 86 | 200 | 203 | 205), _) => Out::Rapid,
             (Some(_), _) => Out::Any,

@@ -107,6 +107,7 @@ pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
     let path = ClPath::new(check.cl, check.cl_name, settings.input_shift());
     let path = path.on_machine(settings.shift_along(), settings.matrix_leaves_axis());
     let path = path.with_frame_words(settings.frame_words());
+    let path = path.naming_tools(settings.dialect.names_tools);
     let path = path.in_unit(check.unit).leaving_out(check.skips_blocks);
     let nc = (check.nc, check.nc_name);
     let (around, marks) = (settings.blocks_around_changes(), &settings.dialect.marks);

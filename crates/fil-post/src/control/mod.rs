@@ -398,6 +398,9 @@ impl Control {
         if self.tables.family == ControlFamily::Sinumerik {
             sinumerik::reader::refuse_other_diameters(self, text)?;
         }
+        if self.tables.family != ControlFamily::WordAddress {
+            family::refuse_brackets(text)?;
+        }
         if self.put_line(text, numbered)? {
             return Ok(());
         }

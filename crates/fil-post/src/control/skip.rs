@@ -3,7 +3,7 @@
 use fil_diag::Result;
 use fil_machine::locations::ControlFamily;
 
-use super::{Control, sinumerik};
+use super::{Control, klartext, sinumerik};
 use crate::errors::PostCode;
 
 impl Control {
@@ -17,9 +17,11 @@ impl Control {
             return Ok(());
         }
         self.begin()?;
-        if self.tables.family == ControlFamily::Sinumerik {
+        match self.tables.family {
             // MCALL on one side of the mark would call the cycle on the other.
-            sinumerik::cycle::cancel(self)?;
+            ControlFamily::Sinumerik => sinumerik::cycle::cancel(self)?,
+            ControlFamily::Klartext => klartext::skip::change(self, on)?,
+            ControlFamily::WordAddress => {}
         }
         self.flush_waiting()?;
         if self.waiting.length_offset.is_some() {

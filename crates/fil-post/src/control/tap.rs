@@ -9,7 +9,7 @@ use crate::operation::SpindleSpeed;
 use crate::path::cycle::{Cycle, CycleFeed};
 
 /// Largest share of a pitch that rounding may change.
-const SHARE: f64 = 0.0005;
+pub(super) const SHARE: f64 = 0.0005;
 
 /// The pitch without its sign, mm or inch: the lead, or the feed of a turn.
 ///

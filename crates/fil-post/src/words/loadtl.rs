@@ -6,6 +6,7 @@ use fil_diag::Result;
 use fil_machine::locations as loc;
 
 use crate::cause::Cause;
+use crate::control::sinumerik::tool_names;
 use crate::items::Items;
 use crate::operation::{Operation, ToolChange};
 use crate::path::{carry_out, thread};
@@ -35,6 +36,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     };
     thread::end(post)?;
     post.path.interrupt();
+    tool_names::load(&mut post.control, tool)?;
     let causes = [cause, offset_cause];
     let next = std::mem::take(&mut post.path.next_tools);
     let change = ToolChange { tool, offset, offset_given, next, causes };

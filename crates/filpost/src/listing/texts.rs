@@ -12,7 +12,8 @@ use crate::tally::{Motion, Totals};
 const CHARACTERS_AN_INCH: f64 = 10.0;
 const METERS_IN_AN_INCH: f64 = 0.0254;
 
-/// Where a motion ends, its feed and its time.
+/// Where a motion ends, its feed and its time; of a hole the way to it, which is rapid, and
+/// the way down at feed.
 pub(super) fn position(motion: &Motion, feeds: FeedListUnits) -> String {
     let [x, y, z] = motion.point.map(length);
     let feed = match (motion.rapid, motion.feed) {
@@ -21,7 +22,9 @@ pub(super) fn position(motion: &Motion, feeds: FeedListUnits) -> String {
         (false, None) => "no feed".to_string(),
     };
     let time = motion.seconds.map_or_else(|| "time unknown".to_string(), seconds);
-    format!("{:>22}X {x}  Y {y}  Z {z}  {feed}  way {}  {time}", "at ", length(motion.length))
+    let way = length(motion.length);
+    let down = motion.hole.map(|hole| format!("  down {}", length(hole.down))).unwrap_or_default();
+    format!("{:>22}X {x}  Y {y}  Z {z}  {feed}  way {way}{down}  {time}", "at ")
 }
 
 /// A feed as it was asked for, or as the machine lists feeds where the turns of the spindle

@@ -8,7 +8,7 @@ use super::Klartext;
 use super::line::Word;
 use crate::dialect::{CycleKind, FeedMode};
 use crate::errors::NcCode;
-use crate::motion::{Course, Event, Rate, Spindle, WORD_OFFSETS};
+use crate::motion::{Course, Event, Rate, Speed, Spindle, WORD_OFFSETS};
 
 /// Most pecks of a hole.
 const MAX_PECKS: f64 = 10_000.0;
@@ -74,6 +74,7 @@ impl Definition {
                 "Q257", "Q256", "Q211",
             ],
             247 => &["Q339"],
+            206 => &["Q200", "Q201", "Q206", "Q211", "Q203", "Q204"],
             207 => &["Q200", "Q201", "Q239", "Q203", "Q204"],
             _ => &[],
         };
@@ -89,7 +90,7 @@ impl Klartext<'_> {
         let (number, part) = first.text.split_once('.').unwrap_or((&first.text, "0"));
         let number: u32 = number.parse().map_err(|_| first.no_meaning())?;
         match (number, part) {
-            (1, "0") | (200 | 201 | 203 | 205 | 207, "0") => {
+            (1, "0") | (200 | 201 | 203 | 205..=207, "0") => {
                 self.defined =
                     Some(Definition { number, values: BTreeMap::new(), rapid_out: false });
                 Ok(())
@@ -269,12 +270,17 @@ impl Klartext<'_> {
         let rest = (surface + length("Q204")?).max(clear);
         let (mut kind, mut step, mut breaks, mut lift) = (CycleKind::Drill, f64::INFINITY, 0, 0.0);
         let mut again = if set_up > 0.0 { set_up } else { GAP };
-        let rate = if definition.number == 207 {
-            kind = CycleKind::Tap;
-            self.check_sense(definition.get("Q239")?)?;
-            Rate::PerTurn(length("Q239")?.abs())
-        } else {
-            self.rate_of(definition.get("Q206")?)
+        let rate = match definition.number {
+            207 => {
+                kind = CycleKind::Tap;
+                self.check_sense(definition.get("Q239")?)?;
+                Rate::PerTurn(length("Q239")?.abs())
+            }
+            206 => {
+                kind = CycleKind::Tap;
+                self.lead_of(definition.get("Q206")?)?
+            }
+            _ => self.rate_of(definition.get("Q206")?),
         };
         match definition.number {
             200 => step = length("Q202")?,
@@ -321,6 +327,22 @@ impl Klartext<'_> {
             }
         }
         Ok(())
+    }
+
+    /// In a floating holder the tap goes at Q206 while the spindle turns: the lead is what is
+    /// left of it for a turn.
+    fn lead_of(&self, feed: f64) -> Result<Rate, Fault> {
+        let turning = self.state.modes.spindle != Spindle::Off;
+        match (self.rate_of(feed), self.state.modes.speed) {
+            (Rate::PerMinute(feed), Some(Speed::Turns(turns))) if turning && turns > 0.0 => {
+                Ok(Rate::PerTurn(feed / turns))
+            }
+            _ => {
+                let message = "cycle 206 taps with the spindle that turns, and it does not, or its \
+                               speed is not known";
+                Err(Fault::new(NcCode::NoMeaning, message))
+            }
+        }
     }
 
     /// A pitch below zero cuts a left-hand thread, with the spindle turning that way.

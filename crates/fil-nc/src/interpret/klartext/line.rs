@@ -4,6 +4,7 @@
 use std::ops::Range;
 
 use super::super::Fault;
+use super::super::program::may_be_skipped;
 use crate::errors::NcCode;
 
 /// A word with its place in the line, bytes.
@@ -47,13 +48,16 @@ pub(super) struct Line {
     pub(super) words: Vec<Word>,
     /// It goes on with the definition of a cycle: `Q200=+2`.
     pub(super) continues: bool,
+    /// It begins with the mark of blocks that may be skipped.
+    pub(super) skipped: bool,
 }
 
 impl Line {
     pub(super) fn read(text: &[u8]) -> Result<Line, Fault> {
         let code = text.split(|byte| *byte == b';').next().unwrap_or(text);
-        let mut line = Line::default();
-        let mut at = 0;
+        let mut line = Line { skipped: may_be_skipped(code), ..Line::default() };
+        let mark = code.iter().position(|byte| *byte == b'/').filter(|_| line.skipped);
+        let mut at = mark.map_or(0, |mark| mark + 1);
         while at < code.len() {
             let start =
                 at + code[at..].iter().take_while(|byte| byte.is_ascii_whitespace()).count();
@@ -75,10 +79,6 @@ impl Line {
         }
         if line.words.first().is_some_and(|word| word.text.starts_with('*')) {
             line.words.clear();
-        }
-        if let Some(first) = line.words.first().filter(|word| word.text.starts_with('/')) {
-            let message = "what may be skipped can't be followed";
-            return Err(Fault::new(NcCode::NoMeaning, message).at(&first.range));
         }
         line.join();
         line.continues = line.words.first().is_some_and(|word| {
@@ -143,7 +143,12 @@ mod tests {
     }
 
     #[test]
-    fn what_may_be_skipped_is_refused() {
-        assert!(Line::read(b"/ 12 M30").is_err());
+    fn the_skip_mark_is_told_and_left_out() {
+        for text in ["/12 L X+1", "/ 12 L X+1", " /L X+1"] {
+            let line = Line::read(text.as_bytes()).unwrap();
+            assert!(line.skipped, "{text}");
+            assert_eq!(line.texts(), ["L", "X+1"], "{text}");
+        }
+        assert!(!Line::read(b"12 L X+1 ; a/b").unwrap().skipped);
     }
 }

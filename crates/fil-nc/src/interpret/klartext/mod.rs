@@ -1,7 +1,7 @@
 //! Heidenhain Klartext to events: lines of phrases in their order.
 //!
 //! Followed are `L`, `CC`, `C`, `CR`, `CP`, `PLANE SPATIAL`, `TOOL CALL`, the drilling cycles 200, 201, 203,
-//! 205, 207 and the old cycle 1 with `M99` or `CYCL CALL`, dwell and datum shift. What
+//! 205, 206, 207 and the old cycle 1 with `M99` or `CYCL CALL`, dwell and datum shift. What
 //! else moves, calculates or jumps is refused.
 
 mod cycle;
@@ -60,6 +60,8 @@ pub(super) struct Program<'a> {
     /// The line that was read last, 1-based, and the last one that is not empty.
     number: u32,
     last: u32,
+    /// The block that was begun last is left out, with the lines that go on with it.
+    leaves_out: bool,
 }
 
 impl<'a> Program<'a> {
@@ -75,7 +77,7 @@ impl<'a> Program<'a> {
             defined: None,
             shift: [0.0; 3],
         };
-        Program { control, lines: Lines::from(source, 0), number: 0, last: 1 }
+        Program { control, lines: Lines::from(source, 0), number: 0, last: 1, leaves_out: false }
     }
 
     /// Runs the next line; false behind the last.
@@ -99,6 +101,12 @@ impl<'a> Program<'a> {
         }
         let placed = |fault: Fault| fault.place(name, self.number, text);
         let line = Line::read(text).map_err(placed)?;
+        if !line.continues {
+            self.leaves_out = line.skipped && self.control.state.dialect.skips_blocks;
+        }
+        if self.leaves_out {
+            return Ok(true);
+        }
         self.control.state.line = self.number;
         self.control.line(&line).map_err(placed)?;
         into.extend(self.control.state.events.drain(..));

@@ -50,14 +50,29 @@ struct Sinumerik<'d> {
     shift: [f64; 3],
     /// Feeds count millimeters.
     metric_feed: bool,
-    /// Names of tools that are no numbers, in the order of their first call.
-    tools: Vec<String>,
     /// What the words of the line may depend on.
     uses: Uses,
 }
 
 /// The number of the first tool whose name is none.
 const NAMED_TOOLS: u32 = 1_000_001;
+
+/// Numbers that names may have.
+const NAMES: u64 = 1_000_000_007;
+
+/// The number of a tool by its name: the name itself where it is one, else one above a
+/// million that follows from its letters alone, whatever their case.
+pub(crate) fn number_of_tool(name: &str) -> u32 {
+    let name = name.trim();
+    if let Ok(number) = name.parse() {
+        return number;
+    }
+    // FNV-1a
+    let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte.to_ascii_uppercase())).wrapping_mul(0x0100_0000_01b3)
+    });
+    NAMED_TOOLS + (hash % NAMES) as u32
+}
 
 /// A program of a SINUMERIK, line by line.
 pub(super) struct Program<'a> {
@@ -77,7 +92,6 @@ impl<'a> Program<'a> {
             called: None,
             shift: [0.0; 3],
             metric_feed: dialect.metric,
-            tools: Vec::new(),
             uses: Uses::default(),
         };
         // Cycles say the level they return to.
@@ -236,15 +250,7 @@ impl Sinumerik<'_> {
     }
 
     /// The number of a tool: that of its name, else one of its own.
-    fn tool_of_name(&mut self, name: &str) -> u32 {
-        if let Ok(number) = name.trim().parse() {
-            return number;
-        }
-        let known = self.tools.iter().position(|known| known == name);
-        let at = known.unwrap_or_else(|| {
-            self.tools.push(name.to_string());
-            self.tools.len() - 1
-        });
-        NAMED_TOOLS + at as u32
+    fn tool_of_name(&self, name: &str) -> u32 {
+        number_of_tool(name)
     }
 }

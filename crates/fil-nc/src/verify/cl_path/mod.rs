@@ -8,6 +8,7 @@ mod frame_words;
 mod own_words;
 mod path;
 mod thread;
+mod tool_names;
 
 use std::collections::VecDeque;
 
@@ -26,6 +27,7 @@ pub use frame_words::FrameWords;
 
 use crate::errors::NcCode;
 use crate::motion::{INCH, Rate};
+use tool_names::ToolNames;
 
 /// Statements that move the tool or the frame by rules that are not public.
 const ENDS_THE_PATH: [WordId; 9] =
@@ -99,6 +101,7 @@ struct State {
     /// LINTOL, mm.
     straight: Option<f64>,
     words: FrameWords,
+    names: ToolNames,
 }
 
 /// Goes through a CL file.
@@ -145,12 +148,19 @@ impl<'r> ClPath<'r> {
                 leaves_axis: false,
                 straight: None,
                 words: FrameWords::default(),
+                names: ToolNames::default(),
             },
             ready: VecDeque::new(),
             over: false,
             leaves_out: false,
             skips: false,
         }
+    }
+
+    /// The path on a machine that calls its tools by the names of the CL file.
+    pub fn naming_tools(mut self, names: bool) -> Self {
+        self.state.names.are_called = names;
+        self
     }
 
     /// The path with the blocks left out that the operator may skip: of what stands between
@@ -278,6 +288,10 @@ impl Iterator for ClPath<'_> {
 
 impl State {
     fn take(&mut self, record: &Record, vocabulary: &Vocabulary) -> Vec<Wanted> {
+        if matches!(record.major, w::TPRINT | w::TOOL_PATH) {
+            self.names.say(record);
+            return Vec::new();
+        }
         if record.inert {
             return Vec::new();
         }
@@ -487,7 +501,7 @@ impl State {
         let number = *numbers.first()?;
         let offset = record.number_after(w::OSETNO).or(record.number_after(w::ADJUST));
         Some(vec![Wanted::Tool {
-            number: whole(number)?,
+            number: self.names.number(whole(number)?),
             offset: match offset {
                 Some(offset) => Some(whole(offset)?),
                 None => None,

@@ -1,4 +1,4 @@
-//! Drilling cycles 200, 201, 203, 205 and 207: `CYCL DEF` says the hole, `M99` in the
+//! Drilling cycles 200, 201, 203, 205, 206 and 207: `CYCL DEF` says the hole, `M99` in the
 //! line of its position drills it.
 //!
 //! The settings of the machine say which cycle drills which kind of hole; a kind without
@@ -33,11 +33,12 @@ const RAPID_OUT: &str = "+99999";
 const PITCH_DIGITS: [usize; 2] = [4, 5];
 
 /// The cycles that are known, with their names.
-const CYCLES: [(u16, &str); 5] = [
+const CYCLES: [(u16, &str); 6] = [
     (200, "DRILLING"),
     (201, "REAMING"),
     (203, "UNIVERSAL DRILLING"),
     (205, "UNIVERSAL PECKING"),
+    (206, "TAPPING NEW"),
     (207, "RIGID TAPPING NEW"),
 ];
 
@@ -151,7 +152,7 @@ fn definition(
     if cycle.kind.pecks() != matches!(number, 203 | 205) {
         return refuse(format!("CYCL DEF {number} for {:?}", cycle.kind));
     }
-    if (cycle.kind == CycleKind::Tap) != (number == 207) {
+    if (cycle.kind == CycleKind::Tap) != matches!(number, 206 | 207) {
         return refuse(format!("CYCL DEF {number} for {:?}", cycle.kind));
     }
     let at = values(control, cycle, hole)?;
@@ -161,7 +162,7 @@ fn definition(
     say(201, &at.depth, "DEPTH");
     if number == 207 {
         if cycle.dwell > 0.0 {
-            return refuse("CYCL DEF 207 does not dwell");
+            return refuse("CYCL DEF 207 does not dwell; 206 does, with a floating tap holder");
         }
         let pitch = pitch(control, cycle)?;
         say(239, &pitch, "THREAD PITCH");
@@ -169,9 +170,16 @@ fn definition(
         say(204, &at.second, "2ND SET-UP CLEARANCE");
         return Ok(lines);
     }
+    let dwell = if cycle.dwell > 0.0 { line::seconds(control, cycle.dwell)? } else { "0".into() };
+    if number == 206 {
+        say(206, &tapping_feed(control, cycle)?, "FEED RATE FOR PLNGNG");
+        say(211, &dwell, "DWELL TIME AT DEPTH");
+        say(203, &at.surface, "SURFACE COORDINATE");
+        say(204, &at.second, "2ND SET-UP CLEARANCE");
+        return Ok(lines);
+    }
     let feed = feed(control, cycle)?;
     say(206, &feed, "FEED RATE FOR PLNGNG");
-    let dwell = if cycle.dwell > 0.0 { line::seconds(control, cycle.dwell)? } else { "0".into() };
     let peck = match cycle.step {
         Some(step) => step,
         None => at.deep.max(at.way),
@@ -257,6 +265,21 @@ fn feed(control: &Control, cycle: &Cycle) -> Result<String> {
         FeedMode::InverseTime => return refuse("inverse time in a cycle"),
     };
     line::feed(control, motion::spelled(control, value))
+}
+
+/// The feed of a tap in a floating holder: its pitch at the speed of the spindle, so a new
+/// speed makes a new definition.
+fn tapping_feed(control: &Control, cycle: &Cycle) -> Result<String> {
+    if control.klartext.clockwise.is_none() {
+        return refuse("TAP before SPINDL: CYCL DEF 206 taps with the spindle that turns");
+    }
+    let asked = motion::spelled(control, motion::a_minute(control, tap::pitch(control, cycle)?)?);
+    let text = line::feed(control, asked)?;
+    let written: f64 = text.parse().unwrap_or(0.0);
+    if (written - asked).abs() > tap::SHARE * asked {
+        return refuse(format!("a feed of {asked} to tap with would be written as {written}"));
+    }
+    Ok(text)
 }
 
 /// The lead of a tap with the sign of its sense: minus for a left-hand thread, which the

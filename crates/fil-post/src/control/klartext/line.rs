@@ -32,7 +32,7 @@ pub fn put(control: &mut Control, line: &Line) -> Result<()> {
 /// # Errors
 /// As [`put`].
 pub fn put_more(control: &mut Control, text: &str, cause: Cause) -> Result<()> {
-    control.tape.phrase(None, text, &[(TEXT, 0, cause)], &control.tables)
+    control.tape.phrase_more(text, &[(TEXT, 0, cause)], &control.tables)
 }
 
 fn warn_of_letters(control: &mut Control, text: &str) {

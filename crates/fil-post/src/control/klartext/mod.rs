@@ -14,8 +14,11 @@ pub mod motion;
 pub mod phrase;
 pub mod program;
 pub mod reader;
+mod repeat;
+pub mod skip;
 mod spindle;
 pub mod tool;
+mod words;
 
 use fil_diag::Result;
 use fil_machine::letters::M;
@@ -25,7 +28,6 @@ use fil_machine::{FunctionCode, Letter};
 
 use super::word_address::dwell::seconds_of_turns;
 use super::{Control, Function, own_offsets, word_address};
-use crate::cause::Cause;
 use crate::control::family::refuse;
 use crate::control_state::Compensation;
 use crate::errors::PostCode;
@@ -46,6 +48,8 @@ pub struct Klartext {
     /// Where a helix has left the tool in X and Y, mm or inch, within half a last digit of
     /// what the tape said last; `None` for an axis that a word has moved since.
     stands: [Option<f64>; 2],
+    /// The last two before the lines that may be skipped.
+    before_skip: (Option<bool>, [Option<f64>; 2]),
     /// Name of the program, between BEGIN PGM and END PGM.
     name: String,
     /// END PGM stands on the tape.
@@ -74,13 +78,10 @@ pub fn write(control: &mut Control, operation: Operation) -> Result<()> {
             refuse_auxiliary(code)?;
             word_address::write(control, operation)
         }
-        Operation::Words(words) => write_words(control, &words),
-        Operation::Repeat(words) if words.is_empty() => Ok(()),
-        Operation::Repeat(_) => refuse("REPEAT: a line of Klartext takes no words of others"),
+        Operation::Words(words) => words::write(control, &words),
+        Operation::Repeat(words) => repeat::set(control, words),
         Operation::WorkOffset(number) => datum::write(control, number),
         Operation::Message(text) => message(control, &text),
-        Operation::Skip(true) => refuse("OPSKIP: what a TNC skips is chosen line by line there"),
-        Operation::Skip(false) => Ok(()),
         other => word_address::write(control, other),
     }
 }
@@ -143,19 +144,6 @@ fn refuse_auxiliary(code: FunctionCode) -> Result<()> {
         reader::Auxiliary::Harmless => Ok(()),
         _ => refuse(format!("AUXFUN: M{} changes what motions or cycles do", code.value())),
     }
-}
-
-/// POSTN with M functions alone, each in a line of its own.
-fn write_words(control: &mut Control, words: &[(Letter, f64, Cause)]) -> Result<()> {
-    for &(letter, value, cause) in words {
-        let Some(code) = FunctionCode::of_value(value).filter(|_| letter == M) else {
-            return refuse(format!(
-                "POSTN: a line of Klartext is no list of words, {letter}{value} has no meaning there"
-            ));
-        };
-        control.because(cause, |control| function(control, M, code))?;
-    }
-    Ok(())
 }
 
 /// A comment, in lines as long as the machine allows.

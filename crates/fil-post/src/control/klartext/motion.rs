@@ -10,10 +10,12 @@ use fil_machine::modes::{FeedMode, Plane};
 use super::helix::{self, Helix};
 use super::line::{self, Line};
 use super::phrase::Head;
+use super::repeat;
 use crate::control::family::refuse;
 use crate::control::word_address::arc::{self, PlaneArc};
 use crate::control::word_address::dwell::known_speed;
 use crate::control::word_address::motion::{self as words, Motion};
+use crate::control::word_address::repeat as words_of_repeat;
 use crate::control::{Control, Function};
 use crate::control_state::Compensation;
 use crate::errors::PostCode;
@@ -28,6 +30,9 @@ const PER_REVOLUTION: FunctionCode = FunctionCode::whole(136);
 
 /// M137: F is a feed a minute again.
 const PER_MINUTE: FunctionCode = FunctionCode::whole(137);
+
+/// M91: the line counts in the frame of the machine.
+const IN_MACHINE: FunctionCode = FunctionCode::whole(91);
 
 /// Rapid traverse in one line.
 ///
@@ -150,6 +155,9 @@ fn turn(control: &mut Control, arc: &PlaneArc, helix: Helix, feed: Option<&Feed>
 /// No unit; cutter compensation that a text may have ended.
 pub fn ready(control: &mut Control) -> Result<()> {
     control.begin()?;
+    if !control.ended_repeats.is_empty() {
+        words_of_repeat::doubt_ended(control);
+    }
     control.require_unit()?;
     let begun = !control.waiting.has(Function::Compensation);
     let lost = control.state.compensation.is_none() && begun;
@@ -225,12 +233,19 @@ pub(super) fn write(control: &mut Control, turning: AxisSet) -> Result<()> {
             control.klartext.stands[number] = None;
         }
     }
+    // Words of others have no place in the frame of the machine.
+    let of_machine = control.block.m_codes().iter().any(|(code, _)| *code == IN_MACHINE);
+    let kept =
+        if control.repeats.is_empty() || of_machine { Vec::new() } else { repeat::add(control)? };
     if control.block.is_empty() {
         // A helix may have no word that the block counts.
         control.refuse_after_end()?;
         super::phrase::write(control)?;
     } else {
         control.write_block()?;
+    }
+    for (letter, value) in kept {
+        control.commons.set_last_output(letter, value);
     }
     if in_plane && control.state.compensates() {
         control.state.moved_in_plane();

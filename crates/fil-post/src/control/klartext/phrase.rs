@@ -4,6 +4,7 @@ use fil_diag::Result;
 use fil_machine::letters::F;
 
 use super::line::{self, Line};
+use super::reader;
 use crate::control::Control;
 use crate::control::family::refuse;
 use crate::control_state::Compensation;
@@ -119,6 +120,9 @@ pub fn write(control: &mut Control) -> Result<()> {
     line::put(control, &line)?;
     let addresses = &control.tables.addresses;
     control.state.learn_block(&block, &control.codes, addresses);
+    for (code, _) in block.m_codes() {
+        reader::learn_turning(control, code.value());
+    }
     if let Some(side) = phrase.side {
         control.state.compensation = Some(side);
         control.state.compensation_begun = false;

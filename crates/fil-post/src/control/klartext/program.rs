@@ -40,6 +40,7 @@ pub fn end(control: &mut Control) -> Result<()> {
     if std::mem::replace(&mut control.klartext.ended, true) {
         return Ok(());
     }
+    control.tape.skip = None;
     let unit = unit_text(control.require_unit()?);
     let text = format!("END PGM {} {unit}", control.klartext.name);
     line::put(control, &Line::of_text(&text, Cause::default()))

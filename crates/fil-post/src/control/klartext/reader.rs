@@ -112,7 +112,7 @@ fn word(control: &mut Control, item: &str) {
     let number = rest.as_str().parse::<f64>();
     match (first, number) {
         (Some('M'), Ok(number)) => match meaning(number) {
-            Auxiliary::Harmless => {}
+            Auxiliary::Harmless => learn_turning(control, number),
             Auxiliary::End => control.state.ended = true,
             Auxiliary::PerMinute => {
                 control.state.feed_mode = Some(fil_machine::modes::FeedMode::PerMinute);
@@ -136,10 +136,20 @@ fn word(control: &mut Control, item: &str) {
     }
 }
 
+/// Learns from an M function which way the spindle turns, with coolant or without.
+pub fn learn_turning(control: &mut Control, number: f64) {
+    match number as i64 {
+        3 | 13 => control.klartext.clockwise = Some(true),
+        4 | 14 => control.klartext.clockwise = Some(false),
+        _ => {}
+    }
+}
+
 /// Nothing is known any more but what no line can change.
 fn forget(control: &mut Control) {
     let (unit, plane) = (control.state.unit, control.state.plane);
     control.state.forget();
+    control.klartext.clockwise = None;
     control.state.unit = unit;
     control.state.plane = plane;
     control.state.distance = Some(crate::control_state::Distance::Absolute);

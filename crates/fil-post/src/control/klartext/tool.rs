@@ -7,7 +7,6 @@ use fil_machine::rounding::Rounding;
 
 use super::line::{self, Line};
 use crate::block::named;
-use crate::control::family::refuse;
 use crate::control::{Control, own_offsets};
 use crate::errors::PostCode;
 use crate::noted::TEXT;
@@ -63,16 +62,12 @@ pub fn select(control: &mut Control, tool: i64) -> Result<()> {
     line::put(control, &line)
 }
 
-/// The speed of the spindle, by calling the tool in the spindle again.
+/// The speed of the spindle, by calling the tool in the spindle again; where it is not known,
+/// without its number: the control then keeps it.
 ///
 /// # Errors
-/// The tool in the spindle is not known; cutter compensation; a speed that does not fit.
+/// Cutter compensation; a speed that does not fit.
 pub fn speed(control: &mut Control, value: f64) -> Result<()> {
-    let Some(tool) = control.state.tool else {
-        return refuse(
-            "a speed before LOADTL: S stands in TOOL CALL, and the tool in the spindle is not known",
-        );
-    };
     if control.is_compensated() {
         return PostCode::CompensationOn.err("at TOOL CALL, which a change of the speed needs");
     }
@@ -87,7 +82,9 @@ pub fn speed(control: &mut Control, value: f64) -> Result<()> {
     let cause = control.block.cause;
     let mut line = Line::default();
     line.item(TEXT, "TOOL CALL", cause.whole());
-    line.item(T.byte(), &number(control, tool)?, cause.whole());
+    if let Some(tool) = control.state.tool {
+        line.item(T.byte(), &number(control, tool)?, cause.whole());
+    }
     line.item(TEXT, "Z", cause.whole());
     let text = line::scaled_text(control, s, scaled).unwrap_or_default();
     line.item(s.byte(), &format!("S{text}"), cause);

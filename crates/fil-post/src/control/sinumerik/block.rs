@@ -4,11 +4,12 @@
 use fil_diag::Result;
 use fil_machine::address::no_address;
 use fil_machine::letters::{G, IJK, M, S, T, XYZ};
-use fil_machine::locations::{self as loc, CircleCenter, ControlToolCall};
+use fil_machine::locations::{self as loc, CircleCenter, ControlMachineFrame, ControlToolCall};
 use fil_machine::rounding::Rounding;
 use fil_machine::word_text::WordText;
 use fil_machine::{FunctionCode, Letter};
 
+use super::tool_names;
 use crate::block::{function, named};
 use crate::cause::Cause;
 use crate::control::Control;
@@ -16,6 +17,9 @@ use crate::control::line::Line;
 
 /// A word with its cause.
 type CausedWord = (Letter, f64, Cause);
+
+/// The block counts in the frame of the machine.
+const IN_MACHINE: FunctionCode = FunctionCode::whole(53);
 
 /// Codes of M that are those of a spindle.
 const OF_SPINDLE: [fil_machine::setting::CodeAt; 5] = [
@@ -70,6 +74,12 @@ fn word(control: &Control, letter: Letter, value: f64) -> Result<(String, f64)> 
         let name = char::from(slot.character);
         return Ok((spell_function(control, letter, code, name, &digits(&text)), code.value()));
     }
+    if letter == T && tool_names::are_called(control) {
+        let scaled = Rounding::Exact.scale(value, &slot.format).map_err(|diag| named(diag, T))?;
+        let value = slot.format.unscale(scaled);
+        let name = control.sinumerik.tool_names.of(value as i64)?;
+        return Ok((format!("{}=\"{name}\"", char::from(slot.character)), value));
+    }
     let names = letter.byte() == b'P' && slot.format.decimals == 0;
     let rounding = if names { Rounding::Exact } else { Rounding::of(letter) };
     let scaled = rounding.scale(value, &slot.format).map_err(|diag| named(diag, letter))?;
@@ -91,6 +101,12 @@ fn spell_function(
     name: char,
     digits: &str,
 ) -> String {
+    if letter == G
+        && code == IN_MACHINE
+        && control.commons.read(loc::CONTROL_MACHINE_FRAME) == ControlMachineFrame::Supa
+    {
+        return "SUPA".to_string();
+    }
     let of_spindle = || OF_SPINDLE.iter().any(|at| control.code_if_any(*at) == Some(code));
     match control.commons.int_opt(loc::CONTROL_SPINDLE_INDEX) {
         Some(index) if letter == M && of_spindle() => format!("{name}{index}={digits}"),
@@ -103,7 +119,7 @@ fn spell(control: &Control, letter: Letter, name: char, digits: &str) -> String 
     if commons.read(loc::CIRCLE_RADIUS_ADDRESS) == Some(letter) {
         return format!("CR={digits}");
     }
-    if letter == T && commons.read(loc::CONTROL_TOOL_CALL) == ControlToolCall::Name {
+    if letter == T && commons.read(loc::CONTROL_TOOL_CALL) == ControlToolCall::NumberAsAName {
         return format!("{name}=\"{digits}\"");
     }
     let absolute = commons.read(loc::CIRCLE_CENTER) == CircleCenter::AbsoluteCenter;

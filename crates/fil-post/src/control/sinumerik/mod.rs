@@ -14,6 +14,7 @@ pub(super) mod spindle;
 pub mod swivel;
 pub mod thread;
 pub mod tool;
+pub mod tool_names;
 pub mod translation;
 
 use fil_diag::Result;
@@ -44,6 +45,8 @@ pub struct Sinumerik {
     edge: Option<i64>,
     /// The spindle was last told to turn clockwise.
     clockwise: Option<bool>,
+    /// What the CL file calls its tools.
+    pub(crate) tool_names: tool_names::ToolNames,
 }
 
 impl Sinumerik {
