@@ -21,6 +21,9 @@ pub const AXES: usize = 5;
 /// Positions of the five axes: X Y Z in mm or inch, two rotaries in degrees.
 pub type Position = [f64; AXES];
 
+/// Degrees of a full turn.
+const FULL_TURN: f64 = 360.0;
+
 /// Scale of X when the tape holds diameters.
 const DIAMETER: f64 = 2.0;
 
@@ -84,6 +87,12 @@ impl AxisSet {
         AxisSet(self.0 | other.0)
     }
 
+    /// The axes that are in this one alone.
+    #[inline]
+    pub fn without(self, other: AxisSet) -> AxisSet {
+        AxisSet(self.0 & !other.0)
+    }
+
     /// The numbers of its axes, lowest first.
     #[inline]
     pub fn numbers(self) -> impl Iterator<Item = usize> {
@@ -114,6 +123,10 @@ pub struct Axis {
     step: Option<f64>,
     /// Scaled integers no farther than this from the last one count as unchanged.
     same: i64,
+    /// Values on the tape that differ are different positions.
+    is_exact: bool,
+    /// A full turn as a scaled integer, where positions count within one; else 0.
+    full_turn: i64,
     min: f64,
     max: f64,
 }
@@ -135,12 +148,15 @@ impl Axis {
         let step = step.filter(|_| by_hand);
         let same = commons.dbl_opt(loc::MOTION_SAME_TOLERANCE).unwrap_or(0.0);
         let same = if common < 3 { same * scale.abs() / format.unscale(1) } else { 0.0 };
+        // What a tolerance of a whole number of digits leaves in binary counts.
+        let same = (same + 1e-6).floor() as i64;
         Axis {
             letter,
             is_plain: scale == 1.0 && translate == 0.0 && step.is_none(),
             step,
-            // What a tolerance of a whole number of digits leaves in binary counts.
-            same: (same + 1e-6).floor() as i64,
+            same,
+            is_exact: same == 0,
+            full_turn: 0,
             output: addresses.output(letter),
             format,
             scale,
@@ -171,6 +187,43 @@ impl Axis {
         self.resolution = (self.resolution / DIAMETER).max(self.step.unwrap_or(0.0));
         self.diameter = true;
         Ok(())
+    }
+
+    /// Writes positions within one turn.
+    ///
+    /// # Errors
+    /// An output scale that is neither 1 nor -1: a turn on the tape would be none.
+    pub(crate) fn write_within_a_turn(&mut self) -> Result<()> {
+        if self.scale.abs() != 1.0 {
+            return MachineCode::SettingValue.err(format!(
+                "rotary.output counts {} within a turn, and its output is scaled",
+                self.letter
+            ));
+        }
+        self.full_turn = (FULL_TURN / self.format.unscale(1)).round() as i64;
+        self.is_plain = false;
+        self.is_exact = false;
+        Ok(())
+    }
+
+    /// A full turn as a scaled integer; 0 for an axis whose positions count on.
+    #[inline]
+    pub fn full_turn(&self) -> i64 {
+        self.full_turn
+    }
+
+    /// The position nearest to another that is the same within a turn; the position itself
+    /// of an axis whose positions count on.
+    pub fn near(&self, position: f64, other: f64) -> f64 {
+        match self.full_turn {
+            0 => position,
+            _ => position + FULL_TURN * ((other - position) / FULL_TURN).round(),
+        }
+    }
+
+    /// The scaled integer of a value on the tape, within a turn; `None` for no value.
+    pub fn within_a_turn(&self, value: f64) -> Option<i64> {
+        Some(self.format.scale(value.abs()).ok()?.rem_euclid(self.full_turn.max(1)))
     }
 
     /// Bounds the travel.
@@ -212,6 +265,15 @@ impl Axis {
     }
 
     fn scaled_and_moved(&self, position: f64) -> Result<i64> {
+        if self.full_turn != 0 && position.is_finite() {
+            let within = position - FULL_TURN * (position / FULL_TURN).floor();
+            let scaled = self.moved(within)?;
+            return Ok(scaled.rem_euclid(self.full_turn));
+        }
+        self.moved(position)
+    }
+
+    fn moved(&self, position: f64) -> Result<i64> {
         let position = match self.step {
             Some(step) => (position / step).round() * step,
             None => position,
@@ -238,7 +300,7 @@ impl Axis {
     /// # Errors
     /// As [`Axis::scaled`].
     pub fn on_tape(&self, position: f64) -> Result<f64> {
-        Ok(self.position(self.value(position)?))
+        Ok(self.near(self.position(self.value(position)?), position))
     }
 
     /// Smallest step of the machine position that the tape can say, mm, inch or
@@ -283,13 +345,16 @@ impl Axis {
     #[inline]
     pub fn changes(&self, scaled: i64, commons: &Commons) -> bool {
         let last = commons.last_output(self.letter);
-        self.format.unscale(scaled) != last && (self.same == 0 || self.is_apart(scaled, last))
+        self.format.unscale(scaled) != last && (self.is_exact || self.is_apart(scaled, last))
     }
 
     /// True when a scaled integer is farther from the last value than what counts as
     /// unchanged.
     #[cold]
     fn is_apart(&self, scaled: i64, last: f64) -> bool {
+        if self.full_turn != 0 {
+            return self.within_a_turn(last) != Some(scaled);
+        }
         match self.format.scale(last) {
             Ok(last) => (scaled - last).abs() > self.same,
             Err(_) => true,
@@ -304,6 +369,8 @@ impl Axis {
 
     /// Position before scale and translation that a tape value stands for.
     pub fn position(&self, value: f64) -> f64 {
+        // Within a turn the sign is the way that the axis goes there.
+        let value = if self.full_turn == 0 { value } else { value.abs() };
         (value - self.translate) / self.scale
     }
 

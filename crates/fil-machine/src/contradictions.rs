@@ -11,6 +11,7 @@ use crate::axis_chain::AxisChain;
 use crate::commons::{Commons, Int};
 use crate::errors::MachineCode;
 use crate::frame_rules;
+use crate::full_turn;
 use crate::letter::{self, Letter};
 use crate::locations::{
     self as loc, ControlFamily, ControlTranslation, CycleReturnCodes, SeqnoAlign, TapeEndOfBlock,
@@ -151,6 +152,7 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     shift_along(commons, &mut found);
     translation(commons, &mut found);
     frame_rules::check(commons, &mut found);
+    full_turn::check(commons, &mut found);
     found.extend(mill_turn::check(commons).err().map(|diag| *diag));
     same_positions(commons, &mut found);
     letters::check(commons, &mut found);

@@ -39,6 +39,12 @@ pub(crate) fn check(commons: &Commons, found: &mut Vec<Diag>) {
         add("rotary.frame_output asks for tilted frames, whose Z is the tool, and the tool does \
              not lie along Z where the machine stands at zero");
     }
+    let codes = [loc::ROTARY_CLAMP_CODE, loc::ROTARY_UNCLAMP_CODE].map(|at| commons.read(at));
+    let clamps = commons.read(loc::ROTARY_FRAME_CLAMP);
+    if clamps && (codes.contains(&None) || codes[0] == codes[1]) {
+        add("rotary.frame_clamp asks for a code that clamps the rotary axes and another that \
+             releases them (rotary.clamp_code, rotary.unclamp_code)");
+    }
     if is_scaled(commons) {
         add("rotary.frame_output asks for tilted frames, and X, Y or Z is scaled or shifted on \
              the tape");

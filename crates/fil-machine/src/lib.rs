@@ -18,6 +18,7 @@ pub mod cycle_kind;
 pub mod errors;
 pub mod files;
 mod frame_rules;
+mod full_turn;
 pub mod function_code;
 pub mod letter;
 pub mod locations;

@@ -10,6 +10,7 @@ use crate::axis_chain::{AxisChain, ROTARY_LETTERS};
 use crate::commons::Commons;
 use crate::errors::MachineCode;
 use crate::frame_rules;
+use crate::full_turn;
 use crate::letter::letters::F;
 use crate::locations::{self as loc, ControlFamily, MillTurnMode, RotaryTipOutput};
 use crate::mill_turn;
@@ -41,6 +42,12 @@ pub struct MachineTables {
     /// A motion asks something of the machine before it is made: a tilted frame, or the
     /// mode of a mill-turn machine that mills.
     pub prepares: bool,
+    /// Positions of a rotary axis count within one turn.
+    pub within_a_turn: bool,
+    /// The rotary axes are clamped in tilted frames.
+    pub clamps: bool,
+    /// Words of rotary axes are looked at before they are written.
+    pub watches_turns: bool,
     axes: Vec<Axis>,
     /// The travel of X, Y and Z where their words name the tip in the part.
     travel: Vec<Axis>,
@@ -104,9 +111,16 @@ impl MachineTables {
             if rotary.is_some() {
                 self.present = self.present.or(AxisSet::of(index + 3));
             }
-            self.axes.push(Axis::new(letter, common, &self.addresses, commons));
+            let mut axis = Axis::new(letter, common, &self.addresses, commons);
+            if rotary.as_ref().is_some_and(|rotary| full_turn::is_meant(commons, rotary)) {
+                axis.write_within_a_turn()?;
+            }
+            self.axes.push(axis);
         }
         self.axes.iter_mut().zip(self.zero).for_each(|(axis, zero)| axis.count_from(zero));
+        self.within_a_turn = self.axes.iter().any(|axis| axis.full_turn() != 0);
+        self.clamps = self.frame_output && commons.read(loc::ROTARY_FRAME_CLAMP);
+        self.watches_turns = self.within_a_turn || self.clamps;
         if self.axes.iter().any(|axis| axis.scale() == 0.0) {
             return MachineCode::SettingValue.err("an output scale is zero");
         }

@@ -151,6 +151,14 @@ fil_diag::codes! {
         Cylinder = 563, Error, "not on a cylinder about the spindle",
             "A live tool along X that cuts while C turns goes along a cylinder of one radius, and its feed counts there.",
             "Cut at one distance from the axis of the spindle with the tool axis through it, at a feed a minute; plunge and retract while C stands.";
+        /// A word within a turn that the control would read another way.
+        WayRound = 564, Error, "which way a rotary axis turns can't be written",
+            "The machine counts the positions of this axis from 0 to 360 degrees, and by its way to read them the axis would turn the other way round, or which way is left open.",
+            "Go there by a position in between, or write positions that the control reads in one way (rotary.output, rotary.zero_sign).";
+        /// A feed motion of an axis that can only index.
+        Indexing = 565, Error, "the axis can only index",
+            "The machine turns this axis at rapid, from one position to the next, and can't cut while it turns (rotary.index_only).",
+            "Turn it in a RAPID, with the tool away from the part, or post for a machine whose axis can feed.";
         /// Too many functions in a block.
         Crowded = 542, Error, "functions that the control does not take in one block",
             "The control takes one preparatory function in a block, and each of these needs the words that stand there.",

@@ -133,9 +133,7 @@ impl Post {
     /// True when rotary positions are chosen by the motions behind a RAPID: whoever drives the
     /// post tells their tool axes by `path.coming` before the record.
     pub fn looks_ahead_for_axes(&self) -> bool {
-        let tables = &self.control.tables;
-        let of_axes = tables.chain().has_rotary() && !tables.tip_output && !tables.frame_output;
-        of_axes && self.control.commons.read(loc::REPOS_OPTIMISE)
+        self.control.tables.chain().has_rotary() && self.control.commons.read(loc::REPOS_OPTIMISE)
     }
 
     /// Takes the warnings away.

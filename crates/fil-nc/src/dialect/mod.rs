@@ -8,6 +8,7 @@ mod family;
 mod marks;
 mod numbers;
 mod start;
+mod turns;
 
 use fil_diag::Diag;
 use fil_machine::Letter;
@@ -22,6 +23,7 @@ pub use family::Family;
 pub(crate) use marks::Marks;
 pub use numbers::{Address, Unreadable};
 pub(crate) use start::Certain;
+pub(crate) use turns::WayRound;
 
 /// Names of the six axes that settings know, as their keys end.
 const AXIS_NAMES: [&str; 6] = ["x", "y", "z", "a", "b", "c"];
@@ -105,6 +107,8 @@ pub struct Dialect {
     pub(crate) scales: [Option<Scale>; 5],
     /// Letters (1 to 26) of these axes.
     pub(crate) axis_letters: [u8; 5],
+    /// How words of rotary axes count within a turn; `None` for axes that count on.
+    pub(crate) ways_round: [Option<WayRound>; 5],
     /// Which of the two rotary axes turn the part.
     pub(crate) tables: [bool; 2],
     /// How the axes lead the tool.
@@ -258,6 +262,7 @@ impl Dialect {
             start: start(commons, axis_letters, scales),
             scales,
             axis_letters,
+            ways_round: turns::ways(&settings, &kinematics),
             tables,
             forward: Forward::new(kinematics),
             live_at_start: settings

@@ -63,6 +63,7 @@ impl State<'_> {
         self.auxiliaries(words);
         self.check_live(words)?;
         self.motion(words)?;
+        self.check_ways_round(&stood, &known)?;
         if begins {
             self.check_begun(&stood, &known)?;
         }

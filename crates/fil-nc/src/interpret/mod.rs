@@ -19,6 +19,7 @@ mod state;
 mod thread;
 mod tilt;
 mod tip_control;
+mod turns;
 mod words;
 
 #[cfg(test)]

@@ -134,7 +134,10 @@ impl<'d> State<'d> {
         for word in words {
             let word = &self.in_plane(*word);
             if self.absolute && !word.increment {
-                to[word.axis] = self.position(word.axis, word.value);
+                to[word.axis] = match self.dialect.ways_round[word.axis] {
+                    None => self.position(word.axis, word.value),
+                    Some(way) => self.turned(word.axis, word.value, way),
+                };
                 known[word.axis] = true;
             } else {
                 to[word.axis] += self.way(word.axis, word.value);

@@ -76,7 +76,10 @@ impl<C: Steps> Walk<'_, C> {
 
     /// An auxiliary function must stand between the last motion and the next.
     pub(super) fn ask_auxiliary(&mut self, cl_line: u32, code: Option<u32>) {
-        let Some(code) = code else { return };
+        // Codes of clamps have rules of their own where the machine clamps in tilted frames.
+        let of_clamps =
+            |code: &u32| self.settings.frame_clamps().is_some_and(|codes| codes.contains(code));
+        let Some(code) = code.filter(|code| !of_clamps(code)) else { return };
         let next = self.nc.get(self.next).map_or(u32::MAX, |event| event.line());
         self.auxiliaries.ask(code, cl_line, [self.last_line(), next]);
     }

@@ -15,6 +15,7 @@ mod beside;
 mod between;
 mod blocks;
 mod cl_path;
+mod clamps;
 mod gap;
 mod hole;
 mod hole_tip;

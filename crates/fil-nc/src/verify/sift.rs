@@ -4,8 +4,10 @@ use std::collections::VecDeque;
 
 use fil_diag::Diag;
 
+use super::clamps::Clamps;
 use super::report::Report;
 use super::rules::Rules;
+use super::settings::Settings;
 use crate::events::Events;
 use crate::motion::Event;
 
@@ -50,19 +52,32 @@ impl<W: Watcher> Events for Sift<'_, W> {
 #[derive(Default)]
 pub(super) struct Beside {
     rules: Rules,
+    clamps: Option<Clamps>,
     /// Line and number of each auxiliary function.
     pub(super) auxiliaries: Vec<(u32, u32)>,
 }
 
 impl Beside {
-    /// What was found wrong by the rules that hold for any program.
+    pub(super) fn new(settings: &Settings<'_>) -> Self {
+        Beside { clamps: Clamps::new(settings), ..Beside::default() }
+    }
+
+    /// What was found wrong by the rules that hold for any program, and by those of clamped
+    /// axes.
     pub(super) fn broken_rules(self) -> Report {
-        self.rules.findings
+        let mut report = self.rules.findings;
+        if let Some(clamps) = self.clamps {
+            report.append(clamps.findings);
+        }
+        report
     }
 }
 
 impl Watcher for Beside {
     fn sees(&mut self, event: &Event) -> bool {
+        if self.clamps.as_mut().is_some_and(|clamps| clamps.takes(event)) {
+            return false;
+        }
         match event {
             Event::Auxiliary { line, code } => {
                 self.auxiliaries.push((*line, *code));

@@ -90,7 +90,7 @@ impl<'a, C: Steps> Walk<'a, C> {
     ) -> Self {
         Walk {
             cl: Ahead::new(cl),
-            nc: Window::new(Sift::new(nc, Beside::default())),
+            nc: Window::new(Sift::new(nc, Beside::new(settings))),
             next: 0,
             own,
             changes: 0,

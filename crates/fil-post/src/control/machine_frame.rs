@@ -8,7 +8,7 @@ use fil_machine::letters::D;
 use fil_machine::locations::{self as loc, ControlFamily, HomeFrame};
 
 use super::word_address::motion::Motion;
-use super::{Control, family, klartext};
+use super::{Control, family, full_turn, klartext};
 use crate::cause::Cause;
 use crate::control_state::Compensation;
 use crate::errors::PostCode;
@@ -75,6 +75,9 @@ fn block(control: &mut Control, motion: &Motion) -> Result<()> {
     family::ready(control)?;
     // A zero that the control has shifted does not count in this frame.
     let zero = control.tables.zero();
+    if !motion.axes.and(AxisSet::ROTARY).is_empty() {
+        full_turn::release(control)?;
+    }
     for number in motion.axes.numbers() {
         let axis = *control.tables.axis(number);
         let Some(position) = axis.tape_position()? else { continue };

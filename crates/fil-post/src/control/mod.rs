@@ -10,6 +10,7 @@ mod apart;
 mod characters;
 mod edit;
 pub mod family;
+pub(crate) mod full_turn;
 pub mod klartext;
 pub(crate) mod line;
 pub mod machine_frame;
@@ -93,6 +94,11 @@ pub struct Control {
     pub block: Block,
     /// The program has begun, its blocks are words, and nobody edits them.
     pub(crate) straight: bool,
+    /// Where the rotary axes were last brought, degrees over any number of turns, for axes
+    /// whose words count within one.
+    pub(crate) wound: [Option<f64>; 2],
+    /// The rotary axes are clamped, as far as the post has said it.
+    pub(crate) clamped: Option<bool>,
     /// Number and name of the program.
     pub head: ProgramHead,
     /// What Klartext needs besides.
@@ -144,6 +150,8 @@ impl Control {
             waiting: Waiting::default(),
             tip: TipOffset::default(),
             ended_repeats: Vec::new(),
+            wound: [None; 2],
+            clamped: None,
             repeats: BTreeMap::new(),
             block: Block::default(),
             straight: false,

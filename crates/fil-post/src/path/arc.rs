@@ -9,7 +9,7 @@ use fil_machine::locations::{
 use fil_machine::modes::Plane;
 use nalgebra::{Point3, Vector3};
 
-use super::{chords, feed_rules, rotary};
+use super::{chords, feed_rules, frame, rotary};
 use crate::control::word_address::arc::{self as words, PlaneArc};
 use crate::control::{Function, family};
 use crate::control_state::Compensation;
@@ -260,13 +260,32 @@ fn in_plane(
 fn check_travel(post: &Post, arc: &PlaneArc) -> Result<()> {
     let axes = arc.plane.axes().map(|number| post.control.tables.axis(number));
     if !axes.iter().any(|axis| axis.is_limited()) {
-        return Ok(());
+        return check_travel_in_frame(post, arc);
     }
     for angle in extremes(arc) {
         let (sine, cosine) = libm::sincos(angle.to_radians());
         for ((axis, center), part) in axes.iter().zip(arc.center).zip([cosine, sine]) {
             axis.check(center + arc.radius * part)?;
         }
+    }
+    Ok(())
+}
+
+/// The same in a tilted frame, whose axes lie as those of the machine do.
+fn check_travel_in_frame(post: &Post, arc: &PlaneArc) -> Result<()> {
+    let tables = &post.control.tables;
+    if !tables.frame_output || !tables.limits_travel() {
+        return Ok(());
+    }
+    for angle in extremes(arc) {
+        let (sine, cosine) = libm::sincos(angle.to_radians());
+        let mut point = arc.from;
+        for ((number, center), part) in
+            arc.plane.axes().into_iter().zip(arc.center).zip([cosine, sine])
+        {
+            point[number] = center + arc.radius * part;
+        }
+        frame::check_on_the_way(post, [point[0], point[1], point[2]])?;
     }
     Ok(())
 }

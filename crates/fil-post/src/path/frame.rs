@@ -15,7 +15,7 @@ use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::{machine_position, rotary, tip_control};
 use crate::control::word_address::motion::{Motion, RapidCode};
-use crate::control::{Control, Function, family};
+use crate::control::{Control, Function, family, full_turn};
 use crate::control_state::Meaning;
 use crate::errors::PostCode;
 use crate::operation::{Operation, Target};
@@ -61,6 +61,19 @@ pub(super) fn position_of(
     Ok([point.x, point.y, point.z, frame.angles[0], frame.angles[1]])
 }
 
+/// Refuses a point on the way, as the words of the frame in force name it, outside the travel
+/// of X, Y and Z.
+///
+/// # Errors
+/// It lies outside.
+pub(super) fn check_on_the_way(post: &Post, point: [f64; 3]) -> Result<()> {
+    let Some(frame) = post.path.frame else { return Ok(()) };
+    let point = Point3::from(point);
+    let point = frame.turn.map_or(point, |turn| turn * point);
+    let at = post.control.tables.chain().linear(point, frame.angles);
+    post.control.tables.check_travel(&[at.x, at.y, at.z, 0.0, 0.0], AxisSet::LINEAR)
+}
+
 /// Brings the machine and the control into the frame of a target; says whether it began
 /// there.
 ///
@@ -83,6 +96,7 @@ fn frame_for(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<Tilte
     if let Some(frame) = same.filter(|frame| {
         tilted == Some(frame.turn.is_some()) && stands_at(&post.control, frame.angles)
     }) {
+        post.path.chosen = None;
         return Ok(frame);
     }
     if at_feed && same.is_none() && post.path.frame.is_some() && !post.control.tip.is_away {
@@ -111,10 +125,11 @@ fn begin(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<TiltedFra
     family::cancel_cycle(control)?;
     control.flush_function(Function::WorkOffset)?;
     let stands = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post));
+    let near = post.path.chosen.take().unwrap_or(stands);
     let chain = post.control.tables.chain();
     let angles = match zero(chain, axis) {
         true => [0.0; 2],
-        false => chain.solve(axis, stands)?,
+        false => chain.solve(axis, near)?,
     };
     let turn = turn_of(chain, angles);
     let known = knows_rotary(&post.control);
@@ -137,6 +152,9 @@ fn begin(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<TiltedFra
     if let Some(turn) = turn {
         check_rounded(post.control.tables.chain(), turn, angles)?;
         forget_positions(&mut post.control, true);
+    }
+    if post.control.tables.clamps && post.control.clamped != Some(true) {
+        full_turn::clamp(&mut post.control, true)?;
     }
     post.path.interrupt();
     let frame = TiltedFrame { axis, angles, turn };
@@ -239,9 +257,9 @@ fn leans(chain: &AxisChain, angles: [f64; 2]) -> bool {
 fn stands_at(control: &Control, angles: [f64; 2]) -> bool {
     knows_rotary(control)
         && control.tables.present().and(AxisSet::ROTARY).numbers().all(|number| {
-            let resolution = control.tables.axis(number).resolution();
-            let here = control.axis_position(number);
-            here.is_some_and(|here| (here - angles[number - 3]).abs() <= resolution)
+            let (axis, angle) = (control.tables.axis(number), angles[number - 3]);
+            let here = control.axis_position(number).map(|here| axis.near(here, angle));
+            here.is_some_and(|here| (here - angle).abs() <= axis.resolution())
         })
 }
 

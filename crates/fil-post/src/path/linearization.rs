@@ -162,16 +162,17 @@ fn suffices(
 /// says that something else has moved them since.
 fn stands(post: &Post, before: [f64; 2]) -> Position {
     let tables = &post.control.tables;
-    let tape: [Option<f64>; AXES] = std::array::from_fn(|n| {
-        let axis = tables.axis(n);
-        let written = tables.present().has(n) && !axis.is_off();
-        post.control.axis_position(n).filter(|_| written)
-    });
     let point = post.path.point.unwrap_or_default();
     let target = Target { point, axis: post.path.axis, word: 0 };
     let (point, _) = rotary::transformed(post, target);
     let linear = tables.chain().linear(point, before);
     let exact = [linear.x, linear.y, linear.z, before[0], before[1]];
+    let tape: [Option<f64>; AXES] = std::array::from_fn(|n| {
+        let axis = tables.axis(n);
+        let written = tables.present().has(n) && !axis.is_off();
+        let stands = post.control.axis_position(n).filter(|_| written)?;
+        Some(axis.near(stands, exact[n]))
+    });
     let moved = |n: usize| {
         tape[n].is_some_and(|tape| (tape - exact[n]).abs() > tables.axis(n).resolution())
     };

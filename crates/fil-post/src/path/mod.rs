@@ -60,6 +60,8 @@ pub struct Path {
     pub multax: Option<bool>,
     /// Last rotary positions in degrees; `None` before the first motion.
     pub rotary: Option<[f64; 2]>,
+    /// Positions that the look-ahead has chosen for the rapid motion at hand, degrees.
+    pub(crate) chosen: Option<[f64; 2]>,
     /// The tilted frame that motions were last written in.
     pub(crate) frame: Option<frame::TiltedFrame>,
     /// How many frames have begun.
@@ -115,6 +117,7 @@ impl Default for Path {
             axis: Vector3::z(),
             multax: None,
             rotary: None,
+            chosen: None,
             frame: None,
             frames: 0,
             cylinder: None,

@@ -32,7 +32,8 @@ pub fn position_of(post: &mut Post, target: Target) -> Result<Position> {
     if post.control.tables.frame_output {
         return frame::position_of(post, point, axis);
     }
-    let last = post.path.rotary.unwrap_or_else(|| on_tape(post));
+    let last = post.path.chosen.take().or(post.path.rotary).unwrap_or_else(|| on_tape(post));
+    let chain = post.control.tables.chain();
     let angles = chain.solve(axis, last)?;
     let linear = chain.linear(point, angles);
     post.path.rotary = Some(angles);

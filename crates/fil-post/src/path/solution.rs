@@ -11,12 +11,11 @@ use super::turning::off_its_plane;
 use crate::operation::{MotionKind, Target};
 use crate::post::Post;
 
-/// Has the rotary axes count as standing at the positions chosen for a rapid motion: its own
-/// solution is the nearest to them.
+/// Chooses the positions for a rapid motion: its own solution is the nearest to them.
 #[cold]
 pub(super) fn choose(post: &mut Post, target: Target, kind: MotionKind) {
     let coming = std::mem::take(&mut post.path.coming);
-    if !matches!(kind, MotionKind::Rapid(_)) {
+    if !matches!(kind, MotionKind::Rapid(_)) || post.control.tables.mills() {
         return;
     }
     let (_, axis) = rotary::transformed(post, target);
@@ -37,7 +36,7 @@ pub(super) fn choose(post: &mut Post, target: Target, kind: MotionKind) {
     let all = chain.positions(axis, last).into_iter().map(|to| (met(chain, to, &axes, lean), to));
     let best = all.min_by(|(met, a), (other, b)| met.cmp(other).then(way(a).total_cmp(&way(b))));
     if let Some((_, to)) = best {
-        post.path.rotary = Some(to);
+        post.path.chosen = Some(to);
     }
 }
 

@@ -45,7 +45,8 @@ pub(super) fn position_of(
     if post.control.state.tip_control != Some(true) {
         begin(post)?;
     }
-    let last = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post));
+    let near = post.path.chosen.take().or(post.path.rotary);
+    let last = near.unwrap_or_else(|| rotary::on_tape(post));
     let tables = &post.control.tables;
     let angles = tables.chain().solve(axis, last)?;
     let linear = tables.chain().linear(point, angles);
@@ -113,7 +114,8 @@ fn turn_tables_to_zero(post: &mut Post) -> Result<()> {
         }
         stands[index] = 0.0;
         let number = index + 3;
-        if control.axis_position(number) != Some(0.0) {
+        let axis = control.tables.axis(number);
+        if control.axis_position(number).map(|at| axis.near(at, 0.0)) != Some(0.0) {
             tables = tables.or(AxisSet::of(number));
         }
     }

@@ -7,8 +7,8 @@ use fil_machine::locations as loc;
 use nalgebra::Vector3;
 
 use super::{feed_rules, linearization, reposition, rotary};
-use crate::control::family;
 use crate::control::word_address::motion::Motion;
+use crate::control::{family, full_turn};
 use crate::errors::PostCode;
 use crate::operation::Target;
 use crate::post::Post;
@@ -36,6 +36,10 @@ pub(super) fn feed(
     if post.control.tables.mills() {
         return linearization::feed(post, before, motion.position, target);
     }
+    refuse_indexing(post, before, motion)?;
+    if post.control.tables.within_a_turn {
+        full_turn::check_feed(&post.control, before, &motion.position)?;
+    }
     let chain = post.control.tables.chain();
     let now = [motion.position[3], motion.position[4]];
     if chain.is_limited() {
@@ -46,6 +50,17 @@ pub(super) fn feed(
         }
     }
     go(post, before, motion, target)
+}
+
+/// Refuses a motion at feed in which an axis would turn that can only index.
+fn refuse_indexing(post: &Post, before: [f64; 2], motion: &Motion) -> Result<()> {
+    let indexes = post.control.commons.read(loc::ROTARY_INDEX_ONLY);
+    let (from, to) = (before[0], motion.position[3]);
+    if !indexes || (to - from).abs() < post.control.tables.axis(3).resolution() {
+        return Ok(());
+    }
+    let letter = post.control.tables.axis(3).letter;
+    PostCode::Indexing.err(format!("{letter} would turn from {from:.3} to {to:.3} degrees at feed"))
 }
 
 /// Moves at feed where no limit lies on the way.

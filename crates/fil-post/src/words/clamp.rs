@@ -15,12 +15,14 @@ use crate::post::Post;
 /// # Errors
 /// Neither ON nor OFF, an axis or another item; a machine without the code.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
-    let (at, what) = match items.any_of(&[w::ON, w::OFF]) {
-        Some(w::ON) => (loc::ROTARY_CLAMP_CODE, "CLAMP/ON"),
-        Some(_) => (loc::ROTARY_UNCLAMP_CODE, "CLAMP/OFF"),
+    let (at, what, on) = match items.any_of(&[w::ON, w::OFF]) {
+        Some(w::ON) => (loc::ROTARY_CLAMP_CODE, "CLAMP/ON", true),
+        Some(_) => (loc::ROTARY_UNCLAMP_CODE, "CLAMP/OFF", false),
         None => return Err(items.error("ON or OFF is needed")),
     };
     items.deny_rest()?;
     let code = post.control.code(at, what)?;
-    carry_out(post, Operation::Function(M, code))
+    carry_out(post, Operation::Function(M, code))?;
+    post.control.clamped = Some(on).filter(|_| !post.control.state.may_be_skipped());
+    Ok(())
 }

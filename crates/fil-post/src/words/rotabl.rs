@@ -47,6 +47,14 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<bool> {
         (Some(_), None, []) if post.path.multax == Some(true) => {
             return Err(items.error("INCR under MULTAX/ON: the points turn the table too"));
         }
+        (Some(angle), None, [])
+            if angle.abs() > 180.0 && post.control.tables.axis(index + 3).full_turn() != 0 =>
+        {
+            return Err(items.error(
+                "INCR by more than half a turn, and positions of the table count within one turn: \
+                 it would go the other way round",
+            ));
+        }
         (Some(angle), None, []) => stands(post, index, items)? + angle,
         _ => return Err(items.error("one angle is needed")),
     };

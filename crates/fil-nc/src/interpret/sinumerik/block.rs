@@ -5,7 +5,7 @@ use super::super::left_to_control::Uses;
 use super::functions::{Function, function};
 use super::line::{Value, Word};
 use super::{Part, Sinumerik};
-use crate::dialect::{Auxiliary, FeedMode, ToolCall};
+use crate::dialect::{Auxiliary, FeedMode, ToolCall, WayRound};
 use crate::errors::NcCode;
 use crate::motion::{Event, FOOT, Speed, Spindle, StartMode};
 
@@ -19,6 +19,8 @@ pub(super) struct Said {
     auxiliaries: Vec<Auxiliary>,
     /// By axis.
     pub(super) axes: [Option<Coordinate>; 5],
+    /// The way round that a word of an axis names.
+    pub(super) ways: [Option<WayRound>; 5],
     /// I, J, K.
     pub(super) center: [Option<Coordinate>; 3],
     /// CR.
@@ -74,7 +76,12 @@ impl Sinumerik<'_> {
                 self.state.events.push(Event::Auxiliary { line, code: *code });
             }
         }
+        let (stood, known) = (self.state.at, self.state.known);
         self.act(&said)?;
+        for axis in (3..5).filter(|axis| known[*axis] && said.ways[*axis].is_some()) {
+            let to = self.state.at[axis];
+            self.state.check_way_round(axis, said.ways[axis], stood[axis], to)?;
+        }
         for auxiliary in &said.auxiliaries {
             if let Auxiliary::End(code) = auxiliary {
                 let (line, modes) = (self.state.line, self.state.modes);
@@ -108,7 +115,13 @@ impl Sinumerik<'_> {
         let twice = || Fault::new(NcCode::Twice, format!("two `{}`", word.name)).at(&word.range);
         let Some(value) = &word.value else { return self.statement(word, said) };
         if let Some(axis) = self.axis(&word.name) {
-            let coordinate = self.coordinate(word, value)?;
+            let coordinate = match value {
+                Value::Turned(position, way) if axis > 2 => {
+                    said.ways[axis] = Some(*way);
+                    (*position, Some(true))
+                }
+                value => self.coordinate(word, value)?,
+            };
             return if said.axes[axis].replace(coordinate).is_some() {
                 Err(twice())
             } else {

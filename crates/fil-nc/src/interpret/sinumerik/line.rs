@@ -4,6 +4,7 @@
 use std::ops::Range;
 
 use super::super::Fault;
+use crate::dialect::WayRound;
 use crate::errors::NcCode;
 
 /// What stands behind a name.
@@ -13,6 +14,9 @@ pub(crate) enum Value {
     Number(f64),
     /// `AC(…)`: a position, whatever is in force.
     Absolute(f64),
+    /// `DC(…)`, `ACP(…)`, `ACN(…)`: a position of a rotary axis within a turn, and the way
+    /// to it.
+    Turned(f64, WayRound),
     /// `IC(…)`: an increment, whatever is in force.
     Increment(f64),
     /// A text in quotes.
@@ -269,8 +273,12 @@ fn read_value(text: &str) -> Value {
     {
         return Value::Number(value);
     }
-    if let Some(value) = of("AC(").or(of("DC(")) {
+    if let Some(value) = of("AC(") {
         return Value::Absolute(value);
+    }
+    let ways = [("DC(", WayRound::Shortest), ("ACP(", WayRound::Plus), ("ACN(", WayRound::Minus)];
+    if let Some((value, way)) = ways.iter().find_map(|(name, way)| Some((of(name)?, *way))) {
+        return Value::Turned(value, way);
     }
     if let Some(value) = of("IC(") {
         return Value::Increment(value);
@@ -313,8 +321,12 @@ mod tests {
             Value::Text("A;B".to_string()),
             Value::Parameter(5, -1.0),
             Value::Unread,
+            Value::Turned(350.0, WayRound::Plus),
+            Value::Turned(10.0, WayRound::Minus),
+            Value::Turned(90.0, WayRound::Shortest),
         ];
-        assert_eq!(values("X=-2.5 I=AC(3) Y=IC(-1) T=\"A;B\" Z=-R5 A=R1+1"), expected);
+        let text = "X=-2.5 I=AC(3) Y=IC(-1) T=\"A;B\" Z=-R5 A=R1+1 C=ACP(350) C=ACN(10) C4=DC(90)";
+        assert_eq!(values(text), expected);
     }
 
     #[test]

@@ -89,7 +89,10 @@ impl Sinumerik<'_> {
         for (axis, word) in said.axes.iter().enumerate() {
             let Some((value, absolute)) = *word else { continue };
             if absolute.unwrap_or(self.state.absolute) {
-                to[axis] = self.state.position(axis, value);
+                to[axis] = match said.ways[axis] {
+                    None => self.state.position(axis, value),
+                    Some(way) => self.state.turned(axis, value, way),
+                };
                 known[axis] = true;
             } else {
                 to[axis] += self.state.way(axis, value);

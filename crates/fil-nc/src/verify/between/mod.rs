@@ -26,6 +26,9 @@ use way::Way;
 /// How exact the distance of the tip is, mm.
 const EXACT_TIP: f64 = 1e-5;
 
+/// What rounding of positions adds to angles, degrees.
+const ROUNDED: f64 = 0.01;
+
 /// How exact the angle of the tool is, as the distance of the tips of unit vectors:
 /// 0.001 degrees.
 const EXACT_AXIS: f64 = 1.7e-5;
@@ -105,21 +108,25 @@ impl Peak {
 }
 
 impl Between {
-    /// Takes in a motion from `at` and gives the distance of its tip, which is exact
-    /// when it is more than the largest before and more than `limit`.
+    /// Takes in a motion from `at` and gives the distance of its tip and the angle of the
+    /// tool, which are exact when they are more than the largest before or more than their
+    /// limits.
     fn add(
         &mut self,
         forward: &Forward,
         at: &Position,
         found: &Move,
         asked: &Asked,
-        limit: Option<f64>,
-    ) -> f64 {
-        let enough = limit.map_or(self.position.max, |limit| limit.min(self.position.max));
-        let off = tip_off(forward, at, found, &asked.way, enough);
+        limits: [Option<f64>; 2],
+    ) -> [f64; 2] {
+        let enough = |limit: Option<f64>, max: f64| limit.map_or(max, |limit| limit.min(max));
+        let of_tip = enough(limits[0], self.position.max);
+        let off = tip_off(forward, at, found, &asked.way, of_tip);
         self.position.add(off, found.line);
-        self.axis.add(axis_off(forward, at, found, &asked.ends, self.axis.max), found.line);
-        off
+        let of_tool = enough(limits[1], self.axis.max);
+        let leans = axis_off(forward, at, found, &asked.ends, of_tool);
+        self.axis.add(leans, found.line);
+        [off, leans]
     }
 }
 
@@ -182,7 +189,7 @@ impl Blocks {
         }
         let asked = Asked::line(forward.pose(&last.to), forward.pose(&found.to));
         let between = self.report.between.get_or_insert_default();
-        let off = between.add(forward, &last.to, found, &asked, self.limit);
+        let [off, _] = between.add(forward, &last.to, found, &asked, [self.limit, None]);
         if let Some(limit) = self.limit.filter(|limit| off > *limit) {
             let message = said(off, limit);
             let (kind, nc_line) = (FindingKind::Between, Some(found.line));
@@ -228,16 +235,40 @@ impl<C: Steps> Walk<'_, C> {
             return;
         }
         let asked = asked(self);
+        let leans_most = self.leans_most(&found.to);
         let between = self.report.between.get_or_insert_default();
         let live = self.settings.is_mill_turn();
         let of_tool = live.then(|| self.settings.forward.with_tool_for(asked.ends[1].axis));
         let forward = of_tool.as_ref().unwrap_or(&self.settings.forward);
-        let off = between.add(forward, &self.at, found, &asked, self.watch.limit);
+        let limits = [self.watch.limit, leans_most];
+        let [off, leans] = between.add(forward, &self.at, found, &asked, limits);
         if let Some(limit) = self.watch.limit.filter(|limit| off > *limit) {
             let message = said(off, limit);
             self.find(FindingKind::Between, Some(cl_line), Some(found.line), message);
         }
+        if let Some(most) = leans_most.filter(|most| leans > *most) {
+            let message = leaning(leans, most);
+            self.find(FindingKind::Between, Some(cl_line), Some(found.line), message);
+        }
     }
+
+    /// How far the tool may lean out of the plane of its ends on the way to a position,
+    /// degrees; `None` where it is only said: with one rotary axis that has no other way
+    /// round, and on a mill-turn machine.
+    fn leans_most(&self, to: &Position) -> Option<f64> {
+        let most = self.settings.leans_most().filter(|_| !self.settings.is_mill_turn())?;
+        let turn = |n: usize| (to.rotary[n] - self.at.rotary[n]).abs();
+        let has_two = self.settings.forward.rotaries().iter().all(Option::is_some);
+        let goes_round = (0..2).any(|n| turn(n) > 180.0 + ROUNDED);
+        (has_two || goes_round).then(|| most + ROUNDED + self.axis_slack().to_degrees())
+    }
+}
+
+fn leaning(leans: f64, most: f64) -> String {
+    let (leans, most) = (short(leans), short(most));
+    format!(
+        "the tool leans {leans} degrees out of the plane of its ends on the way, {most} are allowed"
+    )
 }
 
 fn said(off: f64, limit: f64) -> String {

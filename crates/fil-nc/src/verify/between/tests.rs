@@ -113,7 +113,7 @@ fn what_is_not_more_than_enough_is_not_searched_for() {
     for (line, angle) in [(3, 5.0), (4, 10.0), (5, 10.0), (6, 4.0)] {
         let found = Move { line, ..feed(at([0.0, 0.0, 100.0], [angle, 0.0]), None) };
         let asked = Asked::line(forward.pose(&stands), forward.pose(&found.to));
-        between.add(&forward, &stands, &found, &asked, None);
+        between.add(&forward, &stands, &found, &asked, [None; 2]);
     }
     // 100 (1 - cos 5) = 0.3805302, on the first line that has it.
     assert!((between.position.max - 0.380_530_2).abs() < 2.0 * EXACT_TIP, "{between:?}");

@@ -105,6 +105,23 @@ impl<'c> Settings<'c> {
         self.dialect.live_at_start.is_some()
     }
 
+    /// How far the tool may lean out of the plane of its ends between the ends of a motion,
+    /// degrees.
+    pub fn leans_most(&self) -> Option<f64> {
+        self.commons.dbl_opt(loc::ROTARY_AXIS_TOLERANCE).filter(|most| *most > 0.0)
+    }
+
+    /// The codes that clamp and release the rotary axes, where the machine clamps them in
+    /// tilted frames.
+    pub fn frame_clamps(&self) -> Option<[u32; 2]> {
+        let clamps = self.commons.read(loc::ROTARY_FRAME_CLAMP)
+            && (self.commons.read(loc::ROTARY_FRAME_OUTPUT) == loc::RotaryFrameOutput::TiltedFrame
+                || self.commons.read(loc::MOTION_PLANAR));
+        let codes = [loc::ROTARY_CLAMP_CODE, loc::ROTARY_UNCLAMP_CODE]
+            .map(|at| self.commons.read(at).and_then(|code| u32::try_from(code).ok()));
+        Some([codes[0]?, codes[1]?]).filter(|_| clamps)
+    }
+
     /// The main spindle is the axis C when the program begins.
     pub fn begins_milling(&self) -> bool {
         self.dialect.live_at_start == Some(true)

@@ -12,8 +12,8 @@ use fil_machine::{FunctionCode, Letter};
 use super::tool_names;
 use crate::block::{function, named};
 use crate::cause::Cause;
-use crate::control::Control;
 use crate::control::line::Line;
+use crate::control::{Control, full_turn};
 
 /// A word with its cause.
 type CausedWord = (Letter, f64, Cause);
@@ -129,16 +129,21 @@ fn spell(control: &Control, letter: Letter, name: char, digits: &str) -> String 
     let index = match letter {
         S => commons.int_opt(loc::CONTROL_SPINDLE_INDEX),
         _ if XYZ.contains(&letter) => commons.int_opt(loc::CONTROL_AXIS_INDEX),
-        _ if is_rotary(control, letter) => commons.int_opt(loc::CONTROL_ROTARY_INDEX),
+        _ if rotary(control, letter).is_some() => commons.int_opt(loc::CONTROL_ROTARY_INDEX),
         _ => None,
     };
-    match index {
-        Some(index) => format!("{name}{index}={digits}"),
-        None => format!("{name}{digits}"),
+    let rotary = rotary(control, letter).filter(|_| control.tables.within_a_turn);
+    let way = rotary.and_then(|number| full_turn::spelled(control, number, digits));
+    match (index, way) {
+        (Some(index), Some(way)) => format!("{name}{index}={way}"),
+        (None, Some(way)) => format!("{name}={way}"),
+        (Some(index), None) => format!("{name}{index}={digits}"),
+        (None, None) => format!("{name}{digits}"),
     }
 }
 
-fn is_rotary(control: &Control, letter: Letter) -> bool {
-    let present = control.tables.present().numbers();
-    present.into_iter().any(|number| number > 2 && control.tables.axis(number).letter == letter)
+/// The number of the rotary axis of a letter.
+fn rotary(control: &Control, letter: Letter) -> Option<usize> {
+    let mut present = control.tables.present().numbers();
+    present.find(|number| *number > 2 && control.tables.axis(*number).letter == letter)
 }

@@ -10,7 +10,7 @@ use fil_machine::{FunctionCode, Letter};
 
 use super::modes;
 use crate::cause::Cause;
-use crate::control::{Control, Function, sinumerik};
+use crate::control::{Control, Function, full_turn, sinumerik};
 use crate::control_state::{Compensation, Meaning};
 use crate::errors::PostCode;
 use crate::operation::{Feed, Lead};
@@ -176,7 +176,7 @@ pub fn ready_for_hole(control: &mut Control, in_cycle: bool) -> Result<()> {
 pub fn axis_words(control: &mut Control, motion: &Motion) -> Result<bool> {
     let mut scaled = [0; AXES];
     let mut changed = AxisSet::NONE;
-    let present = motion.axes.and(control.tables.present());
+    let mut present = motion.axes.and(control.tables.present());
     let doubts = control.state.has_doubts();
     for number in present.numbers() {
         let axis = control.tables.axis(number);
@@ -191,6 +191,10 @@ pub fn axis_words(control: &mut Control, motion: &Motion) -> Result<bool> {
                 changed = changed.or(AxisSet::of(number));
             }
         }
+    }
+    if control.tables.watches_turns {
+        let still = full_turn::turn(control, motion, present, changed, &mut scaled)?;
+        present = present.without(still);
     }
     if changed.is_empty() {
         return Ok(false);
@@ -228,7 +232,10 @@ pub fn axis_word(control: &mut Control, number: usize, motion: &Motion) -> Resul
     let axis = *control.tables.axis(number);
     axis.check(motion.position[number])?;
     if let Some(position) = axis.tape_position()? {
-        let scaled = axis.scaled(motion.position[number])?;
+        let mut scaled = axis.scaled(motion.position[number])?;
+        if axis.full_turn() != 0 {
+            scaled = full_turn::word(control, number, motion.position[number], scaled)?;
+        }
         control.block.put(position, scaled);
         if control.block.noting {
             note_axis_words(control, AxisSet::of(number), motion.word);

@@ -1,0 +1,40 @@
+//! Rotary axes whose positions count from 0 to 360, and settings that this does not go with.
+
+use fil_diag::Diag;
+
+use crate::axis_chain::{AxisChain, Rotary};
+use crate::commons::{Commons, Dbl};
+use crate::errors::MachineCode;
+use crate::locations::{self as loc, ControlFamily, RotaryOutput};
+use crate::mill_turn;
+
+/// Scales of A, B and C on the tape.
+const SCALES: [Dbl; 3] = [loc::SCALE_A, loc::SCALE_B, loc::SCALE_C];
+
+/// True for an axis whose positions count within one turn: one with travel counts on, as its
+/// limits do.
+pub(crate) fn is_meant(commons: &Commons, rotary: &Rotary) -> bool {
+    let endless = rotary.min.is_none() && rotary.max.is_none();
+    endless && commons.read(loc::ROTARY_OUTPUT) != RotaryOutput::AnyNumberOfTurns
+}
+
+/// Contradictions of a machine that counts within a turn.
+pub(crate) fn check(commons: &Commons, found: &mut Vec<Diag>) {
+    let Ok(chain) = AxisChain::from_commons(commons) else { return };
+    let mut meant = chain.rotaries.iter().flatten().filter(|rotary| is_meant(commons, rotary));
+    let mut add = |message: &str| found.push(Diag::new(MachineCode::Contradiction, message));
+    let Some(first) = meant.next() else { return };
+    if commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext {
+        add("rotary.output counts within a turn, and which way a control with Klartext turns to \
+             such a position hangs on M126 and its parameters");
+    }
+    if mill_turn::mode(commons).is_some() {
+        add("rotary.output counts within a turn, and the axis C of a mill-turn machine counts on");
+    }
+    let scaled = |rotary: &Rotary| {
+        commons.dbl_opt(SCALES[rotary.axis]).is_some_and(|scale| scale.abs() != 1.0)
+    };
+    if scaled(first) || meant.any(scaled) {
+        add("rotary.output counts within a turn, and the axis is scaled on the tape");
+    }
+}

@@ -1,0 +1,217 @@
+//! What comes before words of rotary axes: the release of axes that are clamped in tilted
+//! frames, and where positions count from 0 to 360 the sign of a word, or the way that the
+//! control takes to it.
+//!
+//! A motion of the post turns an axis by half a turn at most, so where the word before is
+//! known, so is the way; at half a turn the angles in degrees say it.
+
+use fil_diag::Result;
+use fil_machine::axes::{AXES, AxisSet, Position};
+use fil_machine::locations::{self as loc, ControlFamily, RotaryOutput, RotaryZeroSign};
+
+use super::Control;
+use super::word_address::motion::Motion;
+use crate::errors::PostCode;
+
+/// The first rotary axis by number.
+const FIRST: usize = 3;
+
+/// Half a turn may be off by this, degrees: no tape has so few digits that it could be more.
+const HALF_TURN: f64 = 0.6;
+
+/// Gives the words of a motion their signs, and says which axes stand still: a word at the
+/// position where an axis stands could be a full turn.
+///
+/// # Errors
+/// The control would turn another way.
+#[cold]
+pub(super) fn turn(
+    control: &mut Control,
+    motion: &Motion,
+    present: AxisSet,
+    changed: AxisSet,
+    scaled: &mut [i64; AXES],
+) -> Result<AxisSet> {
+    if !changed.and(AxisSet::ROTARY).is_empty() {
+        release(control)?;
+    }
+    let mut still = AxisSet::NONE;
+    for number in present.and(AxisSet::ROTARY).numbers() {
+        if control.tables.axis(number).full_turn() == 0 {
+            continue;
+        }
+        let to = motion.position[number];
+        if changed.has(number) {
+            scaled[number] = word(control, number, to, scaled[number])?;
+        } else {
+            control.wound[number - FIRST] = Some(to);
+            still = still.or(AxisSet::of(number));
+        }
+    }
+    Ok(still)
+}
+
+/// Releases the rotary axes before they turn, where the machine clamps them in tilted frames;
+/// the block under construction comes behind it.
+///
+/// # Errors
+/// As [`Control::write_block`].
+pub(crate) fn release(control: &mut Control) -> Result<()> {
+    if !control.tables.clamps || control.clamped == Some(false) {
+        return Ok(());
+    }
+    let motion = control.block.take();
+    clamp(control, false)?;
+    control.block = motion;
+    // In a block that may be left out, so may be what follows; outside of it the axes may
+    // still be held.
+    control.clamped = Some(false).filter(|_| !control.state.may_be_skipped());
+    Ok(())
+}
+
+/// Clamps the rotary axes, or releases them.
+///
+/// # Errors
+/// The machine has no code for it; as [`Control::write_block`].
+pub(crate) fn clamp(control: &mut Control, on: bool) -> Result<()> {
+    let (at, what) = match on {
+        true => (loc::ROTARY_CLAMP_CODE, "clamped rotary axes"),
+        false => (loc::ROTARY_UNCLAMP_CODE, "rotary axes that turn"),
+    };
+    let code = control.code(at, what)?;
+    control.m(code);
+    control.write_block()?;
+    control.clamped = Some(on);
+    Ok(())
+}
+
+/// The word of an axis that goes to a position, degrees, from what it is within a turn.
+///
+/// # Errors
+/// The control would turn another way.
+pub(super) fn word(control: &mut Control, number: usize, to: f64, scaled: i64) -> Result<i64> {
+    let before = control.wound[number - FIRST].replace(to);
+    let form = control.commons.read(loc::ROTARY_OUTPUT);
+    let Some(turn) = turn_on_tape(control, number, before, to, scaled)? else {
+        return Ok(scaled);
+    };
+    let full = control.tables.axis(number).full_turn();
+    match form {
+        RotaryOutput::ShortestWayWithinATurn if 2 * turn.abs() == full => refuse(
+            control,
+            number,
+            "turns by half a turn, and which of the two ways is the shortest is left open",
+        ),
+        RotaryOutput::SignWithinATurn => signed(control, number, scaled, turn < 0),
+        _ => Ok(scaled),
+    }
+}
+
+/// How far an axis turns on the tape; `None` where the control's position is not known.
+fn turn_on_tape(
+    control: &Control,
+    number: usize,
+    before: Option<f64>,
+    to: f64,
+    scaled: i64,
+) -> Result<Option<i64>> {
+    let axis = control.tables.axis(number);
+    let full = axis.full_turn();
+    let Some(last) = control.last_value(axis.letter).and_then(|last| axis.within_a_turn(last))
+    else {
+        return Ok(None);
+    };
+    let ahead = (scaled - last).rem_euclid(full);
+    if 2 * ahead != full {
+        return Ok(Some(if 2 * ahead < full { ahead } else { ahead - full }));
+    }
+    let turn = before.map(|before| (to - before) * axis.scale());
+    match turn.map(|turn| turn - 360.0 * (turn / 360.0).trunc()) {
+        Some(turn) if (turn.abs() - 180.0).abs() < HALF_TURN => {
+            Ok(Some(if turn > 0.0 { ahead } else { ahead - full }))
+        }
+        _ => refuse(control, number, "turns by half a turn, and which way is not known"),
+    }
+}
+
+/// A word whose sign is the way round.
+fn signed(control: &Control, number: usize, scaled: i64, in_minus: bool) -> Result<i64> {
+    if scaled != 0 {
+        return Ok(if in_minus { -scaled } else { scaled });
+    }
+    let full = control.tables.axis(number).full_turn();
+    if control.tables.family == ControlFamily::Sinumerik {
+        return Ok(if in_minus { -full } else { 0 });
+    }
+    match control.commons.read(loc::ROTARY_ZERO_SIGN) {
+        RotaryZeroSign::PlusOrMinus360 => Ok(if in_minus { -full } else { full }),
+        RotaryZeroSign::ZeroInPlus if in_minus => {
+            refuse(control, number, "turns to 0 in minus, and the control reads 0 as in plus")
+        }
+        RotaryZeroSign::ZeroInMinus if !in_minus => {
+            refuse(control, number, "turns to 0 in plus, and the control reads 0 as in minus")
+        }
+        _ => Ok(0),
+    }
+}
+
+fn refuse<T>(control: &Control, number: usize, why: &str) -> Result<T> {
+    let letter = control.tables.axis(number).letter;
+    PostCode::WayRound.err(format!("{letter} {why}"))
+}
+
+/// Refuses a feed motion in which an axis would not turn as it is meant: the other way round
+/// where the control turns in plus only, or from where it is not known to stand.
+///
+/// # Errors
+/// It would.
+#[cold]
+pub(crate) fn check_feed(control: &Control, from: [f64; 2], to: &Position) -> Result<()> {
+    let form = control.commons.read(loc::ROTARY_OUTPUT);
+    if form == RotaryOutput::ShortestWayWithinATurn {
+        return Ok(());
+    }
+    for number in AxisSet::ROTARY.and(control.tables.present()).numbers() {
+        let axis = control.tables.axis(number);
+        let turn = (to[number] - from[number - FIRST]) * axis.scale();
+        if axis.full_turn() == 0 || turn.abs() < axis.resolution() {
+            continue;
+        }
+        if control.last_value(axis.letter).is_none() {
+            return refuse(
+                control,
+                number,
+                "turns at feed from where it is not known to stand, and the control takes one \
+                 way there",
+            );
+        }
+        if form == RotaryOutput::PositiveWithinATurn && turn < 0.0 {
+            return refuse(
+                control,
+                number,
+                "turns in minus at feed, and the control turns it in plus only",
+            );
+        }
+    }
+    Ok(())
+}
+
+/// The way to a position within a turn as a SINUMERIK spells it: `ACP(350)`, `ACN(10)`,
+/// `DC(90)`; `None` for an axis whose positions count on. `digits` is the word's number.
+#[cold]
+pub(super) fn spelled(control: &Control, number: usize, digits: &str) -> Option<String> {
+    let axis = control.tables.axis(number);
+    if axis.full_turn() == 0 {
+        return None;
+    }
+    let (in_minus, size) = match digits.strip_prefix('-') {
+        Some(size) => (true, size),
+        None => (false, digits),
+    };
+    let size = if size.parse() == Ok(360.0) { "0" } else { size };
+    Some(match control.commons.read(loc::ROTARY_OUTPUT) {
+        RotaryOutput::ShortestWayWithinATurn => format!("DC({size})"),
+        RotaryOutput::SignWithinATurn if in_minus => format!("ACN({size})"),
+        _ => format!("ACP({size})"),
+    })
+}
