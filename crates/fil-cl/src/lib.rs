@@ -23,3 +23,8 @@ pub use reader::{Meaning, Options, Reader, SplineCounts};
 pub use record::{Circle, Record, Word, WordView};
 pub use vocabulary::{Vocabulary, WordId};
 pub use writer::Writer;
+
+/// The examples of the README, run with the documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -183,3 +183,8 @@ macro_rules! codes {
         }
     };
 }
+
+/// The examples of the README, run with the documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

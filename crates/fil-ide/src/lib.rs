@@ -31,3 +31,8 @@ pub use signature::Signature;
 pub use symbols::{Outline, OutlineKind};
 pub use text::{Position, Range, Text};
 pub use tokens::{TOKEN_TYPES, Token};
+
+/// The examples of the README, run with the documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

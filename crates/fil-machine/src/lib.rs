@@ -40,3 +40,8 @@ pub use commons::{Commons, Kind};
 pub use function_code::FunctionCode;
 pub use letter::{Letter, letters};
 pub use modes::{FeedMode, Plane, Unit};
+
+/// The examples of the README, run with the documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

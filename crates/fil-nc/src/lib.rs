@@ -20,3 +20,8 @@ pub mod plot;
 pub mod source;
 pub mod text;
 pub mod verify;
+
+/// The examples of the README, run with the documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -28,3 +28,8 @@ pub mod words;
 pub use cause::{Cause, FilLine, Origin, Stack, Stacks};
 pub use noted::{BlockInfo, DueTo, Noted, WordInfo};
 pub use post::Post;
+
+/// The examples of the README, run with the documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -39,3 +39,8 @@ pub use format::format;
 pub use format::format_bytes;
 pub use parse::{Parsed, parse};
 pub use token::is_statement_word;
+
+/// The examples of the README, run with the documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -44,3 +44,8 @@ pub use output::{Edits, OutputMacro};
 pub use postf::{Compat, PostfOp, SectionMode};
 pub use totals::{TotalsOf, TotalsText, TotalsWord};
 pub use value::{EMPTY, Value};
+
+/// The examples of the README, run with the documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -11,6 +11,8 @@ use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use filpost::cl::ClDialect;
 use filpost::{Code, Moment, Unit};
 
+use crate::version;
+
 pub use machine::{MachineArgs, MachineCommand};
 pub use plot::{PlotArgs, Seen};
 pub use test::{Shard, TestArgs};
@@ -18,7 +20,7 @@ pub use trace::{AnswerFormat, TraceArgs};
 
 /// Posts CL files with FIL macros into NC programs.
 #[derive(Debug, Parser)]
-#[command(name = "filpost", version, max_term_width = 100)]
+#[command(name = "filpost", version, max_term_width = 100, long_version = version::LONG.as_str())]
 pub struct Args {
     /// What to do.
     #[command(subcommand)]

@@ -54,7 +54,7 @@ fn one(word: &str) -> Option<String> {
     parts.extend(Location::named(&word.to_ascii_lowercase()).map(location));
     parts.extend(statement(word));
     parts.extend(function(word));
-    parts.extend(ready::find(word).map(|post| post.readme.to_string()));
+    parts.extend(ready::find(word).map(|post| post.readme().to_string()));
     if parts.is_empty() {
         parts.extend(vocabulary_word(word));
     }

@@ -30,6 +30,7 @@ mod summary;
 mod test;
 mod trace;
 mod verify;
+mod version;
 mod watch;
 
 use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind};
@@ -93,7 +94,8 @@ fn run(command: &Command) -> Result<Status, Error> {
         Command::New(args) => new::run(args),
         Command::Man => {
             let mut page = Vec::new();
-            let written = clap_mangen::Man::new(Args::command()).render(&mut page);
+            let written =
+                clap_mangen::Man::new(Args::command().long_version(None)).render(&mut page);
             written.map_err(|error| output::stdout_error(&error))?;
             output::print(&page)?;
             Ok(Status::Done)

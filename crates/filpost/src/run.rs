@@ -258,7 +258,7 @@ impl<'o> Run<'o> {
         let reader = Reader::seekable(&mut cl, &self.name(), self.reading);
         let cant_write = |error| files::cant_write(Path::new("the line map"), &error);
         let module = &self.program.shared.module;
-        let map = map::Writer::new(output, names, module).map_err(cant_write)?;
+        let map = map::Writer::new(output, names, module);
         let (result, map) = self.post(reader, first, Some(map), &mut nc);
         let result = result?;
         let digest = cl.finish().map_err(cant)?;
@@ -326,7 +326,7 @@ impl<'o> Run<'o> {
 
     /// Posts what a reader gives. The methods above are compiled for each kind of input
     /// and output, so they do no more than hand both over.
-    fn post(
+    pub(crate) fn post(
         self,
         reader: Reader<'_>,
         first: Option<FirstPass>,

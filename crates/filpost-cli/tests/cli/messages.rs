@@ -27,7 +27,13 @@ fn wrong_usage_has_its_own_status() {
         assert_eq!(place.run(arguments).status, 2, "{arguments:?}");
     }
     let version = place.run(&["--version"]);
-    assert_eq!((version.status, version.out.starts_with("filpost ")), (0, true));
+    let facts: Vec<&str> = version.out.lines().collect();
+    let [name, commit, target, build] = facts[..] else { panic!("{}", version.out) };
+    assert_eq!(name, concat!("filpost ", env!("CARGO_PKG_VERSION")));
+    assert!(commit.starts_with("commit: "), "{commit}");
+    assert!(target.starts_with(&format!("target: {}", std::env::consts::ARCH)), "{target}");
+    assert!(build.starts_with("build: "), "{build}");
+    assert_eq!(place.run(&["-V"]).out.trim_end(), name);
     let completions = place.run(&["completions", "bash"]);
     assert!(completions.status == 0 && completions.out.contains("--deny-warnings"));
 }

@@ -1,5 +1,6 @@
 //! Writing a map while a run goes. A thread of its own makes the lines, so that
-//! the run hardly waits for them.
+//! the run hardly waits for them; where the system has no threads, as in WebAssembly, the run
+//! makes them itself.
 
 use std::io::{self, Write};
 use std::panic;
@@ -25,16 +26,26 @@ const TAKEN: usize = 4096;
 /// Writes the map of one run.
 pub(crate) struct Writer<'w> {
     output: Output<'w>,
-    /// What the thread does not have yet.
+    /// What has no lines yet.
     batch: Batch,
     /// Stacks of the run that are in a batch.
     stacks: usize,
-    /// Where batches go.
-    to: SyncSender<Batch>,
-    /// Where they come back from, with their lines.
-    from: Receiver<Batch>,
-    /// Ends with what it knows of the program and the map.
-    thread: JoinHandle<Lines>,
+    maker: Maker,
+}
+
+/// Who makes the lines.
+enum Maker {
+    /// A thread.
+    Thread {
+        /// Where batches go.
+        to: SyncSender<Batch>,
+        /// Where they come back from, with their lines.
+        from: Receiver<Batch>,
+        /// Ends with what it knows of the program and the map.
+        thread: JoinHandle<Lines>,
+    },
+    /// The run itself.
+    Run(Box<Lines>),
 }
 
 struct Output<'w> {
@@ -45,24 +56,23 @@ struct Output<'w> {
 
 impl<'w> Writer<'w> {
     /// Starts a map.
-    ///
-    /// # Errors
-    /// The system gives no thread.
-    pub fn new(
+    pub fn new(output: &'w mut (dyn Write + Send), names: &Names, module: &Module) -> Self {
+        Self::with_maker(output, names, module, |first| {
+            Maker::thread(first).unwrap_or_else(|_| Maker::run(first))
+        })
+    }
+
+    fn with_maker(
         output: &'w mut (dyn Write + Send),
         names: &Names,
         module: &Module,
-    ) -> io::Result<Self> {
-        let (to, given) = mpsc::sync_channel(WAITING);
-        let (back, from) = mpsc::channel();
-        let named = thread::Builder::new().name("line map".into());
+        maker: impl FnOnce(&[u8]) -> Maker,
+    ) -> Self {
         let mut first = Vec::new();
         object(&header(names, module), &mut first);
         let mut output = Output { output, failure: None };
         output.write(&first);
-        let lines = Lines::after(&first);
-        let thread = named.spawn(move || make_lines(lines, &given, &back))?;
-        Ok(Writer { output, batch: Batch::default(), stacks: 0, to, from, thread })
+        Writer { output, batch: Batch::default(), stacks: 0, maker: maker(&first) }
     }
 
     /// Takes the finished blocks off a tape.
@@ -91,27 +101,58 @@ impl<'w> Writer<'w> {
     /// The first error of the output.
     pub fn finish(mut self, cl: Digest) -> io::Result<()> {
         self.give();
-        drop(self.to);
-        self.from.iter().for_each(|done| self.output.write(&done.lines));
-        let ended = self.thread.join();
-        let lines = ended.unwrap_or_else(|panicked| panic::resume_unwind(panicked));
+        let lines = match self.maker {
+            Maker::Run(lines) => *lines,
+            Maker::Thread { to, from, thread } => {
+                drop(to);
+                from.iter().for_each(|done| self.output.write(&done.lines));
+                thread.join().unwrap_or_else(|panicked| panic::resume_unwind(panicked))
+            }
+        };
         let mut last = Vec::new();
         object(&lines.end(cl), &mut last);
         self.output.write(&last);
         self.output.failure.map_or_else(|| self.output.output.flush(), Err)
     }
 
-    /// Gives the batch to the thread, and writes what came back from it.
+    /// Gives the batch to who makes its lines, and writes those that are made.
     fn give(&mut self) {
-        let mut empty = Batch::default();
-        for done in self.from.try_iter() {
-            self.output.write(&done.lines);
-            empty = done;
+        match &mut self.maker {
+            Maker::Run(lines) => {
+                lines.write(&mut self.batch);
+                self.output.write(&self.batch.lines);
+                self.batch.clear();
+            }
+            Maker::Thread { to, from, .. } => {
+                let mut empty = Batch::default();
+                for done in from.try_iter() {
+                    self.output.write(&done.lines);
+                    empty = done;
+                }
+                empty.clear();
+                let full = std::mem::replace(&mut self.batch, empty);
+                // Only a thread that has panicked takes nothing; the end will tell.
+                let _ = to.send(full);
+            }
         }
-        empty.clear();
-        let full = std::mem::replace(&mut self.batch, empty);
-        // Only a thread that has panicked takes nothing; the end will tell.
-        let _ = self.to.send(full);
+    }
+}
+
+impl Maker {
+    /// A thread, for the lines behind the first one.
+    fn thread(first: &[u8]) -> io::Result<Maker> {
+        let (to, given) = mpsc::sync_channel(WAITING);
+        let (back, from) = mpsc::channel();
+        let lines = Lines::after(first);
+        let thread = thread::Builder::new()
+            .name("line map".into())
+            .spawn(move || make_lines(lines, &given, &back))?;
+        Ok(Maker::Thread { to, from, thread })
+    }
+
+    /// The run, for the lines behind the first one.
+    fn run(first: &[u8]) -> Maker {
+        Maker::Run(Box::new(Lines::after(first)))
     }
 }
 
@@ -145,5 +186,40 @@ fn header(names: &Names, module: &Module) -> Header {
         nc: names.nc.clone(),
         fil: fil.collect(),
         sections: module.section_keys().map(str::to_string).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use fil_cl::{Options, Reader};
+
+    use super::*;
+    use crate::Program;
+    use crate::map::Digested;
+
+    /// The map of a run, and who made its lines.
+    fn map(maker: impl FnOnce(&[u8]) -> Maker) -> String {
+        let fil = "CIMFIL/ON,COOLNT\nIF(POSTF(7,4).EQ.72) THEN\nENDIF\nCIMFIL/OFF\nFINI\n";
+        let program = Program::builder().ready("fanuc-mill").fil("cool.fil", fil).build().unwrap();
+        let moves: String = (0..20_000).map(|n| format!("GOTO / {}, 2, 3\n", n % 5000)).collect();
+        let text = format!("UNITS / MM\nLOADTL / 1\nFEDRAT / 9, MMPM\n{moves}COOLNT / ON\nFINI\n");
+        let mut cl = Digested::new(Cursor::new(text)).unwrap();
+        let reader = Reader::seekable(&mut cl, "part.ncl", Options::default());
+        let names = Names { cl: "part.ncl".into(), nc: "part.nc".into(), fil: Vec::new() };
+        let mut made = Vec::new();
+        let writer = Writer::with_maker(&mut made, &names, &program.shared.module, maker);
+        let (done, map) = program.start().post(reader, None, Some(writer), &mut Vec::new());
+        done.unwrap();
+        map.unwrap().finish(cl.finish().unwrap()).unwrap();
+        String::from_utf8(made).unwrap()
+    }
+
+    #[test]
+    fn a_run_without_a_thread_writes_the_same_map() {
+        let by_thread = map(|first| Maker::thread(first).unwrap());
+        assert!(by_thread.lines().count() > 20_000);
+        assert!(map(Maker::run) == by_thread, "the maps differ");
     }
 }
