@@ -51,9 +51,9 @@ const ROUNDED: [&str; 14] = [
 ];
 
 /// Programs with axis words without which the machine does the same: where an axis stands
-/// already, where polar interpolation goes straight instead, over a hole on the axis of the
-/// spindle.
-const IDLE: [&str; 2] = ["heidenhain-tnc640/holes", "corpus/lathe/fanuc-mill-turn/"];
+/// already, where polar interpolation goes straight instead, over a point on the axis of C.
+const IDLE: [&str; 3] =
+    ["heidenhain-tnc640/holes", "corpus/lathe/fanuc-mill-turn/", "words/setting-motion-planar"];
 
 fn events(case: &NcCase, nc: &str) -> Result<Both, Box<Diag>> {
     back_check::both(case.post.commons(), nc)

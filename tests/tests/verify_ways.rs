@@ -29,6 +29,10 @@ fn a_fault_on_a_way_that_no_record_names_is_found() {
         ),
         // A change is a program of the builder, which may leave X and Y elsewhere.
         ("corpus/klartext/tools", "\n16 L X+30 Y+0 FMAX", "", "it should be a rapid"),
+        // What ends or stops the program before its end.
+        ("corpus/klartext/tools", "\n7 L", "\n7 M30\n7 L", "the program has ended before this"),
+        ("corpus/klartext/tools", "\n7 L", "\n7 STOP\n7 L", "M0: neither the CL file nor"),
+        ("corpus/klartext/tools", "\n7 L", "\n7 M91\n7 L", "nothing takes it"),
         ("corpus/sinumerik/tools", "\nN170 G0 X30 Y0", "\nN170 G0", "it should be a rapid"),
         (
             "words/rotary-tilted-frame-after-a-way-up",

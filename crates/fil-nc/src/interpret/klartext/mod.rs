@@ -152,7 +152,11 @@ impl Klartext<'_> {
         }
         match &words[..] {
             ["BLK", "FORM", ..] | ["TOOL", "DEF", ..] => Ok(()),
-            ["STOP", ..] => self.functions(&line.words[1..]),
+            ["STOP", ..] => {
+                let line_number = self.state.line;
+                self.state.events.push(Event::Auxiliary { line: line_number, code: 0 });
+                self.functions(&line.words[1..])
+            }
             ["TOOL", "CALL", ..] => self.tool_call(&line.words[2..]),
             ["CYCL" | "CYCLE", "DEF", ..] => self.define(&line.words[2..]),
             ["CYCL" | "CYCLE", "CALL", ..] => {
@@ -206,12 +210,24 @@ impl Klartext<'_> {
 
     /// The M functions of a line that has nothing else.
     fn functions(&mut self, words: &[Word]) -> Result<(), Fault> {
-        let mut calls = false;
+        let (mut calls, mut ends) = (false, false);
         for word in words {
             let Some(code) = word.function()? else { return Err(word.no_meaning()) };
-            calls |= self.function(code, word)? == After::CallsCycle;
+            match self.function(code, word)? {
+                After::Nothing => {}
+                // No position of the line counts in the frame of the machine.
+                After::InMachineFrame => return Err(word.no_meaning()),
+                After::CallsCycle => calls = true,
+                After::Ends => ends = true,
+            }
         }
-        if calls { self.call_cycle() } else { Ok(()) }
+        if calls {
+            self.call_cycle()?;
+        }
+        if ends {
+            self.end();
+        }
+        Ok(())
     }
 
     /// An M function; says what it asks for when the line is done.
