@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::collections::HashMap;
+use std::sync::LazyLock;
 
 use fil_diag::suggest::{did_you_mean, nearest};
 
@@ -68,6 +69,12 @@ impl Default for Vocabulary {
 impl Vocabulary {
     /// The words of [`words`], with the ids given there, and the published table.
     pub fn new() -> Self {
+        // A program is built for each of many cases, and the table is always the same.
+        static FIRST: LazyLock<Vocabulary> = LazyLock::new(Vocabulary::of_tables);
+        FIRST.clone()
+    }
+
+    fn of_tables() -> Self {
         let mut vocabulary = Vocabulary {
             entries: Vec::with_capacity(FIRST_SLOTS / 2),
             slots: vec![FREE; FIRST_SLOTS],
