@@ -59,6 +59,32 @@ fn a_fault_on_a_way_that_no_record_names_is_found() {
             "T0505 S77",
             "the spindle has 77 turns/min, none is asked for",
         ),
+        // A zero that nobody has asked to move, and tolerances that nobody has asked for.
+        ("corpus/sinumerik/tools", "\nN170 G0", "\nN165 TRANS X10\nN170 G0", "has moved the zero"),
+        ("corpus/sinumerik/tools", "\nN60 Z50", "\nN55 ATRANS Z-10\nN60 Z50", "has moved the zero"),
+        (
+            "corpus/sinumerik/texts",
+            "\nN130",
+            "\nN125 ATRANS Y10\nN130 G0 Y0\nN131",
+            "has moved the zero",
+        ),
+        ("corpus/sinumerik/tools", "\nN170 G0", "\nN165 AROT RPL=30\nN170 G0", "is not followed"),
+        ("corpus/sinumerik/tools", "\nN170 G0", "\nN165 SCALE X2\nN170 G0", "is not followed"),
+        ("corpus/sinumerik/tools", "\nN170 G0", "\nN165 MIRROR X0\nN170 G0", "is not followed"),
+        (
+            "corpus/klartext/tools",
+            "\n16 L",
+            "\n15 CYCL DEF 7.0 DATUM SHIFT\n15 CYCL DEF 7.1 X+10\n16 L",
+            "has moved the zero",
+        ),
+        (
+            "corpus/klartext/tools",
+            "\n16 L",
+            "\n15 CYCL DEF 7.1\n16 L",
+            "a datum shift needs an axis",
+        ),
+        ("corpus/klartext/tools", "\n16 L", "\n15 CYCL DEF 32.0\n16 L", "no record asks for"),
+        ("corpus/klartext/tools", "\n16 L", "\n15 CYCL DEF 10.1 ROT+35\n16 L", "is not followed"),
         ("corpus/sinumerik/orient", "N120 M5", "N120 M5 S77", "the spindle has 77 turns/min"),
         (
             "words/rotary-limit-retracts-and-returns",

@@ -198,6 +198,11 @@ pub struct Modes {
     /// function its tenths and the number (541003 for `G54.1 P3`), for one of a word
     /// 1000000 and the number.
     pub fixture: Option<u32>,
+    /// Line of the statement that has moved the zero away from that of the work offset, without
+    /// where the axes stand being followed; `None` where it lies there.
+    pub moved_zero: Option<u32>,
+    /// Line of the last statement of a cycle that changes how motions are driven (tolerances).
+    pub path_cycle: Option<u32>,
     /// Lengths of the program are inches.
     pub inch: bool,
     /// A drilling cycle is on; said where a tool is changed and at the end.

@@ -40,6 +40,7 @@ mod tip_end;
 mod tools;
 mod turning;
 mod turning_settings;
+mod unasked;
 mod walk;
 mod wanted;
 mod window;

@@ -64,6 +64,8 @@ pub(super) struct Walk<'a, C> {
     line: u32,
     pub(super) modes: Expected,
     pub(super) watch: Watch,
+    /// Lines of statements that no record asks for, of which that was said.
+    pub(super) unasked: [Option<u32>; 2],
     /// Level the control's cycle began from.
     pub(super) initial: Option<f64>,
     /// Turns directions of the hole, in which its moves are said, into those of the axes.
@@ -112,6 +114,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             line: 0,
             modes: Expected::new(settings),
             watch,
+            unasked: [None; 2],
             initial: None,
             from_hole: None,
             is_up: false,
@@ -382,6 +385,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         for (kind, message) in self.modes.check(&found.modes, moved, cuts, &self.slack) {
             self.find(kind, Some(cl_line), Some(found.line), message);
         }
+        self.check_unasked(cl_line, found.line, &found.modes);
         self.check_limits(cl_line, found);
         self.leaves_or_comes(found);
         (self.is_up, self.rapid_end) = (false, None);
@@ -399,6 +403,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         modes: &Modes,
         changes: bool,
     ) {
+        self.check_unasked(cl_line, nc_line, modes);
         for (kind, message) in self.modes.check_standing(modes, changes, &self.slack) {
             self.find(kind, Some(cl_line), Some(nc_line), message);
         }

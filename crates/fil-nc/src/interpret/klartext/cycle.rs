@@ -106,7 +106,11 @@ impl Klartext<'_> {
                 Ok(())
             }
             (1, _) => self.old_pecking(rest),
-            (7, "0") | (9, "0") | (32, _) => Ok(()),
+            (7, "0") | (9, "0") => Ok(()),
+            (32, _) => {
+                self.state.modes.path_cycle = Some(self.state.line);
+                Ok(())
+            }
             (7, _) => self.datum_shift(rest),
             (9, _) => self.dwell(rest),
             _ => {
@@ -168,6 +172,9 @@ impl Klartext<'_> {
 
     /// Another datum: where the axes stand in it is not known.
     fn datum_shift(&mut self, words: &[Word]) -> Result<(), Fault> {
+        if words.is_empty() {
+            return Err(Fault::new(NcCode::MissingWord, "a datum shift needs an axis"));
+        }
         for word in words {
             let axis = ["X", "Y", "Z"].iter().position(|name| word.value(name).is_some());
             let Some(axis) = axis else { return Err(word.no_meaning()) };
@@ -178,6 +185,7 @@ impl Klartext<'_> {
                 self.state.known[axis] = false;
             }
         }
+        self.state.modes.moved_zero = Some(self.state.line).filter(|_| self.shift != [0.0; 3]);
         Ok(())
     }
 
