@@ -56,6 +56,8 @@ pub(super) struct Walk<'a, C> {
     /// Where the program stands.
     pub(super) at: Position,
     pub(super) known: [bool; 5],
+    /// The height of the program has been known before.
+    pub(super) has_had_height: bool,
     /// The tool of the last motion.
     pub(super) moved_tool: u32,
     /// Exact rotary positions that the tape shows rounded.
@@ -109,6 +111,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             x_scale: settings.x_scale(),
             at: Position::default(),
             known: [false; 5],
+            has_had_height: false,
             moved_tool: 0,
             exact: [0.0; 2],
             line: 0,
@@ -393,6 +396,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         self.at = found.to;
         self.moved_tool = found.modes.tool;
         self.known = found.known;
+        self.has_had_height |= found.known[2];
     }
 
     /// What must be in force while the axes stand.

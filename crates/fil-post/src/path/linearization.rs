@@ -87,15 +87,19 @@ pub(super) fn feed(post: &mut Post, before: [f64; 2], to: Position, target: Targ
     let tapes = parts.iter().map(|part| turning.on_tape(part)).collect::<Result<Vec<_>>>()?;
     let mut at = turning.on_tape(&from)?;
     let mut feeds = Vec::with_capacity(parts.len());
-    let (mut worst, mut rounded): (f64, f64) = (0.0, 0.0);
+    let enough = allowed.map_or_else(|| usual(post), Ok)?;
+    let mut worst: f64 = 0.0;
+    let mut point = tip(turning.chain, &at);
     for tape in &tapes {
-        worst = worst.max(turning.off(&at, tape, 0.0));
-        rounded = rounded.max(turning.end_off(tape));
-        let way = (tip(turning.chain, tape) - tip(turning.chain, &at)).norm();
-        feeds.push(feed.between(&at, tape, way)?);
-        at = *tape;
+        worst = worst.max(turning.off(&at, tape, enough));
+        let next = tip(turning.chain, tape);
+        feeds.push(feed.between(&at, tape, (next - point).norm())?);
+        (at, point) = (*tape, next);
     }
-    warn_of_deviation(post, allowed, worst, rounded)?;
+    if worst > enough {
+        let ends = tapes.iter().map(|tape| turning.end_off(tape)).fold(0.0, f64::max);
+        warn_of_deviation(post, allowed, ends);
+    }
     if feeds.iter().any(|feed| feed.slowed) {
         feed.warn_slowed(post);
     }
@@ -273,25 +277,25 @@ impl<'a> Turning<'a> {
 }
 
 /// Says that the tip leaves its line by more than it may, or by more than the machine
-/// would let it.
-fn warn_of_deviation(post: &mut Post, allowed: Option<f64>, worst: f64, ends: f64) -> Result<()> {
-    match allowed {
-        Some(allowed) if worst > allowed => {
-            let message = format!(
+/// would let it. `ends`: what rounding of the axis words alone brings.
+#[cold]
+fn warn_of_deviation(post: &mut Post, allowed: Option<f64>, ends: f64) {
+    let (code, message) = match allowed {
+        Some(allowed) => (
+            PostCode::CoarseDigits,
+            format!(
                 "rounding of the axis words alone brings the tip up to {ends:.4} off its line, \
                  {allowed:.4} is allowed"
-            );
-            post.warn(PostCode::CoarseDigits, message);
-        }
-        None if worst > usual(post)? => {
-            let message = "motions that turn the machine are not divided, and in one of them the \
-                           tip leaves its line"
-                .to_string();
-            post.warn(PostCode::Undivided, message);
-        }
-        _ => {}
-    }
-    Ok(())
+            ),
+        ),
+        None => (
+            PostCode::Undivided,
+            "motions that turn the machine are not divided, and in one of them the tip leaves \
+             its line"
+                .to_string(),
+        ),
+    };
+    post.warn(code, message);
 }
 
 /// A deviation that is worth a word where nothing limits it, in the unit of the program.
