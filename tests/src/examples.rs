@@ -92,7 +92,9 @@ pub fn run(block: &Block<'_>) -> Option<Vec<Diag>> {
         let moment = Moment::parse("2026-01-31T12:00:00").expect("a moment");
         builder = builder.clock(Clock::Fixed(moment));
     }
-    let mut cl = PART;
+    let on_the_axis = PART.replace("GOTO / 10, 0, 0", "GOTO / 0, 0, 0");
+    // A lathe drills where its part turns.
+    let mut cl = if marks.contains(&"lathe") { &on_the_axis } else { PART };
     match *language {
         "fil" => builder = builder.fil("macros.fil", &block.text),
         "cl" => cl = &block.text,

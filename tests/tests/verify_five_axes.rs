@@ -59,6 +59,8 @@ fn post(rotaries: &[Rotary; 2], pivot: Option<f64>, split: bool) -> Program {
     };
     // Programs made by hand end tool-tip control where the tool stands.
     set("rotary.tip_end_retract", 0.0);
+    // The lines are divided by hand, so the tool may lean out of the plane of its ends.
+    set("rotary.axis_tolerance", 0.0);
     let names = ["primary", "secondary"];
     for ((rotary, name), letter) in rotaries.iter().zip(names).zip([3.0, 2.0]) {
         set(&format!("rotary.{name}_kind"), rotary.kind.into());

@@ -125,6 +125,9 @@ impl Statements {
                 take(&units, vocabulary)?;
             }
             self.has_fini |= record.kind == kind::FINI;
+            if let Some(name) = tool_name(&record) {
+                take(&name, vocabulary)?;
+            }
             // A word without effect in its dialect would be one with an effect, or an unknown
             // one, in a text of Creo.
             if record.inert && !is_comment(&record) {
@@ -155,6 +158,22 @@ impl Statements {
         let data = vec![Word::Minor(unit)];
         Some(Record { data, line: record.line, ..Record::command(words::UNITS) })
     }
+}
+
+/// What Creo's text has for the name of the tool in TOOL PATH of NX, which a control may call
+/// it by.
+fn tool_name(record: &Record) -> Option<Record> {
+    if record.major != words::TOOL_PATH {
+        return None;
+    }
+    let name = record.text.splitn(3, ',').nth(2)?.trim();
+    let fits = !name.is_empty() && !name.contains(',');
+    fits.then(|| {
+        let mut said = Record { line: record.line, ..Record::command(words::TPRINT) };
+        let text = said.store_text(name);
+        said.data.push(text);
+        said
+    })
 }
 
 fn fini() -> Record {

@@ -42,6 +42,7 @@ fn words_without_effect_become_notes() {
     assert_eq!(
         statements(nx),
         [
+            "TPRINT / MILL 5",
             "$$ TOOL PATH / A,TOOL,MILL 5",
             "$$-> TLDATA / MILL, 5.0, 0.0, 50.0, 0.0, 0.0",
             "CUTTER / 5.0",

@@ -22,6 +22,19 @@ pub const CYCLE_CODES: [CodeAt; 4] = [
     loc::MILL_TURN_SIDE_TAP_CODE,
 ];
 
+/// Refuses a machine that would begin a program while its spindle is an axis: the code that
+/// makes it one would be missing.
+///
+/// # Errors
+/// E0607.
+pub fn check_start(commons: &Commons) -> Result<()> {
+    if commons.read(loc::MILL_TURN_MODE) == MillTurnMode::Turning {
+        return Ok(());
+    }
+    let diag = MachineCode::Contradiction.diag("mill_turn.mode: programs begin with turning (0)");
+    Err(Box::new(diag.hint("MODE/MILL in the CL file makes the spindle an axis.")))
+}
+
 /// What a mill-turn machine does; `None` for a machine without a code that makes its
 /// spindle an axis.
 pub fn mode(commons: &Commons) -> Option<MillTurnMode> {

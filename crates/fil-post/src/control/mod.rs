@@ -30,14 +30,13 @@ use fil_diag::{Diag, Result};
 use fil_machine::address::no_address;
 use fil_machine::commons::EMPTY;
 use fil_machine::contradictions;
-use fil_machine::errors::MachineCode;
 use fil_machine::letters::{G, M};
-use fil_machine::locations::{self as loc, ControlFamily, MillTurnMode};
+use fil_machine::locations::ControlFamily;
 use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::rounding::Rounding;
 use fil_machine::setting::{CodeAt, LetterAt};
 use fil_machine::tables::MachineTables;
-use fil_machine::{Commons, FunctionCode, Letter};
+use fil_machine::{Commons, FunctionCode, Letter, mill_turn};
 
 use crate::block::Block;
 use crate::cause::Cause;
@@ -135,7 +134,7 @@ impl Control {
     /// Settings that make no machine.
     pub fn new(commons: Commons) -> Result<Self> {
         contradictions::check(&commons)?;
-        refuse_milling_start(&commons)?;
+        mill_turn::check_start(&commons)?;
         let mut tables = MachineTables::default();
         tables.refresh(&commons, true)?;
         let unit = Unit::of_machine(&commons);
@@ -569,14 +568,4 @@ impl Control {
     pub fn take_warnings(&mut self) -> Vec<Diag> {
         std::mem::take(&mut self.warnings.list)
     }
-}
-
-/// Refuses a machine that would begin a program while its spindle is an axis: the code that
-/// makes it one would be missing.
-fn refuse_milling_start(commons: &Commons) -> Result<()> {
-    if commons.read(loc::MILL_TURN_MODE) == MillTurnMode::Turning {
-        return Ok(());
-    }
-    let diag = MachineCode::SettingValue.diag("mill_turn.mode: programs begin with turning (0)");
-    Err(Box::new(diag.hint("MODE/MILL in the CL file makes the spindle an axis.")))
 }
