@@ -23,6 +23,7 @@ pub mod rapid;
 mod reposition;
 pub mod rotary;
 pub(crate) mod sense;
+mod skip;
 mod solution;
 pub mod thread;
 mod tip;
@@ -107,6 +108,8 @@ pub struct Path {
     pub(crate) course: sense::Course,
     /// Whoever chose the dialect has said which way arcs turn.
     pub(crate) sense_is_chosen: bool,
+    /// What was said in blocks that can be skipped.
+    skipped: skip::Said,
 }
 
 impl Default for Path {
@@ -140,6 +143,7 @@ impl Default for Path {
             coming: Vec::new(),
             course: sense::Course::default(),
             sense_is_chosen: false,
+            skipped: skip::Said::default(),
         }
     }
 }
@@ -193,7 +197,9 @@ fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
     if post.control.tables.mills() {
         mill_turn::before(post, &operation)?;
     }
+    skip::note(post, &operation);
     match operation {
+        Operation::Skip(on) => skip::switch(post, on),
         Operation::MachinePosition(to) => machine_position::carry_out(post, to),
         Operation::Turn(index, to) => index::turn(post, index, to),
         Operation::Hole(target) => hole::carry_out(post, target),

@@ -45,13 +45,13 @@ pub fn write(control: &mut Control, operation: Operation) -> Result<()> {
         Operation::Message(text) => text::message(control, &text),
         Operation::Stop(stop) => stop::stop(control, stop),
         Operation::End(end) => stop::end(control, end),
-        Operation::Skip(on) => control.skip_blocks(on),
-        Operation::Linear(..)
+        Operation::Skip(_)
+        | Operation::Linear(..)
         | Operation::MachinePosition(_)
         | Operation::Turn(..)
         | Operation::Arc(..)
         | Operation::Hole(_)
         | Operation::Thread(_)
-        | Operation::ToolChange(_) => unreachable!("the passes take operations that move"),
+        | Operation::ToolChange(_) => unreachable!("the passes take what moves, and OPSKIP"),
     }
 }
