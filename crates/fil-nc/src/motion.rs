@@ -3,6 +3,10 @@
 
 use nalgebra::{Point3, UnitQuaternion};
 
+/// The normal of the plane that a mill's holes are drilled across: the length of the tool acts
+/// along it.
+pub(crate) const DRILLED: usize = 2;
+
 /// Millimetres of an inch.
 pub(crate) const INCH: f64 = 25.4;
 
@@ -203,6 +207,9 @@ pub struct Modes {
     pub moved_zero: Option<u32>,
     /// Line of the last statement of a cycle that changes how motions are driven (tolerances).
     pub path_cycle: Option<u32>,
+    /// A plane other than XY that the program of a mill has said, by the index of its normal,
+    /// and the line of that; of motions alone.
+    pub plane: Option<(usize, u32)>,
     /// Lengths of the program are inches.
     pub inch: bool,
     /// A drilling cycle is on; said where a tool is changed and at the end.

@@ -6,7 +6,7 @@ use super::thread::{Pass, Setup};
 use super::words::{AxisWord, Words};
 use crate::dialect::{Certain, Dialect, FeedMode, Function};
 use crate::errors::NcCode;
-use crate::motion::{Arc, Course, Event, Modes, Move, Position, Rate, Tilt, unit};
+use crate::motion::{Arc, Course, DRILLED, Event, Modes, Move, Position, Rate, Tilt, unit};
 
 /// X, Y, Z in mm, primary and secondary rotary axis in degrees.
 pub(super) type Axes = [f64; 5];
@@ -23,6 +23,9 @@ pub(super) struct State<'d> {
     /// Motion function in force.
     pub(super) motion: Option<Function>,
     pub(super) plane: usize,
+    /// The plane that was said last, by the index of its normal, and the line of that.
+    pub(super) said_plane: usize,
+    pub(super) plane_line: u32,
     pub(super) metric: bool,
     pub(super) absolute: bool,
     pub(super) feed_mode: FeedMode,
@@ -75,6 +78,8 @@ impl<'d> State<'d> {
             zero: [0.0; 3],
             motion: None,
             plane: dialect.plane,
+            said_plane: DRILLED,
+            plane_line: 0,
             metric: dialect.metric,
             absolute: dialect.absolute,
             feed_mode: dialect.feed_mode,
@@ -178,6 +183,9 @@ impl<'d> State<'d> {
         (self.at, self.known) = (to, known);
         self.arc_radius = None;
         let [x, y, z, primary, secondary] = to;
+        let usual = [DRILLED, self.dialect.plane].contains(&self.said_plane);
+        let is_other = !usual && !self.dialect.lathe;
+        let plane = is_other.then_some((self.said_plane, self.plane_line));
         self.events.push(Event::Move(Move {
             line: self.line,
             course,
@@ -191,7 +199,7 @@ impl<'d> State<'d> {
             rate,
             in_cycle: course != Course::Machine && (self.cycle.is_some() || self.pass.is_some()),
             known,
-            modes: self.modes,
+            modes: Modes { plane, ..self.modes },
         }));
     }
 

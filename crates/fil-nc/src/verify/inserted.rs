@@ -67,6 +67,7 @@ impl Expected {
                 let offset = offset.filter(|_| side != Compensation::Off);
                 self.compensation.set((side, offset), Due::Now);
             }
+            Function::Plane(normal) => self.plane = normal,
             Function::Length(true) => self.offset.set(whole(b'H'), Due::Now),
             Function::Length(false) => self.offset.set(None, Due::Now),
             Function::SpeedLimit => self.speed_limit = None,

@@ -9,7 +9,7 @@ use super::modes_said::{
 use super::report::FindingKind;
 use super::settings::{Due, Settings, Slack};
 use super::wanted::{CoolantKind, Effect, Wanted};
-use crate::motion::{Compensation, Modes, Speed, Spindle};
+use crate::motion::{Compensation, DRILLED, Modes, Speed, Spindle};
 
 /// Allowed deviation of an oriented spindle, degrees.
 const ANGLE: f64 = 6e-4;
@@ -103,6 +103,8 @@ pub(super) struct Expected {
     pub(super) coolant: Lag<Option<u32>>,
     /// `None` when words of the user's own may have chosen it.
     pub(super) fixture: Option<Option<u32>>,
+    /// The plane that a record has named last, by the index of its normal.
+    pub(super) plane: usize,
     /// Work offsets that may be chosen where none is asked for.
     allowed_offsets: Vec<u32>,
     /// The CL file has asked for a work offset.
@@ -135,6 +137,7 @@ impl Expected {
             next_limit: None,
             coolant: Lag::new(None),
             fixture: Some(fixture_of(&settings.own_blocks())),
+            plane: DRILLED,
             allowed_offsets: Vec::new(),
             asks_fixture: false,
             offset_on: None,
@@ -167,6 +170,7 @@ impl Expected {
     /// Takes up what a step switches.
     pub(super) fn take(&mut self, wanted: &Wanted, settings: &Settings) {
         match wanted {
+            Wanted::Plane(normal) => self.plane = *normal,
             Wanted::Spindle(Some(Spindle::Off)) => {
                 self.flush();
                 self.spindle.set(settings.spindle(Some(Spindle::Off)), Due::Now);
@@ -201,6 +205,9 @@ impl Expected {
                 }
             }
             Wanted::Compensation(side, offset) => {
+                if *side != Compensation::Off {
+                    self.plane = DRILLED;
+                }
                 let of_tool = self.loaded.filter(|_| settings.offsets_diameters_by_tool());
                 // The nose of a turning tool is in the offset of its T word.
                 let has_number = !settings.calls_tools_with_offset() && *side != Compensation::Off;

@@ -386,6 +386,16 @@ impl Pair<'_> {
                 FindingKind::Coolant,
                 "the coolant is not as it should be".to_string(),
             ),
+            (
+                a.plane.map(|(normal, _)| normal) != b.plane.map(|(normal, _)| normal),
+                FindingKind::Tool,
+                "the length of the tool acts along another axis".to_string(),
+            ),
+            (
+                a.moved_zero.is_some() != b.moved_zero.is_some(),
+                FindingKind::Fixture,
+                "the zero is moved, or not, by a statement".to_string(),
+            ),
             (a.fixture != b.fixture, FindingKind::Fixture, "another work offset is on".to_string()),
         ];
         for (differs, kind, message) in checks {

@@ -89,6 +89,16 @@ pub(super) fn compensation(record: &Record) -> Option<Wanted> {
     Some(Wanted::Compensation(side, numbers(record).first().and_then(|offset| whole(*offset))))
 }
 
+/// The plane that CUTCOM names.
+pub(super) fn plane_of_compensation(record: &Record) -> Option<Wanted> {
+    Some(Wanted::Plane(match () {
+        () if record.has(w::XYPLAN) => 2,
+        () if record.has(w::ZXPLAN) || record.has(w::XZPLAN) => 1,
+        () if record.has(w::YZPLAN) => 0,
+        () => return None,
+    }))
+}
+
 /// All numbers of a record in order.
 pub(super) fn numbers(record: &Record) -> Vec<f64> {
     let number = |word: &Word| match word {

@@ -1,10 +1,10 @@
-//! What moves the zero of the program or changes how its motions are driven, and what no record
-//! asks for.
+//! What moves the zero of the program, changes how its motions are driven or turns its plane, and
+//! what no record asks for.
 
 use super::ahead::Steps;
 use super::report::FindingKind;
-use super::walk::Walk;
-use crate::motion::Modes;
+use super::walk::{LOOK_AHEAD, Walk};
+use crate::motion::{DRILLED, Event, Modes, Move};
 
 impl<C: Steps> Walk<'_, C> {
     /// A statement that moves the zero, or a cycle of tolerances, stands in the settings or in
@@ -34,5 +34,43 @@ impl<C: Steps> Walk<'_, C> {
             };
             self.find(kind, Some(cl_line), Some(nc_line), message);
         }
+    }
+
+    /// The length of a tool acts across the plane in force: only an arc, a cycle, compensation
+    /// that names its plane, or words of the user's own ask for another than that of the drill.
+    pub(super) fn check_plane(&mut self, cl_line: u32, found: &Move) {
+        let Some((plane, line)) = found.modes.plane else {
+            self.plane = DRILLED;
+            return;
+        };
+        if plane == self.plane {
+            return;
+        }
+        if found.arc.is_some() || found.in_cycle {
+            self.plane = plane;
+            return;
+        }
+        self.check_other_plane(cl_line, found, (plane, line));
+    }
+
+    #[cold]
+    fn check_other_plane(&mut self, cl_line: u32, found: &Move, (plane, line): (usize, u32)) {
+        // An arc may come next, whose plane is said before it.
+        let ahead = self.nc.from(self.next).take(LOOK_AHEAD).any(|event| match event {
+            Event::Move(next) => {
+                (next.arc.is_some() || next.in_cycle) && next.modes.plane == Some((plane, line))
+            }
+            _ => false,
+        });
+        self.plane = plane;
+        let asked = self.modes.plane == plane;
+        if ahead || asked || self.own.has(line) {
+            return;
+        }
+        let [name, along] = [["G19", "G18", "G17"], ["X", "Y", "Z"]].map(|of| of[plane]);
+        let message = format!(
+            "{name} of line {line} is in force, which no record asks for: the length of the tool acts along {along}"
+        );
+        self.find(FindingKind::Tool, Some(cl_line), Some(found.line), message);
     }
 }

@@ -68,6 +68,8 @@ pub(super) struct Walk<'a, C> {
     pub(super) watch: Watch,
     /// Lines of statements that no record asks for, of which that was said.
     pub(super) unasked: [Option<u32>; 2],
+    /// The plane of the last arc or cycle, by the index of its normal.
+    pub(super) plane: usize,
     /// Level the control's cycle began from.
     pub(super) initial: Option<f64>,
     /// Turns directions of the hole, in which its moves are said, into those of the axes.
@@ -118,6 +120,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             modes: Expected::new(settings),
             watch,
             unasked: [None; 2],
+            plane: settings.dialect.plane,
             initial: None,
             from_hole: None,
             is_up: false,
@@ -389,6 +392,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             self.find(kind, Some(cl_line), Some(found.line), message);
         }
         self.check_unasked(cl_line, found.line, &found.modes);
+        self.check_plane(cl_line, found);
         self.check_limits(cl_line, found);
         self.leaves_or_comes(found);
         (self.is_up, self.rapid_end) = (false, None);

@@ -75,6 +75,8 @@ pub enum Wanted {
     /// Cutter compensation by the control, with the number of its offset where the
     /// record gives one.
     Compensation(Compensation, Option<u32>),
+    /// The plane that cutter compensation names, by the index of its normal.
+    Plane(usize),
     /// A work offset, by its preparatory function.
     Fixture(u32),
     /// A work offset by its number from 1; `None` for the machine's usual one.

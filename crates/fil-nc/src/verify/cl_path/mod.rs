@@ -20,7 +20,8 @@ use fil_machine::cycle_kind::CycleKind;
 use nalgebra::{Matrix3x4, Point3, Vector3};
 
 use super::statements::{
-    compensation, coolant, numbers, numbers_beside, spindle, statement, whole,
+    compensation, coolant, numbers, numbers_beside, plane_of_compensation, spindle, statement,
+    whole,
 };
 use super::wanted::{Effect, End, Step, Wanted};
 pub use frame_words::FrameWords;
@@ -371,7 +372,9 @@ impl State {
             w::SPINDL => spindle(record),
             w::COOLNT => coolant(record).map_or_else(|| unknown(Effect::Words), |kind| vec![kind]),
             w::CUTCOM => {
-                compensation(record).map_or_else(|| unknown(Effect::Words), |side| vec![side])
+                let plane = plane_of_compensation(record);
+                let both = |side| [side].into_iter().chain(plane).collect();
+                compensation(record).map_or_else(|| unknown(Effect::Words), both)
             }
             w::DELAY => {
                 let amount = numbers(record).first().copied();
@@ -386,6 +389,10 @@ impl State {
             w::PREFUN => match numbers(record)[..] {
                 [code] if own_words::WORK_OFFSETS.contains(&code) => {
                     vec![Wanted::Fixture(code as u32)]
+                }
+                [code] if (17.0..20.0).contains(&code) => {
+                    let plane = Wanted::Plane(19 - code as usize);
+                    unknown(own_words::effect(record)).into_iter().chain([plane]).collect()
                 }
                 _ => unknown(own_words::effect(record)),
             },
