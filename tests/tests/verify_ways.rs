@@ -64,6 +64,7 @@ fn a_fault_on_a_way_that_no_record_names_is_found() {
         ("corpus/sinumerik/tools", "\nN70 G1", "\nN65 G19\nN70 G1", "G19 of line 8 is in force"),
         ("corpus/sinumerik/planes", "N60 Z50", "N60 G19 Z50", "G19 of line 7 is in force"),
         ("corpus/mills/fanuc-mill/tools", "G43", "G18 G43", "G18 of line"),
+        ("words/cutcom-after-an-arc-in-another-plane", "G17\n", "", "G18 of line"),
         // A zero that nobody has asked to move, and tolerances that nobody has asked for.
         ("corpus/sinumerik/tools", "\nN170 G0", "\nN165 TRANS X10\nN170 G0", "has moved the zero"),
         ("corpus/sinumerik/tools", "\nN60 Z50", "\nN55 ATRANS Z-10\nN60 Z50", "has moved the zero"),

@@ -30,8 +30,7 @@ impl State<'_> {
         }
         if let Some(Function::Plane(normal)) = words.function(Group::Plane) {
             self.plane = normal;
-            self.said_plane = normal;
-            self.plane_line = self.line;
+            self.say_plane(normal);
             self.certain.say(StartMode::Plane);
         }
         if let Some(Function::Positions { absolute }) = words.function(Group::Positions) {

@@ -105,6 +105,13 @@ impl<'d> State<'d> {
         }
     }
 
+    /// Remembers where the plane in force was said first.
+    pub(super) fn say_plane(&mut self, normal: usize) {
+        if self.said_plane != normal {
+            (self.said_plane, self.plane_line) = (normal, self.line);
+        }
+    }
+
     /// Takes the unit of what follows.
     pub(super) fn set_metric(&mut self, metric: bool) {
         self.metric = metric;

@@ -3,8 +3,8 @@
 
 use super::ahead::Steps;
 use super::report::FindingKind;
-use super::walk::{LOOK_AHEAD, Walk};
-use crate::motion::{DRILLED, Event, Modes, Move};
+use super::walk::Walk;
+use crate::motion::{Compensation, DRILLED, Modes, Move};
 
 impl<C: Steps> Walk<'_, C> {
     /// A statement that moves the zero, or a cycle of tolerances, stands in the settings or in
@@ -43,6 +43,10 @@ impl<C: Steps> Walk<'_, C> {
             self.plane = DRILLED;
             return;
         };
+        let begins = found.modes.compensation != Compensation::Off && !self.was_compensated;
+        if begins && found.arc.is_none() && self.modes.plane != plane && !self.own.has(line) {
+            return self.find_other_plane(cl_line, found, (plane, line));
+        }
         if plane == self.plane {
             return;
         }
@@ -55,18 +59,16 @@ impl<C: Steps> Walk<'_, C> {
 
     #[cold]
     fn check_other_plane(&mut self, cl_line: u32, found: &Move, (plane, line): (usize, u32)) {
-        // An arc may come next, whose plane is said before it.
-        let ahead = self.nc.from(self.next).take(LOOK_AHEAD).any(|event| match event {
-            Event::Move(next) => {
-                (next.arc.is_some() || next.in_cycle) && next.modes.plane == Some((plane, line))
-            }
-            _ => false,
-        });
         self.plane = plane;
         let asked = self.modes.plane == plane;
-        if ahead || asked || self.own.has(line) {
+        if asked || self.own.has(line) {
             return;
         }
+        self.find_other_plane(cl_line, found, (plane, line));
+    }
+
+    #[cold]
+    fn find_other_plane(&mut self, cl_line: u32, found: &Move, (plane, line): (usize, u32)) {
         let [name, along] = [["G19", "G18", "G17"], ["X", "Y", "Z"]].map(|of| of[plane]);
         let message = format!(
             "{name} of line {line} is in force, which no record asks for: the length of the tool acts along {along}"

@@ -18,7 +18,7 @@ use super::wanted::{Step, Wanted};
 use super::window::Window;
 use crate::events::Events;
 use crate::forward::Pose;
-use crate::motion::{Course, Event, Modes, Move, Position, Rate};
+use crate::motion::{Compensation, Course, Event, Modes, Move, Position, Rate};
 
 /// What X is multiplied by when it is a diameter.
 const DIAMETER: f64 = 2.0;
@@ -70,6 +70,8 @@ pub(super) struct Walk<'a, C> {
     pub(super) unasked: [Option<u32>; 2],
     /// The plane of the last arc or cycle, by the index of its normal.
     pub(super) plane: usize,
+    /// Cutter compensation was on at the last motion.
+    pub(super) was_compensated: bool,
     /// Level the control's cycle began from.
     pub(super) initial: Option<f64>,
     /// Turns directions of the hole, in which its moves are said, into those of the axes.
@@ -121,6 +123,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             watch,
             unasked: [None; 2],
             plane: settings.dialect.plane,
+            was_compensated: false,
             initial: None,
             from_hole: None,
             is_up: false,
@@ -393,6 +396,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         }
         self.check_unasked(cl_line, found.line, &found.modes);
         self.check_plane(cl_line, found);
+        self.was_compensated = found.modes.compensation != Compensation::Off;
         self.check_limits(cl_line, found);
         self.leaves_or_comes(found);
         (self.is_up, self.rapid_end) = (false, None);

@@ -270,7 +270,7 @@ impl Sinumerik<'_> {
                 Function::Thread => state.motion = Some(crate::dialect::Function::Thread),
                 Function::Plane(normal) => {
                     state.plane = normal;
-                    (state.said_plane, state.plane_line) = (normal, state.line);
+                    state.say_plane(normal);
                     state.certain.say(StartMode::Plane);
                 }
                 Function::Compensation(side) => {
