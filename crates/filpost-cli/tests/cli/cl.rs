@@ -112,7 +112,7 @@ fn a_file_of_another_system_becomes_one_of_creo() {
     let ran = place.run(&["cl", "part.cls", "--to", "ncl", "-o", "part.ncl", "--units", "mm"]);
     assert_eq!(
         ran.seen(),
-        (0, "", "part.cls: 8 statements written for Creo, dialect nx (told by line 1)\n")
+        (0, "", "part.cls: 9 statements written for Creo, dialect nx (told by line 1)\n")
     );
     let ncl = place.text("part.ncl").expect("a CL file");
     assert!(ncl.starts_with("$$*          Pro/CLfile\n$$ TOOL PATH / A,TOOL,B\n"), "{ncl}");
