@@ -115,7 +115,8 @@ fn a_file_of_another_system_becomes_one_of_creo() {
         (0, "", "part.cls: 9 statements written for Creo, dialect nx (told by line 1)\n")
     );
     let ncl = place.text("part.ncl").expect("a CL file");
-    assert!(ncl.starts_with("$$*          Pro/CLfile\n$$ TOOL PATH / A,TOOL,B\n"), "{ncl}");
+    let head = "$$*          Pro/CLfile\nTPRINT / B\n$$ TOOL PATH / A,TOOL,B\n";
+    assert!(ncl.starts_with(head), "{ncl}");
     let printed = place.run(&["cl", "part.cls", "--to", "ncl", "--units", "mm"]);
     assert_eq!(printed.out, ncl);
     let post = |file: &str| place.run(&["post", file, "-p", "fanuc-mill", "--units", "mm"]);
