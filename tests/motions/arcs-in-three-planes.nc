@@ -3,8 +3,10 @@
 ; expect: arc ccw X0 Y10 Z0 I0 J0 90deg F100
 ; expect: arc cw X10 Y0 Z0 I0 J0 90deg F100
 ; expect: rapid X0 Y0 Z10
+; expect: modes T0 ZX
 ; expect: arc ccw X10 Y0 Z0 K0 I0 90deg F100
 ; expect: rapid X0 Y10 Z0
+; expect: modes T0 YZ
 ; expect: arc ccw X0 Y0 Z10 J0 K0 90deg F100
 ; expect: end
 G90 G17 G0 X10. Y0. Z0.

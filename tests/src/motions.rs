@@ -196,6 +196,9 @@ fn modes_line(modes: &Modes) -> String {
     if modes.tip_control {
         line += " tip-control";
     }
+    if let Some((normal, _)) = modes.plane {
+        line += [" YZ", " ZX", " XY"][normal];
+    }
     match modes.speed {
         Some(Speed::Turns(speed)) => line += &format!(" S{}", number(speed)),
         Some(Speed::Surface(speed)) => line += &format!(" surface S{}", number(speed)),
