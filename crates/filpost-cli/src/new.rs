@@ -76,6 +76,7 @@ fn first_program(base: &ReadyPost, program: &Program) -> Result<(&'static str, V
 
 /// A folder that was not there.
 fn make_folder(folder: &Path) -> Result<(), Error> {
+    files::refuse_name(folder, cfg!(windows))?;
     let parent = folder.parent().filter(|parent| !parent.as_os_str().is_empty());
     if let Some(parent) = parent {
         fs::create_dir_all(parent).map_err(|error| files::cant_write(parent, &error))?;

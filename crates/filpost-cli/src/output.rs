@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
 
-use filpost::{Diag, Error, NewFile, PendingFiles, files};
+use filpost::{Diag, Error, NewFile, PendingFiles, file_names, files};
 
 use crate::errors::CommandCode;
 
@@ -31,6 +31,9 @@ impl Target {
         let Some(path) = path.filter(|path| path.as_os_str() != "-") else {
             return Target::Stdout;
         };
+        if cfg!(windows) && names_device(path) {
+            return Target::Device(path.into());
+        }
         match std::fs::metadata(path) {
             Ok(found) if !found.is_file() && !found.is_dir() => Target::Device(path.into()),
             // A link stays a link: what it points to is written.
@@ -175,8 +178,17 @@ pub fn over_input(message: String) -> Error {
     Error::Run(Box::new(Diag::new(CommandCode::OverInput, message)))
 }
 
+/// A device as users of Windows write it: `NUL`, `COM1`, `LPT1:`, `\\.\COM12`.
+fn names_device(path: &Path) -> bool {
+    let name = path.to_string_lossy();
+    let bare = name.strip_prefix(r"\\.\").unwrap_or(&name);
+    bare.len() < name.len() || file_names::is_device(bare.strip_suffix(':').unwrap_or(bare))
+}
+
 fn is_device(path: &Path) -> bool {
-    path.as_os_str() == "-" || path.metadata().is_ok_and(|found| !found.is_file())
+    path.as_os_str() == "-"
+        || cfg!(windows) && names_device(path)
+        || path.metadata().is_ok_and(|found| !found.is_file())
 }
 
 /// Reads standard input into a nameless file, so that it can be read again.
@@ -246,4 +258,19 @@ pub fn stdout_error(error: &io::Error) -> Error {
 /// A line to the user. Standard error may be closed; then nobody listens.
 pub fn say(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn devices_of_windows_are_known_by_their_names() {
+        for path in ["NUL", "nul", "COM1", "LPT1:", r"\\.\COM12"] {
+            assert!(names_device(Path::new(path)), "{path}");
+        }
+        for path in ["NUL.nc", "out/NUL", "part.nc", "C:", r"C:\part.nc", r"\\server\share\a.nc"] {
+            assert!(!names_device(Path::new(path)), "{path}");
+        }
+    }
 }

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use fil_diag::Diag;
 
 use crate::error::{Error, RunCode};
+use crate::file_names;
 #[cfg(feature = "files")]
 use crate::pending::{NewFile, PendingFiles};
 
@@ -56,6 +57,33 @@ pub fn real_path(path: &Path) -> PathBuf {
     path.canonicalize().ok().or_else(beside).unwrap_or_else(|| path.to_path_buf())
 }
 
+/// Refuses the name of a file, or of a folder to be, that it can't have on Windows.
+/// Elsewhere any name of the user's choice is good.
+///
+/// # Errors
+/// E0720
+pub fn refuse_name(path: &Path, windows: bool) -> Result<(), Error> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    match file_names::fault(&name).filter(|_| windows) {
+        None => Ok(()),
+        Some(fault) => {
+            let message = format!("{}: {fault}", path.display());
+            Err(Error::setup(Diag::new(RunCode::FileName, message)))
+        }
+    }
+}
+
+/// A real path as a user writes it: Windows puts `\\?\` before the ones it finds.
+pub fn plain(real: PathBuf) -> PathBuf {
+    let text = real.to_string_lossy();
+    match text.strip_prefix(r"\\?\") {
+        Some(share) if share.starts_with(r"UNC\") => format!(r"\\{}", &share[4..]).into(),
+        // A drive; what else there is has no other name.
+        Some(drive) if drive.as_bytes().get(1) == Some(&b':') => drive.into(),
+        _ => real,
+    }
+}
+
 /// E0701 for a file and the reason.
 pub fn cant_read(path: &Path, error: &io::Error) -> Error {
     Error::setup(Diag::new(RunCode::CantRead, format!("{}: {error}", path.display())))
@@ -64,4 +92,32 @@ pub fn cant_read(path: &Path, error: &io::Error) -> Error {
 /// E0702 for a file and the reason.
 pub fn cant_write(path: &Path, error: &io::Error) -> Error {
     Error::setup(Diag::new(RunCode::CantWrite, format!("{}: {error}", path.display())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn real_paths_of_windows_are_shown_as_users_write_them() {
+        let shown = |path: &str| plain(path.into()).display().to_string();
+        assert_eq!(shown(r"\\?\C:\posts\a.fil"), r"C:\posts\a.fil");
+        assert_eq!(shown(r"\\?\UNC\server\share\a.fil"), r"\\server\share\a.fil");
+        assert_eq!(shown(r"\\?\Volume{1}\a.fil"), r"\\?\Volume{1}\a.fil");
+        assert_eq!(shown("/posts/a.fil"), "/posts/a.fil");
+    }
+
+    #[test]
+    fn names_of_devices_are_refused_where_they_are_devices() {
+        let code = |path: &str, windows| {
+            refuse_name(Path::new(path), windows).err().map(|error| error.diags()[0].code.name())
+        };
+        for path in ["out/COM1.NC", "nul.nc", "out/part.", "out/a:b.nc"] {
+            assert_eq!(code(path, true).as_deref(), Some("E0720"), "{path}");
+            assert_eq!(code(path, false), None, "{path}");
+        }
+        for path in ["out/part.nc", "../part.nc", "con/part.nc"] {
+            assert_eq!(code(path, true), None, "{path}");
+        }
+    }
 }

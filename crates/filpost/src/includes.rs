@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use fil_vm::Included;
 
-use crate::files;
+use crate::{file_names, files};
 
 /// Gives INCLUD the files that lie in the folder of one of the FIL files, or
 /// below there. A name counts from the folder of the file the INCLUD stands in;
@@ -31,9 +31,9 @@ pub fn beside_either(
         known.add_root(path);
     }
     for path in others {
-        known.others.extend(folder_of(path).canonicalize());
+        known.others.extend(folder_of(path).canonicalize().map(files::plain));
     }
-    known.folders.extend(known.others.iter().cloned());
+    known.folders.extend(known.others.iter().flat_map(|folder| folder.canonicalize()));
     move |from, name| known.include(from, name)
 }
 
@@ -89,6 +89,9 @@ impl Known {
         let wanted = name.replace('\\', "/");
         if Path::new(&wanted).has_root() || wanted.contains(':') {
             return Err("only a name relative to the including file can be included".into());
+        }
+        if let Some(fault) = wanted.split('/').find_map(file_names::fault) {
+            return Err(fault.to_string());
         }
         let beside = from.parent().unwrap_or(Path::new("")).join(&wanted);
         let mut places =

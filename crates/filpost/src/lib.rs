@@ -35,6 +35,7 @@ mod editing;
 mod engine;
 mod error;
 mod event;
+pub mod file_names;
 pub mod files;
 mod granted;
 pub mod includes;

@@ -12,8 +12,8 @@ use fil_vm::errors::RunCode as VmCode;
 use fil_vm::{FileMode, Files};
 
 use crate::error::{Error, RunCode};
-use crate::files;
 use crate::pending::{NewFile, PendingFiles, Place, escapes};
+use crate::{file_names, files};
 
 /// Largest file a script reads, in bytes; it is held in memory.
 const LARGEST: u64 = 64 << 20;
@@ -48,10 +48,12 @@ impl Folder {
             return Err(cant(io::ErrorKind::NotADirectory.into()));
         }
         let held = Dir::open_ambient_dir(&path, ambient_authority()).map_err(cant)?;
-        Ok(Folder { held: Arc::new(held), path })
+        Ok(Folder { held: Arc::new(held), path: files::plain(path) })
     }
 
-    /// The file of a name: one that is there, or could be.
+    /// The file of a name: one that is there, or could be. On no system has a file of a
+    /// script a name that it can't have on another, and capital letters and small ones
+    /// are the same in it.
     fn place(&self, name: &str) -> Result<Place, Box<Diag>> {
         let outside =
             |why: &str| Box::new(Diag::new(RunCode::OutsideFolder, format!("'{name}' {why}")));
@@ -60,7 +62,11 @@ impl Folder {
         if wanted.contains([':', '\0']) {
             return Err(outside("is no name of a file in the folder"));
         }
-        Place::below(&self.held, &self.path, Path::new(&wanted)).map_err(|error| match error {
+        if let Some(fault) = wanted.split('/').find_map(file_names::fault) {
+            return Err(Box::new(Diag::new(RunCode::FileName, format!("'{name}': {fault}"))));
+        }
+        let wanted = self.as_on_disk(name, Path::new(&wanted))?;
+        Place::below(&self.held, &self.path, &wanted).map_err(|error| match error {
             error if error.kind() == io::ErrorKind::InvalidInput => {
                 outside("is no name of a file in the folder")
             }
@@ -70,7 +76,31 @@ impl Folder {
         })
     }
 
-    fn is_dangling(&self, name: &str) -> bool {
+    /// The name of the file as its folder has it, where the letters differ by case alone.
+    fn as_on_disk(&self, name: &str, wanted: &Path) -> Result<PathBuf, Box<Diag>> {
+        let Some(file) = wanted.file_name().and_then(|file| file.to_str()) else {
+            return Ok(wanted.into());
+        };
+        if self.held.symlink_metadata(wanted).is_ok() {
+            return Ok(wanted.into());
+        }
+        let folder = wanted.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let Ok(entries) = self.held.read_dir(folder.unwrap_or(Path::new("."))) else {
+            return Ok(wanted.into());
+        };
+        let names = entries.flatten().filter_map(|entry| entry.file_name().into_string().ok());
+        let mut alike = names.filter(|found| file_names::alike(found, file));
+        match (alike.next(), alike.next()) {
+            (Some(found), None) => Ok(wanted.with_file_name(found)),
+            (Some(one), Some(other)) => {
+                let message = format!("'{name}' could be {one} and {other}");
+                Err(Box::new(Diag::new(RunCode::FileName, message)))
+            }
+            _ => Ok(wanted.into()),
+        }
+    }
+
+    fn is_dangling(&self, name: &Path) -> bool {
         self.held.symlink_metadata(name).is_ok_and(|found| found.is_symlink())
     }
 }
@@ -109,9 +139,18 @@ impl ScriptFiles {
         self.pending
     }
 
+    /// The file of a name; what the script has written itself is there already.
+    fn place(&self, folder: &Folder, name: &str) -> Result<Place, Box<Diag>> {
+        let place = folder.place(name)?;
+        if place.metadata().is_ok() {
+            return Ok(place);
+        }
+        Ok(self.pending.alike(place.path()).cloned().unwrap_or(place))
+    }
+
     fn open_to_read(&mut self, name: &str) -> Result<Option<Unit>, Box<Diag>> {
         let folder = self.folders.read.as_ref().ok_or_else(|| not_granted("read"))?;
-        let place = folder.place(name)?;
+        let place = self.place(folder, name)?;
         self.refuse_open(place.path())?;
         let content = self.content(&place)?;
         content
@@ -142,7 +181,7 @@ impl ScriptFiles {
     /// A file that may be written or deleted.
     fn writable(&self, name: &str) -> Result<Place, Box<Diag>> {
         let folder = self.folders.write.as_ref().ok_or_else(|| not_granted("write"))?;
-        let place = folder.place(name)?;
+        let place = self.place(folder, name)?;
         self.refuse_open(place.path())?;
         match place.metadata() {
             Ok(found) if !found.is_file() || found.permissions().readonly() => {

@@ -143,6 +143,56 @@ fn no_name_leads_out_of_the_folder() {
     assert_eq!(read(outer.path().join("secret.txt")), "secret\n");
 }
 
+#[test]
+fn no_file_has_a_name_that_windows_keeps_for_itself() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::create_dir(folder.path().join("sub")).expect("a folder");
+    for name in ["NUL", "nul.txt", "COM1.NC", "sub/con.nc", "sub\\AUX", "a.", "a ", "a?b", "a|b"] {
+        for op in ["READ", "WRITE", "APPEND", "DELETE"] {
+            let fil = format!("DMY=FILEF(1,{op},'{name}')");
+            let builder = with(&fil).grant_read(folder.path()).grant_write(folder.path());
+            assert_eq!(refused(builder), "E0720", "{op} {name}");
+        }
+    }
+    assert_eq!(names(folder.path()), ["sub"]);
+}
+
+#[test]
+fn capital_letters_make_no_other_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("Tools.txt"), "10\n").expect("a file");
+    let granted = |fil: &str| with(fil).grant_read(folder.path()).grant_write(folder.path());
+    let reads = "DMY=FILEF(1,READ,'TOOLS.TXT')\nT1=TEXT/READ,1\nPPRINT/T1";
+    assert!(post(granted(reads)).expect("a run").contains("(10)"));
+    post(granted("DMY=FILEF(1,WRITE,'tools.TXT')\nWRITE/1,'20'")).expect("a run");
+    assert_eq!(names(folder.path()), ["Tools.txt"]);
+    assert_eq!(read(folder.path().join("Tools.txt")), "20\n");
+    // What the run itself has written, and what it has open.
+    let back = "DMY=FILEF(1,WRITE,'New.txt')\nWRITE/1,'30'\nDMY=FILEF(1,CLOSE)\n\
+                DMY=FILEF(2,READ,'NEW.TXT')\nT1=TEXT/READ,2\nPPRINT/T1";
+    assert!(post(granted(back)).expect("a run").contains("(30)"));
+    assert_eq!(names(folder.path()), ["New.txt", "Tools.txt"]);
+    let twice = "DMY=FILEF(1,WRITE,'Log.txt')\nDMY=FILEF(2,WRITE,'LOG.TXT')";
+    assert_eq!(refused(granted(twice)), "E0324");
+    post(granted("DMY=FILEF(1,DELETE,'NEW.txt')")).expect("a run");
+    assert_eq!(names(folder.path()), ["Tools.txt"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn two_files_that_differ_by_capital_letters_leave_the_choice_open() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for name in ["a.txt", "A.txt"] {
+        std::fs::write(folder.path().join(name), format!("{name}\n")).expect("a file");
+    }
+    let read = |name: &str| {
+        let fil = format!("DMY=FILEF(1,READ,'{name}')\nT1=TEXT/READ,1\nPPRINT/T1");
+        with(&fil).grant_read(folder.path())
+    };
+    assert_eq!(refused(read("a.TXT")), "E0720");
+    assert!(post(read("a.txt")).expect("a run").contains("(a.txt)"));
+}
+
 /// A folder that is changed for a link while the run is under way.
 #[cfg(unix)]
 #[test]

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use super::{Done, settings_of, write};
 use crate::args::TestArgs;
 use crate::output;
-use filpost::Error;
+use filpost::{Error, files};
 
 /// Looks of the page.
 const STYLE: &str = "body{font-family:sans-serif;max-width:75em;margin:2em auto;padding:0 1em}\
@@ -128,7 +128,7 @@ fn runs(lines: impl Iterator<Item = (u32, bool)>) -> String {
 /// Editors look for files by their whole path.
 fn absolute(name: &str) -> String {
     let path = Path::new(name);
-    path.canonicalize().unwrap_or_else(|_| path.to_path_buf()).display().to_string()
+    files::plain(path.canonicalize().unwrap_or_else(|_| path.to_path_buf())).display().to_string()
 }
 
 fn page(coverage: &Coverage, settings: &BTreeSet<(String, &'static str)>) -> String {

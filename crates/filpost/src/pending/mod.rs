@@ -12,6 +12,7 @@ pub(crate) use place::{Place, escapes};
 pub use unfinished::give_up;
 
 use crate::error::Error;
+use crate::file_names::alike;
 use crate::files::real_path;
 use undo::Undo;
 
@@ -98,6 +99,13 @@ impl PendingFiles {
             Change::Written(file) => Some(file),
             Change::Deleted(_) => None,
         })
+    }
+
+    /// The file whose path differs from this one by case alone, or not at all.
+    pub(crate) fn alike(&self, path: &Path) -> Option<&Place> {
+        let path = path.to_string_lossy();
+        let mut places = self.changes.iter().map(Change::place);
+        places.find(|known| alike(&known.path().to_string_lossy(), &path))
     }
 
     /// Refuses a file of a script that the run reads or writes itself.

@@ -12,7 +12,7 @@ use cap_std::fs::{Dir, OpenOptions, Permissions};
 use super::place::Place;
 use super::unfinished::{self, Action, Ticket};
 use crate::error::Error;
-use crate::files::cant_write;
+use crate::files::{self, cant_write};
 
 /// Buffer between the post and the file; blocks that come in pieces of this
 /// size pass it by.
@@ -40,8 +40,9 @@ impl NewFile {
     ///
     /// # Errors
     /// E0702 for a folder that is not there, a name that a folder has, a file that may
-    /// not be written.
+    /// not be written; E0720 on Windows for a name that a file can't have there.
     pub fn create(path: &Path) -> Result<NewFile, Error> {
+        files::refuse_name(path, cfg!(windows))?;
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         let folder = folder.unwrap_or(Path::new("."));
         if path.is_dir() {
