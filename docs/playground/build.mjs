@@ -1,7 +1,8 @@
-// Builds the page: node build.mjs WASM FOLDER. Needs the packages of package.json.
+// Builds the page: node build.mjs MODULES FOLDER, where .ci/wasm has left the modules. Needs
+// the packages of package.json.
 //
 // What comes out is one folder of static files. The page opens from a server or from a
-// disk, so nothing is fetched: the module and the examples are scripts.
+// disk, so nothing is fetched: the modules and the examples are scripts.
 import { copyFileSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { basename, dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -9,7 +10,7 @@ import { build } from "esbuild";
 import { examples } from "./examples.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const [wasm, folder] = process.argv.slice(2);
+const [modules, folder] = process.argv.slice(2);
 
 const common = { bundle: true, minify: true, format: "iife", target: "es2022", legalComments: "eof" };
 
@@ -37,9 +38,12 @@ await build({
 });
 for (const name of ["index.html", "page.css"]) copyFileSync(join(here, name), join(folder, name));
 
-const letters = readFileSync(wasm).toString("base64");
-const bytes = `() => Uint8Array.from(atob("${letters}"), (letter) => letter.charCodeAt(0))`;
-writeFileSync(join(folder, "filpost.wasm.js"), `(globalThis.filpost ??= {}).bytes = ${bytes};\n`);
+for (const [name, key] of [["filpost", "bytes"], ["filpost-plot", "plotBytes"]]) {
+  const letters = readFileSync(join(modules, `${name}.wasm`)).toString("base64");
+  const bytes = `() => Uint8Array.from(atob("${letters}"), (letter) => letter.charCodeAt(0))`;
+  const script = `(globalThis.filpost ??= {}).${key} = ${bytes};\n`;
+  writeFileSync(join(folder, `${name}.wasm.js`), script);
+}
 
 const list = examples(join(here, "../../corpus"));
 const shown = list.map(({ expected, ...example }) => example);

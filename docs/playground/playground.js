@@ -11,6 +11,8 @@ const find = (id) => document.getElementById(id);
 const { bytes, examples } = globalThis.filpost;
 const backend = new Backend(bytes());
 const ask = (request) => backend.ask(request);
+/** The module that draws, once somebody has asked for a plot. */
+let drawer = null;
 
 /** The input, each `{kind, name, view, box, tab}`. */
 let files = [];
@@ -101,19 +103,41 @@ function show(chosen) {
 async function post() {
   const mine = ++round;
   const { cl, ...inputs } = state();
-  const how = { ...inputs.options, plot: plotted };
   delete inputs.options;
-  const request = { do: "post", ...how, ...inputs, cl: cl.text, cl_name: cl.name };
-  let answer;
+  const request = { do: "post", ...options, ...inputs, cl: cl.text, cl_name: cl.name };
+  let answer, plot;
   try {
     answer = await ask(request);
+    if (plotted && answer.nc !== undefined) plot = await plotOf(request, answer);
   } catch (error) {
     if (mine === round) say(`Not posted: ${error.message}`, []);
     return;
   }
   const lints = await Promise.all(files.map((file) => lintsOf(file)));
   // Of several answers the one to the newest text counts.
-  if (mine === round) take(answer, lints);
+  if (mine === round) take(answer, plot, lints);
+}
+
+/** The page with the path of a program. */
+async function plotOf({ machine, set, cl, cl_name, fil }, { nc, origins }) {
+  drawer ??= loadScript("filpost-plot.wasm.js").then(() => {
+    return new Backend(globalThis.filpost.plotBytes());
+  });
+  const request = { do: "plot", machine, set, cl, cl_name, fil, nc, origins };
+  return (await drawer).ask(request);
+}
+
+function loadScript(name) {
+  return new Promise((resolve, reject) => {
+    const script = document.createElement("script");
+    script.onload = resolve;
+    script.onerror = () => {
+      drawer = null;
+      reject(new Error(`${name} can't be loaded`));
+    };
+    script.src = name;
+    document.head.append(script);
+  });
 }
 
 /** What fil-ide finds in FIL, also where nothing is posted. */
@@ -126,8 +150,8 @@ async function lintsOf(file) {
   });
 }
 
-function take(answer, lints) {
-  const diags = [...(answer.errors ?? []), ...(answer.warnings ?? []), ...(answer.no_plot ?? [])];
+function take(answer, plot, lints) {
+  const diags = [...(answer.errors ?? []), ...(answer.warnings ?? []), ...(plot?.errors ?? [])];
   files.forEach((file, index) => {
     const own = diags.flatMap((diag) => {
       const at = diag.places[0];
@@ -141,7 +165,7 @@ function take(answer, lints) {
   files.forEach(({ view }) => markLines(view, []));
   posted = { origins: answer.origins ?? [] };
   setText(nc, answer.nc ?? "");
-  if (plotted) draw(answer.plot ?? "<p>No program, no plot.</p>");
+  if (plotted) draw(plot?.page ?? "<p>No program, no plot.</p>");
   const status = answer.misuse
     ? `Not posted: ${answer.misuse}`
     : answer.nc === undefined

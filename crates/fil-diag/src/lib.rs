@@ -22,6 +22,16 @@ pub enum Severity {
     Error,
 }
 
+impl Severity {
+    /// `warning` or `error`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Severity::Warning => "warning",
+            Severity::Error => "error",
+        }
+    }
+}
+
 /// One row of a code table: everything about a code that does not depend on
 /// the place where it was raised.
 #[derive(Debug, PartialEq, Eq)]
@@ -32,7 +42,7 @@ pub struct Code {
     pub severity: Severity,
     /// What happened, in a few words.
     pub title: &'static str,
-    /// Why it is refused or warned about.
+    /// Why it is refused or warned about; empty in WebAssembly, see [`reason`].
     pub reason: &'static str,
     /// What the user can do.
     pub hint: &'static str,
@@ -118,6 +128,12 @@ impl std::fmt::Display for Diag {
 
 impl std::error::Error for Diag {}
 
+/// The reason of a code as a table holds it: none in WebAssembly, where a module is loaded for
+/// each page, and the reasons of all codes stand in the book.
+pub const fn reason(text: &'static str) -> &'static str {
+    if cfg!(target_family = "wasm") { "" } else { text }
+}
+
 /// Declares a crate's codes: an enum whose variants turn into `&'static Code`
 /// and a table `ALL` of them.
 ///
@@ -156,7 +172,7 @@ macro_rules! codes {
                 number: $number,
                 severity: $crate::Severity::$severity,
                 title: $title,
-                reason: $reason,
+                reason: $crate::reason($reason),
                 hint: $hint,
             },)*];
 

@@ -2,8 +2,8 @@
 
 use std::ffi::{CString, c_char};
 
-use filpost::Diag;
-use serde_json::{Value, json};
+use filpost::{Diag, Finding};
+use serde_json::Value;
 
 use crate::pointer::c_text;
 
@@ -97,21 +97,23 @@ impl Held {
 
     /// The same fields as `filpost check --format json`.
     fn as_json(&self) -> Value {
-        let place = |number: u32| self.file.as_ref().map(|_| number);
-        json!({
-            "code": self.code.to_string_lossy(),
-            "severity": match self.severity {
-                Severity::Warning => "warning",
-                Severity::Error => "error",
-            },
-            "title": self.title.to_string_lossy(),
-            "message": self.message.to_string_lossy(),
-            "file": self.file.as_ref().map(|file| file.to_string_lossy()),
-            "line": place(self.line),
-            "column": place(self.column),
-            "hint": self.hint.to_string_lossy(),
-            "notes": self.notes,
-        })
+        let has_place = self.file.is_some();
+        let severity = match self.severity {
+            Severity::Warning => filpost::Severity::Warning,
+            Severity::Error => filpost::Severity::Error,
+        };
+        let finding = Finding {
+            code: self.code.to_string_lossy(),
+            severity: severity.name(),
+            title: self.title.to_string_lossy(),
+            message: self.message.to_string_lossy(),
+            file: self.file.as_ref().map(|file| file.to_string_lossy()),
+            line: has_place.then_some(self.line),
+            column: has_place.then_some(self.column as usize),
+            hint: self.hint.to_string_lossy(),
+            notes: &self.notes,
+        };
+        finding.to_json()
     }
 }
 

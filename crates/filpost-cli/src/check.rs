@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use filpost::check::{self, Options};
-use filpost::{Commons, Compat, Diag, Error, Program, files, includes};
+use filpost::{Commons, Compat, Diag, Error, Finding, Program, files, includes};
+use serde_json::Value;
 
 use crate::args::{CheckArgs, Format};
-use crate::{Status, json, output, render, sarif, setup, summary};
+use crate::{Status, output, render, sarif, setup, summary};
 
 /// Checks FIL files.
 ///
@@ -29,7 +30,7 @@ pub fn run(args: &CheckArgs) -> Result<Status, Error> {
             output::say(&count(&diags, args.files.len()));
         }
         Format::Json => {
-            output::print(format!("{:#}\n", json::findings(&diags)).as_bytes())?;
+            output::print(format!("{:#}\n", findings(&diags)).as_bytes())?;
         }
         Format::Sarif => {
             output::print(format!("{:#}\n", sarif::log(&diags)).as_bytes())?;
@@ -70,6 +71,11 @@ fn check_group(
         machine,
     };
     Ok(check::check(&files, options))
+}
+
+/// Findings as an array, one object each.
+fn findings(diags: &[Diag]) -> Value {
+    diags.iter().map(|diag| Finding::from(diag).to_json()).collect()
 }
 
 fn count(diags: &[Diag], files: usize) -> String {

@@ -14,7 +14,6 @@ mod errors;
 mod explain;
 mod fmt;
 mod job;
-mod json;
 mod machine;
 mod new;
 mod output;

@@ -1,6 +1,6 @@
 //! Diagnostics as SARIF 2.1.0, the form that code hosts and editors read.
 
-use filpost::{Code, Diag, Severity, TextSpan};
+use filpost::{Code, Diag, TextSpan};
 use serde_json::{Value, json};
 
 /// The schema of the form.
@@ -35,7 +35,7 @@ fn rule(code: &Code) -> Value {
         "shortDescription": { "text": code.title },
         "fullDescription": { "text": code.reason },
         "help": { "text": code.hint },
-        "defaultConfiguration": { "level": level(code.severity) },
+        "defaultConfiguration": { "level": code.severity.name() },
     })
 }
 
@@ -45,7 +45,7 @@ fn result(diag: &Diag, rules: &[&Code]) -> Value {
     let mut result = json!({
         "ruleId": diag.code.name(),
         "ruleIndex": rules.iter().position(|code| *code == diag.code),
-        "level": level(diag.code.severity),
+        "level": diag.code.severity.name(),
         "message": { "text": format!("{}{hint}", diag.message) },
         "locations": first.into_iter().map(location).collect::<Vec<_>>(),
     });
@@ -70,13 +70,6 @@ fn location(place: &TextSpan) -> Value {
             },
         },
     })
-}
-
-fn level(severity: Severity) -> &'static str {
-    match severity {
-        Severity::Warning => "warning",
-        Severity::Error => "error",
-    }
 }
 
 /// A file name as a URI reference: what is not plain ASCII is escaped.

@@ -10,7 +10,7 @@ use filpost::cl::reader;
 use filpost::map::{Entry, MapReader, Names};
 use filpost::nc::plot::html;
 use filpost::plot::{self, ClText, Text};
-use filpost::{CancelToken, Diag, Error, Program, Severity};
+use filpost::{CancelToken, Diag, Error, Program};
 use serde_json::{Value, json};
 
 use crate::uri::uri_of;
@@ -127,10 +127,7 @@ fn page(case: &Case, program: &Program, made: &Made) -> Result<String, Error> {
 
 /// `E0506 post.fil:3: …` with its hint.
 fn sentence(diag: &Diag) -> String {
-    let kind = match diag.code.severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-    };
+    let kind = diag.severity().name();
     let hint = diag.hint.as_deref().unwrap_or(diag.code.hint);
     format!("{kind} {diag}\n{hint}")
 }

@@ -1,6 +1,6 @@
 //! Diagnostics and errors as Python sees them.
 
-use filpost::{Diag, Severity, TextSpan};
+use filpost::{Diag, TextSpan};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -13,14 +13,10 @@ static ERROR: PyOnceLock<Py<PyType>> = PyOnceLock::new();
 
 /// A `filpost.Diagnostic`.
 pub fn diagnostic<'py>(py: Python<'py>, diag: &Diag) -> PyResult<Bound<'py, PyAny>> {
-    let severity = match diag.severity() {
-        Severity::Warning => "warning",
-        Severity::Error => "error",
-    };
     let place = diag.spans.first();
     let fields = (
         diag.code.name(),
-        severity,
+        diag.severity().name(),
         diag.code.title,
         &diag.message,
         place.map(|place| &place.file),

@@ -1,6 +1,6 @@
 //! Diagnostics as JSON.
 
-use filpost::{Diag, Severity};
+use filpost::Diag;
 use serde_json::{Value, json};
 
 /// A diagnostic: `line` counts from 1, `from` and `to` are UTF-16 units of that line, as
@@ -19,7 +19,7 @@ pub(crate) fn diagnostic(diag: &Diag) -> Value {
     });
     json!({
         "code": diag.code.name(),
-        "severity": severity(diag.code.severity),
+        "severity": diag.severity().name(),
         "title": diag.code.title,
         "message": diag.message,
         "hint": diag.hint.as_deref().unwrap_or(diag.code.hint),
@@ -31,11 +31,4 @@ pub(crate) fn diagnostic(diag: &Diag) -> Value {
 /// All of several.
 pub(crate) fn all<'d>(diags: impl IntoIterator<Item = &'d Diag>) -> Vec<Value> {
     diags.into_iter().map(diagnostic).collect()
-}
-
-pub(crate) fn severity(severity: Severity) -> &'static str {
-    match severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-    }
 }

@@ -2,15 +2,13 @@
 
 use fil_ide::{Item, Position, Range, Script, Text, cl_file, machine};
 use filpost::{Code, Commons, Included, settings};
-use serde::Deserialize;
 use serde_json::{Value, json};
 
-use crate::diagnostics::severity;
-use crate::job::Named;
+use crate::Misuse;
+use crate::fields::{Fields, Named};
 
 /// What language a text is in.
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy)]
 enum Language {
     Fil,
     Cl,
@@ -18,24 +16,43 @@ enum Language {
 }
 
 /// An edited text, and a place in it.
-#[derive(Deserialize)]
 pub(crate) struct Edited {
     language: Language,
     name: String,
     text: String,
     /// Line, counted from 0.
-    #[serde(default)]
     line: u32,
     /// UTF-16 units from the start of the line.
-    #[serde(default)]
     character: u32,
     /// The `machine.toml` that FIL runs on.
     machine: Option<String>,
-    #[serde(default)]
     includes: Vec<Named>,
 }
 
 impl Edited {
+    pub fn read(mut fields: Fields) -> Result<Self, Misuse> {
+        let language = match fields.needed("language")?.as_str() {
+            "fil" => Language::Fil,
+            "cl" => Language::Cl,
+            "machine" => Language::Machine,
+            other => {
+                return Err(Misuse(format!("`language` must be fil, cl or machine, not {other}")));
+            }
+        };
+        let count = |number: Option<u64>| u32::try_from(number.unwrap_or(0)).unwrap_or(u32::MAX);
+        let edited = Edited {
+            language,
+            name: fields.needed("name")?,
+            text: fields.needed("text")?,
+            line: count(fields.number("line")?),
+            character: count(fields.number("character")?),
+            machine: fields.text("machine")?,
+            includes: fields.files("includes")?,
+        };
+        fields.end()?;
+        Ok(edited)
+    }
+
     /// Findings as `{line, from, to_line, to, code, severity, message}`; places as editors
     /// count them. A CL file is judged by posting it.
     pub fn findings(&self) -> Value {
@@ -107,7 +124,7 @@ fn finding(range: Range, code: &Code, message: &str) -> Value {
     json!({
         "range": places(range),
         "code": code.name(),
-        "severity": severity(code.severity),
+        "severity": code.severity.name(),
         "message": message,
     })
 }

@@ -16,46 +16,85 @@
 #[cfg(target_family = "wasm")]
 mod border;
 mod diagnostics;
+#[cfg(feature = "post")]
 mod editor;
+mod fields;
+#[cfg(feature = "post")]
 mod job;
+mod machine;
+#[cfg(feature = "plot")]
+mod plot;
+#[cfg(feature = "post")]
 mod post;
 
-use serde::Deserialize;
+use filpost::{Diag, Error};
 use serde_json::{Value, json};
 
+use diagnostics::all;
+#[cfg(feature = "post")]
 use editor::Edited;
-use job::Job;
+use fields::Fields;
 
-/// What a page asks for.
-#[derive(Deserialize)]
-#[serde(tag = "do", rename_all = "snake_case")]
-enum Request {
-    /// The NC program of a CL file.
-    Post(Box<Job>),
-    /// What is wrong in an edited text.
-    Findings(Edited),
-    /// What stands at a place of an edited text.
-    Hover(Edited),
-    /// What may stand at a place of an edited text.
-    Complete(Edited),
-    /// The posts inside the crate.
-    Ready,
+/// A request that is none, and why.
+struct Misuse(String);
+
+/// Why there is no program or no drawing.
+enum Fault {
+    /// The post, one of its files or the program is wrong.
+    Setup(Error),
+    /// The request is.
+    Misuse(Misuse),
+}
+
+impl From<Error> for Fault {
+    fn from(error: Error) -> Self {
+        Fault::Setup(error)
+    }
+}
+
+impl From<Misuse> for Fault {
+    fn from(misuse: Misuse) -> Self {
+        Fault::Misuse(misuse)
+    }
 }
 
 /// Answers a request, JSON for JSON. What is no request is answered by
 /// `{"misuse": "…"}`.
 pub fn answer(request: &[u8]) -> Vec<u8> {
-    let answer = match serde_json::from_slice(request) {
-        Ok(Request::Post(job)) => post::post(&job),
-        Ok(Request::Findings(edited)) => edited.findings(),
-        Ok(Request::Hover(edited)) => edited.hover(),
-        Ok(Request::Complete(edited)) => edited.complete(),
-        Ok(Request::Ready) => ready(),
-        Err(error) => json!({ "misuse": error.to_string() }),
-    };
+    let answer = read(request).unwrap_or_else(|Misuse(what)| json!({ "misuse": what }));
     answer.to_string().into_bytes()
 }
 
+fn read(request: &[u8]) -> Result<Value, Misuse> {
+    let request: Value =
+        serde_json::from_slice(request).map_err(|error| Misuse(error.to_string()))?;
+    let mut fields = Fields::of(request)?;
+    let what = fields.needed("do")?;
+    Ok(match what.as_str() {
+        #[cfg(feature = "post")]
+        "post" => post::post(&job::Job::read(fields)?),
+        #[cfg(feature = "plot")]
+        "plot" => plot::Plot::read(fields)?.draw(),
+        #[cfg(feature = "post")]
+        "findings" => Edited::read(fields)?.findings(),
+        #[cfg(feature = "post")]
+        "hover" => Edited::read(fields)?.hover(),
+        #[cfg(feature = "post")]
+        "complete" => Edited::read(fields)?.complete(),
+        #[cfg(feature = "post")]
+        "ready" => ready(),
+        other => return Err(Misuse(format!("`do` is `{other}`, which this module does not know"))),
+    })
+}
+
+fn refused(fault: &Fault, warnings: &[Diag]) -> Value {
+    match fault {
+        Fault::Misuse(Misuse(what)) => json!({ "misuse": what }),
+        Fault::Setup(error) => json!({ "errors": all(error.diags()), "warnings": all(warnings) }),
+    }
+}
+
+#[cfg(feature = "post")]
 fn ready() -> Value {
     let posts = filpost::ready::READY.iter();
     posts.map(|post| json!({ "name": post.name, "machine": post.machine })).collect()

@@ -13,7 +13,7 @@ fn a_program_comes_with_what_made_its_lines() {
     let fil = "CIMFIL/ON,LOADTL\nDMY=POSTF(13)\nPOSTN/OUT,G,0,Z,100\nCIMFIL/OFF\nFINI\n";
     let answer = ask(&json!({
         "do": "post", "ready": "fanuc-mill", "cl": CL,
-        "fil": [{ "name": "raise.fil", "text": fil }], "plot": true,
+        "fil": [{ "name": "raise.fil", "text": fil }],
     }));
     let nc: Vec<&str> = answer["nc"].as_str().unwrap().lines().collect();
     let origins = answer["origins"].as_array().unwrap();
@@ -23,14 +23,20 @@ fn a_program_comes_with_what_made_its_lines() {
     let goto = nc.iter().position(|line| line.contains("X1. Y2.")).unwrap();
     assert_eq!(origins[goto], json!([4, 4, []]));
     assert_eq!(answer["records"], 5);
-    assert!(answer["plot"].as_str().unwrap().contains("<canvas"));
+    let plot = ask(&json!({
+        "do": "plot", "ready": "fanuc-mill", "cl": CL, "nc": answer["nc"], "origins": origins,
+        "fil": [{ "name": "raise.fil", "text": fil }],
+    }));
+    assert!(plot["page"].as_str().unwrap().contains("<canvas"), "{plot}");
+    let unknown = ask(&json!({ "do": "plot", "ready": "no-such-mill", "nc": "%" }));
+    assert_eq!(unknown["errors"][0]["code"], "E0703");
 }
 
 #[test]
 fn what_is_refused_has_no_program() {
     let wrong = CL.replace("GOTO / 1", "GOTO / 1,1");
     let answer = ask(&json!({ "do": "post", "ready": "fanuc-mill", "cl": wrong }));
-    assert!(answer.get("nc").is_none() && answer.get("plot").is_none());
+    assert!(answer.get("nc").is_none());
     assert_eq!(answer["errors"][0]["code"], "E0407");
     assert_eq!(answer["errors"][0]["places"][0]["line"], 4);
     let answer = ask(&json!({ "do": "post", "ready": "no-such-mill", "cl": CL }));

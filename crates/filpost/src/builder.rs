@@ -301,6 +301,16 @@ impl Builder {
         Ok(Program { shared: Arc::new(shared) })
     }
 
+    /// The machine alone, without FIL, with the settings on top.
+    ///
+    /// # Errors
+    /// All that is wrong with the machine and the settings.
+    pub fn build_machine(self) -> Result<Commons, Error> {
+        let without_effect = &self.compat.without_effect;
+        let made = commons_with(self.machine, &self.over, &self.settings, without_effect);
+        made.map(|(commons, _)| commons).map_err(Error::Setup)
+    }
+
     /// The granted folders; `None` without any.
     #[cfg(feature = "files")]
     fn folders(&self) -> Result<Option<Arc<Folders>>, Error> {
@@ -321,14 +331,29 @@ impl Builder {
 /// The post of a machine with settings on top, and the warnings of both.
 ///
 /// # Errors
-/// All that is wrong with them; settings that contradict each other, where each alone
-/// is right.
+/// As [`commons_with`].
 fn post(
     machine: Option<Machine>,
     over: &[(String, String)],
     on_top: &[String],
     without_effect: &[String],
 ) -> Result<(fil_post::Post, Vec<Diag>), Vec<Diag>> {
+    let (commons, warnings) = commons_with(machine, over, on_top, without_effect)?;
+    let post = fil_post::Post::new(commons).map_err(|diag| vec![*diag])?;
+    Ok((post, warnings))
+}
+
+/// A machine with settings on top, and the warnings of both.
+///
+/// # Errors
+/// All that is wrong with them; settings that contradict each other, where each alone
+/// is right.
+fn commons_with(
+    machine: Option<Machine>,
+    over: &[(String, String)],
+    on_top: &[String],
+    without_effect: &[String],
+) -> Result<(Commons, Vec<Diag>), Vec<Diag>> {
     let machine = machine.unwrap_or(Machine::Ready(ready::GENERIC_MILL.into()));
     let name = machine.name();
     let (mut commons, mut warnings) = commons_of(machine)?;
@@ -353,8 +378,7 @@ fn post(
     if !errors.is_empty() {
         return Err(errors);
     }
-    let post = fil_post::Post::new(commons).map_err(|diag| vec![*diag])?;
-    Ok((post, warnings))
+    Ok((commons, warnings))
 }
 
 fn commons_of(machine: Machine) -> Result<(Commons, Vec<Diag>), Vec<Diag>> {

@@ -270,7 +270,7 @@ pub fn never(branch: &CoveredBranch) -> String {
     let line = branch.line;
     match branch.outcome {
         BranchOutcome::True => format!("line {line}: the condition was never true"),
-        BranchOutcome::Else => format!("line {line}: some condition was always true"),
+        BranchOutcome::Else => format!("line {line}: one of its branches was always taken"),
         BranchOutcome::When => format!("line {line}: the WHEN never fitted"),
         BranchOutcome::Pass => format!("line {line}: the DO never had a pass"),
         BranchOutcome::NoPass => format!("line {line}: the DO always had a pass"),

@@ -37,6 +37,7 @@ mod error;
 mod event;
 pub mod file_names;
 pub mod files;
+mod finding;
 mod granted;
 pub mod includes;
 pub mod listing;
@@ -83,6 +84,7 @@ pub use cancel::CancelToken;
 pub use compat::{CompatFile, operation_name, read_compat};
 pub use error::{Error, RunCode, all_codes};
 pub use event::{Event, LineEditor, RunEnd};
+pub use finding::Finding;
 pub use granted::Clock;
 #[cfg(feature = "files")]
 pub use pending::NewFile;

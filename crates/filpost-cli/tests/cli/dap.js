@@ -126,8 +126,16 @@ async function main() {
     assert.equal(await value(client, 'ILAY+1'), '3');
     await assert.rejects(value(client, 'POSTF(13)'));
   });
-  // Data breakpoints on a name, a common and an address.
-  for (const [name, text] of [['ILAY', /ILAY/], ['seqno.increment', null], ['address Z', /^Z /]]) {
+  // Data breakpoints on a name, a common by its setting and by its number, and an address. The
+  // script takes messages off the tape for its table (INTCOM 484) and gives them back.
+  const onOff = [/^INTCOM 484 was 1 and is 0$/, /^INTCOM 484 was 0 and is 1$/];
+  for (const [name, texts] of [
+    ['ILAY', [/^ILAY /]],
+    ['message.to_tape', onOff],
+    ['INTCOM 484', onOff],
+    ['seqno.increment', []],
+    ['address Z', [/^Z /]],
+  ]) {
     await session(async (client) => {
       await Promise.all([
         client.waitForEvent('initialized').then(() => client.configurationDoneRequest()),
@@ -138,12 +146,20 @@ async function main() {
       assert(dataId, name);
       const placed = await client.customRequest('setDataBreakpoints', { breakpoints: [{ dataId }] });
       assert(placed.body.breakpoints[0].verified);
-      if (text) {
+      for (const text of texts) {
         const stop = await stopped(client, () => client.continueRequest({ threadId: 1 }));
         assert.equal(stop.body.reason, 'data breakpoint');
         assert.match(stop.body.text, text);
-      } else {
-        // The script sets no such common: the run ends.
+        if (texts === onOff) {
+          // The macro gives them back in its last statement, so that the section stands next.
+          const [name, now] = text === onOff[0] ? ['macro SHOW', '0'] : ['section THREAD,AUTO', '1'];
+          const frames = (await client.stackTraceRequest({ threadId: 1 })).body.stackFrames;
+          assert.equal(frames[0].name, name);
+          assert.equal(await value(client, 'POSTF(1,1,484)'), now);
+        }
+      }
+      if (texts.length === 0) {
+        // The script never sets this one: the run ends.
         await Promise.all([client.waitForEvent('terminated'), client.continueRequest({ threadId: 1 })]);
       }
     });

@@ -178,3 +178,43 @@ fn the_published_scripts_are_debugged_as_cases() {
     assert!(!blocks.is_empty() && wanted.ends_with(&blocks), "{blocks:?}");
     client.end();
 }
+
+#[test]
+fn modes_of_the_control_are_told_in_words_of_the_field() {
+    let modes = |ready: &str, cl: &str, line: u32| {
+        let mut client = Client::new();
+        client.write("part.ncl", cl);
+        let cwd = client.folder.path().to_path_buf();
+        client.ask("launch", json!({ "cwd": cwd, "cl": "part.ncl", "ready": ready }));
+        let cl = client.path("part.ncl");
+        client.breakpoints(&cl, json!([{ "line": line }]));
+        client.start();
+        let (_, control) = client.scope("Control");
+        client.end();
+        control
+    };
+    let cl = "UNITS / MM\nLOADTL / 4\nSPINDL / RPM, 900, CLW\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\n\
+              CUTCOM / LEFT\nGOTO / 5, 2, 3\nFINI\n";
+    let before = modes("fanuc-mill", cl, 2);
+    assert_eq!(of(&before, "spindle"), "not said", "{before:?}");
+    assert_eq!(of(&before, "tool"), "not known", "{before:?}");
+    let told = modes("fanuc-mill", cl, 8);
+    for (name, value) in [
+        ("motion", "G1"),
+        ("plane", "G17 plane XY"),
+        ("coordinates", "G90 absolute"),
+        ("unit", "G21 mm"),
+        ("feed", "G94 per minute"),
+        ("compensation", "G41 left of the path"),
+        ("tool-tip control", "off"),
+        ("canned cycle", "off"),
+        ("tool", "4"),
+        ("spindle", "clockwise"),
+    ] {
+        assert_eq!(of(&told, name), value, "{name}: {told:?}");
+    }
+    // Klartext has no functions for modes.
+    let told = modes("heidenhain-tnc640", cl, 6);
+    assert_eq!(of(&told, "plane"), "plane XY", "{told:?}");
+    assert_eq!(of(&told, "motion"), "missing", "{told:?}");
+}

@@ -35,6 +35,7 @@
 //! ```
 
 mod evaluate;
+mod modes;
 mod state;
 
 use std::sync::{Arc, Mutex, PoisonError};

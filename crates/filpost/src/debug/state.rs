@@ -6,6 +6,7 @@ use fil_machine::locations::TABLE;
 use fil_machine::{Commons, Kind, Letter, stored};
 use fil_vm::View;
 
+use super::modes;
 use crate::error::RunCode;
 
 /// The post behind the machine that stands still.
@@ -96,35 +97,13 @@ impl DebugState<'_, '_> {
         words.collect()
     }
 
-    /// What the control is known to be in: a name and a value in words each.
+    /// The modes that the control is known to be in: a name and a value in words each.
     pub fn modes(&self) -> Vec<(&'static str, String)> {
         let World::Post(post) = &self.world else { return Vec::new() };
-        let state = &post.control.state;
-        let code = |code: Option<fil_machine::FunctionCode>| match code {
-            Some(code) => format!("G{}", code.value()),
-            None => "not known".to_string(),
-        };
-        let mut modes = vec![
-            ("motion", code(state.motion)),
-            ("plane", known(&state.plane)),
-            ("distance", known(&state.distance)),
-            ("unit", known(&state.unit)),
-            ("feed mode", known(&state.feed_mode)),
-            ("compensation", known(&state.compensation)),
-            ("tip control", known(&state.tip_control)),
-            ("in a cycle", known(&state.in_cycle)),
-            ("cycle", code(state.cycle)),
-            ("tool", known(&state.tool)),
-            ("tool offset", known(&state.tool_offset)),
-            ("spindle turns", format!("{:?}", state.rotation)),
-        ];
+        let mut modes = modes::of(&post.control.state, &post.control.commons);
         if let Some([x, y, z]) = post.point() {
             modes.push(("CL point", format!("{x}, {y}, {z}")));
         }
         modes
     }
-}
-
-fn known<T: std::fmt::Debug>(value: &Option<T>) -> String {
-    value.as_ref().map_or_else(|| "not known".to_string(), |value| format!("{value:?}"))
 }

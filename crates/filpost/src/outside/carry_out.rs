@@ -1,0 +1,114 @@
+//! One record carried out by the post.
+
+use fil_cl::vocabulary::words;
+use fil_cl::{Record, Vocabulary, record::kind};
+use fil_diag::Diag;
+use fil_machine::locations::MESSAGE_TO_TAPE;
+
+use super::Outside;
+use crate::event::Event;
+use crate::overview::Counted;
+use crate::report::Extents;
+use crate::tally::Before;
+use crate::units::UnitSource;
+
+impl Outside<'_, '_> {
+    /// The post carries out a record, or what one means that is given as it is written.
+    pub fn process(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
+        if self.careful {
+            return self.process_carefully(record, vocabulary);
+        }
+        self.carry_out(record, vocabulary)
+    }
+
+    #[cold]
+    fn process_carefully(
+        &mut self,
+        record: &Record,
+        vocabulary: &Vocabulary,
+    ) -> Result<(), Box<Diag>> {
+        if self.raw && record.line != 0 {
+            return self.process_written(record, vocabulary);
+        }
+        self.carry_out_counted(record, vocabulary)
+    }
+
+    #[cold]
+    fn process_written(
+        &mut self,
+        record: &Record,
+        vocabulary: &Vocabulary,
+    ) -> Result<(), Box<Diag>> {
+        let place = |diag: Box<Diag>| {
+            if diag.spans.is_empty() {
+                Box::new(diag.at(self.place(record, vocabulary)))
+            } else {
+                diag
+            }
+        };
+        match self.source.written.meant_by(record).map_err(place)? {
+            None => self.carry_out_counted(record, vocabulary),
+            Some(meant) => meant.iter().try_for_each(|one| self.carry_out_counted(one, vocabulary)),
+        }
+    }
+
+    /// Carries out a record and counts its motion, where somebody looks on.
+    fn carry_out_counted(
+        &mut self,
+        record: &Record,
+        vocabulary: &Vocabulary,
+    ) -> Result<(), Box<Diag>> {
+        let before = Before::new(&self.post);
+        self.last_done = record.number;
+        self.carry_out(record, vocabulary)?;
+        let Some(tally) = &mut self.tally else { return Ok(()) };
+        let other_seconds = tally.total.other_seconds;
+        let motion = tally.count(&before, record, &self.post);
+        if let Some(overview) = self.pass.counted() {
+            let counted = Counted {
+                motion,
+                other_seconds: tally.total.other_seconds - other_seconds,
+                diameter: self.source.diameter(),
+                unit: self.post.unit(),
+            };
+            overview.count(record, self.post.control.tape.cause.record, &counted);
+        }
+        if let Some(motion) = motion {
+            for observer in self.observers.iter_mut() {
+                observer(Event::Motion(motion));
+            }
+        }
+        Ok(())
+    }
+
+    /// The post carries out a record; what it says gets the place in the CL file,
+    /// or in FIL for a record that FIL has made.
+    fn carry_out(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<(), Box<Diag>> {
+        if record.major == words::PPRINT && !self.post.control.commons.read(MESSAGE_TO_TAPE) {
+            for observer in self.observers.iter_mut() {
+                observer(Event::Message(record.text.trim_end()));
+            }
+        }
+        let result = self.post.process(record, vocabulary);
+        if matches!(record.major, words::UNITS | words::UNIT) {
+            self.report.unit = self.post.unit().map(|unit| (unit, UnitSource::Statement));
+        }
+        if result.is_err() || !self.post.control.warnings.list.is_empty() {
+            let place = self.place(record, vocabulary);
+            self.take_warnings(Some(&place));
+            // The machine itself adds the FIL line to an error.
+            let made_by_fil = self.fil_line(record).is_some();
+            let result = result.map_err(|diag| self.name_dialects(diag));
+            result.map_err(|diag| if made_by_fil { diag } else { Box::new(diag.at(place)) })?;
+        }
+        if record.kind == kind::MOTION {
+            if let Some(point) = self.post.point() {
+                Extents::add(&mut self.report.extents, point);
+            }
+        } else if matches!(record.major, words::POSTN | words::REPEAT) {
+            self.report.words_beside = true;
+        }
+        self.ended |= record.kind == kind::FINI;
+        Ok(())
+    }
+}

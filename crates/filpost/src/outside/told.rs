@@ -1,0 +1,184 @@
+//! What a run tells: warnings with their places, what observers hear, the report.
+
+use std::cell::RefCell;
+
+use fil_cl::{Record, Vocabulary};
+use fil_diag::{Code, Diag, TextSpan};
+use fil_post::FilLine;
+use fil_post::errors::PostCode;
+use fil_vm::{OutputMacro, SectionId};
+
+use super::Outside;
+use crate::editing::edits;
+use crate::error::RunCode;
+use crate::event::{Event, LineEditor, RunEnd};
+use crate::listing::ListingRules;
+use crate::map;
+use crate::statement::statement_text;
+
+impl Outside<'_, '_> {
+    /// Tells the warnings of the post, which came at this place.
+    pub(super) fn take_warnings(&mut self, place: Option<&TextSpan>) {
+        for mut warning in std::mem::take(&mut self.post.control.warnings.list) {
+            warning.spans.extend(place.cloned());
+            self.tell(warning);
+        }
+    }
+
+    /// Puts a warning into the report and tells the observers.
+    pub(super) fn tell(&mut self, warning: Diag) {
+        for observer in self.observers.iter_mut() {
+            observer(Event::Warning(&warning));
+        }
+        self.report.warnings.push(warning);
+    }
+
+    /// Notes in the report how far the run has come.
+    pub fn note_counts(&mut self) {
+        self.report.records = self.source.records;
+        self.report.blocks = self.post.control.tape.count;
+        self.report.dialect = self.source.recognized();
+        self.report.splines = self.source.splines();
+    }
+
+    /// The FIL line that made a record.
+    pub(super) fn fil_line(&self, record: &Record) -> Option<FilLine> {
+        let tape = &self.post.control.tape;
+        tape.stacks.lines(tape.cause.stack).first().copied().filter(|_| record.line == 0)
+    }
+
+    /// Where a record stands: in the CL file, or in FIL for one that FIL has made.
+    pub fn place(&self, record: &Record, vocabulary: &Vocabulary) -> TextSpan {
+        if let Some(made) = self.fil_line(record) {
+            let file = &self.module.files[usize::from(made.file)].name;
+            return TextSpan::line(file, made.line, statement_text(record, vocabulary));
+        }
+        let line = if record.line == 0 { self.post.control.tape.cause.line } else { record.line };
+        TextSpan::line(&self.cl_name, line, statement_text(record, vocabulary))
+    }
+
+    /// Notes what a section did with its record, given by number and line.
+    pub fn section_done(
+        &mut self,
+        section: SectionId,
+        (record, line): (u32, u32),
+        swallowed: bool,
+    ) {
+        let key = self.module.section_key(section);
+        if swallowed {
+            if let Some(map) = &mut self.map {
+                map.taken(map::Taken { line, record, section: section.index() });
+            }
+            *self.report.swallowed.entry(key.to_string()).or_default() += 1;
+        }
+        for observer in self.observers.iter_mut() {
+            observer(Event::Section { key, record, swallowed, traced: self.trace });
+        }
+    }
+
+    /// Tells the observers that a record and all it has caused are over.
+    ///
+    /// # Errors
+    /// What the script's macro for lines of listings refuses.
+    pub fn record_done(&mut self) -> Result<(), Box<Diag>> {
+        let failure = RefCell::new(None);
+        let commons = &self.post.control.commons;
+        let editor = self.editor.as_ref().filter(|_| edits(commons).listing);
+        let edit = |line: &mut String| {
+            if let Some(editor) = editor
+                && failure.borrow().is_none()
+                && let Err(diag) = editor.edit_line(OutputMacro::Listing, line, commons)
+            {
+                *failure.borrow_mut() = Some(diag);
+            }
+        };
+        let rules = ListingRules::of(commons);
+        for observer in self.observers.iter_mut() {
+            observer(Event::RecordDone { lines: LineEditor(&edit), rules });
+        }
+        failure.into_inner().map_or(Ok(()), Err)
+    }
+
+    /// Tells the observers what the run has counted.
+    ///
+    /// # Errors
+    /// As [`Outside::record_done`].
+    pub fn run_done(&mut self) -> Result<(), Box<Diag>> {
+        if let Some(tally) = &self.tally {
+            let (blocks, bytes) = (self.report.blocks, self.report.bytes);
+            let end = RunEnd { tally, report: &self.report, blocks, bytes };
+            for observer in self.observers.iter_mut() {
+                observer(Event::End(end));
+            }
+        }
+        self.record_done()
+    }
+
+    /// The CL file ended without FINI; the program ends here.
+    ///
+    /// # Errors
+    /// A record that waits for its continuation.
+    pub fn end_of_file(&mut self) -> Result<(), Box<Diag>> {
+        self.warn_of_other_signs();
+        if self.source.records == 0 {
+            self.tell(*RunCode::NoMotion.diag(format!("{} holds no record", self.cl_name)));
+        } else if !self.fini_taken
+            && self.source.recognized().is_none_or(|found| found.dialect.rules().writes_fini)
+        {
+            self.tell(*RunCode::NoFini.diag(format!("{} has no FINI", self.cl_name)));
+        }
+        let result = self.post.finish();
+        self.take_warnings(None);
+        result.map_err(|diag| self.name_dialects(diag))
+    }
+
+    /// Names the dialects that would turn the arcs the other way, where the sense of arcs is
+    /// refused.
+    pub(super) fn name_dialects(&self, mut diag: Box<Diag>) -> Box<Diag> {
+        let sense: &Code = PostCode::ArcSense.into();
+        let found = self.source.recognized().map(|found| found.dialect);
+        if let Some(dialect) = found.filter(|_| diag.code == sense) {
+            let fitting = dialect.turning_otherwise();
+            let names: Vec<String> =
+                fitting.iter().map(|other| format!("--dialect {other}")).collect();
+            diag.hint = Some(match &names[..] {
+                [] => format!(
+                    "no dialect turns the arcs of {dialect} the other way: look at them in a backplot"
+                ),
+                _ => format!(
+                    "{} reads them the other way; --dialect {dialect} says that they are as {dialect} \
+                     means them",
+                    names.join(" or ")
+                ),
+            });
+        }
+        diag
+    }
+
+    /// Warns of a sign that contradicts the dialect that was chosen.
+    fn warn_of_other_signs(&mut self) {
+        let Some(found) = self.source.recognized() else { return };
+        let Some((other, line)) = found.against else { return };
+        let message =
+            format!("line {line} shows that the text is from {other}, read as {}", found.dialect);
+        self.tell(RunCode::OtherSigns.diag(message).at(TextSpan::line(&self.cl_name, line, "")));
+    }
+
+    /// Warns of records after FINI.
+    ///
+    /// # Errors
+    /// What the reader refuses.
+    pub fn after_fini(
+        &mut self,
+        record: &mut Record,
+        vocabulary: &mut Vocabulary,
+    ) -> Result<(), Box<Diag>> {
+        let more = self.source.read(record, vocabulary)?;
+        self.warn_of_other_signs();
+        if more {
+            let place = self.place(record, vocabulary);
+            self.tell(RunCode::AfterFini.diag("what follows is not posted").at(place));
+        }
+        Ok(())
+    }
+}
