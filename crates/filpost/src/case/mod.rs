@@ -25,9 +25,9 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
 use crate::error::{Error, RunCode};
-use crate::files;
 use crate::program::Program;
 use crate::units::unit_named;
+use crate::{file_names, files};
 
 pub use mutants::{Mutant, mutants};
 pub use outcome::{Fresh, Outcome, Verdict};
@@ -117,8 +117,18 @@ impl CaseFile {
         named.into_iter().flatten().chain(&self.fil).chain(&self.compat)
     }
 
-    /// Refuses an expected file, which an update writes, outside of the folder of the case
-    /// or in place of an input; the text is what is wrong.
+    /// Names as written on Windows, for every system: `/` between folders.
+    fn use_slashes(&mut self) {
+        let named = [&mut self.machine, &mut self.option_file, &mut self.compat, &mut self.read];
+        let named = named.into_iter().chain([&mut self.expect, &mut self.listing]).flatten();
+        for name in named.chain([&mut self.cl]).chain(&mut self.fil) {
+            *name = name.replace('\\', "/");
+        }
+    }
+
+    /// Refuses an expected file, which an update writes, outside of the folder of the case,
+    /// in place of an input or with a name that is none on Windows; the text is what is
+    /// wrong.
     fn refuse_written_names(&self) -> Result<(), String> {
         let tidy = |name: &String| -> PathBuf {
             Path::new(name).components().filter(|part| *part != Component::CurDir).collect()
@@ -130,6 +140,9 @@ impl CaseFile {
             let path = tidy(name);
             if path.components().any(|part| !matches!(part, Component::Normal(_))) {
                 return Err(format!("{key} = \"{name}\" leads out of the folder of the case"));
+            }
+            if let Some(fault) = name.split('/').find_map(file_names::fault) {
+                return Err(format!("{key} = \"{name}\": {fault}"));
             }
             if inputs.contains(&path) || path == Path::new("case.toml") {
                 return Err(format!("{key} = \"{name}\" is what the case reads"));
@@ -206,8 +219,9 @@ impl Case {
             let place = index.place(&path.display().to_string(), &text, range);
             Error::setup(Diag::new(RunCode::CaseFile, message).at(place))
         };
-        let file: CaseFile = toml::from_str(&text)
+        let mut file: CaseFile = toml::from_str(&text)
             .map_err(|error| wrong(error.message().to_string(), error.span().unwrap_or(0..0)))?;
+        file.use_slashes();
         file.comparison().map_err(|message| wrong(message, 0..0))?;
         file.refuse_written_names().map_err(|message| wrong(message, 0..0))?;
         Ok(Case { folder: folder.to_path_buf(), file })
@@ -235,5 +249,34 @@ impl Case {
     /// As [`Case::program`].
     pub fn program_with(&self, unsaved: &Unsaved) -> Result<Program, Error> {
         Recipe::with_unsaved(self, unsaved)?.build()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn loaded(lines: &str) -> Result<Case, Error> {
+        let folder = tempfile::tempdir().unwrap();
+        let text = format!("origin = 'made here'\n{lines}");
+        std::fs::write(folder.path().join("case.toml"), text).unwrap();
+        Case::load(folder.path())
+    }
+
+    #[test]
+    fn a_case_written_on_windows_names_its_files_on_every_system() {
+        let lines =
+            "cl = '..\\cl\\part.ncl'\r\nfil = ['..\\post.fil']\r\nexpect = 'out\\part.nc'\r\n";
+        let file = loaded(lines).unwrap().file;
+        assert_eq!((&*file.cl, &*file.fil[0]), ("../cl/part.ncl", "../post.fil"));
+        assert_eq!(file.expect.as_deref(), Some("out/part.nc"));
+    }
+
+    #[test]
+    fn an_expected_file_has_a_name_of_every_system_in_its_folder() {
+        for name in ["..\\part.nc", "NUL", "out/com1.nc", "part.", "a?.nc"] {
+            let refused = loaded(&format!("cl = 'part.ncl'\nexpect = '{name}'\n")).unwrap_err();
+            assert_eq!(refused.diags()[0].code.name(), "E0705", "{name}");
+        }
     }
 }
