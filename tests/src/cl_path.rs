@@ -41,7 +41,7 @@ pub fn cl_path_in(
         let verify::Step { line, what } = step.map_err(|diag| diag.to_string())?;
         let parts = match what {
             Wanted::Arc(arc, rate) => {
-                turns_of(arc).into_iter().map(|arc| Wanted::Arc(arc, rate)).collect()
+                turns_of(*arc).into_iter().map(|arc| Wanted::Arc(arc.into(), rate)).collect()
             }
             other => vec![other],
         };

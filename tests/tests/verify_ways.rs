@@ -86,10 +86,34 @@ fn a_fault_on_a_way_that_no_record_names_is_found() {
         (
             "corpus/klartext/tools",
             "\n16 L",
-            "\n15 CYCL DEF 7.1\n16 L",
+            "\n15 CYCL DEF 7.0 DATUM SHIFT\n15 CYCL DEF 7.1\n16 L",
             "a datum shift needs an axis",
         ),
-        ("corpus/klartext/tools", "\n16 L", "\n15 CYCL DEF 32.0\n16 L", "no record asks for"),
+        (
+            "corpus/klartext/tools",
+            "\n16 L",
+            "\n15 CYCL DEF 7.1 X+1\n16 L",
+            "without its first line",
+        ),
+        ("corpus/klartext/tools", "\n16 L", "\n15 CYCL DEF 7.0\n16 L", "nothing says its values"),
+        ("corpus/klartext/tools", "\n16 L", "\n15 CYCL DEF 9.0\n16 L", "nothing says its values"),
+        ("corpus/klartext/tools", "\n16 L", "\n15 CYCL DEF 32.0\n16 L", "nothing says its values"),
+        (
+            "corpus/klartext/tools",
+            "\n16 L",
+            "\n15 CYCL DEF 32.0 TOLERANCE\n15 CYCL DEF 32.1 T0.05\n16 L",
+            "line 18 changes how the path is followed, which no record asks for",
+        ),
+        // How closely and how smoothly the path is followed.
+        (
+            "corpus/sinumerik/tools",
+            "\nN170 G0",
+            "\nN165 CYCLE832(0.05,0,1)\nN170 G0",
+            "is followed",
+        ),
+        ("corpus/sinumerik/tools", "\nN170 G0", "\nN165 G642 SOFT\nN170 G0", "is followed"),
+        ("corpus/sinumerik/tools", "\nN170 G0", "\nN165 CFC\nN170 G0", "is followed"),
+        ("corpus/mills/fanuc-mill/tools", "G43", "G64 G43", "changes how the path is followed"),
         ("corpus/klartext/tools", "\n16 L", "\n15 CYCL DEF 10.1 ROT+35\n16 L", "is not followed"),
         ("corpus/sinumerik/orient", "N120 M5", "N120 M5 S77", "the spindle has 77 turns/min"),
         (

@@ -205,8 +205,9 @@ pub struct Modes {
     /// Line of the statement that has moved the zero away from that of the work offset, without
     /// where the axes stand being followed; `None` where it lies there.
     pub moved_zero: Option<u32>,
-    /// Line of the last statement of a cycle that changes how motions are driven (tolerances).
-    pub path_cycle: Option<u32>,
+    /// Line of the last statement that changes how closely and how smoothly the path is followed
+    /// (exact stops, tolerances), or what the feed of an arc counts at.
+    pub path_control: Option<u32>,
     /// A plane other than XY that the program of a mill has said, by the index of its normal,
     /// and the line of that; of motions alone.
     pub plane: Option<(usize, u32)>,

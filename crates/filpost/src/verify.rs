@@ -10,6 +10,7 @@ use std::io::{self, Read, Seek};
 use fil_cl::{Options, Reader};
 use fil_diag::Diag;
 use fil_nc::dialect::Dialect;
+use fil_nc::events::ahead;
 use fil_nc::interpret::{Running, has_skipped_blocks};
 use fil_nc::source::Source;
 use fil_nc::verify::{
@@ -123,18 +124,20 @@ impl Run<'_> {
     ) -> Result<Report, Error> {
         let name = self.name();
         let known = units::known_before(self.units, self.program.commons()).map_err(Error::Run)?;
-        let check = Check {
-            cl: Reader::new(cl, &name, Options { raw: false, ..self.reading }),
-            cl_name: &name,
-            unit: known.map(|(unit, _)| unit),
-            nc,
-            nc_name,
-            events: &mut Running::new(nc, nc_name, dialect),
-            commons: self.program.commons(),
-            allowed,
-            skips_blocks: dialect.leaves_blocks_out(),
-        };
-        verify(check).map_err(Error::Run)
+        let compared = ahead(Running::new(nc, nc_name, dialect), |events| {
+            verify(Check {
+                cl: Reader::new(cl, &name, Options { raw: false, ..self.reading }),
+                cl_name: &name,
+                unit: known.map(|(unit, _)| unit),
+                nc,
+                nc_name,
+                events,
+                commons: self.program.commons(),
+                allowed,
+                skips_blocks: dialect.leaves_blocks_out(),
+            })
+        });
+        compared.map_err(Error::Run)
     }
 
     /// Compares with what another run makes; files of scripts are not written. When
@@ -152,13 +155,12 @@ impl Run<'_> {
         let again = into_source(again);
         let again = (&again, "the second run");
         let compare = |dialect: &Dialect| {
-            let programs = Programs {
-                reference: &mut Running::new(again.0, again.1, dialect),
-                found: &mut Running::new(nc.0, nc.1, dialect),
-                commons: program.commons(),
-                allowed,
-            };
-            match compare_programs(programs) {
+            let mut reference = Running::new(again.0, again.1, dialect);
+            let compared = ahead(Running::new(nc.0, nc.1, dialect), |found| {
+                let commons = program.commons();
+                compare_programs(Programs { reference: &mut reference, found, commons, allowed })
+            });
+            match compared {
                 Ok(report) => Ok(report),
                 Err(Unfollowed::Found(refused)) => Err(refused),
                 Err(Unfollowed::Reference(refused)) => {

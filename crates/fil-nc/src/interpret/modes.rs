@@ -42,7 +42,9 @@ impl State<'_> {
             self.certain.say(StartMode::ReturnLevel);
         }
         self.work_offset(words)?;
-        words.function(Group::PathControl);
+        if words.function(Group::PathControl).is_some() {
+            self.modes.path_control = Some(self.line);
+        }
         words.function(Group::Diameter);
         self.offsets(words)
     }
@@ -70,9 +72,9 @@ impl State<'_> {
         Ok(())
     }
 
-    /// The work offset is another one than that in force.
+    /// The work offset is another one than that in force, or nobody has said which that is.
     pub(super) fn moves_fixture(&self, code: u32) -> bool {
-        self.modes.fixture.is_some_and(|now| now != code)
+        self.modes.fixture != Some(code)
     }
 
     /// Another work offset: where the axes stand in it is not known.

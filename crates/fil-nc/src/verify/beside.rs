@@ -112,6 +112,10 @@ impl<C: Steps> Walk<'_, C> {
         };
         self.report
             .leave_open(Unverified { cl_line: Some(cl_line), what: format!("{what}: {open}") });
+        if self.user_lines[1] != u32::MAX {
+            let next = self.nc.line(self.next).unwrap_or(u32::MAX - 1);
+            self.user_lines = [self.last_line(), next];
+        }
         if matches!(effect, Effect::AnyWords | Effect::Path) {
             self.auxiliaries.open(self.last_line());
         }

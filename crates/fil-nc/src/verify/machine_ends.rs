@@ -188,6 +188,7 @@ impl<C: Steps> Walk<'_, C> {
         let mut corrected = arc.from(before.filter(|[end, _]| *end == arc.start).map(|[_, at]| at));
         corrected.end.tip = self.settings.arc_end(&corrected, self.metric);
         self.corrected_end = Some([arc.end.tip, corrected.end.tip]);
-        (corrected != *arc).then(|| Step { what: Wanted::Arc(corrected, *rate), ..step.clone() })
+        (corrected != **arc)
+            .then(|| Step { what: Wanted::Arc(corrected.into(), *rate), ..step.clone() })
     }
 }

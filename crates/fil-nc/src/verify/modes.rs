@@ -152,11 +152,6 @@ impl Expected {
         self.allowed_offsets = offsets;
     }
 
-    /// Words of the user's own, which nobody can read, may have moved the zero.
-    pub(super) fn may_have_any_words(&self) -> bool {
-        self.fixture.is_none()
-    }
-
     /// The tool that must be in the spindle, as far as it is known.
     pub(super) fn tool(&self) -> Option<u32> {
         self.tool

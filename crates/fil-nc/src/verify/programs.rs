@@ -396,6 +396,11 @@ impl Pair<'_> {
                 FindingKind::Fixture,
                 "the zero is moved, or not, by a statement".to_string(),
             ),
+            (
+                a.path_control.is_some() != b.path_control.is_some(),
+                FindingKind::Extra,
+                "how the path is followed is said, or not, by a statement".to_string(),
+            ),
             (a.fixture != b.fixture, FindingKind::Fixture, "another work offset is on".to_string()),
         ];
         for (differs, kind, message) in checks {

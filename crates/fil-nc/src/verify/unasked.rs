@@ -1,4 +1,4 @@
-//! What moves the zero of the program, changes how its motions are driven or turns its plane, and
+//! What moves the zero of the program, changes how its path is followed or turns its plane, and
 //! what no record asks for.
 
 use super::ahead::Steps;
@@ -7,10 +7,11 @@ use super::walk::Walk;
 use crate::motion::{Compensation, DRILLED, Modes, Move};
 
 impl<C: Steps> Walk<'_, C> {
-    /// A statement that moves the zero, or a cycle of tolerances, stands in the settings or in
-    /// INSERT; else nobody has asked for it, and a part that is made there is made wrong.
+    /// A statement that moves the zero stands in the settings or in INSERT, one that changes how
+    /// the path is followed there or among words of the user's own; else nobody has asked for
+    /// it, and a part that is made so is made wrong.
     pub(super) fn check_unasked(&mut self, cl_line: u32, nc_line: u32, modes: &Modes) {
-        let found = [modes.moved_zero, modes.path_cycle];
+        let found = [modes.moved_zero, modes.path_control];
         if found != self.unasked {
             self.find_unasked(cl_line, nc_line, found);
         }
@@ -19,18 +20,22 @@ impl<C: Steps> Walk<'_, C> {
     #[cold]
     fn find_unasked(&mut self, cl_line: u32, nc_line: u32, found: [Option<u32>; 2]) {
         let before = std::mem::replace(&mut self.unasked, found);
-        if self.modes.may_have_any_words() {
-            return;
-        }
         let kinds = [FindingKind::Fixture, FindingKind::Extra];
         for (n, kind) in kinds.into_iter().enumerate() {
-            let news = found[n].filter(|line| before[n] != Some(*line) && !self.own.has(*line));
+            let is_asked = |line: u32| {
+                let [first, last] = self.user_lines;
+                let by_words = kind != FindingKind::Fixture && (first..=last).contains(&line);
+                by_words || self.own.has(line)
+            };
+            let news = found[n].filter(|line| before[n] != Some(*line) && !is_asked(*line));
             let Some(line) = news else { continue };
             let message = match kind {
                 FindingKind::Fixture => format!(
                     "line {line} has moved the zero of the program, which no record asks for"
                 ),
-                _ => format!("the cycle of line {line} is one that no record asks for"),
+                _ => format!(
+                    "line {line} changes how the path is followed, which no record asks for"
+                ),
             };
             self.find(kind, Some(cl_line), Some(nc_line), message);
         }

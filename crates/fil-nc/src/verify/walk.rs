@@ -66,6 +66,8 @@ pub(super) struct Walk<'a, C> {
     line: u32,
     pub(super) modes: Expected,
     pub(super) watch: Watch,
+    /// The first and the last line of the program that may hold words of the user's own.
+    pub(super) user_lines: [u32; 2],
     /// Lines of statements that no record asks for, of which that was said.
     pub(super) unasked: [Option<u32>; 2],
     /// The plane of the last arc or cycle, by the index of its normal.
@@ -121,6 +123,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             line: 0,
             modes: Expected::new(settings),
             watch,
+            user_lines: [u32::MAX, 0],
             unasked: [None; 2],
             plane: settings.dialect.plane,
             was_compensated: false,
@@ -216,6 +219,7 @@ impl<'a, C: Steps> Walk<'a, C> {
                 self.ask_auxiliary(step.line, self.settings.side_spindle_code(*turn));
             }
             Wanted::Unknown { what, effect } => self.unknown(step.line, what, *effect),
+            Wanted::Repeated(text) if !text.is_empty() => self.user_lines[1] = u32::MAX,
             Wanted::Stop { optional } => {
                 self.ask_auxiliary(step.line, self.settings.stop_code(*optional));
             }
@@ -333,7 +337,7 @@ impl<'a, C: Steps> Walk<'a, C> {
     }
 
     pub(super) fn at_end(&self) -> bool {
-        matches!(self.nc.get(self.next), None | Some(Event::End { .. }))
+        self.nc.look(self.next, |event| matches!(event, Event::End { .. })).unwrap_or(true)
     }
 
     /// True when the tool already is where a pose asks it to be.

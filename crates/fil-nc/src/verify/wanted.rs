@@ -15,7 +15,8 @@ pub struct Step {
     pub what: Wanted,
 }
 
-/// What a step of a CL file asks for.
+/// What a step of a CL file asks for. What is long and rare lies elsewhere, as most steps are lines
+/// and go through several hands.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Wanted {
     /// The unit of the file and of the program: mm, else inch.
@@ -27,13 +28,13 @@ pub enum Wanted {
     /// A thread pass.
     Thread(Pose, f64),
     /// A whole thread, in passes that the machine divides.
-    WholeThread(WholeThread),
+    WholeThread(Box<WholeThread>),
     /// The second spindle: clockwise or not, `None` where it stops.
     SideSpindle(Option<bool>),
     /// An arc or helix at feed.
-    Arc(Arc, Option<Rate>),
+    Arc(Box<Arc>, Option<Rate>),
     /// A hole of a cycle.
-    Hole(Hole),
+    Hole(Box<Hole>),
     /// Rapid traverse to the home position of the machine.
     Home,
     /// Rapid traverse up to the machine's level for it.

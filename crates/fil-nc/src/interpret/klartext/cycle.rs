@@ -89,6 +89,9 @@ impl Klartext<'_> {
         let (first, rest) = words.split_first().ok_or_else(missing)?;
         let (number, part) = first.text.split_once('.').unwrap_or((&first.text, "0"));
         let number: u32 = number.parse().map_err(|_| first.no_meaning())?;
+        if let 1 | 7 | 9 | 32 = number {
+            self.begin_or_go_on(number, part, first)?;
+        }
         match (number, part) {
             (1, "0") | (200 | 201 | 203 | 205..=207, "0") => {
                 self.defined =
@@ -108,7 +111,7 @@ impl Klartext<'_> {
             (1, _) => self.old_pecking(rest),
             (7, "0") | (9, "0") => Ok(()),
             (32, _) => {
-                self.state.modes.path_cycle = Some(self.state.line);
+                self.state.modes.path_control = Some(self.state.line);
                 Ok(())
             }
             (7, _) => self.datum_shift(rest),
@@ -116,6 +119,37 @@ impl Klartext<'_> {
             _ => {
                 let message = format!("cycle {number} is not followed");
                 Err(Fault::new(NcCode::ForeignCode, message).at(&first.range))
+            }
+        }
+    }
+
+    /// The lines of an old cycle: `CYCL DEF 7.0 DATUM SHIFT`, `CYCL DEF 7.1 X+10`. Values without
+    /// the name before them define nothing.
+    fn begin_or_go_on(&mut self, number: u32, part: &str, first: &Word) -> Result<(), Fault> {
+        let goes_on = part != "0";
+        if goes_on && self.old.is_none_or(|(begun, _)| begun != number) {
+            let message = format!("a value of cycle {number} without its first line");
+            return Err(Fault::new(NcCode::NoMeaning, message).at(&first.range));
+        }
+        self.old = Some((number, goes_on));
+        Ok(())
+    }
+
+    /// Refuses an old cycle whose name no line with a value follows: whether a control goes on
+    /// with the values it had, or stops, is not known.
+    pub(super) fn check_old_cycle(&mut self, words: &[&str]) -> Result<(), Fault> {
+        let Some((number, has_value)) = self.old else { return Ok(()) };
+        if let ["CYCL" | "CYCLE", "DEF", first, ..] = words
+            && first.split_once('.').is_some_and(|(begun, _)| begun == number.to_string())
+        {
+            return Ok(());
+        }
+        self.old = None;
+        match has_value {
+            true => Ok(()),
+            false => {
+                let message = format!("cycle {number} is named, and nothing says its values");
+                Err(Fault::new(NcCode::MissingWord, message))
             }
         }
     }

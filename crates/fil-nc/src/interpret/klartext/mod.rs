@@ -51,6 +51,8 @@ struct Klartext<'d> {
     defined: Option<Definition>,
     /// The datum shift of cycle 7, mm.
     shift: [f64; 3],
+    /// The old cycle that the line before defines, and whether it said more than its name.
+    old: Option<(u32, bool)>,
 }
 
 /// A program of Klartext, line by line.
@@ -76,6 +78,7 @@ impl<'a> Program<'a> {
             pole: [None; 2],
             defined: None,
             shift: [0.0; 3],
+            old: None,
         };
         Program { control, lines: Lines::from(source, 0), number: 0, last: 1, leaves_out: false }
     }
@@ -120,6 +123,7 @@ impl Klartext<'_> {
         if words.is_empty() {
             return Ok(());
         }
+        self.check_old_cycle(&words)?;
         match (self.part, &words[..]) {
             (Part::Head, ["BEGIN", "PGM", .., unit @ ("MM" | "INCH")]) => {
                 self.state.set_metric(*unit == "MM");

@@ -165,7 +165,10 @@ impl Sinumerik<'_> {
                 return Ok(());
             }
             name if name.starts_with("SPOS[") => &mut said.position,
-            "CTOL" | "ADIS" | "ADISPOS" => return Ok(()),
+            "CTOL" | "ADIS" | "ADISPOS" => {
+                self.controls_path();
+                return Ok(());
+            }
             _ => return Err(word.foreign("is not followed")),
         };
         let number = self.number(word, value)?;
@@ -174,7 +177,7 @@ impl Sinumerik<'_> {
 
     /// A statement without a value.
     fn statement(&mut self, word: &Word, said: &mut Said) -> Result<(), Fault> {
-        const HARMLESS: &[&str] = &[
+        const PATH_CONTROL: &[&str] = &[
             "SOFT",
             "BRISK",
             "DRIVE",
@@ -186,8 +189,6 @@ impl Sinumerik<'_> {
             "COMPCAD",
             "NORM",
             "KONT",
-            "STOPRE",
-            "DIAMOF",
             "CFC",
             "CFTCP",
             "CFIN",
@@ -210,7 +211,8 @@ impl Sinumerik<'_> {
             "DIAMOF" if self.writes_diameters() => {
                 return Err(word.foreign("on a machine whose X is a diameter"));
             }
-            name if HARMLESS.contains(&name) => {}
+            "STOPRE" | "DIAMOF" => {}
+            name if PATH_CONTROL.contains(&name) => self.controls_path(),
             _ => return Err(word.foreign("is not followed")),
         }
         Ok(())
@@ -305,7 +307,8 @@ impl Sinumerik<'_> {
                     state.certain.say(StartMode::Surface);
                     self.feed_mode(FeedMode::PerTurn);
                 }
-                Function::Offset(code) => self.offset(code),
+                Function::Offset(code) => state.fixture(code),
+                Function::PathControl => self.controls_path(),
                 _ => {}
             }
         }
@@ -317,20 +320,6 @@ impl Sinumerik<'_> {
         }
         self.state.feed_mode = mode;
         self.state.certain.say(StartMode::Feed);
-    }
-
-    /// Another work offset: where the axes stand in it is not known.
-    fn offset(&mut self, code: u32) {
-        if self.state.modes.fixture.is_some_and(|now| now != code) {
-            self.lose_axes();
-        }
-        self.state.modes.fixture = Some(code);
-    }
-
-    pub(super) fn lose_axes(&mut self) {
-        for axis in (0..5).filter(|axis| self.state.dialect.scales[*axis].is_some()) {
-            self.state.known[axis] = false;
-        }
     }
 
     fn tool(&mut self, said: &Said) -> Result<(), Fault> {

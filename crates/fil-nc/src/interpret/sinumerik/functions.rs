@@ -34,7 +34,7 @@ pub(super) enum Function {
     /// To a fixed or reference point.
     FixedPoint,
     /// How exactly the path is followed: no motion of its own.
-    Harmless,
+    PathControl,
 }
 
 impl Function {
@@ -49,7 +49,7 @@ impl Function {
             Function::Feed(_) | Function::Surface(_) => 6,
             Function::Offset(_) => 7,
             Function::Dwell | Function::Machine | Function::FixedPoint => 8,
-            Function::Harmless => 0,
+            Function::PathControl => 0,
         }
     }
 }
@@ -84,7 +84,7 @@ pub(super) fn function(code: u32) -> Option<Function> {
         97 => F::Surface(false),
         700 => F::Units { metric: false, feeds: true },
         710 => F::Units { metric: true, feeds: true },
-        9 | 60 | 64 | 450 | 451 | 601..=603 | 641..=645 => F::Harmless,
+        9 | 60 | 64 | 450 | 451 | 601..=603 | 641..=645 => F::PathControl,
         _ => return None,
     })
 }

@@ -154,7 +154,11 @@ impl Sinumerik<'_> {
             return Err(Fault::new(NcCode::AfterEnd, "the program has ended before this block"));
         }
         match (first.name.as_str(), &first.arguments) {
-            ("MSG" | "WORKPIECE" | "CYCLE832" | "GROUP_BEGIN" | "GROUP_END", _) => Ok(()),
+            ("MSG" | "WORKPIECE" | "GROUP_BEGIN" | "GROUP_END", _) => Ok(()),
+            ("CYCLE832", _) => {
+                self.controls_path();
+                Ok(())
+            }
             ("MCALL", _) => self.call_at_each(&words[1..]),
             ("TRAORI", arguments) if words.len() == 1 => {
                 if arguments.as_ref().is_some_and(|given| given.iter().any(Option::is_some)) {
@@ -177,6 +181,11 @@ impl Sinumerik<'_> {
             ("TRANS" | "ATRANS", _) => self.translate(first, &words[1..]),
             _ => self.block(&words),
         }
+    }
+
+    /// A statement changes how the path is followed.
+    fn controls_path(&mut self) {
+        self.state.modes.path_control = Some(self.state.line);
     }
 
     /// `MCALL CYCLE81(…)`, and `MCALL` that ends it.

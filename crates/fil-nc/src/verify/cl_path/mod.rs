@@ -194,25 +194,28 @@ impl<'r> ClPath<'r> {
         self
     }
 
-    /// Reads on until a step is ready; false at the end.
-    fn fill(&mut self) -> Result<bool, Box<Diag>> {
-        while self.ready.is_empty() {
+    /// The next step; `None` at the end.
+    fn step(&mut self) -> Result<Option<Step>, Box<Diag>> {
+        loop {
+            if let Some(step) = self.ready.pop_front() {
+                return Ok(Some(step));
+            }
             if self.over {
-                return Ok(false);
+                return Ok(None);
             }
             if !self.reader.read(&mut self.vocabulary, &mut self.record)? {
                 self.over = true;
-                self.ready
-                    .push_back(Step { line: self.record.line, what: Wanted::End(End::OfFile) });
-                return Ok(true);
+                let line = self.record.line;
+                return Ok(Some(Step { line, what: Wanted::End(End::OfFile) }));
             }
             let line = self.record.line;
             self.require_unit()?;
             self.refuse_other_unit()?;
             if self.is_plain_motion() {
-                let motion = self.state.motion(&self.record, &self.vocabulary);
-                self.ready.extend(motion.map(|what| Step { line, what }));
-                continue;
+                match self.state.motion(&self.record, &self.vocabulary) {
+                    Some(what) => return Ok(Some(Step { line, what })),
+                    None => continue,
+                }
             }
             let mut steps = self.state.take(&self.record, &self.vocabulary);
             if self.record.kind == kind::POST && self.record.major == w::OPSKIP {
@@ -224,7 +227,6 @@ impl<'r> ClPath<'r> {
             self.over = steps.iter().any(|what| matches!(what, Wanted::End(_)));
             self.ready.extend(steps.into_iter().map(|what| Step { line, what }));
         }
-        Ok(true)
     }
 }
 
@@ -276,14 +278,9 @@ impl Iterator for ClPath<'_> {
     type Item = Result<Step, Box<Diag>>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        match self.fill() {
-            Ok(true) => self.ready.pop_front().map(Ok),
-            Ok(false) => None,
-            Err(diag) => {
-                self.over = true;
-                Some(Err(diag))
-            }
-        }
+        let step = self.step();
+        self.over |= step.is_err();
+        step.transpose()
     }
 }
 

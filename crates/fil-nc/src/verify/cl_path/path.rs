@@ -44,7 +44,7 @@ impl State {
             (None, Some(cycle)) if !self.rapid => {
                 self.point = Some(point);
                 self.axis = axis;
-                Wanted::Hole(self.hole(&cycle, self.pose(point, axis)))
+                Wanted::Hole(Box::new(self.hole(&cycle, self.pose(point, axis))))
             }
             _ => self.line_to(point, axis),
         })
@@ -112,7 +112,7 @@ impl State {
         let sweep = full_sweep(&bare, waiting.turns);
         self.point = Some(end);
         self.axis = axis;
-        Wanted::Arc(self.in_frame(&Arc { sweep, ..bare }), self.rate)
+        Wanted::Arc(Box::new(self.in_frame(&Arc { sweep, ..bare })), self.rate)
     }
 
     /// The arc as TRANS places it; a mirror turns its sense.

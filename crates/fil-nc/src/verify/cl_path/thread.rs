@@ -31,7 +31,7 @@ impl State {
             return Some(Vec::new());
         }
         if record.has(w::AUTO) {
-            return Some(vec![Wanted::WholeThread(self.automatic(record)?)]);
+            return Some(vec![Wanted::WholeThread(Box::new(self.automatic(record)?))]);
         }
         if record.major == w::OP && !record.has(w::THREAD) {
             return None;
@@ -146,7 +146,7 @@ impl State {
             angle: 0.0,
         };
         self.point = None;
-        Some(Wanted::WholeThread(self.on_machine(&thread)))
+        Some(Wanted::WholeThread(Box::new(self.on_machine(&thread))))
     }
 
     /// The thread as TRANS places it, in mm; its lead is in mm already.

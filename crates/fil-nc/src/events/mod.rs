@@ -1,10 +1,14 @@
 //! The events of a program, one after the other.
 
+mod ahead;
+
 use std::collections::VecDeque;
 
 use fil_diag::Diag;
 
 use crate::motion::Event;
+
+pub use ahead::ahead;
 
 /// Events that a program of events in memory hands over at once.
 const AT_ONCE: usize = 64;
