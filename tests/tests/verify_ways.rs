@@ -40,6 +40,28 @@ fn a_fault_on_a_way_that_no_record_names_is_found() {
             "G0\n",
             "the machine turns at Z34.66, the tool must have gone up to Z200 before",
         ),
+        // A part of a rapid that is on no way to its end, from an unknown place too.
+        (
+            "corpus/mills/mach4-mill/offsets",
+            "N110 Z20.",
+            "N105 Z-1.\nN110 Z20.",
+            "on no way to its",
+        ),
+        ("corpus/sinumerik/tools", "\nN60 Z50", "\nN55 Z-30\nN60 Z50", "on no way to its"),
+        ("corpus/sinumerik/tapping", "N150 X0 Y0", "N145 X=IC(1)\nN150 X0 Y0", "on no way to its"),
+        (
+            "corpus/posts/fanuc-5x-tables/faces",
+            "N140 X-14.537",
+            "N135 A1.\nN140 X-14.537",
+            "on no way to its end",
+        ),
+        ("corpus/posts/fanuc-5x-head/holes", "N60 X7.519", "N55 B1.\nN60 X7.519", "on no way to"),
+        // What ends a frame within tool-tip control, and a call of a tool that calls none.
+        ("corpus/posts/sinumerik-5x/swarf", "N80 G1", "N75 CYCLE800()\nN80 G1", "the end of a"),
+        ("corpus/posts/heidenhain-5x/swarf", "\n7 L", "\n6 PLANE RESET STAY\n7 L", "the end of a"),
+        ("corpus/klartext/tools", "\n7 L", "\n7 TOOL CALL Z\n7 L", "a tool, a speed or a feed"),
+        // The function of a tool change that a turret does not have.
+        ("corpus/lathe/fanuc-mill-turn/turn-then-drill", "M30", "M6\nM30", "M6: neither the CL"),
         (
             "corpus/sinumerik/machine-positions",
             "N20 G53 G0 Z0 D0",

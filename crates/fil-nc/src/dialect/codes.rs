@@ -547,8 +547,13 @@ impl Auxiliaries {
             ("coolant.off_code", A::Coolant(None)),
             ("tool.change_code", A::ToolChange),
         ];
+        // A turret turns by its T word: what else that function does nobody knows.
+        let by_word = settings.code("tool.format") == Some(2);
         let mut table = HashMap::new();
         for (key, auxiliary) in named {
+            if by_word && auxiliary == A::ToolChange {
+                continue;
+            }
             if let Some(code) = settings.code(key) {
                 table.entry(i64::from(code)).or_insert(auxiliary);
             }

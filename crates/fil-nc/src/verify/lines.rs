@@ -134,7 +134,11 @@ impl<C: Steps> Walk<'_, C> {
         let turns = part.to.rotary != end.rotary;
         let lifts = turns && is_level && to[2] > at[2] && !leaves(0) && !leaves(1);
         let strays = (0..2).any(|n| found_out[n] && !arrived(n));
-        if strays || (0..3).any(|n| leaves(n) && !(n == 2 && lifts)) {
+        // A way that begins and ends nobody knows where.
+        let is_blind = (0..3).any(|n| !self.known[n] && !part.known[n] && moved(n));
+        let finds_level = !self.known[2] && part.known[2] && !arrived(2) && !is_level;
+        let astray = strays || is_blind || finds_level || self.turns_astray(part, &end);
+        if astray || (0..3).any(|n| leaves(n) && !(n == 2 && lifts)) {
             let [x, y, z] = to.map(short);
             let message = format!("rapid by way of X{x} Y{y} Z{z}, which is on no way to its end");
             self.say_order(cl_line, part, message);
@@ -161,6 +165,16 @@ impl<C: Steps> Walk<'_, C> {
             let message = "rapid goes across before Z has gone up".to_string();
             self.say_order(cl_line, part, message);
         }
+    }
+
+    /// A rotary axis neither stays nor ends in a part of a rapid.
+    fn turns_astray(&self, part: &Move, end: &Position) -> bool {
+        let differs = |a: f64, b: f64| (a - b).abs() > STILL;
+        (0..2).any(|n| {
+            let [from, to] = [self.at, part.to].map(|at| at.rotary[n]);
+            let moves = differs(from, to) || (part.known[n + 3] && !self.known[n + 3]);
+            moves && differs(to, end.rotary[n])
+        })
     }
 
     fn say_order(&mut self, cl_line: u32, part: &Move, message: String) {

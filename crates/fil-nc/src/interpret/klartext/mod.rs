@@ -171,6 +171,7 @@ impl Klartext<'_> {
             ["PLANE", "SPATIAL", ..] => self.plane(&line.words[2..]),
             ["PLANE", "RESET", rest @ ..] => {
                 plane::check_reset(rest, &line.words[2..])?;
+                self.state.refuse_under_tip_control("the end of a tilted plane")?;
                 self.state.end_tilt();
                 Ok(())
             }

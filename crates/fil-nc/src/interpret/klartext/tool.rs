@@ -27,6 +27,9 @@ impl Klartext<'_> {
                 },
             }
         }
+        if number.is_none() && speed.is_none() && feed.is_none() {
+            return Err(Fault::new(NcCode::MissingWord, "a tool, a speed or a feed is needed"));
+        }
         if number.is_some() && !axis {
             return Err(Fault::new(NcCode::MissingWord, "the tool axis is needed"));
         }

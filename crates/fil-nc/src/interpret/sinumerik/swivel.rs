@@ -17,6 +17,7 @@ impl Sinumerik<'_> {
     pub(super) fn swivel(&mut self, call: &Word) -> Result<(), Fault> {
         let arguments = call.arguments.as_deref().unwrap_or_default();
         if arguments.iter().all(Option::is_none) {
+            self.state.refuse_under_tip_control("the end of a tilted plane")?;
             self.state.end_tilt();
             return Ok(());
         }
