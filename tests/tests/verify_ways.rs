@@ -56,6 +56,26 @@ fn a_fault_on_a_way_that_no_record_names_is_found() {
             "on no way to its end",
         ),
         ("corpus/posts/fanuc-5x-head/holes", "N60 X7.519", "N55 B1.\nN60 X7.519", "on no way to"),
+        (
+            "heidenhain-tnc640/holes.ncl.1",
+            "26 L X+0 Y+0 FMAX",
+            "26 L Y+0 FMAX",
+            "before X and Y have",
+        ),
+        // A hole in a work offset in which no word has said where the tool stands.
+        (
+            "words/set-ofsetl-in-a-cycle-ends-it",
+            "G55\nG99 G81 X1.",
+            "G55\nG99 G81",
+            "moves before all axes",
+        ),
+        // An axis that would stand at zero if anybody had said where it stands.
+        (
+            "words/trans-of-the-control-and-the-frame-of-the-machine",
+            "G53 G0 Z0 D0\n",
+            "",
+            "goes to another position of the machine",
+        ),
         // What ends a frame within tool-tip control, and a call of a tool that calls none.
         ("corpus/posts/sinumerik-5x/swarf", "N80 G1", "N75 CYCLE800()\nN80 G1", "the end of a"),
         ("corpus/posts/heidenhain-5x/swarf", "\n7 L", "\n6 PLANE RESET STAY\n7 L", "the end of a"),

@@ -243,6 +243,8 @@ pub struct Move {
     /// point of the machine, and after a change of the work offset; its value is
     /// then the last one that was said, or 0.
     pub known: [bool; 5],
+    /// Which axes a motion to a point of the machine names; none of another motion.
+    pub to_machine: [bool; 5],
     /// What else is in force.
     pub modes: Modes,
 }

@@ -226,9 +226,7 @@ impl State<'_> {
         if between != self.at {
             self.go((between, known), Course::Rapid, None);
         }
-        let mut lost = self.known;
-        axes.iter().for_each(|word| lost[word.axis] = false);
-        self.go((between, lost), Course::Machine, None);
+        self.go_to_machine(between, axes.named());
         Ok(())
     }
 
@@ -244,9 +242,7 @@ impl State<'_> {
             return Err(Fault::new(NcCode::MissingWord, "the axes that go there are needed"));
         }
         let (to, _) = self.target(&axes);
-        let mut lost = self.known;
-        axes.iter().for_each(|word| lost[word.axis] = false);
-        self.go((to, lost), Course::Machine, None);
+        self.go_to_machine(to, axes.named());
         Ok(())
     }
 

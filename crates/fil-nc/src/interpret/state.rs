@@ -206,8 +206,19 @@ impl<'d> State<'d> {
             rate,
             in_cycle: course != Course::Machine && (self.cycle.is_some() || self.pass.is_some()),
             known,
+            to_machine: [false; 5],
             modes: Modes { plane, ..self.modes },
         }));
+    }
+
+    /// A motion to a point of the machine: where the axes that go there stand in the frame of
+    /// the program is not known.
+    pub(super) fn go_to_machine(&mut self, to: Axes, named: [bool; 5]) {
+        let known = std::array::from_fn(|axis| self.known[axis] && !named[axis]);
+        self.go((to, known), Course::Machine, None);
+        if let Some(Event::Move(found)) = self.events.last_mut() {
+            found.to_machine = named;
+        }
     }
 
     /// A motion of some axes within a cycle; none when they stand there.

@@ -46,6 +46,11 @@ impl AxisWords {
         AxisWords { words: [none; AXES], count: 0 }
     }
 
+    /// The axes that have a word.
+    pub(super) fn named(&self) -> [bool; AXES] {
+        std::array::from_fn(|axis| self.iter().any(|word| word.axis == axis))
+    }
+
     /// Adds a word of an axis that has none yet.
     fn push(&mut self, word: AxisWord) {
         self.words[self.count] = word;

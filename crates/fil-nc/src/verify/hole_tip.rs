@@ -159,8 +159,9 @@ impl<C: Steps> Walk<'_, C> {
 
     /// A motion ends over a hole, or in it.
     pub(super) fn ends_over(&self, found: &Move, hole: &Hole, over: [f64; 3]) -> bool {
-        // Behind polar interpolation X and C are not known before their next words.
-        if self.settings.is_mill_turn() && !self.is_known(&found.known) {
+        // Behind another work offset, or polar interpolation, nobody knows where the axes stand
+        // before their next words.
+        if !self.is_known(&found.known) {
             return false;
         }
         if self.is_said_anew(found, hole) {

@@ -146,7 +146,7 @@ impl<C: Steps> Walk<'_, C> {
         let is_mill = self.written == [true; 3];
         let comes_later = is_mill && (0..2).any(|n| !part.known[n] || !arrived(n));
         // Over where the tool last worked a way up hits nothing, behind a tool change too.
-        let goes_down = !self.has_had_height || to[2] < at[2];
+        let goes_down = !self.has_had_height || to[2] <= at[2];
         let finds_height = !self.known[2] && part.known[2] && !is_level && goes_down;
         if splits && finds_height && comes_later {
             let message = "rapid goes to its height before X and Y have arrived".to_string();

@@ -69,7 +69,7 @@ impl<C: Steps> Walk<'_, C> {
             let moved = |n: &usize| value(&found.to, *n) != value(&self.at, *n);
             let arrives = |n: usize| {
                 to[n].is_some_and(|to| {
-                    !found.known[n] && (value(&found.to, n) - to).abs() <= slack(n)
+                    found.to_machine[n] && (value(&found.to, n) - to).abs() <= slack(n)
                 })
             };
             let astray = (0..5).filter(moved).any(|n| !arrives(n));

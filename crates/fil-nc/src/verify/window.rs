@@ -156,6 +156,7 @@ mod tests {
             rate: None,
             in_cycle: false,
             known: [true; 5],
+            to_machine: [false; 5],
             modes: Modes::default(),
         };
         (0..count).map(|at| Event::Move(line(at))).collect()

@@ -51,11 +51,7 @@ impl Klartext<'_> {
             self.state.check_tilted_motion(turns)?;
             let (to, known) = self.target(&said);
             if said.machine {
-                let mut lost = self.state.known;
-                (0..5)
-                    .filter(|axis| said.axes[*axis].is_some())
-                    .for_each(|axis| lost[axis] = false);
-                self.state.go((to, lost), Course::Machine, None);
+                self.state.go_to_machine(to, said.axes.map(|axis| axis.is_some()));
             } else if said.rapid {
                 self.state.go((to, known), Course::Rapid, None);
             } else {

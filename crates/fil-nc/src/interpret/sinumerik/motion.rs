@@ -3,7 +3,7 @@
 use super::super::Fault;
 use super::super::arc::{plane_axes, sweep};
 use super::Sinumerik;
-use super::block::{Coordinate, Said};
+use super::block::Said;
 use crate::dialect::{FeedMode, Function};
 use crate::errors::NcCode;
 use crate::motion::{Arc, Course, Rate, unit};
@@ -173,15 +173,10 @@ impl Sinumerik<'_> {
             return Err(Fault::new(NcCode::NoMeaning, message));
         }
         let (mut to, _) = self.target(said);
-        let mut lost = self.state.known;
         for axis in (0..3).filter(|axis| said.axes[*axis].is_some()) {
             to[axis] -= self.state.zero[axis];
         }
-        let named = |word: &Option<Coordinate>| word.is_some();
-        for axis in (0..5).filter(|axis| named(&said.axes[*axis])) {
-            lost[axis] = false;
-        }
-        self.state.go((to, lost), Course::Machine, None);
+        self.state.go_to_machine(to, said.axes.map(|axis| axis.is_some()));
         Ok(())
     }
 }

@@ -36,6 +36,7 @@ fn feed(to: Position, arc: Option<motion::Arc>) -> Move {
         rate: None,
         in_cycle: false,
         known: [true; 5],
+        to_machine: [false; 5],
         modes: Modes::default(),
     }
 }
