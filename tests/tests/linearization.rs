@@ -186,6 +186,58 @@ fn at_a_limit_the_tool_goes_out_and_comes_back() {
     assert!(changes > sample::of(LIMITED) / 8, "{changes}");
 }
 
+/// A head that leans and stays so while the table turns holds the tip far from where X, Y and
+/// Z say: on the axis of the table, where they hardly move, the tip goes along an arc.
+#[test]
+fn a_head_that_leans_while_the_table_turns() {
+    let rotaries = [(1, [0.0, 0.0, 1.0], [0.0; 3]), (2, [0.0, 1.0, 0.0], [0.0; 3])];
+    let post = post(&rotaries, Some(200.0), 0.02, 0);
+    let lean = 45f64.to_radians();
+    let (out, down) = (200.0 * lean.sin(), 200.0 * (1.0 - lean.cos()));
+    let at = |degrees: f64| {
+        let turn = degrees.to_radians();
+        ([-out * turn.cos(), -out * turn.sin(), down], lean, turn, false)
+    };
+    let cl = cl(&[at(0.0), at(10.0)], 500.0, None);
+    let (nc, report) = checked(&post, &cl, 0.02).expect("a program");
+    assert_eq!(report.verdict(), Verdict::Agrees, "{:#?}\n{nc}", report.findings);
+    // An arc of 10 degrees with a radius of 141.4 mm is 0.54 mm high; each part may have 0.02.
+    let parts = nc.lines().filter(|line| line.contains('C')).count();
+    assert!(parts > 5, "{nc}");
+}
+
+/// Half circles square to a leaning tool, far from the axes of the machine: there the last
+/// digit of an angle is several of X, Y and Z.
+#[test]
+fn arcs_on_a_long_lever() {
+    let kinds: [[u8; 2]; 3] = [[1, 1], [1, 2], [2, 2]];
+    for number in 0..30u32 {
+        let rotaries = [0, 1].map(|n| {
+            let direction = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]][n];
+            let kind = kinds[number as usize % 3][n];
+            (kind, direction, [300.0 + f64::from(number), -400.0, 250.0])
+        });
+        let pivot = rotaries.iter().any(|(kind, ..)| *kind == 2).then_some(420.5);
+        let post = post(&rotaries, pivot, 0.02, 0);
+        let (turn, tilt) = (0.21 * f64::from(number), 0.2 + 0.03 * f64::from(number));
+        let (i, j, k) = (tilt.sin() * turn.cos(), tilt.sin() * turn.sin(), tilt.cos());
+        // Along the circle's plane, square to the tool.
+        let (u, v) = (-5.0 * turn.sin(), 5.0 * turn.cos());
+        let axis = format!("{i:.10}, {j:.10}, {k:.10}");
+        let cl = format!(
+            "UNITS / MM\nMULTAX / ON\nFEDRAT / 500, MMPM\nRAPID\n\
+             GOTO / 10, 20, 30, {axis}\n\
+             CIRCLE / {:.8}, {:.8}, 30, {axis}, 5\nGOTO / {:.8}, {:.8}, 30, {axis}\nFINI\n",
+            10.0 + u,
+            20.0 + v,
+            10.0 + 2.0 * u,
+            20.0 + 2.0 * v
+        );
+        let (nc, report) = checked(&post, &cl, 0.05).expect("a program");
+        assert_eq!(report.verdict(), Verdict::Agrees, "{:#?}\n{cl}{nc}", report.findings);
+    }
+}
+
 /// Without division the tip leaves its line, which is said.
 #[test]
 fn an_undivided_motion_is_said() {

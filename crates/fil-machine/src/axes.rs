@@ -299,8 +299,13 @@ impl Axis {
     ///
     /// # Errors
     /// As [`Axis::scaled`].
+    #[inline]
     pub fn on_tape(&self, position: f64) -> Result<f64> {
-        Ok(self.near(self.position(self.value(position)?), position))
+        let value = self.value(position)?;
+        if self.is_plain && self.full_turn == 0 {
+            return Ok(value);
+        }
+        Ok(self.near(self.position(value), position))
     }
 
     /// Smallest step of the machine position that the tape can say, mm, inch or

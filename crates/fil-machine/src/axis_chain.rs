@@ -137,27 +137,47 @@ impl AxisChain {
     /// # Errors
     /// No solution at all, or none within the limits.
     pub fn solve(&self, axis: Vector3<f64>, last: [f64; 2]) -> Result<[f64; 2]> {
+        Ok(self.solve_with_free(axis, last)?.0)
+    }
+
+    /// As [`AxisChain::solve`], and beside it the positions that are the nearest if no axis
+    /// has limits.
+    ///
+    /// # Errors
+    /// As [`AxisChain::solve`].
+    pub fn solve_with_free(
+        &self,
+        axis: Vector3<f64>,
+        last: [f64; 2],
+    ) -> Result<([f64; 2], [f64; 2])> {
         let axis = Unit::try_new(axis, 1e-9)
             .ok_or_else(|| MachineCode::ToolAxis.diag("the tool axis has length zero"))?;
         let solutions = self.all(axis, last);
-        if solutions.is_empty() {
+        let solutions = solutions.pairs();
+        let Some(free) = nearest_free(solutions, last) else {
             return Err(Box::new(Diag::new(
                 MachineCode::ToolAxis,
                 format!("tool axis {}", show(axis.into_inner())),
             )));
+        };
+        if self.reaches(free) {
+            return Ok((free, free));
         }
-        self.nearest(&solutions, last).ok_or_else(|| {
+        let nearest = self.nearest(solutions, last).ok_or_else(|| {
             let angles: Vec<String> =
                 solutions.iter().map(|s| format!("{:.3}/{:.3}", s[0], s[1])).collect();
             MachineCode::AxisLimit
                 .diag(format!("rotary positions {} lie outside the limits", angles.join(" and ")))
-        })
+        })?;
+        Ok((nearest, free))
     }
 
     /// All pairs of rotary positions that bring the tool along `axis`, in degrees from -180
     /// to 180, whatever the limits; an axis that does not turn the tool stays at `last`.
     pub fn solutions(&self, axis: Vector3<f64>, last: [f64; 2]) -> Vec<[f64; 2]> {
-        Unit::try_new(axis, 1e-9).map(|axis| self.all(axis, last)).unwrap_or_default()
+        Unit::try_new(axis, 1e-9)
+            .map(|axis| self.all(axis, last).pairs().to_vec())
+            .unwrap_or_default()
     }
 
     /// True when the travel of a rotary axis is limited.
@@ -177,9 +197,7 @@ impl AxisChain {
     pub fn axis_at(&self, angles: [f64; 2]) -> Vector3<f64> {
         self.rotaries.iter().zip(angles).rev().fold(self.tool.into_inner(), |tool, (rotary, at)| {
             match rotary {
-                Some(rotary) => {
-                    Rotation3::from_axis_angle(&rotary.direction, at.to_radians()) * tool
-                }
+                Some(rotary) => rotary.turned(tool, at),
                 None => tool,
             }
         })
@@ -188,11 +206,8 @@ impl AxisChain {
     /// As [`AxisChain::solve`] on a machine whose rotary axes have no limits; `None` where
     /// no position brings the tool along `axis`.
     pub fn nearest_anywhere(&self, axis: Vector3<f64>, last: [f64; 2]) -> Option<[f64; 2]> {
-        let near = |angle: f64, last: f64| angle + 360.0 * ((last - angle) / 360.0).round();
-        let solutions = self.solutions(axis, last).into_iter();
-        solutions
-            .map(|found| [near(found[0], last[0]), near(found[1], last[1])])
-            .min_by(|a, b| travel(a, &last).total_cmp(&travel(b, &last)))
+        let axis = Unit::try_new(axis, 1e-9)?;
+        nearest_free(self.all(axis, last).pairs(), last)
     }
 
     /// All positions within the limits that bring the tool along `axis`, degrees, with up to
@@ -216,15 +231,15 @@ impl AxisChain {
             .collect()
     }
 
-    fn all(&self, axis: Unit<Vector3<f64>>, last: [f64; 2]) -> Vec<[f64; 2]> {
+    fn all(&self, axis: Unit<Vector3<f64>>, last: [f64; 2]) -> Solutions {
         match &self.rotaries {
             [None, None] => self.fixed(axis, last),
-            [Some(one), None] => single(one, axis, self.tool, last[0])
-                .map(|angle| vec![[angle, last[1]]])
-                .unwrap_or_default(),
-            [None, Some(one)] => single(one, axis, self.tool, last[1])
-                .map(|angle| vec![[last[0], angle]])
-                .unwrap_or_default(),
+            [Some(one), None] => {
+                Solutions::of(single(one, axis, self.tool, last[0]).map(|angle| [angle, last[1]]))
+            }
+            [None, Some(one)] => {
+                Solutions::of(single(one, axis, self.tool, last[1]).map(|angle| [last[0], angle]))
+            }
             [Some(first), Some(second)] => pair(first, second, axis, self.tool, last),
         }
     }
@@ -238,14 +253,13 @@ impl AxisChain {
             let Some(rotary) = rotary.as_ref().filter(|r| r.carries == Carries::Table) else {
                 continue;
             };
-            let turn = Rotation3::from_axis_angle(&rotary.direction, -angle.to_radians());
-            point = rotary.center + turn * (point - rotary.center);
+            point = rotary.center + rotary.turned(point - rotary.center, -angle);
         }
         for (rotary, angle) in self.rotaries.iter().zip(angles).rev() {
             let Some(rotary) = rotary.as_ref().filter(|r| r.carries == Carries::Head) else {
                 continue;
             };
-            tool = Rotation3::from_axis_angle(&rotary.direction, angle.to_radians()) * tool;
+            tool = rotary.turned(tool, angle);
         }
         match self.pivot {
             Some(length) => point + (tool - self.tool.into_inner()) * length,
@@ -253,9 +267,9 @@ impl AxisChain {
         }
     }
 
-    fn fixed(&self, axis: Unit<Vector3<f64>>, last: [f64; 2]) -> Vec<[f64; 2]> {
+    fn fixed(&self, axis: Unit<Vector3<f64>>, last: [f64; 2]) -> Solutions {
         let reached = (axis.into_inner() - self.tool.into_inner()).norm() < SAME;
-        if reached { vec![last] } else { Vec::new() }
+        Solutions::of(reached.then_some(last))
     }
 
     fn nearest(&self, solutions: &[[f64; 2]], last: [f64; 2]) -> Option<[f64; 2]> {
@@ -277,15 +291,58 @@ impl Rotary {
             && self.max.is_none_or(|max| angle <= max + 1e-9)
     }
 
+    /// A direction turned about the axis by an angle, degrees, by the right-hand rule.
+    #[inline]
+    pub fn turned(&self, vector: Vector3<f64>, angle: f64) -> Vector3<f64> {
+        // The product row by row: the general one of matrices takes several times as long.
+        let m = Rotation3::from_axis_angle(&self.direction, angle.to_radians()).into_inner();
+        let row = |n: usize| m[(n, 0)] * vector.x + m[(n, 1)] * vector.y + m[(n, 2)] * vector.z;
+        Vector3::new(row(0), row(1), row(2))
+    }
+
     /// The angle plus whole turns that lies nearest to `last` and within the limits.
     fn turn_near(&self, angle: f64, last: f64) -> Option<f64> {
         let near = angle + 360.0 * ((last - angle) / 360.0).round();
-        [0.0, 360.0, -360.0, 720.0, -720.0]
+        if self.reaches(near) {
+            return Some(near);
+        }
+        [360.0, -360.0, 720.0, -720.0]
             .into_iter()
             .map(|turn| near + turn)
             .filter(|angle| self.reaches(*angle))
             .min_by(|a, b| (a - last).abs().total_cmp(&(b - last).abs()))
     }
+}
+
+/// The pairs of rotary positions that bring the tool along an axis: two at most.
+#[derive(Clone, Copy, Default)]
+struct Solutions {
+    pairs: [[f64; 2]; 2],
+    count: usize,
+}
+
+impl Solutions {
+    fn of(pairs: impl IntoIterator<Item = [f64; 2]>) -> Self {
+        let mut found = Solutions::default();
+        for (place, pair) in found.pairs.iter_mut().zip(pairs) {
+            *place = pair;
+            found.count += 1;
+        }
+        found
+    }
+
+    fn pairs(&self) -> &[[f64; 2]] {
+        &self.pairs[..self.count]
+    }
+}
+
+/// Of the solutions with whole turns, whatever the limits, the one nearest to `last`.
+fn nearest_free(solutions: &[[f64; 2]], last: [f64; 2]) -> Option<[f64; 2]> {
+    let near = |angle: f64, last: f64| angle + 360.0 * ((last - angle) / 360.0).round();
+    solutions
+        .iter()
+        .map(|found| [near(found[0], last[0]), near(found[1], last[1])])
+        .min_by(|a, b| travel(a, &last).total_cmp(&travel(b, &last)))
 }
 
 fn travel(angles: &[f64; 2], last: &[f64; 2]) -> f64 {
@@ -324,12 +381,12 @@ fn pair(
     axis: Unit<Vector3<f64>>,
     tool: Unit<Vector3<f64>>,
     last: [f64; 2],
-) -> Vec<[f64; 2]> {
+) -> Solutions {
     let (u1, u2) = (first.direction, second.direction);
     let skew = u1.dot(&u2);
     let denominator = skew * skew - 1.0;
     if denominator.abs() < SAME {
-        return Vec::new();
+        return Solutions::default();
     }
     let (on1, on2) = (u1.dot(&axis), u2.dot(&tool));
     let alpha = (skew * on2 - on1) / denominator;
@@ -337,19 +394,16 @@ fn pair(
     let cross = u1.cross(&u2);
     let rest = 1.0 - alpha * alpha - beta * beta - 2.0 * alpha * beta * skew;
     if rest < -SAME {
-        return Vec::new();
+        return Solutions::default();
     }
     let gamma = (rest.max(0.0) / cross.norm_squared()).sqrt();
     let signs: &[f64] = if gamma < SAME { &[0.0] } else { &[1.0, -1.0] };
-    signs
-        .iter()
-        .filter_map(|sign| {
-            let between = u1.scale(alpha) + u2.scale(beta) + cross.scale(sign * gamma);
-            let r1 = turn(u1, between, axis.into_inner(), last[0])?;
-            let r2 = turn(u2, tool.into_inner(), between, last[1])?;
-            Some([r1, r2])
-        })
-        .collect()
+    Solutions::of(signs.iter().filter_map(|sign| {
+        let between = u1.scale(alpha) + u2.scale(beta) + cross.scale(sign * gamma);
+        let r1 = turn(u1, between, axis.into_inner(), last[0])?;
+        let r2 = turn(u2, tool.into_inner(), between, last[1])?;
+        Some([r1, r2])
+    }))
 }
 
 fn rotary(commons: &Commons, at: &RotaryLocations) -> Result<Option<Rotary>> {
@@ -366,14 +420,19 @@ fn rotary(commons: &Commons, at: &RotaryLocations) -> Result<Option<Rotary>> {
     let mut home = [0.0; 3];
     home[axis] = 1.0;
     let coordinate = |location: Dbl| commons.dbl_opt(location).unwrap_or(0.0);
+    let of_letter = loc::ROTARY_LIMITS[axis];
+    let limit = |own: Dbl, of_letter: Dbl| {
+        let checked = commons.read(loc::LIMITS_CHECK);
+        commons.dbl_opt(own).or_else(|| commons.dbl_opt(of_letter).filter(|_| checked))
+    };
     Ok(Some(Rotary {
         carries,
         direction: direction(commons, at.direction, "rotary axis", home)?,
         center: Point3::from(at.center.map(coordinate)),
         letter: commons.read(at.letter).unwrap_or(ROTARY_LETTERS[axis]),
         axis,
-        min: commons.dbl_opt(at.range[0]),
-        max: commons.dbl_opt(at.range[1]),
+        min: limit(at.range[0], of_letter.0),
+        max: limit(at.range[1], of_letter.1),
     }))
 }
 
@@ -399,95 +458,4 @@ fn show(vector: Vector3<f64>) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn axis(carries: Carries, direction: [f64; 3]) -> Option<Rotary> {
-        Some(Rotary {
-            carries,
-            direction: Unit::new_normalize(Vector3::from(direction)),
-            center: Point3::origin(),
-            letter: ROTARY_LETTERS[0],
-            axis: 0,
-            min: None,
-            max: None,
-        })
-    }
-
-    fn machine(first: Option<Rotary>, second: Option<Rotary>) -> AxisChain {
-        AxisChain { rotaries: [first, second], tool: Vector3::z_axis(), pivot: None }
-    }
-
-    /// The solution turned back must give the tool axis it was asked for.
-    fn forward(machine: &AxisChain, angles: [f64; 2]) -> Vector3<f64> {
-        machine.rotaries.iter().zip(angles).rev().fold(
-            machine.tool.into_inner(),
-            |tool, (rotary, angle)| match rotary {
-                Some(r) => Rotation3::from_axis_angle(&r.direction, angle.to_radians()) * tool,
-                None => tool,
-            },
-        )
-    }
-
-    #[test]
-    fn one_table_about_y_brings_the_point_under_the_tool() {
-        let machine = machine(axis(Carries::Table, [0.0, 1.0, 0.0]), None);
-        let c = 4.884_f64.to_radians();
-        let angles =
-            machine.solve(Vector3::new(libm::sin(c), 0.0, libm::cos(c)), [0.0; 2]).unwrap();
-        assert!((angles[0] - 4.884).abs() < 1e-9);
-        let point =
-            machine.linear(Point3::new(81.0 * libm::sin(c), 7.0, 81.0 * libm::cos(c)), angles);
-        assert!((point - Point3::new(0.0, 7.0, 81.0)).norm() < 1e-9);
-        let sideways = machine.solve(Vector3::new(0.0, 0.3, 1.0), [0.0; 2]);
-        assert_eq!(sideways.unwrap_err().code.name(), "E0508");
-    }
-
-    #[test]
-    fn five_axis_solutions_reach_the_axis_for_every_arrangement() {
-        let x = [1.0, 0.0, 0.0];
-        let z = [0.0, 0.0, 1.0];
-        let nutating = [0.0, -1.0, 1.0];
-        for (first, second) in [(z, x), (z, [0.0, 1.0, 0.0]), (z, nutating)] {
-            for (a, b) in [
-                (Carries::Table, Carries::Table),
-                (Carries::Table, Carries::Head),
-                (Carries::Head, Carries::Head),
-            ] {
-                let machine = machine(axis(a, first), axis(b, second));
-                for step in 0..60 {
-                    let tilt = f64::from(step) * 0.026;
-                    let turn = f64::from(step) * 0.41;
-                    let want = Vector3::new(
-                        libm::sin(tilt) * libm::cos(turn),
-                        libm::sin(tilt) * libm::sin(turn),
-                        libm::cos(tilt),
-                    );
-                    let angles = machine.solve(want, [0.0; 2]).unwrap();
-                    assert!((forward(&machine, angles) - want).norm() < 1e-6, "{angles:?}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn limits_choose_the_other_solution() {
-        let mut second = axis(Carries::Table, [1.0, 0.0, 0.0]).unwrap();
-        second.min = Some(0.0);
-        let machine = machine(axis(Carries::Table, [0.0, 0.0, 1.0]), Some(second));
-        for tilt in [0.2_f64, -0.2] {
-            let angles = machine
-                .solve(Vector3::new(0.0, libm::sin(tilt), libm::cos(tilt)), [0.0; 2])
-                .unwrap();
-            assert!(angles[1] >= 0.0);
-        }
-    }
-
-    #[test]
-    fn a_pivot_moves_the_linear_axes_with_the_head() {
-        let mut machine = machine(None, axis(Carries::Head, [0.0, 1.0, 0.0]));
-        machine.pivot = Some(100.0);
-        let point = machine.linear(Point3::origin(), [0.0, 90.0]);
-        assert!((point - Point3::new(100.0, 0.0, -100.0)).norm() < 1e-9);
-    }
-}
+mod tests;

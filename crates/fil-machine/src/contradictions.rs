@@ -3,6 +3,7 @@
 
 mod letters;
 mod numbers;
+mod travel;
 
 use fil_diag::{Diag, Result};
 
@@ -157,6 +158,7 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     same_positions(commons, &mut found);
     letters::check(commons, &mut found);
     absent_axes(commons, &mut found);
+    travel::forms(commons, &mut found);
     numbers::numbers(commons, &mut found);
     tape(commons, &mut found);
     numbers::ranges(commons, &mut found);

@@ -155,6 +155,10 @@ pub const HOME: [Dbl; 3] = [HOME_X, HOME_Y, HOME_Z];
 pub const LINEAR_LIMITS: [(Dbl, Dbl); 3] =
     [(LIMITS_X_MIN, LIMITS_X_MAX), (LIMITS_Y_MIN, LIMITS_Y_MAX), (LIMITS_Z_MIN, LIMITS_Z_MAX)];
 
+/// Least and greatest A, B, C of the machine, degrees.
+pub const ROTARY_LIMITS: [(Dbl, Dbl); 3] =
+    [(LIMITS_A_MIN, LIMITS_A_MAX), (LIMITS_B_MIN, LIMITS_B_MAX), (LIMITS_C_MIN, LIMITS_C_MAX)];
+
 /// Where X, Y, Z, A, B, C stand for a tool change, mm and degrees.
 pub const CHANGE_POSITION: [Dbl; 6] =
     [TOOL_CHANGE_X, TOOL_CHANGE_Y, TOOL_CHANGE_Z, TOOL_CHANGE_A, TOOL_CHANGE_B, TOOL_CHANGE_C];

@@ -28,6 +28,8 @@ const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 pub struct Number {
     /// All digits as one whole number, with the sign.
     pub digits: i64,
+    /// A minus sign is written, before zero too: on a rotary axis it can be the way round.
+    pub minus: bool,
     /// Digits after the point.
     pub decimals: u8,
     /// How many digits are written before the point, leading zeros too.
@@ -37,8 +39,11 @@ pub struct Number {
 }
 
 impl Number {
-    /// The value as a human reads it.
+    /// The value as a human reads it; zero keeps its sign.
     pub fn value(self) -> f64 {
+        if self.digits == 0 && self.minus {
+            return -0.0;
+        }
         let power = POWERS.get(usize::from(self.decimals)).copied();
         self.digits as f64 / power.unwrap_or_else(|| libm::pow(10.0, self.decimals.into()))
     }
@@ -231,7 +236,8 @@ impl Scan<'_> {
             return Err(self.refuse(NcCode::BadNumber, start));
         }
         let digits = if negative { -digits } else { digits };
-        Ok(Number { digits, decimals: decimals as u8, whole: whole as u8, point })
+        let (decimals, whole) = (decimals as u8, whole as u8);
+        Ok(Number { digits, minus: negative, decimals, whole, point })
     }
 
     /// A refusal of what stands from `start` up to where the reader is.
@@ -269,7 +275,10 @@ mod tests {
     #[test]
     fn a_number_keeps_how_it_is_written() {
         let number = read("X-007.50").words[0].number;
-        assert_eq!(number, Number { digits: -750, decimals: 2, whole: 3, point: true });
+        assert_eq!(
+            number,
+            Number { digits: -750, minus: true, decimals: 2, whole: 3, point: true }
+        );
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Posts a CL file with a ready post and perhaps a FIL file:
-//! `cargo run -p filpost --example post_file -- part.ncl part.ngc [post.fil]`.
+//! `cargo run -p filpost --example post_file -- part.ncl part.ngc [post.fil]`. `FILPOST_POST`
+//! names another ready post than `linuxcnc-mill`.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -26,7 +27,8 @@ fn main() -> ExitCode {
 }
 
 fn post(cl: &Path, nc: &Path, fil: Option<&Path>) -> Result<(), filpost::Error> {
-    let mut builder = Program::builder().ready("linuxcnc-mill");
+    let name = std::env::var("FILPOST_POST").unwrap_or_else(|_| "linuxcnc-mill".to_string());
+    let mut builder = Program::builder().ready(&name);
     if let Some(fil) = fil {
         builder = builder.fil(&fil.display().to_string(), &files::read_text(fil, None)?);
     }

@@ -2,7 +2,8 @@
 //! and without the division of motions that turn the machine, and under tool-tip control:
 //! `cargo bench -p filpost-tests --bench axes`.
 //!
-//! `FILPOST_BENCH_POINTS` sets the number of points of each CL file (200,000).
+//! `FILPOST_BENCH_POINTS` sets the number of points of each CL file (200,000). With
+//! `FILPOST_BENCH_ROW` only rows that begin so are run, once, for a counter of instructions.
 
 use std::fmt::Write;
 use std::fs;
@@ -49,10 +50,12 @@ fn main() -> Outcome<()> {
     println!("| of what | ns a GOTO | times three axes | blocks a GOTO |\n|---|---|---|---|");
     let mut three = None;
     let mut four = None;
-    for row in ROWS {
+    let only = std::env::var("FILPOST_BENCH_ROW").unwrap_or_default();
+    let repeats = if only.is_empty() { REPEATS } else { 1 };
+    for row in ROWS.iter().filter(|row| row.name.starts_with(&only)) {
         let cl = folder.path().join("part.ncl");
         fs::write(&cl, part(row, points)?)?;
-        let (each, blocks) = post(row, points, &cl)?;
+        let (each, blocks) = post(row, (points, repeats), &cl)?;
         let times = each / *three.get_or_insert(each);
         if row.name == "four axes, undivided" {
             four = Some(times);
@@ -67,7 +70,7 @@ fn main() -> Outcome<()> {
 }
 
 /// Nanoseconds and blocks a GOTO, the best of several runs.
-fn post(row: &Row, points: u32, cl: &Path) -> Outcome<(f64, f64)> {
+fn post(row: &Row, (points, repeats): (u32, usize), cl: &Path) -> Outcome<(f64, f64)> {
     let mut builder = filpost::Program::builder().ready(row.post);
     for setting in row.settings {
         builder = builder.set(setting);
@@ -75,7 +78,7 @@ fn post(row: &Row, points: u32, cl: &Path) -> Outcome<(f64, f64)> {
     let program = builder.build().map_err(|error| format!("{}: {error:?}", row.name))?;
     let nc = cl.with_extension("nc");
     let mut best = f64::INFINITY;
-    for _ in 0..REPEATS {
+    for _ in 0..repeats {
         let start = Instant::now();
         program.run_files(cl, &nc).map_err(|error| format!("{}: {error:?}", row.name))?;
         best = best.min(start.elapsed().as_secs_f64());
@@ -113,10 +116,12 @@ fn round(n: u32) -> [f64; 6] {
     [f64::from(row % 500) * 0.1, wave * sine, wave * cosine, 0.0, sine, cosine]
 }
 
-/// Round and round a cone with the tool leaning 20 degrees outward, half a degree a step.
+/// To and fro round a cone with the tool leaning 20 degrees outward, half a degree a step.
 fn cone(n: u32) -> [f64; 6] {
-    let (sine, cosine) = (f64::from(n % 720) * 0.5).to_radians().sin_cos();
+    let (step, row) = (n % 720, n / 720);
+    let angle = f64::from(if row % 2 == 0 { step } else { 719 - step }) * 0.5;
+    let (sine, cosine) = angle.to_radians().sin_cos();
     let (lean, up) = 20f64.to_radians().sin_cos();
     let wave = RADIUS + (f64::from(n) * 0.05).sin();
-    [wave * cosine, wave * sine, f64::from(n / 720 % 500) * -0.1, lean * cosine, lean * sine, up]
+    [wave * cosine, wave * sine, f64::from(row % 500) * -0.1, lean * cosine, lean * sine, up]
 }

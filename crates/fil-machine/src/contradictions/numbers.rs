@@ -94,6 +94,10 @@ pub(super) fn ranges(commons: &Commons, found: &mut Vec<Diag>) {
     for ((low, high), name) in loc::LINEAR_LIMITS.into_iter().zip(letters::XYZ) {
         range(dbl(low), dbl(high), &format!("travel of {name}"));
     }
+    let rotary = loc::ROTARY_LIMITS.into_iter().zip(['A', 'B', 'C']);
+    for ((low, high), name) in rotary {
+        range(dbl(low), dbl(high), &format!("travel of {name}"));
+    }
     range(dbl(loc::FEED_UPM_MIN), dbl(loc::FEED_UPM_MAX), "feed");
     range(dbl(loc::ROTARY_PRIMARY_MIN), dbl(loc::ROTARY_PRIMARY_MAX), "first rotary axis");
     range(dbl(loc::ROTARY_SECONDARY_MIN), dbl(loc::ROTARY_SECONDARY_MAX), "second rotary axis");

@@ -30,7 +30,12 @@ fn letters_that_a_control_reads_as_they_are_meant_are_taken() {
 #[test]
 fn positions_of_axes_that_the_machine_has_are_taken() {
     let axis = "rotary.primary_kind=1\nrotary.primary_letter=B\nrotary.primary_axis=2";
-    for setting in ["tool.change_block=2\ntool.change_b=10", "output.translate_b=5"] {
+    for setting in [
+        "limits.b_kind=1",
+        "limits.check=1\nlimits.a_kind=1",
+        "tool.change_block=2\ntool.change_b=10",
+        "output.translate_b=5",
+    ] {
         let mut commons = default_commons();
         for part in axis.lines().chain(setting.lines()) {
             apply_setting(&mut commons, part).unwrap();
@@ -48,6 +53,9 @@ fn contradictions_are_found() {
         "int.5=3",
         "feed.upm_factor=-1",
         "limits.x_min=5\nlimits.x_max=1",
+        "limits.a_min=5\nlimits.a_max=1",
+        "rotary.primary_kind=1\nrotary.primary_axis=2\nlimits.check=1\nlimits.b_kind=1",
+        "rotary.primary_kind=1\nrotary.primary_axis=3\nlimits.check=1\nlimits.c_zones=1",
         "cycle.dwell_address=Q",
         "rotary.primary_letter=X",
         "spindle.stop_code=3",

@@ -46,7 +46,7 @@ fn klartext(line: &[u8], number: u32) -> Block {
     if items.first().is_some_and(|(text, _)| text.bytes().all(|byte| byte.is_ascii_digit())) {
         let (text, range) = items.remove(0);
         let digits = text.parse().unwrap_or(0);
-        let number = Number { digits, decimals: 0, whole: 1, point: false };
+        let number = Number { digits, minus: digits < 0, decimals: 0, whole: 1, point: false };
         block.words.push(Word { letter: b'N', index: None, number, range });
     }
     let head = items.first().map_or(String::new(), |(text, _)| text.clone());
@@ -119,7 +119,7 @@ fn word(letter: u8, text: &str, range: &Range<usize>) -> Option<Word> {
 
 fn exact(value: f64) -> Number {
     let digits = (value * libm::exp10(DECIMALS.into())).round() as i64;
-    Number { digits, decimals: DECIMALS, whole: 1, point: true }
+    Number { digits, minus: value.is_sign_negative(), decimals: DECIMALS, whole: 1, point: true }
 }
 
 /// Words of a SINUMERIK: `CR=` is the radius, `X1=` a word with an index, calls and
@@ -176,8 +176,13 @@ fn sequence_number(text: &str) -> Option<Word> {
     let from = text.len() - text.trim_start_matches(['/', ' ']).len();
     let rest = text[from..].strip_prefix(['N', 'n'])?;
     let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
-    let number =
-        Number { digits: rest[..digits].parse().ok()?, decimals: 0, whole: 1, point: false };
+    let number = Number {
+        digits: rest[..digits].parse().ok()?,
+        minus: false,
+        decimals: 0,
+        whole: 1,
+        point: false,
+    };
     Some(Word { letter: b'N', index: None, number, range: from..from + 1 + digits })
 }
 

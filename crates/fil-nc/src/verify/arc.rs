@@ -94,7 +94,7 @@ impl<C: Steps> Walk<'_, C> {
         (from, found): (&Position, &Move),
         part: &motion::Arc,
     ) -> Option<f64> {
-        let frame = self.settings.forward.frame_of(&found.to);
+        let frame = self.settings.forward.frame_of(&self.exactly(arc, found));
         let mut normal = Vector3::zeros();
         normal[part.normal] = if part.ccw { 1.0 } else { -1.0 };
         if (frame.turn * normal - arc.normal).norm() > PARALLEL {
@@ -138,7 +138,7 @@ impl<C: Steps> Walk<'_, C> {
         // The ends of a short chord turn it as they are rounded in both axes, and the center
         // with it.
         let turned = given * (2.0 * SQRT_2 * slack / chord).min(2.0);
-        let center = self.settings.forward.frame_of(&found.to).linear(arc.center);
+        let center = self.settings.forward.frame_of(&self.exactly(arc, found)).linear(arc.center);
         let off = distance(part.center, center, part.normal);
         (off <= along + turned + 2.0 * slack).then_some(swept)
     }
@@ -146,7 +146,7 @@ impl<C: Steps> Walk<'_, C> {
     /// The angle from the start of an arc at which a motion ends, behind another angle.
     fn angle_behind(&self, arc: &Arc, before: f64, found: &Move) -> f64 {
         let turns = (before / 360.0).floor() * 360.0;
-        let angle = turns + arc.angle_of(self.tip(found));
+        let angle = turns + arc.angle_of(self.tip(arc, found));
         if angle <= before { angle + 360.0 } else { angle }
     }
 
@@ -190,7 +190,7 @@ impl<C: Steps> Walk<'_, C> {
 
     /// The end of a part lies on the arc, at the height of its share.
     fn is_on(&self, arc: &Arc, angle: f64, found: &Move) -> bool {
-        let tip = self.tip(found);
+        let tip = self.tip(arc, found);
         let slack = 2.0 * self.slack.linear.iter().fold(0.0f64, |a, b| a.max(*b));
         let share = angle / arc.sweep;
         let rise = arc.rise_of(arc.end.tip) * share;
@@ -234,8 +234,17 @@ impl<C: Steps> Walk<'_, C> {
         (4.0 * slack / arc.radius().max(slack)).to_degrees()
     }
 
-    fn tip(&self, found: &Move) -> Point3<f64> {
-        self.settings.forward.pose(&found.to).tip
+    fn tip(&self, arc: &Arc, found: &Move) -> Point3<f64> {
+        self.settings.forward.pose(&self.exactly(arc, found)).tip
+    }
+
+    /// Where a block ends, with the rotary axes where the tool lies exactly as on the arc, if
+    /// their last digits let them stand there: at the end of a long lever these are more than
+    /// those of X, Y and Z.
+    fn exactly(&self, arc: &Arc, found: &Move) -> Position {
+        let rotary = self.settings.forward.refine(found.to.rotary, arc.end.axis);
+        let is_near = |n: usize| (rotary[n] - found.to.rotary[n]).abs() <= self.slack.rotary[n];
+        if is_near(0) && is_near(1) { Position { rotary, ..found.to } } else { found.to }
     }
 
     /// Says how an arc block differs from the arc it stands for.

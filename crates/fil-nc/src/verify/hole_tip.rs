@@ -202,6 +202,9 @@ impl<C: Steps> Walk<'_, C> {
         if let Some(height) = line.level(tip.coords.into()).filter(|_| known) {
             self.at.linear[2] = levels.at[2] + height;
         }
+        // The way up to the level comes before the way across: along the tool where it stands.
+        let twice = line.slack.map(|digit| 2.0 * digit);
+        let here = Line { start: tip, slack: twice, heights: Vec::new(), ..line };
         line.before = self.initial.unwrap_or(self.at.linear[2]) - levels.at[2];
         let rotary = self.gap(&next.to, &hole.start).rotary;
         let machine = self.settings.forward.frame(rotary);
@@ -212,7 +215,11 @@ impl<C: Steps> Walk<'_, C> {
         for event in self.nc.from(first).take(MOST + 4 * line.heights.len()) {
             said.push(match &event {
                 Event::Move(found) if self.is_said_anew(found, hole) && found.arc.is_none() => {
-                    Event::Move(self.said(found, hole, levels, &line))
+                    let mut said = self.said(found, hole, levels, &line);
+                    if known {
+                        self.lifted(&mut said, self.tip_over(found, hole), &here, (&line, levels));
+                    }
+                    Event::Move(said)
                 }
                 Event::Dwell { .. } => event,
                 _ => break,
@@ -223,6 +230,25 @@ impl<C: Steps> Walk<'_, C> {
         let along = DUST + line.doubt();
         let slack = std::mem::replace(&mut self.slack.linear, [DUST, DUST, along]);
         Some(Kept { first, events, slack })
+    }
+
+    /// Says a motion straight up from where the tool stands exactly: its last digits lean, and
+    /// the level is one of those that the hole asks for.
+    fn lifted(
+        &self,
+        said: &mut Move,
+        tip: Point3<f64>,
+        here: &Line,
+        (line, levels): (&Line, Levels),
+    ) {
+        let tip = tip.coords.into();
+        if line.range(tip).is_some() || here.range(tip).is_none() {
+            return;
+        }
+        said.to.linear[..2].copy_from_slice(&self.at.linear[..2]);
+        if let Some(height) = line.level(tip) {
+            said.to.linear[2] = levels.at[2] + height;
+        }
     }
 
     fn said(&self, found: &Move, hole: &Hole, levels: Levels, line: &Line) -> Move {

@@ -143,7 +143,13 @@ impl<C: Steps> Walk<'_, C> {
         // A turn to where the axis stands is no motion that is passed over.
         self.pass_own();
         let slack = self.slack.rotary[index];
-        let there = |at: &Position| (at.rotary[index] - angle).abs() <= slack;
+        let within_a_turn = self.settings.dialect.ways_round[index + 3].is_some();
+        // The control counts within one turn, and the way to a position may lead past 0.
+        let near = |at: &Position| match within_a_turn {
+            true => angle + 360.0 * ((at.rotary[index] - angle) / 360.0).round(),
+            false => angle,
+        };
+        let there = |at: &Position| (at.rotary[index] - near(at)).abs() <= slack;
         if self.known[index + 3] && there(&self.at) {
             self.report.matched += 1;
             return;
@@ -161,7 +167,7 @@ impl<C: Steps> Walk<'_, C> {
         self.check_turn_is_away(cl_line, &found);
         self.take(cl_line, &found);
         self.next += 1;
-        self.exact[index] = angle;
+        self.exact[index] = near(&found.to);
         self.report.matched += 1;
         self.watch.stand(None);
     }

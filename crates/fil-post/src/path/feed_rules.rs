@@ -6,6 +6,7 @@ use fil_machine::axes::AxisSet;
 use fil_machine::locations::{self as loc, FeedInverseLength, LinearMethod};
 use fil_machine::modes::FeedMode;
 
+use super::{linearization, rotary};
 use crate::control::family;
 use crate::control::word_address::arc::PlaneArc;
 use crate::control::word_address::motion::Motion;
@@ -87,13 +88,39 @@ fn parts(post: &mut Post, way: [Option<f64>; 3]) -> Result<&'static [AxisSet]> {
 
 /// How far the tip goes in a part of a motion, mm or inch; `None` where that is not known.
 fn length(post: &Post, way: [Option<f64>; 3], axes: AxisSet, target: Target) -> Option<f64> {
-    let known = way.iter().all(Option::is_some) && !post.control.tables.chain().has_rotary();
-    if known {
+    let known = way.iter().all(Option::is_some);
+    let has_rotary = post.control.tables.chain().has_rotary();
+    if known && (!has_rotary || (is_beside_the_path(post) && shows_the_tip(post))) {
         let squares = (0..3).filter(|number| axes.has(*number)).filter_map(|number| way[number]);
         return Some(squares.map(|way| way * way).sum::<f64>().sqrt());
     }
     let whole = axes == AxisSet::ALL;
-    post.path.point.filter(|_| whole).map(|from| (target.point - from).norm())
+    let from = post.path.point.filter(|_| whole)?;
+    let in_part = |point| rotary::transformed(post, Target { point, ..target }).0;
+    Some((in_part(target.point) - in_part(from)).norm())
+}
+
+/// The machine does not stand where the last point says, as behind TRANS.
+fn is_beside_the_path(post: &Post) -> bool {
+    post.path.rotary.is_some_and(|at| !linearization::is_where_the_path_is(post, at))
+}
+
+/// True where X, Y and Z on the tape go as far as the tip: no rotary axis turns, or they name
+/// the tip.
+fn shows_the_tip(post: &Post) -> bool {
+    let tables = &post.control.tables;
+    let stands = |n: usize| {
+        let (axis, angles) = (tables.axis(n), post.path.rotary);
+        let (tape, angle) = (post.control.axis_position(n), angles.map(|at| at[n - 3]));
+        match (tape, angle) {
+            (Some(tape), Some(angle)) => {
+                (axis.near(tape, angle) - angle).abs() <= axis.resolution()
+            }
+            _ => false,
+        }
+    };
+    let mut rotary = AxisSet::ROTARY.and(tables.present()).numbers();
+    post.writes_tip() || rotary.all(stands)
 }
 
 /// True for a motion that goes nowhere: it makes no block.

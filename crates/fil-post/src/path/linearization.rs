@@ -6,13 +6,14 @@
 //! them. So rounding counts too.
 
 use fil_diag::Result;
-use fil_machine::axes::{AXES, Axis, AxisSet, Position};
+use fil_machine::axes::{AxisSet, Position};
 use fil_machine::axis_chain::AxisChain;
 use fil_machine::locations as loc;
+use fil_machine::tables::MachineTables;
 use nalgebra::Point3;
 
-use super::tip::{largest_distance, tip};
-use super::turning_feed::TurningFeed;
+use super::tip::{certain_distance, largest_distance, tip};
+use super::turning_feed::{PartFeed, TurningFeed};
 use super::{mill_turn, rotary};
 use crate::control::family;
 use crate::control::word_address::motion::Motion;
@@ -40,13 +41,39 @@ pub struct Straightness {
 
 /// A motion that is to be divided.
 struct Turning<'a> {
+    tables: &'a MachineTables,
     chain: &'a AxisChain,
-    axes: [Axis; AXES],
-    present: AxisSet,
     /// Where the axes stand, exactly, and where they go to.
     ends: [Position; 2],
     /// The line of the tip in the part frame.
     line: [Point3<f64>; 2],
+}
+
+/// Where the axes stand before a motion.
+struct Start {
+    position: Position,
+    /// The tip in the part, where the axes stand as the CL file has brought them.
+    tip: Option<Point3<f64>>,
+    /// The position as the tape has it, where the motion before has found it.
+    on_tape: Option<OnTape>,
+}
+
+/// A position as the tape has it, and the tip there, in the part.
+#[derive(Clone, Copy, Debug)]
+struct OnTape {
+    position: Position,
+    tip: Point3<f64>,
+}
+
+/// Where the last motion that turned the machine has brought it: the next one begins there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Arrived {
+    /// State of the settings and of the unit that the positions hold for.
+    settings: (u32, bool),
+    /// The point in the part, after TRANS, and the rotary positions.
+    target: (Point3<f64>, [f64; 2]),
+    position: Position,
+    on_tape: OnTape,
 }
 
 /// How far the tip may leave its line, in the unit of the program; `None` for as far
@@ -69,17 +96,52 @@ pub(super) fn tolerance(post: &Post) -> Result<Option<f64>> {
 /// # Errors
 /// No feed; a tolerance that takes more parts than one motion may have; as
 /// [`family::feed`].
-#[cold]
+#[inline(never)]
 pub(super) fn feed(post: &mut Post, before: [f64; 2], to: Position, target: Target) -> Result<()> {
-    let from = stands(post, before);
+    let start = stands(post, before);
     if post.control.tables.mills() {
-        return mill_turn::turning_feed(post, from, to, target);
+        return mill_turn::turning_feed(post, start.position, to, target);
     }
-    let word = rotary::word_of(post, target);
     let allowed = tolerance(post)?;
-    let turning = Turning::new(post, from, to);
+    let enough = allowed.map_or_else(|| usual(post), Ok)?;
+    let (end, _) = rotary::transformed(post, target);
+    let turning = Turning::new(post, &start, to, end);
     let feed = TurningFeed::of(post)?;
     let least = feed.least_parts(turning.length())?;
+    let from = start.on_tape.map_or_else(|| turning.arrival(&start.position), Ok)?;
+    let arrival = turning.arrival(&to)?;
+    if least > 1 || !turning.surely_stays_within(enough, &from.position, &arrival.position) {
+        return divided(post, [start.position, to], (target, end), allowed, least);
+    }
+    let way = (arrival.tip - from.tip).norm();
+    let part = feed.between(&from.position, &arrival.position, way)?;
+    if part.slowed {
+        feed.warn_slowed(post);
+    }
+    let settings = settings(post);
+    let target_and_angles = (end, [to[3], to[4]]);
+    post.path.arrived =
+        Some(Arrived { settings, target: target_and_angles, position: to, on_tape: arrival });
+    let word = rotary::word_of(post, target);
+    write(post, &Motion { position: to, axes: AxisSet::ALL, word }, &part)
+}
+
+/// The same in parts, for the ends of the motion.
+///
+/// # Errors
+/// As [`feed`].
+#[inline(never)]
+fn divided(
+    post: &mut Post,
+    [from, to]: [Position; 2],
+    (target, end): (Target, Point3<f64>),
+    allowed: Option<f64>,
+    least: u32,
+) -> Result<()> {
+    let word = rotary::word_of(post, target);
+    let start = Start { position: from, tip: None, on_tape: None };
+    let turning = Turning::new(post, &start, to, end);
+    let feed = TurningFeed::of(post)?;
     let parts = match allowed {
         Some(allowed) => turning.divided(allowed, least)?,
         None => turning.parts(least),
@@ -104,12 +166,22 @@ pub(super) fn feed(post: &mut Post, before: [f64; 2], to: Position, target: Targ
         feed.warn_slowed(post);
     }
     for (position, feed) in parts.into_iter().zip(feeds) {
-        let motion = Motion { position, axes: AxisSet::ALL, word };
-        family::feed(&mut post.control, &motion, Some(&feed.feed))?;
-        let inverse = feed.after(&mut post.control);
-        post.path.writes_inverse_time = inverse && !post.path.inverse_time;
+        write(post, &Motion { position, axes: AxisSet::ALL, word }, &feed)?;
     }
     Ok(())
+}
+
+/// Writes one part with its feed.
+fn write(post: &mut Post, motion: &Motion, part: &PartFeed) -> Result<()> {
+    family::feed(&mut post.control, motion, Some(&part.feed))?;
+    let inverse = part.after(&mut post.control);
+    post.path.writes_inverse_time = inverse && !post.path.inverse_time;
+    Ok(())
+}
+
+/// What the positions of the machine hang on besides the point.
+fn settings(post: &Post) -> (u32, bool) {
+    (post.control.commons.generation(), post.control.is_metric())
 }
 
 /// How many even parts of a way, of which `at` gives the points, keep the tip within a
@@ -124,7 +196,7 @@ pub(super) fn count(
     at: impl Fn(f64) -> Target,
 ) -> Result<u32> {
     let Some(before) = post.path.rotary else { return Ok(least) };
-    let start = stands(post, before);
+    let start = stands(post, before).position;
     let mut count = least;
     while count <= MOST_CHORDS {
         if suffices(post, start, count, allowed, &at)? {
@@ -154,7 +226,8 @@ fn suffices(
         let angles = chain.solve(axis, [from[3], from[4]])?;
         let linear = chain.linear(point, angles);
         let to = [linear.x, linear.y, linear.z, angles[0], angles[1]];
-        if Turning::new(post, from, to).off(&from, &to, allowed) > allowed {
+        let start = Start { position: from, tip: None, on_tape: None };
+        if Turning::new(post, &start, to, point).off(&from, &to, allowed) > allowed {
             return Ok(false);
         }
         from = to;
@@ -162,41 +235,59 @@ fn suffices(
     Ok(true)
 }
 
+/// True where the machine stands as the last point of the CL file says, under the present
+/// transformation: TRANS between two points moves the one against the other.
+pub(super) fn is_where_the_path_is(post: &Post, before: [f64; 2]) -> bool {
+    if !post.writes_tip() {
+        return stands(post, before).tip.is_some();
+    }
+    let point = post.path.point.unwrap_or_default();
+    let (tip, _) = rotary::transformed(post, Target { point, axis: post.path.axis, word: 0 });
+    AxisSet::LINEAR.numbers().all(|n| {
+        let least = post.control.tables.axis(n).resolution();
+        post.control.axis_position(n).is_none_or(|at| (at - tip[n]).abs() <= least)
+    })
+}
+
 /// Where the axes stand: exactly where the CL file has brought them, unless the tape
 /// says that something else has moved them since.
-fn stands(post: &Post, before: [f64; 2]) -> Position {
+fn stands(post: &Post, before: [f64; 2]) -> Start {
     let tables = &post.control.tables;
     let point = post.path.point.unwrap_or_default();
     let target = Target { point, axis: post.path.axis, word: 0 };
     let (point, _) = rotary::transformed(post, target);
-    let linear = tables.chain().linear(point, before);
-    let exact = [linear.x, linear.y, linear.z, before[0], before[1]];
-    let tape: [Option<f64>; AXES] = std::array::from_fn(|n| {
-        let axis = tables.axis(n);
-        let written = tables.present().has(n) && !axis.is_off();
-        let stands = post.control.axis_position(n).filter(|_| written)?;
-        Some(axis.near(stands, exact[n]))
-    });
-    let moved = |n: usize| {
-        tape[n].is_some_and(|tape| (tape - exact[n]).abs() > tables.axis(n).resolution())
+    let arrived = post.path.arrived.as_ref();
+    let arrived =
+        arrived.filter(|there| there.target == (point, before) && there.settings == settings(post));
+    let exact = match arrived {
+        Some(there) => there.position,
+        None => {
+            let linear = tables.chain().linear(point, before);
+            [linear.x, linear.y, linear.z, before[0], before[1]]
+        }
     };
-    if (0..AXES).any(moved) || post.path.point.is_none() {
-        return std::array::from_fn(|n| tape[n].unwrap_or(exact[n]));
+    let (mut tape, mut moved) = (exact, post.path.point.is_none());
+    for n in tables.present().numbers() {
+        let axis = tables.axis(n);
+        if let (false, Some(stands)) = (axis.is_off(), post.control.axis_position(n)) {
+            tape[n] = axis.near(stands, exact[n]);
+            moved |= (tape[n] - exact[n]).abs() > axis.resolution();
+        }
     }
-    exact
+    if moved {
+        return Start { position: tape, tip: None, on_tape: None };
+    }
+    Start { position: exact, tip: Some(point), on_tape: arrived.map(|there| there.on_tape) }
 }
 
 impl<'a> Turning<'a> {
-    fn new(post: &'a Post, from: Position, to: Position) -> Self {
+    /// From where the axes stand to a position with the tip at `end`, in the part.
+    fn new(post: &'a Post, start: &Start, to: Position, end: Point3<f64>) -> Self {
         let tables = &post.control.tables;
         let chain = tables.chain();
-        Turning {
-            chain,
-            axes: std::array::from_fn(|n| *tables.axis(n)),
-            present: tables.present(),
-            ends: [from, to],
-            line: [tip(chain, &from), tip(chain, &to)],
-        }
+        let from = start.position;
+        let begin = start.tip.unwrap_or_else(|| tip(chain, &from));
+        Turning { tables, chain, ends: [from, to], line: [begin, end] }
     }
 
     /// How far the tip goes.
@@ -266,11 +357,27 @@ impl<'a> Turning<'a> {
         largest_distance(self.chain, at, at, self.line, f64::INFINITY)
     }
 
+    /// True where no measuring is needed to know that the tip stays within a distance of its
+    /// line between two positions on the tape, as in most motions.
+    fn surely_stays_within(&self, most: f64, from: &Position, to: &Position) -> bool {
+        let digits = std::array::from_fn(|n| self.tables.axis(n).resolution());
+        certain_distance(self.chain, from, to, &digits) <= most
+    }
+
+    /// A position as the tape has it, with the tip there.
+    fn arrival(&self, position: &Position) -> Result<OnTape> {
+        let position = self.on_tape(position)?;
+        Ok(OnTape { tip: tip(self.chain, &position), position })
+    }
+
     /// The position as the tape has it.
     fn on_tape(&self, position: &Position) -> Result<Position> {
         let mut tape = *position;
-        for n in self.present.numbers().filter(|n| !self.axes[*n].is_off()) {
-            tape[n] = self.axes[n].on_tape(position[n])?;
+        for n in self.tables.present().numbers() {
+            let axis = self.tables.axis(n);
+            if !axis.is_off() {
+                tape[n] = axis.on_tape(position[n])?;
+            }
         }
         Ok(tape)
     }

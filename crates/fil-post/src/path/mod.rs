@@ -61,6 +61,10 @@ pub struct Path {
     pub multax: Option<bool>,
     /// Last rotary positions in degrees; `None` before the first motion.
     pub rotary: Option<[f64; 2]>,
+    /// Last rotary positions as they are the nearest if no axis has limits, degrees.
+    pub(crate) free: Option<[f64; 2]>,
+    /// Where the last motion that turned the machine has brought it.
+    pub(crate) arrived: Option<linearization::Arrived>,
     /// Positions that the look-ahead has chosen for the rapid motion at hand, degrees.
     pub(crate) chosen: Option<[f64; 2]>,
     /// The tilted frame that motions were last written in.
@@ -120,6 +124,8 @@ impl Default for Path {
             axis: Vector3::z(),
             multax: None,
             rotary: None,
+            free: None,
+            arrived: None,
             chosen: None,
             frame: None,
             frames: 0,
@@ -186,6 +192,10 @@ pub fn carry_out(post: &mut Post, operation: Operation) -> Result<()> {
 
 fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
     if post.control.tables.tip_output {
+        if matches!(operation, Operation::End(_)) {
+            // Tool-tip control ends for who leaves the blocks of OPSKIP out, too.
+            post.control.skip_blocks(false)?;
+        }
         tip_control::before(&mut post.control, &operation)?;
     }
     if post.control.tables.frame_output {

@@ -15,7 +15,7 @@ use fil_machine::modes::FeedMode;
 use nalgebra::{Point3, Vector3};
 
 use super::turning::{apart, go, spelled};
-use super::{rapid, rotary};
+use super::{linearization, rapid, rotary};
 use crate::control::family;
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::word_address::spindle;
@@ -75,7 +75,8 @@ pub(super) fn feed(
             spelled(free)
         ));
     }
-    let Some(start) = post.path.point.filter(|_| !post.path.in_chords) else {
+    let known = !post.path.in_chords && linearization::is_where_the_path_is(post, before);
+    let Some(start) = post.path.point.filter(|_| known) else {
         return PostCode::NoAlternative
             .err("a limit of a rotary axis lies on an arc, or where the tool stands is not known");
     };

@@ -34,9 +34,10 @@ pub fn position_of(post: &mut Post, target: Target) -> Result<Position> {
     }
     let last = post.path.chosen.take().or(post.path.rotary).unwrap_or_else(|| on_tape(post));
     let chain = post.control.tables.chain();
-    let angles = chain.solve(axis, last)?;
+    let (angles, free) = chain.solve_with_free(axis, last)?;
     let linear = chain.linear(point, angles);
     post.path.rotary = Some(angles);
+    post.path.free = Some(free);
     Ok([linear.x, linear.y, linear.z, angles[0], angles[1]])
 }
 

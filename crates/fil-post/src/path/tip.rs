@@ -6,7 +6,7 @@
 
 use fil_machine::axes::Position;
 use fil_machine::axis_chain::{AxisChain, Carries, Rotary};
-use nalgebra::{Point3, Rotation3, Vector3};
+use nalgebra::{Point3, Vector3};
 
 /// Intervals between the samples of one motion.
 const INTERVALS: u32 = 8;
@@ -17,14 +17,14 @@ pub(super) fn tip(chain: &AxisChain, at: &Position) -> Point3<f64> {
     if let Some(length) = chain.pivot {
         let tool = chain.tool.into_inner();
         let turned = [1, 0].into_iter().fold(tool, |tool, n| match head(chain, n) {
-            Some(axis) => turn(axis, at[n + 3]) * tool,
+            Some(axis) => axis.turned(tool, at[n + 3]),
             None => tool,
         });
         point -= (turned - tool) * length;
     }
     for number in [1, 0] {
         if let Some(axis) = table(chain, number) {
-            point = axis.center + turn(axis, at[number + 3]) * (point - axis.center);
+            point = axis.center + axis.turned(point - axis.center, at[number + 3]);
         }
     }
     point
@@ -39,7 +39,7 @@ pub(super) fn largest_distance(
     line: [Point3<f64>; 2],
     enough: f64,
 ) -> f64 {
-    let bend = bend(chain, from, to);
+    let bend = bounds(chain, from, to).bend;
     let off = |share: f64| distance(line, tip(chain, &between(from, to, share)));
     let ends = off(0.0).max(off(1.0));
     if ends + bend / 8.0 <= enough {
@@ -48,6 +48,21 @@ pub(super) fn largest_distance(
     let step = 1.0 / f64::from(INTERVALS);
     let sampled = (1..INTERVALS).map(|n| off(f64::from(n) * step)).fold(ends, f64::max);
     sampled + bend / 8.0 * step * step
+}
+
+/// A distance that the tip can't be from the line between two exact positions while the axes
+/// go evenly between the same two as the tape has them: `digits` is the last digit of each
+/// axis. It takes no sine, and is far too large where the machine turns much.
+pub(super) fn certain_distance(
+    chain: &AxisChain,
+    from: &Position,
+    to: &Position,
+    digits: &Position,
+) -> f64 {
+    let Bounds { bend, reach } = bounds(chain, from, to);
+    let linear = Vector3::new(digits[0], digits[1], digits[2]).norm();
+    let turned: f64 = (0..2).map(|n| digits[n + 3].to_radians() * reach[n]).sum();
+    linear + turned + bend / 8.0
 }
 
 /// The axes at a share (0 to 1) of the way between two positions.
@@ -64,32 +79,45 @@ fn distance([from, to]: [Point3<f64>; 2], point: Point3<f64>) -> f64 {
     (point - (from + way * share)).norm()
 }
 
-/// Most that the second derivative of the tip by the share of the motion can be: by
-/// the product rule, from the tool to the part.
-fn bend(chain: &AxisChain, from: &Position, to: &Position) -> f64 {
+/// Bounds of how the tip moves between two positions.
+struct Bounds {
+    /// Most that its second derivative by the share of the motion can be.
+    bend: f64,
+    /// Most that a radian of each rotary axis moves it.
+    reach: [f64; 2],
+}
+
+/// By the product rule, from the tool to the part.
+fn bounds(chain: &AxisChain, from: &Position, to: &Position) -> Bounds {
     let angle = |n: usize| (to[n + 3] - from[n + 3]).abs().to_radians();
     let [start, end] = [from, to].map(|at| Vector3::new(at[0], at[1], at[2]));
     let (mut speed, mut bend, mut swing) = ((end - start).norm(), 0.0, 0.0);
+    let mut reach = [0.0; 2];
     if let Some(length) = chain.pivot {
-        let heads: f64 = [0, 1].into_iter().filter(|n| head(chain, *n).is_some()).map(angle).sum();
-        speed += heads * length;
-        bend += heads * heads * length;
-        swing = if heads > 0.0 { 2.0 * length } else { 0.0 };
+        let heads = || [0, 1].into_iter().filter(|n| head(chain, *n).is_some());
+        let turned: f64 = heads().map(angle).sum();
+        speed += turned * length;
+        bend += turned * turned * length;
+        heads().for_each(|n| reach[n] = length);
+        // A head that leans holds the tip away from where X, Y and Z say, turning or not.
+        let leans = |at: &Position| heads().map(|n| at[n + 3].to_radians().abs()).sum::<f64>();
+        swing = length * leans(from).max(leans(to)).min(2.0);
     }
-    let mut reach: Option<(Point3<f64>, f64)> = None;
+    let mut outer: Option<(Point3<f64>, f64)> = None;
     for number in [1, 0] {
         let Some(axis) = table(chain, number) else { continue };
         let center = axis.center.coords;
-        let radius = match reach {
+        let radius = match outer {
             None => (start - center).norm().max((end - center).norm()) + swing,
             Some((before, radius)) => radius + (before - axis.center).norm(),
         };
         let turned = angle(number);
         bend += 2.0 * turned * speed + turned * turned * radius;
         speed += turned * radius;
-        reach = Some((axis.center, radius));
+        reach[number] = radius;
+        outer = Some((axis.center, radius));
     }
-    bend
+    Bounds { bend, reach }
 }
 
 fn head(chain: &AxisChain, number: usize) -> Option<&Rotary> {
@@ -98,8 +126,4 @@ fn head(chain: &AxisChain, number: usize) -> Option<&Rotary> {
 
 fn table(chain: &AxisChain, number: usize) -> Option<&Rotary> {
     chain.rotaries[number].as_ref().filter(|axis| axis.carries == Carries::Table)
-}
-
-fn turn(axis: &Rotary, degrees: f64) -> Rotation3<f64> {
-    Rotation3::from_axis_angle(&axis.direction, degrees.to_radians())
 }

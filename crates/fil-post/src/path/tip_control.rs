@@ -48,10 +48,11 @@ pub(super) fn position_of(
     let near = post.path.chosen.take().or(post.path.rotary);
     let last = near.unwrap_or_else(|| rotary::on_tape(post));
     let tables = &post.control.tables;
-    let angles = tables.chain().solve(axis, last)?;
+    let (angles, free) = tables.chain().solve_with_free(axis, last)?;
     let linear = tables.chain().linear(point, angles);
     tables.check_travel(&[linear.x, linear.y, linear.z, 0.0, 0.0], AxisSet::LINEAR)?;
     post.path.rotary = Some(angles);
+    post.path.free = Some(free);
     Ok([point.x, point.y, point.z, angles[0], angles[1]])
 }
 

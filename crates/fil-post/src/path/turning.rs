@@ -26,7 +26,7 @@ const SAME: f64 = 1e-6;
 ///
 /// # Errors
 /// A limit or a pole on the way; all that the motion refuses.
-#[cold]
+#[inline(never)]
 pub(super) fn feed(
     post: &mut Post,
     before: [f64; 2],
@@ -42,12 +42,10 @@ pub(super) fn feed(
     }
     let chain = post.control.tables.chain();
     let now = [motion.position[3], motion.position[4]];
-    if chain.is_limited() {
-        let (_, axis) = rotary::transformed(post, target);
-        let free = chain.nearest_anywhere(axis, before);
-        if let Some(free) = free.filter(|free| apart(*free, now)) {
-            return reposition::feed(post, before, free, target);
-        }
+    if chain.is_limited()
+        && let Some(free) = post.path.free.filter(|free| apart(*free, now))
+    {
+        return reposition::feed(post, before, free, target);
     }
     go(post, before, motion, target)
 }
