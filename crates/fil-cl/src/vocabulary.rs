@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
+use fil_diag::letter_case;
 use fil_diag::suggest::{did_you_mean, nearest};
 
 pub use crate::words;
@@ -100,7 +101,7 @@ impl Vocabulary {
         if name.is_ascii() {
             return self.intern_bytes(name.as_bytes());
         }
-        let upper = name.to_uppercase();
+        let upper = letter_case::upper(name);
         self.intern_upper(upper.as_bytes())
     }
 
@@ -110,7 +111,7 @@ impl Vocabulary {
         if name.is_ascii() {
             return self.intern_upper(name);
         }
-        let upper = String::from_utf8_lossy(name).to_uppercase();
+        let upper = letter_case::upper(&String::from_utf8_lossy(name));
         self.intern_upper(upper.as_bytes())
     }
 
@@ -119,7 +120,7 @@ impl Vocabulary {
         if name.is_ascii() {
             return self.lookup(name.as_bytes(), hash(name.as_bytes()));
         }
-        let upper = name.to_uppercase();
+        let upper = letter_case::upper(name);
         self.lookup(upper.as_bytes(), hash(upper.as_bytes()))
     }
 

@@ -4,6 +4,7 @@
 //! what `filpost explain` prints, what `docs/errors/` is checked against and
 //! what a [`Diag`] points to. Rendering is the command's business alone.
 
+pub mod letter_case;
 pub mod suggest;
 mod text_span;
 

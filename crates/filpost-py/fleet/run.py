@@ -78,6 +78,32 @@ class Killer(threading.Thread):
                     pass
 
 
+class Keeper:
+    """Starts workers anew where none is left: a local cluster of Dask gives one up for good
+    that is killed while it starts. Clusters of several machines have such a thing of their own."""
+
+    def __init__(self, cluster, workers, count):
+        self.cluster, self.workers, self.count = cluster, workers, count
+        self.stop = threading.Event()
+        self.thread = threading.Thread(target=self.run, daemon=True)
+
+    def run(self):
+        idle = 0
+        while not self.stop.wait(1.0):
+            idle = 0 if self.workers() else idle + 1
+            if idle == 10:
+                self.cluster.scale(0)
+                self.cluster.scale(self.count)
+                idle = 0
+
+    def __enter__(self):
+        self.thread.start()
+
+    def __exit__(self, *_):
+        self.stop.set()
+        self.thread.join()
+
+
 def on_dask(program, files, every):
     from distributed import Client, LocalCluster
 
@@ -93,7 +119,8 @@ def on_dask(program, files, every):
                 return [one.pid for one in alive if one.status.name == "running" and one.pid]
 
             yield Killer(workers, every)
-            yield from fleet.on_dask(client, program, files, batch=25)
+            with Keeper(cluster, workers, 2):
+                yield from fleet.on_dask(client, program, files, batch=25)
 
 
 def on_ray(program, files, every):

@@ -118,7 +118,7 @@ fn assign(compat: &mut Compat, number: &str, operation: &Spanned<DeValue>) -> Re
 pub fn operation_name(operation: PostfOp) -> String {
     let mut name = String::new();
     for character in format!("{operation:?}").chars() {
-        if character.is_uppercase() && !name.is_empty() {
+        if character.is_ascii_uppercase() && !name.is_empty() {
             name.push('-');
         }
         name.push(character.to_ascii_lowercase());

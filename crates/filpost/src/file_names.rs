@@ -69,6 +69,7 @@ pub fn is_device(name: &str) -> bool {
 }
 
 /// Two names are one file on disks that don't tell capital letters from small ones.
+#[cfg(any(feature = "files", test))]
 pub(crate) fn alike(one: &str, other: &str) -> bool {
     one == other || one.to_lowercase() == other.to_lowercase()
 }

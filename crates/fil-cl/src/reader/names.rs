@@ -1,5 +1,7 @@
 //! Names that are not what they look like.
 
+use fil_diag::letter_case;
+
 use crate::vocabulary::Vocabulary;
 
 /// Capital letters of other alphabets, each with the Latin one that looks like it.
@@ -12,7 +14,7 @@ pub(super) fn disguise(vocab: &Vocabulary, name: &str) -> Option<String> {
     if let Some(letter) = name.chars().find(|letter| is_hidden(*letter)) {
         return Some(format!("a hidden character, U+{:04X}, in a name", u32::from(letter)));
     }
-    let shown = name.to_uppercase();
+    let shown = letter_case::upper(name);
     let latin: String = shown.chars().map(|letter| self::latin(letter).unwrap_or(letter)).collect();
     let known = latin.is_ascii() && vocab.find(&latin).is_some_and(|id| vocab.is_known(id));
     let letter = shown.chars().find(|letter| self::latin(*letter).is_some()).filter(|_| known)?;

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use fil_cl::Word;
 use fil_cl::layout::takes_text;
-use fil_diag::Diag;
+use fil_diag::{Diag, letter_case};
 
 use super::report::fault;
 use super::{Registers, Vm};
@@ -67,8 +67,8 @@ impl<H: Host + ?Sized> Vm<'_, H> {
                 let text = self.text(registers, base)?;
                 let text = self.state.texts.get(text);
                 let changed = match call.library {
-                    Library::Upper => text.to_uppercase(),
-                    _ => text.to_lowercase(),
+                    Library::Upper => letter_case::upper(text),
+                    _ => letter_case::lower(text),
                 };
                 self.made(registers, &changed)
             }

@@ -98,7 +98,12 @@ fn summary(coverage: &Coverage, settings: &BTreeSet<(String, &'static str)>) -> 
     for (machine, setting) in settings {
         let _ = writeln!(text, "{machine}: no case notices {setting} at its default");
     }
-    let _ = writeln!(text, "coverage: {}", words(all));
+    let said = if coverage.files().next().is_none() {
+        "no FIL in these cases".to_string()
+    } else {
+        words(all)
+    };
+    let _ = writeln!(text, "coverage: {said}");
     text
 }
 
