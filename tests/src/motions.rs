@@ -183,6 +183,9 @@ fn motion_line(motion: &Move) -> String {
         None => String::new(),
         Some(Rate::PerMinute(rate)) => format!(" F{}", number(rate)),
         Some(Rate::PerTurn(rate)) => format!(" F{}/rev", number(rate)),
+        Some(Rate::Varying(rate, change)) => {
+            format!(" F{}/rev {} more in each", number(rate), number(change))
+        }
         Some(Rate::Inverse(rate)) => format!(" F{}/inverse", number(rate)),
     };
     if motion.in_cycle { line + " cycle" } else { line }

@@ -101,8 +101,9 @@ impl Part {
         let [depth, step, clear] = [depth, step, 2.0].map(|value| value * self.scale);
         let step = if kind == "DRILL" { String::new() } else { format!("STEP, {step:.4}, ") };
         let (feed, unit) = (dice.between(40.0, 200.0) * self.scale, self.feeds[0]);
+        let back = if dice.once_in(3) { ", RETURN, 0" } else { "" };
         self.line(&format!(
-            "CYCLE / {kind}, DEPTH, {depth:.4}, {step}{unit}, {feed:.2}, CLEAR, {clear:.4}"
+            "CYCLE / {kind}, DEPTH, {depth:.4}, {step}{unit}, {feed:.2}, CLEAR, {clear:.4}{back}"
         ));
     }
 

@@ -15,11 +15,13 @@ use crate::setting::CodeAt;
 const SAME: f64 = 1e-9;
 
 /// The cycles of live tools.
-pub const CYCLE_CODES: [CodeAt; 4] = [
+pub const CYCLE_CODES: [CodeAt; 6] = [
     loc::MILL_TURN_FACE_DRILL_CODE,
     loc::MILL_TURN_SIDE_DRILL_CODE,
     loc::MILL_TURN_FACE_TAP_CODE,
     loc::MILL_TURN_SIDE_TAP_CODE,
+    loc::MILL_TURN_FACE_TAP_LEFT_CODE,
+    loc::MILL_TURN_SIDE_TAP_LEFT_CODE,
 ];
 
 /// Refuses a machine that would begin a program while its spindle is an axis: the code that

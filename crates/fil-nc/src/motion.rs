@@ -71,6 +71,8 @@ pub enum Rate {
     PerMinute(f64),
     /// mm a turn of the spindle.
     PerTurn(f64),
+    /// mm a turn of the spindle where the motion begins, and what that gains in each turn.
+    Varying(f64, f64),
     /// Blocks a minute.
     Inverse(f64),
 }

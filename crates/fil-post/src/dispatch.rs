@@ -77,6 +77,7 @@ pub const HANDLERS: &[(WordId, Handler)] = &[
     (w::OPSTOP, I(word::stop::opstop)),
     (w::ORIGIN, Chosen(word::trans::origin)),
     (w::PARTNO, I(word::partno::handle)),
+    (w::PITCH, I(word::thread::pitch)),
     (w::POSTN, I(word::postn::handle)),
     (w::PPRINT, I(word::pprint::handle)),
     (w::PREFUN, I(word::prefun::prefun)),

@@ -203,10 +203,10 @@ fil_diag::codes! {
         Undivided = 591, Warning, "the tip leaves its line while the machine turns",
             "LINTOL / OFF or rotary.tolerance = 0 lets motions that turn the machine be one block each; all axes go evenly, and the tip goes along a curve.",
             "Give LINTOL or rotary.tolerance a value, or check the program with filpost verify --between.";
-        /// The spindle stands in a hole.
-        SpindleStands = 596, Warning, "holes with the spindle standing",
-            "SPINDL/OFF, or a text that stops the spindle, came before these holes, and nothing has turned it since.",
-            "Put SPINDL / RPM with a direction before the holes; ignore this where the tool does not cut.";
+        /// The spindle stands in a hole, or a live tool where it cuts.
+        SpindleStands = 596, Warning, "cutting with the spindle standing",
+            "SPINDL/OFF, or a text that stops the spindle, came before these holes, and nothing has turned it since; or MODE/MILL, and nothing has turned the live tool.",
+            "Put SPINDL / RPM with a direction before it; ignore this where the tool does not cut.";
         /// The way out of a bored hole.
         BoreOut = 597, Warning, "bored hole left at feed",
             "The machine has no code for CYCLE/BORE, and controls differ in how the tool leaves such a hole: at feed, or at rapid with the spindle standing.",

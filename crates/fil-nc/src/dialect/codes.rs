@@ -49,6 +49,8 @@ pub enum Function {
     },
     /// Straight line in step with the spindle.
     Thread,
+    /// The same with a lead that grows or shrinks.
+    VaryingThread,
     /// Threading cycle of one pass: in, along, out, back.
     ThreadPass,
     /// Threading cycle of all passes.
@@ -169,6 +171,7 @@ impl Function {
             | Function::Linear
             | Function::Arc { .. }
             | Function::Thread
+            | Function::VaryingThread
             | Function::ThreadPass => Group::Motion,
             Function::Cycle(_) | Function::LiveCycle { .. } | Function::CycleOff => Group::Cycle,
             Function::Return { .. } => Group::Return,
@@ -292,11 +295,13 @@ const STANDARD_CYCLES: &[(i32, CycleKind)] = &[
 
 /// Cycles of live tools: their settings, Fanuc's numbers on a lathe, along X or not, and what
 /// they do. A drilling cycle with pecks is a matter of a parameter.
-const LIVE_CYCLES: &[(&str, i32, bool, CycleKind)] = &[
-    ("mill_turn.face_drill_code", 83, false, CycleKind::Drill),
-    ("mill_turn.side_drill_code", 87, true, CycleKind::Drill),
-    ("mill_turn.face_tap_code", 84, false, CycleKind::Tap),
-    ("mill_turn.side_tap_code", 88, true, CycleKind::Tap),
+const LIVE_CYCLES: &[(&str, Option<i32>, bool, CycleKind)] = &[
+    ("mill_turn.face_drill_code", Some(83), false, CycleKind::Drill),
+    ("mill_turn.side_drill_code", Some(87), true, CycleKind::Drill),
+    ("mill_turn.face_tap_code", Some(84), false, CycleKind::Tap),
+    ("mill_turn.side_tap_code", Some(88), true, CycleKind::Tap),
+    ("mill_turn.face_tap_left_code", None, false, CycleKind::TapLeft),
+    ("mill_turn.side_tap_left_code", None, true, CycleKind::TapLeft),
 ];
 
 /// Functions that each control of this family has and no setting names.
@@ -377,8 +382,8 @@ impl Functions {
             }
         }
         for (key, usual, side, kind) in LIVE_CYCLES {
-            let code = settings.code(key).unwrap_or(*usual);
-            self.add(Some(code), Function::LiveCycle { side: *side, kind: *kind });
+            let code = settings.code(key).or(*usual);
+            self.add(code, Function::LiveCycle { side: *side, kind: *kind });
         }
         self.add(Some(80), Function::CycleOff);
     }
@@ -477,7 +482,7 @@ impl Functions {
 }
 
 /// Settings that name the code of a function.
-fn named() -> [(&'static str, Function); 25] {
+fn named() -> [(&'static str, Function); 26] {
     use Function as F;
     [
         ("rapid.code_xy", F::Rapid),
@@ -487,6 +492,7 @@ fn named() -> [(&'static str, Function); 25] {
         ("circle.cw_code", F::Arc { ccw: false }),
         ("circle.ccw_code", F::Arc { ccw: true }),
         ("thread.code", F::Thread),
+        ("thread.varying_code", F::VaryingThread),
         ("dwell.code", F::Dwell),
         ("circle.plane_xy", F::Plane(2)),
         ("circle.plane_zx", F::Plane(1)),

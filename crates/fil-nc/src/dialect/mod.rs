@@ -158,6 +158,8 @@ pub struct Dialect {
     pub(crate) fixture_word: u8,
     /// That of the lead of a threading move.
     pub(crate) lead: u8,
+    /// That of what a varying lead gains in each turn.
+    pub(crate) lead_change: u8,
     /// The lead is measured along the path, else along the longer axis.
     pub(crate) lead_along_path: bool,
     /// That of the taper in the threading cycle of one pass.
@@ -320,6 +322,7 @@ impl Dialect {
                 _ => 0,
             },
             lead: settings.letter("thread.lead_address"),
+            lead_change: settings.letter("thread.change_address"),
             lead_along_path: settings.code("thread.lead_along") == Some(1),
             thread_taper: settings.letter("thread.taper_address"),
             speed_limit: settings.letter("spindle.max_address"),

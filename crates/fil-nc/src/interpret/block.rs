@@ -147,6 +147,7 @@ impl State<'_> {
         }
         match self.motion {
             Some(Function::Thread) => self.thread(words),
+            Some(Function::VaryingThread) => self.varying_thread(words),
             Some(Function::ThreadPass) => self.thread_pass(words),
             motion => {
                 self.feed_word(words)?;

@@ -82,7 +82,12 @@ impl State<'_> {
         if self.live && self.surface && turns {
             return refuse("a surface speed of a live tool");
         }
-        if self.live && matches!(self.motion, Some(Function::Thread | Function::ThreadPass)) {
+        if self.live
+            && matches!(
+                self.motion,
+                Some(Function::Thread | Function::VaryingThread | Function::ThreadPass)
+            )
+        {
             return refuse("a thread while the main spindle is the axis C");
         }
         if !self.live && words.has_rotary(self.dialect) {

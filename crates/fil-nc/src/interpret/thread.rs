@@ -31,12 +31,16 @@ pub(super) struct Pass {
     z: f64,
     taper: f64,
     lead: f64,
+    /// Way before the end on which it leaves the thread at 45 degrees.
+    leaves: f64,
 }
 
 /// The first block of the two that describe a thread in all passes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Setup {
     finishing: u32,
+    /// Tenths of the lead on which a pass leaves the thread.
+    chamfer: f64,
     angle: f64,
     least: f64,
     allowance: f64,
@@ -58,6 +62,24 @@ impl State<'_> {
         let target = self.target(&axes);
         let lead = if self.dialect.lead_along_path { lead * self.share(&target.0) } else { lead };
         self.go(target, Course::Thread, Some(Rate::PerTurn(lead)));
+        Ok(())
+    }
+
+    /// One pass whose lead gains as much in each turn as its word says, or loses.
+    pub(super) fn varying_thread(&mut self, words: &mut Words) -> Result<(), Fault> {
+        let lead = self.lead(words, &[self.dialect.lead], None)?;
+        let change = words.take(self.dialect.lead_change)?.unwrap_or(0.0) * self.unit();
+        let axes = words.take_axes(self.dialect)?;
+        let target = self.target(&axes);
+        let share = if self.dialect.lead_along_path { self.share(&target.0) } else { 1.0 };
+        let (lead, change) = (lead * share, change * share);
+        let way = [0, 1, 2].map(|axis| (target.0[axis] - self.at[axis]).abs());
+        let longest = way.into_iter().fold(0.0, f64::max);
+        if lead * lead + 2.0 * change * longest <= 0.0 {
+            let message = "the lead comes to nothing before the end of the thread";
+            return Err(Fault::new(NcCode::BadNumber, message));
+        }
+        self.go(target, Course::Thread, Some(Rate::Varying(lead, change)));
         Ok(())
     }
 
@@ -97,7 +119,7 @@ impl State<'_> {
         };
         let (x, z) = self.thread_end(&axes, before)?;
         let taper = taper.map(|taper| taper * self.unit()).or(before.map(|pass| pass.taper));
-        let pass = Pass { x, z, taper: taper.unwrap_or(0.0), lead };
+        let pass = Pass { x, z, taper: taper.unwrap_or(0.0), lead, leaves: 0.0 };
         self.pass = Some(pass);
         self.cut(pass, 0.0);
         Ok(())
@@ -127,7 +149,16 @@ impl State<'_> {
         self.step(&[(X, pass.x + pass.taper)], Course::Rapid, None);
         self.known[Z] = true;
         let rate = Some(Rate::PerTurn(pass.lead));
-        self.step(&[(X, pass.x), (Z, pass.z)], Course::Thread, rate);
+        let length = (pass.z - self.at[Z]).abs();
+        if pass.leaves > 0.0 && length > pass.leaves {
+            let leans = pass.x + pass.taper * pass.leaves / length;
+            let leave = [(X, leans), (Z, pass.z - towards * pass.leaves)];
+            self.step(&leave, Course::Thread, rate);
+            let out = (x - pass.x).signum() * pass.leaves;
+            self.step(&[(X, leans + out), (Z, pass.z)], Course::Thread, rate);
+        } else {
+            self.step(&[(X, pass.x), (Z, pass.z)], Course::Thread, rate);
+        }
         self.known[X] = known[X];
         self.step(&[(X, x)], Course::Rapid, None);
         self.known[Z] = known[Z];
@@ -156,6 +187,7 @@ impl State<'_> {
         let allowance = words.take(R)?.unwrap_or(0.0) * self.unit();
         Ok(Setup {
             finishing: (said / 10_000).clamp(1, 99),
+            chamfer: f64::from(said / 100 % 100),
             angle: f64::from(said % 100),
             least,
             allowance,
@@ -169,7 +201,12 @@ impl State<'_> {
         let taper = words.take(R)?.unwrap_or(0.0) * self.unit();
         let height = words.take_number(P).map(|height| height.steps(self.unit()));
         let first = words.take_number(Q).map(|first| first.steps(self.unit()));
-        thread(Pass { x, z, taper, lead }, height, first, setup)
+        thread(
+            Pass { x, z, taper, lead, leaves: setup.chamfer / 10.0 * lead },
+            height,
+            first,
+            setup,
+        )
     }
 
     /// `K` height, `D` first depth, `A` angle, `I` taper.
@@ -180,8 +217,8 @@ impl State<'_> {
         let taper = words.take(I)?.unwrap_or(0.0) * self.unit();
         let height = words.take_number(K).map(|height| height.steps(self.unit()));
         let first = words.take_number(D).map(|first| first.steps(self.unit()));
-        let setup = Setup { finishing: 1, angle, least: 0.0, allowance: 0.0 };
-        thread(Pass { x, z, taper, lead }, height, first, setup)
+        let setup = Setup { finishing: 1, chamfer: 0.0, angle, least: 0.0, allowance: 0.0 };
+        thread(Pass { x, z, taper, lead, leaves: 0.0 }, height, first, setup)
     }
 
     /// LinuxCNC: `P` pitch, `Z` end, `I` from where the tool stands to the crest, `J` first
@@ -217,7 +254,7 @@ impl State<'_> {
         }
         depths.extend((0..=springs).map(|_| height));
         let crest = drive + to_crest;
-        self.pass = Some(Pass { x: crest, z, taper: 0.0, lead });
+        self.pass = Some(Pass { x: crest, z, taper: 0.0, lead, leaves: 0.0 });
         for depth in depths {
             let x = crest + into * depth;
             let clear = x - into * (to_crest.abs() + height);

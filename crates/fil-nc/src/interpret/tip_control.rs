@@ -102,7 +102,7 @@ impl State<'_> {
         for (function, range) in words.functions() {
             let what = match function {
                 Function::Arc { .. } => "an arc",
-                Function::Thread => "a thread",
+                Function::Thread | Function::VaryingThread => "a thread",
                 Function::Cycle(_) | Function::LiveCycle { .. } => "a cycle",
                 Function::Plane(normal) if normal != self.plane => "another plane",
                 Function::Fixture(code) if self.moves_fixture(code) => "another work offset",
@@ -122,7 +122,7 @@ impl State<'_> {
     pub(super) fn check_tip_motion(&self) -> Result<(), Fault> {
         match self.motion {
             Some(Function::Arc { .. }) => Err(differ("an arc")),
-            Some(Function::Thread) => Err(differ("a thread")),
+            Some(Function::Thread | Function::VaryingThread) => Err(differ("a thread")),
             _ => Ok(()),
         }
     }

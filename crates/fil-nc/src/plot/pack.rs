@@ -91,7 +91,7 @@ fn in_force(now: &InForce) -> [i64; 9] {
     let fine = |value: f64| (value.max(0.0) * FINE).round() as i64;
     let (feed_kind, feed) = match now.feed {
         Some(Rate::PerMinute(feed)) => (1, feed),
-        Some(Rate::PerTurn(feed)) => (2, feed),
+        Some(Rate::PerTurn(feed) | Rate::Varying(feed, _)) => (2, feed),
         Some(Rate::Inverse(_)) | None => (0, 0.0),
     };
     let (speed_kind, speed) = match now.speed {

@@ -34,6 +34,11 @@ impl<T: Copy + PartialEq> Lag<T> {
         }
     }
 
+    /// What was asked for last.
+    fn asked(&self) -> T {
+        self.next.map_or(self.now, |(value, _)| value)
+    }
+
     fn flush(&mut self) {
         if let Some((value, _)) = self.next.take() {
             self.now = value;
@@ -183,6 +188,9 @@ impl Expected {
             Wanted::Speed(speed) => self.take_speed(*speed, settings),
             Wanted::SpeedLimit(limit) if settings.limit_comes_with_surface() => {
                 self.next_limit = Some(*limit);
+                if matches!(self.speed.asked(), Some(Speed::Surface(_))) {
+                    self.speed_limit = Some(self.next_limit);
+                }
             }
             Wanted::SpeedLimit(limit) => self.speed_limit = Some(Some(*limit)),
             Wanted::Orient(angle) => {
@@ -216,7 +224,7 @@ impl Expected {
                 // The radius is that of the edge in force, which is said once.
                 let edge = self.offset.now.filter(|_| settings.has_edges());
                 let offset = offset.filter(|offset| Some(*offset) != edge);
-                self.compensation.set((*side, offset), settings.compensation_due());
+                self.compensation.set((*side, offset), settings.compensation_due(self.mills));
             }
             Wanted::Mills(mills) if settings.is_mill_turn() => self.change_spindle(*mills),
             Wanted::Stop { .. } | Wanted::End(_) => self.flush(),
@@ -366,6 +374,23 @@ impl Expected {
         self.spindle.flush();
         self.speed.flush();
         self.coolant.flush();
+    }
+
+    /// What is not as it must be where a motion of no length is made: the spindle and the
+    /// coolant may wait there for what comes next.
+    pub(super) fn check_resting(
+        &mut self,
+        modes: &Modes,
+        slack: &Slack,
+    ) -> Vec<(FindingKind, String)> {
+        let of_motion = |kind: FindingKind| {
+            matches!(kind, FindingKind::Spindle | FindingKind::Speed | FindingKind::Coolant)
+        };
+        self.offset_on = modes.length_offset;
+        let mut wrong = self.wrong(modes, Doing::Moving, slack);
+        wrong.retain(|(kind, _)| !of_motion(*kind));
+        wrong.extend(self.said.iter().filter(|(kind, _)| of_motion(*kind)).cloned());
+        self.news(wrong)
     }
 
     /// What is not as it must be during a motion of these axes; each thing is said

@@ -101,7 +101,7 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn is_still(&self, found: &Move) -> bool {
         let at = self.at_as(found);
         let same = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= STILL);
-        let found_out = (0..3).any(|n| found.known[n] && !self.known[n]);
+        let found_out = (0..3).any(|n| self.written[n] && found.known[n] && !self.known[n]);
         found.arc.is_none()
             && !found_out
             && same(&found.to.linear, &at.linear)

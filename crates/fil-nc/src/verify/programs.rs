@@ -15,7 +15,7 @@ use super::Allowed;
 use super::between::Blocks;
 use super::report::{Finding, FindingKind, Report, Unverified};
 use super::rules::Rules;
-use super::say::{sense, short, way};
+use super::say::{sense, short, spell_rate, way};
 use super::sift::{Sift, Watcher};
 use super::window::Window;
 use crate::diff;
@@ -312,6 +312,9 @@ impl Pair<'_> {
             (Some(Rate::PerMinute(a)), Some(Rate::PerMinute(b)))
             | (Some(Rate::PerTurn(a)), Some(Rate::PerTurn(b)))
             | (Some(Rate::Inverse(a)), Some(Rate::Inverse(b))) => (a - b).abs() <= DUST,
+            (Some(Rate::Varying(a, gains)), Some(Rate::Varying(b, others))) => {
+                (a - b).abs() <= DUST && (gains - others).abs() <= DUST
+            }
             (a, b) => a.is_none() && b.is_none(),
         };
         if !same {
@@ -472,9 +475,7 @@ fn dwell(seconds: Option<f64>) -> String {
 
 fn rate(rate: Option<Rate>) -> String {
     match rate {
-        Some(Rate::PerMinute(rate)) => format!("{} mm/min", short(rate)),
-        Some(Rate::PerTurn(rate)) => format!("{} mm a turn", short(rate)),
-        Some(Rate::Inverse(rate)) => format!("{} blocks a minute", short(rate)),
+        Some(rate) => spell_rate(rate),
         None => "none".to_string(),
     }
 }

@@ -41,6 +41,10 @@ impl<C: Steps> Walk<'_, C> {
             (Rate::PerTurn(a), Some(Rate::PerTurn(b))) => {
                 (a - b).abs() <= self.slack_of_lead(found, a)
             }
+            (Rate::Varying(a, gains), Some(Rate::Varying(b, others))) => {
+                let slack = self.slack_of_lead(found, a);
+                (a - b).abs() <= slack && (gains - others).abs() <= slack
+            }
             // A control that is told the pitch goes as fast as the spindle turns.
             (Rate::PerMinute(a), Some(Rate::PerTurn(b))) if found.course == Course::Thread => {
                 let agrees = |speed: f64| (a - b * speed).abs() <= self.slack.feed + PITCH * a;

@@ -110,6 +110,9 @@ pub(super) fn spell_rate(rate: Rate) -> String {
     match rate {
         Rate::PerMinute(rate) => format!("{} mm/min", short(rate)),
         Rate::PerTurn(rate) => format!("{} mm a turn", short(rate)),
+        Rate::Varying(rate, change) => {
+            format!("{} mm a turn and {} more in each turn", short(rate), short(change))
+        }
         Rate::Inverse(rate) => format!("{} blocks a minute", short(rate)),
     }
 }

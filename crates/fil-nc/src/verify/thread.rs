@@ -47,6 +47,8 @@ struct Gauge<'t> {
     towards: f64,
     length: f64,
     slope: f64,
+    /// Way before the end on which a pass leaves the thread at 45 degrees, mm.
+    leaves: f64,
     /// Height above the begin of the crest at which the tool goes back, mm.
     clear: f64,
     /// What the last digits of both axes may do, generously, mm.
@@ -88,7 +90,7 @@ impl Gauge<'_> {
         let WholeThread { crest: [begin, end], out, lead, starts, first, .. } = *self.thread;
         let along = depth * self.slope - lead / f64::from(starts) * f64::from(pass.start);
         let from = begin + (end - begin) * (along / self.length) - out * depth;
-        let to = end - out * depth;
+        let to = end - out * depth - (end - begin) * (self.leaves / self.length);
         let at_root = depth >= self.thread.depth - 1e-9;
         // A cycle says its taper, and one of all passes their depths, by words of their own,
         // and each is rounded.
@@ -152,13 +154,18 @@ impl<C: Steps> Walk<'_, C> {
         let way = thread.crest[1] - thread.crest[0];
         let axis = if thread.out.z.abs() > 0.5 { 0 } else { 2 };
         let clearance = thread.clearance.unwrap_or_else(|| self.settings.thread_clearance());
+        // The crest goes on to where the last start begins, and may be highest there.
+        let before = thread.lead * (1.0 - 1.0 / f64::from(thread.starts)) / way[axis].abs();
+        let rise = way.dot(&thread.out);
+        let rises = rise.max(-rise * before).max(0.0);
         let gauge = Gauge {
             thread,
             axis,
             towards: way[axis].signum(),
             length: way[axis].abs(),
             slope: libm::tan((thread.angle / 2.0).to_radians()),
-            clear: clearance + way.dot(&thread.out).max(0.0),
+            leaves: self.settings.thread_chamfer() * thread.lead,
+            clear: clearance + rises,
             slack: 2.0 * self.slack.linear[0].max(self.slack.linear[2]) + 1e-9,
             digits: if axis == 2 {
                 [self.slack.linear[0], self.slack.linear[2]]
@@ -173,7 +180,10 @@ impl<C: Steps> Walk<'_, C> {
         while self.thread_comes() {
             let Some(found) = self.next_move() else { break };
             match found.course {
-                Course::Thread => passes.push(self.pass_of(cl_line, &gauge, &found)?),
+                Course::Thread => {
+                    passes.push(self.pass_of(cl_line, &gauge, &found)?);
+                    self.leave_at_45_degrees(cl_line, &gauge)?;
+                }
                 _ => self.rapid_beside(cl_line, &gauge, &found, passes.is_empty())?,
             }
         }
@@ -225,7 +235,7 @@ impl<C: Steps> Walk<'_, C> {
         if !is_start || (early - start * pitch).abs() > slack {
             return wrong(format!("the pass begins {} away from its start", short(early)));
         }
-        let lacks = gauge.length - gauge.along(&found.to);
+        let lacks = gauge.length - gauge.leaves - gauge.along(&found.to);
         let may_lack = (thread.depth - to).max(0.0) * gauge.slope;
         if lacks < -slack || lacks > may_lack + slack {
             return wrong(format!("the pass ends {} before the end of the thread", short(lacks)));
@@ -241,6 +251,35 @@ impl<C: Steps> Walk<'_, C> {
             line: found.line,
             in_cycle: found.in_cycle,
         })
+    }
+
+    /// The second motion of a pass that leaves the thread before its end.
+    fn leave_at_45_degrees(&mut self, cl_line: u32, gauge: &Gauge) -> Found<()> {
+        if gauge.leaves <= 0.0 {
+            return Ok(());
+        }
+        let line = self.next_line();
+        let leaves = self.next_move().filter(|found| {
+            let mut way = gauge.thread.out * gauge.leaves;
+            way[gauge.axis] += gauge.towards * gauge.leaves;
+            let lead = match found.rate {
+                Some(Rate::PerTurn(lead)) => lead,
+                _ => return false,
+            };
+            let near = |n: usize| {
+                let found = found.to.linear[n] - self.at.linear[n];
+                (found - way[n]).abs() <= 2.0 * gauge.slack
+            };
+            found.course == Course::Thread
+                && (0..3).all(near)
+                && (lead - gauge.thread.lead).abs() <= LEAD * gauge.thread.lead + self.slack.turn
+        });
+        let Some(found) = leaves else {
+            return Err((line, "the pass does not leave the thread at 45 degrees".to_string()));
+        };
+        self.take(cl_line, &found);
+        self.next += 1;
+        Ok(())
     }
 
     /// A rapid beside a thread: along it clear of the crest, in and out across it. In a cycle the
@@ -360,7 +399,14 @@ impl<C: Steps> Walk<'_, C> {
                 let least = if in_cycle { self.settings.least_springs() } else { 0 };
                 let rough = law.len() - (depths.len() - full).min(law.len());
                 let wanted = rough + springs.max(least) as usize;
-                if full != wanted {
+                // Where the last pass by the law comes to the root itself, the arithmetic of the
+                // control decides whether it still makes one at the full depth then.
+                let meets = |law: &Vec<f64>| {
+                    let last = thread.first * (law.len() as f64).sqrt();
+                    thread.passes.is_none() && (last - thread.depth).abs() <= FIRST
+                };
+                let one_more = in_cycle && full == wanted + 1 && meets(law);
+                if full != wanted && !one_more {
                     return wrong(format!("{full} passes at the root, there should be {wanted}"));
                 }
             }

@@ -18,7 +18,7 @@ use super::wanted::{Step, Wanted};
 use super::window::Window;
 use crate::events::Events;
 use crate::forward::Pose;
-use crate::motion::{Compensation, Course, Event, Modes, Move, Position, Rate};
+use crate::motion::{Compensation, Course, Event, Modes, Move, Position};
 
 /// What X is multiplied by when it is a diameter.
 const DIAMETER: f64 = 2.0;
@@ -298,9 +298,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         match &step.what {
             Wanted::Rapid(pose) => self.rapid(step.line, pose),
             Wanted::Feed(pose, rate) => self.line(step.line, pose, Course::Feed, *rate),
-            Wanted::Thread(pose, pitch) => {
-                self.line(step.line, pose, Course::Thread, Some(Rate::PerTurn(*pitch)))
-            }
+            Wanted::Thread(pose, lead) => self.line(step.line, pose, Course::Thread, Some(*lead)),
             Wanted::Arc(arc, rate) => self.arc(step.line, arc, *rate),
             Wanted::Hole(hole) => self.hole(step.line, hole),
             _ => true,
@@ -395,7 +393,11 @@ impl<'a, C: Steps> Walk<'a, C> {
         };
         let moved = Moved { xy: differs(0) || differs(1), z: differs(2) };
         let cuts = matches!(found.course, Course::Feed | Course::Thread);
-        for (kind, message) in self.modes.check(&found.modes, moved, cuts, &self.slack) {
+        let wrong = match moved.xy || moved.z || !self.is_still(found) {
+            true => self.modes.check(&found.modes, moved, cuts, &self.slack),
+            false => self.modes.check_resting(&found.modes, &self.slack),
+        };
+        for (kind, message) in wrong {
             self.find(kind, Some(cl_line), Some(found.line), message);
         }
         self.check_unasked(cl_line, found.line, &found.modes);

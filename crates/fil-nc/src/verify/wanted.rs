@@ -26,7 +26,7 @@ pub enum Wanted {
     /// A straight line at feed; the rate is `None` before the first FEDRAT.
     Feed(Pose, Option<Rate>),
     /// A thread pass.
-    Thread(Pose, f64),
+    Thread(Pose, Rate),
     /// A whole thread, in passes that the machine divides.
     WholeThread(Box<WholeThread>),
     /// The second spindle: clockwise or not, `None` where it stops.

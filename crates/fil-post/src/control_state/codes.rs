@@ -97,7 +97,8 @@ impl Codes {
                 codes.named.push((code, meaning));
             }
         };
-        for at in loc::MOTION_CODES.into_iter().chain([loc::THREAD_CODE]) {
+        for at in loc::MOTION_CODES.into_iter().chain([loc::THREAD_CODE, loc::THREAD_VARYING_CODE])
+        {
             name(at, Meaning::Motion);
         }
         name(loc::THREAD_CYCLE_CODE, Meaning::Turning);

@@ -13,6 +13,7 @@ pub use text::{TextWords, read as text_words};
 
 use fil_machine::address::Addresses;
 use fil_machine::commons::EMPTY;
+use fil_machine::locations as loc;
 use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::{Commons, FunctionCode, Letter, letters};
 
@@ -389,6 +390,13 @@ impl ControlState {
             }
             Meaning::Unknown => self.forget(),
         }
+    }
+
+    /// The control may be in a threading move of varying lead, which the next one would go on
+    /// from.
+    pub fn goes_on_in_varying_lead(&self, commons: &Commons) -> bool {
+        let code = commons.read(loc::THREAD_VARYING_CODE).and_then(FunctionCode::of_setting);
+        code.is_some() && self.motion == code
     }
 
     /// Learns what an auxiliary function does. A call of a subprogram may do anything.

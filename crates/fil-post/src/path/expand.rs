@@ -65,9 +65,9 @@ fn tap(control: &mut Control, cycle: &Cycle, at: &Motion, hole: &Hole) -> Result
         let cause = control.block.cause;
         rapid::rapid(control, &level(hole.clear), cause)?;
         control.flush_waiting()?;
-        family::thread(control, &level(hole.bottom), &lead)?;
+        family::thread(control, &level(hole.bottom), &lead, 0.0)?;
         spindle::turn_back(control)?;
-        family::thread(control, &level(hole.clear), &lead)?;
+        family::thread(control, &level(hole.clear), &lead, 0.0)?;
         spindle::turn_back(control)?;
         rapid::rapid(control, &level(hole.rest()), cause)
     })

@@ -52,9 +52,10 @@ pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
                 return PostCode::TipControl.err("a thread");
             }
             rotary::refuse_thread(before, post.path.rotary)?;
+            let change = thread::counted_change(post, lead, target)?;
             let lead = thread::counted_lead(post, lead, target)?;
             let motion = motion.of(AxisSet::LINEAR);
-            family::thread(&mut post.control, &motion, &lead)?;
+            family::thread(&mut post.control, &motion, &lead, change)?;
         }
     }
     post.path.point = Some(target.point);

@@ -94,6 +94,8 @@ pub fn switch(post: &mut Post, mills: bool) -> Result<()> {
     control.write_block()?;
     set_mode(control, mode)?;
     control.state.rotation = Rotation::Standing;
+    // Said again, as its feed depends on what turns now.
+    control.state.feed_mode = None;
     (control.turning, control.speed, control.range) = (None, None, None);
     post.path.feed = None;
     post.path.rotary = None;
@@ -200,6 +202,10 @@ pub(super) fn prepare(post: &mut Post, target: Target, kind: MotionKind) -> Resu
         MotionKind::Feed => {
             refuse_feed_a_turn(post.path.feed.map(|feed| feed.mode))?;
             refuse_unknown_c(post)?;
+            if spindle::stands(&post.control) {
+                let message = "a motion at feed: the live tool stands".to_string();
+                post.warn(PostCode::SpindleStands, message);
+            }
         }
         MotionKind::Rapid(_) => cylinder::end(post)?,
     }

@@ -26,6 +26,7 @@ pub(crate) mod sense;
 mod skip;
 mod solution;
 pub mod thread;
+mod thread_shape;
 mod tip;
 pub mod tip_control;
 pub mod tool_change;
@@ -91,6 +92,10 @@ pub struct Path {
     pub cycle: Option<Cycle>,
     /// A thread is cut by each feed motion.
     pub thread: Option<Lead>,
+    /// The lead that PITCH has given for threads that follow.
+    pub(crate) pitch: Option<thread::Pitch>,
+    /// What the lead of the thread gains in each turn, mm or inch; below zero it loses.
+    pub(crate) lead_change: f64,
     /// A whole thread that waits for its points, or has them.
     pub(crate) awaited_thread: Option<Box<thread::Awaited>>,
     /// TRANS or TRACUT.
@@ -139,6 +144,8 @@ impl Default for Path {
             arc: None,
             cycle: None,
             thread: None,
+            pitch: None,
+            lead_change: 0.0,
             awaited_thread: None,
             transformation: None,
             has_origin: false,

@@ -7,9 +7,8 @@
 
 use fil_diag::Result;
 use fil_machine::locations::{self as loc, ThreadCycle, ThreadLeadAlong};
-use fil_machine::modes::INCH;
-use nalgebra::Vector3;
 
+pub use super::thread_shape::{Shape, least_depth};
 use super::{carry_out as carry, rotary};
 use crate::control::family;
 use crate::control::word_address::spindle;
@@ -20,14 +19,18 @@ use crate::operation::{
 };
 use crate::post::Post;
 
-/// Most passes of one thread.
-const MOST_PASSES: usize = 1000;
-
 /// Most threads beside each other.
 pub const MOST_STARTS: u32 = 100;
 
 /// Lengths below this count as zero, mm or inch.
 const NOTHING: f64 = 1e-6;
+
+/// A lead for threads that follow, and what it gains in each turn, mm or inch.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pitch {
+    pub lead: Lead,
+    pub change: f64,
+}
 
 /// OP/THREAD with depth and passes: what it asks for, and the points that have come.
 #[derive(Clone, Debug)]
@@ -51,6 +54,7 @@ pub struct Awaited {
 #[cold]
 pub fn point(post: &mut Post, target: Target, lead: Lead) -> Result<()> {
     check_speed(post)?;
+    refuse_compensated(post)?;
     let Some(mut awaited) = post.path.awaited_thread.take() else {
         return carry(post, Operation::Linear(target, MotionKind::Thread(lead)));
     };
@@ -95,6 +99,7 @@ pub fn refuse_awaited(post: &Post) -> Result<()> {
 pub fn end(post: &mut Post) -> Result<()> {
     refuse_awaited(post)?;
     post.path.thread = None;
+    post.path.lead_change = 0.0;
     post.path.awaited_thread = None;
     Ok(())
 }
@@ -156,16 +161,50 @@ fn check_machine(post: &mut Post) -> Result<()> {
     if post.path.cycle.is_some() {
         return PostCode::InCycle.err("a thread in an active cycle; CYCLE/OFF must come before it");
     }
+    refuse_compensated(post)?;
+    if post.path.transformation.as_ref().is_some_and(|trans| !trans.is_rigid()) {
+        return PostCode::Thread.err("TRANS changes the lengths of the thread");
+    }
+    check_speed(post)
+}
+
+/// Refuses a thread under compensation, in which controls take no pass.
+fn refuse_compensated(post: &Post) -> Result<()> {
     let compensated =
         post.control.compensation_asked() != Compensation::Off || post.control.state.compensates();
     if compensated {
         return PostCode::Thread
             .err("a thread in cutter compensation; CUTCOM/OFF must come before it");
     }
-    if post.path.transformation.as_ref().is_some_and(|trans| !trans.is_rigid()) {
-        return PostCode::Thread.err("TRANS changes the lengths of the thread");
+    Ok(())
+}
+
+/// What the lead gains in each turn of a pass to a point, as the machine counts it.
+///
+/// # Errors
+/// The lead comes to nothing before the end, or the pass goes on from another one.
+pub fn counted_change(post: &Post, lead: Lead, target: Target) -> Result<f64> {
+    let change = post.path.lead_change;
+    if change == 0.0 {
+        return Ok(0.0);
     }
-    check_speed(post)
+    let Some(from) = post.path.point else {
+        return PostCode::Thread.err("where the pass begins is not known");
+    };
+    if post.control.state.goes_on_in_varying_lead(&post.control.commons) {
+        return PostCode::Thread.err(
+            "a thread of varying lead goes on behind its first motion, and with which lead is \
+             not known",
+        );
+    }
+    // In n turns the tool goes n leads and n(n - 1)/2 changes: the square of the lead changes
+    // by twice the change times the way.
+    let way = (target.point - from).amax();
+    if lead.value * lead.value + 2.0 * change * way <= 0.0 {
+        return PostCode::Thread.err("the lead comes to nothing before the end of the thread");
+    }
+    let share = counted_lead(post, lead, target)?.value / lead.value;
+    Ok(change * share)
 }
 
 /// The lead as the machine counts it: along the longer axis, or along the path.
@@ -186,12 +225,13 @@ pub fn counted_lead(post: &Post, lead: Lead, target: Target) -> Result<Lead> {
 }
 
 /// Refuses a thread at surface speed, as each pass would begin at another angle of the
-/// spindle, and one with the spindle standing.
+/// spindle, and one with the spindle standing, which the control would wait for, or cut
+/// without.
 ///
 /// # Errors
-/// The last SPINDL gave one, or stopped the spindle.
+/// The last SPINDL gave one, or stopped the spindle; nothing has turned it.
 pub fn check_speed(post: &Post) -> Result<()> {
-    if spindle::stands(&post.control) {
+    if !spindle::may_turn(&post.control) {
         return PostCode::Thread.err("the spindle stands; SPINDL before the thread turns it");
     }
     match post.control.speed {
@@ -199,209 +239,6 @@ pub fn check_speed(post: &Post) -> Result<()> {
             .err("the spindle turns at constant surface speed, so that the passes would not meet"),
         _ => Ok(()),
     }
-}
-
-/// A thread with its directions, in the frame of the CL file.
-pub struct Shape {
-    /// Where the crest begins and ends.
-    pub crest: [Target; 2],
-    /// Unit vector to the clear side.
-    out: Vector3<f64>,
-    /// Along the axis of the thread, from its start to its end, with the slant of the crest:
-    /// as long as 1 along that axis.
-    slant: Vector3<f64>,
-    /// Tangent of half the angle of the profile.
-    flank: f64,
-    /// Pitch.
-    pitch: f64,
-    /// Distance of the clear level from the crest at its start: the crest may rise.
-    clearance: f64,
-    /// Depth of each pass.
-    pub depths: Vec<f64>,
-}
-
-impl Shape {
-    fn of(post: &Post, thread: &Thread) -> Result<Shape> {
-        let [start, end] = thread.crest.map(|target| target.point);
-        if (end - start).norm() < NOTHING {
-            return PostCode::Thread.err("the crest begins where it ends");
-        }
-        if start.y.abs() > NOTHING || end.y.abs() > NOTHING {
-            return PostCode::Thread.err("a point of the thread lies outside the plane of X and Z");
-        }
-        let on_face = matches!(thread.side, ThreadSide::Before | ThreadSide::Behind);
-        let way = end - start;
-        let along = if on_face { way.x } else { way.z };
-        let across = if on_face { way.z } else { way.x };
-        if across.abs() > along.abs() {
-            return PostCode::Thread
-                .err("the crest leans more than 45 degrees from the axis of the thread");
-        }
-        // Behind the axis of the spindle outside is the way of -X.
-        let half = if start.x + end.x < 0.0 { -1.0 } else { 1.0 };
-        let out = match thread.side {
-            ThreadSide::Outside => Vector3::x() * half,
-            ThreadSide::Inside => -Vector3::x() * half,
-            ThreadSide::Before => Vector3::z(),
-            ThreadSide::Behind => -Vector3::z(),
-        };
-        check_values(thread)?;
-        check_axis(thread)?;
-        let depths = depths(post, thread)?;
-        Ok(Shape {
-            crest: thread.crest,
-            out,
-            slant: way / along.abs(),
-            flank: libm::tan((thread.angle / 2.0).to_radians()),
-            pitch: thread.lead.value / f64::from(thread.starts),
-            clearance: thread.clearance + way.dot(&out).max(0.0),
-            depths,
-        })
-    }
-
-    /// A point beside the crest.
-    fn beside(&self, target: Target, by: Vector3<f64>) -> Target {
-        Target { point: target.point + by, word: 0, ..target }
-    }
-
-    /// Clear of the crest where a start begins.
-    pub fn shifted(&self, start: u32) -> Target {
-        let away = self.slant.component_mul(&self.axis_mask()) * -self.away(start);
-        self.beside(self.crest[0], away + self.out * self.clearance)
-    }
-
-    /// How much farther away from the part a start begins than the first.
-    fn away(&self, start: u32) -> f64 {
-        self.pitch * f64::from(start)
-    }
-
-    /// Where the crest of a start begins.
-    pub fn crest_of(&self, start: u32) -> Target {
-        self.begin(start, 0.0)
-    }
-
-    /// Where a pass of this depth begins.
-    fn begin(&self, start: u32, depth: f64) -> Target {
-        let along = depth * self.flank - self.away(start);
-        self.beside(self.crest[0], self.slant * along - self.out * depth)
-    }
-
-    /// A point beside the thread, moved to the clear level.
-    fn clear_of(&self, target: Target) -> Target {
-        let up = (self.shifted(0).point - target.point).dot(&self.out);
-        self.beside(target, self.out * up)
-    }
-
-    /// Where a pass of this depth begins, moved to the clear level.
-    pub fn above(&self, start: u32, depth: f64) -> Target {
-        self.clear_of(self.begin(start, depth))
-    }
-
-    /// The end of the crest moved to the side by this much: down to the root, up to the
-    /// clear level.
-    pub fn end(&self, out: f64) -> Target {
-        self.beside(self.crest[1], self.out * out)
-    }
-
-    /// The depth below the clear level, as a vector to it.
-    pub fn out(&self) -> Vector3<f64> {
-        self.out
-    }
-
-    /// How much the radius at the start exceeds that at the end.
-    pub fn leans(&self) -> bool {
-        (self.slant - self.slant.component_mul(&self.axis_mask())).amax() > NOTHING
-    }
-
-    /// 1 along the axis of the thread.
-    fn axis_mask(&self) -> Vector3<f64> {
-        if self.is_on_face() { Vector3::x() } else { Vector3::z() }
-    }
-
-    /// The thread runs across a face.
-    pub fn is_on_face(&self) -> bool {
-        self.out.z != 0.0
-    }
-}
-
-/// Refuses values that make no thread.
-fn check_values(thread: &Thread) -> Result<()> {
-    let positive = |value: f64, what: &str| {
-        let right = value.is_finite() && value > 0.0;
-        if right { Ok(()) } else { PostCode::Thread.err(format!("{what} of {value}")) }
-    };
-    positive(thread.lead.value, "a lead")?;
-    positive(thread.depth, "a depth")?;
-    positive(thread.clearance, "a clearance")?;
-    match thread.passes {
-        ThreadPasses::First(first) => positive(first, "a first pass")?,
-        ThreadPasses::Count(count) => positive(f64::from(count), "a number of passes")?,
-    }
-    if !(0.0..170.0).contains(&thread.angle) {
-        return PostCode::Thread.err(format!("an angle of the profile of {}", thread.angle));
-    }
-    if !(1..=MOST_STARTS).contains(&thread.starts) {
-        return PostCode::Thread.err(format!("{} starts", thread.starts));
-    }
-    Ok(())
-}
-
-/// Refuses a thread or a clear level that lies beyond the axis of the spindle.
-fn check_axis(thread: &Thread) -> Result<()> {
-    let radii = thread.crest.map(|target| target.point.x.abs());
-    let crosses = thread.crest[0].point.x * thread.crest[1].point.x < 0.0;
-    let least = radii[0].min(radii[1]);
-    let lean = (radii[0] - radii[1]).abs();
-    let beyond = match thread.side {
-        ThreadSide::Outside => thread.depth >= least || crosses,
-        ThreadSide::Inside => thread.clearance + lean > radii[0].max(radii[1]) || crosses,
-        ThreadSide::Before | ThreadSide::Behind => crosses,
-    };
-    if beyond {
-        return PostCode::Thread.err("the thread, or the way back from it, lies beyond the axis");
-    }
-    Ok(())
-}
-
-/// The depth of each pass.
-///
-/// # Errors
-/// More passes than a thread can have.
-fn depths(post: &Post, thread: &Thread) -> Result<Vec<f64>> {
-    let mut depths = match thread.passes {
-        ThreadPasses::Count(count) => {
-            let share = |pass: u32| (f64::from(pass) / f64::from(count)).sqrt();
-            let most = count.min(MOST_PASSES as u32 + 1);
-            (1..=most).map(|pass| thread.depth * share(pass)).collect()
-        }
-        ThreadPasses::First(first) => by_first(thread.depth, first, least_depth(post)),
-    };
-    depths.extend((0..thread.springs.min(MOST_PASSES as u32)).map(|_| thread.depth));
-    if depths.len() > MOST_PASSES {
-        return PostCode::Thread.err(format!("more than {MOST_PASSES} passes"));
-    }
-    Ok(depths)
-}
-
-/// Passes of equal chips until the depth is reached.
-fn by_first(depth: f64, first: f64, least: f64) -> Vec<f64> {
-    let mut depths: Vec<f64> = Vec::new();
-    let mut reached = 0.0;
-    while reached < depth - NOTHING && depths.len() <= MOST_PASSES {
-        let next = first * ((depths.len() + 1) as f64).sqrt();
-        reached = next.max(reached + least).min(depth);
-        depths.push(reached);
-    }
-    if let Some(last) = depths.last_mut().filter(|last| (depth - **last).abs() < NOTHING) {
-        *last = depth;
-    }
-    depths
-}
-
-/// What each pass goes deeper at least, mm or inch.
-pub fn least_depth(post: &Post) -> f64 {
-    let least = post.control.commons.dbl_opt(loc::THREAD_LEAST_DEPTH).unwrap_or(0.0).max(0.0);
-    if post.control.is_metric() { least } else { least / INCH }
 }
 
 /// Brings the tool clear of the crest, along the axis first where it stands clear of it,
@@ -426,7 +263,10 @@ fn passes(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Result
         to(post, shape.above(start, *depth), rapid)?;
         to(post, shape.begin(start, *depth), rapid)?;
         to(post, shape.end(-depth), MotionKind::Thread(thread.lead))?;
-        to(post, shape.clear_of(shape.end(0.0)), rapid)?;
+        if let Some(left) = shape.left(*depth) {
+            to(post, left, MotionKind::Thread(thread.lead))?;
+        }
+        to(post, shape.clear_of(shape.crest[1]), rapid)?;
     }
     Ok(())
 }
@@ -448,8 +288,11 @@ fn to(post: &mut Post, target: Target, kind: MotionKind) -> Result<()> {
 pub fn cycle_of(post: &Post, thread: &Thread, shape: &Shape) -> ThreadCycle {
     let cycle = post.control.commons.read(loc::THREAD_CYCLE);
     let straight = thread.angle == 0.0;
+    let in_tenths = cycle == ThreadCycle::CycleOfAllPassesInTwoBlocks;
     let fits = match cycle {
         ThreadCycle::SinglePasses => true,
+        // The others leave the thread by a parameter of the control.
+        _ if shape.chamfer_in_tenths(thread).is_none_or(|tenths| tenths > 0 && !in_tenths) => false,
         _ if shape.is_on_face() => false,
         ThreadCycle::CycleOfOnePass => straight || !shape.leans(),
         ThreadCycle::CycleOfAllPassesInTwoBlocks => {

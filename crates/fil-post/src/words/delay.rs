@@ -3,6 +3,7 @@
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 
+use crate::control::word_address::spindle;
 use crate::items::Items;
 use crate::operation::{Dwell, Operation};
 use crate::path::carry_out;
@@ -11,7 +12,7 @@ use crate::post::Post;
 /// Dwells.
 ///
 /// # Errors
-/// No time, or one that is not positive.
+/// No time, or one that is not positive; turns of a spindle that stands.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let revolutions = items.couplet(w::REV)?;
     items.flag(w::DWELL);
@@ -24,6 +25,9 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     };
     post.due_to(items);
     items.deny_rest()?;
+    if revolutions.is_some() && !spindle::may_turn(&post.control) {
+        return Err(items.error("the spindle stands, and never makes these turns; SPINDL turns it"));
+    }
     if amount < 0.0 {
         return Err(items.error(format!("a dwell of {amount} is negative")));
     }

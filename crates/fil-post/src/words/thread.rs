@@ -1,5 +1,5 @@
 //! THREAD/TPI,n: the feed motions that follow are thread passes. THREAD/AUTO,…: a whole
-//! thread from point to point.
+//! thread from point to point. PITCH: the lead of THREAD that names none.
 
 use fil_cl::record::FIRST_DATA;
 use fil_cl::vocabulary::words as w;
@@ -11,7 +11,7 @@ use nalgebra::Point3;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{Lead, Operation, Target, Thread, ThreadPasses, ThreadSide};
-use crate::path::thread::MOST_STARTS;
+use crate::path::thread::{MOST_STARTS, Pitch};
 use crate::path::{carry_out, thread};
 use crate::post::Post;
 
@@ -31,10 +31,69 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     if items.flag(w::AUTO) {
         return automatic(post, items);
     }
-    let lead = lead(post, items)?;
+    let says_lead = [w::TPI, w::MMPR, w::IPR].into_iter().any(|word| items.has(word));
+    let pitch = post.path.pitch.filter(|_| !says_lead);
+    let (lead, change) = match pitch {
+        Some(Pitch { lead, change }) => (lead, change),
+        None => (lead(post, items)?, 0.0),
+    };
     items.flag(w::TURN);
+    items.flag(w::ON);
     items.deny_rest()?;
     post.path.thread = Some(lead);
+    post.path.lead_change = change;
+    Ok(())
+}
+
+/// PITCH/n: the lead of THREAD that names none. n counts threads in a unit of the CL file, or
+/// with TPI in an inch; MMPR or IPR make it a lead. INCR,v and DECR,v change a lead by v in
+/// each turn.
+///
+/// # Errors
+/// No number, or one that is not positive; a change of a number of threads; several starts,
+/// as each pass is cut where the CL file says.
+pub fn pitch(post: &mut Post, items: &mut Items) -> Result<()> {
+    let starts = starts(items, w::MULTRD)?;
+    if starts != 1 {
+        return Err(items.error("MULTRD: the passes of THREAD are cut where the GOTO say"));
+    }
+    let grows = items.couplet(w::INCR)?;
+    let shrinks = items.couplet(w::DECR)?;
+    let unit = items.any_of(&[w::TPI, w::MMPR, w::IPR]);
+    let number = items.required("the number of threads, or the lead with MMPR or IPR")?;
+    let inch = match post.control.require_unit()? {
+        Unit::Mm => INCH,
+        Unit::Inch => 1.0,
+    };
+    let (lead, scale) = match unit {
+        None => (1.0 / number, None),
+        Some(w::TPI) => (inch / number, None),
+        Some(w::MMPR) => (number * inch / INCH, Some(inch / INCH)),
+        Some(_) => (number * inch, Some(inch)),
+    };
+    post.due_to(items);
+    items.deny_rest()?;
+    if !lead.is_finite() || lead <= 0.0 {
+        return PostCode::Thread.err("PITCH: the lead must be above zero");
+    }
+    let change = match (grows, shrinks) {
+        (Some(_), Some(_)) => return Err(items.error("INCR and DECR: a lead grows or shrinks")),
+        (Some(by), None) => by,
+        (None, Some(by)) => -by,
+        (None, None) => 0.0,
+    };
+    let change = match scale {
+        _ if change == 0.0 => 0.0,
+        Some(scale) if grows.or(shrinks).is_some_and(|by| by > 0.0) => change * scale,
+        Some(_) => return PostCode::Thread.err("PITCH: INCR or DECR is below zero"),
+        None => {
+            return Err(
+                items.error("INCR or DECR of a number of threads: give the lead with MMPR or IPR")
+            );
+        }
+    };
+    let lead = Lead { value: lead, cause: post.control.block.cause };
+    post.path.pitch = Some(Pitch { lead, change });
     Ok(())
 }
 

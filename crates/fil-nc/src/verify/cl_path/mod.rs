@@ -35,7 +35,8 @@ const ENDS_THE_PATH: [WordId; 9] =
     [w::COPY, w::INDEX, w::ROTABL, w::ROTATE, w::ROTHED, w::HEAD, w::CALSUB, w::DEFSUB, w::ENDSUB];
 
 /// Statements besides motion that hold lengths or feeds.
-const MEASURES: [WordId; 6] = [w::FEDRAT, w::CYCLE, w::THREAD, w::OP, w::LINTOL, w::GOHOME];
+const MEASURES: [WordId; 7] =
+    [w::FEDRAT, w::CYCLE, w::THREAD, w::PITCH, w::OP, w::LINTOL, w::GOHOME];
 
 /// Statements that write words of the user's own.
 const OWN_WORDS: [WordId; 2] = [w::POSTN, w::REPEAT];
@@ -88,7 +89,9 @@ struct State {
     axis: Vector3<f64>,
     rapid: bool,
     rate: Option<Rate>,
-    thread: Option<f64>,
+    thread: Option<Rate>,
+    /// The lead of PITCH, for a thread that names none.
+    pitch: Option<Rate>,
     /// OP/THREAD that waits for the ends of its crest.
     awaited: Option<thread::Awaited>,
     circle: Option<Waiting>,
@@ -140,6 +143,7 @@ impl<'r> ClPath<'r> {
                 rapid: false,
                 rate: None,
                 thread: None,
+                pitch: None,
                 awaited: None,
                 circle: None,
                 cycle: None,
@@ -380,6 +384,7 @@ impl State {
                     None => Wanted::Dwell(amount),
                 }]
             }
+            w::PITCH => self.pitch(record).unwrap_or_else(|| unknown(Effect::Path)),
             w::OP | w::THREAD => self.thread(record).unwrap_or_else(|| unknown(Effect::Path)),
             w::MODE if record.has(w::TURN) => vec![Wanted::Mills(false)],
             w::MODE if record.has(w::MILL) => vec![Wanted::Mills(true)],

@@ -4,7 +4,7 @@ use fil_cl::{Record, Word, words as w};
 use nalgebra::{Point3, Vector3};
 
 use super::State;
-use crate::motion::INCH;
+use crate::motion::{INCH, Rate};
 use crate::verify::wanted::{Effect, Wanted, WholeThread};
 
 /// Where TO stands among the items of THREAD/AUTO,x,y,z,TO,x,y,z.
@@ -36,6 +36,11 @@ impl State {
         if record.major == w::OP && !record.has(w::THREAD) {
             return None;
         }
+        let says_lead = [w::TPI, w::MMPR, w::IPR].into_iter().any(|word| record.has(word));
+        if let Some(pitch) = self.pitch.filter(|_| record.major == w::THREAD && !says_lead) {
+            self.thread = Some(pitch);
+            return Some(Vec::new());
+        }
         let lead = self.lead(record)?;
         let given = |word| record.number_after(word).filter(|value| *value != 0.0);
         match (given(w::DEPTH), given(w::CUTS)) {
@@ -52,9 +57,34 @@ impl State {
                     start: None,
                 });
             }
-            (None, None) => self.thread = Some(lead),
+            (None, None) => self.thread = Some(Rate::PerTurn(lead)),
             _ => return None,
         }
+        Some(Vec::new())
+    }
+
+    /// PITCH: threads in a unit of the CL file or in an inch, or a lead that may change.
+    pub(super) fn pitch(&mut self, record: &Record) -> Option<Vec<Wanted>> {
+        let belongs = |before: Option<&Word>| {
+            let of_couplet = [w::INCR, w::DECR, w::MULTRD].map(Word::Minor);
+            before.is_some_and(|word| of_couplet.contains(word))
+        };
+        let number = record.data.iter().enumerate().find_map(|(at, word)| match word {
+            Word::Number(number) if !belongs(at.checked_sub(1).map(|at| &record.data[at])) => {
+                Some(*number)
+            }
+            _ => None,
+        })?;
+        let (lead, unit) = match () {
+            () if record.has(w::TPI) => (INCH / number, INCH),
+            () if record.has(w::MMPR) => (number, 1.0),
+            () if record.has(w::IPR) => (number * INCH, INCH),
+            () => (self.unit() / number, self.unit()),
+        };
+        let gains = record.number_after(w::INCR).unwrap_or(0.0);
+        let change = (gains - record.number_after(w::DECR).unwrap_or(0.0)) * unit;
+        let rate = if change == 0.0 { Rate::PerTurn(lead) } else { Rate::Varying(lead, change) };
+        self.pitch = Some(rate);
         Some(Vec::new())
     }
 

@@ -217,6 +217,11 @@ impl Settings<'_> {
         self.commons.dbl_opt(loc::DWELL_UPR_FACTOR).is_none_or(|factor| factor <= 0.0)
     }
 
+    /// Way before its end on which a pass leaves a thread at 45 degrees, in leads.
+    pub fn thread_chamfer(&self) -> f64 {
+        self.commons.dbl_opt(loc::THREAD_CHAMFER).unwrap_or(0.0).max(0.0)
+    }
+
     /// How far from the crest the tool goes back from a thread, mm.
     pub fn thread_clearance(&self) -> f64 {
         self.commons.dbl_opt(loc::THREAD_CLEARANCE).unwrap_or(0.0)

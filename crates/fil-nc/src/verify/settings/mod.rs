@@ -313,10 +313,10 @@ impl<'c> Settings<'c> {
     }
 
     /// When cutter compensation must be in force.
-    pub fn compensation_due(&self) -> Due {
+    pub fn compensation_due(&self, mills: bool) -> Due {
         match self.commons.read(loc::CUTCOM_WITH_MOTION) {
             false => Due::Now,
-            true if self.commons.read(loc::LATHE_DIAMETER) => Due::WithAny,
+            true if self.commons.read(loc::LATHE_DIAMETER) && !mills => Due::WithAny,
             true => Due::WithXY,
         }
     }

@@ -8,7 +8,7 @@ use fil_machine::modes::FeedMode;
 use fil_machine::setting::CodeAt;
 use fil_machine::{FunctionCode, Letter};
 
-use super::modes;
+use super::{modes, spindle};
 use crate::cause::Cause;
 use crate::control::{Control, Function, full_turn, sinumerik};
 use crate::control_state::{Compensation, Meaning};
@@ -113,17 +113,46 @@ pub fn thread_by(
     lead: &Lead,
     letter: Letter,
 ) -> Result<()> {
+    pass(control, motion, loc::THREAD_CODE, &[(letter, lead.value)], lead.cause)
+}
+
+/// A pass whose lead gains as much in each turn as `change` says, and loses below zero.
+///
+/// # Errors
+/// As [`thread`]; the machine has no code for such a pass.
+pub fn varying_thread(
+    control: &mut Control,
+    motion: &Motion,
+    lead: &Lead,
+    change: f64,
+) -> Result<()> {
+    let letter = control.letter(loc::THREAD_LEAD_ADDRESS, "the lead of a thread")?;
+    let of_change = control.letter(loc::THREAD_CHANGE_ADDRESS, "the change of a lead")?;
+    let words = [(letter, lead.value), (of_change, change)];
+    pass(control, motion, loc::THREAD_VARYING_CODE, &words, lead.cause)
+}
+
+/// One pass with the words of its lead.
+fn pass(
+    control: &mut Control,
+    motion: &Motion,
+    at: CodeAt,
+    words: &[(Letter, f64)],
+    cause: Cause,
+) -> Result<()> {
     ready(control)?;
     if !axis_words(control, motion)? {
         return Ok(());
     }
-    let code = control.code(loc::THREAD_CODE, "a thread")?;
-    motion_code(control, code, false, lead.cause.whole());
-    control.because(lead.cause, |control| {
-        control.word_rounded(letter, lead.value, fil_machine::rounding::Rounding::Lead)
+    let code = control.code(at, "a thread")?;
+    motion_code(control, code, false, cause.whole());
+    control.because(cause, |control| {
+        words.iter().try_for_each(|(letter, value)| {
+            control.word_rounded(*letter, *value, fil_machine::rounding::Rounding::Lead)
+        })
     })?;
     write_motion(control)?;
-    control.state.doubt(letter);
+    words.iter().for_each(|(letter, _)| control.state.doubt(*letter));
     control.state.doubt(F);
     Ok(())
 }
@@ -289,6 +318,12 @@ pub fn feed_mode(control: &mut Control, feed: &Feed) -> Result<()> {
 fn say_feed_mode(control: &mut Control, feed: &Feed) -> Result<()> {
     if control.tables.family == ControlFamily::Sinumerik {
         sinumerik::spindle::check_feed_mode(control)?;
+    }
+    let waits = feed.mode == FeedMode::PerRevolution && spindle::stands(control);
+    if waits && control.tables.mill_turn.is_some() {
+        return PostCode::MillTurn.err(
+            "a feed a turn of the main spindle, which MODE has stopped; SPINDL turns it again",
+        );
     }
     let code = control.code(feed_mode_code(feed.mode), "this feed mode")?;
     control.tables.format_feed(feed.mode);

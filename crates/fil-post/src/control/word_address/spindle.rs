@@ -1,6 +1,7 @@
 //! The spindle: speed, direction, range, limit, orientation.
 
 use fil_diag::Result;
+use fil_machine::commons::EMPTY;
 use fil_machine::letters::S;
 use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::rounding::Rounding;
@@ -85,12 +86,25 @@ fn limit_block(control: &mut Control, limit: f64) -> Result<()> {
         return sinumerik::spindle::limit(control, limit);
     }
     if control.commons.read(loc::SPINDLE_MAX_ADDRESS).is_some() {
-        return Ok(());
+        return limit_beside_surface_speed(control);
     }
     let code = control.code(loc::SPINDLE_MAX_CODE, "SPINDL/MAXRPM")?;
     control.g_of_record(code);
     control.word(S, limit)?;
     control.write_block()
+}
+
+/// A surface speed that is in force is said again, as the highest speed is a word beside it;
+/// another one brings it along.
+fn limit_beside_surface_speed(control: &mut Control) -> Result<()> {
+    match control.speed {
+        Some(speed @ (SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_))) => {
+            control.flush_waiting()?;
+            speed_words(control, speed)?;
+            control.write_block()
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Sees that a highest speed is in force before a surface speed.
@@ -115,6 +129,13 @@ fn side_spindle(control: &mut Control, side: SideSpindle) -> Result<()> {
         Some(false) => loc::SPINDLE_SIDE_CCW_CODE,
     };
     let code = control.code(at, "the second spindle")?;
+    let of_surface = matches!(control.speed, Some(SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_)));
+    if side.speed.is_some() && of_surface {
+        return PostCode::WordForm.err(
+            "SPINDL/SIDE with a speed while the main spindle turns at surface speed, which the \
+             code of turns a minute would end",
+        );
+    }
     control.flush_waiting()?;
     control.block.cause.word = side.words[0];
     if let Some(speed) = side.speed {
@@ -192,6 +213,7 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
     if let (Some(SpindleSpeed::Revolutions(speed)), true) = (turn.speed, by_speed) {
         take_range_of(control, speed)?;
     }
+    refuse_speed_of_the_other(control, &turn)?;
     match (turn.speed, control.speed) {
         (Some(speed), _) => speed_words(control, speed)?,
         (None, Some(speed)) => {
@@ -215,6 +237,26 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
         (None, _) => loc::SPINDLE_DEFAULT_CODE,
     };
     place(control, direction, "the spindle")
+}
+
+/// Refuses SPINDL without a speed behind MODE or SIDE: S is that of the other spindle there, and
+/// this one would turn by it.
+fn refuse_speed_of_the_other(control: &Control, turn: &SpindleTurn) -> Result<()> {
+    let unknown = turn.speed.is_none() && control.speed.is_none();
+    if !unknown || control.commons.last_output(S) == EMPTY {
+        return Ok(());
+    }
+    if control.tables.mill_turn.is_some() {
+        return PostCode::MillTurn.err(
+            "SPINDL without a speed behind MODE, where the last S is that of the other spindle",
+        );
+    }
+    if control.code_if_any(loc::SPINDLE_SIDE_CW_CODE).is_some() {
+        return PostCode::WordForm.err(
+            "SPINDL without a speed behind SIDE, where the last S is that of the side spindle",
+        );
+    }
+    Ok(())
 }
 
 /// Turns the spindle the other way, in a block of its own; says which way it turned.

@@ -36,7 +36,10 @@ pub fn cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Res
     match cycle {
         ThreadCycle::SinglePasses => return Ok(false),
         ThreadCycle::CycleOfOnePass => one_pass_each(post, thread, (shape, start), (&ends, code))?,
-        ThreadCycle::CycleOfAllPassesInTwoBlocks => two_blocks(post, thread, &ends, code)?,
+        ThreadCycle::CycleOfAllPassesInTwoBlocks => {
+            let tenths = shape.chamfer_in_tenths(thread).unwrap_or(0);
+            two_blocks(post, thread, tenths, (&ends, code))?;
+        }
         ThreadCycle::CycleOfAllPassesInOneBlock => one_block(post, thread, &ends, code)?,
         ThreadCycle::CycleOfAllPassesOfLinuxcnc => linuxcnc(post, thread, &ends, code)?,
     }
@@ -66,7 +69,7 @@ impl Ends {
     fn of(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Result<Ends> {
         let begin = on_machine(post, shape.shifted(start))?;
         let crest = [on_machine(post, shape.crest_of(start))?, on_machine(post, shape.crest[1])?];
-        let root = on_machine(post, shape.end(-thread.depth))?;
+        let root = on_machine(post, shape.root_end(thread.depth))?;
         let [across, along] = [root[0] - crest[1][0], root[1] - crest[1][1]];
         if along.abs() > 1e-6 || (across.abs() - thread.depth).abs() > 1e-6 {
             return PostCode::Thread.err("TRANS turns the thread out of the plane of X and Z");
@@ -122,7 +125,12 @@ fn one_pass_each(
 }
 
 /// G76 P(springs, run-out, angle) Q(least) R(allowance), G76 X Z R P Q F.
-fn two_blocks(post: &mut Post, thread: &Thread, ends: &Ends, code: FunctionCode) -> Result<()> {
+fn two_blocks(
+    post: &mut Post,
+    thread: &Thread,
+    chamfer: u32,
+    (ends, code): (&Ends, FunctionCode),
+) -> Result<()> {
     let control = &mut post.control;
     let unit = if control.is_metric() { 1e3 } else { 1e4 };
     let springs = ends.springs.clamp(1, 99);
@@ -131,7 +139,7 @@ fn two_blocks(post: &mut Post, thread: &Thread, ends: &Ends, code: FunctionCode)
             .err(format!("{} passes at full depth, and G76 has 99", ends.springs));
     }
     let mut setup = Line::new(control, code)?;
-    setup.raw('P', &format!("{springs:02}00{:02}", thread.angle as u32));
+    setup.raw('P', &format!("{springs:02}{chamfer:02}{:02}", thread.angle as u32));
     setup.raw('Q', &steps(ends.least, unit, false)?);
     setup.raw('R', "0");
     let mut cut = Line::new(control, code)?;

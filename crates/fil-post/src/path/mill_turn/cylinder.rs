@@ -5,7 +5,7 @@ use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
 use fil_machine::locations as loc;
 
-use super::polar::tenths;
+use super::polar::{refuse_skipped, tenths};
 use crate::control::Control;
 use crate::control::family;
 use crate::control::word_address::motion::{self, Motion};
@@ -22,8 +22,10 @@ const HALF_TURN: f64 = 180.0 + 1e-6;
 ///
 /// # Errors
 /// Another radius at the end than at the start, or none; a tool beside the axis; a line
-/// that the cylinder leaves by more than the tolerance; no feed a minute.
+/// that the cylinder leaves by more than the tolerance; no feed a minute; blocks that may be
+/// skipped.
 pub(super) fn feed(post: &mut Post, from: Position, to: Position, target: Target) -> Result<()> {
+    refuse_skipped(post)?;
     let resolution = post.control.tables.axis(0).resolution();
     let radius = to[0];
     if from[1].abs() > resolution || to[1].abs() > resolution {

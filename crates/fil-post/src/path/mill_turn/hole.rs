@@ -10,6 +10,7 @@ use fil_machine::FunctionCode;
 use fil_machine::axes::{AxisSet, Position};
 use fil_machine::locations as loc;
 use fil_machine::modes::FeedMode;
+use fil_machine::setting::CodeAt;
 
 use crate::control::Control;
 use crate::control::word_address::cycle as words;
@@ -28,13 +29,25 @@ pub fn code(control: &Control, cycle: &Cycle, hole: &Hole) -> Option<FunctionCod
         return None;
     }
     let at = match (cycle.kind, hole.along) {
-        (CycleKind::Tap, 2) => loc::MILL_TURN_FACE_TAP_CODE,
-        (CycleKind::Tap, 0) => loc::MILL_TURN_SIDE_TAP_CODE,
+        (CycleKind::Tap, along) => {
+            let [right, left] = taps(along)?;
+            let turns_left = control.state.rotation == Rotation::Counterclockwise;
+            return control.code_if_any(left).filter(|_| turns_left).or(control.code_if_any(right));
+        }
         (_, 2) if is_plain(cycle) => loc::MILL_TURN_FACE_DRILL_CODE,
         (_, 0) if is_plain(cycle) => loc::MILL_TURN_SIDE_DRILL_CODE,
         _ => return None,
     };
     control.code_if_any(at)
+}
+
+/// The codes of right-hand and left-hand taps along an axis.
+fn taps(along: usize) -> Option<[CodeAt; 2]> {
+    match along {
+        2 => Some([loc::MILL_TURN_FACE_TAP_CODE, loc::MILL_TURN_FACE_TAP_LEFT_CODE]),
+        0 => Some([loc::MILL_TURN_SIDE_TAP_CODE, loc::MILL_TURN_SIDE_TAP_LEFT_CODE]),
+        _ => None,
+    }
 }
 
 /// In one go to the bottom, and out at rapid.
@@ -46,8 +59,8 @@ fn is_plain(cycle: &Cycle) -> bool {
 /// Drills or taps a hole.
 ///
 /// # Errors
-/// A tap whose live tool does not turn clockwise, or whose lead is not known; a value that
-/// does not fit its address.
+/// A tap whose live tool does not turn the way of its cycle, or whose lead is not known; a
+/// value that does not fit its address.
 pub fn drill(
     control: &mut Control,
     cycle: &Cycle,
@@ -56,7 +69,7 @@ pub fn drill(
     code: FunctionCode,
 ) -> Result<()> {
     let feed = match cycle.kind {
-        CycleKind::Tap => feed_of_tap(control, cycle)?,
+        CycleKind::Tap => feed_of_tap(control, cycle, hole.along)?,
         _ => match cycle.feed {
             CycleFeed::Feed(feed) => feed,
             CycleFeed::Lead(_) => {
@@ -78,13 +91,15 @@ pub fn drill(
 }
 
 /// The lead of a tap times the turns of the live tool.
-fn feed_of_tap(control: &mut Control, cycle: &Cycle) -> Result<Feed> {
+fn feed_of_tap(control: &mut Control, cycle: &Cycle, along: usize) -> Result<Feed> {
+    let has_left = taps(along).is_some_and(|[_, left]| control.code_if_any(left).is_some());
     match control.state.rotation {
         Rotation::Clockwise => {}
         Rotation::Standing | Rotation::Unsaid => {
             return PostCode::CycleForm
                 .err("a tap while the live tool stands; SPINDL before it turns it");
         }
+        Rotation::Counterclockwise if has_left => {}
         Rotation::Counterclockwise => {
             return PostCode::NoCode.err(
                 "the live tool turns counterclockwise, and the machine has no cycle of live \

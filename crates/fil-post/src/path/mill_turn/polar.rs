@@ -101,6 +101,7 @@ pub(super) fn line(
     point: Point3<f64>,
     kind: MotionKind,
 ) -> Result<()> {
+    refuse_skipped(post)?;
     if let Some(from) = post.path.point {
         let from = rotary::transformed(post, Target { point: from, ..target }).0;
         let nearest = nearest(from.xy(), point.xy());
@@ -180,11 +181,24 @@ fn feed_of(post: &Post, kind: MotionKind) -> Result<Feed> {
     Ok(Feed { value: value / mm, mode: FeedMode::PerMinute, cause })
 }
 
+/// Refuses a motion in blocks that may be skipped: with them left out the next one would move Z
+/// together with X and C, or pass the axis of the spindle.
+pub(super) fn refuse_skipped(post: &Post) -> Result<()> {
+    if post.control.state.may_be_skipped() {
+        return PostCode::SkippedPart.err(
+            "a motion in polar or cylindrical interpolation, which the next one goes on from \
+             otherwise",
+        );
+    }
+    Ok(())
+}
+
 /// Refuses an arc whose circle passes the axis of the spindle, or that leaves the travel.
 ///
 /// # Errors
 /// It does.
 pub(super) fn check_arc(post: &Post, arc: &Arc, target: Target) -> Result<()> {
+    refuse_skipped(post)?;
     let Some(start) = post.path.point else { return Ok(()) };
     let place = |point| rotary::transformed(post, Target { point, ..target }).0;
     let ends = [start, target.point].map(|point| flat(arc, point));
@@ -242,11 +256,16 @@ pub(super) fn end(post: &mut Post) -> Result<()> {
     let Some(code) = tenths(control, loc::MILL_TURN_POLAR_END_CODE) else {
         return PostCode::NoCode.err("mill_turn.polar_end_code names no function");
     };
+    let knows_z = control.axis_position(2).is_some();
     let waiting = control.block.take();
     control.g_of_record(code);
     control.write_block()?;
     control.block = waiting;
     super::set_mode(control, MillTurnMode::Milling)?;
+    if knows_z {
+        // X and C count otherwise now; Z is the same in both, and a cycle may return to it.
+        control.state.trust(control.tables.axis(2).letter);
+    }
     control.state.plane = None;
     let here = post.path.point.map(|point| Target { point, axis: post.path.axis, word: 0 });
     let here = here.map(|target| rotary::transformed(post, target).0);
