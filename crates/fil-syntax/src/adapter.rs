@@ -11,7 +11,8 @@ use std::collections::VecDeque;
 use logos::{Lexer, Logos};
 
 use crate::free_text;
-use crate::token::{Bad, Raw, Token, integer, operator, real, statement_word};
+use crate::lexer::Raw;
+use crate::token::{Bad, Token, integer, operator, real, statement_word};
 use crate::tree::Span;
 
 /// The most tokens a statement may have.

@@ -31,6 +31,10 @@ pub mod walk;
 #[rustfmt::skip]
 #[allow(clippy::all, missing_docs, unused, rustdoc::all)]
 mod grammar;
+/// Made from `lexer.logos`, in the same way.
+#[rustfmt::skip]
+#[allow(clippy::all, unused)]
+mod lexer;
 
 pub use encoding::decode;
 pub use errors::SyntaxCode;

@@ -1,54 +1,5 @@
 //! The signs and words a FIL text is made of.
 
-use logos::Logos;
-
-/// A token as it stands in the text, whatever statement it is part of.
-#[derive(Clone, Copy, Debug, Logos, PartialEq)]
-#[allow(clippy::duplicated_attributes, reason = "each skip has an allow_greedy of its own")]
-#[logos(skip r"[ \t\x0c\x1a]+")]
-#[logos(skip(r"\$\$[^\r\n]*", allow_greedy = true))]
-#[logos(skip(r"\$([ \t]*|[ \t]+\$\$[^\r\n]*)(\r\n|\r|\n)", allow_greedy = true))]
-pub(crate) enum Raw {
-    #[regex(r"\r\n|\r|\n")]
-    Newline,
-    #[token(";")]
-    Semicolon,
-    #[regex(r"[A-Za-z_][A-Za-z0-9_]*")]
-    Name,
-    #[regex(r"[0-9]+")]
-    Integer,
-    #[regex(r"([0-9]+\.[0-9]*|\.[0-9]+)([EeDd][+-]?[0-9]+)?")]
-    #[regex(r"[0-9]+[EeDd][+-]?[0-9]+")]
-    Real,
-    /// `5.EQ.`: one token, so that the longest match is not the number `5.`.
-    #[regex(r"[0-9]+\.[A-Za-z]+\.")]
-    IntegerAndOperator,
-    #[regex(r"\.[A-Za-z]+\.")]
-    Operator,
-    #[regex(r"'([^'\r\n]|'')*'")]
-    Text,
-    #[regex(r"'([^'\r\n]|'')*")]
-    UnclosedText,
-    #[token("(")]
-    Open,
-    #[token(")")]
-    Close,
-    #[token(",")]
-    Comma,
-    #[token("=")]
-    Equals,
-    #[token("+")]
-    Plus,
-    #[token("-")]
-    Minus,
-    #[token("*")]
-    Star,
-    #[token("/")]
-    Slash,
-    #[token("**")]
-    Power,
-}
-
 /// A token as the grammar takes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Token<'s> {
@@ -197,7 +148,10 @@ pub(crate) fn integer(text: &str) -> Token<'_> {
 
 #[cfg(test)]
 mod tests {
+    use logos::Logos;
+
     use super::*;
+    use crate::lexer::Raw;
 
     fn raws(text: &str) -> Vec<(Raw, &str)> {
         let lexer = Raw::lexer(text).spanned();

@@ -1,10 +1,13 @@
-//! Makes the parser of FIL from its grammar.
+//! Makes the lexer and the parser of FIL from their grammars.
 //!
-//! The parser lies in the repository, so that who builds filpost need not build lalrpop first.
+//! Both lie in the repository, so that who builds filpost need not build logos's and lalrpop's
+//! generators first.
 
 use std::error::Error;
 use std::fs;
 use std::path::Path;
+
+use proc_macro2::TokenStream;
 
 /// The parser that lalrpop makes from the grammar at `path`, as Rust text.
 ///
@@ -22,4 +25,18 @@ pub fn parser(path: &Path) -> Result<String, Box<dyn Error>> {
     let made = path.with_extension("rs");
     let name = made.file_name().ok_or("the grammar has no name")?;
     Ok(fs::read_to_string(out.path().join(name))?)
+}
+
+/// The lexer that logos makes from the enum at `path`, as Rust text: the enum itself, and its
+/// `Logos`.
+///
+/// # Errors
+/// The file can't be read, or is no Rust text. What logos says of a pattern stands in the
+/// text as a `compile_error!`.
+pub fn lexer(path: &Path) -> Result<String, Box<dyn Error>> {
+    let tokens: TokenStream = fs::read_to_string(path)?.parse()?;
+    let mut made = logos_codegen::strip_attributes(tokens.clone());
+    made.extend(logos_codegen::generate(tokens));
+    let text = prettyplease::unparse(&syn::parse2(made)?);
+    Ok(format!("use logos::Logos;\n\n{text}"))
 }
