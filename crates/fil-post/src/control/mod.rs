@@ -23,6 +23,7 @@ mod tap;
 mod texts;
 mod waiting;
 pub mod word_address;
+mod writing;
 
 use std::collections::BTreeMap;
 
@@ -31,8 +32,7 @@ use fil_machine::address::no_address;
 use fil_machine::commons::EMPTY;
 use fil_machine::contradictions;
 use fil_machine::letters::{G, M};
-use fil_machine::locations::ControlFamily;
-use fil_machine::modes::{FeedMode, Plane, Unit};
+use fil_machine::modes::{FeedMode, Unit};
 use fil_machine::rounding::Rounding;
 use fil_machine::setting::{CodeAt, LetterAt};
 use fil_machine::tables::MachineTables;
@@ -48,6 +48,7 @@ use crate::warnings::Warnings;
 
 pub use program::ProgramHead;
 pub use waiting::{Function, Waiting};
+pub use writing::BeforeOthers;
 
 /// What tool-tip control begins with.
 #[derive(Clone, Copy, Debug, Default)]
@@ -58,14 +59,6 @@ pub struct TipOffset {
     pub length_is_called: bool,
     /// A tool change or a position of the machine has brought the tool away from the part.
     pub is_away: bool,
-}
-
-/// What the control knew before words or texts of others.
-#[derive(Clone, Copy, Debug)]
-pub struct BeforeOthers {
-    compensated: bool,
-    plane: Option<Plane>,
-    tool_changes: u32,
 }
 
 /// The output side of the post.
@@ -319,192 +312,6 @@ impl Control {
             self.block.note_cause(position, feed.cause);
         }
         Ok(())
-    }
-
-    /// Writes the block under construction and empties it; the control learns
-    /// from it.
-    ///
-    /// # Errors
-    /// As [`Tape::block`]; what the start of the program refuses; a block after
-    /// the end of the program.
-    #[inline]
-    pub fn write_block(&mut self) -> Result<()> {
-        if self.block.is_empty() {
-            return Ok(());
-        }
-        if !self.straight {
-            return self.write_with_care();
-        }
-        if self.unit.is_none() && self.block.has_numbers() {
-            self.require_unit()?;
-        }
-        self.refuse_after_end()?;
-        if self.tables.style.divides && self.is_crowded() {
-            return self.write_apart();
-        }
-        let result = self.tape.block(&self.block, &self.tables, &mut self.commons);
-        self.state.learn_block(&self.block, &self.codes, &self.tables.addresses);
-        self.block.clear();
-        result
-    }
-
-    /// Writes words in the order given, whether or not their values have changed
-    /// (POSTN).
-    ///
-    /// # Errors
-    /// As [`Tape::words`].
-    pub fn write_words(&mut self, words: &[(Letter, f64, Cause)]) -> Result<()> {
-        self.begin()?;
-        if words.iter().any(|(letter, ..)| !matches!(*letter, G | M)) {
-            self.require_unit()?;
-        }
-        self.refuse_after_end()?;
-        if self.tables.style.edits_words
-            && let Some(edited) = self.edited_words(words)?
-        {
-            return self.put_words(&edited);
-        }
-        self.put_words(words)
-    }
-
-    /// Puts words on the tape; the control learns from them.
-    fn put_words(&mut self, words: &[(Letter, f64, Cause)]) -> Result<()> {
-        if words.is_empty() {
-            return Ok(());
-        }
-        let start = self.tape.text.len();
-        if self.tables.family == ControlFamily::Sinumerik {
-            sinumerik::block::put(self, words)?;
-        } else {
-            self.tape.words(words, &self.tables, &mut self.commons)?;
-        }
-        if self.edit_line(start)? {
-            return Ok(());
-        }
-        let before = self.before_others()?;
-        let letters = words.iter().map(|(letter, value, _)| (*letter, *value));
-        self.state.learn_words(letters, &self.codes);
-        if self.tables.family == ControlFamily::Sinumerik {
-            sinumerik::reader::learn_words(self, words);
-        }
-        self.refuse_in_compensation(before)
-    }
-
-    /// Writes a text as a block; the control learns from it what it can read.
-    ///
-    /// # Errors
-    /// As [`Tape::line`]; a character that must not reach the tape; a block after
-    /// the end of the program.
-    pub fn write_text(&mut self, text: &str, numbered: bool) -> Result<()> {
-        self.begin()?;
-        if texts::begins_program(text) {
-            self.state.program_begins();
-        }
-        self.refuse_after_end()?;
-        texts::check(text)?;
-        if self.tables.family == ControlFamily::Sinumerik {
-            sinumerik::reader::refuse_other_diameters(self, text)?;
-        }
-        if self.tables.family != ControlFamily::WordAddress {
-            family::refuse_brackets(text)?;
-        }
-        if self.put_line(text, numbered)? {
-            return Ok(());
-        }
-        let before = self.before_others()?;
-        match self.tables.family {
-            ControlFamily::Klartext => klartext::reader::learn(self, text),
-            ControlFamily::Sinumerik => sinumerik::reader::learn(self, text),
-            ControlFamily::WordAddress => self.state.learn_text(text, &self.codes),
-        }
-        self.refuse_in_compensation(before)
-    }
-
-    /// What the control knows before words or texts that the post has not made.
-    ///
-    /// # Errors
-    /// As [`Control::begin`].
-    pub fn before_others(&mut self) -> Result<BeforeOthers> {
-        self.begin()?;
-        Ok(BeforeOthers {
-            compensated: self.is_compensated(),
-            plane: self.state.plane,
-            tool_changes: self.state.tool_changes,
-        })
-    }
-
-    /// Refuses a tool change or another plane that they brought within cutter
-    /// compensation.
-    ///
-    /// # Errors
-    /// They did.
-    pub fn refuse_in_compensation(&self, before: BeforeOthers) -> Result<()> {
-        if !before.compensated {
-            return Ok(());
-        }
-        if self.state.tool_changes != before.tool_changes {
-            return PostCode::CompensationOn
-                .err("at a tool change; CUTCOM/OFF must come before it");
-        }
-        match (before.plane, self.state.plane) {
-            (Some(one), Some(other)) if one != other => {
-                PostCode::CompensationOn.err("at a change of the plane")
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// Cutter compensation is on, or waits for its motion.
-    pub fn is_compensated(&self) -> bool {
-        self.state.compensates() || self.compensation_asked() != Compensation::Off
-    }
-
-    /// Writes a comment, which the control does not read.
-    ///
-    /// # Errors
-    /// As [`Control::write_text`].
-    pub fn write_comment(&mut self, text: &str, numbered: bool) -> Result<()> {
-        self.begin()?;
-        self.refuse_after_end()?;
-        texts::check(text)?;
-        self.put_line(text, numbered).map(|_| ())
-    }
-
-    /// Writes a line as it is; says whether it was edited, so that the control has learned
-    /// from it.
-    fn put_line(&mut self, text: &str, numbered: bool) -> Result<bool> {
-        if !text.is_ascii() {
-            self.warnings.add(PostCode::TapeText, format!("`{text}`"));
-        }
-        let (cause, start) = (self.block.cause, self.tape.text.len());
-        if self.tables.family == ControlFamily::Klartext {
-            klartext::line::put(self, &klartext::line::Line::of_text(text, cause))?;
-            return Ok(false);
-        }
-        self.tape.line(text, cause, numbered, &self.tables, &mut self.commons)?;
-        self.edit_line(start)
-    }
-
-    /// Refuses a block after M2 or M30: the control would never read it.
-    #[inline]
-    fn refuse_after_end(&self) -> Result<()> {
-        if self.state.ended {
-            return PostCode::AfterEnd.err("the program has ended before this block");
-        }
-        Ok(())
-    }
-
-    /// Writes the start of the program if it is still due. Whoever asks for what
-    /// the control knows calls it first.
-    ///
-    /// # Errors
-    /// As [`program::start`].
-    #[inline]
-    pub fn begin(&mut self) -> Result<()> {
-        if self.head.started {
-            return Ok(());
-        }
-        program::start(self)
     }
 
     /// Does something whose words have another cause than the record that is
