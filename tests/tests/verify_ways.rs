@@ -62,6 +62,13 @@ fn a_fault_on_a_way_that_no_record_names_is_found() {
             "26 L Y+0 FMAX",
             "before X and Y have",
         ),
+        // Down before the machine has turned.
+        (
+            "corpus/posts/linuxcnc-5x/faces",
+            "N110 A-18. C10.\nN120 Z78.5378",
+            "N110 Z78.5378\nN120 A-18. C10.",
+            "rapid plunges before the rotary axes have arrived",
+        ),
         // A hole in a work offset in which no word has said where the tool stands.
         (
             "words/set-ofsetl-in-a-cycle-ends-it",

@@ -159,6 +159,9 @@ impl<C: Steps> Walk<'_, C> {
         if lower && !(arrived(0) && arrived(1)) {
             let message = "rapid plunges before X and Y have arrived".to_string();
             self.say_order(cl_line, part, message);
+        } else if lower && turns && !part.to.names_tip() {
+            let message = "rapid plunges before the rotary axes have arrived".to_string();
+            self.say_order(cl_line, part, message);
         }
         let across = (moved(0) || moved(1)) && !moved(2);
         if across && end.linear[2] > at[2] + STILL {
