@@ -49,8 +49,6 @@ const DIFFERENT: &[&[(CodeAt, &str)]] = &[
         (loc::CYCLE_TAP_LEFT_CODE, "tapping of left-hand threads"),
         (loc::CYCLE_DEEP_CODE, "deep drilling"),
     ],
-    &[(loc::RAPID_CODE_Z, "rapid motion of Z"), (loc::LINEAR_CODE, "linear motion")],
-    &[(loc::ROTARY_RAPID_CODE, "rapid turns"), (loc::LINEAR_CODE, "linear motion")],
     &[
         (loc::CIRCLE_PLANE_XY, "the XY plane"),
         (loc::CIRCLE_PLANE_ZX, "the ZX plane"),
@@ -139,6 +137,8 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     for group in DIFFERENT {
         same_codes(commons, group, &mut found);
     }
+    rapid_codes(commons, &mut found);
+    tapping_codes(commons, &mut found);
     codes_of_two_modes(commons, &mut found);
     return_levels(commons, &mut found);
     calls(commons, &mut found);
@@ -151,6 +151,7 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     dwell_formats(commons, &mut found);
     order_of_axes(commons, &mut found);
     shift_along(commons, &mut found);
+    diameters_of_klartext(commons, &mut found);
     translation(commons, &mut found);
     frame_rules::check(commons, &mut found);
     full_turn::check(commons, &mut found);
@@ -221,6 +222,38 @@ fn same_codes(commons: &Commons, group: &[(CodeAt, &str)], found: &mut Vec<Diag>
         let other = group[..index].iter().find(|(other, _)| commons.read(*other) == Some(code));
         if let Some((_, other)) = other {
             found.push(contradiction(format!("code {code} is both {other} and {what}")));
+        }
+    }
+}
+
+/// The rapid motion of Z and that of turns may have the code of the one across, and no other.
+fn rapid_codes(commons: &Commons, found: &mut Vec<Diag>) {
+    let rapids =
+        [(loc::RAPID_CODE_Z, "rapid motion of Z"), (loc::ROTARY_RAPID_CODE, "rapid turns")];
+    for (at, what) in rapids {
+        let Some(code) = commons.read(at) else { continue };
+        let others = DIFFERENT[0].iter().filter(|(other, _)| *other != loc::RAPID_CODE_XY);
+        for (_, other) in others.filter(|(other, _)| commons.read(*other) == Some(code)) {
+            found.push(contradiction(format!("code {code} is both {other} and {what}")));
+        }
+    }
+}
+
+/// A tap turns back at the bottom; no hole without a thread has its code.
+fn tapping_codes(commons: &Commons, found: &mut Vec<Diag>) {
+    // The first groups of DIFFERENT say it of drilling, deep drilling and chip breaking.
+    let others = [
+        (loc::CYCLE_CSINK_CODE, "countersinking"),
+        (loc::CYCLE_BORE_CODE, "boring"),
+        (loc::CYCLE_REAM_CODE, "reaming"),
+        (loc::CYCLE_FACE_CODE, "facing"),
+        (loc::CYCLE_THRU_CODE, "drilling through"),
+        (loc::CYCLE_MILL_CODE, "milling of holes"),
+    ];
+    for at in [loc::CYCLE_TAP_CODE, loc::CYCLE_TAP_LEFT_CODE] {
+        let Some(code) = commons.read(at) else { continue };
+        for (_, other) in others.iter().filter(|(other, _)| commons.read(*other) == Some(code)) {
+            found.push(contradiction(format!("code {code} is both tapping and {other}")));
         }
     }
 }
@@ -300,6 +333,14 @@ fn start_modes(commons: &Commons, found: &mut Vec<Diag>) {
         if known.peek().is_some() && !known.any(|known| known == code) {
             found.push(contradiction(format!("{name} is {code}, which is no code of this mode")));
         }
+    }
+}
+
+/// The center of an arc in Klartext is a position, which no control reads as a diameter.
+fn diameters_of_klartext(commons: &Commons, found: &mut Vec<Diag>) {
+    let is_klartext = commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext;
+    if is_klartext && commons.dbl_opt(loc::SCALE_X) == Some(2.0) {
+        found.push(contradiction("scale.x is 2, and Klartext has no diameters".into()));
     }
 }
 

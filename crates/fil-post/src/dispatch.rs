@@ -78,6 +78,7 @@ pub const HANDLERS: &[(WordId, Handler)] = &[
     (w::ORIGIN, Chosen(word::trans::origin)),
     (w::PARTNO, I(word::partno::handle)),
     (w::PITCH, I(word::thread::pitch)),
+    (w::PLABEL, Chosen(word::plabel::handle)),
     (w::POSTN, I(word::postn::handle)),
     (w::PPRINT, I(word::pprint::handle)),
     (w::PREFUN, I(word::prefun::prefun)),

@@ -67,6 +67,10 @@ fil_diag::codes! {
         CompensationOnArc = 520, Error, "cutter compensation begins or ends on an arc",
             "Controls take up and give up the offset on a straight line only.",
             "Put a straight motion between CUTCOM and the CIRCLE.";
+        /// Compensation of a path in a mirror.
+        CompensationSide = 530, Error, "left of the path is right of it on the tape",
+            "In a mirror, and seen from below, the tool would cut on the other side of the path.",
+            "Let the CAM system mirror the path, its compensation with it, or take CUTCOM with a FIL section that says the side on the tape.";
         /// Compensation that is lost.
         CompensationLost = 521, Error, "cutter compensation is no longer certain",
             "A text that can't be read may have switched it, and saying it again would begin it anew.",

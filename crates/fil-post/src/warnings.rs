@@ -32,10 +32,25 @@ impl Warnings {
         hint: impl FnOnce() -> Option<String>,
     ) {
         let code: &'static Code = code.into();
-        if self.known.len() < MOST && self.known.insert((code.number, message.clone())) {
-            let last = self.known.len() == MOST;
-            let note = if last { "; further warnings are not listed" } else { "" };
+        if self.is_new(code, &message) {
+            let note = self.note();
             self.list.push(Diag { hint: hint(), ..Diag::new(code, message + note) });
         }
+    }
+
+    /// The same for a warning of another crate.
+    pub fn add_made(&mut self, mut diag: Diag) {
+        if self.is_new(diag.code, &diag.message) {
+            diag.message += self.note();
+            self.list.push(diag);
+        }
+    }
+
+    fn is_new(&mut self, code: &'static Code, message: &str) -> bool {
+        self.known.len() < MOST && self.known.insert((code.number, message.to_string()))
+    }
+
+    fn note(&self) -> &'static str {
+        if self.known.len() == MOST { "; further warnings are not listed" } else { "" }
     }
 }

@@ -43,5 +43,9 @@ fil_diag::codes! {
         NotCopied = 810, Error, "the folder can't be part of a case",
             "A case holds a copy of the folder that its scripts read: files and folders, at most 1000 of them and 64 MB. A link could lead out of it.",
             "Grant a folder with the files that the scripts read, and nothing else.";
+        /// `filpost machine show` of a name that no setting has.
+        NoSetting = 811, Error, "no such setting",
+            "A part of a name that begins no setting would show an empty list.",
+            "`filpost machine show --all` lists every setting; `-m FILE` names the machine.";
     }
 }

@@ -283,6 +283,17 @@ pub fn dwell(control: &mut Control, dwell: Dwell) -> Result<()> {
     write(control, Operation::Dwell(dwell))
 }
 
+/// Leaves the offset of a tool out where the tool brings its length with it.
+///
+/// # Errors
+/// An offset that the control can't take.
+pub fn take_own_offset(control: &mut Control, wanted: &mut ToolChange) -> Result<()> {
+    if control.tables.family == ControlFamily::Klartext {
+        return klartext::tool::take_own_offset(control, wanted);
+    }
+    Ok(())
+}
+
 /// Changes the tool.
 ///
 /// # Errors

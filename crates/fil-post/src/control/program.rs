@@ -116,6 +116,7 @@ fn write_start(control: &mut Control) -> Result<()> {
         control.write_text(&block, true)?;
     }
     if !own_start {
+        refuse_a_unit_without_code(control)?;
         mode_codes(control);
     }
     control.write_block()?;
@@ -175,6 +176,25 @@ fn close(control: &mut Control) -> Result<()> {
         tape_mark(control, loc::TAPE_END_CHAR)?;
         leader(control, loc::TAPE_TRAILER)
     })
+}
+
+/// Refuses a program whose unit the control can't be told, where it can be told the other.
+///
+/// # Errors
+/// The machine takes the unit of the CL file, and has a code for the other unit alone.
+fn refuse_a_unit_without_code(control: &Control) -> Result<()> {
+    let Some(unit) = control.unit else { return Ok(()) };
+    let (other, name) = match unit {
+        Unit::Mm => (Unit::Inch, "millimetres"),
+        Unit::Inch => (Unit::Mm, "inches"),
+    };
+    let takes_both = control.commons.read(loc::UNITS_MODE) == loc::UnitsMode::AsTheClFile;
+    let has = |unit| control.code_if_any(unit_code(unit)).is_some();
+    if !takes_both || has(unit) || !has(other) {
+        return Ok(());
+    }
+    PostCode::NoCode
+        .err(format!("the machine has a code for the other unit, and none for {name} (units.mode)"))
 }
 
 /// Adds the mode codes a control must be in. A machine with start blocks of

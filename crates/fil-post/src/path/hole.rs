@@ -82,7 +82,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
             let cause = post.control.block.cause;
             rapid::rapid(&mut post.control, &at.of(across), cause)?;
         }
-        let level = without_return_code(post, &at, &mut hole)?;
+        let level = without_return_code(post, cycle, &at, &mut hole)?;
         family::hole(&mut post.control, cycle, code, &at, &hole)?;
         cycle.in_force = Some(hole);
         if let Some(level) = level {
@@ -113,12 +113,23 @@ fn refuse_beside_the_axis(control: &Control, at: &Position, hole: &Hole) -> Resu
 
 /// On a control without G98 and G99 nobody says which level a cycle returns to: it begins
 /// on the R level then, which is both. Gives the level to go up to after the hole.
-fn without_return_code(post: &mut Post, at: &Motion, hole: &mut Hole) -> Result<Option<f64>> {
+fn without_return_code(
+    post: &mut Post,
+    cycle: &mut Cycle,
+    at: &Motion,
+    hole: &mut Hole,
+) -> Result<Option<f64>> {
     let control = &mut post.control;
     let says_it = control.commons.read(loc::CYCLE_RETURN_CODES) == CycleReturnCodes::Yes
         || control.tables.family != ControlFamily::WordAddress;
     if says_it || (hole.initial - hole.clear).abs() <= SAME_LEVEL {
         return Ok(None);
+    }
+    let is_level =
+        |last: Hole| last.along == hole.along && (last.clear - hole.clear).abs() <= SAME_LEVEL;
+    if control.state.in_cycle == Some(true) && !cycle.in_force.is_some_and(is_level) {
+        family::cancel_cycle(control)?;
+        cycle.in_force = None;
     }
     if control.state.in_cycle != Some(true) {
         let cause = control.block.cause;

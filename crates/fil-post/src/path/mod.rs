@@ -8,6 +8,7 @@
 
 pub mod arc;
 mod chords;
+pub mod compensation_side;
 pub mod cycle;
 pub mod euler;
 mod expand;

@@ -29,7 +29,8 @@ pub fn looks_ahead(commons: &Commons) -> bool {
 /// # Errors
 /// As [`tool::prepare`], [`family::change_tool`] and a rapid motion; a block of the user
 /// that the tape refuses.
-pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
+pub fn change(control: &mut Control, mut wanted: ToolChange) -> Result<()> {
+    family::take_own_offset(control, &mut wanted)?;
     if !tool::prepare(control, &wanted)? {
         return Ok(());
     }

@@ -5,11 +5,12 @@ use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 use fil_machine::modes::Plane;
 
+use crate::control::word_address::compensation::usual_plane;
 use crate::control_state::Compensation;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{CutterCompensation, Operation};
-use crate::path::carry_out;
+use crate::path::{carry_out, compensation_side};
 use crate::post::Post;
 
 /// Switches compensation.
@@ -40,6 +41,11 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     }
     if side != Compensation::Off && post.path.cycle.is_some() {
         return PostCode::InCycle.err("CUTCOM in an active cycle; CYCLE/OFF must come before it");
+    }
+    // A FIL section that carries CUTCOM out says the side on the tape.
+    if side != Compensation::Off && post.control.tape.cause.stack == 0 {
+        let machine = || usual_plane(&post.control);
+        compensation_side::check(post, plane.map_or_else(machine, |(plane, _)| plane))?;
     }
     let compensation = CutterCompensation { side, plane, offset, side_word };
     carry_out(post, Operation::Compensation(compensation))

@@ -25,6 +25,7 @@ pub mod multax;
 pub mod op;
 pub mod opskip;
 pub mod partno;
+pub mod plabel;
 pub mod postn;
 pub mod pprint;
 pub mod prefun;

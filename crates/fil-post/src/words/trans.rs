@@ -15,7 +15,7 @@ use nalgebra::Matrix3x4;
 use crate::control::sinumerik::translation;
 use crate::errors::PostCode;
 use crate::items::Items;
-use crate::path::Transformation;
+use crate::path::{Transformation, compensation_side};
 use crate::post::Post;
 
 /// OPTION that leaves the tool axis alone.
@@ -33,7 +33,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     }
     if items.any_of(&[w::NOMORE, w::OFF]).is_some() {
         items.deny_rest()?;
-        post.path.transformation = None;
+        turn(post, None, "TRANS")?;
         return translate(post, [0.0; 3]);
     }
     let option = items.couplet(w::OPTION)?;
@@ -52,10 +52,17 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         return Err(items.error(format!("3 or 12 numbers are needed, not {}", numbers.len())));
     }
     let kind = post.control.commons.read(loc::INPUT_KIND);
-    post.path.transformation = Some(Transformation {
+    let trans = Transformation {
         matrix: Matrix3x4::from_row_slice(&numbers),
         turns_axis: option.is_none() && kind != InputKind::MatrixOnPoints,
-    });
+    };
+    turn(post, Some(trans), "TRANS")
+}
+
+/// Takes another transformation.
+fn turn(post: &mut Post, trans: Option<Transformation>, word: &str) -> Result<()> {
+    compensation_side::refuse_a_turn(post, trans.as_ref(), word)?;
+    post.path.transformation = trans;
     Ok(())
 }
 
@@ -110,7 +117,7 @@ pub fn tracut(post: &mut Post, items: &mut Items) -> Result<bool> {
         return Err(items.error("TRANS moves the points already"));
     }
     if items.any_of(&[w::NOMORE, w::OFF]).is_some() {
-        post.path.transformation = None;
+        turn(post, None, "TRACUT")?;
         post.path.has_tracut = false;
         return Ok(true);
     }
@@ -120,9 +127,9 @@ pub fn tracut(post: &mut Post, items: &mut Items) -> Result<bool> {
             items.error(format!("12 numbers, or NOMORE, are needed, not {}", numbers.len()))
         );
     }
-    post.path.has_tracut = true;
     let matrix = Matrix3x4::from_row_slice(&numbers);
-    post.path.transformation = Some(Transformation { matrix, turns_axis: true });
+    turn(post, Some(Transformation { matrix, turns_axis: true }), "TRACUT")?;
+    post.path.has_tracut = true;
     Ok(true)
 }
 

@@ -45,8 +45,9 @@ pub enum MachineCommand {
         /// The chain of axes as an SVG picture
         #[arg(long, conflicts_with_all = ["all", "prefix", "chain"])]
         chain_svg: bool,
-        /// Only settings whose name starts with this
-        #[arg(value_name = "PREFIX")]
+        /// Only settings whose name starts with this; where neither -p nor -m is given it may be
+        /// a machine, as diff takes it
+        #[arg(value_name = "PREFIX|MACHINE")]
         prefix: Option<String>,
     },
     /// Say in which settings two machines differ

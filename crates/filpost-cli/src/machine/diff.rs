@@ -34,14 +34,19 @@ pub fn run(first: &Path, second: &Path) -> Result<Status, Error> {
     Ok(if equal { Status::Done } else { Status::Failed })
 }
 
-/// The settings of a ready post, a folder or a file.
-fn commons(machine: &Path) -> Result<Commons, Error> {
+/// A ready post, a folder or a file, as it is chosen by its option.
+pub fn chosen(machine: &Path) -> Chosen {
     let name = machine.to_string_lossy().into_owned();
-    let chosen = if machine.is_dir() || ready::find(&name).is_some() || !machine.exists() {
+    if machine.is_dir() || ready::find(&name).is_some() || !machine.exists() {
         Chosen { post: Some(name), ..Chosen::default() }
     } else {
         Chosen { machine: Some(machine.to_path_buf()), ..Chosen::default() }
-    };
+    }
+}
+
+/// The settings of a ready post, a folder or a file.
+fn commons(machine: &Path) -> Result<Commons, Error> {
+    let chosen = chosen(machine);
     let named = setup::named(&chosen, None)?;
     let builder = named.map_or_else(filpost::Program::builder, |named| named.builder);
     let program = builder.build()?;

@@ -1,25 +1,46 @@
 //! `filpost machine show`
 
 use std::io::{self, Write};
+use std::path::Path;
 
 use filpost::locations::{TABLE, default_commons};
 use filpost::{Commons, Diag, Error, Kind, Program, ready, stored, user_blocks};
 
-use super::{LETTERS, address};
+use super::{LETTERS, address, diff};
 use crate::args::Chosen;
+use crate::errors::CommandCode;
 use crate::{explain, output, setup, summary};
 
 /// Shows every setting whose name starts with `prefix`; without one, what the machine
 /// sets otherwise than the default machine.
 ///
 /// # Errors
-/// Files that can't be read; wrong settings.
+/// Files that can't be read; wrong settings; a prefix that no setting has.
 pub fn run(chosen: &Chosen, prefix: Option<&str>, all: bool) -> Result<(), Error> {
+    let is_chosen = chosen.post.is_some() || chosen.machine.is_some();
+    let machine = prefix.filter(|name| !is_chosen && is_machine(name));
+    if let Some(name) = machine {
+        let set = chosen.set.clone();
+        return run(&Chosen { set, ..diff::chosen(Path::new(name)) }, None, all);
+    }
     let program = program(chosen)?;
+    if let Some(prefix) = prefix.filter(|prefix| !begins_a_setting(prefix)) {
+        let message = format!("no setting begins with `{prefix}`");
+        return Err(Error::Setup(vec![Diag::new(CommandCode::NoSetting, message)]));
+    }
     match prefix {
         None if !all => output::print_with(|out| differences(out, program.commons())),
         _ => output::print_with(|out| every(out, program.commons(), prefix.unwrap_or(""))),
     }
+}
+
+/// A file, a folder or a ready post, and no setting.
+fn is_machine(name: &str) -> bool {
+    !begins_a_setting(name) && (Path::new(name).exists() || ready::find(name).is_some())
+}
+
+fn begins_a_setting(prefix: &str) -> bool {
+    "address".starts_with(prefix) || TABLE.iter().any(|row| row.name.starts_with(prefix))
 }
 
 /// Draws the chain of axes.

@@ -22,6 +22,7 @@ const TESTED: &[(&str, &str, &str)] = &[
         "a_path_without_a_name_and_a_base_that_is_not_there_are_refused",
     ),
     ("E0810", include_str!("making_cases.rs"), "a_folder_that_cant_be_part_of_a_case_is_refused"),
+    ("E0811", include_str!("machine.rs"), "a_machine_is_shown_by_its_name_alone"),
 ];
 
 /// What `filpost explain` says of each code there is, by its name.

@@ -21,6 +21,22 @@ fn an_option_file_becomes_a_machine() {
 }
 
 #[test]
+fn a_machine_is_shown_by_its_name_alone() {
+    let option_file = "OPTION FILE\nMILL\n INTCOM:(LOCATION,VALUE)\n 1870      0\n   0      0\n \
+         RELCOM:\n 0 0\n DBLCOM:\n 0 0\n";
+    let place = Folder::new().with("uncx01.p07", option_file);
+    for (name, said) in [
+        ("uncx01.p07", "rapid.split                  0 (one block), not"),
+        ("okuma-mill", "56, not 43"),
+    ] {
+        let shown = place.run(&["machine", "show", name]);
+        assert!(shown.status == 0 && shown.out.contains(said), "{shown:?}");
+    }
+    let wrong = place.run(&["machine", "show", "rapids."]);
+    assert!(wrong.status == 1 && wrong.err.contains("E0811"), "{wrong:?}");
+}
+
+#[test]
 fn the_option_file_of_a_lathe_is_laid_over_a_lathe_that_is_named() {
     let option_file = "OPTION FILE: UNCL01.P01\nOLD LATHE\n INTCOM:(LOCATION,VALUE)\n 1982     13\n   0      \
          0\n RELCOM:\n 0 0\n DBLCOM:\n 0 0\n";

@@ -1,7 +1,8 @@
-//! REPEAT: axes and M functions that each straight line carries.
+//! REPEAT: axes and M functions that each straight line carries, and a feed in each motion
+//! at feed.
 
 use fil_diag::Result;
-use fil_machine::letters::M;
+use fil_machine::letters::{F, M};
 use fil_machine::{FunctionCode, Letter};
 
 use super::phrase::Head;
@@ -18,7 +19,7 @@ const AXES: &[u8] = b"ABCUVWXYZ";
 /// Sets the words, or ends all of them.
 ///
 /// # Errors
-/// Words other than axes and M functions; a letter that the machine does not write.
+/// Words other than axes, F and M functions; a letter that the machine does not write.
 pub fn set(control: &mut Control, words: Vec<(Letter, f64, Cause)>) -> Result<()> {
     for (letter, value, _) in &words {
         match *letter {
@@ -26,10 +27,11 @@ pub fn set(control: &mut Control, words: Vec<(Letter, f64, Cause)>) -> Result<()
                 Some(code) => refuse_auxiliary(code)?,
                 None => return refuse(format!("REPEAT: M{value} is no function")),
             },
+            F => {}
             letter if AXES.contains(&letter.byte()) => {}
             letter => {
                 return refuse(format!(
-                    "REPEAT: {letter} in each line; a line of Klartext takes axes and M of others"
+                    "REPEAT: {letter} in each line; a line of Klartext takes axes, F and M of others"
                 ));
             }
         }
@@ -37,8 +39,8 @@ pub fn set(control: &mut Control, words: Vec<(Letter, f64, Cause)>) -> Result<()
     word_address::write(control, Operation::Repeat(words))
 }
 
-/// Adds the words whose letters the line does not have. Gives the letters of axes with their
-/// last output values, which stay those of the motion.
+/// Adds the words whose letters the line does not have; FMAX stands in the place of F. Gives the
+/// letters of axes and F with their last output values, which stay those of the motion.
 ///
 /// # Errors
 /// An axis in an arc or in the line of a hole.
@@ -52,7 +54,10 @@ pub fn add(control: &mut Control) -> Result<Vec<(Letter, f64)>> {
             }
         } else if !control.block_has(letter) {
             let phrase = control.klartext.phrase;
-            if phrase.head != Head::Line || phrase.calls_cycle {
+            if letter == F && (phrase.rapid || phrase.calls_cycle) {
+                continue;
+            }
+            if letter != F && (phrase.head != Head::Line || phrase.calls_cycle) {
                 let what = if phrase.calls_cycle { "the line of a hole" } else { "an arc" };
                 return PostCode::WordForm
                     .err(format!("REPEAT: {letter} means something else in {what}"));

@@ -12,16 +12,26 @@ use crate::errors::PostCode;
 use crate::noted::TEXT;
 use crate::operation::ToolChange;
 
-/// Calls a tool; its length and radius come from the control's table of tools.
+/// Leaves an offset of its own out, so that a tool that is in the spindle with another one
+/// counts as the same.
 ///
 /// # Errors
-/// An offset of its own; a number that does not fit.
-pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
+/// An offset of its own, where the machine does not say that it is left out.
+pub fn take_own_offset(control: &mut Control, wanted: &mut ToolChange) -> Result<()> {
     if wanted.offset_given && wanted.offset != wanted.tool {
         let offset = wanted.offset;
         let message = format!("LOADTL asks for offset {offset}: the length comes with the tool");
         own_offsets::leave_out(control, offset as f64, &message)?;
+        wanted.offset = wanted.tool;
     }
+    Ok(())
+}
+
+/// Calls a tool; its length and radius come from the control's table of tools.
+///
+/// # Errors
+/// A number that does not fit.
+pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     let number = number(control, wanted.tool)?;
     let mut line = Line::default();
     line.item(TEXT, "TOOL CALL", control.block.cause.whole());

@@ -2,7 +2,7 @@
 //! may hold.
 //!
 //! A line has no motion function that stays in force, so G says how it moves: 0 is FMAX, 1 a
-//! feed, as F does alone.
+//! feed, as F does alone. `L F100` without an axis sets the feed.
 
 use fil_diag::Result;
 use fil_machine::letters::{F, G, M};
@@ -73,8 +73,11 @@ fn moves_in_rapid(words: &[(Letter, f64, Cause)]) -> Result<bool> {
             "POSTN: a line of Klartext has axes, F and M, and {letter}{value} has no meaning there"
         ));
     }
-    if !words.iter().any(|(letter, ..)| AXES.contains(&letter.byte())) {
-        return refuse("POSTN: a line of Klartext with F or G moves an axis");
+    let moves = words.iter().any(|(letter, ..)| AXES.contains(&letter.byte()));
+    if !moves && words.iter().any(|(letter, ..)| *letter == G) {
+        return refuse(
+            "POSTN: a line of Klartext keeps no motion function, so G without an axis says nothing",
+        );
     }
     let codes: Vec<f64> =
         words.iter().filter(|(letter, ..)| *letter == G).map(|(_, value, _)| *value).collect();

@@ -73,7 +73,7 @@ fn plane_of_live_tool(control: &mut Control, wanted: CutterCompensation) -> Resu
 
 /// The plane a machine works in: the one its program starts in, else ZX on a lathe and XY
 /// on a mill.
-fn usual_plane(control: &Control) -> Plane {
+pub fn usual_plane(control: &Control) -> Plane {
     let start = crate::control::program::state_at_start(&control.commons, None);
     let turns = control.commons.read(loc::LATHE_DIAMETER);
     start.plane.unwrap_or(if turns { Plane::Zx } else { Plane::Xy })

@@ -2,7 +2,7 @@
 //! each a letter and a number. One file an operation.
 
 pub mod arc;
-mod compensation;
+pub mod compensation;
 pub(super) mod coolant;
 pub mod cycle;
 pub mod dwell;

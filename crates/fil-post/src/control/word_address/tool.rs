@@ -1,6 +1,7 @@
 //! Tool change: T and the change code, length offset.
 
 use fil_diag::Result;
+use fil_machine::FunctionCode;
 use fil_machine::axes::{AxisSet, Position};
 use fil_machine::letters::{H, T};
 use fil_machine::locations::{self as loc, ControlFamily, ToolFormat};
@@ -47,6 +48,7 @@ fn check_station(control: &Control, tool: i64) -> Result<()> {
 /// # Errors
 /// A tool or offset that does not fit, an offset the machine can't call.
 pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
+    let before = control.state.motion;
     let one_word = control.commons.read(loc::TOOL_FORMAT) == ToolFormat::ToolAndOffsetInOneTWord;
     if one_word {
         tool_and_offset(control, wanted)?;
@@ -54,7 +56,7 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     } else {
         tool_blocks(control, wanted.tool)?;
         restate(control);
-        control.because(wanted.causes[1], |control| length_offset(control, wanted))?;
+        control.because(wanted.causes[1], |control| length_offset(control, wanted, before))?;
     }
     control.state.tool = Some(wanted.tool);
     control.state.tool_offset = Some(wanted.offset);
@@ -132,7 +134,11 @@ fn without_code(control: &mut Control, tool: i64) -> Result<()> {
 
 /// Calls the length offset: with the Z position of the machine (own location
 /// `tool.length_z`) in a block of its own, else with the next Z motion.
-fn length_offset(control: &mut Control, wanted: ToolChange) -> Result<()> {
+fn length_offset(
+    control: &mut Control,
+    wanted: ToolChange,
+    before: Option<FunctionCode>,
+) -> Result<()> {
     if control.tables.tip_output {
         control.tip.offset = Some((wanted.offset, control.block.cause));
         control.waiting.length_offset = control.tip.offset;
@@ -166,6 +172,15 @@ fn length_offset(control: &mut Control, wanted: ToolChange) -> Result<()> {
     };
     let mut position = Position::default();
     position[2] = z;
+    // Without a motion function Z would go as the last motion did.
+    let rapid = control.code(loc::RAPID_CODE_Z, "rapid motion")?;
+    if before != Some(rapid) {
+        let cause = control.block.cause.whole();
+        control.block.g(rapid, cause);
+        if !control.commons.read(loc::MODE_SEVERAL_G) {
+            control.write_block()?;
+        }
+    }
     control.g_of_record(code);
     motion::axis_word(control, 2, &Motion { position, axes: AxisSet::Z, word: 0 })?;
     control.word(H, wanted.offset as f64)?;

@@ -1,0 +1,62 @@
+//! Left and right of the path, where TRANS or the scale of an axis mirrors it.
+
+use fil_diag::Result;
+use fil_machine::modes::Plane;
+use nalgebra::{Matrix3, Vector3};
+
+use super::Transformation;
+use crate::errors::PostCode;
+use crate::post::Post;
+
+/// A plane whose normal comes as near to that of the control is the same.
+const SAME: f64 = 1e-6;
+
+/// Refuses compensation where the tape shows the path of the CL file in a mirror, or seen from
+/// below: what is left of the one is right of the other.
+///
+/// # Errors
+/// TRANS, or scales of the axes, that leave no plane as the control sees it.
+pub fn check(post: &Post, plane: Plane) -> Result<()> {
+    let sign = |axis| post.control.tables.axis(axis).scale().signum();
+    let signs = Matrix3::from_diagonal(&Vector3::new(sign(0), sign(1), sign(2)));
+    let trans = post.path.transformation.as_ref();
+    let turn = signs * trans.map_or_else(Matrix3::identity, Transformation::linear);
+    let chain = post.control.tables.chain();
+    let keeps = match trans {
+        // The rotary axes turn the plane back.
+        Some(trans) if trans.turns_axis && chain.has_rotary() => turn.determinant() > 0.0,
+        _ => faces(&turn, plane),
+    };
+    if keeps {
+        return Ok(());
+    }
+    PostCode::CompensationSide
+        .err("TRANS, or a scale below zero, shows the path in a mirror or from below")
+}
+
+/// True where one of the planes of the CL file lies in that of the control, the same side up.
+fn faces(turn: &Matrix3<f64>, plane: Plane) -> bool {
+    let normal = match plane {
+        Plane::Xy => Vector3::z(),
+        Plane::Zx => Vector3::y(),
+        Plane::Yz => Vector3::x(),
+    };
+    [(0, 1), (2, 0), (1, 2)].into_iter().any(|(first, second)| {
+        let seen = turn.column(first).cross(&turn.column(second));
+        (seen.normalize() - normal).norm() < SAME
+    })
+}
+
+/// Refuses another direction of the path while it is compensated.
+///
+/// # Errors
+/// Compensation is on, and the new transformation turns, mirrors or stretches otherwise.
+pub fn refuse_a_turn(post: &Post, trans: Option<&Transformation>, word: &str) -> Result<()> {
+    let linear =
+        |one: Option<&Transformation>| one.map_or_else(Matrix3::identity, Transformation::linear);
+    let same = linear(trans) == linear(post.path.transformation.as_ref());
+    if same || !post.control.is_compensated() {
+        return Ok(());
+    }
+    PostCode::CompensationOn.err(format!("at {word}, which turns the path"))
+}
