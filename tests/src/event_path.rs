@@ -3,7 +3,7 @@
 
 use fil_nc::motion::{Course, Event, Move, Rate};
 
-use crate::path::{Action, Arc, Axis, Step, ToolPath, Unit};
+use crate::path::{Action, Arc, Axis, Point, Step, ToolPath, Unit};
 
 /// The path of events in mm. Motions that four decimals of `unit` do not show are left
 /// out, as LinuxCNC does not print them; arcs are kept.
@@ -15,9 +15,9 @@ pub fn event_path(events: &[Event], unit: Unit) -> ToolPath {
         match event {
             Event::Move(motion) => {
                 let moves = printed(motion.to.linear) != printed(at) || motion.arc.is_some();
-                at = motion.to.linear;
+                let from = std::mem::replace(&mut at, motion.to.linear);
                 if moves {
-                    steps.push(Step { line: motion.line, action: action(motion) });
+                    steps.push(Step { line: motion.line, action: action(motion, from) });
                 }
             }
             Event::ToolChange { line, tool, .. } => {
@@ -32,10 +32,12 @@ pub fn event_path(events: &[Event], unit: Unit) -> ToolPath {
     ToolPath { unit: Some(Unit::Mm), steps }
 }
 
-fn action(motion: &Move) -> Action {
+fn action(motion: &Move, from: Point) -> Action {
     let to = motion.to.linear;
     let rate = match motion.rate {
         Some(Rate::PerMinute(rate)) => Some(rate),
+        // As LinuxCNC says it of a straight line.
+        Some(Rate::Inverse(rate)) if motion.arc.is_none() => Some(rate * distance(from, to)),
         _ => None,
     };
     match (motion.course, motion.arc) {
@@ -48,6 +50,10 @@ fn action(motion: &Move) -> Action {
             Action::Arc(arc, rate)
         }
     }
+}
+
+fn distance(from: Point, to: Point) -> f64 {
+    from.iter().zip(to).map(|(one, other)| (one - other).powi(2)).sum::<f64>().sqrt()
 }
 
 /// What is not the same in two paths, step by step; lengths may differ by `tolerance`

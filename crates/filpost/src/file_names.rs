@@ -65,7 +65,7 @@ pub fn is_device(name: &str) -> bool {
         let mut rest = name.strip_prefix(*port).unwrap_or_default().chars();
         rest.next().is_some_and(|digit| DIGITS.contains(digit)) && rest.next().is_none()
     };
-    DEVICES.contains(&name.as_str()) || PORTS.iter().any(|name| port(name))
+    DEVICES.contains(&name.as_str()) || PORTS.iter().any(port)
 }
 
 /// Two names are one file on disks that don't tell capital letters from small ones.
