@@ -5,6 +5,8 @@
 
 mod codes;
 mod family;
+mod g_codes;
+mod m_codes;
 mod marks;
 mod numbers;
 mod start;
@@ -17,9 +19,10 @@ use fil_machine::commons::{Commons, EMPTY, Kind};
 use fil_machine::locations::Location;
 
 use crate::forward::Forward;
-use codes::{Auxiliaries, Functions};
 pub use codes::{Auxiliary, CycleKind, FeedMode, Function, Group};
 pub use family::Family;
+use g_codes::Functions;
+use m_codes::Auxiliaries;
 pub(crate) use marks::Marks;
 pub use numbers::{Address, Unreadable};
 pub(crate) use start::Certain;

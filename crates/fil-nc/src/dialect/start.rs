@@ -5,7 +5,8 @@
 //! states it (`feed.mode_in_force` and its like), or where it has no other.
 
 use super::Settings;
-use super::codes::{CycleKind, FeedMode, Function, Functions};
+use super::codes::{CycleKind, FeedMode, Function};
+use super::g_codes::Functions;
 use crate::motion::StartMode;
 
 /// Which modes are certain.

@@ -1,0 +1,85 @@
+//! M words: which number stands for which auxiliary function.
+
+use std::collections::HashMap;
+
+use super::Settings;
+use super::codes::Auxiliary;
+use crate::motion::Spindle;
+
+/// Settings that name the code of a coolant.
+const COOLANTS: [&str; 11] = [
+    "coolant.flood_medium_code",
+    "coolant.thru_medium_code",
+    "coolant.tap_code",
+    "coolant.air_code",
+    "coolant.flood_code",
+    "coolant.mist_code",
+    "coolant.default_code",
+    "coolant.flood_high_code",
+    "coolant.flood_low_code",
+    "coolant.thru_high_code",
+    "coolant.thru_low_code",
+];
+
+/// M words by their numbers.
+#[derive(Clone, Debug)]
+pub(super) struct Auxiliaries(HashMap<i64, Auxiliary>);
+
+impl Auxiliaries {
+    pub(super) fn new(settings: &Settings) -> Self {
+        use Auxiliary as A;
+        let named = [
+            ("spindle.cw_code", A::Clockwise),
+            ("spindle.ccw_code", A::Counterclockwise),
+            ("spindle.stop_code", A::SpindleOff),
+            ("spindle.orient_code", A::Orient),
+            ("spindle.range1_code", A::SpindleRange(1)),
+            ("spindle.range2_code", A::SpindleRange(2)),
+            ("spindle.range3_code", A::SpindleRange(3)),
+            ("spindle.range4_code", A::SpindleRange(4)),
+            ("spindle.range5_code", A::SpindleRange(5)),
+            ("spindle.range6_code", A::SpindleRange(6)),
+            ("mill_turn.live_cw_code", A::Live(Spindle::Clockwise)),
+            ("mill_turn.live_ccw_code", A::Live(Spindle::Counterclockwise)),
+            ("mill_turn.live_stop_code", A::Live(Spindle::Off)),
+            ("coolant.off_code", A::Coolant(None)),
+            ("tool.change_code", A::ToolChange),
+        ];
+        // A turret turns by its T word: what else that function does nobody knows.
+        let by_word = settings.code("tool.format") == Some(2);
+        let mut table = HashMap::new();
+        for (key, auxiliary) in named {
+            if by_word && auxiliary == A::ToolChange {
+                continue;
+            }
+            if let Some(code) = settings.code(key) {
+                table.entry(i64::from(code)).or_insert(auxiliary);
+            }
+        }
+        let modes = [("mill_turn.milling_code", true), ("mill_turn.turning_code", false)];
+        for (key, on) in modes {
+            if let Some(code) = settings.code(key) {
+                table.entry(i64::from(code)).or_insert(A::CAxis(on, code.unsigned_abs()));
+            }
+        }
+        for code in COOLANTS.iter().filter_map(|key| settings.code(key)) {
+            let flows = A::Coolant(Some(code.unsigned_abs()));
+            table.entry(i64::from(code)).or_insert(flows);
+        }
+        let ends = ["program.end_code", "program.rewind_code"].map(|key| settings.code(key));
+        for code in ends.into_iter().flatten().chain([2, 30]) {
+            table.entry(i64::from(code)).or_insert(A::End(code.unsigned_abs()));
+        }
+        for (code, auxiliary) in [(98, A::Call), (99, A::Back)] {
+            table.entry(code).or_insert(auxiliary);
+        }
+        for code in [96, 97, 198] {
+            table.entry(code).or_insert(A::Flow);
+        }
+        Auxiliaries(table)
+    }
+
+    pub(super) fn get(&self, code: i64) -> Auxiliary {
+        self.0.get(&code).copied().unwrap_or(Auxiliary::Other(code as u32))
+    }
+}
