@@ -20,6 +20,7 @@ mod gap;
 mod hole;
 mod hole_tip;
 mod inserted;
+mod lag;
 mod lines;
 mod machine_ends;
 mod modes;

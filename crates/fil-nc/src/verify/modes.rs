@@ -3,6 +3,7 @@
 //! A post may let a word wait for a motion of certain axes. Until then both the
 //! state before and the state asked for are right; after it only the latter is.
 
+use super::lag::{Lag, Moved};
 use super::modes_said::{
     name_of_fixture, said_of_compensation, said_of_offset, said_of_speed, said_of_spindle,
 };
@@ -13,64 +14,6 @@ use crate::motion::{Compensation, DRILLED, Modes, Speed, Spindle};
 
 /// Allowed deviation of an oriented spindle, degrees.
 const ANGLE: f64 = 6e-4;
-
-/// A state that may change with a motion.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Lag<T> {
-    now: T,
-    next: Option<(T, Due)>,
-}
-
-impl<T: Copy + PartialEq> Lag<T> {
-    fn new(now: T) -> Self {
-        Lag { now, next: None }
-    }
-
-    pub(super) fn set(&mut self, value: T, due: Due) {
-        if due == Due::Now {
-            *self = Lag::new(value);
-        } else {
-            self.next = Some((value, due));
-        }
-    }
-
-    /// What was asked for last.
-    fn asked(&self) -> T {
-        self.next.map_or(self.now, |(value, _)| value)
-    }
-
-    fn flush(&mut self) {
-        if let Some((value, _)) = self.next.take() {
-            self.now = value;
-        }
-    }
-
-    fn moved(&mut self, moved: Moved) {
-        let due = self.next.is_some_and(|(_, due)| match due {
-            Due::Now => true,
-            Due::WithXY => moved.xy,
-            Due::WithAny => moved.xy || moved.z,
-            Due::WithZ => moved.z,
-        });
-        if due {
-            self.flush();
-        }
-    }
-
-    /// The state that must be, when `found` is not among those that may be.
-    fn refuses(&self, found: impl Fn(T) -> bool) -> Option<T> {
-        let next = self.next.map(|(value, _)| value);
-        let right = found(self.now) || next.is_some_and(&found);
-        (!right).then_some(next.unwrap_or(self.now))
-    }
-}
-
-/// Which axes a motion moves.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Moved {
-    pub(super) xy: bool,
-    pub(super) z: bool,
-}
 
 /// What the machine does while its modes are looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
