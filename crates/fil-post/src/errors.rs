@@ -107,6 +107,10 @@ fil_diag::codes! {
         SkippedPart = 526, Error, "part of a command stands in blocks that may be skipped",
             "With the skip switch on the control would get one half of it only.",
             "Put the whole command on one side of OPSKIP.";
+        /// A motion that is safe at one position of the skip switch only.
+        SkippedLevel = 531, Error, "no way is safe with the skipped blocks and without them",
+            "The skip switch decides where the tool stands behind OPSKIP / OFF. Which axes go first, and which level is the one before a cycle, would be right for one of the two places only.",
+            "Put a RAPID to a level that is above both behind OPSKIP / OFF, and one to a known level before OPSKIP / ON.";
         /// A block that is too long.
         BlockLength = 541, Error, "block longer than the control reads",
             "The rest of a block that is longer than the control's buffer would be lost.",

@@ -18,7 +18,7 @@ mod own_offsets;
 pub mod program;
 pub mod replaced;
 pub mod sinumerik;
-mod skip;
+pub(crate) mod skip;
 mod tap;
 mod texts;
 mod waiting;
@@ -59,6 +59,8 @@ pub struct TipOffset {
     pub length_is_called: bool,
     /// A tool change or a position of the machine has brought the tool away from the part.
     pub is_away: bool,
+    /// It was before the blocks that may be skipped.
+    pub was_away: bool,
 }
 
 /// The output side of the post.

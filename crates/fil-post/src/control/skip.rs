@@ -4,6 +4,7 @@ use fil_diag::Result;
 use fil_machine::locations::ControlFamily;
 
 use super::{Control, klartext, sinumerik};
+use crate::control_state::Levels;
 use crate::errors::PostCode;
 
 impl Control {
@@ -32,11 +33,35 @@ impl Control {
         if on {
             self.tape.skip = Some(self.block.cause);
             self.state.skip_begins(&self.commons);
+            self.tip.was_away = self.tip.is_away;
         } else {
             self.tape.skip = None;
             let z_counts_down = self.tables.axis(2).scale() < 0.0;
-            self.state.skip_ends(&mut self.commons, z_counts_down);
+            let linear = [0, 1, 2].map(|number| self.tables.axis(number).letter);
+            self.state.skip_ends(&mut self.commons, linear, z_counts_down);
+            self.tip.is_away &= self.tip.was_away;
         }
         Ok(())
     }
+
+    /// Where an axis may stand behind blocks that may be skipped, positions of the machine
+    /// in mm or inch; `None` where the switch leaves no doubt of it.
+    pub fn levels_behind_skip(&self, number: usize) -> Option<Levels> {
+        let axis = self.tables.axis(number);
+        let levels = self.state.levels(axis.letter, self.commons.last_output(axis.letter))?;
+        let (one, other) = (axis.position(levels.low), axis.position(levels.high));
+        Some(Levels { low: one.min(other), high: one.max(other), ..levels })
+    }
+}
+
+/// Refuses a motion that is safe with the skipped blocks or without them, and not both.
+///
+/// # Errors
+/// Always.
+pub fn refuse_level<T>(control: &Control, number: usize) -> Result<T> {
+    let letter = control.tables.axis(number).letter;
+    PostCode::SkippedLevel.err(format!(
+        "where {letter} stands behind OPSKIP depends on the skip switch, and the motion would be \
+         safe from one of the two places only"
+    ))
 }

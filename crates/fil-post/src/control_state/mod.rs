@@ -6,6 +6,7 @@
 //! be told is unknown (`None`), and whoever depends on it says it again.
 
 mod codes;
+mod levels;
 pub(crate) mod text;
 
 pub use codes::{Codes, Meaning};
@@ -18,6 +19,7 @@ use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::{Commons, FunctionCode, Letter, letters};
 
 use crate::block::Block;
+pub use levels::Levels;
 
 /// How coordinates count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -168,6 +170,8 @@ pub struct ControlState {
     doubtful: LetterSet,
     /// State and last output values before the blocks that may be skipped.
     before_skip: Option<Box<(ControlState, [f64; Letter::COUNT])>>,
+    /// Where X, Y and Z may stand behind blocks that may be skipped.
+    levels: [Option<Levels>; 3],
 }
 
 impl ControlState {
@@ -196,6 +200,7 @@ impl ControlState {
             ended: false,
             doubtful: LetterSet::default(),
             before_skip: None,
+            levels: [None; 3],
         }
     }
 
@@ -255,6 +260,7 @@ impl ControlState {
             ended: self.ended,
             doubtful: LetterSet::ALL,
             before_skip: self.before_skip.take(),
+            levels: self.levels,
         };
     }
 
@@ -471,22 +477,42 @@ impl ControlState {
         self.before_skip = Some(Box::new(before));
     }
 
-    /// The blocks that may be skipped are over: what they changed is unknown. Of two
-    /// levels of Z the lower one counts as the last value, so that a rapid motion goes
+    /// The blocks that may be skipped are over: what they changed is unknown. `linear` are
+    /// the letters of X, Y and Z, whose levels with those blocks and without are kept. Of
+    /// two levels of Z the lower one counts as the last value, so that a rapid motion goes
     /// up before it goes across; on an axis that counts downwards the higher one does.
-    pub fn skip_ends(&mut self, commons: &mut Commons, z_counts_down: bool) {
+    pub fn skip_ends(&mut self, commons: &mut Commons, linear: [Letter; 3], z_counts_down: bool) {
         let Some(before) = self.before_skip.take() else { return };
         let (state, values) = *before;
-        for (letter, (now, then)) in Letter::all().zip(last_values(commons).iter().zip(values)) {
+        let now = last_values(commons);
+        let levels = linear.map(|letter| {
+            let at = |state: &ControlState, values: &[f64]| {
+                let mut values = Letter::all().zip(values);
+                let value = values.find(|(other, _)| *other == letter).map_or(EMPTY, |it| *it.1);
+                state.levels(letter, value).unwrap_or(Levels::of(letter, value))
+            };
+            at(self, &now).or(at(&state, &values))
+        });
+        for (letter, (now, then)) in Letter::all().zip(now.iter().zip(values)) {
             if *now != then {
                 self.doubt(letter);
-                if letter == letters::XYZ[2] && then != EMPTY {
-                    let lower = if z_counts_down { now.max(then) } else { now.min(then) };
-                    commons.set_last_output(letter, lower);
-                }
             }
         }
+        if let Some(last) = levels[2].lowest(z_counts_down) {
+            commons.set_last_output(linear[2], last);
+        }
         self.agree_with(&state);
+        self.levels = levels.map(|levels| levels.behind(commons));
+    }
+
+    /// Where an axis may stand behind blocks that may be skipped, values of the tape;
+    /// `None` where the switch leaves no doubt of it. `last` is its last output value.
+    pub fn levels(&self, letter: Letter, last: f64) -> Option<Levels> {
+        if self.has_last(letter) {
+            return None;
+        }
+        let mut levels = self.levels.iter().flatten();
+        levels.find(|levels| levels.letter == letter && levels.counts_from(last)).copied()
     }
 
     /// True while blocks may be skipped.

@@ -10,6 +10,7 @@ use fil_machine::locations::{
 
 use super::cycle::{Cycle, CycleKind, Hole};
 use super::{expand, frame, mill_turn, rapid, rotary, tip_control};
+use crate::control::skip::refuse_level;
 use crate::control::word_address::cycle as words;
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::spindle;
@@ -134,7 +135,7 @@ fn without_return_code(
     if control.state.in_cycle != Some(true) {
         let cause = control.block.cause;
         rapid::rapid(control, &at.of(expand::without(hole.along)), cause)?;
-        let clear = along(hole.along, hole.clear);
+        let clear = Motion::along(hole.along, hole.clear);
         rapid::rapid(control, &clear, cause)?;
     }
     let level = hole.to_initial.then_some(hole.initial);
@@ -148,14 +149,8 @@ fn go_up(post: &mut Post, cycle: &mut Cycle, hole: &Hole, level: f64) -> Result<
     family::cancel_cycle(&mut post.control)?;
     cycle.in_force = None;
     let cause = cycle.cause;
-    post.control.because(cause, |control| rapid::rapid(control, &along(hole.along, level), cause))
-}
-
-/// A motion of one axis.
-fn along(number: usize, level: f64) -> Motion {
-    let mut position = Position::default();
-    position[number] = level;
-    Motion { position, axes: AxisSet::of(number), word: 0 }
+    post.control
+        .because(cause, |control| rapid::rapid(control, &Motion::along(hole.along, level), cause))
 }
 
 /// The machine wants single moves for a hole of this direction while MULTAX is on
@@ -184,12 +179,23 @@ fn as_single_moves(post: &Post, target: Target) -> bool {
 /// As a rapid motion.
 pub fn retract(post: &mut Post, ended: &Cycle) -> Result<()> {
     let (Some(along), Some(level)) = (ended.along, ended.initial) else { return Ok(()) };
+    if let Some(levels) = post.control.levels_behind_skip(along) {
+        let is_settled = along == 2 && !levels.unknown;
+        if is_settled && level <= levels.low {
+            return Ok(());
+        }
+        if !is_settled || level < levels.high {
+            return refuse_level(&post.control, along);
+        }
+        let cause = post.control.block.cause;
+        return rapid::rapid(&mut post.control, &Motion::along(along, level), cause);
+    }
     let here = post.control.axis_position(along);
     if here.is_none_or(|here| (here - level).abs() <= SAME_LEVEL) {
         return Ok(());
     }
     let cause = post.control.block.cause;
-    rapid::rapid(&mut post.control, &self::along(along, level), cause)
+    rapid::rapid(&mut post.control, &Motion::along(along, level), cause)
 }
 
 /// Where the hole lies: the position above it, and its levels along the axis that it
@@ -218,6 +224,10 @@ fn locate(post: &mut Post, cycle: &Cycle, target: Target) -> Result<(Position, H
 fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, start: f64) -> Result<()> {
     let out = if hole.clear >= hole.bottom { 1.0 } else { -1.0 };
     let above = |one: f64, other: f64| (one - other) * out;
+    // The control would return to the one level or the other, and go across at it.
+    if post.control.levels_behind_skip(hole.along).is_some() {
+        return refuse_level(&post.control, hole.along);
+    }
     let here = post.control.axis_position(hole.along);
     let initial = cycle.initial.or(here);
     let wanted = match (cycle.retract, initial) {
@@ -249,7 +259,7 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, start: f64) -> Res
     if below {
         family::cancel_cycle(&mut post.control)?;
         cycle.in_force = None;
-        let motion = along(hole.along, wanted);
+        let motion = Motion::along(hole.along, wanted);
         let cause = cycle.cause;
         post.control.because(cause, |control| rapid::rapid(control, &motion, cause))?;
     }

@@ -8,7 +8,9 @@ use fil_machine::locations::{self as loc, RapidSplit};
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family;
+use crate::control::skip::refuse_level;
 use crate::control::word_address::motion::{Motion, RapidCode};
+use crate::control_state::Levels;
 
 /// Makes a rapid motion in the order the machine asks for.
 ///
@@ -27,6 +29,9 @@ pub fn rapid(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()>
 /// # Errors
 /// As [`family::rapid`].
 pub(super) fn in_parts(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()> {
+    if motion.axes.has(2) {
+        refuse_between_levels(control, motion)?;
+    }
     let z_first = motion.axes.has(2) && retracts(control, motion)?;
     split(control, motion, z_first, cause)
 }
@@ -37,11 +42,34 @@ pub(super) fn in_parts(control: &mut Control, motion: &Motion, cause: Cause) -> 
 /// # Errors
 /// As [`family::rapid`].
 pub fn to_machine_position(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()> {
-    let known = control.commons.last_output(control.tables.axis(2).letter) != EMPTY;
+    let one_may_be_unknown = control.levels_behind_skip(2).filter(|levels| levels.unknown);
+    let goes_down = |levels: &Levels| motion.position[2] < levels.high;
+    if one_may_be_unknown.as_ref().is_some_and(goes_down) && motion.axes.has(2) {
+        return refuse_level(control, 2);
+    }
+    let last = control.commons.last_output(control.tables.axis(2).letter);
+    let known = last != EMPTY && one_may_be_unknown.is_none();
     if known || control.commons.read(loc::RAPID_SPLIT) == RapidSplit::OneBlock {
         return rapid(control, motion, cause);
     }
     split(control, motion, true, cause)
+}
+
+/// Refuses a motion of Z and other axes that ends between two levels at which the tool may
+/// stand behind blocks that may be skipped: up first would be down with the one, and across
+/// first beside the part with the other.
+///
+/// # Errors
+/// Such a motion; one above a level, where the other one is not known.
+pub(super) fn refuse_between_levels(control: &Control, to: &Motion) -> Result<()> {
+    let Some(levels) = control.levels_behind_skip(2) else { return Ok(()) };
+    let others = to.axes.without(AxisSet::Z).and(control.tables.present());
+    let end = to.position[2];
+    let between = levels.low < end && (end < levels.high || levels.unknown);
+    if between && !others.is_empty() {
+        return refuse_level(control, 2);
+    }
+    Ok(())
 }
 
 fn split(control: &mut Control, motion: &Motion, z_first: bool, cause: Cause) -> Result<()> {
@@ -60,7 +88,7 @@ fn split(control: &mut Control, motion: &Motion, z_first: bool, cause: Cause) ->
 
 /// True when Z goes up from the last level on the tape. A level in doubt counts too:
 /// a way up is better made before the way across.
-fn retracts(control: &Control, motion: &Motion) -> Result<bool> {
+pub(super) fn retracts(control: &Control, motion: &Motion) -> Result<bool> {
     let axis = control.tables.axis(2);
     let last = control.commons.last_output(axis.letter);
     let above = (axis.value(motion.position[2])? - last) * axis.scale();

@@ -6,6 +6,7 @@ use fil_machine::locations as loc;
 
 use super::goto;
 use crate::control::machine_frame;
+use crate::control::skip::refuse_level;
 use crate::items::Items;
 use crate::operation::Operation;
 use crate::path::carry_out;
@@ -43,6 +44,16 @@ pub fn retrct(post: &mut Post, items: &mut Items) -> Result<()> {
     };
     items.deny_rest()?;
     goto::refuse_waiting_arc(post)?;
+    if let Some(levels) = post.control.levels_behind_skip(2)
+        && !machine_frame::is_meant(&post.control)
+    {
+        if levels.low >= level && !levels.unknown {
+            return Ok(());
+        }
+        if level < levels.high || levels.unknown {
+            return refuse_level(&post.control, 2);
+        }
+    }
     let is_above = post.control.axis_position(2).is_some_and(|z| z >= level);
     // How high the tool stands in the frame of the machine is not known.
     if is_above && !machine_frame::is_meant(&post.control) {

@@ -31,6 +31,13 @@ pub struct Motion {
 }
 
 impl Motion {
+    /// A motion of one axis, to a position in mm, inch or degrees.
+    pub fn along(number: usize, to: f64) -> Motion {
+        let mut position = Position::default();
+        position[number] = to;
+        Motion { position, axes: AxisSet::of(number), word: 0 }
+    }
+
     /// The same for some of its axes.
     pub fn of(&self, axes: AxisSet) -> Motion {
         Motion { axes: self.axes.and(axes), ..*self }

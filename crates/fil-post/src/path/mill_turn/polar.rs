@@ -67,8 +67,9 @@ pub(super) fn begin(
     control.require_unit()?;
     let cause = control.block.cause;
     let radius = libm::hypot(point.x, point.y);
-    let lifts = control.axis_position(2).is_some_and(|here| point.z > here);
     let at = |axes| Motion { position: [radius, 0.0, point.z, 0.0, 0.0], axes, word: 0 };
+    rapid::refuse_between_levels(control, &at(AxisSet::ALL))?;
+    let lifts = rapid::retracts(control, &at(AxisSet::Z))?;
     if lifts {
         rapid::rapid(control, &at(AxisSet::Z), cause)?;
     }
