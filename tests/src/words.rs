@@ -49,12 +49,14 @@ impl Header {
         let mut header = Header::default();
         for line in text.lines().filter_map(|line| line.strip_prefix("$$ ")) {
             let (key, value) = line.split_once(':').unwrap_or((line, ""));
+            let indented = value.strip_prefix(' ').unwrap_or(value).trim_end().to_string();
             let value = value.trim().to_string();
             match key.trim() {
                 "post" => header.post = Some(value),
                 "set" => header.settings.push(value),
                 "fil" => header.fil.push(value),
-                "expect" => header.expected.push(value),
+                // Lines of a Klartext cycle are indented.
+                "expect" => header.expected.push(indented),
                 "warn" => header.warnings.push(value),
                 "error" => header.error = Some(value),
                 "whole" => header.whole = true,

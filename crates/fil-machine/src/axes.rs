@@ -247,6 +247,18 @@ impl Axis {
         self.translate
     }
 
+    /// A length along the axis as the tape says it outside of the axis' own words, with its
+    /// sign: a peck, a clearance, the rise of a helix. Diameters are of positions alone.
+    pub fn length(&self, length: f64) -> f64 {
+        if self.diameter { length } else { length * self.scale }
+    }
+
+    /// True when a length on the tape is the length itself, so that a lead is what the
+    /// spindle and the axis make of it.
+    pub fn keeps_lengths(&self) -> bool {
+        self.diameter || self.scale.abs() == 1.0
+    }
+
     /// True when the output scale leaves circles circles: 1, or X a diameter.
     pub fn keeps_circles(&self) -> bool {
         self.scale == 1.0 || self.diameter

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use crate::axis_chain::AxisChain;
 use crate::commons::Commons;
 use crate::errors::MachineCode;
-use crate::locations::{self as loc, RotaryFrameOutput};
+use crate::locations::{self as loc, RotaryFrameOutput, RotaryTipOutput};
 
 /// Scales and shifts of X, Y and Z on the tape.
 const SCALES: [(crate::commons::Dbl, f64); 6] = [
@@ -25,8 +25,9 @@ pub(crate) fn asks_for_frames(commons: &Commons) -> bool {
         || commons.read(loc::MOTION_PLANAR)
 }
 
-/// Contradictions of a machine that writes tilted frames.
+/// Contradictions of a machine that writes tilted frames, or the tool tip.
 pub(crate) fn check(commons: &Commons, found: &mut Vec<Diag>) {
+    tip_of_scaled_axes(commons, found);
     if !asks_for_frames(commons) {
         return;
     }
@@ -48,6 +49,20 @@ pub(crate) fn check(commons: &Commons, found: &mut Vec<Diag>) {
     if is_scaled(commons) {
         add("rotary.frame_output asks for tilted frames, and X, Y or Z is scaled or shifted on \
              the tape");
+    }
+}
+
+/// Under tool-tip control the control turns the words of X, Y and Z into each other.
+fn tip_of_scaled_axes(commons: &Commons, found: &mut Vec<Diag>) {
+    let asks = commons.read(loc::ROTARY_TIP_OUTPUT) == RotaryTipOutput::ToolTipControl;
+    let scaled = [loc::SCALE_X, loc::SCALE_Y, loc::SCALE_Z]
+        .into_iter()
+        .any(|at| commons.dbl_opt(at).is_some_and(|scale| scale != 1.0));
+    if asks && scaled {
+        found.push(Diag::new(
+            MachineCode::Contradiction,
+            "rotary.tip_output asks for tool-tip control, and X, Y or Z is scaled on the tape",
+        ));
     }
 }
 

@@ -82,6 +82,13 @@ pub(crate) fn check(commons: &Commons) -> Result<()> {
     if spindle.axis != 2 || scale != 1.0 || shift != 0.0 {
         return refuse("C is written as it is (rotary.primary_axis = 3, scale.c = 1)");
     }
+    let scaled = |at| commons.dbl_opt(at).is_some_and(|scale| scale != 1.0);
+    let has_diameters = commons.dbl_opt(loc::SCALE_X) == Some(2.0);
+    if scaled(loc::SCALE_X) && !has_diameters || scaled(loc::SCALE_Y) || scaled(loc::SCALE_Z) {
+        return refuse(
+            "X is a radius or a diameter, Y and Z are written as they are (scale.z = 1)",
+        );
+    }
     let frames = commons.read(loc::ROTARY_FRAME_OUTPUT) == RotaryFrameOutput::TiltedFrame;
     let tips = commons.read(loc::ROTARY_TIP_OUTPUT) == RotaryTipOutput::ToolTipControl;
     if frames || tips || commons.read(loc::CONTROL_FAMILY) != ControlFamily::WordAddress {

@@ -102,6 +102,7 @@ fn contradictions_are_found() {
          rotary.primary_kind=1\nrotary.primary_axis=3",
         "control.family=2\nprogram.number_address=none\ndwell.address=F\ncontrol.translation=1\n\
          output.translate_x=5",
+        "rotary.tip_output=1\nscale.z=0.5",
         "input.along_tool_axis=5\nrotary.primary_kind=1\nrotary.primary_axis=3",
     ] {
         let mut commons = default_commons();

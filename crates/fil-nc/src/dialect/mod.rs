@@ -44,6 +44,11 @@ impl Scale {
         (value - self.shift) / self.factor
     }
 
+    /// True for an axis whose positions are diameters.
+    pub fn is_diameter(self) -> bool {
+        self.factor == 2.0
+    }
+
     /// Way that an increment on the tape stands for.
     pub fn way(self, value: f64) -> f64 {
         value / self.factor

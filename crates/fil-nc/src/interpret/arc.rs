@@ -75,7 +75,7 @@ impl State<'_> {
             HelixForm::SignedRadian => a_radian,
             HelixForm::Turn => a_radian.abs() * std::f64::consts::TAU,
         };
-        let given = given * self.unit();
+        let given = self.length(self.plane, given);
         if rise == 0.0 || (given - rise).abs() > HELIX_TOLERANCE * rise.abs() {
             let message = format!("the helix word says {given:.4} mm, and the arc rises {rise:.4}");
             return Err(Fault::new(NcCode::ArcRadii, message));

@@ -137,7 +137,7 @@ impl State<'_> {
             });
         }
         if let Some(step) = words.take(self.dialect.step)? {
-            cycle.step = Some(step * self.unit()).filter(|step| *step > 0.0);
+            cycle.step = Some(self.length(axis, step).abs()).filter(|step| *step > 0.0);
         }
         if let Some(dwell) = words.take(self.dialect.cycle_dwell)? {
             cycle.dwell = Some(dwell / self.dialect.dwell_factor);

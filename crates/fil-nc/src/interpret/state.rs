@@ -136,6 +136,13 @@ impl<'d> State<'d> {
         scale.map_or(value, |scale| scale.way(value)) * self.axis_unit(axis)
     }
 
+    /// A length along an axis that the tape says outside of the axis' own words, mm: diameters
+    /// are of positions alone.
+    pub(super) fn length(&self, axis: usize, value: f64) -> f64 {
+        let scale = self.dialect.scales[axis].filter(|scale| !(axis == 0 && scale.is_diameter()));
+        scale.map_or(value, |scale| scale.way(value)) * self.axis_unit(axis)
+    }
+
     fn axis_unit(&self, axis: usize) -> f64 {
         if axis < 3 { self.unit() } else { 1.0 }
     }

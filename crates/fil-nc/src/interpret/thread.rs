@@ -118,7 +118,7 @@ impl State<'_> {
             None => words.take(if self.dialect.thread_taper == R { I } else { R })?,
         };
         let (x, z) = self.thread_end(&axes, before)?;
-        let taper = taper.map(|taper| taper * self.unit()).or(before.map(|pass| pass.taper));
+        let taper = taper.map(|taper| self.length(X, taper)).or(before.map(|pass| pass.taper));
         let pass = Pass { x, z, taper: taper.unwrap_or(0.0), lead, leaves: 0.0 };
         self.pass = Some(pass);
         self.cut(pass, 0.0);
@@ -198,7 +198,7 @@ impl State<'_> {
     fn second_block(&self, words: &mut Words, setup: Setup, lead: f64) -> Result<Thread, Fault> {
         let axes = words.take_axes(self.dialect)?;
         let (x, z) = self.thread_end(&axes, None)?;
-        let taper = words.take(R)?.unwrap_or(0.0) * self.unit();
+        let taper = self.length(X, words.take(R)?.unwrap_or(0.0));
         let height = words.take_number(P).map(|height| height.steps(self.unit()));
         let first = words.take_number(Q).map(|first| first.steps(self.unit()));
         thread(
@@ -214,7 +214,7 @@ impl State<'_> {
         let angle = words.take(A)?.unwrap_or(0.0);
         let axes = words.take_axes(self.dialect)?;
         let (x, z) = self.thread_end(&axes, None)?;
-        let taper = words.take(I)?.unwrap_or(0.0) * self.unit();
+        let taper = self.length(X, words.take(I)?.unwrap_or(0.0));
         let height = words.take_number(K).map(|height| height.steps(self.unit()));
         let first = words.take_number(D).map(|first| first.steps(self.unit()));
         let setup = Setup { finishing: 1, chamfer: 0.0, angle, least: 0.0, allowance: 0.0 };

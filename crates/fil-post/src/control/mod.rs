@@ -32,6 +32,7 @@ use fil_machine::address::no_address;
 use fil_machine::commons::EMPTY;
 use fil_machine::contradictions;
 use fil_machine::letters::{G, M};
+use fil_machine::locations as loc;
 use fil_machine::modes::{FeedMode, Unit};
 use fil_machine::rounding::Rounding;
 use fil_machine::setting::{CodeAt, LetterAt};
@@ -184,6 +185,11 @@ impl Control {
     #[inline]
     pub fn is_metric(&self) -> bool {
         self.unit != Some(Unit::Inch)
+    }
+
+    /// What F counts in a unit of length a minute: feeds a minute are kept multiplied by it.
+    pub fn upm_factor(&self) -> f64 {
+        self.commons.dbl_opt(loc::FEED_UPM_FACTOR).unwrap_or(1.0)
     }
 
     /// Refuses what depends on the unit before anything has said it.

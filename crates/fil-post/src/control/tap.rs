@@ -20,7 +20,7 @@ pub fn pitch(control: &Control, cycle: &Cycle) -> Result<f64> {
         (CycleFeed::Lead(lead), _) => Ok(lead.value),
         (CycleFeed::Feed(feed), _) if feed.mode == FeedMode::PerRevolution => Ok(feed.value),
         (CycleFeed::Feed(feed), Some(SpindleSpeed::Revolutions(speed))) if speed > 0.0 => {
-            Ok(feed.value / speed)
+            Ok(feed.value / control.upm_factor() / speed)
         }
         _ => PostCode::Family
             .err("TAP with a feed a minute before SPINDL: the cycle needs the pitch of the thread"),

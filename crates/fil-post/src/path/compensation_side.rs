@@ -15,8 +15,14 @@ const SAME: f64 = 1e-6;
 /// below: what is left of the one is right of the other.
 ///
 /// # Errors
-/// TRANS, or scales of the axes, that leave no plane as the control sees it.
+/// TRANS, or scales of the axes, that leave no plane as the control sees it; scales that
+/// differ within the plane.
 pub fn check(post: &Post, plane: Plane) -> Result<()> {
+    let stretch = plane.axes().map(|axis| post.control.tables.axis(axis).length(1.0).abs());
+    if stretch[0] != stretch[1] {
+        return PostCode::CompensationSide
+            .err("the scales of the axes stretch the path, and the control shifts it by a circle");
+    }
     let sign = |axis| post.control.tables.axis(axis).scale().signum();
     let signs = Matrix3::from_diagonal(&Vector3::new(sign(0), sign(1), sign(2)));
     let trans = post.path.transformation.as_ref();

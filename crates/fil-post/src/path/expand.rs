@@ -82,7 +82,7 @@ fn lead_of(control: &Control, cycle: &Cycle) -> Result<Lead> {
     let value = match (feed.mode, control.speed) {
         (FeedMode::PerRevolution, Some(SpindleSpeed::Revolutions(_))) => feed.value,
         (FeedMode::PerMinute, Some(SpindleSpeed::Revolutions(speed))) if speed > 0.0 => {
-            feed.value / speed
+            feed.value / control.upm_factor() / speed
         }
         _ => return PostCode::CycleForm.err("a tap needs turns of the spindle (SPINDL / RPM)"),
     };

@@ -144,7 +144,7 @@ fn within_shares(post: &mut Post, feed: Feed, shares: [f64; 2]) -> Feed {
     if feed.mode != FeedMode::PerMinute || largest_of == [None; 2] {
         return feed;
     }
-    let factor = upm_factor(post);
+    let factor = post.control.upm_factor();
     let mut value = feed.value / factor;
     for (largest, share) in largest_of.into_iter().zip(shares) {
         if let Some(largest) = largest.filter(|largest| value * share > *largest) {
@@ -153,11 +153,6 @@ fn within_shares(post: &mut Post, feed: Feed, shares: [f64; 2]) -> Feed {
         }
     }
     Feed { value: value * factor, ..feed }
-}
-
-/// The control's feed unit in a unit of length a minute.
-fn upm_factor(post: &Post) -> f64 {
-    post.control.commons.dbl_opt(loc::FEED_UPM_FACTOR).unwrap_or(1.0)
 }
 
 /// The feed as the program says it on a way of this length: inverse time where FEDRAT has
@@ -176,7 +171,7 @@ fn in_force(post: &mut Post, feed: Feed, length: Option<f64>) -> Result<Feed> {
         return PostCode::WordForm
             .err("inverse time needs the length of the motion, and its start is not known");
     };
-    let asked = feed.value / upm_factor(post) / length;
+    let asked = feed.value / post.control.upm_factor() / length;
     let commons = &post.control.commons;
     let of_time = commons.dbl_opt(loc::FEED_INVERSE_MIN_TIME).filter(|time| *time > 0.0);
     let most = commons.dbl_opt(loc::FEED_INVERSE_MAX).unwrap_or(f64::INFINITY);
@@ -235,7 +230,7 @@ fn at_the_edge(post: &mut Post, feed: Feed, arc: &PlaneArc) -> Feed {
         return feed;
     }
     let largest = post.control.commons.dbl_opt(loc::FEED_UPM_MAX).unwrap_or(f64::INFINITY);
-    let value = (feed.value * of_center / arc.radius).min(largest * upm_factor(post));
+    let value = (feed.value * of_center / arc.radius).min(largest * post.control.upm_factor());
     Feed { value, ..feed }
 }
 
@@ -244,7 +239,7 @@ fn at_the_edge(post: &mut Post, feed: Feed, arc: &PlaneArc) -> Feed {
 pub fn of_short_rapid(post: &Post, motion: &Motion, target: Target) -> Option<Feed> {
     let commons = &post.control.commons;
     let short = commons.dbl_opt(loc::RAPID_SHORT_DISTANCE).filter(|short| *short > 0.0)?;
-    let value = commons.dbl_opt(loc::RAPID_SHORT_FEED)? * upm_factor(post);
+    let value = commons.dbl_opt(loc::RAPID_SHORT_FEED)? * post.control.upm_factor();
     let turns = post.control.tables.chain().has_rotary();
     let length = length(post, way(post, motion), AxisSet::ALL, target).filter(|_| !turns)?;
     let cause = post.control.block.cause;

@@ -9,7 +9,7 @@ use fil_machine::locations::{
 };
 
 use super::cycle::{Cycle, CycleKind, Hole};
-use super::{expand, frame, mill_turn, rapid, rotary, tip_control};
+use super::{expand, frame, mill_turn, rapid, rotary, scaled_lead, tip_control};
 use crate::control::skip::refuse_level;
 use crate::control::word_address::cycle as words;
 use crate::control::word_address::motion::Motion;
@@ -61,6 +61,9 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     family::ready_for_hole(&mut post.control, cycle.in_force.is_some())?;
     let (position, mut hole) = locate(post, cycle, target)?;
     refuse_beside_the_axis(&post.control, &position, &hole)?;
+    if cycle.kind == CycleKind::Tap {
+        scaled_lead::refuse(&post.control, &[hole.along], PostCode::CycleForm)?;
+    }
     post.path.point = Some(target.point);
     post.path.axis = target.axis;
     let word = rotary::word_of(post, target);

@@ -3,7 +3,7 @@
 use fil_diag::Result;
 use fil_machine::axes::AxisSet;
 
-use super::{feed_rules, frame, mill_turn, rapid, rotary, solution, thread, turning};
+use super::{feed_rules, frame, mill_turn, rapid, rotary, scaled_lead, solution, thread, turning};
 use crate::control::family;
 use crate::control::word_address::motion::Motion;
 use crate::errors::PostCode;
@@ -52,6 +52,7 @@ pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
                 return PostCode::TipControl.err("a thread");
             }
             rotary::refuse_thread(before, post.path.rotary)?;
+            scaled_lead::refuse(&post.control, &thread::AXES, PostCode::Thread)?;
             let change = thread::counted_change(post, lead, target)?;
             let lead = thread::counted_lead(post, lead, target)?;
             let motion = motion.of(AxisSet::LINEAR);

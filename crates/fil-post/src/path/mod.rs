@@ -23,6 +23,7 @@ pub mod mill_turn;
 pub mod rapid;
 mod reposition;
 pub mod rotary;
+mod scaled_lead;
 pub(crate) mod sense;
 mod skip;
 mod solution;

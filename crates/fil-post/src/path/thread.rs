@@ -9,7 +9,7 @@ use fil_diag::Result;
 use fil_machine::locations::{self as loc, ThreadCycle, ThreadLeadAlong};
 
 pub use super::thread_shape::{Shape, least_depth};
-use super::{carry_out as carry, rotary};
+use super::{carry_out as carry, rotary, scaled_lead};
 use crate::control::family;
 use crate::control::word_address::spindle;
 use crate::control_state::Compensation;
@@ -21,6 +21,9 @@ use crate::post::Post;
 
 /// Most threads beside each other.
 pub const MOST_STARTS: u32 = 100;
+
+/// The axes that a thread runs along, X and Z.
+pub const AXES: [usize; 2] = [0, 2];
 
 /// Lengths below this count as zero, mm or inch.
 const NOTHING: f64 = 1e-6;
@@ -165,6 +168,7 @@ fn check_machine(post: &mut Post) -> Result<()> {
     if post.path.transformation.as_ref().is_some_and(|trans| !trans.is_rigid()) {
         return PostCode::Thread.err("TRANS changes the lengths of the thread");
     }
+    scaled_lead::refuse(&post.control, &AXES, PostCode::Thread)?;
     check_speed(post)
 }
 

@@ -300,11 +300,10 @@ impl Klartext<'_> {
 
     /// The levels of a hole.
     fn hole(&self, definition: &Definition) -> Result<Hole, Fault> {
-        let unit = self.state.unit();
         if definition.number == 1 {
             return self.old_hole(definition);
         }
-        let length = |name: &str| definition.get(name).map(|value| value * unit);
+        let length = |name: &str| definition.get(name).map(|value| self.state.length(2, value));
         let surface = self.state.position(2, definition.get("Q203")?);
         let set_up = length("Q200")?;
         let clear = surface + set_up;
@@ -316,7 +315,7 @@ impl Klartext<'_> {
             207 => {
                 kind = CycleKind::Tap;
                 self.check_sense(definition.get("Q239")?)?;
-                Rate::PerTurn(length("Q239")?.abs())
+                Rate::PerTurn(definition.get("Q239")?.abs() * self.state.unit())
             }
             206 => {
                 kind = CycleKind::Tap;
@@ -399,7 +398,7 @@ impl Klartext<'_> {
 
     /// Cycle 1 begins at its set-up clearance, where the tool stands.
     fn old_hole(&self, definition: &Definition) -> Result<Hole, Fault> {
-        let length = |name: &str| definition.get(name).map(|value| value * self.state.unit());
+        let length = |name: &str| definition.get(name).map(|value| self.state.length(2, value));
         if !self.state.known[2] {
             return Err(Fault::new(NcCode::NoMeaning, "it is not known where the tool stands"));
         }

@@ -143,13 +143,14 @@ impl Sinumerik<'_> {
     }
 
     fn levels(&self, call: &Call) -> Result<Levels, Fault> {
-        let (axis, unit) = (self.state.plane, self.state.unit());
+        let axis = self.state.plane;
+        let length = |value: f64| self.state.length(axis, value).abs();
         let level = |value: f64| self.state.position(axis, value);
         let (rest, surface) = (level(call.need("RTP")?), level(call.need("RFP")?));
-        let clear = surface + call.get("SDIS").unwrap_or(0.0).abs() * unit;
+        let clear = surface + length(call.get("SDIS").unwrap_or(0.0));
         let bottom = match (call.get("DP"), call.get("DPR")) {
             (Some(depth), _) => level(depth),
-            (None, Some(depth)) => surface - depth.abs() * unit,
+            (None, Some(depth)) => surface - length(depth),
             (None, None) => return Err(Fault::new(NcCode::MissingWord, "DP or DPR is needed")),
         };
         if bottom >= surface || rest < surface {
@@ -191,14 +192,15 @@ impl Sinumerik<'_> {
     /// The first peck ends at FDEP, the others are as deep: without degression.
     fn pecks(&mut self, call: &Call, at: &Levels, kind: CycleKind) -> Result<(), Fault> {
         call.refuse(&["DAM", "DTB", "DTS", "MDEP"])?;
-        let unit = self.state.unit();
+        let (axis, state) = (at.axis, &self.state);
+        let length = |value: f64| state.length(axis, value).abs();
         if call.get("FRF").is_some_and(|share| share != 1.0) {
             return Err(Fault::new(NcCode::ForeignCode, "FRF other than 1 is not followed"));
         }
         call.check_axis()?;
         let first = match (call.get("FDEP"), call.get("FDPR")) {
             (Some(depth), _) => self.state.position(at.axis, depth),
-            (None, Some(depth)) => at.surface - depth.abs() * unit,
+            (None, Some(depth)) => at.surface - length(depth),
             (None, None) => return Err(Fault::new(NcCode::MissingWord, "FDEP or FDPR is needed")),
         };
         let step = at.surface - first;
@@ -210,9 +212,9 @@ impl Sinumerik<'_> {
             return Err(Fault::new(NcCode::BadNumber, "the pecks are too small to count"));
         }
         let rate = Some(self.rate()?);
-        let lift = call.get("VRT").filter(|lift| *lift > 0.0).map_or(LIFT, |lift| lift * unit);
+        let lift = call.get("VRT").filter(|lift| *lift > 0.0).map_or(LIFT, length);
         let stop = call.get("DIS1").filter(|stop| *stop > 0.0);
-        let stop = stop.map_or_else(|| own_stop(at), |stop| stop * unit);
+        let stop = stop.map_or_else(|| own_stop(at), length);
         let mut reached = first;
         while reached > at.bottom + 1e-9 {
             self.go(at, reached, Course::Feed, rate);

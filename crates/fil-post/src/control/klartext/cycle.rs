@@ -120,7 +120,10 @@ fn values(control: &Control, cycle: &Cycle, hole: &Hole) -> Result<Values> {
     let below = |level: f64| Ok::<f64, Box<fil_diag::Diag>>(axis.value(level)? - surface);
     let (bottom, clear) = (below(hole.bottom)?, below(hole.clear)?);
     let second = below(hole.rest())?;
-    let digit = axis.resolution() / 2.0;
+    let digit = axis.length(axis.resolution()).abs() / 2.0;
+    if bottom > 0.0 {
+        return refuse("a hole that goes up on the tape (scale.z below zero)");
+    }
     if clear < -digit {
         return refuse("a R level below the surface of the hole (CLEAR below zero)");
     }
@@ -181,7 +184,7 @@ fn definition(
     let feed = feed(control, cycle)?;
     say(206, &feed, "FEED RATE FOR PLNGNG");
     let peck = match cycle.step {
-        Some(step) => step,
+        Some(step) => control.tables.axis(2).length(step).abs(),
         None => at.deep.max(at.way),
     };
     let plunge = peck_text(control, peck)?;
@@ -237,12 +240,12 @@ fn breaks(at: &Values, peck: f64) -> u32 {
 fn gap(control: &Control) -> Result<String> {
     let gap = control.commons.dbl_opt(loc::CYCLE_PECK_GAP).unwrap_or(GAP);
     match if control.is_metric() { gap } else { gap / INCH } {
-        gap if gap > 0.0 => peck_text(control, gap),
+        gap if gap > 0.0 => peck_text(control, control.tables.axis(2).length(gap).abs()),
         _ => Ok("+0".to_string()),
     }
 }
 
-/// A peck, positive.
+/// A peck as the tape counts Z, positive.
 fn peck_text(control: &Control, peck: f64) -> Result<String> {
     if peck <= 0.0 {
         return PostCode::CycleForm.err("STEP must be above zero");

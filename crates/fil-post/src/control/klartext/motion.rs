@@ -189,7 +189,7 @@ fn feed_word(control: &mut Control, feed: Option<&Feed>) -> Result<()> {
 /// How fast the spindle turns is not known.
 pub(super) fn a_minute(control: &Control, feed: f64) -> Result<f64> {
     match known_speed(control) {
-        Some(speed) => Ok(feed * speed),
+        Some(speed) => Ok(feed * speed * control.upm_factor()),
         None => refuse("a feed a turn of the spindle while its speed is not known"),
     }
 }

@@ -146,7 +146,12 @@ fn levels(control: &Control, cycle: &Cycle, hole: &Hole) -> Result<Levels> {
     let surface = axis.value(hole.bottom + (hole.clear - hole.bottom) * share)?;
     let (bottom, clear, rest) =
         (axis.value(hole.bottom)?, axis.value(hole.clear)?, axis.value(hole.rest())?);
-    let digit = axis.resolution() / 2.0;
+    let digit = axis.length(axis.resolution()).abs() / 2.0;
+    if surface < bottom {
+        return refuse(
+            "a hole that goes up on the tape (scale.z below zero): DP must lie below RFP",
+        );
+    }
     if clear < surface - digit {
         return refuse("an R level below the surface of the hole (CLEAR below zero)");
     }
@@ -219,7 +224,9 @@ fn peck_words(
         return PostCode::CycleForm.err("a cycle of pecks needs its STEP");
     };
     let format = control.tables.addresses.format(axis.letter).copied().unwrap_or_default();
-    let scaled = Rounding::Rate.scale(step, &format).map_err(|diag| named(diag, axis.letter))?;
+    let scaled = Rounding::Rate
+        .scale(axis.length(step).abs(), &format)
+        .map_err(|diag| named(diag, axis.letter))?;
     let step = format.unscale(scaled);
     if step <= 0.0 {
         return PostCode::CycleForm.err("STEP must be above zero");
@@ -227,7 +234,7 @@ fn peck_words(
     let (fdep, _) = line::length(control, axis.letter, (at.surface - step).max(at.bottom))?;
     let gap = control.commons.dbl_opt(loc::CYCLE_PECK_GAP).unwrap_or(0.0).max(0.0);
     let gap = if control.is_metric() { gap } else { gap / INCH };
-    let (gap, _) = line::length(control, axis.letter, gap)?;
+    let (gap, _) = line::length(control, axis.letter, axis.length(gap).abs())?;
     let removes = cycle.kind == CycleKind::Deep;
     Ok(if removes {
         format!(",,{fdep},,0,0,0,1,1,,,,{dwell},{gap}")

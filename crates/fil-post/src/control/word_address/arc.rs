@@ -322,7 +322,7 @@ fn drop_same_radius(control: &mut Control, letter: Letter) {
 /// Adds how far a helix rises, where ARCSLP asks for it.
 fn helix_word(control: &mut Control, arc: &PlaneArc) -> Result<()> {
     let along = arc.plane.normal();
-    let rise = arc.to[along] - arc.from[along];
+    let rise = control.tables.axis(along).length(arc.to[along] - arc.from[along]);
     let prints = control.commons.read(loc::CIRCLE_HELIX_WORD) == CircleHelixWord::PrintK;
     if !control.helix_words || !prints || rise == 0.0 {
         return Ok(());

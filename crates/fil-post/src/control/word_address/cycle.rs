@@ -150,7 +150,7 @@ fn write_hole(
     motion::axis_words(control, &across.of(AxisSet::ROTARY))?;
     repeated_axes(control, &across, AxisSet::ROTARY)?;
     level_words(control, cycle, hole)?;
-    data_words(control, cycle)?;
+    data_words(control, cycle, hole)?;
     motion::write_motion(control)
 }
 
@@ -352,8 +352,9 @@ fn dwell_word(control: &mut Control, cycle: &Cycle) -> Result<()> {
 }
 
 /// Peck, dwell and feed.
-fn data_words(control: &mut Control, cycle: &Cycle) -> Result<()> {
+fn data_words(control: &mut Control, cycle: &Cycle, hole: &Hole) -> Result<()> {
     if let Some(step) = cycle.step {
+        let step = control.tables.axis(hole.along).length(step).abs();
         let letter = control.letter(loc::CYCLE_STEP_ADDRESS, "the peck")?;
         control.because(cycle.due_to(cycle.words.step), |control| {
             control.word_rounded(letter, step, Rounding::Rate)

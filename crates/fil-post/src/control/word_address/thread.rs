@@ -63,6 +63,8 @@ struct Ends {
     first: f64,
     least: f64,
     springs: u32,
+    /// Radius at the start less that at the end, as the tape counts it.
+    taper: f64,
 }
 
 impl Ends {
@@ -76,12 +78,8 @@ impl Ends {
         }
         let first = shape.depths.first().copied().unwrap_or(thread.depth);
         let least = least_depth(post);
-        Ok(Ends { begin, crest, root, first, least, springs: thread.springs })
-    }
-
-    /// Radius at the start less that at the end.
-    fn taper(&self) -> f64 {
-        self.crest[0][0] - self.crest[1][0]
+        let taper = post.control.tables.axis(0).length(crest[0][0] - crest[1][0]);
+        Ok(Ends { begin, crest, root, first, least, springs: thread.springs, taper })
     }
 }
 
@@ -92,7 +90,7 @@ fn one_pass_each(
     (shape, start): (&Shape, u32),
     (ends, code): (&Ends, FunctionCode),
 ) -> Result<()> {
-    let taper = Some(ends.taper()).filter(|taper| taper.abs() > NOTHING);
+    let taper = Some(ends.taper).filter(|taper| taper.abs() > NOTHING);
     let letter = match taper {
         Some(_) => Some(post.control.letter(loc::THREAD_TAPER_ADDRESS, "the taper of a thread")?),
         None => None,
@@ -145,8 +143,8 @@ fn two_blocks(
     let mut cut = Line::new(control, code)?;
     cut.axis(0, ends.root[0])?;
     cut.axis(2, ends.root[1])?;
-    if ends.taper().abs() > NOTHING {
-        cut.word('R', ends.taper(), Rounding::Nearest)?;
+    if ends.taper.abs() > NOTHING {
+        cut.word('R', ends.taper, Rounding::Nearest)?;
     }
     cut.raw('P', &steps(thread.depth, unit, true)?);
     cut.raw('Q', &steps(ends.first, unit, true)?);
@@ -164,8 +162,8 @@ fn one_block(post: &mut Post, thread: &Thread, ends: &Ends, code: FunctionCode) 
     let mut line = Line::new(control, code)?;
     line.axis(0, ends.root[0])?;
     line.axis(2, ends.root[1])?;
-    if ends.taper().abs() > NOTHING {
-        line.word('I', ends.taper(), Rounding::Nearest)?;
+    if ends.taper.abs() > NOTHING {
+        line.word('I', ends.taper, Rounding::Nearest)?;
     }
     line.word('K', thread.depth, Rounding::Lead)?;
     line.word('D', ends.first, Rounding::Rate)?;

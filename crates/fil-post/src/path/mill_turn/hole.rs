@@ -119,11 +119,11 @@ fn feed_of_tap(control: &mut Control, cycle: &Cycle, along: usize) -> Result<Fee
         CycleFeed::Lead(lead) => (lead.value, lead.cause),
         CycleFeed::Feed(feed) if feed.mode == FeedMode::PerRevolution => (feed.value, feed.cause),
         CycleFeed::Feed(feed) if feed.mode == FeedMode::PerMinute && turns > 0.0 => {
-            (feed.value / turns, feed.cause)
+            (feed.value / control.upm_factor() / turns, feed.cause)
         }
         CycleFeed::Feed(_) => return PostCode::CycleForm.err("a tap at inverse time"),
     };
-    Ok(Feed { value: lead * speed, mode: FeedMode::PerMinute, cause })
+    Ok(Feed { value: lead * speed * control.upm_factor(), mode: FeedMode::PerMinute, cause })
 }
 
 /// A motion of one axis.
