@@ -227,9 +227,15 @@ fn locate(post: &mut Post, cycle: &Cycle, target: Target) -> Result<(Position, H
 fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, start: f64) -> Result<()> {
     let out = if hole.clear >= hole.bottom { 1.0 } else { -1.0 };
     let above = |one: f64, other: f64| (one - other) * out;
-    // The control would return to the one level or the other, and go across at it.
-    if post.control.levels_behind_skip(hole.along).is_some() {
-        return refuse_level(&post.control, hole.along);
+    if let Some(levels) = post.control.levels_behind_skip(hole.along) {
+        let lowest = if out > 0.0 { levels.low } else { levels.high };
+        let is_above = !levels.unknown && above(hole.clear, lowest) <= SAME_LEVEL;
+        // The control would return to the one level or the other, and go across at it.
+        if cycle.retract.is_some() || !is_above {
+            return refuse_level(&post.control, hole.along);
+        }
+        cycle.initial = None;
+        return Ok(());
     }
     let here = post.control.axis_position(hole.along);
     let initial = cycle.initial.or(here);

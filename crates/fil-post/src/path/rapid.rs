@@ -88,7 +88,7 @@ fn split(control: &mut Control, motion: &Motion, z_first: bool, cause: Cause) ->
 
 /// True when Z goes up from the last level on the tape. A level in doubt counts too:
 /// a way up is better made before the way across.
-pub(super) fn retracts(control: &Control, motion: &Motion) -> Result<bool> {
+fn retracts(control: &Control, motion: &Motion) -> Result<bool> {
     let axis = control.tables.axis(2);
     let last = control.commons.last_output(axis.letter);
     let above = (axis.value(motion.position[2])? - last) * axis.scale();

@@ -69,7 +69,10 @@ pub(super) fn begin(
     let radius = libm::hypot(point.x, point.y);
     let at = |axes| Motion { position: [radius, 0.0, point.z, 0.0, 0.0], axes, word: 0 };
     rapid::refuse_between_levels(control, &at(AxisSet::ALL))?;
-    let lifts = rapid::retracts(control, &at(AxisSet::Z))?;
+    let lifts = match control.levels_behind_skip(2) {
+        Some(levels) => point.z > levels.low,
+        None => control.axis_position(2).is_some_and(|here| point.z > here),
+    };
     if lifts {
         rapid::rapid(control, &at(AxisSet::Z), cause)?;
     }
