@@ -24,7 +24,7 @@ impl Control {
     /// from it.
     ///
     /// # Errors
-    /// As [`Tape::block`]; what the start of the program refuses; a block after
+    /// As [`Tape::block`](crate::tape::Tape::block); what the start of the program refuses; a block after
     /// the end of the program.
     #[inline]
     pub fn write_block(&mut self) -> Result<()> {
@@ -51,7 +51,7 @@ impl Control {
     /// (POSTN).
     ///
     /// # Errors
-    /// As [`Tape::words`].
+    /// As [`Tape::words`](crate::tape::Tape::words).
     pub fn write_words(&mut self, words: &[(Letter, f64, Cause)]) -> Result<()> {
         self.begin()?;
         if words.iter().any(|(letter, ..)| !matches!(*letter, G | M)) {
@@ -92,7 +92,7 @@ impl Control {
     /// Writes a text as a block; the control learns from it what it can read.
     ///
     /// # Errors
-    /// As [`Tape::line`]; a character that must not reach the tape; a block after
+    /// As [`Tape::line`](crate::tape::Tape::line); a character that must not reach the tape; a block after
     /// the end of the program.
     pub fn write_text(&mut self, text: &str, numbered: bool) -> Result<()> {
         self.begin()?;
