@@ -35,7 +35,7 @@ use diagnostics::all;
 use editor::Edited;
 use fields::Fields;
 
-/// A request that is none, and why.
+/// Why a request is not understood.
 struct Misuse(String);
 
 /// Why there is no program or no drawing.

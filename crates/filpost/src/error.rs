@@ -80,7 +80,7 @@ fil_diag::codes! {
         OwnTotals = 719, Error, "the program's totals depend on themselves",
             "A script asked for totals of the program before its motions came and was told what a first pass had counted; the program it then wrote comes to something else, so its header would be wrong.",
             "Use what PROGF, TLISTF, OPERF and TOOLF(NEXT) tell in texts alone, not in motions, tools, feeds or dwells.";
-        /// A name that is none on Windows.
+        /// A name that Windows does not allow.
         FileName = 720, Error, "no name for a file",
             "Windows takes NUL, CON, AUX, PRN, COM1 and LPT1 for devices whatever ending they have, leaves points and blanks at the end of a name out, and keeps some characters for itself: what is written there is lost or is another file. The files of scripts have such names on no system, as a post must do the same on each.",
             "Choose another name: letters, digits, `-`, `_`, and one ending.";

@@ -84,7 +84,7 @@ enum Rest<E> {
     Made { from: Receiver<Batch>, give_back: Sender<VecDeque<Event>> },
     /// From here.
     Unmade(E),
-    /// There are none.
+    /// All have been handed out.
     Over,
 }
 

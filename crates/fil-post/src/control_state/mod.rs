@@ -13,7 +13,6 @@ pub use codes::{Codes, Meaning};
 pub use text::{TextWords, read as text_words};
 
 use fil_machine::address::Addresses;
-use fil_machine::commons::EMPTY;
 use fil_machine::locations as loc;
 use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::{Commons, FunctionCode, Letter, letters};
@@ -487,8 +486,7 @@ impl ControlState {
         let now = last_values(commons);
         let levels = linear.map(|letter| {
             let at = |state: &ControlState, values: &[f64]| {
-                let mut values = Letter::all().zip(values);
-                let value = values.find(|(other, _)| *other == letter).map_or(EMPTY, |it| *it.1);
+                let value = values[letter.index() - 1];
                 state.levels(letter, value).unwrap_or(Levels::of(letter, value))
             };
             at(self, &now).or(at(&state, &values))

@@ -53,10 +53,10 @@ pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
             }
             rotary::refuse_thread(before, post.path.rotary)?;
             scaled_lead::refuse(&post.control, &thread::AXES, PostCode::Thread)?;
-            let change = thread::counted_change(post, lead, target)?;
-            let lead = thread::counted_lead(post, lead, target)?;
+            let counted = thread::counted_lead(post, lead, target)?;
+            let change = thread::counted_change(post, lead, &counted, target)?;
             let motion = motion.of(AxisSet::LINEAR);
-            family::thread(&mut post.control, &motion, &lead, change)?;
+            family::thread(&mut post.control, &motion, &counted, change)?;
         }
     }
     post.path.point = Some(target.point);

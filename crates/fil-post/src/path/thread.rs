@@ -12,7 +12,6 @@ pub use super::thread_shape::{Shape, least_depth};
 use super::{carry_out as carry, rotary, scaled_lead};
 use crate::control::family;
 use crate::control::word_address::spindle;
-use crate::control_state::Compensation;
 use crate::errors::PostCode;
 use crate::operation::{
     Lead, MotionKind, Operation, SpindleSpeed, Target, Thread, ThreadPasses, ThreadSide,
@@ -174,20 +173,19 @@ fn check_machine(post: &mut Post) -> Result<()> {
 
 /// Refuses a thread under compensation, in which controls take no pass.
 fn refuse_compensated(post: &Post) -> Result<()> {
-    let compensated =
-        post.control.compensation_asked() != Compensation::Off || post.control.state.compensates();
-    if compensated {
+    if post.control.is_compensated() {
         return PostCode::Thread
             .err("a thread in cutter compensation; CUTCOM/OFF must come before it");
     }
     Ok(())
 }
 
-/// What the lead gains in each turn of a pass to a point, as the machine counts it.
+/// What the lead gains in each turn of a pass to a point, as the machine counts it, which
+/// counts the lead itself as `counted`.
 ///
 /// # Errors
 /// The lead comes to nothing before the end, or the pass goes on from another one.
-pub fn counted_change(post: &Post, lead: Lead, target: Target) -> Result<f64> {
+pub fn counted_change(post: &Post, lead: Lead, counted: &Lead, target: Target) -> Result<f64> {
     let change = post.path.lead_change;
     if change == 0.0 {
         return Ok(0.0);
@@ -207,8 +205,7 @@ pub fn counted_change(post: &Post, lead: Lead, target: Target) -> Result<f64> {
     if lead.value * lead.value + 2.0 * change * way <= 0.0 {
         return PostCode::Thread.err("the lead comes to nothing before the end of the thread");
     }
-    let share = counted_lead(post, lead, target)?.value / lead.value;
-    Ok(change * share)
+    Ok(change * (counted.value / lead.value))
 }
 
 /// The lead as the machine counts it: along the longer axis, or along the path.

@@ -127,8 +127,8 @@ impl CaseFile {
     }
 
     /// Refuses an expected file, which an update writes, outside of the folder of the case,
-    /// in place of an input or with a name that is none on Windows; the text is what is
-    /// wrong.
+    /// in place of an input, or under a name that Windows does not allow; the text is what
+    /// is wrong.
     fn refuse_written_names(&self) -> Result<(), String> {
         let tidy = |name: &String| -> PathBuf {
             Path::new(name).components().filter(|part| *part != Component::CurDir).collect()
