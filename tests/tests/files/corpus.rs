@@ -2,33 +2,25 @@
 //! `tests/language/`. `FILPOST_UPDATE=1` writes the expected NC programs anew.
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use filpost::case::{self, Case, Verdict};
 use filpost_tests::{language, root};
-use libtest_mimic::{Arguments, Failed, Trial};
+use libtest_mimic::{Failed, Trial};
 
-fn main() -> ExitCode {
-    let arguments = Arguments::from_args();
+pub fn trials() -> Vec<Trial> {
     let corpus = root().join("corpus");
-    let cases = match case::find(&corpus) {
-        Ok(cases) => cases,
-        Err(error) => {
-            eprintln!("{error}");
-            return ExitCode::FAILURE;
-        }
-    };
+    let cases = case::find(&corpus).unwrap_or_else(|error| panic!("{error}"));
     let update = std::env::var_os("FILPOST_UPDATE").is_some_and(|value| value == "1");
     let mut trials: Vec<Trial> =
         cases.into_iter().map(|case| case_trial(&corpus, case, update)).collect();
     trials.extend(language_files().into_iter().map(language_trial));
-    libtest_mimic::run(&arguments, trials).exit_code()
+    trials
 }
 
 fn case_trial(corpus: &Path, case: Case, update: bool) -> Trial {
     let folder = case.folder.strip_prefix(corpus).unwrap_or(&case.folder);
     let name = folder.to_string_lossy().replace('\\', "/");
-    Trial::test(name, move || match case.check(update) {
+    Trial::test(format!("corpus/{name}"), move || match case.check(update) {
         Verdict::Passed => Ok(()),
         Verdict::Failed(text) => Err(Failed::from(text)),
         Verdict::Updated(text) => {

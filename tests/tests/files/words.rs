@@ -11,7 +11,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use filpost_tests::words::Header;
-use libtest_mimic::{Arguments, Failed, Trial};
+use libtest_mimic::{Failed, Trial};
 
 fn check(path: &Path) -> Result<(), Failed> {
     let text = std::fs::read_to_string(path)?;
@@ -44,7 +44,7 @@ fn same(found: &str, expected: &str) -> Result<(), Failed> {
     Err(format!("expected:\n{expected}\nfound:\n{found}").into())
 }
 
-fn main() {
+pub fn trials() -> Vec<Trial> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("words");
     let mut files: Vec<_> = std::fs::read_dir(folder)
         .expect("tests/words")
@@ -52,12 +52,11 @@ fn main() {
         .filter(|path| path.extension().is_some_and(|ending| ending == "ncl"))
         .collect();
     files.sort();
-    let trials = files
+    files
         .into_iter()
         .map(|path| {
             let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            Trial::test(name, move || check(&path))
+            Trial::test(format!("words/{name}"), move || check(&path))
         })
-        .collect();
-    libtest_mimic::run(&Arguments::from_args(), trials).exit();
+        .collect()
 }

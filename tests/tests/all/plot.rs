@@ -100,7 +100,7 @@ fn spiral(count: u32) -> Drawing {
 }
 
 fn said(browser: &std::path::Path, page: &str) -> Value {
-    let script = include_str!("../plot/selftest.js");
+    let script = include_str!("../../plot/selftest.js");
     let page = page.replace("</body>", &format!("<script>{script}</script></body>"));
     let dom = browser::dom(browser, &page, 20).unwrap();
     let start = dom.find("<pre id=\"said\">").unwrap_or_else(|| panic!("no answer: {dom:.2000}"));
@@ -238,11 +238,11 @@ fn posted(ready: &str, cl: &str) -> Drawing {
 #[test]
 fn the_pages_of_the_docs_are_screenshots() {
     let pages = [
-        ("plot-page.png", drawing as fn() -> Drawing, include_str!("../plot/hover.js")),
+        ("plot-page.png", drawing as fn() -> Drawing, include_str!("../../plot/hover.js")),
         (
             "plot-five-axes.png",
             || posted("fanuc-5x-tables", &tilting_row()),
-            include_str!("../plot/play.js"),
+            include_str!("../../plot/play.js"),
         ),
         ("plot-lathe.png", || posted("fanuc-lathe", SHAFT), ""),
     ];

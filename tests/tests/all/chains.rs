@@ -2,7 +2,7 @@
 //! the book, and what the post solves for random poses on random chains is what the
 //! forward kinematics of the back-check say.
 //!
-//! `FILPOST_POSES=1000000 cargo test -p filpost-tests --test chains` tries a million.
+//! `FILPOST_POSES=1000000 cargo test -p filpost-tests --test all chains::` tries a million.
 
 use fil_machine::axis_chain::{AxisChain, Carries, Rotary};
 use fil_machine::{chain_drawing, chains};

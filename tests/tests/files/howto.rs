@@ -9,20 +9,18 @@
 
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use filpost::{Error, Program};
 use filpost_tests::examples::{Block, blocks};
 use filpost_tests::root;
-use libtest_mimic::{Arguments, Failed, Trial};
+use libtest_mimic::{Failed, Trial};
 
-fn main() -> ExitCode {
-    let arguments = Arguments::from_args();
+pub fn trials() -> Vec<Trial> {
     let pages = files("docs/howto", "md");
     let mut trials: Vec<Trial> = pages.into_iter().map(page_trial).collect();
     trials.extend(files("fil-scripts/lib", "fil").into_iter().map(file_trial));
-    trials.push(Trial::test("habits", habits));
-    libtest_mimic::run(&arguments, trials).exit_code()
+    trials.push(Trial::test("howto/habits", habits));
+    trials
 }
 
 /// The files of a folder with that ending, sorted.
@@ -41,11 +39,11 @@ fn stem(path: &Path) -> String {
 }
 
 fn page_trial(path: PathBuf) -> Trial {
-    Trial::test(format!("page/{}", stem(&path)), move || page(&path))
+    Trial::test(format!("howto/{}", stem(&path)), move || page(&path))
 }
 
 fn file_trial(path: PathBuf) -> Trial {
-    Trial::test(format!("file/{}", stem(&path)), move || file(&path))
+    Trial::test(format!("howto/lib/{}", stem(&path)), move || file(&path))
 }
 
 /// `docs/habits.md` says of each case what its header says, and misses no case of a habit.

@@ -7,22 +7,20 @@
 //! writes the sentences anew.
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use fil_nc::diff::{Options, compare, read, sentence};
 use filpost_tests::root;
-use libtest_mimic::{Arguments, Failed, Trial};
+use libtest_mimic::{Failed, Trial};
 
-fn main() -> ExitCode {
-    let arguments = Arguments::from_args();
+pub fn trials() -> Vec<Trial> {
     let entries = std::fs::read_dir(root().join("tests/diff")).expect("tests/diff is there");
     let mut files: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
     files.sort();
     let trial = |path: PathBuf| {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Trial::test(name, move || run(&path))
+        Trial::test(format!("diff/{name}"), move || run(&path))
     };
-    libtest_mimic::run(&arguments, files.into_iter().map(trial).collect()).exit_code()
+    files.into_iter().map(trial).collect()
 }
 
 fn options(head: &str) -> Result<Options, Failed> {

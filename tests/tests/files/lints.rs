@@ -3,12 +3,11 @@
 //! have the findings listed here, all others have none.
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use filpost::check::{self, Options};
 use filpost::{files, includes};
 use filpost_tests::{lints, root};
-use libtest_mimic::{Arguments, Failed, Trial};
+use libtest_mimic::{Failed, Trial};
 
 /// What a check says of the published scripts.
 const PAPERS: &[(&str, &[&str])] = &[
@@ -32,12 +31,11 @@ const PAPERS: &[(&str, &[&str])] = &[
     ),
 ];
 
-fn main() -> ExitCode {
-    let arguments = Arguments::from_args();
+pub fn trials() -> Vec<Trial> {
     let mut trials = Vec::new();
     for folder in ["bad", "good"] {
         for path in lints::fil_files(&root().join("tests/lints").join(folder)) {
-            let name = format!("{folder}/{}", name(&path));
+            let name = format!("lints/{folder}/{}", name(&path));
             trials.push(Trial::test(name, move || {
                 lists_something(&path, folder == "bad")?;
                 lints::run(&path).map_err(Failed::from)
@@ -46,11 +44,12 @@ fn main() -> ExitCode {
     }
     for path in lints::fil_files(&root().join("fil-scripts")).into_iter().filter(|p| !is_part(p)) {
         let shown = path.strip_prefix(root()).expect("a path below the root");
-        trials.push(Trial::test(shown.to_string_lossy().replace('\\', "/"), move || script(&path)));
+        let shown = shown.to_string_lossy().replace('\\', "/");
+        trials.push(Trial::test(format!("lints/{shown}"), move || script(&path)));
     }
-    trials.push(Trial::test("papers are all there", papers_are_there));
-    trials.push(Trial::test("embos files together", embos_together));
-    libtest_mimic::run(&arguments, trials).exit_code()
+    trials.push(Trial::test("lints/papers are all there", papers_are_there));
+    trials.push(Trial::test("lints/embos files together", embos_together));
+    trials
 }
 
 fn name(path: &Path) -> String {
