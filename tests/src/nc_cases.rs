@@ -135,19 +135,15 @@ fn foreign() -> Vec<NcCase> {
 
 /// A CL file through every ready post that takes it.
 pub fn posted(path: &Path) -> Vec<NcCase> {
+    filpost::ready::READY.iter().filter_map(|ready| posted_by(ready.name, path)).collect()
+}
+
+/// A CL file through one ready post; `None` when it does not take the file.
+pub fn posted_by(ready: &str, path: &Path) -> Option<NcCase> {
     let cl = fs::read(path).expect("a CL file");
-    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let through = filpost::ready::READY.iter().filter_map(|ready| {
-        let post = Program::builder().ready(ready.name).build().ok()?;
-        Some(NcCase {
-            name: format!("{}/{name}", ready.name),
-            nc: run(&post, &cl)?,
-            cl: cl.clone(),
-            post,
-            fil: false,
-        })
-    });
-    through.collect()
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let post = Program::builder().ready(ready).build().ok()?;
+    Some(NcCase { name: format!("{ready}/{name}"), nc: run(&post, &cl)?, cl, post, fil: false })
 }
 
 /// The program; `None` for an input that is to be refused.

@@ -266,8 +266,7 @@ fn faults_are_found() {
 #[test]
 fn findings_are_a_machinists_words() {
     let cl = root().join("tests/cl/holes.ncl.1");
-    let cases = nc_cases::posted(&cl);
-    let case = cases.iter().find(|case| case.name.starts_with("fanuc-mill")).expect("a program");
+    let case = &nc_cases::posted_by("fanuc-mill", &cl).expect("a program");
     for (old, new, kind, said) in [
         (
             "Z-7.25",
@@ -315,8 +314,7 @@ fn findings_are_a_machinists_words() {
 #[test]
 fn findings_of_a_lathe() {
     let cl = root().join("tests/verify/surface-speed.ncl");
-    let cases = nc_cases::posted(&cl);
-    let case = cases.iter().find(|case| case.name.starts_with("fanuc-lathe")).expect("a program");
+    let case = &nc_cases::posted_by("fanuc-lathe", &cl).expect("a program");
     let limit = "the limit of the spindle speed is";
     for (old, new, kind, said) in [
         ("G50 S2500", "G50 S250", FindingKind::Speed, &*format!("{limit} 250, it should be 2500")),
@@ -354,8 +352,7 @@ fn findings_of_a_lathe() {
 #[test]
 fn a_length_offset_is_called_again_after_a_tool_change() {
     let cl = root().join("tests/cl/holes.ncl.1");
-    let cases = nc_cases::posted(&cl);
-    let case = cases.iter().find(|case| case.name.starts_with("fanuc-mill")).expect("a program");
+    let case = &nc_cases::posted_by("fanuc-mill", &cl).expect("a program");
     let last = case.nc.rfind("G43 ").expect("a second length offset");
     let mut without = case.nc.clone();
     without.replace_range(last..last + 4, "");
@@ -382,8 +379,7 @@ fn inverse_time_is_compared_with_a_feed() {
 #[test]
 fn bad_programs_are_refused() {
     let cl = root().join("tests/cl/planes.ncl.1");
-    let cases = nc_cases::posted(&cl);
-    let case = cases.iter().find(|case| case.name.starts_with("fanuc-mill")).expect("a program");
+    let case = &nc_cases::posted_by("fanuc-mill", &cl).expect("a program");
     let half = case.nc.len() / 2;
     let conversational = "BEGIN PGM 11 MM\n1 L X+0 Y+0 R0 FMAX\n2 END PGM 11 MM\n";
     let foreign = case.nc.replacen("G17", "G17 G68.2", 1);
@@ -482,8 +478,7 @@ fn a_long_program_agrees() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("long.ncl");
     std::fs::write(&path, cl).expect("the CL file");
-    let cases = nc_cases::posted(&path);
-    let case = cases.iter().find(|case| case.name.starts_with("fanuc-mill")).expect("a program");
+    let case = &nc_cases::posted_by("fanuc-mill", &path).expect("a program");
     let start = Instant::now();
     let report = check(case, &case.nc).expect("a report");
     println!("{} motions in {:.2?}", report.compared, start.elapsed());

@@ -21,8 +21,7 @@ fn listed(report: &Report) -> String {
 #[test]
 fn what_a_control_may_be_in_is_found() {
     let cl = root().join("tests/cl/holes.ncl.1");
-    let cases = nc_cases::posted(&cl);
-    let case = cases.iter().find(|case| case.name.starts_with("fanuc-mill")).expect("a program");
+    let case = &nc_cases::posted_by("fanuc-mill", &cl).expect("a program");
     let left = "is left to the control: no block says it, and the machine does not state it";
     let start = FindingKind::StartMode;
     for (old, new, kind, said) in [
@@ -157,8 +156,8 @@ fn a_rounded_dwell_of_klartext_agrees() {
 /// The same for a SINUMERIK, whose functions have other numbers.
 #[test]
 fn what_a_sinumerik_may_be_in_is_found() {
-    let cases = nc_cases::posted(&root().join("tests/cl/planes.ncl.1"));
-    let case = cases.iter().find(|case| case.name.starts_with("sinumerik")).expect("a program");
+    let case = &nc_cases::posted_by("sinumerik-840d", &root().join("tests/cl/planes.ncl.1"))
+        .expect("a program");
     for (old, mode) in [
         ("G710 ", "the unit"),
         ("G90 ", "whether axis words are positions or increments"),

@@ -1,11 +1,11 @@
 //! Reading what was printed gives the same tree; no text makes the reader panic;
 //! formatting changes no tree and is done in one go.
 
-mod generate;
-
 use fil_syntax::print::print;
 use fil_syntax::{decode, format, parse};
 use proptest::prelude::*;
+
+use crate::generate;
 
 /// A tree as text in which all spans are dropped.
 fn shape(program: &fil_syntax::tree::Program) -> String {
