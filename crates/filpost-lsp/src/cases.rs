@@ -147,7 +147,8 @@ fn scripts_below(folder: &Path, depth: usize, found: &mut Vec<PathBuf>) {
     }
 }
 
-fn is_script(path: &Path) -> bool {
+/// True for a FIL file that can be read between two keystrokes.
+pub fn is_script(path: &Path) -> bool {
     let name = path.display().to_string();
     let is_file = path.metadata().is_ok_and(|own| own.is_file() && own.len() <= LONGEST_SCRIPT);
     is_file && Kind::of(&name, "") == Some(Kind::Fil)

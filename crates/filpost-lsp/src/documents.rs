@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use fil_ide::{Outline, Script, Text};
 use filpost::{Included, files, includes};
 
-use crate::cases::Cases;
+use crate::cases::{Cases, is_script};
 use crate::last_run::LastRun;
 use crate::uri::path_of;
 
@@ -282,8 +282,7 @@ fn root_of(path: &Path, open: &HashMap<PathBuf, String>) -> Option<PathBuf> {
         let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
         files.sort_unstable();
         for file in files {
-            let is_fil = file.extension().is_some_and(|end| end.eq_ignore_ascii_case("fil"));
-            if !is_fil || file == path {
+            if file == path || !is_script(&file) {
                 continue;
             }
             let text = open.get(&file).cloned().or_else(|| files::read_text(&file, None).ok());
