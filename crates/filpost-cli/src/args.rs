@@ -184,6 +184,9 @@ pub struct PostArgs {
     /// Write nothing when there are warnings, and exit with 1
     #[arg(long)]
     pub deny_warnings: bool,
+    /// Post the Ith of N parts of the CL files only, such as 2/4: each Nth of them
+    #[arg(long, value_name = "I/N", value_parser = test::shard)]
+    pub shard: Option<Shard>,
 }
 
 /// What FIL scripts may reach outside of the post.

@@ -60,12 +60,14 @@ fn misused(args: &PostArgs) -> Option<&'static str> {
         Some("--profile takes the time of one run; post the CL files one by one for it")
     } else if matches!(args.map, Some(Some(_))) {
         Some("--map takes no name with several CL files: each map lies beside its program")
+    } else if args.shard.is_some() && writes(args) {
+        Some("--shard and --grant write=DIR: scripts of two parts could meet in one file")
     } else {
         None
     }
 }
 
-/// A job for each CL file, in the order given; those of a folder by name.
+/// A job for each CL file of this part, in the order given; those of a folder by name.
 fn jobs(args: &PostArgs) -> Result<Vec<Job>, Error> {
     let mut cl = Vec::new();
     for path in &args.cl {
@@ -75,8 +77,15 @@ fn jobs(args: &PostArgs) -> Result<Vec<Job>, Error> {
             cl.push(path.clone());
         }
     }
-    let jobs: Vec<Job> = cl.into_iter().map(|cl| job(args, cl)).collect();
+    let mut jobs: Vec<Job> = cl.into_iter().map(|cl| job(args, cl)).collect();
+    // Of all of them: two parts would write one program.
     refuse_collisions(&jobs)?;
+    if let Some(shard) = args.shard {
+        let all = jobs.len();
+        shard.keep(&mut jobs);
+        let (number, of) = (shard.number, shard.of);
+        output::say(&format!("part {number} of {of}: {} of {all} CL files", jobs.len()));
+    }
     if let Some(folder) = &args.output {
         std::fs::create_dir_all(folder).map_err(|error| files::cant_write(folder, &error))?;
     }
@@ -225,9 +234,12 @@ type Ended = Option<Outcome>;
 /// Scripts that may write files could meet in one of them, so they run one
 /// after the other.
 fn workers(args: &PostArgs, jobs: usize) -> usize {
-    let writes = args.grants.grant.iter().any(|grant| matches!(grant, Grant::Write(_)));
     let cores = thread::available_parallelism().map_or(1, usize::from);
-    if writes { 1 } else { cores.min(jobs) }
+    if writes(args) { 1 } else { cores.min(jobs) }
+}
+
+fn writes(args: &PostArgs) -> bool {
+    args.grants.grant.iter().any(|grant| matches!(grant, Grant::Write(_)))
 }
 
 /// A progress bar over all bytes, on a terminal.

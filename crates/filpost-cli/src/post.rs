@@ -21,7 +21,7 @@ const PROGRESS: u64 = 4 << 20;
 /// What is wrong with the input, the post or the output.
 pub fn run(args: &PostArgs) -> Result<Status, Error> {
     match &args.cl[..] {
-        [cl] if !cl.is_dir() => one(args, cl),
+        [cl] if !cl.is_dir() && args.shard.is_none() => one(args, cl),
         _ => batch::run(args),
     }
 }

@@ -1,11 +1,14 @@
 """Posts and verifies many CL files on a local cluster whose workers are killed while it
-runs, and sees that each file has its outcome and its program, once: run.py dask|ray|here COUNT
+runs, and sees that each file has its outcome and its program, once: run.py
+dask|ray|slurm|here COUNT
 """
 
 import os
 import pathlib
+import pickle
 import random
 import signal
+import subprocess
 import sys
 import tempfile
 import threading
@@ -134,15 +137,55 @@ def on_ray(program, files, every):
         ray.shutdown()
 
 
+#: Jobs of the array of Slurm.
+PARTS = 4
+
+
+def on_slurm(program, files):
+    """An array of jobs, of which the second is killed in the middle and submitted again."""
+    folder = pathlib.Path(files[0][0]).parent
+    (folder / "part.pickle").write_bytes(pickle.dumps((program, files)))
+    script = folder / "part.sh"
+    script.write_text(f"#!/bin/bash\nexec {sys.executable} {os.path.abspath(__file__)} part {folder}\n")
+    submit = ["sbatch", "--wait", "--quiet", f"--output={folder}/part-%a.log"]
+    subprocess.run([*submit, f"--array=1-{PARTS}", str(script)])
+    left = [n for n in range(1, PARTS + 1) if not (folder / f"part-{n}.done").exists()]
+    assert left == [2], left
+    yield len(left)
+    subprocess.run([*submit, f"--array={left[0]}", str(script)], check=True)
+    for number in range(1, PARTS + 1):
+        yield from pickle.loads((folder / f"part-{number}.done").read_bytes())
+
+
+def part_of(folder):
+    """A job of the array: posts and verifies each fourth file."""
+    program, files = pickle.loads((folder / "part.pickle").read_bytes())
+    number = int(os.environ["SLURM_ARRAY_TASK_ID"])
+    own = files[number - 1 :: PARTS]
+    began = folder / f"part-{number}.began"
+    dies_at = len(own) // 2 if number == 2 and not began.exists() else None
+    began.touch()
+    outcomes = []
+    for outcome in fleet.here(program, own):
+        outcomes.append(outcome)
+        if len(outcomes) == dies_at:
+            os.kill(os.getpid(), signal.SIGKILL)
+    (folder / f"part-{number}.done").write_bytes(pickle.dumps(outcomes))
+
+
 def main(kind, count):
     program = filpost.Program(ready="fanuc-mill")
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         files = make(folder, count)
         started = time.perf_counter()
-        killer = None
+        killer, killed = None, 0
         if kind == "here":
             outcomes = list(fleet.here(program, files))
+        elif kind == "slurm":
+            running = on_slurm(program, files)
+            killed = next(running)
+            outcomes = list(running)
         else:
             # Ray needs longer to start a worker.
             running = on_dask(program, files, 2.0) if kind == "dask" else on_ray(program, files, 3.0)
@@ -170,7 +213,7 @@ def main(kind, count):
         assert written + refused <= count
         stray = [name for name in os.listdir(folder) if not name.startswith((".filpost-", "part"))]
         assert not stray, stray
-        killed = killer.killed if killer else 0
+        killed = killer.killed if killer else killed
         if killer and count >= 1000:
             assert killed, "no worker was killed"
         again = count - refused - written
@@ -181,4 +224,7 @@ def main(kind, count):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], int(sys.argv[2]))
+    if sys.argv[1] == "part":
+        part_of(pathlib.Path(sys.argv[2]))
+    else:
+        main(sys.argv[1], int(sys.argv[2]))

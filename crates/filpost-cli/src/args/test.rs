@@ -87,9 +87,15 @@ impl Shard {
     pub fn has(self, index: usize) -> bool {
         index % self.of == self.number - 1
     }
+
+    /// Leaves the items of this part.
+    pub fn keep<T>(self, items: &mut Vec<T>) {
+        let mut index = 0..;
+        items.retain(|_| index.next().is_some_and(|index| self.has(index)));
+    }
 }
 
-fn shard(text: &str) -> Result<Shard, String> {
+pub(super) fn shard(text: &str) -> Result<Shard, String> {
     let number = |text: &str| text.parse().ok().filter(|number| *number > 0);
     let parts = text.split_once('/').and_then(|(one, all)| Some((number(one)?, number(all)?)));
     match parts {

@@ -87,8 +87,7 @@ fn cases(folder: &Path, shard: Option<Shard>) -> Result<Vec<Case>, Error> {
     }
     let Some(shard) = shard else { return Ok(cases) };
     let all = cases.len();
-    let mut index = 0..;
-    cases.retain(|_| index.next().is_some_and(|index| shard.has(index)));
+    shard.keep(&mut cases);
     let Shard { number, of } = shard;
     output::say(&format!("part {number} of {of}: {} of {all} cases", cases.len()));
     Ok(cases)

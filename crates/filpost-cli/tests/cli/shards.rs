@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
-use crate::support::{Folder, NC, SMALL};
+use crate::support::{Folder, NC, SMALL, WRONG};
 
 const CASE: &str = "cl = 'part.ncl'\nready = 'fanuc-mill'\nexpect = 'part.nc'\norigin = 'ours'\n";
 
@@ -51,9 +51,48 @@ fn parts_that_there_are_not_are_wrong_usage() {
     assert!(none.status == 1 && none.err.contains("E0803"), "{}", none.err);
 }
 
-/// The scripts of the docs.
-fn scripts() -> Vec<String> {
-    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/testing.md");
+#[test]
+fn parts_of_a_folder_are_posted_each_file_once() {
+    let place = (0..7).fold(Folder::new(), |place, n| place.with(&format!("cl/{n}.ncl"), SMALL));
+    let place = place.with("cl/3.ncl", WRONG);
+    let said: Vec<(i32, String)> = (1..=3)
+        .map(|part| {
+            let output = format!("nc-{part}");
+            let shard = format!("{part}/3");
+            let ran =
+                place.run(&["post", "cl", "-p", "fanuc-mill", "-o", &output, "--shard", &shard]);
+            (ran.status, ran.err.lines().next().unwrap_or_default().to_string())
+        })
+        .collect();
+    let expected = [
+        (1, "part 1 of 3: 3 of 7 CL files"),
+        (0, "part 2 of 3: 2 of 7 CL files"),
+        (0, "part 3 of 3: 2 of 7 CL files"),
+    ];
+    assert_eq!(said, expected.map(|(status, text)| (status, text.to_string())));
+    for n in 0..7 {
+        let of = (1..=3).filter(|part| place.text(&format!("nc-{part}/{n}.nc")).is_some());
+        let of: Vec<usize> = of.collect();
+        assert_eq!(of, if n == 3 { vec![] } else { vec![n % 3 + 1] }, "{n}");
+    }
+    let beyond = place.run(&["post", "cl/0.ncl", "-o", "nc", "--shard", "2/2"]);
+    assert!(beyond.status == 0 && beyond.err.contains("0 files posted"), "{}", beyond.err);
+    let writes = place.run(&["post", "cl", "--grant", "write=nc", "--shard", "1/2"]);
+    assert!(writes.status == 2 && writes.err.contains("two parts"), "{}", writes.err);
+}
+
+#[test]
+fn a_part_knows_the_programs_of_the_others() {
+    let place = Folder::new().with("cl/a.ncl", SMALL).with("cl/a.apt", SMALL);
+    for shard in ["1/2", "2/2"] {
+        let ran = place.run(&["post", "cl", "-o", "nc", "--shard", shard]);
+        assert!(ran.status == 1 && ran.err.contains("E0802"), "{}", ran.err);
+    }
+}
+
+/// The scripts of a page.
+fn scripts(page: &str) -> Vec<String> {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs").join(page);
     let page = std::fs::read_to_string(docs).expect("the page");
     let blocks = page.split("\n```bash\n").skip(1);
     blocks.map(|block| block.split("\n```").next().unwrap_or_default().to_string()).collect()
@@ -95,7 +134,7 @@ fn counted(place: &Folder) -> BTreeMap<String, usize> {
 
 #[test]
 fn the_scripts_of_the_docs_run_each_case_once() {
-    let scripts = scripts();
+    let scripts = scripts("testing.md");
     let [job, plain] = &scripts[..] else { panic!("{} scripts", scripts.len()) };
     let each_once = (0..10).map(|number| (format!("case-{number}"), 1)).collect();
     let place = ten_cases();
@@ -113,4 +152,19 @@ fn the_scripts_of_the_docs_run_each_case_once() {
     let place = ten_cases();
     assert_eq!(bash(&place, plain, &[]), Some(1));
     assert_eq!(counted(&place), each_once);
+}
+
+#[test]
+fn the_array_that_posts_has_each_program() {
+    let scripts = scripts("howto/many-files.md");
+    let [job] = &scripts[..] else { panic!("{} scripts", scripts.len()) };
+    let place = (0..50).fold(Folder::new(), |place, n| place.with(&format!("cl/{n}.ncl"), SMALL));
+    let place = place.with("machine.toml", "name = 'M'\n").with("macros.fil", "FINI\n");
+    for part in 1..=40 {
+        match bash(&place, job, &[("SLURM_ARRAY_TASK_ID", part.to_string())]) {
+            None => return,
+            status => assert_eq!(status, Some(0)),
+        }
+    }
+    assert!((0..50).all(|n| place.text(&format!("nc/{n}.nc")).is_some()));
 }
