@@ -19,35 +19,58 @@ const START: &str = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 1000, CLW\nFEDRAT / 2
 /// An example of a post word.
 struct Example<'a> {
     word: &'a str,
+    /// The form that it shows; empty for the first one of a word.
+    form: &'a str,
     post: &'a str,
     alone: bool,
+    settings: Vec<&'a str>,
     lines: &'a str,
 }
 
 /// The examples in `tests/reference/words.txt`.
 fn examples(text: &str) -> Vec<Example<'_>> {
-    let mut examples = Vec::new();
-    for part in text.split("\n# ").skip(1) {
-        let (head, lines) = part.split_once('\n').expect("an example has lines");
-        let mut words = head.split_whitespace();
-        let word = words.next().expect("a word");
-        let rest: Vec<&str> = words.collect();
+    let mut examples: Vec<Example<'_>> = Vec::new();
+    let parts = text.split("\n#").skip(1).filter_map(|part| part.split_once('\n'));
+    for (head, lines) in parts {
+        let (further, head) = match head.strip_prefix('#') {
+            Some(head) => (true, head.trim()),
+            None => (false, head.trim()),
+        };
+        let (form, rest) = match head.split_once(" | ") {
+            Some((form, rest)) => (form, rest),
+            None if further => (head, ""),
+            None => head.split_once(' ').unwrap_or((head, "")),
+        };
+        let word = if further { examples.last().expect("a word").word } else { form };
+        let rest: Vec<&str> = rest.split_whitespace().collect();
         let post =
             rest.iter().position(|part| *part == "on").map_or("fanuc-mill", |at| rest[at + 1]);
-        examples.push(Example { word, post, alone: rest.contains(&"alone"), lines });
+        examples.push(Example {
+            word,
+            form: if further { form } else { "" },
+            post,
+            alone: rest.contains(&"alone"),
+            settings: rest.iter().copied().filter(|part| part.contains('=')).collect(),
+            lines,
+        });
     }
     examples
 }
 
-/// The rows of compat.md that say what a post word does, each with its grade.
+/// The rows of compat.md that say what a post word does, each with its grade; of `WORD: part`
+/// the part stands before.
 fn rows(compat: &str, word: &str) -> Vec<(String, String)> {
     let wanted = |cell: &str| cell == word || cell.starts_with(&format!("{word}, "));
+    let part_of = |cell: &str| cell.strip_prefix(&format!("{word}: ")).map(str::to_string);
     compat
         .lines()
         .filter_map(|line| {
             let cells: Vec<&str> = line.trim_matches('|').split(" | ").map(str::trim).collect();
             let [name, does, grade, ..] = cells[..] else { return None };
-            wanted(name).then(|| (does.to_string(), grade.to_string()))
+            if wanted(name) {
+                return Some((does.to_string(), grade.to_string()));
+            }
+            Some((format!("{}: {does}", part_of(name)?), grade.to_string()))
         })
         .collect()
 }
@@ -56,34 +79,54 @@ fn rows(compat: &str, word: &str) -> Vec<(String, String)> {
 pub fn pages() -> BTreeMap<String, String> {
     let read = |path: &str| std::fs::read_to_string(root().join(path)).expect("a file of the tree");
     let (compat, text) = (read("docs/compat.md"), read("tests/reference/words.txt"));
-    examples(&text)
-        .iter()
-        .map(|example| (example.word.to_string(), page(example, &compat)))
-        .collect()
+    let mut pages = BTreeMap::new();
+    for example in examples(&text) {
+        let page: &mut String = pages.entry(example.word.to_string()).or_default();
+        page.push_str(&section(&example, &compat));
+    }
+    pages
 }
 
-fn page(example: &Example<'_>, compat: &str) -> String {
+/// What an example adds to the page of its word: the first one begins it.
+fn section(example: &Example<'_>, compat: &str) -> String {
     let word = example.word;
-    let mut page = format!("# {word}\n\n");
-    for (does, grade) in rows(compat, word) {
-        // Links count from the folder of the page.
-        let does = does.replace("](", "](../");
-        let _ = writeln!(page, "- {does} ({grade})");
+    let mut page = String::new();
+    if example.form.is_empty() {
+        let _ = write!(page, "# {word}\n\n");
+        for (does, grade) in rows(compat, word) {
+            // Links count from the folder of the page.
+            let does = does.replace("](", "](../");
+            let _ = writeln!(page, "- {does} ({grade})");
+        }
+        page.push_str("\n## Example\n");
+    } else {
+        let _ = write!(page, "\n## {}\n", example.form);
     }
-    let (start, end) = if example.alone { ("", "") } else { (START, "") };
+    let start = if example.alone { "" } else { START };
     let last = if word == "FINI" { "" } else { "FINI\n" };
-    let cl = format!("{start}{}\n{end}{last}", example.lines.trim_end());
-    let _ = write!(page, "\n## Example\n\n```cl\n{}\n```\n", example.lines.trim_end());
+    let cl = format!("{start}{}\n{last}", example.lines.trim_end());
+    let _ = write!(page, "\n```cl\n{}\n```\n", example.lines.trim_end());
     let first = start.lines().count() as u32 + 1;
     page.push_str(&written(example, &cl, first));
-    page.push_str("\n## Words by position\n\nAs POSTF(7,n) counts them, for the first record of the example:\n\n| n | word |\n|---|---|\n");
+    if example.form.is_empty() {
+        page.push_str("\n## Words by position\n\nAs POSTF(7,n) counts them, for the first record of the example:\n");
+    } else {
+        page.push_str("\nIts words:\n");
+    }
+    page.push_str("\n| n | word |\n|---|---|\n");
     page.push_str(&positions(word, &cl, first));
     page
 }
 
 /// What the word-address control writes for the lines of the example.
 fn written(example: &Example<'_>, cl: &str, first: u32) -> String {
-    let program = Program::builder().ready(example.post).build().expect("a ready post");
+    let builder = Program::builder().ready(example.post);
+    let builder = example.settings.iter().fold(builder, |builder, setting| builder.set(setting));
+    let program = builder.build().expect("a ready post with settings that agree");
+    let post = match &example.settings[..] {
+        [] => format!("`{}`", example.post),
+        settings => format!("`{}` with `{}`", example.post, settings.join("`, `")),
+    };
     let lines = first..first + example.lines.trim_end().lines().count() as u32;
     let mut blocks = Vec::new();
     for block in program.blocks(cl.as_bytes()) {
@@ -94,17 +137,18 @@ fn written(example: &Example<'_>, cl: &str, first: u32) -> String {
                 let diag = &error.diags()[0];
                 let hint = diag.hint.as_deref().unwrap_or(diag.code.hint);
                 let name = diag.code.name();
+                let whose = if example.settings.is_empty() { "The post" } else { &post };
                 return format!(
-                    "\nThe post refuses it ([{name}](../errors/{name}.md)): {}. {hint}\n",
+                    "\n{whose} refuses it ([{name}](../errors/{name}.md)): {}. {hint}\n",
                     diag.message
                 );
             }
         }
     }
     if blocks.is_empty() {
-        return format!("\n`{}` writes nothing for it.\n", example.post);
+        return format!("\n{post} writes nothing for it.\n");
     }
-    format!("\n`{}` writes:\n\n```text\n{}\n```\n", example.post, blocks.join("\n"))
+    format!("\n{post} writes:\n\n```text\n{}\n```\n", blocks.join("\n"))
 }
 
 fn positions(word: &str, cl: &str, first: u32) -> String {

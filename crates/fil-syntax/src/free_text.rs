@@ -72,7 +72,7 @@ fn file_name(rest: &str) -> Option<Found<'_>> {
 }
 
 /// The text runs to the end of the line or to a comment. `WORD =` without a
-/// second `=` sets a variable, `WORD/'…'` is an ordinary list.
+/// second `=` sets a variable; `WORD/'…'` and `WORD/NAME,'…'` are ordinary lists.
 fn line_text(rest: &str) -> Option<Found<'_>> {
     let line_end = rest.find(['\r', '\n']).unwrap_or(rest.len());
     let line = &rest[..line_end];
@@ -90,11 +90,23 @@ fn line_text(rest: &str) -> Option<Found<'_>> {
     if text.is_empty() || text == "$" || text.starts_with(';') || assigned {
         return None;
     }
-    if text.starts_with('\'') {
+    if text.starts_with('\'') || holds_quoted_item(text) {
         let found = Found { text: start..start, kind: TextKind::QuotedWithoutSlash, rest };
         return (!slash).then_some(found);
     }
     Some(Found { text: start..start + text.len(), kind: TextKind::Line, rest })
+}
+
+/// True for a list of which an item is a text in quotes: `NAME,' X'`.
+fn holds_quoted_item(text: &str) -> bool {
+    let mut is_quoted = false;
+    let items = text.split(|c: char| {
+        is_quoted ^= c == '\'';
+        c == ',' && !is_quoted
+    });
+    let mut items = items.map(str::trim).peekable();
+    let is_list = items.next().is_some() && items.peek().is_some();
+    is_list && items.any(|item| item.len() > 1 && item.starts_with('\'') && item.ends_with('\''))
 }
 
 /// What stands behind a `;` of a free text where that looks like a statement: a word

@@ -1,7 +1,7 @@
 //! `filpost cl`
 
 use std::collections::BTreeMap;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 
 use filpost::cl::record::{kind, motion};
 use filpost::cl::{
@@ -30,7 +30,7 @@ pub fn run(args: &ClArgs) -> Result<Status, Error> {
     let mut reader = Reader::new(input, &output::input_name(cl), options);
     let (mut vocabulary, mut record) = (Vocabulary::new(), Record::default());
     let mut show = Show {
-        output: BufWriter::new(io::stdout().lock()),
+        output: output::View::new(),
         words: args.words,
         json: args.json,
         totals: Totals { given: args.units.units, ..Totals::default() },

@@ -1,7 +1,7 @@
 //! Where results go: files, devices, standard output, and words to the user.
 
 use std::fs::File;
-use std::io::{self, BufWriter, Seek, Write};
+use std::io::{self, BufWriter, Seek, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 
 use filpost::{Diag, Error, NewFile, PendingFiles, file_names, files};
@@ -233,10 +233,38 @@ pub fn input_name(path: &Path) -> String {
     if path.as_os_str() == "-" { "standard input".into() } else { path.display().to_string() }
 }
 
+/// Standard output for what is only to be looked at: where the reader has seen enough and
+/// closed the pipe, the rest is let go and the command ends as it would have. A program is a
+/// result and not written here: half of one is an error.
+pub struct View(StdoutLock<'static>);
+
+impl View {
+    /// Buffered.
+    pub fn new() -> BufWriter<View> {
+        BufWriter::new(View(io::stdout().lock()))
+    }
+}
+
+impl Write for View {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self.0.write(bytes) {
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(bytes.len()),
+            written => written,
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self.0.flush() {
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+            flushed => flushed,
+        }
+    }
+}
+
 /// Prints to standard output as it comes, for what is only to be looked at.
 ///
 /// # Errors
-/// E0702, a closed pipe among them.
+/// E0702, but not for a pipe that its reader has closed.
 pub fn print(bytes: &[u8]) -> Result<(), Error> {
     print_with(|output| output.write_all(bytes))
 }
@@ -246,7 +274,7 @@ pub fn print(bytes: &[u8]) -> Result<(), Error> {
 /// # Errors
 /// As [`print()`].
 pub fn print_with(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Error> {
-    let mut output = BufWriter::new(io::stdout().lock());
+    let mut output = View::new();
     write(&mut output).and_then(|()| output.flush()).map_err(|error| stdout_error(&error))
 }
 

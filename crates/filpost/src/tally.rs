@@ -1,25 +1,27 @@
 //! What a program does, counted along the CL path: lengths, times, extents, tools.
 //!
 //! Times are those of the programmed feeds and of the machine's rapid traverse
-//! (`rapid.rate`), without acceleration; a hole is its way down at the feed of its cycle
-//! and back at rapid.
+//! (`rapid.rate`), without acceleration; a hole is its way to the R level, down in its pecks
+//! and out again as its cycle goes.
+
+mod hole;
 
 use fil_cl::{Record, Word, record::kind, words};
 use fil_machine::commons::EMPTY;
-use fil_machine::modes::{FeedMode, Unit};
+use fil_machine::modes::{FeedMode, INCH, Unit};
 use fil_machine::{Commons, Kind};
 use fil_post::Post;
 use fil_post::operation::{Arc, Feed, SpindleSpeed};
-use fil_post::path::cycle::CycleFeed;
+use fil_post::path::cycle::{Cycle, CycleFeed};
 
 use crate::reach::{ArcPath, distance};
 use crate::report::Extents;
 
+pub(crate) use hole::Hole;
+
 /// DBLCOM with the rapid traverse, mm/min, and with the seconds of a tool change.
 const RAPID_RATE: u32 = 107;
 const CHANGE_TIME: u32 = 481;
-
-const MM_IN_AN_INCH: f64 = 25.4;
 
 /// Lengths in the unit of the CL file, times in seconds.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -62,14 +64,14 @@ impl Totals {
         self.widen(&motion.reach);
     }
 
-    /// The way to a hole and out of it is rapid, the way down at feed.
     fn add_hole(&mut self, motion: &Motion, hole: Hole) {
-        self.rapid_length += motion.length + hole.down;
-        self.cutting_length += hole.down;
-        match (motion.seconds, hole.seconds) {
-            (Some(all), Some(down)) => {
-                self.cutting_seconds += down;
-                self.rapid_seconds += all - down;
+        self.rapid_length += motion.length + hole.rapid;
+        self.cutting_length += hole.cutting;
+        self.other_seconds += hole.dwell;
+        match (motion.seconds, hole.cutting_seconds) {
+            (Some(all), Some(cutting)) => {
+                self.cutting_seconds += cutting;
+                self.rapid_seconds += all - cutting - hole.dwell;
             }
             _ => self.untimed += 1,
         }
@@ -131,6 +133,8 @@ pub struct Tally {
     pub total: Totals,
     /// By tool, in the order of the tool changes.
     pub tools: Vec<ToolTotals>,
+    /// Where the tool stands behind a hole, until its next motion.
+    rest: Option<[f64; 3]>,
 }
 
 /// A motion that was carried out.
@@ -147,7 +151,7 @@ pub struct Motion {
     pub per_revolution: bool,
     /// Turns of the spindle a minute, where the CL file gives them.
     pub turns: Option<f64>,
-    /// Its length; of a hole the way to it.
+    /// Its length; of a hole the way to its R level.
     pub length: f64,
     /// Its time; `None` where it can't be told.
     pub seconds: Option<f64>,
@@ -157,13 +161,11 @@ pub struct Motion {
     pub(crate) hole: Option<Hole>,
 }
 
-/// The way down a hole.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Hole {
-    /// From the R level to the bottom, in the unit of the CL file.
-    pub(crate) down: f64,
-    /// Its time; `None` where it can't be told.
-    seconds: Option<f64>,
+impl Motion {
+    /// Seconds that the tool waits at the bottom of a hole.
+    pub(crate) fn dwell(&self) -> f64 {
+        self.hole.map_or(0.0, |hole| hole.dwell)
+    }
 }
 
 /// What the post knew before a record.
@@ -193,24 +195,32 @@ impl Tally {
                 let time = setting(commons, CHANGE_TIME).unwrap_or(0.0);
                 self.total.other_seconds += time;
                 let mut tool = ToolTotals { tool: first_number(record), ..ToolTotals::default() };
-                tool.diameter = post.cutter_diameter();
                 tool.totals.other_seconds = time;
                 self.tools.push(tool);
             }
-            words::DELAY if !record.has(words::REV) => {
-                let time = first_number(record).unwrap_or(0.0);
-                self.total.other_seconds += time;
-                self.current().totals.other_seconds += time;
-            }
-            words::CUTTER => self.current().diameter = post.cutter_diameter(),
+            words::DELAY => match delay(record, post) {
+                Some(time) => {
+                    self.total.other_seconds += time;
+                    self.current().totals.other_seconds += time;
+                }
+                None => {
+                    self.total.untimed += 1;
+                    self.current().totals.untimed += 1;
+                }
+            },
             _ => {}
         }
-        if record.kind != kind::MOTION || record.major == words::FROM {
+        let goes_home = record.major == words::GOHOME && post.point().is_some();
+        if !goes_home && (record.kind != kind::MOTION || record.major == words::FROM) {
             return None;
         }
-        let motion = motion(before, post)?;
+        let start = self.rest.take().or(before.point);
+        let motion = motion(before, start, post)?;
+        self.rest = motion.hole.map(|hole| hole.rests_at(motion.point, post));
         self.total.add(&motion);
-        self.current().totals.add(&motion);
+        let tool = self.current();
+        tool.totals.add(&motion);
+        tool.diameter = tool.diameter.or(post.cutter_diameter());
         Some(motion)
     }
 
@@ -222,28 +232,27 @@ impl Tally {
     }
 }
 
-fn motion(before: &Before, post: &Post) -> Option<Motion> {
+fn motion(before: &Before, start: Option<[f64; 3]>, post: &Post) -> Option<Motion> {
     let point = post.point()?;
-    let start = before.point.unwrap_or(point);
+    let start = start.unwrap_or(point);
     let arc = before.arc.map(|arc| ArcPath::new(&arc, start, point));
     let length = arc.as_ref().map_or_else(|| distance(start, point), ArcPath::length);
-    let reach = reach(point, arc.as_ref(), post);
-    let rate = rapid_rate(post);
     let feed = post.path.feed;
-    if let Some(cycle) = &post.path.cycle {
-        let down = cycle.depth + cycle.clear;
+    // A rapid motion within a cycle drills no hole.
+    if let Some(cycle) = post.path.cycle.as_ref().filter(|_| !before.rapid) {
+        let (hole, length) = Hole::new(cycle, start, point, post);
+        let seconds = hole.seconds(length, post);
         let feed = match &cycle.feed {
             CycleFeed::Feed(feed) => Some(*feed),
             CycleFeed::Lead(_) => None,
         };
-        let way = rate.map(|rate| (length + down) / rate * 60.0);
-        let time = feed.and_then(|feed| at_feed(down, &feed, post));
-        let seconds = way.zip(time).map(|(way, time)| way + time);
-        let hole = Some(Hole { down, seconds: time });
-        return Some(Motion { length, seconds, hole, ..at_rate(point, feed, reach, post) });
+        let down = hole_reach(point, cycle, post);
+        let motion = at_rate(point, feed, down, post);
+        return Some(Motion { length, seconds, hole: Some(hole), ..motion });
     }
+    let reach = reach(point, arc.as_ref());
     if before.rapid && before.arc.is_none() {
-        let seconds = rate.map(|rate| length / rate * 60.0);
+        let seconds = rapid_rate(post).map(|rate| length / rate * 60.0);
         return Some(Motion { rapid: true, length, seconds, ..at_rate(point, None, reach, post) });
     }
     let seconds = feed.and_then(|feed| at_feed(length, &feed, post));
@@ -252,10 +261,7 @@ fn motion(before: &Before, post: &Post) -> Option<Motion> {
 
 /// A motion with its feed, whose length and time are still to be told.
 fn at_rate(point: [f64; 3], feed: Option<Feed>, reach: Extents, post: &Post) -> Motion {
-    let turns = match post.control.speed {
-        Some(SpindleSpeed::Revolutions(turns)) => Some(turns),
-        _ => None,
-    };
+    let turns = turns_of(post);
     Motion {
         point,
         rapid: false,
@@ -269,28 +275,48 @@ fn at_rate(point: [f64; 3], feed: Option<Feed>, reach: Extents, post: &Post) -> 
     }
 }
 
-/// The box around a motion to a point: an arc, a hole down to its bottom, or a line.
-fn reach(point: [f64; 3], arc: Option<&ArcPath>, post: &Post) -> Extents {
+/// The box around a motion to a point: an arc or a line.
+fn reach(point: [f64; 3], arc: Option<&ArcPath>) -> Extents {
     let mut extents = None;
     Extents::add(&mut extents, point);
     if let Some(arc) = arc {
         arc.widen(&mut extents);
     }
-    if let Some(cycle) = &post.path.cycle {
-        let axis = post.path.axis;
-        let down = [axis.x, axis.y, axis.z].map(|part| part * cycle.depth);
-        Extents::add(&mut extents, [0, 1, 2].map(|i| point[i] - down[i]));
-    }
     extents.unwrap_or(Extents { min: point, max: point })
+}
+
+/// The box around a hole, down to its bottom.
+fn hole_reach(point: [f64; 3], cycle: &Cycle, post: &Post) -> Extents {
+    let axis = post.path.axis;
+    let down = [axis.x, axis.y, axis.z].map(|part| part * cycle.depth);
+    let mut extents = None;
+    Extents::add(&mut extents, point);
+    Extents::add(&mut extents, [0, 1, 2].map(|i| point[i] - down[i]));
+    extents.unwrap_or(Extents { min: point, max: point })
+}
+
+/// Turns of the spindle a minute, where the CL file gives them.
+fn turns_of(post: &Post) -> Option<f64> {
+    match post.control.speed {
+        Some(SpindleSpeed::Revolutions(turns)) => Some(turns),
+        _ => None,
+    }
+}
+
+/// Seconds of a DELAY; `None` for turns of a spindle whose speed is not known.
+fn delay(record: &Record, post: &Post) -> Option<f64> {
+    let value = first_number(record).unwrap_or(0.0);
+    if !record.has(words::REV) {
+        return Some(value);
+    }
+    turns_of(post).filter(|turns| *turns > 0.0).map(|turns| value / turns * 60.0)
 }
 
 fn at_feed(length: f64, feed: &Feed, post: &Post) -> Option<f64> {
     let per_minute = if feed.mode == FeedMode::PerMinute {
         feed.value
-    } else if let (FeedMode::PerRevolution, Some(SpindleSpeed::Revolutions(rpm))) =
-        (feed.mode, post.control.speed)
-    {
-        feed.value * rpm
+    } else if feed.mode == FeedMode::PerRevolution {
+        feed.value * turns_of(post)?
     } else {
         return None;
     };
@@ -300,7 +326,7 @@ fn at_feed(length: f64, feed: &Feed, post: &Post) -> Option<f64> {
 /// Rapid traverse in the unit of the CL file a minute.
 fn rapid_rate(post: &Post) -> Option<f64> {
     let rate = setting(&post.control.commons, RAPID_RATE).filter(|rate| *rate > 0.0)?;
-    Some(if post.unit() == Some(Unit::Inch) { rate / MM_IN_AN_INCH } else { rate })
+    Some(if post.unit() == Some(Unit::Inch) { rate / INCH } else { rate })
 }
 
 fn setting(commons: &Commons, location: u32) -> Option<f64> {

@@ -173,12 +173,30 @@ impl Control {
     #[inline]
     pub fn refresh(&mut self) -> Result<()> {
         if self.tables.refresh(&self.commons, self.is_metric())? {
+            self.follow_unit_of_machine()?;
             contradictions::check(&self.commons)?;
             self.codes = Codes::from_commons(&self.commons);
             self.tables.format_feed(self.state.feed_mode.unwrap_or(FeedMode::PerMinute));
             self.straight = false;
         }
         Ok(())
+    }
+
+    /// A unit that POSTF(2) or PLABEL has put into `units.mode`.
+    ///
+    /// # Errors
+    /// The program has the other one already.
+    fn follow_unit_of_machine(&mut self) -> Result<()> {
+        match (self.unit, Unit::of_machine(&self.commons)) {
+            (Some(unit), Some(only)) if unit != only => PostCode::Units.err(format!(
+                "units.mode says {only} from here on, and the program is in {unit}"
+            )),
+            (None, Some(only)) => {
+                self.unit = Some(only);
+                self.tables.refresh(&self.commons, self.is_metric()).map(|_| ())
+            }
+            _ => Ok(()),
+        }
     }
 
     /// True for a program in mm, and before anything says the unit.

@@ -3,6 +3,7 @@
 
 use fil_diag::Result;
 use fil_machine::axes::AxisSet;
+use fil_machine::commons::EMPTY;
 use fil_machine::locations::{self as loc, FeedInverseLength, LinearMethod};
 use fil_machine::modes::FeedMode;
 
@@ -94,10 +95,20 @@ fn length(post: &Post, way: [Option<f64>; 3], axes: AxisSet, target: Target) -> 
         let squares = (0..3).filter(|number| axes.has(*number)).filter_map(|number| way[number]);
         return Some(squares.map(|way| way * way).sum::<f64>().sqrt());
     }
+    // Behind a tool change or a text the machine may stand anywhere, and not at the last point.
+    if !has_rotary && (0..3).any(|number| is_in_doubt(post, number)) {
+        return None;
+    }
     let whole = axes == AxisSet::ALL;
     let from = post.path.point.filter(|_| whole)?;
     let in_part = |point| rotary::transformed(post, Target { point, ..target }).0;
     Some((in_part(target.point) - in_part(from)).norm())
+}
+
+/// The tape has said where an axis goes, and the control may have it elsewhere since.
+fn is_in_doubt(post: &Post, number: usize) -> bool {
+    let letter = post.control.tables.axis(number).letter;
+    post.control.commons.last_output(letter) != EMPTY && !post.control.state.has_last(letter)
 }
 
 /// The machine does not stand where the last point says, as behind TRANS.
@@ -219,9 +230,14 @@ fn at_the_edge(post: &mut Post, feed: Feed, arc: &PlaneArc) -> Feed {
         Some(Compensation::Right) => !arc.counterclockwise,
         _ => return feed,
     };
-    let asked = post.control.commons.read(loc::CIRCLE_TRUE_RADIUS_FEED);
-    let Some(cutter) = post.path.cutter.filter(|_| asked && feed.mode == FeedMode::PerMinute)
-    else {
+    if !post.control.commons.read(loc::CIRCLE_TRUE_RADIUS_FEED) || feed.mode != FeedMode::PerMinute
+    {
+        return feed;
+    }
+    let Some(cutter) = post.path.cutter else {
+        let message = "no CUTTER gives the diameter of this tool: the feed of the arc is that of \
+                       its center (circle.true_radius_feed)";
+        post.warn(PostCode::IgnoredPart, message.to_string());
         return feed;
     };
     // Inside of the arc the center goes on the smaller radius.

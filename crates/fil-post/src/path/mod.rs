@@ -110,6 +110,8 @@ pub struct Path {
     pub(crate) has_index: bool,
     /// Diameter of the cutter, mm or inch.
     pub cutter: Option<f64>,
+    /// Where the CL file stood when CUTTER named it.
+    pub(crate) cutter_named_at: Option<Point3<f64>>,
     /// The tool changes behind the next one, where whoever drives the post has looked.
     pub next_tools: NextTools,
     /// Tool axes of the motions behind a RAPID, where whoever drives the post has looked;
@@ -154,6 +156,7 @@ impl Default for Path {
             has_tracut: false,
             has_index: false,
             cutter: None,
+            cutter_named_at: None,
             next_tools: NextTools::default(),
             coming: Vec::new(),
             course: sense::Course::default(),

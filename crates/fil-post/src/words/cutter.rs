@@ -16,6 +16,15 @@ const MEASURES: usize = 6;
 /// No number, or what is no measure of a cutter.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     post.path.cutter = Some(items.required("the diameter")?);
+    post.path.cutter_named_at = post.path.point;
     let _measures: Vec<f64> = std::iter::from_fn(|| items.number()).take(MEASURES).collect();
     items.deny_rest()
+}
+
+/// A tool change forgets the diameter of the tool before it. CUTTER may stand before the
+/// change of the tool that it describes, as long as no motion comes between them.
+pub(super) fn forget(post: &mut Post) {
+    if post.path.cutter_named_at != post.path.point {
+        post.path.cutter = None;
+    }
 }

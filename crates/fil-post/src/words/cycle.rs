@@ -105,12 +105,17 @@ fn kind(items: &mut Items) -> Result<CycleKind> {
     Ok(*kind)
 }
 
-/// The level to retract to: RETURN or RTRCTO, or PULBAC for that before the cycle.
+/// The level to retract to: RETURN or RTRCTO, or PULBAC or RTRCTO,AUTO for that before the cycle.
 ///
 /// # Errors
 /// PULBAC beside a level that is another one.
 fn return_level(items: &mut Items) -> Result<Option<f64>> {
-    let level = optional(items, &[w::RETURN, w::RTRCTO], &mut 0)?;
+    // RTRCTO,AUTO, which files of NX have, is the level before the cycle.
+    let level = if items.pair(w::RTRCTO, w::AUTO) {
+        Some(0.0)
+    } else {
+        optional(items, &[w::RETURN, w::RTRCTO], &mut 0)?
+    };
     if !items.flag(w::PULBAC) {
         return Ok(level);
     }

@@ -5,6 +5,7 @@ use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 use fil_machine::locations as loc;
 
+use super::cutter;
 use crate::cause::Cause;
 use crate::control::sinumerik::tool_names;
 use crate::items::Items;
@@ -36,6 +37,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     };
     thread::end(post)?;
     post.path.interrupt();
+    cutter::forget(post);
     tool_names::load(&mut post.control, tool)?;
     let causes = [cause, offset_cause];
     let next = std::mem::take(&mut post.path.next_tools);

@@ -2,6 +2,7 @@
 //! with the name of a word.
 
 use fil_cl::WordId;
+use fil_cl::vocabulary::words;
 
 use super::context::Context;
 use crate::compile::names::letter;
@@ -52,7 +53,11 @@ fn word(context: &mut Context<'_>, symbol: &Symbol) {
 /// A section for a word that begins no statement.
 fn section_word(context: &Context<'_>, symbol: &Symbol, id: WordId) -> Option<(LintCode, String)> {
     let vocabulary = context.vocabulary;
-    let message = if vocabulary.is_major(id) || vocabulary.perhaps_meant(id).is_some() {
+    // CIMFIL/ON,ALL is the section of all records that no other one takes.
+    let message = if id == words::ALL
+        || vocabulary.is_major(id)
+        || vocabulary.perhaps_meant(id).is_some()
+    {
         return None;
     } else if vocabulary.is_known(id) {
         format!("{} is a minor word, which begins no record", symbol.name)

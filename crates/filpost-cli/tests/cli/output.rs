@@ -113,6 +113,34 @@ fn a_full_disk_is_an_error() {
     }
 }
 
+/// Who looks at something and has seen enough is no error; a program that nobody read whole is.
+#[cfg(unix)]
+#[test]
+fn a_closed_pipe_ends_what_is_only_looked_at_quietly() {
+    let place = Folder::new().with("part.ncl", SMALL);
+    let run = |arguments: &[&str]| {
+        let mut command = place.command(arguments);
+        // The pipe has no reader any more when the command starts.
+        let (reader, writer) = std::io::pipe().expect("a pipe");
+        drop(reader);
+        Ran::of(command.stdout(writer).output().expect("the command starts"))
+    };
+    for arguments in [
+        &["machine", "show", "-p", "fanuc-mill"][..],
+        &["machine", "schema"],
+        &["explain", "CYCLE"],
+        &["cl", "part.ncl"],
+        &["cl", "--dialects"],
+        &["man"],
+        &["completions", "bash"],
+    ] {
+        let ran = run(arguments);
+        assert_eq!((ran.status, ran.err.as_str()), (0, ""), "{arguments:?}");
+    }
+    let ran = run(&["post", "part.ncl"]);
+    assert!(ran.status == 1 && ran.err.contains("E0702"), "{ran:?}");
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_device_stays_a_device() {

@@ -9,7 +9,7 @@ use super::Outside;
 use crate::event::Event;
 use crate::overview::Counted;
 use crate::report::Extents;
-use crate::tally::Before;
+use crate::tally::{Before, Motion};
 use crate::units::UnitSource;
 
 impl Outside<'_, '_> {
@@ -67,7 +67,9 @@ impl Outside<'_, '_> {
         if let Some(overview) = self.pass.counted() {
             let counted = Counted {
                 motion,
-                other_seconds: tally.total.other_seconds - other_seconds,
+                other_seconds: tally.total.other_seconds
+                    - other_seconds
+                    - motion.as_ref().map_or(0.0, Motion::dwell),
                 diameter: self.source.diameter(),
                 unit: self.post.unit(),
             };

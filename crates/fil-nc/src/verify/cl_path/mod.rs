@@ -468,6 +468,7 @@ impl State {
 
     fn cycle(&mut self, record: &Record, vocabulary: &Vocabulary) -> Vec<Wanted> {
         let pulls_back = record.has(w::PULBAC);
+        let by_itself = record.after(w::RTRCTO) == Some(Word::Minor(w::AUTO));
         let off = record.has(w::OFF);
         if !pulls_back && (off || record.has(w::NOMORE)) {
             self.cycle = None;
@@ -494,7 +495,11 @@ impl State {
             kind,
             depth: depth.abs(),
             clear: number(&[w::RAPTO, w::CLEAR]),
-            retract: if pulls_back && !off { Some(0.0) } else { number(&[w::RETURN, w::RTRCTO]) },
+            retract: if by_itself || pulls_back && !off {
+                Some(0.0)
+            } else {
+                number(&[w::RETURN, w::RTRCTO])
+            },
             step: number(&[w::STEP, w::SUBPECK, w::INCR]).filter(|_| kind.pecks()),
             dwell: record.number_after(w::DWELL),
             rate: rate.or(self.rate),
