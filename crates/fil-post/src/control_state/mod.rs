@@ -167,6 +167,9 @@ pub struct ControlState {
     pub ended: bool,
     /// Letters whose last output value is not what the control has.
     doubtful: LetterSet,
+    /// Axes that a text or POSTN has sent to a point of the machine (G28, G30, G53), as far as
+    /// they are in doubt: their last output values are no positions in the program.
+    at_machine_point: LetterSet,
     /// State and last output values before the blocks that may be skipped.
     before_skip: Option<Box<(ControlState, [f64; Letter::COUNT])>>,
     /// Where X, Y and Z may stand behind blocks that may be skipped.
@@ -198,6 +201,7 @@ impl ControlState {
             return_level: None,
             ended: false,
             doubtful: LetterSet::default(),
+            at_machine_point: LetterSet::default(),
             before_skip: None,
             levels: [None; 3],
         }
@@ -217,7 +221,29 @@ impl ControlState {
 
     /// The last output value of a letter is not what the control has.
     pub fn doubt(&mut self, letter: Letter) {
+        if !self.doubtful.has(letter) {
+            self.at_machine_point.remove(letter);
+        }
         self.doubtful.add(letter);
+    }
+
+    /// An axis was last sent to a point of the machine, and has no position in the program.
+    pub fn is_at_machine_point(&self, letter: Letter) -> bool {
+        self.at_machine_point.has(letter) && self.doubtful.has(letter)
+    }
+
+    /// Axes that a block has sent to a point of the machine.
+    fn sent_to_machine_point(&mut self, letters: impl Iterator<Item = Letter>) {
+        for letter in letters.filter(|letter| AXIS_LETTERS.contains(letter)) {
+            self.doubt(letter);
+            self.at_machine_point.add(letter);
+        }
+    }
+
+    /// Every letter is in doubt.
+    fn doubt_all(&mut self) {
+        self.at_machine_point.0 &= self.doubtful.0;
+        self.doubtful = LetterSet::ALL;
     }
 
     /// The control has the last output value of a letter after all.
@@ -258,6 +284,7 @@ impl ControlState {
             return_level: None,
             ended: self.ended,
             doubtful: LetterSet::ALL,
+            at_machine_point: LetterSet(self.at_machine_point.0 & self.doubtful.0),
             before_skip: self.before_skip.take(),
             levels: self.levels,
         };
@@ -326,6 +353,9 @@ impl ControlState {
         if frame || drills || has(b"UVW") || self.distance != Some(Distance::Absolute) {
             self.doubt_axes();
         }
+        if words.clone().any(goes_to_machine_point) {
+            self.sent_to_machine_point(words.map(|(letter, _)| letter));
+        }
     }
 
     /// Learns what a preparatory function does.
@@ -345,7 +375,7 @@ impl ControlState {
             Meaning::Distance(distance) => self.distance = Some(distance),
             Meaning::Unit(unit) => {
                 if self.unit != Some(unit) {
-                    self.doubtful = LetterSet::ALL;
+                    self.doubt_all();
                 }
                 self.unit = Some(unit);
             }
@@ -459,6 +489,9 @@ impl ControlState {
                 (letter, _) => self.doubt(letter),
             }
         }
+        if words.words.iter().copied().any(goes_to_machine_point) {
+            self.sent_to_machine_point(words.words.iter().map(|(letter, _)| *letter));
+        }
         if let Some(before) = before {
             self.agree_with(&before);
         }
@@ -542,8 +575,15 @@ impl ControlState {
         agree(&mut self.return_level, &other.return_level);
         self.rotation = self.rotation.or(other.rotation);
         self.compensation_begun &= other.compensation_begun;
+        let of_both = other.at_machine_point.0 & other.doubtful.0;
+        self.at_machine_point.0 &= self.doubtful.0 & of_both;
         self.doubtful.0 |= other.doubtful.0;
     }
+}
+
+/// The functions that go to a point of the machine: its home and other points, and its frame.
+fn goes_to_machine_point((letter, value): (Letter, f64)) -> bool {
+    letter == letters::G && [28.0, 30.0, 53.0].contains(&value)
 }
 
 fn last_values(commons: &Commons) -> [f64; Letter::COUNT] {

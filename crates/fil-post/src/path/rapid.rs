@@ -87,9 +87,13 @@ fn split(control: &mut Control, motion: &Motion, z_first: bool, cause: Cause) ->
 }
 
 /// True when Z goes up from the last level on the tape. A level in doubt counts too:
-/// a way up is better made before the way across.
+/// a way up is better made before the way across. From a point of the machine, where a tool
+/// is changed, the tool comes down behind the way across.
 fn retracts(control: &Control, motion: &Motion) -> Result<bool> {
     let axis = control.tables.axis(2);
+    if control.state.is_at_machine_point(axis.letter) {
+        return Ok(false);
+    }
     let last = control.commons.last_output(axis.letter);
     let above = (axis.value(motion.position[2])? - last) * axis.scale();
     Ok(last != EMPTY && above > 0.0)
