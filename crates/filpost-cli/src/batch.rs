@@ -198,7 +198,8 @@ fn real(path: &Path) -> PathBuf {
 /// Runs the jobs on all cores and hands the outcomes out in their order.
 fn each(args: &PostArgs, jobs: &[Job], bar: &ProgressBar, mut take: impl FnMut(&Job, Ended)) {
     let next = AtomicUsize::new(0);
-    let posts = &Posts::new(args);
+    let files = jobs.iter().flat_map(|job| [Some(&job.cl), job.output.as_ref(), job.map.as_ref()]);
+    let posts = &Posts::with_taken(args, files.flatten().cloned().collect());
     let (send, receive) = mpsc::channel();
     thread::scope(|scope| {
         for _ in 0..workers(args, jobs.len()) {

@@ -17,7 +17,7 @@ use crate::{Status, setup, summary};
 /// written, or that is the input.
 pub fn run(args: &ClArgs, cl: &Path) -> Result<Status, Error> {
     let input = output::open(cl)?;
-    output::refuse_over(args.output.as_deref(), [cl])?;
+    output::refuse_over([output::named(args.output.as_deref())], [cl])?;
     let options = setup::cl_options(args.encoding.as_deref(), &args.cl_reading, args.raw)?;
     let name = output::input_name(cl);
     let unit =

@@ -1,7 +1,7 @@
 //! One CL file on its way to one NC program.
 
 use std::fs::File;
-use std::io::{self, Read, Seek};
+use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -75,7 +75,10 @@ fn post(
     let args = posts.args();
     let (built, from) = built(posts, job, &mut input)?;
     let picture = args.profile.as_ref().and_then(Option::as_ref);
-    refuse_over_input(job, picture, &built.inputs)?;
+    let mut inputs = built.inputs;
+    inputs.extend(built.program.fil_files().into_iter().map(PathBuf::from));
+    inputs.push(job.cl.clone());
+    refuse_over_input(job, picture, &inputs)?;
     (outcome.title, outcome.note) = (built.title, built.note);
     let program = built.program;
     let options = options(args)?;
@@ -83,6 +86,7 @@ fn post(
     let mut nc = Target::new(job.output.as_deref()).stage()?;
     let mut map = job.map.as_ref().map(stage).transpose()?;
     let mut listing = job.listing.as_ref().map(stage).transpose()?.map(Listing::new);
+    let mut flames = picture.map(stage).transpose()?;
     let profile = args.profile.is_some().then(Arc::<Mutex<Profile>>::default);
 
     let mut run = program.start().cl_name(&output::input_name(&job.cl)).reading(options);
@@ -115,27 +119,37 @@ fn post(
     let allowed = |diag: &&Diag| args.reading.allow.contains(&diag.code);
     outcome.warnings = warnings.filter(|diag| !allowed(diag)).cloned().collect();
     deny(args.deny_warnings, outcome.warnings.len())?;
-    refuse_scripts(job, &built.inputs, &program, &pending)?;
-    output::commit([Some(nc), map, listing].into_iter().flatten(), pending)?;
-    if let (Some(profile), Some(picture)) = (profile, &args.profile) {
-        let profile = profile.lock().unwrap_or_else(PoisonError::into_inner);
-        profile::tell(&profile, &program, picture.as_deref())?;
+    output::refuse_over(outputs(job, picture), report.script_reads.iter().map(PathBuf::as_path))?;
+    refuse_scripts(job, posts.taken(), &inputs, &pending)?;
+    let profile =
+        profile.as_ref().map(|profile| profile.lock().unwrap_or_else(PoisonError::into_inner));
+    if let (Some(flames), Some(profile), Some(path)) = (&mut flames, &profile, picture) {
+        let svg = profile.flame_graph(&program);
+        flames.write_all(svg.as_bytes()).map_err(|error| files::cant_write(path, &error))?;
+    }
+    output::commit([Some(nc), map, listing, flames].into_iter().flatten(), pending)?;
+    if let Some(profile) = profile {
+        profile::tell(&profile, &program);
     }
     Ok(report)
 }
 
-/// Refuses a script that would write over a file that this run reads or writes.
+/// Where the results of a job go.
+fn outputs<'p>(job: &'p Job, picture: Option<&'p PathBuf>) -> impl Iterator<Item = &'p Path> {
+    let others = job.listing.iter().chain(&job.map).chain(picture).map(PathBuf::as_path);
+    [output::named(job.output.as_deref())].into_iter().chain(others)
+}
+
+/// Refuses a script that would write over a file that this run, or another one of the
+/// command, reads or writes.
 fn refuse_scripts(
     job: &Job,
+    others: &[PathBuf],
     inputs: &[PathBuf],
-    program: &Program,
     pending: &PendingFiles,
 ) -> Result<(), Error> {
-    let fil = program.fil_files();
-    let outputs = job.output.iter().chain(&job.listing).chain(&job.map);
-    let taken = inputs.iter().chain(outputs).map(PathBuf::as_path);
-    let taken = taken.chain([job.cl.as_path()]).chain(fil.iter().map(Path::new));
-    let taken: Vec<&Path> = taken.collect();
+    let taken = inputs.iter().chain(others).map(PathBuf::as_path);
+    let taken: Vec<&Path> = taken.chain(outputs(job, None)).collect();
     for path in pending.paths() {
         output::refuse_over([path], taken.iter().copied())?;
     }
@@ -214,10 +228,7 @@ fn refuse_over_input(
     picture: Option<&PathBuf>,
     inputs: &[PathBuf],
 ) -> Result<(), Error> {
-    let outputs = job.output.iter().chain(&job.listing).chain(&job.map).chain(picture);
-    let outputs = outputs.map(PathBuf::as_path);
-    let inputs = inputs.iter().chain([&job.cl]).map(PathBuf::as_path);
-    output::refuse_over(outputs, inputs)?;
+    output::refuse_over(outputs(job, picture), inputs.iter().map(PathBuf::as_path))?;
     match &job.map {
         Some(map) if map.is_file() && !is_map(map) => Err(over_input(format!(
             "{} is there and is no line map; --map takes the name after it for that of the map",

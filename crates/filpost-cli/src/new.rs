@@ -5,7 +5,7 @@ use std::io;
 use std::path::Path;
 
 use filpost::ready::{self, ReadyPost};
-use filpost::{Diag, Error, Program, files};
+use filpost::{Diag, Error, PendingFiles, Program, files};
 
 use crate::args::NewArgs;
 use crate::errors::CommandCode;
@@ -40,14 +40,16 @@ pub fn run(args: &NewArgs) -> Result<Status, Error> {
         Program::builder().machine("machine.toml", &machine).fil("post.fil", &script).build()?;
     let (part, nc) = first_program(base, &program)?;
     make_folder(&args.folder)?;
-    let case = args.folder.join("cases/first");
-    fs::create_dir_all(&case).map_err(|error| files::cant_write(&case, &error))?;
-    write(&args.folder.join("machine.toml"), machine.as_bytes())?;
-    write(&args.folder.join("post.fil"), script.as_bytes())?;
-    write(&args.folder.join("README.md"), fill(README).as_bytes())?;
-    write(&case.join("case.toml"), CASE.as_bytes())?;
-    write(&case.join("part.ncl"), part.as_bytes())?;
-    write(&case.join("expected.nc"), &nc)?;
+    let readme = fill(README);
+    let content = [
+        ("machine.toml", machine.as_bytes()),
+        ("post.fil", script.as_bytes()),
+        ("README.md", readme.as_bytes()),
+        ("cases/first/case.toml", CASE.as_bytes()),
+        ("cases/first/part.ncl", part.as_bytes()),
+        ("cases/first/expected.nc", nc.as_slice()),
+    ];
+    write(&args.folder, &content).inspect_err(|_| remove_empty(&args.folder))?;
     let folder = args.folder.display();
     output::print(
         format!("{folder} is made, from {}; go on with {folder}/README.md\n", base.name).as_bytes(),
@@ -91,8 +93,26 @@ fn make_folder(folder: &Path) -> Result<(), Error> {
     }
 }
 
-fn write(path: &Path, text: &[u8]) -> Result<(), Error> {
-    fs::write(path, text).map_err(|error| files::cant_write(path, &error))
+/// The folder that holds the first case.
+const FIRST: &str = "cases/first";
+
+/// Writes the files of the folder: all or none.
+fn write(folder: &Path, content: &[(&str, &[u8])]) -> Result<(), Error> {
+    let case = folder.join(FIRST);
+    fs::create_dir_all(&case).map_err(|error| files::cant_write(&case, &error))?;
+    let mut pending = PendingFiles::default();
+    for (name, content) in content {
+        pending.add(output::new_file(&folder.join(name), content)?);
+    }
+    pending.commit()
+}
+
+/// Takes the folders away that were made for files which could not be written.
+fn remove_empty(folder: &Path) {
+    for made in [&folder.join(FIRST), &folder.join("cases"), folder] {
+        // What is not empty, or not there, stays as it is.
+        let _ = fs::remove_dir(made);
+    }
 }
 
 fn refused(code: CommandCode, message: String) -> Error {

@@ -5,6 +5,7 @@ use std::io::{self, BufWriter, Seek, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 
 use filpost::{Diag, Error, NewFile, PendingFiles, file_names, files};
+use same_file::Handle;
 
 use crate::errors::CommandCode;
 
@@ -120,6 +121,16 @@ impl Write for Staged {
     }
 }
 
+/// A file in the making with its content.
+///
+/// # Errors
+/// E0702
+pub fn new_file(path: &Path, content: &[u8]) -> Result<NewFile, Error> {
+    let mut file = NewFile::create(path)?;
+    file.write_all(content).map_err(|error| files::cant_write(path, &error))?;
+    Ok(file)
+}
+
 /// Lets all results of a run and the files of its scripts appear together, or none: the
 /// streams come last, and where one can't be written, the files are as they were.
 ///
@@ -148,7 +159,13 @@ pub fn commit(
     })
 }
 
-/// Refuses an output that is one of the inputs, or another output.
+/// The target of `-o` for [`refuse_over`]: `-` for standard output.
+pub fn named(target: Option<&Path>) -> &Path {
+    target.unwrap_or(Path::new("-"))
+}
+
+/// Refuses an output that is one of the inputs, or another output; `-` is a standard
+/// stream, and the file that the shell has put in its place.
 ///
 /// # Errors
 /// E0802
@@ -156,21 +173,39 @@ pub fn refuse_over<'p>(
     outputs: impl IntoIterator<Item = &'p Path>,
     inputs: impl IntoIterator<Item = &'p Path>,
 ) -> Result<(), Error> {
-    let inputs = inputs.into_iter().filter(|path| !is_device(path));
-    let mut taken: Vec<PathBuf> = inputs.map(files::real_path).collect();
+    let inputs: Vec<&Path> = inputs.into_iter().collect();
+    let files = inputs.iter().filter(|path| !is_device(path));
+    let mut taken: Vec<PathBuf> = files.map(|path| files::real_path(path)).collect();
     for path in outputs {
         let file = files::real_path(path);
-        if taken.contains(&file) {
-            return Err(over_input(format!(
-                "{} is read or written by this run already",
-                path.display()
-            )));
+        if taken.contains(&file) || inputs.iter().any(|input| meets_stream(path, input)) {
+            let name =
+                if is_stream(path) { STANDARD_OUTPUT.into() } else { path.display().to_string() };
+            return Err(over_input(format!("{name} is read or written by this run already")));
         }
         if !is_device(path) {
             taken.push(file);
         }
     }
     Ok(())
+}
+
+fn is_stream(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// True for an output and an input that are one file, where at least one of them is a
+/// standard stream.
+fn meets_stream(output: &Path, input: &Path) -> bool {
+    if !is_stream(output) && !is_stream(input) {
+        return false;
+    }
+    let plain = |handle: io::Result<Handle>| {
+        handle.ok().filter(|handle| handle.as_file().metadata().is_ok_and(|found| found.is_file()))
+    };
+    let output = if is_stream(output) { Handle::stdout() } else { Handle::from_path(output) };
+    let input = if is_stream(input) { Handle::stdin() } else { Handle::from_path(input) };
+    plain(output).zip(plain(input)).is_some_and(|(output, input)| output == input)
 }
 
 /// E0802
@@ -186,7 +221,7 @@ fn names_device(path: &Path) -> bool {
 }
 
 fn is_device(path: &Path) -> bool {
-    path.as_os_str() == "-"
+    is_stream(path)
         || cfg!(windows) && names_device(path)
         || path.metadata().is_ok_and(|found| !found.is_file())
 }

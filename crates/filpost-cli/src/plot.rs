@@ -8,11 +8,11 @@ use filpost::map::MapReader;
 use filpost::nc::plot::{Drawing, View, html, svg};
 use filpost::nc::source::Source;
 use filpost::plot::{self, ClText, Text};
-use filpost::{Error, Program, files, select};
+use filpost::{Error, files, select};
 
 use crate::args::{PlotArgs, RawRecords, Seen};
 use crate::output::{self, Target};
-use crate::setup::From;
+use crate::setup::{From, Named};
 use crate::{Status, post, setup};
 
 /// What is drawn, by the ending of the output file.
@@ -32,9 +32,6 @@ pub fn run(args: &PlotArgs) -> Result<Status, Error> {
         output::say("error: the name of the picture must end in .svg or .html");
         return Ok(Status::Usage);
     };
-    let inputs = [Some(&args.file), args.cl.as_ref(), args.map.as_ref()];
-    let inputs = inputs.into_iter().flatten().map(PathBuf::as_path);
-    output::refuse_over(args.output.as_deref(), inputs)?;
     let bytes = read(&args.file)?;
     let name = output::input_name(&args.file);
     let text = Text { name: &name, bytes: &bytes };
@@ -43,12 +40,16 @@ pub fn run(args: &PlotArgs) -> Result<Status, Error> {
         output::say(&format!("error: {name} is a CL file; --cl and --map go with an NC program"));
         return Ok(Status::Usage);
     }
+    let named = [Some(&args.file), args.cl.as_ref(), args.map.as_ref()];
+    let mut inputs: Vec<PathBuf> = named.into_iter().flatten().cloned().collect();
     let (drawing, machine) = if is_cl {
         (plot::cl_file(cl_text(args, text)?)?, None)
     } else {
-        let (drawing, title) = program(args, text)?;
+        let (drawing, title) = program(args, text, &mut inputs)?;
         (drawing, Some(title))
     };
+    let output = output::named(args.output.as_deref());
+    output::refuse_over([output], inputs.iter().map(PathBuf::as_path))?;
     let picture = match form {
         Form::Svg => svg(&drawing, &views(&args.view)),
         Form::Html => html(&drawing),
@@ -74,11 +75,16 @@ fn cl_text<'t>(args: &PlotArgs, text: Text<'t>) -> Result<ClText<'t>, Error> {
 }
 
 /// A program, with the CL file under it and the map's notes where they are given; and
-/// what its machine is called.
-fn program(args: &PlotArgs, nc: Text<'_>) -> Result<(Drawing, String), Error> {
+/// what its machine is called. What is read besides is added to the inputs.
+fn program(
+    args: &PlotArgs,
+    nc: Text<'_>,
+    inputs: &mut Vec<PathBuf>,
+) -> Result<(Drawing, String), Error> {
     let cl = args.cl.as_ref().map(|path| Ok((path, read(path)?))).transpose()?;
-    let (program, title) =
-        machine(args, nc, cl.as_ref().map(|(path, bytes)| (path.as_path(), &bytes[..])))?;
+    let named = machine(args, nc, cl.as_ref().map(|(path, bytes)| (path.as_path(), &bytes[..])))?;
+    inputs.extend(named.inputs);
+    let (program, title) = (named.builder.build()?, named.title);
     let mut drawing = plot::program(nc, program.commons())?;
     if let Some((path, bytes)) = &cl {
         let name = output::input_name(path);
@@ -86,31 +92,35 @@ fn program(args: &PlotArgs, nc: Text<'_>) -> Result<(Drawing, String), Error> {
         plot::lay_under(&mut drawing, cl, program.commons())?;
     }
     if let Some(path) = &args.map {
-        origins(&mut drawing, nc, path)?;
+        origins(&mut drawing, nc, path, inputs)?;
     } else if post::beside(&args.file).is_file()
-        && let Err(error) = origins(&mut drawing, nc, &post::beside(&args.file))
+        && let Err(error) = origins(&mut drawing, nc, &post::beside(&args.file), inputs)
     {
         output::say(&format!("note: the map beside the program is not used: {error}"));
     }
     Ok((drawing, title))
 }
 
-fn origins(drawing: &mut Drawing, nc: Text<'_>, path: &Path) -> Result<(), Error> {
+fn origins(
+    drawing: &mut Drawing,
+    nc: Text<'_>,
+    path: &Path,
+    inputs: &mut Vec<PathBuf>,
+) -> Result<(), Error> {
     let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
     let map = MapReader::open(path)?;
-    plot::add_origins(drawing, nc, map, &mut |name| std::fs::read(folder.join(name)).ok())
+    plot::add_origins(drawing, nc, map, &mut |name| {
+        inputs.push(folder.join(name));
+        std::fs::read(folder.join(name)).ok()
+    })
 }
 
 /// The machine of the command line, else the one that the CL file asks for, else the
-/// generic mill of the program's family; and what it is called.
-fn machine(
-    args: &PlotArgs,
-    nc: Text<'_>,
-    cl: Option<(&Path, &[u8])>,
-) -> Result<(Program, String), Error> {
+/// generic mill of the program's family.
+fn machine(args: &PlotArgs, nc: Text<'_>, cl: Option<(&Path, &[u8])>) -> Result<Named, Error> {
     let source = Source::memory(nc.bytes);
     let encoding = args.encoding.as_deref();
-    let named = match cl {
+    match cl {
         Some((path, bytes)) => {
             let folders = select::beside_first(path, &[]);
             let options = options(args)?;
@@ -119,14 +129,13 @@ fn machine(
                 setup::from(&args.chosen, &folders, || select::asked(bytes, &name, options))?
                     .or_text_of(&args.chosen, &source, nc.name)?;
             setup::confirm(&from, || select::machines(bytes, &name, options), &name)?;
-            setup::machine(&args.chosen, encoding, &from)?
+            setup::machine(&args.chosen, encoding, &from)
         }
         None => {
             let from = From::CommandLine.or_text_of(&args.chosen, &source, nc.name)?;
-            setup::machine(&args.chosen, encoding, &from)?
+            setup::machine(&args.chosen, encoding, &from)
         }
-    };
-    Ok((named.builder.build()?, named.title))
+    }
 }
 
 fn form(output: Option<&Path>) -> Option<Form> {

@@ -29,13 +29,25 @@ type Cell = Arc<OnceLock<Result<Built, Error>>>;
 /// The posts of a command.
 pub struct Posts<'a> {
     args: &'a PostArgs,
+    /// What the jobs read and write, so that no script of one writes over a file of another.
+    taken: Vec<PathBuf>,
     built: Mutex<HashMap<From, Cell>>,
 }
 
 impl<'a> Posts<'a> {
     /// No post is built yet.
     pub fn new(args: &'a PostArgs) -> Self {
-        Posts { args, built: Mutex::default() }
+        Posts { args, taken: Vec::new(), built: Mutex::default() }
+    }
+
+    /// The same with CL files and results of several jobs, which no script writes over.
+    pub fn with_taken(args: &'a PostArgs, taken: Vec<PathBuf>) -> Self {
+        Posts { taken, ..Posts::new(args) }
+    }
+
+    /// CL files and results of all jobs, where there are several.
+    pub fn taken(&self) -> &[PathBuf] {
+        &self.taken
     }
 
     /// The options of the command.

@@ -1,30 +1,19 @@
 //! What `filpost post --profile` tells.
 
-use std::io::Write;
-use std::path::Path;
-
+use filpost::Program;
 use filpost::profile::{Profile, Row, time};
-use filpost::{Error, Program, files};
 
 use crate::output;
 
 /// Rows of a table that are shown.
 const MOST: usize = 20;
 
-/// Shows the tables on standard error, and draws the flame graph where a file is named.
-///
-/// # Errors
-/// A picture that can't be written.
-pub fn tell(profile: &Profile, program: &Program, picture: Option<&Path>) -> Result<(), Error> {
+/// Shows the tables on standard error.
+pub fn tell(profile: &Profile, program: &Program) {
     output::say(&format!("profile: {} in all", time(profile.whole())));
     table("CL word", &profile.words(program));
     table("section or macro", &profile.sections(program));
     table("line", &profile.lines(program));
-    let Some(path) = picture else { return Ok(()) };
-    let svg = profile.flame_graph(program);
-    files::write_whole(path, |out| {
-        out.write_all(svg.as_bytes()).map_err(|error| files::cant_write(path, &error))
-    })
 }
 
 fn table(what: &str, rows: &[Row]) {

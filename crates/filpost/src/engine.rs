@@ -137,7 +137,8 @@ impl<'o, 'r> Engine<'o, 'r> {
     /// What the script wrote, when the program is complete.
     pub(crate) fn take_pending(&mut self) -> PendingFiles {
         let files = self.outside.granted.files.take();
-        let pending = files.map(ScriptFiles::into_pending).unwrap_or_default();
+        let (pending, reads) = files.map(ScriptFiles::into_parts).unwrap_or_default();
+        self.outside.report.script_reads = reads;
         self.outside.report.script_files = pending.paths().map(Path::to_path_buf).collect();
         pending
     }

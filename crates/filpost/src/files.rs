@@ -73,6 +73,23 @@ pub fn refuse_name(path: &Path, windows: bool) -> Result<(), Error> {
     }
 }
 
+/// Refuses to write a file that a run reads.
+///
+/// # Errors
+/// E0702
+pub fn refuse_over<'p>(
+    output: &Path,
+    mut inputs: impl Iterator<Item = &'p Path>,
+) -> Result<(), Error> {
+    let real = real_path(output);
+    if inputs.any(|input| real_path(input) == real) { Err(taken(output)) } else { Ok(()) }
+}
+
+/// E0702 for a file that has another part in the run.
+pub(crate) fn taken(path: &Path) -> Error {
+    cant_write(path, &io::Error::other("this run reads or writes it itself"))
+}
+
 /// A real path as a user writes it: Windows puts `\\?\` before the ones it finds.
 pub fn plain(real: PathBuf) -> PathBuf {
     let text = real.to_string_lossy();

@@ -2,6 +2,7 @@
 //! no folder can be granted, so no value of these types exists, and scripts that ask for
 //! a file are refused (E0321).
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::pending::PendingFiles;
@@ -19,7 +20,7 @@ impl ScriptFiles {
         match *folders {}
     }
 
-    pub fn into_pending(self) -> PendingFiles {
+    pub fn into_parts(self) -> (PendingFiles, Vec<PathBuf>) {
         match self {}
     }
 }

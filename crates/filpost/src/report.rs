@@ -67,4 +67,6 @@ pub struct Report {
     pub swallowed: BTreeMap<String, u64>,
     /// Files that FIL has written or deleted.
     pub script_files: Vec<PathBuf>,
+    /// Files that FIL has read, each once.
+    pub script_reads: Vec<PathBuf>,
 }

@@ -5,7 +5,7 @@ use std::fs::File;
 #[cfg(feature = "files")]
 use std::io;
 use std::io::{Read, Seek, SeekFrom, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use fil_cl::reader::{self, Reader};
 use fil_cl::{Record, Vocabulary};
@@ -196,8 +196,12 @@ impl<'o> Run<'o> {
         }
         self.cl_name.get_or_insert_with(|| cl.display().to_string());
         let mut output = NewFile::create(nc)?;
+        let fil = self.program.fil_files();
         let (report, mut pending) = self.run_pending(input, &mut output)?;
         pending.refuse(&[cl, nc])?;
+        let read =
+            fil.iter().map(Path::new).chain(report.script_reads.iter().map(PathBuf::as_path));
+        files::refuse_over(nc, read.chain([cl]))?;
         pending.add(output);
         pending.commit()?;
         Ok(report)

@@ -126,17 +126,23 @@ pub(crate) struct ScriptFiles {
     folders: Arc<Folders>,
     units: [Option<Unit>; 2],
     pending: PendingFiles,
+    reads: Vec<PathBuf>,
 }
 
 impl ScriptFiles {
     /// No file is open and none is written.
     pub fn new(folders: Arc<Folders>) -> Self {
-        ScriptFiles { folders, units: [None, None], pending: PendingFiles::default() }
+        ScriptFiles {
+            folders,
+            units: [None, None],
+            pending: PendingFiles::default(),
+            reads: Vec::new(),
+        }
     }
 
-    /// What the script has written, at the end of its run.
-    pub fn into_pending(self) -> PendingFiles {
-        self.pending
+    /// What the script has written, at the end of its run, and the files that it has read.
+    pub fn into_parts(self) -> (PendingFiles, Vec<PathBuf>) {
+        (self.pending, self.reads)
     }
 
     /// The file of a name; what the script has written itself is there already.
@@ -152,14 +158,13 @@ impl ScriptFiles {
         let folder = self.folders.read.as_ref().ok_or_else(|| not_granted("read"))?;
         let place = self.place(folder, name)?;
         self.refuse_open(place.path())?;
-        let content = self.content(&place)?;
-        content
-            .map(|bytes| {
-                let (text, _) = fil_syntax::decode(&bytes, None).map_err(Box::new)?;
-                let path = place.path().to_path_buf();
-                Ok(Unit::Read { path, text: text.into_owned(), at: 0 })
-            })
-            .transpose()
+        let Some(bytes) = self.content(&place)? else { return Ok(None) };
+        let (text, _) = fil_syntax::decode(&bytes, None).map_err(Box::new)?;
+        let path = place.path().to_path_buf();
+        if !self.reads.contains(&path) {
+            self.reads.push(path.clone());
+        }
+        Ok(Some(Unit::Read { path, text: text.into_owned(), at: 0 }))
     }
 
     fn open_to_write(&mut self, name: &str, append: bool) -> Result<Unit, Box<Diag>> {

@@ -53,7 +53,7 @@ fn import(
     output: Option<&Path>,
     encoding: Option<&str>,
 ) -> Result<(), Error> {
-    output::refuse_over(output, [file])?;
+    output::refuse_over([output::named(output)], [file])?;
     let name = file.display().to_string();
     let text = files::read_text(file, encoding)?;
     let (commons, warnings) = match post {

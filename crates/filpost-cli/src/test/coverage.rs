@@ -9,10 +9,10 @@ use filpost::coverage::{Coverage, CoveredFile, Share, never};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use rayon::prelude::*;
 
-use super::{Done, settings_of, write};
+use super::{Done, settings_of};
 use crate::args::TestArgs;
 use crate::output;
-use filpost::{Error, files};
+use filpost::{Error, PendingFiles, files};
 
 /// Looks of the page.
 const STYLE: &str = "body{font-family:sans-serif;max-width:75em;margin:2em auto;padding:0 1em}\
@@ -21,19 +21,24 @@ const STYLE: &str = "body{font-family:sans-serif;max-width:75em;margin:2em auto;
     .n{color:#777;text-align:right}.hit{background:#dcf5dc}.miss{background:#ffdede}\
     .part{background:#fff3cd}";
 
-/// Shows the summary and writes the reports that are asked for.
+/// Shows the summary and adds the reports that are asked for.
 ///
 /// # Errors
 /// Reports that can't be written.
-pub fn tell(done: &[Done], programs: &Programs, args: &TestArgs) -> Result<(), Error> {
+pub fn tell(
+    done: &[Done],
+    programs: &Programs,
+    args: &TestArgs,
+    written: &mut PendingFiles,
+) -> Result<(), Error> {
     let coverage = collected(done, programs);
     let settings = unnoticed_settings(done, programs);
     output::print(summary(&coverage, &settings).as_bytes())?;
     if let Some(path) = &args.lcov {
-        write(path, &coverage.lcov(absolute))?;
+        written.add(output::new_file(path, coverage.lcov(absolute).as_bytes())?);
     }
     if let Some(path) = &args.coverage_html {
-        write(path, &page(&coverage, &settings))?;
+        written.add(output::new_file(path, page(&coverage, &settings).as_bytes())?);
     }
     Ok(())
 }

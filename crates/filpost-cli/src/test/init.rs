@@ -1,12 +1,11 @@
 //! `filpost test --init`: a case from a CL file, a post and a proven program.
 
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
 use filpost::case::Case;
-use filpost::{Builder, Diag, Error, NewFile, PendingFiles, Program, files, includes, select};
+use filpost::{Builder, Diag, Error, PendingFiles, Program, files, includes, select};
 
 use crate::args::{Chosen, TestArgs};
 use crate::errors::CommandCode;
@@ -38,18 +37,11 @@ pub fn run(folder: &Path, args: &TestArgs) -> Result<Status, Error> {
         }
         let parent = to.parent().unwrap_or(folder);
         std::fs::create_dir_all(parent).map_err(|error| files::cant_write(&to, &error))?;
-        pending.add(written(&to, &files::read(from)?)?);
+        pending.add(output::new_file(&to, &files::read(from)?)?);
     }
-    pending.add(written(&folder.join("case.toml"), toml.as_bytes())?);
+    pending.add(output::new_file(&folder.join("case.toml"), toml.as_bytes())?);
     pending.commit()?;
     report(folder)
-}
-
-/// A file in the making with its content.
-fn written(path: &Path, content: &[u8]) -> Result<NewFile, Error> {
-    let mut file = NewFile::create(path)?;
-    file.write_all(content).map_err(|error| files::cant_write(path, &error))?;
-    Ok(file)
 }
 
 /// True when a file of the case lies where it belongs already.

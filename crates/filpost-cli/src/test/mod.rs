@@ -6,7 +6,7 @@ mod junit;
 mod mutate;
 mod report;
 
-use std::io::{IsTerminal, Write};
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -15,7 +15,7 @@ use filpost::case::{self, Case, Outcome, Programs};
 use filpost::coverage::Recorder;
 use filpost::debug::SharedDebugger;
 use filpost::locations::{Location, TABLE};
-use filpost::{Diag, Error, files};
+use filpost::{Diag, Error, PendingFiles, files};
 use indicatif::{ParallelProgressIterator, ProgressBar};
 use rayon::prelude::*;
 
@@ -49,12 +49,8 @@ pub fn run(args: &TestArgs) -> Result<Status, Error> {
     } else {
         ProgressBar::hidden()
     };
-    let reports = [&args.html, &args.junit, &args.coverage_html, &args.lcov]
-        .into_iter()
-        .flatten()
-        .map(PathBuf::as_path);
     let inputs: Vec<PathBuf> = cases.iter().flat_map(Case::files).collect();
-    output::refuse_over(reports, inputs.iter().map(PathBuf::as_path))?;
+    output::refuse_over(reports(args), inputs.iter().map(PathBuf::as_path))?;
     let looks_on = args.coverage || args.mutate;
     let programs = if looks_on { Programs::for_debugging() } else { Programs::new() };
     let done: Vec<Done> = cases
@@ -62,16 +58,19 @@ pub fn run(args: &TestArgs) -> Result<Status, Error> {
         .progress_with(progress)
         .map(|case| run_case(&folder, case, &programs, looks_on))
         .collect();
+    refuse_over_reads(args, &done, &programs)?;
     let failed = say(&done, args.update)?;
+    let mut written = PendingFiles::default();
     if let Some(path) = &args.html {
-        write(path, &report::html(&done))?;
+        written.add(output::new_file(path, report::html(&done).as_bytes())?);
     }
     if let Some(path) = &args.junit {
-        write(path, &junit::xml(&done))?;
+        written.add(output::new_file(path, junit::xml(&done).as_bytes())?);
     }
     if args.coverage {
-        coverage::tell(&done, &programs, args)?;
+        coverage::tell(&done, &programs, args, &mut written)?;
     }
+    written.commit()?;
     if args.mutate {
         mutate::tell(&done, &programs)?;
     }
@@ -91,6 +90,36 @@ fn cases(folder: &Path, shard: Option<Shard>) -> Result<Vec<Case>, Error> {
     let Shard { number, of } = shard;
     output::say(&format!("part {number} of {of}: {} of {all} cases", cases.len()));
     Ok(cases)
+}
+
+/// The files that are written besides expected ones.
+fn reports(args: &TestArgs) -> impl Iterator<Item = &Path> {
+    let reports = [&args.html, &args.junit, &args.coverage_html, &args.lcov];
+    reports.into_iter().flatten().map(PathBuf::as_path)
+}
+
+/// Refuses a report, and an expected file to be updated, that a case has read: FIL that others
+/// include, and files of scripts, are known when the cases have run.
+fn refuse_over_reads(args: &TestArgs, done: &[Done], programs: &Programs) -> Result<(), Error> {
+    let mut reads: Vec<PathBuf> = Vec::new();
+    for Done { case, outcome, .. } in done {
+        reads.extend(outcome.reads.iter().cloned());
+        if let Ok(program) = programs.get(case) {
+            reads.extend(case.inputs(&program));
+        }
+        // What the scripts of a refused run have read is not told.
+        let granted = case.file.read.as_ref().filter(|_| outcome.reads.is_empty());
+        let granted = granted.map(|name| files::real_path(&case.folder.join(name)));
+        let below = |path: &&Path| {
+            granted.as_ref().is_some_and(|folder| files::real_path(path).starts_with(folder))
+        };
+        reads.extend(reports(args).filter(below).map(Path::to_path_buf));
+    }
+    reads.sort_unstable();
+    reads.dedup();
+    let fresh = done.iter().filter(|_| args.update).flat_map(|done| &done.outcome.fresh);
+    let written = reports(args).chain(fresh.map(|fresh| fresh.path.as_path()));
+    output::refuse_over(written, reads.iter().map(PathBuf::as_path))
 }
 
 fn run_case(root: &Path, case: Case, programs: &Programs, looks_on: bool) -> Done {
@@ -152,12 +181,6 @@ fn machine_of(case: &Case) -> String {
         path.canonicalize().unwrap_or(path).display().to_string()
     });
     path.or_else(|| file.ready.clone()).unwrap_or_else(|| "the generic mill".to_string())
-}
-
-fn write(path: &Path, text: &str) -> Result<(), Error> {
-    files::write_whole(path, |out| {
-        out.write_all(text.as_bytes()).map_err(|error| files::cant_write(path, &error))
-    })
 }
 
 fn default_folder() -> PathBuf {

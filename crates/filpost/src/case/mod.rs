@@ -144,7 +144,10 @@ impl CaseFile {
             if let Some(fault) = name.split('/').find_map(file_names::fault) {
                 return Err(format!("{key} = \"{name}\": {fault}"));
             }
-            if inputs.contains(&path) || path == Path::new("case.toml") {
+            // Case is no difference on many disks.
+            let is =
+                |input: &Path| file_names::alike(&input.to_string_lossy(), &path.to_string_lossy());
+            if inputs.iter().any(|input| is(input)) || is(Path::new("case.toml")) {
                 return Err(format!("{key} = \"{name}\" is what the case reads"));
             }
         }
@@ -200,10 +203,17 @@ pub fn find(folder: &Path) -> Result<Vec<Case>, Error> {
             cases.push(Case::load(&folder)?);
         }
         let Ok(entries) = std::fs::read_dir(&folder) else { continue };
-        folders.extend(entries.flatten().map(|entry| entry.path()).filter(|path| path.is_dir()));
+        let below = entries.flatten().map(|entry| entry.path()).filter(|path| path.is_dir());
+        folders.extend(below.filter(|path| !leads_back(path)));
     }
     cases.sort_by(|a, b| a.folder.cmp(&b.folder));
     Ok(cases)
+}
+
+/// True for a link to a folder that it lies in.
+fn leads_back(path: &Path) -> bool {
+    let real = || Some((path.canonicalize().ok()?, path.parent()?.canonicalize().ok()?));
+    path.is_symlink() && real().is_some_and(|(real, from)| from.starts_with(real))
 }
 
 impl Case {
@@ -232,6 +242,25 @@ impl Case {
         let expected = self.file.expect.iter().chain(&self.file.listing);
         let named = self.file.inputs().chain(expected).map(|name| self.folder.join(name));
         named.chain([self.folder.join("case.toml")]).collect()
+    }
+
+    /// The files that a run of the case reads: its own, and those that its FIL includes.
+    pub fn inputs(&self, program: &Program) -> Vec<PathBuf> {
+        let named = self.file.inputs().map(|name| self.folder.join(name));
+        let fil = program.fil_files().into_iter().map(PathBuf::from);
+        named.chain([self.folder.join("case.toml")]).chain(fil).collect()
+    }
+
+    /// Refuses a case whose expected file is one that its run reads, by whatever name.
+    fn refuse_over(&self, inputs: &[PathBuf]) -> Result<(), Error> {
+        let inputs: Vec<PathBuf> = inputs.iter().map(|path| files::real_path(path)).collect();
+        for name in self.file.expect.iter().chain(&self.file.listing) {
+            if inputs.contains(&files::real_path(&self.folder.join(name))) {
+                let message = format!("{name} is to be compared, and is what the case reads");
+                return Err(Error::setup(Diag::new(RunCode::CaseFile, message)));
+            }
+        }
+        Ok(())
     }
 
     /// The program of the case.

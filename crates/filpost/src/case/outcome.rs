@@ -60,6 +60,8 @@ pub struct Outcome {
     pub differences: Vec<String>,
     /// Expected files that differ. A case that failed for another reason has none.
     pub fresh: Vec<Fresh>,
+    /// Files that the run has read; none when the input was refused.
+    pub reads: Vec<PathBuf>,
 }
 
 /// What a case's run wrote.
@@ -67,6 +69,7 @@ struct Ran {
     nc: Vec<u8>,
     listing: Option<Vec<u8>>,
     warnings: Vec<Diag>,
+    reads: Vec<PathBuf>,
 }
 
 impl Outcome {
@@ -192,10 +195,13 @@ impl Case {
             run = run.observe(listing.observer());
         }
         let report = run.run_seekable(Cursor::new(cl), &mut nc)?;
+        let mut reads = self.inputs(program);
+        reads.extend(report.script_reads);
+        self.refuse_over(&reads)?;
         let warnings = program.warnings().iter().cloned().chain(report.warnings).collect();
         // A listing in memory can't fail.
         let listing = self.file.listing.as_ref().and_then(|_| listing.finish().ok());
-        Ok(Ran { nc, listing, warnings })
+        Ok(Ran { nc, listing, warnings, reads })
     }
 
     /// What is missing, when none of the diagnostics has this code at the place expected.
@@ -213,6 +219,7 @@ impl Case {
     fn compare(&self, ran: &Ran) -> Outcome {
         let mut outcome = Outcome {
             nc: Some(String::from_utf8_lossy(&ran.nc).into_owned()),
+            reads: ran.reads.clone(),
             ..Outcome::default()
         };
         for (index, code) in self.file.expect_warnings.iter().enumerate() {

@@ -116,10 +116,7 @@ impl PendingFiles {
         let taken: Vec<PathBuf> = taken.iter().map(|path| real_path(path)).collect();
         match self.paths().find(|path| taken.contains(&real_path(path))) {
             None => Ok(()),
-            Some(path) => {
-                let why = std::io::Error::other("this run reads or writes it itself");
-                Err(crate::files::cant_write(path, &why))
-            }
+            Some(path) => Err(crate::files::taken(path)),
         }
     }
 }

@@ -232,6 +232,74 @@ fn no_link_put_in_under_way_leads_out_of_the_folder() {
     assert_eq!(error.diags()[0].code.name(), "E0706");
 }
 
+/// Another process changes the folder for a link and back all the time.
+#[cfg(unix)]
+#[test]
+fn no_race_for_a_link_leads_out_of_the_folder() {
+    use std::sync::atomic::{AtomicBool, Ordering};
+    let outer = tempfile::tempdir().expect("a folder");
+    let (granted, elsewhere) = (outer.path().join("granted"), outer.path().join("elsewhere"));
+    let (sub, was) = (granted.join("sub"), granted.join("was"));
+    std::fs::create_dir_all(&sub).expect("a folder");
+    std::fs::create_dir(&elsewhere).expect("a folder");
+    for folder in [&sub, &elsewhere] {
+        for name in ["read.txt", "kept.txt", "gone.txt"] {
+            let secret = if folder == &sub { "inside\n" } else { "secret\n" };
+            std::fs::write(folder.join(name), secret).expect("a file");
+        }
+    }
+    let fil = "DMY=FILEF(1,READ,'sub/read.txt')\nT1=TEXT/READ,1\nPPRINT/T1\nDMY=FILEF(1,CLOSE)\n\
+               DMY=FILEF(1,WRITE,'sub/kept.txt')\nWRITE/1,'inside'\nDMY=FILEF(1,CLOSE)\n\
+               DMY=FILEF(1,DELETE,'sub/gone.txt')\nDMY=FILEF(1,WRITE,'sub/new.txt')\nWRITE/1,'new'";
+    let post = with(fil).grant_read(&granted).grant_write(&granted).build().expect("a post");
+    let over = AtomicBool::new(false);
+    let mut ends = [0, 0];
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            while !over.load(Ordering::Relaxed) {
+                let swapped = std::fs::rename(&sub, &was).is_ok()
+                    && std::os::unix::fs::symlink(&elsewhere, &sub).is_ok();
+                std::thread::yield_now();
+                if swapped && std::fs::remove_file(&sub).is_ok() {
+                    let _ = std::fs::rename(&was, &sub);
+                }
+            }
+        });
+        for _ in 0..3000 {
+            let mut nc = Vec::new();
+            let ended = post.run(PART.as_bytes(), &mut nc);
+            assert!(!String::from_utf8_lossy(&nc).contains("secret"), "a file from outside");
+            ends[usize::from(ended.is_err())] += 1;
+        }
+        over.store(true, Ordering::Relaxed);
+    });
+    assert_eq!(names(&elsewhere), ["gone.txt", "kept.txt", "read.txt"]);
+    for name in names(&elsewhere) {
+        assert_eq!(read(elsewhere.join(name)), "secret\n");
+    }
+    assert!(ends.iter().all(|count| *count > 0), "the race was none: {ends:?}");
+}
+
+/// A program never takes the place of what its run reads.
+#[test]
+fn a_run_of_files_does_not_write_over_its_input() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let part = folder.path().join("part.ncl");
+    std::fs::write(&part, PART).expect("a file");
+    std::fs::write(folder.path().join("tools.txt"), "10\n").expect("a file");
+    let fil = "DMY=FILEF(1,READ,'tools.txt')";
+    let post = with(fil).grant_read(folder.path()).build().expect("a post");
+    for output in ["part.ncl", "./part.ncl", "tools.txt"] {
+        let error = post.run_files(&part, &folder.path().join(output)).expect_err("refused");
+        assert_eq!(error.diags()[0].code.name(), "E0702", "{output}");
+    }
+    assert_eq!(names(folder.path()), ["part.ncl", "tools.txt"]);
+    assert_eq!(
+        (read(&part).as_str(), read(folder.path().join("tools.txt")).as_str()),
+        (PART, "10\n")
+    );
+}
+
 #[test]
 fn a_script_does_not_write_over_the_files_of_its_run() {
     let folder = tempfile::tempdir().expect("a folder");
