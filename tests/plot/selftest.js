@@ -5,6 +5,24 @@
   window.requestAnimationFrame = (work) => setTimeout(work, 1);
   window.cancelAnimationFrame = clearTimeout;
   const said = {};
+  // The labels of the picture: text, left, top, right, bottom.
+  let labels = [];
+  const pens = CanvasRenderingContext2D.prototype, { fillText, clearRect } = pens;
+  pens.fillText = function (text, x, y) {
+    const width = this.measureText(text).width, left = this.textAlign === "right" ? x - width : x;
+    if (this.canvas.id === "plot") labels.push([text, left, y - 9, left + width, y + 1]);
+    return fillText.call(this, text, x, y);
+  };
+  pens.clearRect = function (...box) {
+    if (this.canvas.id === "plot") labels = [];
+    return clearRect.apply(this, box);
+  };
+  /** Labels that lie on one another, or leave the canvas. */
+  const clashes = () => labels.flatMap((one, at) => [
+    ...labels.slice(at + 1).filter((two) => one[3] > two[1] && two[3] > one[1] && one[4] > two[2] && two[4] > one[2])
+      .map((two) => `${one[0]} on ${two[0]}`),
+    ...(one[1] < 0 || one[2] < 0 || one[3] > plot.clientWidth || one[4] > plot.clientHeight ? [`${one[0]} is cut`] : []),
+  ]);
   const failed = document.getElementById("wait");
   for (let count = 0; count < 2000 && !document.documentElement.dataset.ready; count++)
     await new Promise((done) => setTimeout(done, 5));
@@ -53,6 +71,8 @@
     for (const name of ["xy", "zx", "zy", "iso"]) {
       click(`[data-view=${name}]`);
       said.views[name] = Object.keys(colours).map((stroke) => places(stroke).length);
+      said.clashes = [...(said.clashes ?? []), ...clashes()];
+      said.labels = [...(said.labels ?? []), ...labels.map(([text]) => text)];
     }
     click("[data-view=xy]");
     said.tips = {};

@@ -18,13 +18,14 @@ use std::borrow::Cow;
 use encoding_rs::{Encoding, KOI8_R, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1251, WINDOWS_1252};
 use fil_diag::Diag;
 
+use crate::code_pages::{OemPage, web_name};
 use crate::errors::SyntaxCode;
 use crate::message::quote;
 
 /// The bytes of a file as text, and the name of the encoding it was read in.
 ///
-/// `encoding` is a label such as `utf-8`, `cp1251` or `koi8-r`; without it the
-/// encoding is guessed. A byte order mark is dropped.
+/// `encoding` is a label such as `utf-8`, `cp1251`, `cp932`, `cp850` or `koi8-r`; without it
+/// the encoding is guessed. A byte order mark is dropped.
 ///
 /// # Errors
 /// A label that names no encoding, or bytes that mean nothing in the encoding
@@ -37,9 +38,13 @@ pub fn decode<'b>(
         let (text, used, _) = guess(bytes).decode(bytes);
         return Ok((text, used.name()));
     };
-    let asked = Encoding::for_label(label.as_bytes()).ok_or_else(|| {
-        Diag::new(SyntaxCode::UnknownEncoding, format!("{} is no known encoding", quote(label)))
-    })?;
+    if let Some(page) = OemPage::named(label) {
+        return Ok((page.decode(bytes), page.name));
+    }
+    let asked =
+        Encoding::for_label(web_name(label).unwrap_or(label).as_bytes()).ok_or_else(|| {
+            Diag::new(SyntaxCode::UnknownEncoding, format!("{} is no known encoding", quote(label)))
+        })?;
     let (text, malformed) = asked.decode_with_bom_removal(bytes);
     if malformed {
         let message = format!("the text is not valid {}", asked.name());
@@ -51,6 +56,9 @@ pub fn decode<'b>(
 /// A text as the bytes of an encoding, by the name that [`decode`] gave;
 /// `None` where the encoding lacks a character of the text.
 pub(crate) fn encode<'t>(text: &'t str, encoding: &str) -> Option<Cow<'t, [u8]>> {
+    if let Some(page) = OemPage::named(encoding) {
+        return page.encode(text);
+    }
     let encoding = Encoding::for_label(encoding.as_bytes())?;
     if encoding == UTF_16LE {
         return Some(text.encode_utf16().flat_map(u16::to_le_bytes).collect());
@@ -122,6 +130,8 @@ fn commonness(letter: char) -> i64 {
 
 #[cfg(test)]
 mod tests {
+    use encoding_rs::SHIFT_JIS;
+
     use super::*;
 
     fn guessed(text: &str, encoding: &'static Encoding) -> (String, &'static str) {
@@ -169,6 +179,23 @@ mod tests {
         assert_eq!((text.as_ref(), name), ("ю", "KOI8-R"));
         let (text, name) = decode(b"\xC0", Some("CP1251")).expect("a letter");
         assert_eq!((text.as_ref(), name), ("А", "windows-1251"));
+    }
+
+    #[test]
+    fn texts_of_windows_are_read_in_the_page_that_is_named() {
+        let part = "PPRINT 部品 能表ソ";
+        let (bytes, _, unmappable) = SHIFT_JIS.encode(part);
+        // The second byte of some of its characters is that of `\\`.
+        assert!(!unmappable && bytes.contains(&b'\\'));
+        for label in ["cp932", "932", "shift_jis", "ms932"] {
+            let (text, name) = decode(&bytes, Some(label)).expect("Japanese");
+            assert_eq!((text.as_ref(), name), (part, "Shift_JIS"), "{label}");
+        }
+        let dos = decode(b"PPRINT \x94RJE, \x84\x81\r\n", Some("cp850")).expect("a page of DOS");
+        assert_eq!(dos, ("PPRINT öRJE, äü\r\n".into(), "IBM850"));
+        let russian = decode(b"\x84\x85\x92\x80\x8B\x9C", Some("cp866")).expect("Russian DOS");
+        assert_eq!(russian, ("ДЕТАЛЬ".into(), "IBM866"));
+        assert_eq!(encode("ö", "IBM850").as_deref(), Some(&b"\x94"[..]));
     }
 
     #[test]

@@ -106,6 +106,7 @@ pub fn lay_under(
     });
     drawing.under = Some(cl.trace(shift)?);
     drawing.under_name = "CL file";
+    drawing.take_tool_axes();
     if cl.text.bytes.len() <= LONGEST_SOURCE {
         drawing.under_notes = notes(cl.text.bytes);
     }

@@ -161,6 +161,86 @@ fn the_page_draws_tells_and_zooms() {
     assert!(fil, "{said:#}");
 }
 
+/// Many tools, changed at places close to each other and to the origin.
+#[test]
+fn no_label_of_the_page_lies_on_another_one() {
+    let Some(browser) = browser::program() else { return };
+    let mut nc = String::from("G21 G90 G94 G17\n");
+    for tool in 1..60 {
+        let (x, y) = (f64::from(tool % 8) * 0.9 - 2.0, f64::from(tool % 7) * 1.1 - 3.0);
+        nc.push_str(&format!(
+            "T{tool} M6\nS900 M3\nG0 X{x:.3} Y{y:.3}\nZ5.\nG1 Z{}. F200.\nG0 Z20.\n",
+            -tool % 5
+        ));
+    }
+    nc.push_str("G0 X90. Y70.\nM30\n");
+    let said = said(&browser, &page_of("fanuc-mill", "out.nc", &nc));
+    assert_eq!(said["error"], Value::Null, "{said:#}");
+    assert_eq!(said["clashes"], serde_json::json!([]), "{said:#}");
+    let labels = said["labels"].as_array().expect("labels");
+    let tools =
+        labels.iter().filter(|label| label.as_str().is_some_and(|text| text.starts_with('T')));
+    assert!(tools.count() > 20, "{labels:?}");
+}
+
+/// A live tool square to Z on a lathe: how it lies is in the CL file.
+const RADIAL: &str = "\
+PARTNO / 911 RADIAL
+UNITS / MM
+LOADTL / 1
+SPINDL / RPM, 800, CLW
+FEDRAT / 0.2, MMPR
+RAPID
+GOTO / 22, 0, 2
+GOTO / 22, 0, -60
+RAPID
+GOTO / 60, 0, 50
+SPINDL / OFF
+MODE / MILL
+LOADTL / 5
+SPINDL / RPM, 2000, CLW
+RAPID
+MULTAX / ON
+GOTO / 30, 0, -20, 1, 0, 0
+CYCLE / DRILL, DEPTH, 8, MMPM, 120, CLEAR, 2
+GOTO / 22, 0, -20, 1, 0, 0
+GOTO / 0, 22, -20, 0, 1, 0
+CYCLE / OFF
+RAPID
+GOTO / 0, 60, -20, 0, 1, 0
+SPINDL / OFF
+MODE / TURN
+FINI
+";
+
+#[test]
+fn a_live_tool_of_a_lathe_lies_as_in_the_cl_file() {
+    let post = Program::builder().ready("fanuc-mill-turn").build().unwrap();
+    let mut nc = Vec::new();
+    post.start().run(Cursor::new(RADIAL), &mut nc).unwrap();
+    let text = Text { name: "out.nc", bytes: &nc };
+    let mut drawing = plot::program(text, post.commons()).unwrap();
+    assert!(drawing.lathe && drawing.path.axes.is_empty(), "the program does not say it");
+    let cl = cl_text(Text { name: "part.ncl", bytes: RADIAL.as_bytes() });
+    plot::lay_under(&mut drawing, cl, post.commons()).unwrap();
+    let trace = &drawing.path;
+    let at = |point: [f64; 3]| {
+        let near = |end: &[f64; 3]| (0..3).all(|axis| (end[axis] - point[axis]).abs() < 0.01);
+        let piece =
+            trace.pieces.iter().position(|piece| near(&trace.points[piece.end - 1])).unwrap();
+        trace.axes.iter().rev().find(|(from, _)| *from <= piece).map(|(_, axis)| *axis)
+    };
+    assert_eq!(at([22.0, 0.0, -60.0]), Some([0.0; 3]), "a turning tool has none");
+    assert_eq!(at([14.0, 0.0, -20.0]), Some([1.0, 0.0, 0.0]));
+    assert_eq!(at([0.0, 14.0, -20.0]), Some([0.0, 1.0, 0.0]));
+    let Some(browser) = browser::program() else { return };
+    let said = said(&browser, &html(&drawing));
+    assert_eq!((&said["error"], &said["opened"]), (&Value::Null, &"zx".into()), "{said:#}");
+    assert!(said["axes"].as_u64() > Some(10), "{said:#}");
+    assert!(said["legend"].as_str().unwrap().contains("tool axis"), "{said:#}");
+    assert_eq!(said["clashes"], serde_json::json!([]), "{said:#}");
+}
+
 /// A program as it is drawn for a ready post.
 fn page_of(ready: &str, name: &str, nc: &str) -> String {
     let post = Program::builder().ready(ready).build().unwrap();

@@ -7,6 +7,8 @@
 
 mod encode;
 mod html;
+mod labels;
+mod live_tools;
 mod pack;
 mod program;
 mod sample;
@@ -210,6 +212,11 @@ pub struct Drawing {
 }
 
 impl Drawing {
+    /// Takes what a program can't say from the path under it: how the live tools of a lathe lie.
+    pub fn take_tool_axes(&mut self) {
+        live_tools::take_axes(self);
+    }
+
     /// The box around all points; `None` without any.
     pub fn extent(&self) -> Option<Extent> {
         let under = self.under.iter().flat_map(|trace| &trace.points);

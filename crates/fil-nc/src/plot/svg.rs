@@ -1,10 +1,12 @@
 //! Views as SVG.
 
-use std::collections::{HashMap, HashSet};
+use std::cell::Cell;
+use std::collections::HashSet;
 use std::fmt::Write as _;
 
 use fil_machine::Unit;
 
+use super::labels::{Labels, SIZE, width as width_of};
 use super::simplify::{Dot, Lines, dot};
 use super::view::{Extent, View};
 use super::{AXIS_COLOUR, CL_COLOUR, Drawing, Stroke, Trace};
@@ -18,8 +20,12 @@ const HEIGHT: f64 = 400.0;
 /// Room around fields, pixels.
 const GAP: f64 = 16.0;
 
-/// Room for the heading and the legend, pixels.
+/// Room for the heading and the first line of the legend, and for each further line, pixels.
 const HEAD: f64 = 64.0;
+const LEGEND_LINE: f64 = 20.0;
+
+/// Size of the letters of the heading, pixels.
+const HEADING: f64 = 18.0;
 
 /// Side of a cell that shows one direction of a tilting tool, and the length of that, pixels.
 const CELL: f64 = 20.0;
@@ -73,22 +79,26 @@ pub fn svg(drawing: &Drawing, views: &[View]) -> String {
     let columns = views.len().clamp(1, 2);
     let rows = views.len().div_ceil(columns).max(1);
     let width = columns as f64 * (WIDTH + GAP) + GAP;
-    let height = HEAD + rows as f64 * (HEIGHT + GAP);
+    let extent = drawing.extent();
+    let (legend, lines) = legend(drawing, extent.as_ref(), width - GAP);
+    let head = HEAD + (lines - 1.0) * LEGEND_LINE;
+    let height = head + rows as f64 * (HEIGHT + GAP);
+    // A long name is written smaller.
+    let heading = HEADING.min((width - 2.0 * GAP) / width_of(&drawing.title, 1.0)).max(1.0);
     let mut out = String::new();
     let _ = write!(
         out,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
          viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"13\">\n\
          <title>{0}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n\
-         <text x=\"{GAP}\" y=\"26\" font-size=\"18\" fill=\"#222222\">{0}</text>\n",
-        escape(&drawing.title)
+         <text x=\"{GAP}\" y=\"26\" font-size=\"{1}\" fill=\"#222222\">{0}</text>\n{legend}",
+        escape(&drawing.title),
+        (heading * 10.0).floor() / 10.0
     );
-    let extent = drawing.extent();
-    legend(&mut out, drawing, extent.as_ref());
     for (index, view) in views.iter().enumerate() {
         let corner = [
             GAP + (index % columns) as f64 * (WIDTH + GAP),
-            HEAD + (index / columns) as f64 * (HEIGHT + GAP),
+            head + (index / columns) as f64 * (HEIGHT + GAP),
         ];
         field(&mut out, drawing, extent.as_ref(), *view, corner);
     }
@@ -96,31 +106,43 @@ pub fn svg(drawing: &Drawing, views: &[View]) -> String {
     out
 }
 
-fn legend(out: &mut String, drawing: &Drawing, extent: Option<&Extent>) {
-    let mut x = GAP;
+/// The samples of strokes and the extent, in lines up to a right edge; and the number of lines.
+fn legend(drawing: &Drawing, extent: Option<&Extent>, edge: f64) -> (String, f64) {
+    let (mut out, mut x, lines) = (String::new(), GAP, Cell::new(1.0));
+    let mut room = |wide: f64| {
+        if x > GAP && x + wide > edge {
+            x = GAP;
+            lines.set(lines.get() + 1.0);
+        }
+        let at = x;
+        x += wide + 22.0;
+        (at, 50.0 + (lines.get() - 1.0) * LEGEND_LINE)
+    };
     let mut sample = |out: &mut String, colour: &str, name: &str, style: &str| {
-        let end = x + 26.0;
+        let (x, y) = room(32.0 + width_of(name, SIZE));
         let _ = writeln!(
             out,
-            "<path d=\"M{x} 46H{end}\" stroke=\"{colour}\"{style}/>\
-             <text x=\"{}\" y=\"50\" fill=\"#444444\">{name}</text>",
-            end + 6.0
+            "<path d=\"M{x} {}h26\" stroke=\"{colour}\"{style}/>\
+             <text x=\"{}\" y=\"{y}\" fill=\"#444444\">{name}</text>",
+            y - 4.0,
+            x + 32.0
         );
-        x = end + 22.0 + name.len() as f64 * 7.5;
     };
     for stroke in strokes(&drawing.path) {
-        sample(out, stroke.colour(), stroke.name(), style(stroke));
+        sample(&mut out, stroke.colour(), stroke.name(), style(stroke));
     }
     if drawing.under.is_some() {
-        sample(out, CL_COLOUR, drawing.under_name, UNDER);
+        sample(&mut out, CL_COLOUR, drawing.under_name, UNDER);
     }
     if !drawing.path.axes.is_empty() {
-        sample(out, AXIS_COLOUR, "tool axis", "");
+        sample(&mut out, AXIS_COLOUR, "tool axis", "");
     }
     if let Some(extent) = extent {
-        let (x, sides) = (x + GAP, sides(extent, drawing.path.unit()));
-        let _ = writeln!(out, "<text x=\"{x}\" y=\"50\" fill=\"#444444\">{sides}</text>");
+        let sides = sides(extent, drawing.path.unit());
+        let (x, y) = room(width_of(&sides, SIZE));
+        let _ = writeln!(out, "<text x=\"{x}\" y=\"{y}\" fill=\"#444444\">{sides}</text>");
     }
+    (out, lines.get())
 }
 
 /// From where to where a box goes, in a unit.
@@ -166,7 +188,9 @@ fn field(
     );
     if let Some(extent) = extent {
         let frame = Frame::new(view, extent, corner);
-        axes(out, view, corner);
+        let mut labels = Labels::new([x, y, x + WIDTH, y + HEIGHT]);
+        labels.take([x + 8.0, y + 8.0, x + 8.0 + width_of(view.name(), SIZE), y + 24.0]);
+        axes(out, view, corner, &mut labels);
         if let Some(under) = &drawing.under {
             let all = collect(under, &frame, |_| true);
             path(out, &all, CL_COLOUR, UNDER);
@@ -176,7 +200,7 @@ fn field(
             path(out, &lines, stroke.colour(), style(stroke));
         }
         tool_axes(out, &drawing.path, &frame);
-        changes(out, drawing, &frame);
+        changes(out, drawing, &frame, &mut labels);
     }
     out.push_str("</g>\n");
 }
@@ -234,6 +258,10 @@ fn tool_axes(out: &mut String, trace: &Trace, frame: &Frame) {
             axis = *next;
         }
         let place = frame.place(&trace.points[piece.end - 1]);
+        // A tool that does not turn has no direction.
+        if axis == [0.0; 3] {
+            continue;
+        }
         if !seen.insert(place.map(|value| (value / CELL).floor() as i64)) {
             continue;
         }
@@ -244,45 +272,50 @@ fn tool_axes(out: &mut String, trace: &Trace, frame: &Frame) {
     out.push_str("\"/>\n");
 }
 
-/// Tool changes: a ring and the number, once at each place; so many that they can be told apart.
-fn changes(out: &mut String, drawing: &Drawing, frame: &Frame) {
-    let mut places: HashMap<Dot, Vec<u32>> = HashMap::new();
-    let mut shown = 0;
+/// Tool changes: a ring and the numbers, once at each place; so many that they can be told apart.
+fn changes(out: &mut String, drawing: &Drawing, frame: &Frame, labels: &mut Labels) {
+    let mut places: Vec<(Dot, [f64; 2], Vec<u32>)> = Vec::new();
     for change in &drawing.path.changes {
-        let [x, y] = frame.place(&change.at);
-        let tools = places.entry(dot([x, y])).or_default();
-        if tools.contains(&change.tool) || tools.len() == TOOLS || shown == CHANGES {
-            continue;
+        let at = frame.place(&change.at);
+        let key = dot(at);
+        match places.iter().position(|(known, ..)| *known == key) {
+            Some(place) if places[place].2.contains(&change.tool) => {}
+            Some(place) => places[place].2.push(change.tool),
+            None if places.len() < CHANGES => places.push((key, at, vec![change.tool])),
+            None => {}
         }
-        let above = tools.len() as f64 * 14.0;
-        tools.push(change.tool);
-        shown += 1;
+    }
+    for (_, [x, y], _) in &places {
+        labels.take([x - 4.0, y - 4.0, x + 4.0, y + 4.0]);
         let _ = writeln!(
             out,
-            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"#ffffff\" stroke=\"#222222\"/>\
-             <text x=\"{:.1}\" y=\"{:.1}\" fill=\"#222222\">T{}</text>",
-            x + 7.0,
-            y - 5.0 - above,
-            change.tool
+            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"#ffffff\" stroke=\"#222222\"/>"
         );
+    }
+    for (_, at, tools) in &places {
+        let names: Vec<String> = tools.iter().take(TOOLS).map(|tool| format!("T{tool}")).collect();
+        let more = if tools.len() > TOOLS { " and more" } else { "" };
+        let label = names.join(" ") + more;
+        let Some([x, y]) = labels.beside(&label, *at) else { continue };
+        let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{y:.1}\" fill=\"#222222\">{label}</text>");
     }
 }
 
 /// Directions of the part's axes, in the corner of the field.
-fn axes(out: &mut String, view: View, corner: [f64; 2]) {
+fn axes(out: &mut String, view: View, corner: [f64; 2], labels: &mut Labels) {
     let [x, y] = [corner[0] + 34.0, corner[1] + HEIGHT - 34.0];
     for (axis, name) in ["X", "Y", "Z"].iter().enumerate() {
         let mut unit = [0.0; 3];
         unit[axis] = 26.0;
         let [right, up] = view.project(&unit);
         if libm::hypot(right, up) > 1.0 {
+            let [at_x, at_y] = [x + right * 1.25 - 3.0, y - up * 1.25 + 4.0];
+            labels.take([at_x.min(x), at_y.min(y) - 10.0, at_x.max(x) + 8.0, at_y.max(y) + 2.0]);
             let _ = writeln!(
                 out,
                 "<path d=\"M{x} {y}l{right:.1} {:.1}\" stroke=\"#999999\"/>\
-                 <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"11\" fill=\"#666666\">{name}</text>",
+                 <text x=\"{at_x:.1}\" y=\"{at_y:.1}\" font-size=\"11\" fill=\"#666666\">{name}</text>",
                 -up,
-                x + right * 1.25 - 3.0,
-                y - up * 1.25 + 4.0
             );
         }
     }

@@ -72,3 +72,82 @@ fn a_title_is_text_in_both_pictures() {
     assert!(page.contains("<title>&lt;b&gt;&amp;{{data}}</title>"));
     assert!(!page.contains("http://") && !page.contains("https://"));
 }
+
+/// Boxes of the texts of a picture, by their letters.
+fn boxes(picture: &str) -> Vec<(String, [f64; 4])> {
+    let texts = picture.split("<text ").skip(1);
+    let of = |tag: &str, key: &str| -> Option<f64> {
+        tag.split_once(&format!("{key}=\""))?.1.split('"').next()?.parse().ok()
+    };
+    let one = |text: &str| {
+        let (tag, rest) = text.split_once('>').unwrap();
+        let label = rest.split('<').next().unwrap().to_string();
+        let size = of(tag, "font-size").unwrap_or(13.0);
+        // Letters of common fonts are narrower than this.
+        let width = label.chars().count() as f64 * size * 0.58;
+        let [x, y] = [of(tag, "x").unwrap(), of(tag, " y").unwrap()];
+        (label, [x, y - 0.75 * size, x + width, y + 0.2 * size])
+    };
+    texts.map(one).collect()
+}
+
+/// Many tools at many places close to one another.
+fn crowded(count: u32) -> Drawing {
+    let mut path = square(100);
+    path.changes = (0..count)
+        .map(|tool| Change {
+            at: [f64::from(tool % 17) * 1.7, f64::from(tool % 5) * 2.0, f64::from(tool % 3)],
+            tool: tool + 1,
+            line: 1,
+            from: 0,
+        })
+        .collect();
+    path.axes = vec![(0, [0.0, 0.6, 0.8])];
+    let under = Some(square(10));
+    Drawing { title: "a".repeat(300), path, under, under_name: "CL file", ..Drawing::default() }
+}
+
+#[test]
+fn no_label_lies_on_another_one_or_beside_the_picture() {
+    for (count, views) in
+        [(3, &View::ALL[..]), (40, &View::ALL), (300, &[View::Xy]), (40, &[View::Isometric])]
+    {
+        let picture = svg(&crowded(count), views);
+        let boxes = boxes(&picture);
+        assert!(
+            boxes.iter().filter(|(label, _)| label.starts_with('T')).count() >= 3 * views.len()
+        );
+        let width: f64 =
+            picture.split_once("width=\"").unwrap().1.split('"').next().unwrap().parse().unwrap();
+        for (at, (label, one)) in boxes.iter().enumerate() {
+            assert!(one[0] >= 0.0 && one[2] <= width, "{label} leaves the picture: {one:?}");
+            for (other, two) in &boxes[at + 1..] {
+                let apart =
+                    one[2] < two[0] || one[0] > two[2] || one[3] < two[1] || one[1] > two[3];
+                assert!(apart, "{label} {one:?} lies on {other} {two:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn live_tools_of_a_lathe_lie_as_the_cl_file_says() {
+    let trace = |axes: &[(usize, Point)]| Trace { axes: axes.to_vec(), ..square(6) };
+    let mut drawing = Drawing { path: square(6), lathe: true, ..Drawing::default() };
+    drawing.under = Some(trace(&[(2, [0.0, 1.0, 0.0]), (4, [1.0, 0.0, 0.0])]));
+    drawing.path.points[6][1] = 5.0;
+    drawing.take_tool_axes();
+    let none = [0.0; 3];
+    assert_eq!(
+        drawing.path.axes,
+        [(0, none), (2, [0.0, 1.0, 0.0]), (4, [1.0, 0.0, 0.0]), (5, none)]
+    );
+    // Tools that lie along Z say nothing, and a mill has its axes from the machine.
+    drawing.under = Some(trace(&[]));
+    drawing.take_tool_axes();
+    assert!(drawing.path.axes.is_empty());
+    let mut mill = Drawing { path: square(6), ..Drawing::default() };
+    mill.under = Some(trace(&[(2, [0.0, 1.0, 0.0])]));
+    mill.take_tool_axes();
+    assert!(mill.path.axes.is_empty());
+}

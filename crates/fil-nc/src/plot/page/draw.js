@@ -74,11 +74,13 @@ function* strokeAxes(pen, trace, cells, first, stop) {
     const until = Math.min(stop, (block + 1) * BLOCK);
     for (let piece = Math.max(first, block * BLOCK); piece < until; piece++) {
       if (!mask[piece] || !layers[trace.strokes[piece]].on) continue;
+      const axis = axisAt(trace, piece);
+      if (!axis.some((part) => part !== 0)) continue;
       const [x, y] = placeOf(to, trace, ends[piece] - 1);
       const cell = Math.floor(x / CELL) + 4096 * Math.floor(y / CELL);
       if (cells.has(cell)) continue;
       cells.add(cell);
-      const [dx, dy] = lead(axisAt(trace, piece));
+      const [dx, dy] = lead(axis);
       pen.moveTo(x, y);
       pen.lineTo(x + AXIS * dx, y + AXIS * dy);
     }
@@ -200,10 +202,11 @@ function paint() {
     drawSkeleton(pen);
     if (drawn) put(pen, drawn);
   }
-  drawOrigin(pen);
-  drawChanges(pen);
-  drawAxes(pen);
-  drawScale(pen);
+  const taken = [];
+  drawScale(pen, taken);
+  drawOrigin(pen, taken);
+  drawAxes(pen, taken);
+  drawChanges(pen, taken);
   drawPointer();
 }
 

@@ -5,21 +5,36 @@ const ink = (name) => getComputedStyle(document.body).getPropertyValue(`--${name
 /** Most labels on the canvas, and most tools that one of them names. */
 const LABELS = 60, TOOLS = 4;
 
+/** Frames of what is marked, left, top, right, bottom: no label lies on another one. */
+const isFree = (taken, box) =>
+  taken.every((b) => box[2] < b[0] || box[0] > b[2] || box[3] < b[1] || box[1] > b[3]);
+/** Height of a line of a label, pixels, and how far it goes below where its letters stand. */
+const LINE = 12, FOOT = 3;
+
 /** A way of a direction, with its name at the end; nothing where it leads away from the eye. */
-function arrow(pen, [x, y], way, size, name) {
-  const [dx, dy] = lead(way).map((part) => part * size);
-  if (Math.hypot(dx, dy) < 4) return;
+function arrow(pen, taken, [x, y], way, size, name) {
+  const [dx, dy] = lead(way).map((part) => part * size), reach = Math.hypot(dx, dy);
+  if (reach < 4) return;
   pen.beginPath();
   pen.moveTo(x, y);
   pen.lineTo(x + dx, y + dy);
   pen.stroke();
-  pen.fillText(name, x + dx * 1.2 - 4, y + dy * 1.2 + 4);
+  const width = pen.measureText(name).width;
+  // Axes that lie on one another have their names one behind the other.
+  for (let far = reach + 8; far < reach + 60; far += 6) {
+    const px = x + dx / reach * far - width / 2, py = y + dy / reach * far + 4;
+    const box = [px - 1, py - LINE, px + width + 1, py + FOOT];
+    if (!isFree(taken, box)) continue;
+    taken.push(box);
+    pen.fillText(name, px, py);
+    return;
+  }
 }
 
 const AXES = { X: [1, 0, 0], Y: [0, 1, 0], Z: [0, 0, 1] };
 
 /** The origin of the part, and the directions of its axes. */
-function drawOrigin(pen) {
+function drawOrigin(pen, taken) {
   const at = project([0, 0, 0]);
   pen.font = "12px sans-serif";
   pen.strokeStyle = pen.fillStyle = ink("origin");
@@ -27,15 +42,19 @@ function drawOrigin(pen) {
   pen.beginPath();
   pen.arc(...at, 5, 0, 2 * Math.PI);
   pen.stroke();
-  for (const [name, way] of Object.entries(AXES)) arrow(pen, at, way, 36, name);
+  taken.push([at[0] - 6, at[1] - 6, at[0] + 6, at[1] + 6]);
+  for (const [name, way] of Object.entries(AXES)) arrow(pen, taken, at, way, 36, name);
 }
 
-/** The axes once more in the corner, for when the origin is out of sight. */
-function drawAxes(pen) {
+/** The axes once more in the corner, for when the origin is out of sight; not where it lies
+ *  in that corner. */
+function drawAxes(pen, taken) {
+  const at = [44, plot.clientHeight - 44], origin = project([0, 0, 0]);
+  if (Math.hypot(origin[0] - at[0], origin[1] - at[1]) < 110) return;
   pen.font = "12px sans-serif";
   pen.strokeStyle = pen.fillStyle = ink("faint");
   pen.lineWidth = 1.2;
-  for (const [name, way] of Object.entries(AXES)) arrow(pen, [44, plot.clientHeight - 44], way, 30, name);
+  for (const [name, way] of Object.entries(AXES)) arrow(pen, taken, at, way, 30, name);
 }
 
 /** Puts a label beside a point, where none stands yet. */
@@ -44,10 +63,9 @@ function putLabel(pen, taken, label, px, py) {
   for (let ring = 0; ring < 6; ring++) {
     const up = -6 - 15 * ring, down = 16 + 15 * ring;
     for (const [dx, dy] of [[7, up], [7, down], [-width - 7, up], [-width - 7, down]]) {
-      const box = [px + dx - 3, py + dy - 12, px + dx + width + 3, py + dy + 3];
+      const box = [px + dx - 3, py + dy - LINE, px + dx + width + 3, py + dy + FOOT];
       const inside = box[0] > 0 && box[1] > 0 && box[2] < plot.clientWidth && box[3] < plot.clientHeight;
-      const free = inside && taken.every((b) => box[2] < b[0] || box[0] > b[2] || box[3] < b[1] || box[1] > b[3]);
-      if (!free) continue;
+      if (!inside || !isFree(taken, box)) continue;
       taken.push(box);
       pen.strokeText(label, px + dx, py + dy);
       pen.fillText(label, px + dx, py + dy);
@@ -79,7 +97,7 @@ function changesInSight() {
   return [...places.values()];
 }
 
-function drawChanges(pen) {
+function drawChanges(pen, taken) {
   const places = changesInSight();
   pen.fillStyle = ink("paper");
   pen.strokeStyle = ink("text");
@@ -88,6 +106,7 @@ function drawChanges(pen) {
   for (const { px, py } of places) {
     pen.moveTo(px + 4, py);
     pen.arc(px, py, 4, 0, 2 * Math.PI);
+    taken.push([px - 4, py - 4, px + 4, py + 4]);
   }
   pen.fill();
   pen.stroke();
@@ -95,7 +114,6 @@ function drawChanges(pen) {
   pen.fillStyle = ink("text");
   pen.strokeStyle = ink("paper");
   pen.lineWidth = 4;
-  const taken = [];
   for (const { px, py, tools, more } of places.slice(0, LABELS)) {
     const names = tools.map((tool) => `T${tool}`).join(" ");
     putLabel(pen, taken, more ? `${names} and more` : names, px, py);
@@ -103,7 +121,7 @@ function drawChanges(pen) {
 }
 
 /** A bar of a round length. */
-function drawScale(pen) {
+function drawScale(pen, taken) {
   const wanted = 120 / view.scale / data.unit.size;
   const power = 10 ** Math.floor(Math.log10(wanted));
   const size = [5, 2, 1].map((digit) => digit * power).find((value) => value <= wanted);
@@ -117,6 +135,9 @@ function drawScale(pen) {
   pen.textAlign = "right";
   pen.fillStyle = ink("faint");
   pen.font = "12px sans-serif";
-  pen.fillText(`${Number(size.toPrecision(1))} ${data.unit.name}`, x, y - 6);
+  const label = `${Number(size.toPrecision(1))} ${data.unit.name}`;
+  pen.fillText(label, x, y - 6);
+  const width = Math.max(pen.measureText(label).width, size * data.unit.size * view.scale);
+  taken.push([x - width, y - 6 - LINE, x, y + FOOT]);
   pen.textAlign = "left";
 }

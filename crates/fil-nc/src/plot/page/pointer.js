@@ -73,7 +73,8 @@ function describe({ trace, piece }) {
   const line = trace.lines[piece], last = trace.ends[piece] - 1;
   const end = ["X", "Y", "Z"].map((name, axis) => name + length(coordinate(trace, last, axis))).join(" ");
   const what = `${trace === under ? data.underName + ", " : ""}${data.strokes[trace.strokes[piece]].name} to ${end}`;
-  const tilted = trace.axes.from.length && `tool axis ${axisAt(trace, piece).map(round).join(" ")}`;
+  const axis = trace.axes.from.length ? axisAt(trace, piece) : [0, 0, 0];
+  const tilted = axis.some((part) => part !== 0) && `tool axis ${axis.map(round).join(" ")}`;
   const cause = trace.causeLines[line - 1], stack = trace.stacks[trace.causeStacks[line - 1] - 1];
   const origin = cause && `${trace.sourceName}:${cause}  ${trace.source.get(cause).trim()}`.trim();
   const state = trace === path && stateOf(piece);
@@ -83,7 +84,7 @@ function describe({ trace, piece }) {
 /** The tool at the end of a piece: a line from its tip along its axis. */
 function drawTool(pen, to, trace, piece) {
   const [x, y] = placeOf(to, trace, trace.ends[piece] - 1);
-  const [dx, dy] = data.lathe ? [0, 0] : lead(axisAt(trace, piece));
+  const [dx, dy] = lead(axisAt(trace, piece));
   pen.beginPath();
   pen.moveTo(x, y);
   pen.lineTo(x + TOOL * dx, y + TOOL * dy);

@@ -55,10 +55,12 @@ function isBeside(to, trace, block) {
   return right < 0 || bottom < 0 || left > plot.clientWidth || top > plot.clientHeight;
 }
 
-/** The direction of the tool at a piece; upright where nothing else is said. */
+/** The direction of the tool at a piece; upright where nothing else is said. Tools of a lathe
+ *  that do not turn have none. */
 function axisAt(trace, piece) {
   const row = rowAt(trace.axes, piece), { x, y, z } = trace.axes;
-  return row < 0 ? [0, 0, 1] : [x[row] / 1e4, y[row] / 1e4, z[row] / 1e4];
+  if (row < 0) return data.lathe && trace === path ? [0, 0, 0] : [0, 0, 1];
+  return [x[row] / 1e4, y[row] / 1e4, z[row] / 1e4];
 }
 
 function fit() {
