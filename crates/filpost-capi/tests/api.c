@@ -1,6 +1,7 @@
 /* The C interface as its users have it; ends with 0 when everything is as it must be. */
 #include <filpost.h>
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -262,6 +263,117 @@ static void wrong_calls(void) {
     MUST(filpost_output_nc(NULL, NULL) == NULL && filpost_text_get(NULL) == NULL);
 }
 
+/* What the answer of a function is to be, and the program it may run itself. */
+struct answer {
+    enum { NOTHING, BYTES, NO_TEXT, NOT_A_NUMBER, BARE_STATUS, BARE_ERROR, TWO_LINES, NESTED } kind;
+    const filpost_program *program;
+};
+
+static int32_t answer(void *data, const filpost_value *given, size_t count, filpost_reply *reply) {
+    const struct answer *answer = data;
+    filpost_output *inner = NULL;
+    (void)given;
+    (void)count;
+    switch (answer->kind) {
+    case NOTHING: return 0;
+    case BYTES: filpost_reply_text(reply, "\xff\xfe"); return 0;
+    case NO_TEXT: filpost_reply_text(reply, NULL); return 0;
+    case NOT_A_NUMBER: filpost_reply_number(reply, NAN); return 0;
+    case BARE_STATUS: return -7;
+    case BARE_ERROR: filpost_reply_error(reply, NULL); return 0;
+    case TWO_LINES: filpost_reply_text(reply, "A\nG0 Z-100."); return 0;
+    case NESTED:
+        well(filpost_run(answer->program, bytes(CL), strlen(CL), NULL, &inner));
+        filpost_reply_number(reply, (double)filpost_output_records(inner));
+        filpost_output_free(inner);
+        return 0;
+    }
+    return 1;
+}
+
+static void answers(void) {
+    static const char script[] = "CIMFIL/ON,LOADTL\nAA=ANSWRF(1)\nPPRINT/AA\nDMY=POSTF(13)\n"
+                                 "CIMFIL/OFF\nFINI\n";
+    struct answer told = {NOTHING, NULL};
+    filpost_builder *builder = filpost_builder_new();
+    filpost_program *program = NULL, *inner = mill();
+    filpost_output *output = NULL;
+    filpost_error *error;
+    int kind;
+    well(filpost_builder_fil(builder, "answer.fil", script));
+    well(filpost_builder_function(builder, "ANSWRF", 1, answer, &told, NULL));
+    well(filpost_builder_build(builder, &program));
+    for (kind = BYTES; kind <= TWO_LINES; kind++) {
+        told.kind = kind;
+        error = filpost_run(program, bytes(CL), strlen(CL), NULL, &output);
+        if (error == NULL) {
+            fprintf(stderr, "answer %d was taken:\n%s\n", kind, filpost_output_nc(output, NULL));
+            exit(1);
+        }
+        MUST(output == NULL);
+        filpost_error_free(error);
+    }
+    told.kind = NESTED;
+    told.program = inner;
+    well(filpost_run(program, bytes(CL), strlen(CL), NULL, &output));
+    MUST(strstr(filpost_output_nc(output, NULL), "(6") != NULL);
+    filpost_output_free(output);
+    filpost_program_free(program);
+    filpost_program_free(inner);
+}
+
+/* Nothing at all, bytes of a code page, and NULL for each handle. */
+static void hostile(void) {
+    static const char named[] = "PARTNO / FR\xc4SER\nUNITS / MM\nLOADTL / 3\nFINI\n";
+    filpost_program *program = mill();
+    filpost_output *output = NULL;
+    filpost_text *told = NULL;
+    filpost_diagnostic diagnostic;
+    filpost_error *error;
+    FILE *part;
+    char kept[64] = {0};
+    error = filpost_run(program, NULL, 0, NULL, &output);
+    if (error == NULL) {
+        filpost_output_free(output);
+    }
+    filpost_error_free(error);
+    error = filpost_verify(program, NULL, 0, NULL, 0, 0, NULL, &told);
+    filpost_error_free(error);
+    filpost_text_free(told);
+    well(filpost_diff(NULL, 0, NULL, 0, 0, &told));
+    MUST(strcmp(filpost_text_get(told), "[]") == 0);
+    filpost_text_free(told);
+    well(filpost_run(program, bytes(named), strlen(named), NULL, &output));
+    MUST(strstr(filpost_output_nc(output, NULL), "FR\xc3\x84SER") != NULL);
+    filpost_output_free(output);
+
+    /* A program never takes the place of its CL file. */
+    MUST((part = fopen("hostile.ncl", "wb")) != NULL);
+    MUST(fputs(CL, part) >= 0 && fclose(part) == 0);
+    refused(filpost_run_files(program, "hostile.ncl", "./hostile.ncl", NULL, NULL), "E0702");
+    MUST((part = fopen("hostile.ncl", "rb")) != NULL);
+    MUST(fgets(kept, sizeof kept, part) && fclose(part) == 0 && strncmp(kept, CL, 10) == 0);
+    MUST(remove("hostile.ncl") == 0);
+
+    MUST(filpost_error_json(NULL) == NULL && !filpost_error_is_cancelled(NULL));
+    MUST(!filpost_error_diagnostic(NULL, 0, &diagnostic));
+    MUST(filpost_output_records(NULL) == 0 && filpost_output_blocks(NULL) == 0);
+    MUST(filpost_output_warning_count(NULL) == 0 && !filpost_output_warning(NULL, 0, &diagnostic));
+    MUST(filpost_output_warnings_json(NULL) == NULL);
+    MUST(filpost_program_warning_count(NULL) == 0);
+    MUST(!filpost_program_warning(NULL, 0, &diagnostic));
+    MUST(!filpost_program_warning(program, 0, NULL));
+    filpost_reply_number(NULL, 1);
+    filpost_reply_text(NULL, "text");
+    filpost_reply_error(NULL, "text");
+    refused(filpost_diff(NULL, 7, NULL, 0, 0, &told), "USAGE");
+    refused(filpost_diff(NULL, 0, NULL, 0, 0, NULL), "USAGE");
+    refused(filpost_verify(NULL, NULL, 0, NULL, 0, 0, NULL, &told), "USAGE");
+    refused(filpost_verify(program, NULL, 0, NULL, 0, NAN, NULL, &told), "USAGE");
+    refused(filpost_blocks(program, NULL, 0, NULL, NULL, NULL), "USAGE");
+    filpost_program_free(program);
+}
+
 int main(void) {
     MUST(strlen(filpost_version()) >= 5);
     programs_and_runs();
@@ -269,6 +381,8 @@ int main(void) {
     functions();
     checks();
     wrong_calls();
+    answers();
+    hostile();
     puts("C: all as it must be");
     return 0;
 }

@@ -13,3 +13,18 @@ mod editors;
 mod explain;
 mod fmt;
 mod hosts;
+#[cfg(unix)]
+mod install;
+mod listing;
+mod machine;
+mod making_cases;
+mod messages;
+mod new;
+mod output;
+mod post;
+mod shards;
+mod support;
+mod test;
+mod trace;
+mod verify;
+mod watch;

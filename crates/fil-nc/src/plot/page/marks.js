@@ -8,6 +8,8 @@ const LABELS = 60, TOOLS = 4;
 /** Frames of what is marked, left, top, right, bottom: no label lies on another one. */
 const isFree = (taken, box) =>
   taken.every((b) => box[2] < b[0] || box[0] > b[2] || box[3] < b[1] || box[1] > b[3]);
+const isInside = ([left, top, right, bottom]) =>
+  left > 0 && top > 0 && right < plot.clientWidth && bottom < plot.clientHeight;
 /** Height of a line of a label, pixels, and how far it goes below where its letters stand. */
 const LINE = 12, FOOT = 3;
 
@@ -24,7 +26,7 @@ function arrow(pen, taken, [x, y], way, size, name) {
   for (let far = reach + 8; far < reach + 60; far += 6) {
     const px = x + dx / reach * far - width / 2, py = y + dy / reach * far + 4;
     const box = [px - 1, py - LINE, px + width + 1, py + FOOT];
-    if (!isFree(taken, box)) continue;
+    if (!isInside(box) || !isFree(taken, box)) continue;
     taken.push(box);
     pen.fillText(name, px, py);
     return;
@@ -64,8 +66,7 @@ function putLabel(pen, taken, label, px, py) {
     const up = -6 - 15 * ring, down = 16 + 15 * ring;
     for (const [dx, dy] of [[7, up], [7, down], [-width - 7, up], [-width - 7, down]]) {
       const box = [px + dx - 3, py + dy - LINE, px + dx + width + 3, py + dy + FOOT];
-      const inside = box[0] > 0 && box[1] > 0 && box[2] < plot.clientWidth && box[3] < plot.clientHeight;
-      if (!inside || !isFree(taken, box)) continue;
+      if (!isInside(box) || !isFree(taken, box)) continue;
       taken.push(box);
       pen.strokeText(label, px + dx, py + dy);
       pen.fillText(label, px + dx, py + dy);
