@@ -303,7 +303,7 @@ static void answers(void) {
     well(filpost_builder_fil(builder, "answer.fil", script));
     well(filpost_builder_function(builder, "ANSWRF", 1, answer, &told, NULL));
     well(filpost_builder_build(builder, &program));
-    for (kind = BYTES; kind <= TWO_LINES; kind++) {
+    for (kind = BYTES; kind <= BARE_ERROR; kind++) {
         told.kind = kind;
         error = filpost_run(program, bytes(CL), strlen(CL), NULL, &output);
         if (error == NULL) {
@@ -313,6 +313,10 @@ static void answers(void) {
         MUST(output == NULL);
         filpost_error_free(error);
     }
+    told.kind = TWO_LINES;
+    well(filpost_run(program, bytes(CL), strlen(CL), NULL, &output));
+    MUST(strstr(filpost_output_nc(output, NULL), "(A G0 Z-100.)") != NULL);
+    filpost_output_free(output);
     told.kind = NESTED;
     told.program = inner;
     well(filpost_run(program, bytes(CL), strlen(CL), NULL, &output));
