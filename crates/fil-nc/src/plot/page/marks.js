@@ -107,7 +107,7 @@ function drawChanges(pen, taken) {
   for (const { px, py } of places) {
     pen.moveTo(px + 4, py);
     pen.arc(px, py, 4, 0, 2 * Math.PI);
-    taken.push([px - 4, py - 4, px + 4, py + 4]);
+    taken.push([px - 3, py - 3, px + 3, py + 3]);
   }
   pen.fill();
   pen.stroke();
