@@ -115,7 +115,7 @@ fn legend(drawing: &Drawing, extent: Option<&Extent>, edge: f64) -> (String, f64
             lines.set(lines.get() + 1.0);
         }
         let at = x;
-        x += wide + 22.0;
+        x += (wide + 22.0).ceil();
         (at, 50.0 + (lines.get() - 1.0) * LEGEND_LINE)
     };
     let mut sample = |out: &mut String, colour: &str, name: &str, style: &str| {
