@@ -2,8 +2,15 @@
 ; set: rotary.primary_letter=3
 ; set: rotary.primary_axis=3
 ; set: rotary.primary_k=1
-; expect: rapid X1 Y2 Z3
-; error: E0905 at 8:1
-G0 C0. X1. Y2. Z3.
+; set: rotary.secondary_kind=1
+; set: rotary.secondary_letter=1
+; set: rotary.secondary_axis=1
+; set: rotary.tip_control=1
+; expect: rapid X1 Y2 Z3 A10 C20
+G0 A10. C20. X1. Y2. Z3.
 G43.5 H1
+X1. Y2. Z4. I0.059391 J-0.163176 K0.984808
+G1 X2. I0.17101 J-0.469846 K0.866025 F100.
+X3.
+G49
 M30

@@ -6,7 +6,12 @@ use nalgebra::Vector3;
 use crate::axis_chain::AxisChain;
 use crate::commons::Commons;
 use crate::errors::MachineCode;
-use crate::locations::{self as loc, RotaryFrameOutput, RotaryTipOutput};
+use crate::locations::{
+    self as loc, RotaryFrameOutput, RotaryOutput, RotaryTipForm, RotaryTipOutput,
+};
+
+/// The index in the words of a direction on a SINUMERIK: A3, B3, C3.
+const INDEX_OF_VECTORS: i32 = 3;
 
 /// Scales and shifts of X, Y and Z on the tape.
 const SCALES: [(crate::commons::Dbl, f64); 6] = [
@@ -28,6 +33,7 @@ pub(crate) fn asks_for_frames(commons: &Commons) -> bool {
 /// Contradictions of a machine that writes tilted frames, or the tool tip.
 pub(crate) fn check(commons: &Commons, found: &mut Vec<Diag>) {
     tip_of_scaled_axes(commons, found);
+    vectors(commons, found);
     if !asks_for_frames(commons) {
         return;
     }
@@ -63,6 +69,27 @@ fn tip_of_scaled_axes(commons: &Commons, found: &mut Vec<Diag>) {
             MachineCode::Contradiction,
             "rotary.tip_output asks for tool-tip control, and X, Y or Z is scaled on the tape",
         ));
+    }
+}
+
+/// Directions of the tool have a meaning under tool-tip control alone, and leave whole turns
+/// of an axis to the control.
+fn vectors(commons: &Commons, found: &mut Vec<Diag>) {
+    if commons.read(loc::ROTARY_TIP_FORM) != RotaryTipForm::Vectors {
+        return;
+    }
+    let mut add = |message: &str| found.push(Diag::new(MachineCode::Contradiction, message));
+    if commons.read(loc::ROTARY_TIP_OUTPUT) != RotaryTipOutput::ToolTipControl {
+        add("rotary.tip_form asks for directions of the tool, which have a meaning under \
+             tool-tip control alone (rotary.tip_output = 1)");
+    }
+    if commons.read(loc::ROTARY_OUTPUT) != RotaryOutput::AnyNumberOfTurns {
+        add("rotary.tip_form asks for directions of the tool, and rotary.output for positions \
+             within a turn");
+    }
+    if commons.int_opt(loc::CONTROL_ROTARY_INDEX) == Some(INDEX_OF_VECTORS) {
+        add("rotary.tip_form asks for directions of the tool, whose words A3, B3 and C3 are those \
+             of the rotary axes (control.rotary_index)");
     }
 }
 

@@ -11,11 +11,12 @@ use crate::commons::Commons;
 use crate::errors::MachineCode;
 use crate::frame_rules;
 use crate::full_turn;
-use crate::letter::letters::F;
-use crate::locations::{self as loc, ControlFamily, MillTurnMode, RotaryTipOutput};
+use crate::letter::letters::{F, IJK};
+use crate::locations::{self as loc, ControlFamily, MillTurnMode, RotaryTipForm, RotaryTipOutput};
 use crate::mill_turn;
 use crate::modes::FeedMode;
 use crate::motion_rules::{FeedFormats, MotionRules};
+use crate::number::NumberFormat;
 use crate::numbering::Numbering;
 use crate::tape_style::TapeStyle;
 
@@ -35,6 +36,8 @@ pub struct MachineTables {
     pub family: ControlFamily,
     /// Motions are written under tool-tip control.
     pub tip_output: bool,
+    /// The tool's direction is said by vectors there, and not by angles.
+    pub tip_vectors: bool,
     /// Motions under a tool axis that stands still are written in tilted frames.
     pub frame_output: bool,
     /// What a mill-turn machine does; `None` for another machine.
@@ -95,11 +98,13 @@ impl MachineTables {
         self.present = AxisSet::LINEAR;
         self.tip_output = self.chain.has_rotary()
             && commons.read(loc::ROTARY_TIP_OUTPUT) == RotaryTipOutput::ToolTipControl;
+        self.tip_vectors =
+            self.tip_output && commons.read(loc::ROTARY_TIP_FORM) == RotaryTipForm::Vectors;
         self.frame_output = self.chain.has_rotary() && frame_rules::asks_for_frames(commons);
         self.input_shift =
             Vector3::from(loc::INPUT_TRANSLATE.map(|at| commons.dbl_opt(at).unwrap_or(0.0)));
         let along = commons.dbl_opt(loc::INPUT_ALONG_TOOL_AXIS).unwrap_or(0.0);
-        self.prepares = self.frame_output || self.mills();
+        self.prepares = self.frame_output || self.tip_vectors || self.mills();
         if !has_rotary {
             self.input_shift += self.chain.tool.into_inner() * along;
         }
@@ -120,7 +125,7 @@ impl MachineTables {
         self.axes.iter_mut().zip(self.zero).for_each(|(axis, zero)| axis.count_from(zero));
         self.within_a_turn = self.axes.iter().any(|axis| axis.full_turn() != 0);
         self.clamps = self.frame_output && commons.read(loc::ROTARY_FRAME_CLAMP);
-        self.watches_turns = self.within_a_turn || self.clamps;
+        self.watches_turns = self.within_a_turn || self.clamps || self.tip_vectors;
         if self.axes.iter().any(|axis| axis.scale() == 0.0) {
             return MachineCode::SettingValue.err("an output scale is zero");
         }
@@ -190,6 +195,18 @@ impl MachineTables {
     pub fn format_feed(&mut self, mode: FeedMode) {
         if let Some(format) = self.feed_formats.of(mode) {
             self.addresses.set_format(F, format);
+        }
+    }
+
+    /// I, J and K are written as parts of a unit vector from now on, else as lengths.
+    pub fn format_vectors(&mut self, commons: &Commons, metric: bool, as_vectors: bool) {
+        let plain = Addresses::from_commons(commons, metric);
+        for letter in IJK {
+            let Some(format) = plain.format(letter).copied() else { continue };
+            let decimals = commons.int(loc::ROTARY_VECTOR_DECIMALS).clamp(4, 8) as u8;
+            let of_vector =
+                NumberFormat { whole: 1, decimals, leading: true, point: true, ..format };
+            self.addresses.set_format(letter, if as_vectors { of_vector } else { format });
         }
     }
 

@@ -103,6 +103,9 @@ fn contradictions_are_found() {
         "control.family=2\nprogram.number_address=none\ndwell.address=F\ncontrol.translation=1\n\
          output.translate_x=5",
         "rotary.tip_output=1\nscale.z=0.5",
+        "rotary.tip_form=1",
+        "rotary.tip_output=1\nrotary.tip_form=1\nrotary.output=2",
+        "rotary.tip_output=1\nrotary.tip_form=1\ncontrol.rotary_index=3",
         "input.along_tool_axis=5\nrotary.primary_kind=1\nrotary.primary_axis=3",
     ] {
         let mut commons = default_commons();

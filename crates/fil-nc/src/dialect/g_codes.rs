@@ -95,6 +95,9 @@ impl Functions {
             if let Some(tenths) = settings.code("rotary.tip_code").filter(|code| *code > 0) {
                 table.0.insert(i64::from(tenths), Function::TipControl);
             }
+            if let Some(tenths) = settings.code("rotary.vector_code").filter(|code| *code > 0) {
+                table.0.insert(i64::from(tenths), Function::TipControlByDirection);
+            }
         }
         for (code, function) in STANDARD {
             table.add(Some(*code), *function);

@@ -54,7 +54,10 @@ impl State<'_> {
         let outcome = self.outcome(words)?;
         self.check_tip_control(words)?;
         self.check_tilt(words)?;
-        let begins = words.peek(Group::Length) == Some(Function::TipControl);
+        let begins = matches!(
+            words.peek(Group::Length),
+            Some(Function::TipControl | Function::TipControlByDirection)
+        );
         let (stood, known) = (self.at, self.known);
         let uses = Uses::of(words, self.dialect);
         self.check_live_words(words)?;
@@ -138,7 +141,7 @@ impl State<'_> {
         }
         let arc = matches!(self.motion, Some(Function::Arc { .. }));
         let center = [b'I', b'J', b'K'].map(letter).iter().any(|letter| words.has(*letter));
-        let moves = words.has_axes(self.dialect) || (arc && center);
+        let moves = words.has_axes(self.dialect) || (center && (arc || self.by_direction));
         if !moves {
             return self.feed_word(words);
         }
@@ -205,8 +208,12 @@ impl State<'_> {
                 return Err(Fault::new(NcCode::MissingWord, message));
             }
         }
+        let leans = self.direction_words(words)?;
         let axes = words.take_axes(self.dialect)?;
-        let target = self.target(&axes);
+        let mut target = self.target(&axes);
+        if let Some(angles) = leans {
+            target.0[3..].copy_from_slice(&angles);
+        }
         if self.dialect.live_at_start.is_some() {
             let course = self.live_course(&target.0, course)?;
             self.go(target, course, rate.filter(|_| course == Course::Feed));

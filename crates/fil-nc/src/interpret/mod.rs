@@ -7,6 +7,7 @@
 mod arc;
 mod block;
 mod cycle;
+mod direction;
 mod klartext;
 mod left_to_control;
 mod live;

@@ -104,7 +104,8 @@ impl State<'_> {
                 self.modes.stray_offset = None;
                 self.length_is_on = true;
             }
-            Some(Function::TipControl) => self.begin_tip_control(words)?,
+            Some(Function::TipControl) => self.begin_tip_control(words, false)?,
+            Some(Function::TipControlByDirection) => self.begin_tip_control(words, true)?,
             Some(_) => {
                 words.take_whole(H)?;
                 self.modes.length_offset = None;

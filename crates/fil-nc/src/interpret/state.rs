@@ -42,6 +42,8 @@ pub(super) struct State<'d> {
     /// The modes that a block has said, or the machine.
     pub(super) certain: Certain,
     pub(super) cycle: Option<Cycle>,
+    /// Words of I, J and K are the direction of the tool, and no words of rotary axes are taken.
+    pub(super) by_direction: bool,
     /// The tilted frame in force.
     pub(super) tilt: Option<Tilt>,
     /// The main spindle of a mill-turn machine is the axis C.
@@ -90,6 +92,7 @@ impl<'d> State<'d> {
             return_initial: dialect.return_initial,
             certain: dialect.certain,
             cycle: None,
+            by_direction: false,
             tilt: None,
             aligned: false,
             live: dialect.live_at_start == Some(true),

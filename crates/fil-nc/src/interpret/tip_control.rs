@@ -1,4 +1,4 @@
-//! Tool-tip control (`G43.4`): the tip goes straight in the frame of the part while
+//! Tool-tip control (`G43.4`, `G43.5`): the tip goes straight in the frame of the part while
 //! the rotary axes turn, and X, Y, Z name the tip there.
 //!
 //! Lengths of tools are the control's, so the tip is known from the program where all
@@ -19,12 +19,10 @@ impl State<'_> {
     pub(super) fn check_tip_control(&self, words: &Words) -> Result<(), Fault> {
         let on = self.modes.tip_control;
         match words.peek(Group::Length) {
-            Some(Function::TipControl) if on => refuse(words, "tool-tip control is on already"),
-            Some(Function::TipControl) => self.check_begin(words),
-            Some(Function::TipControlByDirection) => refuse(
-                words,
-                "which of two turns of the rotary axes a direction asks for is not known",
-            ),
+            Some(Function::TipControl | Function::TipControlByDirection) if on => {
+                refuse(words, "tool-tip control is on already")
+            }
+            Some(Function::TipControl | Function::TipControlByDirection) => self.check_begin(words),
             Some(Function::Length(true)) if on => {
                 refuse(words, "tool-tip control must first be ended by G49")
             }
@@ -156,18 +154,25 @@ impl State<'_> {
         if self.modes.tip_control { Err(differ(what)) } else { Ok(()) }
     }
 
-    /// Takes up tool-tip control with its length offset.
-    pub(super) fn begin_tip_control(&mut self, words: &mut Words) -> Result<(), Fault> {
+    /// Takes up tool-tip control with its length offset, by the direction of the tool or by the
+    /// angles of the rotary axes.
+    pub(super) fn begin_tip_control(
+        &mut self,
+        words: &mut Words,
+        by_direction: bool,
+    ) -> Result<(), Fault> {
         let offset = words.take_whole(H)?;
         let missing = || Fault::new(NcCode::MissingWord, "tool-tip control needs its H");
         self.modes.length_offset = Some(offset.ok_or_else(missing)?);
         self.modes.tip_control = true;
+        self.by_direction = by_direction;
         self.lose_tip();
         Ok(())
     }
 
     /// Gives tool-tip control up.
     pub(super) fn end_tip_control(&mut self) {
+        self.by_direction = false;
         if std::mem::take(&mut self.modes.tip_control) {
             self.lose_tip();
         }

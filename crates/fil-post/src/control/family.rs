@@ -9,7 +9,7 @@ use nalgebra::Rotation3;
 
 use super::word_address::arc::PlaneArc;
 use super::word_address::motion::{self as words, Motion, RapidCode};
-use super::{Control, klartext, sinumerik, word_address};
+use super::{Control, klartext, sinumerik, vectors, word_address};
 use crate::cause::Cause;
 use crate::errors::PostCode;
 use crate::operation::{Dwell, Feed, Lead, Operation, Thread, ToolChange};
@@ -128,6 +128,7 @@ pub fn begin_tip_control(control: &mut Control, offset: Option<(i64, Cause)>) ->
 /// # Errors
 /// As [`begin_tip_control`].
 pub fn end_tip_control(control: &mut Control) -> Result<()> {
+    vectors::end(control);
     match control.tables.family {
         ControlFamily::WordAddress => word_address::tip_control::end(control),
         ControlFamily::Klartext => klartext::frame::end_tip_control(control),

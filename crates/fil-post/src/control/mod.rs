@@ -21,6 +21,7 @@ pub mod sinumerik;
 pub(crate) mod skip;
 mod tap;
 mod texts;
+pub mod vectors;
 mod waiting;
 pub mod word_address;
 mod writing;
@@ -62,6 +63,10 @@ pub struct TipOffset {
     pub is_away: bool,
     /// It was before the blocks that may be skipped.
     pub was_away: bool,
+    /// The motion at hand says the direction of the tool by a vector.
+    pub by_vector: bool,
+    /// Where the rotary axes stand since a vector has turned them, degrees.
+    pub leans: Option<[f64; 2]>,
 }
 
 /// The output side of the post.

@@ -120,7 +120,7 @@ impl Codes {
         };
         let extended = tenths(loc::FIXTURE_EXTENDED_CODE);
         let taps = [loc::CYCLE_RIGID_TAP_CODE, loc::CYCLE_RIGID_TAP_LEFT_CODE].map(tenths);
-        let tip = tenths(loc::ROTARY_TIP_CODE);
+        let tips = [loc::ROTARY_TIP_CODE, loc::ROTARY_VECTOR_CODE].map(tenths);
         let planes = [
             loc::MILL_TURN_POLAR_CODE,
             loc::MILL_TURN_POLAR_END_CODE,
@@ -135,7 +135,7 @@ impl Codes {
         }
         codes.named.extend(planes.filter(|_| mills).map(|code| (code, Meaning::Frame)));
         codes.named.extend(extended.map(|code| (code, Meaning::Frame)));
-        codes.named.extend(tip.map(|code| (code, Meaning::TipControl)));
+        codes.named.extend(tips.into_iter().flatten().map(|code| (code, Meaning::TipControl)));
         codes.named.extend(tilts.into_iter().flatten().map(|code| (code, Meaning::Tilt)));
         codes.named.extend(taps.into_iter().flatten().map(|code| (code, Meaning::Cycle)));
         codes

@@ -3,7 +3,9 @@
 use fil_diag::Result;
 use fil_machine::axes::AxisSet;
 
-use super::{feed_rules, frame, mill_turn, rapid, rotary, scaled_lead, solution, thread, turning};
+use super::{
+    feed_rules, frame, mill_turn, rapid, rotary, scaled_lead, solution, thread, tip_control, turning,
+};
 use crate::control::family;
 use crate::control::word_address::motion::Motion;
 use crate::errors::PostCode;
@@ -70,8 +72,10 @@ fn prepare(post: &mut Post, target: Target, kind: MotionKind) -> Result<bool> {
     if post.control.tables.mills() {
         return mill_turn::prepare(post, target, kind);
     }
-    if !post.writes_tip() {
-        let at_feed = !matches!(kind, MotionKind::Rapid(_));
+    let at_feed = !matches!(kind, MotionKind::Rapid(_));
+    if post.writes_tip() {
+        tip_control::say_by_vector(post, at_feed);
+    } else if post.control.tables.frame_output {
         frame::turn_to(post, target, at_feed)?;
     }
     Ok(false)

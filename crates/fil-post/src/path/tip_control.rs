@@ -16,8 +16,9 @@ use nalgebra::{Point3, Vector3};
 
 use super::cycle::{AboveHoles, Cycle, CycleFeed, CycleKind};
 use super::expand::{WayOut, way_out};
+use super::turning::spelled;
 use super::{frame, linear, rapid, rotary};
-use crate::control::family;
+use crate::control::{family, vectors};
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::word_address::spindle;
 use crate::control::{Control, Function};
@@ -43,25 +44,65 @@ pub(super) fn position_of(
     axis: Vector3<f64>,
 ) -> Result<Position> {
     if post.control.state.tip_control != Some(true) {
-        begin(post)?;
+        begin(post, axis)?;
     }
+    let stands = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post));
     let near = post.path.chosen.take().or(post.path.rotary);
     let last = near.unwrap_or_else(|| rotary::on_tape(post));
     let tables = &post.control.tables;
     let (angles, free) = tables.chain().solve_with_free(axis, last)?;
     let linear = tables.chain().linear(point, angles);
     tables.check_travel(&[linear.x, linear.y, linear.z, 0.0, 0.0], AxisSet::LINEAR)?;
+    if post.control.tip.by_vector {
+        check_vector(post, stands, angles, axis)?;
+    }
     post.path.rotary = Some(angles);
     post.path.free = Some(free);
     Ok([point.x, point.y, point.z, angles[0], angles[1]])
 }
 
-/// Begins tool-tip control.
+/// The next motion says the direction of the tool by a vector, where the machine does: all
+/// motions where the control takes no angles then, else those at feed.
+pub(super) fn say_by_vector(post: &mut Post, at_feed: bool) {
+    let tables = &post.control.tables;
+    post.control.tip.by_vector =
+        tables.tip_vectors && (at_feed || !vectors::takes_angles_too(tables.family));
+}
+
+/// Takes angles instead where the control could bring the tool along a direction by other
+/// positions of the rotary axes.
+///
+/// # Errors
+/// It takes no angles.
+fn check_vector(
+    post: &mut Post,
+    stands: [f64; 2],
+    angles: [f64; 2],
+    axis: Vector3<f64>,
+) -> Result<()> {
+    let tables = &post.control.tables;
+    let solutions = tables.chain().solutions(axis, stands);
+    if vectors::say_the_same(&solutions, stands, angles) {
+        return Ok(());
+    }
+    if vectors::takes_angles_too(tables.family) {
+        post.control.tip.by_vector = false;
+        return Ok(());
+    }
+    PostCode::TipControl.err(format!(
+        "the rotary axes turn from {} to {} degrees, and for the same direction of the tool the \
+         control may take other positions",
+        spelled(stands),
+        spelled(angles)
+    ))
+}
+
+/// Begins tool-tip control. `axis`: the tool at the end of the first motion.
 ///
 /// # Errors
 /// No tool whose length the control has; cutter compensation; tables that would turn
 /// beside the part.
-fn begin(post: &mut Post) -> Result<()> {
+fn begin(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
     let control = &mut post.control;
     control.begin()?;
     control.require_unit()?;
@@ -78,6 +119,9 @@ fn begin(post: &mut Post) -> Result<()> {
             .err("tool-tip control takes up the length of a tool, and no LOADTL came before");
     }
     control.flush_function(Function::WorkOffset)?;
+    if post.control.tip.by_vector {
+        turn_to_first_axis(post, axis)?;
+    }
     turn_tables_to_zero(post)?;
     let control = &mut post.control;
     control.waiting.length_offset = None;
@@ -87,6 +131,30 @@ fn begin(post: &mut Post) -> Result<()> {
     }
     family::begin_tip_control(control, of_tool)?;
     control.tip.is_away = false;
+    control.tip.leans = None;
+    Ok(())
+}
+
+/// Turns the rotary axes by angles to where the first motion has them, where a vector could
+/// turn them otherwise: the control begins anywhere, and the tool is away from the part.
+///
+/// # Errors
+/// The machine can't reach the tool axis.
+fn turn_to_first_axis(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
+    let control = &post.control;
+    let anywhere =
+        control.commons.read(loc::ROTARY_TIP_CONTROL) == RotaryTipControl::BeginsAnywhere;
+    if !(anywhere && control.tip.is_away) {
+        return Ok(());
+    }
+    let near = post.path.chosen.or(post.path.rotary);
+    let near = near.unwrap_or_else(|| rotary::on_tape(post));
+    let angles = control.tables.chain().solve(axis, near)?;
+    let position = [0.0, 0.0, 0.0, angles[0], angles[1]];
+    let motion = Motion { position, axes: AxisSet::ROTARY, word: 0 };
+    let cause = post.control.block.cause.whole();
+    rapid::rapid(&mut post.control, &motion, cause)?;
+    post.path.rotary = Some(angles);
     Ok(())
 }
 
@@ -175,7 +243,8 @@ fn go_up(control: &mut Control) -> Result<()> {
     };
     let mut position = Position::default();
     for number in control.tables.present().numbers() {
-        let Some(stands) = known(&number) else {
+        let leans = control.tip.leans.filter(|_| number > 2).map(|leans| leans[number - 3]);
+        let Some(stands) = known(&number).or(leans) else {
             return PostCode::TipControl.err(
                 "tool-tip control ends, and where the tool stands is not known: it can't go up \
                  before (rotary.tip_end_retract)",

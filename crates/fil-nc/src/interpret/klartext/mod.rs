@@ -168,6 +168,7 @@ impl Klartext<'_> {
                 self.call_cycle()
             }
             ["L", ..] => self.straight(&line.words[1..]),
+            ["LN", ..] => self.leaning_line(&line.words[1..]),
             ["PLANE", "SPATIAL", ..] => self.plane(&line.words[2..]),
             ["PLANE", "RESET", rest @ ..] => {
                 plane::check_reset(rest, &line.words[2..])?;

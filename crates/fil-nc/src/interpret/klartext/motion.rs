@@ -27,6 +27,8 @@ struct Said {
     radius: Option<f64>,
     /// PA, or IPA where it is an increment, degrees.
     angle: Option<(f64, bool)>,
+    /// TX, TY, TZ: the direction of the tool.
+    direction: [Option<f64>; 3],
     machine: bool,
     calls: bool,
     ends: bool,
@@ -58,6 +60,30 @@ impl Klartext<'_> {
                 let rate = Some(self.rate()?);
                 self.state.go((to, known), Course::Feed, rate);
             }
+        }
+        self.after(&said)
+    }
+
+    /// `LN X+10 Y+5 Z+2 TX+0 TY+0.5 TZ+0.866025 F500`, without the normal of the surface.
+    pub(super) fn leaning_line(&mut self, words: &[Word]) -> Result<(), Fault> {
+        let said = self.said_with_direction(words)?;
+        let plain = said.ccw.is_none() && said.radius.is_none() && said.angle.is_none();
+        if !plain || said.machine || said.calls {
+            return Err(Fault::new(NcCode::NoMeaning, "LN is a straight line with a direction"));
+        }
+        if said.axes[3..].iter().any(Option::is_some) {
+            let message = "a direction of the tool and words of the rotary axes";
+            return Err(Fault::new(NcCode::Twice, message));
+        }
+        let missing = || Fault::new(NcCode::MissingWord, "LN needs TX, TY and TZ");
+        let angles = self.state.toward(said.direction)?.ok_or_else(missing)?;
+        let (mut to, known) = self.target(&said);
+        to[3..].copy_from_slice(&angles);
+        if said.rapid {
+            self.state.go((to, known), Course::Rapid, None);
+        } else {
+            let rate = Some(self.rate()?);
+            self.state.go((to, known), Course::Feed, rate);
         }
         self.after(&said)
     }
@@ -211,8 +237,18 @@ impl Klartext<'_> {
         (to, known)
     }
 
-    /// Takes up the words of a line that moves.
+    /// Takes up the words of a line that moves, and says no direction of the tool.
     fn said(&mut self, words: &[Word]) -> Result<Said, Fault> {
+        let said = self.said_with_direction(words)?;
+        if said.direction != [None; 3] {
+            let message = "the direction of the tool has its place in LN alone";
+            return Err(Fault::new(NcCode::NoMeaning, message));
+        }
+        Ok(said)
+    }
+
+    /// Takes up the words of a line that moves.
+    fn said_with_direction(&mut self, words: &[Word]) -> Result<Said, Fault> {
         let mut said = Said::default();
         // They act from the start of the line, so on its F.
         for word in words {
@@ -267,6 +303,13 @@ impl Klartext<'_> {
             if let Some(angle) = word.value(name) {
                 let before = said.angle.replace((angle?, increment));
                 let twice = || Fault::new(NcCode::Twice, "two angles").at(&word.range);
+                return if before.is_some() { Err(twice()) } else { Ok(()) };
+            }
+        }
+        for (part, name) in ["TX", "TY", "TZ"].into_iter().enumerate() {
+            if let Some(value) = word.value(name) {
+                let twice = || Fault::new(NcCode::Twice, "two words of one part").at(&word.range);
+                let before = said.direction[part].replace(value?);
                 return if before.is_some() { Err(twice()) } else { Ok(()) };
             }
         }

@@ -23,6 +23,8 @@ pub(super) struct Said {
     pub(super) ways: [Option<WayRound>; 5],
     /// I, J, K.
     pub(super) center: [Option<Coordinate>; 3],
+    /// A3, B3, C3: the direction of the tool.
+    pub(super) direction: [Option<f64>; 3],
     /// CR.
     pub(super) radius: Option<f64>,
     feed: Option<f64>,
@@ -40,7 +42,7 @@ impl Said {
     }
 
     pub(super) fn moves(&self) -> bool {
-        self.axes != [None; 5]
+        self.axes != [None; 5] || self.direction != [None; 3]
     }
 }
 
@@ -155,6 +157,9 @@ impl Sinumerik<'_> {
             _ if of_spindle("M") => return self.auxiliary(word, value, said),
             _ if of_spindle("S") => &mut said.speed,
             "F" => &mut said.feed,
+            "A3" if word.assigned => &mut said.direction[0],
+            "B3" if word.assigned => &mut said.direction[1],
+            "C3" if word.assigned => &mut said.direction[2],
             "CR" => &mut said.radius,
             "LIMS" => &mut said.limit,
             "TURN" if self.number(word, value)? == 0.0 => return Ok(()),
@@ -201,6 +206,8 @@ impl Sinumerik<'_> {
             "DYNFINISH",
             "ORIWKS",
             "ORIMKS",
+            "ORIAXES",
+            "ORIVECT",
         ];
         if word.arguments.is_some() {
             return Err(word.foreign("is no call that is followed in a block of words"));

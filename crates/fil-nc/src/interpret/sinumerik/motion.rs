@@ -19,13 +19,17 @@ impl Sinumerik<'_> {
         self.state.check_tilted_motion(said.axes[3..].iter().any(Option::is_some))?;
         match self.state.motion {
             Some(Function::Rapid) if !centered => {
-                let target = self.target(said);
+                let target = self.leaning(said)?;
                 self.state.go(target, Course::Rapid, None);
             }
             Some(Function::Linear) if !centered => {
                 let rate = Some(self.rate()?);
-                let target = self.target(said);
+                let target = self.leaning(said)?;
                 self.state.go(target, Course::Feed, rate);
+            }
+            Some(_) if said.direction != [None; 3] => {
+                let message = "a direction of the tool beside what is no straight line";
+                return Err(Fault::new(NcCode::NoMeaning, message));
             }
             Some(Function::Thread) => self.thread(said)?,
             Some(Function::Arc { ccw }) => {
@@ -82,6 +86,19 @@ impl Sinumerik<'_> {
             FeedMode::PerTurn => Rate::PerTurn(feed * unit),
             FeedMode::Inverse => Rate::Inverse(feed / dialect.inverse_factor),
         }
+    }
+
+    /// The target of a straight line, with the direction of the tool where the block says it.
+    fn leaning(&self, said: &Said) -> Result<([f64; 5], [bool; 5]), Fault> {
+        let (mut to, known) = self.target(said);
+        if let Some(angles) = self.state.toward(said.direction)? {
+            if said.axes[3..].iter().any(Option::is_some) {
+                let message = "a direction of the tool and words of the rotary axes";
+                return Err(Fault::new(NcCode::Twice, message));
+            }
+            to[3..].copy_from_slice(&angles);
+        }
+        Ok((to, known))
     }
 
     fn target(&self, said: &Said) -> ([f64; 5], [bool; 5]) {
@@ -164,6 +181,10 @@ impl Sinumerik<'_> {
     }
 
     fn machine_motion(&mut self, said: &Said) -> Result<(), Fault> {
+        if said.direction != [None; 3] {
+            let message = "a direction of the tool beside a point of the machine";
+            return Err(Fault::new(NcCode::NoMeaning, message));
+        }
         if !said.moves() {
             return Ok(());
         }

@@ -1,10 +1,11 @@
 //! A block of words as a line: `L X+10 Y+5 R0 F200 M8`, `C X+1 Y+2 DR+`, `M5 M9`.
 
 use fil_diag::Result;
-use fil_machine::letters::F;
+use fil_machine::letters::{F, IJK};
 
 use super::line::{self, Line};
 use super::reader;
+use crate::block::Block;
 use crate::control::Control;
 use crate::control::family::refuse;
 use crate::control_state::Compensation;
@@ -48,6 +49,9 @@ pub struct Phrase {
     pub calls_cycle: bool,
 }
 
+/// Names of the parts of the tool's direction.
+const VECTOR: [&str; 3] = ["TX", "TY", "TZ"];
+
 /// Letters whose words a line may hold: axes and the feed.
 const WORDS: &[u8] = b"ABCFUVWXYZ";
 
@@ -66,6 +70,7 @@ pub fn write(control: &mut Control) -> Result<()> {
     let mut line = Line::default();
     match phrase.head {
         Head::Functions => {}
+        Head::Line if leans(control, &block) => line.item(TEXT, "LN", cause),
         Head::Line => line.item(TEXT, "L", cause),
         Head::Arc { .. } => line.item(TEXT, "C", cause),
         Head::Helix { degrees, rise } => {
@@ -82,11 +87,15 @@ pub fn write(control: &mut Control) -> Result<()> {
         let (Some(letter), Some(scaled)) = (slot.letter, block.scaled_at(position)) else {
             continue;
         };
-        if !WORDS.contains(&letter.byte()) {
+        let vector = IJK.contains(&letter) && phrase.head == Head::Line && says_vectors(control);
+        if !(vector || WORDS.contains(&letter.byte())) {
             return refuse(format!("{letter}: a line of Klartext has no such word"));
         }
         let value = line::scaled_text(control, letter, scaled).unwrap_or_default();
-        let word = format!("{}{value}", char::from(slot.character));
+        let word = match IJK.iter().position(|own| vector && *own == letter) {
+            Some(part) => format!("{}{value}", VECTOR[part]),
+            None => format!("{}{value}", char::from(slot.character)),
+        };
         let word_cause = block.cause_at(position);
         control.commons.set_last_output(letter, slot.format.unscale(scaled));
         if letter == F {
@@ -128,6 +137,17 @@ pub fn write(control: &mut Control) -> Result<()> {
         control.state.compensation_begun = false;
     }
     Ok(())
+}
+
+/// I, J and K are the direction of the tool.
+fn says_vectors(control: &Control) -> bool {
+    control.tables.tip_vectors && control.state.tip_control == Some(true)
+}
+
+/// The line says the direction of the tool.
+fn leans(control: &Control, block: &Block) -> bool {
+    let addresses = &control.tables.addresses;
+    says_vectors(control) && IJK.into_iter().any(|letter| block.has(letter, addresses))
 }
 
 /// `+360`, `-90.25`.

@@ -21,6 +21,9 @@ type CausedWord = (Letter, f64, Cause);
 /// The block counts in the frame of the machine.
 const IN_MACHINE: FunctionCode = FunctionCode::whole(53);
 
+/// Names of the parts of the tool's direction.
+const VECTOR: [&str; 3] = ["A3", "B3", "C3"];
+
 /// Codes of M that are those of a spindle.
 const OF_SPINDLE: [fil_machine::setting::CodeAt; 5] = [
     loc::SPINDLE_CW_CODE,
@@ -122,6 +125,9 @@ fn spell(control: &Control, letter: Letter, name: char, digits: &str) -> String 
     if letter == T && commons.read(loc::CONTROL_TOOL_CALL) == ControlToolCall::NumberAsAName {
         return format!("{name}=\"{digits}\"");
     }
+    if let Some(named) = IJK.iter().position(|own| *own == letter).filter(|_| says_vectors(control)) {
+        return format!("{}={digits}", VECTOR[named]);
+    }
     let absolute = commons.read(loc::CIRCLE_CENTER) == CircleCenter::AbsoluteCenter;
     if absolute && IJK.contains(&letter) {
         return format!("{name}=AC({digits})");
@@ -140,6 +146,11 @@ fn spell(control: &Control, letter: Letter, name: char, digits: &str) -> String 
         (Some(index), None) => format!("{name}{index}={digits}"),
         (None, None) => format!("{name}{digits}"),
     }
+}
+
+/// I, J and K are the direction of the tool, and no centers.
+fn says_vectors(control: &Control) -> bool {
+    control.tables.tip_vectors && control.state.tip_control == Some(true)
 }
 
 /// The number of the rotary axis of a letter.

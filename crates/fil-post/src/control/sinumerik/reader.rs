@@ -44,6 +44,8 @@ const HARMLESS: &[&str] = &[
     "CUT2DF",
     "ORIWKS",
     "ORIMKS",
+    "ORIAXES",
+    "ORIVECT",
     "DYNNORM",
     "DYNPOS",
     "DYNROUGH",

@@ -10,7 +10,7 @@ use fil_machine::{FunctionCode, Letter};
 
 use super::{modes, spindle};
 use crate::cause::Cause;
-use crate::control::{Control, Function, full_turn, sinumerik};
+use crate::control::{Control, Function, full_turn, sinumerik, vectors};
 use crate::control_state::{Compensation, Meaning};
 use crate::errors::PostCode;
 use crate::operation::{Feed, Lead};
@@ -229,6 +229,10 @@ pub fn axis_words(control: &mut Control, motion: &Motion) -> Result<bool> {
         }
     }
     if control.tables.watches_turns {
+        if vectors::are_due(control, motion) {
+            vectors::axis_words(control, motion, changed, &scaled)?;
+            return Ok(true);
+        }
         let still = full_turn::turn(control, motion, present, changed, &mut scaled)?;
         present = present.without(still);
     }
@@ -281,7 +285,7 @@ pub fn axis_word(control: &mut Control, number: usize, motion: &Motion) -> Resul
 }
 
 /// Notes which words of the record the words of axes repeat.
-fn note_axis_words(control: &mut Control, written: AxisSet, first: u16) {
+pub(in crate::control) fn note_axis_words(control: &mut Control, written: AxisSet, first: u16) {
     if first == 0 {
         return;
     }

@@ -1,4 +1,4 @@
-//! Tool-tip control: G43.4 H, and G49.
+//! Tool-tip control: G43.4 H, or G43.5 H where the direction of the tool is a vector, and G49.
 
 use fil_diag::Result;
 use fil_machine::letters::H;
@@ -16,9 +16,13 @@ const CANCEL: FunctionCode = FunctionCode::whole(49);
 /// # Errors
 /// The machine has no code for it; an offset that does not fit.
 pub fn begin(control: &mut Control, (offset, cause): (i64, Cause)) -> Result<()> {
-    let tenths = control.commons.int_opt(loc::ROTARY_TIP_CODE);
+    let (at, name) = match control.tables.tip_vectors {
+        true => (loc::ROTARY_VECTOR_CODE, "rotary.vector_code"),
+        false => (loc::ROTARY_TIP_CODE, "rotary.tip_code"),
+    };
+    let tenths = control.commons.int_opt(at);
     let Some(tenths) = tenths.and_then(|tenths| u32::try_from(tenths).ok()) else {
-        return PostCode::NoCode.err("rotary.tip_code names no function for tool-tip control");
+        return PostCode::NoCode.err(format!("{name} names no function for tool-tip control"));
     };
     control.because(cause, |control| {
         control.g_of_record(FunctionCode::tenths(tenths));
