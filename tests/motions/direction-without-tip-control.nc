@@ -6,7 +6,8 @@
 ; set: rotary.secondary_letter=1
 ; set: rotary.secondary_axis=1
 ; set: rotary.tip_control=1
-; error: E0905 at 12:1
+; expect: rapid X1 Y2 Z3 s10
+; error: E0905 at 12:8
 G0 A10. C0. X1. Y2. Z3.
 G1 X2. I0. J-0.173648 K0.984808 F100.
 M30

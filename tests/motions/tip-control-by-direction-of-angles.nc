@@ -6,7 +6,8 @@
 ; set: rotary.secondary_letter=1
 ; set: rotary.secondary_axis=1
 ; set: rotary.tip_control=1
-; error: E0905 at 13:8
+; expect: rapid X1 Y2 Z3 s10
+; error: E0905 at 13:4
 G0 A10. C0. X1. Y2. Z3.
 G43.5 H1
 G1 X2. A20. F100.

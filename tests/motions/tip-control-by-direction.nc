@@ -6,7 +6,12 @@
 ; set: rotary.secondary_letter=1
 ; set: rotary.secondary_axis=1
 ; set: rotary.tip_control=1
-; expect: rapid X1 Y2 Z3 A10 C20
+; expect: rapid X1 Y2 Z3 p20 s10
+; expect: modes T0 H1 tip-control
+; expect: rapid tip X1 Y2 Z4 p20 s10
+; expect: feed tip X2 Y2 Z4 p20 s30 F100
+; expect: feed tip X3 Y2 Z4 p20 s30 F100
+; expect: end
 G0 A10. C20. X1. Y2. Z3.
 G43.5 H1
 X1. Y2. Z4. I0.059391 J-0.163176 K0.984808

@@ -88,8 +88,10 @@ fn vectors(commons: &Commons, found: &mut Vec<Diag>) {
              within a turn");
     }
     if commons.int_opt(loc::CONTROL_ROTARY_INDEX) == Some(INDEX_OF_VECTORS) {
-        add("rotary.tip_form asks for directions of the tool, whose words A3, B3 and C3 are those \
-             of the rotary axes (control.rotary_index)");
+        add(
+            "rotary.tip_form asks for directions of the tool, whose words A3, B3 and C3 are those \
+             of the rotary axes (control.rotary_index)",
+        );
     }
 }
 

@@ -22,6 +22,7 @@ mod option_file;
 mod oracle;
 mod plot;
 mod random;
+mod random_five_axes;
 mod real_cl;
 mod reference;
 mod robust;

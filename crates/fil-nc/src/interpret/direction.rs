@@ -34,7 +34,8 @@ impl State<'_> {
         if !self.by_direction {
             return Ok(None);
         }
-        if let Some(range) = words.first_axis(self.dialect).filter(|_| words.has_rotary(self.dialect))
+        if let Some(range) =
+            words.first_axis(self.dialect).filter(|_| words.has_rotary(self.dialect))
         {
             let message = "a word of a rotary axis where the tool's direction is a vector";
             return Err(Fault::new(NcCode::NoMeaning, message).at(range));
@@ -49,7 +50,8 @@ impl State<'_> {
             return Ok(None);
         }
         let [Some(i), Some(j), Some(k)] = parts else {
-            let message = "controls differ in what a part of the tool's direction is that is not said";
+            let message =
+                "controls differ in what a part of the tool's direction is that is not said";
             return Err(Fault::new(NcCode::MissingWord, message));
         };
         if !self.modes.tip_control {

@@ -2,6 +2,7 @@
 
 use fil_diag::Result;
 pub use fil_machine::cycle_kind::CycleKind;
+use fil_machine::letters::XYZ;
 use fil_machine::locations as loc;
 use nalgebra::Point3;
 
@@ -118,7 +119,12 @@ pub fn replace(post: &mut Post, cycle: Option<Cycle>) -> Result<()> {
     {
         hole::retract(post, old)?;
     }
-    let initial = old.and_then(|old| old.initial);
-    post.path.cycle = cycle.map(|cycle| Cycle { initial, ..cycle });
+    let stands = XYZ.map(|letter| post.control.commons.last_output(letter));
+    let (initial, above) = match old {
+        Some(old) => (old.initial, old.above),
+        None => (None, post.path.above_left.take().filter(|left| left.1 == stands).map(|l| l.0)),
+    };
+    post.path.above_left = above.filter(|_| cycle.is_none()).map(|above| (above, stands));
+    post.path.cycle = cycle.map(|cycle| Cycle { initial, above, ..cycle });
     Ok(())
 }

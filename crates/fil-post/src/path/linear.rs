@@ -4,7 +4,8 @@ use fil_diag::Result;
 use fil_machine::axes::AxisSet;
 
 use super::{
-    feed_rules, frame, mill_turn, rapid, rotary, scaled_lead, solution, thread, tip_control, turning,
+    feed_rules, frame, mill_turn, rapid, rotary, scaled_lead, solution, thread, tip_control,
+    turning,
 };
 use crate::control::family;
 use crate::control::word_address::motion::Motion;

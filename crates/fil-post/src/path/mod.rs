@@ -92,6 +92,9 @@ pub struct Path {
     pub arc: Option<Arc>,
     /// The canned cycle that each GOTO carries out.
     pub cycle: Option<Cycle>,
+    /// Where the last cycle has left the tip above its holes under tool-tip control, with the
+    /// last outputs of X, Y and Z then.
+    pub(crate) above_left: Option<(cycle::AboveHoles, [f64; 3])>,
     /// A thread is cut by each feed motion.
     pub thread: Option<Lead>,
     /// The lead that PITCH has given for threads that follow.
@@ -147,6 +150,7 @@ impl Default for Path {
             in_chords: false,
             arc: None,
             cycle: None,
+            above_left: None,
             thread: None,
             pitch: None,
             lead_change: 0.0,
@@ -171,6 +175,7 @@ impl Path {
     /// the one after it, and the motions tell nothing about each other.
     pub(crate) fn interrupt(&mut self) {
         self.course.interrupt();
+        self.above_left = None;
         if let Some(cycle) = &mut self.cycle {
             cycle.initial = None;
             cycle.above = None;

@@ -18,10 +18,10 @@ use super::cycle::{AboveHoles, Cycle, CycleFeed, CycleKind};
 use super::expand::{WayOut, way_out};
 use super::turning::spelled;
 use super::{frame, linear, rapid, rotary};
-use crate::control::{family, vectors};
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::word_address::spindle;
 use crate::control::{Control, Function};
+use crate::control::{family, vectors};
 use crate::control_state::{Compensation, Meaning};
 use crate::errors::PostCode;
 use crate::operation::{Dwell, MotionKind, Operation, Target};
@@ -309,14 +309,22 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
         (Some(0.0), Some(above)) => height(above.before).max(cycle.clear),
         (Some(level), _) => level.max(cycle.clear),
     };
+    let clear = cycle.clear;
     let was = (post.path.feed.replace(feed), post.control.block.cause);
     let stays = (post.path.axis.normalize() - axis).norm() < SAME_AXIS;
     let mut moves = Moves { post, cycle, target, axis };
     if let Some(above) = above.filter(|_| stays) {
-        let (here, lowest) = (height(above.now), rest.max(cycle.clear));
+        let (here, lowest) = (height(above.now), rest.max(clear));
         if here < lowest - SAME_HEIGHT {
             let lift = Target { point: above.now + axis * (lowest - here), axis, word: 0 };
             moves.rapid_to(lift)?;
+        }
+        // As a cycle of the control goes: across above what stands between the holes, then down.
+        let level = here.max(lowest);
+        let way = target.point - above.now;
+        let across = (way - axis * way.dot(&axis)).norm() > SAME_HEIGHT;
+        if across && level > clear + SAME_HEIGHT {
+            moves.rapid(level)?;
         }
     }
     moves.down_and_up(rest)?;

@@ -125,7 +125,8 @@ fn spell(control: &Control, letter: Letter, name: char, digits: &str) -> String 
     if letter == T && commons.read(loc::CONTROL_TOOL_CALL) == ControlToolCall::NumberAsAName {
         return format!("{name}=\"{digits}\"");
     }
-    if let Some(named) = IJK.iter().position(|own| *own == letter).filter(|_| says_vectors(control)) {
+    if let Some(named) = IJK.iter().position(|own| *own == letter).filter(|_| says_vectors(control))
+    {
         return format!("{}={digits}", VECTOR[named]);
     }
     let absolute = commons.read(loc::CIRCLE_CENTER) == CircleCenter::AbsoluteCenter;
