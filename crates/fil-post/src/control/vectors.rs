@@ -69,6 +69,15 @@ pub(super) fn axis_words(
     Ok(())
 }
 
+/// True where the rotary axes stand in one place only: as words or a vector have said, in no
+/// block that may be skipped.
+pub fn stand_known(control: &Control) -> bool {
+    let said = |number| control.state.has_last(control.tables.axis(number).letter);
+    let rotary = AxisSet::ROTARY.and(control.tables.present());
+    let known = control.tip.leans.is_some() || rotary.numbers().all(said);
+    known && !control.state.may_be_skipped()
+}
+
 /// REPEAT would bring words of rotary axes, or other vectors, into the block.
 fn refuse_repeats(control: &Control) -> Result<()> {
     let rotary = |letter: &Letter| {

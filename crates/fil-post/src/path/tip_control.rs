@@ -82,7 +82,7 @@ fn check_vector(
 ) -> Result<()> {
     let tables = &post.control.tables;
     let solutions = tables.chain().solutions(axis, stands);
-    if vectors::say_the_same(&solutions, stands, angles) {
+    if vectors::stand_known(&post.control) && vectors::say_the_same(&solutions, stands, angles) {
         return Ok(());
     }
     if vectors::takes_angles_too(tables.family) {
@@ -123,6 +123,8 @@ fn begin(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
         turn_to_first_axis(post, axis)?;
     }
     turn_tables_to_zero(post)?;
+    let known = vectors::stand_known(&post.control);
+    let stands = post.path.rotary.filter(|_| known);
     let control = &mut post.control;
     control.waiting.length_offset = None;
     let in_doubt = control.state.tip_control.is_none();
@@ -131,7 +133,7 @@ fn begin(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
     }
     family::begin_tip_control(control, of_tool)?;
     control.tip.is_away = false;
-    control.tip.leans = None;
+    control.tip.leans = stands;
     Ok(())
 }
 

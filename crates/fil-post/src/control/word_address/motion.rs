@@ -233,6 +233,9 @@ pub fn axis_words(control: &mut Control, motion: &Motion) -> Result<bool> {
             vectors::axis_words(control, motion, changed, &scaled)?;
             return Ok(true);
         }
+        if !changed.and(AxisSet::ROTARY).is_empty() {
+            control.tip.leans = None;
+        }
         let still = full_turn::turn(control, motion, present, changed, &mut scaled)?;
         present = present.without(still);
     }
