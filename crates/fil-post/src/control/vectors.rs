@@ -72,7 +72,10 @@ pub(super) fn axis_words(
 /// True where the rotary axes stand in one place only: as words or a vector have said, in no
 /// block that may be skipped.
 pub fn stand_known(control: &Control) -> bool {
-    let said = |number| control.state.has_last(control.tables.axis(number).letter);
+    let said = |number: usize| {
+        let letter = control.tables.axis(number).letter;
+        control.state.has_last(letter) && control.axis_position(number).is_some()
+    };
     let rotary = AxisSet::ROTARY.and(control.tables.present());
     let known = control.tip.leans.is_some() || rotary.numbers().all(said);
     known && !control.state.may_be_skipped()
