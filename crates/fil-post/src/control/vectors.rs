@@ -102,8 +102,21 @@ pub fn end(control: &mut Control) {
     let metric = control.is_metric();
     control.tables.format_vectors(&control.commons, metric, false);
     IJK.into_iter().for_each(|letter| control.state.doubt(letter));
-    control.tip.by_vector = false;
     control.tip.leans = None;
+}
+
+/// Notes that words turn a rotary axis.
+///
+/// # Errors
+/// The control is told directions and takes no such words.
+pub(super) fn turned_by_words(control: &mut Control) -> Result<()> {
+    control.tip.leans = None;
+    let tables = &control.tables;
+    let by_direction = tables.tip_vectors && !takes_angles_too(tables.family);
+    if by_direction && control.state.tip_control == Some(true) {
+        return PostCode::TipControl.err("a rotary axis turns by its own word behind G43.5");
+    }
+    Ok(())
 }
 
 /// Whether a motion to positions of the rotary axes may be said by a vector: one control takes

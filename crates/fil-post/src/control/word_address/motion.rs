@@ -234,7 +234,7 @@ pub fn axis_words(control: &mut Control, motion: &Motion) -> Result<bool> {
             return Ok(true);
         }
         if !changed.and(AxisSet::ROTARY).is_empty() {
-            control.tip.leans = None;
+            vectors::turned_by_words(control)?;
         }
         let still = full_turn::turn(control, motion, present, changed, &mut scaled)?;
         present = present.without(still);
