@@ -47,7 +47,9 @@ struct Random(u64);
 impl Random {
     fn of_seed(seed: u64) -> Self {
         let mut random = Random((seed + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
-        (0..8).for_each(|_| drop(random.share()));
+        (0..8).for_each(|_| {
+            random.share();
+        });
         random
     }
 

@@ -193,9 +193,8 @@ impl Control {
     /// The program has the other one already.
     fn follow_unit_of_machine(&mut self) -> Result<()> {
         match (self.unit, Unit::of_machine(&self.commons)) {
-            (Some(unit), Some(only)) if unit != only => PostCode::Units.err(format!(
-                "units.mode says {only} from here on, and the program is in {unit}"
-            )),
+            (Some(unit), Some(only)) if unit != only => PostCode::Units
+                .err(format!("units.mode says {only} from here on, and the program is in {unit}")),
             (None, Some(only)) => {
                 self.unit = Some(only);
                 self.tables.refresh(&self.commons, self.is_metric()).map(|_| ())

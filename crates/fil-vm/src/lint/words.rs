@@ -54,16 +54,14 @@ fn word(context: &mut Context<'_>, symbol: &Symbol) {
 fn section_word(context: &Context<'_>, symbol: &Symbol, id: WordId) -> Option<(LintCode, String)> {
     let vocabulary = context.vocabulary;
     // CIMFIL/ON,ALL is the section of all records that no other one takes.
-    let message = if id == words::ALL
-        || vocabulary.is_major(id)
-        || vocabulary.perhaps_meant(id).is_some()
-    {
-        return None;
-    } else if vocabulary.is_known(id) {
-        format!("{} is a minor word, which begins no record", symbol.name)
-    } else {
-        format!("{} is in no vocabulary", symbol.name)
-    };
+    let message =
+        if id == words::ALL || vocabulary.is_major(id) || vocabulary.perhaps_meant(id).is_some() {
+            return None;
+        } else if vocabulary.is_known(id) {
+            format!("{} is a minor word, which begins no record", symbol.name)
+        } else {
+            format!("{} is in no vocabulary", symbol.name)
+        };
     Some((LintCode::SectionNeverRuns, message))
 }
 
