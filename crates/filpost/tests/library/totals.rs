@@ -39,16 +39,60 @@ fn header(statements: &str, cl: &str) -> Vec<String> {
 
 #[test]
 fn the_program_has_times_lengths_and_extents() {
-    // 100 at 50 a minute, half a circle of radius 10, half a minute; the hole is 50 away at
+    // 100 at 50 a minute, half a circle of radius 10, half a minute; the R level is 50 away and 1 up at
     // 5000 a minute, 8 down at 40 and 8 back at 5000.
     let cut = 100.0 + 10.0 * std::f64::consts::PI + 8.0;
-    let time = (100.0 + 10.0 * std::f64::consts::PI) / 50.0 + 0.5 + 58.0 / 5000.0 + 8.0 / 40.0;
+    let time = (100.0 + 10.0 * std::f64::consts::PI) / 50.0 + 0.5 + 59.0 / 5000.0 + 8.0 / 40.0;
     let fil = "T1=TEXT/'LENGTH ',TEXTF(PROGF(CUTLEN),0,3),' TIME ',TEXTF(PROGF(TIME),0,4)\nPPRINT/T1\n\
         T1=TEXT/PROGF(XMIN),' ',PROGF(XMAX),' ',PROGF(YMIN),' ',PROGF(YMAX),' ',PROGF(ZMIN),' ',PROGF(ZMAX)\n\
         PPRINT/T1\nT1=TEXT/PROG\nT1=TEXT/T1,' ',PROGF(UNITS)\nPPRINT/T1";
     let expected =
         [format!("LENGTH {cut:.3} TIME {time:.4}"), "0 120 -10 50 -7 0".into(), "BRACKET 1".into()];
     assert_eq!(header(fil, CL), expected);
+}
+
+/// Lengths at feed and at rapid, seconds in all, for a drilling cycle of these words at X10 and
+/// X20 from Z20.
+fn drilled(cycle: &str) -> String {
+    let cl = format!(
+        "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 600, CLW\nRAPID\nGOTO / 10, 0, 20\n{cycle}\n\
+         GOTO / 10, 0, 0\nRAPID\nGOTO / 20, 0, 20\nGOTO / 20, 0, 0\nCYCLE / OFF\nFINI\n"
+    );
+    let fil = "T1=TEXT/TEXTF(PROGF(CUTLEN),0,2),' ',TEXTF(PROGF(TIME)*60,0,3)\nPPRINT/T1";
+    header(fil, &cl).remove(0)
+}
+
+/// Rapid traverse is 5000 a minute, 0.012 s a mm.
+#[test]
+fn holes_count_pecks_dwells_and_the_way_out() {
+    // Down 12 to Z-10 at 120 a minute, 6 s each; 18 to the R level and 12 out of each hole, and
+    // from the R level of the first one 10 over and 18 up.
+    let ways = 18.0 + 10f64.hypot(18.0) + 18.0;
+    let drill = drilled("CYCLE / DRILL, DEPTH, 10, MMPM, 120, CLEAR, 2");
+    assert_eq!(drill, format!("24.00 {:.3}", 12.0 + 0.012 * (ways + 24.0)));
+    // Back to Z20: 30 out, then 10 across.
+    let to_start = drilled("CYCLE / DRILL, DEPTH, 10, MMPM, 120, CLEAR, 2, RETURN, 0");
+    assert_eq!(to_start, format!("24.00 {:.3}", 12.0 + 0.012 * (18.0 + 30.0 + 10.0 + 18.0 + 30.0)));
+    // Half a second at each bottom.
+    let dwells = drilled("CYCLE / FACE, DEPTH, 10, MMPM, 120, CLEAR, 2, DWELL, 0.5");
+    assert_eq!(dwells, format!("24.00 {:.3}", 13.0 + 0.012 * (ways + 24.0)));
+    // A tap and a bored hole are left at feed; the tap by its lead of 1 at 600 turns a minute.
+    let tap = drilled("CYCLE / TAP, DEPTH, 10, TPI, 25.4, CLEAR, 2");
+    assert_eq!(tap, format!("48.00 {:.3}", 4.8 + 0.012 * ways));
+    let ream = drilled("CYCLE / REAM, DEPTH, 10, MMPM, 120, CLEAR, 2");
+    assert_eq!(ream, format!("48.00 {:.3}", 24.0 + 0.012 * ways));
+    // Pecks of 5: from 5 and 10 out, and back to 0.2 above; 0.4 is cut twice in each hole.
+    let deep = drilled("CYCLE / DEEP, DEPTH, 10, STEP, 5, MMPM, 120, CLEAR, 2");
+    assert_eq!(deep, format!("24.80 {:.3}", 12.4 + 0.012 * (ways + 24.0 + 2.0 * 29.6)));
+    let chips = drilled("CYCLE / BRKCHP, DEPTH, 10, STEP, 5, MMPM, 120, CLEAR, 2");
+    assert_eq!(chips, format!("24.80 {:.3}", 12.4 + 0.012 * (ways + 24.0 + 0.8)));
+}
+
+#[test]
+fn turns_of_a_dwell_take_the_speed_of_the_spindle() {
+    let cl = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 600, CLW\nFEDRAT / 0.1, MMPR\nGOTO / 0, 0, 0\n\
+        DELAY / REV, 20\nFINI\n";
+    assert_eq!(header("T1=TEXT/TEXTF(PROGF(TIME)*60,0,3)\nPPRINT/T1", cl), ["2.000"]);
 }
 
 #[test]
