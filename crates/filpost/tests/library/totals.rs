@@ -55,7 +55,7 @@ fn the_program_has_times_lengths_and_extents() {
 /// X20 from Z20.
 fn drilled(cycle: &str) -> String {
     let cl = format!(
-        "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 600, CLW\nRAPID\nGOTO / 10, 0, 20\n{cycle}\n\
+        "PARTNO / HOLES\nUNITS / MM\nLOADTL / 1\nSPINDL / RPM, 600, CLW\nRAPID\nGOTO / 10, 0, 20\n{cycle}\n\
          GOTO / 10, 0, 0\nRAPID\nGOTO / 20, 0, 20\nGOTO / 20, 0, 0\nCYCLE / OFF\nFINI\n"
     );
     let fil = "T1=TEXT/TEXTF(PROGF(CUTLEN),0,2),' ',TEXTF(PROGF(TIME)*60,0,3)\nPPRINT/T1";
@@ -90,7 +90,7 @@ fn holes_count_pecks_dwells_and_the_way_out() {
 
 #[test]
 fn turns_of_a_dwell_take_the_speed_of_the_spindle() {
-    let cl = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 600, CLW\nFEDRAT / 0.1, MMPR\nGOTO / 0, 0, 0\n\
+    let cl = "PARTNO / HOLES\nUNITS / MM\nLOADTL / 1\nSPINDL / RPM, 600, CLW\nFEDRAT / 0.1, MMPR\nGOTO / 0, 0, 0\n\
         DELAY / REV, 20\nFINI\n";
     assert_eq!(header("T1=TEXT/TEXTF(PROGF(TIME)*60,0,3)\nPPRINT/T1", cl), ["2.000"]);
 }
