@@ -113,18 +113,19 @@ fn a_full_disk_is_an_error() {
     }
 }
 
-/// Who looks at something and has seen enough is no error; a program that nobody read whole is.
+/// Runs a command whose standard output has no reader any more.
+#[cfg(unix)]
+fn run_into_a_closed_pipe(arguments: &[&str]) -> Ran {
+    let place = Folder::new().with("part.ncl", SMALL);
+    let mut command = place.command(arguments);
+    let (reader, writer) = std::io::pipe().expect("a pipe");
+    drop(reader);
+    Ran::of(command.stdout(writer).output().expect("the command starts"))
+}
+
 #[cfg(unix)]
 #[test]
 fn a_closed_pipe_ends_what_is_only_looked_at_quietly() {
-    let place = Folder::new().with("part.ncl", SMALL);
-    let run = |arguments: &[&str]| {
-        let mut command = place.command(arguments);
-        // The pipe has no reader any more when the command starts.
-        let (reader, writer) = std::io::pipe().expect("a pipe");
-        drop(reader);
-        Ran::of(command.stdout(writer).output().expect("the command starts"))
-    };
     for arguments in [
         &["machine", "show", "-p", "fanuc-mill"][..],
         &["machine", "schema"],
@@ -134,11 +135,19 @@ fn a_closed_pipe_ends_what_is_only_looked_at_quietly() {
         &["man"],
         &["completions", "bash"],
     ] {
-        let ran = run(arguments);
+        let ran = run_into_a_closed_pipe(arguments);
         assert_eq!((ran.status, ran.err.as_str()), (0, ""), "{arguments:?}");
     }
-    let ran = run(&["post", "part.ncl"]);
-    assert!(ran.status == 1 && ran.err.contains("E0702"), "{ran:?}");
+}
+
+/// Nobody may take the half of a program for a whole one.
+#[cfg(unix)]
+#[test]
+fn a_closed_pipe_is_an_error_for_a_result() {
+    for arguments in [&["post", "part.ncl"][..], &["cl", "part.ncl", "--to", "ncl"]] {
+        let ran = run_into_a_closed_pipe(arguments);
+        assert!(ran.status == 1 && ran.err.contains("E0702"), "{arguments:?} {ran:?}");
+    }
 }
 
 #[cfg(target_os = "linux")]
@@ -149,20 +158,6 @@ fn a_device_stays_a_device() {
     assert_eq!(ran.status, 0, "{ran:?}");
     let null = std::fs::metadata("/dev/null").expect("the device");
     assert!(!null.is_file());
-}
-
-#[cfg(unix)]
-#[test]
-fn a_closed_pipe_is_an_error() {
-    let place = Folder::new().with("part.ncl", SMALL);
-    for arguments in [&["post", "part.ncl"][..], &["cl", "part.ncl"], &["machine", "show"]] {
-        let mut command = place.command(arguments);
-        let (reader, writer) = std::io::pipe().expect("a pipe");
-        drop(reader);
-        let output = command.stdout(writer).output().expect("the command starts");
-        let ran = Ran::of(output);
-        assert!(ran.status == 1 && ran.err.contains("E0702"), "{arguments:?} {ran:?}");
-    }
 }
 
 #[cfg(unix)]
