@@ -6,11 +6,33 @@ use fil_nc::motion::{Arc, Event, Modes, Move, Rate};
 /// once for the rounded end of a part of an arc and once for the center it gives.
 const APART: f64 = 0.002;
 
-/// True when two programs do the same: in the same modes the same motions, whatever their
-/// lines, and the same arcs, however they are divided.
+/// True when a program does what another one does: in the same modes the same motions, whatever
+/// their lines, and the same arcs, however they are divided.
 pub fn same(one: &[Event], other: &[Event]) -> bool {
     let [one, other] = [one, other].map(|events| joined(bare(events)));
-    one.len() == other.len() && one.iter().zip(&other).all(|(one, other)| alike(one, other))
+    one.len() == other.len()
+        && one.iter().zip(&other).all(|(one, other)| alike(&said_again(one, other), other))
+}
+
+/// The event, in which what is on may have been switched on once more behind a stop.
+fn said_again(event: &Event, other: &Event) -> Event {
+    let both = |modes: Modes, other: &Modes| Modes {
+        spindle_unsaid: modes.spindle_unsaid || other.spindle_unsaid,
+        coolant_unsaid: modes.coolant_unsaid || other.coolant_unsaid,
+        ..modes
+    };
+    match (*event, other) {
+        (Event::Move(found), Event::Move(other)) => {
+            Event::Move(Move { modes: both(found.modes, &other.modes), ..found })
+        }
+        (Event::ToolChange { line, tool, modes }, Event::ToolChange { modes: other, .. }) => {
+            Event::ToolChange { line, tool, modes: both(modes, other) }
+        }
+        (Event::End { line, code, modes }, Event::End { modes: other, .. }) => {
+            Event::End { line, code, modes: both(modes, other) }
+        }
+        (event, _) => event,
+    }
 }
 
 /// What the machine does, without the lines that make it and without motions that go

@@ -3,10 +3,11 @@
 //! A few hundred are in the normal run; `FILPOST_SOAK=10000` makes as many as it says.
 
 use std::io::Cursor;
+use std::sync::Mutex;
 
 use fil_nc::verify::Allowed;
-use filpost::Program;
 use filpost::verify::NcProgram;
+use filpost::{Limits, Program};
 use filpost_tests::root;
 
 /// Posts of the normal run.
@@ -36,8 +37,12 @@ fn resident() -> Option<usize> {
     Some(pages * 4096)
 }
 
+/// Two tests do not measure at once.
+static ALONE: Mutex<()> = Mutex::new(());
+
 #[test]
 fn memory_stays_flat() {
+    let _alone = ALONE.lock();
     let asked = std::env::var("FILPOST_SOAK").ok().and_then(|count| count.parse().ok());
     let posts: usize = asked.unwrap_or(FEW);
     let cl = std::fs::read(root().join("tests/cl/holes.ncl.1")).expect("a CL file");
@@ -74,4 +79,59 @@ fn memory_stays_flat() {
     };
     println!("{posts} posts: {early} bytes after a tenth of them, {late} at the end");
     assert!(late <= early + GROWTH, "memory grew from {early} to {late} bytes");
+}
+
+/// The most that the process has had in memory, bytes; `None` where the system does not say.
+fn peak() -> Option<usize> {
+    let text = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = text.lines().find(|line| line.starts_with("VmHWM"))?;
+    let kilobytes: usize = line.split_whitespace().nth(1)?.parse().ok()?;
+    Some(kilobytes * 1024)
+}
+
+/// A CIRCLE with turns, each of which is four blocks.
+fn turns(count: u32) -> Vec<u8> {
+    format!(
+        "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 900, CLW\nFEDRAT / 90, MMPM\nRAPID\nGOTO / 10, 0, 0\n\
+         CIRCLE / 0, 0, 0, 0, 0, 1, 10, TIMES, {count}\nGOTO / 10, 0, -50\nFINI\n"
+    )
+    .into_bytes()
+}
+
+/// One record that writes very much: its blocks leave memory while it goes on, and a limit ends it.
+#[test]
+fn a_circle_of_many_turns_does_not_stay_in_memory() {
+    let _alone = ALONE.lock();
+    let post = || Program::builder().ready("fanuc-mill").set("circle.max_degrees=90");
+    let plain = post().build().expect("a post");
+    let (mut few, mut many) = (Count(0), Count(0));
+    plain.run(&turns(2)[..], &mut few).expect("a program of two turns");
+    let early = resident();
+    plain.run(&turns(10_000)[..], &mut many).expect("a program of many turns");
+    assert!(many.0 > 1_000 * few.0, "{} and {} bytes", few.0, many.0);
+    match (early, peak()) {
+        (Some(early), Some(late)) => {
+            println!("{} bytes of blocks: from {early} to {late} bytes of memory", many.0);
+            assert!(late <= early + GROWTH, "memory grew from {early} to {late} bytes");
+        }
+        _ => println!("skipped: the system does not say how much memory a process has"),
+    }
+    let limits = Limits { output_bytes: 1 << 20, ..Limits::default() };
+    let short = post().limits(limits).build().expect("a post");
+    let refused = short.run(&turns(10_000)[..], &mut Count(0)).expect_err("too long");
+    assert!(refused.to_string().contains("E0717"), "{refused}");
+}
+
+/// Counts bytes and keeps none.
+struct Count(u64);
+
+impl std::io::Write for Count {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0 += bytes.len() as u64;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
 }

@@ -219,6 +219,11 @@ pub struct Modes {
     pub cycle: bool,
     /// The auxiliary function of the coolant that was switched on last; `None` when off.
     pub coolant: Option<u32>,
+    /// No word has switched the spindle since a tool was changed by its function, or since a
+    /// stop: many machines stop it there.
+    pub spindle_unsaid: bool,
+    /// The same of the coolant.
+    pub coolant_unsaid: bool,
 }
 
 /// A single motion from where the axes stand to `to`; [`Forward::along`] says how it
@@ -266,17 +271,20 @@ pub enum StartMode {
     ReturnLevel,
     /// Spindle speed or surface speed.
     Surface,
+    /// X is a diameter or a radius.
+    Diameter,
 }
 
 impl StartMode {
     /// All of them.
-    pub const ALL: [StartMode; 6] = [
+    pub const ALL: [StartMode; 7] = [
         StartMode::Unit,
         StartMode::Positions,
         StartMode::Feed,
         StartMode::Plane,
         StartMode::ReturnLevel,
         StartMode::Surface,
+        StartMode::Diameter,
     ];
 
     /// What it is, in a machinist's words.
@@ -288,6 +296,7 @@ impl StartMode {
             StartMode::Plane => "the plane",
             StartMode::ReturnLevel => "the level that holes return to",
             StartMode::Surface => "whether S is a spindle speed or a surface speed",
+            StartMode::Diameter => "whether X is a diameter",
         }
     }
 }

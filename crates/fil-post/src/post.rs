@@ -14,7 +14,7 @@ use crate::errors::PostCode;
 use crate::items::Items;
 use crate::noted::Noted;
 use crate::operation::{End, Feed};
-use crate::path::{Path, tool_change};
+use crate::path::{Path, long_arc, tool_change};
 use crate::words::end;
 
 /// The generalized post of one run.
@@ -61,8 +61,21 @@ impl Post {
     /// # Errors
     /// Whatever the record's post word refuses; nothing of the run may be
     /// used after an error.
-    #[inline]
     pub fn process(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<()> {
+        self.begin(record, vocabulary)?;
+        while self.has_more() {
+            self.go_on()?;
+        }
+        Ok(())
+    }
+
+    /// Carries out one record, of a CIRCLE with very many blocks the first of them: while
+    /// [`Post::has_more`] the caller takes the finished ones away and calls [`Post::go_on`].
+    ///
+    /// # Errors
+    /// As [`Post::process`].
+    #[inline]
+    pub fn begin(&mut self, record: &Record, vocabulary: &Vocabulary) -> Result<()> {
         self.control.refresh()?;
         if self.control.tape.noted.is_some() {
             let cause = self.control.tape.cause;
@@ -71,11 +84,27 @@ impl Post {
         dispatch::dispatch(self, record, vocabulary)
     }
 
+    /// The last record has more blocks to be written.
+    #[inline]
+    pub fn has_more(&self) -> bool {
+        self.path.rest.is_some()
+    }
+
+    /// Writes some more blocks of the last record.
+    ///
+    /// # Errors
+    /// As [`Post::process`].
+    pub fn go_on(&mut self) -> Result<()> {
+        long_arc::go_on(self)
+    }
+
     /// Lets go of what a refused record has begun, so that the records after it can be
     /// looked at for further errors. What is written from now on is no program.
     pub fn let_go(&mut self) {
         self.control.block.clear();
         self.path.arc = None;
+        self.path.rest = None;
+        self.path.in_chords = false;
         self.path.rapid = None;
         self.path.interrupt();
     }

@@ -214,3 +214,28 @@ fn a_machine_allows_offsets() {
     assert_eq!(verdict("'G54'"), Verdict::Differs);
     assert_eq!(verdict("'G54', 'G55'"), Verdict::Agrees);
 }
+
+/// What the CL file switches behind a tool change or a stop, where machines stop the spindle and
+/// the coolant, must be switched behind it.
+#[test]
+fn what_is_not_switched_on_again_is_found() {
+    let cases = nc_cases::posted(&root().join("tests/verify/again.ncl"));
+    let behind = "is not switched on again behind the tool change or stop";
+    let (spindle, coolant) = (FindingKind::Spindle, FindingKind::Coolant);
+    for (post, old, new, kind) in [
+        ("fanuc-mill", "S800 M3\nN100", "S800\nN100", spindle),
+        ("fanuc-mill", "N100 M8\n", "", coolant),
+        ("fanuc-mill", "N140 M0\nN150 S800 M3\n", "N150 S800 M3\nN140 M0\n", spindle),
+        ("heidenhain-tnc640", "TOOL CALL 2 Z S800\n10 M3\n", "TOOL CALL 2 Z S800\n", spindle),
+        ("heidenhain-tnc640", "11 M8\n", "", coolant),
+        ("sinumerik-840d", "S800 M3\nN120", "S800\nN120", spindle),
+    ] {
+        let case = cases.iter().find(|case| case.name.starts_with(post)).expect("a program");
+        assert!(check(case, &case.nc).expect("a report").findings.is_empty(), "{post}");
+        assert!(case.nc.contains(old), "{old}:\n{}", case.nc);
+        let report = check(case, &case.nc.replacen(old, new, 1)).expect("a report");
+        let said = |one: &str| one.starts_with("the ") && one.ends_with(behind);
+        let found = report.findings.iter().any(|one| one.kind == kind && said(&one.message));
+        assert!(found, "{post} {old}{}", listed(&report));
+    }
+}

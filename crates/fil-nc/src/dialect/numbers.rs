@@ -8,6 +8,8 @@ use crate::text::Number;
 /// Tape positions are 1 to 52; 53 stands for "not written".
 const SLOTS: i32 = 52;
 
+const LETTER_P: u8 = 16;
+const LETTER_Q: u8 = 17;
 const LETTER_U: u8 = 21;
 
 /// How many digits a number has before and after its point.
@@ -44,6 +46,9 @@ pub enum Unreadable {
     NoPoint,
     /// Zeros are dropped on both sides.
     NoZeros,
+    /// A point on an address of whole numbers: some controls read seconds in place of
+    /// milliseconds, or millimetres in place of the smallest step, and others refuse it.
+    Point,
 }
 
 impl Address {
@@ -57,6 +62,9 @@ impl Address {
     /// # Errors
     /// The number can be read in two ways.
     pub fn value(&self, number: Number, metric: bool) -> Result<f64, Unreadable> {
+        if number.digits != 0 && number.point && self.counts_steps() {
+            return Err(Unreadable::Point);
+        }
         if number.point || number.digits == 0 {
             return Ok(number.value());
         }
@@ -72,6 +80,12 @@ impl Address {
             _ => 0,
         };
         Ok(number.digits as f64 * libm::exp10(f64::from(filled) - f64::from(digits.decimals)))
+    }
+
+    /// P and Q in whole numbers: milliseconds, or smallest steps.
+    fn counts_steps(&self) -> bool {
+        let is_whole = !self.point && self.inch.decimals == 0 && self.metric.decimals == 0;
+        is_whole && matches!(self.letter, LETTER_P | LETTER_Q)
     }
 }
 

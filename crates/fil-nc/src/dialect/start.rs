@@ -18,6 +18,9 @@ impl Certain {
     pub(super) fn new(settings: &Settings<'_>, functions: &Functions) -> Self {
         let is_klartext = settings.code("control.family") == Some(1);
         Certain(StartMode::ALL.map(|mode| {
+            if mode == StartMode::Diameter {
+                return !says_diameters(settings);
+            }
             let stated = key(mode).is_some_and(|key| settings.code(key).is_some());
             is_klartext || stated || !functions.has_several(mode)
         }))
@@ -39,6 +42,13 @@ impl Certain {
     }
 }
 
+/// X is a diameter, and programs say so: by a function, or on a SINUMERIK by `DIAMON`.
+fn says_diameters(settings: &Settings<'_>) -> bool {
+    let is_sinumerik = settings.code("control.family") == Some(2);
+    let has_code = settings.code("lathe.diameter_code").is_some();
+    settings.flag("lathe.diameter") && (is_sinumerik || has_code)
+}
+
 /// The setting that states a mode; `None` where there is none.
 fn key(mode: StartMode) -> Option<&'static str> {
     match mode {
@@ -46,7 +56,7 @@ fn key(mode: StartMode) -> Option<&'static str> {
         StartMode::Positions => Some("mode.position_in_force"),
         StartMode::Feed => Some("feed.mode_in_force"),
         StartMode::Plane => Some("circle.plane_in_force"),
-        StartMode::ReturnLevel | StartMode::Surface => None,
+        StartMode::ReturnLevel | StartMode::Surface | StartMode::Diameter => None,
     }
 }
 
@@ -89,6 +99,7 @@ impl Functions {
                 returns == [true; 2] && has(Function::Cycle(CycleKind::Drill))
             }
             StartMode::Surface => has(Function::Surface(true)),
+            StartMode::Diameter => false,
         }
     }
 }

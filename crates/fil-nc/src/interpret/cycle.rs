@@ -50,6 +50,11 @@ impl Cycle {
         Cycle { kind, live: None, initial, initial_known, bottom, clear, step, dwell }
     }
 
+    /// Its holes are made in pecks.
+    fn pecks(&self) -> bool {
+        matches!(self.kind, CycleKind::Peck | CycleKind::BreakChips)
+    }
+
     /// The level before the cycle is the R level: the tool returns there by any code.
     pub(super) fn keeps_its_level(&self) -> bool {
         let is_it = |clear: f64| (clear - self.initial).abs() < SAME_LEVEL;
@@ -95,7 +100,7 @@ impl State<'_> {
             clear: cycle.clear.ok_or_else(|| missing("its R level"))?,
             bottom: cycle.bottom.ok_or_else(|| missing("its depth"))?,
         };
-        let pecks = matches!(cycle.kind, CycleKind::Peck | CycleKind::BreakChips);
+        let pecks = cycle.pecks();
         let step = match cycle.step.filter(|_| pecks) {
             None if pecks => return Err(missing("its peck")),
             Some(step) if (hole.clear - hole.bottom) / step > MAX_PECKS => {
@@ -135,6 +140,11 @@ impl State<'_> {
                 DepthForm::Increments => clear + self.way(axis, word.value),
                 DepthForm::Unsigned => clear - self.way(axis, word.value).abs(),
             });
+        }
+        if !cycle.pecks() && words.has(self.dialect.step) {
+            // A tap would peck with it; of other cycles it holds for the next one that pecks.
+            let message = "a depth of pecks in a cycle that does not peck";
+            return Err(Fault::new(NcCode::NoMeaning, message));
         }
         if let Some(step) = words.take(self.dialect.step)? {
             cycle.step = Some(self.length(axis, step).abs()).filter(|step| *step > 0.0);

@@ -39,7 +39,7 @@ impl State<'_> {
         };
         let of_cycle = |found: &Move| found.in_cycle && found.course != Course::Machine;
         match mode {
-            StartMode::Unit => any(&|_| true),
+            StartMode::Unit | StartMode::Diameter => any(&|_| true),
             StartMode::Positions => uses.positions && any(&|found| found.course != Course::Machine),
             StartMode::Feed => any(&|found| found.course == Course::Feed),
             StartMode::Plane => any(&|found| {

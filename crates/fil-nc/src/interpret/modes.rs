@@ -11,6 +11,9 @@ pub(super) const H: u8 = letter(b'H');
 const S: u8 = letter(b'S');
 const T: u8 = letter(b'T');
 
+/// M0 and M1.
+const STOPS: [u32; 2] = [0, 1];
+
 impl State<'_> {
     /// Takes up all modal functions but the motion.
     pub(super) fn modes(&mut self, words: &mut Words) -> Result<(), Fault> {
@@ -45,7 +48,9 @@ impl State<'_> {
         if words.function(Group::PathControl).is_some() {
             self.modes.path_control = Some(self.line);
         }
-        words.function(Group::Diameter);
+        if words.function(Group::Diameter).is_some() {
+            self.certain.say(StartMode::Diameter);
+        }
         self.offsets(words)
     }
 
@@ -90,11 +95,11 @@ impl State<'_> {
     /// Cutter compensation and tool length.
     fn offsets(&mut self, words: &mut Words) -> Result<(), Fault> {
         if let Some(Function::Compensation(side)) = words.function(Group::Compensation) {
-            self.modes.compensation = side;
-            self.modes.compensation_offset = match side {
+            let offset = match side {
                 Compensation::Off => None,
                 _ => words.take_whole(self.dialect.tool_offset)?,
             };
+            self.compensate(side, offset)?;
         }
         match words.function(Group::Length) {
             Some(Function::Length(true)) => {
@@ -171,11 +176,11 @@ impl State<'_> {
                 Auxiliary::Counterclockwise => self.turn_spindle(Spindle::Counterclockwise),
                 Auxiliary::SpindleOff => self.turn_spindle(Spindle::Off),
                 Auxiliary::Orient => {
-                    self.modes.spindle = Spindle::Off;
+                    self.turn_spindle(Spindle::Off);
                     self.modes.orientation = orientation;
                 }
                 Auxiliary::SpindleRange(range) => self.modes.spindle_range = Some(*range),
-                Auxiliary::Coolant(on) => self.modes.coolant = *on,
+                Auxiliary::Coolant(on) => self.cool(*on),
                 _ => {}
             }
         }
@@ -185,13 +190,55 @@ impl State<'_> {
     pub(super) fn turn_spindle(&mut self, spindle: Spindle) {
         self.modes.spindle = spindle;
         self.modes.orientation = None;
+        self.modes.spindle_unsaid = false;
+    }
+
+    /// Switches the coolant of a function on, or all of it off.
+    pub(super) fn cool(&mut self, coolant: Option<u32>) {
+        self.modes.coolant = coolant;
+        self.modes.coolant_unsaid = false;
+    }
+
+    /// A change or a stop, where many machines stop spindle and coolant.
+    fn leaves_unsaid(&mut self) {
+        self.modes.spindle_unsaid = true;
+        self.modes.coolant_unsaid = true;
+    }
+
+    /// An auxiliary function that is told as it is.
+    pub(super) fn tell_auxiliary(&mut self, code: u32) {
+        self.events.push(Event::Auxiliary { line: self.line, code });
+        if STOPS.contains(&code) {
+            self.leaves_unsaid();
+        }
+    }
+
+    /// Switches cutter compensation.
+    ///
+    /// # Errors
+    /// It was switched before, and nothing has moved since: controls differ in where the cutter
+    /// goes then.
+    pub(super) fn compensate(
+        &mut self,
+        side: Compensation,
+        offset: Option<u32>,
+    ) -> Result<(), Fault> {
+        let switches = side != self.modes.compensation;
+        if switches && side != Compensation::Off && self.compensation_rests {
+            let message = "cutter compensation is switched twice, and nothing moves in between";
+            return Err(Fault::new(NcCode::NoMeaning, message));
+        }
+        self.compensation_rests |= switches;
+        self.modes.compensation = side;
+        self.modes.compensation_offset = offset;
+        Ok(())
     }
 
     /// Tells the auxiliary functions other than those of spindle, coolant and tool.
     pub(super) fn auxiliaries(&mut self, words: &Words) {
         for (auxiliary, _) in &words.auxiliaries {
             if let Auxiliary::Other(code) = auxiliary {
-                self.events.push(Event::Auxiliary { line: self.line, code: *code });
+                self.tell_auxiliary(*code);
             }
         }
     }
@@ -227,5 +274,8 @@ impl State<'_> {
             self.known[..3].fill(false);
         }
         self.modes.tool = tool;
+        if self.dialect.tool_call == ToolCall::WithCode || self.dialect.family == Family::Klartext {
+            self.leaves_unsaid();
+        }
     }
 }

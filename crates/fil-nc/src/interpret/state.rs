@@ -36,6 +36,8 @@ pub(super) struct State<'d> {
     pub(super) arc_radius: Option<f64>,
     /// The function of the length offset stood behind the last tool change.
     pub(super) length_is_on: bool,
+    /// Cutter compensation was switched, and nothing has moved since.
+    pub(super) compensation_rests: bool,
     /// S is a surface speed.
     pub(super) surface: bool,
     pub(super) return_initial: bool,
@@ -88,6 +90,7 @@ impl<'d> State<'d> {
             feed: None,
             arc_radius: None,
             length_is_on: false,
+            compensation_rests: false,
             surface: false,
             return_initial: dialect.return_initial,
             certain: dialect.certain,
@@ -199,6 +202,7 @@ impl<'d> State<'d> {
     ) {
         (self.at, self.known) = (to, known);
         self.arc_radius = None;
+        self.compensation_rests = false;
         let [x, y, z, primary, secondary] = to;
         let usual = [DRILLED, self.dialect.plane].contains(&self.said_plane);
         let is_other = !usual && !self.dialect.lathe;

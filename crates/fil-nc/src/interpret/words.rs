@@ -290,6 +290,10 @@ impl Item {
                     "without its point this can be millimetres or smallest steps"
                 }
                 Unreadable::NoZeros => "its zeros are dropped on both sides",
+                Unreadable::Point => {
+                    "the machine writes it in whole numbers; with a point controls take it for \
+                     seconds or millimetres, or refuse it"
+                }
             };
             Fault::new(NcCode::BadNumber, message).at(&self.range)
         })

@@ -1,5 +1,6 @@
 //! What a block of INSERT switches, the CL file asks for.
 
+use super::again::Again;
 use super::ahead::Steps;
 use super::modes::Expected;
 use super::settings::{Due, Settings};
@@ -77,6 +78,7 @@ impl Expected {
 
     /// What an auxiliary function switches, in a text or by AUXFUN.
     pub(super) fn insert_auxiliary(&mut self, auxiliary: Auxiliary) {
+        self.again.insert(auxiliary);
         let mut spindle = |turns: Option<Spindle>| {
             self.spindle.set(turns, Due::Now);
             self.orientation = None;
@@ -94,6 +96,7 @@ impl Expected {
 
     /// A tool that a block of INSERT or of the settings changes to.
     pub(super) fn insert_tool(&mut self, tool: u32) {
+        self.again = Again::default();
         self.tool = Some(tool);
         self.loaded = Some(tool);
         // A post does not trust it: LOADTL of the same tool changes it again.

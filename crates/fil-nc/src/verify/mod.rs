@@ -6,6 +6,7 @@
 //! What the machine's settings lay down where the CL file leaves it open (when codes
 //! stand, what the last digit is) comes from [`Settings`].
 
+mod again;
 mod ahead;
 mod align;
 mod arc;

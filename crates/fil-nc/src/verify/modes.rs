@@ -3,6 +3,7 @@
 //! A post may let a word wait for a motion of certain axes. Until then both the
 //! state before and the state asked for are right; after it only the latter is.
 
+use super::again::Again;
 use super::lag::{Lag, Moved};
 use super::modes_said::{
     name_of_fixture, said_of_compensation, said_of_offset, said_of_speed, said_of_spindle,
@@ -49,6 +50,9 @@ pub(super) struct Expected {
     /// The limit that the next surface speed brings along.
     next_limit: Option<f64>,
     pub(super) coolant: Lag<Option<u32>>,
+    /// A record has asked for the spindle, and for the coolant, since the last tool change or
+    /// stop.
+    pub(super) again: Again,
     /// `None` when words of the user's own may have chosen it.
     pub(super) fixture: Option<Option<u32>>,
     /// The plane that a record has named last, by the index of its normal.
@@ -84,6 +88,7 @@ impl Expected {
             speed_limit: Some(settings.speed_limit_at_start()),
             next_limit: None,
             coolant: Lag::new(None),
+            again: Again::default(),
             fixture: Some(fixture_of(&settings.own_blocks())),
             plane: DRILLED,
             allowed_offsets: Vec::new(),
@@ -112,6 +117,7 @@ impl Expected {
 
     /// Takes up what a step switches.
     pub(super) fn take(&mut self, wanted: &Wanted, settings: &Settings) {
+        self.again.take(wanted);
         match wanted {
             Wanted::Plane(normal) => self.plane = *normal,
             Wanted::Spindle(Some(Spindle::Off)) => {
@@ -271,6 +277,7 @@ impl Expected {
     /// Takes up a tool change.
     pub(super) fn change_tool(&mut self, tool: u32, offset: u32, settings: &Settings) {
         self.flush();
+        self.again = Again::default();
         self.tool = settings.calls_tools().then_some(tool);
         self.loaded = Some(tool);
         self.loaded_offset = Some(offset);
@@ -424,6 +431,7 @@ impl Expected {
             let said = format!("the spindle has {}, none is asked for", said_of_speed(speed));
             wrong.push((FindingKind::Speed, said));
         }
+        self.again.wrong(self, modes, &mut wrong);
         let limit = |must: &Option<f64>| match (must, modes.speed_limit) {
             (Some(must), Some(limit)) => (must - limit).abs() > slack.speed,
             (must, limit) => must.is_some() != limit.is_some(),

@@ -390,6 +390,16 @@ impl Pair<'_> {
                 "the coolant is not as it should be".to_string(),
             ),
             (
+                b.spindle_unsaid && !a.spindle_unsaid,
+                FindingKind::Spindle,
+                "the spindle is not switched on again behind the tool change or stop".to_string(),
+            ),
+            (
+                b.coolant_unsaid && !a.coolant_unsaid,
+                FindingKind::Coolant,
+                "the coolant is not switched on again behind the tool change or stop".to_string(),
+            ),
+            (
                 a.plane.map(|(normal, _)| normal) != b.plane.map(|(normal, _)| normal),
                 FindingKind::Tool,
                 "the length of the tool acts along another axis".to_string(),

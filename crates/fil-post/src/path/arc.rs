@@ -9,7 +9,8 @@ use fil_machine::locations::{
 use fil_machine::modes::Plane;
 use nalgebra::{Point3, Vector3};
 
-use super::{chords, feed_rules, frame, rotary};
+use super::long_arc::{self, Parts};
+use super::{feed_rules, frame, rotary};
 use crate::control::word_address::arc::{self as words, PlaneArc};
 use crate::control::{Function, family};
 use crate::control_state::Compensation;
@@ -30,7 +31,7 @@ const NEAR_PLANE: f64 = 1e-6;
 /// Angles nearer than this are one, degrees and quarters of a turn.
 const SAME_ANGLE: f64 = 1e-6;
 
-const FULL: f64 = 360.0;
+pub(super) const FULL: f64 = 360.0;
 
 /// Carries out the arc that ends at `target`.
 ///
@@ -56,7 +57,7 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     };
     let Some(mut whole) = whole else {
         post.warn(PostCode::ArcLines, "an arc was written as short lines".to_string());
-        return as_lines(post, arc, start, sweep, target);
+        return long_arc::as_lines(post, arc, start, sweep, target);
     };
     check_travel(post, &whole)?;
     family::ready(&mut post.control)?;
@@ -74,33 +75,14 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     {
         let feed = feed_rules::of_arc(post, &whole)?;
         family::arc(&mut post.control, &whole, feed.as_ref())?;
+        post.path.point = Some(target.point);
+        Ok(())
     } else if let Some(parts) = parts(post, &whole)? {
-        for part in parts {
-            let feed = feed_rules::of_arc(post, &part)?;
-            family::arc(&mut post.control, &part, feed.as_ref())?;
-        }
+        long_arc::in_parts(post, parts, target.point)
     } else {
         // An arc of a few last digits: as lines it is within rounding.
-        return as_lines(post, arc, start, sweep, target);
+        long_arc::as_lines(post, arc, start, sweep, target)
     }
-    post.path.point = Some(target.point);
-    Ok(())
-}
-
-/// The arc as chords. They are no lines of the CL file, so they tell nothing of its sense.
-fn as_lines(
-    post: &mut Post,
-    arc: &Arc,
-    start: Point3<f64>,
-    sweep: f64,
-    target: Target,
-) -> Result<()> {
-    let course = std::mem::take(&mut post.path.course);
-    post.path.in_chords = true;
-    let done = chords::carry_out(post, arc, start, sweep, target);
-    post.path.course = course;
-    post.path.in_chords = false;
-    done
 }
 
 /// The end of an arc as the machine wants it: at the radius of the start, and at its level
@@ -304,14 +286,14 @@ fn extremes(arc: &PlaneArc) -> impl Iterator<Item = f64> + use<> {
 }
 
 /// Angle of the start from the first axis of the plane, degrees.
-fn start_angle(arc: &PlaneArc) -> f64 {
+pub(super) fn start_angle(arc: &PlaneArc) -> f64 {
     let [first, second] = arc.plane.axes();
     libm::atan2(arc.from[second] - arc.center[1], arc.from[first] - arc.center[0]).to_degrees()
 }
 
 /// The parts that the control reads as they are meant: as few as the machine's rules
 /// allow, more where rounding would change them; `None` when no arc does.
-fn parts(post: &Post, arc: &PlaneArc) -> Result<Option<Vec<PlaneArc>>> {
+fn parts(post: &Post, arc: &PlaneArc) -> Result<Option<Parts>> {
     let steps: &[Step] = match usual_step(post, arc) {
         Step::Turns => &[Step::Turns, Step::Halves, Step::Quadrants],
         Step::Halves => &[Step::Halves, Step::Quadrants],
@@ -319,16 +301,22 @@ fn parts(post: &Post, arc: &PlaneArc) -> Result<Option<Vec<PlaneArc>>> {
     };
     let least = least_angle(post, arc);
     for step in steps {
-        let parts = divided(post, arc, &stops(arc, *step, least))?;
-        let mut meant = true;
-        for part in &parts {
-            meant &= family::reads_as_meant(&post.control, part)?;
-        }
-        if meant {
+        let parts = Parts::new(arc, *step, least);
+        if are_meant(post, parts.clone())? {
             return Ok(Some(parts));
         }
     }
     Ok(None)
+}
+
+/// True where the control reads each part as it is meant.
+fn are_meant(post: &Post, mut parts: Parts) -> Result<bool> {
+    while let Some(part) = parts.next(post)? {
+        if !family::reads_as_meant(&post.control, &part)? {
+            return Ok(false);
+        }
+    }
+    Ok(true)
 }
 
 /// Degrees of an arc as long as two last digits: a part shorter than that would be
@@ -340,7 +328,7 @@ fn least_angle(post: &Post, arc: &PlaneArc) -> f64 {
 
 /// Where the blocks of an arc end.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Step {
+pub(super) enum Step {
     /// After each full turn.
     Turns,
     /// After half a turn, so that none is a full circle.
@@ -363,61 +351,4 @@ fn usual_step(post: &Post, arc: &PlaneArc) -> Step {
     } else {
         Step::Turns
     }
-}
-
-/// Angles from the start, in degrees, at which the blocks of an arc end; no block is
-/// shorter than `least` degrees.
-fn stops(arc: &PlaneArc, step: Step, least: f64) -> Vec<f64> {
-    let mut stops = Vec::new();
-    let start = start_angle(arc);
-    let (mut next, step) = match step {
-        Step::Quadrants => {
-            let turned = if arc.counterclockwise { start } else { -start };
-            (((turned / 90.0).floor() + 1.0) * 90.0 - turned, 90.0)
-        }
-        Step::Halves => {
-            let parts = (arc.sweep / (FULL / 2.0)).ceil().max(2.0);
-            (arc.sweep / parts, arc.sweep / parts)
-        }
-        Step::Turns => (FULL, FULL),
-    };
-    while next < arc.sweep - least {
-        if next > least {
-            stops.push(next);
-        }
-        next += step;
-    }
-    stops.push(arc.sweep);
-    stops
-}
-
-/// The parts of an arc that end at these angles.
-///
-/// # Errors
-/// A position that does not fit its address.
-fn divided(post: &Post, arc: &PlaneArc, stops: &[f64]) -> Result<Vec<PlaneArc>> {
-    let angle = start_angle(arc);
-    let along = arc.plane.normal();
-    let mut parts: Vec<PlaneArc> = Vec::with_capacity(stops.len());
-    let (mut here, mut start, mut done) = (arc.from, arc.start, 0.0);
-    for &stop in stops {
-        let mut next = arc.to;
-        let last = stop >= arc.sweep;
-        if !last {
-            let turned = if arc.counterclockwise { stop } else { -stop };
-            let (sine, cosine) = libm::sincos((angle + turned).to_radians());
-            let [first, second] = arc.plane.axes();
-            next[first] = arc.center[0] + arc.radius * cosine;
-            next[second] = arc.center[1] + arc.radius * sine;
-            next[along] = arc.from[along] + (arc.to[along] - arc.from[along]) * stop / arc.sweep;
-        }
-        // The record's point is where the whole arc ends, not a part of it.
-        let word = if last { arc.word } else { 0 };
-        parts.push(PlaneArc { from: here, start, to: next, sweep: stop - done, word, ..*arc });
-        for (start, number) in start.iter_mut().zip(arc.plane.axes()) {
-            *start = post.control.tables.axis(number).on_tape(next[number])?;
-        }
-        (here, done) = (next, stop);
-    }
-    Ok(parts)
 }

@@ -13,39 +13,16 @@ use nalgebra::{Point3, Vector3};
 /// Smallest angle of a chord, degrees.
 const FINEST: f64 = 0.05;
 
-/// Most lines of one CIRCLE, all its turns taken together: they are one record, which is kept
-/// until it is whole.
+/// Most lines of one CIRCLE, all its turns taken together: more of them the check of a program
+/// would not follow as one arc.
 const MOST_LINES: u32 = 100_000;
 
 /// Chord tolerance where the machine names none, mm.
 const TOLERANCE: f64 = 0.005;
 
-/// Writes an arc as lines. `sweep`: degrees.
-///
-/// # Errors
-/// As a straight motion.
-pub fn carry_out(
-    post: &mut Post,
-    arc: &Arc,
-    start: Point3<f64>,
-    sweep: f64,
-    target: Target,
-) -> Result<()> {
-    let chords = Chords::new(post, arc, start, sweep, target);
-    let count = chords.count(post)?;
-    if count > MOST_LINES {
-        let message = format!("the arc with all its turns is {count} lines, {MOST_LINES} at most");
-        return PostCode::TooManyParts.err(message);
-    }
-    for number in 1..count {
-        let point = chords.at(f64::from(number) / f64::from(count));
-        linear::carry_out(post, point, MotionKind::Feed)?;
-    }
-    linear::carry_out(post, target, MotionKind::Feed)
-}
-
 /// An arc that is written as lines.
-struct Chords {
+#[derive(Clone, Debug)]
+pub(crate) struct Chords {
     base: Point3<f64>,
     from: Vector3<f64>,
     across: Vector3<f64>,
@@ -53,12 +30,25 @@ struct Chords {
     sweep: f64,
     axes: [Vector3<f64>; 2],
     end: Target,
+    count: u32,
+    /// How many of them are written.
+    done: u32,
 }
 
 impl Chords {
-    fn new(post: &Post, arc: &Arc, start: Point3<f64>, sweep: f64, end: Target) -> Self {
+    /// `sweep`: degrees.
+    ///
+    /// # Errors
+    /// Too many lines; as [`linearization::count`].
+    pub fn new(
+        post: &Post,
+        arc: &Arc,
+        start: Point3<f64>,
+        sweep: f64,
+        end: Target,
+    ) -> Result<Self> {
         let from = flat(arc, start);
-        Chords {
+        let mut chords = Chords {
             base: start - from,
             from,
             across: arc.axis.cross(&from),
@@ -66,7 +56,31 @@ impl Chords {
             sweep,
             axes: [post.path.axis, end.axis],
             end,
+            count: 0,
+            done: 0,
+        };
+        let count = chords.needed(post)?;
+        if count > MOST_LINES {
+            let message =
+                format!("the arc with all its turns is {count} lines, {MOST_LINES} at most");
+            return PostCode::TooManyParts.err(message);
         }
+        chords.count = count;
+        Ok(chords)
+    }
+
+    /// Writes up to so many lines more; false when the last one is written.
+    ///
+    /// # Errors
+    /// As a straight motion.
+    pub fn write(&mut self, post: &mut Post, most: u32) -> Result<bool> {
+        let until = self.count.min(self.done + most);
+        while self.done < until {
+            self.done += 1;
+            let point = self.at(f64::from(self.done) / f64::from(self.count));
+            linear::carry_out(post, point, MotionKind::Feed)?;
+        }
+        Ok(self.done < self.count)
     }
 
     /// The point at a share of the arc, with the tool between its ends.
@@ -85,7 +99,7 @@ impl Chords {
     ///
     /// # Errors
     /// As [`linearization::count`].
-    fn count(&self, post: &Post) -> Result<u32> {
+    fn needed(&self, post: &Post) -> Result<u32> {
         let mm = post.control.require_unit()?.in_mm();
         let chord = post.control.commons.dbl_opt(loc::CIRCLE_CHORD_TOLERANCE).unwrap_or(TOLERANCE);
         let within = |tolerance: f64| {

@@ -18,6 +18,7 @@ pub mod hole;
 mod index;
 mod linear;
 pub mod linearization;
+pub(crate) mod long_arc;
 mod machine_position;
 pub mod mill_turn;
 pub mod rapid;
@@ -90,6 +91,8 @@ pub struct Path {
     pub(crate) in_chords: bool,
     /// CIRCLE waits for its end point.
     pub arc: Option<Arc>,
+    /// What is left of a CIRCLE that is on the tape in part.
+    pub(crate) rest: Option<Box<long_arc::Rest>>,
     /// The canned cycle that each GOTO carries out.
     pub cycle: Option<Cycle>,
     /// Where the last cycle has left the tip above its holes under tool-tip control, with the
@@ -149,6 +152,7 @@ impl Default for Path {
             inverse_time: false,
             in_chords: false,
             arc: None,
+            rest: None,
             cycle: None,
             above_left: None,
             thread: None,
@@ -184,7 +188,8 @@ impl Path {
     }
 }
 
-/// Carries out an operation: its blocks are on the tape when this returns.
+/// Carries out an operation: its blocks are on the tape when this returns, of an arc in very many
+/// blocks the first ones.
 ///
 /// # Errors
 /// Whatever the machine or the control can't do.

@@ -265,12 +265,20 @@ impl<'t> Compiler<'t> {
     /// An index that must fit a `u16` field of an operation.
     fn index(&mut self, index: usize, span: Span, what: &str) -> u16 {
         u16::try_from(index).unwrap_or_else(|_| {
-            let message = format!("more than 65536 {what}");
-            if self.diags.last().is_none_or(|last| last.message != message) {
-                self.report(CompileCode::TooLarge, span, message);
-            }
+            self.report_too_many(span, 65_536, what);
             0
         })
+    }
+
+    /// Too many of what a program may have only so many of: said once, and not for each of the
+    /// hundred thousands that may follow.
+    #[cold]
+    fn report_too_many(&mut self, span: Span, most: u32, what: &str) {
+        const LIMITS: usize = 8;
+        let message = format!("more than {most} {what}");
+        if self.diags.iter().rev().take(LIMITS).all(|last| last.message != message) {
+            self.report(CompileCode::TooLarge, span, message);
+        }
     }
 
     /// Items of a unit.

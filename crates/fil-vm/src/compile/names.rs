@@ -134,8 +134,7 @@ impl<'t> Compiler<'t> {
     pub(super) fn reserve(&mut self, count: u32, span: Span) -> Reg {
         let first = self.slots.next;
         if first + count > u32::from(FIRST_TEMPORARY) {
-            let message = format!("more than {FIRST_TEMPORARY} names, constants and loops");
-            self.report(CompileCode::TooLarge, span, message);
+            self.report_too_many(span, FIRST_TEMPORARY.into(), "names, constants and loops");
             return 0;
         }
         self.slots.next += count;

@@ -6,6 +6,7 @@ use fil_diag::Diag;
 use fil_machine::locations::MESSAGE_TO_TAPE;
 
 use super::Outside;
+use crate::cancel::CancelToken;
 use crate::event::Event;
 use crate::overview::Counted;
 use crate::report::Extents;
@@ -91,7 +92,10 @@ impl Outside<'_, '_> {
                 observer(Event::Message(record.text.trim_end()));
             }
         }
-        let result = self.post.process(record, vocabulary);
+        let mut result = self.post.begin(record, vocabulary);
+        if result.is_ok() && self.post.has_more() {
+            result = self.go_on();
+        }
         if matches!(record.major, words::UNITS | words::UNIT) {
             self.report.unit = self.post.unit().map(|unit| (unit, UnitSource::Statement));
         }
@@ -111,6 +115,17 @@ impl Outside<'_, '_> {
             self.report.words_beside = true;
         }
         self.ended |= record.kind == kind::FINI;
+        Ok(())
+    }
+
+    /// Carries out the rest of a record of very many blocks; the finished ones leave memory.
+    #[cold]
+    fn go_on(&mut self) -> Result<(), Box<Diag>> {
+        while self.post.has_more() {
+            self.spill()?;
+            self.cancel.as_ref().map_or(Ok(()), CancelToken::check)?;
+            self.post.go_on()?;
+        }
         Ok(())
     }
 }

@@ -35,6 +35,10 @@ fn e0120_and_e0121_encodings() {
 #[test]
 fn e0215_program_too_large() {
     assert_eq!(building(&format!("{}FINI\n", "XX=1\n".repeat(66_000))), ["E0215"]);
+    // Said once, and not for each name that is too many.
+    let names: String = (0..70_000).map(|number| format!("N{number}A=1\n")).collect();
+    let said = building(&format!("{names}FINI\n"));
+    assert!(said.len() <= 2 && said.iter().all(|code| code == "E0215"), "{} errors", said.len());
 }
 
 #[test]

@@ -346,6 +346,10 @@ impl Klartext<'_> {
                 step = length("Q202")?;
                 self.refuse(definition, &["Q212", "Q257", "Q379"])?;
                 again = length("Q258")?;
+                if length("Q259")? != again {
+                    let message = "Q259 other than Q258: the stops before the depths change evenly";
+                    return Err(Fault::new(NcCode::ForeignCode, message));
+                }
                 kind = CycleKind::Peck;
             }
             _ => {}

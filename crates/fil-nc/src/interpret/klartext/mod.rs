@@ -136,6 +136,12 @@ impl Klartext<'_> {
                     "the program begins without BEGIN PGM",
                 ));
             }
+            (Part::Body | Part::Ended, ["END", "PGM", .., unit @ ("MM" | "INCH")])
+                if (*unit == "MM") != self.state.metric =>
+            {
+                let message = "END PGM says another unit than BEGIN PGM";
+                return Err(Fault::new(NcCode::Twice, message));
+            }
             (Part::Body | Part::Ended, ["END", "PGM", ..]) => {
                 if self.part == Part::Body {
                     self.end();
@@ -155,10 +161,10 @@ impl Klartext<'_> {
             definition.check_whole()?;
         }
         match &words[..] {
-            ["BLK", "FORM", ..] | ["TOOL", "DEF", ..] => Ok(()),
+            ["BLK", "FORM", ..] => Ok(()),
+            ["TOOL", "DEF", rest @ ..] => tool::check_definition(rest, &line.words[2..]),
             ["STOP", ..] => {
-                let line_number = self.state.line;
-                self.state.events.push(Event::Auxiliary { line: line_number, code: 0 });
+                self.state.tell_auxiliary(0);
                 self.functions(&line.words[1..])
             }
             ["TOOL", "CALL", ..] => self.tool_call(&line.words[2..]),
@@ -238,13 +244,12 @@ impl Klartext<'_> {
 
     /// An M function; says what it asks for when the line is done.
     fn function(&mut self, code: i64, word: &Word) -> Result<After, Fault> {
-        let modes = &mut self.state.modes;
         match code {
             13 | 14 => {
                 let clockwise = code == 13;
-                modes.spindle =
-                    if clockwise { Spindle::Clockwise } else { Spindle::Counterclockwise };
-                modes.coolant = Some(COOLANT);
+                let turn = if clockwise { Spindle::Clockwise } else { Spindle::Counterclockwise };
+                self.state.turn_spindle(turn);
+                self.state.cool(Some(COOLANT));
                 return Ok(After::Nothing);
             }
             91 | 92 => return Ok(After::InMachineFrame),
@@ -260,17 +265,15 @@ impl Klartext<'_> {
             _ => {}
         }
         match self.state.dialect.auxiliary(code) {
-            Auxiliary::Clockwise => modes.spindle = Spindle::Clockwise,
-            Auxiliary::Counterclockwise => modes.spindle = Spindle::Counterclockwise,
-            Auxiliary::SpindleOff => modes.spindle = Spindle::Off,
-            Auxiliary::Coolant(on) => modes.coolant = on,
+            Auxiliary::Clockwise => self.state.turn_spindle(Spindle::Clockwise),
+            Auxiliary::Counterclockwise => self.state.turn_spindle(Spindle::Counterclockwise),
+            Auxiliary::SpindleOff | Auxiliary::Orient => self.state.turn_spindle(Spindle::Off),
+            Auxiliary::Coolant(on) => self.state.cool(on),
             Auxiliary::End(code) => {
                 self.end_code = Some(code);
                 return Ok(After::Ends);
             }
-            Auxiliary::Other(code) => {
-                self.state.events.push(Event::Auxiliary { line: self.state.line, code });
-            }
+            Auxiliary::Other(code) => self.state.tell_auxiliary(code),
             _ => {}
         }
         Ok(After::Nothing)

@@ -261,11 +261,11 @@ impl Klartext<'_> {
         for word in words {
             match word.text.as_str() {
                 "FMAX" => said.rapid = true,
-                "R0" => self.compensate(Compensation::Off),
+                "R0" => self.compensate(Compensation::Off)?,
                 "RL" | "RR" => {
                     self.state.refuse_under_tip_control("cutter compensation")?;
                     let left = word.text == "RL";
-                    self.compensate(if left { Compensation::Left } else { Compensation::Right });
+                    self.compensate(if left { Compensation::Left } else { Compensation::Right })?;
                 }
                 "DR+" => said.ccw = Some(true),
                 "DR-" => said.ccw = Some(false),
@@ -275,10 +275,9 @@ impl Klartext<'_> {
         Ok(said)
     }
 
-    fn compensate(&mut self, side: Compensation) {
-        let modes = &mut self.state.modes;
-        modes.compensation = side;
-        modes.compensation_offset = Some(modes.tool).filter(|_| side != Compensation::Off);
+    fn compensate(&mut self, side: Compensation) -> Result<(), Fault> {
+        let tool = Some(self.state.modes.tool);
+        self.state.compensate(side, tool.filter(|_| side != Compensation::Off))
     }
 
     fn word(&mut self, word: &Word, said: &mut Said) -> Result<(), Fault> {

@@ -6,6 +6,19 @@ use super::line::Word;
 use crate::errors::NcCode;
 use crate::motion::Speed;
 
+/// `TOOL DEF 5` makes a tool ready; with a length or a radius it would give the tool others than
+/// those of its table.
+pub(super) fn check_definition(texts: &[&str], words: &[Word]) -> Result<(), Fault> {
+    let measures = |text: &&str| text.starts_with(['L', 'R']);
+    match texts.iter().position(|text| measures(text)) {
+        Some(at) => {
+            let message = "a length or a radius of a tool that the program defines";
+            Err(Fault::new(NcCode::ForeignCode, message).at(&words[at].range))
+        }
+        None => Ok(()),
+    }
+}
+
 impl Klartext<'_> {
     /// `TOOL CALL 5 Z S2000`; the tool in the spindle with a speed is no change.
     pub(super) fn tool_call(&mut self, words: &[Word]) -> Result<(), Fault> {

@@ -69,13 +69,12 @@ impl Sinumerik<'_> {
             let message = "another work offset in a tilted plane";
             return Err(Fault::new(NcCode::NoMeaning, message));
         }
-        self.modes(&said);
+        self.modes(&said)?;
         self.tool(&said)?;
         self.spindle(&said);
         for auxiliary in &said.auxiliaries {
             if let Auxiliary::Other(code) = auxiliary {
-                let line = self.state.line;
-                self.state.events.push(Event::Auxiliary { line, code: *code });
+                self.state.tell_auxiliary(*code);
             }
         }
         let (stood, known) = (self.state.at, self.state.known);
@@ -214,7 +213,7 @@ impl Sinumerik<'_> {
         }
         match word.name.as_str() {
             "SUPA" => said.functions.push(Function::Machine),
-            "DIAMON" if self.writes_diameters() => {}
+            "DIAMON" if self.writes_diameters() => self.state.certain.say(StartMode::Diameter),
             "DIAMOF" if self.writes_diameters() => {
                 return Err(word.foreign("on a machine whose X is a diameter"));
             }
@@ -267,7 +266,7 @@ impl Sinumerik<'_> {
         }
     }
 
-    fn modes(&mut self, said: &Said) {
+    fn modes(&mut self, said: &Said) -> Result<(), Fault> {
         for function in &said.functions {
             let state = &mut self.state;
             match *function {
@@ -282,10 +281,7 @@ impl Sinumerik<'_> {
                     state.say_plane(normal);
                     state.certain.say(StartMode::Plane);
                 }
-                Function::Compensation(side) => {
-                    state.modes.compensation = side;
-                    state.modes.compensation_offset = None;
-                }
+                Function::Compensation(side) => state.compensate(side, None)?,
                 Function::Units { metric, feeds } => {
                     state.certain.say(StartMode::Unit);
                     state.set_metric(metric);
@@ -319,6 +315,7 @@ impl Sinumerik<'_> {
                 _ => {}
             }
         }
+        Ok(())
     }
 
     fn feed_mode(&mut self, mode: FeedMode) {
@@ -357,27 +354,27 @@ impl Sinumerik<'_> {
 
     fn spindle(&mut self, said: &Said) {
         let dwells = said.has(8) == Some(Function::Dwell);
-        let modes = &mut self.state.modes;
+        let state = &mut self.state;
         if let Some(speed) = said.speed.filter(|_| !dwells) {
-            modes.speed = Some(match self.state.surface {
-                true => Speed::Surface(speed * if self.state.metric { 1.0 } else { FOOT }),
+            state.modes.speed = Some(match state.surface {
+                true => Speed::Surface(speed * if state.metric { 1.0 } else { FOOT }),
                 false => Speed::Turns(speed),
             });
         }
-        modes.speed_limit = said.limit.or(modes.speed_limit);
+        state.modes.speed_limit = said.limit.or(state.modes.speed_limit);
         for auxiliary in &said.auxiliaries {
             match auxiliary {
-                Auxiliary::Clockwise => turn(modes, Spindle::Clockwise),
-                Auxiliary::Counterclockwise => turn(modes, Spindle::Counterclockwise),
-                Auxiliary::SpindleOff | Auxiliary::Orient => turn(modes, Spindle::Off),
-                Auxiliary::SpindleRange(range) => modes.spindle_range = Some(*range),
-                Auxiliary::Coolant(on) => modes.coolant = *on,
+                Auxiliary::Clockwise => state.turn_spindle(Spindle::Clockwise),
+                Auxiliary::Counterclockwise => state.turn_spindle(Spindle::Counterclockwise),
+                Auxiliary::SpindleOff | Auxiliary::Orient => state.turn_spindle(Spindle::Off),
+                Auxiliary::SpindleRange(range) => state.modes.spindle_range = Some(*range),
+                Auxiliary::Coolant(on) => state.cool(*on),
                 _ => {}
             }
         }
         if said.position.is_some() {
-            turn(modes, Spindle::Off);
-            modes.orientation = said.position;
+            state.turn_spindle(Spindle::Off);
+            state.modes.orientation = said.position;
         }
     }
 
@@ -395,11 +392,6 @@ impl Sinumerik<'_> {
         self.state.events.push(Event::Dwell { line, seconds, turns });
         Ok(())
     }
-}
-
-fn turn(modes: &mut crate::motion::Modes, spindle: Spindle) {
-    modes.spindle = spindle;
-    modes.orientation = None;
 }
 
 /// The number of an R parameter.

@@ -14,6 +14,9 @@ const MAX_PECKS: f64 = 10_000.0;
 /// By which chip breaking lifts where VRT says nothing, mm.
 const LIFT: f64 = 1.0;
 
+/// Levels nearer than this are one level, mm.
+const SAME_LEVEL: f64 = 1e-6;
+
 /// A cycle with what it is given.
 #[derive(Clone, Debug)]
 pub(super) struct Call {
@@ -60,6 +63,28 @@ impl Call {
         self.get(name).ok_or_else(|| {
             Fault::new(NcCode::MissingWord, format!("CYCLE{} needs {name}", self.number))
         })
+    }
+
+    /// A depth as a level, or as a distance below the reference plane.
+    ///
+    /// # Errors
+    /// Neither; both, at different levels, of which the control takes the distance.
+    fn depth(
+        &self,
+        [name, relative]: [&str; 2],
+        level: impl Fn(f64) -> f64,
+        below: impl Fn(f64) -> f64,
+    ) -> Result<f64, Fault> {
+        match (self.get(name).map(level), self.get(relative).map(below)) {
+            (Some(one), Some(other)) if (one - other).abs() > SAME_LEVEL => {
+                let message = format!("{name} and {relative} are different depths");
+                Err(Fault::new(NcCode::Twice, message))
+            }
+            (Some(depth), _) | (None, Some(depth)) => Ok(depth),
+            (None, None) => {
+                Err(Fault::new(NcCode::MissingWord, format!("{name} or {relative} is needed")))
+            }
+        }
     }
 
     /// Refuses a drilling axis other than the third one.
@@ -148,11 +173,7 @@ impl Sinumerik<'_> {
         let level = |value: f64| self.state.position(axis, value);
         let (rest, surface) = (level(call.need("RTP")?), level(call.need("RFP")?));
         let clear = surface + length(call.get("SDIS").unwrap_or(0.0));
-        let bottom = match (call.get("DP"), call.get("DPR")) {
-            (Some(depth), _) => level(depth),
-            (None, Some(depth)) => surface - length(depth),
-            (None, None) => return Err(Fault::new(NcCode::MissingWord, "DP or DPR is needed")),
-        };
+        let bottom = call.depth(["DP", "DPR"], level, |depth| surface - length(depth))?;
         if bottom >= surface || rest < surface {
             let message = "RFP must lie above the bottom and not above RTP (alarm 61101)";
             return Err(Fault::new(NcCode::NoMeaning, message));
@@ -198,11 +219,8 @@ impl Sinumerik<'_> {
             return Err(Fault::new(NcCode::ForeignCode, "FRF other than 1 is not followed"));
         }
         call.check_axis()?;
-        let first = match (call.get("FDEP"), call.get("FDPR")) {
-            (Some(depth), _) => self.state.position(at.axis, depth),
-            (None, Some(depth)) => at.surface - length(depth),
-            (None, None) => return Err(Fault::new(NcCode::MissingWord, "FDEP or FDPR is needed")),
-        };
+        let level = |depth: f64| state.position(axis, depth);
+        let first = call.depth(["FDEP", "FDPR"], level, |depth| at.surface - length(depth))?;
         let step = at.surface - first;
         if step <= 0.0 || first < at.bottom - 1e-9 {
             let message = "FDEP must lie between RFP and the bottom (alarm 61107)";
