@@ -236,7 +236,10 @@ fn a_live_tool_of_a_lathe_lies_as_in_the_cl_file() {
     let Some(browser) = browser::program() else { return };
     let said = said(&browser, &html(&drawing));
     assert_eq!((&said["error"], &said["opened"]), (&Value::Null, &"zx".into()), "{said:#}");
-    assert!(said["axes"].as_u64() > Some(10), "{said:#}");
+    // The lines lie on those of the path here: few of their pixels are of their colour alone.
+    assert!(said["axes"].as_u64() > Some(0), "{said:#}");
+    let tip = said["tips"]["feed"].as_str().unwrap_or_default();
+    assert!(tip.contains("\ntool axis 0 1 0\n"), "{said:#}");
     assert!(said["legend"].as_str().unwrap().contains("tool axis"), "{said:#}");
     assert_eq!(said["clashes"], serde_json::json!([]), "{said:#}");
 }
