@@ -324,7 +324,8 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
         // As a cycle of the control goes: across above what stands between the holes, then down.
         let level = here.max(lowest);
         let way = target.point - above.now;
-        let across = (way - axis * way.dot(&axis)).norm() > SAME_HEIGHT;
+        let least = moves.post.control.tables.axis(0).resolution();
+        let across = (way - axis * way.dot(&axis)).norm() > least;
         if across && level > clear + SAME_HEIGHT {
             moves.rapid(level)?;
         }
