@@ -111,6 +111,14 @@ fil_diag::codes! {
         SkippedLevel = 531, Error, "no way is safe with the skipped blocks and without them",
             "The skip switch decides where the tool stands behind OPSKIP / OFF. Which axes go first, and which level is the one before a cycle, would be right for one of the two places only.",
             "Put a RAPID to a level that is above both behind OPSKIP / OFF, and one to a known level before OPSKIP / ON.";
+        /// A rapid motion from a height that is not known.
+        UnknownLevel = 532, Error, "a rapid motion from a height that is not known",
+            "A text, a call of a subprogram or another zero came before it, and the post can't tell whether the tool stands above the end of the motion or below. Up first could be a plunge, across first could go through the part.",
+            "Put GOHOME or RETRCT before it, LOADTL, a text that goes to the machine's reference point (G91 G28 Z0.), or RAPID with a GOTO straight up; before a change of the work offset go up with RAPID.";
+        /// A rapid motion at a height that counts from another zero.
+        ShiftedLevel = 533, Warning, "a rapid motion across behind another zero",
+            "The work offset or the length of the tool has changed since the tool was brought to its height. How high it stands above the part is in the tables of the control, not in the CL file.",
+            "Look whether the tool is clear of both zeros there; GOHOME, RETRCT or LOADTL before the change leaves no doubt.";
         /// A block that is too long.
         BlockLength = 541, Error, "block longer than the control reads",
             "The rest of a block that is longer than the control's buffer would be lost.",

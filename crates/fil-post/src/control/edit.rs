@@ -3,7 +3,7 @@
 
 use fil_diag::Result;
 use fil_machine::Letter;
-use fil_machine::letters::{G, M, N};
+use fil_machine::letters::{self, G, M, N};
 use fil_machine::locations::ControlFamily;
 
 use super::{Control, sinumerik, texts};
@@ -159,15 +159,26 @@ impl Control {
         }
         let (old, new) = match (text_words(before), text_words(after)) {
             (Some(old), Some(new)) if !new.skipped => (old.words, new.words),
-            _ => return self.state.learn_text(after, &self.codes),
+            _ => return self.state.learn_text(after, &self.codes, self.unit),
         };
-        let words = || new.iter().copied().filter(|(letter, _)| *letter != N);
-        self.state.learn_words(words(), &self.codes);
+        let words: Vec<(Letter, f64)> =
+            new.iter().copied().filter(|(letter, _)| *letter != N).collect();
+        self.state.learn_words(&words, &self.codes);
         let differs = |word: &(Letter, f64), others: &[(Letter, f64)]| !others.contains(word);
         let changed = old.iter().filter(|word| differs(word, &new));
         let changed = changed.chain(new.iter().filter(|word| differs(word, &old)));
         for (letter, _) in changed.filter(|(letter, _)| !matches!(*letter, G | M | N)) {
-            self.state.doubt(*letter);
+            self.learn_edited_word(*letter, new.iter().rev().find(|(other, _)| other == letter));
+        }
+    }
+
+    /// The word of a letter is another one than the post has made, or was taken out.
+    fn learn_edited_word(&mut self, letter: Letter, edited: Option<&(Letter, f64)>) {
+        let is_placed = self.state.has_last(letter) && letters::XYZ.contains(&letter);
+        self.state.doubt(letter);
+        match edited {
+            Some((_, value)) if is_placed => self.state.stand(letter, *value),
+            _ => self.state.loses(letter),
         }
     }
 

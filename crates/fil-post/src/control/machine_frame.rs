@@ -103,7 +103,7 @@ fn block(control: &mut Control, motion: &Motion) -> Result<()> {
     for number in motion.axes.numbers() {
         let letter = control.tables.axis(number).letter;
         control.commons.set_last_output(letter, EMPTY);
-        control.state.doubt(letter);
+        control.state.clears(letter);
     }
     Ok(())
 }

@@ -15,6 +15,7 @@ pub mod klartext;
 pub(crate) mod line;
 pub mod machine_frame;
 mod own_offsets;
+pub(crate) mod place;
 pub mod program;
 pub mod replaced;
 pub mod sinumerik;
@@ -86,6 +87,8 @@ pub struct Control {
     pub waiting: Waiting,
     /// What tool-tip control begins with.
     pub tip: TipOffset,
+    /// Words of REPEAT in the last motion block, by their letters.
+    pub(crate) repeated: Vec<(Letter, f64)>,
     /// Letters whose REPEAT has ended since the last motion.
     pub(crate) ended_repeats: Vec<Letter>,
     /// Words REPEAT adds to each motion block, by letter, with their causes.
@@ -149,6 +152,7 @@ impl Control {
             state,
             waiting: Waiting::default(),
             tip: TipOffset::default(),
+            repeated: Vec::new(),
             ended_repeats: Vec::new(),
             wound: [None; 2],
             clamped: None,

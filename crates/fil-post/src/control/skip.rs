@@ -4,7 +4,6 @@ use fil_diag::Result;
 use fil_machine::locations::ControlFamily;
 
 use super::{Control, klartext, sinumerik};
-use crate::control_state::Levels;
 use crate::errors::PostCode;
 
 impl Control {
@@ -42,15 +41,6 @@ impl Control {
             self.tip.is_away &= self.tip.was_away;
         }
         Ok(())
-    }
-
-    /// Where an axis may stand behind blocks that may be skipped, positions of the machine
-    /// in mm or inch; `None` where the switch leaves no doubt of it.
-    pub fn levels_behind_skip(&self, number: usize) -> Option<Levels> {
-        let axis = self.tables.axis(number);
-        let levels = self.state.levels(axis.letter, self.commons.last_output(axis.letter))?;
-        let (one, other) = (axis.position(levels.low), axis.position(levels.high));
-        Some(Levels { low: one.min(other), high: one.max(other), ..levels })
     }
 }
 

@@ -81,8 +81,9 @@ impl Control {
             return Ok(());
         }
         let before = self.before_others()?;
-        let letters = words.iter().map(|(letter, value, _)| (*letter, *value));
-        self.state.learn_words(letters, &self.codes);
+        let plain: Vec<(Letter, f64)> =
+            words.iter().map(|(letter, value, _)| (*letter, *value)).collect();
+        self.state.learn_words(&plain, &self.codes);
         if self.tables.family == ControlFamily::Sinumerik {
             sinumerik::reader::learn_words(self, words);
         }
@@ -114,7 +115,7 @@ impl Control {
         match self.tables.family {
             ControlFamily::Klartext => klartext::reader::learn(self, text),
             ControlFamily::Sinumerik => sinumerik::reader::learn(self, text),
-            ControlFamily::WordAddress => self.state.learn_text(text, &self.codes),
+            ControlFamily::WordAddress => self.state.learn_text(text, &self.codes, self.unit),
         }
         self.refuse_in_compensation(before)
     }

@@ -153,6 +153,41 @@ impl Codes {
         }
     }
 
+    /// True for a function whose block goes to positions of the machine.
+    pub fn is_of_machine(&self, code: FunctionCode) -> bool {
+        let is_named = self.named.iter().any(|(named, _)| *named == code);
+        !is_named && matches!(code.value(), 53.0 | 153.0)
+    }
+
+    /// True for a function that chooses a work offset, whichever words stand beside it.
+    pub fn is_fixture(&self, code: FunctionCode) -> bool {
+        let value = code.value();
+        let is_usual = match self.sinumerik {
+            true => matches!(value, 54.0..=57.0 | 505.0..=599.0),
+            false => (54.0..=59.0).contains(&value),
+        };
+        let is_named = self.fixtures.is_some_and(|(first, last)| first <= code && code <= last);
+        value.fract() == 0.0 && (is_usual || is_named)
+    }
+
+    /// True for a function that chooses a work offset, by itself or by a word beside it.
+    pub fn chooses_offset(&self, code: FunctionCode) -> bool {
+        let by_a_word = (54.0..60.0).contains(&code.value()) || code.value() == 500.0;
+        self.is_fixture(code) || by_a_word
+    }
+
+    /// True for a function of the frame that leaves the work offset in force.
+    pub fn keeps_fixture(&self, code: FunctionCode) -> bool {
+        self.is_of_machine(code) || self.is_home(code) || matches!(code.value(), 27.0 | 52.0 | 92.0)
+    }
+
+    /// True for a function that goes to a reference point of the machine.
+    pub fn is_home(&self, code: FunctionCode) -> bool {
+        let homes: &[f64] = if self.sinumerik { &[74.0, 75.0] } else { &[28.0, 30.0] };
+        let is_named = self.named.iter().any(|(named, _)| *named == code);
+        !is_named && homes.contains(&code.value())
+    }
+
     /// True for the code of a spindle range.
     pub fn is_spindle_range(&self, code: FunctionCode) -> bool {
         self.ranges.contains(&code)

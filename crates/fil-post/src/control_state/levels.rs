@@ -1,7 +1,8 @@
-//! Where an axis may stand behind blocks that may be skipped: with them and without them.
+//! Where an axis may stand: behind blocks that may be skipped with them and without them,
+//! behind a text where the text has brought it.
 
+use fil_machine::Letter;
 use fil_machine::commons::EMPTY;
-use fil_machine::{Commons, Letter};
 
 /// The positions at which an axis may stand, values of the tape in mm or inch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,16 +15,21 @@ pub struct Levels {
     pub high: f64,
     /// It may stand at a position that is not known, too.
     pub unknown: bool,
-    /// The last output value that they were found with: any other is from a later motion.
-    pub(crate) last: f64,
 }
 
 impl Levels {
     /// One position; [`EMPTY`] for one that is not known.
     pub(super) fn of(letter: Letter, value: f64) -> Self {
-        let unknown = value == EMPTY;
-        let (low, high) = if unknown { (f64::INFINITY, f64::NEG_INFINITY) } else { (value, value) };
-        Levels { letter, low, high, unknown, last: value }
+        if value == EMPTY { Self::unknown(letter) } else { Self::at(letter, value) }
+    }
+
+    fn at(letter: Letter, value: f64) -> Self {
+        Levels { letter, low: value, high: value, unknown: false }
+    }
+
+    /// A position that is not known.
+    pub(super) fn unknown(letter: Letter) -> Self {
+        Levels { letter, low: f64::INFINITY, high: f64::NEG_INFINITY, unknown: true }
     }
 
     /// All positions of both.
@@ -41,14 +47,13 @@ impl Levels {
         (self.low <= self.high).then_some(if counts_down { self.high } else { self.low })
     }
 
-    /// They, if they are more than one, for the last output value in force.
-    pub(super) fn behind(self, commons: &Commons) -> Option<Self> {
-        let differ = self.low < self.high || self.unknown && self.low == self.high;
-        differ.then(|| Levels { last: commons.last_output(self.letter), ..self })
+    /// The position, where there is one only.
+    pub fn exact(self) -> Option<f64> {
+        (!self.unknown && self.low == self.high).then_some(self.low)
     }
 
-    /// True when nothing has moved the axis since.
-    pub(super) fn counts_from(self, last: f64) -> bool {
-        self.last == last
+    /// They, if they are more than one and some position is known.
+    pub(super) fn in_doubt(self) -> Option<Self> {
+        (self.low < self.high || self.unknown && self.low == self.high).then_some(self)
     }
 }

@@ -6,11 +6,13 @@
 //! be told is unknown (`None`), and whoever depends on it says it again.
 
 mod codes;
+mod doubts;
 mod levels;
+mod others;
 pub(crate) mod text;
 
 pub use codes::{Codes, Meaning};
-pub use text::{TextWords, read as text_words};
+pub use text::{TextFrame, TextWords, read as text_words};
 
 use fil_machine::address::Addresses;
 use fil_machine::locations as loc;
@@ -18,6 +20,8 @@ use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::{Commons, FunctionCode, Letter, letters};
 
 use crate::block::Block;
+use doubts::Doubts;
+pub use doubts::Place;
 pub use levels::Levels;
 
 /// How coordinates count.
@@ -76,38 +80,6 @@ impl Rotation {
     }
 }
 
-/// A set of letters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct LetterSet(u32);
-
-impl LetterSet {
-    const ALL: LetterSet = LetterSet(u32::MAX);
-
-    /// True when the letter is in it.
-    #[inline]
-    pub fn has(self, letter: Letter) -> bool {
-        self.0 & 1 << letter.number() != 0
-    }
-
-    /// Adds a letter.
-    #[inline]
-    pub fn add(&mut self, letter: Letter) {
-        self.0 |= 1 << letter.number();
-    }
-
-    /// Takes a letter out.
-    #[inline]
-    pub fn remove(&mut self, letter: Letter) {
-        self.0 &= !(1 << letter.number());
-    }
-
-    /// True when no letter is in it.
-    #[inline]
-    pub fn is_empty(self) -> bool {
-        self.0 == 0
-    }
-}
-
 /// The usual tool change, which may move the axes.
 pub const TOOL_CHANGE: FunctionCode = FunctionCode::whole(6);
 
@@ -155,6 +127,8 @@ pub struct ControlState {
     pub tool: Option<i64>,
     /// The offset that was called with it.
     pub tool_offset: Option<i64>,
+    /// The code of the work offset in force; `None` when it is not known.
+    pub fixture: Option<FunctionCode>,
     /// The highest speed of the spindle, turns a minute, as far as the program has said it.
     pub speed_limit: Option<f64>,
     /// The code of the spindle range in force; `None` when it is not known.
@@ -166,14 +140,9 @@ pub struct ControlState {
     /// The program has ended: M2, M30.
     pub ended: bool,
     /// Letters whose last output value is not what the control has.
-    doubtful: LetterSet,
-    /// Axes that a text or POSTN has sent to a point of the machine (G28, G30, G53), as far as
-    /// they are in doubt: their last output values are no positions in the program.
-    at_machine_point: LetterSet,
+    doubts: Doubts,
     /// State and last output values before the blocks that may be skipped.
     before_skip: Option<Box<(ControlState, [f64; Letter::COUNT])>>,
-    /// Where X, Y and Z may stand behind blocks that may be skipped.
-    levels: [Option<Levels>; 3],
 }
 
 impl ControlState {
@@ -195,60 +164,37 @@ impl ControlState {
             tool_changes: 0,
             tool: None,
             tool_offset: None,
+            fixture: None,
             speed_limit: None,
             range: None,
             rotation: Rotation::Unsaid,
             return_level: None,
             ended: false,
-            doubtful: LetterSet::default(),
-            at_machine_point: LetterSet::default(),
+            doubts: Doubts::default(),
             before_skip: None,
-            levels: [None; 3],
         }
     }
 
     /// True when the control is known to have the last output value of a letter.
     #[inline]
     pub fn has_last(&self, letter: Letter) -> bool {
-        !self.doubtful.has(letter)
+        !self.doubts.has(letter)
     }
 
     /// True when some letter's last output value is in doubt.
     #[inline]
     pub fn has_doubts(&self) -> bool {
-        !self.doubtful.is_empty()
+        !self.doubts.is_empty()
     }
 
     /// The last output value of a letter is not what the control has.
     pub fn doubt(&mut self, letter: Letter) {
-        if !self.doubtful.has(letter) {
-            self.at_machine_point.remove(letter);
-        }
-        self.doubtful.add(letter);
-    }
-
-    /// An axis was last sent to a point of the machine, and has no position in the program.
-    pub fn is_at_machine_point(&self, letter: Letter) -> bool {
-        self.at_machine_point.has(letter) && self.doubtful.has(letter)
-    }
-
-    /// Axes that a block has sent to a point of the machine.
-    fn sent_to_machine_point(&mut self, letters: impl Iterator<Item = Letter>) {
-        for letter in letters.filter(|letter| AXIS_LETTERS.contains(letter)) {
-            self.doubt(letter);
-            self.at_machine_point.add(letter);
-        }
-    }
-
-    /// Every letter is in doubt.
-    fn doubt_all(&mut self) {
-        self.at_machine_point.0 &= self.doubtful.0;
-        self.doubtful = LetterSet::ALL;
+        self.doubts.add(letter);
     }
 
     /// The control has the last output value of a letter after all.
     pub fn trust(&mut self, letter: Letter) {
-        self.doubtful.remove(letter);
+        self.doubts.remove(letter);
     }
 
     /// Cutter compensation is on.
@@ -256,13 +202,91 @@ impl ControlState {
         matches!(self.compensation, Some(Compensation::Left | Compensation::Right))
     }
 
-    /// Where the axes stand is not known.
+    /// The next motion says all axes: they stand where they stood, as far as the post itself
+    /// has brought them.
     pub fn doubt_axes(&mut self) {
         AXIS_LETTERS.into_iter().for_each(|letter| self.doubt(letter));
     }
 
+    /// The axes may have gone anywhere.
+    pub fn lose_axes(&mut self) {
+        AXIS_LETTERS.into_iter().for_each(|letter| self.doubts.lose(letter));
+    }
+
+    /// An axis may have gone anywhere.
+    pub fn loses(&mut self, letter: Letter) {
+        self.doubts.lose(letter);
+    }
+
+    /// The axes have not moved, and count from another zero.
+    pub fn shift_axes(&mut self) {
+        AXIS_LETTERS.into_iter().for_each(|letter| self.doubts.shift(letter));
+    }
+
+    /// The tool has another length: Z counts from elsewhere, but for the values behind a tool
+    /// change, which are those of the tip again.
+    pub fn tool_length_changes(&mut self) {
+        self.doubts.shift_by_length(letters::XYZ[2]);
+    }
+
+    /// A tool change may have brought an axis clear of the part.
+    pub fn tool_change_moves(&mut self, letter: Letter) {
+        self.doubts.changes(letter);
+    }
+
+    /// A position of the machine has brought an axis clear of the part.
+    pub fn clears(&mut self, letter: Letter) {
+        self.doubts.clears(letter);
+    }
+
+    /// An axis stands at this value of the tape, which is not its last output value.
+    pub fn stand(&mut self, letter: Letter, value: f64) {
+        self.doubts.stand(letter, value);
+    }
+
+    /// A script says where the axis of a letter stands: at its last output value.
+    pub fn last_is_said(&mut self, letter: Letter) {
+        self.doubts.settle(letter);
+    }
+
+    /// The last output value of a letter, or that from before a script made it EMPTY.
+    pub fn last_before_empty(&self, letter: Letter, last: f64) -> f64 {
+        self.doubts.before_empty(letter, last)
+    }
+
+    /// Another frame turns the axes: where they stand in it is not known, but for those that
+    /// are clear of the part.
+    pub(super) fn turn_axes(&mut self) {
+        for letter in AXIS_LETTERS {
+            if self.doubts.is_clear(letter) {
+                self.doubts.clears(letter);
+            } else {
+                self.doubts.lose(letter);
+            }
+        }
+    }
+
+    /// A script makes a last output value EMPTY: the axis stays where it is.
+    pub fn last_is_emptied(&mut self, letter: Letter, last: f64) {
+        self.doubts.empty(letter, last);
+    }
+
+    /// Value at which the axis of a letter stands, whoever brought it there; `None` when it is
+    /// not known, or may be another by a tool change.
+    pub fn stands(&self, letter: Letter, last: f64) -> Option<f64> {
+        self.doubts.known(letter, last)
+    }
+
+    /// Where the axis of a letter stands; `last` is its last output value.
+    pub fn place(&self, letter: Letter, last: f64) -> Place {
+        self.doubts.place(letter, last)
+    }
+
     /// Nothing is known any more.
     pub fn forget(&mut self) {
+        let mut doubts = std::mem::take(&mut self.doubts);
+        doubts.add_all();
+        AXIS_LETTERS.into_iter().for_each(|letter| doubts.lose(letter));
         *self = ControlState {
             motion: None,
             plane: None,
@@ -278,15 +302,14 @@ impl ControlState {
             tool_changes: self.tool_changes,
             tool: None,
             tool_offset: None,
+            fixture: None,
             speed_limit: self.speed_limit,
             range: None,
             rotation: self.rotation.doubted(),
             return_level: None,
             ended: self.ended,
-            doubtful: LetterSet::ALL,
-            at_machine_point: LetterSet(self.at_machine_point.0 & self.doubtful.0),
+            doubts,
             before_skip: self.before_skip.take(),
-            levels: self.levels,
         };
     }
 
@@ -294,6 +317,8 @@ impl ControlState {
     pub fn program_begins(&mut self) {
         self.ended = false;
         self.forget();
+        // Its first motions are those of any program: where the tool stands is the caller's.
+        AXIS_LETTERS.into_iter().for_each(|letter| self.doubts.settle(letter));
     }
 
     /// Learns from a block of words.
@@ -307,7 +332,7 @@ impl ControlState {
         for (code, _) in block.m_codes() {
             self.learn_auxiliary(*code, codes);
         }
-        if !self.doubtful.is_empty() {
+        if !self.doubts.is_empty() {
             self.trust_words(block, addresses);
         }
         if self.distance != Some(Distance::Absolute) {
@@ -318,44 +343,7 @@ impl ControlState {
     /// The control has the words of a block.
     fn trust_words(&mut self, block: &Block, addresses: &Addresses) {
         let letters = block.positions().filter_map(|at| addresses.slot(at).letter);
-        letters.for_each(|letter| self.doubtful.remove(letter));
-    }
-
-    /// Learns from words that were written one after the other (POSTN). In a cycle they
-    /// may have changed its data.
-    pub fn learn_words(
-        &mut self,
-        words: impl Iterator<Item = (Letter, f64)> + Clone,
-        codes: &Codes,
-    ) {
-        let mut frame = false;
-        let cycle = self.in_cycle != Some(false);
-        for (letter, value) in words.clone() {
-            match (letter, FunctionCode::of_value(value)) {
-                (letters::G, Some(code)) => {
-                    frame |= matches!(codes.meaning(code), Meaning::Frame | Meaning::Tilt);
-                    self.learn_code(code, codes);
-                }
-                (letters::M, Some(code)) => {
-                    frame |= code == TOOL_CHANGE;
-                    self.learn_auxiliary(code, codes);
-                }
-                (letters::T, _) => self.tool = None,
-                _ if cycle => self.doubt(letter),
-                _ => self.trust(letter),
-            }
-        }
-        let has =
-            |letters: &[u8]| words.clone().any(|(letter, _)| letters.contains(&letter.byte()));
-        let cycle = cycle || self.in_cycle != Some(false);
-        // In a cycle a position drills, and its level can be one too.
-        let drills = cycle && has(b"XYZABCR");
-        if frame || drills || has(b"UVW") || self.distance != Some(Distance::Absolute) {
-            self.doubt_axes();
-        }
-        if words.clone().any(goes_to_machine_point) {
-            self.sent_to_machine_point(words.map(|(letter, _)| letter));
-        }
+        letters.for_each(|letter| self.doubts.remove(letter));
     }
 
     /// Learns what a preparatory function does.
@@ -375,7 +363,7 @@ impl ControlState {
             Meaning::Distance(distance) => self.distance = Some(distance),
             Meaning::Unit(unit) => {
                 if self.unit != Some(unit) {
-                    self.doubt_all();
+                    self.doubts.add_all();
                 }
                 self.unit = Some(unit);
             }
@@ -418,7 +406,14 @@ impl ControlState {
                 self.tip_control = Some(true);
                 self.doubt_axes();
             }
-            Meaning::Frame => self.doubt_axes(),
+            Meaning::Frame => {
+                self.doubt_axes();
+                if codes.is_fixture(code) {
+                    self.fixture = Some(code);
+                } else if !codes.keeps_fixture(code) {
+                    self.fixture = None;
+                }
+            }
             Meaning::Tilt => {
                 self.tilted = None;
                 self.doubt_axes();
@@ -459,44 +454,6 @@ impl ControlState {
         }
     }
 
-    /// Learns from a text that was written as it is; what can't be read makes all
-    /// unknown.
-    pub fn learn_text(&mut self, text: &str, codes: &Codes) {
-        match text::read(text) {
-            Some(words) => self.learn_text_words(&words, codes),
-            None => self.forget(),
-        }
-    }
-
-    /// Learns from the words of a text.
-    pub(crate) fn learn_text_words(&mut self, words: &text::TextWords, codes: &Codes) {
-        let before = words.skipped.then(|| self.clone());
-        if words.calls_subprogram() {
-            self.forget();
-        }
-        for (letter, value) in &words.words {
-            match (*letter, FunctionCode::of_value(*value)) {
-                (letters::G, Some(code)) => self.learn_code(code, codes),
-                (letters::G | letters::M, None) => self.forget(),
-                (letters::M, Some(code)) => {
-                    if code == TOOL_CHANGE {
-                        self.doubt_axes();
-                    }
-                    self.learn_auxiliary(code, codes);
-                }
-                (letters::T, _) => self.tool = None,
-                (letter, _) if AXIS_LETTERS.contains(&letter) => self.doubt_axes(),
-                (letter, _) => self.doubt(letter),
-            }
-        }
-        if words.words.iter().copied().any(goes_to_machine_point) {
-            self.sent_to_machine_point(words.words.iter().map(|(letter, _)| *letter));
-        }
-        if let Some(before) = before {
-            self.agree_with(&before);
-        }
-    }
-
     /// A line has been run in the plane: compensation that was switched on has begun.
     #[inline]
     pub fn moved_in_plane(&mut self) {
@@ -518,9 +475,12 @@ impl ControlState {
         let (state, values) = *before;
         let now = last_values(commons);
         let levels = linear.map(|letter| {
-            let at = |state: &ControlState, values: &[f64]| {
-                let value = values[letter.index() - 1];
-                state.levels(letter, value).unwrap_or(Levels::of(letter, value))
+            let at = |state: &ControlState, values: &[f64]| match state
+                .place(letter, values[letter.index() - 1])
+            {
+                Place::At(value) | Place::Shifted(value) => Levels::of(letter, value),
+                Place::Between(levels) => levels,
+                _ => Levels::unknown(letter),
             };
             at(self, &now).or(at(&state, &values))
         });
@@ -533,17 +493,9 @@ impl ControlState {
             commons.set_last_output(linear[2], last);
         }
         self.agree_with(&state);
-        self.levels = levels.map(|levels| levels.behind(commons));
-    }
-
-    /// Where an axis may stand behind blocks that may be skipped, values of the tape;
-    /// `None` where the switch leaves no doubt of it. `last` is its last output value.
-    pub fn levels(&self, letter: Letter, last: f64) -> Option<Levels> {
-        if self.has_last(letter) {
-            return None;
+        for levels in levels.into_iter().filter_map(Levels::in_doubt) {
+            self.doubts.stand_between(levels);
         }
-        let mut levels = self.levels.iter().flatten();
-        levels.find(|levels| levels.letter == letter && levels.counts_from(last)).copied()
     }
 
     /// True while blocks may be skipped.
@@ -570,20 +522,14 @@ impl ControlState {
         agree(&mut self.cycle, &other.cycle);
         agree(&mut self.tool, &other.tool);
         agree(&mut self.tool_offset, &other.tool_offset);
+        agree(&mut self.fixture, &other.fixture);
         agree(&mut self.speed_limit, &other.speed_limit);
         agree(&mut self.range, &other.range);
         agree(&mut self.return_level, &other.return_level);
         self.rotation = self.rotation.or(other.rotation);
         self.compensation_begun &= other.compensation_begun;
-        let of_both = other.at_machine_point.0 & other.doubtful.0;
-        self.at_machine_point.0 &= self.doubtful.0 & of_both;
-        self.doubtful.0 |= other.doubtful.0;
+        self.doubts.or(&other.doubts);
     }
-}
-
-/// The functions that go to a point of the machine: its home and other points, and its frame.
-fn goes_to_machine_point((letter, value): (Letter, f64)) -> bool {
-    letter == letters::G && [28.0, 30.0, 53.0].contains(&value)
 }
 
 fn last_values(commons: &Commons) -> [f64; Letter::COUNT] {

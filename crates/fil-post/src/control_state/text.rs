@@ -3,6 +3,22 @@
 
 use fil_machine::Letter;
 
+/// In which frame the axis words of a text count.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TextFrame {
+    /// In the one before it.
+    #[default]
+    Stays,
+    /// In that of the machine, in this block.
+    OfTheMachine,
+    /// In one with another zero, which they may say.
+    Shifted,
+    /// In a frame that may be turned, which they may say.
+    Turned,
+    /// Nobody has read them all.
+    Unread,
+}
+
 /// The words of a text.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TextWords {
@@ -10,6 +26,8 @@ pub struct TextWords {
     pub skipped: bool,
     /// Letters and numbers in their order.
     pub words: Vec<(Letter, f64)>,
+    /// What statements of the text do to the frame.
+    pub frame: TextFrame,
 }
 
 impl TextWords {
@@ -58,11 +76,18 @@ fn names_function(text: &str) -> bool {
     pairs.any(|(letter, next)| "GMgm".contains(letter) && next.is_ascii_digit())
 }
 
+/// Variables from this number on are the control's own: tool offsets, work offsets, positions.
+const SYSTEM_VARIABLES: u32 = 1000;
+
 /// What comes after `R101=0.5` or `#101=0.5`: a parameter gets a value, and no mode
 /// and no axis is touched.
 fn assignment(text: &str) -> Option<&str> {
     let rest = text.strip_prefix(['R', 'r', '#'])?;
     let digits = rest.find(|c: char| !c.is_ascii_digit()).filter(|digits| *digits > 0)?;
+    let number_of_variable: u32 = rest[..digits].parse().ok()?;
+    if text.starts_with('#') && number_of_variable >= SYSTEM_VARIABLES {
+        return None;
+    }
     let value = rest[digits..].trim_start().strip_prefix('=')?;
     number(value.trim_start()).map(|(_, after)| after)
 }

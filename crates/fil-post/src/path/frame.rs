@@ -281,6 +281,7 @@ fn forget_positions(control: &mut Control, knows_rotary: bool) {
     for number in AxisSet::LINEAR.numbers() {
         let letter = control.tables.axis(number).letter;
         control.commons.set_last_output(letter, EMPTY);
+        control.state.clears(letter);
     }
 }
 

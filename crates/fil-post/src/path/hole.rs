@@ -10,12 +10,13 @@ use fil_machine::locations::{
 
 use super::cycle::{Cycle, CycleKind, Hole};
 use super::{expand, frame, mill_turn, rapid, rotary, scaled_lead, tip_control};
+use crate::control::place::refuse_unknown;
 use crate::control::skip::refuse_level;
 use crate::control::word_address::cycle as words;
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::spindle;
 use crate::control::{Control, family};
-use crate::control_state::Compensation;
+use crate::control_state::{Compensation, Place};
 use crate::errors::PostCode;
 use crate::operation::Target;
 use crate::post::Post;
@@ -193,7 +194,7 @@ pub fn retract(post: &mut Post, ended: &Cycle) -> Result<()> {
         let cause = post.control.block.cause;
         return rapid::rapid(&mut post.control, &Motion::along(along, level), cause);
     }
-    let here = post.control.axis_position(along);
+    let here = post.control.stands(along);
     if here.is_none_or(|here| (here - level).abs() <= SAME_LEVEL) {
         return Ok(());
     }
@@ -222,6 +223,22 @@ fn locate(post: &mut Post, cycle: &Cycle, target: Target) -> Result<(Position, H
     Ok((at, Hole { along, bottom, clear, initial: clear, to_initial: false }))
 }
 
+/// Refuses a hole from a height that is not known: the control would go across at it.
+fn refuse_unknown_height(control: &mut Control, hole: &Hole) -> Result<()> {
+    let out = if hole.clear >= hole.bottom { 1.0 } else { -1.0 };
+    match control.place(hole.along) {
+        Place::Unknown => refuse_unknown(control, hole.along),
+        Place::LeftToScript(_) => {
+            control.cross_forgotten(hole.along);
+            Ok(())
+        }
+        Place::Shifted(last) => {
+            control.cross_shifted(hole.along, (hole.clear - last) * out > SAME_LEVEL)
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Brings the tool up before it goes to the hole, when it stands below the
 /// hole's R level or below the level to return to, and settles that level.
 fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, start: f64) -> Result<()> {
@@ -237,7 +254,12 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, start: f64) -> Res
         cycle.initial = None;
         return Ok(());
     }
-    let here = post.control.axis_position(hole.along);
+    refuse_unknown_height(&mut post.control, hole)?;
+    if matches!(post.control.place(hole.along), Place::Shifted(_) | Place::LeftToScript(_)) {
+        // The level before the cycle counts from another zero.
+        cycle.initial = None;
+    }
+    let here = post.control.stands(hole.along);
     let initial = cycle.initial.or(here);
     let wanted = match (cycle.retract, initial) {
         (Some(0.0), None) => {

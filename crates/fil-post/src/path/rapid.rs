@@ -8,9 +8,14 @@ use fil_machine::locations::{self as loc, RapidSplit};
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family;
+use crate::control::place::refuse_unknown;
 use crate::control::skip::refuse_level;
 use crate::control::word_address::motion::{Motion, RapidCode};
-use crate::control_state::Levels;
+use crate::control::word_address::repeat;
+use crate::control_state::{Levels, Place};
+
+/// Values of the tape nearer than this are one, mm, inch or degrees.
+const SAME: f64 = 1e-6;
 
 /// Makes a rapid motion in the order the machine asks for.
 ///
@@ -29,10 +34,7 @@ pub fn rapid(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()>
 /// # Errors
 /// As [`family::rapid`].
 pub(super) fn in_parts(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()> {
-    if motion.axes.has(2) {
-        refuse_between_levels(control, motion)?;
-    }
-    let z_first = motion.axes.has(2) && retracts(control, motion)?;
+    let z_first = motion.axes.has(2) && z_goes_first(control, motion)?;
     split(control, motion, z_first, cause)
 }
 
@@ -47,8 +49,8 @@ pub fn to_machine_position(control: &mut Control, motion: &Motion, cause: Cause)
     if one_may_be_unknown.as_ref().is_some_and(goes_down) && motion.axes.has(2) {
         return refuse_level(control, 2);
     }
-    let last = control.commons.last_output(control.tables.axis(2).letter);
-    let known = last != EMPTY && one_may_be_unknown.is_none();
+    let place = control.place(2);
+    let known = matches!(place, Place::At(_) | Place::Between(Levels { unknown: false, .. }));
     if known || control.commons.read(loc::RAPID_SPLIT) == RapidSplit::OneBlock {
         return rapid(control, motion, cause);
     }
@@ -86,15 +88,77 @@ fn split(control: &mut Control, motion: &Motion, z_first: bool, cause: Cause) ->
     Ok(())
 }
 
-/// True when Z goes up from the last level on the tape. A level in doubt counts too:
-/// a way up is better made before the way across. From a point of the machine, where a tool
-/// is changed, the tool comes down behind the way across.
-fn retracts(control: &Control, motion: &Motion) -> Result<bool> {
-    let axis = control.tables.axis(2);
-    if control.state.is_at_machine_point(axis.letter) {
-        return Ok(false);
+/// True when Z goes before the other axes: up from where the tool stands.
+///
+/// # Errors
+/// No order is safe: Z may stand on either side of the end, by the skip switch, or anywhere.
+pub(super) fn z_goes_first(control: &mut Control, motion: &Motion) -> Result<bool> {
+    if !control.ended_repeats.is_empty() {
+        repeat::doubt_ended(control);
     }
-    let last = control.commons.last_output(axis.letter);
-    let above = (axis.value(motion.position[2])? - last) * axis.scale();
-    Ok(last != EMPTY && above > 0.0)
+    let axis = *control.tables.axis(2);
+    let to = axis.value(motion.position[2])?;
+    let rises_from = |from: f64| (to - from) * axis.scale() > 0.0;
+    match control.place_on_tape(2) {
+        Place::At(last) => Ok(rises_from(last)),
+        Place::Unsaid | Place::Clear => Ok(false),
+        Place::Between(_) => {
+            refuse_between_levels(control, motion)?;
+            Ok(control.levels_behind_skip(2).is_some_and(|levels| levels.low < motion.position[2]))
+        }
+        Place::Shifted(last) => {
+            if crosses(control, motion)? {
+                control.cross_shifted(2, rises_from(last))?;
+            }
+            Ok(rises_from(last))
+        }
+        Place::Unknown => {
+            let up = goes_straight_up(control, motion)?;
+            if !up && crosses(control, motion)? {
+                return refuse_unknown(control, 2);
+            }
+            Ok(up)
+        }
+        Place::LeftToScript(_) => {
+            if crosses(control, motion)? {
+                control.cross_forgotten(2);
+            }
+            Ok(false)
+        }
+    }
+}
+
+/// True for a motion straight up in the CL file, by the last numbers that were said: up first
+/// is what it asks for, wherever the tool stands.
+fn goes_straight_up(control: &Control, motion: &Motion) -> Result<bool> {
+    for number in motion.axes.and(control.tables.present()).numbers() {
+        let axis = control.tables.axis(number);
+        let last = control.commons.last_output(axis.letter);
+        let last = control.state.last_before_empty(axis.letter, last);
+        let way = axis.value(motion.position[number])? - last;
+        let stays = axis.is_off() || way.abs() <= SAME;
+        let rises = last != EMPTY && way * axis.scale() > SAME;
+        if number == 2 && !rises || number != 2 && !stays {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+/// True when the motion has a word of another axis than Z.
+fn crosses(control: &Control, motion: &Motion) -> Result<bool> {
+    let others = motion.axes.without(AxisSet::Z).and(control.tables.present());
+    let in_doubt = |number| !control.state.has_last(control.tables.axis(number).letter);
+    Ok(others.numbers().any(in_doubt) || leaves(control, motion)?)
+}
+
+/// True when another axis than Z leaves its last output value.
+fn leaves(control: &Control, motion: &Motion) -> Result<bool> {
+    for number in motion.axes.without(AxisSet::Z).and(control.tables.present()).numbers() {
+        let axis = control.tables.axis(number);
+        if !axis.is_off() && axis.changes(axis.scaled(motion.position[number])?, &control.commons) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }

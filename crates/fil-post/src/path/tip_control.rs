@@ -221,6 +221,7 @@ pub fn end(control: &mut Control) -> Result<()> {
     for number in AxisSet::LINEAR.numbers() {
         let letter = control.tables.axis(number).letter;
         control.commons.set_last_output(letter, EMPTY);
+        control.state.clears(letter);
     }
     if control.tables.family == ControlFamily::WordAddress {
         control.waiting.length_offset = control.tip.offset;

@@ -54,7 +54,7 @@ pub fn retrct(post: &mut Post, items: &mut Items) -> Result<()> {
             return refuse_level(&post.control, 2);
         }
     }
-    let is_above = post.control.axis_position(2).is_some_and(|z| z >= level);
+    let is_above = post.control.stands(2).is_some_and(|z| z >= level);
     // How high the tool stands in the frame of the machine is not known.
     if is_above && !machine_frame::is_meant(&post.control) {
         return Ok(());

@@ -142,6 +142,10 @@ fn refuse_on_arc(post: &Post, word: &str) -> Result<()> {
 
 fn translate(post: &mut Post, by: [f64; 3]) -> Result<()> {
     if translation::is_of_control(&post.control) {
+        if post.control.state.may_be_skipped() {
+            return PostCode::SkippedPart
+                .err("a shift of the control's zero, from which the motions behind would count");
+        }
         post.path.interrupt();
         translation::write(&mut post.control, by)?;
     }

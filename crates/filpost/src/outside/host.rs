@@ -28,6 +28,7 @@ impl Host for Outside<'_, '_> {
     ) -> Result<Option<Box<Diag>>, Box<Diag>> {
         let kind = common_kind(kind);
         stored::check_in_run(kind, location, value)?;
+        self.post.control.script_sets(kind, location, value);
         self.post.control.commons.set(kind, location, value)?;
         let is_first = !stored::acts(kind, location) && self.idle.insert((kind, location));
         Ok(is_first.then(|| Box::new(stored::without_effect(&[(kind, location)]))))

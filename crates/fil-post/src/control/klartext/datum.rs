@@ -28,7 +28,7 @@ pub fn write(control: &mut Control, number: Option<i64>) -> Result<()> {
     let cause = control.block.cause;
     line::put(control, &Line::of_text("CYCL DEF 247 DATUM SETTING ~", cause))?;
     line::put_more(control, &format!("  Q339=+{row} ;DATUM NUMBER"), cause)?;
-    control.state.doubt_axes();
+    control.state.shift_axes();
     // Which hole the next M99 would drill is not counted on.
     control.state.cycle = None;
     Ok(())

@@ -50,6 +50,8 @@ pub struct Klartext {
     stands: [Option<f64>; 2],
     /// The last two before the lines that may be skipped.
     before_skip: (Option<bool>, [Option<f64>; 2]),
+    /// The last line with a motion was at feed.
+    pub(super) at_feed: bool,
     /// Name of the program, between BEGIN PGM and END PGM.
     name: String,
     /// END PGM stands on the tape.

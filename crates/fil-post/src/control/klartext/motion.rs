@@ -228,6 +228,7 @@ pub(super) fn write(control: &mut Control, turning: AxisSet) -> Result<()> {
         }
         control.take_waiting(turning);
     }
+    control.klartext.at_feed = !control.klartext.phrase.rapid;
     for number in [0, 1] {
         if control.block_has(control.tables.axis(number).letter) {
             control.klartext.stands[number] = None;

@@ -1,7 +1,7 @@
 //! The small reader of lines that others put on the tape. It is made to say "I can't"
 //! rather than guess; then all is unknown.
 
-use fil_machine::letters;
+use fil_machine::{Letter, letters};
 
 use crate::control::Control;
 use crate::control_state::Compensation;
@@ -52,15 +52,28 @@ pub fn learn(control: &mut Control, text: &str) {
         ["TOOL", "CALL", ..] => {
             control.state.tool = None;
             control.state.tool_changes += 1;
-            control.state.doubt_axes();
+            for number in control.tables.present().numbers() {
+                control.state.tool_change_moves(control.tables.axis(number).letter);
+            }
             control.state.doubt(letters::S);
         }
         ["CYCL", "DEF", number, ..] if !frames(number) => control.state.cycle = None,
-        ["CYCL", "DEF", ..] => {
+        ["CYCL", "DEF", number, ..] => {
             control.state.cycle = None;
-            control.state.doubt_axes();
+            match shifts(number) {
+                true => control.state.shift_axes(),
+                false => control.state.lose_axes(),
+            }
         }
-        ["CYCL", "CALL", ..] => control.state.doubt_axes(),
+        ["CYCL", "CALL", ..] => control.state.lose_axes(),
+        // A parameter gets a value, and no mode and no axis is touched.
+        ["FN", number, name, "=", ..] if is_assignment(number) && is_parameter(name) => {}
+        [name, "=", ..] if is_parameter(name) => {}
+        // The tool goes along its axis to the end of the travel.
+        ["M140", "MB", "MAX"] | ["L", "M140", "MB", "MAX"] => {
+            control.state.doubt_axes();
+            control.state.clears(control.tables.axis(2).letter);
+        }
         ["L", ref rest @ ..] => motion(control, rest),
         [first, ..] if first.starts_with('M') => motion(control, &items),
         _ => forget(control),
@@ -88,15 +101,34 @@ fn frames(number: &str) -> bool {
     )
 }
 
+/// Cycles that move the zero alone: datum shift and preset.
+fn shifts(number: &str) -> bool {
+    matches!(number.split('.').next(), Some("7" | "247"))
+}
+
+/// FN 0 to FN 8: arithmetic of parameters.
+fn is_assignment(number: &str) -> bool {
+    let number = number.trim_end_matches(':').parse::<u32>();
+    number.is_ok_and(|number| number <= 8)
+}
+
+/// Q, QL or QR with a number below those that the control and its cycles keep for themselves.
+fn is_parameter(name: &str) -> bool {
+    const OF_OTHERS: u32 = 100;
+    let digits = ["QL", "QR", "Q"].iter().find_map(|letter| name.strip_prefix(letter));
+    digits.and_then(|digits| digits.parse::<u32>().ok()).is_some_and(|n| n < OF_OTHERS)
+}
+
 /// The items of an L line or of one that has only functions.
 fn motion(control: &mut Control, items: &[&str]) {
+    let of_machine = items.iter().any(|item| matches!(*item, "M91" | "M92"));
     for item in items {
         match *item {
             "FMAX" => {}
             "R0" => side(control, Compensation::Off),
             "RL" => side(control, Compensation::Left),
             "RR" => side(control, Compensation::Right),
-            _ => word(control, item),
+            _ => word(control, item, of_machine),
         }
     }
 }
@@ -106,7 +138,7 @@ fn side(control: &mut Control, side: Compensation) {
     control.state.compensation_begun = side != Compensation::Off;
 }
 
-fn word(control: &mut Control, item: &str) {
+fn word(control: &mut Control, item: &str, of_machine: bool) {
     let mut rest = item.chars();
     let first = rest.next();
     let number = rest.as_str().parse::<f64>();
@@ -122,16 +154,22 @@ fn word(control: &mut Control, item: &str) {
                 control.state.doubt(letters::F);
             }
             // In the frame of the machine for this line only, and a call of the cycle.
-            Auxiliary::Changes if matches!(number as i64, 91 | 92 | 99) => {
-                control.state.doubt_axes()
-            }
+            Auxiliary::Changes if matches!(number as i64, 91 | 92) => control.state.doubt_axes(),
+            Auxiliary::Changes if number as i64 == 99 => control.state.lose_axes(),
             Auxiliary::Changes => forget(control),
         },
         (Some('F'), Ok(_)) => control.state.doubt(letters::F),
-        (Some('X' | 'Y' | 'Z' | 'A' | 'B' | 'C' | 'U' | 'V' | 'W'), Ok(_)) => {
+        (Some(axis @ ('X' | 'Y' | 'Z' | 'A' | 'B' | 'C' | 'U' | 'V' | 'W')), Ok(value)) => {
             control.state.doubt_axes();
+            match Letter::of_character(axis) {
+                Some(letter) if of_machine => control.state.clears(letter),
+                Some(letter) if letters::XYZ.contains(&letter) => {
+                    control.state.stand(letter, value)
+                }
+                _ => {}
+            }
         }
-        (Some('I'), _) if rest.as_str().len() > 1 => control.state.doubt_axes(),
+        (Some('I'), _) if rest.as_str().len() > 1 => control.state.lose_axes(),
         _ => forget(control),
     }
 }

@@ -39,7 +39,7 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     line.item(TEXT, "Z", control.block.cause.whole());
     line::put(control, &line)?;
     for number in control.tables.present().numbers() {
-        control.state.doubt(control.tables.axis(number).letter);
+        control.state.tool_change_moves(control.tables.axis(number).letter);
     }
     control.state.tool_changes += 1;
     control.state.tool = Some(wanted.tool);

@@ -7,7 +7,7 @@ use fil_machine::{Letter, letters, locations as loc};
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family::refuse;
-use crate::control_state::TextWords;
+use crate::control_state::{TextFrame, TextWords};
 
 /// Statements that change nothing the post counts on: how the path is smoothed and
 /// driven, what stands beside the motions.
@@ -111,7 +111,7 @@ pub fn learn(control: &mut Control, text: &str) {
         }
     }
     learn_turning(control, words.words.iter().copied());
-    control.state.learn_text_words(&words, &control.codes);
+    control.state.learn_text_words(&words, &control.codes, control.unit);
 }
 
 /// Learns from words that were written one after the other (POSTN, PREFUN, AUXFUN).
@@ -125,7 +125,7 @@ pub fn learn_words(control: &mut Control, words: &[(Letter, f64, Cause)]) {
 /// Takes an item up; false for one that can't be read.
 fn take(control: &mut Control, item: &str, words: &mut TextWords) -> bool {
     if let Some((name, _)) = item.split_once('(').filter(|(name, _)| !name.contains('=')) {
-        return called(control, name);
+        return called(control, name, words);
     }
     if let Some((name, value)) = item.split_once('=') {
         return assigned(control, name, value, words);
@@ -135,6 +135,11 @@ fn take(control: &mut Control, item: &str, words: &mut TextWords) -> bool {
     }
     if FRAMES.contains(&item) {
         control.state.doubt_axes();
+        words.frame = match item {
+            "SUPA" => TextFrame::OfTheMachine,
+            "TRANS" | "ATRANS" => TextFrame::Shifted,
+            _ => TextFrame::Turned,
+        };
         return true;
     }
     let mut rest = item.chars();
@@ -152,12 +157,16 @@ fn take(control: &mut Control, item: &str, words: &mut TextWords) -> bool {
     true
 }
 
-fn called(control: &mut Control, name: &str) -> bool {
+fn called(control: &mut Control, name: &str, words: &mut TextWords) -> bool {
     if HARMLESS_CALLS.contains(&name) {
         return true;
     }
     let drills = name.strip_prefix("CYCLE").and_then(|number| number.parse::<u32>().ok());
     if FRAMES.contains(&name) || drills.is_some_and(|number| (81..90).contains(&number)) {
+        words.frame = match drills {
+            Some(_) => TextFrame::Unread,
+            None => TextFrame::Turned,
+        };
         control.state.doubt_axes();
         control.state.doubt(letters::F);
         control.state.doubt(letters::S);
@@ -203,6 +212,7 @@ fn assigned(control: &mut Control, name: &str, value: &str, words: &mut TextWord
         ("X" | "Y" | "Z" | "A" | "B" | "C" | "U" | "V" | "W" | "Q", _)
         | ("CR" | "AR" | "AP" | "RP" | "TURN" | "RND" | "CHF" | "CHR" | "I" | "J" | "K", _)
         | ("I1" | "J1" | "K1" | "FP", _) => {
+            words.frame = TextFrame::Unread;
             control.state.doubt_axes();
             true
         }
@@ -212,8 +222,12 @@ fn assigned(control: &mut Control, name: &str, value: &str, words: &mut TextWord
 
 /// Another cutting edge, or none: the length of the tool is another one.
 fn edge(control: &mut Control, value: f64) {
-    control.sinumerik.edge = (value.fract() == 0.0 && value >= 0.0).then_some(value as i64);
+    let edge = (value.fract() == 0.0 && value >= 0.0).then_some(value as i64);
     control.state.doubt_axes();
+    if edge.is_none() || edge != control.sinumerik.edge {
+        control.state.tool_length_changes();
+    }
+    control.sinumerik.edge = edge;
 }
 
 /// Which way the spindle turns, by its M functions.

@@ -66,15 +66,22 @@ pub(in crate::control) fn prepare(control: &mut Control) -> Result<()> {
 
 /// Writes the offset in the block under construction, or keeps it for a motion.
 fn place(control: &mut Control) -> Result<()> {
-    control.state.doubt_axes();
+    let in_force = control.state.fixture;
+    let stays = control.block.g_codes().iter().any(|(code, _)| Some(*code) == in_force);
+    counts_anew(control, stays);
     match control.commons.read(loc::FIXTURE_PLACEMENT) {
         Placement::BlockOfItsOwn => {
             control.write_block()?;
-            control.state.doubt_axes();
+            counts_anew(control, stays);
             Ok(())
         }
         placement => control.place_block(Function::WorkOffset, placement),
     }
+}
+
+/// The axes count from the zero of the offset, which is the one before it if that stays.
+fn counts_anew(control: &mut Control, stays: bool) {
+    if stays { control.state.doubt_axes() } else { control.state.shift_axes() }
 }
 
 /// Adds the code of an offset: the n-th from the lowest one, a further one with its own

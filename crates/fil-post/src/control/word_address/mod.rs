@@ -11,7 +11,7 @@ pub mod frame;
 mod function;
 pub mod modes;
 pub mod motion;
-pub(super) mod repeat;
+pub(crate) mod repeat;
 pub mod spindle;
 pub(super) mod stop;
 pub(super) mod text;

@@ -1,6 +1,7 @@
 //! REPEAT: words that each motion block carries.
 
 use fil_diag::Result;
+use fil_machine::letters::XYZ;
 use fil_machine::{FunctionCode, Letter, letters};
 
 use crate::cause::Cause;
@@ -93,8 +94,13 @@ fn refuse_mode(control: &Control, letter: Letter, value: f64) -> Result<()> {
 #[cold]
 pub fn doubt_ended(control: &mut Control) {
     for letter in std::mem::take(&mut control.ended_repeats) {
-        control.state.doubt(letter);
+        let said = control.repeated.iter().find(|(repeated, _)| *repeated == letter);
+        match said.copied() {
+            Some((_, value)) if XYZ.contains(&letter) => control.state.stand(letter, value),
+            _ => control.state.doubt(letter),
+        }
     }
+    control.repeated.clear();
 }
 
 /// Writes the block under construction with the words of REPEAT whose letters it
@@ -104,10 +110,12 @@ pub fn doubt_ended(control: &mut Control) {
 /// As [`Control::write_block`].
 pub fn write_with_repeats(control: &mut Control) -> Result<()> {
     let mut kept = Vec::new();
+    control.repeated.clear();
     for (letter, (value, cause)) in control.repeats.clone() {
         if !control.block_has(letter) {
             refuse_in_arc_or_cycle(control, letter)?;
             kept.push((letter, control.commons.last_output(letter)));
+            control.repeated.push((letter, value));
             control.because(cause, |control| control.word(letter, value))?;
         }
     }

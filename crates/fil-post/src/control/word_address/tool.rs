@@ -90,7 +90,7 @@ fn tool_and_offset(control: &mut Control, wanted: ToolChange) -> Result<()> {
 pub(in crate::control) fn restate(control: &mut Control) {
     if control.commons.read(loc::TOOL_RESTATE) {
         for number in control.tables.present().numbers() {
-            control.state.doubt(control.tables.axis(number).letter);
+            control.state.tool_change_moves(control.tables.axis(number).letter);
         }
         control.state.motion = None;
     }

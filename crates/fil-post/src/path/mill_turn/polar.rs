@@ -16,6 +16,7 @@ use nalgebra::{Point2, Point3, Rotation3, Unit};
 use crate::control::Control;
 use crate::control::family;
 use crate::control::word_address::motion::Motion;
+use crate::control_state::Place;
 use crate::errors::PostCode;
 use crate::operation::{Arc, Feed, MotionKind, Target};
 use crate::path::arc::{flat, sweep};
@@ -68,10 +69,11 @@ pub(super) fn begin(
     let cause = control.block.cause;
     let radius = libm::hypot(point.x, point.y);
     let at = |axes| Motion { position: [radius, 0.0, point.z, 0.0, 0.0], axes, word: 0 };
-    rapid::refuse_between_levels(control, &at(AxisSet::ALL))?;
-    let lifts = match control.levels_behind_skip(2) {
-        Some(levels) => point.z > levels.low,
-        None => control.axis_position(2).is_some_and(|here| point.z > here),
+    let lifts = match control.place(2) {
+        Place::At(_) | Place::Unsaid | Place::Clear => {
+            control.stands(2).is_some_and(|here| point.z > here)
+        }
+        _ => rapid::z_goes_first(control, &at(AxisSet::ALL))?,
     };
     if lifts {
         rapid::rapid(control, &at(AxisSet::Z), cause)?;

@@ -1,0 +1,112 @@
+//! Where the axes stand, positions of the machine in mm or inch.
+
+use fil_diag::Result;
+use fil_machine::Letter;
+use fil_machine::commons::{EMPTY, Kind, LAST_OUTPUT};
+use fil_machine::locations as loc;
+
+use super::Control;
+use crate::control_state::{Levels, Meaning, Place};
+use crate::errors::PostCode;
+
+impl Control {
+    /// Where an axis stands.
+    pub fn place(&self, number: usize) -> Place {
+        let axis = self.tables.axis(number);
+        match self.place_on_tape(number) {
+            Place::At(value) => Place::At(axis.position(value)),
+            Place::Shifted(value) => Place::Shifted(axis.position(value)),
+            Place::LeftToScript(value) => Place::LeftToScript(axis.position(value)),
+            Place::Between(levels) => {
+                let (one, other) = (axis.position(levels.low), axis.position(levels.high));
+                Place::Between(Levels { low: one.min(other), high: one.max(other), ..levels })
+            }
+            other => other,
+        }
+    }
+
+    /// Where an axis stands, values of the tape.
+    pub fn place_on_tape(&self, number: usize) -> Place {
+        let letter = self.tables.axis(number).letter;
+        self.state.place(letter, self.commons.last_output(letter))
+    }
+
+    /// Position of an axis, whoever brought it there; `None` when it is not known.
+    pub fn stands(&self, number: usize) -> Option<f64> {
+        let axis = self.tables.axis(number);
+        let known = self.state.stands(axis.letter, self.commons.last_output(axis.letter));
+        known.map(|value| axis.position(value))
+    }
+
+    /// Where an axis may stand behind blocks that may be skipped; `None` where the switch
+    /// leaves no doubt of it.
+    pub fn levels_behind_skip(&self, number: usize) -> Option<Levels> {
+        match self.place(number) {
+            Place::Between(levels) => Some(levels),
+            _ => None,
+        }
+    }
+
+    /// A script sets a location. Where it is a last output value the script says where the axis
+    /// stands; made EMPTY, the axis stays where it is.
+    pub fn script_sets(&mut self, kind: Kind, location: u32, value: f64) {
+        let first = LAST_OUTPUT as u32;
+        let number = location.checked_sub(first).filter(|_| kind == Kind::Dbl);
+        let letter = number.and_then(|number| Letter::numbered(i32::try_from(number).ok()?));
+        let Some(letter) = letter else { return };
+        let last = self.commons.last_output(letter);
+        if value != EMPTY {
+            self.state.last_is_said(letter);
+        } else if last != EMPTY {
+            self.state.last_is_emptied(letter, last);
+        }
+    }
+
+    /// The last motion was at feed: the tool may stand in the part.
+    fn was_at_feed(&self) -> bool {
+        let rapid = [loc::RAPID_CODE_XY, loc::RAPID_CODE_Z].map(|at| self.code_if_any(at));
+        match self.state.motion {
+            Some(code) => self.meaning(code) == Meaning::Motion && !rapid.contains(&Some(code)),
+            None => self.klartext.at_feed,
+        }
+    }
+
+    /// Warns of a rapid motion across from a height that a script has forgotten.
+    pub fn cross_forgotten(&mut self, number: usize) {
+        let letter = self.tables.axis(number).letter;
+        let message = format!(
+            "a script has made the last {letter} EMPTY behind what may have moved it, and a rapid \
+             motion crosses"
+        );
+        self.warnings.add(PostCode::ShiftedLevel, message);
+    }
+
+    /// Warns of a rapid motion across at a height that counts from another zero than before.
+    ///
+    /// # Errors
+    /// The tool would have to go up from where it cuts, and how far is not known.
+    pub fn cross_shifted(&mut self, number: usize, rises: bool) -> Result<()> {
+        if rises && self.was_at_feed() {
+            return refuse_unknown(self, number);
+        }
+        let letter = self.tables.axis(number).letter;
+        let message = format!(
+            "{letter} counts from another zero since the tool was brought to its height, and a \
+             rapid motion crosses"
+        );
+        self.warnings.add(PostCode::ShiftedLevel, message);
+        Ok(())
+    }
+}
+
+/// Refuses a rapid motion across from a height that is not known.
+///
+/// # Errors
+/// Always.
+pub fn refuse_unknown<T>(control: &Control, number: usize) -> Result<T> {
+    let letter = control.tables.axis(number).letter;
+    PostCode::UnknownLevel.err(format!(
+        "where {letter} stands is not known here: up first could be down, and across first could \
+         go through the part"
+    ))
+}

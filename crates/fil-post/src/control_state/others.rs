@@ -1,0 +1,194 @@
+//! What the control knows behind words and texts that the post has not made: POSTN, PREFUN
+//! and AUXFUN, INSERT, the machine's own texts.
+
+use fil_machine::modes::Unit;
+use fil_machine::{FunctionCode, Letter, letters};
+
+use super::text::{self, TextFrame, TextWords};
+use super::{AXIS_LETTERS, Codes, ControlState, Distance, Meaning, TOOL_CHANGE};
+
+/// What preparatory functions of others do to where the axes stand.
+#[derive(Clone, Copy, Debug, Default)]
+struct Ways {
+    /// The axes of the block go to positions of the machine, such as G53.
+    of_machine: bool,
+    /// They go to a reference point, without words all of them, such as G28.
+    home: bool,
+    /// The zero is another one.
+    shifts: bool,
+    /// The words of the block say it, such as those of G92.
+    says_zero: bool,
+    /// The length of the tool is another one.
+    length: bool,
+    /// They go by a way of their own.
+    astray: bool,
+    /// The frame may be turned.
+    turns: bool,
+    /// The words of the block are no positions, such as those of G4.
+    pauses: bool,
+    /// The tool is changed.
+    changes: bool,
+}
+
+impl Ways {
+    fn of(words: &[(Letter, f64)], codes: &Codes, fixture: Option<FunctionCode>) -> Self {
+        let mut ways = Ways::default();
+        for (letter, value) in words {
+            match (*letter, FunctionCode::of_value(*value)) {
+                (letters::G, Some(code)) if Some(code) == fixture => {}
+                (letters::G, Some(code)) => ways.add(code, codes),
+                (letters::M, Some(code)) => ways.changes |= code == TOOL_CHANGE,
+                _ => {}
+            }
+        }
+        ways
+    }
+
+    fn add(&mut self, code: FunctionCode, codes: &Codes) {
+        const DWELL: FunctionCode = FunctionCode::whole(4);
+        let is_home = codes.is_home(code);
+        self.home |= is_home;
+        self.of_machine |= is_home || codes.is_of_machine(code);
+        match codes.meaning(code) {
+            Meaning::Frame => {
+                self.shifts |= !self.of_machine;
+                self.says_zero |= !self.of_machine && !codes.chooses_offset(code);
+            }
+            Meaning::ToolLength => self.length = true,
+            Meaning::Tilt | Meaning::TipControl => self.turns = true,
+            Meaning::Turning => self.astray = true,
+            Meaning::OneBlock => self.pauses |= code == DWELL,
+            _ => {}
+        }
+    }
+}
+
+fn is_axis(letter: Letter) -> bool {
+    AXIS_LETTERS.contains(&letter)
+}
+
+impl ControlState {
+    /// Learns from words that were written one after the other (POSTN). In a cycle they
+    /// may have changed its data.
+    pub fn learn_words(&mut self, words: &[(Letter, f64)], codes: &Codes) {
+        let cycle = self.in_cycle != Some(false);
+        let ways = Ways::of(words, codes, self.fixture);
+        for (letter, value) in words {
+            match (*letter, FunctionCode::of_value(*value)) {
+                (letters::G, Some(code)) => self.learn_code(code, codes),
+                (letters::M, Some(code)) => self.learn_auxiliary(code, codes),
+                (letters::T, _) => self.tool = None,
+                (letter, _) if cycle => self.doubt(letter),
+                (letter, _) => self.trust(letter),
+            }
+        }
+        let has = |letters: &[u8]| words.iter().any(|(letter, _)| letters.contains(&letter.byte()));
+        self.learn_ways(words, ways);
+        let cycle = cycle || self.in_cycle != Some(false);
+        // In a cycle a position drills, and its level can be one too.
+        let drills = cycle && has(b"XYZABCR");
+        let counts_on = self.distance != Some(Distance::Absolute);
+        let moves = words.iter().any(|(letter, _)| is_axis(*letter)) && !ways.of_machine;
+        if drills || has(b"UVW") || counts_on && moves {
+            self.lose_axes();
+        } else if counts_on {
+            self.doubt_axes();
+        }
+    }
+
+    /// Learns from a text that was written as it is; what can't be read makes all
+    /// unknown. `unit` is that of the program.
+    pub fn learn_text(&mut self, text: &str, codes: &Codes, unit: Option<Unit>) {
+        match text::read(text) {
+            Some(words) => self.learn_text_words(&words, codes, unit),
+            None => self.forget(),
+        }
+    }
+
+    /// Learns from the words of a text.
+    pub(crate) fn learn_text_words(
+        &mut self,
+        words: &TextWords,
+        codes: &Codes,
+        unit: Option<Unit>,
+    ) {
+        let before = words.skipped.then(|| self.clone());
+        if words.calls_subprogram() {
+            self.forget();
+        }
+        let in_cycle = self.in_cycle;
+        let mut ways = Ways::of(&words.words, codes, self.fixture);
+        for (letter, value) in &words.words {
+            match (*letter, FunctionCode::of_value(*value)) {
+                (letters::G, Some(code)) => self.learn_code(code, codes),
+                (letters::G | letters::M, None) => self.forget(),
+                (letters::M, Some(code)) => self.learn_auxiliary(code, codes),
+                (letters::T, _) => self.tool = None,
+                (letter, _) if is_axis(letter) => self.doubt_axes(),
+                (letter, _) => self.doubt(letter),
+            }
+        }
+        match words.frame {
+            TextFrame::Stays => {}
+            TextFrame::OfTheMachine => ways.of_machine = true,
+            TextFrame::Shifted => (ways.shifts, ways.says_zero) = (true, true),
+            TextFrame::Turned => ways.turns = true,
+            TextFrame::Unread => ways.astray = true,
+        }
+        self.learn_ways(&words.words, ways);
+        let is_motion =
+            !(ways.of_machine || ways.says_zero || ways.turns || ways.astray || ways.pauses);
+        let is_level_or_code =
+            |(letter, _): &(Letter, f64)| matches!(*letter, letters::R | letters::G);
+        // Behind a hole more the tool comes back to the level that it came from.
+        let is_hole = in_cycle == Some(true) && !words.words.iter().any(is_level_or_code);
+        if is_motion && !is_hole && words.words.iter().any(|(letter, _)| is_axis(*letter)) {
+            let drills = in_cycle != Some(false) || self.in_cycle != Some(false);
+            let is_read = !drills && self.unit.is_some() && self.unit == unit;
+            self.learn_motion(&words.words, is_read);
+        }
+        if let Some(before) = before {
+            self.agree_with(&before);
+            if words.words.iter().any(|(letter, _)| is_axis(*letter)) {
+                self.lose_axes();
+            }
+        }
+    }
+
+    /// Learns where a text has brought the axes; positions that count otherwise than those of
+    /// the post are not read.
+    fn learn_motion(&mut self, words: &[(Letter, f64)], is_read: bool) {
+        const LINEAR: [Letter; 3] = letters::XYZ;
+        let counts = self.distance == Some(Distance::Absolute) && self.motion.is_some();
+        let is_incremental = words.iter().any(|(letter, _)| b"UVW".contains(&letter.byte()));
+        if !(is_read && counts) || is_incremental {
+            return self.lose_axes();
+        }
+        for (letter, value) in words.iter().filter(|(letter, _)| LINEAR.contains(letter)) {
+            self.stand(*letter, *value);
+        }
+    }
+
+    /// Learns where functions leave the axes.
+    fn learn_ways(&mut self, words: &[(Letter, f64)], ways: Ways) {
+        let named = || words.iter().map(|(letter, _)| *letter).filter(|letter| is_axis(*letter));
+        if ways.of_machine {
+            self.doubt_axes();
+            if ways.home && named().next().is_none() {
+                self.lose_axes();
+            }
+            named().for_each(|letter| self.clears(letter));
+        } else if ways.astray {
+            self.lose_axes();
+        } else if ways.turns {
+            self.turn_axes();
+        } else if ways.shifts {
+            self.shift_axes();
+        } else if ways.length {
+            self.tool_length_changes();
+        }
+        if ways.changes {
+            AXIS_LETTERS.into_iter().for_each(|letter| self.tool_change_moves(letter));
+        }
+    }
+}
