@@ -78,7 +78,7 @@ impl Program<'_, '_> {
             4 => format!("CYCLE/{},DEPTH,{}", self.dice.pick(WORDS), self.number(scope, 1)),
             5 => format!("GOTO/{},2,{}", self.number(scope, 1), self.number(scope, 0)),
             6 => format!("PPRINT {}", self.dice.pick(&["MSG", "USE MSG NOW", "VA", "A=1, B"])),
-            7 => format!("INSERT/{},{}", self.text(1), self.either(scope)),
+            7 => format!("INSERT/'',{},{}", self.text(1), self.either(scope)),
             _ => format!("ENGRAV/WAVY,{}", self.either(scope)),
         }
     }

@@ -55,7 +55,9 @@ impl<C: Steps> Walk<'_, C> {
         let length = (pose.tip - self.begins().tip).norm();
         let slack = 2.0 * self.slack.linear[0];
         let at_feed = self.next_move().is_some_and(|found| found.course == Course::Feed);
-        let is_short = length < short - slack || (length < short + slack && at_feed);
+        // Behind a tool change no way is known to be short.
+        let is_short =
+            length < short - slack && !self.tool_is_fresh || (length < short + slack && at_feed);
         (is_short && self.is_known(&self.known)).then_some(feed)
     }
 

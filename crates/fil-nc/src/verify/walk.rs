@@ -44,6 +44,10 @@ pub(super) struct Walk<'a, C> {
     pub(super) metric: bool,
     /// Diameter of the cutter, mm.
     pub(super) cutter: Option<f64>,
+    /// No motion came since the cutter was named.
+    cutter_is_fresh: bool,
+    /// No motion came since the tool was changed: where it stands is not known.
+    pub(super) tool_is_fresh: bool,
     /// Where the rapid has ended that is the last motion.
     pub(super) rapid_end: Option<Pose>,
     /// End of the last arc in the CL file, and as the machine corrects it.
@@ -110,6 +114,8 @@ impl<'a, C: Steps> Walk<'a, C> {
             slack: settings.slack(true),
             metric: true,
             cutter: None,
+            cutter_is_fresh: false,
+            tool_is_fresh: false,
             rapid_end: None,
             corrected_end: None,
             travel: settings.travel(true),
@@ -193,7 +199,9 @@ impl<'a, C: Steps> Walk<'a, C> {
             Wanted::Home => self.go_to_machine(step.line, self.settings.home(self.metric)),
             Wanted::Retract => self.retract(step.line),
             Wanted::Turn { index, angle } => self.turn(step.line, *index, *angle),
-            Wanted::Cutter(diameter) => self.cutter = Some(*diameter),
+            Wanted::Cutter(diameter) => {
+                (self.cutter, self.cutter_is_fresh) = (Some(*diameter), true);
+            }
             Wanted::Mills(mills) if self.settings.is_mill_turn() => {
                 self.ask_spindle_mode(step.line, *mills);
             }
@@ -202,6 +210,8 @@ impl<'a, C: Steps> Walk<'a, C> {
             Wanted::Straight(within) => self.watch.ask(*within),
             Wanted::Tool { number, offset } => {
                 self.tool(step.line, *number, self.settings.tool_offset(*number, *offset));
+                self.cutter = self.cutter.filter(|_| self.cutter_is_fresh);
+                self.tool_is_fresh = true;
             }
             Wanted::Dwell(seconds) => self.dwell(step.line, *seconds, None),
             Wanted::DwellTurns(turns) => {
@@ -386,6 +396,7 @@ impl<'a, C: Steps> Walk<'a, C> {
 
     /// Takes a motion: its modes, its limits, where it goes.
     pub(super) fn take(&mut self, cl_line: u32, found: &Move) {
+        (self.cutter_is_fresh, self.tool_is_fresh) = (false, false);
         let at = self.at_as(found);
         let differs = |n: usize| {
             let way = (found.to.linear[n] - at.linear[n]).abs();
