@@ -53,6 +53,7 @@ ready![
     "sinumerik-5x",
     "sinumerik-840d",
     "sinumerik-lathe",
+    "sinumerik-mill-turn",
 ];
 
 impl ReadyPost {

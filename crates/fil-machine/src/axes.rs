@@ -168,6 +168,11 @@ impl Axis {
         }
     }
 
+    /// Writes no words of this axis.
+    pub(crate) fn turn_off(&mut self) {
+        self.output = Output::Off;
+    }
+
     /// Makes positions count from a zero of the control that lies here, mm or inch.
     pub(crate) fn count_from(&mut self, zero: f64) {
         self.translate -= zero;

@@ -2,12 +2,14 @@
 
 use fil_diag::Result;
 
+use crate::address::Addresses;
 use crate::axis_chain::{AxisChain, Carries};
 use crate::commons::Commons;
 use crate::errors::MachineCode;
-use crate::letter::Letter;
+use crate::letter::{Letter, letters};
 use crate::locations::{
-    self as loc, ControlFamily, MillTurnMode, RotaryFrameOutput, RotaryTipOutput,
+    self as loc, ControlFamily, ControlTranslation, MillTurnMode, RotaryFrameOutput,
+    RotaryTipOutput,
 };
 use crate::setting::CodeAt;
 
@@ -53,8 +55,62 @@ pub(crate) fn letter(chain: &AxisChain) -> Option<Letter> {
 /// and C counts degrees.
 pub(crate) fn chain_in(mode: Option<MillTurnMode>, chain: AxisChain) -> AxisChain {
     match mode {
-        None | Some(MillTurnMode::Milling) => chain,
+        None | Some(MillTurnMode::Milling | MillTurnMode::CylindricalInterpolationByTracyl) => {
+            chain
+        }
         Some(_) => AxisChain { rotaries: [None, None], ..chain },
+    }
+}
+
+/// TRANSMIT and TRACYL take the place of an axis Y and of polar and cylindrical interpolation.
+pub(crate) fn transforms(commons: &Commons) -> bool {
+    commons.read(loc::MILL_TURN_TRANSFORMATIONS) && mode(commons).is_some()
+}
+
+/// Refuses what a SINUMERIK says by statements and a word-address control by codes, where the
+/// other one is meant.
+///
+/// # Errors
+/// E0606.
+fn check_transformations(commons: &Commons) -> Result<()> {
+    let refuse = |what: &str| MachineCode::SettingValue.err(format!("mill_turn: {what}"));
+    let of_sinumerik = commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik;
+    let transforms = commons.read(loc::MILL_TURN_TRANSFORMATIONS);
+    let live_spindle = commons.int_opt(loc::MILL_TURN_LIVE_SPINDLE);
+    if !of_sinumerik {
+        return match transforms || live_spindle.is_some() {
+            true => refuse("transformations and live_spindle are those of a SINUMERIK"),
+            false => Ok(()),
+        };
+    }
+    let codes = [loc::MILL_TURN_POLAR_CODE, loc::MILL_TURN_CYLINDER_CODE];
+    let named = codes.iter().any(|at| commons.int_opt(*at).is_some());
+    if named || CYCLE_CODES.iter().any(|at| commons.read(*at).is_some()) {
+        return refuse(
+            "a SINUMERIK has no codes of interpolations and of cycles of live tools \
+             (transformations = 1 is TRANSMIT and TRACYL)",
+        );
+    }
+    if live_spindle.is_some_and(|number| !(2..=99).contains(&number)) {
+        return refuse("live_spindle is the number of another spindle than the first");
+    }
+    if live_spindle.is_some() && commons.int_opt(loc::CONTROL_SPINDLE_INDEX).is_some() {
+        return refuse("live_spindle takes S and M without a number (control.spindle_index)");
+    }
+    if !transforms {
+        return Ok(());
+    }
+    if commons.read(loc::CONTROL_TRANSLATION) == ControlTranslation::ByTrans {
+        return refuse("TRANS of the control (control.translation) and transformations");
+    }
+    if commons.dbl_opt(loc::SCALE_X) == Some(2.0) {
+        return refuse(
+            "X is a diameter by lathe.diameter, which TRANSMIT and TRACYL end for a while",
+        );
+    }
+    match Addresses::from_commons(commons, true).position(letters::XYZ[1]) {
+        Some(_) => Ok(()),
+        None => refuse("TRANSMIT and TRACYL need the address Y"),
     }
 }
 
@@ -91,9 +147,12 @@ pub(crate) fn check(commons: &Commons) -> Result<()> {
     }
     let frames = commons.read(loc::ROTARY_FRAME_OUTPUT) == RotaryFrameOutput::TiltedFrame;
     let tips = commons.read(loc::ROTARY_TIP_OUTPUT) == RotaryTipOutput::ToolTipControl;
-    if frames || tips || commons.read(loc::CONTROL_FAMILY) != ControlFamily::WordAddress {
-        return refuse("only a word-address control without frames and tool-tip control has it");
+    if frames || tips || commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext {
+        return refuse(
+            "only a word-address control or a SINUMERIK without frames and tool-tip control has it",
+        );
     }
+    check_transformations(commons)?;
     let codes = [
         (loc::MILL_TURN_TURNING_CODE, "turning_code"),
         (loc::MILL_TURN_LIVE_CW_CODE, "live_cw_code"),

@@ -42,6 +42,8 @@ pub struct MachineTables {
     pub frame_output: bool,
     /// What a mill-turn machine does; `None` for another machine.
     pub mill_turn: Option<MillTurnMode>,
+    /// A mill-turn machine mills by TRANSMIT and TRACYL.
+    pub transforms: bool,
     /// A motion asks something of the machine before it is made: a tilted frame, or the
     /// mode of a mill-turn machine that mills.
     pub prepares: bool,
@@ -90,6 +92,7 @@ impl MachineTables {
         let has_rotary = chain.has_rotary();
         let rotary_letter = mill_turn::letter(&chain);
         self.mill_turn = mill_turn::mode(commons);
+        self.transforms = mill_turn::transforms(commons);
         let chain = mill_turn::chain_in(self.mill_turn, chain);
         self.chain = if metric { chain } else { chain.in_inches() };
         self.axes = linear_letters()
@@ -129,7 +132,8 @@ impl MachineTables {
         if self.axes.iter().any(|axis| axis.scale() == 0.0) {
             return MachineCode::SettingValue.err("an output scale is zero");
         }
-        if commons.read(loc::LATHE_DIAMETER) {
+        let in_transformation = self.transforms && (self.is_polar() || self.is_unrolled());
+        if commons.read(loc::LATHE_DIAMETER) && !in_transformation {
             self.axes[0].write_diameters()?;
         }
         if commons.read(loc::LIMITS_CHECK) {
@@ -144,7 +148,13 @@ impl MachineTables {
             // The second axis of the plane is C, in mm or inch, and no slide of the machine; X
             // goes as far as the plane says only where C is 0.
             self.axes[0].limit(None, None);
-            self.axes[1] = Axis::new(letter, 1, &self.addresses, commons);
+            let second = if self.transforms { self.axes[1].letter } else { letter };
+            self.axes[1] = Axis::new(second, 1, &self.addresses, commons);
+        } else if in_transformation {
+            // Y is the way around the cylinder.
+            self.axes[1].limit(None, None);
+        } else if self.transforms {
+            self.axes[1].turn_off();
         }
         if self.tip_output || self.frame_output {
             self.axes[..3].iter_mut().for_each(|axis| axis.limit(None, None));
@@ -172,6 +182,11 @@ impl MachineTables {
     /// X and C are a plane of mm or inch.
     pub fn is_polar(&self) -> bool {
         self.mill_turn == Some(MillTurnMode::PolarInterpolation)
+    }
+
+    /// Y is the way around a cylinder (TRACYL).
+    pub fn is_unrolled(&self) -> bool {
+        self.mill_turn == Some(MillTurnMode::CylindricalInterpolationByTracyl)
     }
 
     /// Refuses a position of the machine outside the travel of X, Y and Z: under tool-tip

@@ -119,6 +119,10 @@ fil_diag::codes! {
         ShiftedLevel = 533, Warning, "a rapid motion across behind another zero",
             "The work offset or the length of the tool has changed since the tool was brought to its height. How high it stands above the part is in the tables of the control, not in the CL file.",
             "Look whether the tool is clear of both zeros there; GOHOME, RETRCT or LOADTL before the change leaves no doubt.";
+        /// A feed a turn of a spindle that stands.
+        FeedStands = 534, Error, "feed a turn with the spindle standing",
+            "The control counts the feed in turns of the spindle, and waits for them where it stands.",
+            "Put SPINDL / RPM with a direction before it, or give the feed a minute.";
         /// A block that is too long.
         BlockLength = 541, Error, "block longer than the control reads",
             "The rest of a block that is longer than the control's buffer would be lost.",

@@ -308,7 +308,11 @@ impl Maker {
             }
             5 => self.say(Statement::OptionalStop),
             6 => self.say(Statement::Message("A MESSAGE")),
-            7 if !self.threads => self.say(Statement::Spindle(SpindleCommand::Off)),
+            7 if !self.threads => {
+                self.say(Statement::Spindle(SpindleCommand::Off));
+                // A feed a turn of a spindle that stands is refused.
+                self.say(Statement::Spindle(SpindleCommand::Turn { speed: 500.0, ccw: false }));
+            }
             8..=10 if self.texts => {
                 let text = TEXTS[self.dice.below(TEXTS.len())];
                 self.say(Statement::Insert(text));

@@ -342,13 +342,16 @@ impl<'s> Model<'s> {
         self.out.steps.push(Step { act, modes, line: self.line, height_unknown });
     }
 
-    /// The interpreter refuses a feed a revolution while the spindle stands.
+    /// The interpreter refuses a feed a revolution while the spindle stands, and so does a post of
+    /// a lathe.
     fn needs_spindle(&mut self, act: &Act, feed: &Want<Rate>) {
         let cuts = matches!(act, Act::Feed(_) | Act::Arc(_) | Act::Hole(_));
         let per_revolution = feed.accepts(|rate| rate.per_revolution);
         let may_stand = self.spindle.now.accepts(|turning| *turning == Turning::Stopped);
-        if cuts && per_revolution && may_stand && !self.setup.turns() {
-            self.out.unpredictable = true;
+        match cuts && per_revolution && may_stand {
+            true if self.setup.turns() => self.may_refuse("a feed a turn of a spindle that stands"),
+            true => self.out.unpredictable = true,
+            false => {}
         }
     }
 

@@ -19,6 +19,8 @@ const SAMPLE: u64 = 60;
 struct Part {
     text: String,
     mills: bool,
+    /// The machine taps by live tools.
+    taps: bool,
     /// The machine brings live taps in step.
     rigid: bool,
     /// Inches are millimetres less a factor.
@@ -28,11 +30,16 @@ struct Part {
 
 impl Part {
     fn random(seed: u64) -> String {
+        Part::of_machine(seed, true)
+    }
+
+    fn of_machine(seed: u64, taps: bool) -> String {
         let mut dice = Dice::from_seed(seed);
         let inch = dice.once_in(4);
         let mut part = Part {
             text: if inch { "UNITS / INCHES\n" } else { "UNITS / MM\n" }.to_string(),
             mills: false,
+            taps,
             rigid: seed % 2 == 1,
             scale: if inch { 1.0 / 25.4 } else { 1.0 },
             feeds: if inch { ["IPM", "IPR"] } else { ["MMPM", "MMPR"] },
@@ -94,9 +101,10 @@ impl Part {
 
     fn cycle(&mut self, dice: &mut Dice<'_>) {
         let kind = ["DRILL", "DEEP", "BRKCHP", "TAP"][dice.below(4)];
-        if kind == "TAP" {
+        if kind == "TAP" && self.taps {
             return self.tap(dice);
         }
+        let kind = if kind == "TAP" { "DRILL" } else { kind };
         let (depth, step) = (dice.between(3.0, 15.0), dice.between(1.0, 6.0));
         let [depth, step, clear] = [depth, step, 2.0].map(|value| value * self.scale);
         let step = if kind == "DRILL" { String::new() } else { format!("STEP, {step:.4}, ") };
@@ -253,6 +261,10 @@ fn post_with_cycles() -> Program {
     cycles.into_iter().fold(base, |builder, setting| builder.set(setting)).build().unwrap()
 }
 
+fn sinumerik() -> Program {
+    Program::builder().ready("sinumerik-mill-turn").build().unwrap()
+}
+
 #[test]
 fn random_programs_agree_with_their_cl() {
     let posts = [post(), post_with_cycles()];
@@ -286,18 +298,81 @@ fn random_programs_agree_with_their_cl() {
     assert!(kinds.iter().all(|count| *count > 2), "{kinds:?}");
 }
 
+/// TRANSMIT and TRACYL of a SINUMERIK.
+#[test]
+fn random_programs_of_a_sinumerik_agree_with_their_cl() {
+    let post = sinumerik();
+    let mut wrong = Vec::new();
+    let mut kinds = [0; 3];
+    for seed in seeds() {
+        let cl = Part::of_machine(seed, false);
+        let said = match nc_of(&post, &cl) {
+            Err(said) => format!("refused: {said}"),
+            Ok(nc) => {
+                for (count, sign) in kinds.iter_mut().zip(["M70", "TRANSMIT", "TRACYL"]) {
+                    *count += u32::from(nc.contains(sign));
+                }
+                let said = said_against(&post, &cl, &nc);
+                if said.is_empty() { said } else { format!("{said}{nc}") }
+            }
+        };
+        if !said.is_empty() {
+            wrong.push(format!("seed {seed}: {said}\n{cl}"));
+        }
+    }
+    let count = wrong.len();
+    let first = wrong[..count.min(2)].join("\n");
+    assert!(wrong.is_empty(), "{count} differ; the first two:\n{first}");
+    assert!(kinds.iter().all(|count| *count > 2), "{kinds:?}");
+}
+
+/// By hand: a quarter turn on a cylinder of 40 mm is 31.416 mm of Y, and its lead 10 mm of Z; the
+/// square of 24 by 24 has its corners at X and Y of 12.
+#[test]
+fn transmit_and_tracyl_by_hand() {
+    let post = sinumerik();
+    let mut cl = "UNITS / MM\nMODE / MILL\nLOADTL / 1\nSPINDL / RPM, 2000, CLW\nMULTAX / ON\n\
+                  RAPID\nGOTO / 25, 0, -10, 1, 0, 0\nFEDRAT / 200, MMPM\n\
+                  GOTO / 20, 0, -10, 1, 0, 0\n"
+        .to_string();
+    for step in 1..=30 {
+        let angle = f64::from(step) * 3.0;
+        let (sine, cosine) = libm::sincos(angle.to_radians());
+        let z = -10.0 - f64::from(step) / 3.0;
+        writeln!(
+            cl,
+            "GOTO / {:.7}, {:.7}, {z:.7}, {cosine:.9}, {sine:.9}, 0",
+            20.0 * cosine,
+            20.0 * sine
+        )
+        .unwrap();
+    }
+    cl.push_str("RAPID\nGOTO / 0, 30, -20, 0, 1, 0\nFINI\n");
+    let nc = nc_of(&post, &cl).unwrap();
+    let words = |line: &str| line.split_once(' ').map(|(_, rest)| rest.to_string());
+    let blocks: Vec<String> = nc.lines().filter_map(words).collect();
+    let at = blocks.iter().position(|block| block == "TRACYL(40)").unwrap();
+    assert_eq!(blocks[at - 1], "DIAMOF");
+    let quarter = 20.0 * std::f64::consts::FRAC_PI_2;
+    assert_eq!(blocks[at + 1], "X20 Y1.047 Z-10.333");
+    assert_eq!(blocks[at + 30], format!("Y{quarter:.3} Z-20"));
+    assert_eq!(blocks[at + 31..at + 34], ["TRAFOOF", "DIAMON", "G0 X60 C90"]);
+}
+
 #[test]
 fn a_changed_coordinate_is_found() {
-    let posts = [post(), post_with_cycles()];
+    let posts = [post(), post_with_cycles(), sinumerik()];
     let mut changed = 0;
     for seed in 0..20 {
-        let cl = Part::random(seed);
-        let post = &posts[(seed % 2) as usize];
+        let by_statements = seed % 3 == 2;
+        let cl = Part::of_machine(seed, !by_statements);
+        let post = &posts[if by_statements { 2 } else { (seed % 2) as usize }];
         let nc = nc_of(post, &cl).unwrap();
         let lines: Vec<&str> = nc.lines().collect();
         for (number, line) in lines.iter().enumerate().step_by(5) {
             let Some(at) = line.rfind([' ']).map(|at| at + 1) else { continue };
-            let is_coordinate = line[at..].starts_with(['X', 'Z', 'C']) && !line.contains("G7.1");
+            let is_coordinate =
+                line[at..].starts_with(['X', 'Y', 'Z', 'C']) && !line.contains("G7.1");
             let Ok(value) = line[at + 1..].parse::<f64>() else { continue };
             if !is_coordinate {
                 continue;

@@ -496,3 +496,62 @@ fn linuxcnc_takes_the_programs_of_its_lathe() {
     }
     assert_eq!(count, 10);
 }
+
+/// Passes of CYCLE97 by its manual: pass i of NRC at the root of i/NRC of TDEP, NID more at full
+/// depth, from SPL to FPL, DM1 less twice the depth outside (VARI 3), more inside (VARI 4).
+fn passes_of_cycle97(nc: &str) -> Vec<Cut> {
+    let mut cuts = Vec::new();
+    for line in nc.lines() {
+        let Some((_, list)) = line.split_once("CYCLE97(") else { continue };
+        let list: Vec<f64> = list
+            .trim_end_matches(')')
+            .split(',')
+            .map(|value| value.parse().unwrap_or(f64::NAN))
+            .collect();
+        let [lead, from, to, diameter] = [list[0], list[2], list[3], list[4]];
+        assert_eq!(list[4], list[5]);
+        let [depth, count, springs] = [list[8], list[12], list[13]];
+        let into = if list[14] == 3.0 { -1.0 } else { 1.0 };
+        let last = (count + springs) as u32;
+        for pass in 1..=last {
+            let deep = depth * (f64::from(pass).min(count) / count).sqrt();
+            let x = diameter / 2.0 + into * deep;
+            cuts.push(Cut { from: [x, from], to: [x, to], lead });
+        }
+    }
+    cuts
+}
+
+#[test]
+fn cycle97_cuts_what_single_passes_cut() {
+    let [by_passes, by_cycle] = [0, 5].map(|cycle| {
+        let cycle = format!("thread.cycle={cycle}");
+        post_of("sinumerik-lathe", &[&cycle, "thread.cycle_code=97"])
+    });
+    for seed in seeds() {
+        let mut dice = Dice::from_seed(seed ^ 0x97);
+        let outside = dice.once_in(2);
+        let (x, depth) = (10 + dice.below(30), 0.3 + 0.1 * dice.below(25) as f64);
+        let clear = if outside { x + 4 } else { x - 4 };
+        let (begin, end) = (4 + dice.below(4), 10 + dice.below(30));
+        let (cuts, last, starts) = (1 + dice.below(12), dice.below(3), 1 + dice.below(3));
+        let lead = 0.5 + 0.25 * dice.below(10) as f64;
+        let cl = format!(
+            "UNITS / MM\nLOADTL / 3\nSPINDL / RPM, 400, CLW\nRAPID\nGOTO / {clear}, 0, {begin}\n\
+             OP / THREAD, TURN, DEPTH, {depth:.3}, MMPR, {lead}, MULTRD, {starts}, CUTS, {cuts}, \
+             FINCUT, {last}\nGOTO / {x}, 0, {begin}\nGOTO / {x}, 0, -{end}\nRAPID\n\
+             GOTO / {clear}, 0, 20\nFINI\n"
+        );
+        let [passes, cycle] = [&by_passes, &by_cycle].map(|post| nc_of(post, &cl).unwrap());
+        let found = passes_of_cycle97(&cycle);
+        assert_eq!(found.len() as u64, ((cuts + last) * starts) as u64, "{cl}{cycle}");
+        let wanted = expand(&passes).unwrap();
+        if let Some(said) = differ(&wanted, &found, true) {
+            panic!("seed {seed}: {said}\n{cl}{cycle}{passes}");
+        }
+        assert_eq!(said_against(&by_cycle, &cl, &cycle), "", "{cl}{cycle}");
+        let (number, other) = ("CYCLE97(", "CYCLE97(1");
+        let changed = cycle.replacen(number, other, 1);
+        assert!(!said_against(&by_cycle, &cl, &changed).is_empty(), "{changed}");
+    }
+}

@@ -128,6 +128,12 @@ pub struct Dialect {
     pub(crate) one_code: [bool; 3],
     /// The feed that stands for rapid motions in polar interpolation, mm a minute.
     pub(crate) polar_rapid: Option<f64>,
+    /// A SINUMERIK has TRANSMIT and TRACYL in place of an axis Y.
+    pub(crate) transforms: bool,
+    /// The spindle of the live tool by its number, which SETMS makes the master spindle.
+    pub(crate) live_spindle: Option<i32>,
+    /// The codes that make the main spindle an axis and a spindle again.
+    pub(crate) spindle_modes: [Option<i32>; 2],
     /// Tool-tip control may begin wherever the tables stand.
     pub(crate) tip_control_anywhere: bool,
     /// The machine turns parts: X may be a diameter, threads have cycles.
@@ -282,6 +288,10 @@ impl Dialect {
                 let code = |of: &str| settings.code(&format!("{of}{turn}_code"));
                 code("mill_turn.live_") == code("spindle.")
             }),
+            transforms: settings.flag("mill_turn.transformations"),
+            live_spindle: settings.code("mill_turn.live_spindle"),
+            spindle_modes: ["milling", "turning"]
+                .map(|mode| settings.code(&format!("mill_turn.{mode}_code"))),
             polar_rapid: settings.number("mill_turn.polar_rapid"),
             tip_control_anywhere: settings.code("rotary.tip_control") == Some(1),
             lathe,

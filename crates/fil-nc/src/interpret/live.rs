@@ -125,7 +125,7 @@ impl State<'_> {
         Ok(true)
     }
 
-    fn begin_polar(&mut self) -> Result<(), Fault> {
+    pub(super) fn begin_polar(&mut self) -> Result<(), Fault> {
         if self.polar || self.cylinder.is_some() {
             return refuse("polar interpolation within an interpolation");
         }
@@ -144,7 +144,7 @@ impl State<'_> {
         Ok(())
     }
 
-    fn end_polar(&mut self) -> Result<(), Fault> {
+    pub(super) fn end_polar(&mut self) -> Result<(), Fault> {
         if !self.polar {
             return refuse("polar interpolation ends and none has begun");
         }

@@ -104,7 +104,8 @@ pub fn thread(control: &mut Control, motion: &Motion, lead: &Lead, change: f64) 
 pub fn thread_cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Result<bool> {
     match post.control.tables.family {
         ControlFamily::WordAddress => word_address::thread::cycle(post, thread, shape, start),
-        ControlFamily::Klartext | ControlFamily::Sinumerik => Ok(false),
+        ControlFamily::Sinumerik => sinumerik::thread::cycle(post, thread, shape, start),
+        ControlFamily::Klartext => Ok(false),
     }
 }
 

@@ -20,6 +20,7 @@ pub mod program;
 pub mod replaced;
 pub mod sinumerik;
 pub(crate) mod skip;
+mod speed_of_others;
 mod tap;
 mod texts;
 pub mod vectors;

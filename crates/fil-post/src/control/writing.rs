@@ -7,8 +7,9 @@ use fil_machine::letters::{G, M};
 use fil_machine::locations::ControlFamily;
 use fil_machine::modes::Plane;
 
-use super::{Compensation, Control, family, klartext, program, sinumerik, texts};
+use super::{Compensation, Control, family, klartext, program, sinumerik, speed_of_others, texts};
 use crate::cause::Cause;
+use crate::control_state::text;
 use crate::errors::PostCode;
 
 /// What the control knew before words or texts of others.
@@ -87,6 +88,9 @@ impl Control {
         if self.tables.family == ControlFamily::Sinumerik {
             sinumerik::reader::learn_words(self, words);
         }
+        let spoken: Vec<(Letter, f64)> = words.iter().map(|(letter, v, _)| (*letter, *v)).collect();
+        let skipped = self.state.may_be_skipped();
+        speed_of_others::learn(self, &spoken, skipped);
         self.refuse_in_compensation(before)
     }
 
@@ -116,6 +120,12 @@ impl Control {
             ControlFamily::Klartext => klartext::reader::learn(self, text),
             ControlFamily::Sinumerik => sinumerik::reader::learn(self, text),
             ControlFamily::WordAddress => self.state.learn_text(text, &self.codes, self.unit),
+        }
+        if self.tables.family != ControlFamily::Klartext
+            && let Some(read) = text::read(text)
+        {
+            let skipped = read.skipped || self.state.may_be_skipped();
+            speed_of_others::learn(self, &read.words, skipped);
         }
         self.refuse_in_compensation(before)
     }

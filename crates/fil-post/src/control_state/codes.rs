@@ -30,6 +30,8 @@ pub enum Meaning {
     CycleOff,
     /// The level a cycle returns to.
     ReturnLevel,
+    /// S is a surface speed, or turns.
+    SurfaceSpeed(bool),
     /// It acts in its block alone, or on what the post does not depend on.
     OneBlock,
     /// A turning cycle: it leaves axes, motion and feed elsewhere.
@@ -333,8 +335,8 @@ const MODES: [(CodeAt, Meaning); 20] = [
     (loc::CYCLE_RETURN_CLEAR_CODE, Meaning::ReturnLevel),
     (loc::CYCLE_RETURN_INITIAL_CODE, Meaning::ReturnLevel),
     (loc::DWELL_CODE, Meaning::OneBlock),
-    (loc::SPINDLE_CSS_CODE, Meaning::OneBlock),
-    (loc::SPINDLE_RPM_CODE, Meaning::OneBlock),
+    (loc::SPINDLE_CSS_CODE, Meaning::SurfaceSpeed(true)),
+    (loc::SPINDLE_RPM_CODE, Meaning::SurfaceSpeed(false)),
     (loc::SPINDLE_MAX_CODE, Meaning::OneBlock),
     (loc::TOOL_LENGTH_CODE, Meaning::ToolLength),
 ];

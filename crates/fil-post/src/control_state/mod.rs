@@ -135,6 +135,8 @@ pub struct ControlState {
     pub range: Option<FunctionCode>,
     /// How the spindle was last told to turn.
     pub rotation: Rotation,
+    /// S is a surface speed; `None` where nothing has said it, or only blocks that may be skipped.
+    pub surface_speed: Option<bool>,
     /// The code of the level that cycles return to; `None` when it is not known.
     pub return_level: Option<FunctionCode>,
     /// The program has ended: M2, M30.
@@ -168,6 +170,7 @@ impl ControlState {
             speed_limit: None,
             range: None,
             rotation: Rotation::Unsaid,
+            surface_speed: None,
             return_level: None,
             ended: false,
             doubts: Doubts::default(),
@@ -306,6 +309,7 @@ impl ControlState {
             speed_limit: self.speed_limit,
             range: None,
             rotation: self.rotation.doubted(),
+            surface_speed: None,
             return_level: None,
             ended: self.ended,
             doubts,
@@ -385,6 +389,7 @@ impl ControlState {
                 self.in_cycle = Some(false);
                 self.motion = None;
             }
+            Meaning::SurfaceSpeed(on) => self.surface_speed = Some(on),
             Meaning::OneBlock => {}
             Meaning::ReturnLevel => {
                 self.return_level = Some(code);
@@ -526,6 +531,7 @@ impl ControlState {
         agree(&mut self.speed_limit, &other.speed_limit);
         agree(&mut self.range, &other.range);
         agree(&mut self.return_level, &other.return_level);
+        agree(&mut self.surface_speed, &other.surface_speed);
         self.rotation = self.rotation.or(other.rotation);
         self.compensation_begun &= other.compensation_begun;
         self.doubts.or(&other.doubts);

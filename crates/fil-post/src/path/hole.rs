@@ -62,6 +62,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     family::ready_for_hole(&mut post.control, cycle.in_force.is_some())?;
     let (position, mut hole) = locate(post, cycle, target)?;
     refuse_beside_the_axis(&post.control, &position, &hole)?;
+    warn_of_surface_speed(post);
     if cycle.kind == CycleKind::Tap {
         scaled_lead::refuse(&post.control, &[hole.along], PostCode::CycleForm)?;
     }
@@ -114,6 +115,22 @@ fn refuse_beside_the_axis(control: &Control, at: &Position, hole: &Hole) -> Resu
     Err(Box::new(diag.hint(
         "A live tool drills it: MODE/MILL on a mill-turn machine, or a spindle that stands.",
     )))
+}
+
+/// Warns of a hole in a part that turns at surface speed: a hole at the axis has no radius, so
+/// that the spindle goes up to its highest speed.
+fn warn_of_surface_speed(post: &mut Post) {
+    let of_surface = spindle::is_of_surface(&post.control);
+    let turns = post.control.commons.read(loc::LATHE_DIAMETER) && !post.control.tables.mills();
+    if of_surface && turns && spindle::may_turn(&post.control) {
+        let limit = post.control.state.speed_limit;
+        let limit = limit.map_or("the control's".to_string(), |limit| format!("{limit}"));
+        let message = format!(
+            "CYCLE at surface speed: at the axis the spindle turns at the highest speed ({limit}); \
+             SPINDL / RPM gives another"
+        );
+        post.warn(PostCode::Clamped, message);
+    }
 }
 
 /// On a control without G98 and G99 nobody says which level a cycle returns to: it begins

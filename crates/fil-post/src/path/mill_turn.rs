@@ -11,7 +11,7 @@ mod polar;
 use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
 use fil_machine::commons::{EMPTY, Kind};
-use fil_machine::locations::{self as loc, MillTurnMode};
+use fil_machine::locations::{self as loc, ControlFamily, MillTurnMode};
 use fil_machine::modes::FeedMode;
 use fil_machine::{FunctionCode, Letter, letters};
 use nalgebra::{Point3, Vector3};
@@ -20,6 +20,7 @@ use super::cycle::{CycleFeed, CycleKind};
 use super::{rotary, thread};
 use crate::control::Control;
 use crate::control::family;
+use crate::control::sinumerik::{reader, transformation};
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::word_address::spindle;
 use crate::control_state::{Meaning, Rotation, text};
@@ -59,7 +60,7 @@ fn lie(axis: Vector3<f64>) -> Result<Lie> {
 
 /// The machine mills by Y.
 fn has_y(control: &Control) -> bool {
-    !control.tables.axis(1).is_off()
+    !control.tables.transforms && !control.tables.axis(1).is_off()
 }
 
 /// Takes the machine from turning to milling or back.
@@ -90,8 +91,15 @@ pub fn switch(post: &mut Post, mills: bool) -> Result<()> {
         false => (MillTurnMode::Turning, loc::MILL_TURN_TURNING_CODE),
     };
     let code = control.code(at, "this mode of the main spindle")?;
+    // The M code is that of the master spindle, which is the main one for both.
+    if !mills {
+        transformation::choose_master(control, false)?;
+    }
     control.m(code);
     control.write_block()?;
+    if mills {
+        transformation::choose_master(control, true)?;
+    }
     set_mode(control, mode)?;
     control.state.rotation = Rotation::Standing;
     // Said again, as its feed depends on what turns now.
@@ -109,6 +117,7 @@ fn set_mode(control: &mut Control, mode: MillTurnMode) -> Result<()> {
         MillTurnMode::Turning => 0.0,
         MillTurnMode::Milling => 1.0,
         MillTurnMode::PolarInterpolation => 2.0,
+        MillTurnMode::CylindricalInterpolationByTracyl => 3.0,
     };
     for axis in [1, 3] {
         let letter = control.tables.axis(axis).letter;
@@ -216,10 +225,20 @@ pub(super) fn prepare(post: &mut Post, target: Target, kind: MotionKind) -> Resu
         }
         polar::end(post)?;
     }
+    if post.control.tables.is_unrolled() {
+        match axial {
+            true => cylinder::end(post)?,
+            false if cylinder::stands(post, point, axis)? => {
+                cylinder::along(post, target)?;
+                return Ok(true);
+            }
+            false => {}
+        }
+    }
     let by_polar = axial
         && post.path.cycle.is_none()
         && !has_y(&post.control)
-        && polar::code(&post.control).is_some();
+        && polar::is_there(&post.control);
     match kind {
         MotionKind::Rapid(_) if by_polar && turns(post, point) => {
             polar::begin(post, target, point, kind)?;
@@ -329,11 +348,14 @@ pub(super) fn refuse_modes_of_others(control: &Control, operation: &Operation) -
         return PostCode::MillTurn
             .err("ROTABL: C turns with the points and tool axes of live tools");
     }
+    refuse_axes_of_others(control, operation)?;
     let of_g =
         [loc::MILL_TURN_POLAR_CODE, loc::MILL_TURN_POLAR_END_CODE, loc::MILL_TURN_CYLINDER_CODE];
     let of_g = of_g.map(|at| polar::tenths(control, at));
     let of_m = [loc::MILL_TURN_MILLING_CODE, loc::MILL_TURN_TURNING_CODE];
-    let of_m = of_m.map(|at| control.code_if_any(at));
+    // The code that stops a spindle makes it no axis where SETMS must come before it.
+    let stop = control.code_if_any(loc::SPINDLE_STOP_CODE);
+    let of_m = of_m.map(|at| control.code_if_any(at).filter(|code| Some(*code) != stop));
     let changes = |letter: Letter, code: Option<FunctionCode>| match letter {
         letters::G => code.is_some() && of_g.contains(&code),
         letters::M => code.is_some() && of_m.contains(&code),
@@ -346,6 +368,11 @@ pub(super) fn refuse_modes_of_others(control: &Control, operation: &Operation) -
         Operation::Words(words) | Operation::Repeat(words) => {
             words.iter().any(|(letter, value, _)| by_value((*letter, *value)))
         }
+        Operation::Text(text) if control.tables.family == ControlFamily::Sinumerik => {
+            let milling = control.code_if_any(loc::MILL_TURN_MILLING_CODE);
+            let is_milling = |code: FunctionCode| text.contains(&format!("M{}", code.value()));
+            reader::transforms(text) || milling.is_some_and(is_milling)
+        }
         Operation::Text(text) => {
             text::read(text).is_some_and(|read| read.words.into_iter().any(by_value))
         }
@@ -354,6 +381,30 @@ pub(super) fn refuse_modes_of_others(control: &Control, operation: &Operation) -
     match found {
         true => PostCode::MillTurn.err(
             "a function that changes what C and the main spindle are; MODE/MILL and MODE/TURN do it",
+        ),
+        false => Ok(()),
+    }
+}
+
+/// Refuses axis words of others in polar interpolation and TRACYL, where they count otherwise
+/// than who wrote them can know.
+fn refuse_axes_of_others(control: &Control, operation: &Operation) -> Result<()> {
+    if !control.tables.is_polar() && !control.tables.is_unrolled() {
+        return Ok(());
+    }
+    let counts_otherwise = |letter: Letter| [b'X', b'Y', b'C', b'U', b'V'].contains(&letter.byte());
+    let found = match operation {
+        Operation::Words(words) | Operation::Repeat(words) => {
+            words.iter().any(|(letter, ..)| counts_otherwise(*letter))
+        }
+        Operation::Text(text) => text::read(text)
+            .is_some_and(|read| read.words.iter().any(|(letter, _)| counts_otherwise(*letter))),
+        _ => false,
+    };
+    match found {
+        true => PostCode::MillTurn.err(
+            "axis words of others in polar interpolation or TRACYL, where X and its second axis \
+             are a plane of lengths or a cylinder; RAPID behind another tool axis ends it",
         ),
         false => Ok(()),
     }

@@ -13,9 +13,7 @@ use super::{carry_out as carry, rotary, scaled_lead};
 use crate::control::family;
 use crate::control::word_address::spindle;
 use crate::errors::PostCode;
-use crate::operation::{
-    Lead, MotionKind, Operation, SpindleSpeed, Target, Thread, ThreadPasses, ThreadSide,
-};
+use crate::operation::{Lead, MotionKind, Operation, Target, Thread, ThreadPasses, ThreadSide};
 use crate::post::Post;
 
 /// Most threads beside each other.
@@ -235,11 +233,11 @@ pub fn check_speed(post: &Post) -> Result<()> {
     if !spindle::may_turn(&post.control) {
         return PostCode::Thread.err("the spindle stands; SPINDL before the thread turns it");
     }
-    match post.control.speed {
-        Some(SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_)) => PostCode::Thread
-            .err("the spindle turns at constant surface speed, so that the passes would not meet"),
-        _ => Ok(()),
+    if spindle::is_of_surface(&post.control) {
+        return PostCode::Thread
+            .err("the spindle turns at constant surface speed, so that the passes would not meet");
     }
+    Ok(())
 }
 
 /// Brings the tool clear of the crest, along the axis first where it stands clear of it,
@@ -305,6 +303,16 @@ pub fn cycle_of(post: &Post, thread: &Thread, shape: &Shape) -> ThreadCycle {
             (straight || !shape.leans()) && is_by_first(thread) && thread.springs <= 1
         }
         ThreadCycle::CycleOfAllPassesOfLinuxcnc => !shape.leans() && is_by_first(thread),
+        // Where a pass of it begins along the flank its manual leaves open, and so the unit of
+        // its lead in inches.
+        ThreadCycle::Cycle97OfASinumerik => {
+            let of_positive_x = thread.crest[0].point.x > 0.0;
+            straight
+                && !shape.leans()
+                && of_positive_x
+                && post.control.is_metric()
+                && shape.divides_evenly(thread)
+        }
     };
     if fits { cycle } else { ThreadCycle::SinglePasses }
 }

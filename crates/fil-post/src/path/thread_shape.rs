@@ -155,6 +155,21 @@ impl Shape {
         whole.then(|| tenths.round() as u32)
     }
 
+    /// Pass i of n lies at the root of i/n of the depth, in front of those at full depth.
+    pub fn divides_evenly(&self, thread: &Thread) -> bool {
+        let cuts = self.cuts(thread);
+        let share = |number: usize| ((number + 1) as f64 / cuts.len() as f64).sqrt();
+        let lies =
+            |(number, depth): (usize, &f64)| (depth - thread.depth * share(number)).abs() < NOTHING;
+        cuts.iter().enumerate().all(lies)
+    }
+
+    /// The depths of the passes that go deeper.
+    pub fn cuts(&self, thread: &Thread) -> &[f64] {
+        let springs = (thread.springs as usize).min(self.depths.len());
+        &self.depths[..self.depths.len() - springs]
+    }
+
     /// The end of the crest moved down to the root.
     pub fn root_end(&self, depth: f64) -> Target {
         self.beside(self.crest[1], -self.out * depth)

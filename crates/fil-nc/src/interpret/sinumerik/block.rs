@@ -73,6 +73,12 @@ impl Sinumerik<'_> {
         self.tool(&said)?;
         self.spindle(&said);
         for auxiliary in &said.auxiliaries {
+            if let Auxiliary::CAxis(on, code) = auxiliary {
+                self.become_axis(*on, *code)?;
+            }
+        }
+        self.check_live(&said)?;
+        for auxiliary in &said.auxiliaries {
             if let Auxiliary::Other(code) = auxiliary {
                 self.state.tell_auxiliary(*code);
             }
@@ -213,7 +219,13 @@ impl Sinumerik<'_> {
         }
         match word.name.as_str() {
             "SUPA" => said.functions.push(Function::Machine),
-            "DIAMON" if self.writes_diameters() => self.state.certain.say(StartMode::Diameter),
+            "DIAMON" if self.writes_diameters() => {
+                self.counts_radii = false;
+                self.state.certain.say(StartMode::Diameter);
+            }
+            "DIAMOF" if self.writes_diameters() && self.state.dialect.transforms => {
+                self.counts_radii = true;
+            }
             "DIAMOF" if self.writes_diameters() => {
                 return Err(word.foreign("on a machine whose X is a diameter"));
             }
@@ -367,6 +379,7 @@ impl Sinumerik<'_> {
                 Auxiliary::Clockwise => state.turn_spindle(Spindle::Clockwise),
                 Auxiliary::Counterclockwise => state.turn_spindle(Spindle::Counterclockwise),
                 Auxiliary::SpindleOff | Auxiliary::Orient => state.turn_spindle(Spindle::Off),
+                Auxiliary::Live(way) => state.turn_spindle(*way),
                 Auxiliary::SpindleRange(range) => state.modes.spindle_range = Some(*range),
                 Auxiliary::Coolant(on) => state.cool(*on),
                 _ => {}

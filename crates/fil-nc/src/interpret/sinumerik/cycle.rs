@@ -45,6 +45,13 @@ const NAMES: &[(u32, &[&str])] = &[
     (85, &["RTP", "RFP", "SDIS", "DP", "DPR", "DTB", "FFR", "RFF"]),
     (86, &["RTP", "RFP", "SDIS", "DP", "DPR", "DTB", "SDIR", "RPA", "RPO", "RPAP", "POSS"]),
     (89, &["RTP", "RFP", "SDIS", "DP", "DPR", "DTB"]),
+    (
+        97,
+        &[
+            "PIT", "MPIT", "SPL", "FPL", "DM1", "DM2", "APP", "ROP", "TDEP", "FAL", "IANG", "NSP",
+            "NRC", "NID", "VARI", "NUMTH", "VRT",
+        ],
+    ),
 ];
 
 impl Call {
@@ -53,13 +60,13 @@ impl Call {
     }
 
     /// An argument by its name; `None` for one that is left out.
-    fn get(&self, name: &str) -> Option<f64> {
+    pub(super) fn get(&self, name: &str) -> Option<f64> {
         let at = self.names().iter().position(|known| *known == name)?;
         self.values.get(at).copied().flatten()
     }
 
     /// An argument that the cycle needs.
-    fn need(&self, name: &str) -> Result<f64, Fault> {
+    pub(super) fn need(&self, name: &str) -> Result<f64, Fault> {
         self.get(name).ok_or_else(|| {
             Fault::new(NcCode::MissingWord, format!("CYCLE{} needs {name}", self.number))
         })
@@ -96,7 +103,7 @@ impl Call {
     }
 
     /// Refuses values other than zero: what they do is not followed.
-    fn refuse(&self, names: &[&str]) -> Result<(), Fault> {
+    pub(super) fn refuse(&self, names: &[&str]) -> Result<(), Fault> {
         match names.iter().find(|name| self.get(name).is_some_and(|value| value != 0.0)) {
             Some(name) => {
                 let message = format!("{name} of CYCLE{} is not followed", self.number);
@@ -138,6 +145,9 @@ impl Sinumerik<'_> {
     /// Runs a cycle where the tool stands.
     pub(super) fn drill(&mut self, call: &Call) -> Result<(), Fault> {
         self.state.refuse_under_tip_control("a cycle")?;
+        if call.number == 97 {
+            return self.thread_passes(call);
+        }
         let at = self.levels(call)?;
         let kind = match call.number {
             81 | 82 => CycleKind::Drill,

@@ -11,6 +11,8 @@ mod functions;
 pub(crate) mod line;
 mod motion;
 mod swivel;
+mod thread_cycle;
+mod transformation;
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -50,6 +52,10 @@ struct Sinumerik<'d> {
     shift: [f64; 3],
     /// Feeds count millimeters.
     metric_feed: bool,
+    /// DIAMOF: X is a radius.
+    counts_radii: bool,
+    /// M70: the main spindle is an axis.
+    is_axis: bool,
     /// What the words of the line may depend on.
     uses: Uses,
 }
@@ -92,6 +98,8 @@ impl<'a> Program<'a> {
             called: None,
             shift: [0.0; 3],
             metric_feed: dialect.metric,
+            counts_radii: false,
+            is_axis: false,
             uses: Uses::default(),
         };
         // Cycles say the level they return to.
@@ -170,9 +178,14 @@ impl Sinumerik<'_> {
                 self.state.begin_stated_tip_control()
             }
             ("TRAFOOF", None) if words.len() == 1 => {
-                self.state.end_tip_control();
+                if !self.end_transformation()? {
+                    self.state.end_tip_control();
+                }
                 Ok(())
             }
+            ("TRANSMIT", None) if words.len() == 1 => self.transmit(),
+            ("TRACYL", Some(_)) if words.len() == 1 => self.tracyl(first),
+            ("SETMS", _) if words.len() == 1 => self.choose_master(first),
             ("CYCLE800", Some(_)) if words.len() == 1 => self.swivel(first),
             (_, Some(_)) if words.len() == 1 => {
                 let call = self.call_of(first)?;
@@ -192,6 +205,9 @@ impl Sinumerik<'_> {
     fn call_at_each(&mut self, words: &[Word]) -> Result<(), Fault> {
         self.called = match words {
             [] => None,
+            [call] if call.name == "CYCLE97" => {
+                return Err(call.foreign("of MCALL is not followed"));
+            }
             [call] => Some(self.call_of(call)?),
             [_, other, ..] => return Err(other.no_meaning()),
         };

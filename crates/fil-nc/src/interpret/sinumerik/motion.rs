@@ -20,12 +20,14 @@ impl Sinumerik<'_> {
         match self.state.motion {
             Some(Function::Rapid) if !centered => {
                 let target = self.leaning(said)?;
-                self.state.go(target, Course::Rapid, None);
+                let course = self.state.live_course(&target.0, Course::Rapid)?;
+                self.state.go(target, course, None);
             }
             Some(Function::Linear) if !centered => {
                 let rate = Some(self.rate()?);
                 let target = self.leaning(said)?;
-                self.state.go(target, Course::Feed, rate);
+                let course = self.state.live_course(&target.0, Course::Feed)?;
+                self.state.go(target, course, rate);
             }
             Some(_) if said.direction != [None; 3] => {
                 let message = "a direction of the tool beside what is no straight line";
@@ -105,6 +107,7 @@ impl Sinumerik<'_> {
         let (mut to, mut known) = (self.state.at, self.state.known);
         for (axis, word) in said.axes.iter().enumerate() {
             let Some((value, absolute)) = *word else { continue };
+            let (axis, value) = self.in_transformation(axis, value);
             if absolute.unwrap_or(self.state.absolute) {
                 to[axis] = match said.ways[axis] {
                     None => self.state.position(axis, value),
@@ -124,6 +127,7 @@ impl Sinumerik<'_> {
         let ccw = ccw == self.state.dialect.right_handed[normal];
         let plane = plane_axes(normal);
         let (to, known) = self.target(said);
+        self.check_live_arc(normal, to[2] != self.state.at[2])?;
         if plane.iter().any(|axis| !self.state.known[*axis]) {
             return Err(Fault::new(NcCode::NoCenter, "it is not known where the arc begins"));
         }

@@ -187,8 +187,13 @@ impl<'c> Settings<'c> {
             Some(axis) => of_axis(axis.letter, axis.axis + 3, 1.0),
             None => 0.0,
         });
+        let mut linear = axes.map(|(letter, common)| of_axis(letter, common, unit) + by_hand);
+        if self.dialect.transforms {
+            // X is a radius in TRANSMIT and TRACYL.
+            linear[0] = self.allowed(half(letters::XYZ[0]) * unit) + by_hand;
+        }
         Slack {
-            linear: axes.map(|(letter, common)| of_axis(letter, common, unit) + by_hand),
+            linear,
             kept,
             rounded: axes.map(|(letter, common)| Some(half(letter) * scaled(common)?)),
             rotary,
@@ -484,7 +489,9 @@ impl<'c> Settings<'c> {
 
     /// Which of X, Y, Z the program writes; one that it never writes stands at 0.
     pub fn written(&self) -> [bool; 3] {
-        letters::XYZ.map(|letter| self.writes(letter))
+        let [x, y, z] = letters::XYZ.map(|letter| self.writes(letter));
+        // Y of TRANSMIT and TRACYL is no axis of the machine.
+        [x, y && !self.dialect.transforms, z]
     }
 
     fn writes(&self, letter: Letter) -> bool {

@@ -15,6 +15,7 @@ pub mod swivel;
 pub mod thread;
 pub mod tool;
 pub mod tool_names;
+pub mod transformation;
 pub mod translation;
 
 use fil_diag::Result;

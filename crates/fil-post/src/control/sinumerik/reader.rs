@@ -74,6 +74,13 @@ pub fn refuse_other_diameters(control: &Control, text: &str) -> Result<()> {
     }
 }
 
+/// A text begins or ends a transformation, or chooses another master spindle.
+pub fn transforms(text: &str) -> bool {
+    let named = ["TRANSMIT", "TRACYL", "TRAANG", "TRAFOOF", "SETMS", "SPCON", "SPCOF"];
+    let said = items(without_comment(text));
+    said.iter().any(|item| named.contains(&item.split('(').next().unwrap_or(item)))
+}
+
 /// Learns from a block of others.
 pub fn learn(control: &mut Control, text: &str) {
     let text = without_comment(text).trim();

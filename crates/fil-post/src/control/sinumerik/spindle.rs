@@ -70,13 +70,13 @@ fn takes_feed_a_turn(control: &mut Control, speed: Option<SpindleSpeed>) {
 /// # Errors
 /// One is in force.
 pub fn check_feed_mode(control: &Control) -> Result<()> {
-    match control.speed {
-        Some(SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_)) => refuse(
+    if words::is_of_surface(control) {
+        return refuse(
             "G94 or G95 under a surface speed: they stand in one group with G96 and would end it; \
              give the feed a turn, or SPINDL / RPM",
-        ),
-        _ => Ok(()),
+        );
     }
+    Ok(())
 }
 
 /// A number without zeros at its end.

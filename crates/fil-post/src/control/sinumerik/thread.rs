@@ -1,12 +1,21 @@
-//! One pass of a thread: `G33 Z K`, across `G33 X I`.
+//! One pass of a thread: `G33 Z K`, across `G33 X I`; all passes: CYCLE97.
 
 use fil_diag::Result;
-use fil_machine::letters::IJK;
+use fil_machine::letters::{F, IJK};
+use fil_machine::locations::ThreadCycle;
 
-use crate::control::Control;
 use crate::control::family::refuse;
 use crate::control::word_address::motion::{self as words, Motion};
-use crate::operation::Lead;
+use crate::control::{Control, line, tap};
+use crate::operation::{Lead, Thread, ThreadSide};
+use crate::path::thread::{Shape, cycle_of, on_machine};
+use crate::post::Post;
+
+/// Digits after the point of a lead, mm.
+const LEAD_DIGITS: usize = 4;
+
+/// Passes whose chips have the same area, outside and inside.
+const EQUAL_CHIPS: [u8; 2] = [3, 4];
 
 /// Writes one pass. Its lead is the word of the axis that goes the longer way: I for X, K
 /// for Z.
@@ -23,4 +32,40 @@ pub fn pass(control: &mut Control, motion: &Motion, lead: &Lead) -> Result<()> {
     };
     let letter = if x > z { IJK[0] } else { IJK[2] };
     words::thread_by(control, motion, lead, letter)
+}
+
+/// Writes CYCLE97 for one start, from where the tool stands clear; false where it can't say all of
+/// the thread. Run-in and run-out are in the points of the thread, and where the cycle leaves the
+/// tool is not counted on.
+///
+/// # Errors
+/// A value that does not fit; a frame that turns the thread out of X and Z.
+pub fn cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Result<bool> {
+    if cycle_of(post, thread, shape) != ThreadCycle::Cycle97OfASinumerik {
+        return Ok(false);
+    }
+    let begin = on_machine(post, shape.crest_of(start))?;
+    let end = on_machine(post, shape.crest[1])?;
+    let clear = on_machine(post, shape.shifted(start))?;
+    words::ready(&mut post.control)?;
+    let control = &mut post.control;
+    control.flush_waiting()?;
+    let [x, z] = [0, 2].map(|number: usize| *control.tables.axis(number));
+    let length = |letter, value: f64| line::length(control, letter, value).map(|(text, _)| text);
+    let diameter = length(x.letter, 2.0 * end[0])?;
+    let (from, to) = (length(z.letter, z.value(begin[1])?)?, length(z.letter, z.value(end[1])?)?);
+    let depth = length(x.letter, thread.depth)?;
+    let back = length(x.letter, (clear[0] - begin[0]).abs())?;
+    let lead = tap::text(thread.lead.value, LEAD_DIGITS)?;
+    let cuts = shape.cuts(thread).len();
+    let kind = EQUAL_CHIPS[usize::from(thread.side == ThreadSide::Inside)];
+    let call = format!(
+        "CYCLE97({lead},,{from},{to},{diameter},{diameter},0,0,{depth},0,0,0,{cuts},{},{kind},1,{back})",
+        thread.springs
+    );
+    control.because(thread.lead.cause, |control| super::put_text(control, &call))?;
+    control.state.doubt_axes();
+    control.state.doubt(F);
+    control.state.motion = None;
+    Ok(true)
 }

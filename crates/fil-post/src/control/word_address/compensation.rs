@@ -56,6 +56,9 @@ pub fn write(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
 /// # Errors
 /// Another plane in polar interpolation; none outside of it.
 fn plane_of_live_tool(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
+    if control.tables.is_unrolled() && wanted.side != Compensation::Off {
+        return PostCode::MillTurn.err("CUTCOM under TRACYL");
+    }
     match wanted.plane {
         Some((plane, _)) if control.tables.is_polar() && plane != Plane::Xy => {
             PostCode::MillTurn.err("CUTCOM: polar interpolation has the plane XYPLAN")

@@ -325,7 +325,26 @@ pub fn feed_words(control: &mut Control, feed: Option<&Feed>) -> Result<()> {
 /// The machine has no such code.
 #[inline]
 pub fn feed_mode(control: &mut Control, feed: &Feed) -> Result<()> {
-    if control.state.feed_mode == Some(feed.mode) { Ok(()) } else { say_feed_mode(control, feed) }
+    if control.state.feed_mode != Some(feed.mode) {
+        return say_feed_mode(control, feed);
+    }
+    if feed.mode == FeedMode::PerRevolution { refuse_standing(control) } else { Ok(()) }
+}
+
+/// Refuses a feed a turn of a spindle that is known to stand: the control would wait for its
+/// turns, or some text would turn it with the tool in the part.
+///
+/// # Errors
+/// It stands, and the machine has no second spindle whose turns the feed may count.
+fn refuse_standing(control: &Control) -> Result<()> {
+    if !spindle::stands(control) || control.code_if_any(loc::SPINDLE_SIDE_CW_CODE).is_some() {
+        return Ok(());
+    }
+    if control.tables.mill_turn.is_some() {
+        return PostCode::MillTurn
+            .err("a feed a turn of the main spindle, which stands; SPINDL turns it");
+    }
+    PostCode::FeedStands.err("a feed a turn, and the spindle stands")
 }
 
 #[cold]
@@ -333,11 +352,8 @@ fn say_feed_mode(control: &mut Control, feed: &Feed) -> Result<()> {
     if control.tables.family == ControlFamily::Sinumerik {
         sinumerik::spindle::check_feed_mode(control)?;
     }
-    let waits = feed.mode == FeedMode::PerRevolution && spindle::stands(control);
-    if waits && control.tables.mill_turn.is_some() {
-        return PostCode::MillTurn.err(
-            "a feed a turn of the main spindle, which MODE has stopped; SPINDL turns it again",
-        );
+    if feed.mode == FeedMode::PerRevolution {
+        refuse_standing(control)?;
     }
     let code = control.code(feed_mode_code(feed.mode), "this feed mode")?;
     control.tables.format_feed(feed.mode);

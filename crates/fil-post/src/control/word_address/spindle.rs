@@ -74,8 +74,23 @@ fn codes(control: &Control) -> [CodeAt; 3] {
 
 /// The spindle turns, or it is not known to stand.
 pub fn may_turn(control: &Control) -> bool {
-    control.turning.is_some()
-        || !matches!(control.state.rotation, Rotation::Unsaid | Rotation::Standing)
+    match control.state.rotation {
+        Rotation::Standing => waits(control),
+        Rotation::Unsaid => control.turning.is_some(),
+        _ => true,
+    }
+}
+
+/// A block that waits for a motion turns it; Klartext keeps that elsewhere.
+fn waits(control: &Control) -> bool {
+    let in_klartext = control.tables.family == ControlFamily::Klartext;
+    control.waiting.has(Function::Spindle) || in_klartext && control.turning.is_some()
+}
+
+/// S is a surface speed when the next motion is made, whoever has said it.
+pub fn is_of_surface(control: &Control) -> bool {
+    let asked = matches!(control.speed, Some(SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_)));
+    asked || control.state.surface_speed == Some(true) && !waits(control)
 }
 
 /// Says the highest speed, in a block of its own or later in that of the surface speed.
@@ -315,7 +330,7 @@ fn clockwise(control: &Control) -> Option<bool> {
 
 /// The spindle is known to stand, and nothing that waits for a motion turns it.
 pub fn stands(control: &Control) -> bool {
-    control.turning.is_none() && control.state.rotation == Rotation::Standing
+    control.state.rotation == Rotation::Standing && !waits(control)
 }
 
 /// Adds S, and on a lathe the code for revolutions or surface speed.
@@ -438,7 +453,10 @@ fn select_range(control: &mut Control, index: usize) -> Result<()> {
 pub(in crate::control) fn place(control: &mut Control, at: CodeAt, what: &str) -> Result<()> {
     match control.code_if_any(at) {
         Some(code) => control.m(code),
-        None => control.warn_no_code(what),
+        None => {
+            control.warn_no_code(what);
+            control.state.rotation = Rotation::Unsaid;
+        }
     }
     let placement = control.commons.read(loc::SPINDLE_PLACEMENT);
     control.place_block(Function::Spindle, placement)

@@ -26,7 +26,7 @@ const NOTHING: f64 = 1e-9;
 /// A value that does not fit its address; a frame that turns the thread out of X and Z.
 pub fn cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Result<bool> {
     let cycle = cycle_of(post, thread, shape);
-    if cycle == ThreadCycle::SinglePasses {
+    if matches!(cycle, ThreadCycle::SinglePasses | ThreadCycle::Cycle97OfASinumerik) {
         return Ok(false);
     }
     let code = post.control.code(loc::THREAD_CYCLE_CODE, "the cycle of a thread")?;
@@ -34,7 +34,7 @@ pub fn cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Res
     motion::ready(&mut post.control)?;
     post.control.flush_waiting()?;
     match cycle {
-        ThreadCycle::SinglePasses => return Ok(false),
+        ThreadCycle::SinglePasses | ThreadCycle::Cycle97OfASinumerik => return Ok(false),
         ThreadCycle::CycleOfOnePass => one_pass_each(post, thread, (shape, start), (&ends, code))?,
         ThreadCycle::CycleOfAllPassesInTwoBlocks => {
             let tenths = shape.chamfer_in_tenths(thread).unwrap_or(0);

@@ -1,13 +1,17 @@
-//! Cylindrical interpolation (G7.1): C is an angle, and the feed of a motion in which it
-//! turns counts on a cylinder.
+//! Cylindrical interpolation: C turns, and the feed of such a motion counts on a cylinder.
+//!
+//! With G7.1 C stays an angle. With TRACYL the way around the cylinder is a length Y, and X a
+//! radius.
 
 use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
-use fil_machine::locations as loc;
+use fil_machine::locations::{self as loc, MillTurnMode};
+use nalgebra::{Point3, Vector3};
 
 use super::polar::{refuse_skipped, tenths};
 use crate::control::Control;
 use crate::control::family;
+use crate::control::sinumerik::transformation;
 use crate::control::word_address::motion::{self, Motion};
 use crate::errors::PostCode;
 use crate::operation::Target;
@@ -28,7 +32,9 @@ pub(super) fn feed(post: &mut Post, from: Position, to: Position, target: Target
     refuse_skipped(post)?;
     let resolution = post.control.tables.axis(0).resolution();
     let radius = to[0];
-    if from[1].abs() > resolution || to[1].abs() > resolution {
+    // Under TRACYL the last Y is the way around the cylinder.
+    let began = if post.control.tables.is_unrolled() { 0.0 } else { from[1] };
+    if began.abs() > resolution || to[1].abs() > resolution {
         return PostCode::Cylinder.err("the tool axis does not go through the axis of the spindle");
     }
     if radius <= resolution {
@@ -57,9 +63,52 @@ pub(super) fn feed(post: &mut Post, from: Position, to: Position, target: Target
         end(post)?;
         begin(post, radius)?;
     }
-    let motion = Motion { position: to, axes: AxisSet::ALL, word: rotary::word_of(post, target) };
+    go(post, to, target)
+}
+
+/// Writes a motion to a position of the axes.
+fn go(post: &mut Post, to: Position, target: Target) -> Result<()> {
+    let word = rotary::word_of(post, target);
     let feed = post.path.feed;
-    family::feed(&mut post.control, &motion, feed.as_ref())
+    let control = &mut post.control;
+    let unrolled = post.path.cylinder.filter(|_| control.tables.is_unrolled());
+    let Some(radius) = unrolled else {
+        let motion = Motion { position: to, axes: AxisSet::ALL, word };
+        return family::feed(control, &motion, feed.as_ref());
+    };
+    let around = radius * to[3].to_radians();
+    let position = [to[0], around, to[2], 0.0, 0.0];
+    let motion = Motion { position, axes: AxisSet::LINEAR, word };
+    family::feed(control, &motion, feed.as_ref())?;
+    let spindle = *control.tables.axis(3);
+    control.commons.set_last_output(spindle.letter, spindle.value(to[3])?);
+    control.state.trust(spindle.letter);
+    Ok(())
+}
+
+/// C stands on the way to a point.
+///
+/// # Errors
+/// As [`super::position_of`].
+pub(super) fn stands(post: &mut Post, point: Point3<f64>, axis: Vector3<f64>) -> Result<bool> {
+    let before = post.path.rotary;
+    let to = super::position_of(post, point, axis)?;
+    post.path.rotary = before;
+    Ok(before.is_some_and(|before| before[0] == to[3]))
+}
+
+/// Goes to a target while C stands, and the way around the cylinder stays a length.
+///
+/// # Errors
+/// As [`super::position_of`]; no feed.
+pub(super) fn along(post: &mut Post, target: Target) -> Result<()> {
+    refuse_skipped(post)?;
+    let (point, axis) = rotary::transformed(post, target);
+    let to = super::position_of(post, point, axis)?;
+    go(post, to, target)?;
+    post.path.point = Some(target.point);
+    post.path.axis = target.axis;
+    Ok(())
 }
 
 /// Begins it; the control must be in G1.
@@ -70,6 +119,12 @@ fn begin(post: &mut Post, radius: f64) -> Result<()> {
     }
     super::refuse_skipped(control)?;
     motion::ready(control)?;
+    if control.tables.transforms {
+        let said = transformation::tracyl(control, radius)?;
+        super::set_mode(control, MillTurnMode::CylindricalInterpolationByTracyl)?;
+        post.path.cylinder = Some(said);
+        return Ok(());
+    }
     let line = control.code(loc::LINEAR_CODE, "linear motion")?;
     if control.state.motion != Some(line) {
         control.g(line);
@@ -95,7 +150,17 @@ pub(super) fn end(post: &mut Post) -> Result<()> {
     }
     super::refuse_skipped(control)?;
     let waiting = control.block.take();
-    call(control, 0.0)?;
+    if control.tables.is_unrolled() {
+        let knows_z = control.axis_position(2).is_some();
+        let z = control.tables.axis(2).letter;
+        transformation::end(control)?;
+        super::set_mode(control, MillTurnMode::Milling)?;
+        if knows_z {
+            control.state.trust(z);
+        }
+    } else {
+        call(control, 0.0)?;
+    }
     control.block = waiting;
     Ok(())
 }

@@ -1,5 +1,5 @@
-//! Polar interpolation (G12.1, G13.1): X and C are a plane of lengths, and the control
-//! turns the spindle.
+//! Polar interpolation (G12.1, G13.1; TRANSMIT): X and C, of TRANSMIT X and Y, are a plane of
+//! lengths, and the control turns the spindle.
 //!
 //! It begins with C at 0, so that controls that count the plane from where C stands and
 //! those that count it from its zero agree. It takes no G0: rapid motions are made at the
@@ -15,6 +15,8 @@ use nalgebra::{Point2, Point3, Rotation3, Unit};
 
 use crate::control::Control;
 use crate::control::family;
+use crate::control::sinumerik::transformation;
+use crate::control::word_address::modes;
 use crate::control::word_address::motion::Motion;
 use crate::control_state::Place;
 use crate::errors::PostCode;
@@ -37,9 +39,33 @@ const ARC_STEPS: u32 = 180;
 /// so that none comes near the axis, radians.
 const MOST_TURN: f64 = std::f64::consts::FRAC_PI_2;
 
-/// The function that begins it, where the machine has it.
-pub(super) fn code(control: &Control) -> Option<FunctionCode> {
-    tenths(control, loc::MILL_TURN_POLAR_CODE)
+/// The machine has it.
+pub(super) fn is_there(control: &Control) -> bool {
+    control.tables.transforms || tenths(control, loc::MILL_TURN_POLAR_CODE).is_some()
+}
+
+/// Says that it begins.
+fn say_begin(control: &mut Control) -> Result<()> {
+    if control.tables.transforms {
+        return transformation::transmit(control);
+    }
+    let Some(code) = tenths(control, loc::MILL_TURN_POLAR_CODE) else {
+        return PostCode::Polar.err("the machine has none");
+    };
+    control.g_of_record(code);
+    control.write_block()
+}
+
+/// Says that it ends.
+fn say_end(control: &mut Control) -> Result<()> {
+    if control.tables.transforms {
+        return transformation::end(control);
+    }
+    let Some(code) = tenths(control, loc::MILL_TURN_POLAR_END_CODE) else {
+        return PostCode::NoCode.err("mill_turn.polar_end_code names no function");
+    };
+    control.g_of_record(code);
+    control.write_block()
 }
 
 /// A function by a setting in tenths.
@@ -59,7 +85,6 @@ pub(super) fn begin(
     kind: MotionKind,
 ) -> Result<()> {
     let control = &mut post.control;
-    let Some(code) = code(control) else { return PostCode::Polar.err("the machine has none") };
     if control.is_compensated() {
         return PostCode::CompensationOn.err("where polar interpolation begins");
     }
@@ -79,10 +104,12 @@ pub(super) fn begin(
         rapid::rapid(control, &at(AxisSet::Z), cause)?;
     }
     rapid::rapid(control, &at(AxisSet::of(0).or(AxisSet::of(3))), cause)?;
-    control.g_of_record(code);
-    control.write_block()?;
+    say_begin(control)?;
     super::set_mode(control, MillTurnMode::PolarInterpolation)?;
-    control.state.plane = Some(Plane::Xy);
+    match control.tables.transforms {
+        true => modes::plane_of_its_own(control, Plane::Xy)?,
+        false => control.state.plane = Some(Plane::Xy),
+    }
     let end = Point2::new(point.x, point.y);
     let turn = libm::atan2(point.y, point.x);
     let parts = (turn.abs() / MOST_TURN).ceil().max(1.0) as u32;
@@ -259,20 +286,18 @@ pub(super) fn end(post: &mut Post) -> Result<()> {
         return PostCode::CompensationOn.err("where polar interpolation ends");
     }
     super::refuse_skipped(control)?;
-    let Some(code) = tenths(control, loc::MILL_TURN_POLAR_END_CODE) else {
-        return PostCode::NoCode.err("mill_turn.polar_end_code names no function");
-    };
     let knows_z = control.axis_position(2).is_some();
     let waiting = control.block.take();
-    control.g_of_record(code);
-    control.write_block()?;
+    say_end(control)?;
     control.block = waiting;
     super::set_mode(control, MillTurnMode::Milling)?;
     if knows_z {
         // X and C count otherwise now; Z is the same in both, and a cycle may return to it.
         control.state.trust(control.tables.axis(2).letter);
     }
-    control.state.plane = None;
+    if !control.tables.transforms {
+        control.state.plane = None;
+    }
     let here = post.path.point.map(|point| Target { point, axis: post.path.axis, word: 0 });
     let here = here.map(|target| rotary::transformed(post, target).0);
     post.path.rotary = here.map(|point| [libm::atan2(point.y, point.x).to_degrees(), 0.0]);

@@ -1,0 +1,170 @@
+//! Live tools: SETMS, TRANSMIT, TRACYL, TRAFOOF.
+//!
+//! By the manual of the language: M70 makes the master spindle an axis, SETMS chooses the master
+//! spindle, whose S and M have no number; TRANSMIT makes X and Y a plane of lengths whose X lies
+//! where C is 0; TRACYL makes Y the way around a cylinder of the diameter that it names; TRAFOOF
+//! ends both. Each wants compensation off. DIAMOF makes X a radius until DIAMON.
+
+use super::super::Fault;
+use super::Sinumerik;
+use super::block::Said;
+use super::line::{Value, Word};
+use crate::dialect::{FeedMode, Function};
+use crate::errors::NcCode;
+use crate::motion::{Compensation, Spindle};
+
+/// Number of the axis C.
+const C: usize = 3;
+
+fn refuse<T>(why: &str) -> Result<T, Fault> {
+    Err(Fault::new(NcCode::NoMeaning, why))
+}
+
+impl Sinumerik<'_> {
+    /// `SETMS(2)` and `SETMS`.
+    pub(super) fn choose_master(&mut self, word: &Word) -> Result<(), Fault> {
+        let Some(live) = self.state.dialect.live_spindle else {
+            return Err(word.foreign("on a machine without another spindle"));
+        };
+        let number = match word.arguments.as_deref() {
+            None | Some([]) => 1,
+            Some([Some(Value::Number(number))]) => *number as i32,
+            Some(_) => return Err(word.no_meaning()),
+        };
+        let [milling, turning] = self.state.dialect.spindle_modes;
+        match number {
+            1 if self.state.live => self.change_spindle(false, turning),
+            1 => Ok(()),
+            number if number == live && self.is_axis => self.change_spindle(true, milling),
+            number if number == live => {
+                refuse("SETMS before M70 has made the main spindle an axis")
+            }
+            _ => Err(word.no_meaning()),
+        }
+    }
+
+    fn change_spindle(&mut self, on: bool, code: Option<i32>) -> Result<(), Fault> {
+        self.is_axis = on;
+        self.state.change_spindle(on, code.unwrap_or(0).unsigned_abs())
+    }
+
+    /// M70: the main spindle stands and becomes an axis.
+    pub(super) fn become_axis(&mut self, on: bool, code: u32) -> Result<(), Fault> {
+        if self.state.dialect.live_spindle.is_none() {
+            return self.change_spindle(on, Some(code as i32));
+        }
+        if self.state.modes.spindle != Spindle::Off || self.state.live {
+            return refuse("a spindle becomes an axis while it turns, or is that of a live tool");
+        }
+        self.is_axis = on;
+        Ok(())
+    }
+
+    /// TRANSMIT.
+    pub(super) fn transmit(&mut self) -> Result<(), Fault> {
+        self.check_transformation()?;
+        let plane = self.state.plane;
+        self.state.begin_polar()?;
+        self.state.plane = plane;
+        Ok(())
+    }
+
+    /// `TRACYL(40)`.
+    pub(super) fn tracyl(&mut self, word: &Word) -> Result<(), Fault> {
+        self.check_transformation()?;
+        let diameter = match word.arguments.as_deref() {
+            Some([Some(Value::Number(diameter))]) if *diameter > 0.0 => *diameter,
+            _ => return Err(word.no_meaning()),
+        };
+        if !self.state.known[C] {
+            return refuse("TRACYL, and where C stands is not known");
+        }
+        self.state.cylinder = Some(diameter / 2.0 * self.state.unit());
+        Ok(())
+    }
+
+    fn check_transformation(&self) -> Result<(), Fault> {
+        if !self.state.dialect.transforms || !self.state.live {
+            return refuse("a transformation while the main spindle is no axis");
+        }
+        if self.is_transformed() {
+            return refuse("a transformation within another");
+        }
+        self.check_no_compensation()
+    }
+
+    fn check_no_compensation(&self) -> Result<(), Fault> {
+        match self.state.modes.compensation {
+            Compensation::Off => Ok(()),
+            _ => refuse("a transformation begins or ends under compensation"),
+        }
+    }
+
+    /// Ends a transformation; false where none is in force.
+    pub(super) fn end_transformation(&mut self) -> Result<bool, Fault> {
+        if !self.is_transformed() {
+            return Ok(false);
+        }
+        self.check_no_compensation()?;
+        if self.state.polar {
+            let plane = self.state.plane;
+            self.state.end_polar()?;
+            self.state.plane = plane;
+        }
+        self.state.cylinder = None;
+        Ok(true)
+    }
+
+    pub(super) fn is_transformed(&self) -> bool {
+        self.state.polar || self.state.cylinder.is_some()
+    }
+
+    /// Where an axis word of the block leads: which axis, by what on the tape as its scale counts
+    /// it. Y of TRACYL turns C.
+    pub(super) fn in_transformation(&self, axis: usize, value: f64) -> (usize, f64) {
+        let is_diameter = self.state.dialect.scales[0].is_some_and(|x| x.is_diameter());
+        match (axis, self.state.cylinder) {
+            (0, _) if self.counts_radii && is_diameter => (0, 2.0 * value),
+            (1, Some(radius)) => (C, (value * self.state.unit() / radius).to_degrees()),
+            _ => (axis, value),
+        }
+    }
+
+    /// Refuses what only one of the two kinds of spindle does, and axes that are not there.
+    pub(super) fn check_live(&self, said: &Said) -> Result<(), Fault> {
+        if self.state.dialect.live_at_start.is_none() {
+            return Ok(());
+        }
+        let names = |axis: usize| said.axes[axis].is_some();
+        if self.state.dialect.transforms && names(1) && !self.is_transformed() {
+            return refuse("a word of Y without TRANSMIT and TRACYL");
+        }
+        if names(C) && (self.is_transformed() || !self.state.live) {
+            return refuse("a word of C in a transformation, or of a spindle that is no axis");
+        }
+        if self.state.live && self.state.surface && self.state.modes.spindle != Spindle::Off {
+            return refuse("a surface speed of a live tool");
+        }
+        if self.state.live && self.state.motion == Some(Function::Thread) && said.moves() {
+            return refuse("a thread while the main spindle is the axis C");
+        }
+        if self.counts_radii && said.moves() && !self.is_transformed() {
+            return refuse("X as a radius outside of a transformation");
+        }
+        Ok(())
+    }
+
+    /// An arc of a live tool: in TRANSMIT in its plane, at a feed a minute.
+    pub(super) fn check_live_arc(&self, normal: usize, rises: bool) -> Result<(), Fault> {
+        if !self.state.live {
+            return Ok(());
+        }
+        if self.state.feed_mode == FeedMode::PerTurn {
+            return refuse("a feed a turn of a main spindle that is the axis C");
+        }
+        if self.state.cylinder.is_some() || self.state.polar && (normal != 2 || rises) {
+            return refuse("an arc in TRACYL, or of TRANSMIT in another plane than X and Y");
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,38 @@
+//! The speed of the spindle by words of others: INSERT, POSTN and texts of the machine. What
+//! counts on the speed of the last SPINDL behind them would count on a wrong one.
+
+use fil_machine::letters::{G, S};
+use fil_machine::locations as loc;
+use fil_machine::{FunctionCode, Letter};
+
+use super::Control;
+use crate::operation::SpindleSpeed;
+
+/// Learns from the words of a block, behind what its functions do. `skipped`: it may be left out.
+pub(super) fn learn(control: &mut Control, words: &[(Letter, f64)], skipped: bool) {
+    let codes = || {
+        let of_g = words.iter().filter(|(letter, _)| *letter == G);
+        of_g.filter_map(|(_, value)| FunctionCode::of_value(*value))
+    };
+    let named = |at| {
+        let code = control.code_if_any(at);
+        code.is_some_and(|code| codes().any(|said| said == code))
+    };
+    let said = words.iter().rev().find(|(letter, _)| *letter == S).map(|(_, value)| *value);
+    if named(loc::SPINDLE_MAX_CODE) {
+        control.state.speed_limit = said.filter(|_| !skipped).or(control.state.speed_limit);
+        return;
+    }
+    let changes = named(loc::SPINDLE_CSS_CODE) || named(loc::SPINDLE_RPM_CODE);
+    if named(loc::DWELL_CODE) || said.is_none() && !changes {
+        return;
+    }
+    let by_surface = control.state.surface_speed == Some(true);
+    let is_speed = !skipped && control.commons.read(loc::SPINDLE_DIRECT_RPM);
+    control.speed = match said.filter(|_| is_speed) {
+        None => None,
+        Some(value) if by_surface && control.is_metric() => Some(SpindleSpeed::Meters(value)),
+        Some(value) if by_surface => Some(SpindleSpeed::Feet(value)),
+        Some(value) => Some(SpindleSpeed::Revolutions(value)),
+    };
+}
