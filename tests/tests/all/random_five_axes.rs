@@ -20,7 +20,7 @@ use rayon::prelude::*;
 const USUAL: u64 = 200;
 
 /// Refusals that a random path may meet: limits, poles, what frames and tip control leave out.
-const MAY_REFUSE: [&str; 5] = ["E0524", "E0527", "E0528", "E0588", "E0589"];
+const MAY_REFUSE: [&str; 7] = ["E0511", "E0524", "E0527", "E0528", "E0560", "E0588", "E0589"];
 
 /// Ready posts and what makes them write one form.
 const FORMS: [(&str, &[&str]); 12] = [
@@ -152,6 +152,7 @@ impl Maker<'_> {
 
     /// A quarter of a circle about the tool.
     fn arc(&mut self) {
+        self.goto(0.0);
         let axis = self.axis();
         let across = axis.cross(&Vector3::new(0.3, 0.5, 0.7)).normalize();
         let radius = self.random.between(2.0, 25.0);

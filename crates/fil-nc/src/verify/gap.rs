@@ -129,11 +129,13 @@ impl Gap {
         let near = |n: usize| (exact[n] - at.rotary[n]).abs() <= slack.rotary[n];
         let reached = same || (forward.axis(exact) - pose.axis).norm() < REACHED;
         let solved = reached && near(0) && near(1);
-        let framed = at.tilt.is_some() && (stands.axis - pose.axis).norm() < FRAMED;
+        let within = |most: f64| (stands.axis - pose.axis).norm() < most;
+        let framed = at.tilt.is_some() && within(FRAMED);
+        let directed = at.tip_control && settings.direction_rounding().is_some_and(within);
         let mut gap = Gap {
             linear: [0.0; 3],
             excess: [false; 3],
-            turned: (!solved && !framed).then_some(axis),
+            turned: (!solved && !framed && !directed).then_some(axis),
             rotary: if solved { exact } else { at.rotary },
             tip: (stands.tip - pose.tip).norm(),
             axis,

@@ -119,11 +119,15 @@ impl<C: Steps> Walk<'_, C> {
         let [straight, way] = self.lengths(from, found);
         let slack = self.slack.inverse;
         let turned = turned(&from, found);
+        // F counts the way before its ends were rounded.
+        let off = 2.0 * self.slack.linear.iter().map(|half| half * half).sum::<f64>().sqrt();
         let agrees = |length: f64| {
-            let time = self.settings.turning_time(length / rate, turned);
-            let [asked, slower] =
-                [rate / length, 1.0 / time].map(|it| self.settings.inverse_within(it));
-            (inverse - asked).abs() <= slack || (inverse - slower).abs() <= slack
+            let inverses = [length + off, (length - off).max(STANDS)].map(|length| {
+                let time = self.settings.turning_time(length / rate, turned);
+                [rate / length, 1.0 / time].map(|it| self.settings.inverse_within(it))
+            });
+            let [low, high] = inverses;
+            (0..2).any(|n| inverse >= low[n] - slack && inverse <= high[n] + slack)
         };
         if way < STANDS {
             return self.check_turn(cl_line, found, turned, inverse);

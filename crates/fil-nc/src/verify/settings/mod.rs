@@ -209,6 +209,14 @@ impl<'c> Settings<'c> {
         }
     }
 
+    /// How far a direction of the tool that the program says may be off by its rounding; `None`
+    /// for a machine that says angles.
+    pub fn direction_rounding(&self) -> Option<f64> {
+        let says = self.commons.read(loc::ROTARY_TIP_FORM) == RotaryTipForm::Vectors;
+        let decimals = self.commons.int(loc::ROTARY_VECTOR_DECIMALS).clamp(4, 8);
+        says.then(|| 0.9 * libm::exp10(-f64::from(decimals)))
+    }
+
     /// A peck as a cycle of the control has it, mm: its last digit counts once for each peck.
     pub fn peck_on_tape(&self, step: f64, metric: bool) -> f64 {
         let letter = match self.commons.read(loc::CONTROL_FAMILY) {
