@@ -11,7 +11,7 @@ use fil_machine::cycle_kind::CycleKind;
 use fil_machine::letter::{Letter, letters};
 use fil_machine::locations::{
     self as loc, CircleCenter, ControlFamily, ControlToolOffsets, CycleBoreOut, InputKind,
-    Placement, RapidSplit, ToolChangeBlock, ToolFormat,
+    Placement, RapidSplit, RotaryTipForm, ToolChangeBlock, ToolFormat,
 };
 use fil_machine::user_blocks::{self, AroundChange};
 
