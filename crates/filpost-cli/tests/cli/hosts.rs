@@ -128,7 +128,8 @@ fn texts(place: &Folder) -> Vec<(std::path::PathBuf, String)> {
         for entry in std::fs::read_dir(folder).expect("a folder") {
             let path = entry.expect("an entry").path();
             if path.is_dir() {
-                folders.push(path);
+                // A link to a folder may lead back.
+                folders.extend((!path.is_symlink()).then_some(path));
             } else {
                 texts.push((path.clone(), std::fs::read_to_string(&path).expect("a text")));
             }
