@@ -396,7 +396,6 @@ impl<'a, C: Steps> Walk<'a, C> {
 
     /// Takes a motion: its modes, its limits, where it goes.
     pub(super) fn take(&mut self, cl_line: u32, found: &Move) {
-        (self.cutter_is_fresh, self.tool_is_fresh) = (false, false);
         let at = self.at_as(found);
         let differs = |n: usize| {
             let way = (found.to.linear[n] - at.linear[n]).abs();
@@ -404,6 +403,9 @@ impl<'a, C: Steps> Walk<'a, C> {
             turns || way > STILL || (found.known[n] && !self.known[n])
         };
         let moved = Moved { xy: differs(0) || differs(1), z: differs(2) };
+        if moved.xy || moved.z {
+            (self.cutter_is_fresh, self.tool_is_fresh) = (false, false);
+        }
         let cuts = matches!(found.course, Course::Feed | Course::Thread);
         let wrong = match moved.xy || moved.z || !self.is_still(found) {
             true => self.modes.check(&found.modes, moved, cuts, &self.slack),
