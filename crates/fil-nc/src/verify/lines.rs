@@ -174,7 +174,9 @@ impl<C: Steps> Walk<'_, C> {
 
     /// A rotary axis neither stays nor ends in a part of a rapid.
     fn turns_astray(&self, part: &Move, end: &Position) -> bool {
-        let differs = |a: f64, b: f64| (a - b).abs() > STILL;
+        // A direction of the tool is rounded, and so are the angles that come of it.
+        let rounding = self.settings.direction_rounding().map_or(0.0, f64::to_degrees);
+        let differs = |a: f64, b: f64| (a - b).abs() > rounding.max(STILL);
         (0..2).any(|n| {
             let [from, to] = [self.at, part.to].map(|at| at.rotary[n]);
             let moves = differs(from, to) || (part.known[n + 3] && !self.known[n + 3]);

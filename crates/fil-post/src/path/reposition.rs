@@ -257,52 +257,54 @@ fn turn(post: &mut Post, place: Point3<f64>, change: &Change) -> Result<()> {
     rapid::in_parts(control, &motion, cause)
 }
 
-/// What stood still while the machine turned.
-struct Stopped {
+/// What is switched on before the way back.
+struct Restart {
+    /// Which way the spindle turns: clockwise or not.
     spindle: Option<bool>,
     coolant: Option<fil_machine::setting::CodeAt>,
 }
 
-/// Stops the spindle and the coolant, and the program, where the machine asks for it.
+/// Stops the spindle and the coolant, and the program, where the machine asks for it. A stop
+/// of the program stops both on many machines, so they are switched on again behind it.
 ///
 /// # Errors
 /// What stops would not start again.
-fn stop_around(post: &mut Post) -> Result<Stopped> {
+fn stop_around(post: &mut Post) -> Result<Restart> {
     let control = &mut post.control;
     let read = |at| control.commons.read(at);
-    let stops = read(loc::REPOS_RETRACT_SPINDLE);
-    if stops && !read(loc::REPOS_APPROACH_SPINDLE) {
+    let stands = read(loc::REPOS_RETRACT_SPINDLE);
+    if stands && !read(loc::REPOS_APPROACH_SPINDLE) {
         return PostCode::NoAlternative.err(
             "repos.retract_spindle stops the spindle, and nothing starts it for the way back",
         );
     }
-    let (ends, optional, always) = (
-        read(loc::REPOS_RETRACT_COOLANT),
-        read(loc::REPOS_RETRACT_OPSTOP),
-        read(loc::REPOS_RETRACT_STOP),
-    );
-    let turns = control.turning.is_some();
-    let spindle = if stops && turns { Some(spindle::stand(control)?) } else { None };
-    let coolant = control.coolant.filter(|_| ends);
-    if coolant.is_some() {
+    let (ends, flows_again) = (read(loc::REPOS_RETRACT_COOLANT), read(loc::REPOS_APPROACH_COOLANT));
+    let (optional, always) = (read(loc::REPOS_RETRACT_OPSTOP), read(loc::REPOS_RETRACT_STOP));
+    let halts = optional || always;
+    let spindle = match control.turning {
+        Some(_) if stands => Some(spindle::stand(control)?),
+        Some(_) if halts => spindle::clockwise(control),
+        _ => None,
+    };
+    let coolant = control.coolant;
+    if ends && coolant.is_some() {
         family::write(control, Operation::Coolant(Coolant::Off))?;
     }
+    let coolant = coolant.filter(|_| if ends { flows_again } else { halts });
     for (asked, stop) in [(optional, Stop::Optional), (always, Stop::Always)] {
         if asked {
             family::write(control, Operation::Stop(stop))?;
         }
     }
-    Ok(Stopped { spindle, coolant })
+    Ok(Restart { spindle, coolant })
 }
 
-/// Starts again what was stopped.
-fn start_again(post: &mut Post, stopped: Stopped) -> Result<()> {
+fn start_again(post: &mut Post, restart: Restart) -> Result<()> {
     let control = &mut post.control;
-    if let Some(clockwise) = stopped.spindle {
+    if let Some(clockwise) = restart.spindle {
         spindle::turn_on(control, clockwise)?;
     }
-    let starts = control.commons.read(loc::REPOS_APPROACH_COOLANT);
-    if let Some(at) = stopped.coolant.filter(|_| starts) {
+    if let Some(at) = restart.coolant {
         let code = control.code(at, "the coolant that flows again")?;
         control.coolant = Some(at);
         control.m(code);

@@ -319,7 +319,7 @@ pub fn turn_on(control: &mut Control, clockwise: bool) -> Result<()> {
 }
 
 /// The spindle turns clockwise: as the tape says it, else as the CL file does.
-fn clockwise(control: &Control) -> Option<bool> {
+pub fn clockwise(control: &Control) -> Option<bool> {
     match control.state.rotation {
         Rotation::Clockwise => Some(true),
         Rotation::Counterclockwise => Some(false),
