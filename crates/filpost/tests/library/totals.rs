@@ -67,7 +67,7 @@ fn drilled(cycle: &str) -> String {
 fn holes_count_pecks_dwells_and_the_way_out() {
     // Down 12 to Z-10 at 120 a minute, 6 s each; 18 to the R level and 12 out of each hole, and
     // from the R level of the first one 10 over and 18 up.
-    let ways = 18.0 + 10f64.hypot(18.0) + 18.0;
+    let ways = 18.0 + libm::hypot(10.0, 18.0) + 18.0;
     let drill = drilled("CYCLE / DRILL, DEPTH, 10, MMPM, 120, CLEAR, 2");
     assert_eq!(drill, format!("24.00 {:.3}", 12.0 + 0.012 * (ways + 24.0)));
     // Back to Z20: 30 out, then 10 across.

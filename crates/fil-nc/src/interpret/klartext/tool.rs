@@ -10,7 +10,7 @@ use crate::motion::Speed;
 /// those of its table.
 pub(super) fn check_definition(texts: &[&str], words: &[Word]) -> Result<(), Fault> {
     let measures = |text: &&str| text.starts_with(['L', 'R']);
-    match texts.iter().position(|text| measures(text)) {
+    match texts.iter().position(measures) {
         Some(at) => {
             let message = "a length or a radius of a tool that the program defines";
             Err(Fault::new(NcCode::ForeignCode, message).at(&words[at].range))
