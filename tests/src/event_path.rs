@@ -26,6 +26,7 @@ pub fn event_path(events: &[Event], unit: Unit) -> ToolPath {
             Event::Dwell { .. }
             | Event::Auxiliary { .. }
             | Event::LeftToControl { .. }
+            | Event::ToolMeasured { .. }
             | Event::End { .. } => {}
         }
     }

@@ -85,6 +85,7 @@ pub fn lines(text: &str, dialect: &Dialect) -> (Vec<String>, Option<Box<Diag>>) 
         Event::Dwell { seconds: Some(seconds), .. } => lines.push(format!("dwell {seconds}")),
         Event::Dwell { seconds: None, .. } => lines.push("dwell".into()),
         Event::Auxiliary { code, .. } => lines.push(format!("M{code}")),
+        Event::ToolMeasured { .. } => lines.push("tool measured".into()),
         Event::LeftToControl { .. } => {}
         Event::End { .. } => lines.push("end".into()),
     });

@@ -60,6 +60,7 @@ fn bare(events: &[Event]) -> Vec<Event> {
             Event::Dwell { seconds, turns, .. } => Event::Dwell { line: 0, seconds, turns },
             Event::Auxiliary { code, .. } => Event::Auxiliary { line: 0, code },
             Event::LeftToControl { mode, .. } => Event::LeftToControl { line: 0, mode },
+            Event::ToolMeasured { .. } => Event::ToolMeasured { line: 0 },
             Event::End { code, modes, .. } => Event::End { line: 0, code, modes: plain(modes) },
         });
     }

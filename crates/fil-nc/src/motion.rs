@@ -340,6 +340,12 @@ pub enum Event {
         /// The mode.
         mode: StartMode,
     },
+    /// The program gives a tool a length or a radius of its own, in place of those of the
+    /// tool table.
+    ToolMeasured {
+        /// Line of the NC program.
+        line: u32,
+    },
     /// The end of the program.
     End {
         /// Line of the NC program.
@@ -360,7 +366,13 @@ impl Event {
             | Event::Dwell { line, .. }
             | Event::Auxiliary { line, .. }
             | Event::LeftToControl { line, .. }
+            | Event::ToolMeasured { line }
             | Event::End { line, .. } => *line,
         }
+    }
+
+    /// True for what no other program has a counterpart of: it is right or wrong by itself.
+    pub(crate) fn stands_alone(&self) -> bool {
+        matches!(self, Event::LeftToControl { .. } | Event::ToolMeasured { .. })
     }
 }

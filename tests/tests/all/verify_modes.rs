@@ -215,6 +215,20 @@ fn a_machine_allows_offsets() {
     assert_eq!(verdict("'G54', 'G55'"), Verdict::Agrees);
 }
 
+/// A tool that the program measures is another one than that of the tool table.
+#[test]
+fn a_tool_that_the_program_measures_is_found() {
+    let cl = root().join("tests/verify/again.ncl");
+    let case = &nc_cases::posted_by("heidenhain-tnc640", &cl).expect("a program");
+    let call = case.nc.find("TOOL CALL").expect("a tool");
+    let line = case.nc[..call].rfind('\n').expect("a line before it") + 1;
+    let with = |text: &str| format!("{}{text}\n{}", &case.nc[..line], &case.nc[line..]);
+    let report = check(case, &with("3 TOOL DEF 1")).expect("a report");
+    assert_eq!(report.verdict(), Verdict::Agrees, "{}", listed(&report));
+    let report = check(case, &with("3 TOOL DEF 1 L+0 R+5")).expect("a report");
+    assert_eq!(report.findings[0].kind, FindingKind::Tool, "{}", listed(&report));
+}
+
 /// What the CL file switches behind a tool change or a stop, where machines stop the spindle and
 /// the coolant, must be switched behind it.
 #[test]

@@ -42,6 +42,7 @@ pub fn nc_trace(
         Event::Dwell { .. }
         | Event::Auxiliary { .. }
         | Event::LeftToControl { .. }
+        | Event::ToolMeasured { .. }
         | Event::End { .. } => {}
     })?;
     Ok(builder.trace)

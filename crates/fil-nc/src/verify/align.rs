@@ -221,7 +221,9 @@ impl<C: Steps> Walk<'_, C> {
                     self.find(FindingKind::Extra, Some(cl_line), Some(line), message);
                     self.next += 1;
                 }
-                Event::Auxiliary { .. } | Event::LeftToControl { .. } => self.next += 1,
+                Event::Auxiliary { .. }
+                | Event::LeftToControl { .. }
+                | Event::ToolMeasured { .. } => self.next += 1,
                 Event::End { .. } => return,
             }
         }

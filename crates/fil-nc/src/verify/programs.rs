@@ -82,7 +82,7 @@ struct Count {
 impl Watcher for Count {
     fn sees(&mut self, event: &Event) -> bool {
         self.motions += u64::from(matches!(event, Event::Move(_)));
-        !matches!(event, Event::LeftToControl { .. })
+        !event.stands_alone()
     }
 }
 
@@ -98,7 +98,7 @@ impl Watcher for Looks {
         if let Event::Move(found) = event {
             self.blocks.look(found);
         }
-        !matches!(event, Event::LeftToControl { .. })
+        !event.stands_alone()
     }
 }
 
@@ -475,6 +475,7 @@ fn spell(event: &Event) -> String {
         Event::Dwell { seconds, .. } => format!("dwell of {}", dwell(*seconds)),
         Event::Auxiliary { code, .. } => format!("M{code}"),
         Event::LeftToControl { mode, .. } => mode.name().to_string(),
+        Event::ToolMeasured { .. } => "measures of a tool".to_string(),
         Event::End { .. } => "end of the program".to_string(),
     }
 }

@@ -27,6 +27,11 @@ impl Rules {
                     "is left to the control: no block says it, and the machine does not state it";
                 self.find(FindingKind::StartMode, *line, format!("{} {said}", mode.name()));
             }
+            Event::ToolMeasured { line } => {
+                let said = "takes the place of that of the tool table";
+                let message = format!("a length or radius that the program gives a tool {said}");
+                self.find(FindingKind::Tool, *line, message);
+            }
             Event::ToolChange { line, modes, .. } => {
                 self.stray_offset(*line, modes);
                 self.standing(*line, modes, "while the tool is changed");

@@ -85,7 +85,7 @@ impl Watcher for Beside {
             }
             _ => {
                 self.rules.look(event);
-                !matches!(event, Event::LeftToControl { .. })
+                !event.stands_alone()
             }
         }
     }

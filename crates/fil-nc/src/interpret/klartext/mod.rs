@@ -162,7 +162,10 @@ impl Klartext<'_> {
         }
         match &words[..] {
             ["BLK", "FORM", ..] => Ok(()),
-            ["TOOL", "DEF", rest @ ..] => tool::check_definition(rest, &line.words[2..]),
+            ["TOOL", "DEF", rest @ ..] => {
+                self.define_tool(rest);
+                Ok(())
+            }
             ["STOP", ..] => {
                 self.state.tell_auxiliary(0);
                 self.functions(&line.words[1..])

@@ -4,22 +4,17 @@ use super::super::Fault;
 use super::Klartext;
 use super::line::Word;
 use crate::errors::NcCode;
-use crate::motion::Speed;
-
-/// `TOOL DEF 5` makes a tool ready; with a length or a radius it would give the tool others than
-/// those of its table.
-pub(super) fn check_definition(texts: &[&str], words: &[Word]) -> Result<(), Fault> {
-    let measures = |text: &&str| text.starts_with(['L', 'R']);
-    match texts.iter().position(measures) {
-        Some(at) => {
-            let message = "a length or a radius of a tool that the program defines";
-            Err(Fault::new(NcCode::ForeignCode, message).at(&words[at].range))
-        }
-        None => Ok(()),
-    }
-}
+use crate::motion::{Event, Speed};
 
 impl Klartext<'_> {
+    /// `TOOL DEF 5` makes a tool ready; with a length or a radius it gives the tool others than
+    /// those of its table.
+    pub(super) fn define_tool(&mut self, texts: &[&str]) {
+        if texts.iter().any(|text| text.starts_with(['L', 'R'])) {
+            self.state.events.push(Event::ToolMeasured { line: self.state.line });
+        }
+    }
+
     /// `TOOL CALL 5 Z S2000`; the tool in the spindle with a speed is no change.
     pub(super) fn tool_call(&mut self, words: &[Word]) -> Result<(), Fault> {
         let mut number = None;

@@ -152,9 +152,12 @@ fn target() -> impl Strategy<Value = Target> {
         .prop_map(|(name, index)| Target { name, index: index.map(Box::new) })
 }
 
-/// Text after PPRINT and its like, as it is left after cutting and trimming.
+/// Text after PPRINT and its like, as it is left after cutting and trimming; with an item in
+/// quotes it would be a list.
 fn free_text() -> impl Strategy<Value = String> {
-    "[A-Z0-9(=/][A-Za-z0-9 ,.=/()'я]{0,20}".prop_map(|text: String| text.trim_end().to_string())
+    "[A-Z0-9(=/][A-Za-z0-9 ,.=/()'я]{0,20}"
+        .prop_map(|text: String| text.trim_end().to_string())
+        .prop_filter("a list", |text| !text.replace(' ', "").contains(",'"))
 }
 
 fn free_word() -> impl Strategy<Value = Name> {
