@@ -213,6 +213,7 @@ impl Record {
     }
 
     /// Makes this record a GOTO, keeping its buffers.
+    #[inline(always)]
     pub(crate) fn fill_goto(&mut self, point: &[f64; 3], axis: Option<&[f64; 3]>) {
         self.kind = kind::MOTION;
         self.sub = motion::GOTO;

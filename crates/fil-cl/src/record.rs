@@ -283,11 +283,13 @@ impl Record {
     }
 
     /// X, Y, Z of a motion record; of a GODLTA the increments.
+    #[inline]
     pub fn point(&self) -> Option<[f64; 3]> {
         if self.kind == kind::MOTION { self.numbers(6) } else { None }
     }
 
     /// I, J, K of a motion record that has a tool axis.
+    #[inline]
     pub fn axis(&self) -> Option<[f64; 3]> {
         if self.kind == kind::MOTION { self.numbers(9) } else { None }
     }
@@ -327,6 +329,7 @@ impl Record {
     }
 
     /// Three numbers from word `n` on.
+    #[inline(always)]
     fn numbers(&self, n: usize) -> Option<[f64; 3]> {
         match self.data.get(n - FIRST_DATA..n - FIRST_DATA + 3)? {
             [Word::Number(x), Word::Number(y), Word::Number(z)] => Some([*x, *y, *z]),

@@ -3,10 +3,10 @@
 
 use fil_diag::Result;
 
+use crate::digits::{push_number, push_padded};
 use crate::errors::MachineCode;
 use crate::letter::Letter;
 use crate::number::NumberFormat;
-use crate::word_text::WordText;
 
 /// Largest whole part of a code.
 const MOST: f64 = 9999.0;
@@ -72,19 +72,19 @@ impl FunctionCode {
         MachineCode::Overflow.err(format!("{letter}{value} does not fit {whole}.{decimals} digits"))
     }
 
-    /// Puts the code in front of a text: whole numbers without a point, as many
-    /// digits as the format has where it asks for leading zeros.
+    /// Appends the code: whole numbers without a point, as many digits as the format has
+    /// where it asks for leading zeros.
     #[inline]
-    pub fn put(self, format: &NumberFormat, text: &mut WordText) {
+    pub fn write(self, format: &NumberFormat, out: &mut Vec<u8>) {
+        let whole = u64::from(self.tenths / 10);
+        if format.leading {
+            push_padded(out, whole, usize::from(format.whole));
+        } else {
+            push_number(out, whole);
+        }
         let tenth = self.tenths % 10;
         if tenth != 0 {
-            text.put(b'0' + tenth as u8);
-            text.put(b'.');
-        }
-        let before = text.width();
-        text.put_number(u64::from(self.tenths / 10));
-        while format.leading && text.width() - before < usize::from(format.whole) {
-            text.put(b'0');
+            out.extend_from_slice(&[b'.', b'0' + tenth as u8]);
         }
     }
 }
@@ -105,10 +105,8 @@ mod tests {
         let code =
             FunctionCode::of_value(value).ok_or_else(|| MachineCode::Inexact.diag("not a code"))?;
         code.check(Letter::of(b'G'), &format)?;
-        let mut text = WordText::new();
-        code.put(&format, &mut text);
         let mut out = Vec::new();
-        text.append_to(&mut out);
+        code.write(&format, &mut out);
         Ok(String::from_utf8(out).unwrap())
     }
 

@@ -15,6 +15,7 @@ pub mod chains;
 pub mod commons;
 pub mod contradictions;
 pub mod cycle_kind;
+pub mod digits;
 pub mod errors;
 pub mod files;
 mod frame_rules;
@@ -34,7 +35,6 @@ pub mod tables;
 pub mod tape_style;
 pub mod user_blocks;
 mod value_unit;
-pub mod word_text;
 
 pub use commons::{Commons, Kind};
 pub use function_code::FunctionCode;

@@ -7,17 +7,18 @@
 
 use fil_diag::{Diag, Result};
 
+use crate::digits::{push_fraction, push_number, push_padded};
 use crate::errors::MachineCode;
 use crate::locations::TapeDecimalRule;
-use crate::word_text::WordText;
 
-const POWERS: [f64; 10] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
+static POWERS: [f64; 10] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
 
 /// Most digits of a format, before and after the point.
 const MAX_DIGITS: usize = 18;
 
-/// By number of digits: the least whole number that does not fit.
-const LIMITS: [i64; MAX_DIGITS + 1] = {
+/// By number of digits: the least whole number that does not fit. A static: a constant is
+/// copied where it is looked into.
+static LIMITS: [i64; MAX_DIGITS + 1] = {
     let mut limits = [1; MAX_DIGITS + 1];
     let mut digits = 1;
     while digits <= MAX_DIGITS {
@@ -194,67 +195,46 @@ impl NumberFormat {
     }
 
     /// Appends a scaled integer by the rules of the address.
-    pub fn write(&self, scaled: i64, out: &mut Vec<u8>) {
-        let mut text = WordText::new();
-        self.put(scaled, &mut text);
-        text.append_to(out);
-    }
-
-    /// Puts a scaled integer in front of a text by the rules of the address.
     #[inline]
-    pub fn put(&self, scaled: i64, text: &mut WordText) {
+    pub fn write(&self, scaled: i64, out: &mut Vec<u8>) {
+        if scaled < 0 {
+            out.push(b'-');
+        } else if self.plus {
+            out.push(b'+');
+        }
         let power = LIMITS[usize::from(self.decimals)] as u64;
         let size = scaled.unsigned_abs();
         if self.point {
-            self.put_with_point(size / power, (size % power) as u32, text);
+            self.write_with_point(size / power, (size % power) as u32, out);
         } else {
-            self.put_plain(size, text);
-        }
-        if scaled < 0 {
-            text.put(b'-');
-        } else if self.plus {
-            text.put(b'+');
+            self.write_plain(size, out);
         }
     }
 
     /// The fraction has at most nine digits, as many as a format can name.
-    fn put_with_point(&self, whole: u64, mut fraction: u32, text: &mut WordText) {
-        let mut digits = self.decimals;
-        if !self.trailing {
-            if fraction == 0 {
-                digits = 0;
-            } else {
-                while fraction.is_multiple_of(10) {
-                    fraction /= 10;
-                    digits -= 1;
-                }
-            }
-        }
-        text.put_digits(fraction, digits);
-        match (digits, self.rule) {
-            (0, TapeDecimalRule::PointOnlyIfNeeded) => {}
-            (0, TapeDecimalRule::AtLeastOneDigitAfterThePoint) => {
-                text.put(b'0');
-                text.put(b'.');
-            }
-            _ => text.put(b'.'),
-        }
+    fn write_with_point(&self, whole: u64, fraction: u32, out: &mut Vec<u8>) {
         if whole != 0 || self.leading || fraction == 0 {
-            text.put_number(whole);
+            push_number(out, whole);
+        }
+        let has_digits = fraction != 0 || self.trailing && self.decimals != 0;
+        if has_digits || self.rule != TapeDecimalRule::PointOnlyIfNeeded {
+            out.push(b'.');
+        }
+        if has_digits {
+            push_fraction(out, fraction, self.decimals, self.trailing);
+        } else if self.rule == TapeDecimalRule::AtLeastOneDigitAfterThePoint {
+            out.push(b'0');
         }
     }
 
-    fn put_plain(&self, size: u64, text: &mut WordText) {
+    fn write_plain(&self, size: u64, out: &mut Vec<u8>) {
         let mut width = usize::from(self.whole + self.decimals);
         let mut rest = size;
         while self.drop_whole_zeros && rest != 0 && rest.is_multiple_of(10) {
             rest /= 10;
             width = width.saturating_sub(1);
         }
-        text.put_number(rest);
-        while self.leading && text.width() < width {
-            text.put(b'0');
-        }
+        if self.leading { push_padded(out, rest, width) } else { push_number(out, rest) }
     }
 }
 

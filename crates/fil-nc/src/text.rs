@@ -15,7 +15,7 @@ use crate::errors::NcCode;
 const MAX_DIGITS: u32 = 18;
 
 /// Powers of ten, all of them exact.
-const POWERS: [f64; MAX_DIGITS as usize + 1] = [
+static POWERS: [f64; MAX_DIGITS as usize + 1] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
     1e17, 1e18,
 ];

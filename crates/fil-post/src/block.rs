@@ -6,7 +6,6 @@ use fil_machine::address::{Addresses, SLOTS, TapePosition};
 use fil_machine::errors::MachineCode;
 use fil_machine::letters::{G, M};
 use fil_machine::rounding::Rounding;
-use fil_machine::word_text::WordText;
 use fil_machine::{Commons, FunctionCode, Letter};
 
 use crate::cause::Cause;
@@ -256,14 +255,12 @@ impl Block {
         mut note: impl FnMut(u8, usize, Cause),
     ) {
         let mut first = true;
-        let mut write = |letter: Letter, character: u8, mut text: WordText, cause: Cause| {
-            text.put(character);
-            let blank = addresses.blank && !std::mem::replace(&mut first, false);
-            note(letter.byte(), out.len() + usize::from(blank), cause);
-            if blank {
-                text.put(b' ');
+        let mut begin = |letter: Letter, character: u8, cause: Cause, out: &mut Vec<u8>| {
+            if addresses.blank && !std::mem::replace(&mut first, false) {
+                out.push(b' ');
             }
-            text.append_to(out);
+            note(letter.byte(), out.len(), cause);
+            out.push(character);
         };
         for position in self.positions_and_functions(addresses) {
             let slot = addresses.slot(position);
@@ -273,17 +270,15 @@ impl Block {
                 M => &self.m,
                 _ => {
                     let scaled = self.scaled[position.index()];
-                    let mut text = WordText::new();
-                    slot.format.put(scaled, &mut text);
-                    write(letter, slot.character, text, self.causes[position.index()]);
+                    begin(letter, slot.character, self.causes[position.index()], out);
+                    slot.format.write(scaled, out);
                     commons.set_last_output(letter, slot.format.unscale(scaled));
                     continue;
                 }
             };
             for (code, cause) in codes {
-                let mut text = WordText::new();
-                code.put(&slot.format, &mut text);
-                write(letter, slot.character, text, *cause);
+                begin(letter, slot.character, *cause, out);
+                code.write(&slot.format, out);
                 commons.set_last_output(letter, code.value());
             }
         }

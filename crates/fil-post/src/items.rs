@@ -29,12 +29,18 @@ impl<'a> Items<'a> {
     ///
     /// # Errors
     /// More than 128 of them: no record that commands a machine is that long.
+    #[inline]
     pub fn new(record: &'a Record, vocabulary: &'a Vocabulary) -> Result<Self> {
-        let items = Items { record, vocabulary, taken: 0, last: None };
         if record.data.len() > MOST {
-            return Err(items.error(format!("more than {MOST} items")));
+            return Err(Items::too_many(record, vocabulary));
         }
-        Ok(items)
+        Ok(Items { record, vocabulary, taken: 0, last: None })
+    }
+
+    #[cold]
+    fn too_many(record: &'a Record, vocabulary: &'a Vocabulary) -> Box<Diag> {
+        let items = Items { record, vocabulary, taken: 0, last: None };
+        items.error(format!("more than {MOST} items"))
     }
 
     /// Crosses the first items off: the fixed head of a record.

@@ -7,7 +7,6 @@ use fil_machine::number::NumberFormat;
 use fil_machine::rounding::Rounding;
 use fil_machine::tables::MachineTables;
 use fil_machine::tape_style::TapeStyle;
-use fil_machine::word_text::WordText;
 use fil_machine::{Commons, Letter};
 
 use crate::block::{Block, function, named};
@@ -106,24 +105,22 @@ impl Tape {
         for &(letter, value, cause) in words {
             let position = addresses.position(letter).ok_or_else(|| no_address(letter))?;
             let slot = addresses.slot(position);
-            let mut text = WordText::new();
-            if matches!(letter, G | M) {
-                let code = function(letter, value)?;
-                code.check(letter, &slot.format)?;
-                code.put(&slot.format, &mut text);
-                last.push((letter, code.value()));
-            } else {
-                let scaled = as_given(letter, &slot.format).scale(value, &slot.format);
-                let scaled = scaled.map_err(|diag| named(diag, letter))?;
-                slot.format.put(scaled, &mut text);
-                last.push((letter, slot.format.unscale(scaled)));
-            }
-            text.put(slot.character);
             if addresses.blank && !line.is_empty() {
                 line.push(b' ');
             }
             noted.push((letter.byte(), line.len(), cause));
-            text.append_to(&mut line);
+            line.push(slot.character);
+            if matches!(letter, G | M) {
+                let code = function(letter, value)?;
+                code.check(letter, &slot.format)?;
+                code.write(&slot.format, &mut line);
+                last.push((letter, code.value()));
+            } else {
+                let scaled = as_given(letter, &slot.format).scale(value, &slot.format);
+                let scaled = scaled.map_err(|diag| named(diag, letter))?;
+                slot.format.write(scaled, &mut line);
+                last.push((letter, slot.format.unscale(scaled)));
+            }
         }
         last.into_iter().for_each(|(letter, value)| commons.set_last_output(letter, value));
         let start = self.begin(true, tables, commons)?;
@@ -330,13 +327,11 @@ impl Tape {
         self.sequence.next = Some(number + increment);
         let scaled = slot.format.exact(number).map_err(|diag| named(diag, N))?;
         self.note(SEQUENCE, self.sequence.cause, block);
-        let mut text = WordText::new();
+        self.text.push(align.unwrap_or(slot.character));
+        slot.format.write(scaled, &mut self.text);
         if tables.addresses.blank {
-            text.put(b' ');
+            self.text.push(b' ');
         }
-        slot.format.put(scaled, &mut text);
-        text.put(align.unwrap_or(slot.character));
-        text.append_to(&mut self.text);
         commons.set_last_output(N, number);
         Ok(())
     }

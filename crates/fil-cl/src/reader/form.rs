@@ -90,15 +90,10 @@ impl Reader<'_> {
         if !self.rules().geometry || self.is_scout || self.options.raw {
             return false;
         }
-        let mut values = [0.0; 6];
-        let Some(length) =
-            plain::plain_direction(self.lines.unread(), &mut values, &mut self.known_numbers)
-        else {
-            return false;
-        };
+        let found = plain::plain_direction(self.lines.unread(), &mut self.known_numbers);
+        let Some((direction, length)) = found else { return false };
         self.take_lines(length, 1);
-        let [i, j, k, ..] = values;
-        self.depart([i, j, k]);
+        self.depart(direction);
         true
     }
 

@@ -1,13 +1,13 @@
 //! Decimal numbers.
 
 /// Powers of ten that a double holds exactly.
-const POWERS: [f64; 23] = [
+static POWERS: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
     1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
 ];
 
 /// Powers of ten up to eight digits.
-const TENS: [u64; 9] = [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000, 100_000_000];
+static TENS: [u64; 9] = [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000, 100_000_000];
 
 /// The highest bit of each of eight bytes.
 const HIGH_BITS: u64 = u64::from_le_bytes([0x80; 8]);

@@ -4,87 +4,80 @@
 use super::known::{KnownAxis, KnownNumbers};
 use super::number::fixed_point;
 
-/// Reads the values of a `GOTO` that fills one line; gives how many they are and
-/// the length of the line including its line end; `None` when anything about it is
+/// Reads the point of a `GOTO`; gives the text behind it. `None` when anything about it is
 /// unusual.
-#[inline]
-pub(super) fn plain_goto(
-    text: &[u8],
-    values: &mut [f64; 6],
+#[inline(always)]
+pub(super) fn plain_point<'t>(
+    text: &'t [u8],
     numbers: &mut KnownNumbers,
-    known: &mut KnownAxis,
-) -> Option<(usize, usize)> {
-    let found = plain_values(text, b"GOTO", values, numbers, |rest| known.read(rest))?;
-    if found.count == 6 && !found.is_known {
-        let [_, _, _, i, j, k] = *values;
-        known.keep(&text[found.axis..found.length], [i, j, k]);
-    }
-    matches!(found.count, 3 | 6).then_some((found.count, found.length))
+) -> Option<([f64; 3], &'t [u8])> {
+    values(text, b"GOTO", numbers)
 }
 
-/// The same for `INDIRV` with three values; gives the length of the line.
+/// The same for `INDIRV` with three values; gives the values and the length of the line.
 pub(super) fn plain_direction(
     text: &[u8],
-    values: &mut [f64; 6],
     numbers: &mut KnownNumbers,
-) -> Option<usize> {
-    let found = plain_values(text, b"INDIRV", values, numbers, |_| None)?;
-    (found.count == 3).then_some(found.length)
+) -> Option<([f64; 3], usize)> {
+    let (direction, behind) = values(text, b"INDIRV", numbers)?;
+    Some((direction, text.len() - line_end(behind)?.len()))
 }
 
-/// The values of a statement that fills one line.
-struct Plain {
-    count: usize,
-    /// Bytes of the line, its end included.
-    length: usize,
-    /// Where the fourth value begins.
-    axis: usize,
-    /// The last three were known by their text.
-    is_known: bool,
-}
-
-/// Reads the values of a statement that fills one line; `known` is asked for the last three.
+/// The first three values of a statement, and the text behind them. Each has a name of its
+/// own: numbers that were written to memory one by one can't be read back as one at once.
 #[inline(always)]
-fn plain_values(
-    text: &[u8],
+fn values<'t>(
+    text: &'t [u8],
     major: &[u8],
-    values: &mut [f64; 6],
     numbers: &mut KnownNumbers,
-    known: impl Fn(&[u8]) -> Option<([f64; 3], usize)>,
-) -> Option<Plain> {
-    let mut rest = skip_blanks(text.strip_prefix(major)?).strip_prefix(b"/")?;
-    let (mut count, mut axis) = (0, 0);
-    loop {
-        let number = skip_blanks(rest);
-        let (value, behind) = match numbers.read(count, number) {
-            Some(known) => known,
-            None => {
-                let (value, behind) = fixed_point(number)?;
-                numbers.keep(count, number, number.len() - behind.len(), value);
-                (value, behind)
-            }
-        };
-        *values.get_mut(count)? = value;
-        count += 1;
-        rest = match skip_blanks(behind) {
-            [b',', rest @ ..] => rest,
-            [b'\n', rest @ ..] | [b'\r', b'\n', rest @ ..] => {
-                return Some(Plain {
-                    count,
-                    length: text.len() - rest.len(),
-                    axis,
-                    is_known: false,
-                });
-            }
-            _ => return None,
-        };
-        if count == 3 {
-            axis = text.len() - rest.len();
-            if let Some((found, length)) = known(rest) {
-                values[3..].copy_from_slice(&found);
-                return Some(Plain { count: 6, length: axis + length, axis, is_known: true });
-            }
+) -> Option<([f64; 3], &'t [u8])> {
+    let rest = skip_blanks(text.strip_prefix(major)?).strip_prefix(b"/")?;
+    let (x, rest) = value(0, rest, numbers)?;
+    let (y, rest) = value(1, rest.strip_prefix(b",")?, numbers)?;
+    let (z, rest) = value(2, rest.strip_prefix(b",")?, numbers)?;
+    Some(([x, y, z], rest))
+}
+
+/// The tool axis behind a point, and the text behind the line; the last axis is known by its
+/// text.
+pub(super) fn plain_axis<'t>(
+    text: &'t [u8],
+    numbers: &mut KnownNumbers,
+    known: &mut KnownAxis,
+) -> Option<([f64; 3], &'t [u8])> {
+    let text = text.strip_prefix(b",")?;
+    if let Some((axis, length)) = known.read(text) {
+        return Some((axis, &text[length..]));
+    }
+    let (i, rest) = value(3, text, numbers)?;
+    let (j, rest) = value(4, rest.strip_prefix(b",")?, numbers)?;
+    let (k, rest) = value(5, rest.strip_prefix(b",")?, numbers)?;
+    let rest = line_end(rest)?;
+    known.keep(&text[..text.len() - rest.len()], [i, j, k]);
+    Some(([i, j, k], rest))
+}
+
+/// The value at a place of a statement, from 0, and the text behind it and its blanks.
+#[inline(always)]
+fn value<'t>(place: usize, text: &'t [u8], numbers: &mut KnownNumbers) -> Option<(f64, &'t [u8])> {
+    let text = skip_blanks(text);
+    let (value, behind) = match numbers.read(place, text) {
+        Some(known) => known,
+        None => {
+            let (value, behind) = fixed_point(text)?;
+            numbers.keep(place, text, text.len() - behind.len(), value);
+            (value, behind)
         }
+    };
+    Some((value, skip_blanks(behind)))
+}
+
+/// The text behind a line end.
+#[inline]
+pub(super) fn line_end(text: &[u8]) -> Option<&[u8]> {
+    match text {
+        [b'\n', rest @ ..] | [b'\r', b'\n', rest @ ..] => Some(rest),
+        _ => None,
     }
 }
 

@@ -59,22 +59,23 @@ impl Reader<'_> {
     /// long way, which gives the same record.
     #[inline]
     pub(super) fn read_plain_goto(&mut self, record: &mut Record) -> bool {
-        let mut values = [0.0; 6];
-        let found = plain::plain_goto(
-            self.lines.unread(),
-            &mut values,
-            &mut self.known_numbers,
-            &mut self.known_axis,
-        );
-        let Some((count, length)) = found else { return false };
-        let [x, y, z, i, j, k] = values;
-        let axis = [i, j, k];
-        if count == 6 && !is_unit(axis) || self.modal.forms.watches_motions() {
+        let (text, numbers) = (self.lines.unread(), &mut self.known_numbers);
+        let Some((point, behind)) = plain::plain_point(text, numbers) else { return false };
+        let (axis, rest) = if let Some(rest) = plain::line_end(behind) {
+            (None, rest)
+        } else if let Some((axis, rest)) = plain::plain_axis(behind, numbers, &mut self.known_axis)
+            && is_unit(axis)
+        {
+            (Some(axis), rest)
+        } else {
+            return false;
+        };
+        let length = text.len() - rest.len();
+        if self.modal.forms.watches_motions() {
             return false;
         }
         record.line = self.take_lines(length, 1);
-        let axis = if count == 6 { Some(axis) } else { None };
-        self.give_point(record, [x, y, z], axis);
+        self.give_point(record, point, axis);
         true
     }
 
@@ -86,16 +87,16 @@ impl Reader<'_> {
         }
         self.modal.in_arc = false;
         self.modal.point = Some(point);
-        let axis = if self.modal.axis.is_none() { None } else { self.whole_axis(&point, axis) };
+        let axis = if self.modal.axis.is_none() { None } else { self.whole_axis(point, axis) };
         record.fill_goto(&point, axis.as_ref());
         self.count(record);
     }
 
     /// The tool axis of a point, with the one that the dialect means where it has none.
-    fn whole_axis(&mut self, point: &[f64; 3], axis: Option<[f64; 3]>) -> Option<[f64; 3]> {
+    fn whole_axis(&mut self, point: [f64; 3], axis: Option<[f64; 3]>) -> Option<[f64; 3]> {
         let whole = axis.or(self.axis_left_out());
         if whole != axis && self.keeps_meaning() {
-            self.keep_meaning(Meaning::Records(vec![Record::goto(*point, whole)]));
+            self.keep_meaning(Meaning::Records(vec![Record::goto(point, whole)]));
             return axis;
         }
         whole

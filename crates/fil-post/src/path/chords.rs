@@ -78,7 +78,7 @@ impl Chords {
         while self.done < until {
             self.done += 1;
             let point = self.at(f64::from(self.done) / f64::from(self.count));
-            linear::carry_out(post, point, MotionKind::Feed)?;
+            linear::carry_out(post, &point, MotionKind::Feed)?;
         }
         Ok(self.done < self.count)
     }

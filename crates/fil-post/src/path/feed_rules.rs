@@ -252,6 +252,7 @@ fn at_the_edge(post: &mut Post, feed: Feed, arc: &PlaneArc) -> Feed {
 
 /// The feed of a rapid motion that is too short for one (DBLCOM 425, 426); `None` for a
 /// rapid motion.
+#[inline]
 pub fn of_short_rapid(post: &Post, motion: &Motion, target: Target) -> Option<Feed> {
     let commons = &post.control.commons;
     let short = commons.dbl_opt(loc::RAPID_SHORT_DISTANCE).filter(|short| *short > 0.0)?;

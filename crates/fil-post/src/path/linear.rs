@@ -1,7 +1,7 @@
 //! Straight motions: rapid, at feed, and as passes of a thread.
 
 use fil_diag::Result;
-use fil_machine::axes::AxisSet;
+use fil_machine::axes::{AxisSet, Position};
 
 use super::{
     feed_rules, frame, mill_turn, rapid, rotary, scaled_lead, solution, thread, tip_control,
@@ -18,7 +18,7 @@ use crate::post::Post;
 /// # Errors
 /// An unreachable tool axis, no feed, a value that does not fit, a missing code.
 #[inline]
-pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()> {
+pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<()> {
     if let Some(active) = &mut post.path.cycle {
         active.initial = None;
         active.above = None;
@@ -30,24 +30,24 @@ pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
     } else {
         post.path.course.interrupt();
         if !post.path.coming.is_empty() {
-            solution::choose(post, target, kind);
+            solution::choose(post, *target, kind);
         }
     }
-    if post.control.tables.prepares && prepare(post, target, kind)? {
+    if post.control.tables.prepares && prepare(post, *target, kind)? {
         return Ok(());
     }
     let before = post.path.rotary;
-    let position = rotary::position_of(post, target)?;
-    let word = rotary::word_of(post, target);
-    let motion = Motion { position, axes: AxisSet::ALL, word };
+    let word = rotary::word_of(post, *target);
+    let mut motion = Motion { position: Position::default(), axes: AxisSet::ALL, word };
+    rotary::find_position(post, *target, &mut motion.position)?;
     match kind {
-        MotionKind::Rapid(cause) => match feed_rules::of_short_rapid(post, &motion, target) {
+        MotionKind::Rapid(cause) => match feed_rules::of_short_rapid(post, &motion, *target) {
             Some(feed) => family::feed(&mut post.control, &motion, Some(&feed))?,
             None => rapid::rapid(&mut post.control, &motion, cause)?,
         },
         MotionKind::Feed => match rotary::turned(before, post.path.rotary) {
-            Some(before) => turning::feed(post, before, &motion, target)?,
-            _ if feed_rules::apply(post) => feed_rules::line(post, &motion, target)?,
+            Some(before) => turning::feed(post, before, &motion, *target)?,
+            _ if feed_rules::apply(post) => feed_rules::line(post, &motion, *target)?,
             _ => family::feed(&mut post.control, &motion, post.path.feed.as_ref())?,
         },
         MotionKind::Thread(lead) => {
@@ -56,8 +56,8 @@ pub fn carry_out(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
             }
             rotary::refuse_thread(before, post.path.rotary)?;
             scaled_lead::refuse(&post.control, &thread::AXES, PostCode::Thread)?;
-            let counted = thread::counted_lead(post, lead, target)?;
-            let change = thread::counted_change(post, lead, &counted, target)?;
+            let counted = thread::counted_lead(post, lead, *target)?;
+            let change = thread::counted_change(post, lead, &counted, *target)?;
             let motion = motion.of(AxisSet::LINEAR);
             family::thread(&mut post.control, &motion, &counted, change)?;
         }

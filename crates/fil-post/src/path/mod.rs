@@ -16,7 +16,7 @@ mod feed_rules;
 pub mod frame;
 pub mod hole;
 mod index;
-mod linear;
+pub(crate) mod linear;
 pub mod linearization;
 pub(crate) mod long_arc;
 mod machine_position;
@@ -193,10 +193,9 @@ impl Path {
 ///
 /// # Errors
 /// Whatever the machine or the control can't do.
-#[inline]
 pub fn carry_out(post: &mut Post, operation: Operation) -> Result<()> {
     match operation {
-        Operation::Linear(target, kind) => linear::carry_out(post, target, kind),
+        Operation::Linear(target, kind) => linear::carry_out(post, &target, kind),
         Operation::Arc(arc, target) => {
             if post.control.tables.mills() {
                 mill_turn::before_arc(post, &arc, target)?;

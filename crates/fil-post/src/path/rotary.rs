@@ -16,13 +16,31 @@ const STILL: f64 = 1e-9;
 ///
 /// # Errors
 /// The machine can't reach the tool axis.
-#[inline]
 pub fn position_of(post: &mut Post, target: Target) -> Result<Position> {
+    let mut position = Position::default();
+    find_position(post, target, &mut position)?;
+    Ok(position)
+}
+
+/// The same in its place: to copy what was written number by number just before makes the
+/// processor wait.
+///
+/// # Errors
+/// As [`position_of`].
+#[inline(always)]
+pub fn find_position(post: &mut Post, target: Target, position: &mut Position) -> Result<()> {
     let (point, axis) = transformed(post, target);
     let chain = post.control.tables.chain();
     if !chain.has_rotary() && axis == chain.tool.into_inner() {
-        return Ok([point.x, point.y, point.z, 0.0, 0.0]);
+        *position = [point.x, point.y, point.z, 0.0, 0.0];
+        return Ok(());
     }
+    *position = turned_position_of(post, point, axis)?;
+    Ok(())
+}
+
+/// The same where the machine or the tool axis turns.
+fn turned_position_of(post: &mut Post, point: Point3<f64>, axis: Vector3<f64>) -> Result<Position> {
     if post.control.tables.mills() {
         return mill_turn::position_of(post, point, axis);
     }

@@ -407,11 +407,11 @@ impl Moves<'_> {
 
     fn rapid_to(&mut self, to: Target) -> Result<()> {
         let cause = self.post.control.block.cause;
-        linear::carry_out(self.post, to, MotionKind::Rapid(cause))
+        linear::carry_out(self.post, &to, MotionKind::Rapid(cause))
     }
 
     fn feed(&mut self, height: f64) -> Result<()> {
         let to = self.at(height);
-        linear::carry_out(self.post, to, MotionKind::Feed)
+        linear::carry_out(self.post, &to, MotionKind::Feed)
     }
 }

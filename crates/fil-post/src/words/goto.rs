@@ -9,7 +9,7 @@ use crate::dispatch::checked_axis;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{MotionKind, Operation, Target};
-use crate::path::{carry_out, thread};
+use crate::path::{carry_out, linear, thread};
 use crate::post::Post;
 
 /// Moves to the point; ends an arc or drills a hole when CIRCLE or CYCLE ask for it.
@@ -30,7 +30,9 @@ pub fn handle(post: &mut Post, target: Target) -> Result<()> {
     }
     match kind_of_motion(post) {
         MotionKind::Thread(lead) => thread::point(post, target, lead),
-        kind => carry_out(post, Operation::Linear(target, kind)),
+        // The most frequent operation is carried out without being made: its copy would have
+        // to wait for the target, which was written a moment ago.
+        kind => linear::carry_out(post, &target, kind),
     }
 }
 

@@ -6,7 +6,6 @@ use fil_machine::address::no_address;
 use fil_machine::letters::{G, IJK, M, S, T, XYZ};
 use fil_machine::locations::{self as loc, CircleCenter, ControlMachineFrame, ControlToolCall};
 use fil_machine::rounding::Rounding;
-use fil_machine::word_text::WordText;
 use fil_machine::{FunctionCode, Letter};
 
 use super::tool_names;
@@ -69,13 +68,16 @@ fn word(control: &Control, letter: Letter, value: f64) -> Result<(String, f64)> 
     let addresses = &control.tables.addresses;
     let position = addresses.position(letter).ok_or_else(|| no_address(letter))?;
     let slot = addresses.slot(position);
-    let mut text = WordText::new();
+    let mut digits = Vec::new();
     if matches!(letter, G | M) {
         let code = function(letter, value)?;
         code.check(letter, &slot.format)?;
-        code.put(&slot.format, &mut text);
+        code.write(&slot.format, &mut digits);
         let name = char::from(slot.character);
-        return Ok((spell_function(control, letter, code, name, &digits(&text)), code.value()));
+        return Ok((
+            spell_function(control, letter, code, name, &String::from_utf8_lossy(&digits)),
+            code.value(),
+        ));
     }
     if letter == T && tool_names::are_called(control) {
         let scaled = Rounding::Exact.scale(value, &slot.format).map_err(|diag| named(diag, T))?;
@@ -86,15 +88,12 @@ fn word(control: &Control, letter: Letter, value: f64) -> Result<(String, f64)> 
     let names = letter.byte() == b'P' && slot.format.decimals == 0;
     let rounding = if names { Rounding::Exact } else { Rounding::of(letter) };
     let scaled = rounding.scale(value, &slot.format).map_err(|diag| named(diag, letter))?;
-    slot.format.put(scaled, &mut text);
+    slot.format.write(scaled, &mut digits);
     let name = char::from(slot.character);
-    Ok((spell(control, letter, name, &digits(&text)), slot.format.unscale(scaled)))
-}
-
-fn digits(text: &WordText) -> String {
-    let mut out = Vec::new();
-    text.append_to(&mut out);
-    String::from_utf8_lossy(&out).into_owned()
+    Ok((
+        spell(control, letter, name, &String::from_utf8_lossy(&digits)),
+        slot.format.unscale(scaled),
+    ))
 }
 
 fn spell_function(

@@ -6,7 +6,6 @@ use fil_diag::Result;
 use fil_machine::letters::F;
 use fil_machine::locations::{self as loc, ThreadCycle};
 use fil_machine::rounding::Rounding;
-use fil_machine::word_text::WordText;
 use fil_machine::{FunctionCode, Letter};
 
 use super::motion::{self, Motion};
@@ -217,23 +216,20 @@ struct Line<'c> {
 impl<'c> Line<'c> {
     fn new(control: &'c Control, code: FunctionCode) -> Result<Self> {
         let mut line = Line { control, text: String::new() };
-        let mut word = WordText::new();
         let g = fil_machine::letters::G;
         let Some(position) = control.tables.addresses.position(g) else {
             return PostCode::NoCode.err("G is off the tape");
         };
         let slot = control.tables.addresses.slot(position);
-        code.put(&slot.format, &mut word);
-        word.put(slot.character);
-        line.put(word);
+        line.put(slot.character, |out| code.write(&slot.format, out));
         Ok(line)
     }
 
-    fn put(&mut self, word: WordText) {
-        let mut bytes = Vec::new();
-        word.append_to(&mut bytes);
+    fn put(&mut self, character: u8, write: impl FnOnce(&mut Vec<u8>)) {
+        let mut word = vec![character];
+        write(&mut word);
         self.blank();
-        self.text.push_str(&String::from_utf8_lossy(&bytes));
+        self.text.push_str(&String::from_utf8_lossy(&word));
     }
 
     fn blank(&mut self) {
@@ -256,10 +252,7 @@ impl<'c> Line<'c> {
         let slot = self.control.tables.addresses.slot(position);
         let scaled = rounding.scale(value, &slot.format);
         let scaled = scaled.map_err(|diag| crate::block::named(diag, letter))?;
-        let mut word = WordText::new();
-        slot.format.put(scaled, &mut word);
-        word.put(slot.character);
-        self.put(word);
+        self.put(slot.character, |out| slot.format.write(scaled, out));
         Ok(())
     }
 
