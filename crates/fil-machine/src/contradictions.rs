@@ -151,7 +151,7 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     dwell_formats(commons, &mut found);
     order_of_axes(commons, &mut found);
     shift_along(commons, &mut found);
-    diameters_of_klartext(commons, &mut found);
+    diameters(commons, &mut found);
     translation(commons, &mut found);
     frame_rules::check(commons, &mut found);
     full_turn::check(commons, &mut found);
@@ -336,11 +336,22 @@ fn start_modes(commons: &Commons, found: &mut Vec<Diag>) {
     }
 }
 
-/// The center of an arc in Klartext is a position, which no control reads as a diameter.
-fn diameters_of_klartext(commons: &Commons, found: &mut Vec<Diag>) {
+/// The center of an arc in Klartext is a position, which no control reads as a diameter. A program
+/// that says X is a diameter must write it as one.
+fn diameters(commons: &Commons, found: &mut Vec<Diag>) {
     let is_klartext = commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext;
-    if is_klartext && commons.dbl_opt(loc::SCALE_X) == Some(2.0) {
+    let doubles = commons.dbl_opt(loc::SCALE_X) == Some(2.0);
+    if is_klartext && doubles {
         found.push(contradiction("scale.x is 2, and Klartext has no diameters".into()));
+    }
+    if let Some(code) = commons.read(loc::LATHE_DIAMETER_CODE)
+        && !doubles
+        && !commons.read(loc::LATHE_DIAMETER)
+    {
+        found.push(contradiction(format!(
+            "lathe.diameter_code begins programs with G{code}, which makes X a diameter, and \
+             lathe.diameter writes it as a radius"
+        )));
     }
 }
 

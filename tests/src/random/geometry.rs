@@ -78,6 +78,14 @@ impl Frame {
             [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
         (0..3).map(|axis| a[axis] * cross[axis]).sum::<f64>() < 0.0
     }
+
+    /// What went counterclockwise about an axis goes clockwise about it: in its plane left is
+    /// right.
+    pub fn turns_over(&self, normal: Axis) -> bool {
+        let [.., along] = axes(normal);
+        let kept = self.rows[along][along] > 0.0;
+        kept == self.mirrors()
+    }
 }
 
 /// The matrix that turns by an angle about a machine axis.

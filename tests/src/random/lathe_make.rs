@@ -10,7 +10,7 @@ use super::model_motion::ends;
 use super::setup::Setup;
 use super::statement::{
     ArcShape, CoolantCommand, CutcomCommand, CycleKind, CycleShape, Feedrate, SpindleCommand,
-    Statement,
+    Statement, Trans,
 };
 
 /// Texts that change the modes of the control.
@@ -265,8 +265,13 @@ impl Maker {
         self.away();
         let left = self.dice.once_in(2);
         self.say(Statement::Cutcom(CutcomCommand::On { left, offset: None }));
-        let to = self.point();
-        self.cut(to);
+        if self.dice.once_in(10) {
+            // Compensation that begins on an arc.
+            self.arc();
+        } else {
+            let to = self.point();
+            self.cut(to);
+        }
         for _ in 0..1 + self.dice.below(4) {
             self.motion();
         }
@@ -274,12 +279,30 @@ impl Maker {
         self.away();
     }
 
+    /// A frame: shifted, mirrored along Z for the other side of the part, or turned half about
+    /// it for a tool behind the axis.
     fn shifted(&mut self) {
         let shift = [self.length(-2.0, 2.0), 0.0, self.length(-5.0, 5.0)];
         self.away();
-        self.say(Statement::Trans(super::statement::Trans::Shift(shift)));
+        let (about, angle, mirror) = match self.dice.below(6) {
+            0 => (Axis::Y, 180.0, true),
+            1 => (Axis::Z, 180.0, false),
+            2 => (Axis::Z, 0.0, true),
+            _ => (Axis::Y, 0.0, false),
+        };
+        let plain = angle == 0.0 && !mirror;
+        self.say(Statement::Trans(if plain {
+            Trans::Shift(shift)
+        } else {
+            Trans::Matrix { about, angle, mirror, shift, points_only: true }
+        }));
         self.away();
-        self.turning();
+        // In a frame where left is right the post refuses compensation.
+        if self.dice.once_in(if plain { 3 } else { 12 }) {
+            self.contour();
+        } else {
+            self.turning();
+        }
         self.say(Statement::TransOff);
         self.away();
     }
@@ -305,6 +328,14 @@ impl Maker {
             4 => {
                 let seconds = 0.5 * (1 + self.dice.below(9)) as f64;
                 self.say(Statement::Delay(seconds));
+            }
+            5 if self.dice.once_in(2) => {
+                let turns = (1 + self.dice.below(12)) as f64;
+                if !self.dice.once_in(6) {
+                    let speed = 100.0 + self.dice.below(3000) as f64;
+                    self.say(Statement::Spindle(SpindleCommand::Turn { speed, ccw: false }));
+                }
+                self.say(Statement::DelayTurns(turns));
             }
             5 => self.say(Statement::OptionalStop),
             6 => self.say(Statement::Message("A MESSAGE")),

@@ -36,6 +36,8 @@ pub(super) struct Model<'s> {
     pub(super) tape: Option<Point>,
     pub(super) height_unknown: bool,
     skipping: bool,
+    /// Z of the machine before the blocks that may be skipped.
+    height_before_skip: Option<f64>,
     pub(super) tool: Option<u32>,
     pub(super) tool_offset: Option<u32>,
     pub(super) feed: Want<Rate>,
@@ -82,6 +84,7 @@ impl<'s> Model<'s> {
             tape: None,
             height_unknown: true,
             skipping: false,
+            height_before_skip: None,
             tool: None,
             tool_offset: None,
             feed: Want::OneOf(Vec::new()),
@@ -137,6 +140,12 @@ impl<'s> Model<'s> {
                 if self.height_unknown || self.something_waits() {
                     self.may_refuse("a word would stand on the other side of OPSKIP");
                 }
+                let height = self.at.map(|at| self.frame.apply(at)[2]);
+                if *on {
+                    self.height_before_skip = height;
+                } else if self.height_before_skip != height {
+                    self.may_refuse("a height that depends on the skip switch");
+                }
                 self.skipping = *on;
             }
             Statement::Cycle(shape) => self.cycle(shape),
@@ -178,6 +187,7 @@ impl<'s> Model<'s> {
                 }
                 self.push(Act::Dwell(*seconds));
             }
+            Statement::DelayTurns(turns) => self.delay_turns(*turns),
             Statement::Stop => {
                 self.line("STOP");
                 self.push(Act::Stop);
@@ -260,7 +270,7 @@ impl<'s> Model<'s> {
             self.must_refuse("a feed motion without a feed");
         }
         self.push(act);
-        self.compensation_is_fresh &= !across;
+        self.compensation_is_fresh &= !(across || along && self.setup.turns());
         if in_parts {
             self.settle(across, along);
         }
@@ -345,10 +355,13 @@ impl<'s> Model<'s> {
     /// The interpreter refuses a feed a revolution while the spindle stands, and so does a post of
     /// a lathe.
     fn needs_spindle(&mut self, act: &Act, feed: &Want<Rate>) {
+        let may_stop = self.spindle.now.accepts(|turning| *turning == Turning::Stopped);
+        if matches!(act, Act::Thread { .. }) && may_stop {
+            self.may_refuse("a thread with the spindle standing");
+        }
         let cuts = matches!(act, Act::Feed(_) | Act::Arc(_) | Act::Hole(_));
         let per_revolution = feed.accepts(|rate| rate.per_revolution);
-        let may_stand = self.spindle.now.accepts(|turning| *turning == Turning::Stopped);
-        match cuts && per_revolution && may_stand {
+        match cuts && per_revolution && may_stop {
             true if self.setup.turns() => self.may_refuse("a feed a turn of a spindle that stands"),
             true => self.out.unpredictable = true,
             false => {}

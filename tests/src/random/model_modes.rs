@@ -1,6 +1,6 @@
 //! Feed, spindle, coolant, tool and compensation, as the model reads them.
 
-use crate::path::Unit;
+use crate::path::{Axis, Unit};
 
 use super::expected::{Act, Compensation, Coolant, Rate, Turning, Want};
 use super::model::{Model, number};
@@ -103,6 +103,26 @@ impl Model<'_> {
         self.spindle.set(value, placement);
     }
 
+    /// DELAY/REV on a machine that waits seconds: they follow from the speed.
+    pub(super) fn delay_turns(&mut self, turns: f64) {
+        self.line(&format!("DELAY / REV, {}", number(turns)));
+        match &self.spindle.now {
+            Want::OneOf(known) => match known[..] {
+                [Turning::At { speed, .. }] => {
+                    let seconds = turns * 60.0 / speed;
+                    let amount = seconds * self.setup.dwell_factor;
+                    if self.setup.rounds_dwell(seconds) && amount < 50.0 {
+                        self.may_refuse("a dwell that rounding changes by a hundredth");
+                    }
+                    self.push(Act::Dwell(seconds));
+                }
+                [_] => self.must_refuse("turns of a spindle whose speed nobody knows"),
+                _ => self.out.unpredictable = true,
+            },
+            Want::Any => self.out.unpredictable = true,
+        }
+    }
+
     pub(super) fn coolant(&mut self, command: CoolantCommand) {
         let (word, flows) = match command {
             CoolantCommand::On => ("ON", Coolant { flood: true, mist: false }),
@@ -172,6 +192,9 @@ impl Model<'_> {
         };
         if self.is_skipped() {
             self.may_refuse("compensation in skipped blocks");
+        }
+        if self.setup.turns() && self.frame.turns_over(Axis::Y) {
+            self.must_refuse("compensation in a frame where left is right");
         }
         self.compensation_is_fresh = true;
         self.compensation.set(Want::only(value), self.setup.cutcom);

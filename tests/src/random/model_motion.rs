@@ -91,7 +91,11 @@ impl Model<'_> {
         if self.cycle.is_some() {
             self.may_refuse("an arc in a cycle");
         }
-        if self.compensated() && shape.normal != Axis::Z {
+        if self.thread.is_some() {
+            self.must_refuse("an arc in a thread");
+        }
+        let plane = if self.setup.turns() { Axis::Y } else { Axis::Z };
+        if self.compensated() && shape.normal != plane {
             self.may_refuse("an arc in another plane under compensation");
         }
         if self.compensation_waits() || self.compensation_is_fresh {

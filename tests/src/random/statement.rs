@@ -59,6 +59,8 @@ pub enum Statement {
     TransOff,
     /// DELAY, seconds.
     Delay(f64),
+    /// DELAY/REV, turns of the spindle.
+    DelayTurns(f64),
     /// STOP.
     Stop,
     /// OPSTOP.

@@ -101,6 +101,12 @@ impl Spec {
         if form < LEAVING { 0.0 } else { 0.2 * self.pitch * f64::from(self.starts) }
     }
 
+    /// A pass of the law lies at the root but for the last digits of arithmetic.
+    fn meets_the_root(&self) -> bool {
+        let passes = (self.depth / self.first).powi(2);
+        (passes - passes.round()).abs() < 1e-6
+    }
+
     /// The way out stays below the level that the tool goes back at.
     fn fits(&self, form: usize) -> bool {
         self.leaves(form) < self.clearance
@@ -329,7 +335,7 @@ fn post_of(ready: &str, settings: &[&str]) -> Program {
     builder.build().unwrap()
 }
 
-fn nc_of(post: &Program, cl: &str) -> Result<String, String> {
+pub(crate) fn nc_of(post: &Program, cl: &str) -> Result<String, String> {
     let mut nc = Vec::new();
     match post.run(cl.as_bytes(), &mut nc) {
         Ok(_) => Ok(String::from_utf8(nc).unwrap()),
@@ -338,7 +344,7 @@ fn nc_of(post: &Program, cl: &str) -> Result<String, String> {
 }
 
 /// What the back-check says against a program; empty when it agrees.
-fn said_against(post: &Program, cl: &str, nc: &str) -> String {
+pub(crate) fn said_against(post: &Program, cl: &str, nc: &str) -> String {
     let program = NcProgram { text: nc.as_bytes(), name: "out.nc" };
     match post.start().verify(Cursor::new(cl.to_string()), program, Allowed::default()) {
         Ok((report, _)) if report.compared == 0 => "nothing was compared".to_string(),
@@ -352,7 +358,7 @@ fn said_against(post: &Program, cl: &str, nc: &str) -> String {
 }
 
 /// The seeds: a sample, or what `FILPOST_THREADS=first,count` says.
-fn seeds() -> std::ops::Range<u64> {
+pub(crate) fn seeds() -> std::ops::Range<u64> {
     let said = env::var("FILPOST_THREADS").ok();
     let range = said.as_deref().and_then(|said| said.split_once(','));
     match range.map(|(first, count)| (first.parse::<u64>(), count.parse::<u64>())) {
@@ -375,7 +381,7 @@ fn wrong(post: &Program, form: usize, spec: &Spec, judge: Option<&Path>) -> Opti
         3 if by_cycle => Spec { springs: 1, ..*spec }.cuts(false),
         _ => wanted,
     };
-    let wanted = match spec.leaves(form) {
+    let mut wanted = match spec.leaves(form) {
         0.0 => wanted,
         leaves => spec.leaving(&wanted, leaves),
     };
@@ -408,6 +414,13 @@ fn wrong(post: &Program, form: usize, spec: &Spec, judge: Option<&Path>) -> Opti
             }
             _ => {}
         }
+    }
+    // Where a pass by the law meets the root, the last digit of the interpreter's arithmetic
+    // decides whether it makes one more there.
+    if spec.meets_the_root() {
+        let near = |a: &mut Cut, b: &mut Cut| differ(&[*a], &[*b], false).is_none();
+        ran.dedup_by(near);
+        wanted.dedup_by(near);
     }
     differ(&wanted, &ran, false).and_then(|said| tell(format!("rs274: {said}")))
 }

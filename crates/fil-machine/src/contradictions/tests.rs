@@ -66,6 +66,7 @@ fn contradictions_are_found() {
         "cycle.deep_code=81",
         "spindle.css_code=97\nspindle.rpm_code=97",
         "thread.code=0",
+        "lathe.diameter_code=7",
         "tool.length_code=40",
         "mode.position=89",
         "circle.plane=20",

@@ -251,7 +251,9 @@ impl Dialect {
             (_, None) => ToolCall::Word,
         };
         let diameter = settings.flag("lathe.diameter");
-        let lathe = diameter || tool_call == ToolCall::WithOffset;
+        // A lathe may write radii and call tools as a mill does, but cuts threads by a cycle.
+        let cuts_threads = settings.code("thread.cycle_code").is_some();
+        let lathe = diameter || tool_call == ToolCall::WithOffset || cuts_threads;
         let kinematics = AxisChain::from_commons(commons)?;
         let mut axis_letters = [24, 25, 26, 0, 0];
         let mut scales = [0, 1, 2].map(|axis| Some(scale(&settings, axis))).to_vec();

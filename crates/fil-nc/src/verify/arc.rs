@@ -30,7 +30,12 @@ struct Parts {
 impl<C: Steps> Walk<'_, C> {
     /// Takes the blocks that make an arc; false when they don't.
     pub(super) fn arc(&mut self, cl_line: u32, arc: &Arc, rate: Option<Rate>) -> bool {
-        let Some(parts) = self.arc_parts(arc) else { return self.stands_for(arc) };
+        let Some(parts) = self.arc_parts(arc) else {
+            if self.is_a_few_digits(arc) {
+                return self.line(cl_line, &arc.end, Course::Feed, rate);
+            }
+            return self.stands_for(arc);
+        };
         let from = self.begins();
         let mut before = 0.0;
         let mut last = None;
@@ -52,6 +57,13 @@ impl<C: Steps> Walk<'_, C> {
     /// True for a whole circle no wider than the chord tolerance, which no line is left of.
     fn stands_for(&mut self, arc: &Arc) -> bool {
         2.0 * arc.radius() <= self.chord_slack() && self.stands_at(&arc.end)
+    }
+
+    /// An arc so short that rounding turns it: it is a line of a last digit, or nothing.
+    fn is_a_few_digits(&self, arc: &Arc) -> bool {
+        let slack = self.slack.linear.iter().fold(0.0f64, |a, b| a.max(*b));
+        let length = arc.sweep.to_radians() * arc.radius();
+        arc.sweep <= 180.0 && libm::hypot(length, arc.rise_of(arc.end.tip)) <= 4.0 * slack
     }
 
     /// The motions from here to the end of the arc, when they lie on it.

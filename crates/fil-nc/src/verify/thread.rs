@@ -4,6 +4,7 @@
 //! as the first pass and the number of passes lay down; each start reaches the root; rapid traverse
 //! goes along clear of the crest only, and back to where the thread begins.
 
+use fil_machine::modes::INCH;
 use nalgebra::Point3;
 
 use super::ahead::Steps;
@@ -22,8 +23,8 @@ const BETWEEN_PASSES: usize = 8;
 /// Share of a lead that rounding may change.
 const LEAD: f64 = 0.0005;
 
-/// What rounding may change of the first depth, mm.
-const FIRST: f64 = 0.0006;
+/// What rounding may change of a first depth or a taper, last digits: a half, and a little.
+const ROUNDED: f64 = 0.6;
 
 type Found<T> = Result<T, (u32, String)>;
 
@@ -55,6 +56,8 @@ struct Gauge<'t> {
     slack: f64,
     /// What the last digit may do across and along the thread, mm.
     digits: [f64; 2],
+    /// The smallest step of the control, mm.
+    step: f64,
 }
 
 impl Gauge<'_> {
@@ -94,8 +97,9 @@ impl Gauge<'_> {
         let at_root = depth >= self.thread.depth - 1e-9;
         // A cycle says its taper, and one of all passes their depths, by words of their own,
         // and each is rounded.
-        let of_words = if divided { FIRST * (1.0 + depth / first) } else { 0.0 };
-        let of_taper = if pass.in_cycle { FIRST } else { 0.0 };
+        let rounded = ROUNDED * self.step;
+        let of_words = if divided { rounded * (1.0 + depth / first) } else { 0.0 };
+        let of_taper = if pass.in_cycle { rounded } else { 0.0 };
         let [across, lengthwise] = self.digits;
         let near = |found: [f64; 2], wanted: Point3<f64>, more: [f64; 2]| {
             let off = [found[0] - wanted.x, found[1] - wanted.z];
@@ -123,7 +127,9 @@ impl Gauge<'_> {
         }
         let mut depths: Vec<f64> = Vec::new();
         let mut reached = 0.0;
-        while reached < depth - 1e-6 && depths.len() < MOST_PASSES {
+        // A pass so near the root, in the unit of the program, is the one at the root.
+        let nothing = if self.step > 1e-3 { 1e-6 * INCH } else { 1e-6 };
+        while reached < depth - nothing && depths.len() < MOST_PASSES {
             let next = first * ((depths.len() + 1) as f64).sqrt();
             reached = next.max(reached + least).min(depth);
             depths.push(reached);
@@ -172,6 +178,7 @@ impl<C: Steps> Walk<'_, C> {
             } else {
                 [self.slack.linear[2], self.slack.linear[0]]
             },
+            step: if self.metric { 1e-3 } else { 1e-4 * INCH },
         };
         if gauge.length < 1e-6 {
             return Err((0, "the crest of the thread has no length".to_string()));
@@ -335,8 +342,13 @@ impl<C: Steps> Walk<'_, C> {
         let still_in_cycle = |walk: &Self| {
             walk.in_thread_cycle() && walk.next_move().is_some_and(|found| found.in_cycle)
         };
+        // With an infeed of a pitch a pass of one start begins where another start does.
+        let goes_on = |walk: &Self| {
+            let next = walk.next_move();
+            next.is_some_and(|to| to.course == Course::Rapid && gauge.is_at_a_start(&to.to))
+        };
         for _ in 0..BETWEEN_PASSES {
-            if gauge.is_at_a_start(&self.at) && !still_in_cycle(self) {
+            if gauge.is_at_a_start(&self.at) && !still_in_cycle(self) && !goes_on(self) {
                 return Ok(());
             }
             let line = self.next_line();
@@ -357,7 +369,10 @@ impl<C: Steps> Walk<'_, C> {
             let line = self.next_line();
             return Err((line, "the thread is not cut".to_string()));
         };
-        let laws = [self.settings.thread_least_depth(), 0.0].map(|least| gauge.rough(least));
+        let least = self.settings.thread_least_depth();
+        // A cycle says it in smallest steps of the control, which each pass adds up.
+        let in_steps = (least / gauge.step).round() * gauge.step;
+        let laws = [least, in_steps, 0.0].map(|least| gauge.rough(least));
         for start in 0..thread.starts {
             let depths: Vec<f64> =
                 passes.iter().filter(|pass| pass.start == start).map(|pass| pass.depth).collect();
@@ -372,7 +387,7 @@ impl<C: Steps> Walk<'_, C> {
                 let count = depths.len() - full;
                 // A cycle multiplies the rounding of the first pass.
                 let in_cycle = passes.iter().all(|pass| pass.in_cycle);
-                let rounded = if in_cycle { FIRST / thread.first } else { 0.0 };
+                let rounded = if in_cycle { ROUNDED * gauge.step / thread.first } else { 0.0 };
                 let same = |(found, wanted): (&f64, &f64)| {
                     (found - wanted).abs() <= gauge.slack + rounded * wanted
                 };
@@ -381,37 +396,60 @@ impl<C: Steps> Walk<'_, C> {
                 let rest_at_root = law[count.min(law.len())..].iter().all(near_root);
                 count <= law.len() && rest_at_root && depths[..count].iter().zip(law).all(same)
             };
-            let Some(law) = laws.iter().find(|law| follows(law)) else {
+            let fitting: Vec<&Vec<f64>> = laws.iter().filter(|law| follows(law)).collect();
+            let Some(law) = fitting.first() else {
                 let depths: Vec<String> = depths.iter().map(|depth| short(*depth)).collect();
                 let message = "the passes lie at other depths than the first one asks for";
                 return wrong(format!("{message} ({})", depths.join(", ")));
             };
-            let of_start = passes.iter().filter(|pass| pass.start == start);
-            for (index, pass) in of_start.enumerate() {
-                let wanted = law.get(index).copied().unwrap_or(thread.depth);
-                let of_line = |other: &&Pass| other.line == pass.line;
-                let divided = pass.in_cycle && passes.iter().filter(of_line).count() > 1;
-                gauge.lies_at(pass, wanted, divided)?;
-            }
-            if self.counts_springs(passes) {
-                let springs = thread.springs.unwrap_or_else(|| self.settings.thread_springs());
-                let in_cycle = passes.iter().all(|pass| pass.in_cycle);
-                let least = if in_cycle { self.settings.least_springs() } else { 0 };
-                let rough = law.len() - (depths.len() - full).min(law.len());
-                let wanted = rough + springs.max(least) as usize;
-                // Where the last pass by the law comes to the root itself, the arithmetic of the
-                // control decides whether it still makes one at the full depth then.
-                let meets = |law: &Vec<f64>| {
-                    let last = thread.first * (law.len() as f64).sqrt();
-                    thread.passes.is_none() && (last - thread.depth).abs() <= FIRST
-                };
-                let one_more = in_cycle && full == wanted + 1 && meets(law);
-                if full != wanted && !one_more {
-                    return wrong(format!("{full} passes at the root, there should be {wanted}"));
-                }
+            // Of laws near each other the one that the passes were made by.
+            let by_law = |law: &[f64]| {
+                self.lie_on(gauge, passes, start, law)?;
+                self.are_counted(gauge, passes, [depths.len(), full], law).or_else(wrong)
+            };
+            if !fitting.iter().any(|law| by_law(law).is_ok()) {
+                by_law(law)?;
             }
         }
         Ok(())
+    }
+
+    /// The passes of a start lie where a law has them.
+    fn lie_on(&self, gauge: &Gauge, passes: &[Pass], start: u32, law: &[f64]) -> Found<()> {
+        let of_start = passes.iter().filter(|pass| pass.start == start);
+        of_start.enumerate().try_for_each(|(index, pass)| {
+            let wanted = law.get(index).copied().unwrap_or(gauge.thread.depth);
+            let of_line = |other: &&Pass| other.line == pass.line;
+            let divided = pass.in_cycle && passes.iter().filter(of_line).count() > 1;
+            gauge.lies_at(pass, wanted, divided)
+        })
+    }
+
+    /// As many of the passes of a start lie at the root as there should, behind those of a law.
+    fn are_counted(
+        &self,
+        gauge: &Gauge,
+        passes: &[Pass],
+        [count, full]: [usize; 2],
+        law: &[f64],
+    ) -> Result<(), String> {
+        if !self.counts_springs(passes) {
+            return Ok(());
+        }
+        let thread = gauge.thread;
+        let springs = thread.springs.unwrap_or_else(|| self.settings.thread_springs());
+        let in_cycle = passes.iter().all(|pass| pass.in_cycle);
+        let least = if in_cycle { self.settings.least_springs() } else { 0 };
+        let rough = law.len() - (count - full).min(law.len());
+        let wanted = rough + springs.max(least) as usize;
+        // Where the last pass by the law comes to the root itself, the arithmetic of the
+        // control decides whether it still makes one at the full depth then.
+        let last = thread.first * (law.len() as f64).sqrt();
+        let meets = thread.passes.is_none() && (last - thread.depth).abs() <= ROUNDED * gauge.step;
+        if full == wanted || in_cycle && meets && full == wanted + 1 {
+            return Ok(());
+        }
+        Err(format!("{full} passes at the root, there should be {wanted}"))
     }
 
     /// The program says how many passes lie at the root: one block of G76 does not.

@@ -11,7 +11,7 @@ use fil_machine::{FunctionCode, Letter};
 use super::motion::{self, Motion};
 use crate::control::Control;
 use crate::errors::PostCode;
-use crate::operation::Thread;
+use crate::operation::{Thread, ThreadPasses};
 use crate::path::thread::{Shape, cycle_of, go_above, least_depth, on_machine};
 use crate::post::Post;
 
@@ -75,7 +75,11 @@ impl Ends {
         if along.abs() > 1e-6 || (across.abs() - thread.depth).abs() > 1e-6 {
             return PostCode::Thread.err("TRANS turns the thread out of the plane of X and Z");
         }
-        let first = shape.depths.first().copied().unwrap_or(thread.depth);
+        // The control itself makes a pass no shallower than the least depth, if it has one.
+        let first = match thread.passes {
+            ThreadPasses::First(first) => first.min(thread.depth),
+            ThreadPasses::Count(_) => shape.depths.first().copied().unwrap_or(thread.depth),
+        };
         let least = least_depth(post);
         let taper = post.control.tables.axis(0).length(crest[0][0] - crest[1][0]);
         Ok(Ends { begin, crest, root, first, least, springs: thread.springs, taper })
