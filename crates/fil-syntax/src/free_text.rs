@@ -104,9 +104,8 @@ fn holds_quoted_item(text: &str) -> bool {
         is_quoted ^= c == '\'';
         c == ',' && !is_quoted
     });
-    let mut items = items.map(str::trim).peekable();
-    let is_list = items.next().is_some() && items.peek().is_some();
-    is_list && items.any(|item| item.len() > 1 && item.starts_with('\'') && item.ends_with('\''))
+    let mut behind_first = items.map(str::trim).skip(1);
+    behind_first.any(|item| item.len() > 1 && item.starts_with('\'') && item.ends_with('\''))
 }
 
 /// What stands behind a `;` of a free text where that looks like a statement: a word

@@ -66,6 +66,12 @@ const STANDARD: &[(i32, Function)] = &[
     (64, Function::PathControl),
 ];
 
+/// Settings that name codes of tool-tip control, in tenths.
+const TIP_CODES: [(&str, Function); 2] = [
+    ("rotary.tip_code", Function::TipControl),
+    ("rotary.vector_code", Function::TipControlByDirection),
+];
+
 /// Tool-tip control of the controls that take up the tool length by `G43`, in tenths.
 const TIP_CONTROL: [(i64, Function); 2] =
     [(434, Function::TipControl), (435, Function::TipControlByDirection)];
@@ -92,11 +98,10 @@ impl Functions {
         }
         if has_rotary && !lathe && settings.code("tool.length_code") == Some(43) {
             table.0.extend(TIP_CONTROL);
-            if let Some(tenths) = settings.code("rotary.tip_code").filter(|code| *code > 0) {
-                table.0.insert(i64::from(tenths), Function::TipControl);
-            }
-            if let Some(tenths) = settings.code("rotary.vector_code").filter(|code| *code > 0) {
-                table.0.insert(i64::from(tenths), Function::TipControlByDirection);
+            for (name, function) in TIP_CODES {
+                if let Some(tenths) = settings.code(name).filter(|code| *code > 0) {
+                    table.0.insert(i64::from(tenths), function);
+                }
             }
         }
         for (code, function) in STANDARD {

@@ -18,6 +18,11 @@ const SAME: f64 = 1e-6;
 /// A way is the shorter one where it is shorter by this, degrees: a vector is rounded.
 const CLEARLY: f64 = 0.5;
 
+/// True while I, J and K are the direction of the tool, and no centers.
+pub(super) fn are_in_force(control: &Control) -> bool {
+    control.tables.tip_vectors && control.state.tip_control == Some(true)
+}
+
 /// True when the motion at hand is to say the direction of the tool by a vector.
 pub(super) fn are_due(control: &Control, motion: &Motion) -> bool {
     control.tip.by_vector
@@ -111,9 +116,7 @@ pub fn end(control: &mut Control) {
 /// The control is told directions and takes no such words.
 pub(super) fn turned_by_words(control: &mut Control) -> Result<()> {
     control.tip.leans = None;
-    let tables = &control.tables;
-    let by_direction = tables.tip_vectors && !takes_angles_too(tables.family);
-    if by_direction && control.state.tip_control == Some(true) {
+    if are_in_force(control) && !takes_angles_too(control.tables.family) {
         return PostCode::TipControl.err("a rotary axis turns by its own word behind G43.5");
     }
     Ok(())

@@ -88,9 +88,8 @@ impl Control {
         if self.tables.family == ControlFamily::Sinumerik {
             sinumerik::reader::learn_words(self, words);
         }
-        let spoken: Vec<(Letter, f64)> = words.iter().map(|(letter, v, _)| (*letter, *v)).collect();
         let skipped = self.state.may_be_skipped();
-        speed_of_others::learn(self, &spoken, skipped);
+        speed_of_others::learn(self, &plain, skipped);
         self.refuse_in_compensation(before)
     }
 

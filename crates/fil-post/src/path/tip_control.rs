@@ -46,7 +46,6 @@ pub(super) fn position_of(
     if post.control.state.tip_control != Some(true) {
         begin(post, axis)?;
     }
-    let stands = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post));
     let near = post.path.chosen.take().or(post.path.rotary);
     let last = near.unwrap_or_else(|| rotary::on_tape(post));
     let tables = &post.control.tables;
@@ -54,7 +53,7 @@ pub(super) fn position_of(
     let linear = tables.chain().linear(point, angles);
     tables.check_travel(&[linear.x, linear.y, linear.z, 0.0, 0.0], AxisSet::LINEAR)?;
     if post.control.tip.by_vector {
-        check_vector(post, stands, angles, axis)?;
+        check_vector(post, angles, axis)?;
     }
     post.path.rotary = Some(angles);
     post.path.free = Some(free);
@@ -74,12 +73,8 @@ pub(super) fn say_by_vector(post: &mut Post, at_feed: bool) {
 ///
 /// # Errors
 /// It takes no angles.
-fn check_vector(
-    post: &mut Post,
-    stands: [f64; 2],
-    angles: [f64; 2],
-    axis: Vector3<f64>,
-) -> Result<()> {
+fn check_vector(post: &mut Post, angles: [f64; 2], axis: Vector3<f64>) -> Result<()> {
+    let stands = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post));
     let tables = &post.control.tables;
     let solutions = tables.chain().solutions(axis, stands);
     if vectors::stand_known(&post.control) && vectors::say_the_same(&solutions, stands, angles) {

@@ -113,7 +113,7 @@ fn a_full_disk_is_an_error() {
     }
 }
 
-/// Runs a command whose standard output has no reader any more.
+/// Runs a command into a pipe whose reader is gone.
 #[cfg(unix)]
 fn run_into_a_closed_pipe(arguments: &[&str]) -> Ran {
     let place = Folder::new().with("part.ncl", SMALL);

@@ -6,8 +6,8 @@ use fil_machine::letters::{F, IJK};
 use super::line::{self, Line};
 use super::reader;
 use crate::block::Block;
-use crate::control::Control;
 use crate::control::family::refuse;
+use crate::control::{Control, vectors};
 use crate::control_state::Compensation;
 use crate::noted::TEXT;
 
@@ -87,7 +87,8 @@ pub fn write(control: &mut Control) -> Result<()> {
         let (Some(letter), Some(scaled)) = (slot.letter, block.scaled_at(position)) else {
             continue;
         };
-        let vector = IJK.contains(&letter) && phrase.head == Head::Line && says_vectors(control);
+        let vector =
+            IJK.contains(&letter) && phrase.head == Head::Line && vectors::are_in_force(control);
         if !(vector || WORDS.contains(&letter.byte())) {
             return refuse(format!("{letter}: a line of Klartext has no such word"));
         }
@@ -139,15 +140,10 @@ pub fn write(control: &mut Control) -> Result<()> {
     Ok(())
 }
 
-/// I, J and K are the direction of the tool.
-fn says_vectors(control: &Control) -> bool {
-    control.tables.tip_vectors && control.state.tip_control == Some(true)
-}
-
 /// The line says the direction of the tool.
 fn leans(control: &Control, block: &Block) -> bool {
     let addresses = &control.tables.addresses;
-    says_vectors(control) && IJK.into_iter().any(|letter| block.has(letter, addresses))
+    vectors::are_in_force(control) && IJK.into_iter().any(|letter| block.has(letter, addresses))
 }
 
 /// `+360`, `-90.25`.

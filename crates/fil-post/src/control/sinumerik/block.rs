@@ -12,7 +12,7 @@ use super::tool_names;
 use crate::block::{function, named};
 use crate::cause::Cause;
 use crate::control::line::Line;
-use crate::control::{Control, full_turn};
+use crate::control::{Control, full_turn, vectors};
 
 /// A word with its cause.
 type CausedWord = (Letter, f64, Cause);
@@ -124,9 +124,9 @@ fn spell(control: &Control, letter: Letter, name: char, digits: &str) -> String 
     if letter == T && commons.read(loc::CONTROL_TOOL_CALL) == ControlToolCall::NumberAsAName {
         return format!("{name}=\"{digits}\"");
     }
-    if let Some(named) = IJK.iter().position(|own| *own == letter).filter(|_| says_vectors(control))
-    {
-        return format!("{}={digits}", VECTOR[named]);
+    let part = IJK.iter().position(|own| *own == letter);
+    if let Some(part) = part.filter(|_| vectors::are_in_force(control)) {
+        return format!("{}={digits}", VECTOR[part]);
     }
     let absolute = commons.read(loc::CIRCLE_CENTER) == CircleCenter::AbsoluteCenter;
     if absolute && IJK.contains(&letter) {
@@ -146,11 +146,6 @@ fn spell(control: &Control, letter: Letter, name: char, digits: &str) -> String 
         (Some(index), None) => format!("{name}{index}={digits}"),
         (None, None) => format!("{name}{digits}"),
     }
-}
-
-/// I, J and K are the direction of the tool, and no centers.
-fn says_vectors(control: &Control) -> bool {
-    control.tables.tip_vectors && control.state.tip_control == Some(true)
 }
 
 /// The number of the rotary axis of a letter.

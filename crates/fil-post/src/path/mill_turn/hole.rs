@@ -7,7 +7,6 @@
 
 use fil_diag::Result;
 use fil_machine::FunctionCode;
-use fil_machine::axes::{AxisSet, Position};
 use fil_machine::locations as loc;
 use fil_machine::modes::FeedMode;
 use fil_machine::setting::CodeAt;
@@ -81,12 +80,12 @@ pub fn drill(
     rapid::rapid(control, &across, control.block.cause)?;
     control.because(cycle.cause, |control| {
         let cause = control.block.cause;
-        rapid::rapid(control, &level(hole.along, hole.clear), cause)?;
+        rapid::rapid(control, &Motion::along(hole.along, hole.clear), cause)?;
         control.flush_waiting()?;
         words::live_hole(control, cycle, &feed, hole, code)?;
         words::cancel(control)?;
         words::stands_at(control, hole.along, hole.clear)?;
-        rapid::rapid(control, &level(hole.along, hole.rest()), cause)
+        rapid::rapid(control, &Motion::along(hole.along, hole.rest()), cause)
     })
 }
 
@@ -124,11 +123,4 @@ fn feed_of_tap(control: &mut Control, cycle: &Cycle, along: usize) -> Result<Fee
         CycleFeed::Feed(_) => return PostCode::CycleForm.err("a tap at inverse time"),
     };
     Ok(Feed { value: lead * speed * control.upm_factor(), mode: FeedMode::PerMinute, cause })
-}
-
-/// A motion of one axis.
-fn level(along: usize, level: f64) -> Motion {
-    let mut position = Position::default();
-    position[along] = level;
-    Motion { position, axes: AxisSet::of(along), word: 0 }
 }

@@ -1,0 +1,89 @@
+//! Blocks that may be skipped: what holds behind them with those blocks and without.
+
+use fil_machine::{Commons, Letter};
+
+use super::ControlState;
+use super::doubts::Place;
+use super::levels::Levels;
+
+impl ControlState {
+    /// The blocks from here on may be skipped.
+    pub fn skip_begins(&mut self, commons: &Commons) {
+        let before = (self.clone(), last_values(commons));
+        self.before_skip = Some(Box::new(before));
+    }
+
+    /// The blocks that may be skipped are over: what they changed is unknown. `linear` are
+    /// the letters of X, Y and Z, whose levels with those blocks and without are kept. Of
+    /// two levels of Z the lower one counts as the last value, so that a rapid motion goes
+    /// up before it goes across; on an axis that counts downwards the higher one does.
+    pub fn skip_ends(&mut self, commons: &mut Commons, linear: [Letter; 3], z_counts_down: bool) {
+        let Some(before) = self.before_skip.take() else { return };
+        let (state, values) = *before;
+        let now = last_values(commons);
+        let levels = linear.map(|letter| {
+            let at = |state: &ControlState, values: &[f64]| match state
+                .place(letter, values[letter.index() - 1])
+            {
+                Place::At(value) | Place::Shifted(value) => Levels::of(letter, value),
+                Place::Between(levels) => levels,
+                _ => Levels::unknown(letter),
+            };
+            at(self, &now).or(at(&state, &values))
+        });
+        for (letter, (now, then)) in Letter::all().zip(now.iter().zip(values)) {
+            if *now != then {
+                self.doubt(letter);
+            }
+        }
+        if let Some(last) = levels[2].lowest(z_counts_down) {
+            commons.set_last_output(linear[2], last);
+        }
+        self.agree_with(&state);
+        for levels in levels.into_iter().filter_map(Levels::in_doubt) {
+            self.doubts.stand_between(levels);
+        }
+    }
+
+    /// True while blocks may be skipped.
+    pub fn may_be_skipped(&self) -> bool {
+        self.before_skip.is_some()
+    }
+
+    /// Keeps what is the same in another state; the rest is unknown.
+    pub(super) fn agree_with(&mut self, other: &ControlState) {
+        fn agree<T: PartialEq>(value: &mut Option<T>, other: &Option<T>) {
+            if *value != *other {
+                *value = None;
+            }
+        }
+        agree(&mut self.motion, &other.motion);
+        agree(&mut self.plane, &other.plane);
+        agree(&mut self.distance, &other.distance);
+        agree(&mut self.unit, &other.unit);
+        agree(&mut self.feed_mode, &other.feed_mode);
+        agree(&mut self.tip_control, &other.tip_control);
+        agree(&mut self.tilted, &other.tilted);
+        agree(&mut self.compensation, &other.compensation);
+        agree(&mut self.in_cycle, &other.in_cycle);
+        agree(&mut self.cycle, &other.cycle);
+        agree(&mut self.tool, &other.tool);
+        agree(&mut self.tool_offset, &other.tool_offset);
+        agree(&mut self.fixture, &other.fixture);
+        agree(&mut self.speed_limit, &other.speed_limit);
+        agree(&mut self.range, &other.range);
+        agree(&mut self.return_level, &other.return_level);
+        agree(&mut self.surface_speed, &other.surface_speed);
+        self.rotation = self.rotation.or(other.rotation);
+        self.compensation_begun &= other.compensation_begun;
+        self.doubts.or(&other.doubts);
+    }
+}
+
+fn last_values(commons: &Commons) -> [f64; Letter::COUNT] {
+    let mut values = [0.0; Letter::COUNT];
+    for (value, letter) in values.iter_mut().zip(Letter::all()) {
+        *value = commons.last_output(letter);
+    }
+    values
+}
