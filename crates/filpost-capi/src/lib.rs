@@ -15,4 +15,3 @@ mod output;
 mod pointer;
 mod program;
 mod text;
-mod verification;

@@ -8,7 +8,7 @@ use std::ptr;
 use filpost::cl::ClDialect;
 use filpost::cl::reader::Options as Reading;
 use filpost::nc::verify::Allowed;
-use filpost::verify::NcProgram;
+use filpost::verify::{NcProgram, as_json};
 use filpost::{CancelToken, Run};
 
 use crate::block::{TakeBlock, hand_out};
@@ -18,7 +18,6 @@ use crate::guard::{guarded, guarded_or};
 use crate::output::Output;
 use crate::pointer;
 use crate::text::{self, Text};
-use crate::verification;
 
 /// A machine with its compiled FIL. It never changes: any number of threads may use it at the
 /// same time; it is freed when none does.
@@ -255,7 +254,7 @@ pub unsafe extern "C" fn filpost_verify(
         let tolerance = (tolerance > 0.0).then_some(tolerance);
         let allowed = Allowed { tolerance, ..Allowed::default() };
         let (found, reference) = run.verify(cl, NcProgram { text: nc, name: "NC" }, allowed)?;
-        let told = text::give(&verification::as_json(&found, reference).to_string());
+        let told = text::give(&as_json(&found, reference).to_string());
         // SAFETY: as above.
         unsafe { pointer::put(report, told, "report") }
     })

@@ -5,12 +5,9 @@ use std::io::{Seek, Write};
 use filpost::cl::reader::Options;
 use filpost::nc::decimals;
 use filpost::nc::source::Source;
-use filpost::nc::verify::{
-    Allowed, Between, Deviation, Finding, Peak, Report, Unverified, Verdict,
-};
-use filpost::verify::Reference;
+use filpost::nc::verify::{Allowed, Between, Finding, Report, Verdict};
+use filpost::verify::{Reference, as_json};
 use filpost::{Error, Program, files, select};
-use serde_json::{Value, json};
 
 use crate::args::{self, VerifyArgs};
 use crate::summary::counted;
@@ -153,41 +150,4 @@ fn spell_between(between: &Between) -> String {
 /// Four decimals: the last digits of most addresses are three.
 fn length(value: f64) -> String {
     decimals::short(value, 4)
-}
-
-fn as_json(report: &Report, reference: Reference) -> Value {
-    let deviation = |of: &Deviation| {
-        let line = (of.nc_line > 0).then_some(of.nc_line);
-        json!({ "max": of.max, "rms": of.rms(), "nc_line": line })
-    };
-    let peak = |peak: &Peak| json!({ "max": peak.max, "nc_line": peak.nc_line });
-    let between = |between: &Between| json!({ "position": peak(&between.position), "axis": peak(&between.axis) });
-    let finding = |finding: &Finding| {
-        json!({
-            "kind": finding.kind.name(),
-            "nc_line": finding.nc_line,
-            "cl_line": finding.cl_line,
-            "message": finding.message,
-        })
-    };
-    let open = |open: &Unverified| json!({ "cl_line": open.cl_line, "what": open.what });
-    json!({
-        "verdict": match report.verdict() {
-            Verdict::Agrees => "agrees",
-            Verdict::Partly => "partly",
-            Verdict::Differs => "differs",
-        },
-        "reference": match reference {
-            Reference::ClFile => "cl-file",
-            Reference::SecondRun => "second-run",
-        },
-        "findings": report.findings.iter().map(finding).collect::<Value>(),
-        "more": report.more,
-        "not_compared": report.unverified.iter().map(open).collect::<Value>(),
-        "more_not_compared": report.more_unverified,
-        "motions": { "asked": report.compared, "made": report.matched },
-        "position": deviation(&report.position),
-        "axis": deviation(&report.axis),
-        "between": report.between.as_ref().map(between),
-    })
 }

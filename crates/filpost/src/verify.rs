@@ -5,6 +5,8 @@
 //! the post runs again in memory and the program is compared with what that run
 //! makes. That finds what was changed in a program, not what a script does wrong.
 
+mod json;
+
 use std::io::{self, Read, Seek};
 
 use fil_cl::{Options, Reader};
@@ -24,6 +26,8 @@ use crate::program::Program;
 use crate::run::Run;
 use crate::spool::{Spool, into_source, spool};
 use crate::units;
+
+pub use json::as_json;
 
 /// Bytes that are kept in memory of a text that is read twice; more lie in a file.
 const IN_MEMORY: usize = 1 << 20;

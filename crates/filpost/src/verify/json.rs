@@ -1,10 +1,12 @@
-//! What a back-check found, as JSON.
+//! What a back-check found, as data for other programs.
 
-use filpost::nc::verify::{Between, Deviation, Finding, Peak, Report, Unverified, Verdict};
-use filpost::verify::Reference;
+use fil_nc::verify::{Between, Deviation, Finding, Peak, Report, Unverified, Verdict};
 use serde_json::{Value, json};
 
-/// What a back-check found, as one object; lengths in mm, angles in degrees.
+use super::Reference;
+
+/// What a back-check found, as one object: what `filpost verify --format json` prints and the C
+/// library gives. Lengths in mm, angles in degrees.
 pub fn as_json(report: &Report, reference: Reference) -> Value {
     let deviation = |of: &Deviation| {
         let line = (of.nc_line > 0).then_some(of.nc_line);
