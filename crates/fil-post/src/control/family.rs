@@ -81,14 +81,11 @@ pub fn feed(control: &mut Control, motion: &Motion, feed: Option<&Feed>) -> Resu
 /// Writes one pass of a thread.
 ///
 /// # Errors
-/// As [`words::thread`]; Klartext has none, and a SINUMERIK none here whose lead changes.
+/// As [`words::thread`]; Klartext has none.
 pub fn thread(control: &mut Control, motion: &Motion, lead: &Lead, change: f64) -> Result<()> {
     match control.tables.family {
         ControlFamily::Klartext => refuse("Klartext has no pass of a thread"),
-        ControlFamily::Sinumerik if change != 0.0 => {
-            refuse("PITCH with INCR or DECR: G34 and G35 of a SINUMERIK are not written")
-        }
-        ControlFamily::Sinumerik => sinumerik::thread::pass(control, motion, lead),
+        ControlFamily::Sinumerik => sinumerik::thread::pass(control, motion, lead, change),
         ControlFamily::WordAddress if change != 0.0 => {
             words::varying_thread(control, motion, lead, change)
         }

@@ -9,6 +9,10 @@ use fil_machine::{Commons, FunctionCode};
 
 use super::{Compensation, Distance, Rotation};
 
+/// G34 and G35 of a SINUMERIK: threading moves whose lead grows, and shrinks.
+pub const VARYING_LEADS_OF_SINUMERIK: [FunctionCode; 2] =
+    [FunctionCode::whole(34), FunctionCode::whole(35)];
+
 /// What a preparatory function does to the state of the control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meaning {
@@ -93,6 +97,9 @@ impl Codes {
             turns: turns(commons),
         };
         let codes_are_calls = codes.sinumerik;
+        if codes_are_calls {
+            codes.named.extend(VARYING_LEADS_OF_SINUMERIK.map(|code| (code, Meaning::Motion)));
+        }
         let mut name = |at: CodeAt, meaning: Meaning| {
             let code = commons.read(at).and_then(FunctionCode::of_setting);
             if let Some(code) = code {

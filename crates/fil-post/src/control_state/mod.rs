@@ -12,7 +12,7 @@ mod others;
 mod skip;
 pub(crate) mod text;
 
-pub use codes::{Codes, Meaning};
+pub use codes::{Codes, Meaning, VARYING_LEADS_OF_SINUMERIK};
 pub use text::{TextFrame, TextWords, read as text_words};
 
 use fil_machine::address::Addresses;
@@ -432,7 +432,11 @@ impl ControlState {
     /// from.
     pub fn goes_on_in_varying_lead(&self, commons: &Commons) -> bool {
         let code = commons.read(loc::THREAD_VARYING_CODE).and_then(FunctionCode::of_setting);
-        code.is_some() && self.motion == code
+        let is_sinumerik = commons.read(loc::CONTROL_FAMILY) == loc::ControlFamily::Sinumerik;
+        let own = is_sinumerik.then_some(VARYING_LEADS_OF_SINUMERIK);
+        self.motion.is_some_and(|motion| {
+            code == Some(motion) || own.is_some_and(|codes| codes.contains(&motion))
+        })
     }
 
     /// Learns what an auxiliary function does. A call of a subprogram may do anything.

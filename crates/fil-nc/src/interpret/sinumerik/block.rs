@@ -27,7 +27,7 @@ pub(super) struct Said {
     pub(super) direction: [Option<f64>; 3],
     /// CR.
     pub(super) radius: Option<f64>,
-    feed: Option<f64>,
+    pub(super) feed: Option<f64>,
     speed: Option<f64>,
     tool: Option<u32>,
     edge: Option<u32>,
@@ -288,6 +288,10 @@ impl Sinumerik<'_> {
                     state.motion = Some(crate::dialect::Function::Arc { ccw });
                 }
                 Function::Thread => state.motion = Some(crate::dialect::Function::Thread),
+                Function::VaryingThread { shrinks } => {
+                    state.motion = Some(crate::dialect::Function::VaryingThread);
+                    self.lead_shrinks = shrinks;
+                }
                 Function::Plane(normal) => {
                     state.plane = normal;
                     state.say_plane(normal);

@@ -13,6 +13,10 @@ pub(super) enum Function {
     },
     /// One pass of a thread.
     Thread,
+    /// One pass whose lead grows, or shrinks, by F in each turn.
+    VaryingThread {
+        shrinks: bool,
+    },
     Plane(usize),
     Compensation(Compensation),
     /// Inches or millimeters; of lengths alone, or of feeds too.
@@ -41,7 +45,11 @@ impl Function {
     /// Functions of a group exclude each other.
     pub(super) fn group(self) -> u8 {
         match self {
-            Function::Rapid | Function::Linear | Function::Arc { .. } | Function::Thread => 1,
+            Function::Rapid
+            | Function::Linear
+            | Function::Arc { .. }
+            | Function::Thread
+            | Function::VaryingThread { .. } => 1,
             Function::Plane(_) => 2,
             Function::Compensation(_) => 3,
             Function::Units { .. } => 4,
@@ -67,6 +75,8 @@ pub(super) fn function(code: u32) -> Option<Function> {
         18 => F::Plane(1),
         19 => F::Plane(0),
         33 => F::Thread,
+        34 => F::VaryingThread { shrinks: false },
+        35 => F::VaryingThread { shrinks: true },
         40 => F::Compensation(Compensation::Off),
         41 => F::Compensation(Compensation::Left),
         42 => F::Compensation(Compensation::Right),

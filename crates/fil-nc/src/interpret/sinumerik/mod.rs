@@ -52,6 +52,8 @@ struct Sinumerik<'d> {
     shift: [f64; 3],
     /// Feeds count millimeters.
     metric_feed: bool,
+    /// G35: the lead of a thread shrinks by F in each turn, and grows by G34.
+    lead_shrinks: bool,
     /// DIAMOF: X is a radius.
     counts_radii: bool,
     /// M70: the main spindle is an axis.
@@ -98,6 +100,7 @@ impl<'a> Program<'a> {
             called: None,
             shift: [0.0; 3],
             metric_feed: dialect.metric,
+            lead_shrinks: false,
             counts_radii: false,
             is_axis: false,
             uses: Uses::default(),

@@ -33,7 +33,17 @@ impl Sinumerik<'_> {
                 let message = "a direction of the tool beside what is no straight line";
                 return Err(Fault::new(NcCode::NoMeaning, message));
             }
-            Some(Function::Thread) => self.thread(said)?,
+            Some(Function::Thread) => self.thread(said, None)?,
+            Some(Function::VaryingThread) => {
+                // G34 and G35 take F as what the lead changes by, without a sign.
+                let Some(change) = said.feed.filter(|change| *change >= 0.0) else {
+                    let message = "G34 and G35 need F, what the lead changes by in each turn";
+                    return Err(Fault::new(NcCode::MissingWord, message));
+                };
+                let change = if self.lead_shrinks { -change } else { change };
+                self.state.feed = None;
+                self.thread(said, Some(change * self.state.unit()))?;
+            }
             Some(Function::Arc { ccw }) => {
                 self.state.refuse_under_tip_control("an arc")?;
                 self.arc(said, ccw)?;
@@ -51,7 +61,7 @@ impl Sinumerik<'_> {
     }
 
     /// A pass of a thread: its lead is I where X goes the longer way, else K.
-    fn thread(&mut self, said: &Said) -> Result<(), Fault> {
+    fn thread(&mut self, said: &Said, change: Option<f64>) -> Result<(), Fault> {
         let target = self.target(said);
         if !(self.state.known[0] && self.state.known[2]) {
             return Err(Fault::new(NcCode::NoCenter, "it is not known where the thread begins"));
@@ -69,7 +79,16 @@ impl Sinumerik<'_> {
             return Err(Fault::new(NcCode::MissingWord, message));
         };
         let lead = lead * self.state.unit();
-        self.state.go(target, Course::Thread, Some(Rate::PerTurn(lead)));
+        let Some(change) = change else {
+            self.state.go(target, Course::Thread, Some(Rate::PerTurn(lead)));
+            return Ok(());
+        };
+        // The square of the lead changes by twice the change times the way.
+        if lead * lead + 2.0 * change * way(0).max(way(2)) <= 0.0 {
+            let message = "the lead comes to nothing before the end of the thread";
+            return Err(Fault::new(NcCode::BadNumber, message));
+        }
+        self.state.go(target, Course::Thread, Some(Rate::Varying(lead, change)));
         Ok(())
     }
 

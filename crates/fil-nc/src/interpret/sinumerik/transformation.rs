@@ -145,7 +145,8 @@ impl Sinumerik<'_> {
         if self.state.live && self.state.surface && self.state.modes.spindle != Spindle::Off {
             return refuse("a surface speed of a live tool");
         }
-        if self.state.live && self.state.motion == Some(Function::Thread) && said.moves() {
+        let threads = [Function::Thread, Function::VaryingThread].map(Some);
+        if self.state.live && threads.contains(&self.state.motion) && said.moves() {
             return refuse("a thread while the main spindle is the axis C");
         }
         if self.counts_radii && said.moves() && !self.is_transformed() {

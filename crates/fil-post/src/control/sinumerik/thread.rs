@@ -2,11 +2,12 @@
 
 use fil_diag::Result;
 use fil_machine::letters::{F, IJK};
-use fil_machine::locations::ThreadCycle;
+use fil_machine::locations::{self as loc, ThreadCycle};
 
 use crate::control::family::refuse;
 use crate::control::word_address::motion::{self as words, Motion};
 use crate::control::{Control, line, tap};
+use crate::control_state::VARYING_LEADS_OF_SINUMERIK;
 use crate::operation::{Lead, Thread, ThreadSide};
 use crate::path::thread::{Shape, cycle_of, on_machine};
 use crate::post::Post;
@@ -18,11 +19,12 @@ const LEAD_DIGITS: usize = 4;
 const EQUAL_CHIPS: [u8; 2] = [3, 4];
 
 /// Writes one pass. Its lead is the word of the axis that goes the longer way: I for X, K
-/// for Z.
+/// for Z. G34 and G35 take what it grows and shrinks by in each turn as F, without a sign
+/// (Siemens, Programming Manual Fundamentals: thread cutting with increasing or decreasing lead).
 ///
 /// # Errors
 /// An axis whose position is not known; as [`words::thread_by`].
-pub fn pass(control: &mut Control, motion: &Motion, lead: &Lead) -> Result<()> {
+pub fn pass(control: &mut Control, motion: &Motion, lead: &Lead, change: f64) -> Result<()> {
     let way = |number: usize| {
         let from = control.axis_position(number)?;
         Some((motion.position[number] - from).abs())
@@ -31,7 +33,14 @@ pub fn pass(control: &mut Control, motion: &Motion, lead: &Lead) -> Result<()> {
         return refuse("a pass of a thread, and where it begins is not known");
     };
     let letter = if x > z { IJK[0] } else { IJK[2] };
-    words::thread_by(control, motion, lead, letter)
+    if change == 0.0 {
+        return words::thread_by(control, motion, lead, letter);
+    }
+    control.code(loc::THREAD_CODE, "a thread")?;
+    let [growing, shrinking] = VARYING_LEADS_OF_SINUMERIK;
+    let code = if change > 0.0 { growing } else { shrinking };
+    let of_lead = [(letter, lead.value), (F, change.abs())];
+    words::pass_by(control, motion, code, &of_lead, lead.cause)
 }
 
 /// Writes CYCLE97 for one start, from where the tool stands clear; false where it can't say all of

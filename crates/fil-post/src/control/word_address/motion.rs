@@ -120,7 +120,8 @@ pub fn thread_by(
     lead: &Lead,
     letter: Letter,
 ) -> Result<()> {
-    pass(control, motion, loc::THREAD_CODE, &[(letter, lead.value)], lead.cause)
+    let code = control.code(loc::THREAD_CODE, "a thread")?;
+    pass_by(control, motion, code, &[(letter, lead.value)], lead.cause)
 }
 
 /// A pass whose lead gains as much in each turn as `change` says, and loses below zero.
@@ -136,14 +137,18 @@ pub fn varying_thread(
     let letter = control.letter(loc::THREAD_LEAD_ADDRESS, "the lead of a thread")?;
     let of_change = control.letter(loc::THREAD_CHANGE_ADDRESS, "the change of a lead")?;
     let words = [(letter, lead.value), (of_change, change)];
-    pass(control, motion, loc::THREAD_VARYING_CODE, &words, lead.cause)
+    let code = control.code(loc::THREAD_VARYING_CODE, "a thread")?;
+    pass_by(control, motion, code, &words, lead.cause)
 }
 
-/// One pass with the words of its lead.
-fn pass(
+/// One pass by a function with the words of its lead.
+///
+/// # Errors
+/// As [`rapid`]; a word that its address can't hold.
+pub fn pass_by(
     control: &mut Control,
     motion: &Motion,
-    at: CodeAt,
+    code: FunctionCode,
     words: &[(Letter, f64)],
     cause: Cause,
 ) -> Result<()> {
@@ -151,7 +156,6 @@ fn pass(
     if !axis_words(control, motion)? {
         return Ok(());
     }
-    let code = control.code(at, "a thread")?;
     motion_code(control, code, false, cause.whole());
     control.because(cause, |control| {
         words.iter().try_for_each(|(letter, value)| {
