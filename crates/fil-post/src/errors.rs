@@ -86,7 +86,7 @@ fil_diag::codes! {
         /// A rotary axis the long way round.
         Unwinding = 524, Error, "a rotary axis would unwind while cutting",
             "Its limits leave only another way to the tool axis, and the tool would cut on the way.",
-            "Have the tool retract there (repos.feed_method = 1 with repos.retract_distance), retract before it in the CL file, or give the axis more travel.";
+            "Have the tool retract there (repos.retract_distance with repos.feed_method = 1 or a macro _REPOS), retract before it in the CL file, or give the axis more travel.";
         /// A limit that nothing leads past.
         NoAlternative = 527, Error, "a rotary axis is at its limit, and nothing leads on",
             "The tool would retract, the machine turn to other positions for the same tool axis, and the tool return; here there are none from which the motion goes on, or the way out is not known.",

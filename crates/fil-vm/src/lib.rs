@@ -40,7 +40,7 @@ pub use lint::{MachineFacts, StoringInCommon};
 pub use machine::{Held, Interpreter, Limits, Outcome, StackFrame, Values, View};
 pub use module::{File, Module, SectionId};
 pub use moment::Moment;
-pub use output::{Edits, OutputMacro};
+pub use output::{Edits, OutputMacro, REPOSITION, REPOSITION_GIVEN};
 pub use postf::{Compat, PostfOp, SectionMode};
 pub use totals::{TotalsOf, TotalsText, TotalsWord};
 pub use value::{EMPTY, Value};

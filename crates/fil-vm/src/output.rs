@@ -1,9 +1,10 @@
-//! The macros that edit what a post writes: their names, and what a module has of them.
+//! The macros that a post calls itself: they edit what it writes, or say how it repositions
+//! rotary axes. Their names, and what a module has of them.
 
 use crate::module::ChunkId;
 use crate::ops::Reg;
 
-/// A macro that the post calls with what it is about to write.
+/// A macro that the post calls with what it is about to write or to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OutputMacro {
     /// `_OUTPTP`, also `_OUTPUT`: the words of a block.
@@ -12,15 +13,18 @@ pub enum OutputMacro {
     Tape,
     /// `_LSTWT`: a line of the listing.
     Listing,
+    /// `_REPOS`: the way out and back at the limit of a rotary axis.
+    Reposition,
 }
 
 impl OutputMacro {
     /// Names of macros and what they edit.
-    pub const NAMES: [(&'static str, OutputMacro); 4] = [
+    pub const NAMES: [(&'static str, OutputMacro); 5] = [
         ("_OUTPTP", OutputMacro::Words),
         ("_OUTPUT", OutputMacro::Words),
         ("_MCDWT", OutputMacro::Tape),
         ("_LSTWT", OutputMacro::Listing),
+        ("_REPOS", OutputMacro::Reposition),
     ];
 
     /// What a macro of this name edits.
@@ -34,6 +38,9 @@ impl OutputMacro {
             OutputMacro::Words => "tape.edit_macro = 1",
             OutputMacro::Tape => "tape.block_macro = 1, or 3 for the listing too",
             OutputMacro::Listing => "tape.block_macro = 2, or 3 for the tape too",
+            OutputMacro::Reposition => {
+                "repos.feed_method = 0 with repos.retract_distance, on a machine with rotary axes,"
+            }
         }
     }
 }
@@ -47,6 +54,8 @@ pub struct Edits {
     pub tape: bool,
     /// `_LSTWT`
     pub listing: bool,
+    /// `_REPOS`
+    pub reposition: bool,
 }
 
 impl Edits {
@@ -56,9 +65,19 @@ impl Edits {
             OutputMacro::Words => self.words,
             OutputMacro::Tape => self.tape,
             OutputMacro::Listing => self.listing,
+            OutputMacro::Reposition => self.reposition,
         }
     }
 }
+
+/// What the parameters of `_REPOS` may be: first what it is given, then what it decides.
+pub const REPOSITION: [&str; REPOSITION_GIVEN + 9] = [
+    "FROM1", "FROM2", "TO1", "TO2", "TIPX", "TIPY", "TIPZ", "AXISI", "AXISJ", "AXISK", "RETDST",
+    "RETFED", "APPDST", "APPFED", "NEWAXS", "SPNOFF", "COLOFF", "OPTSTP", "PRGSTP",
+];
+
+/// How many of them a macro is given and must leave as they are.
+pub const REPOSITION_GIVEN: usize = 10;
 
 /// The word of a block that a parameter of `_OUTPTP` stands for: `X`; `G` is the first
 /// and `G2` the second G.
@@ -85,12 +104,17 @@ pub(crate) struct OutputMacros {
     pub words: Option<(ChunkId, Vec<WordParameter>)>,
     pub tape: Option<(ChunkId, Reg)>,
     pub listing: Option<(ChunkId, Reg)>,
+    /// The parameters by their numbers in [`REPOSITION`].
+    pub reposition: Option<(ChunkId, Vec<(usize, Reg)>)>,
 }
 
 impl OutputMacros {
     /// True when there is none of them.
     pub fn is_empty(&self) -> bool {
-        self.words.is_none() && self.tape.is_none() && self.listing.is_none()
+        self.words.is_none()
+            && self.tape.is_none()
+            && self.listing.is_none()
+            && self.reposition.is_none()
     }
 }
 

@@ -75,7 +75,7 @@ pub fn analyze(files: &[(&str, &str)], options: Options<'_>) -> Analysis {
 }
 
 /// Without a machine nothing tells which macros the post calls.
-const ALL_EDITS: Edits = Edits { words: true, tape: true, listing: true };
+const ALL_EDITS: Edits = Edits { words: true, tape: true, listing: true, reposition: true };
 
 /// True for a word that a file of the post carries out.
 fn carries_out(word: WordId) -> bool {

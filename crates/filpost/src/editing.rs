@@ -1,4 +1,5 @@
-//! FIL macros that edit what the post writes: _OUTPTP, _MCDWT and _LSTWT.
+//! FIL macros that the post calls: _OUTPTP, _MCDWT and _LSTWT edit what it writes, _REPOS
+//! says how it repositions rotary axes.
 //!
 //! While no section runs, the values of the script lie with the editor; a section has
 //! them lent back. So a macro sees and sets the same names as sections do.
@@ -8,11 +9,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 use fil_cl::{Record, Vocabulary};
 use fil_diag::{Diag, Result};
 use fil_machine::commons::EMPTY;
-use fil_machine::locations::{self as loc, TapeBlockMacro};
+use fil_machine::locations::{self as loc, ReposFeedMethod, RotaryKind, TapeBlockMacro};
 use fil_machine::{Commons, Letter};
-use fil_post::editing::Editor;
+use fil_post::editing::{Editor, Ways};
 use fil_vm::debug::Probe;
-use fil_vm::{CommonKind, Edits, Host, Interpreter, OutputMacro, Site, Values, View};
+use fil_vm::{
+    CommonKind, Edits, Host, Interpreter, OutputMacro, REPOSITION, REPOSITION_GIVEN, Site, Values,
+    View,
+};
 
 use crate::debug::{self, DebugState, SharedDebugger, World};
 use crate::error::RunCode;
@@ -25,7 +29,16 @@ pub(crate) fn edits(commons: &Commons) -> Edits {
         words: commons.read(loc::TAPE_EDIT_MACRO),
         tape: matches!(lines, TapeBlockMacro::Tape | TapeBlockMacro::Both),
         listing: matches!(lines, TapeBlockMacro::Listing | TapeBlockMacro::Both),
+        reposition: calls_repos(commons),
     }
+}
+
+/// At the limit of a rotary axis the machine calls _REPOS.
+fn calls_repos(commons: &Commons) -> bool {
+    let turns = [commons.read(loc::ROTARY_PRIMARY_KIND), commons.read(loc::ROTARY_SECONDARY_KIND)];
+    turns.iter().any(|kind| *kind != RotaryKind::None)
+        && commons.read(loc::REPOS_FEED_METHOD) == ReposFeedMethod::CallTheMacroRepos
+        && commons.dbl_opt(loc::REPOS_RETRACT_DISTANCE).is_some()
 }
 
 /// The machine that runs the macros, shared by the post and the run.
@@ -111,6 +124,54 @@ impl Editor for SharedEditor {
         self.edit_line(OutputMacro::Tape, line, commons)
     }
 
+    fn repositions(&self) -> bool {
+        self.with(|runner| runner.interpreter.edits(OutputMacro::Reposition))
+    }
+
+    fn reposition(&mut self, given: &[f64; 10], ways: &mut Ways, commons: &Commons) -> Result<()> {
+        let flag = |on: bool| f64::from(u8::from(on));
+        let number = |value: Option<f64>| value.unwrap_or(EMPTY);
+        let mut values = [EMPTY; REPOSITION.len()];
+        values[..REPOSITION_GIVEN].copy_from_slice(given);
+        values[REPOSITION_GIVEN..].copy_from_slice(&[
+            number(ways.retract),
+            number(ways.retract_feed),
+            number(ways.approach),
+            number(ways.approach_feed),
+            flag(ways.along_next),
+            flag(ways.spindle_stands),
+            flag(ways.coolant_off),
+            flag(ways.optional_stop),
+            flag(ways.stop),
+        ]);
+        self.with(|runner| {
+            let MacroRunner { interpreter, vocabulary, warnings, debugger } = runner;
+            let mut host = WhileWriting { commons, warnings, debugger };
+            interpreter.reposition(&mut values, vocabulary, &mut host)
+        })?;
+        let [.., retract, retract_feed, approach, approach_feed, axis, spindle, coolant, opt, stop] =
+            values;
+        let number = |value: f64| (value != EMPTY).then_some(value);
+        let flag = |name: &str, value: f64| match value {
+            0.0 => Ok(false),
+            1.0 => Ok(true),
+            _ => RunCode::WhileWriting
+                .err(format!("_REPOS gives {value} for {name}, which is 0 or 1")),
+        };
+        *ways = Ways {
+            retract: number(retract),
+            retract_feed: number(retract_feed),
+            approach: number(approach),
+            approach_feed: number(approach_feed),
+            along_next: flag("NEWAXS", axis)?,
+            spindle_stands: flag("SPNOFF", spindle)?,
+            coolant_off: flag("COLOFF", coolant)?,
+            optional_stop: flag("OPTSTP", opt)?,
+            stop: flag("PRGSTP", stop)?,
+        };
+        Ok(())
+    }
+
     fn take_warnings(&mut self) -> Vec<Diag> {
         self.with(|runner| std::mem::take(&mut runner.warnings))
     }
@@ -124,7 +185,7 @@ struct WhileWriting<'a> {
 }
 
 fn refused<T>(what: &str) -> Result<T> {
-    RunCode::WhileWriting.err(format!("{what} in a macro that edits what is written"))
+    RunCode::WhileWriting.err(format!("{what} in a macro that the post calls"))
 }
 
 impl Host for WhileWriting<'_> {

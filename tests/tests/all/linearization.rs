@@ -139,6 +139,11 @@ fn winding_cl((start, step, tilt, count): (f64, f64, f64, usize)) -> String {
     cl + "FINI\n"
 }
 
+/// Turns the flags of the settings round where the first axis turns far.
+const REPOS: &str = "_REPOS=MACRO/FROM1,TO1,RETDST,APPDST,SPNOFF,COLOFF,OPTSTP,NEWAXS,RETFED\n\
+    IF(ABSF(TO1-FROM1).LT.300)THEN\nRETDST=RETDST+12.5\nAPPDST=7\nSPNOFF=1-SPNOFF\n\
+    COLOFF=1-COLOFF\nOPTSTP=1-OPTSTP\nNEWAXS=1-NEWAXS\nRETFED=333\nENDIF\nTERMAC\nFINI\n";
+
 /// At a limit of the primary axis the tool goes out, the machine turns, and the tool comes
 /// back: the back-check agrees, and no axis is ever past its limit. Where nothing leads on,
 /// no program is written.
@@ -149,16 +154,17 @@ fn at_a_limit_the_tool_goes_out_and_comes_back() {
     let flags = proptest::array::uniform6(any::<bool>());
     let all = (kinds, -400.0..-100.0f64, 100.0..400.0f64, winding(), flags, 0u8..4);
     let (mut changes, mut refused) = (0, 0);
-    for _ in 0..sample::of(LIMITED) {
+    for number in 0..sample::of(LIMITED) {
         let (kinds, min, max, path, flags, form) = all.new_tree(&mut runner).unwrap().current();
         let table = |kind, direction| (kind, direction, [3.0, -7.0, -20.0]);
         let rotaries = [table(kinds[0], [0.0, 0.0, 1.0]), table(kinds[1], [0.0, 1.0, 0.0])];
         let plain = post(&rotaries, Some(150.0), 0.05, form);
         let [spindle, coolant, one_block, next_axis, split, stop] = flags.map(u8::from);
+        let by_macro = number % 2 == 1;
         let settings = [
             format!("rotary.primary_min={min:.3}"),
             format!("rotary.primary_max={max:.3}"),
-            "repos.feed_method=1".to_string(),
+            format!("repos.feed_method={}", u8::from(!by_macro)),
             "repos.retract_distance=50".to_string(),
             "repos.approach_distance=5".to_string(),
             format!("repos.retract_spindle={spindle}"),
@@ -172,6 +178,10 @@ fn at_a_limit_the_tool_goes_out_and_comes_back() {
         ];
         let builder = Program::builder().commons(plain.commons().clone());
         let machine = settings.iter().fold(builder, |builder, set| builder.set(set));
+        let machine = match by_macro {
+            true => machine.fil("repos.fil", REPOS),
+            false => machine,
+        };
         let machine = machine.build().expect("a machine");
         let cl = winding_cl(path).replace("MULTAX", "COOLNT / ON\nMULTAX");
         let Some((nc, report)) = checked(&machine, &cl, 0.05) else {

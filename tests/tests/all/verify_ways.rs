@@ -184,6 +184,13 @@ fn a_fault_on_a_way_that_no_record_names_is_found() {
             "from the part, it should stay 5 away",
         ),
         (
+            "corpus/posts/fanuc-5x-tables/repos-macro",
+            "Z62.809",
+            "Z32.809",
+            "the CL file asks for no",
+        ),
+        ("corpus/posts/fanuc-5x-tables/repos-macro", "N190 M3\n", "", "the spindle"),
+        (
             "corpus/lathe/fanuc-mill-turn/polar-square",
             "G0 X83.522 C0.",
             "G0 X83.523 C0.",

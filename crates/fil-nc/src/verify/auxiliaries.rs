@@ -20,6 +20,8 @@ struct Asked {
 #[derive(Debug, Default)]
 pub(super) struct Auxiliaries {
     asked: Vec<Asked>,
+    /// What a script may decide on, and between which lines of the program.
+    allowed: Vec<(u32, [u32; 2])>,
     /// From this line of the program on nobody knows what must come.
     open_from: Option<u32>,
 }
@@ -27,6 +29,17 @@ pub(super) struct Auxiliaries {
 impl Auxiliaries {
     pub(super) fn ask(&mut self, code: u32, cl_line: u32, lines: [u32; 2]) {
         self.asked.push(Asked { code, cl_line, lines });
+    }
+
+    pub(super) fn allow(&mut self, code: u32, lines: [u32; 2]) {
+        self.allowed.push((code, lines));
+    }
+
+    fn allows(&self, line: u32, code: u32) -> bool {
+        let here = |(allowed, [first, last]): &(u32, [u32; 2])| {
+            *allowed == code && (*first..=*last).contains(&line)
+        };
+        self.allowed.iter().any(here)
     }
 
     /// Words of the user's own may hold any function from this line on.
@@ -40,7 +53,7 @@ impl Auxiliaries {
     pub(super) fn compare(&self, found: &[(u32, u32)], own: &OwnBlocks<'_>) -> Report {
         let mut report = Report::default();
         let mut left: HashMap<u32, usize> = HashMap::new();
-        let of_others = |(line, _): &&(u32, u32)| !own.has(*line);
+        let of_others = |(line, code): &&(u32, u32)| !own.has(*line) && !self.allows(*line, *code);
         for (_, code) in found.iter().filter(of_others) {
             *left.entry(*code).or_default() += 1;
         }

@@ -84,6 +84,12 @@ impl<C: Steps> Walk<'_, C> {
         self.auxiliaries.ask(code, cl_line, [self.last_line(), next]);
     }
 
+    /// An auxiliary function may stand between the last motion and the next.
+    pub(super) fn allow_auxiliary(&mut self, code: u32) {
+        let next = self.nc.get(self.next).map_or(u32::MAX, |event| event.line());
+        self.auxiliaries.allow(code, [self.last_line(), next]);
+    }
+
     /// A live tool is brought in step before each tap, as the end of the cycle ends that too.
     pub(super) fn ask_rigid(&mut self, cl_line: u32, tap: u32) {
         if let Some(code) = self.settings.rigid_tap_mode() {

@@ -153,7 +153,10 @@ impl<C: Steps> Walk<'_, C> {
             return;
         }
         let must = self.settings.inverse_within(1.0 / time);
-        if (inverse - must).abs() > self.slack.inverse {
+        // Angles of a direction that is written as a vector are not those of the program.
+        let digits = 2.0 * self.slack.rotary[0].max(self.slack.rotary[1]);
+        let slack = self.slack.inverse + must * digits / turned[0].max(turned[1]);
+        if (inverse - must).abs() > slack {
             let message = format!(
                 "feed {} blocks a minute, it should be {}, as long as the turn takes at least",
                 short(inverse),

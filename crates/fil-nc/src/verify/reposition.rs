@@ -6,6 +6,7 @@
 
 use fil_machine::commons::Dbl;
 use fil_machine::locations::{self as loc, ReposFeedMethod};
+use nalgebra::Vector3;
 
 use super::ahead::Steps;
 use super::between::way::Way;
@@ -36,19 +37,24 @@ pub(super) struct Reposition {
     along_next: bool,
     /// Feeds out and back, where the settings name them.
     rates: [Option<Rate>; 2],
-    /// The program stops after the way out: the codes that say so.
+    /// The program stops after the way out, or may: the codes that say so.
     stops: [Option<u32>; 2],
     /// The spindle stands while the machine turns.
     stands: bool,
     /// Coolant is off then.
     dry: bool,
+    /// A macro of the script decides: the lengths are the least, and feeds, axis of the way
+    /// out, spindle, coolant and stops of the program are its own.
+    by_macro: bool,
 }
 
 impl Settings<'_> {
     /// How the machine repositions in feed motions; `None` where it does not.
     pub(super) fn reposition(&self, metric: bool) -> Option<Reposition> {
         let commons = self.commons;
-        let does = commons.read(loc::REPOS_FEED_METHOD) == ReposFeedMethod::RetractAndApproach;
+        let method = commons.read(loc::REPOS_FEED_METHOD);
+        let by_macro = method == ReposFeedMethod::CallTheMacroRepos;
+        let does = by_macro || method == ReposFeedMethod::RetractAndApproach;
         let distance = commons.dbl_opt(loc::REPOS_RETRACT_DISTANCE).filter(|_| does)?;
         let rate = |at: Dbl| {
             let feed = commons.dbl_opt(at).filter(|feed| *feed > 0.0)?;
@@ -56,16 +62,18 @@ impl Settings<'_> {
         };
         let stop = |on: bool, optional| if on { self.stop_code(optional) } else { None };
         let approach = commons.dbl_opt(loc::REPOS_APPROACH_DISTANCE).filter(|far| *far > 0.0);
+        let near = if by_macro { 0.0 } else { distance };
         Some(Reposition {
             distance: distance * unit(metric),
-            approach: approach.unwrap_or(distance).min(distance) * unit(metric),
-            stands: commons.read(loc::REPOS_RETRACT_SPINDLE),
-            dry: commons.read(loc::REPOS_RETRACT_COOLANT),
+            approach: approach.unwrap_or(near).min(distance) * unit(metric),
+            by_macro,
+            stands: !by_macro && commons.read(loc::REPOS_RETRACT_SPINDLE),
+            dry: !by_macro && commons.read(loc::REPOS_RETRACT_COOLANT),
             along_next: commons.read(loc::REPOS_NEW_TOOL_AXIS),
             rates: [rate(loc::REPOS_RETRACT_FEED), rate(loc::REPOS_APPROACH_FEED)],
             stops: [
-                stop(commons.read(loc::REPOS_RETRACT_OPSTOP), true),
-                stop(commons.read(loc::REPOS_RETRACT_STOP), false),
+                stop(by_macro || commons.read(loc::REPOS_RETRACT_OPSTOP), true),
+                stop(by_macro || commons.read(loc::REPOS_RETRACT_STOP), false),
             ],
         })
     }
@@ -126,7 +134,11 @@ impl<C: Steps> Walk<'_, C> {
     ) -> Option<usize> {
         let forward = &self.settings.forward;
         let stands = forward.pose(at);
-        let direction = if how.along_next { next.axis } else { stands.axis };
+        let directions = match how {
+            Reposition { by_macro: true, .. } => [stands.axis, next.axis],
+            Reposition { along_next: true, .. } => [next.axis; 2],
+            _ => [stands.axis; 2],
+        };
         let mut rotary = at.rotary;
         for count in 1..=MOST {
             let Some(Event::Move(found)) = self.nc.get(index + count - 1) else { return None };
@@ -138,9 +150,12 @@ impl<C: Steps> Walk<'_, C> {
                 return None;
             }
             if count == 1 {
-                let aside = (way - direction * way.dot(&direction)).norm();
-                let off = way.dot(&direction) - how.distance;
-                if turns || aside > slack || off.abs() > slack {
+                let leads_out = |direction: &Vector3<f64>| {
+                    let aside = (way - direction * way.dot(direction)).norm();
+                    let off = way.dot(direction) - how.distance;
+                    aside <= slack && off >= -slack && (how.by_macro || off <= slack)
+                };
+                if turns || !directions.iter().any(leads_out) {
                     return None;
                 }
                 continue;
@@ -179,7 +194,7 @@ impl<C: Steps> Walk<'_, C> {
                 before = found.modes;
             }
             let cuts = number == 0 || number + 1 == count;
-            if cuts && found.course == Course::Feed {
+            if cuts && found.course == Course::Feed && !how.by_macro {
                 let own = how.rates[usize::from(number > 0)];
                 self.check_rate(cl_line, self.at, &found, own.or(rate));
             }
@@ -187,7 +202,12 @@ impl<C: Steps> Walk<'_, C> {
                 self.take(cl_line, &found);
                 self.next += 1;
                 let stops = if number == 0 { how.stops } else { [None; 2] };
-                stops.into_iter().for_each(|code| self.ask_auxiliary(cl_line, code));
+                for code in stops.into_iter().flatten() {
+                    match how.by_macro {
+                        true => self.allow_auxiliary(code),
+                        false => self.ask_auxiliary(cl_line, Some(code)),
+                    }
+                }
             } else {
                 self.check_limits(cl_line, &found);
                 self.check_turn_away(cl_line, &found);
@@ -219,13 +239,13 @@ impl<C: Steps> Walk<'_, C> {
         how: &Reposition,
     ) {
         let spindle = if how.stands { Spindle::Off } else { before.spindle };
-        if found.spindle != spindle {
+        if found.spindle != spindle && !(how.by_macro && found.spindle == Spindle::Off) {
             let does = if how.stands { "stand" } else { "go on as before" };
             let message = format!("the spindle should {does} while the machine turns");
             self.find(FindingKind::Spindle, Some(cl_line), Some(line), message);
         }
         let coolant = if how.dry { None } else { before.coolant };
-        if found.coolant != coolant {
+        if found.coolant != coolant && !(how.by_macro && found.coolant.is_none()) {
             let does = if how.dry { "be off" } else { "go on as before" };
             let message = format!("coolant should {does} while the machine turns");
             self.find(FindingKind::Coolant, Some(cl_line), Some(line), message);

@@ -7,6 +7,7 @@ use fil_machine::commons::EMPTY;
 use fil_machine::locations::{self as loc, FeedInverseLength, LinearMethod};
 use fil_machine::modes::FeedMode;
 
+use super::turning_feed::TurningFeed;
 use super::{linearization, rotary};
 use crate::control::family;
 use crate::control::word_address::arc::PlaneArc;
@@ -28,13 +29,19 @@ pub fn apply(post: &Post) -> bool {
     post.path.inverse_time || post.control.tables.motion.is_special
 }
 
-/// Makes a straight feed motion by these rules.
+/// Makes a straight feed motion by these rules. `before`: where the rotary axes stood, if they
+/// turn.
 ///
 /// # Errors
 /// As [`family::feed`]; inverse time of a motion whose way is not known, or of a feed a
 /// revolution; a part of an arc that the machine can't make.
 #[cold]
-pub fn line(post: &mut Post, motion: &Motion, target: Target) -> Result<()> {
+pub fn line(
+    post: &mut Post,
+    motion: &Motion,
+    target: Target,
+    before: Option<[f64; 2]>,
+) -> Result<()> {
     let Some(feed) = post.path.feed else {
         return family::feed(&mut post.control, motion, None);
     };
@@ -43,6 +50,7 @@ pub fn line(post: &mut Post, motion: &Motion, target: Target) -> Result<()> {
         let part = motion.of(*axes);
         let length = length(post, way, *axes, target);
         if stands(way, length) {
+            turn_on_the_spot(post, motion, before)?;
             continue;
         }
         let feed = within_axes(post, feed, way, length);
@@ -137,6 +145,28 @@ fn shows_the_tip(post: &Post) -> bool {
 /// True for a motion that goes nowhere: it makes no block.
 fn stands(way: [Option<f64>; 3], length: Option<f64>) -> bool {
     way.iter().all(Option::is_some) && length.is_some_and(|length| length <= NO_WAY)
+}
+
+/// Turns the rotary axes where the tip stays; without a turn there is no block.
+fn turn_on_the_spot(post: &mut Post, motion: &Motion, before: Option<[f64; 2]>) -> Result<()> {
+    let Some(before) = before else { return Ok(()) };
+    let tables = &post.control.tables;
+    let (mut from, mut to) = (motion.position, motion.position);
+    for number in AxisSet::ROTARY.and(tables.present()).numbers() {
+        let axis = tables.axis(number);
+        from[number] = axis.on_tape(before[number - 3])?;
+        to[number] = axis.on_tape(motion.position[number])?;
+    }
+    if from == to {
+        return Ok(());
+    }
+    let rotary = TurningFeed::of(post)?;
+    let part = rotary.between(&from, &to, 0.0)?;
+    if part.slowed {
+        rotary.warn_slowed(post);
+    }
+    part.after(&mut post.control);
+    family::feed(&mut post.control, motion, Some(&part.feed))
 }
 
 /// A feed a minute at which neither Y nor Z goes faster than it may.

@@ -47,7 +47,7 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
         },
         MotionKind::Feed => match rotary::turned(before, post.path.rotary) {
             Some(before) => turning::feed(post, before, &motion, *target)?,
-            _ if feed_rules::apply(post) => feed_rules::line(post, &motion, *target)?,
+            _ if feed_rules::apply(post) => feed_rules::line(post, &motion, *target, None)?,
             _ => family::feed(&mut post.control, &motion, post.path.feed.as_ref())?,
         },
         MotionKind::Thread(lead) => {

@@ -9,7 +9,7 @@
 use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
 use fil_machine::axis_chain::AxisChain;
-use fil_machine::commons::{Commons, Dbl};
+use fil_machine::commons::Commons;
 use fil_machine::locations::{self as loc, ReposFeedMethod};
 use fil_machine::modes::FeedMode;
 use nalgebra::{Point3, Vector3};
@@ -19,6 +19,7 @@ use super::{linearization, rapid, rotary};
 use crate::control::family;
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::word_address::spindle;
+use crate::editing::Ways;
 use crate::errors::PostCode;
 use crate::operation::{Coolant, Feed, Operation, Stop, Target};
 use crate::post::Post;
@@ -44,8 +45,8 @@ struct Change {
     end: [f64; 2],
 }
 
-/// The values of the settings for the way out and back, lengths in the program's unit.
-struct Ways {
+/// The way out and back as it is made, lengths in the program's unit.
+struct Plan {
     /// How far the tool goes out along its axis.
     retract: f64,
     /// From where it comes back at feed.
@@ -54,6 +55,10 @@ struct Ways {
     feed_out: Option<Feed>,
     /// The same for the way back.
     feed_back: Option<Feed>,
+    /// What was asked for.
+    ways: Ways,
+    /// The macro _REPOS asked for it: what is stopped starts again.
+    by_macro: bool,
 }
 
 /// Moves at feed to a target that the rotary axes would reach at `free` if they had no
@@ -68,13 +73,18 @@ pub(super) fn feed(
     free: [f64; 2],
     target: Target,
 ) -> Result<()> {
-    if post.control.commons.read(loc::REPOS_FEED_METHOD) != ReposFeedMethod::RetractAndApproach {
+    let by_macro = match post.control.commons.read(loc::REPOS_FEED_METHOD) {
+        ReposFeedMethod::RetractAndApproach => Some(false),
+        ReposFeedMethod::CallTheMacroRepos => has_macro(post).then_some(true),
+        ReposFeedMethod::Nothing => None,
+    };
+    let Some(by_macro) = by_macro else {
         return PostCode::Unwinding.err(format!(
             "the rotary axes would turn from {} to {} degrees in a feed motion, past a limit",
             spelled(before),
             spelled(free)
         ));
-    }
+    };
     let known = !post.path.in_chords && linearization::is_where_the_path_is(post, before);
     let Some(start) = post.path.point.filter(|_| known) else {
         return PostCode::NoAlternative
@@ -89,16 +99,16 @@ pub(super) fn feed(
             spelled(free)
         ));
     };
-    let ways = Ways::of(post)?;
     let middle = Target { point: start + (target.point - start) * change.share, ..target };
     let (place, _) = rotary::transformed(post, middle);
+    let plan = Plan::of(post, place, &change, by_macro)?;
     if change.share > NO_PART {
         let position = rotary::words_at(post, place, change.from)?;
         let motion = Motion { position, axes: AxisSet::ALL, word: 0 };
         go(post, before, &motion, Target { word: 0, ..middle })?;
         post.path.point = Some(middle.point);
     }
-    out_and_back(post, place, &change, &ways, end_axis)?;
+    out_and_back(post, place, &change, &plan, end_axis)?;
     let (end, _) = rotary::transformed(post, target);
     let position = rotary::words_at(post, end, change.end)?;
     post.path.rotary = Some(change.end);
@@ -156,33 +166,83 @@ fn turn_of(change: &Change) -> f64 {
     (0..2).map(|n| (change.to[n] - change.from[n]).abs()).sum()
 }
 
-impl Ways {
+/// The script has the macro _REPOS.
+fn has_macro(post: &Post) -> bool {
+    post.control.tape.editor.0.as_ref().is_some_and(|editor| editor.repositions())
+}
+
+impl Plan {
     /// # Errors
-    /// No retract is known; no feed.
-    fn of(post: &Post) -> Result<Ways> {
-        let commons = &post.control.commons;
-        let length = |at: Dbl| commons.dbl_opt(at).filter(|length| *length > 0.0);
-        let Some(retract) = length(loc::REPOS_RETRACT_DISTANCE) else {
+    /// No retract is known; no feed; what the macro refuses, and a way shorter than that of the
+    /// settings.
+    fn of(post: &mut Post, place: Point3<f64>, change: &Change, by_macro: bool) -> Result<Plan> {
+        let control = &mut post.control;
+        let mut ways = ways_of(&control.commons);
+        let least = ways;
+        if by_macro && let Some(editor) = &mut control.tape.editor.0 {
+            let axis = control.tables.chain().axis_at(change.from);
+            let ([a, b], [to_a, to_b]) = (change.from, change.to);
+            let given = [a, b, to_a, to_b, place.x, place.y, place.z, axis.x, axis.y, axis.z];
+            editor.reposition(&given, &mut ways, &control.commons)?;
+            let warnings = editor.take_warnings();
+            control.warnings.list.extend(warnings);
+        }
+        let Some(retract) = ways.retract.filter(|length| *length > 0.0) else {
             return PostCode::NoAlternative.err(
                 "a rotary axis is at its limit, and how far the tool shall retract is not known \
                  (repos.retract_distance)",
             );
         };
-        let approach = length(loc::REPOS_APPROACH_DISTANCE).unwrap_or(retract);
-        Ok(Ways {
+        if let Some(feed) =
+            [ways.retract_feed, ways.approach_feed].into_iter().flatten().find(|feed| *feed < 0.0)
+        {
+            return PostCode::NoAlternative.err(format!("_REPOS gives {feed} for a feed"));
+        }
+        let approach = ways.approach.filter(|length| *length > 0.0).unwrap_or(retract).min(retract);
+        let shorter = |own: f64, least: Option<f64>| least.filter(|least| own < *least);
+        if let Some(least) = shorter(retract, least.retract) {
+            return PostCode::NoAlternative.err(format!(
+                "_REPOS would have the tool retract by {retract}, and repos.retract_distance is \
+                 {least}: nearer to the part nothing says that it is clear"
+            ));
+        }
+        if let Some(least) = shorter(approach, least.approach.map(|least| least.min(retract))) {
+            return PostCode::NoAlternative.err(format!(
+                "_REPOS would have the tool come back at feed from {approach}, and \
+                 repos.approach_distance is {least}"
+            ));
+        }
+        Ok(Plan {
             retract,
-            approach: approach.min(retract),
-            feed_out: feed_of(post, commons, loc::REPOS_RETRACT_FEED)?,
-            feed_back: feed_of(post, commons, loc::REPOS_APPROACH_FEED)?,
+            approach,
+            feed_out: feed_of(post, ways.retract_feed)?,
+            feed_back: feed_of(post, ways.approach_feed)?,
+            ways,
+            by_macro,
         })
     }
 }
 
-/// A feed of the settings: absent is the present one, 0 is rapid.
-fn feed_of(post: &Post, commons: &Commons, at: Dbl) -> Result<Option<Feed>> {
+/// The way out and back of the settings.
+fn ways_of(commons: &Commons) -> Ways {
+    Ways {
+        retract: commons.dbl_opt(loc::REPOS_RETRACT_DISTANCE),
+        retract_feed: commons.dbl_opt(loc::REPOS_RETRACT_FEED),
+        approach: commons.dbl_opt(loc::REPOS_APPROACH_DISTANCE),
+        approach_feed: commons.dbl_opt(loc::REPOS_APPROACH_FEED),
+        along_next: commons.read(loc::REPOS_NEW_TOOL_AXIS),
+        spindle_stands: commons.read(loc::REPOS_RETRACT_SPINDLE),
+        coolant_off: commons.read(loc::REPOS_RETRACT_COOLANT),
+        optional_stop: commons.read(loc::REPOS_RETRACT_OPSTOP),
+        stop: commons.read(loc::REPOS_RETRACT_STOP),
+    }
+}
+
+/// A feed of the settings or of the macro: absent is the present one, 0 is rapid.
+fn feed_of(post: &Post, value: Option<f64>) -> Result<Option<Feed>> {
     let present =
         post.path.feed.ok_or_else(|| PostCode::NoFeed.diag("no FEDRAT came before this motion"))?;
-    Ok(match commons.dbl_opt(at) {
+    Ok(match value {
         None => Some(present),
         Some(value) if value > 0.0 => Some(Feed { value, mode: FeedMode::PerMinute, ..present }),
         Some(_) => None,
@@ -194,7 +254,7 @@ fn out_and_back(
     post: &mut Post,
     place: Point3<f64>,
     change: &Change,
-    ways: &Ways,
+    plan: &Plan,
     next_axis: Vector3<f64>,
 ) -> Result<()> {
     if post.control.is_compensated() {
@@ -206,21 +266,19 @@ fn out_and_back(
         let message = format!("the tool retracts, and the rotary axes go from {from} to {to}");
         post.warn(PostCode::Repositioned, message);
     }
-    let commons = &post.control.commons;
     let own = post.control.tables.chain().axis_at(change.from);
-    let along_next = commons.read(loc::REPOS_NEW_TOOL_AXIS);
-    let out = if along_next { next_axis.normalize() } else { own };
-    let away = rotary::words_at(post, place + out * ways.retract, change.from)?;
-    straight(post, away, ways.feed_out)?;
-    let flows = stop_around(post)?;
-    turn(post, place + own * ways.retract, change)?;
-    if ways.approach < ways.retract {
-        let near = rotary::words_at(post, place + own * ways.approach, change.to)?;
+    let out = if plan.ways.along_next { next_axis.normalize() } else { own };
+    let away = rotary::words_at(post, place + out * plan.retract, change.from)?;
+    straight(post, away, plan.feed_out)?;
+    let flows = stop_around(post, plan)?;
+    turn(post, place + own * plan.retract, change)?;
+    if plan.approach < plan.retract {
+        let near = rotary::words_at(post, place + own * plan.approach, change.to)?;
         straight(post, near, None)?;
     }
     start_again(post, flows)?;
     let back = rotary::words_at(post, place, change.to)?;
-    straight(post, back, ways.feed_back)?;
+    straight(post, back, plan.feed_back)?;
     post.path.rotary = Some(change.to);
     Ok(())
 }
@@ -269,17 +327,17 @@ struct Restart {
 ///
 /// # Errors
 /// What stops would not start again.
-fn stop_around(post: &mut Post) -> Result<Restart> {
+fn stop_around(post: &mut Post, plan: &Plan) -> Result<Restart> {
     let control = &mut post.control;
-    let read = |at| control.commons.read(at);
-    let stands = read(loc::REPOS_RETRACT_SPINDLE);
-    if stands && !read(loc::REPOS_APPROACH_SPINDLE) {
+    let starts = |at| plan.by_macro || control.commons.read(at);
+    let stands = plan.ways.spindle_stands;
+    if stands && !starts(loc::REPOS_APPROACH_SPINDLE) {
         return PostCode::NoAlternative.err(
             "repos.retract_spindle stops the spindle, and nothing starts it for the way back",
         );
     }
-    let (ends, flows_again) = (read(loc::REPOS_RETRACT_COOLANT), read(loc::REPOS_APPROACH_COOLANT));
-    let (optional, always) = (read(loc::REPOS_RETRACT_OPSTOP), read(loc::REPOS_RETRACT_STOP));
+    let (ends, flows_again) = (plan.ways.coolant_off, starts(loc::REPOS_APPROACH_COOLANT));
+    let (optional, always) = (plan.ways.optional_stop, plan.ways.stop);
     let halts = optional || always;
     let spindle = match control.turning {
         Some(_) if stands => Some(spindle::stand(control)?),

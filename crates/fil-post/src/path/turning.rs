@@ -73,7 +73,7 @@ pub(super) fn go(post: &mut Post, before: [f64; 2], motion: &Motion, target: Tar
     }
     match () {
         () if !post.writes_tip() => linearization::feed(post, before, motion.position, target),
-        () if feed_rules::apply(post) => feed_rules::line(post, motion, target),
+        () if feed_rules::apply(post) => feed_rules::line(post, motion, target, Some(before)),
         () => family::feed(&mut post.control, motion, post.path.feed.as_ref()),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Compiler;
 use crate::errors::CompileCode;
-use crate::output::{OutputMacro, WordParameter, word_named};
+use crate::output::{OutputMacro, REPOSITION, WordParameter, word_named};
 
 impl Compiler<'_> {
     /// Finds them among the macros; what a macro edits comes and goes in its parameters.
@@ -35,6 +35,27 @@ impl Compiler<'_> {
                         let message = "_OUTPTP and _OUTPUT are two names of one macro";
                         this.report(CompileCode::DefinedTwice, name.span, message);
                     }
+                    return;
+                }
+                if edits == OutputMacro::Reposition {
+                    let mut known = Vec::with_capacity(registers.len());
+                    for ((param, _), register) in definition.params.iter().zip(registers) {
+                        let at = REPOSITION.iter().position(|name| *name == param.text);
+                        let Some(at) = at else {
+                            let message = format!("the post gives _REPOS no {}", param.text);
+                            let hint = Some(format!("parameters are {}", REPOSITION.join(", ")));
+                            this.report_with(CompileCode::WrongArguments, param.span, message, hint);
+                            return;
+                        };
+                        known.push((at, register));
+                    }
+                    if known.is_empty() {
+                        let message = "_REPOS without a parameter decides nothing";
+                        let hint = Some(format!("parameters are {}", REPOSITION.join(", ")));
+                        this.report_with(CompileCode::WrongArguments, name.span, message, hint);
+                        return;
+                    }
+                    this.module.output.reposition = Some((chunk, known));
                     return;
                 }
                 let [register] = registers[..] else {

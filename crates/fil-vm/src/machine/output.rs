@@ -1,4 +1,4 @@
-//! Running the macros that edit what the post writes, between sections and within them.
+//! Running the macros that the post calls, between sections and within them.
 
 use fil_cl::{Record, Vocabulary};
 use fil_diag::Diag;
@@ -8,7 +8,7 @@ use super::{Interpreter, Registers, State, Vm};
 use crate::errors::RunCode;
 use crate::host::Host;
 use crate::module::ChunkId;
-use crate::output::OutputMacro;
+use crate::output::{OutputMacro, REPOSITION, REPOSITION_GIVEN};
 use crate::value::{EMPTY, Slot, Value};
 
 /// The values of a machine while it is in the middle of a section: a second machine that
@@ -40,6 +40,7 @@ impl Interpreter {
             OutputMacro::Words => output.words.is_some(),
             OutputMacro::Tape => output.tape.is_some(),
             OutputMacro::Listing => output.listing.is_some(),
+            OutputMacro::Reposition => output.reposition.is_some(),
         }
     }
 
@@ -55,7 +56,7 @@ impl Interpreter {
         host: &mut H,
     ) -> Result<(), Box<Diag>> {
         let found = match what {
-            OutputMacro::Words => None,
+            OutputMacro::Words | OutputMacro::Reposition => None,
             OutputMacro::Tape => self.module.output.tape,
             OutputMacro::Listing => self.module.output.listing,
         };
@@ -121,6 +122,42 @@ impl Interpreter {
         gone.sort_unstable();
         for index in gone.into_iter().rev() {
             words.remove(index);
+        }
+        Ok(())
+    }
+
+    /// Runs the macro that says how rotary axes are repositioned, with a value for each of
+    /// [`REPOSITION`]; what it decides is left in them.
+    ///
+    /// # Errors
+    /// As a section; what is given is changed; a text.
+    pub fn reposition<H: Host + ?Sized>(
+        &mut self,
+        values: &mut [f64; REPOSITION.len()],
+        vocab: &mut Vocabulary,
+        host: &mut H,
+    ) -> Result<(), Box<Diag>> {
+        let Some((chunk, parameters)) = self.module.output.reposition.clone() else {
+            return Ok(());
+        };
+        for (at, register) in &parameters {
+            self.registers[usize::from(*register)] = values[*at].into();
+        }
+        self.run_macro(chunk, vocab, host)?;
+        for (at, register) in parameters {
+            let name = REPOSITION[at];
+            let value = match self.registers[usize::from(register)].value() {
+                Value::Number(value) => value,
+                Value::Unset => EMPTY,
+                Value::Text(_) => {
+                    return Err(self.at_macro(chunk, &format!("{name} holds a text")));
+                }
+            };
+            if at < REPOSITION_GIVEN && value.to_bits() != values[at].to_bits() {
+                let message = format!("{name} is given to _REPOS, which can't change it");
+                return Err(self.at_macro(chunk, &message));
+            }
+            values[at] = value;
         }
         Ok(())
     }

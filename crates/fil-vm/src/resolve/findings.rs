@@ -16,9 +16,6 @@ use crate::errors::{CompileCode, LintCode};
 use crate::lint::MachineFacts;
 use crate::output::{Edits, OutputMacro};
 
-/// A macro that the vendor's post calls itself, and filpost does not.
-const REPOS: &str = "_REPOS";
-
 /// Words that CL files have only behind `$$->`, which sections see where the machine says so.
 const PSEUDO_WORDS: [&str; 3] = ["MFGNO", "FEATNO", "CUTCOM_GEOMETRY_TYPE"];
 
@@ -109,7 +106,6 @@ impl Findings<'_> {
         let hint = match OutputMacro::named(&symbol.name) {
             Some(edits) if self.edits.has(edits) => return,
             Some(edits) => Some(format!("{} in machine.toml has it called", edits.setting())),
-            None if symbol.name == REPOS => None,
             None => return,
         };
         let message = format!("the post does not call {}", symbol.name);
