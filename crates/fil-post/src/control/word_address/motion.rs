@@ -141,6 +141,13 @@ pub fn varying_thread(
     pass_by(control, motion, code, &words, lead.cause)
 }
 
+/// Behind a lead F is a feed again, in the format of its mode.
+pub fn end_lead(control: &mut Control) {
+    control.state.doubt(F);
+    let mode = control.state.feed_mode.unwrap_or(FeedMode::PerMinute);
+    control.tables.format_feed(mode);
+}
+
 /// One pass by a function with the words of its lead.
 ///
 /// # Errors
@@ -157,6 +164,8 @@ pub fn pass_by(
         return Ok(());
     }
     motion_code(control, code, false, cause.whole());
+    // A lead is a way a turn.
+    control.tables.format_feed(FeedMode::PerRevolution);
     control.because(cause, |control| {
         words.iter().try_for_each(|(letter, value)| {
             control.word_rounded(*letter, *value, fil_machine::rounding::Rounding::Lead)
@@ -164,7 +173,7 @@ pub fn pass_by(
     })?;
     write_motion(control)?;
     words.iter().for_each(|(letter, _)| control.state.doubt(*letter));
-    control.state.doubt(F);
+    end_lead(control);
     Ok(())
 }
 
@@ -173,6 +182,7 @@ pub fn pass_by(
 /// # Errors
 /// A lead that the address can't hold.
 pub fn lead_word(control: &mut Control, lead: &Lead) -> Result<()> {
+    control.tables.format_feed(FeedMode::PerRevolution);
     control.because(lead.cause, |control| {
         control.word_rounded(F, lead.value, fil_machine::rounding::Rounding::Lead)
     })

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use fil_diag::Result;
-use fil_machine::letters::F;
 use fil_machine::locations::{self as loc, ThreadCycle};
+use fil_machine::modes::FeedMode;
 use fil_machine::rounding::Rounding;
 use fil_machine::{FunctionCode, Letter};
 
@@ -31,6 +31,8 @@ pub fn cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Res
     let code = post.control.code(loc::THREAD_CYCLE_CODE, "the cycle of a thread")?;
     let ends = Ends::of(post, thread, shape, start)?;
     motion::ready(&mut post.control)?;
+    // A lead is a way a turn.
+    post.control.tables.format_feed(FeedMode::PerRevolution);
     post.control.flush_waiting()?;
     match cycle {
         ThreadCycle::SinglePasses | ThreadCycle::Cycle97OfASinumerik => return Ok(false),
@@ -277,6 +279,6 @@ fn stands_at(control: &mut Control, [x, z]: [f64; 2]) -> Result<()> {
         control.state.trust(axis.letter);
     }
     control.state.motion = None;
-    control.state.doubt(F);
+    motion::end_lead(control);
     Ok(())
 }
