@@ -284,11 +284,15 @@ impl AxisChain {
     }
 }
 
+/// So far past a limit is at it: the tape rounds to no more than five decimals, degrees.
+const PAST_LIMIT: f64 = 1e-6;
+
 impl Rotary {
-    /// True when the axis can stand at this position, degrees.
+    /// True when the axis can stand at this position, degrees. A direction at a limit, rounded
+    /// in the CL file, may lie a little past it.
     pub fn reaches(&self, angle: f64) -> bool {
-        self.min.is_none_or(|min| angle >= min - 1e-9)
-            && self.max.is_none_or(|max| angle <= max + 1e-9)
+        self.min.is_none_or(|min| angle >= min - PAST_LIMIT)
+            && self.max.is_none_or(|max| angle <= max + PAST_LIMIT)
     }
 
     /// A direction turned about the axis by an angle, degrees, by the right-hand rule.

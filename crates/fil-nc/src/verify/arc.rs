@@ -254,7 +254,10 @@ impl<C: Steps> Walk<'_, C> {
     /// their last digits let them stand there: at the end of a long lever these are more than
     /// those of X, Y and Z.
     fn exactly(&self, arc: &Arc, found: &Move) -> Position {
-        let rotary = self.settings.forward.refine(found.to.rotary, arc.end.axis);
+        // An axis that does not turn the tool stays at its exact position.
+        let stays = |n: usize| (self.exact[n] - found.to.rotary[n]).abs() <= self.slack.rotary[n];
+        let kept = [0, 1].map(|n| if stays(n) { self.exact[n] } else { found.to.rotary[n] });
+        let rotary = self.settings.forward.refine(kept, arc.end.axis);
         let is_near = |n: usize| (rotary[n] - found.to.rotary[n]).abs() <= self.slack.rotary[n];
         if is_near(0) && is_near(1) { Position { rotary, ..found.to } } else { found.to }
     }

@@ -136,7 +136,8 @@ impl Gap {
             linear: [0.0; 3],
             excess: [false; 3],
             turned: (!solved && !framed && !directed).then_some(axis),
-            rotary: if solved { exact } else { at.rotary },
+            // A vector near a pole is rounded by more than the last digits of an angle.
+            rotary: if solved || directed && reached { exact } else { at.rotary },
             tip: (stands.tip - pose.tip).norm(),
             axis,
         };

@@ -5,7 +5,7 @@ use fil_machine::locations::CycleBoreOut;
 use super::ahead::Steps;
 use super::report::FindingKind;
 use super::say::short;
-use super::walk::Walk;
+use super::walk::{STILL, Walk};
 use super::wanted::Hole;
 use crate::forward::Pose;
 use crate::motion::{Course, Event, Move, Spindle};
@@ -65,6 +65,11 @@ impl<C: Steps> Walk<'_, C> {
             let message = format!("the tool is tilted {} degrees away from the hole", short(angle));
             self.find(FindingKind::Axis, Some(cl_line), Some(plunge.line), message);
         }
+    }
+
+    /// The next plunge is one of a cycle of the control.
+    pub(super) fn plunges_in_cycle(&self) -> bool {
+        self.plunge(self.next).is_some_and(|plunge| plunge.in_cycle)
     }
 
     /// Takes the events of a hole that is not where it should be; false when the next
@@ -151,12 +156,7 @@ impl<C: Steps> Walk<'_, C> {
         let rest = self.approach(cl_line, hole, levels)?;
         let mut reached = levels.clear;
         let in_cycle = self.next_move().is_some_and(|found| found.in_cycle);
-        let from_surface = in_cycle && self.settings.pecks_from_surface();
-        let first = if from_surface { levels.at[2] } else { levels.clear };
-        let step = hole.step.filter(|_| in_cycle);
-        let step = step.map(|step| self.settings.peck_on_tape(step, self.metric));
-        let pecks = Hole { step: step.or(hole.step), ..*hole };
-        for depth in depths(&pecks, first, levels.bottom) {
+        for depth in self.depths(hole, levels, in_cycle) {
             if reached != levels.clear {
                 self.between_pecks(cl_line, hole, levels, reached)?;
             }
@@ -173,6 +173,29 @@ impl<C: Steps> Walk<'_, C> {
         self.bottom_dwell(cl_line, hole)?;
         self.leave(cl_line, hole, levels.clear, (rest, turning))?;
         Ok(rest)
+    }
+
+    /// The levels of the pecks and the bottom, as a cycle of the control or single moves make
+    /// them.
+    fn depths(&self, hole: &Hole, levels: Levels, in_cycle: bool) -> Vec<f64> {
+        let from_surface = in_cycle && self.settings.pecks_from_surface();
+        let first = if from_surface { levels.at[2] } else { levels.clear };
+        let step = hole.step.filter(|_| in_cycle);
+        let step = step.map(|step| self.settings.peck_on_tape(step, self.metric));
+        let pecks = Hole { step: step.or(hole.step), ..*hole };
+        depths(&pecks, first, levels.bottom)
+    }
+
+    /// Heights above its start at which the tool turns round in a hole.
+    pub(super) fn heights(&self, hole: &Hole, levels: Levels, in_cycle: bool) -> Vec<f64> {
+        let gap = self.settings.peck_gap();
+        let raised = hole.retract.filter(|above| *above > 0.0);
+        let mut heights: Vec<f64> = raised.into_iter().collect();
+        heights.push(levels.clear - levels.at[2]);
+        for depth in self.depths(hole, levels, in_cycle) {
+            heights.extend([depth - levels.at[2], depth + gap - levels.at[2]]);
+        }
+        heights
     }
 
     /// The motions over the hole, down to the R level. Gives the level to return to.
@@ -319,7 +342,7 @@ impl<C: Steps> Walk<'_, C> {
     fn vertical(&self, found: &Move) -> Result<(), (u32, String)> {
         let straight = found.arc.is_none()
             && (0..2).all(|n| found.to.linear[n] == self.at.linear[n])
-            && found.to.rotary == self.at.rotary;
+            && (0..2).all(|n| (found.to.rotary[n] - self.at.rotary[n]).abs() <= STILL);
         if straight {
             return Ok(());
         }
@@ -462,17 +485,6 @@ fn reversed(spindle: Spindle) -> Spindle {
         Spindle::Clockwise => Spindle::Counterclockwise,
         Spindle::Counterclockwise => Spindle::Clockwise,
     }
-}
-
-/// Heights above its start at which the tool turns round in a hole of single moves.
-pub(super) fn heights(hole: &Hole, levels: Levels, peck_gap: f64) -> Vec<f64> {
-    let raised = hole.retract.filter(|above| *above > 0.0);
-    let mut heights: Vec<f64> = raised.into_iter().collect();
-    heights.push(levels.clear - levels.at[2]);
-    for depth in depths(hole, levels.clear, levels.bottom) {
-        heights.extend([depth - levels.at[2], depth + peck_gap - levels.at[2]]);
-    }
-    heights
 }
 
 /// The levels of the pecks, counted from a level, and the bottom.

@@ -7,10 +7,10 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Point3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 use super::ahead::Steps;
-use super::hole::{Levels, heights};
+use super::hole::Levels;
 use super::walk::{STILL, Walk};
 use super::wanted::Hole;
 use crate::forward::Frame;
@@ -32,6 +32,9 @@ const DUST: f64 = 1e-7;
 struct Line {
     start: Point3<f64>,
     axis: Vector3<f64>,
+    /// From the part to the directions whose digits are on the tape: those of the machine,
+    /// where no tool-tip control says them in the part.
+    turn: Matrix3<f64>,
     /// What the last digits of the tip leave open, mm.
     slack: [f64; 3],
     /// Heights above the start that the hole asks for, mm.
@@ -64,7 +67,8 @@ impl Line {
 
     /// What the last digits leave open along the line, mm.
     fn digits(&self) -> f64 {
-        (0..3).map(|n| self.axis[n].abs() * self.slack[n]).sum()
+        let axis = self.turn * self.axis;
+        (0..3).map(|n| axis[n].abs() * self.slack[n]).sum()
     }
 
     /// The largest step between two heights asked for that the last digits can't tell from
@@ -89,8 +93,10 @@ impl Line {
     /// From where to where a tip can be above the start; `None` when it is beside the line.
     fn range(&self, tip: [f64; 3]) -> Option<[f64; 2]> {
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-        for (n, tip) in tip.into_iter().enumerate() {
-            let (off, slope, slack) = (tip - self.start[n], self.axis[n], self.slack[n]);
+        let off = self.turn * (Point3::from(tip) - self.start);
+        let axis = self.turn * self.axis;
+        for n in 0..3 {
+            let (off, slope, slack) = (off[n], axis[n], self.slack[n]);
             if slope.abs() < STILL {
                 if off.abs() > slack {
                     return None;
@@ -165,23 +171,31 @@ impl<C: Steps> Walk<'_, C> {
             return false;
         }
         if self.is_said_anew(found, hole) {
-            return self.line_of(hole).range(self.tip_over(found, hole).coords.into()).is_some();
+            return self
+                .line_of(hole, found)
+                .range(self.tip_over(found, hole).coords.into())
+                .is_some();
         }
         (0..2).all(|n| (found.to.linear[n] - over[n]).abs() <= self.slack.linear[n])
     }
 
-    fn line_of(&self, hole: &Hole) -> Line {
+    fn line_of(&self, hole: &Hole, found: &Move) -> Line {
         let mut slack = self.slack.linear;
+        let mut turn = Matrix3::identity();
         if self.settings.is_mill_turn() {
             // X of a hole at any C, which is rounded on the tape.
             let most = slack.into_iter().fold(0.0, f64::max);
             let reach = libm::hypot(hole.start.tip.x, hole.start.tip.y);
             slack = [most + self.slack.rotary[0].to_radians() * reach; 3];
+        } else if !found.to.tip_control {
+            let rotary = self.gap(&found.to, &hole.start).rotary;
+            turn = self.settings.forward.frame(rotary).turn.transpose();
         }
         Line {
             start: hole.start.tip,
             axis: hole.start.axis,
             slack,
+            turn,
             heights: Vec::new(),
             before: f64::NAN,
         }
@@ -190,15 +204,15 @@ impl<C: Steps> Walk<'_, C> {
     /// Says the next motions under tool-tip control in axes, until [`Walk::say_again`].
     pub(super) fn say_in_axes(&mut self, hole: &Hole, levels: Levels) -> Option<Kept> {
         let next = self.next_move().filter(|next| self.is_said_anew(next, hole))?;
-        let mut line = self.line_of(hole);
-        line.heights = heights(hole, levels, self.settings.peck_gap());
+        let mut line = self.line_of(hole, &next);
+        line.heights = self.heights(hole, levels, self.plunges_in_cycle());
         // The spindle turns the part under a live tool that stands: its height stays.
         let turned = self.settings.is_mill_turn();
         let rotary = if turned { next.to.rotary } else { self.at.rotary };
         let stands = Move { to: Position { rotary, ..self.at }, ..next };
         self.at = self.said(&stands, hole, levels, &line).to;
         let known = self.known[..3].iter().all(|known| *known);
-        let tip = self.settings.forward.pose(&stands.to).tip;
+        let tip = self.tip_over(&stands, hole);
         if let Some(height) = line.level(tip.coords.into()).filter(|_| known) {
             self.at.linear[2] = levels.at[2] + height;
         }

@@ -134,6 +134,7 @@ impl<C: Steps> Walk<'_, C> {
         if !is_above || self.settings.names_machine_positions() {
             self.go_to_machine(cl_line, [None, None, Some(level)]);
         }
+        self.is_away |= is_above;
     }
 
     /// A rotary axis turns by itself to a position, at rapid.
@@ -172,7 +173,7 @@ impl<C: Steps> Walk<'_, C> {
         self.watch.stand(None);
     }
 
-    /// The machine turns right after a tool change, where the tool is away from the part,
+    /// The machine turns right after a tool change or a position of the machine, where the tool is away from the part,
     /// for a frame or tool-tip control that the next motion is in.
     pub(super) fn turns_away(&self, found: &Move) -> bool {
         let stands = (0..3).all(|n| found.to.linear[n] == self.at.linear[n] || !found.known[n]);
@@ -184,7 +185,7 @@ impl<C: Steps> Walk<'_, C> {
             Event::Move(next) => Some(next.to.names_tip()),
             _ => None,
         });
-        found.modes.tool != self.moved_tool && behind == Some(true)
+        (self.is_away || found.modes.tool != self.moved_tool) && behind == Some(true)
     }
 
     /// An arc as the settings of the machine correct it; `None` where they leave it.

@@ -46,8 +46,15 @@ impl<C: Steps> Walk<'_, C> {
     #[cold]
     pub(super) fn rests_before_tip_end(&mut self, step: &Step) -> bool {
         let (Wanted::Rapid(pose) | Wanted::Feed(pose, _)) = &step.what else { return false };
-        let goes_up = self.next_move().is_some_and(|found| self.goes_up_at_tip_end(&found));
-        goes_up && self.stands_at(pose)
+        if !self.stands_at(pose) {
+            return false;
+        }
+        // A direction that is written as a vector is said where nothing moves, too.
+        while let Some(still) = self.next_move().filter(|found| self.is_still(found)) {
+            self.take(step.line, &still);
+            self.next += 1;
+        }
+        self.next_move().is_some_and(|found| self.goes_up_at_tip_end(&found))
     }
 
     /// Tool-tip control ends before an event; `None` where no event says it.
