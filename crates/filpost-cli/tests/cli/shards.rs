@@ -140,9 +140,10 @@ fn the_scripts_of_the_docs_run_each_case_once() {
     let place = ten_cases();
     let of_part = |part: u32| {
         let variables =
-            [("SLURM_ARRAY_TASK_ID", part.to_string()), ("SLURM_ARRAY_TASK_COUNT", "4".into())];
+            [("SLURM_ARRAY_TASK_ID", part.to_string()), ("SLURM_ARRAY_TASK_COUNT", "1".into())];
         bash(&place, job, &variables)
     };
+    // Each submitted alone, as after a failure.
     let statuses: Vec<Option<i32>> = (1..=4).map(of_part).collect();
     if statuses.contains(&None) {
         return;
