@@ -65,7 +65,7 @@ fn action(what: &Wanted) -> Result<Option<Action>, String> {
             Action::Hole(hole_at, minute(hole.rate))
         }
         Wanted::Tool { number, .. } => Action::Tool(*number),
-        Wanted::Thread(..) | Wanted::Insert(_) | Wanted::Unknown { .. } => {
+        Wanted::Thread(..) | Wanted::Insert { .. } | Wanted::Unknown { .. } => {
             return Err(format!("{what:?} is not covered by this comparison"));
         }
         Wanted::Compensation(side, _) if *side != Compensation::Off => {

@@ -6,7 +6,7 @@ use std::borrow::Cow;
 use super::Settings;
 
 /// What the reader of blocks knows.
-const SKIP: u8 = b'/';
+pub(crate) const SKIP: u8 = b'/';
 const NUMBER: u8 = b'N';
 
 /// The marks of a machine; `None` where it has those that the reader knows, or none.

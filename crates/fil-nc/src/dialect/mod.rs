@@ -23,7 +23,7 @@ pub use codes::{Auxiliary, CycleKind, FeedMode, Function, Group};
 pub use family::Family;
 use g_codes::Functions;
 use m_codes::Auxiliaries;
-pub(crate) use marks::Marks;
+pub(crate) use marks::{Marks, SKIP};
 pub use numbers::{Address, Unreadable};
 pub(crate) use start::Certain;
 pub(crate) use turns::WayRound;

@@ -23,7 +23,7 @@ impl Again {
             // Words of the user's own may be a stop.
             Wanted::Tool { .. }
             | Wanted::Stop { .. }
-            | Wanted::Insert(_)
+            | Wanted::Insert { .. }
             | Wanted::Words(_)
             | Wanted::Repeated(_)
             | Wanted::Auxiliary(_)

@@ -49,9 +49,9 @@ impl<C: Steps> Walk<'_, C> {
         }
     }
 
-    pub(super) fn insert(&mut self, cl_line: u32, text: &str) {
+    pub(super) fn insert(&mut self, cl_line: u32, text: &str, may_be_skipped: bool) {
         self.pass_own();
-        let line = match self.own.insert(text) {
+        let line = match self.own.insert(text, may_be_skipped) {
             Ok(line) => line,
             Err(failed) => {
                 self.failed = Some(failed);
@@ -80,6 +80,7 @@ impl<C: Steps> Walk<'_, C> {
         let of_clamps =
             |code: &u32| self.settings.frame_clamps().is_some_and(|codes| codes.contains(code));
         let Some(code) = code.filter(|code| !of_clamps(code)) else { return };
+        self.pass_own();
         let next = self.nc.get(self.next).map_or(u32::MAX, |event| event.line());
         self.auxiliaries.ask(code, cl_line, [self.last_line(), next]);
     }
@@ -119,6 +120,7 @@ impl<C: Steps> Walk<'_, C> {
         self.report
             .leave_open(Unverified { cl_line: Some(cl_line), what: format!("{what}: {open}") });
         if self.user_lines[1] != u32::MAX {
+            self.pass_own();
             let next = self.nc.line(self.next).unwrap_or(u32::MAX - 1);
             self.user_lines = [self.last_line(), next];
         }

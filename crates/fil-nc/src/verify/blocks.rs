@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 
 use fil_diag::Diag;
 
-use crate::dialect::Marks;
+use crate::dialect::{Marks, SKIP};
 use crate::source::{Lines, Source, changed};
 
 /// Texts of INSERT that were looked for to the end of the program without being there;
@@ -101,13 +101,20 @@ impl<'a> OwnBlocks<'a> {
         self.lines.contains(&line)
     }
 
-    /// Takes the next line that is this text and gives its number; `None` when there is
-    /// none.
+    /// Takes the next line that is this text, in a block that may be skipped or in one that
+    /// may not, and gives its number; `None` when there is none.
     ///
     /// # Errors
     /// E0915 when the file of the program can't be read.
-    pub(super) fn insert(&mut self, text: &str) -> Result<Option<u32>, Box<Diag>> {
-        let text = bare(&self.marks.read(text.as_bytes()));
+    pub(super) fn insert(
+        &mut self,
+        text: &str,
+        may_be_skipped: bool,
+    ) -> Result<Option<u32>, Box<Diag>> {
+        let mut text = bare(&self.marks.read(text.as_bytes()));
+        if may_be_skipped && text.first() != Some(&SKIP) {
+            text.insert(0, SKIP);
+        }
         if self.missing.contains(&text) {
             return Ok(None);
         }
@@ -190,14 +197,19 @@ fn bare(line: &[u8]) -> Vec<u8> {
     // Lines of Klartext begin with their number.
     let number = bare.iter().take_while(|byte| byte.is_ascii_digit()).count();
     bare.drain(..number);
-    // A text may have a number of its own behind that of the post.
+    // A text may have a number of its own behind that of the post; the mark of a block that
+    // may be skipped stands in front of it.
+    let mark = usize::from(bare.first() == Some(&SKIP));
     loop {
-        let digits = bare.iter().skip(1).take_while(|byte| byte.is_ascii_digit()).count();
-        if bare.first() != Some(&b'N') || digits == 0 {
+        let rest = &bare[mark..];
+        let digits = rest.iter().skip(1).take_while(|byte| byte.is_ascii_digit()).count();
+        if rest.first() != Some(&b'N') || digits == 0 {
             break;
         }
-        bare.drain(..=digits);
+        bare.drain(mark..=mark + digits);
     }
+    let number = bare[mark..].iter().take_while(|byte| byte.is_ascii_digit()).count();
+    bare.drain(mark..mark + number);
     bare
 }
 
@@ -206,9 +218,13 @@ mod tests {
     use super::*;
 
     fn own(text: &str, insert: &[&str]) -> Vec<Option<u32>> {
+        inserted(text, insert, false)
+    }
+
+    fn inserted(text: &str, insert: &[&str], may_be_skipped: bool) -> Vec<Option<u32>> {
         let (source, marks) = (Source::memory(text.as_bytes()), Marks::default());
         let mut own = OwnBlocks::new((&source, "nc"), &marks, &[], &[]).unwrap();
-        insert.iter().map(|text| own.insert(text).unwrap()).collect()
+        insert.iter().map(|text| own.insert(text, may_be_skipped).unwrap()).collect()
     }
 
     #[test]
@@ -220,6 +236,13 @@ mod tests {
         );
         assert_eq!(own(text, &["/ M50", "M50"]), [Some(5), None]);
         assert_eq!(own(text, &["M51", "M50"]), [None, Some(2)]);
+    }
+
+    #[test]
+    fn a_text_behind_opskip_has_its_mark() {
+        let text = "N1 M50\n/N2 M50\n/3 L X+5\n";
+        assert_eq!(inserted(text, &["M50", "L X+5", "M50"], true), [Some(2), Some(3), None]);
+        assert_eq!(own(text, &["M50", "M50"]), [Some(1), None]);
     }
 
     #[test]

@@ -247,8 +247,14 @@ impl<C: Steps> Walk<'_, C> {
                 return Err((found.line, self.spell_level("the R level", to[2], levels.clear)));
             }
             raise &= !near(to[2], raised, 2);
+            // Z counts from another zero than before the cycle.
+            if !self.known[2] && near(to[2], raised, 2) {
+                self.initial = Some(raised);
+            }
             self.take(cl_line, &found);
             self.next += 1;
+            // The level to return to is then said over the hole.
+            raise |= across && !self.known[2] && hole.retract.is_some_and(|above| above > 0.0);
         }
         if raise {
             let message = format!("the tool does not go up to Z{} before the hole", short(raised));

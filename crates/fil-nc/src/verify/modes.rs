@@ -53,6 +53,8 @@ pub(super) struct Expected {
     /// A record has asked for the spindle, and for the coolant, since the last tool change or
     /// stop.
     pub(super) again: Again,
+    /// Nothing is done any more that modes of records left out would hold for.
+    pub(super) unfollowed: bool,
     /// `None` when words of the user's own may have chosen it.
     pub(super) fixture: Option<Option<u32>>,
     /// The plane that a record has named last, by the index of its normal.
@@ -89,6 +91,7 @@ impl Expected {
             next_limit: None,
             coolant: Lag::new(None),
             again: Again::default(),
+            unfollowed: false,
             fixture: Some(fixture_of(&settings.own_blocks())),
             plane: DRILLED,
             allowed_offsets: Vec::new(),
@@ -177,7 +180,7 @@ impl Expected {
             }
             Wanted::Mills(mills) if settings.is_mill_turn() => self.change_spindle(*mills),
             Wanted::Stop { .. } | Wanted::End(_) => self.flush(),
-            Wanted::Insert(text) => {
+            Wanted::Insert { text, .. } => {
                 settings.blocks_of_text(text).for_each(|text| self.insert(text, settings));
             }
             Wanted::Words(text) | Wanted::Repeated(text) => self.insert(text, settings),
@@ -302,6 +305,9 @@ impl Expected {
         let mut wrong = self.wrong(modes, Doing::Standing, slack);
         // A change may bring its own offset along; one that waits needs a motion.
         wrong.retain(|(kind, _)| *kind != FindingKind::Tool || !(changes || self.offset_waits()));
+        if self.unfollowed {
+            wrong.retain(|(kind, _)| matches!(kind, FindingKind::Tool | FindingKind::Compensation));
+        }
         if modes.tip_control {
             let said = "tool-tip control is on, it should be off";
             wrong.push((FindingKind::Tool, said.to_string()));

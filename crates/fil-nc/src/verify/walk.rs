@@ -221,8 +221,10 @@ impl<'a, C: Steps> Walk<'a, C> {
                 });
                 self.dwell(step.line, seconds, Some(*turns));
             }
-            Wanted::Insert(text) => {
-                self.settings.blocks_of_text(text).for_each(|text| self.insert(step.line, text));
+            Wanted::Insert { text, may_be_skipped } => {
+                for text in self.settings.blocks_of_text(text) {
+                    self.insert(step.line, text, *may_be_skipped);
+                }
             }
             Wanted::Words(text) => self.ask_words(step.line, text),
             Wanted::WholeThread(thread) => self.whole_thread(step.line, thread),
@@ -241,6 +243,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             Wanted::RigidTap => self.ask_auxiliary(step.line, self.settings.rigid_tap_mode()),
             Wanted::Clamp(on) => self.ask_auxiliary(step.line, self.settings.clamp_code(*on)),
             Wanted::Auxiliary(code) => self.auxiliary(step.line, *code),
+            Wanted::Unfollowed => self.modes.unfollowed = true,
             Wanted::End(end) => self.end(step.line, *end),
             _ if step.what.end().is_some() => self.motion(step),
             _ => {}

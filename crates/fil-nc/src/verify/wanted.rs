@@ -103,11 +103,18 @@ pub enum Wanted {
     /// An auxiliary function by its number.
     Auxiliary(u32),
     /// A line of the tape, as it stands.
-    Insert(String),
+    Insert {
+        /// The line.
+        text: String,
+        /// It stands in a block that may be skipped.
+        may_be_skipped: bool,
+    },
     /// Words of the user's own that the CL file says, in a block of their own.
     Words(String),
     /// Words of the user's own in each motion that follows.
     Repeated(String),
+    /// Nothing is done any more that modes of records left out would hold for.
+    Unfollowed,
     /// The end of the program.
     End(End),
     /// Something whose effect on the machine is not known from the CL file.
@@ -276,7 +283,7 @@ impl Wanted {
                     | Wanted::RigidTap
                     | Wanted::Clamp(_)
                     | Wanted::Auxiliary(_)
-                    | Wanted::Insert(_)
+                    | Wanted::Insert { .. }
                     | Wanted::Words(_)
             )
     }

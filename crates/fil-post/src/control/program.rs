@@ -133,13 +133,22 @@ fn write_start(control: &mut Control) -> Result<()> {
 pub fn end(control: &mut Control, code: Option<FunctionCode>) -> Result<()> {
     control.begin()?;
     super::word_address::cycle::cancel(control)?;
+    let may_compensate = control.state.may_compensate();
+    let may_drill = control.state.was_in_cycle();
     control.skip_blocks(false)?;
     control.flush_waiting()?;
+    if may_drill {
+        super::word_address::cycle::leave(control)?;
+    }
     for block in user_blocks::END.read(&control.commons) {
         control.because(Cause::default(), |control| control.write_text(&block, true))?;
     }
     if control.state.compensates() {
         return PostCode::CompensationOn.err("at the end of the program");
+    }
+    if may_compensate && control.state.compensation.is_none() {
+        return PostCode::CompensationOn
+            .err("at the end of the program, with the blocks of OPSKIP or without them");
     }
     if let Some(code) = code {
         control.m(code);

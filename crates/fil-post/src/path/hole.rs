@@ -69,12 +69,11 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     post.path.point = Some(target.point);
     post.path.axis = target.axis;
     let word = rotary::word_of(post, target);
-    let start = position[hole.along];
-    raise(post, cycle, &mut hole, start)?;
+    let at = Motion { position, axes: AxisSet::ALL, word };
+    raise(post, cycle, &mut hole, &at)?;
     for level in [hole.bottom, hole.clear, hole.initial] {
         post.control.tables.axis(hole.along).check(level)?;
     }
-    let at = Motion { position, axes: AxisSet::ALL, word };
     let has_cycle = family::drills(&post.control, &hole) && !as_single_moves(post, target);
     let code = family::cycle_code(&post.control, cycle).filter(|_| has_cycle);
     cycle.along = Some(hole.along);
@@ -241,24 +240,29 @@ fn locate(post: &mut Post, cycle: &Cycle, target: Target) -> Result<(Position, H
 }
 
 /// Refuses a hole from a height that is not known: the control would go across at it.
-fn refuse_unknown_height(control: &mut Control, hole: &Hole) -> Result<()> {
-    let out = if hole.clear >= hole.bottom { 1.0 } else { -1.0 };
-    match control.place(hole.along) {
-        Place::Unknown => refuse_unknown(control, hole.along),
+fn refuse_unknown_height(
+    control: &mut Control,
+    along: usize,
+    place: Place,
+    rises: bool,
+) -> Result<()> {
+    match place {
+        Place::Unknown => refuse_unknown(control, along),
         Place::LeftToScript(_) => {
-            control.cross_forgotten(hole.along);
+            control.cross_forgotten(along);
             Ok(())
         }
-        Place::Shifted(last) => {
-            control.cross_shifted(hole.along, (hole.clear - last) * out > SAME_LEVEL)
-        }
+        Place::Shifted(_) => control.cross_shifted(along, rises),
         _ => Ok(()),
     }
 }
 
 /// Brings the tool up before it goes to the hole, when it stands below the
-/// hole's R level or below the level to return to, and settles that level.
-fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, start: f64) -> Result<()> {
+/// hole's R level or below the level to return to, and settles that level. Where it is not
+/// known how high it stands, it goes across first and then to the level, unless the last
+/// number says that it goes up.
+fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, at: &Motion) -> Result<()> {
+    let start = at.position[hole.along];
     let out = if hole.clear >= hole.bottom { 1.0 } else { -1.0 };
     let above = |one: f64, other: f64| (one - other) * out;
     if let Some(levels) = post.control.levels_behind_skip(hole.along) {
@@ -271,8 +275,8 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, start: f64) -> Res
         cycle.initial = None;
         return Ok(());
     }
-    refuse_unknown_height(&mut post.control, hole)?;
-    if matches!(post.control.place(hole.along), Place::Shifted(_) | Place::LeftToScript(_)) {
+    let place = post.control.place(hole.along);
+    if matches!(place, Place::Shifted(_) | Place::LeftToScript(_)) {
         // The level before the cycle counts from another zero.
         cycle.initial = None;
     }
@@ -295,28 +299,36 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, start: f64) -> Res
         }
         _ => hole.clear,
     };
-    let below = match here {
+    let below = match (here, place) {
         // Where the tool stands is rounded on the tape, and less would be no motion.
-        Some(here) => {
+        (Some(here), _) => {
             let rounding = post.control.tables.axis(hole.along).resolution() / 2.0;
             above(wanted, here) > rounding.max(SAME_LEVEL)
         }
-        None => cycle.retract.is_some(),
+        (None, Place::Shifted(last)) => above(wanted, last) > SAME_LEVEL,
+        (None, _) => false,
     };
+    let unknown = here.is_none() && cycle.retract.is_some();
+    refuse_unknown_height(&mut post.control, hole.along, place, below)?;
     let level = if below { wanted } else { initial.unwrap_or(wanted) };
-    if below {
+    if below || unknown {
         family::cancel_cycle(&mut post.control)?;
         cycle.in_force = None;
-        let motion = Motion::along(hole.along, wanted);
+        let (across, motion) = (expand::without(hole.along), Motion::along(hole.along, wanted));
         let cause = cycle.cause;
-        post.control.because(cause, |control| rapid::rapid(control, &motion, cause))?;
+        post.control.because(cause, |control| {
+            if !below {
+                rapid::rapid(control, &at.of(across), cause)?;
+            }
+            rapid::rapid(control, &motion, cause)
+        })?;
     }
     if cycle.retract.is_some_and(|retract| retract > 0.0) && above(level, wanted) > SAME_LEVEL {
         let message = "CYCLE: the level to return to is below the level before the cycle; the tool \
                        returns to the level before the cycle";
         post.warn(PostCode::IgnoredPart, message.to_string());
     }
-    cycle.initial = Some(level).filter(|_| below || initial.is_some());
+    cycle.initial = Some(level).filter(|_| below || unknown || initial.is_some());
     hole.initial = level;
     hole.to_initial = match cycle.retract {
         None => false,

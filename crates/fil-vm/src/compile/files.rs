@@ -98,11 +98,12 @@ impl<'a> Includes<'a> {
         }
         self.open.push(unit);
         for (name, span) in wanted {
-            if let Some(included) = self.include(unit, &name, span)
-                && self.grow(unit, included, &name, span)
-            {
-                self.found.included.insert((unit, span.start), included);
+            let Some(included) = self.include(unit, &name, span) else { continue };
+            if !self.grow(unit, included, &name, span) {
+                // The files behind it are too much as well.
+                break;
             }
+            self.found.included.insert((unit, span.start), included);
         }
         self.open.pop();
         self.units[unit].program = parsed.program;

@@ -124,6 +124,8 @@ pub struct ClPath<'r> {
     leaves_out: bool,
     /// OPSKIP is on.
     skips: bool,
+    /// Records were left out, and nothing is done behind them yet.
+    unfollowed: bool,
 }
 
 impl<'r> ClPath<'r> {
@@ -159,6 +161,7 @@ impl<'r> ClPath<'r> {
             over: false,
             leaves_out: false,
             skips: false,
+            unfollowed: false,
         }
     }
 
@@ -209,13 +212,14 @@ impl<'r> ClPath<'r> {
             }
             if !self.reader.read(&mut self.vocabulary, &mut self.record)? {
                 self.over = true;
-                let line = self.record.line;
-                return Ok(Some(Step { line, what: Wanted::End(End::OfFile) }));
+                self.give(vec![Wanted::End(End::OfFile)]);
+                continue;
             }
             let line = self.record.line;
             self.require_unit()?;
             self.refuse_other_unit()?;
             if self.is_plain_motion() {
+                self.unfollowed = false;
                 match self.state.motion(&self.record, &self.vocabulary) {
                     Some(what) => return Ok(Some(Step { line, what })),
                     None => continue,
@@ -225,11 +229,31 @@ impl<'r> ClPath<'r> {
             if self.record.kind == kind::POST && self.record.major == w::OPSKIP {
                 self.skips = self.record.has(w::ON);
             }
+            if self.skips {
+                for step in &mut steps {
+                    if let Wanted::Insert { may_be_skipped, .. } = step {
+                        *may_be_skipped = true;
+                    }
+                }
+            }
             if self.leaves_out && self.skips {
                 steps.retain(|what| !what.is_done_once());
+                self.unfollowed = true;
             }
+            self.unfollowed &= !steps.iter().any(Wanted::is_done_once);
             self.over = steps.iter().any(|what| matches!(what, Wanted::End(_)));
-            self.ready.extend(steps.into_iter().map(|what| Step { line, what }));
+            self.give(steps);
+        }
+    }
+
+    /// Steps of the record at hand.
+    fn give(&mut self, steps: Vec<Wanted>) {
+        let line = self.record.line;
+        for what in steps {
+            if self.unfollowed && matches!(what, Wanted::End(_)) {
+                self.ready.push_back(Step { line, what: Wanted::Unfollowed });
+            }
+            self.ready.push_back(Step { line, what });
         }
     }
 }
@@ -404,7 +428,10 @@ impl State {
             w::LINTOL => self.straight(record),
             w::STOP => vec![Wanted::Stop { optional: false }],
             w::OPSTOP => vec![Wanted::Stop { optional: true }],
-            w::INSERT => vec![Wanted::Insert(record.text.trim().to_string())],
+            w::INSERT => {
+                let text = record.text.trim().to_string();
+                vec![Wanted::Insert { text, may_be_skipped: false }]
+            }
             w::END => vec![Wanted::End(End::Stay)],
             w::REWIND => vec![Wanted::End(End::Rewind)],
             w::CLAMP => vec![Wanted::Clamp(record.has(w::ON))],

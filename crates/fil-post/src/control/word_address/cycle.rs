@@ -277,8 +277,18 @@ pub fn cancel(control: &mut Control) -> Result<()> {
     if control.state.in_cycle != Some(true) {
         return Ok(());
     }
-    if control.tables.family == ControlFamily::Sinumerik {
-        return sinumerik::cycle::cancel(control);
+    leave(control)
+}
+
+/// Says that no canned cycle is in force.
+///
+/// # Errors
+/// The machine has no such code.
+pub fn leave(control: &mut Control) -> Result<()> {
+    match control.tables.family {
+        ControlFamily::WordAddress => {}
+        ControlFamily::Sinumerik => return sinumerik::cycle::cancel(control),
+        ControlFamily::Klartext => return Ok(()),
     }
     let waiting = control.block.take();
     let code = control.code(loc::CYCLE_OFF_CODE, "CYCLE/OFF")?;
