@@ -163,7 +163,7 @@ impl Gap {
 }
 
 /// A value as the last digit shows it, halves away from zero.
-fn rounded(value: f64, digit: f64) -> f64 {
+pub(super) fn rounded(value: f64, digit: f64) -> f64 {
     (value / digit).round() * digit
 }
 

@@ -217,7 +217,8 @@ impl<'c> Settings<'c> {
         says.then(|| 0.9 * libm::exp10(-f64::from(decimals)))
     }
 
-    /// A peck as a cycle of the control has it, mm: its last digit counts once for each peck.
+    /// A peck as a cycle of the control has it, mm: its last digit counts once for each peck,
+    /// and by the output scale of Z.
     pub fn peck_on_tape(&self, step: f64, metric: bool) -> f64 {
         let letter = match self.commons.read(loc::CONTROL_FAMILY) {
             ControlFamily::WordAddress => self.commons.read(loc::CYCLE_STEP_ADDRESS),
@@ -226,7 +227,7 @@ impl<'c> Settings<'c> {
         let addresses = Addresses::from_commons(self.commons, metric);
         let format = letter.and_then(|letter| addresses.format(letter).copied());
         let Some(format) = format else { return step };
-        let digit = format.unscale(1) * unit(metric);
+        let digit = format.unscale(1) * unit(metric) / self.scale(2);
         (step / digit).round() * digit
     }
 
