@@ -7,7 +7,9 @@ use fil_machine::letters::{G, M};
 use fil_machine::locations::ControlFamily;
 use fil_machine::modes::Plane;
 
-use super::{Compensation, Control, family, klartext, program, sinumerik, speed_of_others, texts};
+use super::{
+    Compensation, Control, Function, family, klartext, program, sinumerik, speed_of_others, texts,
+};
 use crate::cause::Cause;
 use crate::control_state::text;
 use crate::errors::PostCode;
@@ -16,6 +18,7 @@ use crate::errors::PostCode;
 #[derive(Clone, Copy, Debug)]
 pub struct BeforeOthers {
     compensated: bool,
+    compensation: Option<Compensation>,
     plane: Option<Plane>,
     tool_changes: u32,
 }
@@ -137,17 +140,26 @@ impl Control {
         self.begin()?;
         Ok(BeforeOthers {
             compensated: self.is_compensated(),
+            compensation: self.state.compensation,
             plane: self.state.plane,
             tool_changes: self.state.tool_changes,
         })
     }
 
     /// Refuses a tool change or another plane that they brought within cutter
-    /// compensation.
+    /// compensation, and compensation that they switched while CUTCOM waits for its motion.
     ///
     /// # Errors
     /// They did.
     pub fn refuse_in_compensation(&self, before: BeforeOthers) -> Result<()> {
+        if self.waiting.has(Function::Compensation)
+            && let (Some(was), Some(is)) = (before.compensation, self.state.compensation)
+            && was != is
+        {
+            return PostCode::CompensationOn.err(
+                "a text switches it while CUTCOM waits for its motion, which would switch it again",
+            );
+        }
         if !before.compensated {
             return Ok(());
         }

@@ -16,7 +16,7 @@ use crate::control::word_address::cycle as words;
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::spindle;
 use crate::control::{Control, family};
-use crate::control_state::{Compensation, Place};
+use crate::control_state::Place;
 use crate::errors::PostCode;
 use crate::operation::Target;
 use crate::post::Post;
@@ -44,7 +44,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     if post.control.state.in_cycle != Some(true) {
         cycle.in_force = None;
     }
-    if !matches!(post.control.state.compensation, Some(Compensation::Off) | None) {
+    if post.control.is_compensated() {
         return PostCode::InCycle
             .err("a hole in cutter compensation; CUTCOM/OFF must come before it");
     }
@@ -305,7 +305,8 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, at: &Motion) -> Re
             let rounding = post.control.tables.axis(hole.along).resolution() / 2.0;
             above(wanted, here) > rounding.max(SAME_LEVEL)
         }
-        (None, Place::Shifted(last)) => above(wanted, last) > SAME_LEVEL,
+        // It stands there, or a tool change has brought it up.
+        (None, Place::Shifted(last) | Place::At(last)) => above(wanted, last) > SAME_LEVEL,
         (None, _) => false,
     };
     let unknown = here.is_none() && cycle.retract.is_some();
