@@ -83,8 +83,7 @@ impl Gap {
         let (mut linear, mut excess) = ([0.0; 3], [false; 3]);
         for n in 0..3 {
             let wanted = pose.tip[n];
-            let written = slack.rounded[n].map_or(wanted, |digit| rounded(wanted, digit));
-            linear[n] = at.linear[n] - written;
+            linear[n] = at.linear[n] - slack.before_scale(n, wanted);
             excess[n] = linear[n].abs() > slack.linear[n];
         }
         let tip = (Point3::from(at.linear) - pose.tip).norm();
@@ -149,9 +148,8 @@ impl Gap {
     fn compare(&mut self, settings: &Settings, slack: &Slack, at: &Position, pose: &Pose) {
         let exact = Position { rotary: self.rotary, ..*at };
         let wanted = settings.forward.frame_of(&exact).linear(pose.tip);
-        for n in 0..3 {
-            let wanted = slack.rounded[n].map_or(wanted[n], |digit| rounded(wanted[n], digit));
-            self.linear[n] = at.linear[n] - wanted;
+        for (n, wanted) in wanted.into_iter().enumerate() {
+            self.linear[n] = at.linear[n] - slack.before_scale(n, wanted);
             self.excess[n] = self.linear[n].abs() > slack.linear[n];
         }
     }
@@ -160,11 +158,6 @@ impl Gap {
     pub(super) fn closed(&self) -> bool {
         self.turned.is_none() && self.excess == [false; 3]
     }
-}
-
-/// A value as the last digit shows it, halves away from zero.
-pub(super) fn rounded(value: f64, digit: f64) -> f64 {
-    (value / digit).round() * digit
 }
 
 /// A tool axis that all but lies along the primary rotary axis leaves open which way it

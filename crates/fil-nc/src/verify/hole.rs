@@ -3,7 +3,6 @@
 use fil_machine::locations::CycleBoreOut;
 
 use super::ahead::Steps;
-use super::gap::rounded;
 use super::report::FindingKind;
 use super::say::short;
 use super::walk::{STILL, Walk};
@@ -143,13 +142,8 @@ impl<C: Steps> Walk<'_, C> {
         };
         let above = |by: f64| frame.linear(hole.start.tip + hole.start.axis * by);
         let clear = hole.clear.unwrap_or_else(|| self.settings.cycle_clearance(self.metric));
-        let level = |by: f64| self.on_tape(above(by)[2]);
+        let level = |by: f64| self.slack.before_scale(2, above(by)[2]);
         Levels { at: above(0.0), clear: level(clear), bottom: level(-hole.depth) }
-    }
-
-    /// A level as it is rounded before an output scale.
-    fn on_tape(&self, level: f64) -> f64 {
-        self.slack.rounded[2].map_or(level, |digit| rounded(level, digit))
     }
 
     /// Goes through the hole; gives the level where the tool rests behind it.
@@ -215,7 +209,9 @@ impl<C: Steps> Walk<'_, C> {
         let slack = self.slack.linear;
         let near = |a: f64, b: f64, n: usize| (a - b).abs() <= slack[n];
         let raised = match hole.retract {
-            Some(above) if above > 0.0 => levels.clear.max(self.on_tape(levels.at[2] + above)),
+            Some(above) if above > 0.0 => {
+                levels.clear.max(self.slack.before_scale(2, levels.at[2] + above))
+            }
             // Back to where the first of several cycles began.
             Some(_) => self.initial.map_or(levels.clear, |initial| initial.max(levels.clear)),
             None => levels.clear,

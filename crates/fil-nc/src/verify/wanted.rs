@@ -265,6 +265,13 @@ pub struct Hole {
 }
 
 impl Wanted {
+    /// A line of the tape stands in a block that may be skipped.
+    pub(super) fn mark_as_skipped(&mut self) {
+        if let Wanted::Insert { may_be_skipped, .. } = self {
+            *may_be_skipped = true;
+        }
+    }
+
     /// True for what blocks do, false for what holds on after them.
     pub fn is_done_once(&self) -> bool {
         self.end().is_some()

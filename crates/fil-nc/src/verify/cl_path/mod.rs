@@ -7,6 +7,7 @@
 mod frame_words;
 mod own_words;
 mod path;
+mod skip;
 mod thread;
 mod tool_names;
 
@@ -28,6 +29,7 @@ pub use frame_words::FrameWords;
 
 use crate::errors::NcCode;
 use crate::motion::{INCH, Rate};
+use skip::Opskip;
 use tool_names::ToolNames;
 
 /// Statements that move the tool or the frame by rules that are not public.
@@ -120,12 +122,7 @@ pub struct ClPath<'r> {
     state: State,
     ready: VecDeque<Step>,
     over: bool,
-    /// What stands between OPSKIP/ON and OPSKIP/OFF is left out.
-    leaves_out: bool,
-    /// OPSKIP is on.
-    skips: bool,
-    /// Records were left out, and nothing is done behind them yet.
-    unfollowed: bool,
+    skip: Opskip,
 }
 
 impl<'r> ClPath<'r> {
@@ -159,9 +156,7 @@ impl<'r> ClPath<'r> {
             },
             ready: VecDeque::new(),
             over: false,
-            leaves_out: false,
-            skips: false,
-            unfollowed: false,
+            skip: Opskip::default(),
         }
     }
 
@@ -174,7 +169,7 @@ impl<'r> ClPath<'r> {
     /// The path with the blocks left out that the operator may skip: of what stands between
     /// OPSKIP/ON and OPSKIP/OFF only what holds on is asked for.
     pub fn leaving_out(mut self, leaves_out: bool) -> Self {
-        self.leaves_out = leaves_out;
+        self.skip.leaves_out = leaves_out;
         self
     }
 
@@ -211,7 +206,6 @@ impl<'r> ClPath<'r> {
                 return Ok(None);
             }
             if !self.reader.read(&mut self.vocabulary, &mut self.record)? {
-                self.over = true;
                 self.give(vec![Wanted::End(End::OfFile)]);
                 continue;
             }
@@ -219,42 +213,23 @@ impl<'r> ClPath<'r> {
             self.require_unit()?;
             self.refuse_other_unit()?;
             if self.is_plain_motion() {
-                self.unfollowed = false;
+                self.skip.goes_on();
                 match self.state.motion(&self.record, &self.vocabulary) {
                     Some(what) => return Ok(Some(Step { line, what })),
                     None => continue,
                 }
             }
-            let mut steps = self.state.take(&self.record, &self.vocabulary);
-            if self.record.kind == kind::POST && self.record.major == w::OPSKIP {
-                self.skips = self.record.has(w::ON);
-            }
-            if self.skips {
-                for step in &mut steps {
-                    if let Wanted::Insert { may_be_skipped, .. } = step {
-                        *may_be_skipped = true;
-                    }
-                }
-            }
-            if self.leaves_out && self.skips {
-                steps.retain(|what| !what.is_done_once());
-                self.unfollowed = true;
-            }
-            self.unfollowed &= !steps.iter().any(Wanted::is_done_once);
-            self.over = steps.iter().any(|what| matches!(what, Wanted::End(_)));
+            let steps = self.state.take(&self.record, &self.vocabulary);
             self.give(steps);
         }
     }
 
-    /// Steps of the record at hand.
+    /// Gives the steps of the record at hand that are asked for.
     fn give(&mut self, steps: Vec<Wanted>) {
+        let steps = self.skip.asked_of(&self.record, steps);
+        self.over = steps.iter().any(|what| matches!(what, Wanted::End(_)));
         let line = self.record.line;
-        for what in steps {
-            if self.unfollowed && matches!(what, Wanted::End(_)) {
-                self.ready.push_back(Step { line, what: Wanted::Unfollowed });
-            }
-            self.ready.push_back(Step { line, what });
-        }
+        self.ready.extend(steps.into_iter().map(|what| Step { line, what }));
     }
 }
 
@@ -266,7 +241,7 @@ fn said(record: &Record) -> Unit {
 impl ClPath<'_> {
     /// A motion that nothing leaves out: most records are.
     fn is_plain_motion(&self) -> bool {
-        self.record.kind == kind::MOTION && !self.record.inert && !(self.leaves_out && self.skips)
+        self.record.kind == kind::MOTION && !self.record.inert && !self.skip.leaves_out_now()
     }
 
     /// Refuses lengths and feeds before anything has said the unit.

@@ -78,6 +78,18 @@ pub struct Slack {
     pub turns: f64,
 }
 
+impl Slack {
+    /// A position of X, Y or Z, 0 to 2, as it is rounded before an output scale, mm.
+    pub fn before_scale(&self, number: usize, position: f64) -> f64 {
+        self.rounded[number].map_or(position, |digit| to_digit(position, digit))
+    }
+}
+
+/// A value as the last digit shows it, halves away from zero.
+fn to_digit(value: f64, digit: f64) -> f64 {
+    (value / digit).round() * digit
+}
+
 /// The machine as the back-check sees it.
 #[derive(Clone, Debug)]
 pub struct Settings<'c> {
@@ -228,7 +240,7 @@ impl<'c> Settings<'c> {
         let format = letter.and_then(|letter| addresses.format(letter).copied());
         let Some(format) = format else { return step };
         let digit = format.unscale(1) * unit(metric) / self.scale(2);
-        (step / digit).round() * digit
+        to_digit(step, digit)
     }
 
     /// What a resolution set by hand may take from a position, in the unit of the program.
