@@ -215,7 +215,7 @@ impl AxisChain {
     /// or goes by whole turns.
     pub fn positions(&self, axis: Vector3<f64>, last: [f64; 2]) -> Vec<[f64; 2]> {
         let turns = |index: usize, angle: f64| {
-            let near = angle + 360.0 * ((last[index] - angle) / 360.0).round();
+            let near = near(angle, last[index]);
             let rotary = self.rotaries[index].as_ref();
             let limited = rotary.is_some_and(|axis| axis.min.is_some() || axis.max.is_some());
             let most = if limited { TURNS } else { 0 };
@@ -306,7 +306,7 @@ impl Rotary {
 
     /// The angle plus whole turns that lies nearest to `last` and within the limits.
     fn turn_near(&self, angle: f64, last: f64) -> Option<f64> {
-        let near = angle + 360.0 * ((last - angle) / 360.0).round();
+        let near = near(angle, last);
         if self.reaches(near) {
             return Some(near);
         }
@@ -342,11 +342,19 @@ impl Solutions {
 
 /// Of the solutions with whole turns, whatever the limits, the one nearest to `last`.
 fn nearest_free(solutions: &[[f64; 2]], last: [f64; 2]) -> Option<[f64; 2]> {
-    let near = |angle: f64, last: f64| angle + 360.0 * ((last - angle) / 360.0).round();
     solutions
         .iter()
         .map(|found| [near(found[0], last[0]), near(found[1], last[1])])
         .min_by(|a, b| travel(a, &last).total_cmp(&travel(b, &last)))
+}
+
+/// An angle with the whole turns that bring it nearest to another, degrees.
+#[inline]
+fn near(angle: f64, last: f64) -> f64 {
+    if (last - angle).abs() < 180.0 {
+        return angle + 0.0;
+    }
+    angle + 360.0 * ((last - angle) / 360.0).round()
 }
 
 fn travel(angles: &[f64; 2], last: &[f64; 2]) -> f64 {
@@ -361,7 +369,7 @@ fn turn(about: Unit<Vector3<f64>>, from: Vector3<f64>, to: Vector3<f64>, free: f
     }
     let flat_from = from - about.scale(about.dot(&from));
     let flat_to = to - about.scale(about.dot(&to));
-    if flat_from.norm() < SAME || flat_to.norm() < SAME {
+    if flat_from.norm_squared() < SAME * SAME || flat_to.norm_squared() < SAME * SAME {
         return Some(free);
     }
     let sine = about.dot(&flat_from.cross(&flat_to));

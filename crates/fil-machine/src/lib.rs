@@ -28,6 +28,7 @@ pub mod modes;
 pub mod motion_rules;
 pub mod number;
 pub mod numbering;
+pub mod rotary_feed_rules;
 pub mod rounding;
 pub mod setting;
 pub mod stored;

@@ -18,6 +18,7 @@ use crate::modes::FeedMode;
 use crate::motion_rules::{FeedFormats, MotionRules};
 use crate::number::NumberFormat;
 use crate::numbering::Numbering;
+use crate::rotary_feed_rules::RotaryFeedRules;
 use crate::tape_style::TapeStyle;
 
 /// The tables.
@@ -31,6 +32,8 @@ pub struct MachineTables {
     pub style: TapeStyle,
     /// The rules of straight motions at feed.
     pub motion: MotionRules,
+    /// The rules of feeds while a rotary axis turns.
+    pub rotary_feed: RotaryFeedRules,
     feed_formats: FeedFormats,
     /// The language of the control.
     pub family: ControlFamily,
@@ -86,6 +89,7 @@ impl MachineTables {
         self.numbering = Numbering::from_commons(&self.addresses, commons);
         self.style = TapeStyle::from_commons(commons);
         self.motion = MotionRules::from_commons(commons);
+        self.rotary_feed = RotaryFeedRules::from_commons(commons, metric);
         self.feed_formats = FeedFormats::from_commons(&self.addresses, commons, metric);
         self.format_feed(FeedMode::PerMinute);
         let chain = AxisChain::from_commons(commons)?;

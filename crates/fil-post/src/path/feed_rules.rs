@@ -161,10 +161,8 @@ fn turn_on_the_spot(post: &mut Post, motion: &Motion, before: Option<[f64; 2]>) 
         return Ok(());
     }
     let rotary = TurningFeed::of(post)?;
-    let part = rotary.between(&from, &to, 0.0)?;
-    if part.slowed {
-        rotary.warn_slowed(post);
-    }
+    let part = rotary.between(&from, &to, 0.0);
+    part.warn_if_slowed(post);
     part.after(&mut post.control);
     family::feed(&mut post.control, motion, Some(&part.feed))
 }

@@ -15,8 +15,8 @@ use nalgebra::Point3;
 use super::tip::{certain_distance, largest_distance, tip};
 use super::turning_feed::{PartFeed, TurningFeed};
 use super::{mill_turn, rotary};
-use crate::control::family;
 use crate::control::word_address::motion::Motion;
+use crate::control::{Control, family};
 use crate::errors::PostCode;
 use crate::operation::Target;
 use crate::post::Post;
@@ -74,6 +74,8 @@ pub(crate) struct Arrived {
     target: (Point3<f64>, [f64; 2]),
     position: Position,
     on_tape: OnTape,
+    /// The last output values of the axes behind it.
+    outputs: Position,
 }
 
 /// How far the tip may leave its line, in the unit of the program; `None` for as far
@@ -108,22 +110,27 @@ pub(super) fn feed(post: &mut Post, before: [f64; 2], to: Position, target: Targ
     let turning = Turning::new(post, &start, to, end);
     let feed = TurningFeed::of(post)?;
     let least = feed.least_parts(turning.length())?;
-    let from = start.on_tape.map_or_else(|| turning.arrival(&start.position), Ok)?;
+    let from = match start.on_tape {
+        Some(there) => there,
+        None => turning.arrival(&start.position)?,
+    };
     let arrival = turning.arrival(&to)?;
     if least > 1 || !turning.surely_stays_within(enough, &from.position, &arrival.position) {
         return divided(post, [start.position, to], (target, end), allowed, least);
     }
     let way = (arrival.tip - from.tip).norm();
-    let part = feed.between(&from.position, &arrival.position, way)?;
-    if part.slowed {
-        feed.warn_slowed(post);
-    }
-    let settings = settings(post);
-    let target_and_angles = (end, [to[3], to[4]]);
-    post.path.arrived =
-        Some(Arrived { settings, target: target_and_angles, position: to, on_tape: arrival });
+    let part = feed.between(&from.position, &arrival.position, way);
+    part.warn_if_slowed(post);
     let word = rotary::word_of(post, target);
-    write(post, &Motion { position: to, axes: AxisSet::ALL, word }, &part)
+    write(post, &Motion { position: to, axes: AxisSet::ALL, word }, &part)?;
+    post.path.arrived = Some(Arrived {
+        settings: settings(post),
+        target: (end, [to[3], to[4]]),
+        position: to,
+        on_tape: arrival,
+        outputs: outputs(post),
+    });
+    Ok(())
 }
 
 /// The same in parts, for the ends of the motion.
@@ -155,15 +162,15 @@ fn divided(
     for tape in &tapes {
         worst = worst.max(turning.off(&at, tape, enough));
         let next = tip(turning.chain, tape);
-        feeds.push(feed.between(&at, tape, (next - point).norm())?);
+        feeds.push(feed.between(&at, tape, (next - point).norm()));
         (at, point) = (*tape, next);
     }
     if worst > enough {
         let ends = tapes.iter().map(|tape| turning.end_off(tape)).fold(0.0, f64::max);
         warn_of_deviation(post, allowed, ends);
     }
-    if feeds.iter().any(|feed| feed.slowed) {
-        feed.warn_slowed(post);
+    if let Some(slowed) = feeds.iter().find(|feed| feed.slowed) {
+        slowed.warn_if_slowed(post);
     }
     for (position, feed) in parts.into_iter().zip(feeds) {
         write(post, &Motion { position, axes: AxisSet::ALL, word }, &feed)?;
@@ -177,6 +184,13 @@ fn write(post: &mut Post, motion: &Motion, part: &PartFeed) -> Result<()> {
     let inverse = part.after(&mut post.control);
     post.path.writes_inverse_time = inverse && !post.path.inverse_time;
     Ok(())
+}
+
+/// The last output values of the axes.
+#[inline]
+fn outputs(post: &Post) -> Position {
+    let Control { tables, commons, .. } = &post.control;
+    std::array::from_fn(|n| commons.last_output(tables.axis(n).letter))
 }
 
 /// What the positions of the machine hang on besides the point.
@@ -259,6 +273,10 @@ fn stands(post: &Post, before: [f64; 2]) -> Start {
     let arrived = post.path.arrived.as_ref();
     let arrived =
         arrived.filter(|there| there.target == (point, before) && there.settings == settings(post));
+    let has_moved = |there: &Arrived| post.path.point.is_none() || there.outputs != outputs(post);
+    if let Some(there) = arrived.filter(|there| !has_moved(there)) {
+        return Start { position: there.position, tip: Some(point), on_tape: Some(there.on_tape) };
+    }
     let exact = match arrived {
         Some(there) => there.position,
         None => {
@@ -365,21 +383,22 @@ impl<'a> Turning<'a> {
     }
 
     /// A position as the tape has it, with the tip there.
+    #[inline]
     fn arrival(&self, position: &Position) -> Result<OnTape> {
         let position = self.on_tape(position)?;
         Ok(OnTape { tip: tip(self.chain, &position), position })
     }
 
     /// The position as the tape has it.
+    #[inline]
     fn on_tape(&self, position: &Position) -> Result<Position> {
-        let mut tape = *position;
-        for n in self.tables.present().numbers() {
+        let on_tape = |n: usize| {
             let axis = self.tables.axis(n);
-            if !axis.is_off() {
-                tape[n] = axis.on_tape(position[n])?;
-            }
-        }
-        Ok(tape)
+            let is_written = self.tables.present().has(n) && !axis.is_off();
+            if is_written { axis.on_tape(position[n]) } else { Ok(position[n]) }
+        };
+        // Each by its own name: an array written by numbers has to go through memory.
+        Ok([on_tape(0)?, on_tape(1)?, on_tape(2)?, on_tape(3)?, on_tape(4)?])
     }
 }
 

@@ -12,6 +12,7 @@ use nalgebra::{Point3, Vector3};
 const INTERVALS: u32 = 8;
 
 /// The tip in the part frame where the axes stand: what [`AxisChain::linear`] undoes.
+#[inline]
 pub(super) fn tip(chain: &AxisChain, at: &Position) -> Point3<f64> {
     let mut point = Point3::new(at[0], at[1], at[2]);
     if let Some(length) = chain.pivot {

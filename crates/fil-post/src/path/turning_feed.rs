@@ -7,8 +7,9 @@
 use fil_diag::Result;
 use fil_machine::axes::Position;
 use fil_machine::letters::F;
-use fil_machine::locations::{self as loc, RotaryFeed};
+use fil_machine::locations::RotaryFeed;
 use fil_machine::modes::FeedMode;
+use fil_machine::rotary_feed_rules::RotaryFeedRules;
 
 use crate::control::Control;
 use crate::errors::PostCode;
@@ -26,20 +27,13 @@ const STANDS: f64 = 1e-9;
 const SAME_TIME: f64 = 1e-6;
 
 /// How the times of motions are written.
-pub(super) struct TurningFeed {
+pub(super) struct TurningFeed<'a> {
+    rules: &'a RotaryFeedRules,
     form: RotaryFeed,
     given: Feed,
     /// Way of the tip, mm or inch a minute.
     rate: f64,
-    /// Most that each rotary axis may turn, degrees a minute.
-    most_turn: [f64; 2],
-    /// Least time of a motion, minutes.
-    least_time: f64,
-    inverse: [f64; 2],
-    inverse_factor: f64,
-    per_minute_factor: f64,
-    per_minute_most: f64,
-    /// Smallest step of F.
+    /// Smallest step of F in inverse time.
     digit: f64,
 }
 
@@ -51,47 +45,28 @@ pub(super) struct PartFeed {
     pub slowed: bool,
 }
 
-impl TurningFeed {
+impl<'a> TurningFeed<'a> {
     /// The feed in force, on a machine.
     ///
     /// # Errors
     /// No feed; a feed a turn of a spindle whose speed is not known.
-    pub(super) fn of(post: &Post) -> Result<Self> {
-        let commons = &post.control.commons;
+    #[inline]
+    pub(super) fn of(post: &'a Post) -> Result<Self> {
+        let tables = &post.control.tables;
+        let rules = &tables.rotary_feed;
         let given = post.path.feed;
         let given =
             given.ok_or_else(|| PostCode::NoFeed.diag("no FEDRAT came before this motion"))?;
-        let form = match post.path.inverse_time {
-            true => RotaryFeed::InverseTime,
-            false => commons.read(loc::ROTARY_FEED),
-        };
-        let factor = |at| commons.dbl_opt(at).filter(|factor| *factor > 0.0).unwrap_or(1.0);
-        let per_minute_factor = factor(loc::FEED_UPM_FACTOR);
+        let form = if post.path.inverse_time { RotaryFeed::InverseTime } else { rules.form };
         let rate = match given.mode {
             FeedMode::PerRevolution if form != RotaryFeed::AsFedratSays => {
                 given.value * turns(&post.control)?
             }
-            _ => given.value / per_minute_factor,
+            _ => given.value / rules.per_minute_factor,
         };
-        let most = |at| commons.dbl_opt(at).filter(|most| *most > 0.0).unwrap_or(f64::INFINITY);
-        let digits = inverse_digit(&post.control);
-        let own = commons.dbl_opt(loc::ROTARY_SECONDARY_FEED_MAX).is_some();
-        let second = if own { loc::ROTARY_SECONDARY_FEED_MAX } else { loc::ROTARY_FEED_MAX };
-        Ok(TurningFeed {
-            form,
-            given,
-            rate,
-            most_turn: [most(loc::ROTARY_FEED_MAX), most(second)],
-            least_time: commons.dbl_opt(loc::FEED_INVERSE_MIN_TIME).unwrap_or(0.0).max(0.0) / 60.0,
-            inverse: [
-                commons.dbl_opt(loc::FEED_INVERSE_MIN).unwrap_or(0.0),
-                most(loc::FEED_INVERSE_MAX),
-            ],
-            inverse_factor: factor(loc::FEED_INVERSE_FACTOR),
-            per_minute_factor,
-            per_minute_most: most(loc::FEED_UPM_MAX),
-            digit: digits,
-        })
+        let digit = || tables.addresses.format(F).map_or(1.0, |format| format.unscale(1));
+        let digit = rules.inverse_digit.unwrap_or_else(digit);
+        Ok(TurningFeed { rules, form, given, rate, digit })
     }
 
     /// How many parts a way of the tip needs at least, so that F is not too small for
@@ -100,7 +75,10 @@ impl TurningFeed {
         if self.form != RotaryFeed::InverseTime {
             return Ok(1);
         }
-        let least = self.inverse[0].max(LAST_DIGITS * self.digit / self.inverse_factor);
+        let least = self.rules.inverse[0].max(LAST_DIGITS * self.digit / self.rules.inverse_factor);
+        if way * least <= self.rate {
+            return Ok(1);
+        }
         let parts = (way * least / self.rate).ceil().max(1.0);
         if parts > f64::from(u16::MAX) {
             return PostCode::TooManyParts.err("inverse time can't say so slow a feed");
@@ -110,14 +88,16 @@ impl TurningFeed {
 
     /// The feed of a motion between two positions on the tape, in which the tip goes
     /// `way` in the part.
-    pub(super) fn between(&self, from: &Position, to: &Position, way: f64) -> Result<PartFeed> {
+    #[inline]
+    pub(super) fn between(&self, from: &Position, to: &Position, way: f64) -> PartFeed {
         if self.form == RotaryFeed::AsFedratSays {
-            return Ok(PartFeed { feed: self.given, slowed: false });
+            return PartFeed { feed: self.given, slowed: false };
         }
+        let rules = self.rules;
         let turned = [3, 4].map(|n: usize| (to[n] - from[n]).abs());
-        let of_turn = turned.iter().zip(self.most_turn).map(|(turned, most)| turned / most);
+        let of_turn = turned.iter().zip(rules.most_turn).map(|(turned, most)| turned / most);
         let asked = if way > STANDS { way / self.rate } else { 0.0 };
-        let mut time = of_turn.fold(asked, f64::max).max(self.least_time);
+        let mut time = of_turn.fold(asked, f64::max).max(rules.least_time);
         if time == 0.0 {
             time = turned[0].max(turned[1]) / self.rate;
         }
@@ -126,35 +106,38 @@ impl TurningFeed {
         let turns = (3..5).map(square).sum::<f64>();
         let (value, most, mode) = match self.form {
             RotaryFeed::InverseTime => {
-                ((1.0 / time).max(self.inverse[0]), self.inverse[1], FeedMode::InverseTime)
+                ((1.0 / time).max(rules.inverse[0]), rules.inverse[1], FeedMode::InverseTime)
             }
             RotaryFeed::LinearWayElseTheTurn => {
                 let way = if linear > 0.0 { linear } else { turns };
-                (way.sqrt() / time, self.per_minute_most, FeedMode::PerMinute)
+                (way.sqrt() / time, rules.per_minute_most, FeedMode::PerMinute)
             }
-            _ => ((linear + turns).sqrt() / time, self.per_minute_most, FeedMode::PerMinute),
+            _ => ((linear + turns).sqrt() / time, rules.per_minute_most, FeedMode::PerMinute),
         };
         let slowed = value.min(most);
         let factor = match mode {
-            FeedMode::InverseTime => self.inverse_factor,
-            _ => self.per_minute_factor,
+            FeedMode::InverseTime => rules.inverse_factor,
+            _ => rules.per_minute_factor,
         };
         let feed = Feed { value: slowed * factor, mode, cause: self.given.cause };
         let limited = asked > 0.0 && time > asked * (1.0 + SAME_TIME);
-        Ok(PartFeed { feed, slowed: limited || slowed < value })
-    }
-
-    /// Says that the machine goes slower than the CL file asks.
-    pub(super) fn warn_slowed(&self, post: &mut Post) {
-        let message = format!(
-            "feed {} is more than a rotary axis, or the feed word, can follow; such motions are slower",
-            self.given.value
-        );
-        post.warn(PostCode::Clamped, message);
+        PartFeed { feed, slowed: limited || slowed < value }
     }
 }
 
 impl PartFeed {
+    /// Says where the machine goes slower than the CL file asks.
+    pub(super) fn warn_if_slowed(&self, post: &mut Post) {
+        if !self.slowed {
+            return;
+        }
+        let asked = post.path.feed.map_or(0.0, |feed| feed.value);
+        let message = format!(
+            "feed {asked} is more than a rotary axis, or the feed word, can follow; such motions are slower"
+        );
+        post.warn(PostCode::Clamped, message);
+    }
+
     /// In inverse time, true, each block says its own F.
     pub(super) fn after(&self, control: &mut Control) -> bool {
         let inverse = self.feed.mode == FeedMode::InverseTime;
@@ -173,14 +156,5 @@ fn turns(control: &Control) -> Result<f64> {
             "a feed a revolution in a motion that turns the machine, and the speed of the spindle \
              is not known",
         ),
-    }
-}
-
-/// Last digit of F in inverse time.
-fn inverse_digit(control: &Control) -> f64 {
-    match control.commons.int_opt(loc::FEED_INVERSE_FORMAT) {
-        Some(format) if control.is_metric() => libm::exp10(-f64::from(format % 10)),
-        Some(format) => libm::exp10(-f64::from(format / 100 % 10)),
-        None => control.tables.addresses.format(F).map_or(1.0, |format| format.unscale(1)),
     }
 }
