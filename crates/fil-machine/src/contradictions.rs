@@ -1,6 +1,7 @@
 //! Settings that contradict each other: no machine is like that, and a program made
 //! with them would be read otherwise than it is meant.
 
+mod codes;
 mod letters;
 mod numbers;
 mod travel;
@@ -15,98 +16,11 @@ use crate::frame_rules;
 use crate::full_turn;
 use crate::letter::{self, Letter};
 use crate::locations::{
-    self as loc, ControlFamily, ControlTranslation, CycleReturnCodes, SeqnoAlign, TapeEndOfBlock,
-    TapePartnoText, ToolChangeBlock, ToolFormat,
+    self as loc, ControlFamily, ControlTranslation, SeqnoAlign, TapeEndOfBlock, TapePartnoText,
+    ToolChangeBlock, ToolFormat,
 };
 use crate::mill_turn;
 use crate::setting::{CharacterAt, CodeAt};
-
-/// Codes of which no two may be the same: one motion, mode or command each.
-const DIFFERENT: &[&[(CodeAt, &str)]] = &[
-    &[
-        (loc::RAPID_CODE_XY, "rapid motion"),
-        (loc::LINEAR_CODE, "linear motion"),
-        (loc::CIRCLE_CW_CODE, "clockwise arcs"),
-        (loc::CIRCLE_CCW_CODE, "counterclockwise arcs"),
-        (loc::THREAD_CODE, "a thread"),
-        (loc::THREAD_CYCLE_CODE, "the cycle of a thread"),
-        (loc::DWELL_CODE, "a dwell"),
-        (loc::CYCLE_OFF_CODE, "the end of a cycle"),
-    ],
-    &[(loc::SPINDLE_CSS_CODE, "surface speed"), (loc::SPINDLE_RPM_CODE, "revolutions a minute")],
-    &[
-        (loc::CYCLE_DRILL_CODE, "drilling"),
-        (loc::CYCLE_TAP_CODE, "tapping"),
-        (loc::CYCLE_DEEP_CODE, "deep drilling"),
-    ],
-    &[
-        (loc::CYCLE_DRILL_CODE, "drilling"),
-        (loc::CYCLE_TAP_CODE, "tapping"),
-        (loc::CYCLE_BRKCHP_CODE, "chip breaking"),
-    ],
-    &[
-        (loc::CYCLE_DRILL_CODE, "drilling"),
-        (loc::CYCLE_TAP_LEFT_CODE, "tapping of left-hand threads"),
-        (loc::CYCLE_DEEP_CODE, "deep drilling"),
-    ],
-    &[
-        (loc::CIRCLE_PLANE_XY, "the XY plane"),
-        (loc::CIRCLE_PLANE_ZX, "the ZX plane"),
-        (loc::CIRCLE_PLANE_YZ, "the YZ plane"),
-    ],
-    &[(loc::UNITS_METRIC_CODE, "millimetres"), (loc::UNITS_INCH_CODE, "inches")],
-    &[
-        (loc::MODE_ABSOLUTE_CODE, "absolute coordinates"),
-        (loc::MODE_INCREMENTAL_CODE, "incremental coordinates"),
-    ],
-    &[
-        (loc::FEED_UPM_CODE, "feed a minute"),
-        (loc::FEED_UPR_CODE, "feed a revolution"),
-        (loc::FEED_INVERSE_CODE, "inverse time"),
-    ],
-    &[
-        (loc::CUTCOM_OFF_CODE, "no compensation"),
-        (loc::CUTCOM_LEFT_CODE, "compensation left"),
-        (loc::CUTCOM_RIGHT_CODE, "compensation right"),
-    ],
-    &[
-        (loc::CYCLE_RETURN_INITIAL_CODE, "return to the level before"),
-        (loc::CYCLE_RETURN_CLEAR_CODE, "return to the R level"),
-    ],
-    COMMANDS,
-];
-
-/// Preparatory functions by the mode they set: no code may be of two modes.
-const MODES: &[(&str, &[CodeAt])] = &[
-    ("a motion", &loc::MOTION_CODES),
-    ("a plane", &[loc::CIRCLE_PLANE_XY, loc::CIRCLE_PLANE_ZX, loc::CIRCLE_PLANE_YZ]),
-    ("a unit", &[loc::UNITS_METRIC_CODE, loc::UNITS_INCH_CODE]),
-    ("a feed mode", &[loc::FEED_UPM_CODE, loc::FEED_UPR_CODE, loc::FEED_INVERSE_CODE]),
-    ("cutter compensation", &[loc::CUTCOM_OFF_CODE, loc::CUTCOM_LEFT_CODE, loc::CUTCOM_RIGHT_CODE]),
-    ("the tool length", &[loc::TOOL_LENGTH_CODE]),
-    ("a speed mode", &[loc::SPINDLE_CSS_CODE, loc::SPINDLE_RPM_CODE]),
-    ("a dwell", &[loc::DWELL_CODE]),
-    ("the end of a cycle", &[loc::CYCLE_OFF_CODE]),
-    ("a cycle", &loc::CYCLE_CODES),
-];
-
-/// Commands of M, which no coolant may share either.
-const COMMANDS: &[(CodeAt, &str)] = &[
-    (loc::SPINDLE_CW_CODE, "the spindle clockwise"),
-    (loc::SPINDLE_CCW_CODE, "the spindle counterclockwise"),
-    (loc::SPINDLE_STOP_CODE, "the spindle's stop"),
-    (loc::SPINDLE_ORIENT_CODE, "the spindle's orientation"),
-    (loc::TOOL_CHANGE_CODE, "a tool change"),
-    (loc::PROGRAM_STOP_CODE, "a stop"),
-    (loc::PROGRAM_OPSTOP_CODE, "an optional stop"),
-    (loc::PROGRAM_END_CODE, "the end of the program"),
-    (loc::PROGRAM_REWIND_CODE, "the end with rewind"),
-    (loc::COOLANT_OFF_CODE, "coolant off"),
-];
-
-/// Coolants; two may share a code.
-const COOLANTS: &[(CodeAt, &str)] =
-    &[(loc::COOLANT_FLOOD_CODE, "flood coolant"), (loc::COOLANT_MIST_CODE, "mist coolant")];
 
 /// Characters that begin or end a line: letters and digits would be words, parentheses
 /// comments.
@@ -134,15 +48,7 @@ pub fn check(commons: &Commons) -> Result<()> {
 /// All contradictions of the settings.
 pub fn all(commons: &Commons) -> Vec<Diag> {
     let mut found = Vec::new();
-    for group in DIFFERENT {
-        same_codes(commons, group, &mut found);
-    }
-    rapid_codes(commons, &mut found);
-    tapping_codes(commons, &mut found);
-    codes_of_two_modes(commons, &mut found);
-    return_levels(commons, &mut found);
-    calls(commons, &mut found);
-    coolants(commons, &mut found);
+    codes::check(commons, &mut found);
     incremental_start(commons, &mut found);
     start_modes(commons, &mut found);
     arc_sizes(commons, &mut found);
@@ -214,102 +120,6 @@ fn tape(commons: &Commons, found: &mut Vec<Diag>) {
 
 fn contradiction(message: String) -> Diag {
     Diag::new(MachineCode::Contradiction, message)
-}
-
-fn same_codes(commons: &Commons, group: &[(CodeAt, &str)], found: &mut Vec<Diag>) {
-    for (index, (at, what)) in group.iter().enumerate() {
-        let Some(code) = commons.read(*at) else { continue };
-        let other = group[..index].iter().find(|(other, _)| commons.read(*other) == Some(code));
-        if let Some((_, other)) = other {
-            found.push(contradiction(format!("code {code} is both {other} and {what}")));
-        }
-    }
-}
-
-/// The rapid motion of Z and that of turns may have the code of the one across, and no other.
-fn rapid_codes(commons: &Commons, found: &mut Vec<Diag>) {
-    let rapids =
-        [(loc::RAPID_CODE_Z, "rapid motion of Z"), (loc::ROTARY_RAPID_CODE, "rapid turns")];
-    for (at, what) in rapids {
-        let Some(code) = commons.read(at) else { continue };
-        let others = DIFFERENT[0].iter().filter(|(other, _)| *other != loc::RAPID_CODE_XY);
-        for (_, other) in others.filter(|(other, _)| commons.read(*other) == Some(code)) {
-            found.push(contradiction(format!("code {code} is both {other} and {what}")));
-        }
-    }
-}
-
-/// A tap turns back at the bottom; no hole without a thread has its code.
-fn tapping_codes(commons: &Commons, found: &mut Vec<Diag>) {
-    // The first groups of DIFFERENT say it of drilling, deep drilling and chip breaking.
-    let others = [
-        (loc::CYCLE_CSINK_CODE, "countersinking"),
-        (loc::CYCLE_BORE_CODE, "boring"),
-        (loc::CYCLE_REAM_CODE, "reaming"),
-        (loc::CYCLE_FACE_CODE, "facing"),
-        (loc::CYCLE_THRU_CODE, "drilling through"),
-        (loc::CYCLE_MILL_CODE, "milling of holes"),
-    ];
-    for at in [loc::CYCLE_TAP_CODE, loc::CYCLE_TAP_LEFT_CODE] {
-        let Some(code) = commons.read(at) else { continue };
-        for (_, other) in others.iter().filter(|(other, _)| commons.read(*other) == Some(code)) {
-            found.push(contradiction(format!("code {code} is both tapping and {other}")));
-        }
-    }
-}
-
-fn codes_of_two_modes(commons: &Commons, found: &mut Vec<Diag>) {
-    for (index, (what, group)) in MODES.iter().enumerate() {
-        for code in group.iter().filter_map(|at| commons.read(*at)) {
-            let has = |group: &[CodeAt]| group.iter().any(|at| commons.read(*at) == Some(code));
-            if let Some((other, _)) = MODES[..index].iter().find(|(_, group)| has(group)) {
-                found.push(contradiction(format!("G{code} is both {other} and {what}")));
-            }
-        }
-    }
-}
-
-/// A control that returns from holes by code means nothing else by it.
-fn return_levels(commons: &Commons, found: &mut Vec<Diag>) {
-    // A machine without a tapping cycle has none for left-hand threads either.
-    let mut cycles = loc::CYCLE_CODES.iter().filter(|at| **at != loc::CYCLE_TAP_LEFT_CODE);
-    if !cycles.any(|at| commons.read(*at).is_some())
-        || commons.read(loc::CYCLE_RETURN_CODES) == CycleReturnCodes::No
-        || commons.read(loc::CONTROL_FAMILY) != ControlFamily::WordAddress
-    {
-        return;
-    }
-    let levels = [loc::CYCLE_RETURN_INITIAL_CODE, loc::CYCLE_RETURN_CLEAR_CODE];
-    for code in levels.iter().filter_map(|at| commons.read(*at)) {
-        let has = |group: &[CodeAt]| group.iter().any(|at| commons.read(*at) == Some(code));
-        if let Some((what, _)) = MODES.iter().find(|(_, group)| has(group)) {
-            found.push(contradiction(format!(
-                "G{code} is both {what} and the level that cycles return to"
-            )));
-        }
-    }
-}
-
-/// No command of the machine calls a program or goes back from one; the end of a program may.
-fn calls(commons: &Commons, found: &mut Vec<Diag>) {
-    const CALLS: [i32; 4] = [97, 98, 99, 198];
-    let ends = |at: &CodeAt| [loc::PROGRAM_END_CODE, loc::PROGRAM_REWIND_CODE].contains(at);
-    for (at, what) in COMMANDS.iter().chain(COOLANTS).filter(|(at, _)| !ends(at)) {
-        if let Some(code) = commons.read(*at).filter(|code| CALLS.contains(code)) {
-            found.push(contradiction(format!("M{code} calls programs, and is {what} here")));
-        }
-    }
-}
-
-fn coolants(commons: &Commons, found: &mut Vec<Diag>) {
-    for (at, what) in COOLANTS {
-        let code = commons.read(*at);
-        let other =
-            COMMANDS.iter().find(|(other, _)| code.is_some() && commons.read(*other) == code);
-        if let (Some(code), Some((_, other))) = (code, other) {
-            found.push(contradiction(format!("code {code} is both {other} and {what}")));
-        }
-    }
 }
 
 /// The modes that the program says at its start are among the machine's.
