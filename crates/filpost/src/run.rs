@@ -5,7 +5,9 @@ use std::fs::File;
 #[cfg(feature = "files")]
 use std::io;
 use std::io::{Read, Seek, SeekFrom, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
+#[cfg(feature = "files")]
+use std::path::PathBuf;
 
 use fil_cl::reader::{self, Reader};
 use fil_cl::{Record, Vocabulary};
