@@ -418,3 +418,20 @@ fn a_changed_cycle_of_a_live_tool_is_found() {
         assert!(!said_against(&post, &cl, &changed).is_empty(), "{other}\n{changed}");
     }
 }
+
+/// The rapid has ended where polar interpolation begins, and nothing is milled in it; a diameter
+/// rounds otherwise than the length in the plane.
+#[test]
+fn polar_interpolation_may_begin_without_a_way() {
+    for x in ["60", "60.0005"] {
+        let cl = format!(
+            "PARTNO / 1\nUNITS / MM\nMODE / MILL\nLOADTL / 5\nSPINDL / RPM, 1800, CLW\nMULTAX / ON\n\
+             RAPID\nGOTO / 45, 0, 50, 1, 0, 0\nMULTAX / OFF\nRAPID\nGOTO / {x}, 0, 50\nMODE / TURN\n\
+             LOADTL / 6\nSPINDL / RPM, 500, CLW\nRAPID\nGOTO / 40, 0, 2\nFINI\n"
+        );
+        for post in [post(), sinumerik()] {
+            let nc = nc_of(&post, &cl).unwrap();
+            assert_eq!(said_against(&post, &cl, &nc), "", "{nc}");
+        }
+    }
+}

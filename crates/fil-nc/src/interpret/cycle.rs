@@ -192,9 +192,10 @@ impl State<'_> {
             CycleKind::Drill | CycleKind::Peck | CycleKind::BreakChips => {}
         }
         let rest = if self.return_initial { cycle.initial } else { hole.clear };
+        // Where the tool rests behind another zero is known as little as where it came from.
+        self.known[hole.axis] = !self.return_initial || cycle.initial_known;
         self.step(&[(hole.axis, rest)], Course::Rapid, None);
         self.modes.spindle = turning;
-        self.known[hole.axis] = !self.return_initial || cycle.initial_known;
         Ok(())
     }
 }

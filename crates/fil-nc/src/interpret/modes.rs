@@ -85,7 +85,11 @@ impl State<'_> {
     /// Another work offset: where the axes stand in it is not known.
     pub(super) fn fixture(&mut self, code: u32) {
         if self.moves_fixture(code) {
-            for axis in (0..5).filter(|axis| self.dialect.scales[*axis].is_some()) {
+            // C of a spindle that turns counts from nothing.
+            let turns = self.dialect.live_at_start.is_some() && !self.live;
+            let counts =
+                |axis: &usize| self.dialect.scales[*axis].is_some() && !(turns && *axis > 2);
+            for axis in (0..5).filter(counts) {
                 self.known[axis] = false;
             }
         }

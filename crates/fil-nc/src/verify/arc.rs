@@ -82,7 +82,7 @@ impl<C: Steps> Walk<'_, C> {
                 None => self.on_chord(arc, angle, &found)?,
             };
             angle += swept;
-            let slack = self.angle_slack(arc);
+            let slack = self.sweep_slack(arc);
             let ends = (angle - arc.sweep).abs() <= slack && self.reaches(&found, &arc.end);
             if !ends && (angle > arc.sweep + slack || !self.is_on(arc, angle, &found)) {
                 return None;
@@ -244,6 +244,18 @@ impl<C: Steps> Walk<'_, C> {
     fn angle_slack(&self, arc: &Arc) -> f64 {
         let slack = self.slack.linear.iter().fold(0.0f64, |a, b| a.max(*b));
         (4.0 * slack / arc.radius().max(slack)).to_degrees()
+    }
+
+    /// What the last digits do to the angle that an arc sweeps about its center, degrees: each end
+    /// turns its spoke, and the center both, against each other the more the nearer to half a
+    /// turn the arc is.
+    fn sweep_slack(&self, arc: &Arc) -> f64 {
+        let largest = |of: &dyn Fn(usize) -> f64| (0..3).map(of).fold(0.0f64, f64::max);
+        let end = SQRT_2 * largest(&|n| self.slack.linear[n]);
+        let center = SQRT_2 * largest(&|n| self.center_slack(n));
+        let turned = 2.0 * end + 2.0 * center * libm::sin((arc.sweep / 2.0).to_radians()).abs();
+        let of_digits = turned / arc.radius().max(turned);
+        of_digits.to_degrees().max(self.angle_slack(arc))
     }
 
     fn tip(&self, arc: &Arc, found: &Move) -> Point3<f64> {

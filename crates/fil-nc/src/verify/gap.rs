@@ -9,7 +9,7 @@ use crate::motion::Position;
 
 /// A tool axis this near (radians) to the one asked for is reached: a post need not
 /// turn the machine for less, as CL files round the axis.
-const REACHED: f64 = 1.1e-5;
+pub(super) const REACHED: f64 = 1.1e-5;
 
 /// Turn of a rotary axis, at most, for a lean of the tool: more than 2 where the
 /// axes lie at 45 degrees to each other, once for each way to lean.

@@ -116,7 +116,7 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     /// The first motion at feed from `index` on, after motions over the hole.
-    fn plunge(&self, index: usize) -> Option<Move> {
+    pub(super) fn plunge(&self, index: usize) -> Option<Move> {
         let mut motions = self.nc.from(index).take(APPROACH).map_while(|event| match event {
             Event::Move(found) if found.course != Course::Machine => Some(found),
             _ => None,
@@ -226,8 +226,9 @@ impl<C: Steps> Walk<'_, C> {
         }
         while let Some(found) = self.next_move().filter(|found| found.course == Course::Rapid) {
             let to = found.to.linear;
-            let across =
-                (0..2).any(|n| to[n] != self.at.linear[n]) && self.known[0] && self.known[1];
+            // Where X stands behind polar interpolation is not known.
+            let moves = |n: usize| self.written[n] && found.known[n] && to[n] != self.at.linear[n];
+            let across = (moves(0) || moves(1)) && self.known[0] && self.known[1];
             let z_moves = to[2] != self.at.linear[2];
             let arrives = (0..2).all(|n| near(to[n], levels.at[n], n));
             if across && !arrives {
@@ -242,7 +243,8 @@ impl<C: Steps> Walk<'_, C> {
                 return Err((found.line, message));
             }
             let low = self.at.linear[2].min(to[2]) < levels.clear - slack[2];
-            if across && self.known[2] && low {
+            let comes = self.settings.is_mill_turn() && found.known[0] && !self.known[0];
+            if (across || comes) && self.known[2] && low {
                 return Err((found.line, "rapid goes across below the R level".to_string()));
             }
             let level = near(to[2], levels.clear, 2) || near(to[2], raised, 2);
@@ -337,6 +339,9 @@ impl<C: Steps> Walk<'_, C> {
             return Err((self.next_line(), "the hole is not finished".to_string()));
         };
         self.vertical(&found)?;
+        if !found.known[2] {
+            return Err((found.line, format!("{what} is a level that no block has said")));
+        }
         let off = found.to.linear[2] - z;
         self.report.position.add(off.abs(), found.line);
         if off.abs() > self.slack.linear[2] {

@@ -23,10 +23,10 @@ const PARALLEL: f64 = 1e-6;
 const LIVE_PARALLEL: f64 = 1e-4;
 
 /// Motions to and from a hole, at most.
-const MOST: usize = 12;
+pub(super) const MOST: usize = 12;
 
 /// What binary fractions may add, mm.
-const DUST: f64 = 1e-7;
+pub(super) const DUST: f64 = 1e-7;
 
 /// The line of a hole.
 struct Line {
@@ -49,6 +49,12 @@ pub(super) struct Kept {
     first: usize,
     events: Vec<Event>,
     slack: [f64; 3],
+}
+
+impl Kept {
+    pub(super) fn new(first: usize, events: Vec<Event>, slack: [f64; 3]) -> Self {
+        Kept { first, events, slack }
+    }
 }
 
 impl Line {
@@ -203,13 +209,14 @@ impl<C: Steps> Walk<'_, C> {
 
     /// Says the next motions under tool-tip control in axes, until [`Walk::say_again`].
     pub(super) fn say_in_axes(&mut self, hole: &Hole, levels: Levels) -> Option<Kept> {
+        if self.settings.is_mill_turn() {
+            let plunge = self.plunge(self.next).filter(|to| self.is_said_anew(to, hole))?;
+            return Some(self.say_live(hole, levels, &plunge));
+        }
         let next = self.next_move().filter(|next| self.is_said_anew(next, hole))?;
         let mut line = self.line_of(hole, &next);
         line.heights = self.heights(hole, levels, self.plunges_in_cycle());
-        // The spindle turns the part under a live tool that stands: its height stays.
-        let turned = self.settings.is_mill_turn();
-        let rotary = if turned { next.to.rotary } else { self.at.rotary };
-        let stands = Move { to: Position { rotary, ..self.at }, ..next };
+        let stands = Move { to: self.at, ..next };
         self.at = self.said(&stands, hole, levels, &line).to;
         let known = self.known[..3].iter().all(|known| *known);
         let tip = self.tip_over(&stands, hole);
@@ -243,7 +250,7 @@ impl<C: Steps> Walk<'_, C> {
         self.nc.replace(first, &said);
         let along = DUST + line.doubt();
         let slack = std::mem::replace(&mut self.slack.linear, [DUST, DUST, along]);
-        Some(Kept { first, events, slack })
+        Some(Kept::new(first, events, slack))
     }
 
     /// Says a motion straight up from where the tool stands exactly: its last digits lean, and

@@ -9,6 +9,9 @@ use crate::dialect::{Auxiliary, Function};
 use crate::motion::{Compensation, Speed, Spindle};
 use crate::text::{Block, read_block};
 
+/// The T word of a turning tool is its number times this, and its offset.
+const TOOLS_STEP: i64 = 100;
+
 impl<C: Steps> Walk<'_, C> {
     /// The auxiliary functions among words of the user's own must be there.
     pub(super) fn ask_words(&mut self, cl_line: u32, text: &str) {
@@ -38,6 +41,16 @@ impl Expected {
                 }
                 b'M' if number.decimals == 0 => {
                     self.insert_auxiliary(settings.dialect.auxiliary(number.digits));
+                }
+                // The offset of a turning tool stands in its T word.
+                b'T' if settings.calls_tools_with_offset() => {
+                    let offset = u32::try_from(number.digits % TOOLS_STEP).ok();
+                    self.offset.set(offset.filter(|offset| *offset > 0), Due::Now);
+                }
+                b'T' if settings.has_edges() => self.offset.set(None, Due::Now),
+                b'D' if settings.has_edges() => {
+                    let edge = u32::try_from(number.digits).ok();
+                    self.offset.set(edge.filter(|edge| *edge > 0), Due::Now);
                 }
                 b'S' => {
                     // Turns or surface speed: the text need not say it.
@@ -72,6 +85,8 @@ impl Expected {
             Function::Length(true) => self.offset.set(whole(b'H'), Due::Now),
             Function::Length(false) => self.offset.set(None, Due::Now),
             Function::SpeedLimit => self.speed_limit = None,
+            // The S of the other mode, which the text need not say, comes with it.
+            Function::Surface(_) => self.speed.set(None, Due::Now),
             _ => {}
         }
     }

@@ -45,8 +45,25 @@ impl<C: Steps> Walk<'_, C> {
         }
         self.measure(&end, pose);
         self.next = last + 1;
+        if self.modes.mills_without_y(self.settings) {
+            self.pass_begin_of_polar(cl_line, pose);
+        }
         self.rapid_end = Some(*pose);
         true
+    }
+
+    /// Ways of no length behind a rapid, with which polar interpolation begins, are of it: the
+    /// tool has arrived before.
+    fn pass_begin_of_polar(&mut self, cl_line: u32, pose: &Pose) {
+        while let Some(found) = self.next_move().filter(|found| {
+            // A length in the plane has another last digit than a diameter.
+            let goes = found.course == Course::Rapid && self.reaches(found, pose);
+            let stays = found.course != Course::Machine && self.is_still(found);
+            (goes || stays) && !self.own.has(found.line)
+        }) {
+            self.take(cl_line, &found);
+            self.next += 1;
+        }
     }
 
     /// The feed that the machine makes a rapid at which is too short for one.
@@ -248,7 +265,10 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn check_limits(&mut self, cl_line: u32, found: &Move) {
         let axes = self.settings.forward.restated(&found.to, &Position::default()).linear;
         let axes = match self.from_hole {
-            Some(turn) => (turn * Vector3::from(axes)).into(),
+            Some(turn) => {
+                let [x, y, z]: [f64; 3] = (turn * Vector3::from(axes)).into();
+                [x, if self.written[1] { y } else { 0.0 }, z]
+            }
             // In the plane of X and C the slide stands at the distance from the axis.
             None if self.modes.mills_without_y(self.settings) => {
                 [libm::hypot(axes[0], axes[1]), 0.0, axes[2]]

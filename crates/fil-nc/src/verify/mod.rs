@@ -19,6 +19,7 @@ mod cl_path;
 mod clamps;
 mod gap;
 mod hole;
+mod hole_live;
 mod hole_tip;
 mod inserted;
 mod lag;

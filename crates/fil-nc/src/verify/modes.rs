@@ -11,6 +11,7 @@ use super::modes_said::{
 use super::report::FindingKind;
 use super::settings::{Due, Settings, Slack};
 use super::wanted::{CoolantKind, Effect, Wanted};
+use crate::dialect::Auxiliary;
 use crate::motion::{Compensation, DRILLED, Modes, Speed, Spindle};
 
 /// Allowed deviation of an oriented spindle, degrees.
@@ -203,7 +204,13 @@ impl Expected {
             Wanted::Unknown { effect: Effect::Auxiliary, .. } => self.range = None,
             Wanted::Auxiliary(code) => {
                 self.range = None;
-                self.insert_auxiliary(settings.dialect.auxiliary(i64::from(*code)));
+                let auxiliary = settings.dialect.auxiliary(i64::from(*code));
+                // The code of the main spindle stops no live tool that has its own.
+                let of_main =
+                    self.mills && settings.is_mill_turn() && !settings.dialect.one_code[2];
+                if !(of_main && auxiliary == Auxiliary::SpindleOff) {
+                    self.insert_auxiliary(auxiliary);
+                }
             }
             _ => {}
         }

@@ -25,11 +25,14 @@ pub(super) fn spindle(record: &Record) -> Vec<Wanted> {
             () => Speed::Turns(speed),
         })
     }));
-    wanted.push(Wanted::Spindle(match () {
+    let turn = match () {
         () if record.has(w::CLW) => Some(Spindle::Clockwise),
         () if record.has(w::CCLW) => Some(Spindle::Counterclockwise),
         () => None,
-    }));
+    };
+    // A highest speed, or a range, turns nothing.
+    let stays = speed.is_none() && turn.is_none() && !record.has(w::ON) && !wanted.is_empty();
+    wanted.extend((!stays).then_some(Wanted::Spindle(turn)));
     wanted
 }
 

@@ -184,7 +184,7 @@ impl<C: Steps> Walk<'_, C> {
             return Err((0, "the crest of the thread has no length".to_string()));
         }
         let mut passes = Vec::new();
-        while self.thread_comes() {
+        while self.thread_comes() && !self.is_whole(&gauge, &passes) {
             let Some(found) = self.next_move() else { break };
             match found.course {
                 Course::Thread => {
@@ -196,6 +196,32 @@ impl<C: Steps> Walk<'_, C> {
         }
         self.back(cl_line, &gauge)?;
         self.judge(&gauge, &passes)
+    }
+
+    /// All passes are made, and the thread that comes is another one.
+    fn is_whole(&self, gauge: &Gauge, passes: &[Pass]) -> bool {
+        let Some(last) = passes.last() else { return false };
+        let goes_on = |found: Move| found.in_cycle && found.line == last.line;
+        if self.next_move().is_some_and(goes_on) || self.judge(gauge, passes).is_err() {
+            return false;
+        }
+        let next = self.nc.from(self.next).take(BETWEEN_PASSES).find_map(|event| match event {
+            Event::Move(found) if found.course == Course::Thread => Some(found),
+            _ => None,
+        });
+        let thread = gauge.thread;
+        // Laws near each other may ask for another pass at the root.
+        !next.is_some_and(|pass| {
+            let at_root = (gauge.depth(&pass.to) - thread.depth).abs() <= gauge.slack;
+            let ends = (gauge.length - gauge.along(&pass.to)).abs() <= thread.lead;
+            at_root && ends && self.has_lead(&pass, gauge)
+        })
+    }
+
+    /// A pass has the lead of the thread.
+    fn has_lead(&self, pass: &Move, gauge: &Gauge) -> bool {
+        let Some(Rate::PerTurn(lead)) = pass.rate else { return false };
+        (lead - gauge.thread.lead).abs() <= LEAD * gauge.thread.lead + self.slack.turn
     }
 
     /// A pass comes after rapids only.
@@ -269,17 +295,11 @@ impl<C: Steps> Walk<'_, C> {
         let leaves = self.next_move().filter(|found| {
             let mut way = gauge.thread.out * gauge.leaves;
             way[gauge.axis] += gauge.towards * gauge.leaves;
-            let lead = match found.rate {
-                Some(Rate::PerTurn(lead)) => lead,
-                _ => return false,
-            };
             let near = |n: usize| {
                 let found = found.to.linear[n] - self.at.linear[n];
                 (found - way[n]).abs() <= 2.0 * gauge.slack
             };
-            found.course == Course::Thread
-                && (0..3).all(near)
-                && (lead - gauge.thread.lead).abs() <= LEAD * gauge.thread.lead + self.slack.turn
+            found.course == Course::Thread && (0..3).all(near) && self.has_lead(found, gauge)
         });
         let Some(found) = leaves else {
             return Err((line, "the pass does not leave the thread at 45 degrees".to_string()));
@@ -343,8 +363,10 @@ impl<C: Steps> Walk<'_, C> {
             walk.in_thread_cycle() && walk.next_move().is_some_and(|found| found.in_cycle)
         };
         // With an infeed of a pitch a pass of one start begins where another start does.
+        let last = self.next.checked_sub(1).and_then(|last| self.nc.motion(last));
+        let speed = last.map(|found| found.modes.speed);
         let goes_on = |walk: &Self| {
-            let next = walk.next_move();
+            let next = walk.next_move().filter(|to| Some(to.modes.speed) == speed);
             next.is_some_and(|to| to.course == Course::Rapid && gauge.is_at_a_start(&to.to))
         };
         for _ in 0..BETWEEN_PASSES {

@@ -110,3 +110,15 @@ pub fn refuse_unknown<T>(control: &Control, number: usize) -> Result<T> {
          go through the part"
     ))
 }
+
+/// Refuses a rapid motion of several axes in one block from a place that is not known.
+///
+/// # Errors
+/// Always.
+pub fn refuse_unknown_way<T>(control: &Control, number: usize) -> Result<T> {
+    let letter = control.tables.axis(number).letter;
+    PostCode::UnknownLevel.err(format!(
+        "where {letter} stands is not known here, and all axes go in one block: their way may lead \
+         through the part"
+    ))
+}

@@ -1,11 +1,11 @@
 //! What the preparatory functions of a machine mean: the codes its settings name,
 //! and for texts of others the usual ones (ISO 6983, RS-274).
 
-use fil_machine::locations::{self as loc, ControlFamily, MillTurnMode};
+use fil_machine::locations::{self as loc, ControlFamily, MillTurnMode, ToolFormat};
 use fil_machine::mill_turn;
 use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::setting::CodeAt;
-use fil_machine::{Commons, FunctionCode};
+use fil_machine::{Commons, FunctionCode, Letter, letters};
 
 use super::{Compensation, Distance, Rotation};
 
@@ -77,9 +77,19 @@ pub struct Codes {
     fixtures: Option<(FunctionCode, FunctionCode)>,
     /// The functions are those of a SINUMERIK.
     sinumerik: bool,
+    /// T changes the tool by itself, as on a turret.
+    pub tool_word_changes: bool,
 }
 
 impl Codes {
+    /// The axis that a letter moves: U, V and W of a lathe whose feeds are G98 and G99 are
+    /// increments of X, Y and Z.
+    pub fn moved_by(&self, letter: Letter) -> Letter {
+        let increments = [b'U', b'V', b'W'];
+        let index = increments.iter().position(|byte| *byte == letter.byte());
+        index.filter(|_| self.turning).map_or(letter, |index| letters::XYZ[index])
+    }
+
     /// The functions that the settings name.
     pub fn from_commons(commons: &Commons) -> Self {
         let turning = commons.read(loc::FEED_UPM_CODE) == Some(98);
@@ -95,6 +105,9 @@ impl Codes {
                 .filter_map(|at| commons.read(*at).and_then(FunctionCode::of_setting))
                 .collect(),
             turns: turns(commons),
+            tool_word_changes: commons.read(loc::TOOL_FORMAT)
+                == ToolFormat::ToolAndOffsetInOneTWord
+                || commons.read(loc::TOOL_CHANGE_CODE).is_none(),
         };
         let codes_are_calls = codes.sinumerik;
         if codes_are_calls {

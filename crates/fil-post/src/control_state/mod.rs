@@ -136,6 +136,10 @@ pub struct ControlState {
     pub range: Option<FunctionCode>,
     /// How the spindle was last told to turn.
     pub rotation: Rotation,
+    /// What has lost the axes came back to where it began: a turning cycle of others.
+    pub returned: bool,
+    /// Tool changes by their function before the spindle was turned last.
+    turned_behind: u32,
     /// S is a surface speed; `None` where nothing has said it, or only blocks that may be skipped.
     pub surface_speed: Option<bool>,
     /// The code of the level that cycles return to; `None` when it is not known.
@@ -171,6 +175,8 @@ impl ControlState {
             speed_limit: None,
             range: None,
             rotation: Rotation::Unsaid,
+            returned: false,
+            turned_behind: 0,
             surface_speed: None,
             return_level: None,
             ended: false,
@@ -214,6 +220,7 @@ impl ControlState {
 
     /// The axes may have gone anywhere.
     pub fn lose_axes(&mut self) {
+        self.returned = false;
         AXIS_LETTERS.into_iter().for_each(|letter| self.doubts.lose(letter));
     }
 
@@ -310,6 +317,8 @@ impl ControlState {
             speed_limit: self.speed_limit,
             range: None,
             rotation: self.rotation.doubted(),
+            returned: false,
+            turned_behind: self.turned_behind,
             surface_speed: None,
             return_level: None,
             ended: self.ended,
@@ -439,6 +448,11 @@ impl ControlState {
         })
     }
 
+    /// A tool change by its function came since the spindle was turned: many machines stop it.
+    pub fn tool_is_changed_since_turned(&self) -> bool {
+        self.turned_behind != self.tool_changes
+    }
+
     /// Learns what an auxiliary function does. A call of a subprogram may do anything.
     pub fn learn_auxiliary(&mut self, code: FunctionCode, codes: &Codes) {
         const END: [FunctionCode; 2] = [FunctionCode::whole(2), FunctionCode::whole(30)];
@@ -451,6 +465,7 @@ impl ControlState {
         self.ended |= END.contains(&code);
         if let Some(rotation) = codes.rotation(code) {
             self.rotation = rotation;
+            self.turned_behind = self.tool_changes;
         }
         if codes.is_spindle_range(code) {
             self.range = Some(code);

@@ -22,6 +22,8 @@ struct Ways {
     length: bool,
     /// They go by a way of their own.
     astray: bool,
+    /// They come back from it to where they began, as from a turning cycle.
+    returns: bool,
     /// The frame may be turned.
     turns: bool,
     /// The words of the block are no positions, such as those of G4.
@@ -38,6 +40,7 @@ impl Ways {
                 (letters::G, Some(code)) if Some(code) == fixture => {}
                 (letters::G, Some(code)) => ways.add(code, codes),
                 (letters::M, Some(code)) => ways.changes |= code == TOOL_CHANGE,
+                (letters::T, _) => ways.changes |= codes.tool_word_changes,
                 _ => {}
             }
         }
@@ -56,7 +59,7 @@ impl Ways {
             }
             Meaning::ToolLength => self.length = true,
             Meaning::Tilt | Meaning::TipControl => self.turns = true,
-            Meaning::Turning => self.astray = true,
+            Meaning::Turning => (self.astray, self.returns) = (true, true),
             Meaning::OneBlock => self.pauses |= code == DWELL,
             _ => {}
         }
@@ -83,13 +86,13 @@ impl ControlState {
             }
         }
         let has = |letters: &[u8]| words.iter().any(|(letter, _)| letters.contains(&letter.byte()));
-        self.learn_ways(words, ways);
+        self.learn_ways(words, ways, codes);
         let cycle = cycle || self.in_cycle != Some(false);
         // In a cycle a position drills, and its level can be one too.
         let drills = cycle && has(b"XYZABCR");
         let counts_on = self.distance != Some(Distance::Absolute);
         let moves = words.iter().any(|(letter, _)| is_axis(*letter)) && !ways.of_machine;
-        if drills || has(b"UVW") || counts_on && moves {
+        if drills || has(b"UVW") && !ways.home || counts_on && moves {
             self.lose_axes();
         } else if counts_on {
             self.doubt_axes();
@@ -135,7 +138,7 @@ impl ControlState {
             TextFrame::Turned => ways.turns = true,
             TextFrame::Unread => ways.astray = true,
         }
-        self.learn_ways(&words.words, ways);
+        self.learn_ways(&words.words, ways, codes);
         let is_motion =
             !(ways.of_machine || ways.says_zero || ways.turns || ways.astray || ways.pauses);
         let is_level_or_code =
@@ -170,16 +173,17 @@ impl ControlState {
     }
 
     /// Learns where functions leave the axes.
-    fn learn_ways(&mut self, words: &[(Letter, f64)], ways: Ways) {
+    fn learn_ways(&mut self, words: &[(Letter, f64)], ways: Ways, codes: &Codes) {
         let named = || words.iter().map(|(letter, _)| *letter).filter(|letter| is_axis(*letter));
         if ways.of_machine {
             self.doubt_axes();
             if ways.home && named().next().is_none() {
                 self.lose_axes();
             }
-            named().for_each(|letter| self.clears(letter));
+            named().for_each(|letter| self.clears(codes.moved_by(letter)));
         } else if ways.astray {
             self.lose_axes();
+            self.returned = ways.returns;
         } else if ways.turns {
             self.turn_axes();
         } else if ways.shifts {

@@ -356,9 +356,10 @@ pub(super) fn refuse_modes_of_others(control: &Control, operation: &Operation) -
     // The code that stops a spindle makes it no axis where SETMS must come before it.
     let stop = control.code_if_any(loc::SPINDLE_STOP_CODE);
     let of_m = of_m.map(|at| control.code_if_any(at).filter(|code| Some(*code) != stop));
+    let of_main = turns_main(control);
     let changes = |letter: Letter, code: Option<FunctionCode>| match letter {
         letters::G => code.is_some() && of_g.contains(&code),
-        letters::M => code.is_some() && of_m.contains(&code),
+        letters::M => code.is_some() && (of_m.contains(&code) || of_main.contains(&code)),
         _ => false,
     };
     let by_value = |(letter, value): (Letter, f64)| changes(letter, FunctionCode::of_value(value));
@@ -384,6 +385,18 @@ pub(super) fn refuse_modes_of_others(control: &Control, operation: &Operation) -
         ),
         false => Ok(()),
     }
+}
+
+/// The functions that turn the main spindle while it is the axis C, where the live tool has
+/// others.
+fn turns_main(control: &Control) -> [Option<FunctionCode>; 2] {
+    let main = [loc::SPINDLE_CW_CODE, loc::SPINDLE_CCW_CODE];
+    let live = [loc::MILL_TURN_LIVE_CW_CODE, loc::MILL_TURN_LIVE_CCW_CODE];
+    let live = live.map(|at| control.code_if_any(at));
+    main.map(|at| {
+        let code = control.code_if_any(at).filter(|_| control.tables.mills());
+        code.filter(|code| !live.contains(&Some(*code)))
+    })
 }
 
 /// Refuses axis words of others in polar interpolation and TRACYL, where they count otherwise

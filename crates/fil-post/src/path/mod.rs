@@ -212,6 +212,7 @@ pub fn carry_out(post: &mut Post, operation: Operation) -> Result<()> {
 }
 
 fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
+    thread::refuse_awaited(post)?;
     if post.control.tables.tip_output {
         if matches!(operation, Operation::End(_)) {
             // Tool-tip control ends for who leaves the blocks of OPSKIP out, too.

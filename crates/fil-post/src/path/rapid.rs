@@ -8,7 +8,7 @@ use fil_machine::locations::{self as loc, RapidSplit};
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family;
-use crate::control::place::refuse_unknown;
+use crate::control::place::{refuse_unknown, refuse_unknown_way};
 use crate::control::skip::refuse_level;
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::word_address::repeat;
@@ -22,11 +22,53 @@ const SAME: f64 = 1e-6;
 /// # Errors
 /// As [`family::rapid`].
 pub fn rapid(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()> {
-    let of_tip = control.state.tip_control == Some(true);
-    if of_tip || control.commons.read(loc::RAPID_SPLIT) == RapidSplit::OneBlock {
+    if control.state.tip_control == Some(true) {
+        return family::rapid(control, motion, RapidCode::Across, cause);
+    }
+    if control.commons.read(loc::RAPID_SPLIT) == RapidSplit::OneBlock {
+        look_where_it_begins(control, motion)?;
         return family::rapid(control, motion, RapidCode::Across, cause);
     }
     in_parts(control, motion, cause)
+}
+
+/// Looks where a rapid motion of several axes in one block begins: no order of them is safe on
+/// a lathe, whose tool may stand before the part or in its bore.
+///
+/// # Errors
+/// An axis may stand anywhere.
+fn look_where_it_begins(control: &mut Control, motion: &Motion) -> Result<()> {
+    let axes = motion.axes.and(control.tables.present()).and(AxisSet::LINEAR);
+    for number in [2, 0, 1].into_iter().filter(|number| axes.has(*number)) {
+        let place = control.place_on_tape(number);
+        let in_doubt = matches!(place, Place::Unknown | Place::Shifted(_) | Place::LeftToScript(_));
+        if !in_doubt || !goes_with_others(control, motion, number)? {
+            continue;
+        }
+        match place {
+            Place::Unknown | Place::LeftToScript(_) if control.state.returned => {}
+            Place::Unknown => return refuse_unknown_way(control, number),
+            Place::Shifted(_) => return control.cross_shifted(number, true),
+            _ => {
+                control.cross_forgotten(number);
+                return Ok(());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// True when the motion has a word of another axis than this one.
+fn goes_with_others(control: &Control, motion: &Motion, number: usize) -> Result<bool> {
+    for other in motion.axes.and(control.tables.present()).numbers().filter(|n| *n != number) {
+        let axis = control.tables.axis(other);
+        let in_doubt = !control.state.has_last(axis.letter);
+        let moves = axis.changes(axis.scaled(motion.position[other])?, &control.commons);
+        if !axis.is_off() && (in_doubt || moves) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
 
 /// Makes a rapid motion X and Y, then the rotary axes, then Z; Z first where it goes up.
@@ -107,20 +149,20 @@ pub(super) fn z_goes_first(control: &mut Control, motion: &Motion) -> Result<boo
             Ok(control.levels_behind_skip(2).is_some_and(|levels| levels.low < motion.position[2]))
         }
         Place::Shifted(last) => {
-            if crosses(control, motion)? {
+            if goes_with_others(control, motion, 2)? {
                 control.cross_shifted(2, rises_from(last))?;
             }
             Ok(rises_from(last))
         }
         Place::Unknown => {
             let up = goes_straight_up(control, motion)?;
-            if !up && crosses(control, motion)? {
+            if !up && goes_with_others(control, motion, 2)? {
                 return refuse_unknown(control, 2);
             }
             Ok(up)
         }
         Place::LeftToScript(_) => {
-            if crosses(control, motion)? {
+            if goes_with_others(control, motion, 2)? {
                 control.cross_forgotten(2);
             }
             Ok(false)
@@ -143,22 +185,4 @@ fn goes_straight_up(control: &Control, motion: &Motion) -> Result<bool> {
         }
     }
     Ok(true)
-}
-
-/// True when the motion has a word of another axis than Z.
-fn crosses(control: &Control, motion: &Motion) -> Result<bool> {
-    let others = motion.axes.without(AxisSet::Z).and(control.tables.present());
-    let in_doubt = |number| !control.state.has_last(control.tables.axis(number).letter);
-    Ok(others.numbers().any(in_doubt) || leaves(control, motion)?)
-}
-
-/// True when another axis than Z leaves its last output value.
-fn leaves(control: &Control, motion: &Motion) -> Result<bool> {
-    for number in motion.axes.without(AxisSet::Z).and(control.tables.present()).numbers() {
-        let axis = control.tables.axis(number);
-        if !axis.is_off() && axis.changes(axis.scaled(motion.position[number])?, &control.commons) {
-            return Ok(true);
-        }
-    }
-    Ok(false)
 }

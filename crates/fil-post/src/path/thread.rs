@@ -233,6 +233,10 @@ pub fn check_speed(post: &Post) -> Result<()> {
     if !spindle::may_turn(&post.control) {
         return PostCode::Thread.err("the spindle stands; SPINDL before the thread turns it");
     }
+    if spindle::may_stand_behind_change(&post.control) {
+        return PostCode::Thread
+            .err("the tool change may have stopped the spindle; SPINDL behind it turns it again");
+    }
     if spindle::is_of_surface(&post.control) {
         return PostCode::Thread
             .err("the spindle turns at constant surface speed, so that the passes would not meet");

@@ -154,7 +154,6 @@ fn take(control: &mut Control, item: &str, words: &mut TextWords) -> bool {
     let value = rest.as_str().parse::<f64>().ok().filter(|value| value.is_finite());
     let (Some(letter), Some(value)) = (letter, value) else { return false };
     match letter.byte() {
-        b'T' => control.state.tool = None,
         b'D' => edge(control, value),
         // A call of a subprogram, or a parameter without its value.
         b'L' | b'P' | b'R' => return false,
@@ -193,8 +192,8 @@ fn assigned(control: &mut Control, name: &str, value: &str, words: &mut TextWord
     }
     match (letters_of_name.as_str(), number) {
         ("SPOS" | "SPOSA" | "LIMS" | "CTOL" | "ADIS" | "ADISPOS" | "OVR", Some(_)) => true,
-        ("T", _) => {
-            control.state.tool = None;
+        ("T", number) => {
+            words.words.push((letters::T, number.unwrap_or_default()));
             true
         }
         ("D", Some(value)) => {

@@ -333,6 +333,11 @@ pub fn stands(control: &Control) -> bool {
     control.state.rotation == Rotation::Standing && !waits(control)
 }
 
+/// A tool change may have stopped the spindle, and nothing that waits for a motion turns it.
+pub fn may_stand_behind_change(control: &Control) -> bool {
+    control.state.tool_is_changed_since_turned() && !waits(control)
+}
+
 /// Adds S, and on a lathe the code for revolutions or surface speed.
 fn speed_words(control: &mut Control, speed: SpindleSpeed) -> Result<()> {
     let code = match speed {
