@@ -71,6 +71,7 @@ pub fn program(nc: Text<'_>, commons: &Commons) -> Result<Drawing, Error> {
         title: nc.name.to_string(),
         path: nc_trace(nc.bytes, nc.name, &dialect, &forward).map_err(Error::Run)?,
         lathe: dialect.lathe,
+        diameter: dialect.counts_diameters(),
         notes: notes(nc.bytes),
         ..Drawing::default()
     })

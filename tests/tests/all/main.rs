@@ -21,6 +21,7 @@ mod one_form;
 mod option_file;
 mod oracle;
 mod plot;
+mod plot_hands;
 mod random;
 mod random_five_axes;
 mod real_cl;

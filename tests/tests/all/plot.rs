@@ -330,12 +330,12 @@ fn the_pages_of_the_docs_are_screenshots() {
         ("plot-lathe.png", || posted("fanuc-lathe", SHAFT), ""),
     ];
     for (name, drawing, script) in pages {
-        let file = root().join("docs").join(name);
+        let (file, drawing) = (root().join("docs").join(name), drawing());
         if std::env::var_os("FILPOST_UPDATE").is_some_and(|value| value == "1")
             && let Some(browser) = browser::program()
         {
             let script = format!("<script>{script}</script></body>");
-            let page = html(&drawing()).replace("</body>", &script);
+            let page = html(&drawing).replace("</body>", &script);
             browser::picture(&browser, "page.html", &page, &file).expect("a screenshot");
         }
         let picture = std::fs::read(file).unwrap_or_else(|_| panic!("docs/{name}"));
@@ -343,22 +343,25 @@ fn the_pages_of_the_docs_are_screenshots() {
     }
 }
 
-/// Passes over a dome, the tool along its normal.
+/// Passes over a side of a dome, the tool along its normal.
 fn tilting_row() -> String {
     let mut cl = String::from(
-        "UNITS / MM\nMULTAX / ON\nLOADTL / 5\nSPINDL / RPM, 8000, CLW\nRAPID\nGOTO / -40, -30, 120, 0, 0, 1\nFEDRAT / 1200, MMPM\n",
+        "UNITS / MM\nMULTAX / ON\nLOADTL / 5\nSPINDL / RPM, 8000, CLW\nRAPID\nGOTO / -40, 0, 120, 0, 0, 1\nRAPID\n",
     );
     for row in 0..9 {
         for step in 0..=20 {
-            let (y, x) = (f64::from(row) * 7.5 - 30.0, f64::from(step) * 4.0 - 40.0);
+            let (y, x) = (f64::from(row) * 7.5 + 10.0, f64::from(step) * 4.0 - 40.0);
             let x = if row % 2 == 0 { x } else { -x };
             let z = (100.0f64 * 100.0 - x * x - y * y).sqrt();
             let point =
                 [x, y, z, x / 100.0, y / 100.0, z / 100.0].map(|value| format!("{value:.6}"));
             cl.push_str(&format!("GOTO / {}\n", point.join(", ")));
+            if row + step == 0 {
+                cl.push_str("FEDRAT / 1200, MMPM\n");
+            }
         }
     }
-    cl + "FINI\n"
+    cl + "RAPID\nGOTO / 40, 70, 120, 0, 0, 1\nFINI\n"
 }
 
 /// A shaft turned in three cuts and finished, with an arc at its shoulder.

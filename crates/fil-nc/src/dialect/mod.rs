@@ -239,6 +239,11 @@ impl Settings<'_> {
 }
 
 impl Dialect {
+    /// X of a program is a diameter, unless it says otherwise.
+    pub fn counts_diameters(&self) -> bool {
+        self.scales[0].is_some_and(Scale::is_diameter)
+    }
+
     /// The language of the machine that these commons describe.
     ///
     /// # Errors

@@ -31,7 +31,7 @@ pub fn html(drawing: &Drawing) -> String {
     let fields = [
         ("{{title}}", escape(&drawing.title)),
         ("{{style}}", STYLE.to_string()),
-        ("{{extent}}", extent.map_or(String::new(), |extent| sides(&extent, drawing.path.unit()))),
+        ("{{extent}}", extent.map_or(String::new(), |extent| sides(&extent, drawing))),
         ("{{data}}", data(drawing, extent)),
         ("{{script}}", SCRIPT.to_string()),
     ];
@@ -76,6 +76,7 @@ fn data(drawing: &Drawing, extent: Option<Extent>) -> String {
         ("underColour", json(CL_COLOUR)),
         ("axisColour", json(AXIS_COLOUR)),
         ("lathe", drawing.lathe.to_string()),
+        ("diameter", drawing.diameter.to_string()),
         ("underName", json(drawing.under_name)),
         ("sourceIsUnder", is_under.to_string()),
         ("path", pack::trace(&drawing.path, notes, source, &grid)),

@@ -66,7 +66,7 @@ impl Stroke {
             Stroke::Rapid => "#d64550",
             Stroke::Feed => "#1c6dd0",
             Stroke::Arc => "#128a4a",
-            Stroke::Thread => "#8a3ab9",
+            Stroke::Thread => "#9a4fca",
         }
     }
 }
@@ -111,8 +111,8 @@ pub struct InForce {
     pub from: usize,
     /// Number of the tool.
     pub tool: u32,
-    /// Feed of pieces that are no rapids; inverse time is told as the feed that it makes, in
-    /// whole mm/min.
+    /// Feed of pieces that are no rapids; inverse time is told as the feed that it makes, of
+    /// four digits.
     pub feed: Option<Rate>,
     /// Speed of the spindle.
     pub speed: Option<Speed>,
@@ -201,6 +201,8 @@ pub struct Drawing {
     pub path: Trace,
     /// The machine turns parts: the page opens with Z to the right and X up.
     pub lathe: bool,
+    /// Programs of the machine count X as a diameter, and so it is told.
+    pub diameter: bool,
     /// The path under it, with which it is compared: mostly that of the CL file.
     pub under: Option<Trace>,
     /// What the path under it is called in a legend.

@@ -12,6 +12,9 @@ const TURN: f64 = 2.0;
 /// Most points of one motion.
 const MOST: f64 = 720.0;
 
+/// Shares of an arc nearer than this are one.
+const SAME: f64 = 1e-9;
+
 /// Tool tips along a motion, without its start; the end is the last one.
 pub(super) fn tips(
     forward: &Forward,
@@ -22,11 +25,41 @@ pub(super) fn tips(
     let swept = arc.map_or(0.0, |arc| arc.angle / arc_step(radius(arc, from), tolerance));
     let count = swept.max(turned(from, to) / TURN).ceil().clamp(1.0, MOST) as u32;
     let (from, to, arc) = (*from, *to, arc.copied());
-    (1..=count).map(move |index| {
-        let share = f64::from(index) / f64::from(count);
-        let at = if index == count { to } else { forward.along(&from, &to, arc.as_ref(), share) };
+    let shares = match &arc {
+        Some(arc) => {
+            let [first, second] = arc.plane().map(|axis| from.linear[axis] - arc.center[axis]);
+            let across = if arc.ccw { [-second, first] } else { [second, -first] };
+            shares_of(count, &[(first, across[0]), (second, across[1])], arc.angle)
+        }
+        None => even(count).collect(),
+    };
+    shares.into_iter().map(move |share| {
+        let at = if share < 1.0 { forward.along(&from, &to, arc.as_ref(), share) } else { to };
         tip(forward, &at)
     })
+}
+
+/// So many shares of a way, the last of which is all of it.
+fn even(count: u32) -> impl Iterator<Item = f64> {
+    (1..=count).map(move |index| f64::from(index) / f64::from(count))
+}
+
+/// Shares of an arc of so many degrees at which it gets points: so many as are asked for, and
+/// its least and greatest coordinates, so that the box around the points is that of the arc.
+/// `spokes` are, for each coordinate, the parts of the spoke at the start and of the one a
+/// quarter further on.
+pub(super) fn shares_of(count: u32, spokes: &[(f64, f64)], sweep: f64) -> Vec<f64> {
+    let mut shares: Vec<f64> = even(count).collect();
+    for (start, across) in spokes {
+        // start cos a + across sin a has its extremes half a turn apart.
+        let first = libm::atan2(*across, *start).to_degrees().rem_euclid(180.0);
+        let angles = std::iter::successors(Some(first), |angle| Some(angle + 180.0));
+        shares.extend(angles.take_while(|angle| *angle < sweep).map(|angle| angle / sweep));
+    }
+    shares.retain(|share| *share > SAME);
+    shares.sort_by(f64::total_cmp);
+    shares.dedup_by(|next, last| *next - *last < SAME && *next < 1.0);
+    shares
 }
 
 /// Degrees of the rotary axes that bend the way of the tip.

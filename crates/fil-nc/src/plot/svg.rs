@@ -138,20 +138,25 @@ fn legend(drawing: &Drawing, extent: Option<&Extent>, edge: f64) -> (String, f64
         sample(&mut out, AXIS_COLOUR, "tool axis", "");
     }
     if let Some(extent) = extent {
-        let sides = sides(extent, drawing.path.unit());
+        let sides = sides(extent, drawing);
         let (x, y) = room(width_of(&sides, SIZE));
         let _ = writeln!(out, "<text x=\"{x}\" y=\"{y}\" fill=\"#444444\">{sides}</text>");
     }
     (out, lines.get())
 }
 
-/// From where to where a box goes, in a unit.
-pub(super) fn sides(extent: &Extent, unit: Unit) -> String {
-    let side = |axis: usize| {
-        let [from, to] = [extent.min, extent.max].map(|end| short(end[axis], unit));
-        format!("{from} to {to}")
+/// From where to where a drawing goes, in its unit: X of a turned part as a diameter.
+pub(super) fn sides(extent: &Extent, drawing: &Drawing) -> String {
+    let unit = drawing.path.unit();
+    let side = |axis: usize, sign: &str, times: f64| {
+        let [from, to] = [extent.min, extent.max].map(|end| short(end[axis] * times, unit));
+        format!("{sign}{from} to {sign}{to}")
     };
-    format!("X {} · Y {} · Z {} {unit}", side(0), side(1), side(2))
+    let z = side(2, "", 1.0);
+    if drawing.diameter && extent.min[1] == 0.0 && extent.max[1] == 0.0 {
+        return format!("{} · Z {z} {unit}", side(0, "\u{2300}", 2.0));
+    }
+    format!("X {} · Y {} · Z {z} {unit}", side(0, "", 1.0), side(1, "", 1.0))
 }
 
 const UNDER: &str = " stroke-width=\"5\" stroke-opacity=\"0.5\"";

@@ -4,7 +4,7 @@ use fil_cl::Reader;
 use fil_diag::Diag;
 use nalgebra::{Point3, Rotation3, Unit};
 
-use super::sample::arc_step;
+use super::sample::{arc_step, shares_of};
 use super::{Change, Extent, InForce, Piece, Point, Stroke, Trace};
 use crate::motion::{Modes, Move, Rate};
 use crate::verify::{Arc, ClPath, Hole, Wanted};
@@ -75,7 +75,7 @@ impl Builder {
         let feed = match (motion.rate, last) {
             (None, last) => last.and_then(|last| last.feed),
             (Some(Rate::Inverse(inverse)), _) => {
-                Some(Rate::PerMinute((inverse * self.length(from)).round()))
+                Some(Rate::PerMinute(four_digits(inverse * self.length(from))))
             }
             (rate, _) => rate,
         };
@@ -115,6 +115,12 @@ impl Builder {
             None => self.waiting.push((line, tool)),
         }
     }
+}
+
+/// A value rounded to four digits.
+fn four_digits(value: f64) -> f64 {
+    let last = libm::exp10(libm::log10(value.max(f64::MIN_POSITIVE)).floor() - 3.0);
+    (value / last).round() * last
 }
 
 /// A place that can be drawn: programs may hold numbers that are too large for one.
@@ -192,10 +198,12 @@ fn along(arc: &Arc, tolerance: f64) -> Vec<Point> {
     let base = arc.start - spoke;
     let rise = arc.normal * arc.normal.dot(&(arc.end.tip - arc.start));
     let axis = Unit::new_normalize(arc.normal);
-    (1..=count)
-        .map(|index| {
-            let share = f64::from(index) / f64::from(count);
-            if index == count {
+    let across = axis.cross(&spoke);
+    let spokes: [(f64, f64); 3] = std::array::from_fn(|n| (spoke[n], across[n]));
+    shares_of(count, &spokes, arc.sweep)
+        .into_iter()
+        .map(|share| {
+            if share >= 1.0 {
                 return arc.end.tip.into();
             }
             let turn = Rotation3::from_axis_angle(&axis, (arc.sweep * share).to_radians());

@@ -65,6 +65,31 @@ function* strokePieces(pen, trace, mask, first, stop) {
   }
 }
 
+/** Least length on the canvas of a motion that is drawn as a point where it is seen end on, how
+ *  far its ends may lie apart then, and the radius of the point, in pixels. */
+const DEEP = 4, END_ON = 1, DOT = 2.5;
+
+/** Motions of a stroke that are seen end on, such as holes from above. */
+function* dotPieces(pen, trace, mask, first, stop) {
+  const to = projection(), { starts, ends, strokes, steps, mask: shown } = trace;
+  for (let block = Math.floor(first / BLOCK); block * BLOCK < stop; block++) {
+    if (!(trace.kinds[block] & mask) || isBeside(to, trace, block)) continue;
+    pen.beginPath();
+    const until = Math.min(stop, (block + 1) * BLOCK);
+    for (let piece = Math.max(first, block * BLOCK); piece < until; piece++) {
+      if (!(mask >> strokes[piece] & 1) || !shown[piece]) continue;
+      const from = starts[piece], end = ends[piece] - 1, way = [0, 1, 2].map((n) => steps[3 * end + n] - steps[3 * from + n]);
+      if (Math.hypot(...way) * data.step * view.scale < DEEP) continue;
+      const [x, y] = placeOf(to, trace, end), [fromX, fromY] = placeOf(to, trace, from);
+      if (Math.hypot(x - fromX, y - fromY) > END_ON) continue;
+      pen.moveTo(x + DOT, y);
+      pen.arc(x, y, DOT, 0, 2 * Math.PI);
+    }
+    pen.fill();
+    yield;
+  }
+}
+
 /** Directions of a tilting tool, one a cell of the canvas. */
 function* strokeAxes(pen, trace, cells, first, stop) {
   const to = projection(), { ends, mask } = trace;
@@ -106,6 +131,8 @@ function* picturePieces(pen, cells, first, stop) {
     pen.lineWidth = layer.index === 0 ? 1 : 1.5;
     pen.setLineDash(layer.index === 0 && path.total < DASHES ? [6, 4] : []);
     yield* strokePieces(pen, path, 1 << layer.index, first, stop);
+    pen.fillStyle = layer.colour;
+    if (layer.index > 0) yield* dotPieces(pen, path, 1 << layer.index, first, stop);
   }
   pen.setLineDash([]);
   if (path.axes.from.length && axisLayer.on) {
@@ -203,9 +230,10 @@ function paint() {
     if (drawn) put(pen, drawn);
   }
   const taken = [];
-  drawScale(pen, taken);
+  if (data.lathe) drawMiddle(pen);
   drawOrigin(pen, taken);
   drawAxes(pen, taken);
+  drawScale(pen, taken);
   drawChanges(pen, taken);
   drawPointer();
 }

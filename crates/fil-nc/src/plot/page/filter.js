@@ -34,6 +34,10 @@ for (let row = 0; row < path.inForce.from.length; row++) {
 }
 const option = (select, value, text) => select.append(new Option(text, value));
 option(tool, "", "all tools");
+const several = [...new Set(operations.map((one) => one.tool))]
+  .map((number) => ({ number, count: operations.filter((one) => one.tool === number).length }))
+  .filter(({ count }) => count > 1);
+several.slice(0, ENTRIES).forEach(({ number, count }) => option(tool, `T${number}`, `T${number} in ${count} operations`));
 operations.slice(0, ENTRIES).forEach((one, index) =>
   option(tool, index, `${index + 1}: T${one.tool} from line ${path.lines[one.from]}`));
 if (operations.length > ENTRIES) {
@@ -48,7 +52,8 @@ tool.hidden = operations.length < 2;
 work.hidden = fixtures.length < 2;
 
 function filter() {
-  const one = tool.value === "" ? null : Number(tool.value);
+  const number = tool.value.startsWith("T") ? Number(tool.value.slice(1)) : null;
+  const one = tool.value === "" || number !== null ? null : Number(tool.value);
   const first = one === null ? 0 : operations[one].from;
   const end = one === null || one + 1 >= operations.length ? path.total : operations[one + 1].from;
   const least = low.value === "" ? -Infinity : Number(low.value) * data.unit.size - data.step / 2;
@@ -58,6 +63,7 @@ function filter() {
     while (row + 1 < from.length && from[row + 1] <= piece) row++;
     const z = coordinate(path, path.ends[piece] - 1, 2);
     const seen = piece >= first && piece < end && z >= least && z <= most &&
+      (number === null || row >= 0 && path.inForce.tool[row] === number) &&
       (work.value === "" || (row < 0 ? 0 : fixture[row]) === Number(work.value));
     path.mask[piece] = seen ? 1 : 0;
   }

@@ -1,12 +1,22 @@
 // Mouse, keys, theme; and the first picture.
 
-over.addEventListener("wheel", (event) => {
-  event.preventDefault();
-  const factor = Math.exp(-event.deltaY * 0.0015);
-  view.x = event.offsetX + (view.x - event.offsetX) * factor;
-  view.y = event.offsetY + (view.y - event.offsetY) * factor;
+/** Makes the picture larger about a place of the canvas. */
+function zoom(factor, x, y) {
+  view.x = x + (view.x - x) * factor;
+  view.y = y + (view.y - y) * factor;
   view.scale *= factor;
   soon("picture", moved);
+}
+
+function shift(aside, down) {
+  view.x += aside;
+  view.y += down;
+  soon("picture", moved);
+}
+
+over.addEventListener("wheel", (event) => {
+  event.preventDefault();
+  zoom(Math.exp(-event.deltaY * 0.0015), event.offsetX, event.offsetY);
 }, { passive: false });
 
 let pressed = null;
@@ -19,10 +29,7 @@ over.addEventListener("pointerup", (event) => {
   const still = pressed && Math.hypot(event.offsetX - pressed[0], event.offsetY - pressed[1]) < 4;
   pressed = null;
   const near = still ? underPointer(event.offsetX, event.offsetY).near[0] : null;
-  if (!near || near.trace !== path) return;
-  choose(near.line);
-  goTo(near.line);
-  tell(near.line);
+  if (near && near.trace === path) chooseLine(near.line);
 });
 over.addEventListener("pointermove", (event) => {
   if (!(event.buttons & 3)) {
@@ -30,11 +37,8 @@ over.addEventListener("pointermove", (event) => {
     return;
   }
   tip.hidden = true;
-  if (event.shiftKey || event.buttons & 2) turn(event.movementX * 0.008, event.movementY * 0.008);
-  else {
-    view.x += event.movementX;
-    view.y += event.movementY;
-  }
+  if (!event.shiftKey && !(event.buttons & 2)) return shift(event.movementX, event.movementY);
+  turn(event.movementX * 0.008, event.movementY * 0.008);
   soon("picture", moved);
 });
 over.addEventListener("pointerleave", () => {
@@ -60,16 +64,24 @@ theme.addEventListener("click", () => {
   document.documentElement.dataset.theme = now === "dark" ? "light" : "dark";
   paint();
 });
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", paint);
 
 const STEPS = { ArrowRight: 1, ArrowLeft: -1, PageDown: 100, PageUp: -100, Home: -Infinity, End: Infinity };
+/** What zooms by a key, and pixels of a move by a key with shift. */
+const LARGER = 1.25, MOVE = 60;
+const zoomMiddle = (factor) => zoom(factor, plot.clientWidth / 2, plot.clientHeight / 2);
+const MOVES = { ArrowLeft: [MOVE, 0], ArrowRight: [-MOVE, 0], ArrowUp: [0, MOVE], ArrowDown: [0, -MOVE] };
 const KEYS = {
   " ": toggle, f: fitAndDraw, d: () => theme.click(),
   1: () => look("xy"), 2: () => look("zx"), 3: () => look("zy"), 4: () => look("iso"),
+  "+": () => zoomMiddle(LARGER), "=": () => zoomMiddle(LARGER), "-": () => zoomMiddle(1 / LARGER),
+  ArrowUp: () => chooseLine(current - 1), ArrowDown: () => chooseLine(current + 1),
 };
 document.addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.altKey || event.metaKey) return;
   if (/^(INPUT|SELECT|BUTTON)$/.test(event.target.tagName)) return;
-  if (event.key in STEPS) {
+  if (event.shiftKey && event.key in MOVES) shift(...MOVES[event.key]);
+  else if (event.key in STEPS) {
     stop();
     show(path.shown + STEPS[event.key]);
   } else if (KEYS[event.key]) KEYS[event.key]();

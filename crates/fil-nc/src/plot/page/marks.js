@@ -21,19 +21,38 @@ function arrow(pen, taken, [x, y], way, size, name) {
   pen.moveTo(x, y);
   pen.lineTo(x + dx, y + dy);
   pen.stroke();
-  const width = pen.measureText(name).width;
+  taken.push([Math.min(x, x + dx) - 2, Math.min(y, y + dy) - 2, Math.max(x, x + dx) + 2, Math.max(y, y + dy) + 2]);
+  const width = pen.measureText(name).width, paper = ink("paper");
   // Axes that lie on one another have their names one behind the other.
   for (let far = reach + 8; far < reach + 60; far += 6) {
     const px = x + dx / reach * far - width / 2, py = y + dy / reach * far + 4;
     const box = [px - 1, py - LINE, px + width + 1, py + FOOT];
     if (!isInside(box) || !isFree(taken, box)) continue;
     taken.push(box);
+    const colour = pen.strokeStyle, wide = pen.lineWidth;
+    pen.strokeStyle = paper;
+    pen.lineWidth = 3;
+    pen.strokeText(name, px, py);
+    pen.strokeStyle = colour;
+    pen.lineWidth = wide;
     pen.fillText(name, px, py);
     return;
   }
 }
 
 const AXES = { X: [1, 0, 0], Y: [0, 1, 0], Z: [0, 0, 1] };
+
+/** The line about which a lathe turns the part. */
+function drawMiddle(pen) {
+  pen.beginPath();
+  pen.moveTo(...project([0, 0, least[2] - (most[2] - least[2]) / 20]));
+  pen.lineTo(...project([0, 0, most[2] + (most[2] - least[2]) / 20]));
+  pen.strokeStyle = ink("faint");
+  pen.lineWidth = 1;
+  pen.setLineDash([12, 3, 2, 3]);
+  pen.stroke();
+  pen.setLineDash([]);
+}
 
 /** The origin of the part, and the directions of its axes. */
 function drawOrigin(pen, taken) {
@@ -48,11 +67,10 @@ function drawOrigin(pen, taken) {
   for (const [name, way] of Object.entries(AXES)) arrow(pen, taken, at, way, 36, name);
 }
 
-/** The axes once more in the corner, for when the origin is out of sight; not where it lies
- *  in that corner. */
+/** The axes in the corner, where the origin with its own is out of sight. */
 function drawAxes(pen, taken) {
-  const at = [44, plot.clientHeight - 44], origin = project([0, 0, 0]);
-  if (Math.hypot(origin[0] - at[0], origin[1] - at[1]) < 110) return;
+  const at = [44, plot.clientHeight - 44], [x, y] = project([0, 0, 0]);
+  if (isInside([x - 20, y - 20, x + 20, y + 20])) return;
   pen.font = "12px sans-serif";
   pen.strokeStyle = pen.fillStyle = ink("faint");
   pen.lineWidth = 1.2;
@@ -85,6 +103,7 @@ function changesInSight() {
   const places = new Map();
   for (let change = 0; change < from.length; change++) {
     if (path.shown < path.total && from[change] >= path.shown) continue;
+    if (path.mask[from[change]] === 0) continue;
     const px = to.x + x[change] * to.a + y[change] * to.b + z[change] * to.c;
     const py = to.y + x[change] * to.d + y[change] * to.e + z[change] * to.f;
     if (px < 0 || py < 0 || px > plot.clientWidth || py > plot.clientHeight) continue;
@@ -126,19 +145,25 @@ function drawScale(pen, taken) {
   const wanted = 120 / view.scale / data.unit.size;
   const power = 10 ** Math.floor(Math.log10(wanted));
   const size = [5, 2, 1].map((digit) => digit * power).find((value) => value <= wanted);
-  const x = plot.clientWidth - 20, y = plot.clientHeight - 20;
-  pen.beginPath();
-  pen.moveTo(x - size * data.unit.size * view.scale, y);
-  pen.lineTo(x, y);
-  pen.strokeStyle = ink("faint");
-  pen.lineWidth = 2;
-  pen.stroke();
-  pen.textAlign = "right";
-  pen.fillStyle = ink("faint");
+  const bar = size * data.unit.size * view.scale;
   pen.font = "12px sans-serif";
   const label = `${Number(size.toPrecision(1))} ${data.unit.name}`;
+  const width = Math.max(pen.measureText(label).width, bar);
+  const right = plot.clientWidth - 20, bottom = plot.clientHeight - 20;
+  const boxOf = ([x, y]) => [x - width, y - 6 - LINE, x, y + FOOT];
+  const corners = [[right, bottom], [right, 32], [20 + width, 32]];
+  const [x, y] = corners.find((corner) => isFree(taken, boxOf(corner))) ?? corners[0];
+  const line = new Path2D(`M${x - bar} ${y}H${x}`);
+  pen.strokeStyle = ink("paper");
+  pen.lineWidth = 6;
+  pen.stroke(line);
+  pen.textAlign = "right";
+  pen.lineWidth = 4;
+  pen.strokeText(label, x, y - 6);
+  pen.strokeStyle = pen.fillStyle = ink("faint");
+  pen.lineWidth = 2;
+  pen.stroke(line);
   pen.fillText(label, x, y - 6);
-  const width = Math.max(pen.measureText(label).width, size * data.unit.size * view.scale);
-  taken.push([x - width, y - 6 - LINE, x, y + FOOT]);
+  taken.push(boxOf([x, y]));
   pen.textAlign = "left";
 }

@@ -52,10 +52,14 @@ function tell(line) {
 pane.addEventListener("scroll", writeRows);
 rows.addEventListener("click", (event) => {
   const row = event.target.closest("[data-line]");
-  if (!row) return;
-  current = Number(row.dataset.line);
-  writeRows();
-  choose(current);
-  tell(current);
+  if (row) chooseLine(Number(row.dataset.line));
 });
+
+/** Marks a line of the program and what it makes. */
+function chooseLine(line) {
+  const wanted = Math.max(1, Math.min(path.text.count, line));
+  goTo(wanted);
+  choose(wanted);
+  tell(wanted);
+}
 new ResizeObserver(writeRows).observe(pane);

@@ -71,20 +71,19 @@ const lineOf = (trace, line) => `line ${line}: ${trace.text.get(line).trimEnd()}
 
 function describe({ trace, piece }) {
   const line = trace.lines[piece], last = trace.ends[piece] - 1;
-  const end = ["X", "Y", "Z"].map((name, axis) => name + length(coordinate(trace, last, axis))).join(" ");
+  const end = said(pointOf(trace, last));
   const what = `${trace === under ? data.underName + ", " : ""}${data.strokes[trace.strokes[piece]].name} to ${end}`;
   const axis = trace.axes.from.length ? axisAt(trace, piece) : [0, 0, 0];
   const tilted = axis.some((part) => part !== 0) && `tool axis ${axis.map(round).join(" ")}`;
   const cause = trace.causeLines[line - 1], stack = trace.stacks[trace.causeStacks[line - 1] - 1];
   const origin = cause && `${trace.sourceName}:${cause}  ${trace.source.get(cause).trim()}`.trim();
-  const state = trace === path && stateOf(piece);
+  const state = trace === path && stateOf(piece, ends[piece]);
   return [lineOf(trace, line), what, tilted, state, origin, stack].filter((part) => part).join("\n");
 }
 
-/** The tool at the end of a piece: a line from its tip along its axis. */
-function drawTool(pen, to, trace, piece) {
-  const [x, y] = placeOf(to, trace, trace.ends[piece] - 1);
-  const [dx, dy] = lead(axisAt(trace, piece));
+/** A line from the tip of the tool along its axis. */
+function drawTool(pen, point, axis) {
+  const [x, y] = project(point), [dx, dy] = lead(axis);
   pen.beginPath();
   pen.moveTo(x, y);
   pen.lineTo(x + TOOL * dx, y + TOOL * dy);
@@ -101,7 +100,16 @@ function drawTool(pen, to, trace, piece) {
  *  of the line that was clicked. */
 function drawPointer() {
   const pen = penOf(over, true), to = projection();
-  if (path.shown && path.shown < path.total) drawTool(pen, to, path, path.shown - 1);
+  const now = path.shown < path.total && toolAt();
+  if (now) {
+    const layer = layers[path.strokes[now.piece]];
+    pen.beginPath();
+    if (layer.on && path.mask[now.piece]) now.way.forEach((point) => pen.lineTo(...project(point)));
+    pen.strokeStyle = layer.colour;
+    pen.lineWidth = 1.5;
+    pen.stroke();
+    drawTool(pen, now.point, now.axis);
+  }
   const marked = found ? [found] : chosen.map((piece) => ({ trace: path, piece }));
   for (const { trace, piece } of marked) {
     pen.beginPath();
@@ -110,12 +118,16 @@ function drawPointer() {
     pen.lineWidth = 3.5;
     pen.stroke();
   }
-  if (found && found.trace.axes.from.length) drawTool(pen, to, found.trace, found.piece);
+  if (!found || !found.trace.axes.from.length) return;
+  drawTool(pen, pointOf(found.trace, found.trace.ends[found.piece] - 1), axisAt(found.trace, found.piece));
 }
 
-/** Marks all that a line of the program makes. */
+/** Marks all that a line of the program makes, and says where it ends. */
 function choose(line) {
   chosen = [];
   for (let piece = 0; piece < path.total; piece++) if (path.lines[piece] === line) chosen.push(piece);
+  place.textContent = `line ${line}`;
+  const last = chosen.at(-1);
+  if (last !== undefined) tellPlace(path, last, pointOf(path, path.ends[last] - 1), ends[last]);
   drawPointer();
 }

@@ -85,7 +85,7 @@ async function readTrace(packed) {
   }
   const total = heads.length;
   const trace = {
-    steps, lines, shown: total, total, mask: new Uint8Array(total).fill(1),
+    steps, lines, shown: total, part: 0, total, mask: new Uint8Array(total).fill(1),
     starts: new Uint32Array(total), ends: new Uint32Array(total), strokes: new Uint8Array(total),
     inForce: named(["from", "tool", "feedKind", "feed", "speedKind", "speed", "spindle", "fixture", "limit"], inForce),
     axes: named(["from", "x", "y", "z"], axes),
@@ -153,3 +153,10 @@ const round = (value) => String(Math.round(value * DIGITS) / DIGITS + 0);
 const length = (mm) => round(mm / data.unit.size);
 /** A coordinate of a point of a trace, mm. */
 const coordinate = (trace, point, axis) => data.min[axis] + trace.steps[3 * point + axis] * data.step;
+const pointOf = (trace, point) => [0, 1, 2].map((axis) => coordinate(trace, point, axis));
+/** A point as the program says it: on a lathe that counts diameters, one before or behind the
+ *  spindle is a diameter and Z. */
+function said([x, y, z]) {
+  if (data.diameter && Math.abs(y) < data.step) return `\u2300${length(2 * x)} Z${length(z)}`;
+  return `X${length(x)} Y${length(y)} Z${length(z)}`;
+}

@@ -4,7 +4,10 @@
 const RAPID = 10000;
 /** Minutes from the start to the end of each piece. */
 const ends = new Float64Array(path.total);
+/** 1 for a piece whose feed nothing says. */
+const timeless = new Uint8Array(path.total);
 
+/** Length of a piece, mm. */
 function lengthOf(trace, piece) {
   let sum = 0;
   const { steps } = trace;
@@ -35,7 +38,25 @@ for (let piece = 0, minutes = 0, row = -1; piece < path.total; piece++) {
   while (row + 1 < path.inForce.from.length && path.inForce.from[row + 1] <= piece) row++;
   const feed = feedOf(piece, row);
   if (feed > 0) minutes += lengthOf(path, piece) / feed;
+  else timeless[piece] = 1;
   ends[piece] = minutes;
+}
+
+/** The points of a piece up to a share of its length, mm. */
+function wayOf(trace, piece, share) {
+  let at = trace.starts[piece], from = pointOf(trace, at), left = share * lengthOf(trace, piece);
+  const way = [from];
+  while (++at < trace.ends[piece]) {
+    const to = pointOf(trace, at), step = Math.hypot(...to.map((value, axis) => value - from[axis]));
+    if (step >= left) {
+      if (step > 0) way.push(mix(from, 1 - left / step, to, left / step));
+      break;
+    }
+    way.push(to);
+    left -= step;
+    from = to;
+  }
+  return way;
 }
 
 function clock(minutes) {
@@ -55,8 +76,8 @@ function offset(fixture) {
 /** mm of the length that a surface speed counts in. */
 const SURFACE = data.unit.name === "inch" ? { size: 0.3048, name: "ft/min" } : { size: 1, name: "m/min" };
 
-/** Tool, offset, feed and speed of a piece of the path, and when it is over. */
-function stateOf(piece) {
+/** Tool, offset, feed and speed of a piece of the path, and the time since the start. */
+function stateOf(piece, minutes) {
   const row = rowAt(path.inForce, piece);
   if (row < 0) return "";
   const { tool, feedKind, feed, speedKind, speed, spindle, fixture } = path.inForce;
@@ -66,6 +87,6 @@ function stateOf(piece) {
     said.push(`F ${length(feed[row] / 1e4)} ${data.unit.name}${feedKind[row] === 1 ? "/min" : " a turn"}`);
   if (speedKind[row] === 1) said.push(`S ${round(speed[row] / 1e4)} turns/min`);
   if (speedKind[row] === 2) said.push(`S ${round(speed[row] / 1e4 / SURFACE.size)} ${SURFACE.name}`);
-  said.push(["spindle off", "clockwise", "counterclockwise"][spindle[row]], `after ${clock(ends[piece])}`);
+  said.push(["spindle off", "clockwise", "counterclockwise"][spindle[row]], `after ${clock(minutes)}`);
   return said.join(" · ");
 }

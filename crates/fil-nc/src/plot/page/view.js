@@ -9,7 +9,32 @@ const VIEWS = {
   iso: [[half, half, 0], [-sixth, sixth, 2 * sixth]],
 };
 const view = { right: [1, 0, 0], up: [0, 1, 0], scale: 1, x: 0, y: 0 };
-const middle = [0, 1, 2].map((axis) => (data.min[axis] + data.max[axis]) / 2);
+/** The box that is fitted, and its middle. */
+const least = [...data.min], most = [...data.max], middle = [0, 0, 0];
+
+/** Takes the box of what is shown of the path, on a lathe with the middle of the part; all of it
+ *  where nothing is hidden. */
+function surround() {
+  const isHidden = (piece) => !path.mask[piece] || !layers[path.strokes[piece]].on;
+  let hidden = 0;
+  for (let piece = 0; piece < path.total; piece++) hidden += isHidden(piece);
+  for (let axis = 0; axis < 3; axis++) {
+    let low = Infinity, high = -Infinity;
+    for (let piece = 0; hidden && piece < path.total; piece++) {
+      if (isHidden(piece)) continue;
+      for (let at = path.starts[piece]; at < path.ends[piece]; at++) {
+        low = Math.min(low, path.steps[3 * at + axis]);
+        high = Math.max(high, path.steps[3 * at + axis]);
+      }
+    }
+    const some = low <= high, turns = data.lathe && axis === 0;
+    least[axis] = some ? data.min[axis] + low * data.step : data.min[axis];
+    most[axis] = some ? data.min[axis] + high * data.step : data.max[axis];
+    if (turns) least[axis] = Math.min(least[axis], 0);
+    if (turns) most[axis] = Math.max(most[axis], 0);
+    middle[axis] = (least[axis] + most[axis]) / 2;
+  }
+}
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) =>
   [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -64,10 +89,11 @@ function axisAt(trace, piece) {
 }
 
 function fit() {
+  surround();
   const { clientWidth: width, clientHeight: height } = plot;
   let right = 1e-3, up = 1e-3;
   for (let corner = 0; corner < 8; corner++) {
-    const from = middle.map((value, axis) => (corner >> axis & 1 ? data.max : data.min)[axis] - value);
+    const from = middle.map((value, axis) => (corner >> axis & 1 ? most : least)[axis] - value);
     right = Math.max(right, Math.abs(dot(from, view.right)));
     up = Math.max(up, Math.abs(dot(from, view.up)));
   }
