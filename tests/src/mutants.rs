@@ -14,6 +14,8 @@ pub struct Mutant {
     pub fault: String,
     /// Letter of the word that is changed; `None` for more than one word.
     pub word: Option<u8>,
+    /// A number is another one by no more than the last digit of a length or an angle.
+    pub slight: bool,
     /// The program.
     pub text: String,
 }
@@ -33,7 +35,13 @@ pub fn all(nc: &str, step: usize, first: usize) -> impl Iterator<Item = Mutant> 
     chosen.map(move |(index, fault)| {
         let mut lines = lines.clone();
         lines[index] = &fault.changed;
-        Mutant { line: index + 1, text: lines.join("\n"), fault: fault.said, word: fault.word }
+        Mutant {
+            line: index + 1,
+            text: lines.join("\n"),
+            fault: fault.said,
+            word: fault.word,
+            slight: fault.slight,
+        }
     })
 }
 
@@ -42,6 +50,7 @@ struct Fault {
     said: String,
     changed: String,
     word: Option<u8>,
+    slight: bool,
 }
 
 /// Words that a program may have too many.
@@ -74,7 +83,7 @@ fn of_line(line: &str) -> Option<Vec<Fault>> {
     if block.words.is_empty() {
         return Some(Vec::new());
     }
-    let whole = |said: String, changed: String| Fault { said, changed, word: None };
+    let whole = |said: String, changed: String| Fault { said, changed, word: None, slight: false };
     let mut faults = vec![whole(format!("without `{line}`"), String::new())];
     if !block.skip {
         faults.push(whole(format!("`{line}` may be skipped"), format!("/{line}")));
@@ -93,6 +102,7 @@ fn of_word(line: &str, word: &Word) -> Vec<Fault> {
         said,
         changed: format!("{}{new}{}", &line[..range.start], &line[range.end..]),
         word: Some(word.letter),
+        slight: is_slight(text, new),
     };
     let mut faults = vec![fault(format!("`{line}` without {text}"), "")];
     // A sequence number steers nothing.
@@ -111,6 +121,21 @@ fn of_word(line: &str, word: &Word) -> Vec<Fault> {
     let is_now = |other: String| fault(format!("{text} is {other} in `{line}`"), &other);
     faults.extend(others.into_iter().map(is_now));
     faults
+}
+
+/// What a word of three decimals can be off by where both of two values are right.
+const LAST_DIGIT: f64 = 0.0011;
+
+/// Two words whose numbers are that near.
+fn is_slight(one: &str, other: &str) -> bool {
+    let number = |text: &str| {
+        let text = text.rsplit('=').next()?;
+        let start = text.find(|c: char| c.is_ascii_digit() || "+-.".contains(c))?;
+        text[start..].parse::<f64>().ok()
+    };
+    let name = |text: &str| text.bytes().take_while(u8::is_ascii_alphabetic).count();
+    name(one) == name(other)
+        && number(one).zip(number(other)).is_some_and(|(a, b)| (a - b).abs() < LAST_DIGIT)
 }
 
 /// A word may be added to a block that has none like it.

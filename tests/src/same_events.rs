@@ -1,6 +1,7 @@
 //! Whether two programs make a machine do the same.
 
-use fil_nc::motion::{Arc, Event, Modes, Move, Rate};
+use fil_nc::forward::Forward;
+use fil_nc::motion::{Arc, Event, Modes, Move, Position, Rate};
 
 /// How far two ways may lie apart that are one: twice the last digit of a program in mm,
 /// once for the rounded end of a part of an arc and once for the center it gives.
@@ -12,6 +13,25 @@ pub fn same(one: &[Event], other: &[Event]) -> bool {
     let [one, other] = [one, other].map(|events| joined(bare(events)));
     one.len() == other.len()
         && one.iter().zip(&other).all(|(one, other)| alike(&said_again(one, other), other))
+}
+
+/// Least turn of the tool that counts, degrees: the last digits of two axes, where they stand at
+/// an angle to each other.
+const TURNED: f64 = 0.01;
+
+/// True when two programs differ only in motions that end, on the part, within a rounding: the tip
+/// as [`APART`] says, the tool as [`TURNED`]. A table that turns about the tool moves neither:
+/// `R(c) p = p` for a point p of its axis, and `R(c) a = a` for a tool along it.
+pub fn near_poses(one: &[Event], other: &[Event], forward: &Forward) -> bool {
+    let near = |(one, other): (&Event, &Event)| match (one, other) {
+        (Event::Move(found), Event::Move(wanted)) => {
+            let [a, b] = [found, wanted].map(|motion| forward.pose(&motion.to));
+            let turned = (a.axis - b.axis).norm().to_degrees();
+            (a.tip - b.tip).norm() < APART && turned < TURNED && found.course == wanted.course
+        }
+        (one, other) => one == other,
+    };
+    one.len() == other.len() && one.iter().zip(other).all(near)
 }
 
 /// The event, in which what is on may have been switched on once more behind a stop.
@@ -68,7 +88,8 @@ fn bare(events: &[Event]) -> Vec<Event> {
 }
 
 fn goes_nowhere(before: &Move, found: &Move) -> bool {
-    found.arc.is_none() && found.to == before.to && found.known == before.known
+    let to = Position { transformed: before.to.transformed, ..found.to };
+    found.arc.is_none() && to == before.to && found.known == before.known
 }
 
 /// The feed of a straight line of three axes in inverse time, mm/min.

@@ -136,6 +136,7 @@ impl Forward {
             rotary: std::array::from_fn(|axis| mix(from.rotary[axis], to.rotary[axis])),
             tip_control: to.tip_control,
             tilt: to.tilt,
+            transformed: to.transformed,
         };
         if let Some(arc) = arc {
             let [first, second] = arc.plane();
@@ -335,7 +336,7 @@ pub(crate) mod tests {
             linear,
             rotary: [turned, 0.0],
             tip_control,
-            tilt: None,
+            ..Position::default()
         };
         // Half way from the table at 0 to the table at 90 degrees.
         let tip = |from, to| forward.pose(&forward.along(&from, &to, None, 0.5)).tip.coords;

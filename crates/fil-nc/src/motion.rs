@@ -40,6 +40,9 @@ pub struct Position {
     /// The tilted frame that X, Y, Z are positions of the tip in; no rotary axis turns
     /// while one is in force.
     pub tilt: Option<Tilt>,
+    /// TRANSMIT or TRACYL of a SINUMERIK is in force: the program says X as a radius and the way
+    /// of C as a length.
+    pub transformed: bool,
 }
 
 impl Position {

@@ -41,7 +41,7 @@ pub(super) fn of_line(line: &str, klartext: bool) -> Vec<Fault> {
     if pieces.is_empty() {
         return Vec::new();
     }
-    let whole = |said: String, changed: String| Fault { said, changed, word: None };
+    let whole = |said: String, changed: String| Fault { said, changed, word: None, slight: false };
     let mut faults = vec![whole(format!("without `{line}`"), String::new())];
     let goes_on = line.contains(['~', ';', '=', '(']);
     for word in INSERTED.into_iter().filter(|_| klartext && !goes_on) {
@@ -83,6 +83,7 @@ fn of_piece(line: &str, piece: &Piece<'_>) -> Vec<Fault> {
         said,
         changed: format!("{}{new}{}", &line[..range.start], &line[range.end..]),
         word: axis(text),
+        slight: super::is_slight(text, new),
     };
     let mut others: Vec<String> = super::pairs(&EXCHANGED, text).map(str::to_string).collect();
     others.extend(text.contains('-').then(|| text.replace('-', "")));

@@ -215,6 +215,7 @@ impl<'d> State<'d> {
                 rotary: [primary, secondary],
                 tip_control: self.modes.tip_control,
                 tilt: self.tilt,
+                transformed: self.dialect.transforms && (self.polar || self.cylinder.is_some()),
             },
             arc,
             rate,

@@ -96,15 +96,17 @@ impl Gap {
     fn of_live_tool(settings: &Settings, slack: &Slack, at: &Position, pose: &Pose) -> Gap {
         let forward = settings.forward.with_tool_for(pose.axis);
         let stands = forward.pose(at);
-        let mut half_digit = slack.rotary[0].to_radians();
         let radius = libm::hypot(pose.tip.x, pose.tip.y);
-        if settings.dialect.transforms && radius > 0.0 {
-            // TRACYL rounds the way around the cylinder.
-            half_digit += slack.linear[1] / radius;
-        }
         let axis = stands.axis.angle(&pose.axis);
-        let mut slack = *slack;
-        if !settings.written()[1] {
+        let (mut slack, mut half_digit) = (*slack, slack.rotary[0].to_radians());
+        if at.transformed && radius > 0.0 {
+            // TRACYL rounds the way around the cylinder, and no angle.
+            half_digit = slack.linear[1] / radius;
+            slack.linear[1] += REACHED * radius;
+        } else if !at.transformed {
+            slack.linear[0] = slack.outside_transformations;
+        }
+        if !at.transformed && !settings.written()[1] {
             slack.linear[1] += half_digit * radius;
         }
         let mut gap = Gap {

@@ -126,7 +126,7 @@ impl<C: Steps> Walk<'_, C> {
         }
         let rotary = self.gap(&found.to, &hole.start).rotary;
         let linear = self.hole_frame(rotary, hole).linear(self.tip_over(found, hole));
-        Move { to: Position { linear, rotary, tip_control: false, tilt: None }, ..*found }
+        Move { to: Position { linear, rotary, ..Position::default() }, ..*found }
     }
 
     /// The tip of a motion over a hole, with the tool exactly along it.

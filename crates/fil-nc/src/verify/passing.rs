@@ -53,9 +53,7 @@ impl<C: Steps> Walk<'_, C> {
             self.check_tip_end(cl_line);
             match self.nc.get(self.next) {
                 Some(Event::Move(found)) if self.goes_up_at_tip_end(&found) => {
-                    self.take(cl_line, &found);
-                    self.next += 1;
-                    self.is_up = true;
+                    self.goes_up(cl_line, &found);
                 }
                 Some(Event::Move(found))
                     if found.course != Course::Machine

@@ -172,11 +172,11 @@ impl<C: Steps> Walk<'_, C> {
             slope: libm::tan((thread.angle / 2.0).to_radians()),
             leaves: self.settings.thread_chamfer() * thread.lead,
             clear: clearance + rises,
-            slack: 2.0 * self.slack.linear[0].max(self.slack.linear[2]) + 1e-9,
+            slack: 2.0 * self.slack.outside_transformations.max(self.slack.linear[2]) + 1e-9,
             digits: if axis == 2 {
-                [self.slack.linear[0], self.slack.linear[2]]
+                [self.slack.outside_transformations, self.slack.linear[2]]
             } else {
-                [self.slack.linear[2], self.slack.linear[0]]
+                [self.slack.linear[2], self.slack.outside_transformations]
             },
             step: if self.metric { 1e-3 } else { 1e-4 * INCH },
         };

@@ -41,6 +41,18 @@ impl<C: Steps> Walk<'_, C> {
         (way - stands.axis * along).norm() <= slack && along >= way_up - slack
     }
 
+    /// Takes the way up, on which a work offset may wait for the next motion of the CL file.
+    pub(super) fn goes_up(&mut self, cl_line: u32, found: &Move) {
+        let mut seen = *found;
+        if found.modes.fixture == self.moved_fixture {
+            seen.modes.fixture = self.modes.fixture.unwrap_or(found.modes.fixture);
+        }
+        self.take(cl_line, &seen);
+        self.moved_fixture = found.modes.fixture;
+        self.next += 1;
+        self.is_up = true;
+    }
+
     /// The CL file stays where the tool is, and the program goes up for the end of tool-tip
     /// control, which no step asks for: the way up comes behind all steps that stay.
     #[cold]

@@ -63,8 +63,9 @@ pub(super) struct Walk<'a, C> {
     pub(super) known: [bool; 5],
     /// The height of the program has been known before.
     pub(super) has_had_height: bool,
-    /// The tool of the last motion.
+    /// The tool of the last motion, and its work offset.
     pub(super) moved_tool: u32,
+    pub(super) moved_fixture: Option<u32>,
     /// Exact rotary positions that the tape shows rounded.
     pub(super) exact: [f64; 2],
     /// Line of the last motion taken.
@@ -126,6 +127,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             known: [false; 5],
             has_had_height: false,
             moved_tool: 0,
+            moved_fixture: None,
             exact: [0.0; 2],
             line: 0,
             modes: Expected::new(settings),
@@ -426,6 +428,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         self.line = found.line;
         self.at = found.to;
         self.moved_tool = found.modes.tool;
+        self.moved_fixture = found.modes.fixture;
         self.known = found.known;
         self.has_had_height |= found.known[2];
     }

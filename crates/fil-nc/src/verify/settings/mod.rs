@@ -51,6 +51,8 @@ pub enum Due {
 pub struct Slack {
     /// X, Y, Z, mm.
     pub linear: [f64; 3],
+    /// X where no transformation makes it a radius, mm.
+    pub outside_transformations: f64,
     /// What of that only an axis may be off by that stays, as a coordinate that changes by
     /// less is not written, mm.
     pub kept: f64,
@@ -200,12 +202,14 @@ impl<'c> Settings<'c> {
             None => 0.0,
         });
         let mut linear = axes.map(|(letter, common)| of_axis(letter, common, unit) + by_hand);
+        let outside_transformations = linear[0];
         if self.dialect.transforms {
             // X is a radius in TRANSMIT and TRACYL.
             linear[0] = self.allowed(half(letters::XYZ[0]) * unit) + by_hand;
         }
         Slack {
             linear,
+            outside_transformations,
             kept,
             rounded: axes.map(|(letter, common)| Some(half(letter) * scaled(common)?)),
             rotary,
