@@ -32,6 +32,7 @@ mod verify;
 mod version;
 mod watch;
 
+use std::io::{ErrorKind, Write};
 use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind};
 use std::process::ExitCode;
 
@@ -63,13 +64,27 @@ fn main() -> ExitCode {
         files::give_up();
         std::process::exit(STOPPED);
     });
-    let status = match catch_unwind(AssertUnwindSafe(|| run(&Args::parse().command))) {
+    let args = match Args::try_parse() {
+        Ok(args) => args,
+        Err(asked) => return told(&asked),
+    };
+    let status = match catch_unwind(AssertUnwindSafe(|| run(&args.command))) {
         Ok(Ok(status)) => status as u8,
         Ok(Err(error)) => {
             refused::tell(&error);
             Status::Failed as u8
         }
         Err(_) => Status::Fault as u8,
+    };
+    ExitCode::from(status)
+}
+
+/// Tells what a command line without a command to run asks for, or what is wrong with it.
+fn told(asked: &clap::Error) -> ExitCode {
+    let said = asked.print().and_then(|()| std::io::stdout().flush());
+    let status = match said.map_err(|error| error.kind()) {
+        Ok(()) | Err(ErrorKind::BrokenPipe) => asked.exit_code() as u8,
+        Err(_) => Status::Failed as u8,
     };
     ExitCode::from(status)
 }

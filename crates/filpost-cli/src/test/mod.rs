@@ -59,8 +59,8 @@ pub fn run(args: &TestArgs) -> Result<Status, Error> {
         .map(|case| run_case(&folder, case, &programs, looks_on))
         .collect();
     refuse_over_reads(args, &done, &programs)?;
-    let failed = say(&done, args.update)?;
     let mut written = PendingFiles::default();
+    let failed = say(&done, args.update.then_some(&mut written))?;
     if let Some(path) = &args.html {
         written.add(output::new_file(path, report::html(&done).as_bytes())?);
     }
@@ -138,21 +138,20 @@ fn run_case(root: &Path, case: Case, programs: &Programs, looks_on: bool) -> Don
     Done { name, case, outcome, recorder, time: start.elapsed() }
 }
 
-/// Tells how each case ended, in the order of their folders; with `update`
-/// expected files are written once their differences have been shown.
-fn say(done: &[Done], update: bool) -> Result<usize, Error> {
+/// Tells how each case ended, in the order of their folders; expected files are made anew among
+/// those of `updated`.
+fn say(done: &[Done], mut updated: Option<&mut PendingFiles>) -> Result<usize, Error> {
     let mut failed = 0;
     for Done { case, outcome, .. } in done {
         let Some(failure) = &outcome.failure else { continue };
-        let fresh = update && !outcome.fresh.is_empty();
-        let word = if fresh { "UPDATED" } else { "FAILED" };
+        let fresh = updated.as_mut().filter(|_| !outcome.fresh.is_empty());
+        let word = if fresh.is_some() { "UPDATED" } else { "FAILED" };
         output::print(
             format!("{word} {}\n{}\n", case.folder.display(), failure.trim_end()).as_bytes(),
         )?;
-        if fresh {
-            outcome.update()?;
-        } else {
-            failed += 1;
+        match fresh {
+            Some(updated) => outcome.update_with(updated)?,
+            None => failed += 1,
         }
     }
     let passed = done.len() - failed;

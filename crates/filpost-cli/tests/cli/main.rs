@@ -19,6 +19,8 @@ mod listing;
 mod machine;
 mod making_cases;
 mod messages;
+#[cfg(target_os = "linux")]
+mod mishaps;
 mod new;
 mod output;
 mod post;

@@ -83,6 +83,15 @@ impl Outcome {
     /// E0702
     pub fn update(&self) -> Result<(), Error> {
         let mut pending = PendingFiles::default();
+        self.update_with(&mut pending)?;
+        pending.commit()
+    }
+
+    /// The same, beside their places: they appear with the files that are added otherwise.
+    ///
+    /// # Errors
+    /// E0702
+    pub fn update_with(&self, pending: &mut PendingFiles) -> Result<(), Error> {
         for fresh in &self.fresh {
             let cant = |error| files::cant_write(&fresh.path, &error);
             let name = fresh.path.strip_prefix(&fresh.folder).unwrap_or(&fresh.path);
@@ -90,7 +99,7 @@ impl Outcome {
             file.write_all(&fresh.text).map_err(cant)?;
             pending.add(file);
         }
-        pending.commit()
+        Ok(())
     }
 }
 
