@@ -400,6 +400,7 @@ fn pair(
     if denominator.abs() < SAME {
         return Solutions::default();
     }
+    let axis = onto_the_pole(u1, axis);
     let (on1, on2) = (u1.dot(&axis), u2.dot(&tool));
     let alpha = (skew * on2 - on1) / denominator;
     let beta = (skew * on1 - on2) / denominator;
@@ -416,6 +417,17 @@ fn pair(
         let r2 = turn(u2, tool.into_inner(), between, last[1])?;
         Some([r1, r2])
     }))
+}
+
+/// A direction; the pole where it all but lies along the first axis. That axis stays there, so
+/// the second one must not lean the tool to where the first would have had to turn it.
+fn onto_the_pole(first: Unit<Vector3<f64>>, axis: Unit<Vector3<f64>>) -> Unit<Vector3<f64>> {
+    let along = first.dot(&axis);
+    let across = axis.into_inner() - first.scale(along);
+    if across.norm_squared() >= SAME * SAME {
+        return axis;
+    }
+    if along < 0.0 { -first } else { first }
 }
 
 fn rotary(commons: &Commons, at: &RotaryLocations) -> Result<Option<Rotary>> {

@@ -193,6 +193,13 @@ impl Forward {
         reach.sum::<f64>() + self.machine.pivot.unwrap_or(0.0)
     }
 
+    /// Most that a rotary axis turns at these positions for a change of the tool axis, radians;
+    /// degrees. Beside a pole it is much for little.
+    pub fn turn_for(&self, rotary: [f64; 2], change: f64) -> f64 {
+        let turn = |index| Some(self.slope(rotary, index).norm()).filter(|slope| *slope > 0.0);
+        [0, 1].into_iter().filter_map(turn).map(|slope| change / slope).fold(0.0, f64::max)
+    }
+
     /// Rotary positions near `rotary` at which the tool lies exactly along `axis`,
     /// by Newton's method; positions that do not turn the tool stay as they are.
     pub fn refine(&self, rotary: [f64; 2], axis: Vector3<f64>) -> [f64; 2] {

@@ -19,6 +19,10 @@ const ROUNDING: f64 = 2e-4;
 /// A vector shorter than this along or across an axis is none.
 const NONE: f64 = 1e-9;
 
+/// A direction that leans from a rotary axis by less than this, radians, leaves it where it
+/// stands: an acos loses half of the digits there, and a vector has six decimals.
+const ALONG: f64 = 1e-7;
+
 /// Turns nearer than this are the same, degrees.
 const SAME: f64 = 0.05;
 
@@ -156,7 +160,7 @@ fn second_angles(
 fn turn(axis: Unit<Vector3<f64>>, from: Vector3<f64>, to: Vector3<f64>) -> Option<f64> {
     let flat = |v: Vector3<f64>| v - axis.into_inner() * v.dot(&axis);
     let (from, to) = (flat(from), flat(to));
-    let turns = from.norm() > NONE.sqrt() && to.norm() > NONE.sqrt();
+    let turns = from.norm() > ALONG && to.norm() > ALONG;
     turns.then(|| libm::atan2(axis.cross(&from).dot(&to), from.dot(&to)).to_degrees())
 }
 

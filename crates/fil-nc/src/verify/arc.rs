@@ -16,6 +16,9 @@ use crate::motion::{self, Course, Move, Position, Rate};
 /// Directions nearer than this are the same.
 const PARALLEL: f64 = 1e-4;
 
+/// An arc that leans by more than this, as the length between directions, is none of the plane.
+const MOST_LEAN: f64 = 2e-3;
+
 /// Most blocks of one arc.
 const MOST_BLOCKS: usize = 100_000;
 
@@ -109,7 +112,10 @@ impl<C: Steps> Walk<'_, C> {
         let frame = self.settings.forward.frame_of(&self.exactly(arc, found));
         let mut normal = Vector3::zeros();
         normal[part.normal] = if part.ccw { 1.0 } else { -1.0 };
-        if (frame.turn * normal - arc.normal).norm() > PARALLEL {
+        // A small arc that leans leaves its plane by less than a last digit.
+        let lean = (frame.turn * normal - arc.normal).norm();
+        let leaves = lean * arc.radius() > 2.0 * self.slack.linear[part.normal];
+        if lean > PARALLEL && (leaves || lean > MOST_LEAN) {
             return None;
         }
         if self.settings.writes_radius() {
@@ -240,10 +246,11 @@ impl<C: Steps> Walk<'_, C> {
         })
     }
 
-    /// Angle that the last digits stand for on this arc, degrees.
+    /// Angle that the last digits stand for on this arc, degrees: each end and the center may be
+    /// off by half a digit in both axes of the plane, and the center turns both ends.
     fn angle_slack(&self, arc: &Arc) -> f64 {
         let slack = self.slack.linear.iter().fold(0.0f64, |a, b| a.max(*b));
-        (4.0 * slack / arc.radius().max(slack)).to_degrees()
+        (4.0 * SQRT_2 * slack / arc.radius().max(slack)).to_degrees()
     }
 
     /// What the last digits do to the angle that an arc sweeps about its center, degrees: each end

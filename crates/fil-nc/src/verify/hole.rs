@@ -135,15 +135,24 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     fn levels(&self, hole: &Hole, plunge: &Move) -> Levels {
-        let rotary = self.gap(&plunge.to, &hole.start).rotary;
         let frame = match plunge.to.tilt {
             Some(_) => self.settings.forward.frame_of(&plunge.to),
-            None => self.hole_frame(rotary, hole),
+            None => self.hole_frame(self.rotary_over(plunge, hole), hole),
         };
         let above = |by: f64| frame.linear(hole.start.tip + hole.start.axis * by);
         let clear = hole.clear.unwrap_or_else(|| self.settings.cycle_clearance(self.metric));
         let level = |by: f64| self.slack.before_scale(2, above(by)[2]);
         Levels { at: above(0.0), clear: level(clear), bottom: level(-hole.depth) }
+    }
+
+    /// The exact rotary positions of a plunge: those at which X, Y and Z are right over the hole,
+    /// as at its bottom they are right nowhere.
+    fn rotary_over(&self, plunge: &Move, hole: &Hole) -> [f64; 2] {
+        let first = self.gap(&plunge.to, &hole.start).rotary;
+        let mut over = plunge.to;
+        over.linear[2] = self.hole_frame(first, hole).linear(hole.start.tip)[2];
+        let gap = self.gap(&over, &hole.start);
+        if gap.closed() { gap.rotary } else { first }
     }
 
     /// Goes through the hole; gives the level where the tool rests behind it.
@@ -155,10 +164,15 @@ impl<C: Steps> Walk<'_, C> {
         turning: Spindle,
     ) -> Result<f64, (u32, String)> {
         let rest = self.approach(cl_line, hole, levels)?;
-        let mut reached = levels.clear;
+        // The last peck, as the tape has it.
+        let mut reached: Option<f64> = None;
         let in_cycle = self.next_move().is_some_and(|found| found.in_cycle);
         for depth in self.depths(hole, levels, in_cycle) {
-            if reached != levels.clear {
+            if let Some(reached) = reached {
+                if in_cycle && (reached - levels.bottom).abs() <= self.slack.cycle {
+                    // The last peck of the tape is the bottom, to the last digit.
+                    break;
+                }
                 self.between_pecks(cl_line, hole, levels, reached)?;
             }
             let before = self.at;
@@ -169,7 +183,7 @@ impl<C: Steps> Walk<'_, C> {
                 return Err((found.line, format!("{} in a hole", self.spell_move(&found))));
             }
             self.check_rate(cl_line, before, &found, hole.rate);
-            reached = depth;
+            reached = Some(found.to.linear[2]);
         }
         self.bottom_dwell(cl_line, hole)?;
         self.leave(cl_line, hole, levels.clear, (rest, turning))?;
@@ -296,7 +310,9 @@ impl<C: Steps> Walk<'_, C> {
         }
         let Some(back) = self.next_move() else { return Ok(()) };
         self.vertical(&back)?;
-        let slack = self.slack.linear[2];
+        // In a cycle the last peck and the way back to it are rounded each by itself.
+        let of_cycle = if back.in_cycle { self.slack.cycle } else { 0.0 };
+        let slack = self.slack.linear[2].max(of_cycle);
         let gap = back.to.linear[2] - reached;
         // How far a control comes back by itself is a parameter of it, or a word of its cycle.
         let said = match back.in_cycle {

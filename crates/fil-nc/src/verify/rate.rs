@@ -120,7 +120,8 @@ impl<C: Steps> Walk<'_, C> {
         let slack = self.slack.inverse;
         let turned = turned(&from, found);
         // F counts the way before its ends were rounded.
-        let off = 2.0 * self.slack.linear.iter().map(|half| half * half).sum::<f64>().sqrt();
+        let off = 2.0 * self.slack.linear.iter().map(|half| half * half).sum::<f64>().sqrt()
+            + self.off_by_its_center(found);
         let agrees = |length: f64| {
             let inverses = [length + off, (length - off).max(STANDS)].map(|length| {
                 let time = self.settings.turning_time(length / rate, turned);
@@ -130,7 +131,7 @@ impl<C: Steps> Walk<'_, C> {
             (0..2).any(|n| inverse >= low[n] - slack && inverse <= high[n] + slack)
         };
         if way < STANDS {
-            return self.check_turn(cl_line, found, turned, inverse);
+            return self.check_turn(cl_line, (&from, found), turned, inverse);
         }
         if agrees(straight) || agrees(way) {
             return;
@@ -145,16 +146,32 @@ impl<C: Steps> Walk<'_, C> {
         self.find(FindingKind::Feed, Some(cl_line), Some(found.line), message);
     }
 
+    /// How much longer or shorter an arc may be by its rounded center, mm: a center that is off
+    /// by `d` makes the radius as much larger, and turns both ends by `d` over the radius.
+    fn off_by_its_center(&self, found: &Move) -> f64 {
+        let Some(arc) = &found.arc else { return 0.0 };
+        let [first, second] = arc.plane();
+        let center = libm::hypot(self.slack.center[first], self.slack.center[second]);
+        center * (arc.angle.to_radians().abs() + 2.0)
+    }
+
     /// Inverse time where the tip stands: the turn takes as long as the machine needs for it,
     /// where its settings say that.
-    fn check_turn(&mut self, cl_line: u32, found: &Move, turned: [f64; 2], inverse: f64) {
+    fn check_turn(
+        &mut self,
+        cl_line: u32,
+        (from, found): (&Position, &Move),
+        turned: [f64; 2],
+        inverse: f64,
+    ) {
         let time = self.settings.turning_time(0.0, turned);
         if time == 0.0 {
             return;
         }
         let must = self.settings.inverse_within(1.0 / time);
         // Angles of a direction that is written as a vector are not those of the program.
-        let digits = 2.0 * self.slack.rotary[0].max(self.slack.rotary[1]);
+        let digits = 2.0 * self.slack.rotary[0].max(self.slack.rotary[1])
+            + self.settings.turn_by_rounding([from, &found.to]);
         let slack = self.slack.inverse + must * digits / turned[0].max(turned[1]);
         if (inverse - must).abs() > slack {
             let message = format!(

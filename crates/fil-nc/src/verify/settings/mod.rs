@@ -11,7 +11,7 @@ use fil_machine::cycle_kind::CycleKind;
 use fil_machine::letter::{Letter, letters};
 use fil_machine::locations::{
     self as loc, CircleCenter, ControlFamily, ControlToolOffsets, CycleBoreOut, InputKind,
-    Placement, RapidSplit, RotaryTipForm, ToolChangeBlock, ToolFormat,
+    Placement, RapidSplit, ToolChangeBlock, ToolFormat,
 };
 use fil_machine::user_blocks::{self, AroundChange};
 
@@ -64,6 +64,8 @@ pub struct Slack {
     pub center: [f64; 3],
     /// Radius of an arc, mm.
     pub radius: f64,
+    /// Level or length in a cycle of the control, whatever way its tool goes, mm.
+    pub cycle: f64,
     /// Feed, mm/min.
     pub feed: f64,
     /// Feed, mm a turn.
@@ -215,6 +217,7 @@ impl<'c> Settings<'c> {
             rotary,
             center: letters::IJK.map(|letter| self.allowed(half(letter) * unit)),
             radius: self.allowed(half(letters::R) * unit),
+            cycle: of_axis(letters::XYZ[2], 2, unit),
             feed: half_of_feed(loc::FEED_UPM_FORMAT) * unit / self.feed_factor() + DUST,
             turn: half(letters::F) * unit + DUST,
             inverse: half_of_feed(loc::FEED_INVERSE_FORMAT) / self.inverse_factor() + DUST,
@@ -223,14 +226,6 @@ impl<'c> Settings<'c> {
             dwell: self.dwell_slack(half, loc::DWELL_UPM_FORMAT, loc::DWELL_UPM_FACTOR),
             turns: self.dwell_slack(half, loc::DWELL_UPR_FORMAT, loc::DWELL_UPR_FACTOR),
         }
-    }
-
-    /// How far a direction of the tool that the program says may be off by its rounding; `None`
-    /// for a machine that says angles.
-    pub fn direction_rounding(&self) -> Option<f64> {
-        let says = self.commons.read(loc::ROTARY_TIP_FORM) == RotaryTipForm::Vectors;
-        let decimals = self.commons.int(loc::ROTARY_VECTOR_DECIMALS).clamp(4, 8);
-        says.then(|| 0.9 * libm::exp10(-f64::from(decimals)))
     }
 
     /// A peck as a cycle of the control has it, mm: its last digit counts once for each peck,

@@ -2,7 +2,7 @@
 
 use fil_machine::commons::Dbl;
 use fil_machine::locations::{
-    self as loc, CircleCorrection, FeedInverseLength, HomeFrame, LinearMethod,
+    self as loc, CircleCorrection, FeedInverseLength, HomeFrame, LinearMethod, RotaryTipForm,
 };
 use nalgebra::Point3;
 
@@ -106,5 +106,20 @@ impl Settings<'_> {
             end -= arc.normal * rise;
         }
         end
+    }
+
+    /// How far a direction of the tool that the program says may be off by its rounding; `None`
+    /// for a machine that says angles.
+    pub fn direction_rounding(&self) -> Option<f64> {
+        let says = self.commons.read(loc::ROTARY_TIP_FORM) == RotaryTipForm::Vectors;
+        let decimals = self.commons.int(loc::ROTARY_VECTOR_DECIMALS).clamp(4, 8);
+        says.then(|| 0.9 * libm::exp10(-f64::from(decimals)))
+    }
+
+    /// How far off the turn of a rotary axis may be by the rounding of the directions at both
+    /// ends, degrees; none where the program says angles.
+    pub fn turn_by_rounding(&self, ends: [&Position; 2]) -> f64 {
+        let Some(off) = self.direction_rounding() else { return 0.0 };
+        ends.into_iter().map(|end| self.forward.turn_for(end.rotary, off)).sum()
     }
 }
