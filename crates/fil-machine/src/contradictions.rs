@@ -7,6 +7,7 @@ mod numbers;
 mod travel;
 
 use fil_diag::{Diag, Result};
+use fil_text::CodePage;
 
 use crate::address::{Addresses, TapePosition};
 use crate::axis_chain::AxisChain;
@@ -73,8 +74,15 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     found
 }
 
-/// Marks of the tape that are asked for and not there, or mean something else.
+/// Marks of the tape that are asked for and not there, or mean something else, and an encoding
+/// that this build lacks.
 fn tape(commons: &Commons, found: &mut Vec<Diag>) {
+    let encoding = commons.read(loc::TAPE_ENCODING);
+    if CodePage::numbered(encoding as u16).is_none() {
+        let message =
+            format!("tape.encoding {}: this build has no pages of two bytes", encoding as u16);
+        found.push(*MachineCode::SettingValue.diag(message));
+    }
     let has_text = commons.read(loc::TAPE_PARTNO_TEXT) == TapePartnoText::Yes;
     if has_text && commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik {
         found.push(contradiction(

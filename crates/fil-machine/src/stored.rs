@@ -116,7 +116,8 @@ pub fn check(kind: Kind, number: u32, value: f64) -> Result<()> {
 }
 
 /// Refuses what a script or a debugger can't store while a program is written: a number that
-/// the location can't hold, and the mode of a mill-turn machine, which changes with a block.
+/// the location can't hold, the mode of a mill-turn machine, which changes with a block, and the
+/// encoding, which is one for the whole program.
 ///
 /// # Errors
 /// E0605, as [`check`].
@@ -126,6 +127,11 @@ pub fn check_in_run(kind: Kind, number: u32, value: f64) -> Result<()> {
         let message = "mill_turn.mode: no block would bring the machine to that mode";
         let diag = MachineCode::SettingValue.diag(message);
         return Err(Box::new(diag.hint("carry out MODE/MILL or MODE/TURN")));
+    }
+    if (kind, number) == (Kind::Int, loc::TAPE_ENCODING.number.into()) {
+        let message = "tape.encoding: a program has one encoding from its first byte to its last";
+        let diag = MachineCode::SettingValue.diag(message);
+        return Err(Box::new(diag.hint("set it in machine.toml or with --set")));
     }
     check(kind, number, value)
 }

@@ -1,6 +1,8 @@
 //! How a finished block is put on the tape: skip mark, case, end of the block, end
 //! of the line, longest block.
 
+use fil_text::CodePage;
+
 use crate::commons::Commons;
 use crate::locations::{self as loc, TapeBlockMacro, TapeEndOfBlock, TapeLetterCase, TapeLineEnd};
 
@@ -23,7 +25,10 @@ pub struct TapeStyle {
     pub several_m: bool,
     /// One of both is false.
     pub divides: bool,
-    /// Most characters of a block, its line end left out; `None` for any number.
+    /// How the bytes of the program are read; texts are kept in UTF-8 until they leave.
+    pub page: CodePage,
+    /// Most characters of a block, its line end left out, and most bytes in another encoding
+    /// than UTF-8; `None` for any number.
     pub longest: Option<usize>,
     /// Someone edits the words of blocks (the macro _OUTPTP).
     pub edits_words: bool,
@@ -42,6 +47,7 @@ impl Default for TapeStyle {
             several_g: true,
             several_m: true,
             divides: false,
+            page: CodePage::UTF_8,
             longest: None,
             edits_words: false,
             edits_lines: false,
@@ -63,6 +69,7 @@ impl TapeStyle {
             letter_case: commons.read(loc::TAPE_LETTER_CASE),
             end_of_block: commons.read(loc::TAPE_END_OF_BLOCK_CHAR).filter(|_| ends),
             line_end: commons.read(loc::TAPE_LINE_END),
+            page: page(commons),
             longest: longest.map(|most| most as usize),
             edits_words: commons.read(loc::TAPE_EDIT_MACRO),
             edits_lines: matches!(
@@ -73,6 +80,7 @@ impl TapeStyle {
         let is_plain = style.letter_case == TapeLetterCase::AsWritten
             && style.end_of_block.is_none()
             && style.line_end == TapeLineEnd::Lf
+            && style.page.is_utf8()
             && style.longest.is_none();
         TapeStyle { is_plain, ..style }
     }
@@ -96,5 +104,28 @@ impl TapeStyle {
             TapeLineEnd::Lf => b"\n",
             TapeLineEnd::CrLf => b"\r\n",
         }
+    }
+}
+
+/// The encoding of the programs of a machine.
+pub fn page(commons: &Commons) -> CodePage {
+    CodePage::numbered(commons.read(loc::TAPE_ENCODING) as u16).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::locations::Location;
+
+    #[test]
+    fn each_encoding_of_the_table_is_a_page_of_that_name() {
+        let row = Location::named("tape.encoding").expect("a setting");
+        let rows: Vec<(u16, &str)> =
+            row.choice_list().into_iter().map(|(number, name)| (number as u16, name)).collect();
+        let pages: Vec<(u16, &str)> =
+            CodePage::all().map(|page| (page.number(), page.name())).collect();
+        let is_whole = CodePage::numbered(932).is_some();
+        let here = |row: &(u16, &str)| is_whole || !(932..=950).contains(&row.0);
+        assert_eq!(rows.into_iter().filter(here).collect::<Vec<_>>(), pages);
     }
 }

@@ -4,9 +4,10 @@ use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use fil_diag::Diag;
+use fil_text::CodePage;
 
 use crate::errors::NcCode;
 
@@ -16,26 +17,52 @@ const CHUNK: usize = 64 * 1024;
 /// Bytes that are read first behind a jump: few lines may be wanted.
 const FIRST_CHUNK: usize = 4 * 1024;
 
-/// Where the text lies.
+/// A text and its encoding.
 #[derive(Debug)]
-pub enum Source<'t> {
+pub struct Source<'t> {
+    place: Place<'t>,
+    page: CodePage,
+}
+
+/// Where a text lies.
+#[derive(Debug)]
+enum Place<'t> {
     /// In memory.
     Memory(Cow<'t, [u8]>),
     /// In a file that can be read anywhere.
-    File(Mutex<File>),
+    File(Arc<Mutex<File>>),
 }
 
 impl<'t> Source<'t> {
-    /// A text in memory.
+    /// A text in memory, in UTF-8.
     pub fn memory(text: &'t [u8]) -> Self {
-        Source::Memory(Cow::Borrowed(text))
+        Source { place: Place::Memory(Cow::Borrowed(text)), page: CodePage::UTF_8 }
     }
 }
 
 impl Source<'_> {
-    /// A file that can be read anywhere; it is not kept in memory.
+    /// A text that is handed over, in UTF-8.
+    pub fn owned(text: Vec<u8>) -> Source<'static> {
+        Source { place: Place::Memory(text.into()), page: CodePage::UTF_8 }
+    }
+
+    /// A file that can be read anywhere, in UTF-8; it is not kept in memory.
     pub fn file(file: File) -> Self {
-        Source::File(Mutex::new(file))
+        Source { place: Place::File(Arc::new(Mutex::new(file))), page: CodePage::UTF_8 }
+    }
+
+    /// The same text, read in a code page: an encoding whose line feeds are those of ASCII.
+    pub fn in_page(&self, page: CodePage) -> Source<'_> {
+        let place = match &self.place {
+            Place::Memory(text) => Place::Memory(Cow::Borrowed(text)),
+            Place::File(file) => Place::File(Arc::clone(file)),
+        };
+        Source { place, page }
+    }
+
+    /// This text, read in a code page.
+    pub fn into_page(self, page: CodePage) -> Self {
+        Source { page, ..self }
     }
 
     /// The same text to be kept: a file once more, what lies in memory copied.
@@ -43,12 +70,13 @@ impl Source<'_> {
     /// # Errors
     /// What the system says when a file can't be opened twice.
     pub fn again(&self) -> io::Result<Source<'static>> {
-        Ok(match self {
-            Source::Memory(text) => Source::Memory(text.to_vec().into()),
-            Source::File(file) => {
+        let again = match &self.place {
+            Place::Memory(text) => Source::owned(text.to_vec()),
+            Place::File(file) => {
                 Source::file(file.lock().unwrap_or_else(PoisonError::into_inner).try_clone()?)
             }
-        })
+        };
+        Ok(Source { page: self.page, ..again })
     }
 
     /// Texts of some lines, 1-based and ascending; a line that is not there has none.
@@ -73,12 +101,12 @@ impl Source<'_> {
     }
 
     fn read_at(&self, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
-        match self {
-            Source::Memory(text) => {
+        match &self.place {
+            Place::Memory(text) => {
                 let from = text.len().min(usize::try_from(offset).unwrap_or(usize::MAX));
                 (&text[from..]).read(buffer)
             }
-            Source::File(file) => {
+            Place::File(file) => {
                 let mut file = file.lock().unwrap_or_else(PoisonError::into_inner);
                 file.seek(SeekFrom::Start(offset))?;
                 file.read(buffer)
@@ -90,6 +118,9 @@ impl Source<'_> {
     pub(crate) fn common(&self, other: &Source<'_>) -> io::Result<(u64, bool)> {
         let (mut one, mut two) = (vec![0; CHUNK], vec![0; CHUNK]);
         let mut offset = 0;
+        if self.page != other.page {
+            return Ok((0, false));
+        }
         loop {
             let read = fill(self, offset, &mut one)?;
             let count = fill(other, offset, &mut two)?;
@@ -131,13 +162,23 @@ pub(crate) struct Lines<'s> {
     /// Of the first byte of the buffer.
     offset: u64,
     ended: bool,
+    /// The last line that is not ASCII, in UTF-8.
+    decoded: String,
 }
 
 impl<'s> Lines<'s> {
     /// The lines from a place of the text that begins one.
     pub fn from(source: &'s Source<'s>, offset: u64) -> Self {
         let first = if offset == 0 { CHUNK } else { FIRST_CHUNK };
-        Lines { source, buffer: vec![0; first], from: 0, to: 0, offset, ended: false }
+        Lines {
+            source,
+            buffer: vec![0; first],
+            from: 0,
+            to: 0,
+            offset,
+            ended: false,
+            decoded: String::new(),
+        }
     }
 
     /// Goes on at another place of the text that begins a line.
@@ -159,14 +200,32 @@ impl<'s> Lines<'s> {
     /// line too.
     pub fn next_line(&mut self) -> io::Result<Option<&[u8]>> {
         let range = self.next_range()?;
-        Ok(range.map(|line| &self.buffer[line]))
+        Ok(range.map(|line| self.in_utf8(line)))
     }
 
     /// The next line without its line feed; what follows the last line feed is a
     /// line only where something stands there.
     pub fn next_full_line(&mut self) -> io::Result<Option<&[u8]>> {
         let range = self.next_range()?.filter(|line| !(self.ended && line.is_empty()));
-        Ok(range.map(|line| &self.buffer[line]))
+        Ok(range.map(|line| self.in_utf8(line)))
+    }
+
+    /// A line of the buffer, decoded where its bytes are not those of UTF-8.
+    #[inline]
+    fn in_utf8(&mut self, line: Range<usize>) -> &[u8] {
+        if self.buffer[line.clone()].is_ascii() { &self.buffer[line] } else { self.decode(line) }
+    }
+
+    #[cold]
+    fn decode(&mut self, line: Range<usize>) -> &[u8] {
+        let bytes = &self.buffer[line];
+        match self.source.page.decode_all(bytes) {
+            Cow::Borrowed(_) => bytes,
+            Cow::Owned(text) => {
+                self.decoded = text;
+                self.decoded.as_bytes()
+            }
+        }
     }
 
     fn next_range(&mut self) -> io::Result<Option<Range<usize>>> {

@@ -127,6 +127,10 @@ fil_diag::codes! {
         BlockLength = 541, Error, "block longer than the control reads",
             "The rest of a block that is longer than the control's buffer would be lost.",
             "Shorten the text, drop blanks with tape.blank, or correct tape.max_block of the machine.";
+        /// A letter that the encoding of the tape lacks.
+        TapeLetter = 543, Error, "letter that the encoding of the program lacks",
+            "The program is written in a code page of the control (tape.encoding), which has no byte for this letter. Another letter in its place would say something else.",
+            "Write the text with letters of that page, choose the page of the control with tape.encoding, or have all texts in ASCII with tape.characters = 1.";
         /// A motion of too many parts.
         TooManyParts = 580, Error, "a motion would be divided too often",
             "While rotary axes turn, the tip leaves its line; to keep it there, or to say its feed, takes too many blocks. So do the lines of an arc of many turns.",
@@ -206,7 +210,7 @@ fil_diag::codes! {
         /// Text outside ASCII.
         TapeText = 555, Warning, "text on the tape that is not ASCII",
             "Many controls read ASCII only and stop at other characters.",
-            "Write the message in ASCII if the control is not known to read UTF-8.";
+            "Set tape.encoding to the code page of the control, or write the message in ASCII, if it is not known to read UTF-8.";
         /// Editing without a macro.
         NoEditMacro = 571, Warning, "no macro edits the blocks",
             "The settings have the post call a macro with each block or line, and no FIL file has it.",

@@ -273,7 +273,7 @@ impl Tape {
         }
         self.note(TEXT, self.cause, start);
         self.text.extend_from_slice(line.as_bytes());
-        check_length(&self.text[start..], &tables.style)?;
+        check(&self.text[start..], &tables.style)?;
         self.count += 1;
         if let Some(noted) = &mut self.noted {
             noted.block(start..self.text.len(), self.cause);
@@ -374,17 +374,28 @@ impl Tape {
     #[cold]
     fn finish(&mut self, start: usize, style: &TapeStyle) -> Result<()> {
         style.finish(&mut self.text, start);
-        check_length(&self.text[start..], style)
+        check(&self.text[start..], style)
     }
 }
 
-/// Refuses a block that is longer than the control reads.
+/// Refuses a block that the control can't read.
 ///
 /// # Errors
-/// It is.
-fn check_length(block: &[u8], style: &TapeStyle) -> Result<()> {
+/// It is too long, or has a letter that the encoding of the tape lacks.
+fn check(block: &[u8], style: &TapeStyle) -> Result<()> {
+    if style.longest.is_none() && block.is_ascii() {
+        return Ok(());
+    }
     let block = String::from_utf8_lossy(block);
-    let length = block.chars().count();
+    let page = style.page;
+    let length = match page.encode(&block) {
+        Ok(_) if page.is_utf8() => block.chars().count(),
+        Ok(bytes) => bytes.len(),
+        Err(letter) => {
+            let message = format!("`{letter}` of `{block}` is no letter of {page}");
+            return PostCode::TapeLetter.err(message);
+        }
+    };
     match style.longest {
         Some(longest) if length > longest => PostCode::BlockLength
             .err(format!("`{block}` has {length} characters, {longest} are allowed")),

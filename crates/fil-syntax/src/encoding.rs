@@ -17,8 +17,8 @@ use std::borrow::Cow;
 
 use encoding_rs::{Encoding, KOI8_R, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1251, WINDOWS_1252};
 use fil_diag::Diag;
+use fil_text::CodePage;
 
-use crate::code_pages::{OemPage, web_name};
 use crate::errors::SyntaxCode;
 use crate::message::quote;
 
@@ -38,26 +38,36 @@ pub fn decode<'b>(
         let (text, used, _) = guess(bytes).decode(bytes);
         return Ok((text, used.name()));
     };
-    if let Some(page) = OemPage::named(label) {
-        return Ok((page.decode(bytes), page.name));
+    let page = CodePage::named(label);
+    if let Some(page) = page.filter(is_of_consoles) {
+        let text = page.decode(bytes).ok_or_else(|| malformed_text(page.name()))?;
+        return Ok((text, page.name()));
     }
-    let asked =
-        Encoding::for_label(web_name(label).unwrap_or(label).as_bytes()).ok_or_else(|| {
-            Diag::new(SyntaxCode::UnknownEncoding, format!("{} is no known encoding", quote(label)))
-        })?;
+    let web = page.map_or(label, |page| page.name());
+    let asked = Encoding::for_label(web.as_bytes()).ok_or_else(|| {
+        Diag::new(SyntaxCode::UnknownEncoding, format!("{} is no known encoding", quote(label)))
+    })?;
     let (text, malformed) = asked.decode_with_bom_removal(bytes);
     if malformed {
-        let message = format!("the text is not valid {}", asked.name());
-        return Err(Diag::new(SyntaxCode::WrongEncoding, message));
+        return Err(malformed_text(asked.name()));
     }
     Ok((text, asked.name()))
+}
+
+/// The pages of Windows' consoles, which the web does not have.
+fn is_of_consoles(page: &CodePage) -> bool {
+    page.name().starts_with("cp")
+}
+
+fn malformed_text(encoding: &str) -> Diag {
+    Diag::new(SyntaxCode::WrongEncoding, format!("the text is not valid {encoding}"))
 }
 
 /// A text as the bytes of an encoding, by the name that [`decode`] gave;
 /// `None` where the encoding lacks a character of the text.
 pub(crate) fn encode<'t>(text: &'t str, encoding: &str) -> Option<Cow<'t, [u8]>> {
-    if let Some(page) = OemPage::named(encoding) {
-        return page.encode(text);
+    if let Some(page) = CodePage::named(encoding).filter(is_of_consoles) {
+        return page.encode(text).ok();
     }
     let encoding = Encoding::for_label(encoding.as_bytes())?;
     if encoding == UTF_16LE {
@@ -192,10 +202,10 @@ mod tests {
             assert_eq!((text.as_ref(), name), (part, "Shift_JIS"), "{label}");
         }
         let dos = decode(b"PPRINT \x94RJE, \x84\x81\r\n", Some("cp850")).expect("a page of DOS");
-        assert_eq!(dos, ("PPRINT öRJE, äü\r\n".into(), "IBM850"));
+        assert_eq!(dos, ("PPRINT öRJE, äü\r\n".into(), "cp850"));
         let russian = decode(b"\x84\x85\x92\x80\x8B\x9C", Some("cp866")).expect("Russian DOS");
-        assert_eq!(russian, ("ДЕТАЛЬ".into(), "IBM866"));
-        assert_eq!(encode("ö", "IBM850").as_deref(), Some(&b"\x94"[..]));
+        assert_eq!(russian, ("ДЕТАЛЬ".into(), "cp866"));
+        assert_eq!(encode("ö", "cp850").as_deref(), Some(&b"\x94"[..]));
     }
 
     #[test]

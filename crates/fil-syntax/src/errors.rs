@@ -82,7 +82,7 @@ fil_diag::codes! {
         /// A code page nobody knows.
         UnknownEncoding = 120, Error, "unknown encoding",
             "The name is not one of the encodings of texts.",
-            "Use utf-8, windows-1251, windows-1252 or koi8-r, or leave the encoding out.";
+            "Use utf-8, windows-1250 to windows-1258, koi8-r, shift_jis, gbk, big5, euc-kr, a console page such as cp437, cp850, cp852 or cp866, or leave the encoding out.";
         /// Bytes that are not text in the encoding asked for.
         WrongEncoding = 121, Error, "text is not in this encoding",
             "Some bytes mean nothing in the encoding that was asked for.",

@@ -6,8 +6,6 @@
 
 mod adapter;
 #[cfg(feature = "code-pages")]
-mod code_pages;
-#[cfg(feature = "code-pages")]
 mod encoding;
 #[cfg(not(feature = "code-pages"))]
 #[path = "encoding_utf8.rs"]

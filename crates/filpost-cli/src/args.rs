@@ -8,6 +8,7 @@ mod trace;
 use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
+use filpost::CodePage;
 use filpost::cl::ClDialect;
 use filpost::{Code, Moment, Unit};
 
@@ -337,6 +338,9 @@ pub struct DiffArgs {
     /// X is written as a diameter (which arcs of a lathe need)
     #[arg(long)]
     pub diameter: bool,
+    /// Encoding of both programs (windows-1252, cp850, shift_jis, …)
+    #[arg(long, value_name = "LABEL", default_value = "utf-8", value_parser = code_page)]
+    pub nc_encoding: CodePage,
     /// Equal lines shown around each difference
     #[arg(long, value_name = "LINES", default_value_t = 2)]
     pub context: usize,
@@ -398,6 +402,11 @@ pub enum Report {
 fn work_offset(text: &str) -> Result<u32, String> {
     let known = filpost::nc::motion::work_offset(text.trim());
     known.ok_or_else(|| "G54, G54.1P3 or a letter with a number is needed".to_string())
+}
+
+fn code_page(label: &str) -> Result<CodePage, String> {
+    let known = || CodePage::all().map(CodePage::name).collect::<Vec<_>>().join(", ");
+    CodePage::named(label).ok_or_else(|| format!("the encodings of programs are {}", known()))
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {

@@ -4,10 +4,10 @@ use std::collections::VecDeque;
 use std::io::{self, Write};
 use std::iter::Peekable;
 
-use filpost::Error;
 use filpost::nc::diff::{
     self, Comparison, Difference, Ignore, Options, Program, What, compare, sentence,
 };
+use filpost::{Error, shown};
 use serde_json::{Value, json};
 
 use crate::args::{DiffArgs, Report};
@@ -31,8 +31,13 @@ pub fn run(args: &DiffArgs) -> Result<Status, Error> {
         // The command line has been checked.
         let _ = ignore.add(entry);
     }
-    let options =
-        Options { tolerance: args.tol, ignore, modal: args.modal, diameter: args.diameter };
+    let options = Options {
+        tolerance: args.tol,
+        ignore,
+        modal: args.modal,
+        diameter: args.diameter,
+        page: args.nc_encoding,
+    };
     let names = [&args.first, &args.second].map(|path| output::input_name(path));
     let files = [
         (output::open(&args.first)?, names[0].as_str()),
@@ -158,10 +163,11 @@ impl Show<'_> {
         };
         let left = self.cell(0, pair[0], &here);
         let right = self.cell(1, pair[1], &here);
-        writeln!(out, "{}", format!("{sign} {left} | {right}").trim_end())?;
+        let line = format!("{sign} {left} | {right}");
+        writeln!(out, "{}", shown(line.trim_end()))?;
         for difference in here {
             let sentence = sentence(difference, self.programs[0], self.programs[1]);
-            writeln!(out, "      {}", self.paint(YELLOW, &sentence))?;
+            writeln!(out, "      {}", self.paint(YELLOW, &shown(&sentence)))?;
         }
         Ok(())
     }

@@ -28,6 +28,7 @@ pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
     if let Some(unit) = args.units.units {
         run = run.units(unit);
     }
+    let page = program.nc_page();
     let (report, reference) = run.verify_source(cl, (&nc, &name), allowed)?;
     output::say(&format!("machine: {title}"));
     match args.format {
@@ -38,7 +39,7 @@ pub fn run(args: &VerifyArgs) -> Result<Status, Error> {
             let mut wanted: Vec<u32> =
                 report.findings.iter().filter_map(|finding| finding.nc_line).collect();
             wanted.sort_unstable();
-            let lines = nc.lines(&name, &wanted).map_err(Error::Run)?;
+            let lines = nc.in_page(page).lines(&name, &wanted).map_err(Error::Run)?;
             output::print_with(|out| {
                 for finding in &report.findings {
                     write_finding(out, finding, &lines)?;

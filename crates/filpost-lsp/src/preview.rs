@@ -94,7 +94,7 @@ fn told(case: &Case, program: &Program, made: &Made) -> Result<Value, Error> {
     let fil = program.fil_files();
     let fil = fil.iter().map(|name| uri_of(&real(Path::new(name))));
     Ok(json!({
-        "nc": String::from_utf8_lossy(&made.nc),
+        "nc": program.nc_page().decode_all(&made.nc),
         "cl": uri_of(&real(&case.folder.join(&case.file.cl))),
         "fil": fil.collect::<Vec<_>>(),
         "lines": lines,

@@ -26,6 +26,8 @@ fn _filpost(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<block::Block>()?;
     module.add_class::<block::Word>()?;
     module.add_function(wrap_pyfunction!(texts::ready_posts, module)?)?;
+    module.add_function(wrap_pyfunction!(texts::decode, module)?)?;
+    module.add_function(wrap_pyfunction!(texts::encode, module)?)?;
     module.add_function(wrap_pyfunction!(texts::explain, module)?)?;
     module.add_function(wrap_pyfunction!(texts::check, module)?)?;
     module.add_function(wrap_pyfunction!(texts::diff, module)?)?;

@@ -96,6 +96,11 @@ impl Post {
         Ok(diag::diagnostics(py, self.program.warnings())?.into_any())
     }
 
+    #[getter]
+    fn encoding(&self) -> &'static str {
+        self.program.nc_page().name()
+    }
+
     /// NC program and report.
     fn run<'py>(
         &self,

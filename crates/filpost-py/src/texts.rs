@@ -1,12 +1,13 @@
 //! What needs no program: codes, checks, comparisons, pictures of CL files.
 
+use filpost::CodePage;
 use filpost::nc::diff::{self as nc_diff, Ignore, sentence};
 use filpost::nc::plot::{html, svg};
 use filpost::plot::{self, ClText, Text};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{PyBytes, PyDict, PyTuple};
 
 use crate::build::{self, NamedText};
 use crate::input::Given;
@@ -56,6 +57,7 @@ pub fn diff(
     ignore: Vec<String>,
     modal: bool,
     diameter: bool,
+    encoding: &str,
 ) -> PyResult<Differences> {
     if !tolerance.is_finite() || tolerance < 0.0 {
         return Err(PyValueError::new_err("tolerance must be 0 or more"));
@@ -68,7 +70,13 @@ pub fn diff(
             ))
         })?;
     }
-    let options = nc_diff::Options { tolerance, ignore: ignored, modal, diameter };
+    let options = nc_diff::Options {
+        tolerance,
+        ignore: ignored,
+        modal,
+        diameter,
+        page: page_named(encoding)?,
+    };
     let compared = py.detach(|| {
         let first = nc_diff::read(&first, &names.0, &options)?;
         let second = nc_diff::read(&second, &names.1, &options)?;
@@ -122,4 +130,27 @@ fn draw(
     let text = Text { name: &name, bytes: &bytes };
     let drawn = py.detach(|| plot::cl_file(ClText { text, options, unit }));
     drawn.map_err(|error| diag::error(py, &error))
+}
+
+/// The text of an NC program.
+#[pyfunction]
+pub fn decode(nc: &[u8], encoding: &str) -> PyResult<String> {
+    Ok(page_named(encoding)?.decode_all(nc).into_owned())
+}
+
+/// The bytes of an NC program.
+#[pyfunction]
+pub fn encode<'py>(py: Python<'py>, nc: &str, encoding: &str) -> PyResult<Bound<'py, PyBytes>> {
+    let page = page_named(encoding)?;
+    let bytes = page.encode(nc);
+    let bytes = bytes.map_err(|letter| {
+        PyValueError::new_err(format!("`{letter}` of the NC program is no letter of {page}"))
+    })?;
+    Ok(PyBytes::new(py, &bytes))
+}
+
+fn page_named(label: &str) -> PyResult<CodePage> {
+    CodePage::named(label).ok_or_else(|| {
+        PyValueError::new_err(format!("no encoding of NC programs is called `{label}`"))
+    })
 }

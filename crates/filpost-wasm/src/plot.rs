@@ -47,7 +47,9 @@ impl Plot {
     /// The page with the path of the program, whose lines name what made them.
     fn page(&self) -> Result<String, Error> {
         let commons = self.machine.builder().build_machine()?;
-        let text = Text { name: "the program", bytes: self.nc.as_bytes() };
+        let nc = filpost::tape_style::page(&commons).encode(&self.nc);
+        let bytes = nc.as_deref().unwrap_or(self.nc.as_bytes());
+        let text = Text { name: "the program", bytes };
         let mut drawing = plot::program(text, &commons)?;
         let notes = &mut drawing.notes;
         notes.source_name.clone_from(&self.cl_name);

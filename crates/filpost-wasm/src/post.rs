@@ -7,17 +7,19 @@ use serde_json::{Value, json};
 
 use crate::diagnostics::all;
 use crate::job::Job;
-use crate::{Fault, Misuse, refused};
+use crate::{Fault, refused};
 
 /// A program that was posted.
 struct Posted {
-    nc: String,
+    nc: Vec<u8>,
     /// What made each line of the program.
     origins: Vec<Origin>,
     report: Report,
 }
 
-/// Answers a request to post: `nc` with `blocks`, or `errors`; always `warnings`.
+/// Answers a request to post: `nc` with `blocks`, or `errors`; always `warnings`. Where the
+/// program is not in UTF-8, `encoding` names how it is and `bytes` has a character for each byte,
+/// U+0000 to U+00FF: it is they that go to the control.
 pub(crate) fn post(job: &Job) -> Value {
     let program = match job.program() {
         Ok(program) => program,
@@ -32,13 +34,19 @@ pub(crate) fn post(job: &Job) -> Value {
         let fil = origin.fil.iter().map(|at| json!([names.get(usize::from(at.file)), at.line]));
         json!([origin.line, origin.record, fil.collect::<Vec<_>>()])
     };
-    json!({
-        "nc": posted.nc,
+    let page = program.nc_page();
+    let mut answer = json!({
+        "nc": page.decode_all(&posted.nc),
         "origins": posted.origins.iter().map(origin).collect::<Vec<_>>(),
         "records": posted.report.records,
         "blocks": posted.report.blocks,
         "warnings": all(program.warnings().iter().chain(&posted.report.warnings)),
-    })
+    });
+    if !page.is_utf8() {
+        answer["encoding"] = page.name().into();
+        answer["bytes"] = posted.nc.iter().map(|byte| char::from(*byte)).collect::<String>().into();
+    }
+    answer
 }
 
 fn run(job: &Job, program: &Program) -> Result<Posted, Fault> {
@@ -50,7 +58,5 @@ fn run(job: &Job, program: &Program) -> Result<Posted, Fault> {
         }
     });
     let report = watched.run_seekable(Cursor::new(job.cl.as_bytes()), &mut nc)?;
-    let nc =
-        String::from_utf8(nc).map_err(|_| Misuse("the NC program is not text in UTF-8".into()))?;
     Ok(Posted { nc, origins, report })
 }

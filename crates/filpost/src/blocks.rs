@@ -102,10 +102,10 @@ impl<'o> Blocks<'o> {
         self.engine.report()
     }
 
-    fn take_blocks(&mut self) {
+    fn take_blocks(&mut self) -> Result<(), Error> {
         let mut number = self.number;
         let ready = &mut self.ready;
-        self.engine.take_blocks(|block| {
+        let taken = self.engine.take_blocks(|block| {
             number += 1;
             ready.push_back(Block {
                 number,
@@ -115,6 +115,7 @@ impl<'o> Blocks<'o> {
             });
         });
         self.number = number;
+        taken.map_err(Error::Run)
     }
 
     /// Carries out records until there is a block, or the run is over.
@@ -126,7 +127,7 @@ impl<'o> Blocks<'o> {
             if self.over {
                 self.engine.take_pending().commit()?;
             }
-            self.take_blocks();
+            self.take_blocks()?;
         }
         Ok(())
     }

@@ -159,12 +159,18 @@ impl<'o, 'r> Engine<'o, 'r> {
     }
 
     /// Hands the finished blocks out and forgets them.
-    pub(crate) fn take_blocks(&mut self, take: impl FnMut(Shown<'_>)) {
+    ///
+    /// # Errors
+    /// As [`Outside::encode_tape`].
+    pub(crate) fn take_blocks(&mut self, take: impl FnMut(Shown<'_>)) -> Result<()> {
         self.outside.show_blocks(take);
+        self.outside.encode_tape()?;
         self.outside.forget_blocks();
+        Ok(())
     }
 
     fn flush(&mut self, nc: &mut dyn Write) -> Result<(), Error> {
+        self.outside.encode_tape().map_err(Error::Run)?;
         if let Some(spilled) = &mut self.outside.spilled {
             spilled.hand_out(nc).map_err(write_error)?;
         }

@@ -101,11 +101,12 @@ pub use fil_diag::suggest;
 pub use fil_diag::{Code, Diag, Severity, TextSpan};
 pub use fil_machine::{
     Commons, Kind, Letter, Unit, address, chain_drawing, chains, commons, files as settings,
-    locations, stored, user_blocks,
+    locations, stored, tape_style, user_blocks,
 };
 pub use fil_nc as nc;
 pub use fil_post::{Cause, FilLine, Origin, Stack, dispatch, no_effect};
 pub use fil_syntax as syntax;
+pub use fil_text::{CodePage, shown};
 pub use fil_vm::{
     Analysis, Argument, CommonKind, Compat, Included, Limits, Moment, Returned, SectionMode,
 };

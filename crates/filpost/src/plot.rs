@@ -9,6 +9,7 @@ use fil_nc::dialect::Dialect;
 use fil_nc::forward::Forward;
 use fil_nc::plot::{Drawing, LineCause, Notes, Trace, cl_trace, nc_trace};
 use fil_post::FilLine;
+use fil_text::CodePage;
 
 use crate::error::Error;
 use crate::map::{Digest, Entry, MapReader};
@@ -72,7 +73,7 @@ pub fn program(nc: Text<'_>, commons: &Commons) -> Result<Drawing, Error> {
         path: nc_trace(nc.bytes, nc.name, &dialect, &forward).map_err(Error::Run)?,
         lathe: dialect.lathe,
         diameter: dialect.counts_diameters(),
-        notes: notes(nc.bytes),
+        notes: Notes { text: nc_text(nc.bytes, dialect.page), ..Notes::default() },
         ..Drawing::default()
     })
 }
@@ -159,6 +160,11 @@ pub fn add_origins<R: Read + Seek>(
 /// The lines of a text, for people.
 fn notes(bytes: &[u8]) -> Notes {
     Notes { text: text(bytes), ..Notes::default() }
+}
+
+/// The text of a program in the encoding of its machine.
+fn nc_text(bytes: &[u8], page: CodePage) -> String {
+    if page.is_utf8() { text(bytes) } else { page.decode_all(bytes).replace("\r\n", "\n") }
 }
 
 /// A text in any encoding, its lines without what stands behind them.

@@ -8,9 +8,10 @@ use std::sync::Arc;
 
 use fil_cl::{Record, Vocabulary};
 use fil_diag::Diag;
-use fil_machine::Commons;
+use fil_machine::{Commons, tape_style};
 #[cfg(feature = "files")]
 use fil_machine::{contradictions, locations::Location};
+use fil_text::CodePage;
 use fil_vm::{Functions, Limits, Module};
 
 use crate::blocks::Blocks;
@@ -172,6 +173,24 @@ impl Program {
     /// The settings of the machine.
     pub fn commons(&self) -> &Commons {
         &self.shared.prototype.control.commons
+    }
+
+    /// The encoding of its NC programs, `tape.encoding` of the machine: what a run writes are
+    /// bytes in it, as they go to the control.
+    ///
+    /// ```
+    /// use filpost::Program;
+    ///
+    /// let builder = Program::builder().ready("fanuc-mill");
+    /// let program = builder.set("tape.encoding=windows-1252").build()?;
+    /// let mut nc = Vec::new();
+    /// program.run("UNITS / MM\nPPRINT / FRÄSER\nFINI\n".as_bytes(), &mut nc)?;
+    /// assert!(nc.windows(8).any(|bytes| bytes == b"(FR\xC4SER)"));
+    /// assert!(program.nc_page().decode_all(&nc).contains("(FRÄSER)"));
+    /// # Ok::<(), filpost::Error>(())
+    /// ```
+    pub fn nc_page(&self) -> CodePage {
+        tape_style::page(self.commons())
     }
 
     /// The words of this program, for records from memory: a word that a record

@@ -264,7 +264,7 @@ impl<'o> Run<'o> {
         let reader = Reader::seekable(&mut cl, &self.name(), self.reading);
         let cant_write = |error| files::cant_write(Path::new("the line map"), &error);
         let module = &self.program.shared.module;
-        let map = map::Writer::new(output, names, module);
+        let map = map::Writer::new(output, names, module, self.program.nc_page());
         let (result, map) = self.post(reader, first, Some(map), &mut nc);
         let result = result?;
         let digest = cl.finish().map_err(cant)?;

@@ -1,10 +1,12 @@
 //! What one record writes beyond what is kept in memory: a loop in a section writes
 //! millions of blocks before the next record is read.
 
+use std::borrow::Cow;
 use std::io::{self, Seek, Write};
 
 use fil_diag::Result;
 use fil_post::Origin;
+use fil_post::errors::PostCode;
 
 use crate::blocks::{WordOrigin, words_of};
 use crate::error::RunCode;
@@ -58,6 +60,8 @@ impl Outside<'_, '_> {
 
     #[cold]
     fn spill_all(&mut self) -> Result<()> {
+        self.show_blocks(|_| {});
+        self.encode_tape()?;
         self.check_length()?;
         if self.pass.is_first() {
             self.forget_blocks();
@@ -66,8 +70,27 @@ impl Outside<'_, '_> {
         let Some(spilled) = &mut self.spilled else { return Ok(()) };
         let taken = spilled.take(&self.post.control.tape.text);
         taken.map_err(|error| RunCode::CantWrite.diag(error.to_string()))?;
-        self.show_blocks(|_| {});
         self.give_away_blocks()
+    }
+
+    /// Brings blocks that everyone has seen into the encoding of the program.
+    ///
+    /// # Errors
+    /// E0543 for a letter that it lacks; each block was asked for that before.
+    pub fn encode_tape(&mut self) -> Result<()> {
+        let page = self.post.control.tables.style.page;
+        let text = &mut self.post.control.tape.text;
+        if page.is_utf8() || text.is_ascii() {
+            return Ok(());
+        }
+        let encoded = page.encode(&String::from_utf8_lossy(text)).map(Cow::into_owned);
+        match encoded {
+            Ok(bytes) => *text = bytes,
+            Err(letter) => {
+                return PostCode::TapeLetter.err(format!("`{letter}` is no letter of {page}"));
+            }
+        }
+        Ok(())
     }
 
     /// Hands out the blocks that nobody has seen yet.

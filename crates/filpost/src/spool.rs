@@ -26,9 +26,9 @@ pub(crate) fn spool(_in_memory: usize) -> Spool {
 pub(crate) fn into_source(spool: Spool) -> Source<'static> {
     #[cfg(feature = "files")]
     match spool.into_inner() {
-        tempfile::SpooledData::InMemory(text) => Source::Memory(text.into_inner().into()),
+        tempfile::SpooledData::InMemory(text) => Source::owned(text.into_inner()),
         tempfile::SpooledData::OnDisk(file) => Source::file(file),
     }
     #[cfg(not(feature = "files"))]
-    Source::Memory(spool.into_inner().into())
+    Source::owned(spool.into_inner())
 }

@@ -93,6 +93,7 @@ impl Run<'_> {
         allowed: Allowed,
     ) -> Result<(Report, Reference), Error> {
         let dialect = Dialect::new(self.program.commons()).map_err(Error::Run)?;
+        let nc = (&nc.0.in_page(self.program.nc_page()), nc.1);
         if !self.program.shared.module.files.is_empty() {
             let text = self.spool(&mut cl)?;
             let report = self.against_second_run(text, nc, &dialect, &allowed)?;
@@ -156,7 +157,7 @@ impl Run<'_> {
         let program: Program = self.program.clone();
         let mut again = spool(IN_MEMORY);
         self.run_pending(cl, &mut again)?;
-        let again = into_source(again);
+        let again = into_source(again).into_page(program.nc_page());
         let again = (&again, "the second run");
         let compare = |dialect: &Dialect| {
             let mut reference = Running::new(again.0, again.1, dialect);

@@ -83,7 +83,7 @@ fn each_line_is_cut_into_its_words() {
         }
         let Some((nc, map)) = mapped(&case) else { continue };
         let at = case.folder.display();
-        let text = String::from_utf8(nc).expect("UTF-8");
+        let text = program.nc_page().decode_all(&nc);
         let lines = lines(&map);
         assert_eq!(lines.len(), text.lines().count(), "{at}");
         for (line, text) in lines.iter().zip(text.lines()) {

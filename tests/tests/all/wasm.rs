@@ -29,6 +29,10 @@ fn the_corpus_gives_the_same_bytes_in_wasm() {
     let cases = case::find(&root.join("corpus")).unwrap();
     let (cases, with_files): (Vec<_>, Vec<_>) =
         cases.into_iter().partition(|case| case.file.read.is_none());
+    // The module has no pages of two bytes.
+    let (cases, double): (Vec<_>, Vec<_>) =
+        cases.into_iter().partition(|case| !case.folder.ends_with("shift-jis"));
+    assert_eq!(double.len(), 1);
     assert!(cases.len() > 600 && with_files.len() <= MOST_WITH_FILES);
     let requests = cases.iter().map(request).collect();
     let answers = answers(Path::new(&wasm), &root, requests);
@@ -49,8 +53,9 @@ fn the_corpus_gives_the_same_bytes_in_wasm() {
 fn difference(case: &Case, answer: &Value) -> Option<String> {
     let native = match case.run() {
         Ok((nc, warnings)) => {
-            let nc = String::from_utf8(nc).expect("programs of the corpus are UTF-8");
-            json!({ "nc": nc, "warnings": said(&warnings) })
+            // Bytes as characters U+0000 to U+00FF, as the module gives programs in code pages.
+            let bytes: String = nc.iter().map(|byte| char::from(*byte)).collect();
+            json!({ "nc": bytes, "warnings": said(&warnings) })
         }
         Err(error) => json!({ "errors": errors(&error) }),
     };
@@ -62,7 +67,11 @@ fn difference(case: &Case, answer: &Value) -> Option<String> {
         _ => Value::Null,
     };
     let found = match &answer["nc"] {
-        Value::String(nc) => json!({ "nc": nc, "warnings": of("warnings") }),
+        Value::String(nc) => {
+            let in_utf8 = || nc.bytes().map(char::from).collect::<String>().into();
+            let bytes = answer.get("bytes").cloned().unwrap_or_else(in_utf8);
+            json!({ "nc": bytes, "warnings": of("warnings") })
+        }
         _ => json!({ "errors": of("errors") }),
     };
     (native != found).then(|| {

@@ -17,6 +17,8 @@ use fil_machine::Letter;
 use fil_machine::axis_chain::{AxisChain, Carries};
 use fil_machine::commons::{Commons, EMPTY, Kind};
 use fil_machine::locations::Location;
+use fil_machine::tape_style;
+use fil_text::CodePage;
 
 use crate::forward::Forward;
 pub use codes::{Auxiliary, CycleKind, FeedMode, Function, Group};
@@ -106,6 +108,8 @@ pub enum ToolCall {
 pub struct Dialect {
     /// The family of the control.
     pub family: Family,
+    /// The encoding of its programs.
+    pub page: CodePage,
     functions: Functions,
     auxiliaries: Auxiliaries,
     pub(crate) marks: Marks,
@@ -281,6 +285,7 @@ impl Dialect {
                 Some(2) => Family::Sinumerik,
                 _ => Family::WordAddress,
             },
+            page: tape_style::page(commons),
             addresses: numbers::addresses(commons, lathe),
             start: start(commons, axis_letters, scales),
             scales,

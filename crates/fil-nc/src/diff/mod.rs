@@ -21,6 +21,7 @@ use std::fs::File;
 use std::ops::Range;
 
 use fil_diag::Diag;
+use fil_text::CodePage;
 
 use crate::source::Source;
 
@@ -40,12 +41,20 @@ pub struct Options {
     pub modal: bool,
     /// X is written as a diameter, so that its arcs start at half of it.
     pub diameter: bool,
+    /// The encoding of both programs, for their comments.
+    pub page: CodePage,
 }
 
 impl Default for Options {
     /// A thousandth, nothing ignored, modality understood.
     fn default() -> Self {
-        Options { tolerance: 0.001, ignore: Ignore::default(), modal: false, diameter: false }
+        Options {
+            tolerance: 0.001,
+            ignore: Ignore::default(),
+            modal: false,
+            diameter: false,
+            page: CodePage::UTF_8,
+        }
     }
 }
 

@@ -76,7 +76,7 @@ struct Shown {
 impl Program {
     /// Takes up a text in memory.
     pub(super) fn read(text: &[u8], name: &str, options: &Options) -> Result<Self, Box<Diag>> {
-        Program::index(Source::Memory(text.to_vec().into()), name, options)
+        Program::index(Source::owned(text.to_vec()), name, options)
     }
 
     /// Takes up two files that stay where they are, side by side; one of them when
@@ -107,6 +107,7 @@ impl Program {
         options: &Options,
     ) -> Result<Self, Box<Diag>> {
         let cant = |error: io::Error| Box::new(changed(name, &error.to_string()));
+        let source = source.into_page(options.page);
         let family = Family::of(&source).map_err(cant)?;
         let mut index = Index { family, tokens: Vec::new(), checkpoints: Vec::new() };
         let mut walk = Walk::new(&source, (name, family), options, Checkpoint::default());

@@ -148,7 +148,7 @@ pub fn interpret(
     dialect: &Dialect,
     take: &mut dyn FnMut(Event),
 ) -> Result<(), Box<Diag>> {
-    let source = Source::memory(text);
+    let source = Source::memory(text).into_page(dialect.page);
     let mut running = Running::new(&source, name, dialect);
     let mut events = VecDeque::new();
     while running.more(&mut events)? {

@@ -194,9 +194,7 @@ impl Control {
     /// Writes a line as it is; says whether it was edited, so that the control has learned
     /// from it.
     pub(super) fn put_line(&mut self, text: &str, numbered: bool) -> Result<bool> {
-        if !text.is_ascii() {
-            self.warnings.add(PostCode::TapeText, format!("`{text}`"));
-        }
+        self.warn_of_letters(text);
         let (cause, start) = (self.block.cause, self.tape.text.len());
         if self.tables.family == ControlFamily::Klartext {
             klartext::line::put(self, &klartext::line::Line::of_text(text, cause))?;
@@ -204,6 +202,13 @@ impl Control {
         }
         self.tape.line(text, cause, numbered, &self.tables, &mut self.commons)?;
         self.edit_line(start)
+    }
+
+    /// Warns of letters of a text that the control may not read.
+    pub(super) fn warn_of_letters(&mut self, text: &str) {
+        if !text.is_ascii() && self.tables.style.page.is_utf8() {
+            self.warnings.add(PostCode::TapeText, format!("`{text}`"));
+        }
     }
 
     /// Refuses a block after M2 or M30: the control would never read it.

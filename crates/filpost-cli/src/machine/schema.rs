@@ -63,6 +63,9 @@ fn setting(row: &Location) -> Value {
     } else {
         forms.push(json!({"enum": choices.iter().map(|(value, _)| value).collect::<Vec<_>>()}));
     }
+    if row.name == "tape.encoding" {
+        forms.push(json!({"type": "string"}));
+    }
     let listed: Vec<String> =
         choices.iter().map(|(value, meaning)| format!("{value} = {meaning}")).collect();
     let mut description = row.meaning.to_string();

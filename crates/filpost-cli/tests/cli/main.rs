@@ -10,6 +10,7 @@ mod coverage;
 mod dap;
 mod diff;
 mod editors;
+mod encodings;
 mod explain;
 mod fmt;
 mod hosts;

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
+from . import _filpost
+
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
@@ -115,14 +117,13 @@ class Result:
     """The NC program as it goes to the machine."""
     report: Report
     """Counts, warnings and extents."""
+    encoding: str = "UTF-8"
+    """What the bytes of ``nc`` are in, ``tape.encoding`` of the machine."""
 
     @property
     def text(self) -> str:
-        """The NC program as text (UTF-8, else each byte as one character)."""
-        try:
-            return self.nc.decode()
-        except UnicodeDecodeError:
-            return self.nc.decode("latin-1")
+        """The NC program as text."""
+        return _filpost.decode(self.nc, self.encoding)
 
     @property
     def warnings(self) -> tuple[Diagnostic, ...]:

@@ -84,6 +84,8 @@ class Post:
     ) -> Post: ...
     @property
     def warnings(self) -> tuple[Diagnostic, ...]: ...
+    @property
+    def encoding(self) -> str: ...
     def run(self, cl: _Cl, run: Any) -> tuple[bytes, Report]: ...
     def run_files(self, cl: str, nc: str, run: Any) -> Report: ...
     def blocks(self, cl: _Cl, run: Any) -> Blocks: ...
@@ -102,6 +104,12 @@ class Post:
     ) -> str: ...
     def path(self, nc: bytes, nc_name: str) -> dict[str, Any]: ...
 
+def decode(nc: bytes, encoding: str) -> str:
+    """The text of an NC program."""
+
+def encode(nc: str, encoding: str) -> bytes:
+    """The bytes of an NC program."""
+
 def ready_posts() -> list[str]:
     """Names of the posts inside the package."""
 
@@ -115,6 +123,7 @@ def diff(
     ignore: list[str],
     modal: bool,
     diameter: bool,
+    encoding: str,
 ) -> list[tuple[int | None, int | None, str]]: ...
 def plot_cl(
     cl: _Cl,

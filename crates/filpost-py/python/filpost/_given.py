@@ -6,6 +6,8 @@ import inspect
 import os
 from typing import Any, BinaryIO, Callable, Iterable, TextIO, Union
 
+from . import _filpost
+
 #: A CL file or an NC program: its text, its name (``pathlib.Path``), or an open file.
 Source = Union[str, bytes, "os.PathLike[str]", BinaryIO, TextIO]
 
@@ -29,14 +31,18 @@ def cl(source: Source) -> bytes | os.PathLike[str]:
     return text.encode() if isinstance(text, str) else bytes(text)
 
 
-def nc(source: Any, name: str | None) -> tuple[bytes, str]:
-    """An NC program as bytes, and its name in messages."""
+def nc(source: Any, name: str | None, encoding: str) -> tuple[bytes, str]:
+    """An NC program as bytes, and its name in messages; a text is encoded."""
     if isinstance(getattr(source, "nc", None), bytes):  # a Result
-        source = source.nc
+        source = source.nc if source.encoding == encoding else source.text
     if isinstance(source, os.PathLike):
         with open(source, "rb") as file:
             return file.read(), name or os.fspath(source)
-    taken = cl(source)
+    read = getattr(source, "read", None)
+    taken = source if read is None else read()
+    if isinstance(taken, str):
+        return _filpost.encode(taken, encoding), name or "NC"
+    taken = cl(taken)
     assert isinstance(taken, bytes)
     return taken, name or "NC"
 

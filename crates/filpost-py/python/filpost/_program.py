@@ -124,6 +124,11 @@ class Program:
         return _rebuilt, (self._parts, self._reading)
 
     @property
+    def encoding(self) -> str:
+        """The encoding of its NC programs, ``tape.encoding`` of the machine."""
+        return self._post.encoding
+
+    @property
     def warnings(self) -> tuple[Diagnostic, ...]:
         """Warnings of building: settings without effect, forgiven FIL."""
         return self._post.warnings
@@ -137,7 +142,7 @@ class Program:
         Ctrl-C stops it too.
         """
         nc, report = self._post.run(_given.cl(cl), _Run(name, cancel))
-        return Result(nc, report)
+        return Result(nc, report, self.encoding)
 
     def run_files(
         self,
@@ -182,7 +187,7 @@ class Program:
         motions that turn the machine (mm), ``offsets`` the work offsets (``G55``) that the
         program may choose by itself.
         """
-        text, name = _given.nc(nc, nc_name)
+        text, name = _given.nc(nc, nc_name, self.encoding)
         found = self._post.verify(
             _given.cl(cl),
             text,
@@ -209,7 +214,7 @@ class Program:
     ) -> str:
         """A picture (``svg``) or a page that zooms (``html``) of an NC program on the
         machine, with the path of ``cl`` under it."""
-        text, name = _given.nc(nc, name)
+        text, name = _given.nc(nc, name, self.encoding)
         under = None if cl is None else _given.cl(cl)
         return self._post.plot(
             text, name, under, _is_page(form), _given.texts(views, "views")
@@ -218,7 +223,7 @@ class Program:
     def path(self, nc: Source | Result, *, name: str | None = None) -> Path:
         """The path of the tool tip that an NC program makes on the machine, as numpy arrays
         in mm, in the frame of the part."""
-        return Path(**self._post.path(*_given.nc(nc, name)))
+        return Path(**self._post.path(*_given.nc(nc, name, self.encoding)))
 
     def __repr__(self) -> str:
         machine = self._parts.ready or (self._parts.machine or self._parts.option_file or ("",))[0]

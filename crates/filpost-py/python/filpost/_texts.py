@@ -34,18 +34,19 @@ def diff(
     modal: bool = False,
     diameter: bool = False,
     names: tuple[str, str] = ("the first", "the second"),
+    encoding: str = "UTF-8",
 ) -> list[Difference]:
     """Compares two NC programs as a control reads them; empty when they say the same.
 
     ``tolerance`` is in the unit of the programs and in degrees. ``ignore`` lists what is not
     looked at: ``n``, ``comments``, ``dates``, ``points`` or letters. With ``modal``,
-    repeated modal words count. ``diameter`` is for lathes whose X is a diameter.
+    repeated modal words count. ``diameter`` is for lathes whose X is a diameter. ``encoding`` is that of both programs
+    where they are bytes, such as ``windows-1252``.
     """
-    one, _ = _given.nc(first, None)
-    two, _ = _given.nc(second, None)
-    found = _filpost.diff(
-        one, two, names, tolerance, _given.texts(ignore, "ignore"), modal, diameter
-    )
+    one, _ = _given.nc(first, None, encoding)
+    two, _ = _given.nc(second, None, encoding)
+    ignored = _given.texts(ignore, "ignore")
+    found = _filpost.diff(one, two, names, tolerance, ignored, modal, diameter, encoding)
     return [Difference((a, b), message) for a, b, message in found]
 
 

@@ -7,6 +7,7 @@ use fil_cl::reader;
 use fil_diag::Diag;
 use fil_machine::locations::Location;
 use fil_nc::diff;
+use fil_text::CodePage;
 
 use super::recipe::Recipe;
 use super::{Case, CaseFile, Programs, unified};
@@ -67,6 +68,8 @@ pub struct Outcome {
 /// What a case's run wrote.
 struct Ran {
     nc: Vec<u8>,
+    /// The encoding of the program.
+    page: CodePage,
     listing: Option<Vec<u8>>,
     warnings: Vec<Diag>,
     reads: Vec<PathBuf>,
@@ -210,7 +213,7 @@ impl Case {
         let warnings = program.warnings().iter().cloned().chain(report.warnings).collect();
         // A listing in memory can't fail.
         let listing = self.file.listing.as_ref().and_then(|_| listing.finish().ok());
-        Ok(Ran { nc, listing, warnings, reads })
+        Ok(Ran { nc, page: program.nc_page(), listing, warnings, reads })
     }
 
     /// What is missing, when none of the diagnostics has this code at the place expected.
@@ -227,7 +230,7 @@ impl Case {
 
     fn compare(&self, ran: &Ran) -> Outcome {
         let mut outcome = Outcome {
-            nc: Some(String::from_utf8_lossy(&ran.nc).into_owned()),
+            nc: Some(ran.page.decode_all(&ran.nc).into_owned()),
             reads: ran.reads.clone(),
             ..Outcome::default()
         };
@@ -239,48 +242,53 @@ impl Case {
             }
         }
         if let Some(name) = &self.file.expect {
-            match expected(&self.folder.join(name)) {
-                Ok(wanted) => self.compare_programs(name, wanted, &ran.nc, &mut outcome),
+            match expected(&self.folder.join(name), ran.page) {
+                Ok(wanted) => self.compare_programs(name, wanted, ran, &mut outcome),
                 Err(error) => return Outcome::failed(error.to_string()),
             }
         }
         if let (Some(name), Some(text)) = (&self.file.listing, &ran.listing) {
-            match expected(&self.folder.join(name)) {
+            match expected(&self.folder.join(name), CodePage::UTF_8) {
                 Ok(wanted) if wanted == String::from_utf8_lossy(text) => {}
-                Ok(wanted) => outcome.differs(name, &self.folder, &wanted, text, &[]),
+                Ok(wanted) => {
+                    let shown = String::from_utf8_lossy(text);
+                    outcome.differs((&self.folder, name), &wanted, (text, &shown), &[]);
+                }
                 Err(error) => return Outcome::failed(error.to_string()),
             }
         }
         outcome
     }
 
-    fn compare_programs(&self, name: &str, wanted: String, nc: &[u8], outcome: &mut Outcome) {
+    fn compare_programs(&self, name: &str, wanted: String, ran: &Ran, outcome: &mut Outcome) {
         let by_words = self.file.tolerance.is_some() || !self.file.ignore.is_empty();
-        if wanted != String::from_utf8_lossy(nc) {
-            match self.sentences(&wanted, nc) {
+        let shown = ran.page.decode_all(&ran.nc);
+        if wanted != shown {
+            let (file, found) = ((&*self.folder, name), (&ran.nc[..], &*shown));
+            match self.sentences(&wanted, &shown) {
                 Ok(sentences) if by_words && sentences.is_empty() => {}
                 Ok(sentences) if sentences.is_empty() => {
                     let alike = ["a control reads both alike".to_string()];
-                    outcome.differs(name, &self.folder, &wanted, nc, &alike);
+                    outcome.differs(file, &wanted, found, &alike);
                 }
                 Ok(sentences) => {
-                    outcome.differs(name, &self.folder, &wanted, nc, &sentences);
+                    outcome.differs(file, &wanted, found, &sentences);
                     outcome.differences = sentences;
                 }
                 // What can't be read as words is still a difference of letters.
-                Err(_) => outcome.differs(name, &self.folder, &wanted, nc, &[]),
+                Err(_) => outcome.differs(file, &wanted, found, &[]),
             }
         }
         outcome.wanted = Some(wanted);
     }
 
     /// What the program of this run does otherwise than the proven one.
-    fn sentences(&self, wanted: &str, nc: &[u8]) -> Result<Vec<String>, Box<Diag>> {
+    fn sentences(&self, wanted: &str, nc: &str) -> Result<Vec<String>, Box<Diag>> {
         // Case::load has looked at what is set.
         let options = self.file.comparison().unwrap_or_default();
         let name = self.file.expect.as_deref().unwrap_or_default();
         let first = diff::read(wanted.as_bytes(), name, &options)?;
-        let second = diff::read(nc, "this run", &options)?;
+        let second = diff::read(nc.as_bytes(), "this run", &options)?;
         let found = diff::compare(&first, &second, &options)?.differences;
         Ok(found.iter().map(|one| diff::sentence(one, &first, &second)).collect())
     }
@@ -290,13 +298,12 @@ impl Outcome {
     /// Notes an expected file that this run wrote otherwise.
     fn differs(
         &mut self,
-        name: &str,
-        folder: &Path,
+        (folder, name): (&Path, &str),
         wanted: &str,
-        found: &[u8],
+        (found, shown): (&[u8], &str),
         sentences: &[String],
     ) {
-        let changes = unified::difference(name, wanted, &String::from_utf8_lossy(found));
+        let changes = unified::difference(name, wanted, shown);
         let failure = self.failure.get_or_insert_default();
         failure.push_str(&changes);
         for sentence in sentences.iter().take(MOST) {
@@ -313,11 +320,16 @@ impl Outcome {
 }
 
 /// The text of an expected file; empty when it is not there yet.
-fn expected(path: &Path) -> Result<String, Error> {
+fn expected(path: &Path, page: CodePage) -> Result<String, Error> {
     if !path.exists() {
         return Ok(String::new());
     }
-    Ok(files::read_text(path, None)?.replace("\r\n", "\n"))
+    let text = if page.is_utf8() {
+        files::read_text(path, None)?
+    } else {
+        page.decode_all(&files::read(path)?).into_owned()
+    };
+    Ok(text.replace("\r\n", "\n"))
 }
 
 /// The primary place of a diagnostic as `file:line`, the file without its folder.

@@ -14,6 +14,9 @@ pub(super) struct Header {
     pub cl: String,
     /// Name of the NC program.
     pub nc: String,
+    /// Encoding of the NC program, where it is not UTF-8.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub encoding: Option<String>,
     /// The FIL files; their digests are those of their texts in UTF-8.
     pub fil: Vec<FilFile>,
     /// Keys of the sections.

@@ -8,6 +8,7 @@ use std::path::Path;
 
 use fil_diag::{Diag, TextSpan};
 use fil_post::{Cause, FilLine, Stack};
+use fil_text::CodePage;
 use serde::Deserialize;
 
 use super::digest::Digest;
@@ -101,6 +102,7 @@ pub struct MapReader<R> {
     number: u32,
     cl: MapFile,
     nc: MapFile,
+    page: CodePage,
     fil: Vec<MapFile>,
     sections: Vec<String>,
     stacks: Vec<Stack>,
@@ -203,6 +205,7 @@ impl<R: Read + Seek> MapReader<R> {
             number: 0,
             cl: none(),
             nc: none(),
+            page: CodePage::UTF_8,
             fil: Vec::new(),
             sections: Vec::new(),
             stacks: Vec::new(),
@@ -227,6 +230,10 @@ impl<R: Read + Seek> MapReader<R> {
                            lines before it";
             return Err(reader.broken(message));
         }
+        let label = header.encoding.as_deref();
+        reader.page = label
+            .map_or(Some(CodePage::UTF_8), CodePage::named)
+            .ok_or_else(|| reader.broken("the encoding of its program is not known"))?;
         reader.cl = MapFile { name: header.cl, digest: end.cl };
         reader.nc = MapFile { name: header.nc, digest: end.nc };
         let fil = header.fil.into_iter();
@@ -244,6 +251,11 @@ impl<R: Read + Seek> MapReader<R> {
     /// The NC program.
     pub fn nc(&self) -> &MapFile {
         &self.nc
+    }
+
+    /// The encoding of the NC program.
+    pub fn nc_page(&self) -> CodePage {
+        self.page
     }
 
     /// The FIL files, by the numbers in [`FilLine::file`].

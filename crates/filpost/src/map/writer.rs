@@ -8,6 +8,7 @@ use std::sync::mpsc::{self, Receiver, Sender, SyncSender};
 use std::thread::{self, JoinHandle};
 
 use fil_post::tape::Tape;
+use fil_text::CodePage;
 use fil_vm::Module;
 
 use super::VERSION;
@@ -56,20 +57,24 @@ struct Output<'w> {
 
 impl<'w> Writer<'w> {
     /// Starts a map.
-    pub fn new(output: &'w mut (dyn Write + Send), names: &Names, module: &Module) -> Self {
-        Self::with_maker(output, names, module, |first| {
+    pub fn new(
+        output: &'w mut (dyn Write + Send),
+        names: &Names,
+        module: &Module,
+        page: CodePage,
+    ) -> Self {
+        Self::with_maker(output, header(names, module, page), |first| {
             Maker::thread(first).unwrap_or_else(|_| Maker::run(first))
         })
     }
 
     fn with_maker(
         output: &'w mut (dyn Write + Send),
-        names: &Names,
-        module: &Module,
+        header: Header,
         maker: impl FnOnce(&[u8]) -> Maker,
     ) -> Self {
         let mut first = Vec::new();
-        object(&header(names, module), &mut first);
+        object(&header, &mut first);
         let mut output = Output { output, failure: None };
         output.write(&first);
         Writer { output, batch: Batch::default(), stacks: 0, maker: maker(&first) }
@@ -174,7 +179,7 @@ fn make_lines(mut lines: Lines, given: &Receiver<Batch>, back: &Sender<Batch>) -
     lines
 }
 
-fn header(names: &Names, module: &Module) -> Header {
+fn header(names: &Names, module: &Module, page: CodePage) -> Header {
     let name = |index: usize, own: &str| names.fil.get(index).cloned().unwrap_or(own.into());
     let fil = module.files.iter().enumerate().map(|(index, file)| FilFile {
         name: name(index, &file.name),
@@ -184,6 +189,7 @@ fn header(names: &Names, module: &Module) -> Header {
         version: VERSION,
         cl: names.cl.clone(),
         nc: names.nc.clone(),
+        encoding: (!page.is_utf8()).then(|| page.name().to_string()),
         fil: fil.collect(),
         sections: module.section_keys().map(str::to_string).collect(),
     }
@@ -208,8 +214,9 @@ mod tests {
         let mut cl = Digested::new(Cursor::new(text)).unwrap();
         let reader = Reader::seekable(&mut cl, "part.ncl", Options::default());
         let names = Names { cl: "part.ncl".into(), nc: "part.nc".into(), fil: Vec::new() };
+        let header = header(&names, &program.shared.module, CodePage::UTF_8);
         let mut made = Vec::new();
-        let writer = Writer::with_maker(&mut made, &names, &program.shared.module, maker);
+        let writer = Writer::with_maker(&mut made, header, maker);
         let (done, map) = program.start().post(reader, None, Some(writer), &mut Vec::new());
         done.unwrap();
         map.unwrap().finish(cl.finish().unwrap()).unwrap();

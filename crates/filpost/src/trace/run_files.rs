@@ -6,6 +6,7 @@ use std::io::{BufRead, BufReader, Seek, SeekFrom};
 use std::path::{Component, Path, PathBuf};
 
 use fil_diag::Diag;
+use fil_text::CodePage;
 
 use super::digests::Digests;
 use super::{FilePosition, Options, line_search};
@@ -33,6 +34,8 @@ pub(super) struct RunFiles {
     cl: At,
     nc: At,
     fil: Vec<(String, Option<Vec<String>>)>,
+    /// Encoding of the NC program.
+    page: CodePage,
 }
 
 /// A file by the name that is shown and, when it is there, its path.
@@ -79,7 +82,7 @@ impl RunFiles {
             let lines = fil_lines(file, &path, options, &mut missing)?;
             fil.push((path.display().to_string(), lines));
         }
-        Ok(RunFiles { role, missing, cl, nc, fil })
+        Ok(RunFiles { role, missing, cl, nc, fil, page: map.nc_page() })
     }
 
     /// The CL file, when it is at hand.
@@ -128,7 +131,7 @@ impl RunFiles {
                 break;
             }
             if wanted.contains(&number) {
-                let text = String::from_utf8_lossy(&line);
+                let text = self.page.decode_all(&line);
                 found.insert(number, text.trim_end_matches('\n').to_string());
             }
         }

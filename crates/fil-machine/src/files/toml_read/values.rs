@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use fil_diag::{Diag, Result};
+use fil_text::CodePage;
 use toml::Spanned;
 use toml::de::DeValue;
 
@@ -13,6 +14,9 @@ use crate::letter::Letter;
 use crate::locations::{Location, ValueUnit};
 use crate::stored;
 use crate::user_blocks::BLOCK_INTEGERS;
+
+/// The setting whose choices have names of their own.
+const TAPE_ENCODING: &str = "tape.encoding";
 
 impl TomlReader<'_> {
     /// The number a value stands for, by the unit of its location.
@@ -26,6 +30,9 @@ impl TomlReader<'_> {
             }
             DeValue::String(text) if text.len() == 1 && location.unit == ValueUnit::Char => {
                 Some(f64::from(text.as_bytes()[0]))
+            }
+            DeValue::String(label) if location.name == TAPE_ENCODING => {
+                CodePage::named(label).map(|page| f64::from(page.number()))
             }
             DeValue::Boolean(flag) => {
                 let word = if *flag { "yes" } else { "no" };

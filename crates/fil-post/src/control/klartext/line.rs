@@ -21,7 +21,7 @@ const LONGEST_DWELL: f64 = 3600.0;
 /// # Errors
 /// A line longer than the control reads.
 pub fn put(control: &mut Control, line: &Line) -> Result<()> {
-    warn_of_letters(control, &line.text);
+    control.warn_of_letters(&line.text);
     let number = control.tape.numbers(&control.tables).then_some(control.klartext.next_line);
     control.klartext.next_line += 1;
     control.tape.phrase(number, &line.text, &line.items, &control.tables)
@@ -33,12 +33,6 @@ pub fn put(control: &mut Control, line: &Line) -> Result<()> {
 /// As [`put`].
 pub fn put_more(control: &mut Control, text: &str, cause: Cause) -> Result<()> {
     control.tape.phrase_more(text, &[(TEXT, 0, cause)], &control.tables)
-}
-
-fn warn_of_letters(control: &mut Control, text: &str) {
-    if !text.is_ascii() {
-        control.warnings.add(PostCode::TapeText, format!("`{text}`"));
-    }
 }
 
 /// Seconds, within what the machine and the control take.
