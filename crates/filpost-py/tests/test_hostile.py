@@ -176,19 +176,6 @@ def test_without_numpy_only_paths_are_missing():
     assert ran.returncode == 0 and ran.stdout.startswith("ImportError"), ran
 
 
-def test_ctrl_c_in_a_run_is_a_keyboard_interrupt():
-    code = (
-        "import filpost, os, signal, threading\n"
-        "cl = 'UNITS / MM\\nLOADTL / 3\\nFEDRAT / 200, MMPM\\n'"
-        " + 'GOTO / 1, 2, 3\\nGOTO / 2, 2, 3\\n' * 3_000_000 + 'FINI\\n'\n"
-        "threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT)).start()\n"
-        "try: filpost.Program(ready='fanuc-mill').run(cl)\n"
-        "except KeyboardInterrupt: print('interrupted')\n"
-    )
-    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
-    assert ran.stdout == "interrupted\n", ran
-
-
 def test_errors_and_results_can_be_pickled():
     with pytest.raises(filpost.Error) as refused:
         mill().run(CL.replace("GOTO", "GOTOO"))

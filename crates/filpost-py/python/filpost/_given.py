@@ -93,3 +93,11 @@ def texts(given: Iterable[str], what: str) -> list[str]:
     if isinstance(given, str):
         raise TypeError(f"{what}: a list of texts is needed, not a text")
     return list(given)
+
+
+def need_numpy() -> None:
+    """Raises ImportError where there is no numpy, which paths are made of."""
+    try:
+        import numpy  # noqa: F401
+    except ImportError as error:
+        raise ImportError("paths are numpy arrays; install numpy") from error

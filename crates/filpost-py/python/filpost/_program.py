@@ -223,6 +223,7 @@ class Program:
     def path(self, nc: Source | Result, *, name: str | None = None) -> Path:
         """The path of the tool tip that an NC program makes on the machine, as numpy arrays
         in mm, in the frame of the part."""
+        _given.need_numpy()
         return Path(**self._post.path(*_given.nc(nc, name, self.encoding)))
 
     def __repr__(self) -> str:

@@ -72,4 +72,5 @@ def cl_path(
     name: str | None = None,
 ) -> Path:
     """The path of the tool tip in a CL file, as numpy arrays in mm."""
+    _given.need_numpy()
     return Path(**_filpost.cl_path(_given.cl(cl), name, cl_dialect, units))
