@@ -243,7 +243,7 @@ impl<C: Steps> Walk<'_, C> {
             // Where X stands behind polar interpolation is not known.
             let moves = |n: usize| self.written[n] && found.known[n] && to[n] != self.at.linear[n];
             let across = (moves(0) || moves(1)) && self.known[0] && self.known[1];
-            let z_moves = to[2] != self.at.linear[2];
+            let z_moves = (to[2] - self.at.linear[2]).abs() > STILL;
             let arrives = (0..2).all(|n| near(to[n], levels.at[n], n));
             if across && !arrives {
                 return Err((

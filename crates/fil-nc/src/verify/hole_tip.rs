@@ -39,8 +39,9 @@ struct Line {
     slack: [f64; 3],
     /// Heights above the start that the hole asks for, mm.
     heights: Vec<f64>,
-    /// Height before the cycle, to the last digits, mm.
-    before: f64,
+    /// Heights behind the hole before and before the cycle, to the last digits, mm: a tool that
+    /// goes across stays on one of them.
+    before: [f64; 2],
 }
 
 /// What stood there before the moves of a hole were said anew.
@@ -67,8 +68,8 @@ impl Line {
         let off = |height: &f64| (height - middle).abs();
         let asked = self.heights.iter().copied().filter(|height| within(*height, DUST));
         let nearest = asked.min_by(|a, b| off(a).total_cmp(&off(b)));
-        let before = Some(self.before).filter(|height| within(*height, self.digits()));
-        Some(nearest.or(before).unwrap_or(middle))
+        let before = || self.before.into_iter().find(|height| within(*height, self.digits()));
+        Some(nearest.or_else(before).unwrap_or(middle))
     }
 
     /// What the last digits leave open along the line, mm.
@@ -203,7 +204,7 @@ impl<C: Steps> Walk<'_, C> {
             slack,
             turn,
             heights: Vec::new(),
-            before: f64::NAN,
+            before: [f64::NAN; 2],
         }
     }
 
@@ -226,7 +227,10 @@ impl<C: Steps> Walk<'_, C> {
         // The way up to the level comes before the way across: along the tool where it stands.
         let twice = line.slack.map(|digit| 2.0 * digit);
         let here = Line { start: tip, slack: twice, heights: Vec::new(), ..line };
-        line.before = self.initial.unwrap_or(self.at.linear[2]) - levels.at[2];
+        let rests = self.at.linear[2];
+        // Without RETURN the tool goes across where the hole before has left it.
+        let initial = self.initial.filter(|_| hole.retract.is_some()).unwrap_or(rests);
+        line.before = [initial, rests].map(|level| level - levels.at[2]);
         let rotary = self.gap(&next.to, &hole.start).rotary;
         let machine = self.settings.forward.frame(rotary);
         let from_hole = machine.turn.transpose() * self.hole_frame(rotary, hole).turn;

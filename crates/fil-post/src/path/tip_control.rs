@@ -307,7 +307,7 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
         (Some(0.0), Some(above)) => height(above.before).max(cycle.clear),
         (Some(level), _) => level.max(cycle.clear),
     };
-    let (clear, returns) = (cycle.clear, cycle.retract.is_some());
+    let clear = cycle.clear;
     let was = (post.path.feed.replace(feed), post.control.block.cause);
     let stays = (post.path.axis.normalize() - axis).norm() < SAME_AXIS;
     let mut moves = Moves { post, cycle, target, axis };
@@ -322,7 +322,7 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
         let way = target.point - above.now;
         let least = moves.post.control.tables.axis(0).resolution();
         let across = (way - axis * way.dot(&axis)).norm() > least;
-        if returns && across && level > clear + SAME_HEIGHT {
+        if across && level > clear + SAME_HEIGHT {
             moves.rapid(level)?;
         }
     }
