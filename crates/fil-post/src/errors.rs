@@ -229,7 +229,7 @@ fil_diag::codes! {
             "Give LINTOL or rotary.tolerance a value, or check the program with filpost verify --between.";
         /// The spindle stands in a hole, or a live tool where it cuts.
         SpindleStands = 596, Warning, "cutting with the spindle standing",
-            "SPINDL/OFF, or a text that stops the spindle, came before these holes, and nothing has turned it since; or MODE/MILL, and nothing has turned the live tool.",
+            "SPINDL/OFF, a tool change (M6), or a text that stops the spindle came before these holes or this motion at feed, and nothing has turned it since; or MODE/MILL, and nothing has turned the live tool.",
             "Put SPINDL / RPM with a direction before it; ignore this where the tool does not cut.";
         /// The way out of a bored hole.
         BoreOut = 597, Warning, "bored hole left at feed",

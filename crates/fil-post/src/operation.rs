@@ -193,6 +193,16 @@ pub enum SpindleSpeed {
     Feet(f64),
 }
 
+impl SpindleSpeed {
+    /// No turn at all.
+    pub fn is_zero(self) -> bool {
+        let (SpindleSpeed::Revolutions(speed)
+        | SpindleSpeed::Meters(speed)
+        | SpindleSpeed::Feet(speed)) = self;
+        speed == 0.0
+    }
+}
+
 /// What the coolant does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coolant {

@@ -16,6 +16,9 @@ pub(super) fn spindle(record: &Record) -> Vec<Wanted> {
         return vec![Wanted::Orient(numbers(record).first().copied())];
     }
     let speed = numbers_beside(record, &[w::MAXRPM, w::RANGE]).first().copied();
+    if speed == Some(0.0) {
+        return vec![Wanted::Spindle(Some(Spindle::Off))];
+    }
     let mut wanted: Vec<Wanted> = range(record).map(Wanted::SpindleRange).into_iter().collect();
     wanted.extend(record.number_after(w::MAXRPM).map(Wanted::SpeedLimit));
     wanted.extend(speed.map(|speed| {

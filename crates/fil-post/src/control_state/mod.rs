@@ -473,6 +473,8 @@ impl ControlState {
         if code == TOOL_CHANGE {
             self.tool = None;
             self.tool_changes += 1;
+            // A machine changes a tool with the spindle standing, and leaves it so.
+            self.rotation = Rotation::Standing;
         }
         if CALLS.contains(&code) {
             self.forget();

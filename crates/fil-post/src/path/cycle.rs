@@ -21,6 +21,19 @@ pub enum CycleFeed {
     Lead(Lead),
 }
 
+impl CycleFeed {
+    /// The same feed, whoever has said it.
+    pub fn is_as_fast_as(&self, other: &Self) -> bool {
+        match (self, other) {
+            (CycleFeed::Feed(one), CycleFeed::Feed(two)) => {
+                one.value == two.value && one.mode == two.mode
+            }
+            (CycleFeed::Lead(one), CycleFeed::Lead(two)) => one.value == two.value,
+            _ => false,
+        }
+    }
+}
+
 /// Where the tip is above the holes of a cycle, in the part.
 #[derive(Clone, Copy, Debug)]
 pub struct AboveHoles {
@@ -47,6 +60,8 @@ pub struct Cycle {
     pub dwell: f64,
     /// Feed.
     pub feed: CycleFeed,
+    /// The feed is that of FEDRAT, and not of the CYCLE itself.
+    pub feed_of_fedrat: bool,
     /// A tap in step with the spindle (HIGH), with its code where the machine has one.
     pub rigid: bool,
     /// Level of the tool before the cycle along the drilling axis, machine

@@ -73,7 +73,11 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
     if dwell.is_some_and(|dwell| dwell < 0.0) || retract.is_some_and(|level| level < 0.0) {
         return PostCode::CycleForm.err("DWELL and RETURN must not be negative");
     }
-    let feed = feed(post, items, kind)?;
+    let own_feed = own_feed(post, items, kind)?;
+    let feed = match own_feed {
+        Some(feed) => feed,
+        None => feed_of_fedrat(post, kind)?,
+    };
     let usual_dwell = kind.dwell().and_then(|at| post.control.commons.dbl_opt(at));
     Ok(Cycle {
         kind,
@@ -83,6 +87,7 @@ fn read(post: &mut Post, items: &mut Items) -> Result<Cycle> {
         step,
         dwell: dwell.or(usual_dwell).unwrap_or(0.0),
         feed,
+        feed_of_fedrat: own_feed.is_none(),
         rigid,
         initial: None,
         above: None,
@@ -166,7 +171,8 @@ fn step(post: &mut Post, items: &mut Items, kind: CycleKind, at: &mut u16) -> Re
     let step = optional(items, &[w::STEP, w::SUBPECK, w::INCR], at)?;
     let first = items.couplet(w::FIRST_PECK)?;
     if !step.is_some_and(|step| step > 0.0) {
-        return PostCode::CycleForm.err("STEP must be above zero");
+        let what = if step.is_some() { "STEP must be above zero" } else { "STEP is missing" };
+        return PostCode::CycleForm.err(what);
     }
     if let Some(first) = first.filter(|first| Some(*first) != step) {
         let message = format!("CYCLE: the first peck is as deep as the others, and not {first}");
@@ -175,13 +181,37 @@ fn step(post: &mut Post, items: &mut Items, kind: CycleKind, at: &mut u16) -> Re
     Ok(step)
 }
 
-/// The cycle's own feed (unit word and number, or TPI of a tap), else that of FEDRAT.
-fn feed(post: &mut Post, items: &mut Items, kind: CycleKind) -> Result<CycleFeed> {
+/// FEDRAT between two holes: a cycle without a feed of its own takes it.
+///
+/// # Errors
+/// A tap's feed above that of Z.
+pub fn take_feed(post: &mut Post) -> Result<()> {
+    let takes = post.path.cycle.as_ref().filter(|cycle| cycle.feed_of_fedrat);
+    let Some(kind) = takes.map(|cycle| cycle.kind) else { return Ok(()) };
+    let feed = feed_of_fedrat(post, kind)?;
+    if let Some(cycle) = &mut post.path.cycle
+        && !cycle.feed.is_as_fast_as(&feed)
+    {
+        cycle.feed = feed;
+        cycle.in_force = None;
+    }
+    Ok(())
+}
+
+/// The feed of FEDRAT for a cycle without its own.
+fn feed_of_fedrat(post: &mut Post, kind: CycleKind) -> Result<CycleFeed> {
+    let missing = || PostCode::CycleForm.diag("no feed in the cycle, and no FEDRAT before it");
+    let feed = post.path.feed.ok_or_else(missing)?;
+    within_that_of_z(post, feed, kind)
+}
+
+/// The cycle's own feed: unit word and number, or TPI of a tap.
+fn own_feed(post: &mut Post, items: &mut Items, kind: CycleKind) -> Result<Option<CycleFeed>> {
     let cause = post.control.block.cause;
     if kind == CycleKind::Tap && items.has(w::TPI) {
         let lead = thread::lead(post, items)?;
         post.control.block.cause = cause;
-        return Ok(CycleFeed::Lead(lead));
+        return Ok(Some(CycleFeed::Lead(lead)));
     }
     for unit in fedrat::UNITS {
         let Some(value) = items.couplet(*unit)? else { continue };
@@ -192,11 +222,9 @@ fn feed(post: &mut Post, items: &mut Items, kind: CycleKind) -> Result<CycleFeed
         let feed = fedrat::in_output_units(post, value, Some(*unit))?;
         post.control.block.cause = cause;
         let feed = fedrat::within_limits(post, feed);
-        return within_that_of_z(post, feed, kind);
+        return within_that_of_z(post, feed, kind).map(Some);
     }
-    let missing = || PostCode::CycleForm.diag("no feed in the cycle, and no FEDRAT before it");
-    let feed = post.path.feed.ok_or_else(missing)?;
-    within_that_of_z(post, feed, kind)
+    Ok(None)
 }
 
 /// A feed a minute within what Z may do; a tap's is bound to the spindle.

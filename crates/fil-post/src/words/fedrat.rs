@@ -8,6 +8,7 @@ use fil_diag::Result;
 use fil_machine::modes::{FeedMode, INCH, Unit};
 use fil_machine::{letters, locations as loc};
 
+use super::cycle;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{Feed, Operation};
@@ -47,7 +48,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let feed = in_output_units(post, value, unit)?;
     post.path.feed = Some(within_limits(post, feed));
     thread::end(post)?;
-    Ok(())
+    cycle::take_feed(post)
 }
 
 /// LOCK,ON takes the feed override from the operator, LOCK,OFF gives it back.

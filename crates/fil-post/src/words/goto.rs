@@ -2,9 +2,12 @@
 
 use fil_cl::record::FIRST_DATA;
 use fil_diag::Result;
+use fil_machine::locations as loc;
 use nalgebra::{Point3, Vector3};
 
 use super::home;
+use crate::control::word_address::spindle;
+use crate::control_state::Rotation;
 use crate::dispatch::checked_axis;
 use crate::errors::PostCode;
 use crate::items::Items;
@@ -23,6 +26,7 @@ pub fn handle(post: &mut Post, target: Target) -> Result<()> {
             let message = "RAPID before a CIRCLE: the arc is cut at feed".to_string();
             post.warn(PostCode::IgnoredPart, message);
         }
+        warn_of_standing_spindle(post);
         return carry_out(post, Operation::Arc(arc, target));
     }
     if post.path.cycle.is_some() && post.path.rapid.is_none() {
@@ -32,8 +36,32 @@ pub fn handle(post: &mut Post, target: Target) -> Result<()> {
         MotionKind::Thread(lead) => thread::point(post, target, lead),
         // The most frequent operation is carried out without being made: its copy would have
         // to wait for the target, which was written a moment ago.
-        kind => linear::carry_out(post, &target, kind),
+        kind => {
+            if kind == MotionKind::Feed {
+                warn_of_standing_spindle(post);
+            }
+            linear::carry_out(post, &target, kind)
+        }
     }
+}
+
+/// Warns of a motion at feed while the spindle of a mill is known to stand, once for each tool.
+/// A lathe feeds so to pull bar and to part off.
+#[inline]
+fn warn_of_standing_spindle(post: &mut Post) {
+    if post.control.state.rotation == Rotation::Standing {
+        warn_where_it_mills(post);
+    }
+}
+
+#[cold]
+fn warn_where_it_mills(post: &mut Post) {
+    let control = &post.control;
+    if !spindle::stands(control) || control.commons.read(loc::LATHE_DIAMETER) {
+        return;
+    }
+    let tool = control.state.tool.map(|tool| format!(" of tool {tool}")).unwrap_or_default();
+    post.warn(PostCode::SpindleStands, format!("a motion at feed{tool}: the spindle stands"));
 }
 
 /// Rapid after RAPID, a pass of a thread in a thread, else at feed.

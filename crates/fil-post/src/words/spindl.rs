@@ -5,6 +5,7 @@
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 
+use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{Operation, SideSpindle, Spindle, SpindleRange, SpindleSpeed, SpindleTurn};
 use crate::path::carry_out;
@@ -33,6 +34,12 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let limit = items.couplet(w::MAXRPM)?.map(|limit| (limit, items.last_word()));
     let turn = turn(items)?;
     items.deny_rest()?;
+    if turn.is_some_and(|turn| turn.speed.is_some_and(SpindleSpeed::is_zero)) {
+        let message = "SPINDL: a speed of 0; the spindle is stopped as by OFF".to_string();
+        let hint = || Some("Write SPINDL / OFF, or the speed.".into());
+        post.control.warnings.add_with(PostCode::IgnoredPart, message, hint);
+        return carry_out(post, Operation::Spindle(Spindle::Off));
+    }
     if let Some((range, word)) = range {
         post.control.block.cause.word = word;
         carry_out(post, Operation::Spindle(Spindle::Range(range)))?;

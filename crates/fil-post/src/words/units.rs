@@ -18,7 +18,11 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let unit = match items.any_of(&[w::MM, w::INCHES]) {
         Some(w::MM) => Unit::Mm,
         Some(_) => Unit::Inch,
-        None => return Err(items.error("MM or INCHES is needed")),
+        None => {
+            let mut diag = items.error("MM or INCHES is needed");
+            diag.hint = Some("Write UNITS / MM or UNITS / INCHES.".into());
+            return Err(diag);
+        }
     };
     items.deny_rest()?;
     refuse_other(post, unit)?;

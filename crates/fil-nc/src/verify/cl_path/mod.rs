@@ -67,6 +67,8 @@ struct Cycle {
     step: Option<f64>,
     dwell: Option<f64>,
     rate: Option<Rate>,
+    /// The rate is of the CYCLE itself, and not of FEDRAT.
+    has_own_rate: bool,
     rigid: bool,
 }
 
@@ -349,6 +351,9 @@ impl State {
             }
             w::FEDRAT => {
                 self.rate = numbers(record).first().map(|value| self.rate_of(record, *value));
+                if let Some(cycle) = self.cycle.as_mut().filter(|cycle| !cycle.has_own_rate) {
+                    cycle.rate = self.rate;
+                }
                 self.end_thread();
                 Vec::new()
             }
@@ -505,6 +510,7 @@ impl State {
             step: number(&[w::STEP, w::SUBPECK, w::INCR]).filter(|_| kind.pecks()),
             dwell: record.number_after(w::DWELL),
             rate: rate.or(self.rate),
+            has_own_rate: rate.is_some(),
             rigid,
         });
         let begins = begins.then_some(Wanted::CycleEnd);

@@ -235,7 +235,7 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
             let value = value_of(control, speed);
             control.word(S, value)?;
         }
-        (None, None) => {}
+        (None, None) => refuse_without_speed(control)?,
     }
     control.block.cause.word = direction_word;
     let usual = || {
@@ -272,6 +272,18 @@ fn refuse_speed_of_the_other(control: &Control, turn: &SpindleTurn) -> Result<()
         );
     }
     Ok(())
+}
+
+/// Refuses a spindle that is switched on before anything has said a speed: the control would
+/// take whatever S it had. A machine without S turns it as fast as its operator has set it.
+fn refuse_without_speed(control: &Control) -> Result<()> {
+    let said = control.commons.last_output(S) != EMPTY || !control.state.has_last(S);
+    if said || control.tables.addresses.required(S)?.is_none() {
+        return Ok(());
+    }
+    let mut diag = PostCode::WordForm.diag("SPINDL: no speed is given, and none came before");
+    diag.hint = Some("Give the speed: SPINDL / RPM, 1000, CLW.".into());
+    Err(diag)
 }
 
 /// Turns the spindle the other way, in a block of its own; says which way it turned.
