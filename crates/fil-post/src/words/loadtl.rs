@@ -30,11 +30,17 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let tool = tool_number(items)?;
     post.due_to(items);
     items.deny_rest()?;
+    if tool == 0 {
+        return refuse_none(items, "tool 0 is an empty spindle");
+    }
     let cause = post.control.block.cause;
     let (offset, offset_given, offset_cause) = match offset {
         Some((offset, word)) => (whole(items, offset)?, true, Cause { word, ..cause }),
         None => (tool, false, cause),
     };
+    if offset == 0 {
+        return refuse_none(items, "offset 0 takes the length of the tool off");
+    }
     thread::end(post)?;
     post.path.interrupt();
     cutter::forget(post);
@@ -43,6 +49,17 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let next = std::mem::take(&mut post.path.next_tools);
     let change = ToolChange { tool, offset, offset_given, next, causes };
     carry_out(post, Operation::ToolChange(change))
+}
+
+/// Refuses a number that stands for none: the motions behind it would bring the spindle nose
+/// to where the tip belongs.
+fn refuse_none(items: &Items, message: &str) -> Result<()> {
+    let mut diag = items.error(message);
+    diag.hint = Some(
+        "Give the number of the tool or offset; INSERT T0 M6 empties the spindle where no motion follows."
+            .into(),
+    );
+    Err(diag)
 }
 
 /// LENGTH is the tool's length in the CAM system. The control measures its tools
