@@ -276,13 +276,14 @@ impl<'o> Run<'o> {
     ///
     /// ```
     /// let program = filpost::Program::builder().ready("fanuc-mill").build()?;
-    /// let cl = "UNITS / MM\nLOADTL / 1\nFEDRAT / 200, MMPM\nGOTO / 1, 2, 3\nFINI\n";
+    /// let cl = "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 800, CLW\nFEDRAT / 200, MMPM\n\
+    ///     GOTO / 1, 2, 3\nFINI\n";
     /// let mut blocks = program.blocks(cl.as_bytes());
     /// for block in &mut blocks {
     ///     let block = block?;
     ///     println!("{:<30} CL line {}", block.text, block.origin.line);
     /// }
-    /// assert_eq!(blocks.report().records, 5);
+    /// assert_eq!(blocks.report().records, 6);
     /// assert!(blocks.report().warnings.is_empty());
     /// # Ok::<(), filpost::Error>(())
     /// ```
