@@ -41,6 +41,7 @@ impl<C: Steps> Walk<'_, C> {
         if !self.is_over_hole(self.next, hole) {
             return false;
         }
+        self.goes_up_before_turning(cl_line, hole);
         let Some(plunge) = self.plunge(self.next) else { return false };
         self.check_direction(cl_line, &plunge, hole);
         let drills = self.in_axes(&plunge, hole);

@@ -22,6 +22,9 @@ const PARALLEL: f64 = 1e-6;
 /// The same of a live tool of a mill-turn machine, radians.
 const LIVE_PARALLEL: f64 = 1e-4;
 
+/// Tools this far apart have turned, as the length between directions.
+const TURNED: f64 = 1e-4;
+
 /// Motions to and from a hole, at most.
 pub(super) const MOST: usize = 12;
 
@@ -158,6 +161,26 @@ impl<C: Steps> Walk<'_, C> {
         along && (up - hole.start.axis).norm() > PARALLEL
     }
 
+    /// Takes a way up along the tool before it turns to a hole of another direction.
+    pub(super) fn goes_up_before_turning(&mut self, cl_line: u32, hole: &Hole) {
+        let Some(found) = self.next_move() else { return };
+        let forward = &self.settings.forward;
+        let stands = forward.pose(&self.at);
+        let way = forward.pose(&found.to).tip - stands.tip;
+        let along = way.dot(&stands.axis);
+        let goes_up = found.course == Course::Rapid
+            && found.to.tip_control
+            && self.at.tip_control
+            && found.to.rotary == self.at.rotary
+            && (stands.axis - hole.start.axis).norm() > PARALLEL
+            && along > 0.0
+            && (way - stands.axis * along).norm() <= 2.0 * self.tip_slack(&found.to);
+        if goes_up {
+            self.take(cl_line, &found);
+            self.next += 1;
+        }
+    }
+
     /// The machine's directions, turned so that Z goes along the hole.
     pub(super) fn hole_frame(&self, rotary: [f64; 2], hole: &Hole) -> Frame {
         let frame = self.settings.forward.frame(rotary);
@@ -218,7 +241,13 @@ impl<C: Steps> Walk<'_, C> {
         let mut line = self.line_of(hole, &next);
         line.heights = self.heights(hole, levels, self.plunges_in_cycle());
         let stands = Move { to: self.at, ..next };
+        let raw = self.settings.forward.pose(&self.at);
         self.at = self.said(&stands, hole, levels, &line).to;
+        if !self.settings.is_mill_turn() && (raw.axis - hole.start.axis).norm() > TURNED {
+            // The tool stands in the direction of another hole, and turns on the way to this one.
+            let rotary = self.gap(&next.to, &hole.start).rotary;
+            self.at.linear = self.hole_frame(rotary, hole).linear(raw.tip);
+        }
         let known = self.known[..3].iter().all(|known| *known);
         let tip = self.tip_over(&stands, hole);
         if let Some(height) = line.level(tip.coords.into()).filter(|_| known) {

@@ -27,8 +27,8 @@ use crate::errors::PostCode;
 use crate::operation::{Dwell, MotionKind, Operation, Target};
 use crate::post::Post;
 
-/// Two tool axes nearer than this are one.
-const SAME_AXIS: f64 = 1e-6;
+/// Least part of a way along the tool that must lead up to the level of the next hole.
+const LEAST_WAY_UP: f64 = 0.2;
 
 /// Heights nearer than this are one, mm or inch.
 const SAME_HEIGHT: f64 = 1e-9;
@@ -309,13 +309,18 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
     };
     let clear = cycle.clear;
     let was = (post.path.feed.replace(feed), post.control.block.cause);
-    let stays = (post.path.axis.normalize() - axis).norm() < SAME_AXIS;
+    let stands = post.path.axis.normalize();
     let mut moves = Moves { post, cycle, target, axis };
-    if let Some(above) = above.filter(|_| stays) {
+    if let Some(above) = above {
         let (here, lowest) = (height(above.now), rest.max(clear));
         if here < lowest - SAME_HEIGHT {
-            let lift = Target { point: above.now + axis * (lowest - here), axis, word: 0 };
-            moves.rapid_to(lift)?;
+            // Out of the part along the tool as it stands, and no farther than that is a way up.
+            let slope = stands.dot(&axis);
+            if slope < LEAST_WAY_UP {
+                return cant_go_up();
+            }
+            let point = above.now + stands * ((lowest - here) / slope);
+            moves.rapid_to(Target { point, axis: stands, word: 0 })?;
         }
         // As a cycle of the control goes: across above what stands between the holes, then down.
         let level = here.max(lowest);
@@ -332,6 +337,12 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
     (post.path.feed, post.control.block.cause) = was;
     post.path.point = Some(target.point);
     Ok(())
+}
+
+fn cant_go_up() -> Result<()> {
+    PostCode::TipControl.err(
+        "the tool turns far to the next hole of a cycle, whose level lies above where it stands",
+    )
 }
 
 fn cant_tap() -> Result<()> {
