@@ -128,12 +128,24 @@ impl Reader<'_> {
     /// dialect documents that, and points with tool axes while MULTAX is on.
     pub(super) fn split_points(&mut self, record: &mut Record) -> Result<()> {
         self.pending.clear();
+        let group = self.points_of(record);
+        let Ok(Some(group)) = group else {
+            // What is refused, here or when the record is arranged, leaves no point behind.
+            self.pending.clear();
+            return group.map(|_| ());
+        };
+        record.data.truncate(group);
+        self.pending.next = group;
+        self.pending.group = group;
+        self.pending.line = record.line;
+        Ok(())
+    }
+
+    /// Collects the values of a GOTO and tells how many make a point; `None` for one point, or
+    /// for what is no list of points.
+    fn points_of(&mut self, record: &Record) -> Result<Option<usize>> {
         for word in &record.data {
-            let Word::Number(value) = word else {
-                // What is no number is refused when the record is arranged.
-                self.pending.clear();
-                return Ok(());
-            };
+            let Word::Number(value) = word else { return Ok(None) };
             self.pending.values.push(*value);
         }
         let count = self.pending.values.len();
@@ -153,16 +165,7 @@ impl Reader<'_> {
             }
             _ => count,
         };
-        if count == group {
-            // One point, or a number of values that is refused when the record is arranged.
-            self.pending.clear();
-            return Ok(());
-        }
-        record.data.truncate(group);
-        self.pending.next = group;
-        self.pending.group = group;
-        self.pending.line = record.line;
-        Ok(())
+        Ok(Some(group).filter(|group| *group != count))
     }
 
     /// Refuses a tool axis or a circle's axis that is no unit vector.

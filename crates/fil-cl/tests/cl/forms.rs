@@ -59,6 +59,16 @@ fn a_note_before_the_sign() {
     assert_eq!(written(&text, raw).unwrap()[1], "INSERT / 6MM DRILL");
 }
 
+/// A GOTO that is refused leaves no points behind, also where it is given as written.
+#[test]
+fn values_that_are_no_points_come_once() {
+    let raw = Options { raw: true, ..Options::default() };
+    let text = "GOTO / 1, 2, 3\nGOTO / 5, 0, 0, 0, 0.5, 0\nRAPID\n";
+    let said = ["GOTO / 1.0, 2.0, 3.0", "GOTO / 5.0, 0.0, 0.0, 0.0, 0.5, 0.0", "RAPID "];
+    assert_eq!(written(text, raw).unwrap(), said);
+    assert!(written(text, Options::default()).is_err());
+}
+
 /// What has no effect still comes to sections, and is marked.
 #[test]
 fn frames_and_tables_that_change_nothing() {
