@@ -3,6 +3,7 @@
 use fil_diag::Diag;
 
 use super::contradiction;
+use crate::axis_chain::AxisChain;
 use crate::commons::Commons;
 use crate::letter::{Letter, letters};
 use crate::locations::{self as loc, ControlFamily, FixtureForm};
@@ -85,10 +86,11 @@ fn of_sinumerik(commons: &Commons, found: &mut Vec<Diag>) {
     }
 }
 
-/// The letters of rotary axes: neither each other's nor those of X, Y and Z.
+/// The letters of rotary axes, set or usual: neither each other's nor those of X, Y and Z.
 fn axis_letters(commons: &Commons, found: &mut Vec<Diag>) {
-    let rotary =
-        [loc::ROTARY_PRIMARY_LETTER, loc::ROTARY_SECONDARY_LETTER].map(|at| commons.read(at));
+    // A chain that can't be built is told of where it is built.
+    let Ok(chain) = AxisChain::from_commons(commons) else { return };
+    let rotary = chain.rotaries.map(|axis| axis.map(|axis| axis.letter));
     for letter in rotary.into_iter().flatten() {
         if letters::XYZ.contains(&letter) {
             found.push(contradiction(format!("{letter} is a linear and a rotary axis")));
