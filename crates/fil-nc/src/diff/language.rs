@@ -76,7 +76,7 @@ fn klartext(line: &[u8], number: u32) -> Block {
                     _ => first,
                 };
                 let known = b"XYZABCUVWFMR".contains(&first) && !(at == 0 && head == "C");
-                match word(letter, &text[1..], range).filter(|_| known) {
+                match text.get(1..).and_then(|rest| word(letter, rest, range)).filter(|_| known) {
                     Some(word) => block.words.push(word),
                     None => statement.push(text.clone()),
                 }
@@ -208,7 +208,7 @@ fn parts(text: &str) -> Vec<Part<'_>> {
     let mut parts = Vec::new();
     let (mut from, mut at) = (0, 0);
     let bytes = text.as_bytes();
-    while at < bytes.len() {
+    while let Some(letter) = text[at..].chars().next() {
         let named = at > 0 && bytes[at - 1].is_ascii_alphanumeric();
         let end = at
             + bytes[at..].iter().take_while(|b| b.is_ascii_digit() || b"+-.".contains(b)).count();
@@ -218,7 +218,7 @@ fn parts(text: &str) -> Vec<Part<'_>> {
                 parts.push(Part::Number(value));
                 (from, at) = (end, end);
             }
-            _ => at = end.max(at + 1),
+            _ => at = end.max(at + letter.len_utf8()),
         }
     }
     parts.push(Part::Text(&text[from..]));
@@ -237,6 +237,14 @@ mod tests {
             format!("{}{index}{}", char::from(word.letter), word.number.value())
         });
         (words.collect::<Vec<_>>().join(" "), block.statement)
+    }
+
+    #[test]
+    fn letters_that_are_no_ascii_stand_anywhere() {
+        assert!(same_statement("CYCLE81(ü5,0)", "CYCLE81(ü5.,0)", 0.0));
+        assert!(!same_statement("CYCLE81(ü5,0)", "CYCLE81(ö5,0)", 0.0));
+        let (words, statement) = said(Family::Klartext, "L X+1 ü+3");
+        assert_eq!((words.as_str(), statement.as_deref()), ("G1 X1", Some("ü+3")));
     }
 
     #[test]
