@@ -235,5 +235,13 @@ fil_diag::codes! {
         BoreOut = 597, Warning, "bored hole left at feed",
             "The machine has no code for CYCLE/BORE, and controls differ in how the tool leaves such a hole: at feed, or at rapid with the spindle standing.",
             "Say it with cycle.bore_out: 1 at feed, 2 at rapid with the spindle standing.";
+        /// A tap at the feed of milling.
+        TapOfFedrat = 598, Warning, "tap at the feed of FEDRAT",
+            "A tap moves by its lead for each turn of the spindle. CYCLE/TAP names no feed, so that of the FEDRAT before it is taken, which may be that of milling.",
+            "Give CYCLE / TAP its own feed (MMPM, MMPR, TPI ...).";
+        /// Holes without a clearance.
+        NoClearance = 599, Warning, "rapid to the start of the holes",
+            "CYCLE names neither CLEAR nor RAPTO, and the machine has no clearance of its own (cycle.auto_clearance): the tool goes at rapid down to the start of each hole, and from hole to hole on that level.",
+            "Give CLEAR; ignore this where the holes start above the part.";
     }
 }

@@ -158,8 +158,12 @@ fn clearance(post: &mut Post, items: &mut Items, at: &mut u16) -> Result<f64> {
         (None, Some(_)) => *at = items.last_word(),
         _ => {}
     }
-    let usual = post.control.commons.dbl_opt(loc::CYCLE_AUTO_CLEARANCE);
-    Ok(rapto.or(clear).or(usual).unwrap_or(0.0))
+    let usual = post.control.commons.dbl_opt(loc::CYCLE_AUTO_CLEARANCE).unwrap_or(0.0);
+    if rapto.or(clear).is_none() && usual == 0.0 {
+        let message = "CYCLE: neither CLEAR nor RAPTO; the tool goes at rapid to where holes start";
+        post.warn(PostCode::NoClearance, message.into());
+    }
+    Ok(rapto.or(clear).unwrap_or(usual))
 }
 
 /// The peck of the cycles that have one; the control's cycles have one depth for all
@@ -202,6 +206,10 @@ pub fn take_feed(post: &mut Post) -> Result<()> {
 fn feed_of_fedrat(post: &mut Post, kind: CycleKind) -> Result<CycleFeed> {
     let missing = || PostCode::CycleForm.diag("no feed in the cycle, and no FEDRAT before it");
     let feed = post.path.feed.ok_or_else(missing)?;
+    if kind == CycleKind::Tap && feed.mode == FeedMode::PerMinute {
+        let message = format!("CYCLE/TAP: the feed {} of FEDRAT is that of the tap", feed.value);
+        post.warn(PostCode::TapOfFedrat, message);
+    }
     within_that_of_z(post, feed, kind)
 }
 

@@ -15,7 +15,7 @@ use crate::operation::{Coolant, CoolantKind, Pressure};
 pub fn write(control: &mut Control, coolant: Coolant) -> Result<()> {
     let at = match coolant {
         Coolant::Off => return off(control),
-        Coolant::On(kind, pressure) => location(control, kind, pressure)?,
+        Coolant::On(kind, pressure) => of_the_machine(control, kind, pressure)?,
     };
     let changes = control.coolant.replace(at).is_some_and(|before| before != at);
     if changes && control.commons.read(loc::COOLANT_PRINT_OFF) {
@@ -43,6 +43,26 @@ fn add(control: &mut Control, at: CodeAt) {
         Some(code) => control.m(code),
         None => control.warn_no_code("this coolant"),
     }
+}
+
+/// The location of the code of a coolant; of its usual pressure where the machine has none for
+/// the one asked for, which is said: the tool must not run dry.
+///
+/// # Errors
+/// As [`location`].
+fn of_the_machine(control: &mut Control, kind: CoolantKind, pressure: Pressure) -> Result<CodeAt> {
+    let at = location(control, kind, pressure)?;
+    if control.code_if_any(at).is_some() {
+        return Ok(at);
+    }
+    let usual = location(control, kind, Pressure::Usual)?;
+    if usual != at && control.code_if_any(usual).is_some() {
+        let message = "the machine has no code for this pressure of the coolant; \
+                       the code of its usual pressure is written";
+        control.warnings.add(PostCode::IgnoredPart, message.into());
+        return Ok(usual);
+    }
+    Ok(at)
 }
 
 /// The location of the code of a coolant.
