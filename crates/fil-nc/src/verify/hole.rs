@@ -23,6 +23,9 @@ pub(super) struct Levels {
     pub(super) at: [f64; 3],
     clear: f64,
     bottom: f64,
+    /// Single moves under tool-tip control come back to the level that RETURN names, though the
+    /// tool was higher before the cycle, and keep the level before it for all holes.
+    single: bool,
 }
 
 /// How the tool comes out of a hole.
@@ -45,7 +48,8 @@ impl<C: Steps> Walk<'_, C> {
         let Some(plunge) = self.plunge(self.next) else { return false };
         self.check_direction(cl_line, &plunge, hole);
         let drills = self.in_axes(&plunge, hole);
-        let levels = self.levels(hole, &drills);
+        let single = plunge.to.tip_control;
+        let levels = Levels { single, ..self.levels(hole, &drills) };
         let kept = self.say_in_axes(hole, levels);
         let rest = self.drill_at(cl_line, hole, levels, &drills);
         self.say_again(kept);
@@ -79,8 +83,9 @@ impl<C: Steps> Walk<'_, C> {
         let Some(plunge) = self.plunge(self.next).filter(|plunge| plunge.arc.is_none()) else {
             return false;
         };
+        let single = plunge.to.tip_control;
         let plunge = self.in_axes(&plunge, hole);
-        let mut levels = self.levels(hole, &plunge);
+        let mut levels = Levels { single, ..self.levels(hole, &plunge) };
         let over = Pose { tip: hole.start.tip, ..hole.start };
         let mut stands = plunge;
         stands.to.linear[2] = levels.at[2];
@@ -143,7 +148,8 @@ impl<C: Steps> Walk<'_, C> {
         let above = |by: f64| frame.linear(hole.start.tip + hole.start.axis * by);
         let clear = hole.clear.unwrap_or_else(|| self.settings.cycle_clearance(self.metric));
         let level = |by: f64| self.slack.before_scale(2, above(by)[2]);
-        Levels { at: above(0.0), clear: level(clear), bottom: level(-hole.depth) }
+        let [clear, bottom] = [level(clear), level(-hole.depth)];
+        Levels { at: above(0.0), clear, bottom, single: false }
     }
 
     /// The exact rotary positions of a plunge: those at which X, Y and Z are right over the hole,
@@ -236,7 +242,7 @@ impl<C: Steps> Walk<'_, C> {
             self.initial = Some(self.at.linear[2]);
         }
         let mut raise = known && self.at.linear[2] < raised - slack[2];
-        if raise {
+        if raise && !levels.single {
             self.initial = Some(raised);
         }
         while let Some(found) = self.next_move().filter(|found| found.course == Course::Rapid) {
@@ -287,6 +293,8 @@ impl<C: Steps> Walk<'_, C> {
         let initial = self.initial.unwrap_or(levels.clear);
         Ok(match hole.retract {
             None => levels.clear,
+            Some(above) if levels.single && above > 0.0 => raised,
+            Some(_) if levels.single => initial.max(levels.clear),
             Some(above) if above > 0.0 => {
                 let returns = initial >= raised - slack[2] && raised > levels.clear + slack[2];
                 if returns { initial } else { levels.clear }
@@ -503,7 +511,7 @@ impl<C: Steps> Walk<'_, C> {
         self.nc.get(self.next).map_or(0, |event| event.line())
     }
 
-    fn spell_level(&self, what: &str, is: f64, should: f64) -> String {
+    pub(super) fn spell_level(&self, what: &str, is: f64, should: f64) -> String {
         let (way, by) = if is < should { ("deeper", should - is) } else { ("higher", is - should) };
         let by = short(by);
         format!("{what} is {way} by {by} (Z{} in place of Z{})", short(is), short(should))

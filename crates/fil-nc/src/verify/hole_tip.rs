@@ -11,6 +11,7 @@ use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 use super::ahead::Steps;
 use super::hole::Levels;
+use super::report::FindingKind;
 use super::walk::{STILL, Walk};
 use super::wanted::Hole;
 use crate::forward::Frame;
@@ -21,9 +22,6 @@ const PARALLEL: f64 = 1e-6;
 
 /// The same of a live tool of a mill-turn machine, radians.
 const LIVE_PARALLEL: f64 = 1e-4;
-
-/// Tools this far apart have turned, as the length between directions.
-const TURNED: f64 = 1e-4;
 
 /// Motions to and from a hole, at most.
 pub(super) const MOST: usize = 12;
@@ -172,12 +170,30 @@ impl<C: Steps> Walk<'_, C> {
             && found.to.tip_control
             && self.at.tip_control
             && found.to.rotary == self.at.rotary
-            && (stands.axis - hole.start.axis).norm() > PARALLEL
+            && self.gap(&self.at, &hole.start).turned.is_some()
             && along > 0.0
             && (way - stands.axis * along).norm() <= 2.0 * self.tip_slack(&found.to);
         if goes_up {
+            self.check_way_up(cl_line, hole, &found);
             self.take(cl_line, &found);
             self.next += 1;
+        }
+    }
+
+    /// The way up ends on the level over the hole to which the tool then goes across.
+    fn check_way_up(&mut self, cl_line: u32, hole: &Hole, found: &Move) {
+        let tip = self.settings.forward.pose(&found.to).tip;
+        let height = (tip - hole.start.tip).dot(&hole.start.axis);
+        let clear = hole.clear.unwrap_or_else(|| self.settings.cycle_clearance(self.metric));
+        let level = match hole.retract {
+            None => clear,
+            Some(above) if above > 0.0 => above.max(clear),
+            // The level before the cycle is that of another direction.
+            Some(_) => return,
+        };
+        if (height - level).abs() > 2.0 * self.tip_slack(&found.to) {
+            let message = self.spell_level("the level over the hole", height, level);
+            self.find(FindingKind::Cycle, Some(cl_line), Some(found.line), message);
         }
     }
 
@@ -241,12 +257,13 @@ impl<C: Steps> Walk<'_, C> {
         let mut line = self.line_of(hole, &next);
         line.heights = self.heights(hole, levels, self.plunges_in_cycle());
         let stands = Move { to: self.at, ..next };
-        let raw = self.settings.forward.pose(&self.at);
+        let stood = self.settings.forward.pose(&self.at).tip;
+        let turns = self.gap(&self.at, &hole.start).turned.is_some();
         self.at = self.said(&stands, hole, levels, &line).to;
-        if !self.settings.is_mill_turn() && (raw.axis - hole.start.axis).norm() > TURNED {
+        if turns {
             // The tool stands in the direction of another hole, and turns on the way to this one.
             let rotary = self.gap(&next.to, &hole.start).rotary;
-            self.at.linear = self.hole_frame(rotary, hole).linear(raw.tip);
+            self.at.linear = self.hole_frame(rotary, hole).linear(stood);
         }
         let known = self.known[..3].iter().all(|known| *known);
         let tip = self.tip_over(&stands, hole);
@@ -259,7 +276,11 @@ impl<C: Steps> Walk<'_, C> {
         let rests = self.at.linear[2];
         // Without RETURN the tool goes across where the hole before has left it.
         let initial = self.initial.filter(|_| hole.retract.is_some()).unwrap_or(rests);
-        line.before = [initial, rests].map(|level| level - levels.at[2]);
+        let mut before = [rests, initial];
+        if hole.retract == Some(0.0) {
+            before.reverse();
+        }
+        line.before = before.map(|level| level - levels.at[2]);
         let rotary = self.gap(&next.to, &hole.start).rotary;
         let machine = self.settings.forward.frame(rotary);
         let from_hole = machine.turn.transpose() * self.hole_frame(rotary, hole).turn;

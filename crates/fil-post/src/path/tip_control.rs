@@ -297,7 +297,10 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
     }
     let axis = target.axis.normalize();
     let height = |point: Point3<f64>| (point - target.point).dot(&axis);
+    // Before the first motion of a tool nobody knows where it stands.
+    let known = post.control.state.tip_control == Some(true);
     let above = cycle.above.or(post.path.point.map(|at| AboveHoles { before: at, now: at }));
+    let above = above.filter(|_| known);
     let rest = match (cycle.retract, above) {
         (None, _) => cycle.clear,
         (Some(0.0), None) => {
@@ -311,25 +314,10 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
     let was = (post.path.feed.replace(feed), post.control.block.cause);
     let stands = post.path.axis.normalize();
     let mut moves = Moves { post, cycle, target, axis };
-    if let Some(above) = above {
-        let (here, lowest) = (height(above.now), rest.max(clear));
-        if here < lowest - SAME_HEIGHT {
-            // Out of the part along the tool as it stands, and no farther than that is a way up.
-            let slope = stands.dot(&axis);
-            if slope < LEAST_WAY_UP {
-                return cant_go_up();
-            }
-            let point = above.now + stands * ((lowest - here) / slope);
-            moves.rapid_to(Target { point, axis: stands, word: 0 })?;
-        }
-        // As a cycle of the control goes: across above what stands between the holes, then down.
-        let level = here.max(lowest);
-        let way = target.point - above.now;
-        let least = moves.post.control.tables.axis(0).resolution();
-        let across = (way - axis * way.dot(&axis)).norm() > least;
-        if across && level > clear + SAME_HEIGHT {
-            moves.rapid(level)?;
-        }
+    match above {
+        Some(above) => moves.across(above.now, stands, rest.max(clear))?,
+        None if rest > clear + SAME_HEIGHT => moves.rapid(rest)?,
+        None => {}
     }
     moves.down_and_up(rest)?;
     let now = target.point + axis * rest;
@@ -358,6 +346,31 @@ struct Moves<'a> {
 }
 
 impl Moves<'_> {
+    /// Goes across above what stands between the holes, as a cycle of the control does: out of
+    /// the part along the tool as it stands where that is below `lowest`, then on that level.
+    ///
+    /// # Errors
+    /// The tool turns so far that along itself is no way up; as a straight motion.
+    fn across(&mut self, now: Point3<f64>, stands: Vector3<f64>, lowest: f64) -> Result<()> {
+        let way = self.target.point - now;
+        let here = -way.dot(&self.axis);
+        if here < lowest - SAME_HEIGHT {
+            let slope = stands.dot(&self.axis);
+            if slope < LEAST_WAY_UP {
+                return cant_go_up();
+            }
+            let point = now + stands * ((lowest - here) / slope);
+            self.rapid_to(Target { point, axis: stands, word: 0 })?;
+        }
+        let level = here.max(lowest);
+        let least = self.post.control.tables.axis(0).resolution();
+        let across = (way - self.axis * way.dot(&self.axis)).norm() > least;
+        if across && level > self.cycle.clear + SAME_HEIGHT {
+            self.rapid(level)?;
+        }
+        Ok(())
+    }
+
     fn down_and_up(&mut self, rest: f64) -> Result<()> {
         let (clear, bottom) = (self.cycle.clear, -self.cycle.depth);
         self.rapid(clear)?;

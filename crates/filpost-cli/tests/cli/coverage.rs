@@ -88,14 +88,15 @@ fn settings_that_no_case_notices_are_named() {
     let place = place.with("part.tap", NC.replace("S900 M3", "S900 M13"));
     let ran = place.run(&["test", ".", "--coverage"]);
     assert_eq!(ran.status, 0, "{ran:?}");
-    // The CL file turns the spindle and drills no hole.
-    let unnoticed: Vec<&str> =
-        ran.out.lines().filter(|line| line.contains("no case notices")).collect();
-    let [line] = unnoticed[..] else { panic!("{}", ran.out) };
-    assert!(
-        line.ends_with("machine.toml: no case notices cycle.drill_code at its default"),
-        "{line}"
-    );
+    // The CL file turns the spindle, drills no hole and has no feed.
+    let unnoticed: Vec<&str> = ran
+        .out
+        .lines()
+        .filter_map(|line| line.split_once("machine.toml: no case notices "))
+        .map(|(_, said)| said)
+        .collect();
+    let settings = ["cycle.drill_code", "feed.inverse_format", "feed.upm_format"];
+    assert_eq!(unnoticed, settings.map(|setting| format!("{setting} at its default")));
 }
 
 #[test]

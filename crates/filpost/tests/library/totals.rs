@@ -138,7 +138,10 @@ fn inches_stay_inches_and_say_so() {
 
 #[test]
 fn a_time_that_is_not_known_is_empty() {
-    let cl = CL.replace("SPINDL / RPM, 1000, CLW\n", "").replace("50, MMPM", "0.1, MMPR");
+    // Nobody reads the speed of a text.
+    let spindle = "INSERT M3\n";
+    let cl = CL.replace("SPINDL / RPM, 1000, CLW\n", spindle).replace("50, MMPM", "0.1, MMPR");
+    let cl = cl.replace("LOADTL / 3\n", "LOADTL / 3\nINSERT M3\n");
     let fil = "IF(PROGF(TIME).EQ.999999)PPRINT/'NOT KNOWN'";
     assert_eq!(header(fil, &cl), ["NOT KNOWN"]);
 }
