@@ -5,8 +5,10 @@ import workerText from "worker:./worker.js";
 const PATIENCE = 20_000;
 
 export class Backend {
-  constructor(wasm) {
+  /** The module, and the pages of the post words where its editors are asked. */
+  constructor(wasm, words) {
     this.wasm = wasm;
+    this.words = words;
     this.waiting = new Map();
     this.number = 0;
     this.start();
@@ -17,7 +19,7 @@ export class Backend {
     const address = URL.createObjectURL(new Blob([workerText], { type: "text/javascript" }));
     this.worker = new Worker(address);
     this.worker.onmessage = ({ data }) => this.settle(data);
-    this.worker.postMessage({ wasm: this.wasm });
+    this.worker.postMessage({ wasm: this.wasm, words: this.words });
   }
 
   settle({ number, answer, failure }) {

@@ -49,4 +49,6 @@ const list = examples(join(here, "../../corpus"));
 const shown = list.map(({ expected, ...example }) => example);
 const text = JSON.stringify(shown).replaceAll("<", "\\u003c");
 writeFileSync(join(folder, "examples.js"), `(globalThis.filpost ??= {}).examples = ${text};\n`);
+const words = JSON.stringify(readFileSync(join(here, "../../crates/filpost/data/words.md"), "utf8"));
+writeFileSync(join(folder, "words.js"), `(globalThis.filpost ??= {}).words = ${words};\n`);
 console.log(`${basename(folder)}: ${list.length} examples`);

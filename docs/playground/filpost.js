@@ -2,16 +2,22 @@
 // objects. The requests are those of crates/filpost-wasm.
 
 /**
- * Loads the module. `bytes` are those of filpost.wasm. What comes back answers requests one
+ * Loads the module. `bytes` are those of filpost.wasm, `words` the pages of the post words,
+ * where its editors are asked. What comes back answers requests one
  * by one; a request that breaks the module (its stack or its memory is full) throws, and the
  * next one begins with a fresh module.
  */
-export async function load(bytes) {
+export async function load(bytes, words) {
   const module = await WebAssembly.compile(bytes);
   let instance = null;
 
-  return function ask(request) {
-    instance ??= new WebAssembly.Instance(module, {});
+  function start() {
+    instance = new WebAssembly.Instance(module, {});
+    if (words) ask({ do: "words", pages: words });
+  }
+
+  function ask(request) {
+    if (!instance) start();
     const { memory, filpost_request, filpost_answer, filpost_answered } = instance.exports;
     const text = new TextEncoder().encode(JSON.stringify(request));
     try {
@@ -24,5 +30,7 @@ export async function load(bytes) {
       instance = null;
       throw error;
     }
-  };
+  }
+
+  return ask;
 }

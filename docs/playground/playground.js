@@ -9,7 +9,7 @@ const REST = 300;
 
 const find = (id) => document.getElementById(id);
 const { bytes, examples } = globalThis.filpost;
-const backend = new Backend(bytes());
+const backend = new Backend(bytes(), globalThis.filpost.words);
 const ask = (request) => backend.ask(request);
 /** The module that draws, once somebody has asked for a plot. */
 let drawer = null;

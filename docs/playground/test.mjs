@@ -118,6 +118,22 @@ const tests = {
     await page.close();
   },
 
+  async "a post word tells its forms and what is written"() {
+    const page = await open(address);
+    await said(page, "blocks");
+    const editor = page.locator("#editors > div:not([hidden])");
+    await editor.locator(".cm-content").click();
+    await page.keyboard.press("Control+Home");
+    await page.keyboard.type("SPINDL/OFF");
+    await page.keyboard.press("Escape");
+    await page.mouse.move(5, 5);
+    await editor.locator(".cm-line").first().hover({ position: { x: 20, y: 5 } });
+    const tip = page.locator(".cm-tooltip .hover");
+    await tip.waitFor({ timeout: 10_000 });
+    assert.match(await tip.innerText(), /SPINDL\/RPM/);
+    await page.close();
+  },
+
   async "the plot draws the program"() {
     const page = await open(address);
     await said(page, "blocks");

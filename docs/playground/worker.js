@@ -5,7 +5,7 @@ let ask = null;
 
 self.onmessage = async ({ data }) => {
   if (data.wasm) {
-    ask = load(data.wasm);
+    ask = load(data.wasm, data.words);
     return;
   }
   const { number, request } = data;

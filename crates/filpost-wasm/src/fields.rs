@@ -1,7 +1,7 @@
 //! The fields of a request. They are taken one by one, so that one that nobody knows is said,
 //! and read by hand: derived readers would be a tenth of the module.
 
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 use crate::Misuse;
 
@@ -12,19 +12,20 @@ pub(crate) struct Named {
 }
 
 /// What a request holds.
-pub(crate) struct Fields(Map<String, Value>);
+pub(crate) struct Fields(Vec<(String, Value)>);
 
 impl Fields {
     /// The fields of an object.
     pub fn of(request: Value) -> Result<Self, Misuse> {
         match request {
-            Value::Object(fields) => Ok(Fields(fields)),
+            Value::Object(fields) => Ok(Fields(fields.into_iter().collect())),
             other => Err(Misuse(format!("an object is expected, not {other}"))),
         }
     }
 
     fn take(&mut self, key: &str) -> Option<Value> {
-        self.0.remove(key).filter(|value| !value.is_null())
+        let at = self.0.iter().position(|(name, _)| name == key)?;
+        Some(self.0.remove(at).1).filter(|value| !value.is_null())
     }
 
     /// A text, where there is one.
@@ -91,8 +92,8 @@ impl Fields {
     /// # Errors
     /// The first one that has not.
     pub fn end(self) -> Result<(), Misuse> {
-        match self.0.keys().next() {
-            Some(key) => Err(Misuse(format!("nobody knows the field `{key}`"))),
+        match self.0.first() {
+            Some((key, _)) => Err(Misuse(format!("nobody knows the field `{key}`"))),
             None => Ok(()),
         }
     }

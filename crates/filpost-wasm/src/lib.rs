@@ -83,6 +83,8 @@ fn read(request: &[u8]) -> Result<Value, Misuse> {
         "complete" => Edited::read(fields)?.complete(),
         #[cfg(feature = "post")]
         "ready" => ready(),
+        #[cfg(feature = "post")]
+        "words" => words(fields)?,
         other => return Err(Misuse(format!("`do` is `{other}`, which this module does not know"))),
     })
 }
@@ -92,6 +94,14 @@ fn refused(fault: &Fault, warnings: &[Diag]) -> Value {
         Fault::Misuse(Misuse(what)) => json!({ "misuse": what }),
         Fault::Setup(error) => json!({ "errors": all(error.diags()), "warnings": all(warnings) }),
     }
+}
+
+/// Takes the pages of the post words, which the module of the playground does not have.
+#[cfg(feature = "post")]
+fn words(mut fields: Fields) -> Result<Value, Misuse> {
+    filpost::word_pages::give(fields.needed("pages")?);
+    fields.end()?;
+    Ok(json!({}))
 }
 
 #[cfg(feature = "post")]

@@ -95,9 +95,9 @@ impl SharedEditor {
     ) -> Result<bool> {
         self.with(|runner| {
             let MacroRunner { interpreter, vocabulary, warnings, debugger } = runner;
-            let mut host = WhileWriting { commons, warnings, debugger };
+            let host: &mut dyn Host = &mut WhileWriting { commons, warnings, debugger };
             let found = interpreter.edits(what);
-            interpreter.edit_line(what, line, vocabulary, &mut host).map(|()| found)
+            interpreter.edit_line(what, line, vocabulary, host).map(|()| found)
         })
     }
 
@@ -112,9 +112,9 @@ impl Editor for SharedEditor {
             words.iter().map(|(letter, value)| (letter.byte(), *value)).collect();
         let found = self.with(|runner| {
             let MacroRunner { interpreter, vocabulary, warnings, debugger } = runner;
-            let mut host = WhileWriting { commons, warnings, debugger };
+            let host: &mut dyn Host = &mut WhileWriting { commons, warnings, debugger };
             let found = interpreter.edits(OutputMacro::Words);
-            interpreter.edit_words(&mut plain, vocabulary, &mut host).map(|()| found)
+            interpreter.edit_words(&mut plain, vocabulary, host).map(|()| found)
         })?;
         *words = plain.into_iter().map(|(letter, value)| (Letter::of(letter), value)).collect();
         Ok(found)
@@ -146,8 +146,8 @@ impl Editor for SharedEditor {
         ]);
         self.with(|runner| {
             let MacroRunner { interpreter, vocabulary, warnings, debugger } = runner;
-            let mut host = WhileWriting { commons, warnings, debugger };
-            interpreter.reposition(&mut values, vocabulary, &mut host)
+            let host: &mut dyn Host = &mut WhileWriting { commons, warnings, debugger };
+            interpreter.reposition(&mut values, vocabulary, host)
         })?;
         let [.., retract, retract_feed, approach, approach_feed, axis, spindle, coolant, opt, stop] =
             values;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use fil_cl::{Record, Vocabulary, record::kind};
 use fil_diag::Result;
-use fil_vm::{Interpreter, SectionId, SectionMode};
+use fil_vm::{Host, Interpreter, SectionId, SectionMode};
 
 use crate::debug::{self, DebugEvent, DebugState, World};
 use crate::editing::SharedEditor;
@@ -191,7 +191,8 @@ impl<'o, 'r> Engine<'o, 'r> {
     fn next(&mut self) -> Result<bool> {
         if !std::mem::replace(&mut self.started, true) {
             self.outside.begin()?;
-            let done = self.machine.run_globals(&mut self.vocabulary, &mut self.outside);
+            let host: &mut dyn Host = &mut self.outside;
+            let done = self.machine.run_globals(&mut self.vocabulary, host);
             self.exchange_values();
             if !self.outside.pass.has_guessed() {
                 done?;
@@ -274,12 +275,10 @@ impl<'o, 'r> Engine<'o, 'r> {
         self.outside.fini_taken |= self.record.kind == kind::FINI;
         self.outside.section = Some(section);
         self.exchange_values();
-        let outcome = self.machine.run_section(
-            section,
-            &mut self.record,
-            &mut self.vocabulary,
-            &mut self.outside,
-        );
+        // As `dyn`, so that the machine is compiled once for all its hosts: it asks them seldom.
+        let host: &mut dyn Host = &mut self.outside;
+        let outcome =
+            self.machine.run_section(section, &mut self.record, &mut self.vocabulary, host);
         self.exchange_values();
         let outcome = match outcome {
             Err(_) if self.outside.pass.has_guessed() => {

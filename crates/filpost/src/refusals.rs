@@ -1,6 +1,6 @@
 //! All that is wrong with a CL file, as data: each kind of error once, with its number.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use fil_diag::Diag;
 
@@ -36,9 +36,8 @@ pub struct Refusals {
     diags: Vec<Diag>,
     again: Vec<Again>,
     unlisted: u64,
-    words: BTreeSet<String>,
-    /// Words offered once that came with coordinates later.
-    withdrawn: BTreeSet<String>,
+    /// Words offered as perhaps without effect; false for one that came with coordinates later.
+    words: BTreeMap<String, bool>,
     listed: Vec<String>,
 }
 
@@ -75,12 +74,10 @@ impl Refusals {
 
     /// Notes that a major word may be without effect, or that it can't be.
     pub(crate) fn note_word(&mut self, word: &str, may_be_without_effect: bool) {
-        if may_be_without_effect && !self.withdrawn.contains(word) {
-            if self.words.len() < MOST_WORDS {
-                self.words.insert(word.to_string());
-            }
-        } else if self.words.remove(word) {
-            self.withdrawn.insert(word.to_string());
+        if let Some(offered) = self.words.get_mut(word) {
+            *offered &= may_be_without_effect;
+        } else if may_be_without_effect && self.words.len() < MOST_WORDS {
+            self.words.insert(word.to_string(), true);
         }
     }
 
@@ -120,7 +117,7 @@ impl Refusals {
     /// acts, that speaks of moving or placing, or that came with coordinates, is not here.
     /// What else is told holds for a machine that lists these words.
     pub fn words(&self) -> impl Iterator<Item = &str> {
-        self.words.iter().map(String::as_str)
+        self.words.iter().filter(|(_, offered)| **offered).map(|(word, _)| word.as_str())
     }
 
     /// The words that the machine lists already.

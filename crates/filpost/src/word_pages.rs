@@ -1,14 +1,29 @@
 //! The pages of the post words, as the reference has them: form, example, what is
 //! written, words by position.
 
-/// All pages, each from its heading on.
-const PAGES: &str = include_str!("../data/words.md");
+use std::sync::OnceLock;
+
+/// All pages, each from its heading on; none without the feature `word-pages`.
+#[cfg(feature = "word-pages")]
+const OWN: &str = include_str!("../data/words.md");
+#[cfg(not(feature = "word-pages"))]
+const OWN: &str = "";
+
+/// Those that a host has given.
+static GIVEN: OnceLock<String> = OnceLock::new();
+
+/// Takes the pages, the text of `data/words.md`, from a host that was built without the feature
+/// `word-pages`. The first ones stay.
+pub fn give(pages: String) {
+    let _ = GIVEN.set(pages);
+}
 
 /// The page of a post word, letters in any case.
 pub fn page(word: &str) -> Option<&'static str> {
+    let pages = GIVEN.get().map_or(OWN, String::as_str);
     let heading = format!("# {}\n", word.to_ascii_uppercase());
     let start =
-        if PAGES.starts_with(&heading) { 0 } else { PAGES.find(&format!("\n{heading}"))? + 1 };
-    let page = &PAGES[start..];
+        if pages.starts_with(&heading) { 0 } else { pages.find(&format!("\n{heading}"))? + 1 };
+    let page = &pages[start..];
     Some(page[1..].find("\n# ").map_or(page, |end| &page[..end + 2]))
 }

@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 use std::thread;
 
 use filpost::case::{self, Case};
-use filpost::{Diag, Error};
+use filpost::{CodePage, Diag, Error};
 use serde_json::{Value, json};
 
 /// Cases whose scripts read a folder, which no host of the module grants.
@@ -97,10 +97,17 @@ fn errors(error: &Error) -> Value {
     said(error.diags())
 }
 
+/// A file as a page hands it over: one that is not in UTF-8 is in the page of Windows.
+fn as_text(bytes: Vec<u8>) -> String {
+    let windows = CodePage::named("windows-1252").unwrap();
+    String::from_utf8(bytes)
+        .unwrap_or_else(|error| windows.decode_all(error.as_bytes()).into_owned())
+}
+
 /// A case as a request.
 fn request(case: &Case) -> Value {
     let file = &case.file;
-    let text = |name: &str| std::fs::read_to_string(case.folder.join(name)).unwrap();
+    let text = |name: &str| as_text(std::fs::read(case.folder.join(name)).unwrap());
     let named = |name: &String| json!({ "name": name, "text": text(name) });
     let includes = file.fil.iter().flat_map(|name| included(&case.folder.join(name)));
     let mut request = json!({
