@@ -362,14 +362,19 @@ fn travel(angles: &[f64; 2], last: &[f64; 2]) -> f64 {
 }
 
 /// Angle in degrees of the rotation about `about` that takes the direction
-/// `from` to `to`; `free` when both lie along the axis, `None` when impossible.
+/// `from` to `to`; `free` when both lie along the axis, `None` when impossible: they must be as
+/// far from the axis as each other, which near it their cosines hardly tell.
 fn turn(about: Unit<Vector3<f64>>, from: Vector3<f64>, to: Vector3<f64>, free: f64) -> Option<f64> {
     if (about.dot(&from) - about.dot(&to)).abs() > SAME {
         return None;
     }
     let flat_from = from - about.scale(about.dot(&from));
     let flat_to = to - about.scale(about.dot(&to));
-    if flat_from.norm_squared() < SAME * SAME || flat_to.norm_squared() < SAME * SAME {
+    let (off_from, off_to) = (flat_from.norm_squared(), flat_to.norm_squared());
+    if (off_from - off_to).abs() > SAME * (off_from + off_to).sqrt() {
+        return None;
+    }
+    if off_from < SAME * SAME || off_to < SAME * SAME {
         return Some(free);
     }
     let sine = about.dot(&flat_from.cross(&flat_to));

@@ -10,7 +10,7 @@ use fil_diag::{Diag, Result};
 use fil_text::CodePage;
 
 use crate::address::{Addresses, TapePosition};
-use crate::axis_chain::AxisChain;
+use crate::axis_chain::{AxisChain, Carries};
 use crate::commons::{Commons, Int};
 use crate::errors::MachineCode;
 use crate::frame_rules;
@@ -57,6 +57,7 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     feed_formats(commons, &mut found);
     dwell_formats(commons, &mut found);
     order_of_axes(commons, &mut found);
+    head_before_table(commons, &mut found);
     shift_along(commons, &mut found);
     diameters(commons, &mut found);
     translation(commons, &mut found);
@@ -285,6 +286,19 @@ fn order_of_axes(commons: &Commons, found: &mut Vec<Diag>) {
     if apart && turns {
         found.push(contradiction(
             "linear.method moves XY and Z one after the other, and the machine has a rotary axis"
+                .into(),
+        ));
+    }
+}
+
+/// The primary rotary axis is the one next to the part: poses are solved in that order.
+fn head_before_table(commons: &Commons, found: &mut Vec<Diag>) {
+    let Ok(chain) = AxisChain::from_commons(commons) else { return };
+    let carries = chain.rotaries.map(|axis| axis.map(|axis| axis.carries));
+    if carries == [Some(Carries::Head), Some(Carries::Table)] {
+        found.push(contradiction(
+            "the primary rotary axis is a head and the secondary one a table; the primary axis is \
+             the one next to the part"
                 .into(),
         ));
     }

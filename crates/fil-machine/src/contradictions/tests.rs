@@ -59,6 +59,7 @@ fn contradictions_are_found() {
         "cycle.dwell_address=Q",
         "rotary.primary_kind=1\nrotary.primary_letter=X",
         "rotary.primary_kind=1\nrotary.secondary_kind=2\nrotary.secondary_axis=1",
+        "rotary.primary_kind=2\nrotary.secondary_kind=1\nrotary.secondary_axis=3",
         "spindle.stop_code=3",
         "spindle.orient_code=3",
         "coolant.mist_code=3",
