@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyTuple, PyType};
 
-use crate::function;
+use crate::{function, input};
 
 static DIAGNOSTIC: PyOnceLock<Py<PyType>> = PyOnceLock::new();
 static ERROR: PyOnceLock<Py<PyType>> = PyOnceLock::new();
@@ -35,8 +35,11 @@ pub fn diagnostics<'py>(py: Python<'py>, diags: &[Diag]) -> PyResult<Bound<'py, 
 }
 
 /// The `filpost.Error` of an error; what a callable of the run in this thread has raised is
-/// its cause.
+/// its cause. What a signal has raised comes out instead.
 pub fn error(py: Python<'_>, error: &filpost::Error) -> PyErr {
+    if let Some(signalled) = input::take_signalled() {
+        return signalled;
+    }
     let made = || -> PyResult<PyErr> {
         let diags = diagnostics(py, error.diags())?;
         let value = ERROR.import(py, "filpost._data", "Error")?.call1((

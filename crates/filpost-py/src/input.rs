@@ -1,5 +1,6 @@
 //! CL files as Python gives them: bytes and files by their name.
 
+use std::cell::Cell;
 use std::fs::File;
 use std::io::{self, Cursor, Read, Seek, SeekFrom};
 use std::path::PathBuf;
@@ -11,6 +12,17 @@ use crate::diag;
 
 /// Bytes between two looks at the signals, so that Ctrl-C stops a run.
 const BETWEEN_SIGNALS: u64 = 256 << 10;
+
+thread_local! {
+    /// What a signal has raised while this thread read a CL file.
+    static SIGNALLED: Cell<Option<PyErr>> = const { Cell::new(None) };
+}
+
+/// Takes what a signal, such as Ctrl-C, has raised: it comes out as it is, and not as an error
+/// of the file.
+pub fn take_signalled() -> Option<PyErr> {
+    SIGNALLED.take()
+}
 
 /// A CL file.
 #[derive(FromPyObject)]
@@ -79,7 +91,10 @@ impl Read for Input {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         if self.since_signals >= BETWEEN_SIGNALS {
             self.since_signals = 0;
-            Python::attach(|py| py.check_signals()).map_err(io::Error::other)?;
+            Python::attach(|py| py.check_signals()).map_err(|raised| {
+                SIGNALLED.set(Some(raised));
+                io::Error::other("stopped by a signal")
+            })?;
         }
         let read = match &mut self.source {
             Source::Bytes(bytes) => bytes.read(buffer),

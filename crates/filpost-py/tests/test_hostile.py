@@ -3,6 +3,7 @@
 import os
 import pathlib
 import pickle
+import signal
 import subprocess
 import sys
 import threading
@@ -60,6 +61,21 @@ def test_each_exception_of_a_callable_comes_out(raised):
         found = found.__cause__
     assert isinstance(found, raised), repr(caught.value)
     # The program is as it was.
+    assert "X1." in mill().run(CL).text
+
+
+def test_a_signal_stops_a_long_read():
+    def stop(number, frame):
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGALRM, stop)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.05)
+        with pytest.raises(KeyboardInterrupt):
+            mill().run(CL.replace("FINI", "GOTO / 1, 2, 3\nGOTO / 3, 2, 1\n" * 1_000_000 + "FINI"))
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
     assert "X1." in mill().run(CL).text
 
 
