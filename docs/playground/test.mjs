@@ -5,6 +5,7 @@ import { dirname, join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
 import { examples } from "./examples.mjs";
+import { pack } from "./share.js";
 
 const [folder, executablePath, pictures] = process.argv.slice(2);
 const here = dirname(fileURLToPath(import.meta.url));
@@ -169,6 +170,24 @@ const tests = {
     assert.match(await broken.locator("#said").innerText(), /can't be read/);
     await broken.close();
     await page.close();
+  },
+
+  async "texts of a stranger stay texts"() {
+    const hurt = `</script><img src="x" onerror="window.hurt = 1">`;
+    const cl = `PARTNO / ${hurt}\nUNITS / MM\nLOADTL / 1\nPPRINT / ${hurt}\nFEDRAT / 9, MMPM\nGOTO / 1, 2, 3\nFINI\n`;
+    const file = (text) => ({ name: hurt, text });
+    const machine = file("base = 'fanuc-mill'\n");
+    for (const [text, end] of [[cl, "blocks"], [`${cl.replace("FINI", hurt)}`, "Refused"]]) {
+      const state = { cl: file(text), machine, fil: [], includes: [], options: {} };
+      const page = await open(`${address}#${await pack(state)}`);
+      await said(page, end);
+      if (end === "blocks") {
+        await page.click("#show-plot");
+        await page.frameLocator("#plot iframe").locator("canvas, svg").first().waitFor({ timeout: 10_000 });
+      }
+      for (const frame of page.frames()) assert.equal(await frame.evaluate(() => window.hurt), undefined);
+      await page.close();
+    }
   },
 
   async "a loop without end is refused, and the page goes on"() {
