@@ -20,7 +20,7 @@ pub fn same(one: &[Event], other: &[Event]) -> bool {
 const TURNED: f64 = 0.01;
 
 /// True when two programs differ only in motions that end, on the part, within a rounding: the tip
-/// as [`APART`] says, the tool as [`TURNED`]. A table that turns about the tool moves neither:
+/// as `APART` says, the tool as `TURNED`. A table that turns about the tool moves neither:
 /// `R(c) p = p` for a point p of its axis, and `R(c) a = a` for a tool along it.
 pub fn near_poses(one: &[Event], other: &[Event], forward: &Forward) -> bool {
     let near = |(one, other): (&Event, &Event)| match (one, other) {

@@ -50,6 +50,7 @@ pub(super) fn turn(post: &mut Post, index: usize, to: f64) -> Result<()> {
         Some(transformation) => {
             post.path.has_index = transformation.is_some();
             post.path.transformation = transformation;
+            post.path.move_frame();
         }
         None => {
             post.path.axis = post.control.tables.chain().axis_at(angles);

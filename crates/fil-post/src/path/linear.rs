@@ -4,7 +4,7 @@ use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
 
 use super::{
-    feed_rules, frame, mill_turn, rapid, rotary, scaled_lead, solution, thread, tip_control,
+    Since, feed_rules, frame, mill_turn, rapid, rotary, scaled_lead, solution, thread, tip_control,
     turning,
 };
 use crate::control::family;
@@ -64,6 +64,7 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
     }
     post.path.point = Some(target.point);
     post.path.axis = target.axis;
+    post.path.since = Since::Motion;
     Ok(())
 }
 

@@ -114,6 +114,8 @@ pub struct Path {
     pub(crate) has_tracut: bool,
     /// The transformation is that of a table that ROTABL has turned under the points.
     pub(crate) has_index: bool,
+    /// What came behind the last motion.
+    pub(crate) since: Since,
     /// Diameter of the cutter, mm or inch.
     pub cutter: Option<f64>,
     /// Where the CL file stood when CUTTER named it.
@@ -163,6 +165,7 @@ impl Default for Path {
             has_origin: false,
             has_tracut: false,
             has_index: false,
+            since: Since::Motion,
             cutter: None,
             cutter_named_at: None,
             next_tools: NextTools::default(),
@@ -174,7 +177,25 @@ impl Default for Path {
     }
 }
 
+/// What came behind the last motion, so that its point may tell nothing of where the tool stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Since {
+    /// Nothing that moves the tool or the points.
+    Motion,
+    /// TRANS, ORIGIN, TRACUT or ROTABL: the point stands elsewhere in the CL file behind it.
+    Frame,
+    /// A tool change: nobody knows where the new tool stands.
+    ToolChange,
+}
+
 impl Path {
+    /// The points behind are in another frame than those before.
+    pub(crate) fn move_frame(&mut self) {
+        if self.since == Since::Motion {
+            self.since = Since::Frame;
+        }
+    }
+
     /// Something comes between two holes or two motions: the level before the cycle is
     /// the one after it, and the motions tell nothing about each other.
     pub(crate) fn interrupt(&mut self) {

@@ -17,7 +17,7 @@ use nalgebra::{Point3, Vector3};
 use super::cycle::{AboveHoles, Cycle, CycleFeed, CycleKind};
 use super::expand::{WayOut, way_out};
 use super::turning::spelled;
-use super::{frame, linear, rapid, rotary};
+use super::{Since, frame, linear, rapid, rotary};
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::word_address::spindle;
 use crate::control::{Control, Function};
@@ -297,10 +297,14 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
     }
     let axis = target.axis.normalize();
     let height = |point: Point3<f64>| (point - target.point).dot(&axis);
-    // Before the first motion of a tool nobody knows where it stands.
-    let known = post.control.state.tip_control == Some(true);
     let above = cycle.above.or(post.path.point.map(|at| AboveHoles { before: at, now: at }));
-    let above = above.filter(|_| known);
+    let above = above.filter(|_| post.path.since != Since::ToolChange);
+    if above.is_some() && post.path.since == Since::Frame {
+        return PostCode::TipControl.err(
+            "a hole right behind TRANS, ORIGIN, TRACUT or ROTABL: where the tool stands above it \
+             is not said; a GOTO between them says it",
+        );
+    }
     let rest = match (cycle.retract, above) {
         (None, _) => cycle.clear,
         (Some(0.0), None) => {

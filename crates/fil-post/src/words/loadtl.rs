@@ -10,7 +10,7 @@ use crate::cause::Cause;
 use crate::control::sinumerik::tool_names;
 use crate::items::Items;
 use crate::operation::{Operation, ToolChange};
-use crate::path::{carry_out, thread};
+use crate::path::{Since, carry_out, thread};
 use crate::post::Post;
 
 /// Most a tool or offset number may be.
@@ -43,6 +43,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     }
     thread::end(post)?;
     post.path.interrupt();
+    post.path.since = Since::ToolChange;
     cutter::forget(post);
     tool_names::load(&mut post.control, tool)?;
     let causes = [cause, offset_cause];

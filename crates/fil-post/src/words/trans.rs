@@ -63,6 +63,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
 fn turn(post: &mut Post, trans: Option<Transformation>, word: &str) -> Result<()> {
     compensation_side::refuse_a_turn(post, trans.as_ref(), word)?;
     post.path.transformation = trans;
+    post.path.move_frame();
     Ok(())
 }
 
@@ -149,6 +150,7 @@ fn translate(post: &mut Post, by: [f64; 3]) -> Result<()> {
         post.path.interrupt();
         translation::write(&mut post.control, by)?;
     }
+    post.path.move_frame();
     for (location, value) in loc::INPUT_TRANSLATE.into_iter().zip(by) {
         post.control.commons.set(Kind::Dbl, u32::from(location.0), value)?;
     }
