@@ -273,7 +273,7 @@ impl Axis {
     ///
     /// # Errors
     /// The value does not fit the address's format.
-    #[inline(always)]
+    #[inline]
     pub fn scaled(&self, position: f64) -> Result<i64> {
         if self.is_plain {
             return self.format.scale(position).map_err(|diag| self.named(diag));
@@ -316,13 +316,12 @@ impl Axis {
     ///
     /// # Errors
     /// As [`Axis::scaled`].
-    #[inline]
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
     pub fn on_tape(&self, position: f64) -> Result<f64> {
-        let value = self.value(position)?;
-        if self.is_plain && self.full_turn == 0 {
-            return Ok(value);
+        if self.is_plain {
+            return Ok(self.format.unscale(self.scaled(position)?));
         }
-        Ok(self.near(self.position(value), position))
+        Ok(self.near(self.position(self.value(position)?), position))
     }
 
     /// Smallest step of the machine position that the tape can say, mm, inch or

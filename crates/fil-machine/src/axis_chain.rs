@@ -9,22 +9,19 @@
 //! second subproblem of Paden and Kahan (two successive rotations about axes
 //! through one point).
 
-use nalgebra::{Point3, Rotation3, Unit, Vector3};
+use nalgebra::{Point3, Unit, Vector3};
 
 use crate::commons::{Commons, Dbl};
 use crate::errors::MachineCode;
 use crate::letter::Letter;
 use crate::locations::{self as loc, RotaryAxis, RotaryKind};
+use crate::modes::INCH;
+use crate::rotation::{self, SAME, turn};
 use crate::setting::{Choice, LetterAt, OptionalChoice};
 use fil_diag::{Diag, Result};
 
-/// Directions closer than this (radians, about 0.0006 degrees) count as equal.
-const SAME: f64 = 1e-5;
-
 /// Whole turns to either side in which other positions of a limited axis are looked for.
 pub const TURNS: i32 = 12;
-
-use crate::modes::INCH;
 
 /// Letters of rotary axes about X, Y and Z (ISO 841).
 pub const ROTARY_LETTERS: [Letter; 3] = [Letter::of(b'A'), Letter::of(b'B'), Letter::of(b'C')];
@@ -136,6 +133,7 @@ impl AxisChain {
     ///
     /// # Errors
     /// No solution at all, or none within the limits.
+    #[inline(never)]
     pub fn solve(&self, axis: Vector3<f64>, last: [f64; 2]) -> Result<[f64; 2]> {
         Ok(self.solve_with_free(axis, last)?.0)
     }
@@ -145,39 +143,29 @@ impl AxisChain {
     ///
     /// # Errors
     /// As [`AxisChain::solve`].
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
     pub fn solve_with_free(
         &self,
         axis: Vector3<f64>,
         last: [f64; 2],
     ) -> Result<([f64; 2], [f64; 2])> {
-        let axis = Unit::try_new(axis, 1e-9)
-            .ok_or_else(|| MachineCode::ToolAxis.diag("the tool axis has length zero"))?;
+        if is_none(axis) {
+            return MachineCode::ToolAxis.err("the tool axis has length zero");
+        }
         let solutions = self.all(axis, last);
         let solutions = solutions.pairs();
-        let Some(free) = nearest_free(solutions, last) else {
-            return Err(Box::new(Diag::new(
-                MachineCode::ToolAxis,
-                format!("tool axis {}", show(axis.into_inner())),
-            )));
-        };
+        let Some(free) = nearest_free(solutions, last) else { return Err(unreachable(axis)) };
         if self.reaches(free) {
             return Ok((free, free));
         }
-        let nearest = self.nearest(solutions, last).ok_or_else(|| {
-            let angles: Vec<String> =
-                solutions.iter().map(|s| format!("{:.3}/{:.3}", s[0], s[1])).collect();
-            MachineCode::AxisLimit
-                .diag(format!("rotary positions {} lie outside the limits", angles.join(" and ")))
-        })?;
-        Ok((nearest, free))
+        Ok((self.nearest(solutions, last).ok_or_else(|| outside(solutions))?, free))
     }
 
     /// All pairs of rotary positions that bring the tool along `axis`, in degrees from -180
     /// to 180, whatever the limits; an axis that does not turn the tool stays at `last`.
+    #[inline(never)]
     pub fn solutions(&self, axis: Vector3<f64>, last: [f64; 2]) -> Vec<[f64; 2]> {
-        Unit::try_new(axis, 1e-9)
-            .map(|axis| self.all(axis, last).pairs().to_vec())
-            .unwrap_or_default()
+        if is_none(axis) { Vec::new() } else { self.all(axis, last).pairs().to_vec() }
     }
 
     /// True when the travel of a rotary axis is limited.
@@ -205,8 +193,11 @@ impl AxisChain {
 
     /// As [`AxisChain::solve`] on a machine whose rotary axes have no limits; `None` where
     /// no position brings the tool along `axis`.
+    #[inline(never)]
     pub fn nearest_anywhere(&self, axis: Vector3<f64>, last: [f64; 2]) -> Option<[f64; 2]> {
-        let axis = Unit::try_new(axis, 1e-9)?;
+        if is_none(axis) {
+            return None;
+        }
         nearest_free(self.all(axis, last).pairs(), last)
     }
 
@@ -214,38 +205,45 @@ impl AxisChain {
     /// [`TURNS`] whole turns from `last`; an axis that does not turn the tool stays at `last`,
     /// or goes by whole turns.
     pub fn positions(&self, axis: Vector3<f64>, last: [f64; 2]) -> Vec<[f64; 2]> {
-        let turns = |index: usize, angle: f64| {
-            let near = near(angle, last[index]);
-            let rotary = self.rotaries[index].as_ref();
-            let limited = rotary.is_some_and(|axis| axis.min.is_some() || axis.max.is_some());
-            let most = if limited { TURNS } else { 0 };
-            (-most..=most)
-                .map(move |turn| near + 360.0 * f64::from(turn))
-                .filter(move |angle| rotary.is_none_or(|rotary| rotary.reaches(*angle)))
-        };
-        let solutions = self.solutions(axis, last).into_iter();
-        solutions
-            .flat_map(|found| {
-                turns(0, found[0]).flat_map(move |r1| turns(1, found[1]).map(move |r2| [r1, r2]))
-            })
-            .collect()
+        let mut positions = Vec::new();
+        for found in self.solutions(axis, last) {
+            let second = self.turns(1, near(found[1], last[1]));
+            for at in self.turns(0, near(found[0], last[0])) {
+                positions.extend(second.iter().map(|other| [at, *other]));
+            }
+        }
+        positions
     }
 
-    fn all(&self, axis: Unit<Vector3<f64>>, last: [f64; 2]) -> Solutions {
+    /// An angle with the whole turns that the travel of a rotary axis has room for, degrees.
+    fn turns(&self, number: usize, angle: f64) -> Vec<f64> {
+        let Some(rotary) = &self.rotaries[number] else { return vec![angle] };
+        let limited = rotary.min.is_some() || rotary.max.is_some();
+        let most = if limited { TURNS } else { 0 };
+        let mut turns: Vec<_> = (-most..=most).map(|n| angle + 360.0 * f64::from(n)).collect();
+        turns.retain(|angle| rotary.reaches(*angle));
+        turns
+    }
+
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
+    fn all(&self, axis: Vector3<f64>, last: [f64; 2]) -> Solutions {
         match &self.rotaries {
-            [None, None] => self.fixed(axis, last),
+            [None, None] => self.fixed(Unit::new_normalize(axis), last),
             [Some(one), None] => {
                 Solutions::of(single(one, axis, self.tool, last[0]).map(|angle| [angle, last[1]]))
             }
             [None, Some(one)] => {
                 Solutions::of(single(one, axis, self.tool, last[1]).map(|angle| [last[0], angle]))
             }
-            [Some(first), Some(second)] => pair(first, second, axis, self.tool, last),
+            [Some(first), Some(second)] => {
+                pair(first, second, Unit::new_normalize(axis), self.tool, last)
+            }
         }
     }
 
     /// Machine position of the linear axes for a tool tip in the part frame, in the
     /// unit of the machine's lengths, and rotary positions in degrees.
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
     pub fn linear(&self, tip: Point3<f64>, angles: [f64; 2]) -> Point3<f64> {
         let mut point = tip;
         let mut tool = self.tool.into_inner();
@@ -296,12 +294,9 @@ impl Rotary {
     }
 
     /// A direction turned about the axis by an angle, degrees, by the right-hand rule.
-    #[inline]
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
     pub fn turned(&self, vector: Vector3<f64>, angle: f64) -> Vector3<f64> {
-        // The product row by row: the general one of matrices takes several times as long.
-        let m = Rotation3::from_axis_angle(&self.direction, angle.to_radians()).into_inner();
-        let row = |n: usize| m[(n, 0)] * vector.x + m[(n, 1)] * vector.y + m[(n, 2)] * vector.z;
-        Vector3::new(row(0), row(1), row(2))
+        rotation::turned(self.direction, vector, angle)
     }
 
     /// The angle plus whole turns that lies nearest to `last` and within the limits.
@@ -341,11 +336,16 @@ impl Solutions {
 }
 
 /// Of the solutions with whole turns, whatever the limits, the one nearest to `last`.
+#[cfg_attr(not(target_family = "wasm"), inline(always))]
 fn nearest_free(solutions: &[[f64; 2]], last: [f64; 2]) -> Option<[f64; 2]> {
-    solutions
-        .iter()
-        .map(|found| [near(found[0], last[0]), near(found[1], last[1])])
-        .min_by(|a, b| travel(a, &last).total_cmp(&travel(b, &last)))
+    let mut found = solutions.iter().map(|at| [near(at[0], last[0]), near(at[1], last[1])]);
+    let first = found.next()?;
+    Some(found.fold(
+        first,
+        |best, next| {
+            if travel(&next, &last) < travel(&best, &last) { next } else { best }
+        },
+    ))
 }
 
 /// An angle with the whole turns that bring it nearest to another, degrees.
@@ -361,37 +361,13 @@ fn travel(angles: &[f64; 2], last: &[f64; 2]) -> f64 {
     (angles[0] - last[0]).abs() + (angles[1] - last[1]).abs()
 }
 
-/// Angle in degrees of the rotation about `about` that takes the direction
-/// `from` to `to`; `free` when both lie along the axis, `None` when impossible: they must be as
-/// far from the axis as each other, which near it their cosines hardly tell.
-fn turn(about: Unit<Vector3<f64>>, from: Vector3<f64>, to: Vector3<f64>, free: f64) -> Option<f64> {
-    if (about.dot(&from) - about.dot(&to)).abs() > SAME {
-        return None;
-    }
-    let flat_from = from - about.scale(about.dot(&from));
-    let flat_to = to - about.scale(about.dot(&to));
-    let (off_from, off_to) = (flat_from.norm_squared(), flat_to.norm_squared());
-    if (off_from - off_to).abs() > SAME * (off_from + off_to).sqrt() {
-        return None;
-    }
-    if off_from < SAME * SAME || off_to < SAME * SAME {
-        return Some(free);
-    }
-    let sine = about.dot(&flat_from.cross(&flat_to));
-    let cosine = flat_from.dot(&flat_to);
-    Some(libm::atan2(sine, cosine).to_degrees())
-}
-
-fn single(
-    rotary: &Rotary,
-    axis: Unit<Vector3<f64>>,
-    tool: Unit<Vector3<f64>>,
-    last: f64,
-) -> Option<f64> {
-    turn(rotary.direction, tool.into_inner(), axis.into_inner(), last)
+#[cfg_attr(not(target_family = "wasm"), inline(always))]
+fn single(rotary: &Rotary, axis: Vector3<f64>, tool: Unit<Vector3<f64>>, last: f64) -> Option<f64> {
+    turn(rotary.direction, tool.into_inner(), axis, last)
 }
 
 /// Solves `axis = R(first) R(second) tool`.
+#[inline(never)]
 fn pair(
     first: &Rotary,
     second: &Rotary,
@@ -482,8 +458,23 @@ fn direction(
     })
 }
 
-fn show(vector: Vector3<f64>) -> String {
-    format!("{:.6}, {:.6}, {:.6}", vector.x, vector.y, vector.z)
+/// True for a vector too short to have a direction.
+fn is_none(axis: Vector3<f64>) -> bool {
+    axis.norm() <= 1e-9
+}
+
+#[cold]
+fn unreachable(axis: Vector3<f64>) -> Box<Diag> {
+    let axis = axis.normalize();
+    MachineCode::ToolAxis.diag(format!("tool axis {:.6}, {:.6}, {:.6}", axis.x, axis.y, axis.z))
+}
+
+#[cold]
+fn outside(solutions: &[[f64; 2]]) -> Box<Diag> {
+    let angles: Vec<String> =
+        solutions.iter().map(|at| format!("{:.3}/{:.3}", at[0], at[1])).collect();
+    MachineCode::AxisLimit
+        .diag(format!("rotary positions {} lie outside the limits", angles.join(" and ")))
 }
 
 #[cfg(test)]

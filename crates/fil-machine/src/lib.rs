@@ -29,6 +29,7 @@ pub mod motion_rules;
 pub mod number;
 pub mod numbering;
 pub mod rotary_feed_rules;
+mod rotation;
 pub mod rounding;
 pub mod setting;
 pub mod stored;

@@ -5,7 +5,7 @@ use fil_diag::Result;
 use nalgebra::Vector3;
 
 use crate::address::Addresses;
-use crate::axes::{Axis, AxisSet, Position, linear_letters};
+use crate::axes::{AXES, Axis, AxisSet, Position, linear_letters};
 use crate::axis_chain::{AxisChain, ROTARY_LETTERS};
 use crate::commons::Commons;
 use crate::errors::MachineCode;
@@ -61,6 +61,8 @@ pub struct MachineTables {
     travel: Vec<Axis>,
     chain: AxisChain,
     present: AxisSet,
+    last_digits: Position,
+    written: AxisSet,
     input_shift: Vector3<f64>,
     /// Where the control has its zero, X Y Z, mm or inch.
     zero: [f64; 3],
@@ -163,6 +165,9 @@ impl MachineTables {
         if self.tip_output || self.frame_output {
             self.axes[..3].iter_mut().for_each(|axis| axis.limit(None, None));
         }
+        self.last_digits = std::array::from_fn(|n| self.axes[n].resolution());
+        let off = (0..AXES).filter(|n| self.axes[*n].is_off());
+        self.written = off.fold(self.present, |set, n| set.without(AxisSet::of(n)));
         Ok(())
     }
 
@@ -255,6 +260,18 @@ impl MachineTables {
     #[inline]
     pub fn present(&self) -> AxisSet {
         self.present
+    }
+
+    /// The axes whose words the tape gets.
+    #[inline]
+    pub fn written(&self) -> AxisSet {
+        self.written
+    }
+
+    /// Smallest step of each axis that the tape can say, mm, inch or degrees.
+    #[inline]
+    pub fn last_digits(&self) -> &Position {
+        &self.last_digits
     }
 
     /// What is added to each point of the input, mm or inch (DBLCOM 286 to 288 and 918).

@@ -3,7 +3,7 @@
 //! `cargo bench -p filpost-tests --bench axes`.
 //!
 //! `FILPOST_BENCH_POINTS` sets the number of points of each CL file (200,000). With
-//! `FILPOST_BENCH_ROW` only rows that begin so are run, once, for a counter of instructions.
+//! `FILPOST_BENCH_ROW` only the row of that name is run, once, for a counter of instructions.
 
 use std::fmt::Write;
 use std::fs;
@@ -38,6 +38,7 @@ const ROWS: &[Row] = &[
     Row { name: "four axes", post: "fanuc-mill-a", settings: &[], target: round },
     Row { name: "five axes, undivided", post: "haas-trunnion", settings: UNDIVIDED, target: cone },
     Row { name: "five axes", post: "haas-trunnion", settings: &[], target: cone },
+    Row { name: "five axes, divided", post: "haas-trunnion", settings: &[], target: coarse_cone },
     Row { name: "five axes, G43.4", post: "fanuc-5x-tables", settings: &[], target: cone },
 ];
 
@@ -50,9 +51,9 @@ fn main() -> Outcome<()> {
     println!("| of what | ns a GOTO | times three axes | blocks a GOTO |\n|---|---|---|---|");
     let mut three = None;
     let mut four = None;
-    let only = std::env::var("FILPOST_BENCH_ROW").unwrap_or_default();
-    let repeats = if only.is_empty() { REPEATS } else { 1 };
-    for row in ROWS.iter().filter(|row| row.name.starts_with(&only)) {
+    let only = std::env::var("FILPOST_BENCH_ROW").ok();
+    let repeats = if only.is_none() { REPEATS } else { 1 };
+    for row in ROWS.iter().filter(|row| only.as_ref().is_none_or(|name| name == row.name)) {
         let cl = folder.path().join("part.ncl");
         fs::write(&cl, part(row, points)?)?;
         let (each, blocks) = post(row, (points, repeats), &cl)?;
@@ -62,7 +63,7 @@ fn main() -> Outcome<()> {
         }
         println!("| {} | {each:.0} | {times:.2} | {blocks:.2} |", row.name);
     }
-    if let Some(times) = four {
+    if let (Some(times), None) = (four, only) {
         let verdict = if times <= 2.0 { "holds" } else { "FAILS" };
         println!("\nfour axes at no less than half the rate of three, block for block: {verdict}");
     }
@@ -118,8 +119,18 @@ fn round(n: u32) -> [f64; 6] {
 
 /// To and fro round a cone with the tool leaning 20 degrees outward, half a degree a step.
 fn cone(n: u32) -> [f64; 6] {
-    let (step, row) = (n % 720, n / 720);
-    let angle = f64::from(if row % 2 == 0 { step } else { 719 - step }) * 0.5;
+    on_cone(n, 720)
+}
+
+/// The same with six degrees a step, in which the tip leaves its line.
+fn coarse_cone(n: u32) -> [f64; 6] {
+    on_cone(n, 60)
+}
+
+fn on_cone(n: u32, steps: u32) -> [f64; 6] {
+    let (step, row) = (n % steps, n / steps);
+    let share = f64::from(if row % 2 == 0 { step } else { steps - 1 - step }) / f64::from(steps);
+    let angle = 360.0 * share;
     let (sine, cosine) = angle.to_radians().sin_cos();
     let (lean, up) = 20f64.to_radians().sin_cos();
     let wave = RADIUS + (f64::from(n) * 0.05).sin();

@@ -53,7 +53,7 @@ pub(super) fn plain_axis<'t>(
     let (j, rest) = value(4, rest.strip_prefix(b",")?, numbers)?;
     let (k, rest) = value(5, rest.strip_prefix(b",")?, numbers)?;
     let rest = line_end(rest)?;
-    known.keep(&text[..text.len() - rest.len()], [i, j, k]);
+    known.keep(text, text.len() - rest.len(), [i, j, k]);
     Some(([i, j, k], rest))
 }
 

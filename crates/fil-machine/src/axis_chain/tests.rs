@@ -1,3 +1,5 @@
+use nalgebra::Rotation3;
+
 use super::*;
 
 fn axis(carries: Carries, direction: [f64; 3]) -> Option<Rotary> {

@@ -12,11 +12,11 @@ use fil_machine::locations as loc;
 use fil_machine::tables::MachineTables;
 use nalgebra::Point3;
 
-use super::tip::{certain_distance, largest_distance, tip};
+use super::tip::{certain_distance, distance, largest_distance, tip};
 use super::turning_feed::{PartFeed, TurningFeed};
 use super::{mill_turn, rotary};
+use crate::control::family;
 use crate::control::word_address::motion::Motion;
-use crate::control::{Control, family};
 use crate::errors::PostCode;
 use crate::operation::Target;
 use crate::post::Post;
@@ -63,6 +63,12 @@ struct Start {
 struct OnTape {
     position: Position,
     tip: Point3<f64>,
+}
+
+/// The end of one part of a motion.
+struct Part {
+    position: Position,
+    on_tape: OnTape,
 }
 
 /// Where the last motion that turned the machine has brought it: the next one begins there.
@@ -149,30 +155,28 @@ fn divided(
     let start = Start { position: from, tip: None, on_tape: None };
     let turning = Turning::new(post, &start, to, end);
     let feed = TurningFeed::of(post)?;
+    let begin = turning.arrival(&from)?;
     let parts = match allowed {
-        Some(allowed) => turning.divided(allowed, least)?,
-        None => turning.parts(least),
+        Some(allowed) => turning.divided(&begin, allowed, least)?,
+        None => turning.parts(least)?,
     };
-    let tapes = parts.iter().map(|part| turning.on_tape(part)).collect::<Result<Vec<_>>>()?;
-    let mut at = turning.on_tape(&from)?;
-    let mut feeds = Vec::with_capacity(parts.len());
     let enough = allowed.map_or_else(|| usual(post), Ok)?;
     let mut worst: f64 = 0.0;
-    let mut point = tip(turning.chain, &at);
-    for tape in &tapes {
-        worst = worst.max(turning.off(&at, tape, enough));
-        let next = tip(turning.chain, tape);
-        feeds.push(feed.between(&at, tape, (next - point).norm()));
-        (at, point) = (*tape, next);
+    let mut feeds = Vec::with_capacity(parts.len());
+    let mut at = &begin;
+    for Part { on_tape: to, .. } in &parts {
+        worst = worst.max(turning.off(at, to, enough));
+        feeds.push(feed.between(&at.position, &to.position, (to.tip - at.tip).norm()));
+        at = to;
     }
     if worst > enough {
-        let ends = tapes.iter().map(|tape| turning.end_off(tape)).fold(0.0, f64::max);
+        let ends = parts.iter().map(|part| turning.end_off(&part.on_tape)).fold(0.0, f64::max);
         warn_of_deviation(post, allowed, ends);
     }
     if let Some(slowed) = feeds.iter().find(|feed| feed.slowed) {
         slowed.warn_if_slowed(post);
     }
-    for (position, feed) in parts.into_iter().zip(feeds) {
+    for (Part { position, .. }, feed) in parts.into_iter().zip(feeds) {
         write(post, &Motion { position, axes: AxisSet::ALL, word }, &feed)?;
     }
     Ok(())
@@ -187,10 +191,16 @@ fn write(post: &mut Post, motion: &Motion, part: &PartFeed) -> Result<()> {
 }
 
 /// The last output values of the axes.
-#[inline]
+#[cfg_attr(not(target_family = "wasm"), inline(always))]
 fn outputs(post: &Post) -> Position {
-    let Control { tables, commons, .. } = &post.control;
-    std::array::from_fn(|n| commons.last_output(tables.axis(n).letter))
+    // Each by its own name: an array written by numbers has to go through memory.
+    [output(post, 0), output(post, 1), output(post, 2), output(post, 3), output(post, 4)]
+}
+
+/// The last output value of an axis.
+#[cfg_attr(not(target_family = "wasm"), inline(always))]
+fn output(post: &Post, number: usize) -> f64 {
+    post.control.commons.last_output(post.control.tables.axis(number).letter)
 }
 
 /// What the positions of the machine hang on besides the point.
@@ -241,7 +251,9 @@ fn suffices(
         let linear = chain.linear(point, angles);
         let to = [linear.x, linear.y, linear.z, angles[0], angles[1]];
         let start = Start { position: from, tip: None, on_tape: None };
-        if Turning::new(post, &start, to, point).off(&from, &to, allowed) > allowed {
+        let turning = Turning::new(post, &start, to, point);
+        let [begin, end] = [from, to].map(|at| OnTape { position: at, tip: tip(chain, &at) });
+        if turning.off(&begin, &end, allowed) > allowed {
             return Ok(false);
         }
         from = to;
@@ -265,6 +277,7 @@ pub(super) fn is_where_the_path_is(post: &Post, before: [f64; 2]) -> bool {
 
 /// Where the axes stand: exactly where the CL file has brought them, unless the tape
 /// says that something else has moved them since.
+#[cfg_attr(not(target_family = "wasm"), inline(always))]
 fn stands(post: &Post, before: [f64; 2]) -> Start {
     let tables = &post.control.tables;
     let point = post.path.point.unwrap_or_default();
@@ -300,6 +313,7 @@ fn stands(post: &Post, before: [f64; 2]) -> Start {
 
 impl<'a> Turning<'a> {
     /// From where the axes stand to a position with the tip at `end`, in the part.
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
     fn new(post: &'a Post, start: &Start, to: Position, end: Point3<f64>) -> Self {
         let tables = &post.control.tables;
         let chain = tables.chain();
@@ -314,16 +328,24 @@ impl<'a> Turning<'a> {
     }
 
     /// The ends of so many parts; the last is that of the motion.
-    fn parts(&self, count: u32) -> Vec<Position> {
+    ///
+    /// # Errors
+    /// A position that its address can't hold.
+    fn parts(&self, count: u32) -> Result<Vec<Part>> {
         let [from, to] = self.ends;
-        let inner = (1..count).map(|number| {
-            let share = f64::from(number) / f64::from(count);
-            let angles = [3, 4].map(|n| from[n] + (to[n] - from[n]) * share);
-            let tip = self.line[0] + (self.line[1] - self.line[0]) * share;
-            let linear = self.chain.linear(tip, angles);
-            [linear.x, linear.y, linear.z, angles[0], angles[1]]
-        });
-        inner.chain([to]).collect()
+        let mut parts = Vec::with_capacity(count as usize);
+        for number in 1..=count {
+            let mut position = to;
+            if number < count {
+                let share = f64::from(number) / f64::from(count);
+                let angles = [3, 4].map(|n| from[n] + (to[n] - from[n]) * share);
+                let tip = self.line[0] + (self.line[1] - self.line[0]) * share;
+                let linear = self.chain.linear(tip, angles);
+                position = [linear.x, linear.y, linear.z, angles[0], angles[1]];
+            }
+            parts.push(Part { position, on_tape: self.arrival(&position)? });
+        }
+        Ok(parts)
     }
 
     /// As few parts of one length as keep the tip on its line, and no fewer than
@@ -331,12 +353,11 @@ impl<'a> Turning<'a> {
     ///
     /// # Errors
     /// It would take too many.
-    fn divided(&self, allowed: f64, least: u32) -> Result<Vec<Position>> {
-        let start = self.on_tape(&self.ends[0])?;
+    fn divided(&self, begin: &OnTape, allowed: f64, least: u32) -> Result<Vec<Part>> {
         let mut count = least.max(1);
         loop {
-            let parts = self.parts(count);
-            let Some(off) = self.beyond(start, &parts, allowed)? else { return Ok(parts) };
+            let parts = self.parts(count)?;
+            let Some(off) = self.beyond(begin, &parts, allowed) else { return Ok(parts) };
             let more = f64::from(count) * (off / allowed).sqrt() * MARGIN;
             count = (more.ceil() as u32).max(count + 1);
             if count > MOST_PARTS {
@@ -350,55 +371,65 @@ impl<'a> Turning<'a> {
 
     /// The distance of the tip from its line in the first part in which it is too
     /// large, less what rounding of the ends alone brings.
-    fn beyond(&self, start: Position, parts: &[Position], allowed: f64) -> Result<Option<f64>> {
-        let mut at = start;
-        for part in parts {
-            let tape = self.on_tape(part)?;
-            let rounding = self.end_off(&at).max(self.end_off(&tape));
+    fn beyond(&self, begin: &OnTape, parts: &[Part], allowed: f64) -> Option<f64> {
+        let mut at = begin;
+        for Part { on_tape: to, .. } in parts {
+            let rounding = self.end_off(at).max(self.end_off(to));
             let spare = if rounding > 0.5 * allowed { rounding + 0.5 * allowed } else { allowed };
-            let off = self.off(&at, &tape, spare);
+            let off = self.off(at, to, spare);
             if off > spare {
-                return Ok(Some(allowed * off / spare));
+                return Some(allowed * off / spare);
             }
-            at = tape;
+            at = to;
         }
-        Ok(None)
+        None
     }
 
-    /// The largest distance of the tip from its line between two positions.
-    fn off(&self, from: &Position, to: &Position, enough: f64) -> f64 {
-        largest_distance(self.chain, from, to, self.line, enough)
+    /// The largest distance of the tip from its line between two positions, at most this
+    /// much; exact enough to compare with `enough`.
+    fn off(&self, from: &OnTape, to: &OnTape, enough: f64) -> f64 {
+        let ends = self.end_off(from).max(self.end_off(to));
+        largest_distance(self.chain, [&from.position, &to.position], self.line, ends, enough)
     }
 
     /// The distance of the tip from its line where the axes stand.
-    fn end_off(&self, at: &Position) -> f64 {
-        largest_distance(self.chain, at, at, self.line, f64::INFINITY)
+    fn end_off(&self, at: &OnTape) -> f64 {
+        distance(self.line, at.tip)
     }
 
     /// True where no measuring is needed to know that the tip stays within a distance of its
     /// line between two positions on the tape, as in most motions.
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
     fn surely_stays_within(&self, most: f64, from: &Position, to: &Position) -> bool {
-        let digits = std::array::from_fn(|n| self.tables.axis(n).resolution());
-        certain_distance(self.chain, from, to, &digits) <= most
+        certain_distance(self.chain, from, to, self.tables.last_digits()) <= most
     }
 
     /// A position as the tape has it, with the tip there.
-    #[inline]
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
     fn arrival(&self, position: &Position) -> Result<OnTape> {
         let position = self.on_tape(position)?;
         Ok(OnTape { tip: tip(self.chain, &position), position })
     }
 
     /// The position as the tape has it.
-    #[inline]
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
     fn on_tape(&self, position: &Position) -> Result<Position> {
-        let on_tape = |n: usize| {
-            let axis = self.tables.axis(n);
-            let is_written = self.tables.present().has(n) && !axis.is_off();
-            if is_written { axis.on_tape(position[n]) } else { Ok(position[n]) }
-        };
         // Each by its own name: an array written by numbers has to go through memory.
-        Ok([on_tape(0)?, on_tape(1)?, on_tape(2)?, on_tape(3)?, on_tape(4)?])
+        let x = self.word_on_tape(0, position)?;
+        let y = self.word_on_tape(1, position)?;
+        let z = self.word_on_tape(2, position)?;
+        let primary = self.word_on_tape(3, position)?;
+        let secondary = self.word_on_tape(4, position)?;
+        Ok([x, y, z, primary, secondary])
+    }
+
+    /// The same for one axis; one that is not written stands where it stands.
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
+    fn word_on_tape(&self, number: usize, position: &Position) -> Result<f64> {
+        match self.tables.written().has(number) {
+            true => self.tables.axis(number).on_tape(position[number]),
+            false => Ok(position[number]),
+        }
     }
 }
 

@@ -35,28 +35,36 @@ pub fn find_position(post: &mut Post, target: Target, position: &mut Position) -
         *position = [point.x, point.y, point.z, 0.0, 0.0];
         return Ok(());
     }
-    *position = turned_position_of(post, point, axis)?;
+    if needs_more(post) {
+        *position = position_in_mode(post, point, axis)?;
+        return Ok(());
+    }
+    let last = post.path.chosen.take().or(post.path.rotary).unwrap_or_else(|| on_tape(post));
+    let chain = post.control.tables.chain();
+    let (angles, free) = chain.solve_with_free(axis, last)?;
+    let linear = chain.linear(point, angles);
+    *position = [linear.x, linear.y, linear.z, angles[0], angles[1]];
+    post.path.rotary = Some(angles);
+    post.path.free = Some(free);
     Ok(())
 }
 
-/// The same where the machine or the tool axis turns.
-fn turned_position_of(post: &mut Post, point: Point3<f64>, axis: Vector3<f64>) -> Result<Position> {
+/// True where X, Y and Z are no positions of the slides.
+#[inline]
+fn needs_more(post: &Post) -> bool {
+    let tables = &post.control.tables;
+    tables.mills() || tables.frame_output || post.writes_tip()
+}
+
+/// The same there.
+fn position_in_mode(post: &mut Post, point: Point3<f64>, axis: Vector3<f64>) -> Result<Position> {
     if post.control.tables.mills() {
         return mill_turn::position_of(post, point, axis);
     }
     if post.writes_tip() {
         return tip_control::position_of(post, point, axis);
     }
-    if post.control.tables.frame_output {
-        return frame::position_of(post, point, axis);
-    }
-    let last = post.path.chosen.take().or(post.path.rotary).unwrap_or_else(|| on_tape(post));
-    let chain = post.control.tables.chain();
-    let (angles, free) = chain.solve_with_free(axis, last)?;
-    let linear = chain.linear(point, angles);
-    post.path.rotary = Some(angles);
-    post.path.free = Some(free);
-    Ok([linear.x, linear.y, linear.z, angles[0], angles[1]])
+    frame::position_of(post, point, axis)
 }
 
 /// Where the rotary axes stood before a feed motion that turns them; `None` for one that

@@ -12,7 +12,7 @@ use nalgebra::{Point3, Vector3};
 const INTERVALS: u32 = 8;
 
 /// The tip in the part frame where the axes stand: what [`AxisChain::linear`] undoes.
-#[inline]
+#[cfg_attr(not(target_family = "wasm"), inline(always))]
 pub(super) fn tip(chain: &AxisChain, at: &Position) -> Point3<f64> {
     let mut point = Point3::new(at[0], at[1], at[2]);
     if let Some(length) = chain.pivot {
@@ -32,17 +32,17 @@ pub(super) fn tip(chain: &AxisChain, at: &Position) -> Point3<f64> {
 }
 
 /// The largest distance of the tip from a line while the axes go evenly from one
-/// position to another, at most this much; exact enough to compare with `enough`.
+/// position to another, at most this much; exact enough to compare with `enough`. `ends`:
+/// the larger distance at those two positions.
 pub(super) fn largest_distance(
     chain: &AxisChain,
-    from: &Position,
-    to: &Position,
+    [from, to]: [&Position; 2],
     line: [Point3<f64>; 2],
+    ends: f64,
     enough: f64,
 ) -> f64 {
-    let bend = bounds(chain, from, to).bend;
+    let bend = bounds(chain, from, to, &Position::default()).bend;
     let off = |share: f64| distance(line, tip(chain, &between(from, to, share)));
-    let ends = off(0.0).max(off(1.0));
     if ends + bend / 8.0 <= enough {
         return ends + bend / 8.0;
     }
@@ -54,15 +54,16 @@ pub(super) fn largest_distance(
 /// A distance that the tip can't be from the line between two exact positions while the axes
 /// go evenly between the same two as the tape has them: `digits` is the last digit of each
 /// axis. It takes no sine, and is far too large where the machine turns much.
+#[cfg_attr(not(target_family = "wasm"), inline(always))]
 pub(super) fn certain_distance(
     chain: &AxisChain,
     from: &Position,
     to: &Position,
     digits: &Position,
 ) -> f64 {
-    let Bounds { bend, reach } = bounds(chain, from, to);
-    let linear = Vector3::new(digits[0], digits[1], digits[2]).norm();
-    let turned: f64 = (0..2).map(|n| digits[n + 3].to_radians() * reach[n]).sum();
+    let Bounds { bend, turned } = bounds(chain, from, to, digits);
+    // As far as the last digits of X, Y and Z together reach at most.
+    let linear = digits[0] + digits[1] + digits[2];
     linear + turned + bend / 8.0
 }
 
@@ -72,7 +73,7 @@ pub(super) fn between(from: &Position, to: &Position, share: f64) -> Position {
 }
 
 /// Distance of a point from the line between two others.
-fn distance([from, to]: [Point3<f64>; 2], point: Point3<f64>) -> f64 {
+pub(super) fn distance([from, to]: [Point3<f64>; 2], point: Point3<f64>) -> f64 {
     let way = to - from;
     let length = way.norm_squared();
     let share =
@@ -84,22 +85,23 @@ fn distance([from, to]: [Point3<f64>; 2], point: Point3<f64>) -> f64 {
 struct Bounds {
     /// Most that its second derivative by the share of the motion can be.
     bend: f64,
-    /// Most that a radian of each rotary axis moves it.
-    reach: [f64; 2],
+    /// Most that the last digits of the rotary axes move it.
+    turned: f64,
 }
 
 /// By the product rule, from the tool to the part.
-fn bounds(chain: &AxisChain, from: &Position, to: &Position) -> Bounds {
+#[cfg_attr(not(target_family = "wasm"), inline(always))]
+fn bounds(chain: &AxisChain, from: &Position, to: &Position, digits: &Position) -> Bounds {
     let angle = |n: usize| (to[n + 3] - from[n + 3]).abs().to_radians();
     let [start, end] = [from, to].map(|at| Vector3::new(at[0], at[1], at[2]));
     let (mut speed, mut bend, mut swing) = ((end - start).norm(), 0.0, 0.0);
-    let mut reach = [0.0; 2];
+    let mut by_digits = 0.0;
     if let Some(length) = chain.pivot {
         let heads = || [0, 1].into_iter().filter(|n| head(chain, *n).is_some());
         let turned: f64 = heads().map(angle).sum();
         speed += turned * length;
         bend += turned * turned * length;
-        heads().for_each(|n| reach[n] = length);
+        by_digits += heads().map(|n| digits[n + 3].to_radians()).sum::<f64>() * length;
         // A head that leans holds the tip away from where X, Y and Z say, turning or not.
         let leans = |at: &Position| heads().map(|n| at[n + 3].to_radians().abs()).sum::<f64>();
         swing = length * leans(from).max(leans(to)).min(2.0);
@@ -109,22 +111,27 @@ fn bounds(chain: &AxisChain, from: &Position, to: &Position) -> Bounds {
         let Some(axis) = table(chain, number) else { continue };
         let center = axis.center.coords;
         let radius = match outer {
-            None => (start - center).norm().max((end - center).norm()) + swing,
+            None => {
+                let squares = [start, end].map(|at| (at - center).norm_squared());
+                squares[0].max(squares[1]).sqrt() + swing
+            }
             Some((before, radius)) => radius + (before - axis.center).norm(),
         };
         let turned = angle(number);
         bend += 2.0 * turned * speed + turned * turned * radius;
         speed += turned * radius;
-        reach[number] = radius;
+        by_digits += digits[number + 3].to_radians() * radius;
         outer = Some((axis.center, radius));
     }
-    Bounds { bend, reach }
+    Bounds { bend, turned: by_digits }
 }
 
+#[inline]
 fn head(chain: &AxisChain, number: usize) -> Option<&Rotary> {
     chain.rotaries[number].as_ref().filter(|axis| axis.carries == Carries::Head)
 }
 
+#[inline]
 fn table(chain: &AxisChain, number: usize) -> Option<&Rotary> {
     chain.rotaries[number].as_ref().filter(|axis| axis.carries == Carries::Table)
 }

@@ -13,9 +13,6 @@ use crate::errors::PostCode;
 use crate::operation::Target;
 use crate::post::Post;
 
-/// Turns of less than this can't take the tool far out of its plane, degrees.
-const SMALL_TURN: f64 = 2.0;
-
 /// Points between the ends at which the tool is looked at.
 const SAMPLES: u32 = 32;
 
@@ -105,12 +102,11 @@ fn check_on_the_way(post: &Post, from: [f64; 2], to: [f64; 2], target: Target) -
 /// Refuses a motion on whose way the tool leaves the plane of its ends: beside a pole the
 /// axes go round it, and the tool would cut into what lies there.
 fn refuse_pole(post: &Post, from: [f64; 2], to: [f64; 2]) -> Result<()> {
-    let most = post.control.commons.dbl_opt(loc::ROTARY_AXIS_TOLERANCE).unwrap_or(0.0);
-    let small = (0..2).all(|n| (to[n] - from[n]).abs() < SMALL_TURN);
     let chain = post.control.tables.chain();
+    let most = post.control.commons.dbl_opt(loc::ROTARY_AXIS_TOLERANCE).unwrap_or(0.0);
     // One rotary axis has one way round, and no pole.
     let has_pole = chain.rotaries.iter().all(Option::is_some);
-    if small || most <= 0.0 || !has_pole {
+    if !has_pole || most <= 0.0 || most_off_its_plane(from, to) <= most {
         return Ok(());
     }
     let off = off_its_plane(chain, from, to);
@@ -130,6 +126,15 @@ pub(super) fn spelled(angles: [f64; 2]) -> String {
     format!("{:.3}/{:.3}", angles[0], angles[1])
 }
 
+/// An angle that the tool can't lean out of the plane of its ends, degrees: it bends no more
+/// than as if both axes turned it about one line, and a curve lies no farther from its chord
+/// than an eighth of the most that it bends.
+fn most_off_its_plane(from: [f64; 2], to: [f64; 2]) -> f64 {
+    let turned = (0..2).map(|n| (to[n] - from[n]).abs().to_radians()).sum::<f64>();
+    let apart = turned * turned / 8.0;
+    if apart < 1.0 { libm::asin(apart).to_degrees() } else { 180.0 }
+}
+
 /// The largest angle between the tool and the way that turns it straight from one end to
 /// the other, degrees, while the rotary axes go evenly.
 pub(super) fn off_its_plane(chain: &AxisChain, from: [f64; 2], to: [f64; 2]) -> f64 {
@@ -146,18 +151,47 @@ pub(super) fn off_its_plane(chain: &AxisChain, from: [f64; 2], to: [f64; 2]) -> 
 /// The angle between a direction and the nearest one on the shorter turn from one to
 /// another, degrees.
 fn off_the_way(from: Vector3<f64>, to: Vector3<f64>, at: Vector3<f64>) -> f64 {
-    let nearer = from.angle(&at).min(to.angle(&at));
+    let nearer = || from.angle(&at).min(to.angle(&at)).to_degrees();
     let normal = from.cross(&to);
-    let Some(normal) = normal.try_normalize(1e-9) else { return nearer.to_degrees() };
+    let Some(normal) = normal.try_normalize(1e-9) else { return nearer() };
     let foot = at - normal * normal.dot(&at);
     let between = from.cross(&foot).dot(&normal) >= 0.0 && foot.cross(&to).dot(&normal) >= 0.0;
-    let off = if between { libm::asin(normal.dot(&at).abs().min(1.0)) } else { nearer };
-    off.to_degrees()
+    if !between {
+        return nearer();
+    }
+    libm::asin(normal.dot(&at).abs().min(1.0)).to_degrees()
 }
 
 #[cfg(test)]
 mod tests {
+    use fil_machine::axis_chain::{Carries, ROTARY_LETTERS, Rotary};
+    use nalgebra::{Point3, Unit};
+
     use super::*;
+
+    proptest::proptest! {
+        #[test]
+        fn no_way_leaves_its_plane_by_more_than_the_bound(
+            first in [-1f64..1.0, -1f64..1.0, 0.1f64..1.0],
+            second in [-1f64..1.0, -1f64..1.0, 0.1f64..1.0],
+            from in [-180f64..180.0, -180f64..180.0], turn in [-80f64..80.0, -80f64..80.0],
+        ) {
+            let rotary = |direction: [f64; 3]| Rotary {
+                carries: Carries::Table,
+                direction: Unit::new_normalize(Vector3::from(direction)),
+                center: Point3::origin(),
+                letter: ROTARY_LETTERS[0],
+                axis: 0,
+                min: None,
+                max: None,
+            };
+            let rotaries = [first, second].map(|direction| Some(rotary(direction)));
+            let chain = AxisChain { rotaries, ..AxisChain::default() };
+            let to = [from[0] + turn[0], from[1] + turn[1]];
+            let (off, most) = (off_its_plane(&chain, from, to), most_off_its_plane(from, to));
+            proptest::prop_assert!(off <= most + 1e-6, "{} {}", off, most);
+        }
+    }
 
     #[test]
     fn a_direction_beside_the_way_is_as_far_as_its_nearest_point() {

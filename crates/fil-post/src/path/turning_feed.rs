@@ -50,7 +50,7 @@ impl<'a> TurningFeed<'a> {
     ///
     /// # Errors
     /// No feed; a feed a turn of a spindle whose speed is not known.
-    #[inline]
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
     pub(super) fn of(post: &'a Post) -> Result<Self> {
         let tables = &post.control.tables;
         let rules = &tables.rotary_feed;
@@ -88,7 +88,7 @@ impl<'a> TurningFeed<'a> {
 
     /// The feed of a motion between two positions on the tape, in which the tip goes
     /// `way` in the part.
-    #[inline]
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
     pub(super) fn between(&self, from: &Position, to: &Position, way: f64) -> PartFeed {
         if self.form == RotaryFeed::AsFedratSays {
             return PartFeed { feed: self.given, slowed: false };
