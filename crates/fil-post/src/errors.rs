@@ -5,7 +5,8 @@ fil_diag::codes! {
     pub enum PostCode {
         /// Motion without position.
         ArcStart = 503, Error, "arc without a start point",
-            "An arc starts where the motion before it ended, and no motion came before.",
+            "An arc starts where the motion before it ended, and no motion came before, or the machine \
+             stands elsewhere: behind a cycle, a text, TRANS, or a FROM between motions.",
             "Put a GOTO before the CIRCLE, after all that moves the axes otherwise.";
         /// Radii disagree.
         ArcRadius = 504, Error, "the radii of the arc disagree",

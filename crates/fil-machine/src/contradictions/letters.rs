@@ -43,10 +43,14 @@ const SINUMERIK: &[(LetterAt, &str, Option<u8>)] = &[
     (loc::RAPID_ADDRESS, "rapid.address", None),
 ];
 
+/// Letters that no control has for a rotary axis: they are X, Y and Z, or stand for other words.
+const NO_ROTARY_AXIS: &[u8] = b"DFGHIJKLMNOPQRSTXYZ";
+
 /// Finds letters that mean two things.
 pub(super) fn check(commons: &Commons, found: &mut Vec<Diag>) {
-    axis_letters(commons, found);
-    word_letters(commons, found);
+    let rotary = rotary_letters(commons);
+    axis_letters(rotary, found);
+    word_letters(commons, rotary, found);
     match commons.read(loc::CONTROL_FAMILY) {
         ControlFamily::WordAddress => of_words(commons, found),
         ControlFamily::Sinumerik => of_sinumerik(commons, found),
@@ -86,14 +90,22 @@ fn of_sinumerik(commons: &Commons, found: &mut Vec<Diag>) {
     }
 }
 
-/// The letters of rotary axes, set or usual: neither each other's nor those of X, Y and Z.
-fn axis_letters(commons: &Commons, found: &mut Vec<Diag>) {
+/// The letters of rotary axes, set or usual.
+fn rotary_letters(commons: &Commons) -> [Option<Letter>; 2] {
     // A chain that can't be built is told of where it is built.
-    let Ok(chain) = AxisChain::from_commons(commons) else { return };
-    let rotary = chain.rotaries.map(|axis| axis.map(|axis| axis.letter));
+    match AxisChain::from_commons(commons) {
+        Ok(chain) => chain.rotaries.map(|axis| axis.map(|axis| axis.letter)),
+        Err(_) => [None; 2],
+    }
+}
+
+/// Rotary axes have neither each other's letter nor that of a word with another meaning.
+fn axis_letters(rotary: [Option<Letter>; 2], found: &mut Vec<Diag>) {
     for letter in rotary.into_iter().flatten() {
-        if letters::XYZ.contains(&letter) {
-            found.push(contradiction(format!("{letter} is a linear and a rotary axis")));
+        if NO_ROTARY_AXIS.contains(&letter.byte()) {
+            found.push(contradiction(format!(
+                "{letter} can't be a rotary axis; a control reads it as something else"
+            )));
         }
     }
     if rotary[0].is_some() && rotary[0] == rotary[1] {
@@ -103,10 +115,13 @@ fn axis_letters(commons: &Commons, found: &mut Vec<Diag>) {
 
 /// Letters of words that may stand in a block together: different, and neither an
 /// axis nor a function.
-fn word_letters(commons: &Commons, found: &mut Vec<Diag>) {
+fn word_letters(commons: &Commons, rotary: [Option<Letter>; 2], found: &mut Vec<Diag>) {
     let of = |at: LetterAt| commons.read(at);
-    let taken =
-        |letter: Letter| letters::XYZ.contains(&letter) || b"FGHMNST".contains(&letter.byte());
+    let taken = |letter: Letter| {
+        letters::XYZ.contains(&letter)
+            || rotary.contains(&Some(letter))
+            || b"FGHMNST".contains(&letter.byte())
+    };
     let is_center = |letter: Letter| b"IJK".contains(&letter.byte());
     if let Some(letter) = of(loc::CIRCLE_RADIUS_ADDRESS).filter(|letter| is_center(*letter)) {
         found.push(contradiction(format!("{letter} is the radius and the center of an arc")));

@@ -42,10 +42,13 @@ impl<C: Steps> Walk<'_, C> {
         let from = self.begins();
         let mut before = 0.0;
         let mut last = None;
-        for angle in parts.angles {
+        let count = parts.angles.len() as f64;
+        for (n, angle) in (1..).zip(parts.angles) {
             let Some(found) = self.next_move() else { break };
             self.check_rate(cl_line, self.at, &found, rate);
             self.look_between(cl_line, &found, |_| Asked::arc(arc, from, [before, angle]));
+            let share = if parts.lines { f64::from(n) / count } else { angle / arc.sweep };
+            self.check_turn_on_arc(cl_line, &found, [from.axis, arc.end.axis], share);
             before = angle;
             self.take(cl_line, &found);
             self.next += 1;

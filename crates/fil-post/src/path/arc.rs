@@ -33,6 +33,9 @@ const SAME_ANGLE: f64 = 1e-6;
 
 pub(super) const FULL: f64 = 360.0;
 
+const ELSEWHERE: &str = "the tape does not stand where the arc begins: a cycle, a text, POSTN, REPEAT or FROM has \
+     moved the axes or the point, TRANS the frame, or no motion came before";
+
 /// Carries out the arc that ends at `target`.
 ///
 /// # Errors
@@ -48,7 +51,7 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     refuse_first_under_compensation(post)?;
     let sweep = sweep(arc, ends);
     post.path.course.arc(ends.map(|end| arc.axis.cross(&end)), sweep, arc.line);
-    let turns_axis = target.axis != post.path.axis;
+    let turns_axis = target.axis != post.path.stands;
     let whole =
         if turns_axis { None } else { in_plane(post, arc, start, (radius, sweep), target)? };
     let whole = match whole {
@@ -56,16 +59,14 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
         whole => whole,
     };
     let Some(mut whole) = whole else {
+        refuse_start_elsewhere(post, start)?;
         post.warn(PostCode::ArcLines, "an arc was written as short lines".to_string());
         return long_arc::as_lines(post, arc, start, sweep, target);
     };
     check_travel(post, &whole)?;
     family::ready(&mut post.control)?;
     let Some(stands) = words::start_on_tape(&post.control, &whole.from) else {
-        return PostCode::ArcStart.err(
-            "the tape does not stand where the arc begins: a cycle, a text, POSTN or REPEAT has \
-             moved the axes, or no motion came before",
-        );
+        return PostCode::ArcStart.err(ELSEWHERE);
     };
     whole.start =
         family::start_of_arc(&post.control, whole.plane.axes().map(|number| stands[number]));
@@ -75,13 +76,31 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     {
         let feed = feed_rules::of_arc(post, &whole)?;
         family::arc(&mut post.control, &whole, feed.as_ref())?;
-        post.path.point = Some(target.point);
+        post.path.arrive(target);
         Ok(())
     } else if let Some(parts) = parts(post, &whole)? {
         long_arc::in_parts(post, parts, target.point)
     } else {
         // An arc of a few last digits: as lines it is within rounding.
         long_arc::as_lines(post, arc, start, sweep, target)
+    }
+}
+
+/// Refuses an arc as lines whose first line would not begin on it.
+fn refuse_start_elsewhere(post: &mut Post, start: Point3<f64>) -> Result<()> {
+    if post.control.tables.mills() {
+        return Ok(());
+    }
+    let here = Target { point: start, axis: post.path.stands, word: 0 };
+    let from = if post.writes_tip() {
+        let (tip, _) = rotary::transformed(post, here);
+        [tip.x, tip.y, tip.z, 0.0, 0.0]
+    } else {
+        rotary::position_of(post, here)?
+    };
+    match words::start_on_tape(&post.control, &from) {
+        Some(_) => Ok(()),
+        None => PostCode::ArcStart.err(ELSEWHERE),
     }
 }
 

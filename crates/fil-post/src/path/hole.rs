@@ -66,8 +66,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     if cycle.kind == CycleKind::Tap {
         scaled_lead::refuse(&post.control, &[hole.along], PostCode::CycleForm)?;
     }
-    post.path.point = Some(target.point);
-    post.path.axis = target.axis;
+    post.path.arrive(target);
     let word = rotary::word_of(post, target);
     let at = Motion { position, axes: AxisSet::ALL, word };
     raise(post, cycle, &mut hole, &at)?;

@@ -50,10 +50,11 @@ pub(super) fn turn(post: &mut Post, index: usize, to: f64) -> Result<()> {
         Some(transformation) => {
             post.path.has_index = transformation.is_some();
             post.path.transformation = transformation;
-            post.path.move_frame();
+            post.path.leave_point();
         }
         None => {
             post.path.axis = post.control.tables.chain().axis_at(angles);
+            post.path.stands = post.path.axis;
             post.path.point = None;
         }
     }

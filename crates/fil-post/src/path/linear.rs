@@ -62,8 +62,7 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
             family::thread(&mut post.control, &motion, &counted, change)?;
         }
     }
-    post.path.point = Some(target.point);
-    post.path.axis = target.axis;
+    post.path.arrive(*target);
     post.path.since = Since::Motion;
     Ok(())
 }

@@ -268,7 +268,7 @@ pub(super) fn is_where_the_path_is(post: &Post, before: [f64; 2]) -> bool {
         return stands(post, before).tip.is_some();
     }
     let point = post.path.point.unwrap_or_default();
-    let (tip, _) = rotary::transformed(post, Target { point, axis: post.path.axis, word: 0 });
+    let (tip, _) = rotary::transformed(post, Target { point, axis: post.path.stands, word: 0 });
     AxisSet::LINEAR.numbers().all(|n| {
         let least = post.control.tables.axis(n).resolution();
         post.control.axis_position(n).is_none_or(|at| (at - tip[n]).abs() <= least)
@@ -281,7 +281,7 @@ pub(super) fn is_where_the_path_is(post: &Post, before: [f64; 2]) -> bool {
 fn stands(post: &Post, before: [f64; 2]) -> Start {
     let tables = &post.control.tables;
     let point = post.path.point.unwrap_or_default();
-    let target = Target { point, axis: post.path.axis, word: 0 };
+    let target = Target { point, axis: post.path.stands, word: 0 };
     let (point, _) = rotary::transformed(post, target);
     let arrived = post.path.arrived.as_ref();
     let arrived =

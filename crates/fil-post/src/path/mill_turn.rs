@@ -250,8 +250,7 @@ pub(super) fn prepare(post: &mut Post, target: Target, kind: MotionKind) -> Resu
             let word = rotary::word_of(post, target);
             let motion = Motion { position, axes: AxisSet::ALL, word };
             family::rapid(&mut post.control, &motion, RapidCode::Across, cause)?;
-            post.path.point = Some(target.point);
-            post.path.axis = target.axis;
+            post.path.arrive(target);
             Ok(true)
         }
         _ => Ok(false),

@@ -44,7 +44,7 @@ use nalgebra::{Point3, Vector3};
 use crate::cause::Cause;
 use crate::control::family;
 use crate::control::word_address::motion;
-use crate::operation::{Arc, Feed, Lead, NextTools, Operation};
+use crate::operation::{Arc, Feed, Lead, NextTools, Operation, Target};
 use crate::post::Post;
 
 pub use cycle::Cycle;
@@ -58,8 +58,10 @@ pub struct Path {
     pub stated_unit: Option<Unit>,
     /// Last CL point, mm or inch, in the part frame.
     pub point: Option<Point3<f64>>,
-    /// Last CL tool axis.
+    /// The tool axis of points that give none: that of the last point, or of TLAXIS.
     pub axis: Vector3<f64>,
+    /// The tool axis in which the last motion has left the machine.
+    pub(crate) stands: Vector3<f64>,
     /// MULTAX is on: a GOTO may have an axis of any length. Off: it may have none but
     /// 0,0,1. `None` before the file has said it.
     pub multax: Option<bool>,
@@ -139,6 +141,7 @@ impl Default for Path {
             stated_unit: None,
             point: None,
             axis: Vector3::z(),
+            stands: Vector3::z(),
             multax: None,
             rotary: None,
             free: None,
@@ -182,15 +185,23 @@ impl Default for Path {
 pub(crate) enum Since {
     /// Nothing that moves the tool or the points.
     Motion,
-    /// TRANS, ORIGIN, TRACUT or ROTABL: the point stands elsewhere in the CL file behind it.
+    /// TRANS, ORIGIN, TRACUT, ROTABL or FROM: the last point is not where the tool stands.
     Frame,
     /// A tool change: nobody knows where the new tool stands.
     ToolChange,
 }
 
 impl Path {
-    /// The points behind are in another frame than those before.
-    pub(crate) fn move_frame(&mut self) {
+    /// A motion has brought the tool to a point and into its axis.
+    #[inline]
+    pub(crate) fn arrive(&mut self, target: Target) {
+        self.point = Some(target.point);
+        self.axis = target.axis;
+        self.stands = target.axis;
+    }
+
+    /// The last point is no longer the one at which the tool stands.
+    pub(crate) fn leave_point(&mut self) {
         if self.since == Since::Motion {
             self.since = Since::Frame;
         }

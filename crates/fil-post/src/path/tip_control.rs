@@ -301,8 +301,8 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
     let above = above.filter(|_| post.path.since != Since::ToolChange);
     if above.is_some() && post.path.since == Since::Frame {
         return PostCode::TipControl.err(
-            "a hole right behind TRANS, ORIGIN, TRACUT or ROTABL: where the tool stands above it \
-             is not said; a GOTO between them says it",
+            "a hole right behind TRANS, ORIGIN, TRACUT, ROTABL or FROM: a GOTO between them must \
+             say where the tool stands",
         );
     }
     let rest = match (cycle.retract, above) {
@@ -316,7 +316,7 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
     };
     let clear = cycle.clear;
     let was = (post.path.feed.replace(feed), post.control.block.cause);
-    let stands = post.path.axis.normalize();
+    let stands = post.path.stands.normalize();
     let mut moves = Moves { post, cycle, target, axis };
     match above {
         Some(above) => moves.across(above.now, stands, rest.max(clear))?,

@@ -4,7 +4,7 @@ use fil_diag::Result;
 use fil_machine::axes::AxisSet;
 use fil_machine::axis_chain::AxisChain;
 use fil_machine::locations as loc;
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 
 use super::{feed_rules, linearization, reposition, rotary};
 use crate::control::word_address::motion::Motion;
@@ -86,12 +86,16 @@ pub(super) fn apart(a: [f64; 2], b: [f64; 2]) -> bool {
 /// # Errors
 /// A position on the way lies outside.
 fn check_on_the_way(post: &Post, from: [f64; 2], to: [f64; 2], target: Target) -> Result<()> {
-    let Some(start) = post.path.point else { return Ok(()) };
+    // The tape names the tip; the last point of the CL file may lie in another frame.
+    let [Some(x), Some(y), Some(z)] = [0, 1, 2].map(|n| post.control.axis_position(n)) else {
+        return Ok(());
+    };
+    let start = Point3::new(x, y, z);
+    let (end, _) = rotary::transformed(post, target);
     let tables = &post.control.tables;
     for number in 1..SAMPLES {
         let share = f64::from(number) / f64::from(SAMPLES);
-        let point = start + (target.point - start) * share;
-        let (point, _) = rotary::transformed(post, Target { point, ..target });
+        let point = start + (end - start) * share;
         let angles = [0, 1].map(|n| from[n] + (to[n] - from[n]) * share);
         let at = tables.chain().linear(point, angles);
         tables.check_travel(&[at.x, at.y, at.z, 0.0, 0.0], AxisSet::LINEAR)?;

@@ -1,4 +1,5 @@
-//! FROM/x,y,z\[,i,j,k]: where the tool stands at the start. No motion.
+//! FROM/x,y,z\[,i,j,k]: where the tool stands at the start. No motion: between motions it
+//! says where the next arc or GODLTA begins, and the machine stands where it stood.
 
 use fil_diag::Result;
 
@@ -10,7 +11,12 @@ use crate::post::Post;
 /// # Errors
 /// None.
 pub fn handle(post: &mut Post, target: Target) -> Result<()> {
-    post.path.point = Some(target.point);
-    post.path.axis = target.axis;
+    let path = &mut post.path;
+    path.point = Some(target.point);
+    path.axis = target.axis;
+    match path.rotary {
+        Some(_) => path.leave_point(),
+        None => path.stands = target.axis,
+    }
     Ok(())
 }

@@ -63,7 +63,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
 fn turn(post: &mut Post, trans: Option<Transformation>, word: &str) -> Result<()> {
     compensation_side::refuse_a_turn(post, trans.as_ref(), word)?;
     post.path.transformation = trans;
-    post.path.move_frame();
+    post.path.leave_point();
     Ok(())
 }
 
@@ -150,7 +150,7 @@ fn translate(post: &mut Post, by: [f64; 3]) -> Result<()> {
         post.path.interrupt();
         translation::write(&mut post.control, by)?;
     }
-    post.path.move_frame();
+    post.path.leave_point();
     for (location, value) in loc::INPUT_TRANSLATE.into_iter().zip(by) {
         post.control.commons.set(Kind::Dbl, u32::from(location.0), value)?;
     }

@@ -252,6 +252,30 @@ impl<C: Steps> Walk<'_, C> {
         }
     }
 
+    /// Along an arc the tool turns evenly from its first direction to its last: at a share of it
+    /// by that share of the angle, or of the line between both.
+    pub(super) fn check_turn_on_arc(
+        &mut self,
+        cl_line: u32,
+        found: &Move,
+        [from, to]: [Vector3<f64>; 2],
+        share: f64,
+    ) {
+        let whole = from.angle(&to);
+        if self.settings.is_mill_turn() || whole <= self.axis_slack() || share >= 1.0 {
+            return;
+        }
+        let tip = self.settings.forward.pose(&found.to).tip;
+        let stands = |axis| self.gap(&found.to, &Pose { tip, axis }).turned.is_none();
+        if stands(from.lerp(&to, share).normalize()) || stands(from.slerp(&to, share)) {
+            return;
+        }
+        let turned = from.angle(&self.settings.forward.pose(&found.to).axis);
+        let [turned, even] = [turned, whole * share].map(|angle| short(angle.to_degrees()));
+        let message = format!("the tool has turned {turned} degrees on its arc, {even} were even");
+        self.find(FindingKind::Between, Some(cl_line), Some(found.line), message);
+    }
+
     /// How far the tool may lean out of the plane of its ends on the way to a position,
     /// degrees; `None` where it is only said: with one rotary axis that has no other way
     /// round, and on a mill-turn machine.

@@ -127,7 +127,17 @@ impl Settings<'_> {
             CoolantKind::Through => loc::COOLANT_THRU_HIGH_CODE,
             CoolantKind::ThroughLow => loc::COOLANT_THRU_LOW_CODE,
         };
-        self.commons.read(at).map(number)
+        // The tool must not run dry: the usual code stands for a pressure that the machine lacks.
+        let usual = match at {
+            loc::COOLANT_FLOOD_LOW_CODE
+            | loc::COOLANT_FLOOD_MEDIUM_CODE
+            | loc::COOLANT_FLOOD_HIGH_CODE => loc::COOLANT_FLOOD_CODE,
+            loc::COOLANT_THRU_LOW_CODE | loc::COOLANT_THRU_MEDIUM_CODE => {
+                loc::COOLANT_THRU_HIGH_CODE
+            }
+            at => at,
+        };
+        self.commons.read(at).or_else(|| self.commons.read(usual)).map(number)
     }
 
     /// The work offset of SET/OFSETL as programs name it (see

@@ -106,8 +106,7 @@ pub(super) fn along(post: &mut Post, target: Target) -> Result<()> {
     let (point, axis) = rotary::transformed(post, target);
     let to = super::position_of(post, point, axis)?;
     go(post, to, target)?;
-    post.path.point = Some(target.point);
-    post.path.axis = target.axis;
+    post.path.arrive(target);
     Ok(())
 }
 

@@ -186,8 +186,7 @@ fn with_z() -> Result<()> {
 }
 
 fn arrive(post: &mut Post, target: Target) {
-    post.path.point = Some(target.point);
-    post.path.axis = target.axis;
+    post.path.arrive(target);
     post.path.rotary = None;
 }
 
