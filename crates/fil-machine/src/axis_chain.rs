@@ -16,6 +16,7 @@ use crate::errors::MachineCode;
 use crate::letter::Letter;
 use crate::locations::{self as loc, RotaryAxis, RotaryKind};
 use crate::modes::INCH;
+pub use crate::rotation::Turn;
 use crate::rotation::{self, SAME, turn};
 use crate::setting::{Choice, LetterAt, OptionalChoice};
 use fil_diag::{Diag, Result};
@@ -52,6 +53,19 @@ pub struct Rotary {
     pub min: Option<f64>,
     /// Travel in degrees; `None` when not limited.
     pub max: Option<f64>,
+}
+
+/// Positions of all axes that bring the tip to a point and the tool along its axis.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// Of X, Y and Z, in the unit of the machine's lengths.
+    pub linear: Point3<f64>,
+    /// Of the rotary axes, degrees.
+    pub angles: [f64; 2],
+    /// Those that are the nearest if no axis has limits, degrees.
+    pub free: [f64; 2],
+    /// Those of the rotary axes with their sines.
+    pub turns: [Turn; 2],
 }
 
 /// The rotary axes of a machine; `None` for an axis that is not there.
@@ -161,6 +175,47 @@ impl AxisChain {
         Ok((self.nearest(solutions, last).ok_or_else(|| outside(solutions))?, free))
     }
 
+    /// Positions of all axes for a tip in the part, in the unit of the machine's lengths, and a
+    /// tool axis: rotary positions as those of [`AxisChain::solve_with_free`].
+    ///
+    /// # Errors
+    /// As [`AxisChain::solve`].
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
+    pub fn place(&self, tip: Point3<f64>, axis: Vector3<f64>, last: [f64; 2]) -> Result<Place> {
+        if let [Some(table), None] = &self.rotaries
+            && let Some(place) = self.place_on(table, tip, axis, last)
+        {
+            return Ok(place);
+        }
+        let (angles, free) = self.solve_with_free(axis, last)?;
+        let turns = self.turns_of(angles);
+        Ok(Place { linear: self.linear_by(tip, turns), angles, free, turns })
+    }
+
+    /// The same on one table about X, Y or Z, whose sine is that of the directions: X, Y and Z
+    /// need not wait for the angle. `None` where more is to be said.
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
+    fn place_on(
+        &self,
+        table: &Rotary,
+        tip: Point3<f64>,
+        axis: Vector3<f64>,
+        last: [f64; 2],
+    ) -> Option<Place> {
+        if table.carries != Carries::Table || is_none(axis) {
+            return None;
+        }
+        let tool = self.tool.into_inner();
+        let turn = rotation::turn_about_a_line(table.direction, tool, axis, last[0])?;
+        let turn = turn.at(near(turn.degrees, last[0]));
+        if !table.reaches(turn.degrees) {
+            return None;
+        }
+        let linear = table.center + table.turned_by(tip - table.center, turn.back());
+        let angles = [turn.degrees, last[1]];
+        Some(Place { linear, angles, free: angles, turns: [turn, Turn::default()] })
+    }
+
     /// All pairs of rotary positions that bring the tool along `axis`, in degrees from -180
     /// to 180, whatever the limits; an axis that does not turn the tool stays at `last`.
     #[inline(never)]
@@ -245,19 +300,34 @@ impl AxisChain {
     /// unit of the machine's lengths, and rotary positions in degrees.
     #[cfg_attr(not(target_family = "wasm"), inline(always))]
     pub fn linear(&self, tip: Point3<f64>, angles: [f64; 2]) -> Point3<f64> {
+        self.linear_by(tip, self.turns_of(angles))
+    }
+
+    /// Rotary positions, degrees, with their sines; of an axis that is not there 0.
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
+    fn turns_of(&self, angles: [f64; 2]) -> [Turn; 2] {
+        let of = |n: usize| match &self.rotaries[n] {
+            Some(_) => Turn::of(angles[n]),
+            None => Turn::default(),
+        };
+        [of(0), of(1)]
+    }
+
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
+    fn linear_by(&self, tip: Point3<f64>, turns: [Turn; 2]) -> Point3<f64> {
         let mut point = tip;
         let mut tool = self.tool.into_inner();
-        for (rotary, angle) in self.rotaries.iter().zip(angles) {
+        for (rotary, turn) in self.rotaries.iter().zip(turns) {
             let Some(rotary) = rotary.as_ref().filter(|r| r.carries == Carries::Table) else {
                 continue;
             };
-            point = rotary.center + rotary.turned(point - rotary.center, -angle);
+            point = rotary.center + rotary.turned_by(point - rotary.center, turn.back());
         }
-        for (rotary, angle) in self.rotaries.iter().zip(angles).rev() {
+        for (rotary, turn) in self.rotaries.iter().zip(turns).rev() {
             let Some(rotary) = rotary.as_ref().filter(|r| r.carries == Carries::Head) else {
                 continue;
             };
-            tool = rotary.turned(tool, angle);
+            tool = rotary.turned_by(tool, turn);
         }
         match self.pivot {
             Some(length) => point + (tool - self.tool.into_inner()) * length,
@@ -297,6 +367,12 @@ impl Rotary {
     #[cfg_attr(not(target_family = "wasm"), inline(always))]
     pub fn turned(&self, vector: Vector3<f64>, angle: f64) -> Vector3<f64> {
         rotation::turned(self.direction, vector, angle)
+    }
+
+    /// The same by an angle whose sine is known.
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
+    pub fn turned_by(&self, vector: Vector3<f64>, turn: Turn) -> Vector3<f64> {
+        rotation::turned_by(self.direction, vector, turn)
     }
 
     /// The angle plus whole turns that lies nearest to `last` and within the limits.

@@ -1,6 +1,8 @@
 //! What the settings say about the feed of motions in which a rotary axis turns.
 
+use crate::address::Addresses;
 use crate::commons::{Commons, Dbl};
+use crate::letter::letters;
 use crate::locations::{self as loc, RotaryFeed};
 
 /// The rules of such feeds.
@@ -20,31 +22,37 @@ pub struct RotaryFeedRules {
     pub per_minute_factor: f64,
     /// Largest feed a minute, mm or inch.
     pub per_minute_most: f64,
-    /// Smallest step of F in inverse time; `None` for that of its address.
-    pub inverse_digit: Option<f64>,
+    /// A smaller F of inverse time, 1/min, would be changed too much by rounding.
+    pub inverse_least: f64,
 }
 
+/// Rounding of an inverse-time feed to its last digit changes it by no more than the share
+/// that a feed may be rounded by.
+const LAST_DIGITS: f64 = 50.0;
+
 impl RotaryFeedRules {
-    pub(crate) fn from_commons(commons: &Commons, metric: bool) -> Self {
+    pub(crate) fn from_commons(addresses: &Addresses, commons: &Commons, metric: bool) -> Self {
         let positive = |at: Dbl| commons.dbl_opt(at).filter(|value| *value > 0.0);
         let factor = |at| positive(at).unwrap_or(1.0);
         let most = |at| positive(at).unwrap_or(f64::INFINITY);
         let own = commons.dbl_opt(loc::ROTARY_SECONDARY_FEED_MAX).is_some();
         let second = if own { loc::ROTARY_SECONDARY_FEED_MAX } else { loc::ROTARY_FEED_MAX };
         let decimals = |format: i32| if metric { format % 10 } else { format / 100 % 10 };
-        let inverse_format = commons.int_opt(loc::FEED_INVERSE_FORMAT);
+        let digit = match commons.int_opt(loc::FEED_INVERSE_FORMAT) {
+            Some(format) => libm::exp10(-f64::from(decimals(format))),
+            None => addresses.format(letters::F).map_or(1.0, |format| format.unscale(1)),
+        };
+        let inverse_factor = factor(loc::FEED_INVERSE_FACTOR);
+        let inverse_min = commons.dbl_opt(loc::FEED_INVERSE_MIN).unwrap_or(0.0);
         RotaryFeedRules {
             form: commons.read(loc::ROTARY_FEED),
             most_turn: [most(loc::ROTARY_FEED_MAX), most(second)],
             least_time: positive(loc::FEED_INVERSE_MIN_TIME).unwrap_or(0.0) / 60.0,
-            inverse: [
-                commons.dbl_opt(loc::FEED_INVERSE_MIN).unwrap_or(0.0),
-                most(loc::FEED_INVERSE_MAX),
-            ],
-            inverse_factor: factor(loc::FEED_INVERSE_FACTOR),
+            inverse: [inverse_min, most(loc::FEED_INVERSE_MAX)],
+            inverse_factor,
             per_minute_factor: factor(loc::FEED_UPM_FACTOR),
             per_minute_most: most(loc::FEED_UPM_MAX),
-            inverse_digit: inverse_format.map(|format| libm::exp10(-f64::from(decimals(format)))),
+            inverse_least: inverse_min.max(LAST_DIGITS * digit / inverse_factor),
         }
     }
 }

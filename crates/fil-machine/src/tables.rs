@@ -91,7 +91,7 @@ impl MachineTables {
         self.numbering = Numbering::from_commons(&self.addresses, commons);
         self.style = TapeStyle::from_commons(commons);
         self.motion = MotionRules::from_commons(commons);
-        self.rotary_feed = RotaryFeedRules::from_commons(commons, metric);
+        self.rotary_feed = RotaryFeedRules::from_commons(&self.addresses, commons, metric);
         self.feed_formats = FeedFormats::from_commons(&self.addresses, commons, metric);
         self.format_feed(FeedMode::PerMinute);
         let chain = AxisChain::from_commons(commons)?;

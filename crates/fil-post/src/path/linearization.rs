@@ -7,12 +7,12 @@
 
 use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
-use fil_machine::axis_chain::AxisChain;
+use fil_machine::axis_chain::{AxisChain, Turn};
 use fil_machine::locations as loc;
 use fil_machine::tables::MachineTables;
 use nalgebra::Point3;
 
-use super::tip::{certain_distance, distance, largest_distance, tip};
+use super::tip::{certain_distance, distance, largest_distance, tip, tip_beside};
 use super::turning_feed::{PartFeed, TurningFeed};
 use super::{mill_turn, rotary};
 use crate::control::family;
@@ -47,6 +47,8 @@ struct Turning<'a> {
     ends: [Position; 2],
     /// The line of the tip in the part frame.
     line: [Point3<f64>; 2],
+    /// The rotary axes at the end.
+    turns: [Turn; 2],
 }
 
 /// Where the axes stand before a motion.
@@ -319,7 +321,8 @@ impl<'a> Turning<'a> {
         let chain = tables.chain();
         let from = start.position;
         let begin = start.tip.unwrap_or_else(|| tip(chain, &from));
-        Turning { tables, chain, ends: [from, to], line: [begin, end] }
+        let turns = post.path.turns;
+        Turning { tables, chain, ends: [from, to], line: [begin, end], turns }
     }
 
     /// How far the tip goes.
@@ -408,7 +411,7 @@ impl<'a> Turning<'a> {
     #[cfg_attr(not(target_family = "wasm"), inline(always))]
     fn arrival(&self, position: &Position) -> Result<OnTape> {
         let position = self.on_tape(position)?;
-        Ok(OnTape { tip: tip(self.chain, &position), position })
+        Ok(OnTape { tip: tip_beside(self.chain, &position, self.turns), position })
     }
 
     /// The position as the tape has it.

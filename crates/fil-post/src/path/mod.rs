@@ -39,6 +39,7 @@ mod turning_feed;
 
 use fil_diag::Result;
 use fil_machine::Unit;
+use fil_machine::axis_chain::Turn;
 use nalgebra::{Point3, Vector3};
 
 use crate::cause::Cause;
@@ -69,6 +70,8 @@ pub struct Path {
     pub rotary: Option<[f64; 2]>,
     /// Last rotary positions as they are the nearest if no axis has limits, degrees.
     pub(crate) free: Option<[f64; 2]>,
+    /// The last rotary positions that were found for a motion, with their sines.
+    pub(crate) turns: [Turn; 2],
     /// Where the last motion that turned the machine has brought it.
     pub(crate) arrived: Option<linearization::Arrived>,
     /// Positions that the look-ahead has chosen for the rapid motion at hand, degrees.
@@ -145,6 +148,7 @@ impl Default for Path {
             multax: None,
             rotary: None,
             free: None,
+            turns: [Turn::default(); 2],
             arrived: None,
             chosen: None,
             frame: None,

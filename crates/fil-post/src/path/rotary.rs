@@ -2,6 +2,7 @@
 
 use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
+use fil_machine::axis_chain::Place;
 use nalgebra::{Point3, Vector3};
 
 use super::{frame, mill_turn, tip_control};
@@ -41,11 +42,11 @@ pub fn find_position(post: &mut Post, target: Target, position: &mut Position) -
     }
     let last = post.path.chosen.take().or(post.path.rotary).unwrap_or_else(|| on_tape(post));
     let chain = post.control.tables.chain();
-    let (angles, free) = chain.solve_with_free(axis, last)?;
-    let linear = chain.linear(point, angles);
+    let Place { linear, angles, free, turns } = chain.place(point, axis, last)?;
     *position = [linear.x, linear.y, linear.z, angles[0], angles[1]];
     post.path.rotary = Some(angles);
     post.path.free = Some(free);
+    post.path.turns = turns;
     Ok(())
 }
 

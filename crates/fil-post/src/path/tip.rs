@@ -5,27 +5,34 @@
 //! the curve can bend between two samples is added, so that nothing is missed.
 
 use fil_machine::axes::Position;
-use fil_machine::axis_chain::{AxisChain, Carries, Rotary};
+use fil_machine::axis_chain::{AxisChain, Carries, Rotary, Turn};
 use nalgebra::{Point3, Vector3};
 
 /// Intervals between the samples of one motion.
 const INTERVALS: u32 = 8;
 
 /// The tip in the part frame where the axes stand: what [`AxisChain::linear`] undoes.
-#[cfg_attr(not(target_family = "wasm"), inline(always))]
+#[inline]
 pub(super) fn tip(chain: &AxisChain, at: &Position) -> Point3<f64> {
+    tip_beside(chain, at, [Turn::default(); 2])
+}
+
+/// The same where the rotary axes stand near positions whose sines are known.
+#[cfg_attr(not(target_family = "wasm"), inline(always))]
+pub(super) fn tip_beside(chain: &AxisChain, at: &Position, turns: [Turn; 2]) -> Point3<f64> {
     let mut point = Point3::new(at[0], at[1], at[2]);
     if let Some(length) = chain.pivot {
         let tool = chain.tool.into_inner();
         let turned = [1, 0].into_iter().fold(tool, |tool, n| match head(chain, n) {
-            Some(axis) => axis.turned(tool, at[n + 3]),
+            Some(axis) => axis.turned_by(tool, turns[n].beside(at[n + 3])),
             None => tool,
         });
         point -= (turned - tool) * length;
     }
     for number in [1, 0] {
         if let Some(axis) = table(chain, number) {
-            point = axis.center + axis.turned(point - axis.center, at[number + 3]);
+            let turn = turns[number].beside(at[number + 3]);
+            point = axis.center + axis.turned_by(point - axis.center, turn);
         }
     }
     point

@@ -16,10 +16,6 @@ use crate::errors::PostCode;
 use crate::operation::{Feed, SpindleSpeed};
 use crate::post::Post;
 
-/// Rounding of an inverse-time feed to its last digit changes it by no more than the
-/// share that a feed may be rounded by.
-const LAST_DIGITS: f64 = 50.0;
-
 /// Shorter ways of the tip count as none, mm or inch.
 const STANDS: f64 = 1e-9;
 
@@ -33,8 +29,6 @@ pub(super) struct TurningFeed<'a> {
     given: Feed,
     /// Way of the tip, mm or inch a minute.
     rate: f64,
-    /// Smallest step of F in inverse time.
-    digit: f64,
 }
 
 /// The feed of one motion.
@@ -64,9 +58,7 @@ impl<'a> TurningFeed<'a> {
             }
             _ => given.value / rules.per_minute_factor,
         };
-        let digit = || tables.addresses.format(F).map_or(1.0, |format| format.unscale(1));
-        let digit = rules.inverse_digit.unwrap_or_else(digit);
-        Ok(TurningFeed { rules, form, given, rate, digit })
+        Ok(TurningFeed { rules, form, given, rate })
     }
 
     /// How many parts a way of the tip needs at least, so that F is not too small for
@@ -75,7 +67,7 @@ impl<'a> TurningFeed<'a> {
         if self.form != RotaryFeed::InverseTime {
             return Ok(1);
         }
-        let least = self.rules.inverse[0].max(LAST_DIGITS * self.digit / self.rules.inverse_factor);
+        let least = self.rules.inverse_least;
         if way * least <= self.rate {
             return Ok(1);
         }
