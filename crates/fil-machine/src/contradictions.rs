@@ -163,6 +163,14 @@ fn diameters(commons: &Commons, found: &mut Vec<Diag>) {
     if is_klartext && doubles {
         found.push(contradiction("scale.x is 2, and Klartext has no diameters".into()));
     }
+    let turns = AxisChain::from_commons(commons).is_ok_and(|chain| chain.has_rotary());
+    if turns && commons.read(loc::LATHE_DIAMETER) && mill_turn::mode(commons).is_none() {
+        found.push(contradiction(
+            "X is a diameter, and a rotary axis turns the part or the tool: a lathe whose spindle \
+             is the axis C names mill_turn.milling_code"
+                .into(),
+        ));
+    }
     if let Some(code) = commons.read(loc::LATHE_DIAMETER_CODE)
         && !doubles
         && !commons.read(loc::LATHE_DIAMETER)

@@ -3,7 +3,7 @@
 use fil_diag::Diag;
 
 use super::contradiction;
-use crate::commons::Commons;
+use crate::commons::{Commons, Int};
 use crate::locations::{self as loc, ControlFamily, CycleReturnCodes};
 use crate::setting::CodeAt;
 
@@ -74,6 +74,63 @@ const MODES: &[(&str, &[CodeAt])] = &[
     ("a dwell", &[loc::DWELL_CODE]),
     ("the end of a cycle", &[loc::CYCLE_OFF_CODE]),
     ("a cycle", &loc::CYCLE_CODES),
+    ("the kind of coordinates", &[loc::MODE_ABSOLUTE_CODE, loc::MODE_INCREMENTAL_CODE]),
+];
+
+/// Preparatory functions in tenths, which are those of no mode either.
+const IN_TENTHS: &[(Int, &str)] = &[
+    (loc::ROTARY_TIP_CODE, "tool-tip control"),
+    (loc::ROTARY_VECTOR_CODE, "directions of the tool as vectors"),
+    (loc::ROTARY_FRAME_CODE, "a tilted frame"),
+    (loc::ROTARY_FRAME_ALIGN_CODE, "a turn into a tilted frame"),
+    (loc::MILL_TURN_POLAR_CODE, "polar interpolation"),
+    (loc::MILL_TURN_POLAR_END_CODE, "the end of polar interpolation"),
+    (loc::MILL_TURN_CYLINDER_CODE, "cylindrical interpolation"),
+];
+
+/// Auxiliary functions by what they command: no code may command two such things.
+const FUNCTIONS: &[(&str, &[CodeAt])] = &[
+    (
+        "a stop or an end",
+        &[
+            loc::PROGRAM_STOP_CODE,
+            loc::PROGRAM_OPSTOP_CODE,
+            loc::PROGRAM_END_CODE,
+            loc::PROGRAM_REWIND_CODE,
+        ],
+    ),
+    (
+        "the spindle",
+        &[
+            loc::SPINDLE_CW_CODE,
+            loc::SPINDLE_CCW_CODE,
+            loc::SPINDLE_STOP_CODE,
+            loc::SPINDLE_ORIENT_CODE,
+            loc::SPINDLE_DEFAULT_CODE,
+        ],
+    ),
+    ("a range of the spindle", &loc::RANGE_CODES),
+    ("a tool change", &[loc::TOOL_CHANGE_CODE]),
+    (
+        "the coolant",
+        &[
+            loc::COOLANT_OFF_CODE,
+            loc::COOLANT_DEFAULT_CODE,
+            loc::COOLANT_MIST_CODE,
+            loc::COOLANT_TAP_CODE,
+            loc::COOLANT_AIR_CODE,
+            loc::COOLANT_FLOOD_CODE,
+            loc::COOLANT_FLOOD_LOW_CODE,
+            loc::COOLANT_FLOOD_MEDIUM_CODE,
+            loc::COOLANT_FLOOD_HIGH_CODE,
+            loc::COOLANT_THRU_LOW_CODE,
+            loc::COOLANT_THRU_MEDIUM_CODE,
+            loc::COOLANT_THRU_HIGH_CODE,
+        ],
+    ),
+    ("the override of the feed", &[loc::OVERRIDE_ON_CODE, loc::OVERRIDE_OFF_CODE]),
+    ("a clamp", &[loc::ROTARY_CLAMP_CODE, loc::ROTARY_UNCLAMP_CODE]),
+    ("a rigid tap", &[loc::CYCLE_RIGID_TAP_MODE]),
 ];
 
 /// Commands of M, which no coolant may share either.
@@ -101,7 +158,9 @@ pub(super) fn check(commons: &Commons, found: &mut Vec<Diag>) {
     }
     rapid_codes(commons, found);
     tapping_codes(commons, found);
-    codes_of_two_modes(commons, found);
+    codes_of_two_groups(commons, 'G', MODES, found);
+    codes_of_two_groups(commons, 'M', FUNCTIONS, found);
+    codes_in_tenths(commons, found);
     return_levels(commons, found);
     calls(commons, found);
     coolants(commons, found);
@@ -149,13 +208,32 @@ fn tapping_codes(commons: &Commons, found: &mut Vec<Diag>) {
     }
 }
 
-fn codes_of_two_modes(commons: &Commons, found: &mut Vec<Diag>) {
-    for (index, (what, group)) in MODES.iter().enumerate() {
+/// No code of one of these groups is one of another.
+fn codes_of_two_groups(
+    commons: &Commons,
+    letter: char,
+    groups: &[(&str, &[CodeAt])],
+    found: &mut Vec<Diag>,
+) {
+    for (index, (what, group)) in groups.iter().enumerate() {
         for code in group.iter().filter_map(|at| commons.read(*at)) {
-            let has = |group: &[CodeAt]| group.iter().any(|at| commons.read(*at) == Some(code));
-            if let Some((other, _)) = MODES[..index].iter().find(|(_, group)| has(group)) {
-                found.push(contradiction(format!("G{code} is both {other} and {what}")));
+            if let Some(other) = group_of(commons, code, &groups[..index]) {
+                found.push(contradiction(format!("{letter}{code} is both {other} and {what}")));
             }
+        }
+    }
+}
+
+fn group_of<'g>(commons: &Commons, code: i32, groups: &[(&'g str, &[CodeAt])]) -> Option<&'g str> {
+    let has = |group: &[CodeAt]| group.iter().any(|at| commons.read(*at) == Some(code));
+    groups.iter().find(|(_, group)| has(group)).map(|(what, _)| *what)
+}
+
+fn codes_in_tenths(commons: &Commons, found: &mut Vec<Diag>) {
+    for (at, what) in IN_TENTHS {
+        let Some(tenths) = commons.int_opt(*at).filter(|tenths| tenths % 10 == 0) else { continue };
+        if let Some(other) = group_of(commons, tenths / 10, MODES) {
+            found.push(contradiction(format!("G{} is both {other} and {what}", tenths / 10)));
         }
     }
 }
@@ -172,8 +250,7 @@ fn return_levels(commons: &Commons, found: &mut Vec<Diag>) {
     }
     let levels = [loc::CYCLE_RETURN_INITIAL_CODE, loc::CYCLE_RETURN_CLEAR_CODE];
     for code in levels.iter().filter_map(|at| commons.read(*at)) {
-        let has = |group: &[CodeAt]| group.iter().any(|at| commons.read(*at) == Some(code));
-        if let Some((what, _)) = MODES.iter().find(|(_, group)| has(group)) {
+        if let Some(what) = group_of(commons, code, MODES) {
             found.push(contradiction(format!(
                 "G{code} is both {what} and the level that cycles return to"
             )));
