@@ -124,6 +124,10 @@ fil_diag::codes! {
         FeedStands = 534, Error, "feed a turn with the spindle standing",
             "The control counts the feed in turns of the spindle, and waits for them where it stands.",
             "Put SPINDL / RPM with a direction before it, or give the feed a minute.";
+        /// A motion at feed of a rotary axis that may stand anywhere.
+        UnknownTurn = 535, Error, "a motion at feed from where a rotary axis may stand anywhere",
+            "A text, a call of a subprogram or the like came before it and may have turned the axis: the motion would turn it back at feed, by any angle, and the tip would leave its line.",
+            "Put RAPID and a GOTO before it, which turns the axis to where it belongs, or a text that says where it stands (G0 A0.).";
         /// A block that is too long.
         BlockLength = 541, Error, "block longer than the control reads",
             "The rest of a block that is longer than the control's buffer would be lost.",

@@ -160,7 +160,7 @@ impl Post {
     }
 
     /// True when rotary positions are chosen by the motions behind a RAPID: whoever drives the
-    /// post tells their tool axes by `path.coming` before the record.
+    /// post tells them by `path.coming` before the record.
     pub fn looks_ahead_for_axes(&self) -> bool {
         self.control.tables.chain().has_rotary() && self.control.commons.read(loc::REPOS_OPTIMISE)
     }

@@ -73,7 +73,7 @@ pub(super) struct Doubts {
     /// They had a last output value before it was made EMPTY.
     had_value: LetterSet,
     /// Where axes may stand that a text, a word of REPEAT or the skip switch has moved.
-    levels: [Option<Levels>; 3],
+    levels: [Option<Levels>; 6],
     /// Where axes stand whose last output value a script has made EMPTY.
     emptied: [Option<(Letter, f64)>; 3],
 }

@@ -161,13 +161,12 @@ impl ControlState {
     /// Learns where a text has brought the axes; positions that count otherwise than those of
     /// the post are not read.
     fn learn_motion(&mut self, words: &[(Letter, f64)], is_read: bool) {
-        const LINEAR: [Letter; 3] = letters::XYZ;
         let counts = self.distance == Some(Distance::Absolute) && self.motion.is_some();
         let is_incremental = words.iter().any(|(letter, _)| b"UVW".contains(&letter.byte()));
         if !(is_read && counts) || is_incremental {
             return self.lose_axes();
         }
-        for (letter, value) in words.iter().filter(|(letter, _)| LINEAR.contains(letter)) {
+        for (letter, value) in words.iter().filter(|(letter, _)| is_axis(*letter)) {
             self.stand(*letter, *value);
         }
     }

@@ -64,7 +64,7 @@ pub fn line(
 /// known.
 fn way(post: &Post, motion: &Motion) -> [Option<f64>; 3] {
     [0, 1, 2].map(|number| {
-        let from = post.control.axis_position(number)?;
+        let from = post.control.stands(number)?;
         Some(motion.position[number] - from)
     })
 }
@@ -130,7 +130,7 @@ fn shows_the_tip(post: &Post) -> bool {
     let tables = &post.control.tables;
     let stands = |n: usize| {
         let (axis, angles) = (tables.axis(n), post.path.rotary);
-        let (tape, angle) = (post.control.axis_position(n), angles.map(|at| at[n - 3]));
+        let (tape, angle) = (post.control.stands(n), angles.map(|at| at[n - 3]));
         match (tape, angle) {
             (Some(tape), Some(angle)) => {
                 (axis.near(tape, angle) - angle).abs() <= axis.resolution()

@@ -36,6 +36,9 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
     if post.control.tables.prepares && prepare(post, *target, kind)? {
         return Ok(());
     }
+    if post.control.state.has_doubts() && !matches!(kind, MotionKind::Rapid(_)) {
+        rotary::refuse_unknown_turn(post)?;
+    }
     let before = post.path.rotary;
     let word = rotary::word_of(post, *target);
     let mut motion = Motion { position: Position::default(), axes: AxisSet::ALL, word };

@@ -273,7 +273,7 @@ pub(super) fn is_where_the_path_is(post: &Post, before: [f64; 2]) -> bool {
     let (tip, _) = rotary::transformed(post, Target { point, axis: post.path.stands, word: 0 });
     AxisSet::LINEAR.numbers().all(|n| {
         let least = post.control.tables.axis(n).resolution();
-        post.control.axis_position(n).is_none_or(|at| (at - tip[n]).abs() <= least)
+        post.control.stands(n).is_none_or(|at| (at - tip[n]).abs() <= least)
     })
 }
 
@@ -302,7 +302,7 @@ fn stands(post: &Post, before: [f64; 2]) -> Start {
     let (mut tape, mut moved) = (exact, post.path.point.is_none());
     for n in tables.present().numbers() {
         let axis = tables.axis(n);
-        if let (false, Some(stands)) = (axis.is_off(), post.control.axis_position(n)) {
+        if let (false, Some(stands)) = (axis.is_off(), post.control.stands(n)) {
             tape[n] = axis.near(stands, exact[n]);
             moved |= (tape[n] - exact[n]).abs() > axis.resolution();
         }

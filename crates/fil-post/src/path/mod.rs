@@ -50,6 +50,7 @@ use crate::post::Post;
 
 pub use cycle::Cycle;
 pub use linearization::Straightness;
+pub use solution::Coming;
 pub use transformation::Transformation;
 
 /// Where the CL file stands: point and axis, and what its records asked for.
@@ -127,9 +128,8 @@ pub struct Path {
     pub(crate) cutter_named_at: Option<Point3<f64>>,
     /// The tool changes behind the next one, where whoever drives the post has looked.
     pub next_tools: NextTools,
-    /// Tool axes of the motions behind a RAPID, where whoever drives the post has looked;
-    /// `None` for one that keeps the axis before it.
-    pub coming: Vec<Option<[f64; 3]>>,
+    /// The motions behind a RAPID, where whoever drives the post has looked.
+    pub coming: Vec<Coming>,
     /// How the last feed motion ended, to judge the sense of arcs.
     pub(crate) course: sense::Course,
     /// Whoever chose the dialect has said which way arcs turn.
@@ -266,6 +266,16 @@ fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
         mill_turn::before(post, &operation)?;
     }
     skip::note(post, &operation);
+    // A script that writes words of its own counts its turns itself.
+    let is_text = matches!(operation, Operation::Text(_));
+    write_other(post, operation)?;
+    if is_text {
+        rotary::follow_tape(post);
+    }
+    Ok(())
+}
+
+fn write_other(post: &mut Post, operation: Operation) -> Result<()> {
     match operation {
         Operation::Skip(on) => skip::switch(post, on),
         Operation::MachinePosition(to) => machine_position::carry_out(post, to),

@@ -2,10 +2,11 @@
 
 use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
-use fil_machine::axis_chain::Place;
+use fil_machine::axis_chain;
 use nalgebra::{Point3, Vector3};
 
 use super::{frame, mill_turn, tip_control};
+use crate::control_state::Place;
 use crate::errors::PostCode;
 use crate::operation::Target;
 use crate::post::Post;
@@ -42,7 +43,7 @@ pub fn find_position(post: &mut Post, target: Target, position: &mut Position) -
     }
     let last = post.path.chosen.take().or(post.path.rotary).unwrap_or_else(|| on_tape(post));
     let chain = post.control.tables.chain();
-    let Place { linear, angles, free, turns } = chain.place(point, axis, last)?;
+    let axis_chain::Place { linear, angles, free, turns } = chain.place(point, axis, last)?;
     *position = [linear.x, linear.y, linear.z, angles[0], angles[1]];
     post.path.rotary = Some(angles);
     post.path.free = Some(free);
@@ -118,8 +119,43 @@ pub fn transformed(post: &Post, target: Target) -> (Point3<f64>, Vector3<f64>) {
 pub(super) fn on_tape(post: &Post) -> [f64; 2] {
     [3, 4].map(|number| {
         let present = post.control.tables.present().has(number);
-        post.control.axis_position(number).filter(|_| present).unwrap_or(0.0)
+        post.control.stands(number).filter(|_| present).unwrap_or(0.0)
     })
+}
+
+/// Refuses a motion at feed while a rotary axis may stand anywhere: it would turn by any angle,
+/// and the tip would leave its line.
+///
+/// # Errors
+/// One may.
+#[cold]
+pub(super) fn refuse_unknown_turn(post: &Post) -> Result<()> {
+    let tables = &post.control.tables;
+    let mut rotary = AxisSet::ROTARY.and(tables.present()).numbers();
+    let unknown = rotary.find(|number| post.control.place(*number) == Place::Unknown);
+    let Some(number) = unknown.filter(|_| !tables.mills()) else { return Ok(()) };
+    let letter = tables.axis(number).letter;
+    PostCode::UnknownTurn.err(format!("where {letter} stands is not known here"))
+}
+
+/// Takes the rotary axes to stand where a text has brought them: the next motion turns from
+/// there.
+pub(super) fn follow_tape(post: &mut Post) {
+    let tables = &post.control.tables;
+    let Some(mut angles) = post.path.rotary.filter(|_| !tables.mills()) else { return };
+    let mut moved = false;
+    for number in AxisSet::ROTARY.and(tables.present()).numbers() {
+        let (axis, angle) = (tables.axis(number), &mut angles[number - 3]);
+        let here = post.control.stands(number).map(|here| axis.near(here, *angle));
+        if let Some(here) = here.filter(|here| (here - *angle).abs() > axis.resolution()) {
+            *angle = here;
+            moved = true;
+        }
+    }
+    if moved {
+        post.path.rotary = Some(angles);
+        post.path.leave_point();
+    }
 }
 
 /// The word of the record that the axis words of a target repeat; 0 where a rotary

@@ -1,15 +1,28 @@
 //! Which of the positions that bring the tool along its axis the rotary axes take at a RAPID
-//! behind which the tool axes are known: those from which the motions meet fewest limits and
-//! poles. Else, and of several such, the nearest.
+//! behind which the motions are known: those from which they meet fewest limits and poles, the
+//! travel of X, Y and Z too. Else, and of several such, the nearest.
 
-use fil_machine::axis_chain::AxisChain;
+use fil_machine::axes::AxisSet;
 use fil_machine::locations as loc;
-use nalgebra::Vector3;
+use fil_machine::tables::MachineTables;
+use nalgebra::{Point3, Vector3};
 
 use super::rotary;
 use super::turning::off_its_plane;
 use crate::operation::{MotionKind, Target};
 use crate::post::Post;
+
+/// A motion that comes behind a RAPID, as its record gives it.
+#[derive(Clone, Copy, Debug)]
+pub struct Coming {
+    /// Its point, mm or inch; `None` for a step from the one before.
+    pub point: Option<[f64; 3]>,
+    /// Its tool axis; `None` for one that keeps the axis before it.
+    pub axis: Option<[f64; 3]>,
+}
+
+/// The same in the part of the machine: after TRANS.
+type Ahead = (Option<Point3<f64>>, Vector3<f64>);
 
 /// Chooses the positions for a rapid motion: its own solution is the nearest to them.
 #[cold]
@@ -18,43 +31,51 @@ pub(super) fn choose(post: &mut Post, target: Target, kind: MotionKind) {
     if !matches!(kind, MotionKind::Rapid(_)) || post.control.tables.mills() {
         return;
     }
-    let (_, axis) = rotary::transformed(post, target);
+    let (point, axis) = rotary::transformed(post, target);
     let last = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post));
     // The first of them is the motion at hand.
     let mut own = target.axis;
-    let axes: Vec<Vector3<f64>> = coming
-        .into_iter()
-        .skip(1)
-        .map(|given| {
-            own = given.map_or(own, Vector3::from);
-            post.path.transformation.as_ref().map_or(own, |trans| trans.axis(own))
-        })
-        .collect();
-    let chain = post.control.tables.chain();
+    let behind = coming.into_iter().skip(1).map(|next| {
+        own = next.axis.map_or(own, Vector3::from);
+        let given = Point3::from(next.point.unwrap_or_default());
+        let (point, axis) = rotary::transformed(post, Target { point: given, axis: own, word: 0 });
+        (next.point.map(|_| point), axis)
+    });
+    let ahead: Vec<Ahead> = std::iter::once((Some(point), axis)).chain(behind).collect();
+    let tables = &post.control.tables;
     let lean = post.control.commons.dbl_opt(loc::ROTARY_AXIS_TOLERANCE).unwrap_or(0.0);
     let way = |to: &[f64; 2]| (to[0] - last[0]).abs() + (to[1] - last[1]).abs();
-    let all = chain.positions(axis, last).into_iter().map(|to| (met(chain, to, &axes, lean), to));
+    let all = tables.chain().positions(axis, last).into_iter();
+    let all = all.map(|to| (met(tables, to, &ahead, lean), to));
     let best = all.min_by(|(met, a), (other, b)| met.cmp(other).then(way(a).total_cmp(&way(b))));
     if let Some((_, to)) = best {
         post.path.chosen = Some(to);
     }
 }
 
-/// How many limits and poles the motions along these tool axes meet from a position.
-fn met(chain: &AxisChain, from: [f64; 2], axes: &[Vector3<f64>], lean: f64) -> u32 {
+/// How many limits and poles the motions meet from a position of the rotary axes.
+fn met(tables: &MachineTables, from: [f64; 2], ahead: &[Ahead], lean: f64) -> u32 {
+    let chain = tables.chain();
     let mut at = from;
     let mut met = 0;
-    for axis in axes {
+    for (point, axis) in ahead {
         let Some(next) = chain.nearest_anywhere(*axis, at) else { break };
         if chain.reaches(next) {
             let far = (next[0] - at[0]).abs().max((next[1] - at[1]).abs()) > lean;
             met += u32::from(lean > 0.0 && far && off_its_plane(chain, at, next) > lean);
             at = next;
-            continue;
+        } else {
+            met += 1;
+            let Ok(other) = chain.solve(*axis, at) else { break };
+            at = other;
         }
-        met += 1;
-        let Ok(other) = chain.solve(*axis, at) else { break };
-        at = other;
+        met += u32::from(point.is_some_and(|point| is_outside(tables, point, at)));
     }
     met
+}
+
+/// X, Y or Z would have to go past its travel.
+fn is_outside(tables: &MachineTables, point: Point3<f64>, angles: [f64; 2]) -> bool {
+    let at = tables.chain().linear(point, angles);
+    tables.check_travel(&[at.x, at.y, at.z, 0.0, 0.0], AxisSet::LINEAR).is_err()
 }

@@ -87,7 +87,7 @@ pub(super) fn apart(a: [f64; 2], b: [f64; 2]) -> bool {
 /// A position on the way lies outside.
 fn check_on_the_way(post: &Post, from: [f64; 2], to: [f64; 2], target: Target) -> Result<()> {
     // The tape names the tip; the last point of the CL file may lie in another frame.
-    let [Some(x), Some(y), Some(z)] = [0, 1, 2].map(|n| post.control.axis_position(n)) else {
+    let [Some(x), Some(y), Some(z)] = [0, 1, 2].map(|n| post.control.stands(n)) else {
         return Ok(());
     };
     let start = Point3::new(x, y, z);

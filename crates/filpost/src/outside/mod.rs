@@ -203,7 +203,7 @@ impl<'o, 'r> Outside<'o, 'r> {
     #[cold]
     fn look_for_axes(&mut self, vocabulary: &mut Vocabulary) {
         if self.post.looks_ahead_for_axes() {
-            self.post.path.coming = self.source.axes_ahead(vocabulary);
+            self.post.path.coming = self.source.motions_ahead(vocabulary);
         }
     }
 
