@@ -126,7 +126,7 @@ fil_diag::codes! {
             "Put SPINDL / RPM with a direction before it, or give the feed a minute.";
         /// A motion at feed of a rotary axis that may stand anywhere.
         UnknownTurn = 535, Error, "a motion at feed from where a rotary axis may stand anywhere",
-            "A text, a call of a subprogram or the like came before it and may have turned the axis: the motion would turn it back at feed, by any angle, and the tip would leave its line.",
+            "A text or a call of a subprogram came before it and may have turned the axis: the motion would turn it back at feed by any angle, and the tip would leave its line.",
             "Put RAPID and a GOTO before it, which turns the axis to where it belongs, or a text that says where it stands (G0 A0.).";
         /// A block that is too long.
         BlockLength = 541, Error, "block longer than the control reads",
@@ -230,7 +230,7 @@ fil_diag::codes! {
             "Give a larger LINTOL or rotary.tolerance, or the axes more digits after the point.";
         /// Nothing keeps the tip on its line.
         Undivided = 591, Warning, "the tip leaves its line while the machine turns",
-            "LINTOL / OFF or rotary.tolerance = 0 lets motions that turn the machine be one block each; all axes go evenly, and the tip goes along a curve.",
+            "LINTOL / OFF or rotary.tolerance = 0 lets motions that turn the machine be one block each, as one at feed right behind a tool change is; all axes go evenly, and the tip goes along a curve.",
             "Give LINTOL or rotary.tolerance a value, or check the program with filpost verify --between.";
         /// The spindle stands in a hole, or a live tool where it cuts.
         SpindleStands = 596, Warning, "cutting with the spindle standing",

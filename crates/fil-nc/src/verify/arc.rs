@@ -212,7 +212,7 @@ impl<C: Steps> Walk<'_, C> {
     /// The end of a part lies on the arc, at the height of its share.
     fn is_on(&self, arc: &Arc, angle: f64, found: &Move) -> bool {
         let tip = self.tip(arc, found);
-        let slack = 2.0 * self.slack.linear.iter().fold(0.0f64, |a, b| a.max(*b));
+        let slack = 2.0 * self.digits_on(arc, found);
         let share = angle / arc.sweep;
         let rise = arc.rise_of(arc.end.tip) * share;
         // A last digit along the arc is more of them along the axis of a steep helix.
@@ -247,6 +247,18 @@ impl<C: Steps> Walk<'_, C> {
             }
             _ => false,
         })
+    }
+
+    /// How far the last digits can bring a tip from an arc, mm; where the tool turns, those of
+    /// the rotary axes do it too.
+    fn digits_on(&self, arc: &Arc, found: &Move) -> f64 {
+        let linear = self.slack.linear.iter().fold(0.0f64, |a, b| a.max(*b));
+        let turned = self.settings.forward.pose(&found.to).axis.angle(&arc.end.axis);
+        if turned <= self.axis_slack() {
+            return linear;
+        }
+        let lever = self.tip_slack(&found.to) - Vector3::from(self.slack.linear).norm();
+        linear + lever
     }
 
     /// Angle that the last digits stand for on this arc, degrees: each end and the center may be

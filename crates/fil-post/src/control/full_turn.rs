@@ -11,6 +11,7 @@ use fil_machine::locations::{self as loc, ControlFamily, RotaryOutput, RotaryZer
 
 use super::Control;
 use super::word_address::motion::Motion;
+use crate::control_state::Place;
 use crate::errors::PostCode;
 
 /// The first rotary axis by number.
@@ -41,7 +42,7 @@ pub(super) fn turn(
             continue;
         }
         let to = motion.position[number];
-        if changed.has(number) {
+        if changed.has(number) && stood(control, number) != Some(scaled[number]) {
             scaled[number] = word(control, number, to, scaled[number])?;
         } else {
             control.wound[number - FIRST] = Some(to);
@@ -107,6 +108,14 @@ pub(super) fn word(control: &mut Control, number: usize, to: f64, scaled: i64) -
     }
 }
 
+/// Where an axis stands within a turn, as a scaled integer; `None` where that is not known. The
+/// control may have to be told its position again, but not by a word that could be a full turn.
+fn stood(control: &Control, number: usize) -> Option<i64> {
+    let axis = control.tables.axis(number);
+    let value = control.state.stands(axis.letter, control.commons.last_output(axis.letter))?;
+    axis.within_a_turn(value)
+}
+
 /// How far an axis turns on the tape; `None` where the control's position is not known.
 fn turn_on_tape(
     control: &Control,
@@ -117,10 +126,7 @@ fn turn_on_tape(
 ) -> Result<Option<i64>> {
     let axis = control.tables.axis(number);
     let full = axis.full_turn();
-    let Some(last) = control.last_value(axis.letter).and_then(|last| axis.within_a_turn(last))
-    else {
-        return Ok(None);
-    };
+    let Some(last) = stood(control, number) else { return Ok(None) };
     let ahead = (scaled - last).rem_euclid(full);
     if 2 * ahead != full {
         return Ok(Some(if 2 * ahead < full { ahead } else { ahead - full }));
@@ -177,7 +183,7 @@ pub(crate) fn check_feed(control: &Control, from: [f64; 2], to: &Position) -> Re
         if axis.full_turn() == 0 || turn.abs() < axis.resolution() {
             continue;
         }
-        if control.last_value(axis.letter).is_none() {
+        if stood(control, number).is_none() {
             return refuse(
                 control,
                 number,
@@ -194,6 +200,32 @@ pub(crate) fn check_feed(control: &Control, from: [f64; 2], to: &Position) -> Re
         }
     }
     Ok(())
+}
+
+/// Refuses a motion at feed behind another zero, where the control takes one way to a position
+/// within a turn: that may be nearly a full turn.
+///
+/// # Errors
+/// An axis counts from another zero than when it was brought to where it stands.
+#[cold]
+pub(crate) fn check_zero(control: &Control) -> Result<()> {
+    if control.commons.read(loc::ROTARY_OUTPUT) == RotaryOutput::ShortestWayWithinATurn {
+        return Ok(());
+    }
+    let mut rotary = AxisSet::ROTARY.and(control.tables.present()).numbers();
+    let is_shifted = |number: &usize| {
+        let turns = control.tables.axis(*number).full_turn() != 0;
+        turns && matches!(control.place(*number), Place::Shifted(_))
+    };
+    match rotary.find(is_shifted) {
+        Some(number) => refuse(
+            control,
+            number,
+            "counts from another zero since it was brought to where it stands, and the control \
+             takes one way round",
+        ),
+        None => Ok(()),
+    }
 }
 
 /// The way to a position within a turn as a SINUMERIK spells it: `ACP(350)`, `ACN(10)`,

@@ -137,7 +137,11 @@ pub fn replace(post: &mut Post, cycle: Option<Cycle>) -> Result<()> {
     let stands = XYZ.map(|letter| post.control.commons.last_output(letter));
     let (initial, above) = match old {
         Some(old) => (old.initial, old.above),
-        None => (None, post.path.above_left.take().filter(|left| left.1 == stands).map(|l| l.0)),
+        None => {
+            // The level before the cycle is the one at which the one before has left the tool.
+            let left = post.path.above_left.take().filter(|(_, outputs)| *outputs == stands);
+            (None, left.map(|(above, _)| AboveHoles { before: above.now, now: above.now }))
+        }
     };
     post.path.above_left = above.filter(|_| cycle.is_none()).map(|above| (above, stands));
     post.path.cycle = cycle.map(|cycle| Cycle { initial, above, ..cycle });

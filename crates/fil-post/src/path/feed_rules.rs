@@ -104,7 +104,7 @@ fn length(post: &Post, way: [Option<f64>; 3], axes: AxisSet, target: Target) -> 
         return Some(squares.map(|way| way * way).sum::<f64>().sqrt());
     }
     // Behind a tool change or a text the machine may stand anywhere, and not at the last point.
-    if !has_rotary && (0..3).any(|number| is_in_doubt(post, number)) {
+    if (0..3).any(|number| is_in_doubt(post, number)) {
         return None;
     }
     let whole = axes == AxisSet::ALL;

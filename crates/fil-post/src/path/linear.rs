@@ -4,11 +4,11 @@ use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
 
 use super::{
-    Since, feed_rules, frame, mill_turn, rapid, rotary, scaled_lead, solution, thread, tip_control,
+    feed_rules, frame, mill_turn, rapid, rotary, scaled_lead, solution, thread, tip_control,
     turning,
 };
-use crate::control::family;
 use crate::control::word_address::motion::Motion;
+use crate::control::{family, full_turn};
 use crate::errors::PostCode;
 use crate::operation::{MotionKind, Target};
 use crate::post::Post;
@@ -38,6 +38,7 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
     }
     if post.control.state.has_doubts() && !matches!(kind, MotionKind::Rapid(_)) {
         rotary::refuse_unknown_turn(post)?;
+        full_turn::check_zero(&post.control)?;
     }
     let before = post.path.rotary;
     let word = rotary::word_of(post, *target);
@@ -49,7 +50,9 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
             None => rapid::rapid(&mut post.control, &motion, cause)?,
         },
         MotionKind::Feed => match rotary::turned(before, post.path.rotary) {
-            Some(before) => turning::feed(post, before, &motion, *target)?,
+            Some(before) if !rotary::begins_anywhere(post) => {
+                turning::feed(post, before, &motion, *target)?;
+            }
             _ if feed_rules::apply(post) => feed_rules::line(post, &motion, *target, None)?,
             _ => family::feed(&mut post.control, &motion, post.path.feed.as_ref())?,
         },
@@ -66,7 +69,6 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
         }
     }
     post.path.arrive(*target);
-    post.path.since = Since::Motion;
     Ok(())
 }
 

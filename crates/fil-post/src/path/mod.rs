@@ -189,7 +189,7 @@ impl Default for Path {
 pub(crate) enum Since {
     /// Nothing that moves the tool or the points.
     Motion,
-    /// TRANS, ORIGIN, TRACUT, ROTABL or FROM: the last point is not where the tool stands.
+    /// TRANS, ORIGIN, TRACUT, ROTABL, FROM or a text: the last point is not where the tool stands.
     Frame,
     /// A tool change: nobody knows where the new tool stands.
     ToolChange,
@@ -202,6 +202,7 @@ impl Path {
         self.point = Some(target.point);
         self.axis = target.axis;
         self.stands = target.axis;
+        self.since = Since::Motion;
     }
 
     /// The last point is no longer the one at which the tool stands.
@@ -267,11 +268,12 @@ fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
     }
     skip::note(post, &operation);
     // A script that writes words of its own counts its turns itself.
-    let is_text = matches!(operation, Operation::Text(_));
-    write_other(post, operation)?;
-    if is_text {
-        rotary::follow_tape(post);
+    if !matches!(operation, Operation::Text(_)) {
+        return write_other(post, operation);
     }
+    let stood = rotary::stands(&post.control);
+    write_other(post, operation)?;
+    rotary::follow_text(post, stood);
     Ok(())
 }
 

@@ -1,11 +1,12 @@
 //! From a point and a tool axis in the part to positions of the machine's axes.
 
 use fil_diag::Result;
-use fil_machine::axes::{AxisSet, Position};
+use fil_machine::axes::{AXES, AxisSet, Position};
 use fil_machine::axis_chain;
 use nalgebra::{Point3, Vector3};
 
-use super::{frame, mill_turn, tip_control};
+use super::{Since, frame, mill_turn, tip_control};
+use crate::control::Control;
 use crate::control_state::Place;
 use crate::errors::PostCode;
 use crate::operation::Target;
@@ -138,24 +139,53 @@ pub(super) fn refuse_unknown_turn(post: &Post) -> Result<()> {
     PostCode::UnknownTurn.err(format!("where {letter} stands is not known here"))
 }
 
-/// Takes the rotary axes to stand where a text has brought them: the next motion turns from
-/// there.
-pub(super) fn follow_tape(post: &mut Post) {
+/// True where a motion begins where nobody knows the axes to stand, as behind a tool change: it
+/// can be neither divided nor timed, and goes straight to its end at the plain feed, with a
+/// warning.
+#[inline]
+pub(super) fn begins_anywhere(post: &mut Post) -> bool {
+    let in_doubt = post.path.since == Since::ToolChange || post.path.point.is_none();
+    in_doubt && is_lost(post)
+}
+
+#[cold]
+fn is_lost(post: &mut Post) -> bool {
+    let tables = &post.control.tables;
+    if tables.mills() || post.writes_tip() {
+        return false;
+    }
+    let lost = tables.written().numbers().any(|number| post.control.stands(number).is_none());
+    if lost {
+        let message = "a motion at feed right behind a tool change or the like turns the machine: \
+                       from where is not known, and it is not divided";
+        post.warn(PostCode::Undivided, message.to_string());
+    }
+    lost
+}
+
+/// Where the axes stand, whoever has brought them there.
+pub(super) fn stands(control: &Control) -> [Option<f64>; AXES] {
+    std::array::from_fn(|number| control.stands(number))
+}
+
+/// Takes the axes to stand where a text has brought them from where they stood: the next motion
+/// turns from there, and the last point is not the one at which the tool stands.
+pub(super) fn follow_text(post: &mut Post, stood: [Option<f64>; AXES]) {
+    let now = stands(&post.control);
+    if now == stood {
+        return;
+    }
+    post.path.leave_point();
     let tables = &post.control.tables;
     let Some(mut angles) = post.path.rotary.filter(|_| !tables.mills()) else { return };
-    let mut moved = false;
     for number in AxisSet::ROTARY.and(tables.present()).numbers() {
         let (axis, angle) = (tables.axis(number), &mut angles[number - 3]);
-        let here = post.control.stands(number).map(|here| axis.near(here, *angle));
+        let here = now[number].map(|here| axis.near(here, *angle));
         if let Some(here) = here.filter(|here| (here - *angle).abs() > axis.resolution()) {
             *angle = here;
-            moved = true;
         }
     }
-    if moved {
-        post.path.rotary = Some(angles);
-        post.path.leave_point();
-    }
+    post.path.rotary = Some(angles);
 }
 
 /// The word of the record that the axis words of a target repeat; 0 where a rotary

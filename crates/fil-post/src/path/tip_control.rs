@@ -301,8 +301,8 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
     let above = above.filter(|_| post.path.since != Since::ToolChange);
     if above.is_some() && post.path.since == Since::Frame {
         return PostCode::TipControl.err(
-            "a hole right behind TRANS, ORIGIN, TRACUT, ROTABL or FROM: a GOTO between them must \
-             say where the tool stands",
+            "a hole right behind TRANS, ORIGIN, TRACUT, ROTABL, FROM or a text that moves the tool: \
+             a GOTO between them must say where it stands",
         );
     }
     let rest = match (cycle.retract, above) {

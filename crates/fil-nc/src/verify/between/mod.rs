@@ -230,8 +230,9 @@ impl<C: Steps> Walk<'_, C> {
         found: &Move,
         asked: impl FnOnce(&Self) -> Asked,
     ) {
+        // A tool change may have moved the axes: the way from there is none of the CL file.
         let known = self.is_known(&self.known) && self.is_known(&found.known);
-        if !known || !turns(&self.settings.forward, &self.at, &found.to) {
+        if !known || self.tool_is_fresh || !turns(&self.settings.forward, &self.at, &found.to) {
             return;
         }
         let asked = asked(self);
