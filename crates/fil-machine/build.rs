@@ -164,12 +164,15 @@ impl<'a> Row<'a> {
         let (unit, evidence) = (self.value_unit(), camel_case(self.evidence));
         let default: f64 = self.default.parse().expect("numeric default");
         let common = self.common();
+        // What a setting means that does nothing is one of its reasons.
+        let meaning =
+            if *used { format!("{meaning:?}") } else { format!("fil_diag::reason({meaning:?})") };
         writeln!(
             out,
             "    Location {{ kind: Kind::{common}, number: {number}, name: {name:?}, \
              unit: ValueUnit::{unit}, default: {default:?}, choices: {choices:?}, \
-             meaning: {meaning:?}, evidence: Evidence::{evidence}, used: {used}, \
-             idle: {idle:?} }},",
+             meaning: {meaning}, evidence: Evidence::{evidence}, used: {used}, \
+             idle: fil_diag::reason({idle:?}) }},",
         )
         .unwrap();
     }

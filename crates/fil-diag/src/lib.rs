@@ -129,8 +129,8 @@ impl std::fmt::Display for Diag {
 
 impl std::error::Error for Diag {}
 
-/// The reason of a code as a table holds it: none in WebAssembly, where a module is loaded for
-/// each page, and the reasons of all codes stand in the book.
+/// The reason of a code or a setting as a table holds it: none in WebAssembly, where a module is
+/// loaded for each page, and all reasons stand in the book.
 pub const fn reason(text: &'static str) -> &'static str {
     if cfg!(target_family = "wasm") { "" } else { text }
 }

@@ -166,8 +166,7 @@ fn diameters(commons: &Commons, found: &mut Vec<Diag>) {
     let turns = AxisChain::from_commons(commons).is_ok_and(|chain| chain.has_rotary());
     if turns && commons.read(loc::LATHE_DIAMETER) && mill_turn::mode(commons).is_none() {
         found.push(contradiction(
-            "X is a diameter, and a rotary axis turns the part or the tool: a lathe whose spindle \
-             is the axis C names mill_turn.milling_code"
+            "a lathe has a rotary axis as a mill-turn machine alone (mill_turn.milling_code)"
                 .into(),
         ));
     }

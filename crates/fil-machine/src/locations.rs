@@ -31,13 +31,14 @@ pub struct Location {
     pub default: f64,
     /// `1=one thing|2=another` for flags and choices.
     pub choices: &'static str,
-    /// What it is, in a sentence.
+    /// What it is, in a sentence; empty in WebAssembly where the post does not act on it.
     pub meaning: &'static str,
     /// Where we know it from.
     pub evidence: Evidence,
     /// The post acts on it.
     pub used: bool,
-    /// Why the post does not act on it; empty where it does, or where no reason is given.
+    /// Why the post does not act on it; empty where it does, where no reason is given, and in
+    /// WebAssembly.
     pub idle: &'static str,
 }
 

@@ -221,8 +221,7 @@ pub(crate) fn check_zero(control: &Control) -> Result<()> {
         Some(number) => refuse(
             control,
             number,
-            "counts from another zero since it was brought to where it stands, and the control \
-             takes one way round",
+            "counts from another zero than before, and the control takes one way round",
         ),
         None => Ok(()),
     }

@@ -156,8 +156,8 @@ fn is_lost(post: &mut Post) -> bool {
     }
     let lost = tables.written().numbers().any(|number| post.control.stands(number).is_none());
     if lost {
-        let message = "a motion at feed right behind a tool change or the like turns the machine: \
-                       from where is not known, and it is not divided";
+        let message =
+            "a motion at feed that turns the machine from an unknown place is not divided";
         post.warn(PostCode::Undivided, message.to_string());
     }
     lost
