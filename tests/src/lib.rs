@@ -10,6 +10,7 @@ pub mod duel;
 pub mod event_path;
 pub mod examples;
 pub mod feed;
+pub mod five_axes;
 pub mod klartext;
 pub mod language;
 pub mod lints;

@@ -24,6 +24,7 @@ mod plot;
 mod plot_hands;
 mod random;
 mod random_five_axes;
+mod random_five_mixed;
 mod real_cl;
 mod reference;
 mod robust;

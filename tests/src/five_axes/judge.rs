@@ -1,0 +1,104 @@
+//! What comes of a program: the post makes it, `fil-nc` follows it, and the tool comes to each
+//! point that the generator meant.
+
+use fil_nc::forward::Forward;
+use fil_nc::motion::Event;
+use fil_nc::verify::{Allowed, Verdict};
+use filpost::Program;
+use nalgebra::{Point3, Vector3};
+
+use super::maker::Line;
+use crate::back_check;
+
+/// What came of a program.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// Nothing is found, and the tool comes to each point.
+    Agrees,
+    /// The code of the refusal.
+    Refused(String),
+    /// What differs, without its numbers, and with them.
+    Differs(String, String),
+}
+
+/// The CL file.
+pub fn text(lines: &[Line]) -> String {
+    lines.iter().map(|line| format!("{}\n", line.text)).collect()
+}
+
+/// A message without its numbers and names.
+fn class(message: &str) -> String {
+    message.chars().filter(|c| !c.is_ascii_digit() && !"-.".contains(*c)).collect()
+}
+
+fn differs(kind: &str, told: &str) -> Outcome {
+    let short: String = class(told).chars().take(60).collect();
+    Outcome::Differs(format!("{kind} {short}"), told.to_string())
+}
+
+/// A refusal, by the post or by the check; one that is not expected is a difference.
+fn refused(kind: &str, told: &str, may_refuse: &[&str]) -> Outcome {
+    let code = told.find('E').and_then(|at| told.get(at..at + 5)).unwrap_or_default();
+    match may_refuse.iter().any(|start| code.starts_with(start)) {
+        true => Outcome::Refused(code.to_string()),
+        false => differs(kind, told),
+    }
+}
+
+/// Posts a program and follows what comes out; the program too. Other refusals than the given
+/// ones are differences.
+pub fn judge(post: &Program, lines: &[Line], may_refuse: &[&str]) -> (Outcome, String) {
+    let cl = text(lines);
+    let mut nc = Vec::new();
+    if let Err(error) = post.run(cl.as_bytes(), &mut nc) {
+        return (refused("refused", &error.to_string(), may_refuse), String::new());
+    }
+    let nc = String::from_utf8_lossy(&nc).into_owned();
+    let report = match back_check::check(post.commons(), &cl, &nc, Allowed::default()) {
+        Ok(report) => report,
+        Err(diag) => return (refused("not read", &diag.to_string(), may_refuse), nc),
+    };
+    if report.verdict() == Verdict::Differs {
+        let told: Vec<String> = report.findings.iter().map(ToString::to_string).collect();
+        return (differs("found", &told.join("; ")), nc);
+    }
+    match missed(post, lines, &nc) {
+        Some(told) => (differs("missed", &told), nc),
+        None => (Outcome::Agrees, nc),
+    }
+}
+
+/// The first target that the tool does not come to, in the order of the program.
+fn missed(post: &Program, lines: &[Line], nc: &str) -> Option<String> {
+    let forward = Forward::from_commons(post.commons()).expect("a chain");
+    let events = back_check::events(post.commons(), nc).expect("a program that was read");
+    let mut targets = lines.iter().filter_map(|line| line.target).peekable();
+    for event in &events {
+        let Event::Move(made) = event else { continue };
+        let pose = forward.pose(&made.to);
+        // Rounded angles move the tip of a machine whose axes lie far away.
+        let is_there = |(point, axis): &(Point3<f64>, Vector3<f64>)| {
+            (pose.tip - point).norm() < 0.01 && pose.axis.angle(axis).to_degrees() < 0.003
+        };
+        while targets.peek().is_some_and(is_there) {
+            targets.next();
+        }
+    }
+    targets.next().map(|(point, axis)| format!("{point:.4}, {axis:.6}"))
+}
+
+/// Leaves out lines as long as the same differs.
+pub fn shrunk(post: &Program, lines: &[Line], kind: &str, may_refuse: &[&str]) -> Vec<Line> {
+    let mut lines = lines.to_vec();
+    let mut at = lines.len();
+    while at > 0 {
+        at -= 1;
+        let mut fewer = lines.clone();
+        fewer.remove(at);
+        if matches!(judge(post, &fewer, may_refuse).0, Outcome::Differs(other, _) if other == kind)
+        {
+            lines = fewer;
+        }
+    }
+    lines
+}

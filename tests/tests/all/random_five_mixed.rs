@@ -1,0 +1,119 @@
+//! Random programs of four and five axes in which anything may stand between the motions, on the
+//! ready posts with any of their settings changed: the post refuses them, or `fil-nc` finds
+//! nothing and the tool comes to each point that the generator meant.
+//!
+//! `FILPOST_MIXED=20000` tries as many programs, `FILPOST_MIXED_FROM` begins at a seed.
+
+use std::collections::BTreeMap;
+use std::env;
+
+use fil_machine::axis_chain::AxisChain;
+use fil_machine::chains::CHAINS;
+use filpost::Program;
+use filpost::locations::{Location, TABLE};
+use filpost_tests::counts::settings::trials;
+use filpost_tests::five_axes::judge::{Outcome, judge, shrunk, text};
+use filpost_tests::five_axes::maker::program;
+use filpost_tests::five_axes::mixed::Family;
+use filpost_tests::five_axes::numbers::Random;
+use rayon::prelude::*;
+
+/// Programs in the normal run.
+const USUAL: u64 = 200;
+
+const POSTS: [(&str, Family); 9] = [
+    ("fanuc-mill-a", Family::WordAddress),
+    ("fanuc-mill-b", Family::WordAddress),
+    ("haas-trunnion", Family::WordAddress),
+    ("haas-trunnion-tcpc", Family::WordAddress),
+    ("fanuc-5x-tables", Family::WordAddress),
+    ("fanuc-5x-head", Family::WordAddress),
+    ("linuxcnc-5x", Family::WordAddress),
+    ("heidenhain-5x", Family::Klartext),
+    ("sinumerik-5x", Family::Sinumerik),
+];
+
+/// Groups of settings that are changed.
+const GROUPS: [&str; 14] = [
+    "rotary", "repos", "rapid", "linear", "circle", "feed", "home", "limits", "motion", "cycle",
+    "dwell", "spindle", "tool", "fixture",
+];
+
+/// What makes any program wrong, or leaves to the control what it means.
+const LEFT_OUT: [&str; 3] = ["motion.same_tolerance", "feed.mode", "dwell.code"];
+
+fn settings(random: &mut Random) -> Vec<String> {
+    let rows: Vec<&Location> = TABLE
+        .iter()
+        .filter(|row| row.used && !LEFT_OUT.contains(&row.name))
+        .filter(|row| GROUPS.iter().any(|group| row.name.starts_with(&format!("{group}."))))
+        .collect();
+    let rotary: Vec<&Location> =
+        rows.iter().copied().filter(|row| row.name.starts_with("r")).collect();
+    (0..random.below(4))
+        .map(|_| {
+            let rows = if random.happens(0.5) { &rotary } else { &rows };
+            let tried = trials(rows[random.below(rows.len())]);
+            tried[random.below(tried.len())].text.clone()
+        })
+        .collect()
+}
+
+/// A machine, with what makes it; `None` where the settings contradict each other.
+fn machine(random: &mut Random) -> Option<(Program, Family, String)> {
+    let (ready, family) = POSTS[random.below(POSTS.len())];
+    let mut set = vec!["home.retract_z=400".to_string()];
+    if random.happens(0.5) {
+        let chain = CHAINS[random.below(CHAINS.len())].name;
+        set.push(format!("chain=\"{chain}\""));
+        if ["table-a", "table-b", "table-c", "head-b"].contains(&chain) {
+            set.push("rotary.secondary_kind=0".to_string());
+        }
+    }
+    for axis in ["primary", "secondary"] {
+        for part in ["x", "y", "z"] {
+            set.push(format!("rotary.{axis}_{part}={:.3}", random.between(-80.0, 80.0)));
+        }
+    }
+    set.extend(settings(random));
+    let start = Program::builder().ready(ready);
+    let post = set.iter().fold(start, |builder, setting| builder.set(setting)).build().ok()?;
+    Some((post, family, format!("{ready} {}", set.join(" "))))
+}
+
+fn try_seed(seed: u64) -> (Outcome, String) {
+    let mut random = Random::of_seed(seed);
+    let none = || (Outcome::Refused("machine".to_string()), String::new());
+    let Some((post, family, told)) = machine(&mut random) else { return none() };
+    let Ok(chain) = AxisChain::from_commons(post.commons()) else { return none() };
+    let lines = program(&chain, random, Some(family));
+    let may_refuse = ["E05", "E0902", "E0904", "E0905"];
+    let (outcome, _) = judge(&post, &lines, &may_refuse);
+    let Outcome::Differs(kind, _) = &outcome else { return (outcome, String::new()) };
+    let small = shrunk(&post, &lines, kind, &may_refuse);
+    let (again, nc) = judge(&post, &small, &may_refuse);
+    (outcome, format!("seed {seed}, {told}: {again:?}\n{}---\n{nc}", text(&small)))
+}
+
+#[test]
+fn random_programs_that_mix_everything_do_what_they_ask_for_or_are_refused() {
+    let number = |name| env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
+    let (count, from) = (number("FILPOST_MIXED").unwrap_or(USUAL), number("FILPOST_MIXED_FROM"));
+    let from = from.unwrap_or(0);
+    let tried: Vec<_> = (from..from + count).into_par_iter().map(try_seed).collect();
+    let (mut agree, mut refused) = (0, BTreeMap::<String, u64>::new());
+    let mut stories = BTreeMap::<String, (u64, String)>::new();
+    for (outcome, story) in tried {
+        match outcome {
+            Outcome::Agrees => agree += 1,
+            Outcome::Refused(code) => *refused.entry(code).or_default() += 1,
+            Outcome::Differs(kind, _) => stories.entry(kind).or_insert((0, story)).0 += 1,
+        }
+    }
+    println!("{count} programs: {agree} agree, refused {refused:?}");
+    for (kind, (times, story)) in &stories {
+        println!("=== {times} times: {kind}\n{story}");
+    }
+    assert!(stories.is_empty(), "{} kinds of differences", stories.len());
+    assert!(agree * 4 > count, "too few programs are posted to prove anything");
+}
