@@ -359,7 +359,9 @@ impl Axis {
     #[cold]
     fn outside(&self, position: f64) -> Box<Diag> {
         let Axis { letter, min, max, .. } = self;
-        MachineCode::AxisLimit.diag(format!("{letter}{position} lies outside {min} to {max}"))
+        // A number that was computed has digits that nobody has asked for.
+        let told = (position * 1e6).round() / 1e6;
+        MachineCode::AxisLimit.diag(format!("{letter}{told} lies outside {min} to {max}"))
     }
 
     /// True when the tape does not yet stand at this scaled value.

@@ -7,7 +7,7 @@ use crate::axis_chain::AxisChain;
 use crate::commons::Commons;
 use crate::errors::MachineCode;
 use crate::locations::{
-    self as loc, RotaryFrameOutput, RotaryOutput, RotaryTipForm, RotaryTipOutput,
+    self as loc, ControlFamily, RotaryFrameOutput, RotaryOutput, RotaryTipForm, RotaryTipOutput,
 };
 
 /// The index in the words of a direction on a SINUMERIK: A3, B3, C3.
@@ -32,7 +32,7 @@ pub(crate) fn asks_for_frames(commons: &Commons) -> bool {
 
 /// Contradictions of a machine that writes tilted frames, or the tool tip.
 pub(crate) fn check(commons: &Commons, found: &mut Vec<Diag>) {
-    tip_of_scaled_axes(commons, found);
+    tip_control(commons, found);
     vectors(commons, found);
     if !asks_for_frames(commons) {
         return;
@@ -58,17 +58,29 @@ pub(crate) fn check(commons: &Commons, found: &mut Vec<Diag>) {
     }
 }
 
-/// Under tool-tip control the control turns the words of X, Y and Z into each other.
-fn tip_of_scaled_axes(commons: &Commons, found: &mut Vec<Diag>) {
-    let asks = commons.read(loc::ROTARY_TIP_OUTPUT) == RotaryTipOutput::ToolTipControl;
+/// Under tool-tip control the control turns the words of X, Y and Z into each other, and the
+/// code that begins it takes the length of the tool.
+fn tip_control(commons: &Commons, found: &mut Vec<Diag>) {
+    if commons.read(loc::ROTARY_TIP_OUTPUT) != RotaryTipOutput::ToolTipControl {
+        return;
+    }
+    let mut add = |message: &str| found.push(Diag::new(MachineCode::Contradiction, message));
     let scaled = [loc::SCALE_X, loc::SCALE_Y, loc::SCALE_Z]
         .into_iter()
         .any(|at| commons.dbl_opt(at).is_some_and(|scale| scale != 1.0));
-    if asks && scaled {
-        found.push(Diag::new(
-            MachineCode::Contradiction,
-            "rotary.tip_output asks for tool-tip control, and X, Y or Z is scaled on the tape",
-        ));
+    if scaled {
+        add("rotary.tip_output asks for tool-tip control, and X, Y or Z is scaled on the tape");
+    }
+    if commons.read(loc::CONTROL_FAMILY) != ControlFamily::WordAddress {
+        return;
+    }
+    if !commons.read(loc::TOOL_LENGTH_FROM_TOOL) {
+        add("rotary.tip_output asks for tool-tip control, which takes the length of the tool, and \
+             tool.length_from_tool calls none");
+    }
+    if commons.read(loc::TOOL_LENGTH_AT_CHANGE) || commons.dbl_opt(loc::TOOL_LENGTH_Z).is_some() {
+        add("rotary.tip_output asks for tool-tip control, which takes the length of the tool with \
+             its first motion, and tool.length_at_change or tool.length_z calls it before");
     }
 }
 

@@ -113,7 +113,7 @@ impl MachineTables {
         self.input_shift =
             Vector3::from(loc::INPUT_TRANSLATE.map(|at| commons.dbl_opt(at).unwrap_or(0.0)));
         let along = commons.dbl_opt(loc::INPUT_ALONG_TOOL_AXIS).unwrap_or(0.0);
-        self.prepares = self.frame_output || self.tip_vectors || self.mills();
+        self.prepares = self.frame_output || self.tip_output || self.mills();
         if !has_rotary {
             self.input_shift += self.chain.tool.into_inner() * along;
         }

@@ -3,6 +3,7 @@
 use fil_diag::Diag;
 
 use super::contradiction;
+use crate::address::Addresses;
 use crate::axis_chain::AxisChain;
 use crate::commons::Commons;
 use crate::letter::{Letter, letters};
@@ -49,7 +50,7 @@ const NO_ROTARY_AXIS: &[u8] = b"DFGHIJKLMNOPQRSTXYZ";
 /// Finds letters that mean two things.
 pub(super) fn check(commons: &Commons, found: &mut Vec<Diag>) {
     let rotary = rotary_letters(commons);
-    axis_letters(rotary, found);
+    axis_letters(rotary, &Addresses::from_commons(commons, true), found);
     word_letters(commons, rotary, found);
     match commons.read(loc::CONTROL_FAMILY) {
         ControlFamily::WordAddress => of_words(commons, found),
@@ -99,9 +100,15 @@ fn rotary_letters(commons: &Commons) -> [Option<Letter>; 2] {
     }
 }
 
-/// Rotary axes have neither each other's letter nor that of a word with another meaning.
-fn axis_letters(rotary: [Option<Letter>; 2], found: &mut Vec<Diag>) {
+/// Rotary axes have neither each other's letter nor that of a word with another meaning, and
+/// their words have a place on the tape: without it they would be lost.
+fn axis_letters(rotary: [Option<Letter>; 2], addresses: &Addresses, found: &mut Vec<Diag>) {
     for letter in rotary.into_iter().flatten() {
+        if addresses.format(letter).is_none() {
+            found.push(contradiction(format!(
+                "{letter} is a rotary axis, and the machine has no address {letter}"
+            )));
+        }
         if NO_ROTARY_AXIS.contains(&letter.byte()) {
             found.push(contradiction(format!(
                 "{letter} can't be a rotary axis; a control reads it as something else"

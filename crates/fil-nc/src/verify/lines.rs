@@ -218,7 +218,7 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     /// A position of Z is the level that the machine goes up to.
-    fn is_retract_level(&self, z: f64) -> bool {
+    pub(super) fn is_retract_level(&self, z: f64) -> bool {
         let level = self.settings.retract_level(self.metric);
         level.is_some_and(|level| (z - level).abs() <= self.slack.linear[2])
     }

@@ -55,6 +55,11 @@ impl<C: Steps> Walk<'_, C> {
                 Some(Event::Move(found)) if self.goes_up_at_tip_end(&found) => {
                     self.goes_up(cl_line, &found);
                 }
+                Some(Event::Move(found)) if self.goes_up_at_tip_begin(&found) => {
+                    let is_away = self.is_away || self.is_retract_level(self.at.linear[2]);
+                    self.goes_up(cl_line, &found);
+                    self.is_away = is_away;
+                }
                 Some(Event::Move(found))
                     if found.course != Course::Machine
                         && (self.is_still(&found)

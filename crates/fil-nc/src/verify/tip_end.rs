@@ -8,7 +8,7 @@ use super::report::FindingKind;
 use super::settings::Settings;
 use super::walk::Walk;
 use super::wanted::{Step, Wanted};
-use crate::motion::{Course, Event, Move};
+use crate::motion::{Course, Event, Move, Position};
 
 impl Settings<'_> {
     /// How far the tool must go up before tool-tip control ends, mm; `None` for a control
@@ -39,6 +39,33 @@ impl<C: Steps> Walk<'_, C> {
         let along = way.dot(&stands.axis);
         let slack = 2.0 * self.tip_slack(&found.to) + self.axis_slack() * way_up;
         (way - stands.axis * along).norm() <= slack && along >= way_up - slack
+    }
+
+    /// A rapid straight up in Z with the length of the tool on, as far as the settings ask for,
+    /// behind which the length is taken off and tool-tip control begins.
+    pub(super) fn goes_up_at_tip_begin(&self, found: &Move) -> bool {
+        let Some(way_up) = self.settings.way_up_at_tip_end() else { return false };
+        let (from, to) = (&self.at, &found.to);
+        let straight_up = found.course == Course::Rapid
+            && !(to.tip_control || from.tip_control || found.in_cycle)
+            && found.modes.length_offset.is_some()
+            && self.known[2]
+            && found.known == self.known
+            && to.rotary == from.rotary
+            && to.linear[..2] == from.linear[..2]
+            && to.linear[2] - from.linear[2] >= way_up - 2.0 * self.tip_slack(to);
+        straight_up && self.begins_tip_control(self.next + 1, to)
+    }
+
+    /// The next motion that moves X, Y or Z is under tool-tip control.
+    fn begins_tip_control(&self, index: usize, from: &Position) -> bool {
+        let next = self.nc.from(index).find_map(|event| match event {
+            Event::Move(next) if next.modes.tip_control => Some(true),
+            Event::Move(next) => (next.to.linear != from.linear).then_some(false),
+            Event::ToolChange { .. } | Event::End { .. } => Some(false),
+            _ => None,
+        });
+        next == Some(true)
     }
 
     /// Takes the way up, on which a work offset may wait for the next motion of the CL file.

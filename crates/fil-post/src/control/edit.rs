@@ -132,7 +132,7 @@ impl Control {
         self.tape.replace_last_line(start, &after, &self.tables)?;
         let known = self.before_others()?;
         self.learn_edited(&before, &after);
-        self.refuse_in_compensation(known)?;
+        self.refuse_changes(known)?;
         Ok(true)
     }
 

@@ -1,6 +1,7 @@
 //! Blocks that the operator can skip (OPSKIP).
 
 use fil_diag::Result;
+use fil_machine::axes::AxisSet;
 use fil_machine::locations::ControlFamily;
 
 use super::{Control, klartext, sinumerik};
@@ -37,14 +38,16 @@ impl Control {
             self.tape.skip = None;
             let z_counts_down = self.tables.axis(2).scale() < 0.0;
             let linear = [0, 1, 2].map(|number| self.tables.axis(number).letter);
-            self.state.skip_ends(&mut self.commons, linear, z_counts_down);
+            let rotary = AxisSet::ROTARY.and(self.tables.present()).numbers();
+            let rotary: Vec<_> = rotary.map(|number| self.tables.axis(number).letter).collect();
+            self.state.skip_ends(&mut self.commons, (linear, &rotary), z_counts_down);
             self.tip.is_away &= self.tip.was_away;
         }
         Ok(())
     }
 }
 
-/// Refuses a motion that is safe with the skipped blocks or without them, and not both.
+/// Refuses a motion that is right with the skipped blocks or without them, and not both.
 ///
 /// # Errors
 /// Always.
@@ -52,6 +55,6 @@ pub fn refuse_level<T>(control: &Control, number: usize) -> Result<T> {
     let letter = control.tables.axis(number).letter;
     PostCode::SkippedLevel.err(format!(
         "where {letter} stands behind OPSKIP depends on the skip switch, and the motion would be \
-         safe from one of the two places only"
+         right from one of the two places only"
     ))
 }

@@ -2,16 +2,16 @@
 //! made it.
 
 use fil_diag::Result;
-use fil_machine::Letter;
 use fil_machine::letters::{G, M};
 use fil_machine::locations::ControlFamily;
-use fil_machine::modes::Plane;
+use fil_machine::modes::{Plane, Unit};
+use fil_machine::{FunctionCode, Letter};
 
 use super::{
     Compensation, Control, Function, family, klartext, program, sinumerik, speed_of_others, texts,
 };
 use crate::cause::Cause;
-use crate::control_state::text;
+use crate::control_state::{Place, text};
 use crate::errors::PostCode;
 
 /// What the control knew before words or texts of others.
@@ -21,6 +21,21 @@ pub struct BeforeOthers {
     compensation: Option<Compensation>,
     plane: Option<Plane>,
     tool_changes: u32,
+    /// Where the rotary axes stand.
+    rotary: [Option<f64>; 2],
+    /// Under tool-tip control: what counts in it.
+    frame: Option<Frame>,
+}
+
+/// What positions under tool-tip control count in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Frame {
+    plane: Option<Plane>,
+    unit: Option<Unit>,
+    work_offset: Option<FunctionCode>,
+    tilted: Option<bool>,
+    in_cycle: Option<bool>,
+    shifted: bool,
 }
 
 impl Control {
@@ -93,7 +108,7 @@ impl Control {
         }
         let skipped = self.state.may_be_skipped();
         speed_of_others::learn(self, &plain, skipped);
-        self.refuse_in_compensation(before)
+        self.refuse_changes(before)
     }
 
     /// Writes a text as a block; the control learns from it what it can read.
@@ -129,7 +144,7 @@ impl Control {
             let skipped = read.skipped || self.state.may_be_skipped();
             speed_of_others::learn(self, &read.words, skipped);
         }
-        self.refuse_in_compensation(before)
+        self.refuse_changes(before)
     }
 
     /// What the control knows before words or texts that the post has not made.
@@ -143,15 +158,42 @@ impl Control {
             compensation: self.state.compensation,
             plane: self.state.plane,
             tool_changes: self.state.tool_changes,
+            rotary: [3, 4].map(|number| self.stands(number)),
+            frame: self.frame_of_tip(),
         })
     }
 
-    /// Refuses a tool change or another plane that they brought within cutter
-    /// compensation, and compensation that they switched while CUTCOM waits for its motion.
+    fn frame_of_tip(&self) -> Option<Frame> {
+        let state = &self.state;
+        (state.tip_control == Some(true)).then(|| Frame {
+            plane: state.plane,
+            unit: state.unit,
+            work_offset: state.fixture,
+            tilted: state.tilted,
+            in_cycle: state.in_cycle,
+            shifted: matches!(self.place(0), Place::Shifted(_)),
+        })
+    }
+
+    /// Refuses what words or texts of others have changed in the frame of tool-tip control,
+    /// which goes on: controls differ in what that does.
+    fn refuse_under_tip_control(&self, before: Option<Frame>) -> Result<()> {
+        match (before, self.frame_of_tip()) {
+            (Some(before), Some(now)) if before != now => PostCode::TipControl.err(
+                "a text changes the plane, the unit, the zero or the frame, or begins a cycle: \
+                 controls differ in what that does under it",
+            ),
+            _ => Ok(()),
+        }
+    }
+
+    /// Refuses a tool change, another plane or a turn of the machine that they brought within
+    /// cutter compensation, compensation that they switched while CUTCOM waits for its motion,
+    /// and another frame under tool-tip control.
     ///
     /// # Errors
     /// They did.
-    pub fn refuse_in_compensation(&self, before: BeforeOthers) -> Result<()> {
+    pub fn refuse_changes(&self, before: BeforeOthers) -> Result<()> {
         if self.waiting.has(Function::Compensation)
             && let (Some(was), Some(is)) = (before.compensation, self.state.compensation)
             && was != is
@@ -160,12 +202,16 @@ impl Control {
                 "a text switches it while CUTCOM waits for its motion, which would switch it again",
             );
         }
+        self.refuse_under_tip_control(before.frame)?;
         if !before.compensated {
             return Ok(());
         }
         if self.state.tool_changes != before.tool_changes {
             return PostCode::CompensationOn
                 .err("at a tool change; CUTCOM/OFF must come before it");
+        }
+        if [3, 4].map(|number| self.stands(number)) != before.rotary {
+            return PostCode::CompensationOn.err("where a text turns the machine");
         }
         match (before.plane, self.state.plane) {
             (Some(one), Some(other)) if one != other => {

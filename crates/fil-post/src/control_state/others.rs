@@ -185,6 +185,7 @@ impl ControlState {
             self.returned = ways.returns;
         } else if ways.turns {
             self.turn_axes();
+            self.tilted = None;
         } else if ways.shifts {
             self.shift_axes();
         } else if ways.length {

@@ -13,15 +13,20 @@ impl ControlState {
         self.before_skip = Some(Box::new(before));
     }
 
-    /// The blocks that may be skipped are over: what they changed is unknown. `linear` are
-    /// the letters of X, Y and Z, whose levels with those blocks and without are kept. Of
+    /// The blocks that may be skipped are over: what they changed is unknown. Of X, Y and Z and
+    /// of the rotary axes the positions with those blocks and without are kept. Of
     /// two levels of Z the lower one counts as the last value, so that a rapid motion goes
     /// up before it goes across; on an axis that counts downwards the higher one does.
-    pub fn skip_ends(&mut self, commons: &mut Commons, linear: [Letter; 3], z_counts_down: bool) {
+    pub fn skip_ends(
+        &mut self,
+        commons: &mut Commons,
+        (linear, rotary): ([Letter; 3], &[Letter]),
+        z_counts_down: bool,
+    ) {
         let Some(before) = self.before_skip.take() else { return };
         let (state, values) = *before;
         let now = last_values(commons);
-        let levels = linear.map(|letter| {
+        let levels = |letter: Letter| {
             let at = |state: &ControlState, values: &[f64]| match state
                 .place(letter, values[letter.index() - 1])
             {
@@ -30,17 +35,19 @@ impl ControlState {
                 _ => Levels::unknown(letter),
             };
             at(self, &now).or(at(&state, &values))
-        });
+        };
+        let of_linear = linear.map(levels);
+        let of_rotary: Vec<Levels> = rotary.iter().map(|letter| levels(*letter)).collect();
         for (letter, (now, then)) in Letter::all().zip(now.iter().zip(values)) {
             if *now != then {
                 self.doubt(letter);
             }
         }
-        if let Some(last) = levels[2].lowest(z_counts_down) {
+        if let Some(last) = of_linear[2].lowest(z_counts_down) {
             commons.set_last_output(linear[2], last);
         }
         self.agree_with(&state);
-        for levels in levels.into_iter().filter_map(Levels::in_doubt) {
+        for levels in of_linear.into_iter().chain(of_rotary).filter_map(Levels::in_doubt) {
             self.doubts.stand_between(levels);
         }
     }

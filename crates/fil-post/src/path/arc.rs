@@ -49,6 +49,9 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     let ends = [start, target.point].map(|point| flat(arc, point));
     let radius = check_radii(arc, ends)?;
     refuse_first_under_compensation(post)?;
+    if post.control.state.has_doubts() {
+        rotary::refuse_unknown_start(post)?;
+    }
     let sweep = sweep(arc, ends);
     post.path.course.arc(ends.map(|end| arc.axis.cross(&end)), sweep, arc.line);
     let turns_axis = target.axis != post.path.stands;

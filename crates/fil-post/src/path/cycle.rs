@@ -4,9 +4,9 @@ use fil_diag::Result;
 pub use fil_machine::cycle_kind::CycleKind;
 use fil_machine::letters::XYZ;
 use fil_machine::locations as loc;
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
-use super::hole;
+use super::{hole, tip_control};
 use crate::cause::Cause;
 use crate::control::family;
 use crate::operation::{Feed, Lead};
@@ -39,6 +39,8 @@ impl CycleFeed {
 pub struct AboveHoles {
     /// Before the first of them.
     pub before: Point3<f64>,
+    /// The tool axis there.
+    pub axis: Vector3<f64>,
     /// After the last one.
     pub now: Point3<f64>,
 }
@@ -128,11 +130,14 @@ impl Cycle {
 /// The machine has no code that ends the cycle the control is in.
 pub fn replace(post: &mut Post, cycle: Option<Cycle>) -> Result<()> {
     family::cancel_cycle(&mut post.control)?;
-    let old = post.path.cycle.take();
-    if let (Some(old), None) = (&old, &cycle)
+    let mut old = post.path.cycle.take();
+    if let (Some(old), None) = (&mut old, &cycle)
         && post.control.commons.read(loc::CYCLE_RETRACT_BLOCK)
     {
-        hole::retract(post, old)?;
+        match &mut old.above {
+            Some(above) => tip_control::retract(post, above)?,
+            None => hole::retract(post, old)?,
+        }
     }
     let stands = XYZ.map(|letter| post.control.commons.last_output(letter));
     let (initial, above) = match old {
@@ -140,7 +145,7 @@ pub fn replace(post: &mut Post, cycle: Option<Cycle>) -> Result<()> {
         None => {
             // The level before the cycle is the one at which the one before has left the tool.
             let left = post.path.above_left.take().filter(|(_, outputs)| *outputs == stands);
-            (None, left.map(|(above, _)| AboveHoles { before: above.now, now: above.now }))
+            (None, left.map(|(above, _)| AboveHoles { before: above.now, ..above }))
         }
     };
     post.path.above_left = above.filter(|_| cycle.is_none()).map(|above| (above, stands));

@@ -3,7 +3,6 @@
 
 use fil_diag::Result;
 use fil_machine::axes::AxisSet;
-use fil_machine::commons::EMPTY;
 use fil_machine::locations::{self as loc, FeedInverseLength, LinearMethod};
 use fil_machine::modes::FeedMode;
 
@@ -12,7 +11,7 @@ use super::{linearization, rotary};
 use crate::control::family;
 use crate::control::word_address::arc::PlaneArc;
 use crate::control::word_address::motion::Motion;
-use crate::control_state::Compensation;
+use crate::control_state::{Compensation, Place};
 use crate::errors::PostCode;
 use crate::operation::{Feed, Target};
 use crate::post::Post;
@@ -113,10 +112,10 @@ fn length(post: &Post, way: [Option<f64>; 3], axes: AxisSet, target: Target) -> 
     Some((in_part(target.point) - in_part(from)).norm())
 }
 
-/// The tape has said where an axis goes, and the control may have it elsewhere since.
+/// Something has moved an axis, or another zero may have come, since the tape has said where it
+/// goes.
 fn is_in_doubt(post: &Post, number: usize) -> bool {
-    let letter = post.control.tables.axis(number).letter;
-    post.control.commons.last_output(letter) != EMPTY && !post.control.state.has_last(letter)
+    post.control.place(number) != Place::Unsaid && post.control.stands(number).is_none()
 }
 
 /// The machine does not stand where the last point says, as behind TRANS.

@@ -37,13 +37,16 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
         return Ok(());
     }
     if post.control.state.has_doubts() && !matches!(kind, MotionKind::Rapid(_)) {
-        rotary::refuse_unknown_turn(post)?;
+        rotary::refuse_unknown_start(post)?;
         full_turn::check_zero(&post.control)?;
     }
     let before = post.path.rotary;
     let word = rotary::word_of(post, *target);
     let mut motion = Motion { position: Position::default(), axes: AxisSet::ALL, word };
     rotary::find_position(post, *target, &mut motion.position)?;
+    if post.control.state.compensates() {
+        rotary::refuse_compensated(post, before)?;
+    }
     match kind {
         MotionKind::Rapid(cause) => match feed_rules::of_short_rapid(post, &motion, *target) {
             Some(feed) => family::feed(&mut post.control, &motion, Some(&feed))?,
@@ -81,6 +84,7 @@ fn prepare(post: &mut Post, target: Target, kind: MotionKind) -> Result<bool> {
     let at_feed = !matches!(kind, MotionKind::Rapid(_));
     if post.writes_tip() {
         tip_control::say_by_vector(post, at_feed);
+        tip_control::ready(post, target)?;
     } else if post.control.tables.frame_output {
         frame::turn_to(post, target, at_feed)?;
     }

@@ -7,6 +7,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::{Since, frame, mill_turn, tip_control};
 use crate::control::Control;
+use crate::control::skip::refuse_level;
 use crate::control_state::Place;
 use crate::errors::PostCode;
 use crate::operation::Target;
@@ -124,27 +125,60 @@ pub(super) fn on_tape(post: &Post) -> [f64; 2] {
     })
 }
 
-/// Refuses a motion at feed while a rotary axis may stand anywhere: it would turn by any angle,
-/// and the tip would leave its line.
+/// Refuses a motion at feed while a rotary axis may stand anywhere, or at a position of the
+/// machine while the tool may stand in the part: it would turn by any angle, and the tip would
+/// leave its line.
 ///
 /// # Errors
 /// One may.
 #[cold]
-pub(super) fn refuse_unknown_turn(post: &Post) -> Result<()> {
-    let tables = &post.control.tables;
-    let mut rotary = AxisSet::ROTARY.and(tables.present()).numbers();
-    let unknown = rotary.find(|number| post.control.place(*number) == Place::Unknown);
-    let Some(number) = unknown.filter(|_| !tables.mills()) else { return Ok(()) };
-    let letter = tables.axis(number).letter;
-    PostCode::UnknownTurn.err(format!("where {letter} stands is not known here"))
+pub(super) fn refuse_unknown_start(post: &Post) -> Result<()> {
+    let control = &post.control;
+    if control.tables.mills() {
+        return Ok(());
+    }
+    let is_clear = || (0..3).any(|number| control.place(number) == Place::Clear);
+    for number in AxisSet::ROTARY.and(control.tables.present()).numbers() {
+        let letter = control.tables.axis(number).letter;
+        match control.place(number) {
+            Place::Unknown => {
+                return PostCode::UnknownTurn
+                    .err(format!("where {letter} stands is not known here"));
+            }
+            Place::Clear if !is_clear() => {
+                return PostCode::UnknownTurn.err(format!(
+                    "a text has brought {letter} to a position of the machine, and left the tool \
+                     where it was"
+                ));
+            }
+            Place::Between(_) => return refuse_level(control, number),
+            _ => {}
+        }
+    }
+    Ok(())
 }
 
-/// True where a motion begins where nobody knows the axes to stand, as behind a tool change: it
-/// can be neither divided nor timed, and goes straight to its end at the plain feed, with a
-/// warning.
+/// Refuses a motion in which a rotary axis turns under cutter compensation: the control offsets
+/// in the axes of the machine, and the side of the path turns away under it.
+///
+/// # Errors
+/// One turns.
+#[cold]
+pub(super) fn refuse_compensated(post: &Post, before: Option<[f64; 2]>) -> Result<()> {
+    if post.control.tables.mills() || turned(before, post.path.rotary).is_none() {
+        return Ok(());
+    }
+    PostCode::CompensationOn.err("where the machine turns; CUTCOM/OFF must come before it")
+}
+
+/// True where a motion begins where nobody knows the axes to stand, as behind a tool change or
+/// another work offset: it can be neither divided nor timed, and goes straight to its end at the
+/// plain feed, with a warning.
 #[inline]
 pub(super) fn begins_anywhere(post: &mut Post) -> bool {
-    let in_doubt = post.path.since == Since::ToolChange || post.path.point.is_none();
+    let in_doubt = post.path.since == Since::ToolChange
+        || post.path.point.is_none()
+        || post.control.state.has_doubts();
     in_doubt && is_lost(post)
 }
 

@@ -30,22 +30,35 @@ use crate::post::Post;
 /// Least part of a way along the tool that must lead up to the level of the next hole.
 const LEAST_WAY_UP: f64 = 0.2;
 
+/// Directions of the tool whose cosine is larger are one.
+const SAME_DIRECTION: f64 = 1.0 - 1e-12;
+
 /// Heights nearer than this are one, mm or inch.
 const SAME_HEIGHT: f64 = 1e-9;
+
+/// Begins tool-tip control before a motion, where it is not on: where the tables stand then is
+/// where the motion turns them from.
+///
+/// # Errors
+/// As [`begin`].
+pub(super) fn ready(post: &mut Post, target: Target) -> Result<()> {
+    if post.control.state.tip_control == Some(true) {
+        return Ok(());
+    }
+    let (_, axis) = rotary::transformed(post, target);
+    begin(post, axis)
+}
 
 /// The words of a motion to a point: the tip, and the angles of the rotary axes.
 ///
 /// # Errors
-/// A tool axis out of reach, a position outside the travel; as [`begin`].
+/// A tool axis out of reach, a position outside the travel.
 #[cold]
 pub(super) fn position_of(
     post: &mut Post,
     point: Point3<f64>,
     axis: Vector3<f64>,
 ) -> Result<Position> {
-    if post.control.state.tip_control != Some(true) {
-        begin(post, axis)?;
-    }
     let near = post.path.chosen.take().or(post.path.rotary);
     let last = near.unwrap_or_else(|| rotary::on_tape(post));
     let tables = &post.control.tables;
@@ -114,6 +127,11 @@ fn begin(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
             .err("tool-tip control takes up the length of a tool, and no LOADTL came before");
     }
     control.flush_function(Function::WorkOffset)?;
+    let in_doubt = control.state.tip_control.is_none();
+    let length_is_called = std::mem::take(&mut control.tip.length_is_called);
+    if length_is_called && !in_doubt {
+        go_up_with_length(control)?;
+    }
     if post.control.tip.by_vector {
         turn_to_first_axis(post, axis)?;
     }
@@ -122,8 +140,7 @@ fn begin(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
     let stands = post.path.rotary.filter(|_| known);
     let control = &mut post.control;
     control.waiting.length_offset = None;
-    let in_doubt = control.state.tip_control.is_none();
-    if in_doubt || std::mem::take(&mut control.tip.length_is_called) {
+    if in_doubt || length_is_called {
         family::end_tip_control(control)?;
     }
     family::begin_tip_control(control, of_tool)?;
@@ -209,14 +226,17 @@ pub fn end(control: &mut Control) -> Result<()> {
     if !control.tables.tip_output || control.state.tip_control == Some(false) {
         return Ok(());
     }
-    if control.tables.family == ControlFamily::WordAddress {
-        go_up(control)?;
-    }
+    let goes_up = control.tables.family == ControlFamily::WordAddress && go_up(control)?;
+    let slides = if goes_up { None } else { slides(control) };
     family::end_tip_control(control)?;
     for number in AxisSet::LINEAR.numbers() {
-        let letter = control.tables.axis(number).letter;
-        control.commons.set_last_output(letter, EMPTY);
-        control.state.clears(letter);
+        let axis = *control.tables.axis(number);
+        control.commons.set_last_output(axis.letter, EMPTY);
+        match slides {
+            _ if goes_up => control.state.clears(axis.letter),
+            Some(slides) => control.state.stand(axis.letter, axis.value(slides[number])?),
+            None => control.state.loses(axis.letter),
+        }
     }
     if control.tables.family == ControlFamily::WordAddress {
         control.waiting.length_offset = control.tip.offset;
@@ -224,40 +244,91 @@ pub fn end(control: &mut Control) -> Result<()> {
     Ok(())
 }
 
+/// Where the tip stands in the part, and the rotary axes, as the tape says it; `None` where that
+/// is not known.
+fn pose(control: &Control) -> Option<(Point3<f64>, [f64; 2])> {
+    let mut position = Position::default();
+    for number in control.tables.present().numbers() {
+        let letter = control.tables.axis(number).letter;
+        let said = control.axis_position(number).filter(|_| control.state.has_last(letter));
+        let leans = control.tip.leans.filter(|_| number > 2).map(|leans| leans[number - 3]);
+        position[number] = said.or(leans)?;
+    }
+    let [x, y, z, first, second] = position;
+    Some((Point3::new(x, y, z), [first, second]))
+}
+
+/// Where X, Y and Z of the machine stand under tool-tip control; `None` where that is not known.
+fn slides(control: &Control) -> Option<Point3<f64>> {
+    pose(control).map(|(tip, angles)| control.tables.chain().linear(tip, angles))
+}
+
+/// How far the tool goes up before G49, mm or inch; `None` for a control at which it may stay.
+///
+/// # Errors
+/// The unit is not known.
+fn way_up(control: &mut Control) -> Result<Option<f64>> {
+    let distance = control.commons.dbl_opt(loc::ROTARY_TIP_END_RETRACT).unwrap_or(0.0);
+    if distance <= 0.0 {
+        return Ok(None);
+    }
+    Ok(Some(distance / control.require_unit()?.in_mm()))
+}
+
 /// Goes up along the tool before G49, at which a control may come down by the length of the
-/// tool.
+/// tool; says whether it did.
 ///
 /// # Errors
 /// Where the tool stands is not known; a position outside the travel; cutter compensation.
-fn go_up(control: &mut Control) -> Result<()> {
-    let distance = control.commons.dbl_opt(loc::ROTARY_TIP_END_RETRACT).unwrap_or(0.0);
-    if distance <= 0.0 {
-        return Ok(());
-    }
-    let distance = distance / control.require_unit()?.in_mm();
-    let known = |number: &usize| {
-        let letter = control.tables.axis(*number).letter;
-        control.axis_position(*number).filter(|_| control.state.has_last(letter))
+fn go_up(control: &mut Control) -> Result<bool> {
+    let Some(distance) = way_up(control)? else { return Ok(false) };
+    let Some((tip, angles)) = pose(control) else {
+        return PostCode::TipControl.err(
+            "tool-tip control ends, and where the tool stands is not known: it can't go up \
+             before (rotary.tip_end_retract)",
+        );
     };
-    let mut position = Position::default();
-    for number in control.tables.present().numbers() {
-        let leans = control.tip.leans.filter(|_| number > 2).map(|leans| leans[number - 3]);
-        let Some(stands) = known(&number).or(leans) else {
-            return PostCode::TipControl.err(
-                "tool-tip control ends, and where the tool stands is not known: it can't go up \
-                 before (rotary.tip_end_retract)",
-            );
-        };
-        position[number] = stands;
-    }
     let chain = control.tables.chain();
-    let angles = [position[3], position[4]];
-    let tip = Point3::new(position[0], position[1], position[2]);
     let up = tip + chain.axis_at(angles) * distance;
     let linear = chain.linear(up, angles);
-    control.tables.check_travel(&[linear.x, linear.y, linear.z, 0.0, 0.0], AxisSet::LINEAR)?;
-    position[..3].copy_from_slice(&[up.x, up.y, up.z]);
-    let motion = Motion { position, axes: AxisSet::LINEAR, word: 0 };
+    check_way_up(control, &[linear.x, linear.y, linear.z, 0.0, 0.0], AxisSet::LINEAR)?;
+    rapid_to(control, [up.x, up.y, up.z, 0.0, 0.0], AxisSet::LINEAR)?;
+    Ok(true)
+}
+
+/// Goes up in Z before a G49 that takes off the length with which the tool was brought to a
+/// position of the machine: the control may come down by it there, too.
+///
+/// # Errors
+/// As [`go_up`].
+fn go_up_with_length(control: &mut Control) -> Result<()> {
+    let Some(distance) = way_up(control)? else { return Ok(()) };
+    let Some(z) = control.stands(2) else {
+        return PostCode::TipControl.err(
+            "the length of the tool is taken off before tool-tip control begins, and where Z \
+             stands is not known: it can't go up before (rotary.tip_end_retract)",
+        );
+    };
+    let position = [0.0, 0.0, z + distance, 0.0, 0.0];
+    check_way_up(control, &position, AxisSet::Z)?;
+    rapid_to(control, position, AxisSet::Z)
+}
+
+/// Refuses a way up that ends outside the travel.
+///
+/// # Errors
+/// It does.
+fn check_way_up(control: &Control, to: &Position, axes: AxisSet) -> Result<()> {
+    control.tables.check_travel(to, axes).map_err(|diag| {
+        Box::new(diag.hint(
+            "The tool goes up by rotary.tip_end_retract before tool-tip control ends; set it \
+             lower, or 0 for a control that does not move at G49.",
+        ))
+    })
+}
+
+fn rapid_to(control: &mut Control, position: Position, axes: AxisSet) -> Result<()> {
+    let motion = Motion { position, axes, word: 0 };
     let cause = control.block.cause.whole();
     family::rapid(control, &motion, RapidCode::Along, cause)
 }
@@ -297,8 +368,11 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
     }
     let axis = target.axis.normalize();
     let height = |point: Point3<f64>| (point - target.point).dot(&axis);
-    let above = cycle.above.or(post.path.point.map(|at| AboveHoles { before: at, now: at }));
+    let stands = post.path.stands.normalize();
+    let here = post.path.point.map(|at| AboveHoles { before: at, axis: stands, now: at });
+    let above = cycle.above.or(here);
     let above = above.filter(|_| post.path.since != Since::ToolChange);
+    refuse_turned_level(cycle, above, axis)?;
     if above.is_some() && post.path.since == Since::Frame {
         return PostCode::TipControl.err(
             "a hole right behind TRANS, ORIGIN, TRACUT, ROTABL, FROM or a text that moves the tool: \
@@ -316,7 +390,6 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
     };
     let clear = cycle.clear;
     let was = (post.path.feed.replace(feed), post.control.block.cause);
-    let stands = post.path.stands.normalize();
     let mut moves = Moves { post, cycle, target, axis };
     match above {
         Some(above) => moves.across(above.now, stands, rest.max(clear))?,
@@ -325,10 +398,46 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
     }
     moves.down_and_up(rest)?;
     let now = target.point + axis * rest;
-    cycle.above = Some(AboveHoles { before: above.map_or(now, |above| above.before), now });
+    let first = above.unwrap_or(AboveHoles { before: now, axis, now });
+    cycle.above = Some(AboveHoles { now, ..first });
     (post.path.feed, post.control.block.cause) = was;
     post.path.point = Some(target.point);
     Ok(())
+}
+
+/// Goes away from the last hole of a cycle that has ended, to the level before the cycle.
+///
+/// # Errors
+/// The tool leans otherwise than there; as a straight motion.
+pub(super) fn retract(post: &mut Post, above: &mut AboveHoles) -> Result<()> {
+    let axis = post.path.stands.normalize();
+    if above.axis.dot(&axis) < SAME_DIRECTION {
+        return PostCode::TipControl.err(
+            "cycle.retract_block goes back to the level before the cycle, and the tool has turned \
+             since",
+        );
+    }
+    let way = (above.before - above.now).dot(&axis);
+    if way > SAME_HEIGHT {
+        above.now += axis * way;
+        let cause = post.control.block.cause;
+        let to = Target { point: above.now, axis, word: 0 };
+        linear::carry_out(post, &to, MotionKind::Rapid(cause))?;
+    }
+    Ok(())
+}
+
+/// Refuses a return to the level before the cycle at a hole in another direction: across that
+/// direction the level lies elsewhere, and the way to it could lead through the part.
+fn refuse_turned_level(cycle: &Cycle, above: Option<AboveHoles>, axis: Vector3<f64>) -> Result<()> {
+    let turned = above.is_some_and(|above| above.axis.dot(&axis) < SAME_DIRECTION);
+    if cycle.retract != Some(0.0) || !turned {
+        return Ok(());
+    }
+    PostCode::TipControl.err(
+        "RETURN,0 goes back to the level before the cycle, and the tool has turned since: a level \
+         over each hole (RETURN with a number, or RAPTO) says how far it comes out",
+    )
 }
 
 fn cant_go_up() -> Result<()> {

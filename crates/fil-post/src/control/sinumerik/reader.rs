@@ -168,11 +168,9 @@ fn called(control: &mut Control, name: &str, words: &mut TextWords) -> bool {
         return true;
     }
     let drills = name.strip_prefix("CYCLE").and_then(|number| number.parse::<u32>().ok());
-    if FRAMES.contains(&name) || drills.is_some_and(|number| (81..90).contains(&number)) {
-        words.frame = match drills {
-            Some(_) => TextFrame::Unread,
-            None => TextFrame::Turned,
-        };
+    let turns = FRAMES.contains(&name);
+    if turns || drills.is_some_and(|number| (81..90).contains(&number)) {
+        words.frame = if turns { TextFrame::Turned } else { TextFrame::Unread };
         control.state.doubt_axes();
         control.state.doubt(letters::F);
         control.state.doubt(letters::S);
