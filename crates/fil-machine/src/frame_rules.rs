@@ -75,12 +75,16 @@ fn tip_control(commons: &Commons, found: &mut Vec<Diag>) {
         return;
     }
     if !commons.read(loc::TOOL_LENGTH_FROM_TOOL) {
-        add("rotary.tip_output asks for tool-tip control, which takes the length of the tool, and \
-             tool.length_from_tool calls none");
+        add(
+            "rotary.tip_output asks for tool-tip control, which takes the length of the tool, and \
+             tool.length_from_tool calls none",
+        );
     }
     if commons.read(loc::TOOL_LENGTH_AT_CHANGE) || commons.dbl_opt(loc::TOOL_LENGTH_Z).is_some() {
-        add("rotary.tip_output asks for tool-tip control, which takes the length of the tool with \
-             its first motion, and tool.length_at_change or tool.length_z calls it before");
+        add(
+            "rotary.tip_output asks for tool-tip control, which takes the length of the tool with \
+             its first motion, and tool.length_at_change or tool.length_z calls it before",
+        );
     }
 }
 

@@ -19,6 +19,7 @@ impl Again {
     pub(super) fn take(&mut self, wanted: &Wanted) {
         match wanted {
             Wanted::Spindle(turn) => self.spindle = *turn != Some(Spindle::Off),
+            Wanted::SpindleAgain => self.spindle = true,
             Wanted::Coolant(kind) => self.coolant = *kind != CoolantKind::Off,
             // Words of the user's own may be a stop.
             Wanted::Tool { .. }

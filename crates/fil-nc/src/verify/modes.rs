@@ -37,6 +37,8 @@ pub(super) struct Expected {
     /// The side, and the number of the offset.
     pub(super) compensation: Lag<(Compensation, Option<u32>)>,
     pub(super) spindle: Lag<Option<Spindle>>,
+    /// How the last record that turned the spindle did.
+    last_turn: Option<Spindle>,
     /// Angle of the oriented spindle; `None` when none is asked for.
     pub(super) orientation: Option<f64>,
     /// The spindle range; `None` when none is asked for.
@@ -83,6 +85,7 @@ impl Expected {
             offset: Lag::new(None),
             compensation: Lag::new((Compensation::Off, None)),
             spindle: Lag::new(Some(Spindle::Off)),
+            last_turn: None,
             speed: Lag::new(None),
             orientation: None,
             range: None,
@@ -119,6 +122,12 @@ impl Expected {
         self.loaded_offset
     }
 
+    fn turn_spindle(&mut self, turn: Option<Spindle>, settings: &Settings) {
+        self.spindle.set(settings.spindle(turn), settings.spindle_due());
+        self.orientation = None;
+        self.range_is_named = false;
+    }
+
     /// Takes up what a step switches.
     pub(super) fn take(&mut self, wanted: &Wanted, settings: &Settings) {
         self.again.take(wanted);
@@ -130,10 +139,10 @@ impl Expected {
                 self.orientation = None;
             }
             Wanted::Spindle(turn) => {
-                self.spindle.set(settings.spindle(*turn), settings.spindle_due());
-                self.orientation = None;
-                self.range_is_named = false;
+                self.last_turn = turn.or_else(|| settings.spindle(None));
+                self.turn_spindle(*turn, settings);
             }
+            Wanted::SpindleAgain => self.turn_spindle(self.last_turn, settings),
             Wanted::SpindleRange(range) => {
                 self.range = settings.spindle_range(*range);
                 self.range_is_named = true;

@@ -35,7 +35,11 @@ pub(super) fn spindle(record: &Record) -> Vec<Wanted> {
     };
     // A highest speed, or a range, turns nothing.
     let stays = speed.is_none() && turn.is_none() && !record.has(w::ON) && !wanted.is_empty();
-    wanted.extend((!stays).then_some(Wanted::Spindle(turn)));
+    let turn = match (speed, turn) {
+        (None, None) => Wanted::SpindleAgain,
+        _ => Wanted::Spindle(turn),
+    };
+    wanted.extend((!stays).then_some(turn));
     wanted
 }
 

@@ -62,6 +62,8 @@ pub enum Wanted {
     },
     /// The spindle stands or turns; `None` for the direction the machine turns by itself.
     Spindle(Option<Spindle>),
+    /// The spindle turns as a record before has said it.
+    SpindleAgain,
     /// Spindle speed.
     Speed(Speed),
     /// What surface speed may turn the spindle up to, turns a minute.

@@ -113,6 +113,8 @@ pub struct Control {
     pub speed: Option<SpindleSpeed>,
     /// The spindle turns clockwise or not, as far as the program has said it.
     pub turning: Option<bool>,
+    /// How it turned when it last did.
+    pub turned: Option<bool>,
     /// The spindle range in force that the program has said, from 0.
     pub range: Option<usize>,
     /// The location of the coolant that flows, as COOLNT asked for it.
@@ -165,6 +167,7 @@ impl Control {
             sinumerik: sinumerik::Sinumerik::default(),
             speed: None,
             turning: None,
+            turned: None,
             range: None,
             coolant: None,
             changes: 0,

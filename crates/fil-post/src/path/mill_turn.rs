@@ -104,7 +104,8 @@ pub fn switch(post: &mut Post, mills: bool) -> Result<()> {
     control.state.rotation = Rotation::Standing;
     // Said again, as its feed depends on what turns now.
     control.state.feed_mode = None;
-    (control.turning, control.speed, control.range) = (None, None, None);
+    (control.turning, control.turned) = (None, None);
+    (control.speed, control.range) = (None, None);
     post.path.feed = None;
     post.path.rotary = None;
     post.path.interrupt();

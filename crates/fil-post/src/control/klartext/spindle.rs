@@ -42,8 +42,9 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
         tool::speed(control, value)?;
     }
     control.block.cause.word = direction_word;
-    control.klartext.clockwise = Some(turn.clockwise.unwrap_or(true));
-    let direction = match turn.clockwise {
+    let said = words::take_turn(control, &turn);
+    control.klartext.clockwise = Some(control.turned.unwrap_or(true));
+    let direction = match said {
         Some(true) => loc::SPINDLE_CW_CODE,
         Some(false) => loc::SPINDLE_CCW_CODE,
         None => loc::SPINDLE_DEFAULT_CODE,

@@ -238,13 +238,10 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
         (None, None) => refuse_without_speed(control)?,
     }
     control.block.cause.word = direction_word;
-    let usual = || {
-        let code = control.code_if_any(loc::SPINDLE_DEFAULT_CODE)?;
-        Some(control.code_if_any(loc::SPINDLE_CW_CODE) == Some(code))
-    };
-    control.turning = turn.clockwise.or_else(usual);
+    let said = take_turn(control, &turn);
+    control.turning = control.turned;
     let [clockwise, counterclockwise, _] = codes(control);
-    let direction = match (turn.clockwise, control.turning) {
+    let direction = match (said, control.turning) {
         (Some(true), _) => clockwise,
         (Some(false), _) => counterclockwise,
         (None, Some(false)) if control.tables.mills() => counterclockwise,
@@ -252,6 +249,26 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
         (None, _) => loc::SPINDLE_DEFAULT_CODE,
     };
     place(control, direction, "the spindle")
+}
+
+/// Which way a record turns the spindle, and keeps it: SPINDL/ON turns it as it turned before.
+/// `None` for the code of a SPINDL that names no direction.
+pub fn take_turn(control: &mut Control, turn: &SpindleTurn) -> Option<bool> {
+    let said = turn.clockwise.or(control.turned.filter(|_| turn.speed.is_none()));
+    control.turned = said.or_else(|| usual_turn(control));
+    said
+}
+
+/// Whether the code of a SPINDL that names no direction turns the spindle clockwise.
+fn usual_turn(control: &Control) -> Option<bool> {
+    let code = control.code_if_any(loc::SPINDLE_DEFAULT_CODE);
+    let turns = [loc::SPINDLE_CW_CODE, loc::SPINDLE_CCW_CODE]
+        .map(|at| code.is_some() && control.code_if_any(at) == code);
+    match turns {
+        [true, _] => Some(true),
+        [_, true] => Some(false),
+        _ => None,
+    }
 }
 
 /// Refuses SPINDL without a speed behind MODE or SIDE: S is that of the other spindle there, and
