@@ -36,6 +36,7 @@ mod trace;
 mod verify;
 mod verify_five_axes;
 mod verify_modes;
+mod verify_rotary;
 mod verify_ways;
 mod wasm;
 mod windows;

@@ -33,6 +33,7 @@ mod programs;
 mod rate;
 mod report;
 mod reposition;
+mod rotary_rules;
 mod rules;
 mod say;
 mod settings;

@@ -16,6 +16,7 @@ use super::between::Blocks;
 use super::report::{Finding, FindingKind, Report, Unverified};
 use super::rules::Rules;
 use super::say::{sense, short, spell_rate, way};
+use super::settings::Settings;
 use super::sift::{Sift, Watcher};
 use super::window::Window;
 use crate::diff;
@@ -57,9 +58,11 @@ pub enum Unfollowed {
 pub fn compare_programs(programs: Programs<'_>) -> Result<Report, Unfollowed> {
     let Programs { reference, found, commons, allowed } = programs;
     let blocks = Blocks::new(commons, allowed.between).map_err(Unfollowed::Found)?;
+    let settings = Settings::new(commons, allowed.tolerance).map_err(Unfollowed::Found)?;
+    let rules = Rules::new(settings.is_mill_turn());
     let mut pair = Pair {
         wanted: Window::new(Sift::new(reference, Count::default())),
-        found: Window::new(Sift::new(found, Looks { rules: Rules::default(), blocks })),
+        found: Window::new(Sift::new(found, Looks { rules, blocks })),
         tolerance: allowed.tolerance.unwrap_or(0.0) + DUST,
         report: Report::default(),
     };

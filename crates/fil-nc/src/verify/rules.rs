@@ -2,10 +2,11 @@
 //! change tools, drill or end with cutter compensation on, begin or end it on an arc.
 
 use super::report::{Finding, FindingKind, Report};
+use super::rotary_rules::RotaryRules;
 use crate::motion::{Compensation, Course, Event, Modes, Move};
 
 /// Looks at the events of a program in their order.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Rules {
     /// What is wrong.
     pub(super) findings: Report,
@@ -15,11 +16,26 @@ pub(super) struct Rules {
     stray: Option<u32>,
     /// The hole drilled under compensation has been said.
     said_of_cycle: bool,
+    rotary: RotaryRules,
 }
 
 impl Rules {
+    /// The rules of a machine; the main spindle of a mill-turn machine is its rotary axis.
+    pub(super) fn new(is_mill_turn: bool) -> Self {
+        Rules {
+            findings: Report::default(),
+            compensation: Compensation::default(),
+            stray: None,
+            said_of_cycle: false,
+            rotary: RotaryRules::new(is_mill_turn),
+        }
+    }
+
     /// Takes in the next event.
     pub(super) fn look(&mut self, event: &Event) {
+        for (kind, message) in self.rotary.look(event) {
+            self.find(kind, event.line(), message);
+        }
         match event {
             Event::Move(found) => self.motion(found),
             Event::LeftToControl { line, mode } => {

@@ -49,7 +49,6 @@ impl<W: Watcher> Events for Sift<'_, W> {
 }
 
 /// What a program that is compared with a CL file has besides its motions.
-#[derive(Default)]
 pub(super) struct Beside {
     rules: Rules,
     clamps: Option<Clamps>,
@@ -59,7 +58,11 @@ pub(super) struct Beside {
 
 impl Beside {
     pub(super) fn new(settings: &Settings<'_>) -> Self {
-        Beside { clamps: Clamps::new(settings), ..Beside::default() }
+        Beside {
+            rules: Rules::new(settings.is_mill_turn()),
+            clamps: Clamps::new(settings),
+            auxiliaries: Vec::new(),
+        }
     }
 
     /// What was found wrong by the rules that hold for any program, and by those of clamped

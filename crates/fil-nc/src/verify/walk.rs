@@ -210,6 +210,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             Wanted::Mills(mills) => self.scale_x(if *mills { 1.0 } else { DIAMETER }),
             Wanted::CycleEnd => self.end_cycle(step.line),
             Wanted::Straight(within) => self.watch.ask(*within),
+            Wanted::LeftOut => self.watch.begin_elsewhere(self.settings.divides_within()),
             Wanted::Tool { number, offset } => {
                 self.tool(step.line, *number, self.settings.tool_offset(*number, *offset));
                 self.cutter = self.cutter.filter(|_| self.cutter_is_fresh);

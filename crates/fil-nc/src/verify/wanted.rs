@@ -115,6 +115,9 @@ pub enum Wanted {
     Words(String),
     /// Words of the user's own in each motion that follows.
     Repeated(String),
+    /// Something was left out that the operator may skip: what follows begins elsewhere than
+    /// with it.
+    LeftOut,
     /// Nothing is done any more that modes of records left out would hold for.
     Unfollowed,
     /// The end of the program.

@@ -60,6 +60,9 @@ pub(super) struct Watch {
     limit: Option<f64>,
     /// The limit is that of the user, whatever the CL file says.
     given: bool,
+    /// The limit of a motion that begins elsewhere where blocks before it are left out: what
+    /// turns the machine in them must not turn it in the motion.
+    elsewhere: Option<f64>,
     /// Where the last motion of the CL file ended, when the program made it.
     stands: Option<Pose>,
 }
@@ -72,7 +75,7 @@ pub(super) struct Asked {
 
 impl Watch {
     pub(super) fn new(limit: Option<f64>) -> Self {
-        Watch { limit, given: limit.is_some(), stands: None }
+        Watch { limit, given: limit.is_some(), elsewhere: None, stands: None }
     }
 
     /// LINTOL of the CL file.
@@ -82,9 +85,20 @@ impl Watch {
         }
     }
 
+    /// Blocks were left out, and the next motion begins where the tool stood before them.
+    pub(super) fn begin_elsewhere(&mut self, limit: Option<f64>) {
+        self.elsewhere = limit;
+    }
+
     /// A motion of the CL file was made, and the tool stands at its end.
     pub(super) fn stand(&mut self, pose: Option<Pose>) {
         self.stands = pose;
+        self.elsewhere = None;
+    }
+
+    /// Allowed distance of the motion at hand, mm.
+    fn limit(&self) -> Option<f64> {
+        self.limit.or(self.elsewhere)
     }
 }
 
@@ -241,9 +255,9 @@ impl<C: Steps> Walk<'_, C> {
         let live = self.settings.is_mill_turn();
         let of_tool = live.then(|| self.settings.forward.with_tool_for(asked.ends[1].axis));
         let forward = of_tool.as_ref().unwrap_or(&self.settings.forward);
-        let limits = [self.watch.limit, leans_most];
+        let limits = [self.watch.limit(), leans_most];
         let [off, leans] = between.add(forward, &self.at, found, &asked, limits);
-        if let Some(limit) = self.watch.limit.filter(|limit| off > *limit) {
+        if let Some(limit) = limits[0].filter(|limit| off > *limit) {
             let message = said(off, limit);
             self.find(FindingKind::Between, Some(cl_line), Some(found.line), message);
         }

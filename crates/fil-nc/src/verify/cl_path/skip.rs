@@ -13,6 +13,8 @@ pub struct Opskip {
     is_on: bool,
     /// Records were left out, and nothing is done behind them yet.
     unfollowed: bool,
+    /// What is done was left out, and that was told.
+    is_told: bool,
 }
 
 impl Opskip {
@@ -25,7 +27,7 @@ impl Opskip {
     /// A motion that is not left out.
     #[inline]
     pub fn goes_on(&mut self) {
-        self.unfollowed = false;
+        (self.unfollowed, self.is_told) = (false, false);
     }
 
     /// The steps of a record as they are asked for: of one that is left out, what holds on.
@@ -37,7 +39,11 @@ impl Opskip {
             steps.iter_mut().for_each(Wanted::mark_as_skipped);
         }
         if self.leaves_out_now() {
+            let count = steps.len();
             steps.retain(|what| !what.is_done_once());
+            if steps.len() < count && !std::mem::replace(&mut self.is_told, true) {
+                steps.push(Wanted::LeftOut);
+            }
             self.unfollowed = true;
         }
         self.unfollowed &= !steps.iter().any(Wanted::is_done_once);

@@ -121,6 +121,12 @@ impl<'c> Settings<'c> {
         self.dialect.live_at_start.is_some()
     }
 
+    /// How far the tip may leave its line while the machine turns where the CL file does not
+    /// say it, mm.
+    pub fn divides_within(&self) -> Option<f64> {
+        self.commons.dbl_opt(loc::ROTARY_TOLERANCE).filter(|most| *most > 0.0)
+    }
+
     /// How far the tool may lean out of the plane of its ends between the ends of a motion,
     /// degrees.
     pub fn leans_most(&self) -> Option<f64> {
