@@ -35,6 +35,13 @@ impl Case<'_> {
         assert!(found.contains(message), "no `{message}` in\n{found}\n{}", self.nc);
     }
 
+    /// The program is right, and one with a piece of text exchanged is found.
+    fn agrees_but_not_with(&self, (old, new): (&str, &str), message: &str) {
+        self.agrees();
+        assert!(self.nc.contains(old), "no {old} in\n{}", self.nc);
+        Case { nc: &self.nc.replacen(old, new, 1), ..*self }.asks_for(message);
+    }
+
     fn agrees(&self) {
         let found = self.found();
         assert!(found.is_empty(), "{found}\n{}", self.nc);
@@ -73,7 +80,8 @@ fn a_turn_under_cutter_compensation_is_found() {
     let turned = "G0 Z80.131; Y-1.991; A-5.; G1 Y-0.995 Z80.219; G40 Y7.97 Z81.003";
     let nc = milled(&format!("{start}; {turned}"));
     Case { ready, settings: &[], cl: &cl, nc: &nc }.asks_for(message);
-    let cl = cl.replace("RAPID; GOTO / 20, 5", "CUTCOM / OFF; GOTO / 20, 0, 80; RAPID; GOTO / 20, 5");
+    let cl =
+        cl.replace("RAPID; GOTO / 20, 5", "CUTCOM / OFF; GOTO / 20, 0, 80; RAPID; GOTO / 20, 5");
     let cl = cl.replace("CUTCOM / OFF; GOTO / 20, 15", "GOTO / 20, 15");
     let nc = milled(&format!("{start}; G40 Z80.; {}", turned.replace("G40 ", "")));
     let nc = nc.replace("G40 Z80.", "G1 G40 X20. Z80.");
@@ -127,4 +135,159 @@ fn a_turn_that_may_be_skipped_must_not_come_at_feed_in_its_place() {
     let cl = cl.replace("GOTO / 20, 0, 30", "RAPID; GOTO / 20, 0, 80");
     let nc = milled(&format!("{start}; G0 Z80.; X20.; C90."));
     Case { ready, settings, cl: &cl, nc: &nc }.agrees();
+}
+
+const UP: &str = "0, 0, 1";
+const LEANS: &str = "0, -0.3420201433, 0.9396926208";
+const LEANS_X: &str = "0.3420201433, 0, 0.9396926208";
+
+#[test]
+fn where_an_axis_stands_before_a_word_says_it_breaks_no_travel() {
+    let cl = format!("RAPID; GOTO / 0, 0, 50, {LEANS_X}");
+    let nc = milled("G0 X-17.101 Y0.; B20.; G43 Z46.985 H1");
+    Case { ready: "fanuc-mill-b", settings: &["rotary.primary_min=12.5"], cl: &cl, nc: &nc }
+        .agrees();
+    let settings = &["rotary.primary_min=20.5"];
+    Case { ready: "fanuc-mill-b", settings, cl: &cl, nc: &nc }.asks_for("B20 lies outside");
+    let nc = milled("G0 X-17.101 Y0.; B20.; G43 Z46.985 H1");
+    let settings = &["limits.z_min=12.5"];
+    Case { ready: "fanuc-mill-b", settings, cl: &cl, nc: &nc }.agrees();
+}
+
+#[test]
+fn tip_control_ends_and_begins_again_beside_other_records() {
+    let lean = format!("10, 0, 5, {LEANS_X}");
+    let start = format!("MULTAX / ON; RAPID; GOTO / 10, 0, 50, {LEANS_X}; FEDRAT / 300, MMPM");
+    let ready = "fanuc-5x-tables";
+    // The machine turns at its point of the machine, where no length acts.
+    let cl = format!("{start}; GOTO / {lean}; RETRCT; RAPID; GOTO / {lean}");
+    let nc = milled(
+        "G0 A0. C0.; G43.4 H1; X10. Y0. Z50. A-20. C-90.; G1 Z5. F300.; G0 X112.606 Z286.908; \
+         G49; G53 G0 Z0.; A0. C0.; G43.4 H1; X10. Y0. Z5. A-20. C-90.; X112.606 Z286.908; G49",
+    );
+    let settings = &["home.frame=1", "home.retract_z=0"];
+    Case { ready, settings, cl: &cl, nc: &nc }.agrees_but_not_with(
+        ("G43.4 H1; X10. Y0. Z5.".replace("; ", "\n").as_str(), "G43.4 H2\nX10. Y0. Z5."),
+        "length offset 2 is on, it should be 1",
+    );
+    // Another work offset ends it and begins it again, with a dwell between, and where it stays.
+    let settings = &["rotary.tip_control=1"];
+    let cl = format!("{start}; GOTO / {lean}; SET / OFSETL, 2; DELAY / 0.5; RAPID; GOTO / {lean}");
+    let nc = milled(
+        "G43.4 H1; G0 X10. Y0. Z50. A-20. C-90.; G1 Z5. F300.; G0 X112.606 Z286.908; G49; G55; \
+         G4 P500; G43.4 H1; X10. Y0. Z5. A-20. C-90.; X112.606 Z286.908; G49",
+    );
+    let case = Case { ready, settings, cl: &cl, nc: &nc };
+    case.agrees_but_not_with(("G55", "G56"), "work offset G56, it should be G55");
+    case.agrees_but_not_with(("G55\n", ""), "it should be G55");
+    case.agrees_but_not_with(("Z286.908", "Z186.908"), "Z186.908");
+    let moved = ("G0 X112.606 Z286.908\nG49\nG55", "G49\nG55");
+    case.agrees_but_not_with(moved, "the control may come down by the length of the tool");
+    // The CL file goes on upright, without it, by the level of the machine.
+    let cl = format!("{start}; GOTO / {lean}; MULTAX / OFF; RAPID; GOTO / 0, -1, 50, {UP}");
+    let nc = milled(
+        "M11; G0 A0. C0.; G43.4 H1; X10. Y0. Z50. A-20. C-90.; G1 Z5. F300.; \
+         G0 X112.606 Z286.908; G49; G43 Z150. H1; A0. C0.; M10; X0. Y-1.; Z50.",
+    );
+    let settings = &[
+        "rotary.frame_output=1",
+        "rotary.frame_clamp=1",
+        "rotary.clamp_code=10",
+        "rotary.unclamp_code=11",
+        "home.retract_z=150",
+    ];
+    Case { ready, settings, cl: &cl, nc: &nc }
+        .agrees_but_not_with(("Z150.", "Z140."), "Z140, which is on no way to its end");
+}
+
+#[test]
+fn another_work_offset_is_gone_to_again() {
+    // In a tilted frame.
+    let cl = format!(
+        "RAPID; GOTO / 0, 0, 60, {LEANS}; FEDRAT / 300, MMPM; SET / OFSETL, 2; RAPID; \
+         GOTO / 0, 0, 60, {LEANS}; GOTO / 0, 0, 10, {LEANS}"
+    );
+    let frame = "G68.2 X0. Y0. Z0. I0. J20. K0.; G53.1; X0. Y20.521";
+    let nc = milled(&format!(
+        "G0 A20.; {frame}; G43 Z56.382 H1; G69; G55; Z150.; A20.; {frame}; Z56.382; \
+         G1 Y3.42 Z9.397 F300.; G69"
+    ));
+    let settings = &["rotary.frame_output=1", "home.retract_z=150"];
+    let case = Case { ready: "fanuc-mill-a", settings, cl: &cl, nc: &nc };
+    case.agrees_but_not_with(("Z150.", "Z57."), "which is no way up");
+    case.agrees_but_not_with(("G55\n", ""), "work offset none, it should be G55");
+    // Behind a point that comes twice.
+    let cl = "RAPID; GOTO / 0, 0, 60; RAPID; GOTO / 0, 0, 60; SET / OFSETL, 2; RAPID; \
+              GOTO / 0, 0, 60; RAPID; GOTO / 5, 0, 60";
+    let nc = milled("G0 X0. Y0.; A0. C0.; G43 Z60. H1; G55; X0. Y0.; A0. C0.; Z60.; X5.");
+    let case = Case { ready: "haas-trunnion", settings: &[], cl, nc: &nc };
+    case.agrees_but_not_with(("G55\n", ""), "work offset none, it should be G55");
+    case.agrees_but_not_with(("G55", "G56"), "work offset G56, it should be G55");
+    let only = cl.replace("; RAPID; GOTO / 5, 0, 60", "");
+    let nc = milled("G0 X0. Y0.; A0. C0.; G43 Z60. H1; G55");
+    Case { ready: "haas-trunnion", settings: &[], cl: &only, nc: &nc }
+        .asks_for("1 motion is missing");
+}
+
+#[test]
+fn a_point_that_comes_twice_before_a_point_of_the_machine_is_no_fault() {
+    let cl = "RAPID; GOTO / 0, 0, 60; RAPID; GOTO / 0, 0, 60; RETRCT; RAPID; GOTO / 5, 0, 60";
+    let nc = milled("G0 X0. Y0.; G43 Z60. H1; G53 G0 Z0.; X5. Y0.; Z60.");
+    let settings = &["home.frame=1", "home.retract_z=0"];
+    let case = Case { ready: "fanuc-mill", settings, cl, nc: &nc };
+    case.agrees_but_not_with(("G53 G0 Z0.\n", ""), "no motion to the position of the machine");
+    let message = "goes to a point of the machine that neither the CL file nor";
+    case.agrees_but_not_with(("X5.", "G53 G0 Z0.\nX5."), message);
+    let cl = cl.replace("RETRCT; ", "");
+    Case { ready: "fanuc-mill", settings, cl: &cl, nc: &nc }.asks_for(message);
+}
+
+#[test]
+fn holes_of_two_faces_in_one_cycle_are_followed() {
+    let cl = format!(
+        "RAPID; GOTO / 0, 0, 60, {LEANS}; CYCLE / DRILL, DEPTH, 5, MMPM, 100, CLEAR, 2; \
+         GOTO / 0, 0, 10, {LEANS}; GOTO / 0, 10, 0, {UP}; CYCLE / OFF"
+    );
+    let nc = milled(
+        "G0 A20.; G68.2 X0. Y0. Z0. I0. J20. K0.; G53.1; X0. Y20.521; G43 Z56.382 H1; \
+         G99 G81 X0. Y3.42 Z4.397 R11.397 F100.; G80; G69; G0 Z150.; A0.; \
+         G99 G81 X0. Y10. Z-5. R2. F100.; G80",
+    );
+    let settings = &["rotary.frame_output=1", "home.retract_z=150"];
+    let case = Case { ready: "fanuc-mill-a", settings, cl: &cl, nc: &nc };
+    let low = "the tool must have gone up to Z150 before";
+    case.agrees_but_not_with(("G0 Z150.\n", "G0\n"), low);
+    case.agrees_but_not_with(("Z-5.", "Z-6."), "the hole is deeper by 1");
+    case.agrees_but_not_with(("G0 Z150.", "G0 X1. Z150."), "X1");
+    // Positions of a table under a tool along X: it turns, and X stays.
+    let cl = "FEDRAT / 465, MMPM; \
+              GOTO / 0.218168190, -7.623881561, 21.313642574, 0.8481161017, -0.5298104170, 0; \
+              CYCLE / REAM, DEPTH, 7.83897, MMPM, 100, CLEAR, 3; \
+              GOTO / -16.744153845, 2.972326779, 21.313642574, 0.9404427050, -0.3399522299, 0; \
+              CYCLE / OFF";
+    let nc = milled(
+        "G1 G43 X46.334 Y-35.455 Z21.314 C-31.993 F465. H1; G19; \
+         G99 G85 X-0.298 Y-23.804 Z21.314 R10.541 C-19.874 F100.; G80; G17",
+    );
+    let settings = &[
+        "chain=\"table-c\"",
+        "rotary.secondary_kind=0",
+        "rotary.primary_x=71.818",
+        "rotary.primary_y=58.893",
+        "rotary.primary_z=-1.123",
+    ];
+    let case = Case { ready: "fanuc-mill-b", settings, cl, nc: &nc };
+    case.agrees_but_not_with(("R10.541", "R11.541"), "R level is higher by 1");
+    case.agrees_but_not_with(("X-0.298", "X-1.298"), "the hole is deeper by 0.9998");
+}
+
+#[test]
+fn the_angles_of_a_frame_turn_no_clamped_axis() {
+    let cl = "RAPID; GOTO / 4.175, -7.231, 64.461, 0.25, -0.4330127019, 0.8660254038";
+    let nc = "%_N_N_T_MPF\nG710 G90 G94 G17\nT1 M6\nD1\nS3000 M3\nM11\nG0 A30 C30\n\
+              CYCLE800(0,\"TC1\",0,57,0,0,0,26.56505,14.47751,26.56505,0,0,0,1,0)\nM10\n\
+              X0 Y24.999\nZ60\nCYCLE800()\nM30\n";
+    let settings = &["rotary.frame_clamp=1", "rotary.clamp_code=10", "rotary.unclamp_code=11"];
+    Case { ready: "sinumerik-5x", settings, cl, nc }
+        .agrees_but_not_with(("M11\n", ""), "a rotary axis turns without M11");
 }

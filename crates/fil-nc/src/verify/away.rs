@@ -36,6 +36,35 @@ impl<C: Steps> Walk<'_, C> {
         };
     }
 
+    /// Takes the way up and the turn before a hole in another frame than the last motion.
+    pub(super) fn changes_frame(&mut self, cl_line: u32) {
+        let other = |plunge: Move| {
+            let tilts = plunge.to.tilt != self.at.tilt || plunge.to.rotary != self.at.rotary;
+            tilts && !plunge.to.tip_control
+        };
+        if !self.settings.turns_for_frames() || !self.plunge(self.next).is_some_and(other) {
+            return;
+        }
+        while let Some(found) = self.next_move() {
+            let rapid = found.course == Course::Rapid && !found.in_cycle;
+            let before = rapid && found.to.tilt.is_none();
+            let turns = self.only_turns(&found);
+            let rises = !(0..2).any(|n| found.known[n])
+                && self.settings.retract_level(self.metric).is_some_and(|level| {
+                    (found.to.linear[2] - level).abs() <= self.slack.linear[2]
+                });
+            if !before || !(turns || rises) {
+                break;
+            }
+            self.check_before_frame(cl_line, &found);
+            self.check_turn_is_away(cl_line, &found);
+            self.take(cl_line, &found);
+            self.next += 1;
+        }
+        // The level before the cycle is that of another frame.
+        self.initial = None;
+    }
+
     /// A turn of the machine for a tilted frame, or out of one, where the tool is not away from
     /// the part.
     pub(super) fn check_turn_is_away(&mut self, cl_line: u32, found: &Move) {

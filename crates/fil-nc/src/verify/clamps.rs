@@ -42,7 +42,10 @@ impl Clamps {
 
     fn look(&mut self, found: &Move) {
         let to = found.to.rotary;
-        let turns = self.stands.is_none_or(|at| (0..2).any(|n| (at[n] - to[n]).abs() > STILL));
+        // In a frame nothing turns: its angles are those that the rounded ones stand for.
+        let framed = found.to.tilt.is_some() && self.stands.is_some();
+        let differs = |at: [f64; 2]| (0..2).any(|n| (at[n] - to[n]).abs() > STILL);
+        let turns = !framed && self.stands.is_none_or(differs);
         let cuts = matches!(found.course, Course::Feed | Course::Thread);
         let message = match self.held {
             Some(false) if cuts && found.to.tilt.is_some() => {

@@ -45,6 +45,7 @@ impl<C: Steps> Walk<'_, C> {
             return false;
         }
         self.goes_up_before_turning(cl_line, hole);
+        self.changes_frame(cl_line);
         let Some(plunge) = self.plunge(self.next) else { return false };
         self.check_direction(cl_line, &plunge, hole);
         let drills = self.in_axes(&plunge, hole);

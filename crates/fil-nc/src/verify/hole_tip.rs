@@ -257,13 +257,16 @@ impl<C: Steps> Walk<'_, C> {
         let mut line = self.line_of(hole, &next);
         line.heights = self.heights(hole, levels, self.plunges_in_cycle());
         let stands = Move { to: self.at, ..next };
-        let stood = self.settings.forward.pose(&self.at).tip;
+        let stood = self.at;
         let turns = self.gap(&self.at, &hole.start).turned.is_some();
         self.at = self.said(&stands, hole, levels, &line).to;
         if turns {
-            // The tool stands in the direction of another hole, and turns on the way to this one.
+            // The tool stands in the direction of another hole, and turns on the way to this one:
+            // its tip stays under tool-tip control, else X, Y and Z do.
             let rotary = self.gap(&next.to, &hole.start).rotary;
-            self.at.linear = self.hole_frame(rotary, hole).linear(stood);
+            let turned = if stood.tip_control { stood } else { Position { rotary, ..stood } };
+            let tip = self.settings.forward.pose(&turned).tip;
+            self.at.linear = self.hole_frame(rotary, hole).linear(tip);
         }
         let known = self.known[..3].iter().all(|known| *known);
         let tip = self.tip_over(&stands, hole);

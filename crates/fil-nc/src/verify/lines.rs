@@ -224,7 +224,7 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     /// Before the tilted frame that a rapid ends in the machine may go up and turn.
-    fn check_before_frame(&mut self, cl_line: u32, part: &Move) {
+    pub(super) fn check_before_frame(&mut self, cl_line: u32, part: &Move) {
         let at = self.settings.forward.restated(&self.at, &part.to).linear;
         let way = |n: usize| match self.known[n] && part.known[n] {
             true => part.to.linear[n] - at[n],
@@ -275,8 +275,15 @@ impl<C: Steps> Walk<'_, C> {
             }
             None => axes,
         };
+        // Where an axis stands before a word has said it nobody knows.
+        let says = |n: usize| found.known[n] || found.to_machine[n];
+        let all = found.to.names_tip() || self.from_hole.is_some();
         for (n, (min, max)) in self.travel.into_iter().enumerate() {
             let value = axes[n];
+            let is_said = if all { (0..3).all(says) } else { says(n) };
+            if !is_said {
+                continue;
+            }
             if !(min..=max).contains(&value) {
                 let axis = ["X", "Y", "Z"][n];
                 let message =
@@ -286,6 +293,9 @@ impl<C: Steps> Walk<'_, C> {
         }
         for n in 0..2 {
             let Some(axis) = &self.settings.forward.rotaries()[n] else { continue };
+            if !found.known[n + 3] && !found.to_machine[n + 3] {
+                continue;
+            }
             let value = found.to.rotary[n];
             let low = axis.min.is_some_and(|min| value < min - self.slack.rotary[n]);
             let high = axis.max.is_some_and(|max| value > max + self.slack.rotary[n]);

@@ -188,6 +188,17 @@ impl<C: Steps> Walk<'_, C> {
         (self.is_away || found.modes.tool != self.moved_tool) && behind == Some(true)
     }
 
+    /// Takes a turn of the machine, in which nothing moves that the length of the tool acts on:
+    /// tool-tip control has ended, and begins again with it.
+    pub(super) fn take_turn_away(&mut self, cl_line: u32, found: &Move) {
+        let mut seen = *found;
+        if found.modes.length_offset.is_none() {
+            seen.modes.length_offset = self.modes.offset.now;
+        }
+        self.take(cl_line, &seen);
+        self.next += 1;
+    }
+
     /// An arc as the settings of the machine correct it; `None` where they leave it.
     pub(super) fn corrected(&mut self, step: &Step) -> Option<Step> {
         let before = self.corrected_end.take();

@@ -3,6 +3,7 @@
 use super::ahead::Steps;
 use super::report::FindingKind;
 use super::walk::{STILL, Walk};
+use super::wanted::{Step, Wanted};
 use crate::motion::{Course, Event, Move};
 
 impl<C: Steps> Walk<'_, C> {
@@ -60,11 +61,13 @@ impl<C: Steps> Walk<'_, C> {
                     self.goes_up(cl_line, &found);
                     self.is_away = is_away;
                 }
+                Some(Event::Move(found)) if self.turns_away(&found) => {
+                    self.take_turn_away(cl_line, &found);
+                }
                 Some(Event::Move(found))
                     if found.course != Course::Machine
-                        && (self.is_still(&found)
-                            || self.turns_away(&found)
-                            || self.goes_there_again(&found)) =>
+                        && !self.is_of_a_later_offset(&found)
+                        && (self.is_still(&found) || self.goes_there_again(&found)) =>
                 {
                     self.take(cl_line, &found);
                     self.next += 1;
@@ -72,6 +75,31 @@ impl<C: Steps> Walk<'_, C> {
                 _ => return,
             }
         }
+    }
+
+    /// A motion in a work offset that no record before has asked for: it belongs to a step
+    /// behind the record that does.
+    fn is_of_a_later_offset(&self, found: &Move) -> bool {
+        found.modes.fixture != self.moved_fixture
+            && self.modes.fixture.is_some_and(|asked| asked != found.modes.fixture)
+    }
+
+    /// A record has asked for a work offset in which nothing has moved: where the axes stand in
+    /// it nobody knows.
+    pub(super) fn awaits_offset(&self) -> bool {
+        self.modes.fixture.flatten().is_some_and(|asked| self.moved_fixture != Some(asked))
+    }
+
+    /// The CL file stays where the tool is, and the program goes to a point of the machine, for
+    /// which a later record may ask.
+    pub(super) fn rests_before_machine(&mut self, step: &Step) -> bool {
+        let (Wanted::Rapid(pose) | Wanted::Feed(pose, _)) = &step.what else { return false };
+        let goes_away =
+            |walk: &Self| walk.next_move().is_some_and(|found| found.course == Course::Machine);
+        if goes_away(self) {
+            self.pass_still(step.line);
+        }
+        goes_away(self) && self.stands_at(pose)
     }
 
     /// Passes over events of blocks of the settings and of INSERT.
@@ -95,7 +123,7 @@ impl<C: Steps> Walk<'_, C> {
         self.leaves_or_comes(found);
         self.at = found.to;
         self.known = found.known;
-        self.moved_tool = found.modes.tool;
+        (self.moved_tool, self.moved_fixture) = (found.modes.tool, found.modes.fixture);
         self.rapid_end = None;
         self.next += 1;
     }

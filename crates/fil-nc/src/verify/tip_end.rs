@@ -30,7 +30,8 @@ impl<C: Steps> Walk<'_, C> {
             && self.at.tip_control
             && found.to.rotary == self.at.rotary
             && !found.in_cycle;
-        if !along_tool || self.ends_tip_control(self.next + 1) == Some(false) {
+        let ends = self.ends_tip_control(self.next + 1, found.modes.fixture);
+        if !along_tool || ends == Some(false) {
             return false;
         }
         let forward = &self.settings.forward;
@@ -96,13 +97,22 @@ impl<C: Steps> Walk<'_, C> {
         self.next_move().is_some_and(|found| self.goes_up_at_tip_end(&found))
     }
 
-    /// Tool-tip control ends before an event; `None` where no event says it.
-    fn ends_tip_control(&self, index: usize) -> Option<bool> {
+    /// Tool-tip control ends before an event, though it may begin again for another work offset,
+    /// which is none that it goes on in; `None` where no event says it.
+    fn ends_tip_control(&self, index: usize, fixture: Option<u32>) -> Option<bool> {
         self.nc.from(index).find_map(|event| match event {
-            Event::Move(next) => Some(!next.modes.tip_control),
+            Event::Move(next) => Some(!next.modes.tip_control || next.modes.fixture != fixture),
             Event::ToolChange { modes, .. } | Event::End { modes, .. } => Some(!modes.tip_control),
             _ => None,
         })
+    }
+
+    /// Where tool-tip control has ended with the machine turned, a control may have moved for it.
+    pub(super) fn forget_tip(&mut self, next: &Move) {
+        let turned = self.at.rotary.iter().any(|angle| angle % 360.0 != 0.0);
+        if self.at.tip_control && !next.to.tip_control && turned {
+            self.known[..3].fill(false);
+        }
     }
 
     /// Says it where tool-tip control has ended and the tool had not gone up.
@@ -112,7 +122,7 @@ impl<C: Steps> Walk<'_, C> {
             return;
         }
         let is_own = self.nc.get(self.next).is_some_and(|event| self.own.has(event.line()));
-        if is_own || self.ends_tip_control(self.next) != Some(true) {
+        if is_own || self.ends_tip_control(self.next, self.moved_fixture) != Some(true) {
             return;
         }
         self.is_up = true;

@@ -266,7 +266,8 @@ impl<'a, C: Steps> Walk<'a, C> {
         if !matches!(step.what, Wanted::Hole(_)) {
             self.initial = None;
         }
-        if self.at.tip_control && self.rests_before_tip_end(step) {
+        let rests = self.at.tip_control && self.rests_before_tip_end(step);
+        if rests || self.rests_before_machine(step) {
             self.report.matched += 1;
             return true;
         }
@@ -274,6 +275,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             if !self.goes_on()
                 && let Some(next) = self.pass(step.line)
             {
+                self.forget_tip(&next);
                 self.at = self.at_as(&next);
             }
             if let Wanted::Feed(pose, rate) = &step.what
@@ -357,6 +359,9 @@ impl<'a, C: Steps> Walk<'a, C> {
 
     /// True when the tool already is where a pose asks it to be.
     pub(super) fn stands_at(&mut self, pose: &Pose) -> bool {
+        if self.awaits_offset() {
+            return false;
+        }
         let gap = self.gap(&self.at, pose);
         let stands = self.is_known(&self.known) && gap.closed();
         if stands {
