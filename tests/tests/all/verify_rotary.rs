@@ -291,3 +291,32 @@ fn the_angles_of_a_frame_turn_no_clamped_axis() {
     Case { ready: "sinumerik-5x", settings, cl, nc }
         .agrees_but_not_with(("M11\n", ""), "a rotary axis turns without M11");
 }
+
+#[test]
+fn a_line_may_be_divided_from_where_the_tape_has_the_tool() {
+    // Behind FROM the post has no other point that it could begin at.
+    let cl = "RAPID; \
+              GOTO / 34.217209869, 47.158646356, -55.395005959, -0.9613380244, 0, 0.2753710276; \
+              FROM / 34.217209869, 47.158646356, -32.493529696; FEDRAT / 1346.6, MMPM; \
+              GOTO / 44.214530568, 50.611709757, -59.930471289, -0.9624364844, 0, -0.2715069307";
+    let nc = milled(
+        "G0 X-45.757 Y47.159; B-74.016; G43 Z-97.38 H1; \
+         G1 G93 X-49.664 Y47.473 Z-97.654 B-76.901 F1247.834; \
+         X-53.629 Y47.787 Z-97.72 B-79.787 F1247.401; X-57.641 Y48.101 Z-97.572 B-82.672 F1247.834; \
+         X-61.688 Y48.415 Z-97.207 B-85.557 F1247.834; X-65.758 Y48.728 Z-96.62 B-88.442 F1247.834; \
+         X-69.84 Y49.042 Z-95.809 B-91.328 F1247.401; X-73.92 Y49.356 Z-94.77 B-94.213 F1247.834; \
+         X-77.986 Y49.67 Z-93.502 B-97.098 F1247.834; X-82.025 Y49.984 Z-92.003 B-99.983 F1247.834; \
+         X-86.024 Y50.298 Z-90.274 B-102.869 F1247.401; \
+         X-89.971 Y50.612 Z-88.314 B-105.754 F1247.834; G94",
+    );
+    let settings = &[
+        "chain=\"table-b\"",
+        "rotary.secondary_kind=0",
+        "rotary.primary_x=-33.620",
+        "rotary.primary_y=75.357",
+        "rotary.primary_z=-23.338",
+    ];
+    let case = Case { ready: "fanuc-mill-b", settings, cl, nc: &nc };
+    case.agrees_but_not_with(("Y48.415", "Y48.418"), "on the way the tip is 0.0");
+    case.agrees_but_not_with(("Z-95.809", "Z-95.805"), "on the way the tip is 0.0");
+}

@@ -249,9 +249,10 @@ impl<C: Steps> Walk<'_, C> {
         while let Some(found) = self.next_move().filter(|found| found.course == Course::Rapid) {
             let to = found.to.linear;
             // Where X stands behind polar interpolation is not known.
-            let moves = |n: usize| self.written[n] && found.known[n] && to[n] != self.at.linear[n];
+            let way = |n: usize| (to[n] - self.at.linear[n]).abs();
+            let moves = |n: usize| self.written[n] && found.known[n] && way(n) > STILL;
             let across = (moves(0) || moves(1)) && self.known[0] && self.known[1];
-            let z_moves = (to[2] - self.at.linear[2]).abs() > STILL;
+            let z_moves = way(2) > STILL;
             let arrives = (0..2).all(|n| near(to[n], levels.at[n], n));
             if across && !arrives {
                 return Err((

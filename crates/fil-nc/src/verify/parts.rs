@@ -82,12 +82,23 @@ impl<C: Steps> Walk<'_, C> {
         self.next += parts.blocks.len();
     }
 
-    /// The lines from here on to a pose, when the tip goes along its line steadily.
+    /// The lines from here on to a pose, when the tip goes along its line steadily: from where the
+    /// CL file begins it, or from where the tape has the tool, which rounding moves. A post
+    /// begins there where it has no other point, as behind TRANS or FROM.
     fn parts_to(&self, pose: &Pose) -> Option<Parts> {
         if !self.is_known(&self.known) {
             return None;
         }
-        let from = self.begins();
+        let parts = self.parts_from(self.begins(), pose);
+        if parts.as_ref().is_none_or(|parts| parts.faults.is_empty()) {
+            return parts;
+        }
+        let of_tape = self.parts_from(self.settings.forward.pose(&self.at), pose);
+        of_tape.filter(|parts| parts.faults.is_empty()).or(parts)
+    }
+
+    /// The same from a pose.
+    fn parts_from(&self, from: Pose, pose: &Pose) -> Option<Parts> {
         let line = Way::line(from.tip, pose.tip);
         let length = (pose.tip - from.tip).norm();
         let mut parts = Parts { blocks: Vec::new(), faults: Vec::new() };
