@@ -253,3 +253,47 @@ fn what_is_not_switched_on_again_is_found() {
         assert!(found, "{post} {old}{}", listed(&report));
     }
 }
+
+/// A text that another record has written before is not that of INSERT, and F of REPEAT is the
+/// user's own.
+#[test]
+fn texts_and_words_of_the_user_are_not_those_of_records() {
+    let said = |ready: &str, cl: &str, nc: &str| {
+        let post = filpost::Program::builder().ready(ready).build().expect("a machine");
+        let report = back_check::check(post.commons(), cl, nc, Allowed::default());
+        listed(&report.expect("a report"))
+    };
+    let cl = "UNITS / MM\nLOADTL / 1\nOPSTOP\nDELAY / 0.5\nFEDRAT / 300, MMPM\nGOTO / 1, 2, 3\n\
+              INSERT / M1\nINSERT / G4 P500\nGOTO / 4, 2, 3\nFINI\n";
+    let nc = "%\nO0001\nG21 G90 G94 G17\nT1 M6\nM1\nG4 P500\nG1 G43 X1. Y2. Z3. F300. H1\nM1\n\
+              G4 P500\nX4.\nM30\n%\n";
+    assert_eq!(said("fanuc-mill", cl, nc), "");
+    let gone = nc.replacen("H1\nM1\n", "H1\n", 1);
+    assert_ne!(said("fanuc-mill", cl, &gone), "");
+    let gone = nc.replacen("M6\nM1\n", "M6\n", 1);
+    assert_ne!(said("fanuc-mill", cl, &gone), "");
+    let cl = "UNITS / MM\nLOADTL / 1\nFEDRAT / 300, MMPM\nGOTO / 1, 2, 3\nREPEAT / 6, 200\n\
+              GOTO / 4, 2, 3\nREPEAT / OFF\nGOTO / 5, 2, 3\nFINI\n";
+    let nc = "0 BEGIN PGM 1 MM\n1 TOOL CALL 1 Z\n2 L X+1 Y+2 Z+3 R0 F300\n3 L X+4 F200\n\
+              4 L X+5 F300\n5 M30\n6 END PGM 1 MM\n";
+    assert_eq!(said("heidenhain-tnc640", cl, nc), "");
+    let slow = nc.replace("X+5 F300", "X+5 F200");
+    assert!(said("heidenhain-tnc640", cl, &slow).contains("it should be 300"));
+}
+
+/// Of a helix that turns by less than a last digit only its rise is left.
+#[test]
+fn a_helix_without_a_turn_is_a_line() {
+    let post = filpost::Program::builder().ready("heidenhain-tnc640").build().expect("a machine");
+    let cl = "UNITS / MM\nLOADTL / 1\nFEDRAT / 300, MMPM\nGOTO / 2.2246, 1.6, 0\n\
+              CIRCLE / 2.2246, 0.7644, 0, 0, 0, 1, 0.8356\nGOTO / 2.22459, 1.6, 0.8\nFINI\n";
+    let nc = "0 BEGIN PGM 1 MM\n1 TOOL CALL 1 Z\n2 L X+2.225 Y+1.6 Z+0 R0 F300\n3 L Z+0.8\n\
+              4 M30\n5 END PGM 1 MM\n";
+    let said = |nc: &str| {
+        let report = back_check::check(post.commons(), cl, nc, Allowed::default());
+        listed(&report.expect("a report"))
+    };
+    assert_eq!(said(nc), "");
+    assert_ne!(said(&nc.replace("Z+0.8", "Z+0.9")), "");
+    assert_ne!(said(&nc.replace("Z+0.8", "X+2.235 Z+0.8")), "");
+}

@@ -320,3 +320,63 @@ fn a_line_may_be_divided_from_where_the_tape_has_the_tool() {
     case.agrees_but_not_with(("Y48.415", "Y48.418"), "on the way the tip is 0.0");
     case.agrees_but_not_with(("Z-95.809", "Z-95.805"), "on the way the tip is 0.0");
 }
+
+#[test]
+fn a_table_that_turns_under_a_tool_along_x_is_followed_from_hole_to_hole() {
+    // Up to the level of the next hole, then across while the table turns.
+    let cl = "RAPID; GOTO / -1.452284644, 34.727510805, 36.574747531, 0.9624860946, 0.2713310114, 0; \
+              CYCLE / DRILL, DEPTH, 8.49735, MMPM, 100, CLEAR, 3; \
+              GOTO / -1.452284644, 34.727510805, 36.574747531, 0.9624860946, 0.2713310114, 0; \
+              GOTO / -0.983627606, 33.065054752, 40.080945129, 0.9894990248, -0.1445395447, 0; \
+              CYCLE / OFF";
+    let nc = milled(
+        "G0 X-4.786 Y29.992; C15.743; G43 Z36.575 H1; X-1.786; G19; \
+         G99 G81 X-13.283 Y29.992 Z36.575 R-1.786 F100.; G80; G0 X3.455; \
+         G99 G81 X-8.043 Y35.968 Z40.081 R3.455 C-8.311 F100.; G80; G17",
+    );
+    let settings = &[
+        "chain=\"table-c\"",
+        "rotary.secondary_kind=0",
+        "rotary.primary_x=-20.244",
+        "rotary.primary_y=44.415",
+        "rotary.primary_z=61.408",
+    ];
+    let case = Case { ready: "fanuc-mill-a", settings, cl, nc: &nc };
+    case.agrees_but_not_with(("G0 X3.455", "G0 X2.455"), "the level over the hole is deeper by");
+    case.agrees_but_not_with(("Y35.968", "Y35.978"), "Y off by");
+    // Along Z, then along Y, both over the R level.
+    let cl = "FEDRAT / 465, MMPM; GOTO / 52.3397, 0, 40, 1, 0, 0; \
+              CYCLE / DRILL, DEPTH, 10, MMPM, 100, CLEAR, 3; GOTO / 30, 10, 60, 1, 0, 0; CYCLE / OFF";
+    let nc = milled(
+        "G1 G43 X52.34 Y0. Z40. C0. F465. H1; G0 Z60.; Y10.; G19; \
+         G99 G81 X20. Y10. Z60. R33. F100.; G80; G17",
+    );
+    let settings = &["chain=\"table-c\"", "rotary.secondary_kind=0"];
+    let case = Case { ready: "fanuc-mill-a", settings, cl, nc: &nc };
+    case.agrees_but_not_with(("G0 Z60.", "G0 Z61."), "which is not over the hole");
+}
+
+#[test]
+fn an_axis_that_a_hole_leaves_alone_stays_where_it_exactly_is() {
+    let cl = "FEDRAT / 663.7, MMPM; GOTO / -41.135071314, 51.783439799, 19.333676251, 0, 0, 1; \
+              CYCLE / BORE, DEPTH, 6.90978, MMPM, 100, CLEAR, 3, RETURN, 10; \
+              GOTO / -69.824151966, 58.063786041, 0.185737845, 0.1096289557, -0.0108017545, \
+              0.9939138867; \
+              GOTO / -73.465240050, 58.691390642, 0.594171534, 0, 0, 1; CYCLE / OFF";
+    let nc = milled(
+        "G1 G43 X-41.135 Y51.783 Z19.334 B0. C0. F663.7 H1; \
+         G98 G86 X-67.05 Y60.227 Z-19.515 R-9.605 B8.949 C-8.794 F100.; \
+         X-73.29 Y47.5 Z-6.316 R3.594 B0.; G80",
+    );
+    let settings = &[
+        "chain=\"tables-cb-nutating\"",
+        "rotary.primary_x=-0.610",
+        "rotary.primary_y=54.238",
+        "rotary.primary_z=0.25",
+        "rotary.secondary_x=47.257",
+        "rotary.secondary_y=15.367",
+        "rotary.secondary_z=-21.676",
+    ];
+    let case = Case { ready: "haas-trunnion", settings, cl, nc: &nc };
+    case.agrees_but_not_with(("Y47.5 ", "Y47.502 "), "Y off by 0.0012");
+}

@@ -65,11 +65,11 @@ impl<C: Steps> Walk<'_, C> {
         2.0 * arc.radius() <= self.chord_slack() && self.stands_at(&arc.end)
     }
 
-    /// An arc so short that rounding turns it: it is a line of a last digit, or nothing.
+    /// An arc so short that rounding turns it: it is a line of a last digit, or nothing; a helix of
+    /// which nothing but its rise is left goes straight along its axis.
     fn is_a_few_digits(&self, arc: &Arc) -> bool {
         let slack = self.slack.linear.iter().fold(0.0f64, |a, b| a.max(*b));
-        let length = arc.sweep.to_radians() * arc.radius();
-        arc.sweep <= 180.0 && libm::hypot(length, arc.rise_of(arc.end.tip)) <= 4.0 * slack
+        arc.sweep <= 180.0 && arc.sweep.to_radians() * arc.radius() <= 4.0 * slack
     }
 
     /// The motions from here to the end of the arc, when they lie on it.

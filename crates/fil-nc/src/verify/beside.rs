@@ -51,7 +51,11 @@ impl<C: Steps> Walk<'_, C> {
 
     pub(super) fn insert(&mut self, cl_line: u32, text: &str, may_be_skipped: bool) {
         self.pass_own();
-        let line = match self.own.insert(text, may_be_skipped) {
+        let last = self.next.checked_sub(1).and_then(|at| self.nc.line(at)).unwrap_or(0);
+        let next = self.nc.line(self.next).unwrap_or(u32::MAX);
+        // Behind a subprogram the lines go back.
+        let behind = if last <= next { last } else { 0 };
+        let line = match self.own.insert(text, may_be_skipped, behind) {
             Ok(line) => line,
             Err(failed) => {
                 self.failed = Some(failed);
@@ -63,7 +67,6 @@ impl<C: Steps> Walk<'_, C> {
             let message = format!("the block `{text}` of INSERT is not there");
             return self.find(FindingKind::Block, Some(cl_line), None, message);
         };
-        let next = self.nc.get(self.next).map_or(u32::MAX, |event| event.line());
         // A subprogram may have been called on the way.
         let last = self.last_line();
         if last <= next && line > next {

@@ -102,7 +102,8 @@ impl<'a> OwnBlocks<'a> {
     }
 
     /// Takes the next line that is this text, in a block that may be skipped or in one that
-    /// may not, and gives its number; `None` when there is none.
+    /// may not, and gives its number; `None` when there is none. One that stands behind the line
+    /// `behind` comes before others: another record may have written the same.
     ///
     /// # Errors
     /// E0915 when the file of the program can't be read.
@@ -110,6 +111,7 @@ impl<'a> OwnBlocks<'a> {
         &mut self,
         text: &str,
         may_be_skipped: bool,
+        behind: u32,
     ) -> Result<Option<u32>, Box<Diag>> {
         let mut text = bare(&self.marks.read(text.as_bytes()));
         if may_be_skipped && text.first() != Some(&SKIP) {
@@ -122,15 +124,21 @@ impl<'a> OwnBlocks<'a> {
         let last = if many { self.passed.saturating_add(LINES_AHEAD) } else { u32::MAX };
         let firsts = Firsts::of([&text].into_iter());
         let mut lines = Lines::from(self.source, self.from);
+        let mut found = None;
         for number in self.passed.saturating_add(1)..=last {
             let Some(line) = next(&mut lines, self.name)? else { break };
             let line = self.marks.read(line);
-            if firsts.may_be(&line) && bare(&line) == text {
-                self.from = lines.at();
-                self.passed = number;
-                self.lines.insert(number);
-                return Ok(Some(number));
+            if (found.is_none() || number > behind) && firsts.may_be(&line) && bare(&line) == text {
+                found = Some((number, lines.at()));
+                if number > behind {
+                    break;
+                }
             }
+        }
+        if let Some((number, at)) = found {
+            (self.from, self.passed) = (at, number);
+            self.lines.insert(number);
+            return Ok(Some(number));
         }
         if !many {
             self.missing.insert(text);
@@ -224,7 +232,7 @@ mod tests {
     fn inserted(text: &str, insert: &[&str], may_be_skipped: bool) -> Vec<Option<u32>> {
         let (source, marks) = (Source::memory(text.as_bytes()), Marks::default());
         let mut own = OwnBlocks::new((&source, "nc"), &marks, &[], &[]).unwrap();
-        insert.iter().map(|text| own.insert(text, may_be_skipped).unwrap()).collect()
+        insert.iter().map(|text| own.insert(text, may_be_skipped, 0).unwrap()).collect()
     }
 
     #[test]
@@ -236,6 +244,15 @@ mod tests {
         );
         assert_eq!(own(text, &["/ M50", "M50"]), [Some(5), None]);
         assert_eq!(own(text, &["M51", "M50"]), [None, Some(2)]);
+    }
+
+    #[test]
+    fn a_text_that_another_record_has_written_is_passed_over() {
+        let (source, marks) = (Source::memory(b"M1\nX1.\nM1\nX2.\n"), Marks::default());
+        let mut own = OwnBlocks::new((&source, "nc"), &marks, &[], &[]).unwrap();
+        assert_eq!(own.insert("M1", false, 2).unwrap(), Some(3));
+        let mut own = OwnBlocks::new((&source, "nc"), &marks, &[], &[]).unwrap();
+        assert_eq!(own.insert("M1", false, 3).unwrap(), Some(1));
     }
 
     #[test]

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use super::ahead::Steps;
 use super::gap::REACHED;
 use super::hole::Levels;
-use super::hole_tip::{DUST, Kept, MOST};
+use super::hole_tip::{DUST, Kept, MOST, doubt};
 use super::walk::Walk;
 use super::wanted::Hole;
 use crate::motion::{Course, Event, Move, Position};
@@ -51,7 +51,8 @@ impl<C: Steps> Walk<'_, C> {
             events.push(event);
         }
         self.nc.replace(first, &said);
-        let slack = std::mem::replace(&mut self.slack.linear, [DUST; 3]);
+        let along = DUST + doubt(&live.heights, self.slack.linear[0]);
+        let slack = std::mem::replace(&mut self.slack.linear, [DUST, DUST, along]);
         Kept::new(first, events, slack)
     }
 

@@ -59,6 +59,15 @@ impl Kept {
     }
 }
 
+/// The largest step between two heights asked for that the last digits can't tell from each
+/// other, such as a last peck and the bottom, mm.
+pub(super) fn doubt(heights: &[f64], digits: f64) -> f64 {
+    let mut heights = heights.to_vec();
+    heights.sort_unstable_by(f64::total_cmp);
+    let steps = heights.windows(2).map(|pair| pair[1] - pair[0]);
+    steps.filter(|step| *step <= 2.0 * (digits + DUST)).fold(0.0, f64::max)
+}
+
 impl Line {
     /// The height of a tip above the start, one of those asked for when it can be that;
     /// `None` beside the line.
@@ -77,15 +86,6 @@ impl Line {
     fn digits(&self) -> f64 {
         let axis = self.turn * self.axis;
         (0..3).map(|n| axis[n].abs() * self.slack[n]).sum()
-    }
-
-    /// The largest step between two heights asked for that the last digits can't tell from
-    /// each other, such as a last peck and the bottom, mm.
-    fn doubt(&self) -> f64 {
-        let mut heights = self.heights.clone();
-        heights.sort_unstable_by(f64::total_cmp);
-        let steps = heights.windows(2).map(|pair| pair[1] - pair[0]);
-        steps.filter(|step| *step <= 2.0 * (self.digits() + DUST)).fold(0.0, f64::max)
     }
 
     /// The height asked for that a tip beside the line is at, to its last digits.
@@ -161,20 +161,27 @@ impl<C: Steps> Walk<'_, C> {
 
     /// Takes a way up along the tool before it turns to a hole of another direction.
     pub(super) fn goes_up_before_turning(&mut self, cl_line: u32, hole: &Hole) {
-        let Some(found) = self.next_move() else { return };
+        let (Some(found), Some(plunge)) = (self.next_move(), self.plunge(self.next)) else {
+            return;
+        };
         let forward = &self.settings.forward;
         let stands = forward.pose(&self.at);
         let way = forward.pose(&found.to).tip - stands.tip;
         let along = way.dot(&stands.axis);
+        let in_tip = [found.to, self.at].map(|at| at.tip_control);
+        let in_axes = in_tip == [false; 2] && self.is_said_anew(&plunge, hole);
         let goes_up = found.course == Course::Rapid
-            && found.to.tip_control
-            && self.at.tip_control
+            && !found.in_cycle
+            && (in_tip == [true; 2] || in_axes)
             && found.to.rotary == self.at.rotary
             && self.gap(&self.at, &hole.start).turned.is_some()
             && along > 0.0
             && (way - stands.axis * along).norm() <= 2.0 * self.tip_slack(&found.to);
         if goes_up {
-            self.check_way_up(cl_line, hole, &found);
+            // X, Y and Z stay when the machine turns to the hole, the tip under tool-tip control.
+            let rotary = if in_axes { self.rotary_over(&plunge, hole) } else { found.to.rotary };
+            let to = Position { rotary, ..found.to };
+            self.check_way_up(cl_line, hole, &Move { to, ..found });
             self.take(cl_line, &found);
             self.next += 1;
         }
@@ -305,7 +312,7 @@ impl<C: Steps> Walk<'_, C> {
             events.push(event);
         }
         self.nc.replace(first, &said);
-        let along = DUST + line.doubt();
+        let along = DUST + doubt(&line.heights, line.digits());
         let slack = std::mem::replace(&mut self.slack.linear, [DUST, DUST, along]);
         Some(Kept::new(first, events, slack))
     }

@@ -25,6 +25,9 @@ impl<C: Steps> Walk<'_, C> {
         found: &Move,
         wanted: Option<Rate>,
     ) {
+        if self.repeats_feed {
+            return;
+        }
         let wanted = match wanted {
             Some(Rate::PerMinute(rate)) => {
                 let rate = self.settings.feed_within(rate, self.metric);

@@ -127,7 +127,8 @@ impl<C: Steps> Walk<'_, C> {
     /// The Z motion that calls the length offset, where the settings have one.
     pub(super) fn go_to_offset_level(&mut self, cl_line: u32) {
         let Some(level) = self.settings.offset_level(self.metric) else { return };
-        if !self.takes_to_level(cl_line, level, false) {
+        // Tool-tip control takes the length up where it begins.
+        if !self.takes_to_level(cl_line, level, false) && !self.settings.has_tip_control() {
             let message = format!("the length offset is not called at Z{}", short(level));
             self.find(FindingKind::Tool, Some(cl_line), None, message);
         }

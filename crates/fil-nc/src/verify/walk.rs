@@ -74,6 +74,8 @@ pub(super) struct Walk<'a, C> {
     pub(super) watch: Watch,
     /// The first and the last line of the program that may hold words of the user's own.
     pub(super) user_lines: [u32; 2],
+    /// REPEAT writes an F into each motion, beside its own.
+    pub(super) repeats_feed: bool,
     /// Lines of statements that no record asks for, of which that was said.
     pub(super) unasked: [Option<u32>; 2],
     /// The plane of the last arc or cycle, by the index of its normal.
@@ -133,6 +135,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             modes: Expected::new(settings),
             watch,
             user_lines: [u32::MAX, 0],
+            repeats_feed: false,
             unasked: [None; 2],
             plane: settings.dialect.plane,
             was_compensated: false,
@@ -235,7 +238,12 @@ impl<'a, C: Steps> Walk<'a, C> {
                 self.ask_auxiliary(step.line, self.settings.side_spindle_code(*turn));
             }
             Wanted::Unknown { what, effect } => self.unknown(step.line, what, *effect),
-            Wanted::Repeated(text) if !text.is_empty() => self.user_lines[1] = u32::MAX,
+            Wanted::Repeated(text) => {
+                self.repeats_feed = text.contains('F');
+                if !text.is_empty() {
+                    self.user_lines[1] = u32::MAX;
+                }
+            }
             Wanted::Stop { optional } => {
                 self.ask_auxiliary(step.line, self.settings.stop_code(*optional));
             }

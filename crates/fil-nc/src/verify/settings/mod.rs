@@ -370,6 +370,7 @@ impl<'c> Settings<'c> {
     /// True when a tool change is followed by a length offset of its own.
     pub fn calls_offsets(&self) -> bool {
         !self.calls_tools_with_offset()
+            && self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::WordAddress
             && self.commons.read(loc::TOOL_LENGTH_CODE).is_some()
             && self.commons.read(loc::TOOL_LENGTH_FROM_TOOL)
     }
@@ -395,6 +396,11 @@ impl<'c> Settings<'c> {
     pub fn takes_offsets_of_tools(&self) -> bool {
         self.commons.read(loc::CONTROL_FAMILY) != ControlFamily::WordAddress
             && self.commons.read(loc::CONTROL_TOOL_OFFSETS) == ControlToolOffsets::OfTheTool
+    }
+
+    /// Motions under MULTAX/ON are written in tool-tip control.
+    pub fn has_tip_control(&self) -> bool {
+        self.commons.read(loc::ROTARY_TIP_OUTPUT) == loc::RotaryTipOutput::ToolTipControl
     }
 
     /// Z that the length offset is called with, mm.
