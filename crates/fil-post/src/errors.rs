@@ -152,6 +152,10 @@ fil_diag::codes! {
         SpeedLimit = 583, Error, "surface speed without a highest speed",
             "At constant surface speed the spindle turns faster the nearer the tool comes to its axis; what stops it must be said before.",
             "Give SPINDL / MAXRPM, or spindle.css_limit; where the control limits it by itself, spindle.css_unlimited = 1.";
+        /// A speed above MAXRPM.
+        AboveSpeedLimit = 592, Warning, "spindle speed above the highest speed in force",
+            "The highest speed that MAXRPM has set stays in force until another one comes. Many controls hold each speed of the spindle to it, so that it may turn slower than asked for.",
+            "Give SPINDL its own MAXRPM, at or above the speed.";
         /// No such station.
         Station = 584, Error, "the turret has no such station",
             "The number of the tool is above that of the last station, and the turret would turn to another one, or alarm.",

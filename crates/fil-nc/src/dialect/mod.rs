@@ -180,6 +180,8 @@ pub struct Dialect {
     pub(crate) lead_change: u8,
     /// The lead is measured along the path, else along the longer axis.
     pub(crate) lead_along_path: bool,
+    /// Threads need feeds a turn: lathes with a cycle of all passes in one block.
+    pub(crate) threads_need_turns: bool,
     /// That of the taper in the threading cycle of one pass.
     pub(crate) thread_taper: u8,
     /// That of the highest speed beside a surface speed; 0 for none.
@@ -354,6 +356,7 @@ impl Dialect {
             lead: settings.letter("thread.lead_address"),
             lead_change: settings.letter("thread.change_address"),
             lead_along_path: settings.code("thread.lead_along") == Some(1),
+            threads_need_turns: settings.code("thread.cycle") == Some(3),
             thread_taper: settings.letter("thread.taper_address"),
             speed_limit: settings.letter("spindle.max_address"),
             orientation: settings.letter("spindle.orient_address"),

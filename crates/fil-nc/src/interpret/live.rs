@@ -96,8 +96,12 @@ impl State<'_> {
         Ok(())
     }
 
-    /// Refuses what may not stand in a block of polar interpolation.
+    /// Refuses what may not stand in a block of polar interpolation: its manual names the functions
+    /// that may.
     pub(super) fn check_live_words(&self, words: &Words) -> Result<(), Fault> {
+        if self.polar && words.peek(Group::Surface).is_some() {
+            return refuse("a speed mode in polar interpolation, which takes none");
+        }
         if self.polar && words.peek(Group::Plane).is_some() {
             return refuse("a plane is chosen in polar interpolation, which has its own");
         }

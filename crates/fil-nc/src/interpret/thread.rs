@@ -3,6 +3,7 @@
 use super::Fault;
 use super::state::State;
 use super::words::{AxisWord, Words, letter};
+use crate::dialect::FeedMode;
 use crate::errors::NcCode;
 use crate::motion::{Course, Rate};
 
@@ -99,6 +100,11 @@ impl State<'_> {
         letters: &[u8],
         in_force: Option<f64>,
     ) -> Result<f64, Fault> {
+        let is_per_minute = self.feed_mode == FeedMode::PerMinute;
+        if is_per_minute && self.dialect.threads_need_turns && letters.contains(&F) {
+            let message = "a thread under a feed a minute, where this machine needs one a turn";
+            return Err(Fault::new(NcCode::NoMeaning, message));
+        }
         self.feed = None;
         let letter = letters.iter().find(|letter| words.has(**letter));
         let said = letter.map(|letter| words.take(*letter)).transpose()?.flatten();

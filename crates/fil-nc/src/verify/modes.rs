@@ -176,6 +176,13 @@ impl Expected {
                 let of_tool = self.loaded.filter(|_| settings.offsets_diameters_by_tool());
                 // The nose of a turning tool is in the offset of its T word.
                 let has_number = !settings.calls_tools_with_offset() && *side != Compensation::Off;
+                let offset = match settings.takes_noses_of_tools() {
+                    // Without a word the control takes the nose of the tool itself.
+                    true => {
+                        (*offset).or(self.loaded_offset).filter(|own| Some(*own) != self.loaded)
+                    }
+                    false => *offset,
+                };
                 // A tool that brings its own radius, which only an edge has a number for.
                 let offset = if settings.takes_offsets_of_tools() {
                     self.loaded.filter(|_| !settings.has_edges())

@@ -394,7 +394,7 @@ impl<C: Steps> Walk<'_, C> {
         let least = self.settings.thread_least_depth();
         // A cycle says it in smallest steps of the control, which each pass adds up.
         let in_steps = (least / gauge.step).round() * gauge.step;
-        let laws = [least, in_steps, 0.0].map(|least| gauge.rough(least));
+        let laws = [least, in_steps].map(|least| gauge.rough(least));
         for start in 0..thread.starts {
             let depths: Vec<f64> =
                 passes.iter().filter(|pass| pass.start == start).map(|pass| pass.depth).collect();

@@ -25,7 +25,7 @@ use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::word_address::spindle;
 use crate::control_state::{Meaning, Rotation, text};
 use crate::errors::PostCode;
-use crate::operation::{Arc, MotionKind, Operation, Spindle, Target};
+use crate::operation::{Arc, MotionKind, Operation, SideSpindle, Spindle, SpindleTurn, Target};
 use crate::post::Post;
 
 /// Tool axes nearer than this are one.
@@ -101,6 +101,9 @@ pub fn switch(post: &mut Post, mills: bool) -> Result<()> {
         transformation::choose_master(control, true)?;
     }
     set_mode(control, mode)?;
+    if control.tables.transforms && !mills {
+        polar::plane_of_turning(control)?;
+    }
     control.state.rotation = Rotation::Standing;
     // Said again, as its feed depends on what turns now.
     control.state.feed_mode = None;
@@ -322,6 +325,13 @@ pub(super) fn before(post: &mut Post, operation: &Operation) -> Result<()> {
         Operation::End(_) => {
             post.path.cycle = None;
             switch(post, false)
+        }
+        // Its code of turns a minute is none of those that polar interpolation takes.
+        Operation::Spindle(Spindle::Turn(SpindleTurn { speed: Some(_), .. }))
+        | Operation::Spindle(Spindle::Side(SideSpindle { speed: Some(_), .. }))
+            if !spindle::counts_turns(&post.control) =>
+        {
+            leave(post)
         }
         Operation::MachinePosition(_) | Operation::ToolChange(_) | Operation::WorkOffset(_) => {
             leave(post)

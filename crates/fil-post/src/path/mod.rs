@@ -106,6 +106,8 @@ pub struct Path {
     pub(crate) above_left: Option<(cycle::AboveHoles, [f64; 3])>,
     /// A thread is cut by each feed motion.
     pub thread: Option<Lead>,
+    /// How the spindle turned in the first pass of that thread.
+    pub(crate) thread_turns: Option<thread::Turns>,
     /// The lead that PITCH has given for threads that follow.
     pub(crate) pitch: Option<thread::Pitch>,
     /// What the lead of the thread gains in each turn, mm or inch; below zero it loses.
@@ -165,6 +167,7 @@ impl Default for Path {
             cycle: None,
             above_left: None,
             thread: None,
+            thread_turns: None,
             pitch: None,
             lead_change: 0.0,
             awaited_thread: None,

@@ -13,7 +13,9 @@ use super::{carry_out as carry, rotary, scaled_lead};
 use crate::control::family;
 use crate::control::word_address::spindle;
 use crate::errors::PostCode;
-use crate::operation::{Lead, MotionKind, Operation, Target, Thread, ThreadPasses, ThreadSide};
+use crate::operation::{
+    Lead, MotionKind, Operation, SpindleSpeed, Target, Thread, ThreadPasses, ThreadSide,
+};
 use crate::post::Post;
 
 /// Most threads beside each other.
@@ -30,6 +32,13 @@ const NOTHING: f64 = 1e-6;
 pub(crate) struct Pitch {
     pub lead: Lead,
     pub change: f64,
+}
+
+/// How the spindle turns: its speed as SPINDL asked for it, and clockwise or not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Turns {
+    speed: Option<SpindleSpeed>,
+    clockwise: Option<bool>,
 }
 
 /// OP/THREAD with depth and passes: what it asks for, and the points that have come.
@@ -55,6 +64,7 @@ pub struct Awaited {
 pub fn point(post: &mut Post, target: Target, lead: Lead) -> Result<()> {
     check_speed(post)?;
     refuse_compensated(post)?;
+    refuse_other_turns(post)?;
     let Some(mut awaited) = post.path.awaited_thread.take() else {
         return carry(post, Operation::Linear(target, MotionKind::Thread(lead)));
     };
@@ -99,6 +109,7 @@ pub fn refuse_awaited(post: &Post) -> Result<()> {
 pub fn end(post: &mut Post) -> Result<()> {
     refuse_awaited(post)?;
     post.path.thread = None;
+    post.path.thread_turns = None;
     post.path.lead_change = 0.0;
     post.path.awaited_thread = None;
     Ok(())
@@ -206,6 +217,30 @@ pub fn counted_change(post: &Post, lead: Lead, counted: &Lead, target: Target) -
     Ok(change * (counted.value / lead.value))
 }
 
+/// Refuses a pass for which the spindle turns otherwise than for the first one of its thread: the
+/// tool would begin at another angle of the spindle, as it lags by the speed.
+fn refuse_other_turns(post: &mut Post) -> Result<()> {
+    let control = &post.control;
+    let now = Turns { speed: control.speed, clockwise: spindle::clockwise_in_motion(control) };
+    match post.path.thread_turns {
+        Some(before) if before != now => {
+            let mut diag = PostCode::Thread.diag(
+                "SPINDL or a text has changed how the spindle turns between the passes of a \
+                 thread, which would not meet",
+            );
+            diag.hint = Some(
+                "Cut all passes of a thread at one speed, and give THREAD anew for another thread."
+                    .into(),
+            );
+            Err(diag)
+        }
+        _ => {
+            post.path.thread_turns = Some(now);
+            Ok(())
+        }
+    }
+}
+
 /// The lead as the machine counts it: along the longer axis, or along the path.
 ///
 /// # Errors
@@ -304,9 +339,9 @@ pub fn cycle_of(post: &Post, thread: &Thread, shape: &Shape) -> ThreadCycle {
         }
         // It has no word for the passes at full depth.
         ThreadCycle::CycleOfAllPassesInOneBlock => {
-            (straight || !shape.leans()) && is_by_first(thread) && thread.springs <= 1
+            (straight || !shape.leans()) && shape.follows_roots(thread) && thread.springs <= 1
         }
-        ThreadCycle::CycleOfAllPassesOfLinuxcnc => !shape.leans() && is_by_first(thread),
+        ThreadCycle::CycleOfAllPassesOfLinuxcnc => !shape.leans() && shape.follows_roots(thread),
         // Where a pass of it begins along the flank its manual leaves open, and so the unit of
         // its lead in inches.
         ThreadCycle::Cycle97OfASinumerik => {

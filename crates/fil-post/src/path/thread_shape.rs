@@ -164,6 +164,15 @@ impl Shape {
         cuts.iter().enumerate().all(lies)
     }
 
+    /// Pass i lies at the root of i times the first depth, the last one at the full depth: what
+    /// cycles without a least depth do.
+    pub fn follows_roots(&self, thread: &Thread) -> bool {
+        let ThreadPasses::First(first) = thread.passes else { return false };
+        let root = |number: usize| (first * ((number + 1) as f64).sqrt()).min(thread.depth);
+        let mut cuts = self.cuts(thread).iter().enumerate();
+        cuts.all(|(number, depth)| (depth - root(number)).abs() < NOTHING)
+    }
+
     /// The depths of the passes that go deeper.
     pub fn cuts(&self, thread: &Thread) -> &[f64] {
         let springs = (thread.springs as usize).min(self.depths.len());

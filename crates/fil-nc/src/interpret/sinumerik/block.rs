@@ -77,6 +77,7 @@ impl Sinumerik<'_> {
                 self.become_axis(*on, *code)?;
             }
         }
+        self.check_plane_of_turning(&said)?;
         self.check_live(&said)?;
         for auxiliary in &said.auxiliaries {
             if let Auxiliary::Other(code) = auxiliary {
@@ -293,6 +294,7 @@ impl Sinumerik<'_> {
                     self.lead_shrinks = shrinks;
                 }
                 Function::Plane(normal) => {
+                    self.says_plane = true;
                     state.plane = normal;
                     state.say_plane(normal);
                     state.certain.say(StartMode::Plane);

@@ -56,6 +56,8 @@ struct Sinumerik<'d> {
     lead_shrinks: bool,
     /// DIAMOF: X is a radius.
     counts_radii: bool,
+    /// The program has said its plane.
+    says_plane: bool,
     /// M70: the main spindle is an axis.
     is_axis: bool,
     /// What the words of the line may depend on.
@@ -102,6 +104,7 @@ impl<'a> Program<'a> {
             metric_feed: dialect.metric,
             lead_shrinks: false,
             counts_radii: false,
+            says_plane: false,
             is_axis: false,
             uses: Uses::default(),
         };

@@ -27,6 +27,7 @@ pub fn write(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
         plane_of_live_tool(control, wanted)?;
     } else if let Some((plane, word)) = wanted.plane {
         control.block.cause.word = word;
+        refuse_plane_of_no_lathe(control, plane)?;
         modes::plane_of_its_own(control, plane)?;
     } else if wanted.side != Compensation::Off {
         let usual = usual_plane(control);
@@ -48,6 +49,20 @@ pub fn write(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
         control.comes_with_any_motion(Function::Compensation);
     }
     Ok(())
+}
+
+/// Refuses a plane of Y on a lathe that has none: its tool goes by X and Z alone.
+fn refuse_plane_of_no_lathe(control: &Control, plane: Plane) -> Result<()> {
+    let has_y = !control.tables.transforms && !control.tables.axis(1).is_off();
+    if has_y || plane == Plane::Zx || !control.commons.read(loc::LATHE_DIAMETER) {
+        return Ok(());
+    }
+    let mut diag = PostCode::WordForm.diag("CUTCOM: a plane of Y, and this lathe turns without Y");
+    diag.hint = Some(
+        "Leave the plane out, or say ZXPLAN: the nose of a turning tool is compensated in X and Z."
+            .into(),
+    );
+    Err(diag)
 }
 
 /// The plane of a live tool: in polar interpolation that of X and C, which no code says;
@@ -100,12 +115,23 @@ fn nose(control: &Control, given: Option<(f64, u16)>) -> Result<()> {
     Err(diag)
 }
 
+/// The offset that a control without a word takes another radius than: it takes that of the tool
+/// in the spindle, and on a lathe the nose belongs to the offset that LOADTL has called.
+fn unlike_tool(control: &Control, given: Option<(f64, u16)>) -> Option<(f64, u16)> {
+    let is_lathe = control.commons.read(loc::LATHE_DIAMETER);
+    let called = control.state.tool_offset.filter(|_| is_lathe);
+    let wanted = given.or_else(|| called.map(|offset| (offset as f64, 0)))?;
+    let of_tool = control.state.tool.is_some_and(|tool| tool as f64 == wanted.0);
+    Some(wanted).filter(|_| !(is_lathe && of_tool))
+}
+
 /// Adds the offset: that of the record, else the number of the tool.
 fn offset_word(control: &mut Control, given: Option<(f64, u16)>) -> Result<()> {
     if control.commons.read(loc::TOOL_FORMAT) == ToolFormat::ToolAndOffsetInOneTWord {
         return nose(control, given);
     }
     let from_tool = control.commons.read(loc::TOOL_DIAMETER_FROM_TOOL);
+    let given = if from_tool { given } else { unlike_tool(control, given) };
     let of_tool = control.state.tool.filter(|_| from_tool).map(|tool| (tool as f64, 0));
     let Some((offset, word)) = given.or(of_tool) else {
         if from_tool {

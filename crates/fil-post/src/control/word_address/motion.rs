@@ -141,6 +141,23 @@ pub fn varying_thread(
     pass_by(control, motion, code, &words, lead.cause)
 }
 
+/// Brings the control to feeds a turn, in a block of its own, where F is the lead of a thread: some
+/// controls cut no thread in another mode (Haas, G32), the others read the lead in any.
+///
+/// # Errors
+/// As a block.
+pub fn lead_mode(control: &mut Control, cause: Cause) -> Result<()> {
+    let is_said = control.state.feed_mode == Some(FeedMode::PerRevolution);
+    let Some(code) = control.code_if_any(loc::FEED_UPR_CODE).filter(|_| !is_said) else {
+        return Ok(());
+    };
+    let motion = control.block.take();
+    control.block.g(code, cause.whole());
+    control.write_block()?;
+    control.block = motion;
+    Ok(())
+}
+
 /// Behind a lead F is a feed again, in the format of its mode.
 pub fn end_lead(control: &mut Control) {
     control.state.doubt(F);
@@ -162,6 +179,10 @@ pub fn pass_by(
     ready(control)?;
     if !axis_words(control, motion)? {
         return Ok(());
+    }
+    let of_sinumerik = control.tables.family == ControlFamily::Sinumerik;
+    if !of_sinumerik && words.iter().any(|(letter, _)| *letter == F) {
+        lead_mode(control, cause)?;
     }
     motion_code(control, code, false, cause.whole());
     // A lead is a way a turn.

@@ -1,6 +1,7 @@
 //! The spindle: speed, direction, range, limit, orientation.
 
 use fil_diag::Result;
+use fil_machine::FunctionCode;
 use fil_machine::commons::EMPTY;
 use fil_machine::letters::S;
 use fil_machine::locations::{self as loc, ControlFamily};
@@ -154,7 +155,7 @@ fn side_spindle(control: &mut Control, side: SideSpindle) -> Result<()> {
     control.flush_waiting()?;
     control.block.cause.word = side.words[0];
     if let Some(speed) = side.speed {
-        if let Some(code) = control.code_if_any(loc::SPINDLE_RPM_CODE) {
+        if let Some(code) = code_of_turns(control) {
             control.g_of_record(code);
         }
         control.word(S, speed)?;
@@ -229,6 +230,7 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
         take_range_of(control, speed)?;
     }
     refuse_speed_of_the_other(control, &turn)?;
+    warn_above_limit(control, turn.speed.or(control.speed));
     match (turn.speed, control.speed) {
         (Some(speed), _) => speed_words(control, speed)?,
         (None, Some(speed)) => {
@@ -268,6 +270,19 @@ fn usual_turn(control: &Control) -> Option<bool> {
         [true, _] => Some(true),
         [_, true] => Some(false),
         _ => None,
+    }
+}
+
+/// Warns of turns a minute above the highest speed that MAXRPM has set: it stays in force, and
+/// many controls hold each speed to it, not only a surface speed.
+fn warn_above_limit(control: &mut Control, speed: Option<SpindleSpeed>) {
+    let (Some(SpindleSpeed::Revolutions(speed)), Some(limit)) = (speed, control.state.speed_limit)
+    else {
+        return;
+    };
+    if speed > limit && !control.tables.mills() {
+        let message = format!("SPINDL: {speed} turns a minute, and a highest speed of {limit}");
+        control.warnings.add(PostCode::AboveSpeedLimit, message);
     }
 }
 
@@ -357,6 +372,11 @@ pub fn clockwise(control: &Control) -> Option<bool> {
     }
 }
 
+/// The same for the next motion, with what waits for it.
+pub fn clockwise_in_motion(control: &Control) -> Option<bool> {
+    if waits(control) { control.turning } else { clockwise(control) }
+}
+
 /// The spindle is known to stand, and nothing that waits for a motion turns it.
 pub fn stands(control: &Control) -> bool {
     control.state.rotation == Rotation::Standing && !waits(control)
@@ -370,7 +390,7 @@ pub fn may_stand_behind_change(control: &Control) -> bool {
 /// Adds S, and on a lathe the code for revolutions or surface speed.
 fn speed_words(control: &mut Control, speed: SpindleSpeed) -> Result<()> {
     let code = match speed {
-        SpindleSpeed::Revolutions(_) => control.code_if_any(loc::SPINDLE_RPM_CODE),
+        SpindleSpeed::Revolutions(_) => code_of_turns(control),
         _ => Some(control.code(loc::SPINDLE_CSS_CODE, "constant surface speed")?),
     };
     if let Some(code) = code {
@@ -385,6 +405,18 @@ fn speed_words(control: &mut Control, speed: SpindleSpeed) -> Result<()> {
     }
     let value = value_of(control, speed);
     control.word(S, value)
+}
+
+/// The code that makes S turns a minute. Fanuc's controls take none in polar interpolation (its
+/// manual names the functions that may be specified there), where S counts them already.
+fn code_of_turns(control: &Control) -> Option<FunctionCode> {
+    let is_said = control.tables.is_polar() && !control.tables.transforms && counts_turns(control);
+    control.code_if_any(loc::SPINDLE_RPM_CODE).filter(|_| !is_said)
+}
+
+/// S is known to count turns a minute.
+pub fn counts_turns(control: &Control) -> bool {
+    control.state.surface_speed == Some(false)
 }
 
 /// What S says: turns a minute within the range, or a surface speed, which counts meters

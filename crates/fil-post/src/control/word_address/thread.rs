@@ -31,6 +31,9 @@ pub fn cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Res
     let code = post.control.code(loc::THREAD_CYCLE_CODE, "the cycle of a thread")?;
     let ends = Ends::of(post, thread, shape, start)?;
     motion::ready(&mut post.control)?;
+    if cycle != ThreadCycle::CycleOfAllPassesOfLinuxcnc {
+        motion::lead_mode(&mut post.control, thread.lead.cause)?;
+    }
     // A lead is a way a turn.
     post.control.tables.format_feed(FeedMode::PerRevolution);
     post.control.flush_waiting()?;

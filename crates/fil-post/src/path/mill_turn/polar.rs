@@ -16,8 +16,8 @@ use nalgebra::{Point2, Point3, Rotation3, Unit};
 use crate::control::Control;
 use crate::control::family;
 use crate::control::sinumerik::transformation;
-use crate::control::word_address::modes;
 use crate::control::word_address::motion::Motion;
+use crate::control::word_address::{compensation, modes};
 use crate::control_state::Place;
 use crate::errors::PostCode;
 use crate::operation::{Arc, Feed, MotionKind, Target};
@@ -66,6 +66,14 @@ fn say_end(control: &mut Control) -> Result<()> {
     };
     control.g_of_record(code);
     control.write_block()
+}
+
+/// Takes a SINUMERIK back to the plane that its program begins in: the plane says along which axes
+/// the lengths of a tool count (Siemens, Programming Manual Fundamentals), so that no tool may be
+/// left in that of a transformation.
+pub(super) fn plane_of_turning(control: &mut Control) -> Result<()> {
+    let plane = compensation::usual_plane(control);
+    modes::plane_of_its_own(control, plane)
 }
 
 /// A function by a setting in tenths.
@@ -294,8 +302,9 @@ pub(super) fn end(post: &mut Post) -> Result<()> {
         // X and C count otherwise now; Z is the same in both, and a cycle may return to it.
         control.state.trust(control.tables.axis(2).letter);
     }
-    if !control.tables.transforms {
-        control.state.plane = None;
+    match control.tables.transforms {
+        true => plane_of_turning(control)?,
+        false => control.state.plane = None,
     }
     let here = post.path.point.map(|point| Target { point, axis: post.path.axis, word: 0 });
     let here = here.map(|target| rotary::transformed(post, target).0);
