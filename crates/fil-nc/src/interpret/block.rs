@@ -3,7 +3,7 @@
 use super::Fault;
 use super::left_to_control::Uses;
 use super::state::State;
-use super::words::{Words, letter};
+use super::words::{AxisWord, Words, letter};
 use crate::dialect::{Auxiliary, FeedMode, Function, Group};
 use crate::errors::NcCode;
 use crate::motion::{Course, Event, Modes};
@@ -254,7 +254,23 @@ impl State<'_> {
         Ok(())
     }
 
+    /// `G4 X1.` and `G4 U1.` of lathes wait seconds.
+    fn dwell_by_x(&self, words: &mut Words) -> Result<Option<f64>, Fault> {
+        let is_usual = words.has(self.dialect.dwell) || !self.dialect.counts_diameters();
+        if is_usual || !words.has_axes(self.dialect) {
+            return Ok(None);
+        }
+        match words.take_axes(self.dialect)?[..] {
+            [AxisWord { axis: 0, value, .. }] => Ok(Some(value)),
+            _ => Err(Fault::new(NcCode::NoMeaning, "a dwell by a word of another axis than X")),
+        }
+    }
+
     fn dwell(&mut self, words: &mut Words) -> Result<(), Fault> {
+        if let Some(seconds) = self.dwell_by_x(words)? {
+            self.events.push(Event::Dwell { line: self.line, seconds: Some(seconds), turns: None });
+            return Ok(());
+        }
         let time = words.take(self.dialect.dwell)?;
         let time =
             time.ok_or_else(|| Fault::new(NcCode::MissingWord, "the time of the dwell is needed"))?;

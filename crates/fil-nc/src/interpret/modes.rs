@@ -8,6 +8,8 @@ use crate::errors::NcCode;
 use crate::motion::{Compensation, Event, FOOT, Modes, Speed, Spindle, StartMode, WORD_OFFSETS};
 
 pub(super) const H: u8 = letter(b'H');
+const P: u8 = letter(b'P');
+const Q: u8 = letter(b'Q');
 const S: u8 = letter(b'S');
 const T: u8 = letter(b'T');
 
@@ -47,6 +49,11 @@ impl State<'_> {
         self.work_offset(words)?;
         if words.function(Group::PathControl).is_some() {
             self.modes.path_control = Some(self.line);
+            // LinuxCNC: `G64 P0.1 Q0.05`, how far the path may leave its corners.
+            if words.peek(Group::Once).is_none() {
+                words.take_number(P);
+                words.take_number(Q);
+            }
         }
         if words.function(Group::Diameter).is_some() {
             self.certain.say(StartMode::Diameter);
@@ -150,8 +157,7 @@ impl State<'_> {
         }
         if words.peek(Group::Once) == Some(Function::SpeedLimit) {
             words.function(Group::Once);
-            let missing = || Fault::new(NcCode::MissingWord, "the speed limit needs its S");
-            self.modes.speed_limit = Some(words.take(S)?.ok_or_else(missing)?);
+            self.limit_speed(words)?;
         }
         let orients = words.auxiliaries.iter().any(|(a, _)| *a == Auxiliary::Orient);
         let orientation = match self.dialect.orientation {
@@ -187,6 +193,25 @@ impl State<'_> {
                 Auxiliary::Coolant(on) => self.cool(*on),
                 _ => {}
             }
+        }
+        Ok(())
+    }
+
+    /// The highest speed by S. X and Z beside the function place the zero: where the axes stand in
+    /// it is not followed.
+    fn limit_speed(&mut self, words: &mut Words) -> Result<(), Fault> {
+        let placed = words.take_axes(self.dialect)?;
+        for word in placed.iter() {
+            self.known[word.axis] = false;
+        }
+        if !placed.is_empty() {
+            self.modes.moved_zero = Some(self.line);
+        }
+        let missing = || Fault::new(NcCode::MissingWord, "the speed limit needs its S");
+        match words.take(S)? {
+            Some(limit) => self.modes.speed_limit = Some(limit),
+            None if placed.is_empty() => return Err(missing()),
+            None => {}
         }
         Ok(())
     }

@@ -6,6 +6,7 @@ use super::modes::Expected;
 use super::settings::{Due, Settings};
 use super::walk::Walk;
 use crate::dialect::{Auxiliary, Function};
+use crate::interpret::sinumerik_words::{self, Value};
 use crate::motion::{Compensation, Speed, Spindle};
 use crate::text::{Block, read_block};
 
@@ -29,6 +30,9 @@ impl Expected {
     /// is refused anyway.
     pub(super) fn insert(&mut self, text: &str, settings: &Settings) {
         let line = settings.dialect.marks.read(text.as_bytes());
+        if settings.has_edges() {
+            self.insert_statements(&line);
+        }
         let Ok(block) = read_block(&line, "INSERT", 1) else { return };
         for word in &block.words {
             let number = word.number;
@@ -64,6 +68,25 @@ impl Expected {
         }
     }
 
+    /// Takes up what a SINUMERIK says by names, and functions that no setting names.
+    fn insert_statements(&mut self, line: &[u8]) {
+        for word in sinumerik_words::read(line).unwrap_or_default() {
+            match (word.name.as_str(), &word.value) {
+                ("LIMS", Some(Value::Number(limit))) => self.speed_limit = Some(Some(*limit)),
+                (name, Some(_)) if name.starts_with("SPOS") => self.insert_stop(),
+                ("G", Some(Value::Number(500.0))) => self.fixture = Some(Some(500)),
+                ("M", Some(Value::Number(70.0))) => self.insert_stop(),
+                _ => {}
+            }
+        }
+    }
+
+    /// The spindle stands, at whatever angle.
+    pub(super) fn insert_stop(&mut self) {
+        self.spindle.set(None, Due::Now);
+        self.orientation = None;
+    }
+
     fn insert_function(&mut self, function: Function, block: &Block, settings: &Settings) {
         let whole = |letter: u8| {
             let word = block.words.iter().find(|word| word.letter == letter)?;
@@ -86,7 +109,12 @@ impl Expected {
             Function::Length(false) => self.offset.set(None, Due::Now),
             Function::SpeedLimit => self.speed_limit = None,
             // The S of the other mode, which the text need not say, comes with it.
-            Function::Surface(_) => self.speed.set(None, Due::Now),
+            Function::Surface(on) => {
+                self.speed.set(None, Due::Now);
+                if on && settings.limit_comes_with_surface() {
+                    self.speed_limit = None;
+                }
+            }
             _ => {}
         }
     }

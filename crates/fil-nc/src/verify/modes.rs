@@ -17,6 +17,9 @@ use crate::motion::{Compensation, DRILLED, Modes, Speed, Spindle};
 /// Allowed deviation of an oriented spindle, degrees.
 const ANGLE: f64 = 6e-4;
 
+/// M70 of a SINUMERIK: the spindle stands and is an axis.
+const AXIS_OF_SINUMERIK: u32 = 70;
+
 /// What the machine does while its modes are looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Doing {
@@ -221,6 +224,9 @@ impl Expected {
             Wanted::Auxiliary(code) => {
                 self.range = None;
                 let auxiliary = settings.dialect.auxiliary(i64::from(*code));
+                if settings.has_edges() && *code == AXIS_OF_SINUMERIK {
+                    self.insert_stop();
+                }
                 // The code of the main spindle stops no live tool that has its own.
                 let of_main =
                     self.mills && settings.is_mill_turn() && !settings.dialect.one_code[2];

@@ -115,6 +115,8 @@ pub struct Control {
     pub turning: Option<bool>,
     /// How it turned when it last did.
     pub turned: Option<bool>,
+    /// The second spindle has been turned last, and not stopped.
+    pub side_turns: bool,
     /// The spindle range in force that the program has said, from 0.
     pub range: Option<usize>,
     /// The location of the coolant that flows, as COOLNT asked for it.
@@ -168,6 +170,7 @@ impl Control {
             speed: None,
             turning: None,
             turned: None,
+            side_turns: false,
             range: None,
             coolant: None,
             changes: 0,

@@ -108,6 +108,7 @@ impl Control {
         }
         let skipped = self.state.may_be_skipped();
         speed_of_others::learn(self, &plain, skipped);
+        self.follow_feed_mode();
         self.refuse_changes(before)
     }
 
@@ -144,7 +145,15 @@ impl Control {
             let skipped = read.skipped || self.state.may_be_skipped();
             speed_of_others::learn(self, &read.words, skipped);
         }
+        self.follow_feed_mode();
         self.refuse_changes(before)
+    }
+
+    /// Takes the format of F in the mode that words or texts of others have left in force.
+    fn follow_feed_mode(&mut self) {
+        if let Some(mode) = self.state.feed_mode {
+            self.tables.format_feed(mode);
+        }
     }
 
     /// What the control knows before words or texts that the post has not made.

@@ -36,6 +36,8 @@ pub enum Meaning {
     ReturnLevel,
     /// S is a surface speed, or turns.
     SurfaceSpeed(bool),
+    /// X is a diameter.
+    Diameters,
     /// It acts in its block alone, or on what the post does not depend on.
     OneBlock,
     /// A turning cycle: it leaves axes, motion and feed elsewhere.
@@ -61,6 +63,9 @@ const COUNTERCLOCKWISE: FunctionCode = FunctionCode::whole(4);
 const STOP: FunctionCode = FunctionCode::whole(5);
 const ORIENT: FunctionCode = FunctionCode::whole(19);
 
+/// M70 of a SINUMERIK: the spindle stands and is an axis.
+const AXIS_OF_SINUMERIK: FunctionCode = FunctionCode::whole(70);
+
 /// The functions of a machine.
 #[derive(Clone, Debug)]
 pub struct Codes {
@@ -77,6 +82,8 @@ pub struct Codes {
     fixtures: Option<(FunctionCode, FunctionCode)>,
     /// The functions are those of a SINUMERIK.
     sinumerik: bool,
+    /// The function that limits the speed of the spindle.
+    speed_limit: Option<FunctionCode>,
     /// T changes the tool by itself, as on a turret.
     pub tool_word_changes: bool,
 }
@@ -105,6 +112,7 @@ impl Codes {
                 .filter_map(|at| commons.read(*at).and_then(FunctionCode::of_setting))
                 .collect(),
             turns: turns(commons),
+            speed_limit: code(loc::SPINDLE_MAX_CODE),
             tool_word_changes: commons.read(loc::TOOL_FORMAT)
                 == ToolFormat::ToolAndOffsetInOneTWord
                 || commons.read(loc::TOOL_CHANGE_CODE).is_none(),
@@ -217,7 +225,25 @@ impl Codes {
 
     /// How the spindle turns after an auxiliary function; `None` for one that leaves it.
     pub fn rotation(&self, code: FunctionCode) -> Option<Rotation> {
+        if self.sinumerik && code == AXIS_OF_SINUMERIK {
+            return Some(Rotation::Standing);
+        }
         self.turns.iter().find(|(turning, _)| *turning == code).map(|(_, rotation)| *rotation)
+    }
+
+    /// G96 and G97 stand in one group with G94 and G95, and are feeds a turn.
+    pub fn speeds_are_feeds_a_turn(&self) -> bool {
+        self.sinumerik
+    }
+
+    /// True for words that place the zero: those of the function that limits the speed, which on a
+    /// lathe does so where X or Z stand beside it (G50 X100. Z50.).
+    pub fn places_zero(&self, words: &[(Letter, f64)]) -> bool {
+        let has = |letters: &[u8]| words.iter().any(|(letter, _)| letters.contains(&letter.byte()));
+        let limits = |(letter, value): &(Letter, f64)| {
+            *letter == letters::G && FunctionCode::of_value(*value) == self.speed_limit
+        };
+        self.speed_limit.is_some() && words.iter().any(limits) && has(b"XZUW")
     }
 
     /// True when a motion function ends a cycle that no code ends.
@@ -317,9 +343,9 @@ fn of_tenths(code: FunctionCode) -> Meaning {
 fn of_sinumerik(code: u16) -> Meaning {
     match code {
         0..=3 | 33..=35 | 331 | 332 => Meaning::Motion,
-        4 | 9 | 25 | 26 | 60 | 64 | 96 | 97 | 601..=603 | 641..=645 | 450 | 451 => {
-            Meaning::OneBlock
-        }
+        4 | 9 | 25 | 26 | 60 | 64 | 601..=603 | 641..=645 | 450 | 451 => Meaning::OneBlock,
+        96 => Meaning::SurfaceSpeed(true),
+        97 => Meaning::SurfaceSpeed(false),
         17 => Meaning::Plane(Plane::Xy),
         18 => Meaning::Plane(Plane::Zx),
         19 => Meaning::Plane(Plane::Yz),
@@ -339,7 +365,7 @@ fn of_sinumerik(code: u16) -> Meaning {
 }
 
 const MODES: [(CodeAt, Meaning); 20] = [
-    (loc::LATHE_DIAMETER_CODE, Meaning::OneBlock),
+    (loc::LATHE_DIAMETER_CODE, Meaning::Diameters),
     (loc::CIRCLE_PLANE_XY, Meaning::Plane(Plane::Xy)),
     (loc::CIRCLE_PLANE_ZX, Meaning::Plane(Plane::Zx)),
     (loc::CIRCLE_PLANE_YZ, Meaning::Plane(Plane::Yz)),

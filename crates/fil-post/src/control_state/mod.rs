@@ -142,6 +142,8 @@ pub struct ControlState {
     turned_behind: u32,
     /// S is a surface speed; `None` where nothing has said it, or only blocks that may be skipped.
     pub surface_speed: Option<bool>,
+    /// X counts as the post writes it: on a lathe as a diameter, in a transformation as a radius.
+    pub x_is_as_written: bool,
     /// The code of the level that cycles return to; `None` when it is not known.
     pub return_level: Option<FunctionCode>,
     /// The program has ended: M2, M30.
@@ -178,6 +180,7 @@ impl ControlState {
             returned: false,
             turned_behind: 0,
             surface_speed: None,
+            x_is_as_written: true,
             return_level: None,
             ended: false,
             doubts: Doubts::default(),
@@ -320,6 +323,7 @@ impl ControlState {
             returned: false,
             turned_behind: self.turned_behind,
             surface_speed: None,
+            x_is_as_written: false,
             return_level: None,
             ended: self.ended,
             doubts,
@@ -399,7 +403,14 @@ impl ControlState {
                 self.in_cycle = Some(false);
                 self.motion = None;
             }
-            Meaning::SurfaceSpeed(on) => self.surface_speed = Some(on),
+            Meaning::SurfaceSpeed(on) => {
+                self.surface_speed = Some(on);
+                if codes.speeds_are_feeds_a_turn() {
+                    self.doubt(letters::F);
+                    self.feed_mode = Some(FeedMode::PerRevolution);
+                }
+            }
+            Meaning::Diameters => self.x_is_as_written = true,
             Meaning::OneBlock => {}
             Meaning::ReturnLevel => {
                 self.return_level = Some(code);

@@ -44,6 +44,9 @@ impl Ways {
                 _ => {}
             }
         }
+        if codes.places_zero(words) {
+            (ways.shifts, ways.says_zero) = (true, true);
+        }
         ways
     }
 

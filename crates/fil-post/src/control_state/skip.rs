@@ -92,6 +92,7 @@ impl ControlState {
         agree(&mut self.return_level, &other.return_level);
         agree(&mut self.surface_speed, &other.surface_speed);
         self.rotation = self.rotation.or(other.rotation);
+        self.x_is_as_written &= other.x_is_as_written;
         self.compensation_begun &= other.compensation_begun;
         self.doubts.or(&other.doubts);
     }

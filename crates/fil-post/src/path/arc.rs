@@ -266,6 +266,9 @@ fn check_travel(post: &Post, arc: &PlaneArc) -> Result<()> {
     if !axes.iter().any(|axis| axis.is_limited()) {
         return check_travel_in_frame(post, arc);
     }
+    for (axis, number) in axes.iter().zip(arc.plane.axes()) {
+        axis.check(arc.to[number])?;
+    }
     for angle in extremes(arc) {
         let (sine, cosine) = libm::sincos(angle.to_radians());
         for ((axis, center), part) in axes.iter().zip(arc.center).zip([cosine, sine]) {

@@ -43,9 +43,9 @@ pub fn hole(control: &mut Control, cycle: &Cycle, at: &Motion, hole: &Hole) -> R
 /// # Errors
 /// Any other machine; a spindle that stands or turns at surface speed; a dwell.
 fn tap(control: &mut Control, cycle: &Cycle, at: &Motion, hole: &Hole) -> Result<()> {
-    if spindle::stands(control) {
-        return PostCode::CycleForm
-            .err("a tap while the spindle stands; SPINDL before it turns it");
+    if spindle::stands(control) || control.side_turns && !spindle::may_turn(control) {
+        let usual = "a tap while the spindle stands; SPINDL before it turns it";
+        return PostCode::CycleForm.err(spindle::why_it_stands(control, usual));
     }
     // A threading move counts the turns of the main spindle, not of a live tool.
     if !control.commons.read(loc::THREAD_TAP) || control.tables.mills() {
@@ -84,7 +84,10 @@ fn lead_of(control: &Control, cycle: &Cycle) -> Result<Lead> {
         (FeedMode::PerMinute, Some(SpindleSpeed::Revolutions(speed))) if speed > 0.0 => {
             feed.value / control.upm_factor() / speed
         }
-        _ => return PostCode::CycleForm.err("a tap needs turns of the spindle (SPINDL / RPM)"),
+        _ => {
+            let usual = "a tap needs turns of the spindle (SPINDL / RPM)";
+            return PostCode::CycleForm.err(spindle::why_it_stands(control, usual));
+        }
     };
     Ok(Lead { value, cause: feed.cause })
 }

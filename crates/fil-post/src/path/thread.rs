@@ -266,7 +266,8 @@ pub fn counted_lead(post: &Post, lead: Lead, target: Target) -> Result<Lead> {
 /// The last SPINDL gave one, or stopped the spindle; nothing has turned it.
 pub fn check_speed(post: &Post) -> Result<()> {
     if !spindle::may_turn(&post.control) {
-        return PostCode::Thread.err("the spindle stands; SPINDL before the thread turns it");
+        let usual = "the spindle stands; SPINDL before the thread turns it";
+        return PostCode::Thread.err(spindle::why_it_stands(&post.control, usual));
     }
     if spindle::may_stand_behind_change(&post.control) {
         return PostCode::Thread

@@ -60,6 +60,9 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
 /// The second spindle: RPM,s with CLW or CCLW; OFF.
 fn side(post: &mut Post, items: &mut Items) -> Result<()> {
     let stops = items.flag(w::OFF);
+    if items.has(w::SFM) || items.has(w::SMM) || items.has(w::MAXRPM) {
+        return Err(items.error("a surface speed of the second spindle (SIDE) is not written"));
+    }
     items.flag(w::RPM);
     let speed = if stops { None } else { items.number() };
     let speed_word = items.last_word();

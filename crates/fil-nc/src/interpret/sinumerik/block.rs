@@ -386,6 +386,8 @@ impl Sinumerik<'_> {
                 Auxiliary::Counterclockwise => state.turn_spindle(Spindle::Counterclockwise),
                 Auxiliary::SpindleOff | Auxiliary::Orient => state.turn_spindle(Spindle::Off),
                 Auxiliary::Live(way) => state.turn_spindle(*way),
+                // The spindle stands and becomes an axis.
+                Auxiliary::Other(70) => state.turn_spindle(Spindle::Off),
                 Auxiliary::SpindleRange(range) => state.modes.spindle_range = Some(*range),
                 Auxiliary::Coolant(on) => state.cool(*on),
                 _ => {}

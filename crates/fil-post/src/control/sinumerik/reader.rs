@@ -7,7 +7,7 @@ use fil_machine::{Letter, letters, locations as loc};
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family::refuse;
-use crate::control_state::{TextFrame, TextWords};
+use crate::control_state::{Rotation, TextFrame, TextWords};
 
 /// Statements that change nothing the post counts on: how the path is smoothed and
 /// driven, what stands beside the motions.
@@ -189,7 +189,18 @@ fn assigned(control: &mut Control, name: &str, value: &str, words: &mut TextWord
         return false;
     }
     match (letters_of_name.as_str(), number) {
-        ("SPOS" | "SPOSA" | "LIMS" | "CTOL" | "ADIS" | "ADISPOS" | "OVR", Some(_)) => true,
+        ("SPOS" | "SPOSA", Some(_)) => {
+            let own = control.commons.int_opt(loc::CONTROL_SPINDLE_INDEX).unwrap_or(1);
+            if index.is_empty() || index == format!("[{own}]") {
+                control.state.rotation = Rotation::Standing;
+            }
+            true
+        }
+        ("LIMS", Some(limit)) => {
+            control.state.speed_limit = Some(limit);
+            true
+        }
+        ("CTOL" | "ADIS" | "ADISPOS" | "OVR", Some(_)) => true,
         ("T", number) => {
             words.words.push((letters::T, number.unwrap_or_default()));
             true

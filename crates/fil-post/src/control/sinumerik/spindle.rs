@@ -8,6 +8,7 @@ use fil_machine::modes::FeedMode;
 use crate::control::Control;
 use crate::control::family::refuse;
 use crate::control::word_address::spindle as words;
+use crate::control_state::Rotation;
 use crate::operation::{Spindle, SpindleSpeed};
 
 /// Digits after the point of an angle, degrees.
@@ -26,7 +27,10 @@ pub fn write(control: &mut Control, spindle: Spindle) -> Result<()> {
                 Some(index) => format!("SPOS[{index}]"),
                 None => "SPOS".to_string(),
             };
-            super::put_text(control, &format!("{name}={}", plain(angle, DIGITS)))
+            super::put_text(control, &format!("{name}={}", plain(angle, DIGITS)))?;
+            control.state.rotation = Rotation::Standing;
+            control.turning = None;
+            Ok(())
         }
         Spindle::Turn(turn) => {
             let default = || {

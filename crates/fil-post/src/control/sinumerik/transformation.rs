@@ -52,6 +52,18 @@ pub fn choose_master(control: &mut Control, of_live_tool: bool) -> Result<()> {
     }
 }
 
+/// Says what X is: a diameter, or a radius in a transformation.
+///
+/// # Errors
+/// As a line on the tape.
+pub fn say_what_x_is(control: &mut Control) -> Result<()> {
+    let tables = &control.tables;
+    match tables.transforms && (tables.is_polar() || tables.is_unrolled()) {
+        true => count_radii(control),
+        false => program::say_diameters(control),
+    }
+}
+
 fn count_radii(control: &mut Control) -> Result<()> {
     match control.commons.read(loc::LATHE_DIAMETER) {
         true => put_text(control, "DIAMOF"),

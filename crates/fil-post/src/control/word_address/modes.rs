@@ -6,6 +6,7 @@ use fil_machine::FunctionCode;
 use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::modes::{Plane, Unit};
 
+use super::compensation;
 use crate::control::program::{plane_code, unit_code};
 use crate::control::{Control, Function, sinumerik};
 use crate::control_state::{Compensation, Distance};
@@ -22,6 +23,7 @@ pub fn require(control: &mut Control, unit: Unit) -> Result<()> {
     let state = &control.state;
     let stands = state.unit == Some(unit)
         && state.distance == Some(Distance::Absolute)
+        && state.x_is_as_written
         && state.in_cycle == Some(false)
         && state.compensation.is_some();
     if stands { Ok(()) } else { say_again(control, unit) }
@@ -36,6 +38,9 @@ fn say_again(control: &mut Control, unit: Unit) -> Result<()> {
         sinumerik::cycle::cancel(control)?;
     } else if control.state.in_cycle != Some(false) {
         say(control, control.code_if_any(loc::CYCLE_OFF_CODE));
+    }
+    if !control.state.x_is_as_written {
+        say_what_x_is(control, sinumerik)?;
     }
     if control.state.unit != Some(unit) {
         let wrong = control.state.unit.is_some();
@@ -66,6 +71,22 @@ fn say_again(control: &mut Control, unit: Unit) -> Result<()> {
     control.write_block()?;
     control.state.in_cycle = Some(false);
     control.block = waiting;
+    Ok(())
+}
+
+/// Says again that X is a diameter, on a control that counts radii too, and on a SINUMERIK the
+/// plane in which a lathe turns.
+fn say_what_x_is(control: &mut Control, sinumerik: bool) -> Result<()> {
+    control.state.x_is_as_written = true;
+    if sinumerik {
+        sinumerik::transformation::say_what_x_is(control)?;
+        if control.commons.read(loc::LATHE_DIAMETER) && !control.tables.mills() {
+            // The lengths of a turning tool count along the axes of its plane.
+            say(control, control.code_if_any(plane_code(compensation::usual_plane(control))));
+        }
+        return Ok(());
+    }
+    say(control, control.code_if_any(loc::LATHE_DIAMETER_CODE));
     Ok(())
 }
 

@@ -163,6 +163,7 @@ fn side_spindle(control: &mut Control, side: SideSpindle) -> Result<()> {
     }
     control.block.cause.word = side.words[1];
     control.m(code);
+    control.side_turns = side.turn.is_some();
     control.write_block()
 }
 
@@ -375,6 +376,14 @@ pub fn clockwise(control: &Control) -> Option<bool> {
 /// The same for the next motion, with what waits for it.
 pub fn clockwise_in_motion(control: &Control) -> Option<bool> {
     if waits(control) { control.turning } else { clockwise(control) }
+}
+
+/// Why a spindle that does not turn is none for a thread or a tap.
+pub fn why_it_stands<'a>(control: &Control, usual: &'a str) -> &'a str {
+    match control.side_turns {
+        true => "threads and taps of the second spindle are not written, and the main one stands",
+        false => usual,
+    }
 }
 
 /// The spindle is known to stand, and nothing that waits for a motion turns it.
