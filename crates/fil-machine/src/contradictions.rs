@@ -341,7 +341,7 @@ fn prepared_tools(commons: &Commons, found: &mut Vec<Diag>) {
     if !by_words || !commons.read(loc::TOOL_PRESELECT) {
         return;
     }
-    let in_one_word = commons.read(loc::TOOL_FORMAT) == ToolFormat::ToolAndOffsetInOneTWord;
+    let in_one_word = commons.read(loc::TOOL_FORMAT) != ToolFormat::TWordAndChangeCode;
     if in_one_word || commons.read(loc::TOOL_CHANGE_CODE).is_none() {
         found.push(contradiction(
             "T prepares the next tool (tool.preselect), and T changes the tool by itself".into(),

@@ -46,7 +46,7 @@ impl Auxiliaries {
             ("tool.change_code", A::ToolChange),
         ];
         // A turret turns by its T word: what else that function does nobody knows.
-        let by_word = settings.code("tool.format") == Some(2);
+        let by_word = matches!(settings.code("tool.format"), Some(2 | 3));
         let mut table = HashMap::new();
         for (key, auxiliary) in named {
             if by_word && auxiliary == A::ToolChange {

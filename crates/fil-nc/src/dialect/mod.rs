@@ -180,6 +180,8 @@ pub struct Dialect {
     pub(crate) lead_change: u8,
     /// The lead is measured along the path, else along the longer axis.
     pub(crate) lead_along_path: bool,
+    /// T names the nose by two digits before those of the tool.
+    pub(crate) names_noses: bool,
     /// Threads need feeds a turn: lathes with a cycle of all passes in one block.
     pub(crate) threads_need_turns: bool,
     /// That of the taper in the threading cycle of one pass.
@@ -257,7 +259,7 @@ impl Dialect {
     pub fn new(commons: &Commons) -> Result<Self, Box<Diag>> {
         let settings = Settings(commons);
         let tool_call = match (settings.code("tool.format"), settings.code("tool.change_code")) {
-            (Some(2), _) => ToolCall::WithOffset,
+            (Some(2 | 3), _) => ToolCall::WithOffset,
             (_, Some(_)) => ToolCall::WithCode,
             (_, None) => ToolCall::Word,
         };
@@ -356,6 +358,7 @@ impl Dialect {
             lead: settings.letter("thread.lead_address"),
             lead_change: settings.letter("thread.change_address"),
             lead_along_path: settings.code("thread.lead_along") == Some(1),
+            names_noses: settings.code("tool.format") == Some(3),
             threads_need_turns: settings.code("thread.cycle") == Some(3),
             thread_taper: settings.letter("thread.taper_address"),
             speed_limit: settings.letter("spindle.max_address"),

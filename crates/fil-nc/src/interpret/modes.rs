@@ -277,6 +277,14 @@ impl State<'_> {
         let changes = words.auxiliaries.iter().any(|(a, _)| *a == Auxiliary::ToolChange);
         match (self.dialect.tool_call, named) {
             (ToolCall::WithOffset, Some(number)) => {
+                let (nose, number) = match self.dialect.names_noses {
+                    true => (number / 10_000, number % 10_000),
+                    false => (number % 100, number),
+                };
+                if nose != number % 100 {
+                    let message = "T takes the nose of another offset than its own";
+                    return Err(Fault::new(NcCode::NoMeaning, message));
+                }
                 self.modes.length_offset = Some(number % 100).filter(|offset| *offset > 0);
                 self.change(number / 100);
             }

@@ -113,8 +113,7 @@ impl Codes {
                 .collect(),
             turns: turns(commons),
             speed_limit: code(loc::SPINDLE_MAX_CODE),
-            tool_word_changes: commons.read(loc::TOOL_FORMAT)
-                == ToolFormat::ToolAndOffsetInOneTWord
+            tool_word_changes: commons.read(loc::TOOL_FORMAT) != ToolFormat::TWordAndChangeCode
                 || commons.read(loc::TOOL_CHANGE_CODE).is_none(),
         };
         let codes_are_calls = codes.sinumerik;

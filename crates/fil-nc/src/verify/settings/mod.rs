@@ -372,7 +372,7 @@ impl<'c> Settings<'c> {
 
     /// True when tool and offset stand in one word, `T0101`.
     pub fn calls_tools_with_offset(&self) -> bool {
-        self.commons.read(loc::TOOL_FORMAT) == ToolFormat::ToolAndOffsetInOneTWord
+        self.commons.read(loc::TOOL_FORMAT) != ToolFormat::TWordAndChangeCode
     }
 
     /// True when a tool change is followed by a length offset of its own.

@@ -127,7 +127,7 @@ fn unlike_tool(control: &Control, given: Option<(f64, u16)>) -> Option<(f64, u16
 
 /// Adds the offset: that of the record, else the number of the tool.
 fn offset_word(control: &mut Control, given: Option<(f64, u16)>) -> Result<()> {
-    if control.commons.read(loc::TOOL_FORMAT) == ToolFormat::ToolAndOffsetInOneTWord {
+    if control.commons.read(loc::TOOL_FORMAT) != ToolFormat::TWordAndChangeCode {
         return nose(control, given);
     }
     let from_tool = control.commons.read(loc::TOOL_DIAMETER_FROM_TOOL);

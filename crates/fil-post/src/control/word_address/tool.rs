@@ -49,7 +49,7 @@ fn check_station(control: &Control, tool: i64) -> Result<()> {
 /// A tool or offset that does not fit, an offset the machine can't call.
 pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     let before = control.state.motion;
-    let one_word = control.commons.read(loc::TOOL_FORMAT) == ToolFormat::ToolAndOffsetInOneTWord;
+    let one_word = control.commons.read(loc::TOOL_FORMAT) != ToolFormat::TWordAndChangeCode;
     if one_word {
         tool_and_offset(control, wanted)?;
         restate(control);
@@ -76,13 +76,21 @@ pub fn select(control: &mut Control, tool: i64) -> Result<()> {
     control.write_block()
 }
 
-/// Writes tool and offset in one word, two digits each: T0303.
+/// Writes tool and offset in one word, two digits each: T0303; of a control that takes the nose
+/// radius by a number of its own that of the offset before them: T030303.
 fn tool_and_offset(control: &mut Control, wanted: ToolChange) -> Result<()> {
     if wanted.offset >= OFFSETS {
         return PostCode::WordForm
             .err(format!("LOADTL: offset {} has more than two digits", wanted.offset));
     }
-    control.word(T, (wanted.tool * OFFSETS + wanted.offset) as f64)?;
+    let names_nose =
+        control.commons.read(loc::TOOL_FORMAT) == ToolFormat::NoseAndToolAndOffsetInOneTWord;
+    if names_nose && wanted.tool >= OFFSETS {
+        return PostCode::WordForm
+            .err(format!("LOADTL: tool {} has more than two digits", wanted.tool));
+    }
+    let nose = if names_nose { wanted.offset * OFFSETS * OFFSETS } else { 0 };
+    control.word(T, (nose + wanted.tool * OFFSETS + wanted.offset) as f64)?;
     control.write_block()
 }
 
