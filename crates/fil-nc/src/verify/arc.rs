@@ -243,10 +243,21 @@ impl<C: Steps> Walk<'_, C> {
         (1..count).all(|n| match self.nc.get(self.next + n - 1) {
             Some(motion::Event::Move(found)) => {
                 let tip = arc.at(n as f64 / count as f64);
-                self.gap(&found.to, &Pose { tip, ..arc.end }).closed()
+                let gap = self.gap(&found.to, &Pose { tip, ..arc.end });
+                let near = |n: usize| !gap.excess[n] || self.stays_beside(n, &found, gap.linear[n]);
+                gap.turned.is_none() && (0..3).all(near)
             }
             _ => false,
         })
+    }
+
+    /// An axis that a block before has left beside its last digits, as the end of a helix in polar
+    /// coordinates, stays there while its number is the same.
+    fn stays_beside(&self, n: usize, found: &Move, off: f64) -> bool {
+        let digit = 2.0 * self.slack.linear[n];
+        let stands = self.at.linear[n];
+        let beside = (stands - (stands / digit).round() * digit).abs();
+        found.to.linear[n] == stands && off.abs() <= self.slack.linear[n] + beside
     }
 
     /// How far the last digits can bring a tip from an arc, mm; where the tool turns, those of

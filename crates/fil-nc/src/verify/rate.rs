@@ -5,7 +5,7 @@ use super::report::FindingKind;
 use super::say::{short, spell_rate};
 use super::walk::Walk;
 use crate::dialect::Family;
-use crate::motion::{Compensation, Course, Move, Position, Rate, Speed};
+use crate::motion::{Compensation, Course, Move, Position, Rate, Speed, unit};
 
 /// Share of a feed that the rounding of a pitch may change.
 const PITCH: f64 = 0.0005;
@@ -25,7 +25,7 @@ impl<C: Steps> Walk<'_, C> {
         found: &Move,
         wanted: Option<Rate>,
     ) {
-        if self.repeats_feed {
+        if found.rate.is_some_and(|rate| self.is_repeated(rate)) {
             return;
         }
         let wanted = match wanted {
@@ -73,6 +73,22 @@ impl<C: Steps> Walk<'_, C> {
             let found_rate = found.rate.map_or("none".to_string(), spell_rate);
             let message = format!("feed {found_rate}, it should be {}", spell_rate(wanted));
             self.find(FindingKind::Feed, Some(cl_line), Some(found.line), message);
+        }
+    }
+
+    /// The feed is the F that REPEAT writes.
+    fn is_repeated(&self, rate: Rate) -> bool {
+        let (dialect, unit) = (&self.settings.dialect, unit(self.metric));
+        let Some(feed) = self.repeated_feed else { return false };
+        match rate {
+            Rate::PerMinute(rate) => {
+                (rate - feed / dialect.feed_factor * unit).abs() <= self.slack.feed
+            }
+            Rate::PerTurn(rate) => (rate - feed * unit).abs() <= self.slack.turn,
+            Rate::Inverse(rate) => {
+                (rate - feed / dialect.inverse_factor).abs() <= self.slack.inverse
+            }
+            Rate::Varying(..) => false,
         }
     }
 

@@ -74,8 +74,8 @@ pub(super) struct Walk<'a, C> {
     pub(super) watch: Watch,
     /// The first and the last line of the program that may hold words of the user's own.
     pub(super) user_lines: [u32; 2],
-    /// REPEAT writes an F into each motion, beside its own.
-    pub(super) repeats_feed: bool,
+    /// F that REPEAT writes into each motion, beside its own, as on the tape.
+    pub(super) repeated_feed: Option<f64>,
     /// Lines of statements that no record asks for, of which that was said.
     pub(super) unasked: [Option<u32>; 2],
     /// The plane of the last arc or cycle, by the index of its normal.
@@ -135,7 +135,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             modes: Expected::new(settings),
             watch,
             user_lines: [u32::MAX, 0],
-            repeats_feed: false,
+            repeated_feed: None,
             unasked: [None; 2],
             plane: settings.dialect.plane,
             was_compensated: false,
@@ -239,7 +239,8 @@ impl<'a, C: Steps> Walk<'a, C> {
             }
             Wanted::Unknown { what, effect } => self.unknown(step.line, what, *effect),
             Wanted::Repeated(text) => {
-                self.repeats_feed = text.contains('F');
+                let of_feed = text.split(' ').find_map(|word| word.strip_prefix('F'));
+                self.repeated_feed = of_feed.and_then(|value| value.parse().ok());
                 if !text.is_empty() {
                     self.user_lines[1] = u32::MAX;
                 }
