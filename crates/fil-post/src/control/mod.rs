@@ -65,6 +65,8 @@ pub struct TipOffset {
     pub is_away: bool,
     /// It was before the blocks that may be skipped.
     pub was_away: bool,
+    /// Length offset of the tool before them.
+    pub offset_before: Option<i64>,
     /// The motion at hand says the direction of the tool by a vector.
     pub by_vector: bool,
     /// Where the rotary axes stand since a vector has turned them, degrees.

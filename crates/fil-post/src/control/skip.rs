@@ -34,7 +34,9 @@ impl Control {
             self.tape.skip = Some(self.block.cause);
             self.state.skip_begins(&self.commons);
             self.tip.was_away = self.tip.is_away;
+            self.tip.offset_before = self.tip.offset.map(|(offset, _)| offset);
         } else {
+            self.refuse_skipped_tool()?;
             self.tape.skip = None;
             let z_counts_down = self.tables.axis(2).scale() < 0.0;
             let linear = [0, 1, 2].map(|number| self.tables.axis(number).letter);
@@ -44,6 +46,21 @@ impl Control {
             self.tip.is_away &= self.tip.was_away;
         }
         Ok(())
+    }
+}
+
+impl Control {
+    /// Refuses a tool change that tool-tip control would take the length of on both sides of the
+    /// mark.
+    fn refuse_skipped_tool(&self) -> Result<()> {
+        let offset = self.tip.offset.map(|(offset, _)| offset);
+        if !self.tables.tip_output || offset == self.tip.offset_before {
+            return Ok(());
+        }
+        PostCode::SkippedPart.err(
+            "a tool change: behind OPSKIP tool-tip control would take the length of this tool, \
+             whichever one the skip switch has left in the spindle",
+        )
     }
 }
 

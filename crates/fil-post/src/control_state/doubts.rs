@@ -171,7 +171,7 @@ impl Doubts {
     /// Before a tool change the axis did not stand where its last output value says.
     fn place_of_doubt(&self, letter: Letter) -> bool {
         let elsewhere = [self.lost, self.shifted, self.clear].iter().any(|set| set.has(letter));
-        self.has(letter) && elsewhere
+        self.has(letter) && (elsewhere || self.levels_of(letter).is_some())
     }
 
     /// The axis stands at this value, which is not its last output value.

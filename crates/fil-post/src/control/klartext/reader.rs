@@ -163,10 +163,8 @@ fn word(control: &mut Control, item: &str, of_machine: bool) {
             control.state.doubt_axes();
             match Letter::of_character(axis) {
                 Some(letter) if of_machine => control.state.clears(letter),
-                Some(letter) if letters::XYZ.contains(&letter) => {
-                    control.state.stand(letter, value)
-                }
-                _ => {}
+                Some(letter) => control.state.stand(letter, value),
+                None => {}
             }
         }
         (Some('I'), _) if rest.as_str().len() > 1 => control.state.lose_axes(),
