@@ -66,7 +66,11 @@ impl State<'_> {
         self.auxiliaries(words);
         self.check_live(words)?;
         self.motion(words)?;
-        self.check_ways_round(&stood, &known)?;
+        // Away from the part either way round leads to the same place.
+        let turns_alone = self.motion == Some(Function::Rapid) && stood[..3] == self.at[..3];
+        if !turns_alone {
+            self.check_ways_round(&stood, &known)?;
+        }
         if begins {
             self.check_begun(&stood, &known)?;
         }

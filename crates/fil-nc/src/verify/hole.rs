@@ -470,10 +470,15 @@ impl<C: Steps> Walk<'_, C> {
             return;
         };
         let (here, slack) = (self.at.linear[2], self.slack.linear[2]);
-        if !self.known[2] || here >= level - slack {
-            return;
-        }
-        if !self.takes_to_level(cl_line, level, true) {
+        let returns = match self.at.tip_control {
+            true => self.returns_along_tool(cl_line, level),
+            false => {
+                !self.known[2]
+                    || here >= level - slack
+                    || self.takes_to_level(cl_line, level, true)
+            }
+        };
+        if !returns {
             let message =
                 format!("the tool does not go back to Z{} behind the cycle", short(level));
             self.find(FindingKind::Missing, Some(cl_line), None, message);

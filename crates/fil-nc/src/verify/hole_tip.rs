@@ -206,12 +206,49 @@ impl<C: Steps> Walk<'_, C> {
 
     /// The machine's directions, turned so that Z goes along the hole.
     pub(super) fn hole_frame(&self, rotary: [f64; 2], hole: &Hole) -> Frame {
+        self.frame_along(rotary, hole.start.axis)
+    }
+
+    /// Where the tip stands along the tool, in the machine's directions turned so that Z does.
+    fn height_along_tool(&self, at: &Position) -> f64 {
+        let pose = self.settings.forward.pose(at);
+        self.frame_along(at.rotary, pose.axis).linear(pose.tip)[2]
+    }
+
+    /// Under tool-tip control the tool goes back along itself to the level before a cycle that
+    /// has ended; true where it does, or stands there.
+    pub(super) fn returns_along_tool(&mut self, cl_line: u32, level: f64) -> bool {
+        let is_there = |walk: &Self, at: &Position| {
+            walk.height_along_tool(at) >= level - 2.0 * walk.tip_slack(at)
+        };
+        if is_there(self, &self.at) {
+            return true;
+        }
+        let Some(found) = self.next_move() else { return false };
+        let forward = &self.settings.forward;
+        let stands = forward.pose(&self.at);
+        let way = forward.pose(&found.to).tip - stands.tip;
+        let beside = (way - stands.axis * way.dot(&stands.axis)).norm();
+        let slack = 2.0 * self.tip_slack(&found.to);
+        let goes_back = found.course == Course::Rapid
+            && found.to.tip_control
+            && found.to.rotary == self.at.rotary
+            && beside <= slack
+            && (self.height_along_tool(&found.to) - level).abs() <= slack;
+        if goes_back {
+            self.take(cl_line, &found);
+            self.next += 1;
+        }
+        goes_back
+    }
+
+    fn frame_along(&self, rotary: [f64; 2], axis: Vector3<f64>) -> Frame {
         let frame = self.settings.forward.frame(rotary);
         let up = frame.turn.column(2).into_owned();
-        if (up - hole.start.axis).norm() <= PARALLEL {
+        if (up - axis).norm() <= PARALLEL {
             return frame;
         }
-        let turn = Rotation3::rotation_between(&up, &hole.start.axis)
+        let turn = Rotation3::rotation_between(&up, &axis)
             .unwrap_or_else(|| Rotation3::from_axis_angle(&Vector3::x_axis(), PI));
         Frame { turn: turn.matrix() * frame.turn, ..frame }
     }

@@ -175,7 +175,9 @@ impl<C: Steps> Walk<'_, C> {
             return;
         }
         let lower = moved(2) && to[2] < at[2];
-        if lower && !(arrived(0) && arrived(1)) {
+        // Behind the way up at the end of tool-tip control the level of GOHOME is a safe one.
+        let goes_home = self.is_up && self.is_home_level(to[2]);
+        if lower && !(arrived(0) && arrived(1)) && !goes_home {
             let message = "rapid plunges before X and Y have arrived".to_string();
             self.say_order(cl_line, part, message);
         } else if lower && turns && !part.to.names_tip() {
@@ -215,6 +217,12 @@ impl<C: Steps> Walk<'_, C> {
         let around = (distance(&part.to) - distance(end)).abs() <= slack;
         let stays = (part.to.linear[2] - self.at.linear[2]).abs() <= STILL;
         around && (stays || !part.known[2]) && part.to.rotary[0] == 0.0
+    }
+
+    /// A position of Z is that of the machine's home.
+    fn is_home_level(&self, z: f64) -> bool {
+        let [.., level] = self.settings.home(self.metric);
+        level.is_some_and(|level| (z - level).abs() <= self.slack.linear[2])
     }
 
     /// A position of Z is the level that the machine goes up to.

@@ -32,8 +32,9 @@ impl<C: Steps> Walk<'_, C> {
             Some(Rate::PerMinute(rate)) => {
                 let rate = self.settings.feed_within(rate, self.metric);
                 let rate = self.at_the_edge(&from, found, rate);
-                let turns = turned(&from, found) != [0.0; 2];
-                let within = self.settings.feed_within_axes(rate, &from, found, self.metric);
+                let turns = turned(&from, found) != [0.0; 2] && !found.to.tip_control;
+                let begins = Some(&from).filter(|_| self.known[..3] == [true; 3]);
+                let within = self.settings.feed_within_axes(rate, begins, found, self.metric);
                 Rate::PerMinute(if turns { rate } else { within })
             }
             Some(rate) => rate,

@@ -244,9 +244,11 @@ impl<C: Steps> Walk<'_, C> {
         found: &Move,
         asked: impl FnOnce(&Self) -> Asked,
     ) {
-        // A tool change may have moved the axes: the way from there is none of the CL file.
+        // A tool change may have moved the axes, and another work offset lies elsewhere: the way
+        // from there is none of the CL file.
         let known = self.is_known(&self.known) && self.is_known(&found.known);
-        if !known || self.tool_is_fresh || !turns(&self.settings.forward, &self.at, &found.to) {
+        let begins_anywhere = self.tool_is_fresh || found.modes.fixture != self.moved_fixture;
+        if !known || begins_anywhere || !turns(&self.settings.forward, &self.at, &found.to) {
             return;
         }
         let asked = asked(self);

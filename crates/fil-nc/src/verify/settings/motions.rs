@@ -20,10 +20,18 @@ impl Settings<'_> {
         feed.max(min).min(max)
     }
 
-    /// A feed in mm/min within what Y and Z may do in a motion.
-    pub fn feed_within_axes(&self, feed: f64, from: &Position, found: &Move, metric: bool) -> f64 {
+    /// A feed in mm/min within what Y and Z may do in a motion; from `None`, where nobody knows
+    /// the way, each of them may go alone.
+    pub fn feed_within_axes(
+        &self,
+        feed: f64,
+        from: Option<&Position>,
+        found: &Move,
+        metric: bool,
+    ) -> f64 {
         let unit = unit(metric);
         let most = self.commons.dbl_opt(loc::FEED_UPM_MAX).unwrap_or(f64::INFINITY);
+        let from = from.unwrap_or(&found.to);
         let way = |axis: usize| (found.to.linear[axis] - from.linear[axis]).abs();
         let length = match &found.arc {
             Some(arc) => arc.length(from.linear, found.to.linear),
