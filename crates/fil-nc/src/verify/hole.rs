@@ -473,9 +473,7 @@ impl<C: Steps> Walk<'_, C> {
         let returns = match self.at.tip_control {
             true => self.returns_along_tool(cl_line, level),
             false => {
-                !self.known[2]
-                    || here >= level - slack
-                    || self.takes_to_level(cl_line, level, true)
+                !self.known[2] || here >= level - slack || self.takes_to_level(cl_line, level, true)
             }
         };
         if !returns {

@@ -41,7 +41,9 @@ impl<C: Steps> Walk<'_, C> {
             None => return,
         };
         let agrees = match (wanted, found.rate) {
-            (Rate::PerMinute(a), Some(Rate::PerMinute(b))) => (a - b).abs() <= self.slack.feed,
+            (Rate::PerMinute(a), Some(Rate::PerMinute(b))) => {
+                (a - b).abs() <= self.slack.feed + a * self.share_slack(&from, found)
+            }
             (Rate::PerTurn(a), Some(Rate::PerTurn(b))) => {
                 (a - b).abs() <= self.slack_of_lead(found, a)
             }
@@ -75,6 +77,16 @@ impl<C: Steps> Walk<'_, C> {
             let message = format!("feed {found_rate}, it should be {}", spell_rate(wanted));
             self.find(FindingKind::Feed, Some(cl_line), Some(found.line), message);
         }
+    }
+
+    /// By what share rounding on the tape changes a feed that the ways of Y and Z limit.
+    fn share_slack(&self, from: &Position, found: &Move) -> f64 {
+        let share = |axis: usize| {
+            let way = (found.to.linear[axis] - from.linear[axis]).abs();
+            if way > STANDS { 4.0 * self.slack.linear[axis] / way } else { 0.0 }
+        };
+        let limits = self.settings.limits_feed_of_axes();
+        [1, 2].into_iter().filter(|axis| limits[axis - 1]).map(share).fold(0.0, f64::max)
     }
 
     /// The feed is the F that REPEAT writes.

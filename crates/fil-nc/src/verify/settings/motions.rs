@@ -48,6 +48,13 @@ impl Settings<'_> {
         [(1, loc::FEED_UPM_MAX_Y), (2, loc::FEED_UPM_MAX_Z)].into_iter().fold(feed, within)
     }
 
+    /// Whether Y and Z may go slower than the machine.
+    pub fn limits_feed_of_axes(&self) -> [bool; 2] {
+        let most = self.commons.dbl_opt(loc::FEED_UPM_MAX).unwrap_or(f64::INFINITY);
+        [loc::FEED_UPM_MAX_Y, loc::FEED_UPM_MAX_Z]
+            .map(|at| self.commons.dbl_opt(at).is_some_and(|largest| largest < most))
+    }
+
     /// Home, retract and change positions are coordinates of the machine.
     pub fn names_machine_positions(&self) -> bool {
         self.commons.read(loc::HOME_FRAME) == HomeFrame::OfTheMachine
