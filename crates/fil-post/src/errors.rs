@@ -128,6 +128,10 @@ fil_diag::codes! {
         UnknownTurn = 535, Error, "a motion at feed from where a rotary axis may stand anywhere",
             "A text or a call of a subprogram came before it and may have turned the axis: the motion would turn it back at feed by any angle, and the tip would leave its line.",
             "Put RAPID and a GOTO before it, which turns the axis to where it belongs, or a text that says where it stands (G0 A0.).";
+        /// A motion without the length of the tool.
+        LengthTaken = 536, Error, "a motion without the length of the tool",
+            "A text has taken the length of the tool off. Z of the CL file counts from the tip, and the control would bring the spindle nose there.",
+            "Let the text, or another one behind it, call the length again (G43 H1, on a SINUMERIK D1), or put LOADTL before the motion.";
         /// A block that is too long.
         BlockLength = 541, Error, "block longer than the control reads",
             "The rest of a block that is longer than the control's buffer would be lost.",

@@ -6,7 +6,7 @@ use fil_machine::commons::{EMPTY, Kind, LAST_OUTPUT};
 use fil_machine::locations as loc;
 
 use super::Control;
-use crate::control_state::{Levels, Meaning, Place};
+use crate::control_state::{Length, Levels, Meaning, Place};
 use crate::errors::PostCode;
 
 impl Control {
@@ -60,6 +60,19 @@ impl Control {
         } else if last != EMPTY {
             self.state.last_is_emptied(letter, last);
         }
+    }
+
+    /// Refuses a motion in the part behind a text that has taken the length of the tool off.
+    ///
+    /// # Errors
+    /// It has, and nothing calls the length again.
+    #[cold]
+    pub fn refuse_without_length(&self) -> Result<()> {
+        let is_called = self.waiting.length_offset.is_some() || self.tables.tip_output;
+        if self.state.length != Length::Taken || is_called {
+            return Ok(());
+        }
+        PostCode::LengthTaken.err("a text has taken the length of the tool off")
     }
 
     /// The last motion was at feed: the tool may stand in the part.

@@ -14,6 +14,9 @@ use crate::cause::Cause;
 use crate::control_state::{Place, text};
 use crate::errors::PostCode;
 
+/// The function of Klartext that goes along the tool out of the part, under tool-tip control too.
+const RETRACT: &str = "M140";
+
 /// What the control knew before words or texts of others.
 #[derive(Clone, Copy, Debug)]
 pub struct BeforeOthers {
@@ -36,6 +39,8 @@ struct Frame {
     tilted: Option<bool>,
     in_cycle: Option<bool>,
     shifted: bool,
+    /// A rotary axis or Z stands at a position of the machine.
+    of_machine: bool,
 }
 
 impl Control {
@@ -90,6 +95,7 @@ impl Control {
         if words.is_empty() {
             return Ok(());
         }
+        let before = self.before_others()?;
         let start = self.tape.text.len();
         if self.tables.family == ControlFamily::Sinumerik {
             sinumerik::block::put(self, words)?;
@@ -99,7 +105,6 @@ impl Control {
         if self.edit_line(start)? {
             return Ok(());
         }
-        let before = self.before_others()?;
         let plain: Vec<(Letter, f64)> =
             words.iter().map(|(letter, value, _)| (*letter, *value)).collect();
         self.state.learn_words(&plain, &self.codes);
@@ -133,7 +138,10 @@ impl Control {
         if self.put_line(text, numbered)? {
             return Ok(());
         }
-        let before = self.before_others()?;
+        let mut before = self.before_others()?;
+        if self.tables.family == ControlFamily::Klartext && text.contains(RETRACT) {
+            before.frame = None;
+        }
         match self.tables.family {
             ControlFamily::Klartext => klartext::reader::learn(self, text),
             ControlFamily::Sinumerik => sinumerik::reader::learn(self, text),
@@ -181,6 +189,7 @@ impl Control {
             tilted: state.tilted,
             in_cycle: state.in_cycle,
             shifted: matches!(self.place(0), Place::Shifted(_)),
+            of_machine: (0..5).any(|number| self.place(number) == Place::Clear),
         })
     }
 
@@ -189,8 +198,8 @@ impl Control {
     fn refuse_under_tip_control(&self, before: Option<Frame>) -> Result<()> {
         match (before, self.frame_of_tip()) {
             (Some(before), Some(now)) if before != now => PostCode::TipControl.err(
-                "a text changes the plane, the unit, the zero or the frame, or begins a cycle: \
-                 controls differ in what that does under it",
+                "a text changes the plane, the unit, the zero or the frame, goes to a position of \
+                 the machine or begins a cycle: controls differ in what that does under it",
             ),
             _ => Ok(()),
         }

@@ -80,6 +80,8 @@ pub struct Codes {
     turns: [(FunctionCode, Rotation); 4],
     /// The lowest and the highest code of the work offsets.
     fixtures: Option<(FunctionCode, FunctionCode)>,
+    /// The function that takes the length of the tool off.
+    length_cancel: Option<FunctionCode>,
     /// The functions are those of a SINUMERIK.
     sinumerik: bool,
     /// The function that limits the speed of the spindle.
@@ -105,6 +107,7 @@ impl Codes {
             fixtures: code(loc::FIXTURE_MIN_CODE).zip(code(loc::FIXTURE_MAX_CODE)),
             named: Vec::with_capacity(48),
             turning,
+            length_cancel: code(loc::TOOL_LENGTH_CANCEL_CODE),
             sinumerik: commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik,
             has_cycle_off: commons.read(loc::CYCLE_OFF_CODE).is_some(),
             ranges: loc::RANGE_CODES
@@ -215,6 +218,11 @@ impl Codes {
         let homes: &[f64] = if self.sinumerik { &[74.0, 75.0] } else { &[28.0, 30.0] };
         let is_named = self.named.iter().any(|(named, _)| *named == code);
         !is_named && homes.contains(&code.value())
+    }
+
+    /// True for a function that takes the length of the tool off.
+    pub fn takes_length(&self, code: FunctionCode) -> bool {
+        code == FunctionCode::whole(49) || self.length_cancel == Some(code)
     }
 
     /// True for the code of a spindle range.

@@ -25,6 +25,17 @@ use doubts::Doubts;
 pub use doubts::Place;
 pub use levels::Levels;
 
+/// Whether Z counts from the tip of the tool.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Length {
+    /// Nothing has said it.
+    Unsaid,
+    /// The length of the tool is in force.
+    Called,
+    /// It was, and has been taken off.
+    Taken,
+}
+
 /// How coordinates count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Distance {
@@ -128,6 +139,8 @@ pub struct ControlState {
     pub tool: Option<i64>,
     /// The offset that was called with it.
     pub tool_offset: Option<i64>,
+    /// The length of the tool, as far as functions have called it or taken it off.
+    pub length: Length,
     /// The code of the work offset in force; `None` when it is not known.
     pub fixture: Option<FunctionCode>,
     /// The highest speed of the spindle, turns a minute, as far as the program has said it.
@@ -173,6 +186,7 @@ impl ControlState {
             tool_changes: 0,
             tool: None,
             tool_offset: None,
+            length: Length::Unsaid,
             fixture: None,
             speed_limit: None,
             range: None,
@@ -235,6 +249,15 @@ impl ControlState {
     /// The axes have not moved, and count from another zero.
     pub fn shift_axes(&mut self) {
         AXIS_LETTERS.into_iter().for_each(|letter| self.doubts.shift(letter));
+    }
+
+    /// The length of the tool is called, or taken off.
+    pub fn calls_length(&mut self, on: bool) {
+        self.length = match (on, self.length) {
+            (true, _) => Length::Called,
+            (false, Length::Called) => Length::Taken,
+            (false, other) => other,
+        };
     }
 
     /// The tool has another length: Z counts from elsewhere, but for the values behind a tool
@@ -316,6 +339,7 @@ impl ControlState {
             tool_changes: self.tool_changes,
             tool: None,
             tool_offset: None,
+            length: self.length,
             fixture: None,
             speed_limit: self.speed_limit,
             range: None,
@@ -423,6 +447,7 @@ impl ControlState {
             }
             Meaning::ToolLength => {
                 self.doubt(letters::XYZ[2]);
+                self.calls_length(!codes.takes_length(code));
                 if self.tip_control != Some(false) {
                     self.tip_control = Some(false);
                     self.doubt_axes();
@@ -430,6 +455,7 @@ impl ControlState {
             }
             Meaning::TipControl => {
                 self.tip_control = Some(true);
+                self.calls_length(true);
                 self.doubt_axes();
             }
             Meaning::Frame => {

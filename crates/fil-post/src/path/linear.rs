@@ -36,9 +36,15 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
     if post.control.tables.prepares && prepare(post, *target, kind)? {
         return Ok(());
     }
-    if post.control.state.has_doubts() && !matches!(kind, MotionKind::Rapid(_)) {
-        rotary::refuse_unknown_start(post)?;
-        full_turn::check_zero(&post.control)?;
+    if post.control.state.has_doubts() {
+        post.control.refuse_without_length()?;
+        if !matches!(kind, MotionKind::Rapid(_)) {
+            rotary::refuse_unknown_start(post)?;
+            full_turn::check_zero(&post.control)?;
+        }
+    }
+    if std::mem::take(&mut post.path.turned_by_words) && !matches!(kind, MotionKind::Rapid(_)) {
+        rotary::follow(post);
     }
     let before = post.path.rotary;
     let word = rotary::word_of(post, *target);

@@ -124,6 +124,9 @@ pub struct Path {
     pub(crate) has_index: bool,
     /// What came behind the last motion.
     pub(crate) since: Since,
+    /// POSTN has moved the axes since the last motion. It counts whole turns itself, so that a
+    /// rapid motion need not take them back; one at feed turns from where it has left the machine.
+    pub(crate) turned_by_words: bool,
     /// Diameter of the cutter, mm or inch.
     pub cutter: Option<f64>,
     /// Where the CL file stood when CUTTER named it.
@@ -176,6 +179,7 @@ impl Default for Path {
             has_tracut: false,
             has_index: false,
             since: Since::Motion,
+            turned_by_words: false,
             cutter: None,
             cutter_named_at: None,
             next_tools: NextTools::default(),
@@ -270,13 +274,19 @@ fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
         mill_turn::before(post, &operation)?;
     }
     skip::note(post, &operation);
-    // A script that writes words of its own counts its turns itself.
-    if !matches!(operation, Operation::Text(_)) {
+    if !matches!(operation, Operation::Text(_) | Operation::Words(_)) {
         return write_other(post, operation);
     }
+    let by_words = matches!(operation, Operation::Words(_));
     let stood = rotary::stands(&post.control);
     write_other(post, operation)?;
-    rotary::follow_text(post, stood);
+    if rotary::stands(&post.control) != stood {
+        post.path.leave_point();
+        post.path.turned_by_words = by_words;
+        if !by_words {
+            rotary::follow(post);
+        }
+    }
     Ok(())
 }
 

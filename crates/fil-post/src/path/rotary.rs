@@ -126,8 +126,8 @@ pub(super) fn on_tape(post: &Post) -> [f64; 2] {
 }
 
 /// Refuses a motion at feed while a rotary axis may stand anywhere, or at a position of the
-/// machine while the tool may stand in the part: it would turn by any angle, and the tip would
-/// leave its line.
+/// machine, whose angle in the program is not known: it would turn by any angle, and the tip
+/// would leave its line.
 ///
 /// # Errors
 /// One may.
@@ -137,7 +137,6 @@ pub(super) fn refuse_unknown_start(post: &Post) -> Result<()> {
     if control.tables.mills() {
         return Ok(());
     }
-    let is_clear = || (0..3).any(|number| control.place(number) == Place::Clear);
     for number in AxisSet::ROTARY.and(control.tables.present()).numbers() {
         let letter = control.tables.axis(number).letter;
         match control.place(number) {
@@ -145,11 +144,9 @@ pub(super) fn refuse_unknown_start(post: &Post) -> Result<()> {
                 return PostCode::UnknownTurn
                     .err(format!("where {letter} stands is not known here"));
             }
-            Place::Clear if !is_clear() => {
-                return PostCode::UnknownTurn.err(format!(
-                    "a text has brought {letter} to a position of the machine, and left the tool \
-                     where it was"
-                ));
+            Place::Clear => {
+                return PostCode::UnknownTurn
+                    .err(format!("{letter} stands at a position of the machine"));
             }
             Place::Between(_) => return refuse_level(control, number),
             _ => {}
@@ -202,14 +199,10 @@ pub(super) fn stands(control: &Control) -> [Option<f64>; AXES] {
     std::array::from_fn(|number| control.stands(number))
 }
 
-/// Takes the axes to stand where a text has brought them from where they stood: the next motion
-/// turns from there, and the last point is not the one at which the tool stands.
-pub(super) fn follow_text(post: &mut Post, stood: [Option<f64>; AXES]) {
+/// Takes the rotary axes to stand where a text has brought them: the next motion turns from
+/// there.
+pub(super) fn follow(post: &mut Post) {
     let now = stands(&post.control);
-    if now == stood {
-        return;
-    }
-    post.path.leave_point();
     let tables = &post.control.tables;
     let Some(mut angles) = post.path.rotary.filter(|_| !tables.mills()) else { return };
     for number in AxisSet::ROTARY.and(tables.present()).numbers() {

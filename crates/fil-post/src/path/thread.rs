@@ -38,6 +38,8 @@ pub(crate) struct Pitch {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Turns {
     speed: Option<SpindleSpeed>,
+    /// The highest speed, where the control holds this one to it.
+    held: Option<f64>,
     clockwise: Option<bool>,
 }
 
@@ -221,7 +223,15 @@ pub fn counted_change(post: &Post, lead: Lead, counted: &Lead, target: Target) -
 /// tool would begin at another angle of the spindle, as it lags by the speed.
 fn refuse_other_turns(post: &mut Post) -> Result<()> {
     let control = &post.control;
-    let now = Turns { speed: control.speed, clockwise: spindle::clockwise_in_motion(control) };
+    let above = |limit: &f64| match control.speed {
+        Some(SpindleSpeed::Revolutions(speed)) => speed > *limit,
+        _ => false,
+    };
+    let now = Turns {
+        speed: control.speed,
+        held: control.state.speed_limit.filter(above),
+        clockwise: spindle::clockwise_in_motion(control),
+    };
     match post.path.thread_turns {
         Some(before) if before != now => {
             let mut diag = PostCode::Thread.diag(

@@ -81,9 +81,10 @@ fn table(post: &Post, items: &mut Items) -> Result<usize> {
     }
 }
 
-/// Where a table stands, degrees.
+/// Where a table stands, degrees, over any number of turns.
 fn stands(post: &Post, index: usize, items: &Items) -> Result<f64> {
-    let stands = post.path.rotary.map(|angles| angles[index]);
-    let on_tape = || post.control.axis_position(index + 3);
-    stands.or_else(on_tape).ok_or_else(|| items.error("INCR: where the table stands is not known"))
+    let Some(here) = post.control.stands(index + 3) else {
+        return Err(items.error("INCR: where the table stands is not known"));
+    };
+    Ok(post.path.rotary.map_or(here, |angles| angles[index]))
 }

@@ -243,6 +243,7 @@ fn edge(control: &mut Control, value: f64) {
         control.state.tool_length_changes();
     }
     control.sinumerik.edge = edge;
+    control.state.calls_length(edge != Some(0));
 }
 
 /// Which way the spindle turns, by its M functions.

@@ -33,12 +33,8 @@ pub fn write(control: &mut Control, spindle: Spindle) -> Result<()> {
             Ok(())
         }
         Spindle::Turn(turn) => {
-            let default = || {
-                let code = control.code_if_any(loc::SPINDLE_DEFAULT_CODE);
-                code != control.code_if_any(loc::SPINDLE_CCW_CODE)
-            };
-            control.sinumerik.clockwise = Some(turn.clockwise.unwrap_or_else(default));
             words::write(control, Spindle::Turn(turn))?;
+            control.sinumerik.clockwise = Some(control.turned.unwrap_or(true));
             if turn.speed.is_some() {
                 takes_feed_a_turn(control, turn.speed);
             }

@@ -36,6 +36,7 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     control.state.doubt_axes();
     control.state.tool = Some(wanted.tool);
     control.sinumerik.edge = Some(edge);
+    control.state.calls_length(true);
     Ok(())
 }
 

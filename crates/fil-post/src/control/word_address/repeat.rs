@@ -1,6 +1,7 @@
 //! REPEAT: words that each motion block carries.
 
 use fil_diag::Result;
+use fil_machine::axes::AxisSet;
 use fil_machine::letters::XYZ;
 use fil_machine::{FunctionCode, Letter, letters};
 
@@ -23,6 +24,7 @@ pub fn set(control: &mut Control, words: Vec<(Letter, f64, Cause)>) -> Result<()
     for (letter, value, cause) in words {
         control.require_letter(letter)?;
         refuse_center(letter)?;
+        refuse_rotary(control, letter)?;
         refuse_mode(control, letter, value)?;
         control.ended_repeats.retain(|ended| *ended != letter);
         control.repeats.insert(letter, (value, cause));
@@ -52,6 +54,17 @@ fn warn_of_what_stays(control: &mut Control) {
 
 /// Letters of an arc: on a line they are an alarm, or a chamfer.
 const OF_AN_ARC: &[u8] = b"IJKR";
+
+/// Refuses a rotary axis: each motion would turn the machine away from the tool axis of its
+/// point, at a feed for another way.
+fn refuse_rotary(control: &Control, letter: Letter) -> Result<()> {
+    let mut rotary = AxisSet::ROTARY.and(control.tables.present()).numbers();
+    if !rotary.any(|number| control.tables.axis(number).letter == letter) {
+        return Ok(());
+    }
+    PostCode::WordForm
+        .err(format!("REPEAT: {letter} turns the machine, and the points say where it stands"))
+}
 
 /// Refuses center and radius of an arc.
 fn refuse_center(letter: Letter) -> Result<()> {

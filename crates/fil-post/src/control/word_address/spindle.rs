@@ -37,7 +37,9 @@ pub fn write(control: &mut Control, spindle: Spindle) -> Result<()> {
             if !(limit.is_finite() && limit > 0.0) {
                 return PostCode::WordForm.err(format!("SPINDL: a highest speed of {limit}"));
             }
-            limit_block(control, limit)
+            limit_block(control, limit)?;
+            warn_above_limit(control, control.speed);
+            Ok(())
         }
         Spindle::Turn(turn) => start(control, turn),
         Spindle::Side(side) => side_spindle(control, side),
