@@ -182,8 +182,12 @@ impl Model<'_> {
                 let side = if left { "LEFT" } else { "RIGHT" };
                 let given = offset.map_or(String::new(), |offset| format!(", {offset}"));
                 self.line(&format!("CUTCOM / {side}{given}"));
-                // On a lathe the nose is in the offset of the tool, and nothing names it.
-                let of_lathe = self.setup.turns().then_some(0);
+                // On a lathe the nose is in the offset of the tool, and nothing names it, but
+                // where LinuxCNC would take the radius of the tool itself.
+                let is_other = self.tool_offset.is_some() && self.tool_offset != self.tool;
+                let names = self.setup.ready == "linuxcnc-lathe" && is_other;
+                let of_offset = self.tool_offset.filter(|_| names).unwrap_or(0);
+                let of_lathe = self.setup.turns().then_some(of_offset);
                 let Some(number) = of_lathe.or(offset).or(self.tool) else {
                     return self.out.unpredictable = true;
                 };

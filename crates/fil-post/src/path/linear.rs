@@ -59,7 +59,7 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
             None => rapid::rapid(&mut post.control, &motion, cause)?,
         },
         MotionKind::Feed => match rotary::turned(before, post.path.rotary) {
-            Some(before) if !rotary::begins_anywhere(post) => {
+            Some(before) if !rotary::begins_anywhere(post)? => {
                 turning::feed(post, before, &motion, *target)?;
             }
             _ if feed_rules::apply(post) => feed_rules::line(post, &motion, *target, None)?,

@@ -171,19 +171,26 @@ pub(super) fn refuse_compensated(post: &Post, before: Option<[f64; 2]>) -> Resul
 /// True where a motion begins where nobody knows the axes to stand, as behind a tool change or
 /// another work offset: it can be neither divided nor timed, and goes straight to its end at the
 /// plain feed, with a warning.
+///
+/// # Errors
+/// The skip switch decides where it begins.
 #[inline]
-pub(super) fn begins_anywhere(post: &mut Post) -> bool {
+pub(super) fn begins_anywhere(post: &mut Post) -> Result<bool> {
     let in_doubt = post.path.since == Since::ToolChange
         || post.path.point.is_none()
         || post.control.state.has_doubts();
-    in_doubt && is_lost(post)
+    if in_doubt { is_lost(post) } else { Ok(false) }
 }
 
 #[cold]
-fn is_lost(post: &mut Post) -> bool {
+fn is_lost(post: &mut Post) -> Result<bool> {
     let tables = &post.control.tables;
     if tables.mills() || post.writes_tip() {
-        return false;
+        return Ok(false);
+    }
+    let depends = |number: &usize| matches!(post.control.place(*number), Place::Between(_));
+    if let Some(number) = tables.written().numbers().find(depends) {
+        return refuse_level(&post.control, number);
     }
     let lost = tables.written().numbers().any(|number| post.control.stands(number).is_none());
     if lost {
@@ -191,7 +198,7 @@ fn is_lost(post: &mut Post) -> bool {
             "a motion at feed that turns the machine from an unknown place is not divided";
         post.warn(PostCode::Undivided, message.to_string());
     }
-    lost
+    Ok(lost)
 }
 
 /// Where the axes stand, whoever has brought them there.
