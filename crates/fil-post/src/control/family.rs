@@ -218,6 +218,18 @@ pub fn start_of_arc(control: &Control, on_tape: [f64; 2]) -> [f64; 2] {
     control.klartext.start(on_tape)
 }
 
+/// The same behind an arc whose end the tape says is `on_tape`.
+///
+/// # Errors
+/// A position that does not fit its address.
+#[inline]
+pub fn end_of_arc(control: &Control, arc: &PlaneArc, on_tape: [f64; 2]) -> Result<[f64; 2]> {
+    match control.tables.family {
+        ControlFamily::Klartext => klartext::motion::end_of_arc(control, arc, on_tape),
+        _ => Ok(on_tape),
+    }
+}
+
 /// Writes the block of an arc.
 ///
 /// # Errors

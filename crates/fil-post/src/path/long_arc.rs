@@ -100,7 +100,7 @@ pub(crate) struct Parts {
     step: f64,
     /// No part is shorter, degrees.
     least: f64,
-    /// Where the part before ended: exactly, as the tape has it, and in degrees from the start.
+    /// Where the part before ended: exactly, as the control has it, and in degrees from the start.
     from: [f64; 5],
     start: [f64; 2],
     done: f64,
@@ -164,9 +164,11 @@ impl Parts {
         let word = if self.over { arc.word } else { 0 };
         let (from, start, sweep) = (self.from, self.start, stop - self.done);
         let part = PlaneArc { from, start, to, sweep, word, ..*arc };
-        for (start, number) in self.start.iter_mut().zip(axes) {
-            *start = post.control.tables.axis(number).on_tape(to[number])?;
+        let mut on_tape = [0.0; 2];
+        for (end, number) in on_tape.iter_mut().zip(axes) {
+            *end = post.control.tables.axis(number).on_tape(to[number])?;
         }
+        self.start = family::end_of_arc(&post.control, &part, on_tape)?;
         (self.from, self.done) = (to, stop);
         Ok(Some(part))
     }

@@ -44,7 +44,10 @@ pub fn of(control: &Control, arc: &PlaneArc, stands: [f64; 2]) -> Result<Option<
     let axes = arc.plane.axes();
     let digits = axes.map(|number| control.tables.axis(number).resolution());
     let end = axes.map(|number| arc.to[number]);
-    let closes = arc.sweep > 180.0 && words::distance(stands, end) < 2.5 * digits[0].max(digits[1]);
+    let lands = |point: [f64; 2]| {
+        (0..2).all(|index| (point[index] - end[index]).abs() <= BESIDE * digits[index])
+    };
+    let closes = arc.sweep > 180.0 && lands(stands);
     let center = if closes { arc.center } else { on_bisector(arc.center, stands, end) };
     let mut pole = [0.0; 2];
     for (index, number) in axes.into_iter().enumerate() {
@@ -56,9 +59,8 @@ pub fn of(control: &Control, arc: &PlaneArc, stands: [f64; 2]) -> Result<Option<
     let turned = (turned * ANGLE).round() / ANGLE;
     let angle = if arc.counterclockwise { turned } else { -turned };
     let reached = rotated(pole, stands, angle);
-    let lands = |index: usize| (reached[index] - end[index]).abs() <= BESIDE * digits[index];
     let meant = turned > 0.0
-        && (closes || lands(0) && lands(1))
+        && lands(reached)
         && words::turns_as_meant(control, arc, stands, (pole, turned));
     Ok(meant.then_some(Helix { pole, angle, end: reached }))
 }
@@ -72,12 +74,13 @@ fn on_bisector(center: [f64; 2], from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
     [center[0] - along * chord[0], center[1] - along * chord[1]]
 }
 
-/// Degrees from start to end about a pole in the sense of the arc, above 0.
+/// Degrees from start to end about a pole in the sense of the arc: of the angles that lead there,
+/// the one nearest to its sweep, which may be a little more than a full turn.
 fn turned(arc: &PlaneArc, pole: [f64; 2], from: [f64; 2], to: [f64; 2]) -> f64 {
     let angle = |point: [f64; 2]| libm::atan2(point[1] - pole[1], point[0] - pole[0]).to_degrees();
     let turned = angle(to) - angle(from);
     let turned = if arc.counterclockwise { turned } else { -turned };
-    turned.rem_euclid(360.0)
+    turned + 360.0 * ((arc.sweep - turned) / 360.0).round()
 }
 
 fn rotated(pole: [f64; 2], point: [f64; 2], angle: f64) -> [f64; 2] {

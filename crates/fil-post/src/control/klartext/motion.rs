@@ -89,16 +89,30 @@ pub fn reads_as_meant(control: &Control, arc: &PlaneArc) -> Result<bool> {
     arc::reads_as_meant(control, arc)
 }
 
+/// Where the tool stands in X and Y behind an arc, whose words end at `on_tape`: a helix has no
+/// such words.
+///
+/// # Errors
+/// A position that does not fit its address.
+pub fn end_of_arc(control: &Control, arc: &PlaneArc, on_tape: [f64; 2]) -> Result<[f64; 2]> {
+    let helix =
+        if helix::rises(control, arc)? { helix::of(control, arc, arc.start)? } else { None };
+    Ok(helix.map_or(on_tape, |helix| helix.end))
+}
+
 /// An arc: its pole, and the line to its end; a helix turns by an angle instead.
 ///
 /// # Errors
-/// As [`feed`].
+/// As [`feed`]; a helix that no angle turns to its end, since the line to the end of an arc has
+/// no word for its rise.
 pub fn arc(control: &mut Control, arc: &PlaneArc, feed: Option<&Feed>) -> Result<()> {
     ready(control)?;
-    let stands = control.klartext.start(arc.start);
-    let helix = if helix::rises(control, arc)? { helix::of(control, arc, stands)? } else { None };
-    if let Some(helix) = helix {
-        return turn(control, arc, helix, feed);
+    if helix::rises(control, arc)? {
+        let stands = control.klartext.start(arc.start);
+        return match helix::of(control, arc, stands)? {
+            Some(helix) => turn(control, arc, helix, feed),
+            None => refuse("a helix that no angle with its digits turns to its end"),
+        };
     }
     let pole = pole(control, arc, arc.center)?;
     let end = Motion { position: arc.to, axes: AxisSet::LINEAR, word: arc.word };
