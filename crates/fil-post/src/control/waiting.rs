@@ -29,8 +29,8 @@ pub enum Function {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Due {
     Any,
-    Xy,
-    Z,
+    /// One that moves one of these axes.
+    Along(AxisSet),
 }
 
 /// Words that wait for a motion.
@@ -67,7 +67,8 @@ impl Control {
         if let Some(at) = self.waiting.words.iter().position(|(old, ..)| *old == function) {
             let (_, _, old) = self.waiting.words.remove(at);
             if function == Function::Compensation {
-                let message = "CUTCOM: no motion came before the next CUTCOM".to_string();
+                let message =
+                    "CUTCOM: no motion in its plane came before the next CUTCOM".to_string();
                 self.warnings.add(PostCode::IgnoredPart, message);
             } else {
                 self.block = old;
@@ -77,8 +78,8 @@ impl Control {
         self.block = block;
         let due = match placement {
             Placement::BlockOfItsOwn => return self.write_block(),
-            Placement::NextXyBlock => Due::Xy,
-            Placement::NextZBlock => Due::Z,
+            Placement::NextXyBlock => Due::Along(AxisSet::XY),
+            Placement::NextZBlock => Due::Along(AxisSet::of(2)),
         };
         let block = self.block.take();
         self.waiting.words.push((function, due, block));
@@ -87,8 +88,27 @@ impl Control {
 
     /// Lets the words of a function come with the next motion, whichever axis moves.
     pub fn comes_with_any_motion(&mut self, function: Function) {
+        self.comes_with(function, Due::Any);
+    }
+
+    /// Lets them come with the next motion of one of these axes.
+    pub fn comes_with_motion_of(&mut self, function: Function, axes: AxisSet) {
+        self.comes_with(function, Due::Along(axes));
+    }
+
+    fn comes_with(&mut self, function: Function, motion: Due) {
         for (_, due, _) in self.waiting.words.iter_mut().filter(|(of, ..)| *of == function) {
-            *due = Due::Any;
+            *due = motion;
+        }
+    }
+
+    /// True where the motion in the block is one that words wait for; `turning` are the axes
+    /// that it moves with or without a word: those of an arc, whose end may be its start.
+    fn is_due(&self, due: Due, turning: AxisSet) -> bool {
+        let moves = |number| turning.has(number) || self.block_has(self.tables.axis(number).letter);
+        match due {
+            Due::Any => true,
+            Due::Along(axes) => axes.numbers().any(moves),
         }
     }
 
@@ -132,44 +152,31 @@ impl Control {
     }
 
     /// Writes a work offset before the motion in the block, where that motion does not
-    /// bring it along: nothing may move in the offset before.
+    /// bring it along: nothing may move in the offset before. `turning` are the axes of an arc.
     ///
     /// # Errors
     /// As [`Control::write_block`].
     pub(crate) fn work_offset_first(&mut self, turning: AxisSet) -> Result<()> {
         let due =
             self.waiting.words.iter().find(|(function, ..)| *function == Function::WorkOffset);
-        let Some((_, due, _)) = due else { return Ok(()) };
-        let moves = |number| turning.has(number) || self.block_has(self.tables.axis(number).letter);
-        let comes_along = match due {
-            Due::Any => true,
-            Due::Xy => moves(0) || moves(1),
-            Due::Z => moves(2),
-        };
-        if comes_along { Ok(()) } else { self.flush_function(Function::WorkOffset) }
+        match due {
+            Some((_, due, _)) if !self.is_due(*due, turning) => {
+                self.flush_function(Function::WorkOffset)
+            }
+            _ => Ok(()),
+        }
     }
 
-    /// Adds the words that wait for the motion in the block; `turning` are the axes that
-    /// it moves with or without a word: those of an arc, whose end may be its start.
+    /// Adds the words that wait for the motion in the block; `turning` as for a work offset.
     pub(crate) fn take_waiting(&mut self, turning: AxisSet) {
-        let moves = |control: &Control, number| {
-            turning.has(number) || control.block_has(control.tables.axis(number).letter)
-        };
-        let moves_xy = moves(self, 0) || moves(self, 1);
-        let moves_z = moves(self, 2);
-        let mut words = std::mem::take(&mut self.waiting.words);
-        words.retain(|(_, due, words)| {
-            let due = match due {
-                Due::Any => true,
-                Due::Xy => moves_xy,
-                Due::Z => moves_z,
-            };
-            if due {
-                self.block.merge(words);
-            }
-            !due
-        });
-        self.waiting.words = words;
+        let words = std::mem::take(&mut self.waiting.words);
+        // What is due is found before words are added that a motion could be taken from.
+        let (due, later): (Vec<_>, Vec<_>) =
+            words.into_iter().partition(|(_, due, _)| self.is_due(*due, turning));
+        for (_, _, words) in &due {
+            self.block.merge(words);
+        }
+        self.waiting.words = later;
     }
 
     /// Takes away the words of a function that wait; says whether there were any.

@@ -1,6 +1,7 @@
 //! Cutter compensation: its plane, its side, its offset.
 
 use fil_diag::Result;
+use fil_machine::axes::AxisSet;
 use fil_machine::letters::T;
 use fil_machine::locations::{self as loc, ControlFamily, Placement, ToolFormat};
 use fil_machine::modes::Plane;
@@ -13,7 +14,7 @@ use crate::errors::PostCode;
 use crate::operation::CutterCompensation;
 
 /// Puts the compensation code, and the offset number when it is switched on, with
-/// the next motion of X or Y or in a block of their own.
+/// the next motion in its plane or in a block of their own.
 ///
 /// # Errors
 /// A code the machine lacks; an offset where no tool and no number gives one.
@@ -44,11 +45,19 @@ pub fn write(control: &mut Control, wanted: CutterCompensation) -> Result<()> {
     let with_motion = control.commons.read(loc::CUTCOM_WITH_MOTION);
     let placement = if with_motion { Placement::NextXyBlock } else { Placement::BlockOfItsOwn };
     control.place_block(Function::Compensation, placement)?;
+    control.comes_with_motion_of(Function::Compensation, axes_of_plane(control));
     if control.commons.read(loc::LATHE_DIAMETER) && !control.tables.mills() {
         // Its plane is that of X and Z, and no motion leaves it.
         control.comes_with_any_motion(Function::Compensation);
     }
     Ok(())
+}
+
+/// The axes of the plane in force, in polar interpolation those of the face.
+fn axes_of_plane(control: &Control) -> AxisSet {
+    let said = if control.tables.is_polar() { Some(Plane::Xy) } else { control.state.plane };
+    let [first, second] = said.unwrap_or_else(|| usual_plane(control)).axes();
+    AxisSet::of(first).or(AxisSet::of(second))
 }
 
 /// Refuses a plane of Y on a lathe that has none: its tool goes by X and Z alone.
