@@ -134,11 +134,8 @@ fn begin(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<TiltedFra
     let turn = turn_of(chain, angles);
     let known = knows_rotary(&post.control);
     let rests = known && still(stands, angles);
-    if at_feed && !rests && !post.control.tip.is_away && post.path.point.is_some() {
-        return PostCode::Frame.err(
-            "the machine turns, or a text or another work offset may have turned it, before a \
-             motion at feed; RAPID brings the tool there anew",
-        );
+    if at_feed && !post.control.tip.is_away && post.path.point.is_some() {
+        refuse_at_feed(&post.control, rests)?;
     }
     tip_control::end(&mut post.control)?;
     end(&mut post.control)?;
@@ -162,6 +159,28 @@ fn begin(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<TiltedFra
     post.path.frames += 1;
     post.path.rotary = Some(angles);
     Ok(frame)
+}
+
+/// Refuses a frame that begins in a motion at feed from where the tool does not stand behind its
+/// blocks.
+///
+/// # Errors
+/// The machine turns, or tool-tip control ends by G49, before which the tool goes up or behind
+/// which the control does not count with its length.
+fn refuse_at_feed(control: &Control, rests: bool) -> Result<()> {
+    if !rests {
+        return PostCode::Frame.err(
+            "the machine turns, or a text or another work offset may have turned it, before a \
+             motion at feed; RAPID brings the tool there anew",
+        );
+    }
+    if tip_control::ends_elsewhere(control) {
+        return PostCode::Frame.err(
+            "tool-tip control ends before a motion at feed, which would begin elsewhere; RAPID \
+             brings the tool there anew",
+        );
+    }
+    Ok(())
 }
 
 /// The tool lies along an axis where the machine stands at zero, and it can stand there.

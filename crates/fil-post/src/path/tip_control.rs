@@ -217,6 +217,13 @@ fn turn_tables_to_zero(post: &mut Post) -> Result<()> {
     Ok(())
 }
 
+/// True where tool-tip control may be on, and the program can't say where the tool stands behind
+/// its end.
+pub(super) fn ends_elsewhere(control: &Control) -> bool {
+    let may_be_on = control.tables.tip_output && control.state.tip_control != Some(false);
+    may_be_on && control.tables.family == ControlFamily::WordAddress
+}
+
 /// Ends tool-tip control where it may be on; what goes to a position of the machine next
 /// still has the length of the tool, with its motion of Z.
 ///
