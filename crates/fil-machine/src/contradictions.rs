@@ -72,6 +72,7 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     tape(commons, &mut found);
     numbers::ranges(commons, &mut found);
     prepared_tools(commons, &mut found);
+    tools_in_one_word(commons, &mut found);
     found
 }
 
@@ -346,6 +347,23 @@ fn prepared_tools(commons: &Commons, found: &mut Vec<Diag>) {
         found.push(contradiction(
             "T prepares the next tool (tool.preselect), and T changes the tool by itself".into(),
         ));
+    }
+}
+
+/// T0101 is a word of lathes in word address: a SINUMERIK calls edges by D, and Klartext has
+/// TOOL CALL.
+fn tools_in_one_word(commons: &Commons, found: &mut Vec<Diag>) {
+    let family = match commons.read(loc::CONTROL_FAMILY) {
+        ControlFamily::WordAddress => return,
+        ControlFamily::Sinumerik => "a SINUMERIK",
+        ControlFamily::Klartext => "Klartext",
+    };
+    let form = commons.read(loc::TOOL_FORMAT);
+    if form != ToolFormat::TWordAndChangeCode {
+        found.push(contradiction(format!(
+            "tool.format {} asks for tool and offset in one T word, and {family} has no such word",
+            form as u16
+        )));
     }
 }
 

@@ -164,6 +164,18 @@ pub(super) fn check(commons: &Commons, found: &mut Vec<Diag>) {
     return_levels(commons, found);
     calls(commons, found);
     coolants(commons, found);
+    turns_behind_surface_speed(commons, found);
+}
+
+/// What ends a surface speed: without a code for it, S would go on as one.
+fn turns_behind_surface_speed(commons: &Commons, found: &mut Vec<Diag>) {
+    let Some(code) = commons.read(loc::SPINDLE_CSS_CODE) else { return };
+    if commons.read(loc::SPINDLE_RPM_CODE).is_none() {
+        found.push(contradiction(format!(
+            "spindle.css_code G{code} makes S a surface speed, and no spindle.rpm_code makes it \
+             turns a minute again"
+        )));
+    }
 }
 
 fn same_codes(commons: &Commons, group: &[(CodeAt, &str)], found: &mut Vec<Diag>) {

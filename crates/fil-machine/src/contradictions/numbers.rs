@@ -99,6 +99,7 @@ pub(super) fn ranges(commons: &Commons, found: &mut Vec<Diag>) {
         range(dbl(low), dbl(high), &format!("travel of {name}"));
     }
     range(dbl(loc::FEED_UPM_MIN), dbl(loc::FEED_UPM_MAX), "feed");
+    range(dbl(loc::FEED_INVERSE_MIN), dbl(loc::FEED_INVERSE_MAX), "inverse time");
     range(dbl(loc::ROTARY_PRIMARY_MIN), dbl(loc::ROTARY_PRIMARY_MAX), "first rotary axis");
     range(dbl(loc::ROTARY_SECONDARY_MIN), dbl(loc::ROTARY_SECONDARY_MAX), "second rotary axis");
     for (index, (low, high)) in loc::RANGE_SPEEDS.into_iter().enumerate() {

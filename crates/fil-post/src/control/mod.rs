@@ -336,9 +336,10 @@ impl Control {
         Ok(())
     }
 
-    /// Adds a feed word unless the control has that value; notes its cause.
+    /// Adds a feed word unless the control has that value; notes its cause. In inverse time each
+    /// block needs its own.
     pub(crate) fn modal_feed(&mut self, letter: Letter, feed: &Feed) -> Result<()> {
-        let known = self.state.has_last(letter);
+        let known = feed.mode != FeedMode::InverseTime && self.state.has_last(letter);
         if known && self.commons.last_output(letter) == feed.value {
             return Ok(());
         }

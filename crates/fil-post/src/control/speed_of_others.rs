@@ -6,6 +6,7 @@ use fil_machine::locations as loc;
 use fil_machine::{FunctionCode, Letter};
 
 use super::Control;
+use crate::control_state::Meaning;
 use crate::operation::SpindleSpeed;
 
 /// Learns from the words of a block, behind what its functions do. `skipped`: it may be left out.
@@ -23,7 +24,8 @@ pub(super) fn learn(control: &mut Control, words: &[(Letter, f64)], skipped: boo
         control.state.speed_limit = said.filter(|_| !skipped).or(control.state.speed_limit);
         return;
     }
-    let changes = named(loc::SPINDLE_CSS_CODE) || named(loc::SPINDLE_RPM_CODE);
+    let is_of_speed = |code| matches!(control.meaning(code), Meaning::SurfaceSpeed(_));
+    let changes = codes().any(is_of_speed);
     if named(loc::DWELL_CODE) || said.is_none() && !changes {
         return;
     }

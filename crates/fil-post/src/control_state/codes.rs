@@ -238,9 +238,26 @@ impl Codes {
         self.turns.iter().find(|(turning, _)| *turning == code).map(|(_, rotation)| *rotation)
     }
 
-    /// G96 and G97 stand in one group with G94 and G95, and are feeds a turn.
-    pub fn speeds_are_feeds_a_turn(&self) -> bool {
+    /// True where the functions of the speed stand in one group with those of the feed.
+    pub fn speeds_are_feeds(&self) -> bool {
         self.sinumerik
+    }
+
+    /// What F counts behind a function of the speed: on a SINUMERIK G96, G97 and G973 are feeds a
+    /// turn, G961 and G971 feeds a minute, and G962 and G972 leave it open.
+    pub fn feed_behind_speed(
+        &self,
+        code: FunctionCode,
+        before: Option<FeedMode>,
+    ) -> Option<FeedMode> {
+        const A_MINUTE: [FunctionCode; 2] = [FunctionCode::whole(961), FunctionCode::whole(971)];
+        const OPEN: [FunctionCode; 2] = [FunctionCode::whole(962), FunctionCode::whole(972)];
+        match code {
+            _ if !self.speeds_are_feeds() => before,
+            _ if A_MINUTE.contains(&code) => Some(FeedMode::PerMinute),
+            _ if OPEN.contains(&code) => None,
+            _ => Some(FeedMode::PerRevolution),
+        }
     }
 
     /// True for words that place the zero: those of the function that limits the speed, which on a
@@ -351,8 +368,8 @@ fn of_sinumerik(code: u16) -> Meaning {
     match code {
         0..=3 | 33..=35 | 331 | 332 => Meaning::Motion,
         4 | 9 | 25 | 26 | 60 | 64 | 601..=603 | 641..=645 | 450 | 451 => Meaning::OneBlock,
-        96 => Meaning::SurfaceSpeed(true),
-        97 => Meaning::SurfaceSpeed(false),
+        96 | 961 | 962 => Meaning::SurfaceSpeed(true),
+        97 | 971..=973 => Meaning::SurfaceSpeed(false),
         17 => Meaning::Plane(Plane::Xy),
         18 => Meaning::Plane(Plane::Zx),
         19 => Meaning::Plane(Plane::Yz),

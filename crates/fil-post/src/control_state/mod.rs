@@ -429,10 +429,10 @@ impl ControlState {
             }
             Meaning::SurfaceSpeed(on) => {
                 self.surface_speed = Some(on);
-                if codes.speeds_are_feeds_a_turn() {
+                if codes.speeds_are_feeds() {
                     self.doubt(letters::F);
-                    self.feed_mode = Some(FeedMode::PerRevolution);
                 }
+                self.feed_mode = codes.feed_behind_speed(code, self.feed_mode);
             }
             Meaning::Diameters => self.x_is_as_written = true,
             Meaning::OneBlock => {}
