@@ -6,7 +6,7 @@ use fil_machine::letters::XYZ;
 use fil_machine::locations as loc;
 use nalgebra::{Point3, Vector3};
 
-use super::{hole, tip_control};
+use super::{hole, tip_hole};
 use crate::cause::Cause;
 use crate::control::family;
 use crate::operation::{Feed, Lead};
@@ -135,7 +135,7 @@ pub fn replace(post: &mut Post, cycle: Option<Cycle>) -> Result<()> {
         && post.control.commons.read(loc::CYCLE_RETRACT_BLOCK)
     {
         match &mut old.above {
-            Some(above) => tip_control::retract(post, above)?,
+            Some(above) => tip_hole::retract(post, above)?,
             None => hole::retract(post, old)?,
         }
     }

@@ -9,7 +9,7 @@ use fil_machine::locations::{
 };
 
 use super::cycle::{Cycle, CycleKind, Hole};
-use super::{expand, frame, mill_turn, rapid, rotary, scaled_lead, tip_control};
+use super::{expand, frame, mill_turn, rapid, rotary, scaled_lead, tip_hole};
 use crate::control::place::refuse_unknown;
 use crate::control::skip::refuse_level;
 use crate::control::word_address::cycle as words;
@@ -54,7 +54,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
         post.warn(PostCode::SpindleStands, message);
     }
     if post.writes_tip() {
-        return tip_control::hole(post, cycle, target);
+        return tip_hole::hole(post, cycle, target);
     }
     if post.control.tables.frame_output && frame::turn_to(post, target, false)? {
         (cycle.initial, cycle.above, cycle.in_force) = (None, None, None);

@@ -32,6 +32,7 @@ pub mod thread;
 mod thread_shape;
 mod tip;
 pub mod tip_control;
+mod tip_hole;
 pub mod tool_change;
 mod transformation;
 mod turning;
