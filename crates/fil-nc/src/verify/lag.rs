@@ -37,6 +37,7 @@ impl<T: Copy + PartialEq> Lag<T> {
         let due = self.next.is_some_and(|(_, due)| match due {
             Due::Now => true,
             Due::WithXY => moved.xy,
+            Due::InPlane => moved.in_plane,
             Due::WithAny => moved.xy || moved.z,
             Due::WithZ => moved.z,
         });
@@ -58,4 +59,6 @@ impl<T: Copy + PartialEq> Lag<T> {
 pub(super) struct Moved {
     pub(super) xy: bool,
     pub(super) z: bool,
+    /// One of the axes of the plane in force.
+    pub(super) in_plane: bool,
 }

@@ -19,7 +19,7 @@ use super::wanted::{Step, Wanted};
 use super::window::Window;
 use crate::events::Events;
 use crate::forward::Pose;
-use crate::motion::{Compensation, Course, Event, Modes, Move, Position};
+use crate::motion::{Compensation, Course, DRILLED, Event, Modes, Move, Position};
 
 /// What X is multiplied by when it is a diameter.
 const DIAMETER: f64 = 2.0;
@@ -422,7 +422,12 @@ impl<'a, C: Steps> Walk<'a, C> {
             let turns = found.arc.is_some_and(|arc| arc.normal != n);
             turns || way > STILL || (found.known[n] && !self.known[n])
         };
-        let moved = Moved { xy: differs(0) || differs(1), z: differs(2) };
+        let normal = found.modes.plane.map_or(DRILLED, |(normal, _)| normal);
+        let moved = Moved {
+            xy: differs(0) || differs(1),
+            z: differs(2),
+            in_plane: (0..3).any(|n| n != normal && differs(n)),
+        };
         if moved.xy || moved.z {
             (self.cutter_is_fresh, self.tool_is_fresh) = (false, false);
         }

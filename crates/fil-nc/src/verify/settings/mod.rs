@@ -39,6 +39,8 @@ pub enum Due {
     Now,
     /// When X or Y moves.
     WithXY,
+    /// When an axis of the plane in force moves.
+    InPlane,
     /// With the next motion of any of them.
     WithAny,
     /// When Z moves.
@@ -356,7 +358,7 @@ impl<'c> Settings<'c> {
         match self.commons.read(loc::CUTCOM_WITH_MOTION) {
             false => Due::Now,
             true if self.commons.read(loc::LATHE_DIAMETER) && !mills => Due::WithAny,
-            true => Due::WithXY,
+            true => Due::InPlane,
         }
     }
 
