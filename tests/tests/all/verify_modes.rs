@@ -2,7 +2,7 @@
 //! of texts and of work offsets.
 
 use fil_nc::verify::{Allowed, FindingKind, Report, Verdict};
-use filpost::Diag;
+use filpost::{Diag, Program};
 use filpost_tests::nc_cases::{self, NcCase};
 use filpost_tests::{back_check, root};
 
@@ -296,4 +296,121 @@ fn a_helix_without_a_turn_is_a_line() {
     assert_eq!(said(nc), "");
     assert_ne!(said(&nc.replace("Z+0.8", "Z+0.9")), "");
     assert_ne!(said(&nc.replace("Z+0.8", "X+2.235 Z+0.8")), "");
+}
+
+/// What is found in a program of a ready post with settings; the lines of both are divided by
+/// `; `.
+fn found(ready: &str, settings: &[&str], cl: &str, nc: &str) -> String {
+    let start = Program::builder().ready(ready);
+    let post = settings.iter().fold(start, |builder, setting| builder.set(setting));
+    let post = post.build().expect("a machine");
+    let cl = format!("UNITS / MM\n{}\nFINI\n", cl.replace("; ", "\n"));
+    match back_check::check(post.commons(), &cl, &nc.replace("; ", "\n"), Allowed::default()) {
+        Ok(report) => listed(&report),
+        Err(refused) => refused.to_string(),
+    }
+}
+
+const TOOL: &str = "LOADTL / 1; SPINDL / RPM, 1000, CLW; FEDRAT / 200, MMPM";
+const DOWN: &str = "RAPID; GOTO / 0, 0, 50; GOTO / 0, 0, 10";
+const FANUC: &str = "%; O0001 (1); G21 G90 G94 G17; T1 M6; S1000 M3; G0 X0. Y0.; G43 Z50. H1; \
+                     G1 Z10. F200.";
+const SINUMERIK: &str = "%_N_N_1_MPF; G710 G90 G94 G17; T1 M6; D1; S1000 M3; G0 X0 Y0; Z50; \
+                         G1 Z10 F200";
+
+/// A line in two blocks may begin where an axis stands at a point of the machine: the first
+/// block leaves that axis there.
+#[test]
+fn a_line_in_two_blocks_from_a_point_of_the_machine_agrees() {
+    for (method, text, blocks) in
+        [(1, "G28 Z0", ["X5. Y5.", "Z5."]), (2, "G53 G0 X0 Y0", ["G1 Z5.", "X5. Y5."])]
+    {
+        let settings = [format!("linear.method={method}")];
+        let settings = [settings[0].as_str()];
+        let cl = format!("{TOOL}; {DOWN}; INSERT / {text}; GOTO / 5, 5, 5");
+        let [first, second] = blocks;
+        let nc = format!("{FANUC}; {text}; {first}; {second}; M30; %");
+        assert_eq!(found("fanuc-mill", &settings, &cl, &nc), "");
+        // A first block that ends beside the corner, or moves what it should leave.
+        for (old, new) in [("X5. Y5.", "X5. Y6."), (first, "X5. Y5. Z6.")] {
+            let wrong = nc.replacen(old, new, 1);
+            assert_ne!(found("fanuc-mill", &settings, &cl, &wrong), "", "{wrong}");
+        }
+    }
+    let cl = format!("{TOOL}; {DOWN}; INSERT / G75 Z0; GOTO / 5, 5, 5");
+    let nc = format!("{SINUMERIK}; G75 Z0; X5 Y5; Z5; M30");
+    assert_eq!(found("sinumerik-840d", &["linear.method=1"], &cl, &nc), "");
+}
+
+/// `G30` goes to the second reference point, and to one of a number by its P.
+#[test]
+fn the_number_of_a_reference_point_is_read() {
+    let cl = |text: &str| format!("{TOOL}; {DOWN}; INSERT / {text}; RAPID; GOTO / 5, 5, 50");
+    let nc = |text: &str| format!("{FANUC}; {text}; G0 X5. Y5.; Z50.; M30; %");
+    for text in ["G30 Z0", "G30 P2 Z0", "G30 P4 Z0"] {
+        assert_eq!(found("fanuc-mill", &[], &cl(text), &nc(text)), "");
+    }
+    for text in ["G30 P1 Z0", "G30 P5 Z0", "G28 P2 Z0"] {
+        let said = found("fanuc-mill", &[], &cl(text), &nc(text));
+        assert!(said.contains("no reference point") || said.contains("nothing takes it"), "{said}");
+    }
+}
+
+/// A text that takes the length of the tool off, as on a way to a point of the machine, does not
+/// say that what the CL file moves behind it goes without.
+#[test]
+fn a_way_behind_a_text_that_takes_the_length_off_is_found_without_it() {
+    let missing = "no length offset is on, it should be 1";
+    for text in ["G53 G0 Z0 D0", "SUPA G0 Z0 D0", "D0"] {
+        let cl = format!("{TOOL}; {DOWN}; INSERT / {text}; RAPID; GOTO / 20, 0, 50");
+        let nc = format!("{SINUMERIK}; {text}; G0 X20 Y0; Z50; M30");
+        let said = found("sinumerik-840d", &[], &cl, &nc);
+        assert!(said.contains(missing), "{text}: {said}");
+        let right = nc.replace("; Z50; M30", "; D1 Z50; M30");
+        let said = found("sinumerik-840d", &[], &cl, &right);
+        assert!(text == "D0" || said.is_empty(), "{text}: {said}");
+    }
+    let text = "G91 G28 Z0 G49";
+    let cl = format!("{TOOL}; {DOWN}; INSERT / {text}; RAPID; GOTO / 20, 0, 50");
+    let nc = format!("{FANUC}; {text}; G90; G0 X20. Y0.; Z50.; M30; %");
+    let said = found("fanuc-mill", &[], &cl, &nc);
+    assert!(said.contains(missing), "{said}");
+    let right = nc.replace("; Z50.; M30", "; G43 Z50. H1; M30");
+    assert_eq!(found("fanuc-mill", &[], &cl, &right), "");
+    // At the end it may stay off.
+    let cl = format!("{TOOL}; {DOWN}; INSERT / {text}");
+    let nc = format!("{FANUC}; {text}; M30; %");
+    assert_eq!(found("fanuc-mill", &[], &cl, &nc), "");
+}
+
+/// The first motion of a live tool is a hole on the side: X, which goes along it, is not known
+/// before.
+#[test]
+fn the_first_hole_of_a_live_tool_on_the_side_agrees() {
+    let cl = "MODE / MILL; LOADTL / 7; SPINDL / RPM, 3000, CLW; FEDRAT / 150, MMPM; \
+              CYCLE / DRILL, DEPTH, 5, MMPM, 100, CLEAR, 2; GOTO / 30, 0, -5, 1, 0, 0; \
+              CYCLE / OFF";
+    let nc = "%; O0001 (1); G21 G99 G18; M51; T0707; G97 S3000 M13; G0 Z-5. C0.; X64.; \
+              G1 G98 X50. F100.; G0 X64.; M15; M50; M30; %";
+    assert_eq!(found("fanuc-mill-turn", &[], cl, nc), "");
+    // Z and C come behind the R level.
+    let across = nc.replace("G0 Z-5. C0.; X64.", "G0 X63.; Z-5. C0.; X64.");
+    assert_ne!(found("fanuc-mill-turn", &[], cl, &across), "");
+    let deep = nc.replace("G1 G98 X50.", "G1 G98 X49.");
+    assert_ne!(found("fanuc-mill-turn", &[], cl, &deep), "");
+}
+
+/// SPINDL/ON turns on as the spindle turned before it stood, also for the next tap.
+#[test]
+fn a_tap_behind_spindl_on_turns_as_before() {
+    let cl = "LOADTL / 1; SPINDL / RPM, 300, CCLW; FEDRAT / 200, MMPM; RAPID; GOTO / 0, 0, 50; \
+              SPINDL / OFF; SPINDL / ON; CYCLE / TAP, DEPTH, 10, MMPR, 1, CLEAR, 2; \
+              GOTO / 5, 0, 0; CYCLE / OFF";
+    let nc = "%_N_N_1_MPF; G710 G90 G94 G17; T1 M6; D1; S300 M4; G0 X0 Y0; Z50; M5; S300 M4; \
+              MCALL CYCLE84(2,0,2,-10,,0,4,,-1,0,300,300); X5; MCALL; M30";
+    let said = found("sinumerik-840d", &[], cl, nc);
+    assert_eq!(said, "");
+    let clockwise = nc.replace(",,0,4,,-1,", ",,0,3,,1,");
+    let said = found("sinumerik-840d", &[], cl, &clockwise);
+    assert!(said.contains("the spindle is clockwise, it should be counterclockwise"), "{said}");
 }

@@ -380,3 +380,67 @@ fn an_axis_that_a_hole_leaves_alone_stays_where_it_exactly_is() {
     let case = Case { ready: "haas-trunnion", settings, cl, nc: &nc };
     case.agrees_but_not_with(("Y47.5 ", "Y47.502 "), "Y off by 0.0012");
 }
+
+/// Angles of 180 degrees in a frame leave C at zero, where tool-tip control may begin.
+#[test]
+fn a_frame_of_half_turns_leaves_its_axis_at_zero() {
+    let settings = ["rotary.frame_output=1", "rotary.tip_output=1", "home.retract_z=200"];
+    let cl = "FEDRAT / 200, MMPM; RAPID; GOTO / 0, 0, 60, 0, 0.5, 0.866025404; \
+              GOTO / 0, 0, 10, 0, 0.5, 0.866025404; RETRCT; MULTAX / ON; RAPID; \
+              GOTO / 10, 0, 10, 0, 0.6, 0.8; GOTO / 10, 0, 5, 0, 0.5, 0.866025404";
+    let nc = milled(
+        "G0 A-30. C0.; G68.2 X0. Y0. Z0. I180. J30. K180.; G53.1; X0. Y-30.; G43 Z51.962 H1; \
+         G1 Y-5. Z8.66 F200.; G69; G0 Z200.; Z500.; A0.; G49; G43.4 H1; X10. Y0. Z10. A-36.87 \
+         C0.; G1 Z5. A-30. F200.; G0 Y150. Z264.808; G49",
+    );
+    let case = Case { ready: "fanuc-5x-tables", settings: &settings, cl, nc: &nc };
+    case.agrees();
+    // Away from zero by its last digit it is not.
+    let nc = nc.replacen("G0 A-30. C0.", "G0 A-30. C0.001", 1);
+    Case { nc: &nc, ..case }.asks_for("with C away from 0");
+}
+
+/// From a place that nobody knows Y and Z may go alone at their limits, also while the machine
+/// turns.
+#[test]
+fn limits_of_y_and_z_hold_from_unknown_places() {
+    let cl = "FEDRAT / 1051.2, MMPM; RAPID; \
+              GOTO / -8.790993302, 83.438790834, 15.796583889, -0.468588679, 0.099426466, \
+              0.8778035246; SET / OFSETL, 54; \
+              GOTO / 37.41063798, 85.879453541, -51.523429988, -0.3080051111, -0.0371555345, \
+              0.9506588862";
+    let settings = ["feed.upm_max_z=12.5", "fixture.base=3", "home.retract_z=400"];
+    let nc = milled(
+        "G0 X79.797 Y-8.767; A-28.621 C78.02; G43 Z20.172 H1; G57; \
+         G1 X80.781 Y-44.614 Z-66.162 A-18.074 C96.879 F12.5",
+    );
+    let case = Case { ready: "haas-trunnion", settings: &settings, cl, nc: &nc };
+    case.agrees();
+    let nc = nc.replace("F12.5", "F25.");
+    Case { nc: &nc, ..case }.asks_for("feed 25 mm/min, it should be 12.5 mm/min");
+}
+
+/// In a hole along a tilted tool the ways of Y and Z that limit the feed are those that the
+/// program says under tool-tip control.
+#[test]
+fn limits_of_y_hold_in_holes_under_tip_control() {
+    let lean = "0.0236225128, 0.2917619608, 0.9561992131";
+    let cl = format!(
+        "FEDRAT / 821.4, MMPM; MULTAX / ON; GOTO / 5.215995519, 50.059790581, 61.160199839; \
+         GOTO / 6.424064665, 46.215379738, 73.372835765, {lean}; \
+         CYCLE / DRILL, DEPTH, 10.9298, MMPM, 100, CLEAR, 3; \
+         GOTO / 5.95161441, 40.380140522, 54.248851503, {lean}; CYCLE / OFF; RAPID; \
+         GOTO / 6.424064665, 46.215379738, 73.372835765, {lean}"
+    );
+    let nc = milled(
+        "G234 H1; G1 X5.216 Y50.06 Z61.16 A0. C0. F0.25; \
+         X6.424 Y46.215 Z73.373 A-17.021 C-4.629 F0.836; G0 X6.022 Y41.255 Z57.117; \
+         G1 X5.693 Y37.191 Z43.798 F0.857; G0 X6.022 Y41.255 Z57.117; \
+         X6.424 Y46.215 Z73.373; G49",
+    );
+    let settings = ["feed.upm_max_y=0.25", "rotary.feed=0", "home.retract_z=400"];
+    let case = Case { ready: "haas-trunnion-tcpc", settings: &settings, cl: &cl, nc: &nc };
+    assert!(!case.found().contains("feed"), "{}", case.found());
+    let nc = nc.replace("F0.857", "F1.2");
+    Case { nc: &nc, ..case }.asks_for("feed 1.2 mm/min, it should be 0.8569");
+}

@@ -117,6 +117,8 @@ pub enum Function {
     MachineFrame,
     /// To the reference point.
     Reference,
+    /// To the second reference point, or to that of a number.
+    NumberedReference,
     /// How exactly corners are cut; no motion of its own.
     PathControl,
     /// X is a diameter.
@@ -192,7 +194,8 @@ impl Function {
             | Function::Dwell
             | Function::MachineFrame
             | Function::AlignTool
-            | Function::Reference => Group::Once,
+            | Function::Reference
+            | Function::NumberedReference => Group::Once,
         }
     }
 }

@@ -59,7 +59,7 @@ const LIVE_CYCLES: &[(&str, Option<i32>, bool, CycleKind)] = &[
 /// Functions that each control of this family has and no setting names.
 const STANDARD: &[(i32, Function)] = &[
     (28, Function::Reference),
-    (30, Function::Reference),
+    (30, Function::NumberedReference),
     (53, Function::MachineFrame),
     (9, Function::PathControl),
     (61, Function::PathControl),

@@ -114,6 +114,11 @@ impl State<'_> {
                 words.function(Group::Once);
                 return self.reference(words);
             }
+            Some(Function::NumberedReference) => {
+                words.function(Group::Once);
+                check_point(words)?;
+                return self.reference(words);
+            }
             Some(Function::MachineFrame) => {
                 words.function(Group::Once);
                 if self.take_motion(words)?.is_some() {
@@ -284,6 +289,17 @@ impl State<'_> {
         let seconds = turns.is_none().then_some(time / self.dialect.dwell_factor);
         self.events.push(Event::Dwell { line: self.line, seconds, turns });
         Ok(())
+    }
+}
+
+/// `P2` to `P4`: the second to the fourth reference point, which is the second without it.
+fn check_point(words: &mut Words) -> Result<(), Fault> {
+    match words.take_plain(P)? {
+        None | Some(2..=4) => Ok(()),
+        Some(other) => {
+            let message = format!("there is no reference point {other}, only 2 to 4");
+            Err(Fault::new(NcCode::BadNumber, message))
+        }
     }
 }
 

@@ -21,6 +21,9 @@ const NEAR: f64 = 0.1;
 /// Directions nearer than this are one.
 const SAME: f64 = 1e-7;
 
+/// Less than binary fractions may add, degrees.
+const DUST: f64 = 1e-9;
+
 /// Turns about X, Y and Z.
 pub(super) fn about([x, y, z]: [f64; 3], degrees: f64) -> UnitQuaternion<f64> {
     UnitQuaternion::from_scaled_axis(Vector3::new(x, y, z) * degrees.to_radians())
@@ -87,7 +90,12 @@ impl State<'_> {
     /// Turns the tool along Z of the frame, by as little as rounding left.
     pub(super) fn align(&mut self) -> Result<(), Fault> {
         let along = self.stands_along()?;
-        self.at[3..].copy_from_slice(&along);
+        for (stands, along) in self.at[3..].iter_mut().zip(along) {
+            // What binary fractions add to angles of 180 degrees turns no axis away from zero.
+            if (*stands - along).abs() > DUST {
+                *stands = along;
+            }
+        }
         self.aligned = true;
         Ok(())
     }
@@ -159,7 +167,9 @@ impl State<'_> {
                 Function::NumberedFixture(_) => "another work offset",
                 Function::Units { metric } if metric != self.metric => "another unit",
                 Function::TipControl => "tool-tip control",
-                Function::MachineFrame | Function::Reference => "a point of the machine",
+                Function::MachineFrame | Function::Reference | Function::NumberedReference => {
+                    "a point of the machine"
+                }
                 _ => continue,
             };
             let message = format!("{what} in a tilted frame");

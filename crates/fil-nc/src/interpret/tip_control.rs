@@ -77,8 +77,10 @@ impl State<'_> {
     }
 
     fn check_end(&self, words: &Words) -> Result<(), Fault> {
-        let elsewhere =
-            matches!(words.peek(Group::Once), Some(Function::MachineFrame | Function::Reference));
+        let elsewhere = matches!(
+            words.peek(Group::Once),
+            Some(Function::MachineFrame | Function::Reference | Function::NumberedReference)
+        );
         match words.first_axis(self.dialect) {
             Some(range) if !elsewhere => {
                 let message = "controls differ in where a motion in the block of G49 ends";
@@ -108,7 +110,9 @@ impl State<'_> {
                 Function::Compensation(Compensation::Left | Compensation::Right) => {
                     "cutter compensation"
                 }
-                Function::MachineFrame | Function::Reference => "a point of the machine",
+                Function::MachineFrame | Function::Reference | Function::NumberedReference => {
+                    "a point of the machine"
+                }
                 _ => continue,
             };
             return Err(differ(what).at(range));

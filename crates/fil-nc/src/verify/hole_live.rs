@@ -14,6 +14,11 @@ use super::walk::Walk;
 use super::wanted::Hole;
 use crate::motion::{Course, Event, Move, Position};
 
+/// Which axes are known, in the order in which they are said for a hole.
+fn along_hole([x, y, z, primary, secondary]: [bool; 5]) -> [bool; 5] {
+    [z, y, x, primary, secondary]
+}
+
 /// The hole as the axes of the machine stand over it.
 struct Live {
     /// Tip of the start of the hole in the machine's X, Y and Z, mm.
@@ -43,7 +48,8 @@ impl<C: Steps> Walk<'_, C> {
         for event in self.nc.from(first).take(MOST + 4 * live.heights.len()) {
             said.push(match &event {
                 Event::Move(found) if found.course != Course::Machine && found.arc.is_none() => {
-                    Event::Move(Move { to: self.said_live(&found.to, &live, levels), ..*found })
+                    let to = self.said_live(&found.to, &live, levels);
+                    Event::Move(Move { to, known: along_hole(found.known), ..*found })
                 }
                 Event::Dwell { .. } => event,
                 _ => break,
@@ -53,7 +59,9 @@ impl<C: Steps> Walk<'_, C> {
         self.nc.replace(first, &said);
         let along = DUST + doubt(&live.heights, self.slack.linear[0]);
         let slack = std::mem::replace(&mut self.slack.linear, [DUST, DUST, along]);
-        Kept::new(first, events, slack)
+        let known = self.known;
+        self.known = along_hole(known);
+        Kept::new(first, events, (slack, known))
     }
 
     fn live_hole(&self, hole: &Hole, levels: Levels, plunge: &Move) -> Live {

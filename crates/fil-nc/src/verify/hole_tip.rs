@@ -51,11 +51,16 @@ pub(super) struct Kept {
     first: usize,
     events: Vec<Event>,
     slack: [f64; 3],
+    known: [bool; 5],
 }
 
 impl Kept {
-    pub(super) fn new(first: usize, events: Vec<Event>, slack: [f64; 3]) -> Self {
-        Kept { first, events, slack }
+    pub(super) fn new(
+        first: usize,
+        events: Vec<Event>,
+        (slack, known): ([f64; 3], [bool; 5]),
+    ) -> Self {
+        Kept { first, events, slack, known }
     }
 }
 
@@ -303,17 +308,17 @@ impl<C: Steps> Walk<'_, C> {
         let stands = Move { to: self.at, ..next };
         let stood = self.at;
         let turns = self.gap(&self.at, &hole.start).turned.is_some();
+        let mut tip = self.tip_over(&stands, hole);
         self.at = self.said(&stands, hole, levels, &line).to;
         if turns {
             // The tool stands in the direction of another hole, and turns on the way to this one:
             // its tip stays under tool-tip control, else X, Y and Z do.
             let rotary = self.gap(&next.to, &hole.start).rotary;
             let turned = if stood.tip_control { stood } else { Position { rotary, ..stood } };
-            let tip = self.settings.forward.pose(&turned).tip;
+            tip = self.settings.forward.pose(&turned).tip;
             self.at.linear = self.hole_frame(rotary, hole).linear(tip);
         }
         let known = self.known[..3].iter().all(|known| *known);
-        let tip = self.tip_over(&stands, hole);
         if let Some(height) = line.level(tip.coords.into()).filter(|_| known) {
             self.at.linear[2] = levels.at[2] + height;
         }
@@ -351,7 +356,7 @@ impl<C: Steps> Walk<'_, C> {
         self.nc.replace(first, &said);
         let along = DUST + doubt(&line.heights, line.digits());
         let slack = std::mem::replace(&mut self.slack.linear, [DUST, DUST, along]);
-        Some(Kept::new(first, events, slack))
+        Some(Kept::new(first, events, (slack, self.known)))
     }
 
     /// Says a motion straight up from where the tool stands exactly: its last digits lean, and
@@ -393,9 +398,9 @@ impl<C: Steps> Walk<'_, C> {
         self.nc.replace(kept.first, &kept.events);
         let mut taken = kept.events[..self.next.min(end) - kept.first].iter().rev();
         let last = taken.find_map(|event| match event {
-            Event::Move(found) => Some(found.to),
+            Event::Move(found) => Some((found.to, found.known)),
             _ => None,
         });
-        self.at = last.unwrap_or(self.at);
+        (self.at, self.known) = last.unwrap_or((self.at, kept.known));
     }
 }

@@ -2,6 +2,7 @@
 
 use super::again::Again;
 use super::ahead::Steps;
+use super::lag::Lag;
 use super::modes::Expected;
 use super::settings::{Due, Settings};
 use super::walk::Walk;
@@ -51,11 +52,6 @@ impl Expected {
                     let offset = u32::try_from(number.digits % TOOLS_STEP).ok();
                     self.offset.set(offset.filter(|offset| *offset > 0), Due::Now);
                 }
-                b'T' if settings.has_edges() => self.offset.set(None, Due::Now),
-                b'D' if settings.has_edges() => {
-                    let edge = u32::try_from(number.digits).ok();
-                    self.offset.set(edge.filter(|edge| *edge > 0), Due::Now);
-                }
                 b'S' => {
                     // Turns or surface speed: the text need not say it.
                     let turns = settings.dialect.has_surface_speed();
@@ -72,6 +68,9 @@ impl Expected {
     fn insert_statements(&mut self, line: &[u8]) {
         for word in sinumerik_words::read(line).unwrap_or_default() {
             match (word.name.as_str(), &word.value) {
+                ("T", Some(_)) => self.offset.set(None, Due::Now),
+                ("D", Some(Value::Number(0.0))) => self.give_length_up(),
+                ("D", Some(Value::Number(edge))) => self.offset.set(Some(*edge as u32), Due::Now),
                 ("LIMS", Some(Value::Number(limit))) => self.speed_limit = Some(Some(*limit)),
                 (name, Some(_)) if name.starts_with("SPOS") => self.insert_stop(),
                 ("G", Some(Value::Number(500.0))) => self.fixture = Some(Some(500)),
@@ -79,6 +78,14 @@ impl Expected {
                 _ => {}
             }
         }
+    }
+
+    /// A text takes the length of the tool off, as on a way to a point of the machine. What the CL
+    /// file moves behind it has the length that was asked for, from the next way of Z on.
+    fn give_length_up(&mut self) {
+        let asked = self.offset.asked();
+        self.offset = Lag::new(None);
+        self.offset.set(asked, Due::WithZ);
     }
 
     /// The spindle stands, at whatever angle.
@@ -106,7 +113,7 @@ impl Expected {
             }
             Function::Plane(normal) => self.plane = normal,
             Function::Length(true) => self.offset.set(whole(b'H'), Due::Now),
-            Function::Length(false) => self.offset.set(None, Due::Now),
+            Function::Length(false) => self.give_length_up(),
             Function::SpeedLimit => self.speed_limit = None,
             // The S of the other mode, which the text need not say, comes with it.
             Function::Surface(on) => {

@@ -92,7 +92,12 @@ impl<C: Steps> Walk<'_, C> {
             _ => None,
         });
         let [Some(first), Some(second)] = two else { return false };
-        if !self.reaches(&first, &corner) || !self.reaches(&second, pose) {
+        // An axis that the second block moves may stand where nobody knows until then.
+        let is_known = (0..5).all(|n| first.known[n] || !self.known[n]);
+        let moves = |n: usize| (n == 2) == (order == LinearMethod::ZThenXy);
+        let is_said = (0..3).all(|n| first.known[n] || !moves(n));
+        let at_corner = is_known && is_said && self.gap(&first.to, &corner).closed();
+        if !at_corner || !self.reaches(&second, pose) {
             return false;
         }
         for found in [first, second] {

@@ -1,5 +1,7 @@
 //! The feed of a motion.
 
+use nalgebra::Vector3;
+
 use super::ahead::Steps;
 use super::report::FindingKind;
 use super::say::{short, spell_rate};
@@ -32,10 +34,7 @@ impl<C: Steps> Walk<'_, C> {
             Some(Rate::PerMinute(rate)) => {
                 let rate = self.settings.feed_within(rate, self.metric);
                 let rate = self.at_the_edge(&from, found, rate);
-                let turns = turned(&from, found) != [0.0; 2] && !found.to.tip_control;
-                let begins = Some(&from).filter(|_| self.known[..3] == [true; 3]);
-                let within = self.settings.feed_within_axes(rate, begins, found, self.metric);
-                Rate::PerMinute(if turns { rate } else { within })
+                Rate::PerMinute(self.within_axes(rate, &from, found))
             }
             Some(rate) => rate,
             None => return,
@@ -79,8 +78,38 @@ impl<C: Steps> Walk<'_, C> {
         }
     }
 
+    /// A feed within the limits of Y and Z. From a place that nobody knows each axis may go
+    /// alone, also while the machine turns.
+    fn within_axes(&self, rate: f64, from: &Position, found: &Move) -> f64 {
+        let begins = self.known[..3] == [true; 3] && found.modes.fixture == self.moved_fixture;
+        let turns = turned(from, found) != [0.0; 2] && !found.to.tip_control;
+        if turns && begins {
+            return rate;
+        }
+        let (from, found) = self.on_tape(from, found);
+        let from = Some(&from).filter(|_| begins);
+        self.settings.feed_within_axes(rate, from, &found, self.metric)
+    }
+
+    /// A motion in directions of the program: in a hole along the tool, it is said in those of
+    /// the hole.
+    fn on_tape(&self, from: &Position, found: &Move) -> (Position, Move) {
+        let Some(to_axes) = self.from_hole else { return (*from, *found) };
+        // Under tool-tip control X, Y and Z are those of the part.
+        let turn = match found.modes.tip_control {
+            true => self.settings.forward.frame(found.to.rotary).turn * to_axes,
+            false => to_axes,
+        };
+        let turned = |at: &Position| {
+            let linear = (turn * Vector3::from(at.linear)).into();
+            Position { linear, ..*at }
+        };
+        (turned(from), Move { to: turned(&found.to), ..*found })
+    }
+
     /// By what share rounding on the tape changes a feed that the ways of Y and Z limit.
     fn share_slack(&self, from: &Position, found: &Move) -> f64 {
+        let (from, found) = self.on_tape(from, found);
         let share = |axis: usize| {
             let way = (found.to.linear[axis] - from.linear[axis]).abs();
             if way > STANDS { 4.0 * self.slack.linear[axis] / way } else { 0.0 }
@@ -154,8 +183,12 @@ impl<C: Steps> Walk<'_, C> {
         // F counts the way before its ends were rounded.
         let off = 2.0 * self.slack.linear.iter().map(|half| half * half).sum::<f64>().sqrt()
             + self.off_by_its_center(found);
+        // So does the share that the ways of Y and Z have in a feed that they limit.
+        let share = self.share_slack(&from, found);
         let agrees = |length: f64| {
-            let inverses = [length + off, (length - off).max(STANDS)].map(|length| {
+            let ends = [(length + off, rate * (1.0 - share)), (length - off, rate * (1.0 + share))];
+            let inverses = ends.map(|(length, rate)| {
+                let length = length.max(STANDS);
                 let time = self.settings.turning_time(length / rate, turned);
                 [rate / length, 1.0 / time].map(|it| self.settings.inverse_within(it))
             });
