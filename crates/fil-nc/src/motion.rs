@@ -185,6 +185,8 @@ pub struct Modes {
     pub stray_offset: Option<u32>,
     /// Tool-tip control is on.
     pub tip_control: bool,
+    /// The line where it began last.
+    pub tip_control_line: u32,
     /// A tilted frame is in force.
     pub tilted: bool,
     /// Cutter compensation.

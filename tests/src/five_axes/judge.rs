@@ -1,6 +1,8 @@
 //! What comes of a program: the post makes it, `fil-nc` follows it, and the tool comes to each
 //! point that the generator meant.
 
+use fil_machine::address::Addresses;
+use fil_machine::letter::letters;
 use fil_nc::forward::Forward;
 use fil_nc::motion::Event;
 use fil_nc::verify::{Allowed, Verdict};
@@ -9,6 +11,9 @@ use nalgebra::{Point3, Vector3};
 
 use super::maker::Line;
 use crate::back_check;
+
+/// Millimetres of an inch.
+const INCH: f64 = 25.4;
 
 /// What came of a program.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,17 +73,28 @@ pub fn judge(post: &Program, lines: &[Line], may_refuse: &[&str]) -> (Outcome, S
     }
 }
 
+/// How far the last digits of X, Y and Z leave the tip from where it is meant, mm, in a program
+/// in inch, whose digits are the larger ones.
+fn rounding(post: &Program) -> f64 {
+    let addresses = Addresses::from_commons(post.commons(), false);
+    let half = |letter| addresses.format(letter).map_or(0.0, |format| 0.5 * format.unscale(1));
+    let halves = letters::XYZ.map(|letter| half(letter) * INCH);
+    // Some of each for the last digits of the angles.
+    1.5 * halves.iter().map(|half| half * half).sum::<f64>().sqrt()
+}
+
 /// The first target that the tool does not come to, in the order of the program.
 fn missed(post: &Program, lines: &[Line], nc: &str) -> Option<String> {
     let forward = Forward::from_commons(post.commons()).expect("a chain");
     let events = back_check::events(post.commons(), nc).expect("a program that was read");
+    let bound = 0.01_f64.max(rounding(post));
     let mut targets = lines.iter().filter_map(|line| line.target).peekable();
     for event in &events {
         let Event::Move(made) = event else { continue };
         let pose = forward.pose(&made.to);
         // Rounded angles move the tip of a machine whose axes lie far away.
         let is_there = |(point, axis): &(Point3<f64>, Vector3<f64>)| {
-            (pose.tip - point).norm() < 0.01 && pose.axis.angle(axis).to_degrees() < 0.003
+            (pose.tip - point).norm() < bound && pose.axis.angle(axis).to_degrees() < 0.003
         };
         while targets.peek().is_some_and(is_there) {
             targets.next();

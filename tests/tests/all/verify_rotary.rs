@@ -444,3 +444,19 @@ fn limits_of_y_hold_in_holes_under_tip_control() {
     let nc = nc.replace("F0.857", "F1.2");
     Case { nc: &nc, ..case }.asks_for("feed 1.2 mm/min, it should be 0.8569");
 }
+
+/// Tool-tip control may end and begin again in the same work offset, and the tool goes up for it.
+#[test]
+fn tip_control_that_begins_again_in_the_same_offset_agrees() {
+    let settings = ["chain=\"head-b\"", "rotary.secondary_kind=0", "home.retract_z=400"];
+    let cl = "SET / OFSETL, 2; FEDRAT / 434.7, MMPM; \
+              GOTO / -16.279941311, 9.722849457, -26.793751755, -0.1872556736, 0, 0.9823112097; \
+              RAPID; SET / OFSETL, 2; \
+              GOTO / -18.913309701, 3.72173173, -30.192027687, -0.1909738802, 0, 0.9815951187";
+    let nc = milled(
+        "G55; G43.4 H1; G1 X-16.28 Y9.723 Z-26.794 B-10.793 F434.7; G0 X-72.458 Z267.899; G49; \
+         G55; G43.4 H1; X-18.913 Y3.722 Z-30.192 B-11.01; X-76.207 Z264.286; G49",
+    );
+    let case = Case { ready: "fanuc-5x-tables", settings: &settings, cl, nc: &nc };
+    case.agrees_but_not_with(("G0 X-72.458 Z267.899\n", "G0\n"), "tool-tip control has ended");
+}

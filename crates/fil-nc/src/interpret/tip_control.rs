@@ -169,6 +169,7 @@ impl State<'_> {
         let missing = || Fault::new(NcCode::MissingWord, "tool-tip control needs its H");
         self.modes.length_offset = Some(offset.ok_or_else(missing)?);
         self.modes.tip_control = true;
+        self.modes.tip_control_line = self.line;
         self.by_direction = by_direction;
         self.lose_tip();
         Ok(())

@@ -124,6 +124,7 @@ impl<C: Steps> Walk<'_, C> {
         self.at = found.to;
         self.known = found.known;
         (self.moved_tool, self.moved_fixture) = (found.modes.tool, found.modes.fixture);
+        self.moved_tip_line = found.modes.tip_control_line;
         self.rapid_end = None;
         self.next += 1;
     }

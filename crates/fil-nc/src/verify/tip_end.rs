@@ -8,7 +8,7 @@ use super::report::FindingKind;
 use super::settings::Settings;
 use super::walk::Walk;
 use super::wanted::{Step, Wanted};
-use crate::motion::{Course, Event, Move, Position};
+use crate::motion::{Course, Event, Modes, Move, Position};
 
 impl Settings<'_> {
     /// How far the tool must go up before tool-tip control ends, mm; `None` for a control
@@ -30,7 +30,7 @@ impl<C: Steps> Walk<'_, C> {
             && self.at.tip_control
             && found.to.rotary == self.at.rotary
             && !found.in_cycle;
-        let ends = self.ends_tip_control(self.next + 1, found.modes.fixture);
+        let ends = self.ends_tip_control(self.next + 1, &found.modes);
         if !along_tool || ends == Some(false) {
             return false;
         }
@@ -97,14 +97,27 @@ impl<C: Steps> Walk<'_, C> {
         self.next_move().is_some_and(|found| self.goes_up_at_tip_end(&found))
     }
 
-    /// Tool-tip control ends before an event, though it may begin again for another work offset,
-    /// which is none that it goes on in; `None` where no event says it.
-    fn ends_tip_control(&self, index: usize, fixture: Option<u32>) -> Option<bool> {
+    /// Tool-tip control ends before an event, though it may begin again, for another work offset
+    /// or the same; `None` where no event says it.
+    fn ends_tip_control(&self, index: usize, modes: &Modes) -> Option<bool> {
         self.nc.from(index).find_map(|event| match event {
-            Event::Move(next) => Some(!next.modes.tip_control || next.modes.fixture != fixture),
+            Event::Move(next) => Some(
+                !next.modes.tip_control
+                    || next.modes.fixture != modes.fixture
+                    || next.modes.tip_control_line != modes.tip_control_line,
+            ),
             Event::ToolChange { modes, .. } | Event::End { modes, .. } => Some(!modes.tip_control),
             _ => None,
         })
+    }
+
+    /// What of the modes of the last motion says whether tool-tip control goes on.
+    fn moved_modes(&self) -> Modes {
+        Modes {
+            fixture: self.moved_fixture,
+            tip_control_line: self.moved_tip_line,
+            ..Modes::default()
+        }
     }
 
     /// Where tool-tip control has ended with the machine turned, a control may have moved for it.
@@ -122,7 +135,7 @@ impl<C: Steps> Walk<'_, C> {
             return;
         }
         let is_own = self.nc.get(self.next).is_some_and(|event| self.own.has(event.line()));
-        if is_own || self.ends_tip_control(self.next, self.moved_fixture) != Some(true) {
+        if is_own || self.ends_tip_control(self.next, &self.moved_modes()) != Some(true) {
             return;
         }
         self.is_up = true;

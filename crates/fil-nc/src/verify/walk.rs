@@ -66,6 +66,8 @@ pub(super) struct Walk<'a, C> {
     /// The tool of the last motion, and its work offset.
     pub(super) moved_tool: u32,
     pub(super) moved_fixture: Option<u32>,
+    /// Where the tool-tip control of the last motion began.
+    pub(super) moved_tip_line: u32,
     /// Exact rotary positions that the tape shows rounded.
     pub(super) exact: [f64; 2],
     /// Line of the last motion taken.
@@ -130,6 +132,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             has_had_height: false,
             moved_tool: 0,
             moved_fixture: None,
+            moved_tip_line: 0,
             exact: [0.0; 2],
             line: 0,
             modes: Expected::new(settings),
@@ -449,6 +452,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         self.at = found.to;
         self.moved_tool = found.modes.tool;
         self.moved_fixture = found.modes.fixture;
+        self.moved_tip_line = found.modes.tip_control_line;
         self.known = found.known;
         self.has_had_height |= found.known[2];
     }
