@@ -260,8 +260,9 @@ impl<C: Steps> Walk<'_, C> {
             let z_moves = way(2) > STILL;
             let there = |n: usize| near(to[n], levels.at[n], n);
             let arrives = there(0) && there(1);
-            // One axis may go there before the other.
-            let goes_there = (0..2).all(|n| there(n) || !moves(n));
+            // Across a tool along X one axis may go there before the other.
+            let by_axes = self.from_hole.is_some();
+            let goes_there = arrives || by_axes && (0..2).all(|n| there(n) || !moves(n));
             if across && !goes_there {
                 return Err((
                     found.line,

@@ -52,6 +52,7 @@ impl<C: Steps> Walk<'_, C> {
         loop {
             self.pass_own();
             self.check_tip_end(cl_line);
+            self.check_tip_begin(cl_line);
             match self.nc.get(self.next) {
                 Some(Event::Move(found)) if self.goes_up_at_tip_end(&found) => {
                     self.goes_up(cl_line, &found);
@@ -59,7 +60,7 @@ impl<C: Steps> Walk<'_, C> {
                 Some(Event::Move(found)) if self.goes_up_at_tip_begin(&found) => {
                     let is_away = self.is_away || self.is_retract_level(self.at.linear[2]);
                     self.goes_up(cl_line, &found);
-                    self.is_away = is_away;
+                    (self.is_away, self.is_above) = (is_away, true);
                 }
                 Some(Event::Move(found)) if self.turns_away(&found) => {
                     self.take_turn_away(cl_line, &found);

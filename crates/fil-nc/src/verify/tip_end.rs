@@ -58,6 +58,29 @@ impl<C: Steps> Walk<'_, C> {
         straight_up && self.begins_tip_control(self.next + 1, to)
     }
 
+    /// Says it where tool-tip control begins with the length of the tool on, which is taken off
+    /// before, and the tool had not gone up.
+    pub(super) fn check_tip_begin(&mut self, cl_line: u32) {
+        let may_come_down = !self.at.tip_control
+            && !self.is_above
+            && !self.tool_is_fresh
+            && self.known[2]
+            && self.modes.offset_on().is_some();
+        if !may_come_down || self.settings.way_up_at_tip_end().is_none() {
+            return;
+        }
+        let Some(Event::Move(found)) = self.nc.get(self.next) else { return };
+        if !found.to.tip_control || self.own.has(found.line) {
+            return;
+        }
+        self.is_above = true;
+        let message =
+            "tool-tip control begins where the length of the tool was on, and the control \
+                       may have come down by it"
+                .to_string();
+        self.find(FindingKind::Order, Some(cl_line), Some(found.line), message);
+    }
+
     /// The next motion that moves X, Y or Z is under tool-tip control.
     fn begins_tip_control(&self, index: usize, from: &Position) -> bool {
         let next = self.nc.from(index).find_map(|event| match event {

@@ -90,6 +90,8 @@ pub(super) struct Walk<'a, C> {
     pub(super) from_hole: Option<Matrix3<f64>>,
     /// The tool has gone up for the end of tool-tip control.
     pub(super) is_up: bool,
+    /// The tool has gone up before tool-tip control takes off the length it was brought with.
+    pub(super) is_above: bool,
     /// A tool change or a position of the machine has brought the tool away from the part.
     pub(super) is_away: bool,
     /// What was said of the last position, so that one fault is said once.
@@ -145,6 +147,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             initial: None,
             from_hole: None,
             is_up: false,
+            is_above: false,
             is_away: true,
             said: None,
             report: Report::default(),
@@ -433,6 +436,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         };
         if moved.xy || moved.z {
             (self.cutter_is_fresh, self.tool_is_fresh) = (false, false);
+            self.is_above = false;
         }
         let cuts = matches!(found.course, Course::Feed | Course::Thread);
         let wrong = match moved.xy || moved.z || !self.is_still(found) {
