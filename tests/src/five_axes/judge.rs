@@ -3,6 +3,7 @@
 
 use fil_machine::address::Addresses;
 use fil_machine::letter::letters;
+use fil_machine::locations as loc;
 use fil_nc::forward::Forward;
 use fil_nc::motion::Event;
 use fil_nc::verify::{Allowed, Verdict};
@@ -73,12 +74,17 @@ pub fn judge(post: &Program, lines: &[Line], may_refuse: &[&str]) -> (Outcome, S
     }
 }
 
-/// How far the last digits of X, Y and Z leave the tip from where it is meant, mm, in a program
-/// in inch, whose digits are the larger ones.
-fn rounding(post: &Program) -> f64 {
-    let addresses = Addresses::from_commons(post.commons(), false);
-    let half = |letter| addresses.format(letter).map_or(0.0, |format| 0.5 * format.unscale(1));
-    let halves = letters::XYZ.map(|letter| half(letter) * INCH);
+/// How far the last digits of X, Y and Z leave the tip from where it is meant, mm.
+fn rounding(post: &Program, metric: bool) -> f64 {
+    let commons = post.commons();
+    let addresses = Addresses::from_commons(commons, metric);
+    let unit = if metric { 1.0 } else { INCH };
+    let manual = commons.read(loc::MOTION_RESOLUTION_MANUAL) == loc::MotionResolutionManual::Yes;
+    let by_hand = commons.dbl_opt(loc::MOTION_RESOLUTION).filter(|_| manual).unwrap_or(0.0);
+    let half = |letter| {
+        0.5 * by_hand + addresses.format(letter).map_or(0.0, |format| 0.5 * format.unscale(1))
+    };
+    let halves = letters::XYZ.map(|letter| half(letter) * unit);
     // Some of each for the last digits of the angles.
     1.5 * halves.iter().map(|half| half * half).sum::<f64>().sqrt()
 }
@@ -87,7 +93,7 @@ fn rounding(post: &Program) -> f64 {
 fn missed(post: &Program, lines: &[Line], nc: &str) -> Option<String> {
     let forward = Forward::from_commons(post.commons()).expect("a chain");
     let events = back_check::events(post.commons(), nc).expect("a program that was read");
-    let bound = 0.01_f64.max(rounding(post));
+    let bound = 0.01_f64.max(rounding(post, !text(lines).contains("INCH")));
     let mut targets = lines.iter().filter_map(|line| line.target).peekable();
     for event in &events {
         let Event::Move(made) = event else { continue };
