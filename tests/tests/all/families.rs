@@ -230,6 +230,22 @@ fn diff_tells_each_number_that_changes() {
     }
 }
 
+/// Three turns whose end lies a last digit beside their start end there, and not at the start.
+#[test]
+fn full_turns_of_a_helix_end_where_the_cl_file_says() {
+    let cl = "UNITS / MM\nLOADTL / 3\nSPINDL / RPM, 1500, CLW\nFEDRAT / 250, MMPM\nRAPID\n\
+              GOTO / 72.7551054384, -30.5663243341, 10\n\
+              CIRCLE / 72.7551054385, -31.3710911868, 10, 0, 0, 1, 0.8047668527, TIMES, 3\n\
+              GOTO / 72.7540790288, -30.5663249887, 8.7699289267\nRAPID\n\
+              GOTO / 72.7540790288, -30.5663249887, 50\nFINI\n";
+    for ready in ["heidenhain-tnc640", "sinumerik-840d", "fanuc-mill"] {
+        let machine = Machine::Ready(ready.to_string());
+        let job = Job { machine, cl: cl.to_string(), ..Job::default() };
+        let found = posting::verify(&job).map_err(|refused| refused.message).expect("a program");
+        assert!(found.is_empty(), "{ready}: {found:?}");
+    }
+}
+
 #[test]
 fn a_changed_program_is_noticed() {
     let cl = "UNITS / MM\nLOADTL / 3\nSPINDL / RPM, 500, CLW\nFEDRAT / 100, MMPM\nRAPID\n\

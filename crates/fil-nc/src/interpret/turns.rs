@@ -119,7 +119,10 @@ mod tests {
             angles(&["rotary.output=2"], "A350. A10. A350.").unwrap(),
             [350.0, 370.0, 350.0]
         );
-        assert!(angles(&["rotary.output=2"], "A10. A190.").unwrap_err().contains("half a turn"));
+        let half = angles(&["rotary.output=2"], "X0.A10. X1.A190.").unwrap_err();
+        assert!(half.contains("half a turn"), "{half}");
+        // Alone, away from the part, either way leads there.
+        assert_eq!(angles(&["rotary.output=2"], "A10. A190.").unwrap(), [10.0, 190.0]);
         assert_eq!(
             angles(&["rotary.output=4"], "A350. A10. A350.").unwrap(),
             [350.0, 370.0, 710.0]
