@@ -58,7 +58,7 @@ const ROUNDED: [&str; 17] = [
 
 /// Words of an axis, by the program, the letter and the block, that bring no tool to the part
 /// elsewhere, whatever they say.
-const IDLE: [(&str, u8, &str); 32] = [
+const IDLE: [(&str, u8, &str); 34] = [
     // The rapid to where polar interpolation begins: what is left of the way is made in it.
     ("corpus/lathe/fanuc-mill-turn/", b'X', "G0 X26. C0.`"),
     ("corpus/lathe/fanuc-mill-turn/", b'X', "G0 X30. C0.`"),
@@ -88,7 +88,10 @@ const IDLE: [(&str, u8, &str); 32] = [
     ("words/rotary-tilted-frame-and-another-offset", b'Z', "`G0 Z200.`"),
     // Before tool-tip control ends the tool goes up as far as the machine asks, or farther.
     ("words/rotary-tip-control-and-an-offset-at-the-end", b'Z', "`Z350.`"),
+    ("words/rotary-tip-control-begins-behind-a-length", b'Z', "Z305.`"),
     ("words/rotary-tip-control-begins-behind-a-length", b'Z', "`Z450.`"),
+    // The tool stands upright under tip control, whatever C does.
+    ("words/rotary-tip-control-begins-behind-a-length", b'C', "A0. C0.`"),
     // Angles before the direction of the tool is said, and the other name of half a turn.
     ("words/rotary-direction-", b'A', "A25. C0.`"),
     ("words/rotary-direction-", b'A', "A30. C0.`"),
