@@ -50,7 +50,7 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
     let word = rotary::word_of(post, *target);
     let mut motion = Motion { position: Position::default(), axes: AxisSet::ALL, word };
     rotary::find_position(post, *target, &mut motion.position)?;
-    if post.control.state.compensates() {
+    if post.control.is_compensated() {
         rotary::refuse_compensated(post, before)?;
     }
     match kind {

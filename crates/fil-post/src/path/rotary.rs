@@ -155,14 +155,17 @@ pub(super) fn refuse_unknown_start(post: &Post) -> Result<()> {
     Ok(())
 }
 
-/// Refuses a motion in which a rotary axis turns under cutter compensation: the control offsets
-/// in the axes of the machine, and the side of the path turns away under it.
+/// Refuses a motion in which a rotary axis turns under cutter compensation, or may turn as
+/// nothing has said where it stands: the control offsets in the axes of the machine, and the side
+/// of the path turns away under it.
 ///
 /// # Errors
 /// One turns.
 #[cold]
 pub(super) fn refuse_compensated(post: &Post, before: Option<[f64; 2]>) -> Result<()> {
-    if post.control.tables.mills() || turned(before, post.path.rotary).is_none() {
+    let tables = &post.control.tables;
+    let is_first = before.is_none() && tables.chain().has_rotary();
+    if tables.mills() || !is_first && turned(before, post.path.rotary).is_none() {
         return Ok(());
     }
     PostCode::CompensationOn.err("where the machine turns; CUTCOM/OFF must come before it")
