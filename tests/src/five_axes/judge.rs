@@ -4,6 +4,8 @@
 use fil_machine::address::Addresses;
 use fil_machine::letter::letters;
 use fil_machine::locations as loc;
+use std::collections::BTreeMap;
+
 use fil_nc::forward::Forward;
 use fil_nc::motion::Event;
 use fil_nc::verify::{Allowed, Verdict};
@@ -123,4 +125,23 @@ pub fn shrunk(post: &Program, lines: &[Line], kind: &str, may_refuse: &[&str]) -
         }
     }
     lines
+}
+
+/// Tells what came of programs, with the first story of each kind of difference: how many agree,
+/// and how many kinds there are.
+pub fn tell(tried: Vec<(Outcome, String)>) -> (u64, usize) {
+    let (count, mut agree, mut refused) = (tried.len(), 0, BTreeMap::<String, u64>::new());
+    let mut stories = BTreeMap::<String, (u64, String)>::new();
+    for (outcome, story) in tried {
+        match outcome {
+            Outcome::Agrees => agree += 1,
+            Outcome::Refused(code) => *refused.entry(code).or_default() += 1,
+            Outcome::Differs(kind, _) => stories.entry(kind).or_insert((0, story)).0 += 1,
+        }
+    }
+    println!("{count} programs: {agree} agree, refused {refused:?}");
+    for (kind, (times, story)) in &stories {
+        println!("=== {times} times: {kind}\n{story}");
+    }
+    (agree, stories.len())
 }

@@ -4,7 +4,6 @@
 //!
 //! `FILPOST_MIXED=20000` tries as many programs, `FILPOST_MIXED_FROM` begins at a seed.
 
-use std::collections::BTreeMap;
 use std::env;
 
 use fil_machine::axis_chain::AxisChain;
@@ -12,7 +11,7 @@ use fil_machine::chains::CHAINS;
 use filpost::Program;
 use filpost::locations::{Location, TABLE};
 use filpost_tests::counts::settings::trials;
-use filpost_tests::five_axes::judge::{Outcome, judge, shrunk, text};
+use filpost_tests::five_axes::judge::{Outcome, judge, shrunk, tell, text};
 use filpost_tests::five_axes::maker::program;
 use filpost_tests::five_axes::mixed::Family;
 use filpost_tests::five_axes::numbers::Random;
@@ -101,19 +100,7 @@ fn random_programs_that_mix_everything_do_what_they_ask_for_or_are_refused() {
     let (count, from) = (number("FILPOST_MIXED").unwrap_or(USUAL), number("FILPOST_MIXED_FROM"));
     let from = from.unwrap_or(0);
     let tried: Vec<_> = (from..from + count).into_par_iter().map(try_seed).collect();
-    let (mut agree, mut refused) = (0, BTreeMap::<String, u64>::new());
-    let mut stories = BTreeMap::<String, (u64, String)>::new();
-    for (outcome, story) in tried {
-        match outcome {
-            Outcome::Agrees => agree += 1,
-            Outcome::Refused(code) => *refused.entry(code).or_default() += 1,
-            Outcome::Differs(kind, _) => stories.entry(kind).or_insert((0, story)).0 += 1,
-        }
-    }
-    println!("{count} programs: {agree} agree, refused {refused:?}");
-    for (kind, (times, story)) in &stories {
-        println!("=== {times} times: {kind}\n{story}");
-    }
-    assert!(stories.is_empty(), "{} kinds of differences", stories.len());
+    let (agree, kinds) = tell(tried);
+    assert_eq!(kinds, 0, "kinds of differences");
     assert!(agree * 4 > count, "too few programs are posted to prove anything");
 }
