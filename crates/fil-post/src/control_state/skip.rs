@@ -2,9 +2,9 @@
 
 use fil_machine::{Commons, Letter};
 
-use super::ControlState;
 use super::doubts::Place;
 use super::levels::Levels;
+use super::{ControlState, Length};
 
 impl ControlState {
     /// The blocks from here on may be skipped.
@@ -92,6 +92,9 @@ impl ControlState {
         agree(&mut self.return_level, &other.return_level);
         agree(&mut self.surface_speed, &other.surface_speed);
         self.rotation = self.rotation.or(other.rotation);
+        if other.length == Length::Taken {
+            self.length = Length::Taken;
+        }
         self.x_is_as_written &= other.x_is_as_written;
         self.compensation_begun &= other.compensation_begun;
         self.doubts.or(&other.doubts);
