@@ -222,7 +222,7 @@ impl Axis {
     pub fn near(&self, position: f64, other: f64) -> f64 {
         match self.full_turn {
             0 => position,
-            _ => position + FULL_TURN * ((other - position) / FULL_TURN).round(),
+            _ => position + FULL_TURN * nearest((other - position) / FULL_TURN),
         }
     }
 
@@ -283,14 +283,19 @@ impl Axis {
 
     fn scaled_and_moved(&self, position: f64) -> Result<i64> {
         if self.full_turn != 0 && position.is_finite() {
-            let within = position - FULL_TURN * (position / FULL_TURN).floor();
+            let within = position - FULL_TURN * floor(position / FULL_TURN);
             let scaled = self.moved(within)?;
-            return Ok(scaled.rem_euclid(self.full_turn));
+            // A division of whole numbers takes longer than all the rest.
+            let is_within = (0..self.full_turn).contains(&scaled);
+            return Ok(if is_within { scaled } else { scaled.rem_euclid(self.full_turn) });
         }
         self.moved(position)
     }
 
     fn moved(&self, position: f64) -> Result<i64> {
+        if self.scale == 1.0 && self.translate == 0.0 && self.step.is_none() {
+            return self.format.scale(position).map_err(|diag| self.named(diag));
+        }
         let position = match self.step {
             Some(step) => (position / step).round() * step,
             None => position,
@@ -316,12 +321,23 @@ impl Axis {
     ///
     /// # Errors
     /// As [`Axis::scaled`].
-    #[cfg_attr(not(target_family = "wasm"), inline(always))]
+    #[inline]
     pub fn on_tape(&self, position: f64) -> Result<f64> {
+        Ok(self.scaled_on_tape(position)?.0)
+    }
+
+    /// The same with the scaled integer of its word.
+    ///
+    /// # Errors
+    /// As [`Axis::scaled`].
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
+    pub fn scaled_on_tape(&self, position: f64) -> Result<(f64, i64)> {
+        let scaled = self.scaled(position)?;
+        let value = self.format.unscale(scaled);
         if self.is_plain {
-            return Ok(self.format.unscale(self.scaled(position)?));
+            return Ok((value, scaled));
         }
-        Ok(self.near(self.position(self.value(position)?), position))
+        Ok((self.near(self.position(value), position), scaled))
     }
 
     /// Smallest step of the machine position that the tape can say, mm, inch or
@@ -402,6 +418,18 @@ impl Axis {
         diag.message = format!("{}: {}", self.letter, diag.message);
         diag
     }
+}
+
+/// The whole number at or below a value; `f64::floor` is a call on most builds. Of values that
+/// no tape can say it is any.
+fn floor(value: f64) -> f64 {
+    let whole = value as i64 as f64;
+    if whole > value { whole - 1.0 } else { whole }
+}
+
+/// The nearest whole number, half away from zero.
+fn nearest(value: f64) -> f64 {
+    floor(value.abs() + 0.5).copysign(value)
 }
 
 /// The letters X, Y and Z with the numbers of their commons.

@@ -152,7 +152,9 @@ impl NumberFormat {
     #[inline]
     pub fn within(&self, value: f64, share: f64) -> Result<i64> {
         let scaled = self.scale(value)?;
-        if (self.unscale(scaled) - value).abs() > share * value.abs() {
+        // Counted in last digits: to divide takes longer than all the rest.
+        let exact = value * POWERS[self.decimals as usize];
+        if (scaled as f64 - exact).abs() > share * exact.abs() {
             return Err(self.changed(value, scaled, share));
         }
         Ok(scaled)

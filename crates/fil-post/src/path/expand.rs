@@ -59,7 +59,7 @@ fn tap(control: &mut Control, cycle: &Cycle, at: &Motion, hole: &Hole) -> Result
     let level = |level: f64| {
         let mut position = Position::default();
         position[hole.along] = level;
-        Motion { position, axes: AxisSet::of(hole.along), word: 0 }
+        Motion { position, axes: AxisSet::of(hole.along), word: 0, scaled: None }
     };
     control.because(cycle.cause, |control| {
         let cause = control.block.cause;
@@ -217,6 +217,6 @@ impl Moves<'_> {
     fn to(&self, level: f64) -> Motion {
         let mut position = Position::default();
         position[self.hole.along] = level;
-        Motion { position, axes: AxisSet::of(self.hole.along), word: 0 }
+        Motion { position, axes: AxisSet::of(self.hole.along), word: 0, scaled: None }
     }
 }

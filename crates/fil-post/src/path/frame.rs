@@ -249,7 +249,7 @@ fn turn_machine(
         machine_position::carry_out(post, [None, None, Some(level)])?;
     }
     let position = [0.0, 0.0, 0.0, angles[0], angles[1]];
-    let motion = Motion { position, axes: AxisSet::ROTARY, word: 0 };
+    let motion = Motion { position, axes: AxisSet::ROTARY, word: 0, scaled: None };
     let cause = post.control.block.cause;
     family::rapid(&mut post.control, &motion, RapidCode::Turning, cause)
 }

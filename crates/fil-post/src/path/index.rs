@@ -42,7 +42,7 @@ pub(super) fn turn(post: &mut Post, index: usize, to: f64) -> Result<()> {
     family::cancel_cycle(&mut post.control)?;
     let mut position = Position::default();
     position[index + 3] = to;
-    let motion = Motion { position, axes: AxisSet::of(index + 3), word: 0 };
+    let motion = Motion { position, axes: AxisSet::of(index + 3), word: 0, scaled: None };
     let cause = post.control.block.cause.whole();
     rapid::rapid(&mut post.control, &motion, cause)?;
     post.path.rotary = Some(angles);

@@ -6,7 +6,7 @@
 //! them. So rounding counts too.
 
 use fil_diag::Result;
-use fil_machine::axes::{AxisSet, Position};
+use fil_machine::axes::{AXES, AxisSet, Position};
 use fil_machine::axis_chain::{AxisChain, Turn};
 use fil_machine::locations as loc;
 use fil_machine::tables::MachineTables;
@@ -120,9 +120,9 @@ pub(super) fn feed(post: &mut Post, before: [f64; 2], to: Position, target: Targ
     let least = feed.least_parts(turning.length())?;
     let from = match start.on_tape {
         Some(there) => there,
-        None => turning.arrival(&start.position)?,
+        None => turning.arrival(&start.position)?.0,
     };
-    let arrival = turning.arrival(&to)?;
+    let (arrival, scaled) = turning.arrival(&to)?;
     if least > 1 || !turning.surely_stays_within(enough, &from.position, &arrival.position) {
         return divided(post, [start.position, to], (target, end), allowed, least);
     }
@@ -130,7 +130,7 @@ pub(super) fn feed(post: &mut Post, before: [f64; 2], to: Position, target: Targ
     let part = feed.between(&from.position, &arrival.position, way);
     part.warn_if_slowed(post);
     let word = rotary::word_of(post, target);
-    write(post, &Motion { position: to, axes: AxisSet::ALL, word }, &part)?;
+    write(post, &Motion { position: to, axes: AxisSet::ALL, word, scaled: Some(scaled) }, &part)?;
     post.path.arrived = Some(Arrived {
         settings: settings(post),
         target: (end, [to[3], to[4]]),
@@ -157,7 +157,7 @@ fn divided(
     let start = Start { position: from, tip: None, on_tape: None };
     let turning = Turning::new(post, &start, to, end);
     let feed = TurningFeed::of(post)?;
-    let begin = turning.arrival(&from)?;
+    let (begin, _) = turning.arrival(&from)?;
     let parts = match allowed {
         Some(allowed) => turning.divided(&begin, allowed, least)?,
         None => turning.parts(least)?,
@@ -179,7 +179,7 @@ fn divided(
         slowed.warn_if_slowed(post);
     }
     for (Part { position, .. }, feed) in parts.into_iter().zip(feeds) {
-        write(post, &Motion { position, axes: AxisSet::ALL, word }, &feed)?;
+        write(post, &Motion { position, axes: AxisSet::ALL, word, scaled: None }, &feed)?;
     }
     Ok(())
 }
@@ -187,8 +187,7 @@ fn divided(
 /// Writes one part with its feed.
 fn write(post: &mut Post, motion: &Motion, part: &PartFeed) -> Result<()> {
     family::feed(&mut post.control, motion, Some(&part.feed))?;
-    let inverse = part.after(&mut post.control);
-    post.path.writes_inverse_time = inverse && !post.path.inverse_time;
+    post.path.writes_inverse_time = part.is_inverse() && !post.path.inverse_time;
     Ok(())
 }
 
@@ -346,7 +345,7 @@ impl<'a> Turning<'a> {
                 let linear = self.chain.linear(tip, angles);
                 position = [linear.x, linear.y, linear.z, angles[0], angles[1]];
             }
-            parts.push(Part { position, on_tape: self.arrival(&position)? });
+            parts.push(Part { position, on_tape: self.arrival(&position)?.0 });
         }
         Ok(parts)
     }
@@ -407,31 +406,26 @@ impl<'a> Turning<'a> {
         certain_distance(self.chain, from, to, self.tables.last_digits()) <= most
     }
 
-    /// A position as the tape has it, with the tip there.
+    /// A position as the tape has it, with the tip there, and the scaled integers of its words.
     #[cfg_attr(not(target_family = "wasm"), inline(always))]
-    fn arrival(&self, position: &Position) -> Result<OnTape> {
-        let position = self.on_tape(position)?;
-        Ok(OnTape { tip: tip_beside(self.chain, &position, self.turns), position })
-    }
-
-    /// The position as the tape has it.
-    #[cfg_attr(not(target_family = "wasm"), inline(always))]
-    fn on_tape(&self, position: &Position) -> Result<Position> {
+    fn arrival(&self, position: &Position) -> Result<(OnTape, [i64; AXES])> {
         // Each by its own name: an array written by numbers has to go through memory.
-        let x = self.word_on_tape(0, position)?;
-        let y = self.word_on_tape(1, position)?;
-        let z = self.word_on_tape(2, position)?;
-        let primary = self.word_on_tape(3, position)?;
-        let secondary = self.word_on_tape(4, position)?;
-        Ok([x, y, z, primary, secondary])
+        let (x, of_x) = self.word_on_tape(0, position)?;
+        let (y, of_y) = self.word_on_tape(1, position)?;
+        let (z, of_z) = self.word_on_tape(2, position)?;
+        let (primary, of_primary) = self.word_on_tape(3, position)?;
+        let (secondary, of_secondary) = self.word_on_tape(4, position)?;
+        let position = [x, y, z, primary, secondary];
+        let scaled = [of_x, of_y, of_z, of_primary, of_secondary];
+        Ok((OnTape { tip: tip_beside(self.chain, &position, self.turns), position }, scaled))
     }
 
     /// The same for one axis; one that is not written stands where it stands.
     #[cfg_attr(not(target_family = "wasm"), inline(always))]
-    fn word_on_tape(&self, number: usize, position: &Position) -> Result<f64> {
+    fn word_on_tape(&self, number: usize, position: &Position) -> Result<(f64, i64)> {
         match self.tables.written().has(number) {
-            true => self.tables.axis(number).on_tape(position[number]),
-            false => Ok(position[number]),
+            true => self.tables.axis(number).scaled_on_tape(position[number]),
+            false => Ok((position[number], 0)),
         }
     }
 }

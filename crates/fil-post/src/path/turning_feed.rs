@@ -6,7 +6,6 @@
 
 use fil_diag::Result;
 use fil_machine::axes::Position;
-use fil_machine::letters::F;
 use fil_machine::locations::RotaryFeed;
 use fil_machine::modes::FeedMode;
 use fil_machine::rotary_feed_rules::RotaryFeedRules;
@@ -93,27 +92,32 @@ impl<'a> TurningFeed<'a> {
         if time == 0.0 {
             time = turned[0].max(turned[1]) / self.rate;
         }
-        let square = |n: usize| (to[n] - from[n]) * (to[n] - from[n]);
-        let linear = (0..3).map(square).sum::<f64>();
-        let turns = (3..5).map(square).sum::<f64>();
-        let (value, most, mode) = match self.form {
+        let (value, most, factor, mode) = match self.form {
             RotaryFeed::InverseTime => {
-                ((1.0 / time).max(rules.inverse[0]), rules.inverse[1], FeedMode::InverseTime)
+                let value = (1.0 / time).max(rules.inverse[0]);
+                (value, rules.inverse[1], rules.inverse_factor, FeedMode::InverseTime)
             }
-            RotaryFeed::LinearWayElseTheTurn => {
-                let way = if linear > 0.0 { linear } else { turns };
-                (way.sqrt() / time, rules.per_minute_most, FeedMode::PerMinute)
+            form => {
+                let value = counted_way(form, from, to) / time;
+                (value, rules.per_minute_most, rules.per_minute_factor, FeedMode::PerMinute)
             }
-            _ => ((linear + turns).sqrt() / time, rules.per_minute_most, FeedMode::PerMinute),
         };
         let slowed = value.min(most);
-        let factor = match mode {
-            FeedMode::InverseTime => rules.inverse_factor,
-            _ => rules.per_minute_factor,
-        };
         let feed = Feed { value: slowed * factor, mode, cause: self.given.cause };
         let limited = asked > 0.0 && time > asked * (1.0 + SAME_TIME);
         PartFeed { feed, slowed: limited || slowed < value }
+    }
+}
+
+/// The way between two positions whose length a minute F is, mm or inch and degrees.
+fn counted_way(form: RotaryFeed, from: &Position, to: &Position) -> f64 {
+    let square = |n: usize| (to[n] - from[n]) * (to[n] - from[n]);
+    let linear = (0..3).map(square).sum::<f64>();
+    let turns = (3..5).map(square).sum::<f64>();
+    match form {
+        RotaryFeed::LinearWayElseTheTurn if linear > 0.0 => linear.sqrt(),
+        RotaryFeed::LinearWayElseTheTurn => turns.sqrt(),
+        _ => (linear + turns).sqrt(),
     }
 }
 
@@ -130,13 +134,9 @@ impl PartFeed {
         post.warn(PostCode::Clamped, message);
     }
 
-    /// In inverse time, true, each block says its own F.
-    pub(super) fn after(&self, control: &mut Control) -> bool {
-        let inverse = self.feed.mode == FeedMode::InverseTime;
-        if inverse {
-            control.state.doubt(F);
-        }
-        inverse
+    /// True in inverse time, in which each block says its own F.
+    pub(super) fn is_inverse(&self) -> bool {
+        self.feed.mode == FeedMode::InverseTime
     }
 }
 

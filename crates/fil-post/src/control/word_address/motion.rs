@@ -28,6 +28,8 @@ pub struct Motion {
     pub axes: AxisSet,
     /// Word of the record that X repeats, Y and Z follow; 0 for none.
     pub word: u16,
+    /// The scaled integers of the position, where they have been found already.
+    pub scaled: Option<[i64; AXES]>,
 }
 
 impl Motion {
@@ -35,7 +37,7 @@ impl Motion {
     pub fn along(number: usize, to: f64) -> Motion {
         let mut position = Position::default();
         position[number] = to;
-        Motion { position, axes: AxisSet::of(number), word: 0 }
+        Motion { position, axes: AxisSet::of(number), word: 0, scaled: None }
     }
 
     /// The same for some of its axes.
@@ -255,7 +257,10 @@ pub fn axis_words(control: &mut Control, motion: &Motion) -> Result<bool> {
         if axis.is_off() {
             warn_off_the_tape(control, number, motion.position[number]);
         } else {
-            scaled[number] = axis.scaled(motion.position[number])?;
+            scaled[number] = match &motion.scaled {
+                Some(known) => known[number],
+                None => axis.scaled(motion.position[number])?,
+            };
             let due = axis.changes(scaled[number], &control.commons)
                 || (doubts && !control.state.has_last(axis.letter));
             if due {

@@ -111,6 +111,7 @@ fn one_pass_each(
             position: [end[0], 0.0, end[1], 0.0, 0.0],
             axes: fil_machine::axes::AxisSet::LINEAR,
             word: 0,
+            scaled: None,
         };
         control.because(thread.lead.cause, |control| {
             control.g_of_record(code);

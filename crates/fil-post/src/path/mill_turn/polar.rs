@@ -101,7 +101,8 @@ pub(super) fn begin(
     control.require_unit()?;
     let cause = control.block.cause;
     let radius = libm::hypot(point.x, point.y);
-    let at = |axes| Motion { position: [radius, 0.0, point.z, 0.0, 0.0], axes, word: 0 };
+    let at =
+        |axes| Motion { position: [radius, 0.0, point.z, 0.0, 0.0], axes, word: 0, scaled: None };
     let lifts = match control.place(2) {
         Place::At(_) | Place::Unsaid | Place::Clear => {
             control.stands(2).is_some_and(|here| point.z > here)
@@ -202,7 +203,7 @@ fn go(post: &mut Post, [x, y, z]: [f64; 3], axes: AxisSet, feed: &Feed, word: u1
     let of_slides: Position = [libm::hypot(x, y), 0.0, z, 0.0, 0.0];
     post.control.tables.check_travel(&of_slides, axes)?;
     let position: Position = [x, y, z, 0.0, 0.0];
-    family::feed(&mut post.control, &Motion { position, axes, word }, Some(feed))
+    family::feed(&mut post.control, &Motion { position, axes, word, scaled: None }, Some(feed))
 }
 
 /// The feed of a motion: that of the machine for rapid ones.
