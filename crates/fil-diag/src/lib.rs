@@ -153,6 +153,8 @@ pub const fn reason(text: &'static str) -> &'static str {
 ///
 /// let refused: fil_diag::Result<()> = ExampleCode::UnknownWord.err("BANANA");
 /// assert_eq!(refused.unwrap_err().to_string(), "W9901: BANANA");
+/// let hinted: fil_diag::Result<()> = ExampleCode::UnknownWord.err_with("PEAR", "Write APPLE.");
+/// assert_eq!(hinted.unwrap_err().hint.as_deref(), Some("Write APPLE."));
 /// let missing: Option<f64> = None;
 /// let diag = missing.ok_or_else(|| ExampleCode::UnknownWord.diag("no number")).unwrap_err();
 /// assert_eq!(diag.message, "no number");
@@ -190,6 +192,19 @@ macro_rules! codes {
             #[cold]
             pub fn err<T>(self, message: impl Into<String>) -> $crate::Result<T> {
                 Err(self.diag(message))
+            }
+
+            /// The same with a hint made for this case.
+            ///
+            /// # Errors
+            /// Always.
+            #[cold]
+            pub fn err_with<T>(
+                self,
+                message: impl Into<String>,
+                hint: &'static str,
+            ) -> $crate::Result<T> {
+                Err(Box::new(self.diag(message).hint(hint)))
             }
         }
 

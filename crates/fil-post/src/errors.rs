@@ -171,7 +171,7 @@ fil_diag::codes! {
         /// Something under tool-tip control.
         TipControl = 588, Error, "not under tool-tip control",
             "The control needs the length of the tool for it, and ends it only where the machine may turn its tables back to zero.",
-            "Put LOADTL before it, say angles with rotary.tip_form = 0, or write positions of the axes with rotary.tip_output = 0.";
+            "Put LOADTL before it, or write positions of the axes with rotary.tip_output = 0.";
         /// Something in a tilted frame.
         Frame = 589, Error, "not in a tilted frame",
             "A tilted frame stands still, and the machine turns to it only where the tool is away from the part.",

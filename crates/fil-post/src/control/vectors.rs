@@ -12,6 +12,9 @@ use super::Control;
 use super::word_address::motion::{Motion, note_axis_words};
 use crate::errors::PostCode;
 
+/// What helps where a vector can't say the direction.
+pub const SAY_ANGLES: &str = "Say angles with rotary.tip_form = 0.";
+
 /// Positions nearer to each other than this are the same, degrees.
 const SAME: f64 = 1e-6;
 
@@ -58,8 +61,10 @@ pub(super) fn axis_words(
     let direction = control.tables.chain().axis_at(angles).normalize();
     for (letter, part) in IJK.into_iter().zip(direction.iter()) {
         let Some(position) = control.tables.addresses.required(letter)? else {
-            return PostCode::TipControl
-                .err(format!("{letter} is off the tape, and the direction of the tool needs it"));
+            return PostCode::TipControl.err_with(
+                format!("{letter} is off the tape, and the direction of the tool needs it"),
+                SAY_ANGLES,
+            );
         };
         let scaled = control.tables.addresses.slot(position).format.scale(*part)?;
         control.block.put(position, scaled);
@@ -93,8 +98,10 @@ fn refuse_repeats(control: &Control) -> Result<()> {
         numbers.any(|number| control.tables.axis(number).letter == *letter)
     };
     match control.repeats.keys().find(|letter| rotary(letter) || IJK.contains(letter)) {
-        Some(letter) => PostCode::TipControl
-            .err(format!("REPEAT of {letter}: the direction of the tool is said by a vector")),
+        Some(letter) => PostCode::TipControl.err_with(
+            format!("REPEAT of {letter}: the direction of the tool is said by a vector"),
+            SAY_ANGLES,
+        ),
         None => Ok(()),
     }
 }
@@ -117,7 +124,8 @@ pub fn end(control: &mut Control) {
 pub(super) fn turned_by_words(control: &mut Control) -> Result<()> {
     control.tip.leans = None;
     if are_in_force(control) && !takes_angles_too(control.tables.family) {
-        return PostCode::TipControl.err("a rotary axis turns by its own word behind G43.5");
+        return PostCode::TipControl
+            .err_with("a rotary axis turns by its own word behind G43.5", SAY_ANGLES);
     }
     Ok(())
 }

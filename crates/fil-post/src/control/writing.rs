@@ -197,9 +197,11 @@ impl Control {
     /// which goes on: controls differ in what that does.
     fn refuse_under_tip_control(&self, before: Option<Frame>) -> Result<()> {
         match (before, self.frame_of_tip()) {
-            (Some(before), Some(now)) if before != now => PostCode::TipControl.err(
+            (Some(before), Some(now)) if before != now => PostCode::TipControl.err_with(
                 "a text changes the plane, the unit, the zero or the frame, goes to a position of \
                  the machine or begins a cycle: controls differ in what that does under it",
+                "Put the text before tool-tip control begins or behind its end, or write positions \
+                 of the axes with rotary.tip_output = 0.",
             ),
             _ => Ok(()),
         }

@@ -21,6 +21,9 @@ use crate::errors::PostCode;
 use crate::operation::{Operation, Target};
 use crate::post::Post;
 
+/// What helps where the tool would begin elsewhere at feed.
+const RAPID_FIRST: &str = "Put RAPID before the GOTO.";
+
 /// Two tool axes nearer than this are one.
 const SAME_AXIS: f64 = 1e-6;
 
@@ -100,9 +103,11 @@ fn frame_for(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<Tilte
         return Ok(frame);
     }
     if at_feed && same.is_none() && post.path.frame.is_some() && !post.control.tip.is_away {
-        return PostCode::Frame.err(
+        return PostCode::Frame.err_with(
             "the tool axis changes in a motion at feed, and a tilted frame stands still; \
              rotary.tip_output = 1 takes it under MULTAX/ON",
+            "Set rotary.tip_output = 1 and put MULTAX/ON before it, or write positions of the axes \
+             with rotary.frame_output = 0.",
         );
     }
     begin(post, axis, at_feed)
@@ -169,15 +174,17 @@ fn begin(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<TiltedFra
 /// which the control does not count with its length.
 fn refuse_at_feed(control: &Control, rests: bool) -> Result<()> {
     if !rests {
-        return PostCode::Frame.err(
+        return PostCode::Frame.err_with(
             "the machine turns, or a text or another work offset may have turned it, before a \
              motion at feed; RAPID brings the tool there anew",
+            RAPID_FIRST,
         );
     }
     if tip_control::ends_elsewhere(control) {
-        return PostCode::Frame.err(
+        return PostCode::Frame.err_with(
             "tool-tip control ends before a motion at feed, which would begin elsewhere; RAPID \
              brings the tool there anew",
+            RAPID_FIRST,
         );
     }
     Ok(())
@@ -217,9 +224,11 @@ fn check_rounded(chain: &AxisChain, turn: Rotation3<f64>, angles: [f64; 2]) -> R
     let near = |found: [f64; 2]| found.iter().zip(angles).all(|(a, b)| (a - b).abs() < ELSEWHERE);
     match chain.solve(turn * Vector3::z(), angles) {
         Ok(found) if near(found) => Ok(()),
-        _ => PostCode::Frame.err(
+        _ => PostCode::Frame.err_with(
             "the tool axis lies at a pole of the machine or at the end of what it reaches, and the \
              angles of a tilted frame can't name it exactly enough",
+            "Lay the part otherwise on the machine, or write positions of the axes with \
+             rotary.frame_output = 0.",
         ),
     }
 }
@@ -337,7 +346,11 @@ pub(super) fn before(control: &mut Control, operation: &Operation) -> Result<()>
         {
             match control.meaning(*code) {
                 Meaning::Frame | Meaning::Tilt | Meaning::TipControl | Meaning::Unit(_) => {
-                    PostCode::Frame.err("PREFUN: the function would move the frame in force")
+                    PostCode::Frame.err_with(
+                        "PREFUN: the function would move the frame in force",
+                        "Put it where the tool stands along Z of the machine, or write positions \
+                         of the axes with rotary.frame_output = 0.",
+                    )
                 }
                 _ => Ok(()),
             }

@@ -68,7 +68,7 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
         },
         MotionKind::Thread(lead) => {
             if post.writes_tip() {
-                return PostCode::TipControl.err("a thread");
+                return PostCode::TipControl.err_with("a thread", tip_control::OUTSIDE);
             }
             rotary::refuse_thread(before, post.path.rotary)?;
             scaled_lead::refuse(&post.control, &thread::AXES, PostCode::Thread)?;

@@ -24,6 +24,14 @@ use crate::errors::PostCode;
 use crate::operation::{Operation, Target};
 use crate::post::Post;
 
+/// What helps where something can't be done under it.
+pub(super) const OUTSIDE: &str = "With rotary.frame_output = 1 motions outside of MULTAX/ON are \
+    written without tool-tip control; with rotary.tip_output = 0 all are.";
+
+/// What helps where the tool can't go up before its length is taken off.
+const WHERE_IT_STANDS: &str = "Put a GOTO behind the text or the words that move the tool, or set \
+    rotary.tip_end_retract = 0 for a control that does not move at G49.";
+
 /// Begins tool-tip control before a motion, where it is not on: where the tables stand then is
 /// where the motion turns them from.
 ///
@@ -85,12 +93,13 @@ fn check_vector(post: &mut Post, angles: [f64; 2], axis: Vector3<f64>) -> Result
         post.control.tip.by_vector = false;
         return Ok(());
     }
-    PostCode::TipControl.err(format!(
+    let message = format!(
         "the rotary axes turn from {} to {} degrees, and for the same direction of the tool the \
          control may take other positions",
         spelled(stands),
         spelled(angles)
-    ))
+    );
+    PostCode::TipControl.err_with(message, vectors::SAY_ANGLES)
 }
 
 /// Begins tool-tip control. `axis`: the tool at the end of the first motion.
@@ -178,10 +187,11 @@ fn turn_tables_to_zero(post: &mut Post) -> Result<()> {
             continue;
         };
         if rotary.min.is_some_and(|min| min > 0.0) || rotary.max.is_some_and(|max| max < 0.0) {
-            return PostCode::TipControl.err(format!(
-                "tool-tip control begins with {} at 0, and its travel does not reach it",
-                rotary.letter
-            ));
+            let letter = rotary.letter;
+            return PostCode::TipControl.err_with(
+                format!("tool-tip control begins with {letter} at 0, and its travel ends before"),
+                "A control that takes the part as it lies needs no zero: rotary.tip_control = 1.",
+            );
         }
         stands[index] = 0.0;
         let number = index + 3;
@@ -191,9 +201,11 @@ fn turn_tables_to_zero(post: &mut Post) -> Result<()> {
         }
     }
     if !tables.is_empty() && !control.tip.is_away {
-        return PostCode::TipControl.err(
+        return PostCode::TipControl.err_with(
             "tool-tip control would begin anew with its tables at 0, and they would turn beside \
              the part; a tool change must come before",
+            "Put LOADTL before it; a control that takes the part as it lies needs no zero: \
+             rotary.tip_control = 1.",
         );
     }
     let motion = Motion { position: Position::default(), axes: tables, word: 0, scaled: None };
@@ -278,9 +290,10 @@ fn way_up(control: &mut Control) -> Result<Option<f64>> {
 fn go_up(control: &mut Control) -> Result<bool> {
     let Some(distance) = way_up(control)? else { return Ok(false) };
     let Some((tip, angles)) = pose(control) else {
-        return PostCode::TipControl.err(
+        return PostCode::TipControl.err_with(
             "tool-tip control ends, and where the tool stands is not known: it can't go up \
              before (rotary.tip_end_retract)",
+            WHERE_IT_STANDS,
         );
     };
     let chain = control.tables.chain();
@@ -299,9 +312,10 @@ fn go_up(control: &mut Control) -> Result<bool> {
 fn go_up_with_length(control: &mut Control) -> Result<()> {
     let Some(distance) = way_up(control)? else { return Ok(()) };
     let Some(z) = control.stands(2) else {
-        return PostCode::TipControl.err(
+        return PostCode::TipControl.err_with(
             "the length of the tool is taken off before tool-tip control begins, and where Z \
              stands is not known: it can't go up before (rotary.tip_end_retract)",
+            WHERE_IT_STANDS,
         );
     };
     let position = [0.0, 0.0, z + distance, 0.0, 0.0];
@@ -349,5 +363,6 @@ pub(super) fn before(control: &mut Control, operation: &Operation) -> Result<()>
     if control.state.tip_control == Some(false) {
         return Ok(());
     }
-    PostCode::TipControl.err(format!("{what}: controls differ in what it does under it"))
+    let message = format!("{what}: controls differ in what it does under it");
+    PostCode::TipControl.err_with(message, OUTSIDE)
 }

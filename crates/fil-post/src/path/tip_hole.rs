@@ -6,12 +6,15 @@ use nalgebra::{Point3, Vector3};
 
 use super::cycle::{AboveHoles, Cycle, CycleFeed, CycleKind};
 use super::expand::{WayOut, way_out};
-use super::{Since, linear};
+use super::{Since, linear, tip_control};
 use crate::control::family;
 use crate::control::word_address::spindle;
 use crate::errors::PostCode;
 use crate::operation::{Dwell, MotionKind, Target};
 use crate::post::Post;
+
+/// What helps where a level can't hold for two directions of the tool.
+const EACH_ITS_LEVEL: &str = "Give the cycle RETURN with a number, or CLEAR alone.";
 
 /// Least part of a way along the tool that must lead up to the level of the next hole.
 const LEAST_WAY_UP: f64 = 0.2;
@@ -39,9 +42,10 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
     let above = above.filter(|_| post.path.since != Since::ToolChange);
     refuse_turned_level(cycle, above, axis)?;
     if above.is_some() && post.path.since == Since::Frame {
-        return PostCode::TipControl.err(
+        return PostCode::TipControl.err_with(
             "a hole right behind TRANS, ORIGIN, TRACUT, ROTABL, FROM or a text that moves the tool: \
              a GOTO between them must say where it stands",
+            "Put a GOTO above the hole between them.",
         );
     }
     let rest = match (cycle.retract, above) {
@@ -77,9 +81,10 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
 pub(super) fn retract(post: &mut Post, above: &mut AboveHoles) -> Result<()> {
     let axis = post.path.stands.normalize();
     if above.axis.dot(&axis) < SAME_DIRECTION {
-        return PostCode::TipControl.err(
+        return PostCode::TipControl.err_with(
             "cycle.retract_block goes back to the level before the cycle, and the tool has turned \
              since",
+            EACH_ITS_LEVEL,
         );
     }
     let way = (above.before - above.now).dot(&axis);
@@ -99,20 +104,25 @@ fn refuse_turned_level(cycle: &Cycle, above: Option<AboveHoles>, axis: Vector3<f
     if cycle.retract != Some(0.0) || !turned {
         return Ok(());
     }
-    PostCode::TipControl.err(
+    PostCode::TipControl.err_with(
         "RETURN,0 goes back to the level before the cycle, and the tool has turned since: a level \
          over each hole (RETURN with a number, or RAPTO) says how far it comes out",
+        EACH_ITS_LEVEL,
     )
 }
 
 fn cant_go_up() -> Result<()> {
-    PostCode::TipControl.err(
+    PostCode::TipControl.err_with(
         "the tool turns far to the next hole of a cycle, whose level lies above where it stands",
+        "Put CYCLE/OFF and a GOTO above the next hole, along its axis, before it.",
     )
 }
 
 fn cant_tap() -> Result<()> {
-    PostCode::TipControl.err("a tap can't be written as single moves, and no cycle runs under it")
+    PostCode::TipControl.err_with(
+        "a tap can't be written as single moves, and no cycle runs under it",
+        tip_control::OUTSIDE,
+    )
 }
 
 /// The moves of a hole along its axis.
