@@ -8,8 +8,8 @@ use crate::commons::Commons;
 use crate::errors::MachineCode;
 use crate::letter::{Letter, letters};
 use crate::locations::{
-    self as loc, ControlFamily, ControlTranslation, MillTurnMode, RotaryFrameOutput,
-    RotaryTipOutput,
+    self as loc, ControlFamily, ControlTranslation, MillTurnMode, MillTurnPeckForm,
+    RotaryFrameOutput, RotaryTipOutput,
 };
 use crate::setting::CodeAt;
 
@@ -85,7 +85,8 @@ fn check_transformations(commons: &Commons) -> Result<()> {
     }
     let codes = [loc::MILL_TURN_POLAR_CODE, loc::MILL_TURN_CYLINDER_CODE];
     let named = codes.iter().any(|at| commons.int_opt(*at).is_some());
-    if named || CYCLE_CODES.iter().any(|at| commons.read(*at).is_some()) {
+    let pecks = commons.read(loc::MILL_TURN_PECK_FORM) != MillTurnPeckForm::SingleMoves;
+    if pecks || named || CYCLE_CODES.iter().any(|at| commons.read(*at).is_some()) {
         return refuse(
             "a SINUMERIK has no codes of interpolations and of cycles of live tools \
              (transformations = 1 is TRANSMIT and TRACYL)",

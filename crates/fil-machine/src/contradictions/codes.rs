@@ -59,6 +59,10 @@ const DIFFERENT: &[&[(CodeAt, &str)]] = &[
         (loc::CYCLE_RETURN_INITIAL_CODE, "return to the level before"),
         (loc::CYCLE_RETURN_CLEAR_CODE, "return to the R level"),
     ],
+    &[
+        (loc::THREAD_CHAMFER_ON_CODE, "the way out of threads"),
+        (loc::THREAD_CHAMFER_OFF_CODE, "threads to their end"),
+    ],
     COMMANDS,
 ];
 
@@ -131,6 +135,7 @@ const FUNCTIONS: &[(&str, &[CodeAt])] = &[
     ("the override of the feed", &[loc::OVERRIDE_ON_CODE, loc::OVERRIDE_OFF_CODE]),
     ("a clamp", &[loc::ROTARY_CLAMP_CODE, loc::ROTARY_UNCLAMP_CODE]),
     ("a rigid tap", &[loc::CYCLE_RIGID_TAP_MODE]),
+    ("the way out of threads", &[loc::THREAD_CHAMFER_ON_CODE, loc::THREAD_CHAMFER_OFF_CODE]),
 ];
 
 /// Commands of M, which no coolant may share either.
@@ -165,6 +170,28 @@ pub(super) fn check(commons: &Commons, found: &mut Vec<Diag>) {
     calls(commons, found);
     coolants(commons, found);
     turns_behind_surface_speed(commons, found);
+    way_out_of_threads(commons, found);
+}
+
+/// The way out of threads has two codes, and a length only with them.
+fn way_out_of_threads(commons: &Commons, found: &mut Vec<Diag>) {
+    let codes = [loc::THREAD_CHAMFER_ON_CODE, loc::THREAD_CHAMFER_OFF_CODE];
+    let [on, off] = codes.map(|at| commons.read(at).is_some());
+    let tenths = commons.int_opt(loc::THREAD_CHAMFER_TENTHS);
+    if on != off {
+        found.push(contradiction(
+            "thread.chamfer_on_code and thread.chamfer_off_code: one of them is not there, and \
+             the control goes on as the other one left it"
+                .into(),
+        ));
+    } else if tenths.is_some() && !on {
+        found.push(contradiction(
+            "thread.chamfer_tenths is what M codes switch, and thread.chamfer_on_code is not there"
+                .into(),
+        ));
+    } else if tenths.is_some_and(|tenths| !(1..=99).contains(&tenths)) {
+        found.push(contradiction("thread.chamfer_tenths is none of 1 to 99".into()));
+    }
 }
 
 /// What ends a surface speed: without a code for it, S would go on as one.

@@ -92,6 +92,50 @@ pub enum DepthForm {
     Unsigned,
 }
 
+/// What the drilling cycles of live tools do with the depth of a peck.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct LivePecks {
+    /// Out of the hole after each, or a little up; `None` where nobody says.
+    pub(crate) kind: Option<CycleKind>,
+    /// Along X it counts as a diameter, or a radius; `None` where nobody says.
+    pub(crate) side_is_diameter: Option<bool>,
+}
+
+impl LivePecks {
+    fn new(settings: &Settings) -> Self {
+        LivePecks {
+            kind: match settings.code("mill_turn.peck_form") {
+                Some(1) => Some(CycleKind::Peck),
+                Some(2) => Some(CycleKind::BreakChips),
+                _ => None,
+            },
+            side_is_diameter: match settings.code("mill_turn.side_peck") {
+                Some(1) => Some(false),
+                Some(2) => Some(true),
+                _ => None,
+            },
+        }
+    }
+}
+
+/// How threading cycles leave a thread before its end, by M codes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct WayOut {
+    /// The codes that switch it on and off.
+    pub(crate) codes: [u32; 2],
+    /// Its length in leads, which a parameter of the control says.
+    pub(crate) leads: Option<f64>,
+}
+
+impl WayOut {
+    fn new(settings: &Settings) -> Option<Self> {
+        let code = |key| settings.code(key).and_then(|code| u32::try_from(code).ok());
+        let codes = [code("thread.chamfer_on_code")?, code("thread.chamfer_off_code")?];
+        let leads = settings.number("thread.chamfer_tenths").map(|tenths| tenths / 10.0);
+        Some(WayOut { codes, leads })
+    }
+}
+
 /// How a tool is called.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ToolCall {
@@ -132,6 +176,10 @@ pub struct Dialect {
     pub(crate) one_code: [bool; 3],
     /// The feed that stands for rapid motions in polar interpolation, mm a minute.
     pub(crate) polar_rapid: Option<f64>,
+    /// What the cycles of live tools do with pecks.
+    pub(crate) live_pecks: LivePecks,
+    /// M codes by which threading cycles leave a thread; `None` for a machine without.
+    pub(crate) way_out: Option<WayOut>,
     /// A SINUMERIK has TRANSMIT and TRACYL in place of an axis Y.
     pub(crate) transforms: bool,
     /// The spindle of the live tool by its number, which SETMS makes the master spindle.
@@ -309,6 +357,8 @@ impl Dialect {
             spindle_modes: ["milling", "turning"]
                 .map(|mode| settings.code(&format!("mill_turn.{mode}_code"))),
             polar_rapid: settings.number("mill_turn.polar_rapid"),
+            live_pecks: LivePecks::new(&settings),
+            way_out: WayOut::new(&settings),
             tip_control_anywhere: settings.code("rotary.tip_control") == Some(1),
             lathe,
             metric: start::metric(&settings),

@@ -2,7 +2,7 @@
 //!
 //! Fanuc's manual of lathes: R is the way from the level before the cycle to the R level, the
 //! depth is a position, and the tool returns to the level before. Whether R counts as a
-//! radius on X, and how far a peck comes out, are matters of parameters.
+//! radius on X is a matter of a parameter; so is what Q means, which the machine's settings say.
 
 use super::Fault;
 use super::cycle::{Cycle, R};
@@ -54,8 +54,8 @@ impl State<'_> {
                 );
             }
         }
-        if words.has(self.dialect.step) {
-            return refuse("how far a peck of a live tool comes out is said by a parameter");
+        if let Some(step) = words.take(self.dialect.step)? {
+            self.live_peck(cycle, along, step)?;
         }
         if let Some(word) = axes.iter().find(|word| word.axis == along) {
             if word.increment || !self.absolute {
@@ -69,6 +69,33 @@ impl State<'_> {
         if cycle.bottom.is_some_and(|bottom| bottom >= cycle.initial) {
             return refuse("the bottom of a hole lies above the level before the cycle");
         }
+        Ok(())
+    }
+
+    /// A hole in pecks, as the machine's parameters make them.
+    fn live_peck(&self, cycle: &mut Cycle, along: usize, step: f64) -> Result<(), Fault> {
+        if cycle.kind != CycleKind::Drill {
+            return refuse("a depth of pecks in a tap of a live tool");
+        }
+        let pecks = self.dialect.live_pecks;
+        let Some(kind) = pecks.kind else {
+            return refuse(
+                "how far a peck of a live tool comes out is said by a parameter \
+                 (mill_turn.peck_form)",
+            );
+        };
+        let is_diameter = if along == 0 { pecks.side_is_diameter } else { Some(false) };
+        let Some(is_diameter) = is_diameter else {
+            return refuse(
+                "whether a peck along X is a radius or a diameter is said by a parameter \
+                 (mill_turn.side_peck)",
+            );
+        };
+        let step = self.length(along, step) / if is_diameter { 2.0 } else { 1.0 };
+        if step <= 0.0 {
+            return refuse("a peck of a live tool is not above zero");
+        }
+        (cycle.kind, cycle.step) = (kind, Some(step));
         Ok(())
     }
 }

@@ -267,6 +267,7 @@ impl State<'_> {
     pub(super) fn auxiliaries(&mut self, words: &Words) {
         for (auxiliary, _) in &words.auxiliaries {
             if let Auxiliary::Other(code) = auxiliary {
+                self.switch_way_out(*code);
                 self.tell_auxiliary(*code);
             }
         }

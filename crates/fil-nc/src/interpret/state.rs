@@ -59,6 +59,8 @@ pub(super) struct State<'d> {
     /// The tool lies along its Z.
     pub(super) aligned: bool,
     pub(super) pass: Option<Pass>,
+    /// Threading cycles leave the thread at an angle, where M codes switch that and one has.
+    pub(super) leaves_threads: Option<bool>,
     pub(super) setup: Option<Setup>,
     /// Tool that the next change takes.
     pub(super) next_tool: Option<u32>,
@@ -103,6 +105,7 @@ impl<'d> State<'d> {
             plane_before: dialect.plane,
             cylinder: None,
             pass: None,
+            leaves_threads: None,
             setup: None,
             next_tool: None,
             modes: Modes { inch: !dialect.metric, ..Modes::default() },

@@ -9,11 +9,13 @@ use crate::motion::{Course, Rate};
 
 const A: u8 = letter(b'A');
 const D: u8 = letter(b'D');
+const E: u8 = letter(b'E');
 const F: u8 = letter(b'F');
 const H: u8 = letter(b'H');
 const I: u8 = letter(b'I');
 const J: u8 = letter(b'J');
 const K: u8 = letter(b'K');
+const L: u8 = letter(b'L');
 const P: u8 = letter(b'P');
 const Q: u8 = letter(b'Q');
 const R: u8 = letter(b'R');
@@ -125,10 +127,35 @@ impl State<'_> {
         };
         let (x, z) = self.thread_end(&axes, before)?;
         let taper = taper.map(|taper| self.length(X, taper)).or(before.map(|pass| pass.taper));
-        let pass = Pass { x, z, taper: taper.unwrap_or(0.0), lead, leaves: 0.0 };
+        let leaves = self.way_out(None)? * lead;
+        let pass = Pass { x, z, taper: taper.unwrap_or(0.0), lead, leaves };
         self.pass = Some(pass);
         self.cut(pass, 0.0);
         Ok(())
+    }
+
+    /// The way on which a cycle leaves a thread, in leads, where M codes switch it: that of the
+    /// cycle's own word, else that of the control's parameter.
+    fn way_out(&self, said: Option<f64>) -> Result<f64, Fault> {
+        let Some(way_out) = self.dialect.way_out else { return Ok(said.unwrap_or(0.0)) };
+        let refuse = |why: &str| Err(Fault::new(NcCode::NoMeaning, why));
+        match (self.leaves_threads, said.or(way_out.leads)) {
+            (Some(false), _) => Ok(0.0),
+            (Some(true), Some(leads)) => Ok(leads),
+            (Some(true), None) => refuse(
+                "the thread is left at an angle, and on which length is said by a parameter \
+                 (thread.chamfer_tenths)",
+            ),
+            (None, _) => refuse("no block says whether the thread is left at an angle"),
+        }
+    }
+
+    /// Takes up an M code that switches the way out of threads.
+    pub(super) fn switch_way_out(&mut self, code: u32) {
+        let Some([on, off]) = self.dialect.way_out.map(|way_out| way_out.codes) else { return };
+        if code == on || code == off {
+            self.leaves_threads = Some(code == on);
+        }
     }
 
     /// The end of a thread; what a block does not say is as it was.
@@ -208,7 +235,7 @@ impl State<'_> {
         let height = words.take_number(P).map(|height| height.steps(self.unit()));
         let first = words.take_number(Q).map(|first| first.steps(self.unit()));
         thread(
-            Pass { x, z, taper, lead, leaves: setup.chamfer / 10.0 * lead },
+            Pass { x, z, taper, lead, leaves: self.way_out(Some(setup.chamfer / 10.0))? * lead },
             height,
             first,
             setup,
@@ -224,12 +251,15 @@ impl State<'_> {
         let height = words.take_number(K).map(|height| height.steps(self.unit()));
         let first = words.take_number(D).map(|first| first.steps(self.unit()));
         let setup = Setup { finishing: 1, chamfer: 0.0, angle, least: 0.0, allowance: 0.0 };
-        thread(Pass { x, z, taper, lead, leaves: 0.0 }, height, first, setup)
+        let leaves = self.way_out(None)? * lead;
+        thread(Pass { x, z, taper, lead, leaves }, height, first, setup)
     }
 
     /// LinuxCNC: `P` pitch, `Z` end, `I` from where the tool stands to the crest, `J` first
     /// depth, `K` height, `R` how fast the passes become shallower, `Q` slant of the
-    /// infeed, `H` passes at full depth after the last. `I`, `J` and `K` count as X does.
+    /// infeed, `H` passes at full depth after the last; `E` the way along Z on which a pass comes
+    /// in and goes out by the full height, `L` at the start (1), the end (2) or both (3). `I`, `J`
+    /// and `K` count as X does.
     pub(super) fn thread_by_pitch(&mut self, words: &mut Words) -> Result<(), Fault> {
         let missing =
             |what: &str| Fault::new(NcCode::MissingWord, format!("the thread needs {what}"));
@@ -240,6 +270,12 @@ impl State<'_> {
         let power = words.take(R)?.unwrap_or(1.0).max(1.0);
         let slope = libm::tan(words.take(Q)?.unwrap_or(0.0).to_radians());
         let springs = words.take_whole(H)?.unwrap_or(0);
+        let leans = words.take(E)?.unwrap_or(0.0).max(0.0) * self.unit();
+        let ends = words.take_whole(L)?.unwrap_or(0);
+        if ends > 3 {
+            return Err(Fault::new(NcCode::BadNumber, "L of the thread is none of 0, 1, 2 and 3"));
+        }
+        let [entry, exit] = [1, 2].map(|end| if ends & end != 0 { leans } else { 0.0 });
         let axes = words.take_axes(self.dialect)?;
         let [end] = axes[..] else { return Err(missing("Z and no other axis")) };
         if end.axis != Z || !(self.known[X] && self.known[Z]) {
@@ -252,6 +288,9 @@ impl State<'_> {
         let (drive, begin) = (self.at[X], self.at[Z]);
         let z = self.target(&axes).0[Z];
         let (into, towards) = (to_crest.signum(), (z - begin).signum());
+        if entry + exit > (z - begin).abs() {
+            return Err(Fault::new(NcCode::BadNumber, "E of the thread is longer than the thread"));
+        }
         let count = (1..).map(|pass| first * libm::pow(f64::from(pass), 1.0 / power));
         let mut depths: Vec<f64> =
             count.take_while(|depth| *depth < height).take(MAX_PASSES + 1).collect();
@@ -267,8 +306,18 @@ impl State<'_> {
             let begin = begin + towards * depth * slope;
             let end = z - towards * (height - depth) * slope;
             self.step(&[(X, clear), (Z, begin)], Course::Rapid, None);
-            self.step(&[(X, x)], Course::Rapid, None);
-            self.step(&[(Z, end)], Course::Thread, Some(Rate::PerTurn(lead)));
+            let rate = Some(Rate::PerTurn(lead));
+            let above = x - into * height;
+            if entry > 0.0 {
+                self.step(&[(X, above)], Course::Rapid, None);
+                self.step(&[(X, x), (Z, begin + towards * entry)], Course::Thread, rate);
+            } else {
+                self.step(&[(X, x)], Course::Rapid, None);
+            }
+            self.step(&[(Z, end - towards * exit)], Course::Thread, rate);
+            if exit > 0.0 {
+                self.step(&[(X, above), (Z, end)], Course::Thread, rate);
+            }
             self.step(&[(X, clear)], Course::Rapid, None);
         }
         self.step(&[(X, drive), (Z, z)], Course::Rapid, None);

@@ -24,9 +24,15 @@ pub(super) struct Auxiliaries {
     allowed: Vec<(u32, [u32; 2])>,
     /// From this line of the program on nobody knows what must come.
     open_from: Option<u32>,
+    /// The codes of the way out of threads: where they stand shows in the passes of the cycles.
+    way_out: Option<[u32; 2]>,
 }
 
 impl Auxiliaries {
+    pub(super) fn new(way_out: Option<[u32; 2]>) -> Self {
+        Auxiliaries { way_out, ..Auxiliaries::default() }
+    }
+
     pub(super) fn ask(&mut self, code: u32, cl_line: u32, lines: [u32; 2]) {
         self.asked.push(Asked { code, cl_line, lines });
     }
@@ -86,7 +92,8 @@ impl Auxiliaries {
     }
 
     fn extra(&self, report: &mut Report, line: u32, code: u32) {
-        if self.open_from.is_none_or(|open| line < open) {
+        let switches_way_out = self.way_out.is_some_and(|codes| codes.contains(&code));
+        if !switches_way_out && self.open_from.is_none_or(|open| line < open) {
             let message = format!("M{code}: neither the CL file nor the settings ask for it");
             find(report, None, Some(line), message);
         }

@@ -116,7 +116,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             next: 0,
             own,
             changes: 0,
-            auxiliaries: Auxiliaries::default(),
+            auxiliaries: Auxiliaries::new(settings.way_out_codes()),
             settings,
             slack: settings.slack(true),
             metric: true,

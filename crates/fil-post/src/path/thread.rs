@@ -6,6 +6,7 @@
 //! one pitch farther away from the part each.
 
 use fil_diag::Result;
+use fil_machine::Letter;
 use fil_machine::locations::{self as loc, ThreadCycle, ThreadLeadAlong};
 
 pub use super::thread_shape::{Shape, least_depth};
@@ -17,6 +18,9 @@ use crate::operation::{
     Lead, MotionKind, Operation, SpindleSpeed, Target, Thread, ThreadPasses, ThreadSide,
 };
 use crate::post::Post;
+
+/// Where LinuxCNC's G76 says how its passes leave the thread.
+const WAY_OUT: [Letter; 2] = [Letter::of(b'E'), Letter::of(b'L')];
 
 /// Most threads beside each other.
 pub const MOST_STARTS: u32 = 100;
@@ -337,11 +341,9 @@ fn to(post: &mut Post, target: Target, kind: MotionKind) -> Result<()> {
 pub fn cycle_of(post: &Post, thread: &Thread, shape: &Shape) -> ThreadCycle {
     let cycle = post.control.commons.read(loc::THREAD_CYCLE);
     let straight = thread.angle == 0.0;
-    let in_tenths = cycle == ThreadCycle::CycleOfAllPassesInTwoBlocks;
     let fits = match cycle {
         ThreadCycle::SinglePasses => true,
-        // The others leave the thread by a parameter of the control.
-        _ if shape.chamfer_in_tenths(thread).is_none_or(|tenths| tenths > 0 && !in_tenths) => false,
+        _ if !says_way_out(post, thread, shape, cycle) => false,
         _ if shape.is_on_face() => false,
         ThreadCycle::CycleOfOnePass => straight || !shape.leans(),
         ThreadCycle::CycleOfAllPassesInTwoBlocks => {
@@ -365,6 +367,30 @@ pub fn cycle_of(post: &Post, thread: &Thread, shape: &Shape) -> ThreadCycle {
         }
     };
     if fits { cycle } else { ThreadCycle::SinglePasses }
+}
+
+/// The cycle leaves the thread as asked: by the tenths of G76 in two blocks, by E and L of
+/// LinuxCNC, which rise by the height of the thread, or by a parameter of the control that the
+/// machine file tells (`thread.chamfer_tenths`) and an M code switches.
+fn says_way_out(post: &Post, thread: &Thread, shape: &Shape, cycle: ThreadCycle) -> bool {
+    if shape.leaves() == 0.0 {
+        return true;
+    }
+    let tenths = shape.chamfer_in_tenths(thread).filter(|tenths| *tenths > 0);
+    match cycle {
+        ThreadCycle::CycleOfAllPassesInTwoBlocks => tenths.is_some(),
+        ThreadCycle::CycleOfAllPassesOfLinuxcnc => {
+            let is_there = |letter| post.control.tables.addresses.position(letter).is_some();
+            shape.leaves_by_its_height(thread) && WAY_OUT.into_iter().all(is_there)
+        }
+        ThreadCycle::CycleOfOnePass | ThreadCycle::CycleOfAllPassesInOneBlock => {
+            let commons = &post.control.commons;
+            let is_switched = commons.read(loc::THREAD_CHAMFER_ON_CODE).is_some();
+            let of_control = commons.int_opt(loc::THREAD_CHAMFER_TENTHS);
+            is_switched && of_control.is_some() && of_control == tenths.map(u32::cast_signed)
+        }
+        ThreadCycle::SinglePasses | ThreadCycle::Cycle97OfASinumerik => false,
+    }
 }
 
 /// The cycles of all passes count them from the depth of the first.

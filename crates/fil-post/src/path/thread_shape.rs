@@ -155,6 +155,16 @@ impl Shape {
         whole.then(|| tenths.round() as u32)
     }
 
+    /// The way out along the thread; 0 where each pass goes to the end.
+    pub fn leaves(&self) -> f64 {
+        self.leaves
+    }
+
+    /// The way out is as long as the thread is deep, so that 45 degrees rise by its full height.
+    pub fn leaves_by_its_height(&self, thread: &Thread) -> bool {
+        (self.leaves - thread.depth).abs() < NOTHING
+    }
+
     /// Pass i of n lies at the root of i/n of the depth, in front of those at full depth.
     pub fn divides_evenly(&self, thread: &Thread) -> bool {
         let cuts = self.cuts(thread);
@@ -179,7 +189,7 @@ impl Shape {
         &self.depths[..self.depths.len() - springs]
     }
 
-    /// The end of the crest moved down to the root.
+    /// The end of the crest moved down to a depth, wherever a pass begins to leave the thread.
     pub fn root_end(&self, depth: f64) -> Target {
         self.beside(self.crest[1], -self.out * depth)
     }

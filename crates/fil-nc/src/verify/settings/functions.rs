@@ -232,6 +232,13 @@ impl Settings<'_> {
         self.commons.dbl_opt(loc::THREAD_CHAMFER).unwrap_or(0.0).max(0.0)
     }
 
+    /// The codes that switch the way out of threads on and off.
+    pub fn way_out_codes(&self) -> Option<[u32; 2]> {
+        let on = self.commons.read(loc::THREAD_CHAMFER_ON_CODE).map(number)?;
+        let off = self.commons.read(loc::THREAD_CHAMFER_OFF_CODE).map(number)?;
+        Some([on, off])
+    }
+
     /// How far from the crest the tool goes back from a thread, mm.
     pub fn thread_clearance(&self) -> f64 {
         self.commons.dbl_opt(loc::THREAD_CLEARANCE).unwrap_or(0.0)

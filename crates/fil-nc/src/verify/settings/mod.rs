@@ -11,7 +11,7 @@ use fil_machine::cycle_kind::CycleKind;
 use fil_machine::letter::{Letter, letters};
 use fil_machine::locations::{
     self as loc, CircleCenter, ControlFamily, ControlToolOffsets, CycleBoreOut, InputKind,
-    Placement, RapidSplit, ToolChangeBlock, ToolFormat,
+    MillTurnSidePeck, Placement, RapidSplit, ToolChangeBlock, ToolFormat,
 };
 use fil_machine::user_blocks::{self, AroundChange};
 
@@ -238,7 +238,7 @@ impl<'c> Settings<'c> {
 
     /// A peck as a cycle of the control has it, mm: its last digit counts once for each peck,
     /// and by the output scale of Z.
-    pub fn peck_on_tape(&self, step: f64, metric: bool) -> f64 {
+    pub fn peck_on_tape(&self, step: f64, metric: bool, of_diameter: bool) -> f64 {
         let letter = match self.commons.read(loc::CONTROL_FAMILY) {
             ControlFamily::WordAddress => self.commons.read(loc::CYCLE_STEP_ADDRESS),
             _ => Some(letters::XYZ[2]),
@@ -246,7 +246,8 @@ impl<'c> Settings<'c> {
         let addresses = Addresses::from_commons(self.commons, metric);
         let format = letter.and_then(|letter| addresses.format(letter).copied());
         let Some(format) = format else { return step };
-        let digit = format.unscale(1) * unit(metric) / self.scale(2);
+        let of_diameter = if of_diameter { 2.0 } else { 1.0 };
+        let digit = format.unscale(1) * unit(metric) / self.scale(2) / of_diameter;
         to_digit(step, digit)
     }
 
@@ -471,6 +472,11 @@ impl<'c> Settings<'c> {
     /// Pecks of a cycle count from the surface of the hole and not from the R level.
     pub fn pecks_from_surface(&self) -> bool {
         self.commons.read(loc::CONTROL_FAMILY) != ControlFamily::WordAddress
+    }
+
+    /// A peck of a live tool's cycle square to Z counts as a diameter.
+    pub fn side_pecks_are_diameters(&self) -> bool {
+        self.commons.read(loc::MILL_TURN_SIDE_PECK) == MillTurnSidePeck::Diameter
     }
 
     /// The control's own cycle lifts at feed to break chips.

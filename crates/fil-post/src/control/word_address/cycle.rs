@@ -6,7 +6,7 @@ use fil_machine::axes::AxisSet;
 use fil_machine::letters::{F, R, S};
 use fil_machine::locations::{
     self as loc, ControlFamily, CycleAxesModal, CycleDataModal, CycleDepthOutput, CycleReturnCodes,
-    DwellCycleModal,
+    DwellCycleModal, MillTurnSidePeck,
 };
 use fil_machine::modes::{FeedMode, Plane};
 use fil_machine::rounding::Rounding;
@@ -179,6 +179,7 @@ pub fn live_hole(
         .because(cycle.due_to(cycle.words.depth), |control| control.word(axis.letter, bottom))?;
     control.require_on_tape(R, "the R level of a cycle")?;
     control.word(R, 0.0)?;
+    live_peck(control, cycle, hole)?;
     dwell_word(control, cycle)?;
     let rounding = if cycle.kind == CycleKind::Tap { Rounding::Lead } else { Rounding::Rate };
     motion::feed_mode(control, feed)?;
@@ -186,6 +187,19 @@ pub fn live_hole(
     motion::write_motion(control)?;
     dwell::restore_format(control, usual);
     Ok(())
+}
+
+/// The depth of a peck of a live tool.
+fn live_peck(control: &mut Control, cycle: &Cycle, hole: &Hole) -> Result<()> {
+    let Some(step) = cycle.step else { return Ok(()) };
+    let is_diameter = hole.along == 0
+        && control.commons.read(loc::MILL_TURN_SIDE_PECK) == MillTurnSidePeck::Diameter;
+    let step = if is_diameter { 2.0 * step } else { step };
+    let letter = control.letter(loc::CYCLE_STEP_ADDRESS, "the peck")?;
+    control.require_on_tape(letter, "the peck of a live tool")?;
+    control.because(cycle.due_to(cycle.words.step), |control| {
+        control.word_rounded(letter, step, Rounding::Rate)
+    })
 }
 
 /// Adds the words of those axes that each hole says again, whether or not they have

@@ -15,6 +15,9 @@ use crate::operation::{Thread, ThreadPasses};
 use crate::path::thread::{Shape, cycle_of, go_above, least_depth, on_machine};
 use crate::post::Post;
 
+/// L of LinuxCNC's G76: the passes lean at their end.
+const EXIT: f64 = 2.0;
+
 /// Lengths nearer to zero than this are zero, mm or inch.
 const NOTHING: f64 = 1e-9;
 
@@ -37,6 +40,10 @@ pub fn cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Res
     // A lead is a way a turn.
     post.control.tables.format_feed(FeedMode::PerRevolution);
     post.control.flush_waiting()?;
+    let leaves = shape.leaves();
+    if cycle != ThreadCycle::CycleOfAllPassesOfLinuxcnc {
+        switch_way_out(&mut post.control, thread, leaves > 0.0)?;
+    }
     match cycle {
         ThreadCycle::SinglePasses | ThreadCycle::Cycle97OfASinumerik => return Ok(false),
         ThreadCycle::CycleOfOnePass => one_pass_each(post, thread, (shape, start), (&ends, code))?,
@@ -45,7 +52,7 @@ pub fn cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Res
             two_blocks(post, thread, tenths, (&ends, code))?;
         }
         ThreadCycle::CycleOfAllPassesInOneBlock => one_block(post, thread, &ends, code)?,
-        ThreadCycle::CycleOfAllPassesOfLinuxcnc => linuxcnc(post, thread, &ends, code)?,
+        ThreadCycle::CycleOfAllPassesOfLinuxcnc => linuxcnc(post, thread, leaves, (&ends, code))?,
     }
     let [x, z] = ends.begin;
     match cycle {
@@ -57,6 +64,17 @@ pub fn cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Res
         _ => stands_at(&mut post.control, [x, z])?,
     }
     Ok(true)
+}
+
+/// Says whether the cycles leave a thread before its end, on a machine that switches it by M
+/// codes. Each cycle has its own: what a text or a skipped block said before does not count.
+fn switch_way_out(control: &mut Control, thread: &Thread, leaves: bool) -> Result<()> {
+    let at = if leaves { loc::THREAD_CHAMFER_ON_CODE } else { loc::THREAD_CHAMFER_OFF_CODE };
+    let Some(code) = control.code_if_any(at) else { return Ok(()) };
+    control.because(thread.lead.cause, |control| {
+        control.m(code);
+        control.write_block()
+    })
 }
 
 /// Where the thread lies in the machine, X and Z, X as a radius.
@@ -105,7 +123,7 @@ fn one_pass_each(
     };
     for depth in &shape.depths {
         go_above(post, thread, shape.above(start, *depth))?;
-        let end = on_machine(post, shape.end(-depth))?;
+        let end = on_machine(post, shape.root_end(*depth))?;
         let control = &mut post.control;
         let at = Motion {
             position: [end[0], 0.0, end[1], 0.0, 0.0],
@@ -182,8 +200,14 @@ fn one_block(post: &mut Post, thread: &Thread, ends: &Ends, code: FunctionCode) 
     control.because(thread.lead.cause, |control| control.write_text(&text, true))
 }
 
-/// LinuxCNC's G76 P Z I J R K Q H: I, J and K count as X does.
-fn linuxcnc(post: &mut Post, thread: &Thread, ends: &Ends, code: FunctionCode) -> Result<()> {
+/// LinuxCNC's G76 P Z I J R K Q H: I, J and K count as X does. E is the way along Z on which each
+/// pass rises by the whole height, L2 that it does so at the end.
+fn linuxcnc(
+    post: &mut Post,
+    thread: &Thread,
+    leaves: f64,
+    (ends, code): (&Ends, FunctionCode),
+) -> Result<()> {
     let control = &mut post.control;
     let axis = *control.tables.axis(0);
     let x = |radius: f64| axis.value(radius);
@@ -200,6 +224,10 @@ fn linuxcnc(post: &mut Post, thread: &Thread, ends: &Ends, code: FunctionCode) -
     line.word('K', (root - crest).abs(), Rounding::Lead)?;
     line.word('Q', thread.angle / 2.0, Rounding::Nearest)?;
     line.word('H', f64::from(ends.springs), Rounding::Exact)?;
+    if leaves > 0.0 {
+        line.word('E', leaves, Rounding::Lead)?;
+        line.word('L', EXIT, Rounding::Exact)?;
+    }
     let text = line.text;
     control.because(thread.lead.cause, |control| control.write_text(&text, true))
 }

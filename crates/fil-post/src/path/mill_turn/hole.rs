@@ -3,11 +3,11 @@
 //!
 //! The tool stands on the R level before the block, so that R is 0: controls differ in
 //! whether it is a radius there, and the level that they return to is the same one. Pecks
-//! stay single moves, as a parameter of the control says how far each comes out.
+//! stay single moves unless the machine file says what the control's parameters make of Q.
 
 use fil_diag::Result;
 use fil_machine::FunctionCode;
-use fil_machine::locations as loc;
+use fil_machine::locations::{self as loc, MillTurnPeckForm, MillTurnSidePeck};
 use fil_machine::modes::FeedMode;
 use fil_machine::setting::CodeAt;
 
@@ -33,8 +33,8 @@ pub fn code(control: &Control, cycle: &Cycle, hole: &Hole) -> Option<FunctionCod
             let turns_left = control.state.rotation == Rotation::Counterclockwise;
             return control.code_if_any(left).filter(|_| turns_left).or(control.code_if_any(right));
         }
-        (_, 2) if is_plain(cycle) => loc::MILL_TURN_FACE_DRILL_CODE,
-        (_, 0) if is_plain(cycle) => loc::MILL_TURN_SIDE_DRILL_CODE,
+        (_, along @ 2) if drills(control, cycle, along) => loc::MILL_TURN_FACE_DRILL_CODE,
+        (_, along @ 0) if drills(control, cycle, along) => loc::MILL_TURN_SIDE_DRILL_CODE,
         _ => return None,
     };
     control.code_if_any(at)
@@ -49,10 +49,20 @@ fn taps(along: usize) -> Option<[CodeAt; 2]> {
     }
 }
 
-/// In one go to the bottom, and out at rapid.
-fn is_plain(cycle: &Cycle) -> bool {
-    use CycleKind::{Csink, Drill, Face, Thru};
-    matches!(cycle.kind, Drill | Csink | Face | Thru) && cycle.step.is_none()
+/// In one go to the bottom, or in pecks as the control makes them, and out at rapid.
+fn drills(control: &Control, cycle: &Cycle, along: usize) -> bool {
+    use CycleKind::{Brkchp, Csink, Deep, Drill, Face, Thru};
+    if cycle.step.is_none() {
+        return matches!(cycle.kind, Drill | Csink | Face | Thru);
+    }
+    let counts = along == 2
+        || control.commons.read(loc::MILL_TURN_SIDE_PECK) != MillTurnSidePeck::SingleMoves;
+    counts
+        && match control.commons.read(loc::MILL_TURN_PECK_FORM) {
+            MillTurnPeckForm::SingleMoves => false,
+            MillTurnPeckForm::OutOfTheHole => cycle.kind == Deep,
+            MillTurnPeckForm::BreakingChips => cycle.kind == Brkchp,
+        }
 }
 
 /// Drills or taps a hole.
