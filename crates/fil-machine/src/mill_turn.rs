@@ -77,9 +77,10 @@ fn check_transformations(commons: &Commons) -> Result<()> {
     let of_sinumerik = commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik;
     let transforms = commons.read(loc::MILL_TURN_TRANSFORMATIONS);
     let live_spindle = commons.int_opt(loc::MILL_TURN_LIVE_SPINDLE);
+    let rigid_tap = commons.read(loc::MILL_TURN_RIGID_TAP);
     if !of_sinumerik {
-        return match transforms || live_spindle.is_some() {
-            true => refuse("transformations and live_spindle are those of a SINUMERIK"),
+        return match transforms || live_spindle.is_some() || rigid_tap {
+            true => refuse("transformations, live_spindle and rigid_tap are those of a SINUMERIK"),
             false => Ok(()),
         };
     }
@@ -94,6 +95,11 @@ fn check_transformations(commons: &Commons) -> Result<()> {
     }
     if live_spindle.is_some_and(|number| !(2..=99).contains(&number)) {
         return refuse("live_spindle is the number of another spindle than the first");
+    }
+    if rigid_tap && live_spindle.is_none() {
+        return refuse(
+            "rigid_tap positions the master spindle, which live_spindle makes that of live tools",
+        );
     }
     if live_spindle.is_some() && commons.int_opt(loc::CONTROL_SPINDLE_INDEX).is_some() {
         return refuse("live_spindle takes S and M without a number (control.spindle_index)");

@@ -11,6 +11,7 @@ use fil_machine::locations::{
 use super::cycle::{Cycle, CycleKind, Hole};
 use super::{expand, frame, mill_turn, rapid, rotary, scaled_lead, tip_hole};
 use crate::control::place::refuse_unknown;
+use crate::control::sinumerik::live_tap;
 use crate::control::skip::refuse_level;
 use crate::control::word_address::cycle as words;
 use crate::control::word_address::motion::Motion;
@@ -78,6 +79,8 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     cycle.along = Some(hole.along);
     if let Some(code) = mill_turn::hole::code(&post.control, cycle, &hole) {
         mill_turn::hole::drill(&mut post.control, cycle, &at, &hole, code)?;
+    } else if live_tap::taps(&post.control, cycle, &hole) {
+        mill_turn::hole::tap_in_step(&mut post.control, cycle, &at, &hole)?;
     } else if let Some(code) = code {
         if post.control.state.in_cycle != Some(true)
             && post.control.commons.read(loc::CYCLE_APPROACH_BLOCK)

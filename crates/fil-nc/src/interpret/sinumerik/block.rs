@@ -115,6 +115,9 @@ impl Sinumerik<'_> {
         if said.has(8) == Some(Function::Machine) {
             return self.in_machine_frame(said);
         }
+        if let Some(Function::RigidTap { back }) = said.has(1) {
+            return self.rigid_tap(said, back);
+        }
         self.motion(said)
     }
 
@@ -293,6 +296,7 @@ impl Sinumerik<'_> {
                     state.motion = Some(crate::dialect::Function::VaryingThread);
                     self.lead_shrinks = shrinks;
                 }
+                Function::RigidTap { .. } => state.motion = None,
                 Function::Plane(normal) => {
                     self.says_plane = true;
                     state.plane = normal;
@@ -320,13 +324,13 @@ impl Sinumerik<'_> {
                     }
                     self.feed_mode(mode);
                 }
-                Function::Surface(on) => {
+                Function::Surface { on, feed } => {
                     if on != state.surface {
                         state.modes.speed = None;
                     }
                     state.surface = on;
                     state.certain.say(StartMode::Surface);
-                    self.feed_mode(FeedMode::PerTurn);
+                    self.feed_mode(feed);
                 }
                 Function::Offset(code) => state.fixture(code),
                 Function::PathControl => self.controls_path(),

@@ -17,6 +17,10 @@ pub(super) enum Function {
     VaryingThread {
         shrinks: bool,
     },
+    /// Into a tapped hole, or back out, in step with a spindle under position control.
+    RigidTap {
+        back: bool,
+    },
     Plane(usize),
     Compensation(Compensation),
     /// Inches or millimeters; of lengths alone, or of feeds too.
@@ -28,8 +32,13 @@ pub(super) enum Function {
         absolute: bool,
     },
     Feed(FeedMode),
-    /// S is a surface speed, with a feed a turn.
-    Surface(bool),
+    /// S is a surface speed or turns a minute, with a feed a turn or a minute.
+    Surface {
+        /// A surface speed.
+        on: bool,
+        /// How the feed counts.
+        feed: FeedMode,
+    },
     /// A work offset, or none (500).
     Offset(u32),
     Dwell,
@@ -49,12 +58,13 @@ impl Function {
             | Function::Linear
             | Function::Arc { .. }
             | Function::Thread
-            | Function::VaryingThread { .. } => 1,
+            | Function::VaryingThread { .. }
+            | Function::RigidTap { .. } => 1,
             Function::Plane(_) => 2,
             Function::Compensation(_) => 3,
             Function::Units { .. } => 4,
             Function::Positions { .. } => 5,
-            Function::Feed(_) | Function::Surface(_) => 6,
+            Function::Feed(_) | Function::Surface { .. } => 6,
             Function::Offset(_) => 7,
             Function::Dwell | Function::Machine | Function::FixedPoint => 8,
             Function::PathControl => 0,
@@ -77,6 +87,8 @@ pub(super) fn function(code: u32) -> Option<Function> {
         33 => F::Thread,
         34 => F::VaryingThread { shrinks: false },
         35 => F::VaryingThread { shrinks: true },
+        331 => F::RigidTap { back: false },
+        332 => F::RigidTap { back: true },
         40 => F::Compensation(Compensation::Off),
         41 => F::Compensation(Compensation::Left),
         42 => F::Compensation(Compensation::Right),
@@ -90,8 +102,10 @@ pub(super) fn function(code: u32) -> Option<Function> {
         93 => F::Feed(FeedMode::Inverse),
         94 => F::Feed(FeedMode::PerMinute),
         95 => F::Feed(FeedMode::PerTurn),
-        96 => F::Surface(true),
-        97 => F::Surface(false),
+        96 => F::Surface { on: true, feed: FeedMode::PerTurn },
+        97 => F::Surface { on: false, feed: FeedMode::PerTurn },
+        961 => F::Surface { on: true, feed: FeedMode::PerMinute },
+        971 => F::Surface { on: false, feed: FeedMode::PerMinute },
         700 => F::Units { metric: false, feeds: true },
         710 => F::Units { metric: true, feeds: true },
         9 | 60 | 64 | 450 | 451 | 601..=603 | 641..=645 => F::PathControl,

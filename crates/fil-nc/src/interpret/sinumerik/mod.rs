@@ -10,6 +10,7 @@ mod cycle;
 mod functions;
 pub(crate) mod line;
 mod motion;
+mod rigid_tap;
 mod swivel;
 mod thread_cycle;
 mod transformation;
@@ -54,6 +55,8 @@ struct Sinumerik<'d> {
     metric_feed: bool,
     /// G35: the lead of a thread shrinks by F in each turn, and grows by G34.
     lead_shrinks: bool,
+    /// K of the G331 that was the last motion.
+    rigid_tap_lead: Option<f64>,
     /// DIAMOF: X is a radius.
     counts_radii: bool,
     /// The program has said its plane.
@@ -103,6 +106,7 @@ impl<'a> Program<'a> {
             shift: [0.0; 3],
             metric_feed: dialect.metric,
             lead_shrinks: false,
+            rigid_tap_lead: None,
             counts_radii: false,
             says_plane: false,
             is_axis: false,

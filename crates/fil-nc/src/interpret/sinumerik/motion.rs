@@ -122,7 +122,7 @@ impl Sinumerik<'_> {
         Ok((to, known))
     }
 
-    fn target(&self, said: &Said) -> ([f64; 5], [bool; 5]) {
+    pub(super) fn target(&self, said: &Said) -> ([f64; 5], [bool; 5]) {
         let (mut to, mut known) = (self.state.at, self.state.known);
         for (axis, word) in said.axes.iter().enumerate() {
             let Some((value, absolute)) = *word else { continue };

@@ -8,6 +8,7 @@
 pub mod block;
 pub mod cycle;
 mod frame;
+pub mod live_tap;
 pub mod program;
 pub mod reader;
 pub(super) mod spindle;

@@ -85,6 +85,10 @@ pub fn no_tap(control: &Control) -> &'static str {
             "a text that can't be read, or a block that may be skipped, came after the spindle \
              turned counterclockwise; SPINDL before the tap says how it turns"
         }
+        _ if control.tables.mills() && control.tables.family == ControlFamily::Sinumerik => {
+            "a live tool of a SINUMERIK taps along Z where mill_turn.rigid_tap says that SPOS \
+             positions it; whether the lead along X counts as a diameter is not plain"
+        }
         _ => "the machine has no tapping cycle, and a tap can't be written as single moves",
     }
 }

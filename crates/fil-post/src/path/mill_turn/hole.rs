@@ -12,6 +12,7 @@ use fil_machine::modes::FeedMode;
 use fil_machine::setting::CodeAt;
 
 use crate::control::Control;
+use crate::control::sinumerik::live_tap;
 use crate::control::word_address::cycle as words;
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::spindle;
@@ -94,6 +95,23 @@ pub fn drill(
         control.flush_waiting()?;
         words::live_hole(control, cycle, &feed, hole, code)?;
         words::cancel(control)?;
+        words::stands_at(control, hole.along, hole.clear)?;
+        rapid::rapid(control, &Motion::along(hole.along, hole.rest()), cause)
+    })
+}
+
+/// Taps a hole along Z on a SINUMERIK.
+///
+/// # Errors
+/// As [`live_tap::tap`].
+pub fn tap_in_step(control: &mut Control, cycle: &Cycle, at: &Motion, hole: &Hole) -> Result<()> {
+    let across = at.of(expand::without(hole.along));
+    rapid::rapid(control, &across, control.block.cause)?;
+    control.because(cycle.cause, |control| {
+        let cause = control.block.cause;
+        rapid::rapid(control, &Motion::along(hole.along, hole.clear), cause)?;
+        control.flush_waiting()?;
+        live_tap::tap(control, cycle, hole)?;
         words::stands_at(control, hole.along, hole.clear)?;
         rapid::rapid(control, &Motion::along(hole.along, hole.rest()), cause)
     })

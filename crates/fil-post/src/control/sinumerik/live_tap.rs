@@ -1,0 +1,67 @@
+//! A tap of a live tool along Z: `SPOS=0`, `G331 Z K S`, `G332 Z K`.
+//!
+//! The manual of the language: SPOS brings the master spindle under position control, K of G331 and
+//! G332 is the lead, whose sign is the way it turns (positive as M3), and G332 turns it back. Along
+//! X the lead would be I, and whether it counts as a diameter is not plain.
+
+use fil_diag::Result;
+use fil_machine::letters::{F, XYZ};
+use fil_machine::locations as loc;
+use fil_machine::modes::FeedMode;
+
+use crate::control::word_address::{motion, spindle};
+use crate::control::{Control, line, tap};
+use crate::errors::PostCode;
+use crate::operation::{Feed, SpindleSpeed};
+use crate::path::cycle::{Cycle, CycleKind, Hole};
+
+/// Digits after the point of a lead, mm or inch.
+const LEAD_DIGITS: usize = 5;
+
+/// The machine taps a hole in this way.
+pub fn taps(control: &Control, cycle: &Cycle, hole: &Hole) -> bool {
+    control.tables.mills()
+        && cycle.kind == CycleKind::Tap
+        && hole.along == 2
+        && control.commons.read(loc::MILL_TURN_RIGID_TAP)
+}
+
+/// Taps from the R level and back to it; the spindle turns as before behind it.
+///
+/// # Errors
+/// A live tool that stands or whose speed is not known, a dwell, a lead that does not fit.
+pub fn tap(control: &mut Control, cycle: &Cycle, hole: &Hole) -> Result<()> {
+    if cycle.dwell > 0.0 {
+        return PostCode::CycleForm.err("a tap by G331 has no dwell");
+    }
+    let Some(clockwise) = spindle::clockwise(control) else {
+        return PostCode::CycleForm
+            .err("a tap, and how the live tool turns is not known; SPINDL before it says it");
+    };
+    let Some(asked @ SpindleSpeed::Revolutions(_)) = control.speed else {
+        return PostCode::CycleForm.err("a tap needs the turns of the live tool (SPINDL / RPM)");
+    };
+    let speed = spindle::value_of(control, asked);
+    let lead = tap::text(tap::pitch(control, cycle)?, LEAD_DIGITS)?;
+    let sign = if clockwise { "" } else { "-" };
+    let axis = *control.tables.axis(hole.along);
+    let level = |control: &Control, level: f64| {
+        let value = axis.value(level)?;
+        line::length(control, XYZ[2], value).map(|(text, _)| text)
+    };
+    let (bottom, clear) = (level(control, hole.bottom)?, level(control, hole.clear)?);
+    feed_a_minute(control, cycle)?;
+    super::put_text(control, "SPOS=0")?;
+    super::put_text(control, &format!("G331 Z{bottom} K{sign}{lead} S{speed}"))?;
+    super::put_text(control, &format!("G332 Z{clear} K{sign}{lead}"))?;
+    control.state.motion = None;
+    control.state.doubt(F);
+    spindle::turn_on(control, clockwise)
+}
+
+/// The spindle goes with the axis, and no feed counts its turns.
+fn feed_a_minute(control: &mut Control, cycle: &Cycle) -> Result<()> {
+    let feed = Feed { value: 1.0, mode: FeedMode::PerMinute, cause: cycle.cause };
+    motion::feed_mode(control, &feed)?;
+    control.write_block()
+}
