@@ -218,6 +218,9 @@ pub struct Modes {
     /// A plane other than XY that the program of a mill has said, by the index of its normal,
     /// and the line of that; of motions alone.
     pub plane: Option<(usize, u32)>,
+    /// The plane in force, by the index of its normal, while cutter compensation is on; of motions
+    /// alone.
+    pub compensation_plane: Option<usize>,
     /// Lengths of the program are inches.
     pub inch: bool,
     /// A drilling cycle is on; said where a tool is changed and at the end.

@@ -253,12 +253,14 @@ fn post() -> Program {
     Program::builder().ready("fanuc-mill-turn").build().unwrap()
 }
 
-/// The same machine with the cycles of holes without pecks, and rigid taps.
-fn post_with_cycles() -> Program {
+/// The same machine with the cycles of holes, and rigid taps; settings that say what its control
+/// makes of pecks.
+fn post_with_cycles(pecks: &[&str]) -> Program {
     let cycles =
         ["mill_turn.face_drill_code=83", "mill_turn.side_drill_code=87", "cycle.rigid_tap_mode=29"];
+    let settings = cycles.iter().chain(pecks);
     let base = Program::builder().ready("fanuc-mill-turn");
-    cycles.into_iter().fold(base, |builder, setting| builder.set(setting)).build().unwrap()
+    settings.fold(base, |builder, setting| builder.set(setting)).build().unwrap()
 }
 
 fn sinumerik() -> Program {
@@ -267,17 +269,23 @@ fn sinumerik() -> Program {
 
 #[test]
 fn random_programs_agree_with_their_cl() {
-    let posts = [post(), post_with_cycles()];
+    let posts = [
+        post(),
+        post_with_cycles(&[]),
+        post_with_cycles(&["mill_turn.peck_form=1", "mill_turn.side_peck=2"]),
+        post_with_cycles(&["mill_turn.peck_form=2", "mill_turn.side_peck=1"]),
+    ];
     let mut wrong = Vec::new();
-    let mut kinds = [0; 7];
+    let mut kinds = [0; 8];
     for seed in seeds() {
         let cl = Part::random(seed);
-        let post = &posts[(seed % 2) as usize];
+        let post = &posts[(seed % 4) as usize];
         let said = match nc_of(post, &cl) {
             Err(said) => format!("refused: {said}"),
             Ok(nc) => {
-                for (count, sign) in
-                    kinds.iter_mut().zip(["M51", "G12.1", "G7.1", "G84", "G88", "G83", "G87"])
+                for (count, sign) in kinds
+                    .iter_mut()
+                    .zip(["M51", "G12.1", "G7.1", "G84", "G88", "G83", "G87", "R0. Q"])
                 {
                     *count += u32::from(nc.contains(sign));
                 }
@@ -361,7 +369,7 @@ fn transmit_and_tracyl_by_hand() {
 
 #[test]
 fn a_changed_coordinate_is_found() {
-    let posts = [post(), post_with_cycles(), sinumerik()];
+    let posts = [post(), post_with_cycles(&[]), sinumerik()];
     let mut changed = 0;
     for seed in 0..20 {
         let by_statements = seed % 3 == 2;
@@ -416,6 +424,39 @@ fn a_changed_cycle_of_a_live_tool_is_found() {
         assert!(nc.contains(word), "{word}");
         let changed = nc.replacen(word, other, 1);
         assert!(!said_against(&post, &cl, &changed).is_empty(), "{other}\n{changed}");
+    }
+}
+
+/// A peck of another depth or kind, and one whose control says nothing of it.
+#[test]
+fn a_changed_peck_of_a_live_tool_is_found() {
+    let cl = "UNITS / MM\nMODE / MILL\nLOADTL / 3\nSPINDL / RPM, 1000, CLW\nMULTAX / ON\nRAPID\n\
+              GOTO / 20, 0, 10, 0, 0, 1\nCYCLE / DEEP, DEPTH, 12, STEP, 5, MMPM, 90, CLEAR, 3\n\
+              GOTO / 10, 0, 0, 0, 0, 1\nRAPID\nGOTO / 30, 0, -10, 1, 0, 0\n\
+              GOTO / 0, 25, -10, 0, 1, 0\nCYCLE / OFF\nFINI\n";
+    let settings = ["mill_turn.peck_form=1", "mill_turn.side_peck=2"];
+    let post = post_with_cycles(&settings);
+    let nc = nc_of(&post, cl).unwrap();
+    assert_eq!(said_against(&post, cl, &nc), "", "{nc}");
+    for (word, other) in [
+        ("G83 Z-12. R0. Q5.", "G83 Z-12. R0. Q4."),
+        ("G83 Z-12. R0. Q5.", "G83 Z-12. R0."),
+        ("G83 Z-12. R0. Q5.", "G83 Z-12. R0. Q0."),
+        ("G83 Z-12. R0. Q5.", "G83 Z-12.5 R0. Q5."),
+        ("G87 X26. R0. Q10.", "G87 X26. R0. Q5."),
+    ] {
+        assert!(nc.contains(word), "{word}: {nc}");
+        let changed = nc.replacen(word, other, 1);
+        assert!(!said_against(&post, cl, &changed).is_empty(), "{other}\n{changed}");
+    }
+    for other in [
+        &[][..],
+        &["mill_turn.peck_form=1"],
+        &["mill_turn.peck_form=1", "mill_turn.side_peck=1"],
+        &["mill_turn.peck_form=2", "mill_turn.side_peck=2"],
+    ] {
+        let other = post_with_cycles(other);
+        assert!(!said_against(&other, cl, &nc).is_empty(), "{nc}");
     }
 }
 

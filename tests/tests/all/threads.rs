@@ -40,7 +40,7 @@ struct Cut {
 }
 
 /// A form: the ready post and settings on top of it.
-const FORMS: [(&str, &[&str]); 8] = [
+const FORMS: [(&str, &[&str]); 11] = [
     ("fanuc-lathe", &["thread.cycle=0"]),
     ("fanuc-lathe", &["thread.cycle=1", "thread.cycle_code=92"]),
     ("fanuc-lathe", &[]),
@@ -49,10 +49,39 @@ const FORMS: [(&str, &[&str]); 8] = [
     ("sinumerik-lathe", &[]),
     ("fanuc-lathe", &["thread.cycle=0", "thread.chamfer=0.2"]),
     ("fanuc-lathe", &["thread.chamfer=0.2"]),
+    ("haas-lathe", &[M23, M24, "thread.chamfer_tenths=2", "thread.chamfer=0.2"]),
+    (
+        "fanuc-lathe",
+        &[
+            "thread.cycle=1",
+            "thread.cycle_code=92",
+            M23,
+            M24,
+            "thread.chamfer_tenths=2",
+            "thread.chamfer=0.2",
+        ],
+    ),
+    ("linuxcnc-lathe", &["thread.chamfer=0.5"]),
 ];
+
+/// Codes that switch the way out of a thread.
+const M23: &str = "thread.chamfer_on_code=23";
+const M24: &str = "thread.chamfer_off_code=24";
 
 /// The forms from this one on leave each pass at 45 degrees, on two tenths of the lead.
 const LEAVING: usize = 6;
+
+/// This one on half the lead, which is as long as its threads are deep.
+const AS_DEEP: usize = 10;
+
+/// One block of G76: the control counts the passes at full depth.
+const ONE_BLOCK: [usize; 2] = [3, 8];
+
+/// G76 of LinuxCNC.
+const LINUXCNC: [usize; 2] = [4, AS_DEEP];
+
+/// Whole threads that their cycle can say are one G76.
+const BY_G76: [usize; 6] = [2, 3, 4, 7, 8, AS_DEEP];
 
 impl Spec {
     fn random(seed: u64) -> Spec {
@@ -77,6 +106,17 @@ impl Spec {
         }
     }
 
+    /// The same as a form can say it.
+    fn of_form(seed: u64, form: usize) -> Spec {
+        let spec = Spec::random(seed);
+        if form != AS_DEEP {
+            return spec;
+        }
+        let depth = 0.5 * spec.pitch * f64::from(spec.starts);
+        let first = (spec.first / spec.depth * depth * 1000.0).ceil() / 1000.0;
+        Spec { first, depth, ..spec }
+    }
+
     fn cl(&self) -> String {
         let [x1, x2] = self.x;
         let [z1, z2] = self.z;
@@ -98,7 +138,12 @@ impl Spec {
 
     /// The way on which a pass of a form leaves the thread.
     fn leaves(&self, form: usize) -> f64 {
-        if form < LEAVING { 0.0 } else { 0.2 * self.pitch * f64::from(self.starts) }
+        let lead = self.pitch * f64::from(self.starts);
+        match form {
+            ..LEAVING => 0.0,
+            AS_DEEP => 0.5 * lead,
+            _ => 0.2 * lead,
+        }
     }
 
     /// A pass of the law lies at the root but for the last digits of arithmetic.
@@ -165,8 +210,10 @@ struct Control {
     cuts: Vec<Cut>,
     /// Of the first block of G76: passes at full depth, angle, least depth.
     setup: Option<(u32, f64, f64)>,
-    /// Tenths of the lead of its chamfer.
+    /// Tenths of the lead of its chamfer, or of that which M23 switches on.
     chamfer: u32,
+    /// Length and rise of the way out of LinuxCNC's G76.
+    leans: Option<[f64; 2]>,
 }
 
 impl Control {
@@ -182,15 +229,22 @@ impl Control {
             let root = [end[0] - into * (law.height - depth), end[1]];
             let z = begin[1] + towards * depth * law.slope;
             let lag = if law.lags { towards * (law.height - depth) * law.slope } else { 0.0 };
-            let leaves = f64::from(self.chamfer) / 10.0 * lead;
-            if leaves == 0.0 {
-                self.cut([root[0] + taper, z], [root[0], end[1] - lag], lead);
-                continue;
-            }
-            let corner = [root[0] + taper * leaves / (end[1] - z).abs(), end[1] - towards * leaves];
-            self.cut([root[0] + taper, z], corner, lead);
-            self.cut(corner, [corner[0] - into * leaves, end[1]], lead);
+            self.pass([root[0] + taper, z], [root[0], end[1] - lag], into, lead);
         }
+    }
+
+    /// A pass, with the way out where there is one.
+    fn pass(&mut self, from: [f64; 2], to: [f64; 2], into: f64, lead: f64) {
+        let way = f64::from(self.chamfer) / 10.0 * lead;
+        let [leaves, rise] = self.leans.unwrap_or([way, way]);
+        if leaves == 0.0 {
+            return self.cut(from, to, lead);
+        }
+        let towards = (to[1] - from[1]).signum();
+        let share = leaves / (to[1] - from[1]).abs();
+        let corner = [to[0] + (from[0] - to[0]) * share, to[1] - towards * leaves];
+        self.cut(from, corner, lead);
+        self.cut(corner, [corner[0] - into * rise, to[1]], lead);
     }
 
     fn block(&mut self, words: &BTreeMap<char, f64>, code: Option<u32>, raw: &str) -> Option<()> {
@@ -213,7 +267,8 @@ impl Control {
             }
             Some(92) => {
                 let taper = get('R').unwrap_or(0.0);
-                self.cut([to[0] + taper, self.at[1]], to, get('F')?);
+                let into = (to[0] - self.at[0]).signum();
+                self.pass([to[0] + taper, self.at[1]], to, into, get('F')?);
             }
             Some(76) if words.contains_key(&'J') => {
                 let law = Law {
@@ -226,6 +281,7 @@ impl Control {
                 };
                 let crest = self.at[0] + get('I')? / 2.0;
                 let end = [crest + get('I')?.signum() * law.height, to[1]];
+                self.leans = get('E').filter(|_| get('L') == Some(2.0)).map(|e| [e, law.height]);
                 self.passes(end, 0.0, law, get('P')?);
                 self.at[1] = to[1];
             }
@@ -297,6 +353,9 @@ fn expand(nc: &str) -> Option<Vec<Cut>> {
                     motion = Some(value as u32)
                 }
                 'G' | 'N' => {}
+                // The parameter of the control is two tenths.
+                'M' if value == 23.0 => control.chamfer = 2,
+                'M' if value == 24.0 => control.chamfer = 0,
                 letter => {
                     words.insert(letter, value);
                 }
@@ -375,10 +434,10 @@ fn wrong(post: &Program, form: usize, spec: &Spec, judge: Option<&Path>) -> Opti
         Err(said) => return Some(format!("refused: {said}\n{cl}")),
     };
     let by_cycle = nc.contains("G76");
-    let wanted = spec.cuts(by_cycle && form == 4);
+    let wanted = spec.cuts(by_cycle && LINUXCNC.contains(&form));
     // Haas and one-block controls make one pass at full depth; the others count them.
     let wanted = match form {
-        3 if by_cycle => Spec { springs: 1, ..*spec }.cuts(false),
+        _ if ONE_BLOCK.contains(&form) && by_cycle => Spec { springs: 1, ..*spec }.cuts(false),
         _ => wanted,
     };
     let mut wanted = match spec.leaves(form) {
@@ -392,10 +451,11 @@ fn wrong(post: &Program, form: usize, spec: &Spec, judge: Option<&Path>) -> Opti
     }
     let said = said_against(post, &cl, &nc);
     // The number of passes at the root is the control's own in one block.
-    if !(said.is_empty() || form == 3 && by_cycle && said.contains("passes at the root")) {
+    let counts_itself = ONE_BLOCK.contains(&form) && by_cycle;
+    if !(said.is_empty() || counts_itself && said.contains("passes at the root")) {
         return tell(said);
     }
-    let judge = judge.filter(|_| form == 4)?;
+    let judge = judge.filter(|_| LINUXCNC.contains(&form))?;
     let calls = match rs274::run(judge, &nc) {
         Ok(calls) => calls,
         Err(said) => return tell(said),
@@ -434,7 +494,7 @@ fn every_form_cuts_the_same_thread() {
     for (form, (ready, settings)) in FORMS.iter().enumerate() {
         let post = post_of(ready, settings);
         let by_g76 = |seed: u64| {
-            let spec = Spec::random(seed);
+            let spec = Spec::of_form(seed, form);
             if !spec.fits(form) {
                 return false;
             }
@@ -445,7 +505,7 @@ fn every_form_cuts_the_same_thread() {
         };
         let cycles = seeds().into_par_iter().filter(|seed| by_g76(*seed)).count();
         println!("{ready} {settings:?}: {} threads, {cycles} by G76", seeds().count());
-        assert_eq!(cycles > 0, (2..5).contains(&form) || form == 7, "{ready}");
+        assert_eq!(cycles > 0, BY_G76.contains(&form), "{ready} {settings:?}");
     }
 }
 
@@ -455,7 +515,7 @@ fn a_changed_word_of_a_thread_is_found() {
     for (form, (ready, settings)) in FORMS.iter().enumerate() {
         let post = post_of(ready, settings);
         for seed in seeds().take(30) {
-            let spec = Spec::random(seed);
+            let spec = Spec::of_form(seed, form);
             if !spec.fits(form) {
                 continue;
             }

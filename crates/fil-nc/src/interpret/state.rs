@@ -6,7 +6,9 @@ use super::thread::{Pass, Setup};
 use super::words::{AxisWord, Words};
 use crate::dialect::{Certain, Dialect, FeedMode, Function};
 use crate::errors::NcCode;
-use crate::motion::{Arc, Course, DRILLED, Event, Modes, Move, Position, Rate, Tilt, unit};
+use crate::motion::{
+    Arc, Compensation, Course, DRILLED, Event, Modes, Move, Position, Rate, Tilt, unit,
+};
 
 /// X, Y, Z in mm, primary and secondary rotary axis in degrees.
 pub(super) type Axes = [f64; 5];
@@ -210,6 +212,8 @@ impl<'d> State<'d> {
         let usual = [DRILLED, self.dialect.plane].contains(&self.said_plane);
         let is_other = !usual && !self.dialect.lathe;
         let plane = is_other.then_some((self.said_plane, self.plane_line));
+        let is_compensated = self.modes.compensation != Compensation::Off;
+        let compensation_plane = is_compensated.then_some(self.plane);
         self.events.push(Event::Move(Move {
             line: self.line,
             course,
@@ -225,7 +229,7 @@ impl<'d> State<'d> {
             in_cycle: course != Course::Machine && (self.cycle.is_some() || self.pass.is_some()),
             known,
             to_machine: [false; 5],
-            modes: Modes { plane, ..self.modes },
+            modes: Modes { plane, compensation_plane, ..self.modes },
         }));
     }
 

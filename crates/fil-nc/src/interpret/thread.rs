@@ -213,11 +213,15 @@ impl State<'_> {
     }
 
     /// `P` finishing passes, chamfer and angle, two digits each; `Q` least depth; `R`
-    /// finishing allowance.
+    /// finishing allowance. What is left out is as a parameter of the control has it.
     fn first_block(&self, words: &mut Words) -> Result<Setup, Fault> {
-        let said = words.take_plain(P)?.unwrap_or(10_000);
-        let least = words.take_number(Q).map_or(0.0, |least| least.steps(self.unit()));
-        let allowance = words.take(R)?.unwrap_or(0.0) * self.unit();
+        let missing = |word: &str| {
+            let message = format!("{word} of the first block is left to a parameter");
+            Fault::new(NcCode::MissingWord, message)
+        };
+        let said = words.take_plain(P)?.ok_or_else(|| missing("P"))?;
+        let least = words.take_number(Q).ok_or_else(|| missing("Q"))?.steps(self.unit());
+        let allowance = words.take(R)?.ok_or_else(|| missing("R"))? * self.unit();
         Ok(Setup {
             finishing: (said / 10_000).clamp(1, 99),
             chamfer: f64::from(said / 100 % 100),

@@ -209,7 +209,7 @@ impl<C: Steps> Walk<'_, C> {
         let from_surface = in_cycle && self.settings.pecks_from_surface();
         let first = if from_surface { levels.at[2] } else { levels.clear };
         let step = hole.step.filter(|_| in_cycle);
-        let side = self.from_hole.is_some() && self.settings.is_mill_turn();
+        let side = hole.start.axis.z.abs() < 0.5 && self.settings.is_mill_turn();
         let of_diameter = side && self.settings.side_pecks_are_diameters();
         let step = step.map(|step| self.settings.peck_on_tape(step, self.metric, of_diameter));
         let pecks = Hole { step: step.or(hole.step), ..*hole };

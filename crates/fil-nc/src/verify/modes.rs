@@ -4,6 +4,7 @@
 //! state before and the state asked for are right; after it only the latter is.
 
 use super::again::Again;
+use super::compensation_plane::MeantPlane;
 use super::lag::{Lag, Moved};
 use super::modes_said::{
     name_of_fixture, said_of_compensation, said_of_offset, said_of_speed, said_of_spindle,
@@ -65,6 +66,8 @@ pub(super) struct Expected {
     pub(super) fixture: Option<Option<u32>>,
     /// The plane that a record has named last, by the index of its normal.
     pub(super) plane: usize,
+    /// In which planes the cutter may be compensated.
+    pub(super) meant_plane: MeantPlane,
     /// Work offsets that may be chosen where none is asked for.
     allowed_offsets: Vec<u32>,
     /// The CL file has asked for a work offset.
@@ -101,6 +104,7 @@ impl Expected {
             unfollowed: false,
             fixture: Some(fixture_of(&settings.own_blocks())),
             plane: DRILLED,
+            meant_plane: MeantPlane::of(settings),
             allowed_offsets: Vec::new(),
             asks_fixture: false,
             offset_on: None,
@@ -446,6 +450,7 @@ impl Expected {
         if let Some(must) = self.compensation.refuses(|may| may == found) {
             wrong.push((FindingKind::Compensation, said_of_compensation(found, must)));
         }
+        wrong.extend(self.wrong_plane(modes).map(|said| (FindingKind::Compensation, said)));
         let spindle = |may: Option<Spindle>| may.is_none_or(|may| may == modes.spindle);
         if let Some(Some(must)) = self.spindle.refuses(spindle) {
             wrong.push((

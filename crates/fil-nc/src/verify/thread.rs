@@ -108,7 +108,9 @@ impl Gauge<'_> {
         };
         let lag = if divided && !at_root { self.thread.depth * self.slope } else { 0.0 };
         let begins = near(pass.from, from, [of_words + of_taper, of_words * self.slope]);
-        let ends = near(pass.to, to, [if at_root { 0.0 } else { of_words }, lag]);
+        // Where it begins to leave the thread it lies on the taper.
+        let of_corner = if self.leaves > 0.0 { of_taper } else { 0.0 };
+        let ends = near(pass.to, to, [if at_root { 0.0 } else { of_words } + of_corner, lag]);
         if begins && ends {
             return Ok(());
         }
@@ -143,6 +145,7 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn whole_thread(&mut self, cl_line: u32, thread: &WholeThread) {
         self.report.compared += 1;
         self.initial = None;
+        self.thread_turns = None;
         self.pass(cl_line);
         match self.cut(cl_line, thread) {
             Ok(()) => self.report.matched += 1,
@@ -274,6 +277,7 @@ impl<C: Steps> Walk<'_, C> {
             return wrong(format!("the pass ends {} before the end of the thread", short(lacks)));
         }
         self.report.position.add(lacks.min(0.0).abs(), found.line);
+        self.check_turns_of_pass(cl_line, found);
         self.take(cl_line, found);
         self.next += 1;
         Ok(Pass {

@@ -15,6 +15,7 @@ use super::report::{Finding, FindingKind, Report};
 use super::say::Shape;
 use super::settings::{Settings, Slack};
 use super::sift::{Beside, Sift};
+use super::thread_turns::Turns;
 use super::wanted::{Step, Wanted};
 use super::window::Window;
 use crate::events::Events;
@@ -73,6 +74,8 @@ pub(super) struct Walk<'a, C> {
     /// Line of the last motion taken.
     line: u32,
     pub(super) modes: Expected,
+    /// How the spindle turned in the passes of the thread so far.
+    pub(super) thread_turns: Option<Turns>,
     pub(super) watch: Watch,
     /// The first and the last line of the program that may hold words of the user's own.
     pub(super) user_lines: [u32; 2],
@@ -138,6 +141,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             exact: [0.0; 2],
             line: 0,
             modes: Expected::new(settings),
+            thread_turns: None,
             watch,
             user_lines: [u32::MAX, 0],
             repeated_feed: None,
@@ -218,6 +222,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             }
             Wanted::Mills(mills) => self.scale_x(if *mills { 1.0 } else { DIAMETER }),
             Wanted::CycleEnd => self.end_cycle(step.line),
+            Wanted::ThreadBegins => self.thread_turns = None,
             Wanted::Straight(within) => self.watch.ask(*within),
             Wanted::LeftOut => self.watch.begin_elsewhere(self.settings.divides_within()),
             Wanted::Tool { number, offset } => {
@@ -332,7 +337,12 @@ impl<'a, C: Steps> Walk<'a, C> {
         match &step.what {
             Wanted::Rapid(pose) => self.rapid(step.line, pose),
             Wanted::Feed(pose, rate) => self.line(step.line, pose, Course::Feed, *rate),
-            Wanted::Thread(pose, lead) => self.line(step.line, pose, Course::Thread, Some(*lead)),
+            Wanted::Thread(pose, lead) => {
+                if let Some(pass) = self.next_move().filter(|pass| pass.course == Course::Thread) {
+                    self.check_turns_of_pass(step.line, &pass);
+                }
+                self.line(step.line, pose, Course::Thread, Some(*lead))
+            }
             Wanted::Arc(arc, rate) => self.arc(step.line, arc, *rate),
             Wanted::Hole(hole) => self.hole(step.line, hole),
             _ => true,
@@ -428,7 +438,10 @@ impl<'a, C: Steps> Walk<'a, C> {
             let turns = found.arc.is_some_and(|arc| arc.normal != n);
             turns || way > STILL || (found.known[n] && !self.known[n])
         };
-        let normal = found.modes.plane.map_or(DRILLED, |(normal, _)| normal);
+        let normal = match self.modes.plane_of_live_tool() {
+            Some(normal) => normal,
+            None => found.modes.plane.map_or(DRILLED, |(normal, _)| normal),
+        };
         let moved = Moved {
             xy: differs(0) || differs(1),
             z: differs(2),

@@ -27,6 +27,8 @@ pub enum Wanted {
     Feed(Pose, Option<Rate>),
     /// A thread pass.
     Thread(Pose, Rate),
+    /// THREAD: the passes behind it are another thread than those before.
+    ThreadBegins,
     /// A whole thread, in passes that the machine divides.
     WholeThread(Box<WholeThread>),
     /// The second spindle: clockwise or not, `None` where it stops.

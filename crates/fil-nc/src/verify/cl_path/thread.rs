@@ -39,7 +39,7 @@ impl State {
         let says_lead = [w::TPI, w::MMPR, w::IPR].into_iter().any(|word| record.has(word));
         if let Some(pitch) = self.pitch.filter(|_| record.major == w::THREAD && !says_lead) {
             self.thread = Some(pitch);
-            return Some(Vec::new());
+            return Some(vec![Wanted::ThreadBegins]);
         }
         let lead = self.lead(record)?;
         let given = |word| record.number_after(word).filter(|value| *value != 0.0);
@@ -60,7 +60,7 @@ impl State {
             (None, None) => self.thread = Some(Rate::PerTurn(lead)),
             _ => return None,
         }
-        Some(Vec::new())
+        Some(vec![Wanted::ThreadBegins])
     }
 
     /// PITCH: threads in a unit of the CL file or in an inch, or a lead that may change.

@@ -93,8 +93,13 @@ impl Slack {
 
 /// A value as the last digit shows it, halves away from zero.
 fn to_digit(value: f64, digit: f64) -> f64 {
-    (value / digit).round() * digit
+    let steps = value / digit;
+    // A half of a decimal number may be a little less in binary.
+    (steps + HALF * steps.signum()).round() * digit
 }
+
+/// What a half may lack, steps.
+const HALF: f64 = 1e-9;
 
 /// The machine as the back-check sees it.
 #[derive(Clone, Debug)]

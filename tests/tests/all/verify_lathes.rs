@@ -1,0 +1,173 @@
+//! What the back-check finds in programs of lathes and mill-turn machines by hand.
+
+use fil_nc::verify::Allowed;
+use filpost::Program;
+use filpost_tests::back_check;
+
+/// What the back-check says of a program; lines end with `; `.
+fn found(ready: &str, settings: &[&str], cl: &str, nc: &str) -> String {
+    let start = Program::builder().ready(ready);
+    let post = settings.iter().fold(start, |builder, setting| builder.set(setting));
+    let post = post.build().expect("a machine");
+    let cl = format!("UNITS / MM\n{}\nFINI\n", cl.replace("; ", "\n"));
+    match back_check::check(post.commons(), &cl, &nc.replace("; ", "\n"), Allowed::default()) {
+        Ok(report) => report.findings.iter().map(|finding| format!("{finding}\n")).collect(),
+        Err(refused) => refused.to_string(),
+    }
+}
+
+/// A live tool that the record compensates must be, in the plane of the record.
+#[test]
+fn a_radial_live_tool_without_its_compensation_is_found() {
+    let cl = "MODE / MILL; LOADTL / 3; SPINDL / RPM, 1000, CLW; FEDRAT / 100, MMPM; \
+              TLAXIS / 1, 0, 0; RAPID; GOTO / 30, 0, 5; GOTO / 19, 0, 5; CUTCOM / LEFT, YZPLAN; \
+              GOTO / 19, 0, -2; GOTO / 19, 0, -20; CUTCOM / OFF; GOTO / 19, 0, -25; RAPID; \
+              GOTO / 30, 0, -25";
+    let nc = "%; O0001; G21 G99 G18; M51; T0303; G97 S1000 M13; G0 X60. Z5. C0.; G1 G98 X38. F100.; \
+              G19; G41 Z-2.; Z-20.; G40 Z-25.; G0 X60.; M15; M50; M30; %";
+    let check = |nc: &str| found("fanuc-mill-turn", &["address.Y.format=1"], cl, nc);
+    assert_eq!(check(nc), "");
+    let off = "cutter compensation is off, it should be left";
+    for (old, new, said) in [
+        ("G41 Z-2.", "Z-2.", off),
+        ("G19; G41 Z-2.", "Z-2.", off),
+        ("G19; ", "", "cutter compensation acts in the plane ZX, it should be YZ"),
+        ("Z-20.", "G18 Z-20.", "cutter compensation acts in the plane ZX, it should be YZ"),
+        ("G41 Z-2.", "G42 Z-2.", "cutter compensation is right, it should be left"),
+    ] {
+        let wrong = check(&nc.replacen(old, new, 1));
+        assert!(wrong.contains(said), "{new}: {wrong}");
+    }
+}
+
+/// The nose of a turning tool is compensated in X and Z.
+#[test]
+fn a_nose_compensated_in_another_plane_is_found() {
+    let cl = "LOADTL / 3; SPINDL / RPM, 500, CLW; FEDRAT / 0.2, MMPR; RAPID; GOTO / 25, 0, 5; \
+              CUTCOM / RIGHT, 3; GOTO / 20, 0, 5; GOTO / 20, 0, -10; CUTCOM / OFF; GOTO / 30, 0, -10";
+    let nc = "%; O0001; G21 G99 G18; T0303; G97 S500 M3; G0 X50. Z5.; G18; G1 G42 X40. F0.2; Z-10.; \
+              G40 X60.; M30; %";
+    assert_eq!(found("fanuc-lathe", &[], cl, nc), "");
+    assert_eq!(found("fanuc-lathe", &[], cl, &nc.replacen("G18; G1", "G1", 1)), "");
+    for (old, new) in [("G18; G1", "G17; G1"), ("; Z-10.", "; G17 Z-10.")] {
+        let said = found("fanuc-lathe", &[], cl, &nc.replacen(old, new, 1));
+        assert!(said.contains("it should be ZX"), "{new}: {said}");
+    }
+}
+
+/// What the first block of G76 leaves out a parameter of the control says.
+#[test]
+fn a_word_left_out_of_the_first_block_of_g76_is_found() {
+    let cl = "LOADTL / 1; SPINDL / RPM, 500, CLW; RAPID; GOTO / 25, 0, 4; \
+              THREAD / AUTO, 20, 0, 4, TO, 20, 0, -16, MMPR, 2, DEEP, 0.4, LAST, 1, TYPE, 0, 1, 60, \
+              FEDTO, 2, OUT";
+    let nc = "%; O0001; G21 G99 G18; T0101; G97 S500 M3; G0 X50. Z4.; X44.; G76 P010060 Q50 R0; \
+              G76 X38. Z-16. P1000 Q400 F2.; M30; %";
+    assert_eq!(found("fanuc-lathe", &[], cl, nc), "");
+    for word in [" P010060", " Q50", " R0"] {
+        let said = found("fanuc-lathe", &[], cl, &nc.replacen(word, "", 1));
+        let left = format!("{} of the first block is left to a parameter", &word[1..2]);
+        assert!(said.contains(&left), "{word}: {said}");
+    }
+}
+
+/// The passes of a thread meet at one speed and direction alone, whatever the CL file says.
+#[test]
+fn passes_at_two_speeds_are_found() {
+    let pass =
+        "GOTO / 20, 0, 4; GOTO / 20, 0, -16; RAPID; GOTO / 25, 0, -16; RAPID; GOTO / 25, 0, 4";
+    let second = pass.replace("20,", "19,");
+    let cl = |between: &str| {
+        format!(
+            "LOADTL / 1; SPINDL / RPM, 500, CLW; RAPID; GOTO / 25, 0, 4; THREAD / MMPR, 2; RAPID; \
+             {pass}; {between}RAPID; {second}"
+        )
+    };
+    let nc = |between: &str| {
+        format!(
+            "%; O0001; G21 G99 G18; T0101; G97 S500 M3; G0 X50. Z4.; X40.; G32 Z-16. F2.; G0 X50.; \
+             Z4.; {between}X38.; G32 Z-16. F2.; G0 X50.; Z4.; M30; %"
+        )
+    };
+    let said = "turns otherwise than in the passes of the thread before";
+    assert_eq!(found("fanuc-lathe", &[], &cl(""), &nc("")), "");
+    let other = found("fanuc-lathe", &[], &cl("SPINDL / RPM, 300, CLW; "), &nc("S300; "));
+    assert!(other.contains(said), "{other}");
+    let other = found("fanuc-lathe", &[], &cl("SPINDL / RPM, 500, CCLW; "), &nc("M4; "));
+    assert!(other.contains(said), "{other}");
+    // Another THREAD is another thread.
+    let fresh = cl("SPINDL / RPM, 300, CLW; THREAD / MMPR, 2; ");
+    assert_eq!(found("fanuc-lathe", &[], &fresh, &nc("S300; ")), "");
+}
+
+/// Where an M code switches the way out of threads, a cycle depends on the last one.
+#[test]
+fn a_way_out_that_no_code_says_is_found() {
+    let cl = "LOADTL / 1; SPINDL / RPM, 500, CLW; RAPID; GOTO / 25, 0, 4; \
+              THREAD / AUTO, 20, 0, 4, TO, 20, 0, -16, MMPR, 2, DEEP, 0.4, LAST, 1, TYPE, 0, 1, 60, \
+              FEDTO, 2, OUT";
+    let nc = "%; O0001; G21 G99 G18; T101; G97 S500 M3; G0 X50. Z4.; X44.; M23; \
+              G76 X38. Z-16. K1. D0.4 A60. F2.; M30; %";
+    let codes = ["thread.chamfer_on_code=23", "thread.chamfer_off_code=24"];
+    let with = |more: &[&'static str]| [&codes[..], more].concat();
+    let leaving = with(&["thread.chamfer_tenths=10", "thread.chamfer=1"]);
+    assert_eq!(found("haas-lathe", &leaving, cl, nc), "");
+    assert_eq!(found("haas-lathe", &codes, cl, &nc.replace("M23", "M24")), "");
+    for (settings, nc) in [
+        (&leaving, nc.replace("M23; ", "")),
+        (&leaving, nc.replace("M23", "M24")),
+        (&with(&[]), nc.to_string()),
+        (&with(&["thread.chamfer_tenths=10"]), nc.to_string()),
+        (&with(&["thread.chamfer_tenths=5", "thread.chamfer=1"]), nc.to_string()),
+    ] {
+        assert_ne!(found("haas-lathe", settings, cl, &nc), "", "{settings:?}: {nc}");
+    }
+    // Nobody but a thread asks for such a code, and it may stand anywhere.
+    let twice = nc.replace("M23", "M24; M23");
+    assert_eq!(found("haas-lathe", &leaving, cl, &twice), "");
+}
+
+/// A tap of a live tool in step with its spindle.
+#[test]
+fn a_changed_rigid_tap_of_a_live_tool_is_found() {
+    let cl = "MODE / MILL; LOADTL / 3; SPINDL / RPM, 600, CLW; MULTAX / ON; FEDRAT / 100, MMPM; RAPID; \
+              GOTO / 30, 0, -10, 1, 0, 0; RAPID; GOTO / 30, 0, 10, 1, 0, 0; \
+              CYCLE / TAP, DEPTH, 12, MMPR, 1.25, CLEAR, 3; GOTO / 10, 0, 0, 0, 0, 1; CYCLE / OFF";
+    let settings = ["mill_turn.rigid_tap=1", "mill_turn.live_spindle=2"];
+    let nc = "%_N_MPF1_MPF; G710 G90 G95 G18; DIAMON; M70; SETMS(2); T3; D1; G97 S600 M3; \
+              G0 X60 Z-10 C0; Z10; X20; Z3; G94; SPOS=0; G331 Z-12 K1.25 S600; G332 Z3 K1.25; M3; M5; \
+              SETMS; M5; M30";
+    let check = |nc: &str| found("sinumerik-mill-turn", &settings, cl, nc);
+    assert_eq!(check(nc), "");
+    for (old, new) in [
+        ("SPOS=0; ", ""),
+        ("G94; ", ""),
+        ("K1.25 S600", "K1.5 S600"),
+        ("K1.25 S600", "K-1.25 S600"),
+        ("K1.25; M3", "K-1.25; M3"),
+        ("K1.25 S600; G332 Z3 K1.25", "K-1.25 S600; G332 Z3 K-1.25"),
+        ("S600; G332", "S700; G332"),
+        ("Z-12", "Z-13"),
+        ("G332 Z3", "G332 Z4"),
+        ("G332 Z3 K1.25; ", ""),
+        ("G331 Z-12 K1.25 S600; ", ""),
+        ("G332", "G331"),
+        ("Z-12 K1.25", "X30 I1.25"),
+    ] {
+        let changed = nc.replacen(old, new, 1);
+        assert_ne!(changed, nc, "{old}");
+        assert_ne!(check(&changed), "", "{new}");
+    }
+}
+
+/// G961 and G971 of a SINUMERIK leave the feed a minute, G96 and G97 make it one a turn.
+#[test]
+fn speed_modes_of_a_feed_a_minute_are_followed() {
+    let cl = "LOADTL / 1; SPINDL / RPM, 500, CLW; FEDRAT / 100, MMPM; RAPID; GOTO / 25, 0, 4; \
+              INSERT G971 S300; GOTO / 20, 0, 4";
+    let nc = "%_N_MPF1_MPF; G710 G90 G95 G18; DIAMON; T1; D1; G97 S500 M3; G0 X50 Z4; G971 S300; \
+              G1 X40 F100; M30";
+    assert_eq!(found("sinumerik-lathe", &[], cl, nc), "");
+    let a_turn = |text: &str| text.replace("G971", "G97");
+    assert_ne!(found("sinumerik-lathe", &[], &a_turn(cl), &a_turn(nc)), "");
+}
