@@ -50,6 +50,8 @@ pub(super) struct Model<'s> {
     pub(super) limit: Want<f64>,
     /// Lead of the thread that feed motions are passes of.
     pub(super) thread: Option<f64>,
+    /// How the spindle turns in its first pass, and its limit.
+    thread_turns: Option<(Want<Turning>, Want<f64>)>,
     repeats_feed: bool,
     pub(super) cycle: Option<super::model_cycle::Active>,
     pub(super) out: Expected,
@@ -95,6 +97,7 @@ impl<'s> Model<'s> {
             length: Want::Any,
             limit: Want::Any,
             thread: None,
+            thread_turns: None,
             repeats_feed: false,
             cycle: None,
             out: Expected::default(),
@@ -206,6 +209,7 @@ impl<'s> Model<'s> {
                 let unit = if self.unit == Unit::Mm { "MMPR" } else { "IPR" };
                 self.line(&format!("THREAD / {unit}, {}", number(*lead)));
                 self.thread = Some(lead * self.mm());
+                self.thread_turns = None;
             }
             Statement::ThreadOff => {
                 self.line("THREAD / OFF");
@@ -356,8 +360,11 @@ impl<'s> Model<'s> {
     /// a lathe.
     fn needs_spindle(&mut self, act: &Act, feed: &Want<Rate>) {
         let may_stop = self.spindle.now.accepts(|turning| *turning == Turning::Stopped);
-        if matches!(act, Act::Thread { .. }) && may_stop {
-            self.may_refuse("a thread with the spindle standing");
+        if matches!(act, Act::Thread { .. }) {
+            if may_stop {
+                self.may_refuse("a thread with the spindle standing");
+            }
+            self.needs_one_speed();
         }
         let cuts = matches!(act, Act::Feed(_) | Act::Arc(_) | Act::Hole(_));
         let per_revolution = feed.accepts(|rate| rate.per_revolution);
@@ -365,6 +372,18 @@ impl<'s> Model<'s> {
             true if self.setup.turns() => self.may_refuse("a feed a turn of a spindle that stands"),
             true => self.out.unpredictable = true,
             false => {}
+        }
+    }
+
+    /// The passes of a thread meet at one speed of the spindle alone.
+    fn needs_one_speed(&mut self) {
+        let of_surface = |turning: &Turning| matches!(turning, Turning::Surface { .. });
+        if self.spindle.now.accepts(of_surface) {
+            self.may_refuse("a thread at surface speed");
+        }
+        let now = (self.spindle.now.clone(), self.limit.clone());
+        if self.thread_turns.get_or_insert_with(|| now.clone()) != &now {
+            self.may_refuse("another speed of the spindle between the passes of a thread");
         }
     }
 

@@ -15,7 +15,8 @@ pub(super) struct Active {
     step: Option<f64>,
     retract: Option<f64>,
     dwell: Option<f64>,
-    feed: Want<Rate>,
+    /// Its own feed; `None` drills at that of the last FEDRAT before each hole.
+    feed: Option<Want<Rate>>,
     /// Lowest and highest level the cycle may be said to begin from; unknown at
     /// the start of a program and after a tool change.
     initial: Option<[f64; 2]>,
@@ -42,11 +43,8 @@ impl Model<'_> {
     pub(super) fn cycle(&mut self, shape: &CycleShape) {
         self.cycle_text(shape);
         let unit = self.mm();
-        let feed = match shape.feed {
-            Some(feed) => Want::only(self.rate(feed)),
-            None => self.feed.clone(),
-        };
-        if feed == Want::OneOf(Vec::new()) {
+        let feed = shape.feed.map(|feed| Want::only(self.rate(feed)));
+        if feed.is_none() && self.no_feed() {
             self.must_refuse("a cycle without a feed");
         }
         if self.compensated() {
@@ -120,7 +118,7 @@ impl Model<'_> {
                 _ => WayOut::Rapid,
             },
         };
-        let feed = cycle.feed.clone();
+        let feed = cycle.feed.clone().unwrap_or_else(|| self.feed.clone());
         let kind = cycle.kind;
         self.spindle_of(kind);
         if self.height_unknown {
