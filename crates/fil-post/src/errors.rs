@@ -132,6 +132,10 @@ fil_diag::codes! {
         LengthTaken = 536, Error, "a motion without the length of the tool",
             "A text has taken the length of the tool off. Z of the CL file counts from the tip, and the control would bring the spindle nose there.",
             "Let the text, or another one behind it, call the length again (G43 H1, on a SINUMERIK D1), or put LOADTL before the motion.";
+        /// A rotary axis that is clamped.
+        TurnsClamped = 537, Error, "a clamped rotary axis would turn",
+            "CLAMP/ON or a text has clamped the rotary axes, and nothing has released them since: the drive would turn against the brake, or the control would stop.",
+            "Put CLAMP / OFF before the motion that turns the machine.";
         /// A block that is too long.
         BlockLength = 541, Error, "block longer than the control reads",
             "The rest of a block that is longer than the control's buffer would be lost.",
@@ -242,7 +246,7 @@ fil_diag::codes! {
             "Give LINTOL or rotary.tolerance a value, or check the program with filpost verify --between.";
         /// The spindle stands in a hole, or a live tool where it cuts.
         SpindleStands = 596, Warning, "cutting with the spindle standing",
-            "SPINDL/OFF, a tool change (M6), or a text that stops the spindle came before these holes or this motion at feed, and nothing has turned it since; or MODE/MILL, and nothing has turned the live tool.",
+            "SPINDL/OFF, a tool change (M6), or a text that stops the spindle came before these holes or this motion at feed, and nothing has turned it since; or STOP or OPSTOP, which stop it on some machines; or MODE/MILL, and nothing has turned the live tool.",
             "Put SPINDL / RPM with a direction before it; ignore this where the tool does not cut.";
         /// The way out of a bored hole.
         BoreOut = 597, Warning, "bored hole left at feed",

@@ -78,6 +78,10 @@ pub struct Codes {
     ranges: Vec<FunctionCode>,
     /// Auxiliary functions that turn the spindle or stop it.
     turns: [(FunctionCode, Rotation); 4],
+    /// Auxiliary functions that stop the program.
+    stops: [Option<FunctionCode>; 2],
+    /// Auxiliary functions that clamp the rotary axes and release them.
+    clamps: [Option<FunctionCode>; 2],
     /// The lowest and the highest code of the work offsets.
     fixtures: Option<(FunctionCode, FunctionCode)>,
     /// The function that takes the length of the tool off.
@@ -107,6 +111,8 @@ impl Codes {
             fixtures: code(loc::FIXTURE_MIN_CODE).zip(code(loc::FIXTURE_MAX_CODE)),
             named: Vec::with_capacity(48),
             turning,
+            stops: [loc::PROGRAM_STOP_CODE, loc::PROGRAM_OPSTOP_CODE].map(code),
+            clamps: [loc::ROTARY_CLAMP_CODE, loc::ROTARY_UNCLAMP_CODE].map(code),
             length_cancel: code(loc::TOOL_LENGTH_CANCEL_CODE),
             sinumerik: commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik,
             has_cycle_off: commons.read(loc::CYCLE_OFF_CODE).is_some(),
@@ -236,6 +242,17 @@ impl Codes {
             return Some(Rotation::Standing);
         }
         self.turns.iter().find(|(turning, _)| *turning == code).map(|(_, rotation)| *rotation)
+    }
+
+    /// True for a function that stops the program, always or where the operator wants it.
+    pub fn stops_program(&self, code: FunctionCode) -> bool {
+        self.stops.contains(&Some(code))
+    }
+
+    /// Whether a function clamps the rotary axes or releases them; `None` for any other.
+    pub fn clamps(&self, code: FunctionCode) -> Option<bool> {
+        let index = self.clamps.iter().position(|named| *named == Some(code))?;
+        Some(index == 0)
     }
 
     /// True where the functions of the speed stand in one group with those of the feed.

@@ -153,6 +153,11 @@ pub struct ControlState {
     pub returned: bool,
     /// Tool changes by their function before the spindle was turned last.
     turned_behind: u32,
+    /// A stop of the program came since the spindle was turned: some machines stop it, too.
+    pub halted: bool,
+    /// A function has clamped the rotary axes, and none has released them since, or only one
+    /// that may be skipped.
+    pub may_be_clamped: bool,
     /// S is a surface speed; `None` where nothing has said it, or only blocks that may be skipped.
     pub surface_speed: Option<bool>,
     /// X counts as the post writes it: on a lathe as a diameter, in a transformation as a radius.
@@ -193,6 +198,8 @@ impl ControlState {
             rotation: Rotation::Unsaid,
             returned: false,
             turned_behind: 0,
+            halted: false,
+            may_be_clamped: false,
             surface_speed: None,
             x_is_as_written: true,
             return_level: None,
@@ -346,6 +353,8 @@ impl ControlState {
             rotation: self.rotation.doubted(),
             returned: false,
             turned_behind: self.turned_behind,
+            halted: self.halted,
+            may_be_clamped: self.may_be_clamped,
             surface_speed: None,
             x_is_as_written: false,
             return_level: None,
@@ -485,6 +494,12 @@ impl ControlState {
         })
     }
 
+    /// True where a tool change or a position of the machine has brought the axis of a letter away
+    /// from the part, and nothing has moved it since.
+    pub fn may_be_clear(&self, letter: Letter) -> bool {
+        self.doubts.is_clear(letter)
+    }
+
     /// A tool change by its function came since the spindle was turned: many machines stop it.
     pub fn tool_is_changed_since_turned(&self) -> bool {
         self.turned_behind != self.tool_changes
@@ -503,7 +518,10 @@ impl ControlState {
         if let Some(rotation) = codes.rotation(code) {
             self.rotation = rotation;
             self.turned_behind = self.tool_changes;
+            self.halted = false;
         }
+        self.halted |= codes.stops_program(code);
+        self.may_be_clamped = codes.clamps(code).unwrap_or(self.may_be_clamped);
         if codes.is_spindle_range(code) {
             self.range = Some(code);
         }

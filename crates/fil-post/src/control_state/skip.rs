@@ -92,6 +92,8 @@ impl ControlState {
         agree(&mut self.return_level, &other.return_level);
         agree(&mut self.surface_speed, &other.surface_speed);
         self.rotation = self.rotation.or(other.rotation);
+        self.halted |= other.halted;
+        self.may_be_clamped |= other.may_be_clamped;
         if other.length == Length::Taken {
             self.length = Length::Taken;
         }

@@ -54,6 +54,9 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
         let message = "CYCLE: the spindle stands".to_string();
         post.warn(PostCode::SpindleStands, message);
     }
+    if spindle::may_stand_behind_stop(&post.control) {
+        post.warn(PostCode::SpindleStands, format!("CYCLE {}", spindle::BEHIND_STOP));
+    }
     if post.writes_tip() {
         return tip_hole::hole(post, cycle, target);
     }

@@ -22,6 +22,7 @@ pub(crate) mod long_arc;
 mod machine_position;
 pub mod mill_turn;
 pub mod rapid;
+mod rapid_turn;
 mod reposition;
 pub mod rotary;
 mod scaled_lead;
@@ -121,6 +122,8 @@ pub struct Path {
     pub(crate) has_origin: bool,
     /// The transformation is that of TRACUT.
     pub(crate) has_tracut: bool,
+    /// TRANS with three numbers is in force.
+    pub(crate) is_shifted: bool,
     /// The transformation is that of a table that ROTABL has turned under the points.
     pub(crate) has_index: bool,
     /// What came behind the last motion.
@@ -178,6 +181,7 @@ impl Default for Path {
             transformation: None,
             has_origin: false,
             has_tracut: false,
+            is_shifted: false,
             has_index: false,
             since: Since::Motion,
             turned_by_words: false,

@@ -5,6 +5,7 @@ use fil_machine::axes::AxisSet;
 use fil_machine::commons::EMPTY;
 use fil_machine::locations::{self as loc, RapidSplit};
 
+use super::rapid_turn;
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family;
@@ -27,6 +28,7 @@ pub fn rapid(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()>
     }
     if control.commons.read(loc::RAPID_SPLIT) == RapidSplit::OneBlock {
         look_where_it_begins(control, motion)?;
+        rapid_turn::warn_of_dip(control, motion, &[AxisSet::ALL]);
         return family::rapid(control, motion, RapidCode::Across, cause);
     }
     in_parts(control, motion, cause)
@@ -77,6 +79,7 @@ fn goes_with_others(control: &Control, motion: &Motion, number: usize) -> Result
 /// As [`family::rapid`].
 pub(super) fn in_parts(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()> {
     let z_first = motion.axes.has(2) && z_goes_first(control, motion)?;
+    rapid_turn::warn_of_dip(control, motion, &order(z_first).map(|(axes, _)| axes));
     split(control, motion, z_first, cause)
 }
 
@@ -116,13 +119,17 @@ pub(super) fn refuse_between_levels(control: &Control, to: &Motion) -> Result<()
     Ok(())
 }
 
-fn split(control: &mut Control, motion: &Motion, z_first: bool, cause: Cause) -> Result<()> {
+/// Which axes move in which block, and by which code.
+fn order(z_first: bool) -> [(AxisSet, RapidCode); 3] {
     let across = (AxisSet::XY, RapidCode::Across);
     let turning = (AxisSet::ROTARY, RapidCode::Turning);
     let along = (AxisSet::Z, RapidCode::Along);
-    let order = if z_first { [along, across, turning] } else { [across, turning, along] };
+    if z_first { [along, across, turning] } else { [across, turning, along] }
+}
+
+fn split(control: &mut Control, motion: &Motion, z_first: bool, cause: Cause) -> Result<()> {
     let present = control.tables.present();
-    for (group, code) in order {
+    for (group, code) in order(z_first) {
         if !group.and(present).is_empty() {
             family::rapid(control, &motion.of(group), code, cause)?;
         }
@@ -142,6 +149,10 @@ pub(super) fn z_goes_first(control: &mut Control, motion: &Motion) -> Result<boo
     let to = axis.value(motion.position[2])?;
     let rises_from = |from: f64| (to - from) * axis.scale() > 0.0;
     match control.place_on_tape(2) {
+        // Up to the level of the end would be down beside the part, which has yet to turn.
+        Place::At(_) if control.state.may_be_clear(axis.letter) && turns(control, motion)? => {
+            Ok(false)
+        }
         Place::At(last) => Ok(rises_from(last)),
         Place::Unsaid | Place::Clear => Ok(false),
         Place::Between(_) => {
@@ -168,6 +179,17 @@ pub(super) fn z_goes_first(control: &mut Control, motion: &Motion) -> Result<boo
             Ok(false)
         }
     }
+}
+
+/// True when the motion turns a rotary axis from its last output value, in doubt or not.
+fn turns(control: &Control, motion: &Motion) -> Result<bool> {
+    for number in motion.axes.and(AxisSet::ROTARY).and(control.tables.present()).numbers() {
+        let axis = control.tables.axis(number);
+        if axis.changes(axis.scaled(motion.position[number])?, &control.commons) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
 
 /// True for a motion straight up in the CL file, by the last numbers that were said: up first

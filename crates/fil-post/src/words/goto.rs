@@ -51,6 +51,8 @@ pub fn handle(post: &mut Post, target: Target) -> Result<()> {
 fn warn_of_standing_spindle(post: &mut Post) {
     if post.control.state.rotation == Rotation::Standing {
         warn_where_it_mills(post);
+    } else if post.control.state.halted {
+        warn_behind_stop(post);
     }
 }
 
@@ -62,6 +64,15 @@ fn warn_where_it_mills(post: &mut Post) {
     }
     let tool = control.state.tool.map(|tool| format!(" of tool {tool}")).unwrap_or_default();
     post.warn(PostCode::SpindleStands, format!("a motion at feed{tool}: the spindle stands"));
+}
+
+/// Warns of a motion at feed behind a stop of the program, which stops the spindle on some
+/// machines.
+#[cold]
+fn warn_behind_stop(post: &mut Post) {
+    if spindle::may_stand_behind_stop(&post.control) {
+        post.warn(PostCode::SpindleStands, format!("a motion at feed {}", spindle::BEHIND_STOP));
+    }
 }
 
 /// Rapid after RAPID, a pass of a thread in a thread, else at feed.

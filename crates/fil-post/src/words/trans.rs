@@ -7,7 +7,7 @@
 //! TRANS of its own instead of the points (`control.translation`).
 
 use fil_cl::vocabulary::words as w;
-use fil_diag::Result;
+use fil_diag::{Diag, Result};
 use fil_machine::Kind;
 use fil_machine::locations::{self as loc, InputKind, InputOrigin, InputTracut};
 use nalgebra::Matrix3x4;
@@ -33,6 +33,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     }
     if items.any_of(&[w::NOMORE, w::OFF]).is_some() {
         items.deny_rest()?;
+        post.path.is_shifted = false;
         turn(post, None, "TRANS")?;
         return translate(post, [0.0; 3]);
     }
@@ -46,7 +47,14 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         if option.is_some() {
             return Err(items.error("OPTION needs the twelve numbers of a matrix"));
         }
+        post.path.is_shifted = numbers.iter().any(|number| *number != 0.0);
+        if post.path.is_shifted && post.path.transformation.is_some() {
+            return Err(both(items));
+        }
         return translate(post, [x, y, z]);
+    }
+    if post.path.is_shifted {
+        return Err(both(items));
     }
     if numbers.len() != 12 {
         return Err(items.error(format!("3 or 12 numbers are needed, not {}", numbers.len())));
@@ -57,6 +65,12 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         turns_axis: option.is_none() && kind != InputKind::MatrixOnPoints,
     };
     turn(post, Some(trans), "TRANS")
+}
+
+/// Three numbers and twelve: whether the later TRANS takes the place of the earlier one, or adds
+/// to it, is not published.
+fn both(items: &Items) -> Box<Diag> {
+    items.error("a TRANS of three numbers and one of twelve: put TRANS/NOMORE between them, or say both by twelve")
 }
 
 /// Takes another transformation.

@@ -42,6 +42,7 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
         tool::speed(control, value)?;
     }
     control.block.cause.word = direction_word;
+    words::refuse_turning_back(control, &turn)?;
     let said = words::take_turn(control, &turn);
     control.klartext.clockwise = Some(control.turned.unwrap_or(true));
     let direction = match said {

@@ -268,6 +268,12 @@ pub fn axis_words(control: &mut Control, motion: &Motion) -> Result<bool> {
             }
         }
     }
+    if control.state.may_be_clamped
+        && !control.tables.clamps
+        && !changed.and(AxisSet::ROTARY).is_empty()
+    {
+        return refuse_clamped(control, changed);
+    }
     if control.tables.watches_turns {
         if vectors::are_due(control, motion) {
             vectors::axis_words(control, motion, changed, &scaled)?;
@@ -292,6 +298,15 @@ pub fn axis_words(control: &mut Control, motion: &Motion) -> Result<bool> {
         note_axis_words(control, written, motion.word);
     }
     Ok(true)
+}
+
+/// Refuses a motion of a rotary axis that CLAMP/ON or a text has clamped: the drive would turn
+/// against its brake.
+#[cold]
+fn refuse_clamped<T>(control: &Control, changed: AxisSet) -> Result<T> {
+    let number = changed.and(AxisSet::ROTARY).numbers().next().unwrap_or(AXES - 1);
+    let letter = control.tables.axis(number).letter;
+    PostCode::TurnsClamped.err(format!("{letter} would turn, and the rotary axes are clamped"))
 }
 
 /// Warns of a motion along an axis whose words are off the tape: the machine would not

@@ -16,6 +16,10 @@ use crate::operation::{SideSpindle, Spindle, SpindleRange, SpindleSpeed, Spindle
 /// Meters of a foot.
 const FOOT: f64 = 0.3048;
 
+/// What is said of what cuts behind STOP or OPSTOP with nothing between that turns the spindle.
+pub const BEHIND_STOP: &str =
+    "behind STOP or OPSTOP, which stop the spindle on some machines; SPINDL turns it again";
+
 /// An angle of an oriented stop is rounded to this, degrees: finer ones come from the
 /// arithmetic of a CAM system.
 const SMALLEST_ANGLE: f64 = 1e-3;
@@ -243,6 +247,7 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
         (None, None) => refuse_without_speed(control)?,
     }
     control.block.cause.word = direction_word;
+    refuse_turning_back(control, &turn)?;
     let said = take_turn(control, &turn);
     control.turning = control.turned;
     let [clockwise, counterclockwise, _] = codes(control);
@@ -254,6 +259,28 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
         (None, _) => loc::SPINDLE_DEFAULT_CODE,
     };
     place(control, direction, "the spindle")
+}
+
+/// Refuses a speed without a direction while the spindle turns the other way than the usual
+/// code: it would turn back in the cut, and a tap of a left-hand thread would become another.
+///
+/// # Errors
+/// It turns so.
+pub fn refuse_turning_back(control: &Control, turn: &SpindleTurn) -> Result<()> {
+    let usual = if control.tables.mills() { Some(true) } else { usual_turn(control) };
+    let now = clockwise_in_motion(control).filter(|_| !may_stand_behind_change(control));
+    let turns_back = turn.clockwise.is_none() && turn.speed.is_some();
+    if !turns_back || now.is_none() || usual.is_none() || now == usual {
+        return Ok(());
+    }
+    let way = if now == Some(true) { "clockwise" } else { "counterclockwise" };
+    PostCode::WordForm.err_with(
+        format!(
+            "SPINDL with a speed and no direction while the spindle turns {way}: the usual \
+             direction (spindle.default_code) would turn it back"
+        ),
+        "Say CLW or CCLW.",
+    )
 }
 
 /// Which way a record turns the spindle, and keeps it: SPINDL/ON turns it as it turned before.
@@ -396,6 +423,12 @@ pub fn stands(control: &Control) -> bool {
 /// A tool change may have stopped the spindle, and nothing that waits for a motion turns it.
 pub fn may_stand_behind_change(control: &Control) -> bool {
     control.state.tool_is_changed_since_turned() && !waits(control)
+}
+
+/// A stop of the program may have stopped the spindle, as some machines do, and nothing that
+/// waits for a motion turns it.
+pub fn may_stand_behind_stop(control: &Control) -> bool {
+    control.state.halted && may_turn(control) && !waits(control)
 }
 
 /// Adds S, and on a lathe the code for revolutions or surface speed.

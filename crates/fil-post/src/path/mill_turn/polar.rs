@@ -234,7 +234,7 @@ pub(super) fn refuse_skipped(post: &Post) -> Result<()> {
     Ok(())
 }
 
-/// Refuses an arc whose circle passes the axis of the spindle, or that leaves the travel.
+/// Refuses an arc that passes the axis of the spindle, or that leaves the travel.
 ///
 /// # Errors
 /// It does.
@@ -244,18 +244,26 @@ pub(super) fn check_arc(post: &Post, arc: &Arc, target: Target) -> Result<()> {
     let place = |point| rotary::transformed(post, Target { point, ..target }).0;
     let ends = [start, target.point].map(|point| flat(arc, point));
     let center = place(arc.center);
-    let nearest = (libm::hypot(center.x, center.y) - ends[0].norm()).abs();
-    if nearest < least(post)? {
-        return passes(nearest);
-    }
+    let of_circle = (libm::hypot(center.x, center.y) - ends[0].norm()).abs();
+    let least = least(post)?;
     if arc.axis.dot(&(target.point - start)).abs() > SAME {
         return with_z();
     }
     let sweep = sweep(arc, ends).to_radians();
+    let part = sweep / f64::from(ARC_STEPS);
+    // No more than this is the arc nearer than a chord of it.
+    let sagitta = ends[0].norm() * (1.0 - libm::cos(part / 2.0));
+    let mut before = None;
     for step in 0..=ARC_STEPS {
-        let angle = sweep * f64::from(step) / f64::from(ARC_STEPS);
-        let spoke = Rotation3::from_axis_angle(&Unit::new_normalize(arc.axis), angle) * ends[0];
+        let spoke =
+            Rotation3::from_axis_angle(&Unit::new_normalize(arc.axis), part * f64::from(step))
+                * ends[0];
         let at = place(arc.center + spoke);
+        let chord = [before.replace(at).unwrap_or(at), at];
+        let off = nearest(chord[0].xy(), chord[1].xy()) - sagitta;
+        if of_circle < least && off < least {
+            return passes(off.max(0.0));
+        }
         let of_slides: Position = [libm::hypot(at.x, at.y), 0.0, 0.0, 0.0, 0.0];
         post.control.tables.check_travel(&of_slides, AxisSet::of(0))?;
     }
