@@ -39,7 +39,14 @@ const GROUPS: [&str; 14] = [
 ];
 
 /// What makes any program wrong, or leaves to the control what it means.
-const LEFT_OUT: [&str; 3] = ["motion.same_tolerance", "feed.mode", "dwell.code"];
+const LEFT_OUT: [&str; 6] = [
+    "motion.same_tolerance",
+    "feed.mode",
+    "dwell.code",
+    "dwell.address",
+    "dwell.upm_factor",
+    "rotary.table_words",
+];
 
 fn settings(random: &mut Random) -> Vec<String> {
     let rows: Vec<&Location> = TABLE

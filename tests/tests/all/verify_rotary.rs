@@ -282,6 +282,63 @@ fn holes_of_two_faces_in_one_cycle_are_followed() {
 }
 
 #[test]
+fn a_hole_across_a_turned_table_returns_to_the_level_that_it_went_up_to() {
+    let cl = "RAPID; GOTO / 76.267617354, -72.205184971, -44.326696559, 0.9209168973, \
+              -0.3897589874, 0; \
+              CYCLE / DRILL, DEPTH, 2.59469, MMPM, 100, CLEAR, 3, RETURN, 10; \
+              GOTO / 57.849279408, -64.410005224, -44.326696559, 0.7551909844, -0.6555048261, 0; \
+              GOTO / 46.621445499, -77.345316458, -9.608329327, 0.5875292765, -0.8092029098, 0; \
+              CYCLE / OFF";
+    let nc = milled(
+        "G0 X107.118 Y-31.491; C-22.94; G43 Z-44.327 H1; X109.64; G19; \
+         G98 G81 X97.045 Y0.858 Z-44.327 R102.64 C-40.958 F100.; G80; G0 X115.979; \
+         G98 G81 X103.384 Y9.244 Z-9.608 R108.979 C-54.018 F100.; G80; G17",
+    );
+    let settings = &[
+        "chain=\"table-c\"",
+        "rotary.secondary_kind=0",
+        "rotary.primary_x=-8.637",
+        "rotary.primary_y=24.174",
+        "rotary.primary_z=-59.613",
+    ];
+    let case = Case { ready: "fanuc-mill-b", settings, cl, nc: &nc };
+    case.agrees_but_not_with(("G98 G81 X103", "G99 G81 X103"), "the hole is not finished");
+    case.agrees_but_not_with(("X115.979", "X116.979"), "the level over the hole is higher by 1");
+    case.agrees_but_not_with(("R102.64", "R101.64"), "the R level is deeper by 1");
+}
+
+#[test]
+fn the_feed_of_a_hole_is_within_that_of_z_and_y() {
+    let cl = "MULTAX / ON; FEDRAT / 500, MMPM; RAPID; \
+              GOTO / 22.191186892, -22.112770309, -3.314429299, 0.2185123356, -0.3093377602, \
+              0.9255066230; CYCLE / DRILL, DEPTH, 13.85092, MMPM, 100, CLEAR, 3; \
+              GOTO / 20.604795743, -18.340572884, -15.441786249, 0.3777180687, -0.3276111423, \
+              0.8660254038; CYCLE / OFF";
+    let nc = "%_N_MPF1_MPF\nG710 G90 G94 G17\nT1 M6\nD1\nS3000 M3\nG0 A0 C0\nTRAORI\n\
+              X22.191 Y-22.113 Z-3.314 A22.255 C35.237\nX25.265 Y-22.383 Z-4.757 A30 C49.063\n\
+              X21.738 Y-19.323 Z-12.844\nG1 X15.373 Y-13.803 Z-27.437 F50\n\
+              G0 X21.738 Y-19.323 Z-12.844\nTRAFOOF\nM30\n";
+    // CYCLE brings its feed within that of Z, however the tool leans.
+    let case = Case { ready: "sinumerik-5x", settings: &["feed.upm_max_z=50"], cl, nc };
+    case.agrees_but_not_with(("F50", "F57.7"), "feed 57.7 mm/min, it should be 50");
+    // The way of Y is so short that its last digit makes a part of the feed.
+    let cl = "MULTAX / ON; FEDRAT / 649.1, MMPM; RAPID; \
+              GOTO / -19.385740164, -37.843489610, 52.269159123, 0.0174968560, -0.0112718361, \
+              0.9997833794; CYCLE / CSINK, DEPTH, 13.57529, MMPM, 100, CLEAR, 3; \
+              GOTO / -19.735677284, -37.618052888, 32.273491534, 0.0174968560, -0.0112718361, \
+              0.9997833794; CYCLE / OFF";
+    let nc = "0 BEGIN PGM 1 MM\n1 TOOL CALL 1 Z\n2 TOOL CALL 1 Z S3000\n3 M3\n\
+              4 L B+0 C+0 R0 FMAX\n5 FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS\n\
+              6 L X-19.386 Y-37.843 Z+52.269 B+1.193 C-32.79 FMAX\n\
+              7 L X-19.683 Y-37.652 Z+35.273 FMAX\n8 L X-19.973 Y-37.465 Z+18.701 F88.65\n\
+              9 L X-19.683 Y-37.652 Z+35.273 FMAX\n10 FUNCTION RESET TCPM\n11 M30\n\
+              12 END PGM 1 MM\n";
+    let settings = &["feed.upm_max_y=1", "chain=\"tables-cb\""];
+    let case = Case { ready: "heidenhain-5x", settings, cl, nc };
+    case.agrees_but_not_with(("F88.65", "F98.65"), "feed 98.65 mm/min, it should be 88.7");
+}
+
+#[test]
 fn the_angles_of_a_frame_turn_no_clamped_axis() {
     let cl = "RAPID; GOTO / 4.175, -7.231, 64.461, 0.25, -0.4330127019, 0.8660254038";
     let nc = "%_N_N_T_MPF\nG710 G90 G94 G17\nT1 M6\nD1\nS3000 M3\nM11\nG0 A30 C30\n\

@@ -3,6 +3,7 @@
 use fil_machine::locations::CycleBoreOut;
 
 use super::ahead::Steps;
+use super::hole_tip::FromHole;
 use super::report::FindingKind;
 use super::say::short;
 use super::walk::{STILL, Walk};
@@ -195,7 +196,7 @@ impl<C: Steps> Walk<'_, C> {
             {
                 return Err((found.line, format!("{} in a hole", self.spell_move(&found))));
             }
-            self.check_rate(cl_line, before, &found, hole.rate);
+            self.check_rate(cl_line, before, &found, self.rate_of_hole(hole));
             reached = Some(found.to.linear[2]);
         }
         self.bottom_dwell(cl_line, hole)?;
@@ -263,8 +264,12 @@ impl<C: Steps> Walk<'_, C> {
             let there = |n: usize| near(to[n], levels.at[n], n);
             let arrives = there(0) && there(1);
             // Across a tool along X one axis may go there before the other.
-            let by_axes = self.from_hole.is_some();
-            let goes_there = arrives || by_axes && (0..2).all(|n| there(n) || !moves(n));
+            let by_axes = |hole: FromHole| {
+                let digits = hole.digits();
+                let is_there = |n: usize| (to[n] - levels.at[n]).abs() <= digits[n];
+                (0..2).all(|n| is_there(n) || !moves(n))
+            };
+            let goes_there = arrives || self.from_hole.is_some_and(by_axes);
             if across && !goes_there {
                 return Err((
                     found.line,
@@ -443,7 +448,7 @@ impl<C: Steps> Walk<'_, C> {
             return Err((first.line, format!("{} out of the hole", self.spell_move(&first))));
         }
         if matches!(first.course, Course::Feed | Course::Thread) {
-            self.check_rate(cl_line, self.at, &first, hole.rate);
+            self.check_rate(cl_line, self.at, &first, self.rate_of_hole(hole));
         }
         let spindle = match out {
             _ if stands => Spindle::Off,

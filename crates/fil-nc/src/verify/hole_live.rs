@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use super::ahead::Steps;
 use super::gap::REACHED;
 use super::hole::Levels;
-use super::hole_tip::{DUST, Kept, MOST, doubt};
+use super::hole_tip::{DUST, FromHole, Kept, MOST, doubt};
 use super::walk::Walk;
 use super::wanted::Hole;
 use crate::motion::{Course, Event, Move, Position};
@@ -41,7 +41,8 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn say_live(&mut self, hole: &Hole, levels: Levels, plunge: &Move) -> Kept {
         let live = self.live_hole(hole, levels, plunge);
         let frame = self.settings.forward.frame(live.rotary);
-        self.from_hole = Some(frame.turn.transpose() * self.hole_frame(live.rotary, hole).turn);
+        let turn = frame.turn.transpose() * self.hole_frame(live.rotary, hole).turn;
+        self.from_hole = Some(FromHole { turn, slack: self.slack.linear });
         self.at = self.said_live(&self.at, &live, levels);
         let first = self.next;
         let (mut events, mut said) = (Vec::new(), Vec::new());

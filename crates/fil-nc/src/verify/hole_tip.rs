@@ -45,6 +45,15 @@ struct Line {
     before: [f64; 2],
 }
 
+/// From the directions of a hole, in which its moves are said, to the tape.
+#[derive(Clone, Copy)]
+pub(super) struct FromHole {
+    /// Turns directions into those of the axes.
+    pub(super) turn: Matrix3<f64>,
+    /// What the last digits of the tape leave open, mm.
+    pub(super) slack: [f64; 3],
+}
+
 /// What stood there before the moves of a hole were said anew.
 pub(super) struct Kept {
     /// Index of the first event.
@@ -124,6 +133,13 @@ impl Line {
     }
 }
 
+impl FromHole {
+    /// What the last digits of the tape leave open in the directions of the hole, mm.
+    pub(super) fn digits(&self) -> [f64; 3] {
+        [0, 1, 2].map(|n| (0..3).map(|axis| self.turn[(axis, n)].abs() * self.slack[axis]).sum())
+    }
+}
+
 impl<C: Steps> Walk<'_, C> {
     /// A motion over a hole in positions of the machine's axes, with the rotary axes
     /// where the tool exactly lies along the hole.
@@ -149,7 +165,7 @@ impl<C: Steps> Walk<'_, C> {
             return true;
         }
         let in_frame = found.to.tilt.is_some();
-        if in_frame || !self.settings.forward.has_rotary() || found.course == Course::Machine {
+        if in_frame || found.course == Course::Machine {
             return false;
         }
         let rotary = self.gap(&found.to, &hole.start).rotary;
@@ -186,14 +202,21 @@ impl<C: Steps> Walk<'_, C> {
             // X, Y and Z stay when the machine turns to the hole, the tip under tool-tip control.
             let rotary = if in_axes { self.rotary_over(&plunge, hole) } else { found.to.rotary };
             let to = Position { rotary, ..found.to };
-            self.check_way_up(cl_line, hole, &Move { to, ..found });
+            let level = self.check_way_up(cl_line, hole, &Move { to, ..found });
+            if in_axes {
+                // A cycle that begins there comes back to it.
+                let start = self.hole_frame(rotary, hole).linear(hole.start.tip)[2];
+                let level = self.slack.before_scale(2, start + level);
+                self.initial = self.initial.map(|initial| initial.max(level));
+            }
             self.take(cl_line, &found);
             self.next += 1;
         }
     }
 
-    /// The way up ends on the level over the hole to which the tool then goes across.
-    fn check_way_up(&mut self, cl_line: u32, hole: &Hole, found: &Move) {
+    /// The way up ends on the level over the hole to which the tool then goes across; gives its
+    /// height over the hole.
+    fn check_way_up(&mut self, cl_line: u32, hole: &Hole, found: &Move) -> f64 {
         let tip = self.settings.forward.pose(&found.to).tip;
         let height = (tip - hole.start.tip).dot(&hole.start.axis);
         let clear = hole.clear.unwrap_or_else(|| self.settings.cycle_clearance(self.metric));
@@ -201,12 +224,13 @@ impl<C: Steps> Walk<'_, C> {
             None => clear,
             Some(above) if above > 0.0 => above.max(clear),
             // The level before the cycle is that of another direction.
-            Some(_) => return,
+            Some(_) => return clear,
         };
         if (height - level).abs() > 2.0 * self.tip_slack(&found.to) {
             let message = self.spell_level("the level over the hole", height, level);
             self.find(FindingKind::Cycle, Some(cl_line), Some(found.line), message);
         }
+        level
     }
 
     /// The machine's directions, turned so that Z goes along the hole.
@@ -328,6 +352,9 @@ impl<C: Steps> Walk<'_, C> {
         let rests = self.at.linear[2];
         // Without RETURN the tool goes across where the hole before has left it.
         let initial = self.initial.filter(|_| hole.retract.is_some()).unwrap_or(rests);
+        let is_rounded = known && (rests - initial).abs() <= line.digits() + DUST;
+        let rests = if is_rounded { initial } else { rests };
+        self.at.linear[2] = rests;
         let mut before = [rests, initial];
         if hole.retract == Some(0.0) {
             before.reverse();
@@ -336,7 +363,7 @@ impl<C: Steps> Walk<'_, C> {
         let rotary = self.gap(&next.to, &hole.start).rotary;
         let machine = self.settings.forward.frame(rotary);
         let from_hole = machine.turn.transpose() * self.hole_frame(rotary, hole).turn;
-        self.from_hole = Some(from_hole);
+        self.from_hole = Some(FromHole { turn: from_hole, slack: self.slack.linear });
         let first = self.next;
         let (mut events, mut said) = (Vec::new(), Vec::new());
         for event in self.nc.from(first).take(MOST + 4 * line.heights.len()) {

@@ -280,8 +280,8 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn check_limits(&mut self, cl_line: u32, found: &Move) {
         let axes = self.settings.forward.restated(&found.to, &Position::default()).linear;
         let axes = match self.from_hole {
-            Some(turn) => {
-                let [x, y, z]: [f64; 3] = (turn * Vector3::from(axes)).into();
+            Some(hole) => {
+                let [x, y, z]: [f64; 3] = (hole.turn * Vector3::from(axes)).into();
                 [x, if self.written[1] { y } else { 0.0 }, z]
             }
             // In the plane of X and C the slide stands at the distance from the axis.

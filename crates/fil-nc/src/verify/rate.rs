@@ -6,6 +6,7 @@ use super::ahead::Steps;
 use super::report::FindingKind;
 use super::say::{short, spell_rate};
 use super::walk::Walk;
+use super::wanted::Hole;
 use crate::dialect::Family;
 use crate::motion::{Compensation, Course, Move, Position, Rate, Speed, unit};
 
@@ -78,10 +79,23 @@ impl<C: Steps> Walk<'_, C> {
         }
     }
 
+    /// The feed of a hole: CYCLE brings it within that of Z, along which cycles go.
+    pub(super) fn rate_of_hole(&self, hole: &Hole) -> Option<Rate> {
+        hole.rate.map(|rate| match rate {
+            Rate::PerMinute(rate) => {
+                let rate = self.settings.feed_within(rate, self.metric);
+                Rate::PerMinute(self.settings.cycle_feed_within(rate, self.metric))
+            }
+            rate => rate,
+        })
+    }
+
     /// A feed within the limits of Y and Z. From a place that nobody knows each axis may go
     /// alone, also while the machine turns.
     fn within_axes(&self, rate: f64, from: &Position, found: &Move) -> f64 {
-        let begins = self.known[..3] == [true; 3] && found.modes.fixture == self.moved_fixture;
+        let begins = self.known[..3] == [true; 3]
+            && !self.tool_is_fresh
+            && found.modes.fixture == self.moved_fixture;
         let turns = turned(from, found) != [0.0; 2] && !found.to.tip_control;
         if turns && begins {
             return rate;
@@ -94,7 +108,7 @@ impl<C: Steps> Walk<'_, C> {
     /// A motion in directions of the program: in a hole along the tool, it is said in those of
     /// the hole.
     fn on_tape(&self, from: &Position, found: &Move) -> (Position, Move) {
-        let Some(to_axes) = self.from_hole else { return (*from, *found) };
+        let Some(to_axes) = self.from_hole.map(|hole| hole.turn) else { return (*from, *found) };
         // Under tool-tip control X, Y and Z are those of the part.
         let turn = match found.modes.tip_control {
             true => self.settings.forward.frame(found.to.rotary).turn * to_axes,
@@ -110,9 +124,10 @@ impl<C: Steps> Walk<'_, C> {
     /// By what share rounding on the tape changes a feed that the ways of Y and Z limit.
     fn share_slack(&self, from: &Position, found: &Move) -> f64 {
         let (from, found) = self.on_tape(from, found);
+        let digits = self.from_hole.map_or(self.slack.linear, |hole| hole.slack);
         let share = |axis: usize| {
             let way = (found.to.linear[axis] - from.linear[axis]).abs();
-            if way > STANDS { 4.0 * self.slack.linear[axis] / way } else { 0.0 }
+            if way > digits[axis] { 4.0 * digits[axis] / way } else { 0.0 }
         };
         let limits = self.settings.limits_feed_of_axes();
         [1, 2].into_iter().filter(|axis| limits[axis - 1]).map(share).fold(0.0, f64::max)

@@ -1,7 +1,7 @@
 //! Walks along the steps of a CL file and the events of a program at once.
 
 use fil_diag::Diag;
-use nalgebra::{Matrix3, Point3};
+use nalgebra::Point3;
 
 use super::ahead::{Ahead, Steps};
 use super::align::Detour;
@@ -9,6 +9,7 @@ use super::auxiliaries::Auxiliaries;
 use super::between::Watch;
 use super::blocks::OwnBlocks;
 use super::gap::Gap;
+use super::hole_tip::FromHole;
 use super::lag::Moved;
 use super::modes::Expected;
 use super::report::{Finding, FindingKind, Report};
@@ -89,8 +90,8 @@ pub(super) struct Walk<'a, C> {
     pub(super) was_compensated: bool,
     /// Level the control's cycle began from.
     pub(super) initial: Option<f64>,
-    /// Turns directions of the hole, in which its moves are said, into those of the axes.
-    pub(super) from_hole: Option<Matrix3<f64>>,
+    /// From the directions of the hole, in which its moves are said.
+    pub(super) from_hole: Option<FromHole>,
     /// The tool has gone up for the end of tool-tip control.
     pub(super) is_up: bool,
     /// The tool has gone up before tool-tip control takes off the length it was brought with.

@@ -59,6 +59,9 @@ pub use writing::BeforeOthers;
 pub struct TipOffset {
     /// Length offset of the tool, with its cause.
     pub offset: Option<(i64, Cause)>,
+    /// It has begun where the tape does not say where the axes stand: the way of the next motion
+    /// has no time.
+    pub begins_unsaid: bool,
     /// The length offset is called without tool-tip control.
     pub length_is_called: bool,
     /// A tool change or a position of the machine has brought the tool away from the part.

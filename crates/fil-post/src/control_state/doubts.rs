@@ -181,6 +181,13 @@ impl Doubts {
         self.set_levels(letter, Some(Levels::of(letter, value)));
     }
 
+    /// An axis that had a last output value, or whose place was known otherwise, has moved.
+    pub(super) fn remember(&mut self, letter: Letter, last: f64) {
+        if last != EMPTY || self.levels_of(letter).is_some() {
+            self.had_value.add(letter);
+        }
+    }
+
     /// A script makes the last output value of a letter EMPTY: the axis stays where it is.
     pub(super) fn empty(&mut self, letter: Letter, last: f64) {
         self.had_value.add(letter);

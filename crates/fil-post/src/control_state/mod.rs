@@ -253,6 +253,16 @@ impl ControlState {
         self.doubts.lose(letter);
     }
 
+    /// The last output value of a letter is about to be made EMPTY: its axis has moved.
+    pub fn remember(&mut self, letter: Letter, last: f64) {
+        self.doubts.remember(letter, last);
+    }
+
+    /// An axis has not moved, and counts from another zero.
+    pub fn shifts(&mut self, letter: Letter) {
+        self.doubts.shift(letter);
+    }
+
     /// The axes have not moved, and count from another zero.
     pub fn shift_axes(&mut self) {
         AXIS_LETTERS.into_iter().for_each(|letter| self.doubts.shift(letter));

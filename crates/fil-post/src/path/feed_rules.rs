@@ -7,7 +7,7 @@ use fil_machine::locations::{self as loc, FeedInverseLength, LinearMethod};
 use fil_machine::modes::FeedMode;
 
 use super::turning_feed::TurningFeed;
-use super::{linearization, rotary};
+use super::{Since, linearization, rotary};
 use crate::control::family;
 use crate::control::word_address::arc::PlaneArc;
 use crate::control::word_address::motion::Motion;
@@ -48,7 +48,7 @@ pub fn line(
     for axes in parts(post, way)? {
         let part = motion.of(*axes);
         let length = length(post, way, *axes, target);
-        if stands(way, length) {
+        if stands(post, way, length) {
             turn_on_the_spot(post, motion, before)?;
             continue;
         }
@@ -96,6 +96,11 @@ fn parts(post: &mut Post, way: [Option<f64>; 3]) -> Result<&'static [AxisSet]> {
 
 /// How far the tip goes in a part of a motion, mm or inch; `None` where that is not known.
 fn length(post: &Post, way: [Option<f64>; 3], axes: AxisSet, target: Target) -> Option<f64> {
+    // A tool change moves the axes, though settings may not let them be said again.
+    let is_changed = post.path.since == Since::ToolChange && way.iter().any(Option::is_some);
+    if is_changed || post.writes_tip() && post.control.tip.begins_unsaid {
+        return None;
+    }
     let known = way.iter().all(Option::is_some);
     let has_rotary = post.control.tables.chain().has_rotary();
     if known && (!has_rotary || (is_beside_the_path(post) && shows_the_tip(post))) {
@@ -141,9 +146,16 @@ fn shows_the_tip(post: &Post) -> bool {
     post.writes_tip() || rotary.all(stands)
 }
 
-/// True for a motion that goes nowhere: it makes no block.
-fn stands(way: [Option<f64>; 3], length: Option<f64>) -> bool {
-    way.iter().all(Option::is_some) && length.is_some_and(|length| length <= NO_WAY)
+/// True for a motion that goes nowhere: it makes no block. What the tape has rounded is no way
+/// whose time a turn would be made in.
+fn stands(post: &Post, way: [Option<f64>; 3], length: Option<f64>) -> bool {
+    let is_rounded = |number: usize| {
+        let half = 0.5 * post.control.tables.axis(number).resolution() + NO_WAY;
+        way[number].is_some_and(|way| way.abs() <= half)
+    };
+    let turns = post.control.tables.chain().has_rotary();
+    way.iter().all(Option::is_some)
+        && length.is_some_and(|length| length <= NO_WAY || turns && (0..3).all(is_rounded))
 }
 
 /// Turns the rotary axes where the tip stays; without a turn there is no block.

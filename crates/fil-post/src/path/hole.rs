@@ -282,8 +282,9 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, at: &Motion) -> Re
         return Ok(());
     }
     let place = post.control.place(hole.along);
-    if matches!(place, Place::Shifted(_) | Place::LeftToScript(_)) {
-        // The level before the cycle counts from another zero.
+    let other_axis = cycle.along.is_some_and(|along| along != hole.along);
+    if other_axis || matches!(place, Place::Shifted(_) | Place::LeftToScript(_)) {
+        // The level before the cycle counts from another zero, or is one of another axis.
         cycle.initial = None;
     }
     let here = post.control.stands(hole.along);
@@ -305,12 +306,10 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, at: &Motion) -> Re
         }
         _ => hole.clear,
     };
+    let rounding = (post.control.tables.axis(hole.along).resolution() / 2.0).max(SAME_LEVEL);
     let below = match (here, place) {
         // Where the tool stands is rounded on the tape, and less would be no motion.
-        (Some(here), _) => {
-            let rounding = post.control.tables.axis(hole.along).resolution() / 2.0;
-            above(wanted, here) > rounding.max(SAME_LEVEL)
-        }
+        (Some(here), _) => above(wanted, here) > rounding,
         // It stands there, or a tool change has brought it up.
         (None, Place::Shifted(last) | Place::At(last)) => above(wanted, last) > SAME_LEVEL,
         (None, _) => false,
@@ -340,7 +339,8 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, at: &Motion) -> Re
     hole.to_initial = match cycle.retract {
         None => false,
         Some(0.0) => true,
-        Some(_) => above(level, wanted) > -SAME_LEVEL && above(wanted, hole.clear) > SAME_LEVEL,
+        // The level of the control was another hole's, which may be rounded to the same digits.
+        Some(_) => above(level, wanted) > -2.0 * rounding && above(wanted, hole.clear) > SAME_LEVEL,
     };
     Ok(())
 }

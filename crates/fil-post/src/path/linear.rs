@@ -78,6 +78,7 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
             family::thread(&mut post.control, &motion, &counted, change)?;
         }
     }
+    post.control.tip.begins_unsaid = false;
     post.path.arrive(*target);
     Ok(())
 }

@@ -287,7 +287,9 @@ fn stands(post: &Post, before: [f64; 2]) -> Start {
     let arrived = post.path.arrived.as_ref();
     let arrived =
         arrived.filter(|there| there.target == (point, before) && there.settings == settings(post));
-    let has_moved = |there: &Arrived| post.path.point.is_none() || there.outputs != outputs(post);
+    // A text moves axes that keep their last output values.
+    let in_doubt = post.path.point.is_none() || post.control.state.has_doubts();
+    let has_moved = |there: &Arrived| in_doubt || there.outputs != outputs(post);
     if let Some(there) = arrived.filter(|there| !has_moved(there)) {
         return Start { position: there.position, tip: Some(point), on_tape: Some(there.on_tape) };
     }

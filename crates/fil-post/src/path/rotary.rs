@@ -195,13 +195,25 @@ fn is_lost(post: &mut Post) -> Result<bool> {
     if let Some(number) = tables.written().numbers().find(depends) {
         return refuse_level(&post.control, number);
     }
-    let lost = tables.written().numbers().any(|number| post.control.stands(number).is_none());
+    // Settings may leave the axes of a tool change unsaid; it moves them all the same.
+    let lost = post.path.since == Since::ToolChange
+        || tables.written().numbers().any(|number| post.control.stands(number).is_none());
     if lost {
         let message =
             "a motion at feed that turns the machine from an unknown place is not divided";
         post.warn(PostCode::Undivided, message.to_string());
     }
     Ok(lost)
+}
+
+/// Z of the machine in a tilted frame, where the last point of the CL file has brought it, mm or
+/// inch; `None` where something else may have moved the tool since.
+pub fn machine_height(post: &Post) -> Option<f64> {
+    let is_there = post.path.since == Since::Motion && !post.control.state.has_doubts();
+    let point = post.path.point.filter(|_| is_there)?;
+    let target = Target { point, axis: post.path.stands, word: 0 };
+    let (point, _) = transformed(post, target);
+    Some(post.control.tables.chain().linear(point, post.path.rotary?).z)
 }
 
 /// Where the axes stand, whoever has brought them there.

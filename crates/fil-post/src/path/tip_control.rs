@@ -15,7 +15,7 @@ use fil_machine::locations::{self as loc, ControlFamily, RotaryTipControl};
 use nalgebra::{Point3, Vector3};
 
 use super::turning::spelled;
-use super::{frame, rapid, rotary};
+use super::{frame, rapid, rotary, tip};
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::{Control, Function};
 use crate::control::{family, vectors};
@@ -143,6 +143,35 @@ fn begin(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
     family::begin_tip_control(control, of_tool)?;
     control.tip.is_away = false;
     control.tip.leans = stands;
+    names_tip(control, stands)
+}
+
+/// From now on X, Y and Z are those of the tip: where the axes stood is said as its place, and
+/// is not known where one of them is not.
+///
+/// # Errors
+/// A place that its address can't hold.
+fn names_tip(control: &mut Control, rotary: Option<[f64; 2]>) -> Result<()> {
+    let is_said = |number: usize| {
+        let letter = control.tables.axis(number).letter;
+        control.axis_position(number).is_some() && control.state.has_last(letter)
+    };
+    control.tip.begins_unsaid = rotary != Some([0.0; 2]) || !(0..3).all(is_said);
+    let [x, y, z] = [0, 1, 2].map(|number| control.stands(number));
+    let tip = match (x, y, z, rotary) {
+        (Some(x), Some(y), Some(z), Some([first, second])) => {
+            Some(tip::tip(control.tables.chain(), &[x, y, z, first, second]))
+        }
+        _ => None,
+    };
+    for number in AxisSet::LINEAR.numbers() {
+        let axis = *control.tables.axis(number);
+        match tip {
+            Some(tip) => control.state.stand(axis.letter, axis.value(tip[number])?),
+            None if control.stands(number).is_some() => control.state.shifts(axis.letter),
+            None => {}
+        }
+    }
     Ok(())
 }
 
@@ -238,6 +267,8 @@ pub fn end(control: &mut Control) -> Result<()> {
     family::end_tip_control(control)?;
     for number in AxisSet::LINEAR.numbers() {
         let axis = *control.tables.axis(number);
+        let last = control.commons.last_output(axis.letter);
+        control.state.remember(axis.letter, last);
         control.commons.set_last_output(axis.letter, EMPTY);
         match slides {
             _ if goes_up => control.state.clears(axis.letter),
@@ -268,6 +299,11 @@ fn pose(control: &Control) -> Option<(Point3<f64>, [f64; 2])> {
 /// Where X, Y and Z of the machine stand under tool-tip control; `None` where that is not known.
 fn slides(control: &Control) -> Option<Point3<f64>> {
     pose(control).map(|(tip, angles)| control.tables.chain().linear(tip, angles))
+}
+
+/// Z of the machine under tool-tip control, mm or inch; `None` where the tape does not say it.
+pub fn machine_height(control: &Control) -> Option<f64> {
+    slides(control).map(|slides| slides.z)
 }
 
 /// How far the tool goes up before G49, mm or inch; `None` for a control at which it may stay.

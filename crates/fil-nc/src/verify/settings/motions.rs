@@ -48,6 +48,13 @@ impl Settings<'_> {
         [(1, loc::FEED_UPM_MAX_Y), (2, loc::FEED_UPM_MAX_Z)].into_iter().fold(feed, within)
     }
 
+    /// The feed a minute of a cycle, within that of Z, mm a minute.
+    pub fn cycle_feed_within(&self, feed: f64, metric: bool) -> f64 {
+        let of_z = self.limits_feed_of_axes()[1];
+        let largest = self.commons.dbl_opt(loc::FEED_UPM_MAX_Z).filter(|_| of_z);
+        largest.map_or(feed, |largest| feed.min(largest * unit(metric)))
+    }
+
     /// Whether Y and Z may go slower than the machine.
     pub fn limits_feed_of_axes(&self) -> [bool; 2] {
         let most = self.commons.dbl_opt(loc::FEED_UPM_MAX).unwrap_or(f64::INFINITY);

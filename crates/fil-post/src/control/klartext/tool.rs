@@ -8,6 +8,7 @@ use fil_machine::rounding::Rounding;
 use super::line::{self, Line};
 use crate::block::named;
 use crate::control::{Control, own_offsets};
+use crate::control_state::Rotation;
 use crate::errors::PostCode;
 use crate::noted::TEXT;
 use crate::operation::ToolChange;
@@ -42,6 +43,8 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
         control.state.tool_change_moves(control.tables.axis(number).letter);
     }
     control.state.tool_changes += 1;
+    // The control changes the tool with the spindle standing.
+    control.state.rotation = Rotation::Standing;
     control.state.tool = Some(wanted.tool);
     control.state.tool_offset = Some(wanted.tool);
     Ok(())
