@@ -191,7 +191,7 @@ impl<C: Steps> Walk<'_, C> {
         }
         let across = (moved(0) || moved(1)) && !moved(2);
         // A tool change has brought Z up, and the level of the end is that of another turn.
-        let is_clear = turns && part.modes.tool != self.moved_tool;
+        let is_clear = turns && self.tool_is_fresh;
         if across && end.linear[2] > at[2] + STILL && !is_clear {
             let message = "rapid goes across before Z has gone up".to_string();
             self.say_order(cl_line, part, message);

@@ -13,7 +13,7 @@ use fil_machine::{Commons, FunctionCode, user_blocks};
 
 use super::Control;
 use crate::cause::Cause;
-use crate::control_state::ControlState;
+use crate::control_state::{Compensation, ControlState};
 use crate::errors::PostCode;
 
 /// Most characters of a leader.
@@ -133,7 +133,8 @@ fn write_start(control: &mut Control) -> Result<()> {
 pub fn end(control: &mut Control, code: Option<FunctionCode>) -> Result<()> {
     control.begin()?;
     super::word_address::cycle::cancel(control)?;
-    let may_compensate = control.state.may_compensate();
+    let is_asked = control.compensation_asked() != Compensation::Off;
+    let may_compensate = control.state.may_compensate() || is_asked;
     let may_drill = control.state.was_in_cycle();
     control.skip_blocks(false)?;
     control.flush_waiting()?;
