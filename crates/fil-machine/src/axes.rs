@@ -24,6 +24,10 @@ pub type Position = [f64; AXES];
 /// Degrees of a full turn.
 const FULL_TURN: f64 = 360.0;
 
+/// The way out of a rotary axis that has turned on and on.
+const WITHIN_A_TURN: &str = "let the positions of an axis without travel count within a turn \
+                             (rotary.output = 1, 2 or 4), or give the address more digits";
+
 /// Scale of X when the tape holds diameters.
 const DIAMETER: f64 = 2.0;
 
@@ -114,6 +118,8 @@ pub struct Axis {
     format: NumberFormat,
     scale: f64,
     translate: f64,
+    /// It turns: positions are degrees.
+    turns: bool,
     /// The tape holds diameters.
     diameter: bool,
     resolution: f64,
@@ -161,6 +167,7 @@ impl Axis {
             format,
             scale,
             translate,
+            turns: common >= 3,
             diameter: common == 0 && scale == DIAMETER,
             resolution: (format.unscale(1) / scale.abs()).max(step.unwrap_or(0.0)),
             min: f64::NEG_INFINITY,
@@ -416,6 +423,9 @@ impl Axis {
     #[cold]
     fn named(&self, mut diag: Box<Diag>) -> Box<Diag> {
         diag.message = format!("{}: {}", self.letter, diag.message);
+        if self.turns {
+            diag.hint = Some(WITHIN_A_TURN.to_string());
+        }
         diag
     }
 }

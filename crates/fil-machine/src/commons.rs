@@ -81,6 +81,8 @@ pub struct Commons {
     without_effect: Vec<String>,
     /// Work offsets that a program may choose where no CL file asks for one.
     allowed_offsets: Vec<String>,
+    /// Letters that were given a tape position and no digits: bit n is letter n of the alphabet.
+    wants_digits: u32,
 }
 
 impl Commons {
@@ -93,6 +95,7 @@ impl Commons {
             generation: 0,
             without_effect: Vec::new(),
             allowed_offsets: Vec::new(),
+            wants_digits: 0,
         }
     }
 
@@ -157,6 +160,16 @@ impl Commons {
             self.allowed_offsets.push(name);
         }
         is_name
+    }
+
+    /// A capital letter was given a tape position and no digits of its own.
+    pub fn want_digits(&mut self, letter: u8) {
+        self.wants_digits |= 1 << (letter - b'A');
+    }
+
+    /// True for a capital letter that was once given a tape position and no digits.
+    pub fn wants_digits(&self, letter: u8) -> bool {
+        self.wants_digits & (1 << (letter - b'A')) != 0
     }
 
     /// Generation of the settings; the last output values do not count.

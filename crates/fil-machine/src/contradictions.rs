@@ -65,6 +65,7 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     full_turn::check(commons, &mut found);
     found.extend(mill_turn::check(commons).err().map(|diag| *diag));
     same_positions(commons, &mut found);
+    moved_letters(commons, &mut found);
     letters::check(commons, &mut found);
     absent_axes(commons, &mut found);
     travel::forms(commons, &mut found);
@@ -309,6 +310,33 @@ fn head_before_table(commons: &Commons, found: &mut Vec<Diag>) {
              the one next to the part"
                 .into(),
         ));
+    }
+}
+
+/// A letter that was given a tape position and no digits of its own: those that stood there were
+/// meant for another word.
+pub(crate) fn without_digits(letter: char, position: u32) -> Diag {
+    let message = format!(
+        "{letter} comes to tape position {position}, and nothing says how its numbers are written"
+    );
+    let mut diag = contradiction(message);
+    diag.hint = Some(format!(
+        "give address.{letter}.format and address.{letter}.spec too: {letter} = {{ slot = \
+         {position}, format = 4443, spec = 101 }} writes four digits before the point and three \
+         behind it in mm"
+    ));
+    diag
+}
+
+/// Letters that the settings have given a tape position, and no digits since.
+fn moved_letters(commons: &Commons, found: &mut Vec<Diag>) {
+    for letter in Letter::all().filter(|letter| commons.wants_digits(letter.byte())) {
+        let number = commons.int(Int(u16::from(letter.number())));
+        let Some(at) = TapePosition::numbered(number) else { continue };
+        let absent = |base: u16| commons.int_opt(Int(base + at.index() as u16)).is_none();
+        if absent(105) || absent(158) {
+            found.push(without_digits(char::from(letter.byte()), number as u32));
+        }
     }
 }
 

@@ -13,7 +13,7 @@ use fil_machine::{Commons, FunctionCode, user_blocks};
 
 use super::Control;
 use crate::cause::Cause;
-use crate::control_state::{Compensation, ControlState};
+use crate::control_state::{Compensation, ControlState, Distance};
 use crate::errors::PostCode;
 
 /// Most characters of a leader.
@@ -112,10 +112,17 @@ fn write_start(control: &mut Control) -> Result<()> {
     part_name(control)?;
     program_number(control)?;
     time_stamp(control)?;
+    let at_start = Modes::of(control);
+    if own_start && control.commons.read(loc::LATHE_DIAMETER) {
+        Modes::UNSAID.put(control);
+    }
     for block in blocks {
         control.write_text(&block, true)?;
     }
-    if !own_start {
+    if own_start {
+        say_what_is_unsaid(control, at_start);
+        say_diameters(control);
+    } else {
         refuse_a_unit_without_code(control)?;
         mode_codes(control);
     }
@@ -215,14 +222,60 @@ fn mode_codes(control: &mut Control) {
     if let Some(code) = unit.filter(|code| in_force != Some(*code)) {
         control.g(code);
     }
-    if let Some(code) = control.code_if_any(loc::LATHE_DIAMETER_CODE) {
+    say_diameters(control);
+    START_MODES.into_iter().for_each(|mode| say_mode(control, mode));
+}
+
+/// Adds the code of a mode, but where the control is in it anyway.
+fn say_mode(control: &mut Control, (at, in_force): (CodeAt, CodeAt)) {
+    let in_force = control.code_if_any(in_force);
+    if let Some(code) = control.code_if_any(at).filter(|code| in_force != Some(*code)) {
         control.g(code);
     }
-    for (at, in_force) in START_MODES {
-        let in_force = control.code_if_any(in_force);
-        if let Some(code) = control.code_if_any(at).filter(|code| in_force != Some(*code)) {
-            control.g(code);
-        }
+}
+
+/// The modes of [`START_MODES`] that the control is in, as far as they are known.
+#[derive(Clone, Copy)]
+struct Modes(Option<Distance>, Option<FeedMode>, Option<Plane>);
+
+impl Modes {
+    /// Nothing has been said.
+    const UNSAID: Modes = Modes(None, None, None);
+
+    fn of(control: &Control) -> Self {
+        Modes(control.state.distance, control.state.feed_mode, control.state.plane)
+    }
+
+    fn put(self, control: &mut Control) {
+        let state = &mut control.state;
+        (state.distance, state.feed_mode, state.plane) = (self.0, self.1, self.2);
+    }
+}
+
+/// Adds the codes of modes that start blocks of a lathe do not say. What a control wakes up in
+/// is seldom what a lathe turns in: a feed a turn of 0.2 would be one a minute, and arcs in ZX
+/// would lie in XY.
+fn say_what_is_unsaid(control: &mut Control, at_start: Modes) {
+    let state = &control.state;
+    // Behind a text that may have changed any mode, each is said where it is needed.
+    if state.compensation.is_none() || !state.x_is_as_written {
+        return;
+    }
+    let said = Modes::of(control);
+    let unsaid = [said.0.is_none(), said.1.is_none(), said.2.is_none()];
+    Modes(said.0.or(at_start.0), said.1.or(at_start.1), said.2.or(at_start.2)).put(control);
+    for (mode, _) in START_MODES.into_iter().zip(unsaid).filter(|(_, unsaid)| *unsaid) {
+        say_mode(control, mode);
+    }
+}
+
+/// Adds the code that makes X a diameter. Start blocks of the machine's own do not stand for it:
+/// read as radii, all words of X would be twice as far from the axis as they are meant.
+fn say_diameters(control: &mut Control) {
+    let is_sinumerik = control.tables.family == ControlFamily::Sinumerik;
+    let code = control.code_if_any(loc::LATHE_DIAMETER_CODE).filter(|_| !is_sinumerik);
+    if let Some(code) = code {
+        control.g(code);
     }
 }
 

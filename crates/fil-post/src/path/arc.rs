@@ -147,6 +147,14 @@ fn refuse_first_under_compensation(post: &Post) -> Result<()> {
     let state = &post.control.state;
     let on = !matches!(state.compensation, Some(Compensation::Off));
     let waits = post.control.waiting.has(Function::Compensation);
+    if !waits && state.compensation.is_none() && !state.compensation_begun {
+        let message = "what stands before may have switched cutter compensation on (a program \
+                       that it calls, a code of unknown meaning), and would take it up on an arc";
+        return Err(Box::new(PostCode::CompensationOnArc.diag(message).hint(
+            "put a straight motion before the CIRCLE, the post says G40 there, or INSERT the \
+             code that switches compensation off",
+        )));
+    }
     if waits || (on && !state.compensation_begun) {
         return PostCode::CompensationOnArc.err("cutter compensation would begin or end on an arc");
     }

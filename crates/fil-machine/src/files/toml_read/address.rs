@@ -7,15 +7,28 @@ use fil_diag::{Diag, Result};
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::TomlReader;
+use super::{OPTION, TomlReader};
 use crate::address::OFF;
-use crate::commons::{Commons, EMPTY, Kind};
+use crate::commons::{Commons, EMPTY, Kind, NA};
+use crate::contradictions::without_digits;
 use crate::errors::MachineCode;
 use crate::letter::Letter;
 use crate::stored;
 
 /// The tape position of a letter that the machine does not have.
 const NO_POSITION: u32 = OFF as u32;
+
+/// INTCOM location before that of the character at tape position 1.
+const CHARACTER: u32 = 52;
+
+/// The same of the formats.
+const FORMAT: u32 = 105;
+
+/// The same of the specifications.
+const SPECIFICATION: u32 = 158;
+
+/// The last location of the tables of letters and tape positions.
+const LAST_CELL: u32 = 211;
 
 impl TomlReader<'_> {
     /// `[address.X]`: tape position, format, specification, printed character.
@@ -38,16 +51,16 @@ impl TomlReader<'_> {
         for (field, value) in fields.iter() {
             let base = match field.get_ref().as_ref() {
                 "slot" => continue,
-                "format" => 105,
-                "spec" => 158,
-                "char" => 52,
+                "format" => FORMAT,
+                "spec" => SPECIFICATION,
+                "char" => CHARACTER,
                 other => {
                     self.refuse(field.span(), unknown(&format!("no field `{other}`")));
                     continue;
                 }
             };
             let number = match value.get_ref() {
-                DeValue::String(text) if base == 52 && text.len() == 1 => {
+                DeValue::String(text) if base == CHARACTER && text.len() == 1 => {
                     Ok(f64::from(text.as_bytes()[0]))
                 }
                 _ => self.plain_number(value),
@@ -57,12 +70,46 @@ impl TomlReader<'_> {
             let set = number.and_then(|number| self.cell(commons, name, at, number, field.span()));
             self.noted(value.span(), set);
         }
-        if fields.get("char").is_none() && position < NO_POSITION {
-            let set = commons.set(Kind::Int, 52 + position, f64::from(name));
-            self.noted(key.span(), set);
-        }
+        let moved = self.take_along(commons, name, position);
+        self.noted(fields.get("slot").map_or(key.span(), Spanned::span), moved);
         let said = fields.get("slot").map_or(key.span(), Spanned::span);
         self.named.push((name, position, said));
+    }
+
+    /// Format, specification and character belong to the tape position, and the one that a
+    /// letter comes to may write whole numbers: what the file does not say of the letter, it
+    /// takes along from where it was.
+    ///
+    /// # Errors
+    /// E0607 for a letter that has nothing to take along.
+    fn take_along(&self, commons: &mut Commons, name: u8, position: u32) -> Result<()> {
+        let before = self.before[usize::from(Letter::of(name).number())];
+        if position >= NO_POSITION || before == f64::from(position) {
+            return Ok(());
+        }
+        let had = (1.0..f64::from(OFF)).contains(&before).then_some(before as usize);
+        let held =
+            |base: usize| had.map(|at| self.before[base + at]).filter(|held| !is_none(*held));
+        for (base, own) in [
+            (FORMAT, held(FORMAT as usize)),
+            (SPECIFICATION, had.map(|at| self.before[SPECIFICATION as usize + at])),
+            (CHARACTER, held(CHARACTER as usize).or(Some(f64::from(name)))),
+        ] {
+            let at = base + position;
+            if self.said.iter().any(|said| (said.kind, said.number) == (Kind::Int, at)) {
+                continue;
+            }
+            match own {
+                Some(own) => commons.set(Kind::Int, at, own)?,
+                // The settings behind this one may say them.
+                None if self.file == OPTION => {
+                    commons.set(Kind::Int, at, f64::from(NA))?;
+                    commons.want_digits(name);
+                }
+                None => return Err(Box::new(without_digits(char::from(name), position))),
+            }
+        }
+        Ok(())
     }
 
     /// Stores a field of an address; one that can't hold the value is named as it is
@@ -123,4 +170,14 @@ impl TomlReader<'_> {
             }
         }
     }
+}
+
+/// The tables of letters as they are, by INTCOM location.
+pub(super) fn cells(commons: &Commons) -> Vec<f64> {
+    (0..=LAST_CELL).map(|number| commons.get(Kind::Int, number).unwrap_or(EMPTY)).collect()
+}
+
+/// True for a cell that holds nothing.
+fn is_none(held: f64) -> bool {
+    held == EMPTY || held == f64::from(NA) || held == 0.0
 }

@@ -147,6 +147,7 @@ fn read_over(
                 read_over(commons, CHAIN, settings, false)?;
             }
         }
+        reader.before = address::cells(commons);
         reader.table(commons, table.get_ref(), "");
         reader.one_letter_a_position(commons);
     }
@@ -190,6 +191,8 @@ struct TomlReader<'a> {
     doubtful: Vec<Diag>,
     /// Letters that are named, with their tape position and where that is said.
     named: Vec<(u8, u32, Range<usize>)>,
+    /// The tables of letters before the text, by INTCOM location.
+    before: Vec<f64>,
 }
 
 impl<'a> TomlReader<'a> {
@@ -203,6 +206,7 @@ impl<'a> TomlReader<'a> {
             said: Vec::new(),
             doubtful: Vec::new(),
             named: Vec::new(),
+            before: Vec::new(),
         }
     }
 

@@ -119,6 +119,42 @@ fn two_letters_never_stand_at_one_tape_position() {
 }
 
 #[test]
+fn a_letter_takes_its_digits_along() {
+    // X and Y change places.
+    let base = "[address]\nX = { slot = 30, format = 4443, spec = 101, char = 'U' }\n\
+                Y = { slot = 31, format = 3030, spec = 0 }\nQ = { slot = 53 }\n";
+    let with = |text: &str| {
+        let (mut commons, _) = read_toml("m", base).unwrap();
+        lay_over(&mut commons, "m", text).map(|_| commons)
+    };
+    let cells = |commons: &Commons, at: u16| [52, 105, 158].map(|base| commons.int(Int(base + at)));
+    let u = i32::from(b'U');
+    let moved = with("[address]\nX = { slot = 31 }\nY = { slot = 30 }\n").unwrap();
+    assert_eq!(cells(&moved, 31), [u, 4443, 101]);
+    assert_eq!(cells(&moved, 30), [i32::from(b'Y'), 3030, 0]);
+    let moved = with("address.X = { slot = 31, format = 4444 }").unwrap();
+    assert_eq!(cells(&moved, 31), [u, 4444, 101]);
+    let stays = with("address.X.format = 4444").unwrap();
+    assert_eq!(cells(&stays, 30), [u, 4444, 101]);
+    for text in ["address.Q.slot = 40", "address.Q = { slot = 40, format = 4443 }"] {
+        let diags = with(text).unwrap_err();
+        assert_eq!(diags[0].code.name(), "E0607", "{text}");
+        assert!(diags[0].hint.as_ref().is_some_and(|hint| hint.contains("address.Q.format")));
+    }
+    assert!(with("address.Q = { slot = 40, format = 4443, spec = 101 }").is_ok());
+    // Single settings say one after the other.
+    let (mut commons, _) = read_toml("m", base).unwrap();
+    for (setting, complete) in [
+        ("address.Q.slot=40", false),
+        ("address.Q.format=4443", false),
+        ("address.Q.spec=101", true),
+    ] {
+        apply_setting(&mut commons, setting).unwrap();
+        assert_eq!(crate::contradictions::check(&commons).is_ok(), complete, "{setting}");
+    }
+}
+
+#[test]
 fn allowed_offsets_are_names_of_offsets() {
     let read = |list: &str| {
         let text = format!("verify.allowed_offsets = {list}");
