@@ -221,6 +221,9 @@ pub struct Modes {
     /// The plane in force, by the index of its normal, while cutter compensation is on; of motions
     /// alone.
     pub compensation_plane: Option<usize>,
+    /// The plane in force, by the index of its normal, where a lathe's control counts the lengths
+    /// of a tool along the axes of it; of motions of turning tools alone.
+    pub turning_plane: Option<usize>,
     /// Lengths of the program are inches.
     pub inch: bool,
     /// A drilling cycle is on; said where a tool is changed and at the end.

@@ -171,3 +171,23 @@ fn speed_modes_of_a_feed_a_minute_are_followed() {
     let a_turn = |text: &str| text.replace("G971", "G97");
     assert_ne!(found("sinumerik-lathe", &[], &a_turn(cl), &a_turn(nc)), "");
 }
+
+/// On a SINUMERIK the plane says along which axes the lengths of a tool count.
+#[test]
+fn a_turning_tool_in_another_plane_is_found_on_a_sinumerik() {
+    let cl = "LOADTL / 1; SPINDL / RPM, 500, CLW; FEDRAT / 0.2, MMPR; RAPID; GOTO / 20, 0, 2; \
+              GOTO / 20, 0, -10; GOTO / 22, 0, -10";
+    let nc = "%_N_PART_MPF; G710 G90 G95 G18; DIAMON; T1; D1; G97 S500 M3; G0 X40 Z2; \
+              G1 Z-10 F0.2; X44; M30";
+    let check = |nc: &str| found("sinumerik-lathe", &[], cl, nc);
+    assert_eq!(check(nc), "");
+    for (old, new, said) in [
+        ("G18", "G17", "plane"),
+        ("DIAMON", "DIAMON; G19", "plane"),
+        ("X44", "G17 X44", "plane"),
+        (" G18", "", "the plane is left to the control"),
+    ] {
+        let wrong = check(&nc.replacen(old, new, 1));
+        assert!(wrong.contains(said), "{new}: {wrong}");
+    }
+}

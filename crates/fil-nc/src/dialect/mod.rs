@@ -258,6 +258,11 @@ impl Dialect {
         self.scales[0].is_some_and(Scale::is_diameter)
     }
 
+    /// The plane says along which axes the lengths of a turning tool count, as on a SINUMERIK.
+    pub fn counts_lengths_in_plane(&self) -> bool {
+        self.family == Family::Sinumerik && self.counts_diameters()
+    }
+
     /// The language of the machine that these commons describe.
     ///
     /// # Errors

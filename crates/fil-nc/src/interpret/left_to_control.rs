@@ -43,7 +43,8 @@ impl State<'_> {
             StartMode::Positions => uses.positions && any(&|found| found.course != Course::Machine),
             StartMode::Feed => any(&|found| found.course == Course::Feed),
             StartMode::Plane => any(&|found| {
-                found.arc.is_some()
+                self.dialect.counts_lengths_in_plane()
+                    || found.arc.is_some()
                     || of_cycle(found)
                     || found.modes.compensation != Compensation::Off
             }),

@@ -214,6 +214,9 @@ impl<'d> State<'d> {
         let plane = is_other.then_some((self.said_plane, self.plane_line));
         let is_compensated = self.modes.compensation != Compensation::Off;
         let compensation_plane = is_compensated.then_some(self.plane);
+        let transformed = self.dialect.transforms && (self.polar || self.cylinder.is_some());
+        let turning_plane = (self.dialect.counts_lengths_in_plane() && !transformed && !self.live)
+            .then_some(self.plane);
         self.events.push(Event::Move(Move {
             line: self.line,
             course,
@@ -222,14 +225,14 @@ impl<'d> State<'d> {
                 rotary: [primary, secondary],
                 tip_control: self.modes.tip_control,
                 tilt: self.tilt,
-                transformed: self.dialect.transforms && (self.polar || self.cylinder.is_some()),
+                transformed,
             },
             arc,
             rate,
             in_cycle: course != Course::Machine && (self.cycle.is_some() || self.pass.is_some()),
             known,
             to_machine: [false; 5],
-            modes: Modes { plane, compensation_plane, ..self.modes },
+            modes: Modes { plane, compensation_plane, turning_plane, ..self.modes },
         }));
     }
 

@@ -37,6 +37,14 @@ impl Expected {
         (self.meant_plane == MeantPlane::OfMillTurn && self.mills()).then_some(self.plane)
     }
 
+    /// A turning tool moves in another plane than that of X and Z, so that its lengths act along
+    /// other axes.
+    pub(super) fn wrong_turning_plane(&self, modes: &Modes) -> Option<String> {
+        let found = modes.turning_plane.filter(|found| *found != ZX && !self.mills())?;
+        let found = ["YZ", "ZX", "XY"][found];
+        Some(format!("the lengths of a turning tool act in the plane {found}, it should be ZX"))
+    }
+
     /// The cutter is compensated in another plane than is meant.
     pub(super) fn wrong_plane(&self, modes: &Modes) -> Option<String> {
         let of_turning = Some(ZX).filter(|_| self.meant_plane != MeantPlane::Open && !self.mills());
