@@ -6,7 +6,7 @@ use fil_nc::interpret;
 use fil_nc::motion::Event;
 use fil_nc::source::Source;
 use fil_nc::verify::{Allowed, Check, Report, verify};
-use filpost::{Commons, Diag, Unit};
+use filpost::{Commons, Diag, Program, Unit};
 
 /// What a program does on a machine, and what it does with the blocks left out that may be
 /// skipped, where it has some.
@@ -82,4 +82,25 @@ pub fn compare(
 /// As [`both`] and [`compare`].
 pub fn check(commons: &Commons, cl: &str, nc: &str, allowed: Allowed) -> Result<Report, Box<Diag>> {
     compare(commons, cl.as_bytes(), (nc.as_bytes(), &both(commons, nc)?), allowed)
+}
+
+/// What is found in a program of a ready post with settings, one line each, or why it can't be
+/// followed. The lines of both files are divided by `; `.
+///
+/// # Panics
+/// Settings that are no machine.
+pub fn found(ready: &str, settings: &[&str], cl: &str, nc: &str) -> String {
+    let start = Program::builder().ready(ready);
+    let post = settings.iter().fold(start, |builder, setting| builder.set(setting));
+    let post = post.build().expect("a machine");
+    let cl = format!("UNITS / MM\n{}\nFINI\n", cl.replace("; ", "\n"));
+    match check(post.commons(), &cl, &nc.replace("; ", "\n"), Allowed::default()) {
+        Ok(report) => listed(&report),
+        Err(refused) => refused.to_string(),
+    }
+}
+
+/// The findings of a report, one line each.
+pub fn listed(report: &Report) -> String {
+    report.findings.iter().map(|finding| format!("\n  {finding}")).collect()
 }

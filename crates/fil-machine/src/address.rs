@@ -20,6 +20,18 @@ pub const SLOTS: usize = 54;
 /// INTCOM value of a letter whose output is switched off.
 pub const OFF: i32 = 53;
 
+/// INTCOM location before that of the character of tape position 1.
+pub(crate) const CHARACTERS: u32 = 52;
+
+/// The same of the formats.
+pub(crate) const FORMATS: u32 = 105;
+
+/// The same of the specifications.
+pub(crate) const SPECIFICATIONS: u32 = 158;
+
+/// The last location of the tables of letters and tape positions.
+pub(crate) const LAST_CELL: u32 = 211;
+
 /// Where a word stands in a block, 1 to 52.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct TapePosition(u8);
@@ -187,12 +199,17 @@ fn slot_of(
     metric: bool,
     rule: TapeDecimalRule,
 ) -> Slot {
-    let at = |base: u16| commons.int(Int(base + slot as u16));
+    let at = |base: u32| commons.int(Int(base as u16 + slot as u16));
     let known = |value: i32| if value == NA { 0 } else { value };
     Slot {
         letter,
-        character: printable(at(52)).unwrap_or(letter.map_or(b' ', Letter::byte)),
-        format: NumberFormat::from_commons(known(at(105)), known(at(158)), metric, rule),
+        character: printable(at(CHARACTERS)).unwrap_or(letter.map_or(b' ', Letter::byte)),
+        format: NumberFormat::from_commons(
+            known(at(FORMATS)),
+            known(at(SPECIFICATIONS)),
+            metric,
+            rule,
+        ),
     }
 }
 

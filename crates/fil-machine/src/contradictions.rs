@@ -9,7 +9,7 @@ mod travel;
 use fil_diag::{Diag, Result};
 use fil_text::CodePage;
 
-use crate::address::{Addresses, TapePosition};
+use crate::address::{Addresses, FORMATS, SPECIFICATIONS, TapePosition};
 use crate::axis_chain::{AxisChain, Carries};
 use crate::commons::{Commons, Int};
 use crate::errors::MachineCode;
@@ -333,8 +333,8 @@ fn moved_letters(commons: &Commons, found: &mut Vec<Diag>) {
     for letter in Letter::all().filter(|letter| commons.wants_digits(letter.byte())) {
         let number = commons.int(Int(u16::from(letter.number())));
         let Some(at) = TapePosition::numbered(number) else { continue };
-        let absent = |base: u16| commons.int_opt(Int(base + at.index() as u16)).is_none();
-        if absent(105) || absent(158) {
+        let absent = |base: u32| commons.int_opt(Int(base as u16 + at.index() as u16)).is_none();
+        if absent(FORMATS) || absent(SPECIFICATIONS) {
             found.push(without_digits(char::from(letter.byte()), number as u32));
         }
     }

@@ -8,6 +8,7 @@
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
+use crate::address::{CHARACTERS, FORMATS, SPECIFICATIONS};
 use crate::commons::{Commons, Dbl, EMPTY, Int, Kind, Rel};
 use crate::letter::Letter;
 use crate::setting::{
@@ -208,9 +209,9 @@ pub fn set_address(commons: &mut Commons, letter: u8, slot: i32, (format, spec):
     };
     set(index, slot);
     if (1..53).contains(&slot) {
-        set(52 + slot as u32, i32::from(letter));
-        set(105 + slot as u32, format);
-        set(158 + slot as u32, spec);
+        set(CHARACTERS + slot as u32, i32::from(letter));
+        set(FORMATS + slot as u32, format);
+        set(SPECIFICATIONS + slot as u32, spec);
     }
 }
 

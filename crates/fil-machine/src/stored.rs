@@ -6,7 +6,7 @@
 
 use fil_diag::{Diag, Result};
 
-use crate::address::OFF;
+use crate::address::{CHARACTERS, FORMATS, LAST_CELL, OFF, SPECIFICATIONS};
 use crate::commons::{EMPTY, Kind, LAST_OUTPUT, NA};
 use crate::errors::MachineCode;
 use crate::letter::Letter;
@@ -15,10 +15,10 @@ use crate::user_blocks;
 
 /// The tables of letters and tape positions: their last locations, and what they hold.
 const ADDRESS_TABLES: [(u32, AddressCell); 4] = [
-    (52, AddressCell::Position),
-    (105, AddressCell::Character),
-    (158, AddressCell::Format),
-    (211, AddressCell::Specification),
+    (CHARACTERS, AddressCell::Position),
+    (FORMATS, AddressCell::Character),
+    (SPECIFICATIONS, AddressCell::Format),
+    (LAST_CELL, AddressCell::Specification),
 ];
 
 /// What a cell of the tables of letters holds.

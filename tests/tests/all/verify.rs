@@ -18,7 +18,7 @@ use fil_nc::motion::Event;
 use fil_nc::verify::{Allowed, FindingKind, Programs, Report, Verdict, compare_programs};
 use filpost::Diag;
 use filpost::verify::{NcProgram, Reference};
-use filpost_tests::back_check::{self, Both};
+use filpost_tests::back_check::{self, Both, listed};
 use filpost_tests::mutants::{self, Mutant};
 use filpost_tests::nc_cases::{self, NcCase};
 use filpost_tests::root;
@@ -140,10 +140,6 @@ fn against_program(case: &NcCase, original: &Both, found: &Both) -> Report {
         return report;
     }
     report.with_blocks_left_out(compare(left_out(original), left_out(found)))
-}
-
-fn listed(report: &Report) -> String {
-    report.findings.iter().map(|finding| format!("\n  {finding}")).collect()
 }
 
 /// Compares with a file of `tests/verify`, or writes it anew.

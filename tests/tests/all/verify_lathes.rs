@@ -1,20 +1,6 @@
 //! What the back-check finds in programs of lathes and mill-turn machines by hand.
 
-use fil_nc::verify::Allowed;
-use filpost::Program;
-use filpost_tests::back_check;
-
-/// What the back-check says of a program; lines end with `; `.
-fn found(ready: &str, settings: &[&str], cl: &str, nc: &str) -> String {
-    let start = Program::builder().ready(ready);
-    let post = settings.iter().fold(start, |builder, setting| builder.set(setting));
-    let post = post.build().expect("a machine");
-    let cl = format!("UNITS / MM\n{}\nFINI\n", cl.replace("; ", "\n"));
-    match back_check::check(post.commons(), &cl, &nc.replace("; ", "\n"), Allowed::default()) {
-        Ok(report) => report.findings.iter().map(|finding| format!("{finding}\n")).collect(),
-        Err(refused) => refused.to_string(),
-    }
-}
+use filpost_tests::back_check::found;
 
 /// A live tool that the record compensates must be, in the plane of the record.
 #[test]

@@ -2,7 +2,8 @@
 //! of texts and of work offsets.
 
 use fil_nc::verify::{Allowed, FindingKind, Report, Verdict};
-use filpost::{Diag, Program};
+use filpost::Diag;
+use filpost_tests::back_check::{found, listed};
 use filpost_tests::nc_cases::{self, NcCase};
 use filpost_tests::{back_check, root};
 
@@ -10,10 +11,6 @@ fn check(case: &NcCase, nc: &str) -> Result<Report, Box<Diag>> {
     let commons = case.post.commons();
     let both = back_check::both(commons, nc)?;
     back_check::compare(commons, &case.cl, (nc.as_bytes(), &both), Allowed::default())
-}
-
-fn listed(report: &Report) -> String {
-    report.findings.iter().map(|finding| format!("\n  {finding}")).collect()
 }
 
 /// A program that depends on what the last one left, and those that no switch and no mode of
@@ -296,19 +293,6 @@ fn a_helix_without_a_turn_is_a_line() {
     assert_eq!(said(nc), "");
     assert_ne!(said(&nc.replace("Z+0.8", "Z+0.9")), "");
     assert_ne!(said(&nc.replace("Z+0.8", "X+2.235 Z+0.8")), "");
-}
-
-/// What is found in a program of a ready post with settings; the lines of both are divided by
-/// `; `.
-fn found(ready: &str, settings: &[&str], cl: &str, nc: &str) -> String {
-    let start = Program::builder().ready(ready);
-    let post = settings.iter().fold(start, |builder, setting| builder.set(setting));
-    let post = post.build().expect("a machine");
-    let cl = format!("UNITS / MM\n{}\nFINI\n", cl.replace("; ", "\n"));
-    match back_check::check(post.commons(), &cl, &nc.replace("; ", "\n"), Allowed::default()) {
-        Ok(report) => listed(&report),
-        Err(refused) => refused.to_string(),
-    }
 }
 
 const TOOL: &str = "LOADTL / 1; SPINDL / RPM, 1000, CLW; FEDRAT / 200, MMPM";

@@ -1,8 +1,6 @@
 //! What the back-check says of programs with rotary axes: what no such program may do is found,
 //! whoever wrote it, and what is right is not.
 
-use fil_nc::verify::Allowed;
-use filpost::Program;
 use filpost_tests::back_check;
 
 /// A CL file and a program for it on a ready post with settings.
@@ -16,18 +14,8 @@ struct Case<'a> {
 impl Case<'_> {
     /// What is found, one line each.
     fn found(&self) -> String {
-        let start = Program::builder().ready(self.ready);
-        let post = self.settings.iter().fold(start, |builder, setting| builder.set(setting));
-        let post = post.build().expect("a machine");
-        let cl = format!(
-            "UNITS / MM\nLOADTL / 1\nSPINDL / RPM, 3000, CLW\n{}\nFINI\n",
-            self.cl.replace("; ", "\n")
-        );
-        let report = back_check::check(post.commons(), &cl, self.nc, Allowed::default());
-        match report {
-            Ok(report) => report.findings.iter().map(|finding| format!("{finding}\n")).collect(),
-            Err(refused) => refused.to_string(),
-        }
+        let cl = format!("LOADTL / 1; SPINDL / RPM, 3000, CLW; {}", self.cl);
+        back_check::found(self.ready, self.settings, &cl, self.nc)
     }
 
     fn asks_for(&self, message: &str) {

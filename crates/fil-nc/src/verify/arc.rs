@@ -7,7 +7,7 @@ use nalgebra::{Point3, Vector3};
 use super::ahead::Steps;
 use super::between::Asked;
 use super::report::FindingKind;
-use super::say::short;
+use super::say::{PLANES, short};
 use super::walk::Walk;
 use super::wanted::{Arc, Step, Wanted};
 use crate::forward::Pose;
@@ -314,7 +314,7 @@ impl<C: Steps> Walk<'_, C> {
         let wanted = frame.turn.transpose() * arc.normal;
         let along = wanted[part.normal].abs() > 1.0 - PARALLEL;
         let message = if !along {
-            let plane = ["YZ", "ZX", "XY"][part.normal];
+            let plane = PLANES[part.normal];
             format!("the arc lies in the {plane} plane, the CL file has it in another")
         } else if (wanted[part.normal] > 0.0) != part.ccw {
             let (is, should) = if part.ccw {

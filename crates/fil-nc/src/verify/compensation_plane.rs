@@ -1,7 +1,8 @@
 //! The plane in which the cutter is compensated, where only one is meant: that of its record for a
-//! live tool, X and Z on a lathe without Y.
+//! live tool, X and Z on a lathe without Y; and the one in which the lengths of a turning tool act.
 
 use super::modes::Expected;
+use super::say::PLANES;
 use super::settings::Settings;
 use crate::motion::Modes;
 
@@ -41,7 +42,7 @@ impl Expected {
     /// other axes.
     pub(super) fn wrong_turning_plane(&self, modes: &Modes) -> Option<String> {
         let found = modes.turning_plane.filter(|found| *found != ZX && !self.mills())?;
-        let found = ["YZ", "ZX", "XY"][found];
+        let found = PLANES[found];
         Some(format!("the lengths of a turning tool act in the plane {found}, it should be ZX"))
     }
 
@@ -50,7 +51,7 @@ impl Expected {
         let of_turning = Some(ZX).filter(|_| self.meant_plane != MeantPlane::Open && !self.mills());
         let must = self.plane_of_live_tool().or(of_turning)?;
         let found = modes.compensation_plane.filter(|found| *found != must)?;
-        let [found, must] = [found, must].map(|normal| ["YZ", "ZX", "XY"][normal]);
+        let [found, must] = [found, must].map(|normal| PLANES[normal]);
         Some(format!("cutter compensation acts in the plane {found}, it should be {must}"))
     }
 }

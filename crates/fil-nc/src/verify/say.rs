@@ -9,6 +9,9 @@ use crate::decimals;
 use crate::forward::Pose;
 use crate::motion::{Arc, Course, Move, Rate};
 
+/// The planes by the index of their normal.
+pub(super) const PLANES: [&str; 3] = ["YZ", "ZX", "XY"];
+
 /// What a gap is off by, in millionths, so that two can be compared.
 pub(super) type Shape = ([f64; 3], Option<f64>);
 

@@ -1,6 +1,6 @@
-//! What comes before words of rotary axes: the release of axes that are clamped in tilted
-//! frames, and where positions count from 0 to 360 the sign of a word, or the way that the
-//! control takes to it.
+//! What comes before words of rotary axes: clamped ones do not turn, those that are clamped in
+//! tilted frames are released, and where positions count from 0 to 360 a word has the sign, or
+//! the way, that the control takes to it.
 //!
 //! A motion of the post turns an axis by half a turn at most, so where the word before is
 //! known, so is the way; at half a turn the angles in degrees say it.
@@ -50,6 +50,19 @@ pub(super) fn turn(
         }
     }
     Ok(still)
+}
+
+/// Refuses a turn of a rotary axis that CLAMP/ON or a text has clamped: the drive would turn
+/// against its brake. A machine that clamps them in tilted frames releases them by itself.
+///
+/// # Errors
+/// One of the axes that change is a rotary one.
+#[cold]
+pub(super) fn refuse_clamped(control: &Control, changed: AxisSet) -> Result<()> {
+    let rotary = changed.and(AxisSet::ROTARY).numbers().next();
+    let Some(number) = rotary.filter(|_| !control.tables.clamps) else { return Ok(()) };
+    let letter = control.tables.axis(number).letter;
+    PostCode::TurnsClamped.err(format!("{letter} would turn, and the rotary axes are clamped"))
 }
 
 /// Releases the rotary axes before they turn, where the machine clamps them in tilted frames;

@@ -5,6 +5,7 @@
 //! made it: the post, POSTN, PREFUN, INSERT, the machine's own texts. What can't
 //! be told is unknown (`None`), and whoever depends on it says it again.
 
+mod auxiliaries;
 mod codes;
 mod doubts;
 mod levels;
@@ -508,42 +509,6 @@ impl ControlState {
     /// from the part, and nothing has moved it since.
     pub fn may_be_clear(&self, letter: Letter) -> bool {
         self.doubts.is_clear(letter)
-    }
-
-    /// A tool change by its function came since the spindle was turned: many machines stop it.
-    pub fn tool_is_changed_since_turned(&self) -> bool {
-        self.turned_behind != self.tool_changes
-    }
-
-    /// Learns what an auxiliary function does. A call of a subprogram may do anything.
-    pub fn learn_auxiliary(&mut self, code: FunctionCode, codes: &Codes) {
-        const END: [FunctionCode; 2] = [FunctionCode::whole(2), FunctionCode::whole(30)];
-        const CALLS: [FunctionCode; 4] = [
-            FunctionCode::whole(97),
-            FunctionCode::whole(98),
-            FunctionCode::whole(99),
-            FunctionCode::whole(198),
-        ];
-        self.ended |= END.contains(&code);
-        if let Some(rotation) = codes.rotation(code) {
-            self.rotation = rotation;
-            self.turned_behind = self.tool_changes;
-            self.halted = false;
-        }
-        self.halted |= codes.stops_program(code);
-        self.may_be_clamped = codes.clamps(code).unwrap_or(self.may_be_clamped);
-        if codes.is_spindle_range(code) {
-            self.range = Some(code);
-        }
-        if code == TOOL_CHANGE {
-            self.tool = None;
-            self.tool_changes += 1;
-            // A machine changes a tool with the spindle standing, and leaves it so.
-            self.rotation = Rotation::Standing;
-        }
-        if CALLS.contains(&code) {
-            self.forget();
-        }
     }
 
     /// A line has been run in the plane: compensation that was switched on has begun.

@@ -1,7 +1,7 @@
 //! Canned cycles as single moves, for machines that have no code for them.
 
 use fil_diag::Result;
-use fil_machine::axes::{AxisSet, Position};
+use fil_machine::axes::AxisSet;
 use fil_machine::locations::{self as loc, CycleBoreOut};
 use fil_machine::modes::{FeedMode, INCH};
 
@@ -56,11 +56,7 @@ fn tap(control: &mut Control, cycle: &Cycle, at: &Motion, hole: &Hole) -> Result
     }
     let lead = lead_of(control, cycle)?;
     rapid::rapid(control, &at.of(without(hole.along)), control.block.cause)?;
-    let level = |level: f64| {
-        let mut position = Position::default();
-        position[hole.along] = level;
-        Motion { position, axes: AxisSet::of(hole.along), word: 0, scaled: None }
-    };
+    let level = |level: f64| Motion::along(hole.along, level);
     control.because(cycle.cause, |control| {
         let cause = control.block.cause;
         rapid::rapid(control, &level(hole.clear), cause)?;
@@ -215,8 +211,6 @@ impl Moves<'_> {
 
     /// A motion along the axis of the hole.
     fn to(&self, level: f64) -> Motion {
-        let mut position = Position::default();
-        position[self.hole.along] = level;
-        Motion { position, axes: AxisSet::of(self.hole.along), word: 0, scaled: None }
+        Motion::along(self.hole.along, level)
     }
 }

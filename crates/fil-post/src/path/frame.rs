@@ -258,7 +258,7 @@ fn turn_machine(
         machine_position::carry_out(post, [None, None, Some(level)])?;
     }
     let position = [0.0, 0.0, 0.0, angles[0], angles[1]];
-    let motion = Motion { position, axes: AxisSet::ROTARY, word: 0, scaled: None };
+    let motion = Motion::new(position, AxisSet::ROTARY, 0);
     let cause = post.control.block.cause;
     family::rapid(&mut post.control, &motion, RapidCode::Turning, cause)
 }

@@ -72,7 +72,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     }
     post.path.arrive(target);
     let word = rotary::word_of(post, target);
-    let at = Motion { position, axes: AxisSet::ALL, word, scaled: None };
+    let at = Motion::new(position, AxisSet::ALL, word);
     raise(post, cycle, &mut hole, &at)?;
     for level in [hole.bottom, hole.clear, hole.initial] {
         post.control.tables.axis(hole.along).check(level)?;

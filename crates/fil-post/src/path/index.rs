@@ -1,7 +1,6 @@
 //! A table that turns to an angle by itself (ROTABL), and what the points after it count in.
 
 use fil_diag::Result;
-use fil_machine::axes::{AxisSet, Position};
 use fil_machine::axis_chain::Carries;
 use fil_machine::locations::{self as loc, RotaryTableWords};
 use nalgebra::{Matrix3x4, Vector3};
@@ -40,9 +39,7 @@ pub(super) fn turn(post: &mut Post, index: usize, to: f64) -> Result<()> {
     let moved = if points_stay { Some(under_points(post, angles)?) } else { None };
     post.path.interrupt();
     family::cancel_cycle(&mut post.control)?;
-    let mut position = Position::default();
-    position[index + 3] = to;
-    let motion = Motion { position, axes: AxisSet::of(index + 3), word: 0, scaled: None };
+    let motion = Motion::along(index + 3, to);
     let cause = post.control.block.cause.whole();
     rapid::rapid(&mut post.control, &motion, cause)?;
     post.path.rotary = Some(angles);

@@ -48,8 +48,7 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
     }
     let before = post.path.rotary;
     let word = rotary::word_of(post, *target);
-    let mut motion =
-        Motion { position: Position::default(), axes: AxisSet::ALL, word, scaled: None };
+    let mut motion = Motion::new(Position::default(), AxisSet::ALL, word);
     rotary::find_position(post, *target, &mut motion.position)?;
     if post.control.is_compensated() {
         rotary::refuse_compensated(post, before)?;

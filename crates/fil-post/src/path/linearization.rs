@@ -130,7 +130,8 @@ pub(super) fn feed(post: &mut Post, before: [f64; 2], to: Position, target: Targ
     let part = feed.between(&from.position, &arrival.position, way);
     part.warn_if_slowed(post);
     let word = rotary::word_of(post, target);
-    write(post, &Motion { position: to, axes: AxisSet::ALL, word, scaled: Some(scaled) }, &part)?;
+    let motion = Motion { scaled: Some(scaled), ..Motion::new(to, AxisSet::ALL, word) };
+    write(post, &motion, &part)?;
     post.path.arrived = Some(Arrived {
         settings: settings(post),
         target: (end, [to[3], to[4]]),
@@ -179,7 +180,7 @@ fn divided(
         slowed.warn_if_slowed(post);
     }
     for (Part { position, .. }, feed) in parts.into_iter().zip(feeds) {
-        write(post, &Motion { position, axes: AxisSet::ALL, word, scaled: None }, &feed)?;
+        write(post, &Motion::new(position, AxisSet::ALL, word), &feed)?;
     }
     Ok(())
 }

@@ -30,7 +30,7 @@ pub fn carry_out(post: &mut Post, to: [Option<f64>; 3]) -> Result<()> {
         }
     }
     let cause = post.control.block.cause.whole();
-    let motion = Motion { position, axes, word: 0, scaled: None };
+    let motion = Motion::new(position, axes, 0);
     if machine_frame::is_meant(&post.control) {
         tip_control::end(&mut post.control)?;
         frame::end(&mut post.control)?;

@@ -252,7 +252,7 @@ pub(super) fn prepare(post: &mut Post, target: Target, kind: MotionKind) -> Resu
             // Which way is away from the part Z does not say: all axes go at once.
             let position = position_of(post, point, axis)?;
             let word = rotary::word_of(post, target);
-            let motion = Motion { position, axes: AxisSet::ALL, word, scaled: None };
+            let motion = Motion::new(position, AxisSet::ALL, word);
             family::rapid(&mut post.control, &motion, RapidCode::Across, cause)?;
             post.path.arrive(target);
             Ok(true)

@@ -3,9 +3,9 @@
 
 use fil_machine::axes::{AxisSet, Position};
 use fil_machine::axis_chain::AxisChain;
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 
-use super::tip::{between, tip};
+use super::tip::{between, nearest, tip};
 use crate::control::Control;
 use crate::control::word_address::motion::Motion;
 use crate::errors::PostCode;
@@ -71,14 +71,7 @@ fn stands(control: &Control, motion: &Motion) -> Option<Position> {
 }
 
 /// How deep the tip lies below a line, along the tool.
-fn depth_below(chain: &AxisChain, [start, end]: [Point3<f64>; 2], at: &Position) -> f64 {
+fn depth_below(chain: &AxisChain, line: [Point3<f64>; 2], at: &Position) -> f64 {
     let tip = tip(chain, at);
-    let way = end - start;
-    let share = if way.norm_squared() > 0.0 {
-        ((tip - start).dot(&way) / way.norm_squared()).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
-    let axis: Vector3<f64> = chain.axis_at([at[3], at[4]]);
-    (start + way * share - tip).dot(&axis)
+    (nearest(line, tip) - tip).dot(&chain.axis_at([at[3], at[4]]))
 }

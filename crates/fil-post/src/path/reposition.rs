@@ -104,7 +104,7 @@ pub(super) fn feed(
     let plan = Plan::of(post, place, &change, by_macro)?;
     if change.share > NO_PART {
         let position = rotary::words_at(post, place, change.from)?;
-        let motion = Motion { position, axes: AxisSet::ALL, word: 0, scaled: None };
+        let motion = Motion::new(position, AxisSet::ALL, 0);
         go(post, before, &motion, Target { word: 0, ..middle })?;
         post.path.point = Some(middle.point);
     }
@@ -113,7 +113,7 @@ pub(super) fn feed(
     let position = rotary::words_at(post, end, change.end)?;
     post.path.rotary = Some(change.end);
     let word = rotary::word_of(post, target);
-    go(post, change.to, &Motion { position, axes: AxisSet::ALL, word, scaled: None }, target)
+    go(post, change.to, &Motion::new(position, AxisSet::ALL, word), target)
 }
 
 /// Where the positions change: at the beginning of the motion or at a limit; to those that
@@ -286,7 +286,7 @@ fn out_and_back(
 /// A straight way out or back, in which no rotary axis turns. At rapid only along one axis of
 /// the machine, since controls need not go straight in others.
 fn straight(post: &mut Post, to: Position, feed: Option<Feed>) -> Result<()> {
-    let motion = Motion { position: to, axes: AxisSet::ALL, word: 0, scaled: None };
+    let motion = Motion::new(to, AxisSet::ALL, 0);
     let control = &mut post.control;
     let moves = |n: &usize| {
         let least = control.tables.axis(*n).resolution();
@@ -305,7 +305,7 @@ fn straight(post: &mut Post, to: Position, feed: Option<Feed>) -> Result<()> {
 /// Turns the rotary axes where the tool is out.
 fn turn(post: &mut Post, place: Point3<f64>, change: &Change) -> Result<()> {
     let position = rotary::words_at(post, place, change.to)?;
-    let motion = Motion { position, axes: AxisSet::ALL, word: 0, scaled: None };
+    let motion = Motion::new(position, AxisSet::ALL, 0);
     let of_tip = post.writes_tip();
     let control = &mut post.control;
     let cause = control.block.cause.whole();

@@ -80,12 +80,17 @@ pub(super) fn between(from: &Position, to: &Position, share: f64) -> Position {
 }
 
 /// Distance of a point from the line between two others.
-pub(super) fn distance([from, to]: [Point3<f64>; 2], point: Point3<f64>) -> f64 {
+pub(super) fn distance(line: [Point3<f64>; 2], point: Point3<f64>) -> f64 {
+    (point - nearest(line, point)).norm()
+}
+
+/// The point of the line between two others that is nearest to a third.
+pub(super) fn nearest([from, to]: [Point3<f64>; 2], point: Point3<f64>) -> Point3<f64> {
     let way = to - from;
     let length = way.norm_squared();
     let share =
         if length > 0.0 { (way.dot(&(point - from)) / length).clamp(0.0, 1.0) } else { 0.0 };
-    (point - (from + way * share)).norm()
+    from + way * share
 }
 
 /// Bounds of how the tip moves between two positions.

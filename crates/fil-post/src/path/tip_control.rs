@@ -191,7 +191,7 @@ fn turn_to_first_axis(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
     let near = near.unwrap_or_else(|| rotary::on_tape(post));
     let angles = control.tables.chain().solve(axis, near)?;
     let position = [0.0, 0.0, 0.0, angles[0], angles[1]];
-    let motion = Motion { position, axes: AxisSet::ROTARY, word: 0, scaled: None };
+    let motion = Motion::new(position, AxisSet::ROTARY, 0);
     let cause = post.control.block.cause.whole();
     rapid::rapid(&mut post.control, &motion, cause)?;
     post.path.rotary = Some(angles);
@@ -237,7 +237,7 @@ fn turn_tables_to_zero(post: &mut Post) -> Result<()> {
              rotary.tip_control = 1.",
         );
     }
-    let motion = Motion { position: Position::default(), axes: tables, word: 0, scaled: None };
+    let motion = Motion::new(Position::default(), tables, 0);
     let cause = control.block.cause.whole();
     if !tables.is_empty() {
         rapid::rapid(control, &motion, cause)?;
@@ -373,7 +373,7 @@ fn check_way_up(control: &Control, to: &Position, axes: AxisSet) -> Result<()> {
 }
 
 fn rapid_to(control: &mut Control, position: Position, axes: AxisSet) -> Result<()> {
-    let motion = Motion { position, axes, word: 0, scaled: None };
+    let motion = Motion::new(position, axes, 0);
     let cause = control.block.cause.whole();
     family::rapid(control, &motion, RapidCode::Along, cause)
 }

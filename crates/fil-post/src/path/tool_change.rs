@@ -106,7 +106,7 @@ fn go_to_change_position(control: &mut Control, cause: Cause) -> Result<()> {
             moving = moving.or(AxisSet::of(number));
         }
     }
-    let motion = Motion { position, axes: moving, word: 0, scaled: None };
+    let motion = Motion::new(position, moving, 0);
     if machine_frame::is_meant(control) {
         return machine_frame::go(control, &motion, Before::ToolChange, cause);
     }

@@ -8,7 +8,7 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::{OPTION, TomlReader};
-use crate::address::OFF;
+use crate::address::{CHARACTERS, FORMATS, LAST_CELL, OFF, SPECIFICATIONS};
 use crate::commons::{Commons, EMPTY, Kind, NA};
 use crate::contradictions::without_digits;
 use crate::errors::MachineCode;
@@ -17,18 +17,6 @@ use crate::stored;
 
 /// The tape position of a letter that the machine does not have.
 const NO_POSITION: u32 = OFF as u32;
-
-/// INTCOM location before that of the character at tape position 1.
-const CHARACTER: u32 = 52;
-
-/// The same of the formats.
-const FORMAT: u32 = 105;
-
-/// The same of the specifications.
-const SPECIFICATION: u32 = 158;
-
-/// The last location of the tables of letters and tape positions.
-const LAST_CELL: u32 = 211;
 
 impl TomlReader<'_> {
     /// `[address.X]`: tape position, format, specification, printed character.
@@ -51,16 +39,16 @@ impl TomlReader<'_> {
         for (field, value) in fields.iter() {
             let base = match field.get_ref().as_ref() {
                 "slot" => continue,
-                "format" => FORMAT,
-                "spec" => SPECIFICATION,
-                "char" => CHARACTER,
+                "format" => FORMATS,
+                "spec" => SPECIFICATIONS,
+                "char" => CHARACTERS,
                 other => {
                     self.refuse(field.span(), unknown(&format!("no field `{other}`")));
                     continue;
                 }
             };
             let number = match value.get_ref() {
-                DeValue::String(text) if base == CHARACTER && text.len() == 1 => {
+                DeValue::String(text) if base == CHARACTERS && text.len() == 1 => {
                     Ok(f64::from(text.as_bytes()[0]))
                 }
                 _ => self.plain_number(value),
@@ -91,9 +79,9 @@ impl TomlReader<'_> {
         let held =
             |base: usize| had.map(|at| self.before[base + at]).filter(|held| !is_none(*held));
         for (base, own) in [
-            (FORMAT, held(FORMAT as usize)),
-            (SPECIFICATION, had.map(|at| self.before[SPECIFICATION as usize + at])),
-            (CHARACTER, held(CHARACTER as usize).or(Some(f64::from(name)))),
+            (FORMATS, held(FORMATS as usize)),
+            (SPECIFICATIONS, had.map(|at| self.before[SPECIFICATIONS as usize + at])),
+            (CHARACTERS, held(CHARACTERS as usize).or(Some(f64::from(name)))),
         ] {
             let at = base + position;
             if self.said.iter().any(|said| (said.kind, said.number) == (Kind::Int, at)) {

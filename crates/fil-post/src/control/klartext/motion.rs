@@ -115,7 +115,7 @@ pub fn arc(control: &mut Control, arc: &PlaneArc, feed: Option<&Feed>) -> Result
         };
     }
     let pole = pole(control, arc, arc.center)?;
-    let end = Motion { position: arc.to, axes: AxisSet::LINEAR, word: arc.word, scaled: None };
+    let end = Motion::new(arc.to, AxisSet::LINEAR, arc.word);
     for number in arc.plane.axes() {
         words::axis_word(control, number, &end)?;
     }

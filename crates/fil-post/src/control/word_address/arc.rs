@@ -268,7 +268,7 @@ pub fn write(control: &mut Control, arc: &PlaneArc, feed: Option<&Feed>) -> Resu
         control.commons.read(loc::CIRCLE_CUTCOM_PLANE) == CircleCutcomPlane::ChangeThePlane;
     control.because(arc.cause, |control| modes::plane_of_arc(control, arc.plane, change))?;
     motion::motion_code(control, code, modal, arc.cause);
-    let end = Motion { position: arc.to, axes: AxisSet::LINEAR, word: arc.word, scaled: None };
+    let end = Motion::new(arc.to, AxisSet::LINEAR, arc.word);
     end_words(control, arc, &end)?;
     control.because(arc.cause, |control| {
         center_words(control, arc)?;

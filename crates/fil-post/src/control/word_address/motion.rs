@@ -1,19 +1,21 @@
 //! Straight motions: axis words, the motion function, the feed.
 
+mod feed_words;
+
 use fil_diag::Result;
 use fil_machine::axes::{AXES, AxisSet, Position};
 use fil_machine::letters::{F, H};
 use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::modes::FeedMode;
-use fil_machine::setting::CodeAt;
 use fil_machine::{FunctionCode, Letter};
 
-use super::{modes, spindle};
+use super::modes;
 use crate::cause::Cause;
-use crate::control::{Control, Function, full_turn, sinumerik, vectors};
+use crate::control::{Control, Function, full_turn, vectors};
 use crate::control_state::{Compensation, Meaning};
 use crate::errors::PostCode;
 use crate::operation::{Feed, Lead};
+pub use feed_words::{feed_mode, feed_words, leave_inverse_time};
 
 /// A smaller motion along an axis whose words are off the tape is none, mm, inch or
 /// degrees.
@@ -33,11 +35,18 @@ pub struct Motion {
 }
 
 impl Motion {
+    /// A motion of some axes to a position; `word` is the one of the record that X repeats, 0 for
+    /// none.
+    #[inline]
+    pub fn new(position: Position, axes: AxisSet, word: u16) -> Motion {
+        Motion { position, axes, word, scaled: None }
+    }
+
     /// A motion of one axis, to a position in mm, inch or degrees.
     pub fn along(number: usize, to: f64) -> Motion {
         let mut position = Position::default();
         position[number] = to;
-        Motion { position, axes: AxisSet::of(number), word: 0, scaled: None }
+        Motion::new(position, AxisSet::of(number), 0)
     }
 
     /// The same for some of its axes.
@@ -268,11 +277,8 @@ pub fn axis_words(control: &mut Control, motion: &Motion) -> Result<bool> {
             }
         }
     }
-    if control.state.may_be_clamped
-        && !control.tables.clamps
-        && !changed.and(AxisSet::ROTARY).is_empty()
-    {
-        return refuse_clamped(control, changed);
+    if control.state.may_be_clamped {
+        full_turn::refuse_clamped(control, changed)?;
     }
     if control.tables.watches_turns {
         if vectors::are_due(control, motion) {
@@ -298,15 +304,6 @@ pub fn axis_words(control: &mut Control, motion: &Motion) -> Result<bool> {
         note_axis_words(control, written, motion.word);
     }
     Ok(true)
-}
-
-/// Refuses a motion of a rotary axis that CLAMP/ON or a text has clamped: the drive would turn
-/// against its brake.
-#[cold]
-fn refuse_clamped<T>(control: &Control, changed: AxisSet) -> Result<T> {
-    let number = changed.and(AxisSet::ROTARY).numbers().next().unwrap_or(AXES - 1);
-    let letter = control.tables.axis(number).letter;
-    PostCode::TurnsClamped.err(format!("{letter} would turn, and the rotary axes are clamped"))
 }
 
 /// Warns of a motion along an axis whose words are off the tape: the machine would not
@@ -361,87 +358,6 @@ pub fn motion_code(control: &mut Control, code: FunctionCode, modal: bool, cause
     if !modal || control.state.motion != Some(code) {
         control.block.g(code, cause);
     }
-}
-
-/// Adds the feed mode code and the F word where the control does not have them.
-///
-/// # Errors
-/// No feed was given, or it does not fit its address.
-#[inline]
-pub fn feed_words(control: &mut Control, feed: Option<&Feed>) -> Result<()> {
-    let feed = feed.ok_or_else(|| PostCode::NoFeed.diag("no FEDRAT came before this motion"))?;
-    feed_mode(control, feed)?;
-    control.modal_feed(F, feed)
-}
-
-/// Adds the code of a feed's mode where the control is not in it.
-///
-/// # Errors
-/// The machine has no such code.
-#[inline]
-pub fn feed_mode(control: &mut Control, feed: &Feed) -> Result<()> {
-    if control.state.feed_mode != Some(feed.mode) {
-        return say_feed_mode(control, feed);
-    }
-    if feed.mode == FeedMode::PerRevolution { refuse_standing(control) } else { Ok(()) }
-}
-
-/// Refuses a feed a turn of a spindle that is known to stand: the control would wait for its
-/// turns, or some text would turn it with the tool in the part.
-///
-/// # Errors
-/// It stands, and the machine has no second spindle whose turns the feed may count.
-fn refuse_standing(control: &Control) -> Result<()> {
-    if !spindle::stands(control) || control.code_if_any(loc::SPINDLE_SIDE_CW_CODE).is_some() {
-        return Ok(());
-    }
-    if control.tables.mill_turn.is_some() {
-        return PostCode::MillTurn
-            .err("a feed a turn of the main spindle, which stands; SPINDL turns it");
-    }
-    PostCode::FeedStands.err("a feed a turn, and the spindle stands")
-}
-
-#[cold]
-fn say_feed_mode(control: &mut Control, feed: &Feed) -> Result<()> {
-    if control.tables.family == ControlFamily::Sinumerik {
-        sinumerik::spindle::check_feed_mode(control)?;
-    }
-    if feed.mode == FeedMode::PerRevolution {
-        refuse_standing(control)?;
-    }
-    let code = control.code(feed_mode_code(feed.mode), "this feed mode")?;
-    control.tables.format_feed(feed.mode);
-    if control.commons.read(loc::FEED_CODE_WITH_MOTION) {
-        control.block.g(code, feed.cause.whole());
-        control.state.doubt(F);
-        return Ok(());
-    }
-    let motion = control.block.take();
-    control.block.g(code, feed.cause.whole());
-    control.state.doubt(F);
-    let with_feed = control.commons.read(loc::FEED_PRINT_WITH_CODE);
-    if with_feed && feed.mode != FeedMode::InverseTime {
-        control.modal_feed(F, feed)?;
-    }
-    control.write_block()?;
-    control.block = motion;
-    Ok(())
-}
-
-/// Ends inverse time, in which each block has an F of its own: whatever comes next, a
-/// text of the user's too, counts on the usual feed.
-///
-/// # Errors
-/// The machine has no code for a feed a minute.
-pub fn leave_inverse_time(control: &mut Control) -> Result<()> {
-    if control.state.feed_mode != Some(FeedMode::InverseTime) {
-        return Ok(());
-    }
-    let code = control.code(loc::FEED_UPM_CODE, "this feed mode")?;
-    control.tables.format_feed(FeedMode::PerMinute);
-    control.g(code);
-    control.write_block()
 }
 
 /// Writes a motion block: adds the words that wait for it and those of REPEAT.
@@ -512,13 +428,4 @@ fn length_offset_words(control: &mut Control) -> Result<()> {
         })?;
     }
     Ok(())
-}
-
-/// Location of a feed mode's preparatory function.
-fn feed_mode_code(mode: FeedMode) -> CodeAt {
-    match mode {
-        FeedMode::PerMinute => loc::FEED_UPM_CODE,
-        FeedMode::PerRevolution => loc::FEED_UPR_CODE,
-        FeedMode::InverseTime => loc::FEED_INVERSE_CODE,
-    }
 }

@@ -1,5 +1,7 @@
 //! The spindle: speed, direction, range, limit, orientation.
 
+mod turn;
+
 use fil_diag::Result;
 use fil_machine::FunctionCode;
 use fil_machine::commons::EMPTY;
@@ -12,13 +14,14 @@ use crate::control::{Control, Function, sinumerik};
 use crate::control_state::Rotation;
 use crate::errors::PostCode;
 use crate::operation::{SideSpindle, Spindle, SpindleRange, SpindleSpeed, SpindleTurn};
+use turn::waits;
+pub use turn::{
+    BEHIND_STOP, clockwise, clockwise_in_motion, may_stand_behind_change, may_stand_behind_stop,
+    may_turn, refuse_turning_back, stands, take_turn, why_it_stands,
+};
 
 /// Meters of a foot.
 const FOOT: f64 = 0.3048;
-
-/// What is said of what cuts behind STOP or OPSTOP with nothing between that turns the spindle.
-pub const BEHIND_STOP: &str =
-    "behind STOP or OPSTOP, which stop the spindle on some machines; SPINDL turns it again";
 
 /// An angle of an oriented stop is rounded to this, degrees: finer ones come from the
 /// arithmetic of a CAM system.
@@ -77,21 +80,6 @@ fn codes(control: &Control) -> [CodeAt; 3] {
         ],
         false => [loc::SPINDLE_CW_CODE, loc::SPINDLE_CCW_CODE, loc::SPINDLE_STOP_CODE],
     }
-}
-
-/// The spindle turns, or it is not known to stand.
-pub fn may_turn(control: &Control) -> bool {
-    match control.state.rotation {
-        Rotation::Standing => waits(control),
-        Rotation::Unsaid => control.turning.is_some(),
-        _ => true,
-    }
-}
-
-/// A block that waits for a motion turns it; Klartext keeps that elsewhere.
-fn waits(control: &Control) -> bool {
-    let in_klartext = control.tables.family == ControlFamily::Klartext;
-    control.waiting.has(Function::Spindle) || in_klartext && control.turning.is_some()
 }
 
 /// S is a surface speed when the next motion is made, whoever has said it.
@@ -261,48 +249,6 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
     place(control, direction, "the spindle")
 }
 
-/// Refuses a speed without a direction while the spindle turns the other way than the usual
-/// code: it would turn back in the cut, and a tap of a left-hand thread would become another.
-///
-/// # Errors
-/// It turns so.
-pub fn refuse_turning_back(control: &Control, turn: &SpindleTurn) -> Result<()> {
-    let usual = if control.tables.mills() { Some(true) } else { usual_turn(control) };
-    let now = clockwise_in_motion(control).filter(|_| !may_stand_behind_change(control));
-    let turns_back = turn.clockwise.is_none() && turn.speed.is_some();
-    if !turns_back || now.is_none() || usual.is_none() || now == usual {
-        return Ok(());
-    }
-    let way = if now == Some(true) { "clockwise" } else { "counterclockwise" };
-    PostCode::WordForm.err_with(
-        format!(
-            "SPINDL with a speed and no direction while the spindle turns {way}: the usual \
-             direction (spindle.default_code) would turn it back"
-        ),
-        "Say CLW or CCLW.",
-    )
-}
-
-/// Which way a record turns the spindle, and keeps it: SPINDL/ON turns it as it turned before.
-/// `None` for the code of a SPINDL that names no direction.
-pub fn take_turn(control: &mut Control, turn: &SpindleTurn) -> Option<bool> {
-    let said = turn.clockwise.or(control.turned.filter(|_| turn.speed.is_none()));
-    control.turned = said.or_else(|| usual_turn(control));
-    said
-}
-
-/// Whether the code of a SPINDL that names no direction turns the spindle clockwise.
-fn usual_turn(control: &Control) -> Option<bool> {
-    let code = control.code_if_any(loc::SPINDLE_DEFAULT_CODE);
-    let turns = [loc::SPINDLE_CW_CODE, loc::SPINDLE_CCW_CODE]
-        .map(|at| code.is_some() && control.code_if_any(at) == code);
-    match turns {
-        [true, _] => Some(true),
-        [_, true] => Some(false),
-        _ => None,
-    }
-}
-
 /// Warns of turns a minute above the highest speed that MAXRPM has set: it stays in force, and
 /// many controls hold each speed to it, not only a surface speed.
 fn warn_above_limit(control: &mut Control, speed: Option<SpindleSpeed>) {
@@ -390,45 +336,6 @@ pub fn turn_on(control: &mut Control, clockwise: bool) -> Result<()> {
     control.write_block()?;
     control.turning = Some(clockwise);
     Ok(())
-}
-
-/// The spindle turns clockwise: as the tape says it, else as the CL file does.
-pub fn clockwise(control: &Control) -> Option<bool> {
-    match control.state.rotation {
-        Rotation::Clockwise => Some(true),
-        Rotation::Counterclockwise => Some(false),
-        Rotation::Unsaid => control.turning,
-        Rotation::InDoubt | Rotation::Standing => None,
-    }
-}
-
-/// The same for the next motion, with what waits for it.
-pub fn clockwise_in_motion(control: &Control) -> Option<bool> {
-    if waits(control) { control.turning } else { clockwise(control) }
-}
-
-/// Why a spindle that does not turn is none for a thread or a tap.
-pub fn why_it_stands<'a>(control: &Control, usual: &'a str) -> &'a str {
-    match control.side_turns {
-        true => "threads and taps of the second spindle are not written, and the main one stands",
-        false => usual,
-    }
-}
-
-/// The spindle is known to stand, and nothing that waits for a motion turns it.
-pub fn stands(control: &Control) -> bool {
-    control.state.rotation == Rotation::Standing && !waits(control)
-}
-
-/// A tool change may have stopped the spindle, and nothing that waits for a motion turns it.
-pub fn may_stand_behind_change(control: &Control) -> bool {
-    control.state.tool_is_changed_since_turned() && !waits(control)
-}
-
-/// A stop of the program may have stopped the spindle, as some machines do, and nothing that
-/// waits for a motion turns it.
-pub fn may_stand_behind_stop(control: &Control) -> bool {
-    control.state.halted && may_turn(control) && !waits(control)
 }
 
 /// Adds S, and on a lathe the code for revolutions or surface speed.

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use fil_diag::Result;
+use fil_machine::axes::AxisSet;
 use fil_machine::locations::{self as loc, ThreadCycle};
 use fil_machine::modes::FeedMode;
 use fil_machine::rounding::Rounding;
@@ -125,12 +126,8 @@ fn one_pass_each(
         go_above(post, thread, shape.above(start, *depth))?;
         let end = on_machine(post, shape.root_end(*depth))?;
         let control = &mut post.control;
-        let at = Motion {
-            position: [end[0], 0.0, end[1], 0.0, 0.0],
-            axes: fil_machine::axes::AxisSet::LINEAR,
-            word: 0,
-            scaled: None,
-        };
+        let position = [end[0], 0.0, end[1], 0.0, 0.0];
+        let at = Motion::new(position, AxisSet::LINEAR, 0);
         control.because(thread.lead.cause, |control| {
             control.g_of_record(code);
             motion::axis_word(control, 0, &at)?;

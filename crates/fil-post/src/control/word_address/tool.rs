@@ -190,7 +190,7 @@ fn length_offset(
         }
     }
     control.g_of_record(code);
-    motion::axis_word(control, 2, &Motion { position, axes: AxisSet::Z, word: 0, scaled: None })?;
+    motion::axis_word(control, 2, &Motion::new(position, AxisSet::Z, 0))?;
     control.word(H, wanted.offset as f64)?;
     control.write_block()?;
     control.state.motion = None;

@@ -73,12 +73,12 @@ fn go(post: &mut Post, to: Position, target: Target) -> Result<()> {
     let control = &mut post.control;
     let unrolled = post.path.cylinder.filter(|_| control.tables.is_unrolled());
     let Some(radius) = unrolled else {
-        let motion = Motion { position: to, axes: AxisSet::ALL, word, scaled: None };
+        let motion = Motion::new(to, AxisSet::ALL, word);
         return family::feed(control, &motion, feed.as_ref());
     };
     let around = radius * to[3].to_radians();
     let position = [to[0], around, to[2], 0.0, 0.0];
-    let motion = Motion { position, axes: AxisSet::LINEAR, word, scaled: None };
+    let motion = Motion::new(position, AxisSet::LINEAR, word);
     family::feed(control, &motion, feed.as_ref())?;
     let spindle = *control.tables.axis(3);
     control.commons.set_last_output(spindle.letter, spindle.value(to[3])?);

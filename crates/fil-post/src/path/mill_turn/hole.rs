@@ -87,16 +87,9 @@ pub fn drill(
             }
         },
     };
-    let across = at.of(expand::without(hole.along));
-    rapid::rapid(control, &across, control.block.cause)?;
-    control.because(cycle.cause, |control| {
-        let cause = control.block.cause;
-        rapid::rapid(control, &Motion::along(hole.along, hole.clear), cause)?;
-        control.flush_waiting()?;
+    from_its_level(control, cycle, at, hole, |control| {
         words::live_hole(control, cycle, &feed, hole, code)?;
-        words::cancel(control)?;
-        words::stands_at(control, hole.along, hole.clear)?;
-        rapid::rapid(control, &Motion::along(hole.along, hole.rest()), cause)
+        words::cancel(control)
     })
 }
 
@@ -105,13 +98,25 @@ pub fn drill(
 /// # Errors
 /// As [`live_tap::tap`].
 pub fn tap_in_step(control: &mut Control, cycle: &Cycle, at: &Motion, hole: &Hole) -> Result<()> {
+    from_its_level(control, cycle, at, hole, |control| live_tap::tap(control, cycle, hole))
+}
+
+/// Brings the tool over a hole and down to its R level, where the control makes the hole and comes
+/// back to, and up from there.
+fn from_its_level(
+    control: &mut Control,
+    cycle: &Cycle,
+    at: &Motion,
+    hole: &Hole,
+    make: impl FnOnce(&mut Control) -> Result<()>,
+) -> Result<()> {
     let across = at.of(expand::without(hole.along));
     rapid::rapid(control, &across, control.block.cause)?;
     control.because(cycle.cause, |control| {
         let cause = control.block.cause;
         rapid::rapid(control, &Motion::along(hole.along, hole.clear), cause)?;
         control.flush_waiting()?;
-        live_tap::tap(control, cycle, hole)?;
+        make(control)?;
         words::stands_at(control, hole.along, hole.clear)?;
         rapid::rapid(control, &Motion::along(hole.along, hole.rest()), cause)
     })

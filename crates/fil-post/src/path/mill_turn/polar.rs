@@ -101,8 +101,7 @@ pub(super) fn begin(
     control.require_unit()?;
     let cause = control.block.cause;
     let radius = libm::hypot(point.x, point.y);
-    let at =
-        |axes| Motion { position: [radius, 0.0, point.z, 0.0, 0.0], axes, word: 0, scaled: None };
+    let at = |axes| Motion::new([radius, 0.0, point.z, 0.0, 0.0], axes, 0);
     let lifts = match control.place(2) {
         Place::At(_) | Place::Unsaid | Place::Clear => {
             control.stands(2).is_some_and(|here| point.z > here)
@@ -203,7 +202,7 @@ fn go(post: &mut Post, [x, y, z]: [f64; 3], axes: AxisSet, feed: &Feed, word: u1
     let of_slides: Position = [libm::hypot(x, y), 0.0, z, 0.0, 0.0];
     post.control.tables.check_travel(&of_slides, axes)?;
     let position: Position = [x, y, z, 0.0, 0.0];
-    family::feed(&mut post.control, &Motion { position, axes, word, scaled: None }, Some(feed))
+    family::feed(&mut post.control, &Motion::new(position, axes, word), Some(feed))
 }
 
 /// The feed of a motion: that of the machine for rapid ones.
@@ -249,21 +248,19 @@ pub(super) fn check_arc(post: &Post, arc: &Arc, target: Target) -> Result<()> {
     if arc.axis.dot(&(target.point - start)).abs() > SAME {
         return with_z();
     }
-    let sweep = sweep(arc, ends).to_radians();
-    let part = sweep / f64::from(ARC_STEPS);
+    let part = sweep(arc, ends).to_radians() / f64::from(ARC_STEPS);
+    let axis = Unit::new_normalize(arc.axis);
     // No more than this is the arc nearer than a chord of it.
     let sagitta = ends[0].norm() * (1.0 - libm::cos(part / 2.0));
-    let mut before = None;
+    let mut before = place(start);
     for step in 0..=ARC_STEPS {
-        let spoke =
-            Rotation3::from_axis_angle(&Unit::new_normalize(arc.axis), part * f64::from(step))
-                * ends[0];
+        let spoke = Rotation3::from_axis_angle(&axis, part * f64::from(step)) * ends[0];
         let at = place(arc.center + spoke);
-        let chord = [before.replace(at).unwrap_or(at), at];
-        let off = nearest(chord[0].xy(), chord[1].xy()) - sagitta;
+        let off = nearest(before.xy(), at.xy()) - sagitta;
         if of_circle < least && off < least {
             return passes(off.max(0.0));
         }
+        before = at;
         let of_slides: Position = [libm::hypot(at.x, at.y), 0.0, 0.0, 0.0, 0.0];
         post.control.tables.check_travel(&of_slides, AxisSet::of(0))?;
     }
