@@ -53,15 +53,24 @@ pub(super) fn turn(
 }
 
 /// Refuses a turn of a rotary axis that CLAMP/ON or a text has clamped: the drive would turn
-/// against its brake. A machine that clamps them in tilted frames releases them by itself.
+/// against its brake. A machine that clamps them in tilted frames releases them by itself. In the
+/// plane of X and C, and around a cylinder, C turns where X or Y goes.
 ///
 /// # Errors
-/// One of the axes that change is a rotary one.
+/// One of the axes that change turns.
 #[cold]
-pub(super) fn refuse_clamped(control: &Control, changed: AxisSet) -> Result<()> {
-    let rotary = changed.and(AxisSet::ROTARY).numbers().next();
-    let Some(number) = rotary.filter(|_| !control.tables.clamps) else { return Ok(()) };
-    let letter = control.tables.axis(number).letter;
+pub(crate) fn refuse_clamped(control: &Control, changed: AxisSet) -> Result<()> {
+    let tables = &control.tables;
+    let turning = match () {
+        () if tables.is_polar() => AxisSet::ROTARY.or(AxisSet::XY),
+        () if tables.is_unrolled() => AxisSet::ROTARY.or(AxisSet::of(1)),
+        () => AxisSet::ROTARY,
+    };
+    let turns = changed.and(turning).numbers().next();
+    let Some(number) = turns.filter(|_| control.state.may_be_clamped && !tables.clamps) else {
+        return Ok(());
+    };
+    let letter = tables.axis(number.max(FIRST)).letter;
     PostCode::TurnsClamped.err(format!("{letter} would turn, and the rotary axes are clamped"))
 }
 

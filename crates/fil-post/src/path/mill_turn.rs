@@ -19,10 +19,10 @@ use nalgebra::{Point3, Vector3};
 use super::cycle::{CycleFeed, CycleKind};
 use super::{rotary, thread};
 use crate::control::Control;
-use crate::control::family;
 use crate::control::sinumerik::{reader, transformation};
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::word_address::spindle;
+use crate::control::{family, full_turn};
 use crate::control_state::{Meaning, Rotation, text};
 use crate::errors::PostCode;
 use crate::operation::{Arc, MotionKind, Operation, SideSpindle, Spindle, SpindleTurn, Target};
@@ -443,7 +443,10 @@ pub(super) fn before_arc(post: &mut Post, arc: &Arc, target: Target) -> Result<(
     cylinder::end(post)?;
     let axial = lie(rotary::transformed(post, target).1)? == Lie::Axial;
     match (axial, post.control.tables.is_polar()) {
-        (true, true) => polar::check_arc(post, arc, target),
+        (true, true) => {
+            full_turn::refuse_clamped(&post.control, AxisSet::XY)?;
+            polar::check_arc(post, arc, target)
+        }
         (false, true) => polar::end(post),
         (true, false) if !has_y(&post.control) => PostCode::Polar.err(
             "an arc by a tool along Z; polar interpolation (mill_turn.polar_code) begins at a \

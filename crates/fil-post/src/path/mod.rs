@@ -41,12 +41,13 @@ mod turning_feed;
 
 use fil_diag::Result;
 use fil_machine::Unit;
+use fil_machine::axes::AxisSet;
 use fil_machine::axis_chain::Turn;
 use nalgebra::{Point3, Vector3};
 
 use crate::cause::Cause;
-use crate::control::family;
 use crate::control::word_address::motion;
+use crate::control::{family, full_turn};
 use crate::operation::{Arc, Feed, Lead, NextTools, Operation, Target};
 use crate::post::Post;
 
@@ -284,8 +285,15 @@ fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
     }
     let by_words = matches!(operation, Operation::Words(_));
     let stood = rotary::stands(&post.control);
+    let is_clamped = post.control.state.may_be_clamped;
     write_other(post, operation)?;
-    if rotary::stands(&post.control) != stood {
+    let stands = rotary::stands(&post.control);
+    if is_clamped {
+        let moved = |n: &usize| stands[*n].is_some() && stands[*n] != stood[*n];
+        let moved = AxisSet::ALL.numbers().filter(moved).map(AxisSet::of);
+        full_turn::refuse_clamped(&post.control, moved.fold(AxisSet::NONE, AxisSet::or))?;
+    }
+    if stands != stood {
         post.path.leave_point();
         post.path.turned_by_words = by_words;
         if !by_words {

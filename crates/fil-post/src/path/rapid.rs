@@ -150,7 +150,7 @@ pub(super) fn z_goes_first(control: &mut Control, motion: &Motion) -> Result<boo
     let rises_from = |from: f64| (to - from) * axis.scale() > 0.0;
     match control.place_on_tape(2) {
         // Up to the level of the end would be down beside the part, which has yet to turn.
-        Place::At(_) if control.state.may_be_clear(axis.letter) && turns(control, motion)? => {
+        Place::At(_) if control.state.may_be_clear(axis.letter) && turns(control, motion) => {
             Ok(false)
         }
         Place::At(last) => Ok(rises_from(last)),
@@ -181,15 +181,16 @@ pub(super) fn z_goes_first(control: &mut Control, motion: &Motion) -> Result<boo
     }
 }
 
-/// True when the motion turns a rotary axis from its last output value, in doubt or not.
-fn turns(control: &Control, motion: &Motion) -> Result<bool> {
-    for number in motion.axes.and(AxisSet::ROTARY).and(control.tables.present()).numbers() {
-        let axis = control.tables.axis(number);
-        if axis.changes(axis.scaled(motion.position[number])?, &control.commons) {
-            return Ok(true);
+/// True when the motion turns a rotary axis, or may, as nothing says where it stands.
+fn turns(control: &Control, motion: &Motion) -> bool {
+    let mut rotary = motion.axes.and(AxisSet::ROTARY).and(control.tables.present()).numbers();
+    rotary.any(|number| match control.place(number) {
+        Place::At(at) => {
+            let (axis, to) = (control.tables.axis(number), motion.position[number]);
+            (axis.near(at, to) - to).abs() >= axis.resolution()
         }
-    }
-    Ok(false)
+        _ => true,
+    })
 }
 
 /// True for a motion straight up in the CL file, by the last numbers that were said: up first

@@ -47,10 +47,10 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         if option.is_some() {
             return Err(items.error("OPTION needs the twelve numbers of a matrix"));
         }
-        post.path.is_shifted = numbers.iter().any(|number| *number != 0.0);
-        if post.path.is_shifted && post.path.transformation.is_some() {
+        if post.path.transformation.is_some() {
             return Err(both(items));
         }
+        post.path.is_shifted = numbers.iter().any(|number| *number != 0.0);
         return translate(post, [x, y, z]);
     }
     if post.path.is_shifted {

@@ -235,6 +235,7 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
         (None, None) => refuse_without_speed(control)?,
     }
     control.block.cause.word = direction_word;
+    refuse_clamped(control)?;
     refuse_turning_back(control, &turn)?;
     let said = take_turn(control, &turn);
     control.turning = control.turned;
@@ -247,6 +248,15 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
         (None, _) => loc::SPINDLE_DEFAULT_CODE,
     };
     place(control, direction, "the spindle")
+}
+
+/// Refuses to turn a main spindle that is an axis under MODE/MILL while that axis is clamped.
+fn refuse_clamped(control: &Control) -> Result<()> {
+    let is_axis = control.tables.mill_turn.is_some() && !control.tables.mills();
+    if !is_axis || !control.state.may_be_clamped {
+        return Ok(());
+    }
+    PostCode::TurnsClamped.err("the main spindle would turn, and its axis is clamped")
 }
 
 /// Warns of turns a minute above the highest speed that MAXRPM has set: it stays in force, and

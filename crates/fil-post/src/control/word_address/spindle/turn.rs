@@ -82,7 +82,8 @@ fn usual_turn(control: &Control) -> Option<bool> {
     match turns {
         [true, _] => Some(true),
         [_, true] => Some(false),
-        _ => None,
+        // A live tool has no code of its own for it.
+        _ => control.tables.mills().then_some(true),
     }
 }
 
@@ -92,7 +93,7 @@ fn usual_turn(control: &Control) -> Option<bool> {
 /// # Errors
 /// It turns so.
 pub fn refuse_turning_back(control: &Control, turn: &SpindleTurn) -> Result<()> {
-    let usual = if control.tables.mills() { Some(true) } else { usual_turn(control) };
+    let usual = usual_turn(control);
     let now = clockwise_in_motion(control).filter(|_| !may_stand_behind_change(control));
     let turns_back = turn.clockwise.is_none() && turn.speed.is_some();
     if !turns_back || now.is_none() || usual.is_none() || now == usual {
