@@ -478,7 +478,7 @@ impl<C: Steps> Walk<'_, C> {
             return;
         };
         let (here, slack) = (self.at.linear[2], self.slack.linear[2]);
-        let returns = match self.at.tip_control {
+        let returns = match self.at.tip_control || self.leans_from_z() {
             true => self.returns_along_tool(cl_line, level),
             false => {
                 !self.known[2] || here >= level - slack || self.takes_to_level(cl_line, level, true)

@@ -244,8 +244,18 @@ impl<C: Steps> Walk<'_, C> {
         self.frame_along(at.rotary, pose.axis).linear(pose.tip)[2]
     }
 
-    /// Under tool-tip control the tool goes back along itself to the level before a cycle that
-    /// has ended; true where it does, or stands there.
+    /// The tool lies along another direction than Z of the axes, in which no frame says it.
+    pub(super) fn leans_from_z(&self) -> bool {
+        if self.at.tilt.is_some() || self.settings.is_mill_turn() {
+            return false;
+        }
+        let forward = &self.settings.forward;
+        let up = forward.frame(self.at.rotary).turn.column(2).into_owned();
+        (up - forward.pose(&self.at).axis).norm() > PARALLEL
+    }
+
+    /// The tool goes back along itself to the level before a cycle that has ended; true where it
+    /// does, or stands there.
     pub(super) fn returns_along_tool(&mut self, cl_line: u32, level: f64) -> bool {
         let is_there = |walk: &Self, at: &Position| {
             walk.height_along_tool(at) >= level - 2.0 * walk.tip_slack(at)
@@ -260,7 +270,7 @@ impl<C: Steps> Walk<'_, C> {
         let beside = (way - stands.axis * way.dot(&stands.axis)).norm();
         let slack = 2.0 * self.tip_slack(&found.to);
         let goes_back = found.course == Course::Rapid
-            && found.to.tip_control
+            && found.to.tip_control == self.at.tip_control
             && found.to.rotary == self.at.rotary
             && beside <= slack
             && (self.height_along_tool(&found.to) - level).abs() <= slack;

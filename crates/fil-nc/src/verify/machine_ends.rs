@@ -30,13 +30,18 @@ impl<C: Steps> Walk<'_, C> {
         };
         let last = self.next + count;
         let end = last.checked_sub(1).and_then(|at| self.nc.get(at));
+        let ends_tip_control = self.at.tip_control;
         while self.next < last {
             if let (Some(part), Some(Event::Move(end))) = (self.next_move(), &end) {
                 match self.settings.is_mill_turn() && self.goes_around(&part, &end.to) {
                     true => {}
                     false => self.check_part(cl_line, &part, &end.to),
                 }
-                self.take(cl_line, &part);
+                if ends_tip_control && part.to.linear[2] == self.at.linear[2] {
+                    self.take_without_length(cl_line, &part);
+                } else {
+                    self.take(cl_line, &part);
+                }
             }
             self.next += 1;
         }
@@ -188,15 +193,20 @@ impl<C: Steps> Walk<'_, C> {
         (self.is_away || found.modes.tool != self.moved_tool) && behind == Some(true)
     }
 
-    /// Takes a turn of the machine, in which nothing moves that the length of the tool acts on:
-    /// tool-tip control has ended, and begins again with it.
+    /// Takes a turn of the machine, in which nothing moves that the length of the tool acts on.
     pub(super) fn take_turn_away(&mut self, cl_line: u32, found: &Move) {
+        self.take_without_length(cl_line, found);
+        self.next += 1;
+    }
+
+    /// Takes a motion on which the length of the tool does not act: tool-tip control has ended,
+    /// and the length comes back where it begins again.
+    fn take_without_length(&mut self, cl_line: u32, found: &Move) {
         let mut seen = *found;
         if found.modes.length_offset.is_none() {
             seen.modes.length_offset = self.modes.offset.now;
         }
         self.take(cl_line, &seen);
-        self.next += 1;
     }
 
     /// An arc as the settings of the machine correct it; `None` where they leave it.

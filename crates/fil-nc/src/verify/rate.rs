@@ -216,6 +216,9 @@ impl<C: Steps> Walk<'_, C> {
         if agrees(straight) || agrees(way) {
             return;
         }
+        if straight <= off && self.turns_at(rate, [&from, &found.to], inverse) {
+            return;
+        }
         let message = format!(
             "feed {} blocks a minute, which is {} mm/min on this way of {}, it should be {} mm/min",
             short(inverse),
@@ -224,6 +227,20 @@ impl<C: Steps> Walk<'_, C> {
             short(rate)
         );
         self.find(FindingKind::Feed, Some(cl_line), Some(found.line), message);
+    }
+
+    /// Inverse time of a turn while the tip stands to its last digits: as long as the machine
+    /// needs, or the feed taken as degrees a minute where its settings don't say that.
+    fn turns_at(&self, rate: f64, [from, to]: [&Position; 2], inverse: f64) -> bool {
+        let turned = [0, 1].map(|n| (to.rotary[n] - from.rotary[n]).abs());
+        let most = turned[0].max(turned[1]);
+        let time = match self.settings.turning_time(0.0, turned) {
+            0.0 => most / rate,
+            time => time,
+        };
+        let must = self.settings.inverse_within(1.0 / time);
+        let digits = 2.0 * self.slack.rotary[0].max(self.slack.rotary[1]);
+        (inverse - must).abs() <= self.slack.inverse + must * digits / most
     }
 
     /// How much longer or shorter an arc may be by its rounded center, mm: a center that is off

@@ -104,8 +104,8 @@ impl<C: Steps> Walk<'_, C> {
         self.is_up = true;
     }
 
-    /// The CL file stays where the tool is, and the program goes up for the end of tool-tip
-    /// control, which no step asks for: the way up comes behind all steps that stay.
+    /// The CL file stays where the tool is, and the program ends tool-tip control, or goes up for
+    /// that, which no step asks for: it comes behind all steps that stay.
     #[cold]
     pub(super) fn rests_before_tip_end(&mut self, step: &Step) -> bool {
         let (Wanted::Rapid(pose) | Wanted::Feed(pose, _)) = &step.what else { return false };
@@ -117,7 +117,9 @@ impl<C: Steps> Walk<'_, C> {
             self.take(step.line, &still);
             self.next += 1;
         }
-        self.next_move().is_some_and(|found| self.goes_up_at_tip_end(&found))
+        self.next_move().is_some_and(|found| {
+            self.goes_up_at_tip_end(&found) || !found.to.tip_control && !self.is_still(&found)
+        })
     }
 
     /// Tool-tip control ends before an event, though it may begin again, for another work offset

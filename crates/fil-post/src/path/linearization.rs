@@ -13,7 +13,7 @@ use fil_machine::tables::MachineTables;
 use nalgebra::Point3;
 
 use super::tip::{certain_distance, distance, largest_distance, tip, tip_beside};
-use super::turning_feed::{PartFeed, TurningFeed};
+use super::turning_feed::{PartFeed, STANDS, TurningFeed};
 use super::{mill_turn, rotary};
 use crate::control::family;
 use crate::control::word_address::motion::Motion;
@@ -126,7 +126,7 @@ pub(super) fn feed(post: &mut Post, before: [f64; 2], to: Position, target: Targ
     if least > 1 || !turning.surely_stays_within(enough, &from.position, &arrival.position) {
         return divided(post, [start.position, to], (target, end), allowed, least);
     }
-    let way = (arrival.tip - from.tip).norm();
+    let way = turning.way_of_tip(from.tip, arrival.tip);
     let part = feed.between(&from.position, &arrival.position, way);
     part.warn_if_slowed(post);
     let word = rotary::word_of(post, target);
@@ -169,7 +169,8 @@ fn divided(
     let mut at = &begin;
     for Part { on_tape: to, .. } in &parts {
         worst = worst.max(turning.off(at, to, enough));
-        feeds.push(feed.between(&at.position, &to.position, (to.tip - at.tip).norm()));
+        let way = turning.way_of_tip(at.tip, to.tip);
+        feeds.push(feed.between(&at.position, &to.position, way));
         at = to;
     }
     if worst > enough {
@@ -330,6 +331,12 @@ impl<'a> Turning<'a> {
     /// How far the tip goes.
     fn length(&self) -> f64 {
         (self.line[1] - self.line[0]).norm()
+    }
+
+    /// How far the tip goes between two points on the tape. One that stands goes nowhere: what
+    /// its rounded ends lie apart is no way that a feed counts along.
+    fn way_of_tip(&self, from: Point3<f64>, to: Point3<f64>) -> f64 {
+        if self.length() > STANDS { (to - from).norm() } else { 0.0 }
     }
 
     /// The ends of so many parts; the last is that of the motion.

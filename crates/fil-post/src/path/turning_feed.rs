@@ -16,7 +16,7 @@ use crate::operation::{Feed, SpindleSpeed};
 use crate::post::Post;
 
 /// Shorter ways of the tip count as none, mm or inch.
-const STANDS: f64 = 1e-9;
+pub(super) const STANDS: f64 = 1e-9;
 
 /// A time may be longer by this share before it is said.
 const SAME_TIME: f64 = 1e-6;
