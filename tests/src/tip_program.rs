@@ -50,6 +50,7 @@ pub const MACHINES: [Machine; 3] = [
             "rotary.secondary_i=0",
             "rotary.secondary_j=1",
             "rotary.pivot_distance=150",
+            "tool.ignore_length=1",
         ],
     },
     Machine {
@@ -62,6 +63,7 @@ pub const MACHINES: [Machine; 3] = [
             "rotary.secondary_i=1",
             "rotary.secondary_j=0",
             "rotary.pivot_distance=220",
+            "tool.ignore_length=1",
         ],
     },
 ];

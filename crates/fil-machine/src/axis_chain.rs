@@ -142,6 +142,11 @@ impl AxisChain {
         self.rotaries.iter().any(Option::is_some)
     }
 
+    /// True when a rotary axis turns the tool.
+    pub fn has_heads(&self) -> bool {
+        self.rotaries.iter().flatten().any(|rotary| rotary.carries == Carries::Head)
+    }
+
     /// Rotary positions in degrees that bring the tool along `axis`: of the
     /// solutions within the limits, the one nearest to `last` (degrees).
     ///

@@ -84,6 +84,14 @@ fil_diag::codes! {
         ArcSense = 523, Error, "the arc seems to turn the wrong way",
             "CAM systems disagree about the axis of a CIRCLE; read in the wrong dialect every arc turns the other way.",
             "Choose the dialect of the CL file with --dialect; write sharp reversals as lines.";
+        /// A tool that lies across Z.
+        Leaning = 538, Error, "the tool lies across Z",
+            "Z alone would move the tool sideways, through the part where it stands in it.",
+            "Bring the tool out by RAPID and GOTO, and turn it upright there.";
+        /// A second tool, or zero, with which the machine turns.
+        TurnedApart = 539, Error, "the machine turns for another tool or zero",
+            "Positions of the axes hold the distance from the pivot of a head to the tip, and from the zero to the axis of a table. Both are stated once for the machine.",
+            "Post with tool-tip control or in tilted frames, where the control knows both; or one program each.";
         /// A rotary axis the long way round.
         Unwinding = 524, Error, "a rotary axis would unwind while cutting",
             "Its limits leave only another way to the tool axis, and the tool would cut on the way.",
@@ -244,6 +252,14 @@ fil_diag::codes! {
         Undivided = 591, Warning, "the tip leaves its line while the machine turns",
             "LINTOL / OFF or rotary.tolerance = 0 lets motions that turn the machine be one block each, as one at feed right behind a tool change is; all axes go evenly, and the tip goes along a curve.",
             "Give LINTOL or rotary.tolerance a value, or check the program with filpost verify --between.";
+        /// The length of a tool that lies across Z.
+        LengthAcross = 593, Warning, "the length of a tool that lies across Z",
+            "The control counts the length offset along Z, and the tool of this machine lies along another axis.",
+            "Look whether the control counts the length along the axis of the tool, or the offset is 0.";
+        /// Straight up in the frame of the machine.
+        StraightUp = 594, Warning, "straight up while the tool leans",
+            "GOHOME, RETRCT or the change position is one in the frame of the machine (home.frame), Z goes there straight, and a head leans the tool.",
+            "Bring the tool out along itself by RAPID and GOTO before it; ignore this where the CL file has.";
         /// The spindle stands in a hole, or a live tool where it cuts.
         SpindleStands = 596, Warning, "cutting with the spindle standing",
             "SPINDL/OFF, a tool change (M6), or a text that stops the spindle came before these holes or this motion at feed, and nothing has turned it since; or STOP or OPSTOP, which stop it on some machines; or MODE/MILL, and nothing has turned the live tool.",

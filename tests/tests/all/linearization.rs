@@ -56,6 +56,8 @@ fn post(rotaries: &[Rotary; 2], pivot: Option<f64>, tolerance: f64, form: u8) ->
         "feed.inverse_max=99999".to_string(),
     ];
     settings.extend(pivot.map(|pivot| format!("rotary.pivot_distance={pivot}")));
+    // The real files change tools, which no control counts here.
+    settings.push("tool.ignore_length=1".to_string());
     for ((kind, direction, center), (name, letter)) in
         rotaries.iter().zip([("primary", 3), ("secondary", 2)])
     {

@@ -18,8 +18,8 @@ const USUAL: u64 = 200;
 
 /// Refusals that a random path may meet: limits, poles, what frames and tip control leave out,
 /// arcs that run back from their neighbors.
-const MAY_REFUSE: [&str; 8] =
-    ["E0511", "E0523", "E0524", "E0527", "E0528", "E0560", "E0588", "E0589"];
+const MAY_REFUSE: [&str; 10] =
+    ["E0511", "E0523", "E0524", "E0527", "E0528", "E0538", "E0539", "E0560", "E0588", "E0589"];
 
 /// Ready posts and what makes them write one form.
 const FORMS: [(&str, &[&str]); 12] = [

@@ -181,7 +181,9 @@ fn posted_paths_agree_and_a_changed_last_digit_is_found() {
     let mut faults = Faults::default();
     for _ in 0..sample::of(PATHS) {
         let (rotaries, pivot, split, targets, which) = all.new_tree(&mut runner).unwrap().current();
-        let post = post(&rotaries, pivot, split);
+        // Where a rapid of a leaning tool stops on its way no last digit is asked for.
+        let leans = rotaries.iter().any(|rotary| rotary.kind == 2);
+        let post = post(&rotaries, pivot, split && !leans);
         let cl = cl(&targets);
         let mut nc = Vec::new();
         if post.run(cl.as_bytes(), &mut nc).is_err() {

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use super::ahead::Steps;
 use super::between::Asked;
+use super::rapid_lean::{Leg, Lie, UPRIGHT};
 use super::report::FindingKind;
 use super::say::short;
 use super::walk::{STILL, Walk};
@@ -33,11 +34,12 @@ impl<C: Steps> Walk<'_, C> {
         let Some(Event::Move(end)) = self.nc.get(last) else { return false };
         let linear = self.settings.forward.frame_of(&end.to).linear(pose.tip);
         let exact = Position { linear, ..end.to };
+        let leg = if self.tool_is_fresh { Leg::FromAfar } else { Leg::OfPath };
         for index in self.next..=last {
             if let Some(Event::Move(part)) = self.nc.get(index) {
                 match self.settings.is_mill_turn() && self.goes_around(&part, &exact) {
                     true => {}
-                    false => self.check_part(cl_line, &part, &end.to),
+                    false => self.check_part(cl_line, &part, &end.to, leg),
                 }
                 self.check_turn_is_away(cl_line, &part);
                 self.take(cl_line, &part);
@@ -136,10 +138,39 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     /// Each axis stays or ends in a part of a rapid, and the height is the safe one.
-    pub(super) fn check_part(&mut self, cl_line: u32, part: &Move, end: &Position) {
+    pub(super) fn check_part(&mut self, cl_line: u32, part: &Move, end: &Position, leg: Leg) {
         if part.to.tilt != end.tilt {
             return self.check_before_frame(cl_line, part);
         }
+        let lie = self.lie(part, end, leg);
+        let nearly = self.lies_nearly_along(end).filter(|_| lie == Lie::Leaning);
+        let leads = self.leads_along_tool(part, end, leg);
+        let wrong = match (lie, nearly) {
+            (Lie::Leaning, _) if leads && self.splits_rapids => Vec::new(),
+            (Lie::Leaning, None) if self.splits_rapids => {
+                vec!["rapid does not go along the tool, which leans".to_string()]
+            }
+            (_, Some(nearly)) => self.wrong_order(part, end, nearly),
+            _ => self.wrong_order(part, end, lie),
+        };
+        // From a tool change Z may come last, too, however the tool lies: it is away.
+        let wrong = match leg {
+            Leg::FromAfar if !wrong.is_empty() => self.wrong_order(part, end, UPRIGHT),
+            _ => wrong,
+        };
+        for message in wrong {
+            self.say_order(cl_line, part, message);
+        }
+    }
+
+    /// What is wrong with a part of a rapid of axes that move one after the other.
+    fn wrong_order(&self, part: &Move, end: &Position, lie: Lie) -> Vec<String> {
+        let (tool, up) = match lie {
+            Lie::Along { axis, up } => (axis, up),
+            Lie::Leaning => (2, 1.0),
+        };
+        let mut wrong = Vec::new();
+        let others = [0, 1, 2].into_iter().filter(move |n| *n != tool);
         let splits = self.splits_rapids;
         let forward = &self.settings.forward;
         // Each part as its own X, Y, Z are meant.
@@ -147,55 +178,56 @@ impl<C: Steps> Walk<'_, C> {
         let end = forward.restated(end, &part.to);
         let to = part.to.linear;
         let known: [bool; 3] = std::array::from_fn(|n| self.known[n] && part.known[n]);
-        // From an unknown place X and Y go to the end; only Z may go up first.
-        let found_out: [bool; 2] = std::array::from_fn(|n| !self.known[n] && part.known[n]);
+        // From an unknown place the others go to the end; only the one along the tool may go up
+        // first.
+        let found_out = |n: usize| !self.known[n] && part.known[n];
         let same = |a: f64, b: f64| (a - b).abs() <= STILL;
         let moved = |n: usize| !same(to[n], at[n]);
         let arrived = |n: usize| same(to[n], end.linear[n]);
-        let is_level = self.is_retract_level(to[2]);
+        let rise = (to[tool] - at[tool]) * up;
+        let is_level = tool == 2 && self.is_retract_level(to[2]);
         let leaves = |n: usize| moved(n) && known[n] && !arrived(n);
         // Before it turns its rotary axes the machine may go up to its level.
         let turns = part.to.rotary != end.rotary;
-        let lifts = turns && is_level && to[2] > at[2] && !leaves(0) && !leaves(1);
-        let strays = (0..2).any(|n| found_out[n] && !arrived(n));
+        let lifts = turns && is_level && rise > 0.0 && !others.clone().any(leaves);
+        let strays = others.clone().any(|n| found_out(n) && !arrived(n));
         // A way that begins and ends nobody knows where.
         let is_blind = (0..3).any(|n| !self.known[n] && !part.known[n] && moved(n));
-        let finds_level = !self.known[2] && part.known[2] && !arrived(2) && !is_level;
+        let finds_level = found_out(tool) && !arrived(tool) && !is_level;
         let astray = strays || is_blind || finds_level || self.turns_astray(part, &end);
-        if astray || (0..3).any(|n| leaves(n) && !(n == 2 && lifts)) {
+        if astray || (0..3).any(|n| leaves(n) && !(n == tool && lifts)) {
             let [x, y, z] = to.map(short);
             let message = format!("rapid by way of X{x} Y{y} Z{z}, which is on no way to its end");
-            self.say_order(cl_line, part, message);
+            wrong.push(message);
         }
+        let letter = ["X", "Y", "Z"][tool];
+        let across_it = ["Y and Z", "X and Z", "X and Y"][tool];
         let is_mill = self.written == [true; 3];
-        let comes_later = is_mill && (0..2).any(|n| !part.known[n] || !arrived(n));
+        let comes_later = is_mill && others.clone().any(|n| !part.known[n] || !arrived(n));
         // Over where the tool last worked a way up hits nothing, behind a tool change too.
-        let goes_down = !self.has_had_height || to[2] <= at[2];
-        let finds_height = !self.known[2] && part.known[2] && !is_level && goes_down;
+        let goes_down = tool != 2 || !self.has_had_height || rise <= 0.0;
+        let finds_height = found_out(tool) && !is_level && goes_down;
         if splits && finds_height && comes_later {
-            let message = "rapid goes to its height before X and Y have arrived".to_string();
-            self.say_order(cl_line, part, message);
+            wrong.push(format!("rapid goes to its height before {across_it} have arrived"));
         }
-        if !splits || !known[2] {
-            return;
+        if !splits || !known[tool] {
+            return wrong;
         }
-        let lower = moved(2) && to[2] < at[2];
+        let lower = moved(tool) && rise < 0.0;
         // Behind the way up at the end of tool-tip control the level of GOHOME is a safe one.
-        let goes_home = self.is_up && self.is_home_level(to[2]);
-        if lower && !(arrived(0) && arrived(1)) && !goes_home {
-            let message = "rapid plunges before X and Y have arrived".to_string();
-            self.say_order(cl_line, part, message);
+        let goes_home = self.is_up && tool == 2 && self.is_home_level(to[2]);
+        if lower && !others.clone().all(arrived) && !goes_home {
+            wrong.push(format!("rapid plunges before {across_it} have arrived"));
         } else if lower && turns && !part.to.names_tip() {
-            let message = "rapid plunges before the rotary axes have arrived".to_string();
-            self.say_order(cl_line, part, message);
+            wrong.push("rapid plunges before the rotary axes have arrived".to_string());
         }
-        let across = (moved(0) || moved(1)) && !moved(2);
+        let across = others.clone().any(moved) && !moved(tool);
         // A tool change has brought Z up, and the level of the end is that of another turn.
         let is_clear = turns && self.tool_is_fresh;
-        if across && end.linear[2] > at[2] + STILL && !is_clear {
-            let message = "rapid goes across before Z has gone up".to_string();
-            self.say_order(cl_line, part, message);
+        if across && (end.linear[tool] - at[tool]) * up > STILL && !is_clear {
+            wrong.push(format!("rapid goes across before {letter} has gone up"));
         }
+        wrong
     }
 
     /// A rotary axis neither stays nor ends in a part of a rapid.
@@ -241,12 +273,14 @@ impl<C: Steps> Walk<'_, C> {
     /// Before the tilted frame that a rapid ends in the machine may go up and turn.
     pub(super) fn check_before_frame(&mut self, cl_line: u32, part: &Move) {
         let at = self.settings.forward.restated(&self.at, &part.to).linear;
+        // Up along Z of a frame that ends above.
+        let leaves_frame = part.to.tilt.is_some() && part.to.tilt == self.at.tilt;
         let way = |n: usize| match self.known[n] && part.known[n] {
             true => part.to.linear[n] - at[n],
             false => 0.0,
         };
         let raises = part.known[2] && (!self.known[2] || way(2) > STILL);
-        let astray = raises && !self.is_retract_level(part.to.linear[2]);
+        let astray = raises && !leaves_frame && !self.is_retract_level(part.to.linear[2]);
         if way(0).abs() > STILL || way(1).abs() > STILL || way(2) < -STILL || astray {
             let message = "rapid before its tilted frame begins, which is no way up".to_string();
             self.find(FindingKind::Order, Some(cl_line), Some(part.line), message);

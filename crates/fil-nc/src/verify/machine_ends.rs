@@ -2,6 +2,7 @@
 
 use super::ahead::Steps;
 use super::lines::RAPID_PARTS;
+use super::rapid_lean::Leg;
 use super::report::FindingKind;
 use super::say::short;
 use super::walk::Walk;
@@ -35,7 +36,7 @@ impl<C: Steps> Walk<'_, C> {
             if let (Some(part), Some(Event::Move(end))) = (self.next_move(), &end) {
                 match self.settings.is_mill_turn() && self.goes_around(&part, &end.to) {
                     true => {}
-                    false => self.check_part(cl_line, &part, &end.to),
+                    false => self.check_part(cl_line, &part, &end.to, Leg::ToMachine),
                 }
                 if ends_tip_control && part.to.linear[2] == self.at.linear[2] {
                     self.take_without_length(cl_line, &part);
@@ -109,6 +110,9 @@ impl<C: Steps> Walk<'_, C> {
     /// How many rapids reach a position of the linear axes; none where the axes stand there.
     fn parts_to_machine(&self, to: [Option<f64>; 3]) -> Option<usize> {
         let stands = self.settings.forward.restated(&self.at, &Position::default());
+        let raised = self.raised(&stands, to[2]);
+        let leans = raised != stands;
+        let slack = self.slack_along(&stands, &raised);
         let reached = |found: &Position, known: &[bool; 5]| {
             let at = self.settings.forward.restated(found, &Position::default());
             let near = |a: f64, b: f64, n: usize| (a - b).abs() <= self.slack.linear[n];
@@ -116,6 +120,7 @@ impl<C: Steps> Walk<'_, C> {
                 // In polar interpolation it is the way of C.
                 None if n == 1 && self.modes.mills_without_y(self.settings) => true,
                 Some(value) => known[n] && near(at.linear[n], value, n),
+                None if leans => !known[n] || (at.linear[n] - raised.linear[n]).abs() <= slack,
                 None => !(known[n] && self.known[n]) || near(at.linear[n], stands.linear[n], n),
             };
             let turns = at.rotary != stands.rotary && !self.settings.is_mill_turn();

@@ -31,6 +31,7 @@ mod modes_said;
 mod parts;
 mod passing;
 mod programs;
+mod rapid_lean;
 mod rate;
 mod report;
 mod reposition;

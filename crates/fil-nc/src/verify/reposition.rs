@@ -11,6 +11,7 @@ use nalgebra::Vector3;
 use super::ahead::Steps;
 use super::between::way::Way;
 use super::lines::is_line;
+use super::rapid_lean::{Leg, Lie};
 use super::report::FindingKind;
 use super::say::short;
 use super::settings::Settings;
@@ -256,7 +257,8 @@ impl<C: Steps> Walk<'_, C> {
     fn check_turn_away(&mut self, cl_line: u32, found: &Move) {
         let turns = (0..2).any(|n| (found.to.rotary[n] - self.at.rotary[n]).abs() > SMALL);
         let plunges = found.to.linear[2] < self.at.linear[2] - self.slack.linear[2];
-        if turns && plunges && !found.to.names_tip() && self.splits_rapids {
+        let is_along_axis = self.lie(found, &found.to, Leg::OfPath) != Lie::Leaning;
+        if turns && plunges && is_along_axis && !found.to.names_tip() && self.splits_rapids {
             let z = short(found.to.linear[2]);
             let message = format!("rapid turns the machine and plunges to Z{z} in one block");
             self.find(FindingKind::Order, Some(cl_line), Some(found.line), message);

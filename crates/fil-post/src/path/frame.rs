@@ -269,7 +269,7 @@ fn still(from: [f64; 2], to: [f64; 2]) -> bool {
 }
 
 /// A head holds the tool away from the machine's Z.
-fn leans(chain: &AxisChain, angles: [f64; 2]) -> bool {
+pub(super) fn leans(chain: &AxisChain, angles: [f64; 2]) -> bool {
     let heads = chain.rotaries.iter().zip(angles).map(|(rotary, degrees)| match rotary {
         Some(rotary) if rotary.carries == Carries::Head => {
             Rotation3::from_axis_angle(&rotary.direction, degrees.to_radians())

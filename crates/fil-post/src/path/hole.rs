@@ -9,7 +9,7 @@ use fil_machine::locations::{
 };
 
 use super::cycle::{Cycle, CycleKind, Hole};
-use super::{expand, frame, mill_turn, rapid, rotary, scaled_lead, tip_hole};
+use super::{expand, frame, mill_turn, rapid, rapid_turn, rotary, scaled_lead, tip_hole};
 use crate::control::place::refuse_unknown;
 use crate::control::sinumerik::live_tap;
 use crate::control::skip::refuse_level;
@@ -93,6 +93,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
             rapid::rapid(&mut post.control, &at.of(across), cause)?;
         }
         let level = without_return_code(post, cycle, &at, &mut hole)?;
+        warn_of_turn(&mut post.control, &at, &hole);
         family::hole(&mut post.control, cycle, code, &at, &hole)?;
         cycle.in_force = Some(hole);
         if let Some(level) = level {
@@ -102,6 +103,15 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
         expand::hole(&mut post.control, cycle, &at, &hole)?;
     }
     words::stands_at(&mut post.control, hole.along, hole.rest())
+}
+
+/// Warns of the rapid motions of a cycle's block that turn the machine from hole to hole with the
+/// tip below the line between them.
+fn warn_of_turn(control: &mut Control, at: &Motion, hole: &Hole) {
+    let mut over = *at;
+    over.position[hole.along] = hole.clear;
+    let along = AxisSet::of(hole.along);
+    rapid_turn::warn_of_dip(control, &over, &[expand::without(hole.along), along]);
 }
 
 /// Refuses a hole that does not lie on the axis of a part that turns: the drill would cut a

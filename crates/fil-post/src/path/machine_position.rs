@@ -3,7 +3,7 @@
 use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
 
-use super::{frame, rapid, tip_control};
+use super::{frame, rapid, rapid_lean, tip_control};
 use crate::control::machine_frame::{self, Before};
 use crate::control::word_address::cycle;
 use crate::control::word_address::motion::Motion;
@@ -19,6 +19,7 @@ pub fn carry_out(post: &mut Post, to: [Option<f64>; 3]) -> Result<()> {
     if post.control.is_compensated() {
         return PostCode::CompensationOn.err("at a motion to a position of the machine");
     }
+    let was_in_part = post.path.point.is_some();
     post.path.interrupt();
     cycle::cancel(&mut post.control)?;
     let mut position = Position::default();
@@ -32,6 +33,9 @@ pub fn carry_out(post: &mut Post, to: [Option<f64>; 3]) -> Result<()> {
     let cause = post.control.block.cause.whole();
     let motion = Motion::new(position, axes, 0);
     if machine_frame::is_meant(&post.control) {
+        if was_in_part && axes.has(2) {
+            rapid_lean::warn_straight_up(&mut post.control);
+        }
         tip_control::end(&mut post.control)?;
         frame::end(&mut post.control)?;
         machine_frame::go(&mut post.control, &motion, Before::Others, cause)?;

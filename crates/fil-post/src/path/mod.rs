@@ -14,6 +14,7 @@ pub mod euler;
 mod expand;
 mod feed_rules;
 pub mod frame;
+mod frame_end;
 pub mod hole;
 mod index;
 pub(crate) mod linear;
@@ -22,6 +23,7 @@ pub(crate) mod long_arc;
 mod machine_position;
 pub mod mill_turn;
 pub mod rapid;
+mod rapid_lean;
 mod rapid_turn;
 mod reposition;
 pub mod rotary;
@@ -36,6 +38,7 @@ pub mod tip_control;
 mod tip_hole;
 pub mod tool_change;
 mod transformation;
+mod turned_apart;
 mod turning;
 mod turning_feed;
 
@@ -127,6 +130,8 @@ pub struct Path {
     pub(crate) is_shifted: bool,
     /// The transformation is that of a table that ROTABL has turned under the points.
     pub(crate) has_index: bool,
+    /// The tool and the zero with which the machine was turned first.
+    pub(crate) turned_with: turned_apart::TurnedWith,
     /// What came behind the last motion.
     pub(crate) since: Since,
     /// POSTN has moved the axes since the last motion. It counts whole turns itself, so that a
@@ -177,6 +182,7 @@ impl Default for Path {
             thread: None,
             thread_turns: None,
             pitch: None,
+            turned_with: turned_apart::TurnedWith::default(),
             lead_change: 0.0,
             awaited_thread: None,
             transformation: None,
@@ -271,6 +277,7 @@ fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
         tip_control::before(&mut post.control, &operation)?;
     }
     if post.control.tables.frame_output {
+        frame_end::go_up(post, &operation)?;
         frame::before(&mut post.control, &operation)?;
     }
     if post.control.tables.mill_turn.is_some() {

@@ -5,6 +5,7 @@ use fil_machine::axes::AxisSet;
 use fil_machine::commons::EMPTY;
 use fil_machine::locations::{self as loc, RapidSplit};
 
+use super::rapid_lean::{self, Lie, UPRIGHT};
 use super::rapid_turn;
 use crate::cause::Cause;
 use crate::control::Control;
@@ -73,14 +74,41 @@ fn goes_with_others(control: &Control, motion: &Motion, number: usize) -> Result
     Ok(false)
 }
 
-/// Makes a rapid motion X and Y, then the rotary axes, then Z; Z first where it goes up.
+/// Makes a rapid motion X and Y, then the rotary axes, then Z; Z first where it goes up. On a
+/// machine whose tool lies along another axis, that is the one that goes first or last.
 ///
 /// # Errors
 /// As [`family::rapid`].
-pub(super) fn in_parts(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()> {
-    let z_first = motion.axes.has(2) && z_goes_first(control, motion)?;
-    rapid_turn::warn_of_dip(control, motion, &order(z_first).map(|(axes, _)| axes));
-    split(control, motion, z_first, cause)
+fn in_parts(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()> {
+    let (number, up) = match Lie::of(control, motion) {
+        Lie::Along { number, up } => (number, up),
+        Lie::Leaning if comes_from_afar(control) => (2, true),
+        Lie::Leaning => return rapid_lean::rapid(control, motion, cause),
+    };
+    let tool_first = motion.axes.has(number) && goes_first(control, motion, number, up)?;
+    rapid_turn::warn_of_dip(control, motion, &order(number, tool_first).map(|(axes, _)| axes));
+    split(control, motion, number, tool_first, cause)
+}
+
+/// Turns the machine between the way out and the way back of a repositioning, in the same order;
+/// how far the tool is out its settings say.
+///
+/// # Errors
+/// As [`family::rapid`].
+pub(super) fn turn_away(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()> {
+    match Lie::of(control, motion) {
+        Lie::Along { number, up } => {
+            let tool_first = goes_first(control, motion, number, up)?;
+            split(control, motion, number, tool_first, cause)
+        }
+        Lie::Leaning => family::rapid(control, motion, RapidCode::Across, cause),
+    }
+}
+
+/// True where a linear axis has no place before its next word, as the tool is away from the part.
+fn comes_from_afar(control: &Control) -> bool {
+    let mut linear = AxisSet::LINEAR.and(control.tables.present()).numbers();
+    linear.any(|number| matches!(control.place(number), Place::Clear | Place::Unsaid))
 }
 
 /// Makes a rapid motion to a position of the machine, as [`rapid`] does; from a level of
@@ -95,11 +123,15 @@ pub fn to_machine_position(control: &mut Control, motion: &Motion, cause: Cause)
         return refuse_level(control, 2);
     }
     let place = control.place(2);
+    if Lie::of(control, motion) != UPRIGHT {
+        let rises = rapid_lean::go_up_to(control, motion, cause)?;
+        return split(control, motion, 2, rises, cause);
+    }
     let known = matches!(place, Place::At(_) | Place::Between(Levels { unknown: false, .. }));
     if known || control.commons.read(loc::RAPID_SPLIT) == RapidSplit::OneBlock {
         return rapid(control, motion, cause);
     }
-    split(control, motion, true, cause)
+    split(control, motion, 2, true, cause)
 }
 
 /// Refuses a motion of Z and other axes that ends between two levels at which the tool may
@@ -119,17 +151,25 @@ pub(super) fn refuse_between_levels(control: &Control, to: &Motion) -> Result<()
     Ok(())
 }
 
-/// Which axes move in which block, and by which code.
-fn order(z_first: bool) -> [(AxisSet, RapidCode); 3] {
-    let across = (AxisSet::XY, RapidCode::Across);
+/// Which axes move in which block, and by which code; `number` is the axis that the tool lies
+/// along.
+fn order(number: usize, tool_first: bool) -> [(AxisSet, RapidCode); 3] {
+    let tool = AxisSet::of(number);
+    let across = (AxisSet::LINEAR.without(tool), RapidCode::Across);
     let turning = (AxisSet::ROTARY, RapidCode::Turning);
-    let along = (AxisSet::Z, RapidCode::Along);
-    if z_first { [along, across, turning] } else { [across, turning, along] }
+    let along = (tool, RapidCode::Along);
+    if tool_first { [along, across, turning] } else { [across, turning, along] }
 }
 
-fn split(control: &mut Control, motion: &Motion, z_first: bool, cause: Cause) -> Result<()> {
+fn split(
+    control: &mut Control,
+    motion: &Motion,
+    number: usize,
+    tool_first: bool,
+    cause: Cause,
+) -> Result<()> {
     let present = control.tables.present();
-    for (group, code) in order(z_first) {
+    for (group, code) in order(number, tool_first) {
         if !group.and(present).is_empty() {
             family::rapid(control, &motion.of(group), code, cause)?;
         }
@@ -140,41 +180,53 @@ fn split(control: &mut Control, motion: &Motion, z_first: bool, cause: Cause) ->
 /// True when Z goes before the other axes: up from where the tool stands.
 ///
 /// # Errors
-/// No order is safe: Z may stand on either side of the end, by the skip switch, or anywhere.
+/// As [`goes_first`].
 pub(super) fn z_goes_first(control: &mut Control, motion: &Motion) -> Result<bool> {
+    goes_first(control, motion, 2, true)
+}
+
+/// True when the axis that the tool lies along goes before the others: up from where the tool
+/// stands, which is to higher numbers, or to lower ones.
+///
+/// # Errors
+/// No order is safe: the axis may stand on either side of the end, by the skip switch, or
+/// anywhere.
+fn goes_first(control: &mut Control, motion: &Motion, number: usize, up: bool) -> Result<bool> {
     if !control.ended_repeats.is_empty() {
         repeat::doubt_ended(control);
     }
-    let axis = *control.tables.axis(2);
-    let to = axis.value(motion.position[2])?;
-    let rises_from = |from: f64| (to - from) * axis.scale() > 0.0;
-    match control.place_on_tape(2) {
+    let axis = *control.tables.axis(number);
+    let to = axis.value(motion.position[number])?;
+    let sign = if up { axis.scale() } else { -axis.scale() };
+    let rises_from = |from: f64| (to - from) * sign > 0.0;
+    match control.place_on_tape(number) {
         // Up to the level of the end would be down beside the part, which has yet to turn.
         Place::At(_) if control.state.may_be_clear(axis.letter) && turns(control, motion) => {
             Ok(false)
         }
         Place::At(last) => Ok(rises_from(last)),
         Place::Unsaid | Place::Clear => Ok(false),
+        Place::Between(_) if number != 2 || !up => refuse_level(control, number),
         Place::Between(_) => {
             refuse_between_levels(control, motion)?;
             Ok(control.levels_behind_skip(2).is_some_and(|levels| levels.low < motion.position[2]))
         }
         Place::Shifted(last) => {
-            if goes_with_others(control, motion, 2)? {
-                control.cross_shifted(2, rises_from(last))?;
+            if goes_with_others(control, motion, number)? {
+                control.cross_shifted(number, rises_from(last))?;
             }
             Ok(rises_from(last))
         }
         Place::Unknown => {
-            let up = goes_straight_up(control, motion)?;
-            if !up && goes_with_others(control, motion, 2)? {
-                return refuse_unknown(control, 2);
+            let up = number == 2 && up && goes_straight_up(control, motion)?;
+            if !up && goes_with_others(control, motion, number)? {
+                return refuse_unknown(control, number);
             }
             Ok(up)
         }
         Place::LeftToScript(_) => {
-            if goes_with_others(control, motion, 2)? {
-                control.cross_forgotten(2);
+            if goes_with_others(control, motion, number)? {
+                control.cross_forgotten(number);
             }
             Ok(false)
         }

@@ -3,7 +3,7 @@
 
 use fil_machine::axes::{AxisSet, Position};
 use fil_machine::axis_chain::AxisChain;
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 use super::tip::{between, nearest, tip};
 use crate::control::Control;
@@ -16,35 +16,49 @@ const SAMPLES: u32 = 32;
 /// A tip that comes no deeper below its line is worth no word, mm.
 const LEAST: f64 = 1.0;
 
+/// The sum of two directions is no direction where it is shorter: they are opposite.
+const OPPOSITE: f64 = 1e-6;
+
 /// Positions of a rotary axis nearer than this are one, degrees.
 const SAME: f64 = 1e-6;
 
 /// Warns of a rapid motion in blocks of these axes that brings the tip below the line between its
-/// ends, along the tool as it stands there. From a place that is not known nothing is said: a
-/// tool change or a point of the machine has brought the tool away.
+/// ends. From a place that is not known nothing is said: a tool change or a point of the machine
+/// has brought the tool away.
 pub(super) fn warn_of_dip(control: &mut Control, motion: &Motion, blocks: &[AxisSet]) {
     let tables = &control.tables;
+    let present = tables.present();
     let is_of_axes = !tables.mills() && !tables.frame_output && !tables.tip_output;
-    if !is_of_axes || motion.axes.and(AxisSet::ROTARY).and(tables.present()).is_empty() {
+    if !is_of_axes || motion.axes.and(AxisSet::ROTARY).and(present).is_empty() {
         return;
     }
     let Some(from) = stands(control, motion) else { return };
-    let moved = |from: &Position, axes: AxisSet| {
-        let axes = axes.and(motion.axes).and(tables.present());
-        std::array::from_fn(|n| if axes.has(n) { motion.position[n] } else { from[n] })
-    };
-    let to: Position = moved(&from, AxisSet::ALL);
+    let mut at = from;
+    let ends: Vec<Position> = blocks
+        .iter()
+        .map(|axes| {
+            let axes = axes.and(motion.axes).and(present);
+            at = std::array::from_fn(|n| if axes.has(n) { motion.position[n] } else { at[n] });
+            at
+        })
+        .collect();
+    warn_of_dip_between(control, &from, &ends);
+}
+
+/// The same for blocks that end at these positions.
+pub(super) fn warn_of_dip_between(control: &mut Control, from: &Position, ends: &[Position]) {
+    let Some(to) = ends.last() else { return };
     if (3..5).all(|n| (to[n] - from[n]).abs() < SAME) {
         return;
     }
-    let chain = tables.chain();
-    let line = [&from, &to].map(|at| tip(chain, at));
+    let chain = control.tables.chain();
+    let line = [from, to].map(|at| tip(chain, at));
+    let axes = [from, to].map(|at| chain.axis_at([at[3], at[4]]));
     let (mut at, mut deepest) = (from, 0.0_f64);
-    for axes in blocks {
-        let end = moved(&at, *axes);
+    for end in ends {
         deepest = (0..=SAMPLES)
-            .map(|step| between(&at, &end, f64::from(step) / f64::from(SAMPLES)))
-            .map(|here| depth_below(chain, line, &here))
+            .map(|step| between(at, end, f64::from(step) / f64::from(SAMPLES)))
+            .map(|here| depth_below(chain, line, axes, &here))
             .fold(deepest, f64::max);
         at = end;
     }
@@ -70,8 +84,22 @@ fn stands(control: &Control, motion: &Motion) -> Option<Position> {
     Some(from)
 }
 
-/// How deep the tip lies below a line, along the tool.
-fn depth_below(chain: &AxisChain, line: [Point3<f64>; 2], at: &Position) -> f64 {
+/// How deep the tip lies below a line: along the tool as it stands there, at the start, at the
+/// end, or in the middle of both. No program says where the part is, and a tip that sweeps
+/// sideways under one direction cuts under another.
+fn depth_below(
+    chain: &AxisChain,
+    line: [Point3<f64>; 2],
+    axes: [Vector3<f64>; 2],
+    at: &Position,
+) -> f64 {
     let tip = tip(chain, at);
-    (nearest(line, tip) - tip).dot(&chain.axis_at([at[3], at[4]]))
+    let below = nearest(line, tip) - tip;
+    let middle = (axes[0] + axes[1]).try_normalize(OPPOSITE);
+    let here = chain.axis_at([at[3], at[4]]);
+    [here, axes[0], axes[1]]
+        .into_iter()
+        .chain(middle)
+        .map(|axis| below.dot(&axis))
+        .fold(0.0, f64::max)
 }

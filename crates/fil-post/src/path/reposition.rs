@@ -312,7 +312,7 @@ fn turn(post: &mut Post, place: Point3<f64>, change: &Change) -> Result<()> {
     if of_tip || control.commons.read(loc::REPOS_SKIP_ROTARY) {
         return family::rapid(control, &motion, RapidCode::Across, cause);
     }
-    rapid::in_parts(control, &motion, cause)
+    rapid::turn_away(control, &motion, cause)
 }
 
 /// What is switched on before the way back.

@@ -5,7 +5,7 @@ use fil_machine::axes::{AXES, AxisSet, Position};
 use fil_machine::axis_chain;
 use nalgebra::{Point3, Vector3};
 
-use super::{Since, frame, mill_turn, tip_control};
+use super::{Since, frame, mill_turn, tip_control, turned_apart};
 use crate::control::Control;
 use crate::control::skip::refuse_level;
 use crate::control_state::Place;
@@ -46,6 +46,7 @@ pub fn find_position(post: &mut Post, target: Target, position: &mut Position) -
     let last = post.path.chosen.take().or(post.path.rotary).unwrap_or_else(|| on_tape(post));
     let chain = post.control.tables.chain();
     let axis_chain::Place { linear, angles, free, turns } = chain.place(point, axis, last)?;
+    turned_apart::refuse(post, angles)?;
     *position = [linear.x, linear.y, linear.z, angles[0], angles[1]];
     post.path.rotary = Some(angles);
     post.path.free = Some(free);

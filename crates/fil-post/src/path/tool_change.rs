@@ -4,10 +4,10 @@
 use fil_diag::Result;
 use fil_machine::Commons;
 use fil_machine::axes::{AxisSet, Position};
-use fil_machine::locations::{self as loc, ToolChangeBlock};
+use fil_machine::locations::{self as loc, ControlFamily, ToolChangeBlock};
 use fil_machine::user_blocks::{self, AroundChange, UserBlocks};
 
-use super::{frame, rapid, tip_control};
+use super::{frame, frame_end, rapid, tip_control};
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family;
@@ -16,6 +16,9 @@ use crate::control::word_address::motion::Motion;
 use crate::control::word_address::tool;
 use crate::errors::PostCode;
 use crate::operation::{NextTools, Operation, ToolChange};
+
+/// Directions are one where the cosine between them is less than this below 1.
+const PARALLEL: f64 = 1e-9;
 
 /// True for a machine whose tool changes depend on those behind them.
 pub fn looks_ahead(commons: &Commons) -> bool {
@@ -34,6 +37,8 @@ pub fn change(control: &mut Control, mut wanted: ToolChange) -> Result<()> {
     if !tool::prepare(control, &wanted)? {
         return Ok(());
     }
+    warn_of_length(control);
+    frame_end::refuse_change_position(control)?;
     tip_control::end(control)?;
     frame::end(control)?;
     control.tape.align();
@@ -52,6 +57,28 @@ pub fn change(control: &mut Control, mut wanted: ToolChange) -> Result<()> {
         }
         _ => Ok(()),
     }
+}
+
+/// Warns of a tool that lies across Z on a control that counts its length along Z, and that no
+/// head turns upright.
+fn warn_of_length(control: &mut Control) {
+    let chain = control.tables.chain();
+    let counts = match control.tables.family {
+        ControlFamily::WordAddress => {
+            let calls = control.commons.read(loc::TOOL_LENGTH_FROM_TOOL);
+            calls && control.code_if_any(loc::TOOL_LENGTH_CODE).is_some()
+        }
+        // A SINUMERIK counts it square to the plane in force.
+        ControlFamily::Sinumerik => {
+            control.state.plane.is_none_or(|plane| chain.tool[plane.normal()] < 1.0 - PARALLEL)
+        }
+        ControlFamily::Klartext => true,
+    };
+    if !counts || chain.has_heads() || chain.tool.z > 1.0 - PARALLEL {
+        return;
+    }
+    let message = "the control counts the length of the tool along Z, which the tool lies across";
+    control.warnings.add(PostCode::LengthAcross, message.to_string());
 }
 
 /// The lists of blocks before and after this change: the first, one between or the last.

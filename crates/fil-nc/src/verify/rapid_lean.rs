@@ -1,0 +1,134 @@
+//! Rapids of a machine whose tool lies along another direction than Z: up is along the tool.
+
+use nalgebra::Vector3;
+
+use fil_machine::axis_chain::Carries;
+
+use super::ahead::Steps;
+use super::walk::{STILL, Walk};
+use crate::motion::{Move, Position};
+
+/// Directions are one where the cosine between them is less than this below 1.
+const PARALLEL: f64 = 1e-8;
+
+/// Tools nearer to an axis than this may go along themselves, or as those along it: the post
+/// knows more digits than the tape.
+const NEARLY: f64 = 1e-6;
+
+/// Ways across the tool shorter than this many of the last digits of an axis are none.
+const DIGITS: f64 = 4.0;
+
+/// The least share of Z in a way along the tool that leads up to a level of Z.
+const LEAST_RISE: f64 = 0.1;
+
+/// How the tool lies in the directions of X, Y and Z in a part of a rapid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Lie {
+    /// Along one of them, up where it counts up (1), or down (-1).
+    Along { axis: usize, up: f64 },
+    /// Along none, or along another one at the end.
+    Leaning,
+}
+
+/// Where a rapid comes from and leads to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Leg {
+    /// From point to point of the CL file.
+    OfPath,
+    /// From a tool change, where the tool is away from the part.
+    FromAfar,
+    /// To a position of the machine.
+    ToMachine,
+}
+
+/// The tool along Z.
+pub(super) const UPRIGHT: Lie = Lie::Along { axis: 2, up: 1.0 };
+
+impl<C: Steps> Walk<'_, C> {
+    /// How the tool lies where a rapid begins that has this part, and where it ends.
+    pub(super) fn lie(&self, part: &Move, end: &Position, leg: Leg) -> Lie {
+        let is_along_z = part.to.names_tip() || end.names_tip() || self.settings.is_mill_turn();
+        match self.axis_of_tool(end, PARALLEL) {
+            _ if is_along_z || self.head_is_anywhere() => UPRIGHT,
+            Some((axis, up)) => Lie::Along { axis, up },
+            None if leg == Leg::FromAfar || self.known[..3] != [true; 3] => UPRIGHT,
+            None => Lie::Leaning,
+        }
+    }
+
+    /// The tool lies along one axis all the way, to a share of a degree.
+    pub(super) fn lies_nearly_along(&self, end: &Position) -> Option<Lie> {
+        self.axis_of_tool(end, NEARLY).map(|(axis, up)| Lie::Along { axis, up })
+    }
+
+    /// The axis along which the tool lies both where it stands and at an end, and its sign.
+    fn axis_of_tool(&self, end: &Position, slack: f64) -> Option<(usize, f64)> {
+        let [begins, ends] = [self.at.rotary, end.rotary].map(|rotary| {
+            let tool = self.tool_on_axes(rotary);
+            (0..3).find(|n| tool[*n].abs() > 1.0 - slack).map(|axis| (axis, tool[axis].signum()))
+        });
+        ends.filter(|_| begins == ends)
+    }
+
+    /// A head stands nobody knows where.
+    fn head_is_anywhere(&self) -> bool {
+        let mut rotaries = self.settings.forward.rotaries().iter().zip(&self.known[3..]);
+        rotaries.any(|(rotary, known)| {
+            !known && rotary.as_ref().is_some_and(|it| it.carries == Carries::Head)
+        })
+    }
+
+    /// The direction of the tool in those of X, Y and Z.
+    fn tool_on_axes(&self, rotary: [f64; 2]) -> Vector3<f64> {
+        let forward = &self.settings.forward;
+        forward.frame(rotary).turn.transpose() * forward.axis(rotary)
+    }
+
+    /// True for a part of a rapid that leads up along the tool where it stands, or to a place
+    /// from which it leads down along the tool to the end, or to the end; to a position of the
+    /// machine also across or down, each axis to its own.
+    pub(super) fn leads_along_tool(&self, part: &Move, end: &Position, leg: Leg) -> bool {
+        let at = self.settings.forward.restated(&self.at, &part.to);
+        let end = self.settings.forward.restated(end, &part.to);
+        let slack = self.slack_along(&at, &end);
+        let upwards = |from: &Position, to: &Position, rotary: [f64; 2]| {
+            let way = Vector3::from(to.linear) - Vector3::from(from.linear);
+            let tool = self.tool_on_axes(rotary);
+            let along = way.dot(&tool);
+            (along >= -slack && (way - tool * along).norm() <= slack, along)
+        };
+        let before = at.rotary;
+        let rises = part.to.rotary == before && upwards(&at, &part.to, before).0;
+        let comes_down = part.to.rotary == end.rotary && upwards(&end, &part.to, end.rotary).0;
+        let lies_between = |n: usize| {
+            let near = |a: f64, b: f64| (a - b).abs() <= STILL;
+            near(part.to.linear[n], at.linear[n]) || near(part.to.linear[n], end.linear[n])
+        };
+        let by_axes = leg == Leg::ToMachine
+            && (0..3).all(lies_between)
+            && upwards(&at, &part.to, before).1 <= slack;
+        rises || comes_down || by_axes
+    }
+
+    /// What the last digits of X, Y and Z leave open across a way along the tool between two
+    /// positions, and those of the rotary axes, mm.
+    pub(super) fn slack_along(&self, from: &Position, to: &Position) -> f64 {
+        let way = Vector3::from(to.linear) - Vector3::from(from.linear);
+        let reach = way.norm() + self.settings.forward.pivot().unwrap_or(0.0);
+        let turn = self.slack.rotary.into_iter().fold(0.0, f64::max).to_radians();
+        DIGITS * self.slack.linear.into_iter().fold(STILL, f64::max) + turn * reach
+    }
+
+    /// Where a motion up to a level of Z brings the tool that leans: along itself.
+    pub(super) fn raised(&self, stands: &Position, level: Option<f64>) -> Position {
+        let tool = self.tool_on_axes(stands.rotary);
+        let rise = level.map_or(0.0, |level| level - stands.linear[2]);
+        let is_known = self.known[..3] == [true; 3];
+        let leans = tool.z < 1.0 - PARALLEL && tool.z >= LEAST_RISE;
+        if rise <= 0.0 || !leans || !is_known || self.is_up || self.settings.is_mill_turn() {
+            return *stands;
+        }
+        let linear = Vector3::from(stands.linear) + tool * (rise / tool.z);
+        Position { linear: linear.into(), ..*stands }
+    }
+}

@@ -1,0 +1,216 @@
+//! Rapid motions of a machine whose tool lies along another direction than Z, where the program
+//! holds positions of the axes: up is along the tool, not along Z.
+
+use fil_diag::Result;
+use fil_machine::axes::{AxisSet, Position};
+use fil_machine::axis_chain::{AxisChain, Carries};
+use nalgebra::Vector3;
+
+use super::rapid_turn;
+use super::tip::{tip, tool_in_machine};
+use crate::cause::Cause;
+use crate::control::Control;
+use crate::control::family;
+use crate::control::place::refuse_unknown;
+use crate::control::word_address::motion::{Motion, RapidCode};
+use crate::control_state::Place;
+use crate::errors::PostCode;
+
+/// Directions are one where the cosine between them is less than this below 1.
+const PARALLEL: f64 = 1e-8;
+
+/// Ways along and across the tool shorter than this are none, mm or inch: the digits of the tape.
+const DIGITS: f64 = 2.0;
+
+/// Positions of a rotary axis nearer than this are one, degrees.
+const SAME: f64 = 1e-6;
+
+/// The least share of Z in a way along the tool that leads up to a level of Z.
+const LEAST_RISE: f64 = 0.1;
+
+const ONLY_Z: &str = "Bring the tool out by RAPID and GOTO before it, and turn it upright there.";
+
+/// How the tool lies in the machine, from where a motion begins to where it ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Lie {
+    /// Along an axis, away from the part where the axis counts up, or down.
+    Along { number: usize, up: bool },
+    /// Along none, or another one at the end.
+    Leaning,
+}
+
+/// The tool of a machine without heads.
+pub(super) const UPRIGHT: Lie = Lie::Along { number: 2, up: true };
+
+impl Lie {
+    /// How the tool lies in a motion.
+    pub(super) fn of(control: &Control, motion: &Motion) -> Lie {
+        let tables = &control.tables;
+        let chain = tables.chain();
+        let in_frame = tables.frame_output && control.state.tilted != Some(false);
+        let in_axes = !tables.mills() && !in_frame && !of_tip(control);
+        if !in_axes || !chain.has_heads() && chain.tool == Vector3::z_axis() {
+            return UPRIGHT;
+        }
+        let Some([from, to]) = angles(control, motion) else { return UPRIGHT };
+        let [from, to] = [from, to].map(|at| along(tool_in_machine(chain, at)));
+        if from == to { from } else { Lie::Leaning }
+    }
+}
+
+/// X, Y and Z are those of the tip.
+fn of_tip(control: &Control) -> bool {
+    control.tables.tip_output && control.state.tip_control != Some(false)
+}
+
+/// The axis that a direction lies along.
+fn along(tool: Vector3<f64>) -> Lie {
+    match (0..3).find(|number| tool[*number].abs() > 1.0 - PARALLEL) {
+        Some(number) => Lie::Along { number, up: tool[number] > 0.0 },
+        None => Lie::Leaning,
+    }
+}
+
+/// Where the rotary axes stand before and behind a motion, degrees; `None` where a head may stand
+/// anywhere. A table does not turn the tool.
+fn angles(control: &Control, motion: &Motion) -> Option<[[f64; 2]; 2]> {
+    let present = control.tables.present();
+    let rotaries = &control.tables.chain().rotaries;
+    let mut angles = [[0.0; 2]; 2];
+    for number in AxisSet::ROTARY.and(present).numbers() {
+        let is_head = rotaries[number - 3].as_ref().is_some_and(|it| it.carries == Carries::Head);
+        let at = control.stands(number).or((!is_head).then_some(0.0))?;
+        angles[0][number - 3] = at;
+        angles[1][number - 3] = if motion.axes.has(number) { motion.position[number] } else { at };
+    }
+    Some(angles)
+}
+
+/// How far a leaning tool goes along itself to rise in Z.
+///
+/// # Errors
+/// The tool lies across Z.
+pub(super) fn way_along(control: &Control, angles: [f64; 2], rise: f64) -> Result<f64> {
+    let share = tool_in_machine(control.tables.chain(), angles).z;
+    if share < LEAST_RISE {
+        return PostCode::Leaning.err_with(
+            "a motion up along Z to a position of the machine, and the tool lies across it",
+            ONLY_Z,
+        );
+    }
+    Ok(rise / share)
+}
+
+/// Warns of a motion straight up in the frame of the machine, in which nobody knows how far it
+/// leads, while a head leans the tool.
+pub(super) fn warn_straight_up(control: &mut Control) {
+    let angles = angles(control, &Motion::new(Position::default(), AxisSet::NONE, 0));
+    let chain = control.tables.chain();
+    let leans = chain.has_heads()
+        && angles.is_some_and(|[at, _]| tool_in_machine(chain, at).z < 1.0 - PARALLEL);
+    if leans {
+        let message = "Z goes straight up in the frame of the machine, and a head leans the tool";
+        control.warnings.add(PostCode::StraightUp, message.to_string());
+    }
+}
+
+/// Makes a rapid motion up along the tool where it stands, across, and down along the tool where
+/// it will stand; in one block each, as X, Y and Z go along a leaning tool together.
+///
+/// # Errors
+/// Where an axis stands is not known; a position outside the travel; as [`family::rapid`].
+pub(super) fn rapid(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()> {
+    let present = control.tables.present();
+    let moves = motion.axes.and(present);
+    if moves.and(AxisSet::LINEAR).is_empty() {
+        rapid_turn::warn_of_dip(control, motion, &[AxisSet::ALL]);
+        return family::rapid(control, motion, RapidCode::Turning, cause);
+    }
+    let from = stands(control, motion)?;
+    let to: Position =
+        std::array::from_fn(|n| if moves.has(n) { motion.position[n] } else { from[n] });
+    let between = stops(control, &from, &to);
+    let mut ends = between.clone();
+    ends.push(to);
+    rapid_turn::warn_of_dip_between(control, &from, &ends);
+    for stop in &between {
+        control.tables.check_travel(stop, AxisSet::LINEAR)?;
+        let turns = (3..5).any(|n| (stop[n] - from[n]).abs() > SAME);
+        let axes = if turns { AxisSet::ALL } else { AxisSet::LINEAR };
+        let part = Motion::new(*stop, axes.and(present), motion.word);
+        family::rapid(control, &part, RapidCode::Across, cause)?;
+    }
+    family::rapid(control, motion, RapidCode::Across, cause)
+}
+
+/// Where all axes stand.
+///
+/// # Errors
+/// One stands nobody knows where.
+fn stands(control: &Control, motion: &Motion) -> Result<Position> {
+    let mut from = Position::default();
+    for number in control.tables.present().numbers() {
+        from[number] = match control.place(number) {
+            Place::At(at) if number < 3 => at,
+            Place::At(at) => control.tables.axis(number).near(at, motion.position[number]),
+            _ => return refuse_unknown(control, number),
+        };
+    }
+    Ok(from)
+}
+
+/// Where a rapid motion stops on its way: over the start and over the end, along the tool.
+fn stops(control: &Control, from: &Position, to: &Position) -> Vec<Position> {
+    let chain = control.tables.chain();
+    let digits = AxisSet::LINEAR.and(control.tables.present()).numbers();
+    let least = DIGITS * digits.map(|n| control.tables.axis(n).resolution()).fold(0.0, f64::max);
+    let way = tip(chain, to) - tip(chain, from);
+    let [up, down] = [from, to].map(|at| way.dot(&chain.axis_at([at[3], at[4]])));
+    let over = |at: &Position, by: f64| above(chain, at, by);
+    if (3..5).any(|n| (to[n] - from[n]).abs() > SAME) {
+        let begins = (up > least).then(|| over(from, up));
+        let ends = (down < -least).then(|| over(to, -down));
+        return begins.into_iter().chain(ends).collect();
+    }
+    let across = (way - chain.axis_at([from[3], from[4]]) * up).norm();
+    match across > least {
+        true if up > least => vec![over(from, up)],
+        true if up < -least => vec![over(to, -up)],
+        _ => Vec::new(),
+    }
+}
+
+/// Positions of the axes so far above others, along the tool.
+fn above(chain: &AxisChain, at: &Position, by: f64) -> Position {
+    let tool = tool_in_machine(chain, [at[3], at[4]]);
+    let mut position = *at;
+    for number in 0..3 {
+        position[number] += tool[number] * by;
+    }
+    position
+}
+
+/// Goes up along a leaning tool to the level of Z to which a motion of the machine goes, before
+/// its other axes move; false for a level that is not above the tool. From a place that is not
+/// known Z goes up by itself.
+///
+/// # Errors
+/// The tool lies across Z; where it stands is not known; a position outside the travel.
+pub(super) fn go_up_to(control: &mut Control, motion: &Motion, cause: Cause) -> Result<bool> {
+    let Some([angles, _]) = angles(control, motion) else { return Ok(true) };
+    let is_away = |number: usize| matches!(control.place(number), Place::Clear | Place::Unsaid);
+    if !motion.axes.has(2) || (0..3).any(is_away) {
+        return Ok(true);
+    }
+    let from = stands(control, motion)?;
+    let rises = motion.position[2] - from[2];
+    if rises <= 0.0 {
+        return Ok(false);
+    }
+    let mut up = above(control.tables.chain(), &from, way_along(control, angles, rises)?);
+    up[2] = motion.position[2];
+    control.tables.check_travel(&up, AxisSet::LINEAR)?;
+    let part = Motion::new(up, AxisSet::LINEAR.and(control.tables.present()), motion.word);
+    family::rapid(control, &part, RapidCode::Across, cause)?;
+    Ok(true)
+}

@@ -1,0 +1,76 @@
+//! Positions of the axes of a turned machine hold for one tool and for one zero: the distance
+//! from the pivot of a head to the tip, and from the zero of the part to the axis of a table, are
+//! stated once.
+
+use fil_diag::Result;
+use fil_machine::FunctionCode;
+use fil_machine::axis_chain::Carries;
+use fil_machine::locations as loc;
+
+use crate::control::Control;
+use crate::errors::PostCode;
+use crate::post::Post;
+
+/// A smaller turn of a rotary axis counts as none, degrees.
+const STILL: f64 = 1e-9;
+
+/// The tool and the zero with which the machine was turned first.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct TurnedWith {
+    tool: Option<i64>,
+    zero: Option<FunctionCode>,
+}
+
+/// Refuses positions of a turned machine for another tool, or another zero, than before.
+///
+/// # Errors
+/// A head leans with a second tool; a table stands turned under a second work offset.
+#[inline]
+pub(super) fn refuse(post: &mut Post, angles: [f64; 2]) -> Result<()> {
+    if angles == [0.0; 2] { Ok(()) } else { look(post, angles) }
+}
+
+fn look(post: &mut Post, angles: [f64; 2]) -> Result<()> {
+    let control = &post.control;
+    let chain = control.tables.chain();
+    let turned = |carries: Carries| {
+        chain.rotaries.iter().zip(angles).any(|(rotary, angle)| {
+            let turn = angle - 360.0 * (angle / 360.0).round();
+            rotary.as_ref().is_some_and(|it| it.carries == carries) && turn.abs() > STILL
+        })
+    };
+    let by_head = chain.pivot.is_some() && turned(Carries::Head);
+    let by_table = turned(Carries::Table);
+    let with = &mut post.path.turned_with;
+    if by_head && !control.commons.read(loc::TOOL_IGNORE_LENGTH) {
+        let tool = control.state.tool;
+        if with.tool.is_some() && tool.is_some() && with.tool != tool {
+            return PostCode::TurnedApart.err_with(
+                "the head leans with a second tool, and rotary.pivot_distance is that to the tip \
+                 of the first",
+                "Post with tool-tip control or in tilted frames, or one program for each tool; \
+                 tool.ignore_length = 1 says that all tools are equally long.",
+            );
+        }
+        with.tool = tool.or(with.tool);
+    }
+    if by_table {
+        let zero = zero(control);
+        if with.zero.is_some() && zero.is_some() && with.zero != zero {
+            return PostCode::TurnedApart.err_with(
+                "a table stands turned under a second work offset, and the settings say where its \
+                 axis lies from the first",
+                "Post with tool-tip control or in tilted frames, or one program for each zero.",
+            );
+        }
+        with.zero = zero.or(with.zero);
+    }
+    Ok(())
+}
+
+/// The work offset in force; before the program has said one, the first that the machine has.
+fn zero(control: &Control) -> Option<FunctionCode> {
+    let is_unsaid = !control.state.has_doubts();
+    let first = || control.code_if_any(loc::FIXTURE_MIN_CODE).filter(|_| is_unsaid);
+    control.state.fixture.or_else(first)
+}
