@@ -83,7 +83,7 @@ fil_diag::codes! {
         /// Sense of an arc.
         ArcSense = 523, Error, "the arc seems to turn the wrong way",
             "CAM systems disagree about the axis of a CIRCLE; read in the wrong dialect every arc turns the other way.",
-            "Choose the dialect of the CL file with --dialect; write sharp reversals as lines.";
+            "Choose the dialect of the CL file with --dialect; write an arc that is right as it is as lines.";
         /// A tool that lies across Z.
         Leaning = 538, Error, "the tool lies across Z",
             "Z alone would move the tool sideways, through the part where it stands in it.",

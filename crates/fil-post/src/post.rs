@@ -130,6 +130,11 @@ impl Post {
         self.path.sense_is_chosen = true;
     }
 
+    /// The arcs were refused, and [`Post::trust_arcs`] would make that a warning.
+    pub fn trust_settles_arcs(&self) -> bool {
+        self.path.choice_settles_arcs
+    }
+
     /// Motions are written under tool-tip control: on a machine that writes tilted frames
     /// too, those under MULTAX/ON.
     #[inline]

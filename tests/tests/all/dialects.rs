@@ -202,6 +202,13 @@ fn the_dialect_that_fits_is_named() {
     let Err(error) = post(&pocket(1.0), Some(ClDialect::GenericLeft)) else { panic!("refused") };
     let hint = error.diags()[0].hint.clone().unwrap();
     assert!(hint.contains("--dialect generic or --dialect creo"), "{hint}");
+    // A choice does not settle what the arcs contradict, and the hint does not say so.
+    for (axis, dialect) in [(-1.0, ClDialect::Generic), (1.0, ClDialect::GenericLeft)] {
+        let Err(error) = post(&pocket(axis), Some(dialect)) else { panic!("refused") };
+        let hint = error.diags()[0].hint.clone().unwrap();
+        assert!(!hint.contains(&format!("--dialect {dialect} says")), "{hint}");
+        assert!(hint.contains("as lines"), "{hint}");
+    }
 }
 
 /// Sectors of a circle, out from the center and back: nothing proves their sense.
@@ -222,8 +229,22 @@ fn sectors(count: usize) -> String {
 #[test]
 fn long_arcs_at_corners() {
     assert_eq!(codes(&post(&sectors(1), None)), [UNPROVED]);
-    assert_eq!(codes(&post(&sectors(4), None)), [SENSE]);
+    let Err(error) = post(&sectors(4), None) else { panic!("refused") };
+    let diag = &error.diags()[0];
+    assert_eq!(diag.code.number, SENSE);
+    let hint = diag.hint.clone().unwrap();
+    assert!(hint.contains("--dialect generic says"), "{hint}");
     assert_eq!(codes(&post(&sectors(4), Some(ClDialect::Generic))), [UNPROVED]);
+}
+
+/// A half circle over a dome beside which the tool comes down could as well be one through a bowl: a
+/// dialect that was chosen settles that.
+#[test]
+fn an_arc_against_a_plunge() {
+    let dome = "UNITS / MM\nFEDRAT / 100, MMPM\nGOTO / 0, 0, 100\nGOTO / 0, 0, 10\n\
+                CIRCLE / 10, 0, 10, 0, 1, 0, 10\nGOTO / 20, 0, 10\nFINI\n";
+    assert_eq!(codes(&post(dome, None)), [UNPROVED]);
+    assert!(codes(&post(dome, Some(ClDialect::Generic))).is_empty());
 }
 
 #[test]

@@ -177,3 +177,33 @@ fn a_turning_tool_in_another_plane_is_found_on_a_sinumerik() {
         assert!(wrong.contains(said), "{new}: {wrong}");
     }
 }
+
+/// On a SINUMERIK the lead is the word of the axis that goes the longer way, on a taper of 45 degrees
+/// that of either.
+#[test]
+fn the_letter_of_a_lead_on_a_taper() {
+    let cl = |x: &str| {
+        format!(
+            "LOADTL / 1; SPINDL / RPM, 500, CLW; RAPID; GOTO / 45, 0, 5; THREAD / MMPR, 1.5; RAPID; \
+             GOTO / 19.5755, 0, 2; GOTO / {x}, 0, -8; RAPID; GOTO / 45, 0, -8"
+        )
+    };
+    let nc = |end: &str| {
+        format!(
+            "%_N_MPF1_MPF; G710 G90 G95 G18; DIAMON; T1; D1; G97 S500 M3; G0 X90 Z5; X39.151 Z2; \
+             G33 {end}; G0 X90; M30"
+        )
+    };
+    let check = |x: &str, end: &str| found("sinumerik-lathe", &[], &cl(x), &nc(end));
+    for letter in ["I", "K"] {
+        assert_eq!(check("29.5755", &format!("X59.151 Z-8 {letter}1.5")), "", "{letter}");
+    }
+    for (x, end, wrong) in [
+        ("29.576", "X59.152 Z-8 I1.5", "X59.152 Z-8 K1.5"),
+        ("29.575", "X59.15 Z-8 K1.5", "X59.15 Z-8 I1.5"),
+    ] {
+        assert_eq!(check(x, end), "", "{end}");
+        assert!(check(x, wrong).contains("needs its lead"), "{wrong}");
+    }
+    assert!(check("29.5755", "X59.151 Z-8 I1.5 K1.5").contains("needs its lead"));
+}

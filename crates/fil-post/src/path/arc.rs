@@ -54,7 +54,11 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
         rotary::refuse_unknown_start(post)?;
     }
     let sweep = sweep(arc, ends);
-    post.path.course.arc(ends.map(|end| arc.axis.cross(&end)), sweep, arc.line);
+    // A turning tool cuts along Z.
+    let tables = &post.control.tables;
+    let turns = !tables.mills() && post.control.commons.read(loc::LATHE_DIAMETER);
+    let tool = Some(target.axis).filter(|_| !turns);
+    post.path.course.arc(ends.map(|end| arc.axis.cross(&end)), sweep, tool, arc.line);
     let turns_axis = target.axis != post.path.stands;
     let whole =
         if turns_axis { None } else { in_plane(post, arc, start, (radius, sweep), target)? };

@@ -149,6 +149,8 @@ pub struct Path {
     pub(crate) course: sense::Course,
     /// Whoever chose the dialect has said which way arcs turn.
     pub(crate) sense_is_chosen: bool,
+    /// The arcs were refused, and would not be with their sense chosen.
+    pub(crate) choice_settles_arcs: bool,
     /// What was said in blocks that can be skipped.
     skipped: skip::Said,
 }
@@ -198,6 +200,7 @@ impl Default for Path {
             coming: Vec::new(),
             course: sense::Course::default(),
             sense_is_chosen: false,
+            choice_settles_arcs: false,
             skipped: skip::Said::default(),
         }
     }

@@ -5,8 +5,9 @@
 //! in the opposite directions. So each arc tells something: one that is the shorter way
 //! round and runs on from its neighbors proves the rule; one that is the longer way round and
 //! runs back contradicts it. A short arc that runs back tells little, as a path that clears
-//! the corner beside a round boss has such cusps, and so does a long one that runs on. The
-//! program is judged at its end, by all of them; an arc that is wrong for itself at once.
+//! the corner beside a round boss has such cusps, and so does a long one that runs on. An arc that
+//! runs back from a plunge along the tool axis, or into a way out along it, tells nothing: a tool
+//! that comes down beside a dome rises over it. The program is judged at its end, by all of them; an arc that is wrong for itself at once.
 
 use fil_diag::Result;
 use nalgebra::Vector3;
@@ -15,6 +16,9 @@ use crate::errors::PostCode;
 
 /// Cosine below which one direction runs back against another (about 155 degrees).
 const BACK: f64 = -0.9;
+
+/// Sine of the angle within which a line goes along the tool axis.
+const ALONG: f64 = 1e-3;
 
 /// Degrees by which an arc differs from half a turn so that one way round is the longer one.
 const UNEVEN: f64 = 0.5;
@@ -44,6 +48,8 @@ struct Waiting {
     begin: Option<Meeting>,
     /// Direction in which it ends.
     end: Vector3<f64>,
+    /// The tool axis; `None` where lines along it are cuts as any others.
+    tool: Option<Vector3<f64>>,
     /// Line of its CIRCLE in the CL file.
     line: u32,
     extent: Extent,
@@ -56,6 +62,8 @@ enum Meeting {
     Smooth,
     /// The second runs back.
     Back,
+    /// The second runs back, and the line of both goes along the tool axis.
+    BackAlongTool,
     /// In a corner.
     Corner,
 }
@@ -88,6 +96,10 @@ struct Tally {
     /// Arcs above half a turn, and the line of the first.
     long: u32,
     first_long: u32,
+    /// Arcs that run back along the tool axis alone and are not the shorter way round, and the line
+    /// of the first.
+    plunges: u32,
+    first_plunge: u32,
 }
 
 /// What is to be said of the arcs of a program.
@@ -101,13 +113,20 @@ pub enum Verdict {
     Doubtful(String),
     /// Something speaks against the sense, but not enough to tell; what.
     Unproved(String),
+    /// Nothing proves the sense of an arc that could as well have the other one; which.
+    Open(String),
 }
 
 impl Meeting {
-    fn of(one: Vector3<f64>, other: Vector3<f64>) -> Self {
-        let (along, length) = (one.dot(&other), one.norm() * other.norm());
+    /// How an arc in this direction meets the way of a line.
+    fn of(arc: Vector3<f64>, line: Vector3<f64>, tool: Option<Vector3<f64>>) -> Self {
+        let (along, length) = (arc.dot(&line), arc.norm() * line.norm());
+        let is_along = |tool: Vector3<f64>| line.cross(&tool).norm() < ALONG * line.norm();
         match () {
-            () if length > 0.0 && along < BACK * length => Meeting::Back,
+            () if length > 0.0 && along < BACK * length => {
+                let plunges = tool.and_then(|tool| tool.try_normalize(0.0)).is_some_and(is_along);
+                if plunges { Meeting::BackAlongTool } else { Meeting::Back }
+            }
             () if length > 0.0 && along > -BACK * length => Meeting::Smooth,
             () => Meeting::Corner,
         }
@@ -140,12 +159,19 @@ impl Course {
         Ok(())
     }
 
-    /// An arc of so many degrees follows that begins and ends in these directions.
-    pub fn arc(&mut self, [begin, end]: [Vector3<f64>; 2], sweep: f64, line: u32) {
+    /// An arc of so many degrees follows that begins and ends in these directions; the tool axis
+    /// is `None` where lines along it are cuts as any others.
+    pub fn arc(
+        &mut self,
+        [begin, end]: [Vector3<f64>; 2],
+        sweep: f64,
+        tool: Option<Vector3<f64>>,
+        line: u32,
+    ) {
         // Read by the other rule both arcs would turn round: how they meet tells nothing.
         self.settle(None);
-        let begin = self.last.take().map(|last| Meeting::of(last, begin));
-        self.arc = Some(Waiting { begin, end, line, extent: Extent::of(sweep) });
+        let begin = self.last.take().map(|last| Meeting::of(begin, last, tool));
+        self.arc = Some(Waiting { begin, end, tool, line, extent: Extent::of(sweep) });
     }
 
     /// A motion follows that tells nothing (a rapid).
@@ -160,7 +186,7 @@ impl Course {
     /// A line follows the arc that waits. One without length tells nothing.
     fn judge(&mut self, way: Vector3<f64>) -> Result<()> {
         let Some(arc) = self.arc.filter(|_| way.norm_squared() > SHORTEST) else { return Ok(()) };
-        let end = Meeting::of(arc.end, way);
+        let end = Meeting::of(arc.end, way, arc.tool);
         self.settle(Some(end));
         if (arc.begin, end) == (Some(Meeting::Back), Meeting::Back) && arc.extent != Extent::Short {
             return PostCode::ArcSense.err(format!(
@@ -191,6 +217,9 @@ impl Course {
         if back > smooth && arc.extent != Extent::Short {
             note(&mut tally.contradicted, &mut tally.first_contradicted);
         }
+        if back == smooth && count(Meeting::BackAlongTool) > 0 && arc.extent != Extent::Short {
+            note(&mut tally.plunges, &mut tally.first_plunge);
+        }
         if smooth == 2 {
             tally.smooth = tally.smooth.saturating_add(1);
         }
@@ -209,7 +238,7 @@ impl Course {
     /// The program ends: what its arcs tell. They are forgotten.
     pub fn conclude(&mut self) -> Verdict {
         self.interrupt();
-        let Tally { proved, contradicted, smooth, cusps, short, long, .. } = self.tally;
+        let Tally { proved, contradicted, smooth, cusps, short, long, plunges, .. } = self.tally;
         let lines = std::mem::take(&mut self.tally);
         match () {
             () if contradicted > proved => Verdict::Contradicted(format!(
@@ -237,6 +266,11 @@ impl Course {
                  sense",
                 lines.first_long
             )),
+            () if proved == 0 && plunges > 0 => Verdict::Open(format!(
+                "the CIRCLE of line {} turns back from a motion along the tool axis, and no arc of \
+                 the file proves the sense",
+                lines.first_plunge
+            )),
             () => Verdict::Fits,
         }
     }
@@ -250,7 +284,7 @@ mod tests {
     fn arc(course: &mut Course, [begin, end, next]: [Vector3<f64>; 3], sweep: f64) -> Result<()> {
         course.interrupt();
         course.line(Vector3::x()).unwrap();
-        course.arc([begin, end], sweep, 7);
+        course.arc([begin, end], sweep, None, 7);
         course.line(next)
     }
 
@@ -289,7 +323,7 @@ mod tests {
         let mut course = Course::default();
         course.line(Vector3::x()).unwrap();
         course.interrupt();
-        course.arc([-Vector3::x(), Vector3::y()], 270.0, 7);
+        course.arc([-Vector3::x(), Vector3::y()], 270.0, None, 7);
         course.interrupt();
         course.line(-Vector3::y()).unwrap();
         assert_eq!(course.tally.contradicted, 0);
@@ -301,7 +335,7 @@ mod tests {
         let mut course = Course::default();
         course.line(Vector3::x()).unwrap();
         course.line(Vector3::zeros()).unwrap();
-        course.arc([-Vector3::x(), Vector3::y()], 270.0, 7);
+        course.arc([-Vector3::x(), Vector3::y()], 270.0, None, 7);
         course.line(Vector3::zeros()).unwrap();
         assert!(course.line(-Vector3::y()).is_err());
     }
@@ -341,15 +375,34 @@ mod tests {
         }
     }
 
+    /// A half circle over a dome begins and ends against the ways down and up beside it; the same
+    /// against other lines is refused, and a shorter arc needs no word.
+    #[test]
+    fn an_arc_against_a_plunge_is_no_contradiction() {
+        let z = Vector3::z();
+        let over = |tool: Vector3<f64>, sweep: f64| {
+            let mut course = Course::default();
+            course.line(-z)?;
+            course.arc([z, -z], sweep, Some(tool), 7);
+            course.line(z).map(|()| course.conclude())
+        };
+        assert!(matches!(over(z * 2.0, 180.0), Ok(Verdict::Open(_))));
+        assert!(matches!(over(-z, 200.0), Ok(Verdict::Unproved(_))));
+        assert_eq!(over(z, 170.0).ok(), Some(Verdict::Fits));
+        for tool in [Vector3::x(), Vector3::new(0.01, 0.0, 1.0), Vector3::zeros()] {
+            assert!(over(tool, 180.0).is_err(), "{tool}");
+        }
+    }
+
     /// In a chain of arcs only its two ends tell something.
     #[test]
     fn arcs_after_arcs() {
         let (x, y) = (Vector3::x(), Vector3::y());
         let mut course = Course::default();
         course.line(x).unwrap();
-        course.arc([x, y], 90.0, 1);
-        course.arc([-y, -x], 300.0, 2);
-        course.arc([-x, y], 90.0, 3);
+        course.arc([x, y], 90.0, None, 1);
+        course.arc([-y, -x], 300.0, None, 2);
+        course.arc([-x, y], 90.0, None, 3);
         course.line(y).unwrap();
         let Tally { proved, contradicted, smooth, .. } = course.tally;
         assert_eq!((proved, contradicted, smooth), (2, 0, 0));

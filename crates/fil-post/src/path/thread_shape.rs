@@ -54,7 +54,7 @@ impl Shape {
         let way = end - start;
         let along = if on_face { way.x } else { way.z };
         let across = if on_face { way.z } else { way.x };
-        if across.abs() > along.abs() {
+        if across.abs() > along.abs() + NOTHING {
             return PostCode::Thread
                 .err("the crest leans more than 45 degrees from the axis of the thread");
         }

@@ -61,9 +61,11 @@ fn judge_arcs(post: &mut Post) -> Result<()> {
         Verdict::Fits => {}
         Verdict::Contradicted(why) => return PostCode::ArcSense.err(why),
         Verdict::Doubtful(why) if !post.path.sense_is_chosen => {
+            post.path.choice_settles_arcs = true;
             return PostCode::ArcSense.err(why);
         }
-        Verdict::Doubtful(why) | Verdict::Unproved(why) => post.warn(PostCode::ArcUnproved, why),
+        Verdict::Open(_) if post.path.sense_is_chosen => {}
+        Verdict::Doubtful(why) | Verdict::Unproved(why) | Verdict::Open(why) => post.warn(PostCode::ArcUnproved, why),
     }
     Ok(())
 }

@@ -141,15 +141,16 @@ impl Outside<'_, '_> {
             let fitting = dialect.turning_otherwise();
             let names: Vec<String> =
                 fitting.iter().map(|other| format!("--dialect {other}")).collect();
+            let as_they_are = match self.post.trust_settles_arcs() {
+                true => format!("--dialect {dialect} says that they are as {dialect} means them"),
+                false => "an arc that is right as it is can be written as lines (GOTO)".to_string(),
+            };
             diag.hint = Some(match &names[..] {
                 [] => format!(
-                    "no dialect turns the arcs of {dialect} the other way: look at them in a backplot"
+                    "no dialect turns the arcs of {dialect} the other way: look at them in a \
+                     backplot; {as_they_are}"
                 ),
-                _ => format!(
-                    "{} reads them the other way; --dialect {dialect} says that they are as {dialect} \
-                     means them",
-                    names.join(" or ")
-                ),
+                _ => format!("{} reads them the other way; {as_they_are}", names.join(" or ")),
             });
         }
         diag

@@ -8,6 +8,9 @@ use crate::dialect::{FeedMode, Function};
 use crate::errors::NcCode;
 use crate::motion::{Arc, Course, Rate, unit};
 
+/// Ways along X and Z that differ less are equal, mm: less than a last digit of a program.
+const EQUAL: f64 = 1e-6;
+
 impl Sinumerik<'_> {
     /// The motion of a block, and the cycle that it calls.
     pub(super) fn motion(&mut self, said: &Said) -> Result<(), Fault> {
@@ -60,14 +63,19 @@ impl Sinumerik<'_> {
         }
     }
 
-    /// A pass of a thread: its lead is I where X goes the longer way, else K.
+    /// A pass of a thread: its lead is I where X goes the longer way, K where Z does, and one of
+    /// them where the ways are equal.
     fn thread(&mut self, said: &Said, change: Option<f64>) -> Result<(), Fault> {
         let target = self.target(said);
         if !(self.state.known[0] && self.state.known[2]) {
             return Err(Fault::new(NcCode::NoCenter, "it is not known where the thread begins"));
         }
         let way = |axis: usize| (target.0[axis] - self.state.at[axis]).abs();
-        let across = way(0) > way(2);
+        let leans = way(0) - way(2);
+        let across = match said.center[2] {
+            None => leans > -EQUAL,
+            Some(_) => leans > EQUAL,
+        };
         let (given, other) = match across {
             true => (said.center[0], said.center[2]),
             false => (said.center[2], said.center[0]),

@@ -18,8 +18,11 @@ const LEAD_DIGITS: usize = 4;
 /// Passes whose chips have the same area, outside and inside.
 const EQUAL_CHIPS: [u8; 2] = [3, 4];
 
-/// Writes one pass. Its lead is the word of the axis that goes the longer way: I for X, K
-/// for Z. G34 and G35 take what it grows and shrinks by in each turn as F, without a sign
+/// Ways along X and Z that differ less are equal, mm or inch: less than a last digit of the tape.
+const EQUAL: f64 = 1e-7;
+
+/// Writes one pass. Its lead is the word of the axis that goes the longer way by the digits of the
+/// tape: I for X, K for Z, and K where the ways are equal, as both are right there. G34 and G35 take what it grows and shrinks by in each turn as F, without a sign
 /// (Siemens, Programming Manual Fundamentals: thread cutting with increasing or decreasing lead).
 ///
 /// # Errors
@@ -27,12 +30,13 @@ const EQUAL_CHIPS: [u8; 2] = [3, 4];
 pub fn pass(control: &mut Control, motion: &Motion, lead: &Lead, change: f64) -> Result<()> {
     let way = |number: usize| {
         let from = control.axis_position(number)?;
-        Some((motion.position[number] - from).abs())
+        let to = control.tables.axis(number).on_tape(motion.position[number]);
+        Some(to.map(|to| (to - from).abs()))
     };
-    let (Some(x), Some(z)) = (way(0), way(2)) else {
+    let (Some(x), Some(z)) = (way(0).transpose()?, way(2).transpose()?) else {
         return refuse("a pass of a thread, and where it begins is not known");
     };
-    let letter = if x > z { IJK[0] } else { IJK[2] };
+    let letter = if x > z + EQUAL { IJK[0] } else { IJK[2] };
     if change == 0.0 {
         return words::thread_by(control, motion, lead, letter);
     }
