@@ -275,6 +275,13 @@ impl AxisChain {
         positions
     }
 
+    /// The first of two rotary axes turns the tool about itself where it lies along this direction,
+    /// so that any position of it will do there.
+    pub fn is_pole(&self, axis: Vector3<f64>) -> bool {
+        let [Some(first), Some(_)] = &self.rotaries else { return false };
+        !is_none(axis) && first.direction.cross(&axis.normalize()).norm() < SAME
+    }
+
     /// An angle with the whole turns that the travel of a rotary axis has room for, degrees.
     fn turns(&self, number: usize, angle: f64) -> Vec<f64> {
         let Some(rotary) = &self.rotaries[number] else { return vec![angle] };

@@ -1,8 +1,11 @@
 //! Which of the positions that bring the tool along its axis the rotary axes take at a RAPID
 //! behind which the motions are known: those from which they meet fewest limits and poles, the
-//! travel of X, Y and Z too. Else, and of several such, the nearest.
+//! travel of X, Y and Z too. Else, and of several such, the nearest. Where the tool lies along the
+//! pole the first axis may stand anywhere: there it may stand where the first tilt behind it wants
+//! it, so that the tool tilts without a swing.
 
 use fil_machine::axes::AxisSet;
+use fil_machine::axis_chain::AxisChain;
 use fil_machine::locations as loc;
 use fil_machine::tables::MachineTables;
 use nalgebra::{Point3, Vector3};
@@ -45,12 +48,30 @@ pub(super) fn choose(post: &mut Post, target: Target, kind: MotionKind) {
     let tables = &post.control.tables;
     let lean = post.control.commons.dbl_opt(loc::ROTARY_AXIS_TOLERANCE).unwrap_or(0.0);
     let way = |to: &[f64; 2]| (to[0] - last[0]).abs() + (to[1] - last[1]).abs();
-    let all = tables.chain().positions(axis, last).into_iter();
+    let all = candidates(tables.chain(), axis, &ahead, last).into_iter();
     let all = all.map(|to| (met(tables, to, &ahead, lean), to));
     let best = all.min_by(|(met, a), (other, b)| met.cmp(other).then(way(a).total_cmp(&way(b))));
     if let Some((_, to)) = best {
         post.path.chosen = Some(to);
     }
+}
+
+/// The positions for a tool axis; along the pole those from which the tool tilts to the first axis
+/// behind it that leaves the pole, too.
+fn candidates(
+    chain: &AxisChain,
+    axis: Vector3<f64>,
+    ahead: &[Ahead],
+    last: [f64; 2],
+) -> Vec<[f64; 2]> {
+    let mut all = chain.positions(axis, last);
+    let tilted = ahead.iter().map(|(_, next)| *next).find(|next| !chain.is_pole(*next));
+    let Some(tilted) = tilted.filter(|_| chain.is_pole(axis)) else { return all };
+    let seconds: Vec<f64> = all.iter().map(|at| at[1]).collect();
+    for tilt in chain.positions(tilted, last) {
+        all.extend(seconds.iter().map(|second| [tilt[0], *second]));
+    }
+    all
 }
 
 /// How many limits and poles the motions meet from a position of the rotary axes.

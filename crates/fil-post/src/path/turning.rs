@@ -117,12 +117,21 @@ fn refuse_pole(post: &Post, from: [f64; 2], to: [f64; 2]) -> Result<()> {
     if off <= most {
         return Ok(());
     }
-    PostCode::Pole.err(format!(
+    let mut diag = PostCode::Pole.diag(format!(
         "the rotary axes turn from {} to {} degrees in a motion at feed, and the tool leans \
          {off:.3} degrees out of the plane of its ends on the way",
         spelled(from),
         spelled(to)
-    ))
+    ));
+    if chain.is_pole(chain.axis_at(from)) && !post.control.commons.read(loc::REPOS_OPTIMISE) {
+        diag.hint = Some(
+            "The tool stands along the pole where the motion begins: where it does so since the last \
+             RAPID, repos.optimise = 1 turns the free axis there. Else RAPID before the tilt, or a \
+             tool axis a little off the pole from the start."
+                .into(),
+        );
+    }
+    Err(diag)
 }
 
 /// Two positions of rotary axes in a message.
