@@ -1,7 +1,8 @@
 //! The spindle: `S1000 M3`, `SPOS=90`, `LIMS=3000`.
 
 use fil_diag::Result;
-use fil_machine::letters::F;
+use fil_machine::FunctionCode;
+use fil_machine::letters::{F, S};
 use fil_machine::locations as loc;
 use fil_machine::modes::FeedMode;
 
@@ -9,10 +10,15 @@ use crate::control::Control;
 use crate::control::family::refuse;
 use crate::control::word_address::spindle as words;
 use crate::control_state::Rotation;
-use crate::operation::{Spindle, SpindleSpeed};
+use crate::operation::{Feed, Spindle, SpindleSpeed};
 
 /// Digits after the point of an angle, degrees.
 const DIGITS: usize = 3;
+
+/// A surface speed with feeds a turn, and the same with feeds a minute (Siemens, Programming Manual
+/// Fundamentals: G96, G961).
+const A_TURN: FunctionCode = FunctionCode::whole(96);
+const A_MINUTE: FunctionCode = FunctionCode::whole(961);
 
 /// Writes the spindle's words.
 ///
@@ -65,18 +71,40 @@ fn takes_feed_a_turn(control: &mut Control, speed: Option<SpindleSpeed>) {
     }
 }
 
-/// Refuses a feed mode that would end a surface speed.
+/// Says a feed mode under a surface speed, in a block of its own: G94 and G95 stand in one group with
+/// G96 and would end it, and G961 is G96 with feeds a minute. False where no surface speed is in
+/// force.
 ///
 /// # Errors
-/// One is in force.
-pub fn check_feed_mode(control: &Control) -> Result<()> {
-    if words::is_of_surface(control) {
+/// A text has given the surface speed, so that its S is not known; a machine that says it otherwise
+/// than by G96; inverse time.
+pub fn says_feed_mode(control: &mut Control, feed: &Feed) -> Result<bool> {
+    if !words::is_of_surface(control) {
+        return Ok(false);
+    }
+    let of_surface =
+        |speed: &SpindleSpeed| matches!(speed, SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_));
+    let usual = control.code_if_any(loc::SPINDLE_CSS_CODE).filter(|code| *code == A_TURN);
+    let code = match feed.mode {
+        FeedMode::PerMinute => Some(A_MINUTE),
+        FeedMode::PerRevolution => Some(A_TURN),
+        FeedMode::InverseTime => None,
+    };
+    let (Some(speed), Some(_), Some(code)) = (control.speed.filter(of_surface), usual, code) else {
         return refuse(
             "G94 or G95 under a surface speed: they stand in one group with G96 and would end it; \
              give the feed a turn, or SPINDL / RPM",
         );
-    }
-    Ok(())
+    };
+    let motion = control.block.take();
+    control.block.g(code, feed.cause.whole());
+    control.state.doubt(S);
+    let value = words::value_of(control, speed);
+    control.word(S, value)?;
+    control.write_block()?;
+    control.block = motion;
+    control.tables.format_feed(feed.mode);
+    Ok(true)
 }
 
 /// A number without zeros at its end.

@@ -52,11 +52,12 @@ fn refuse_standing(control: &Control) -> Result<()> {
 
 #[cold]
 fn say_feed_mode(control: &mut Control, feed: &Feed) -> Result<()> {
-    if control.tables.family == ControlFamily::Sinumerik {
-        sinumerik::spindle::check_feed_mode(control)?;
-    }
     if feed.mode == FeedMode::PerRevolution {
         refuse_standing(control)?;
+    }
+    let of_sinumerik = control.tables.family == ControlFamily::Sinumerik;
+    if of_sinumerik && sinumerik::spindle::says_feed_mode(control, feed)? {
+        return Ok(());
     }
     let code = control.code(feed_mode_code(feed.mode), "this feed mode")?;
     control.tables.format_feed(feed.mode);
