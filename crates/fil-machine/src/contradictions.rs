@@ -223,13 +223,15 @@ fn rapid_rules(commons: &Commons, found: &mut Vec<Diag>) {
     }
 }
 
-/// Formats of F by its mode need the point: without it a reader would have to know the mode.
+/// Formats of F by its mode, or as a lead, need the point: without it a reader would have to know
+/// the mode.
 fn feed_formats(commons: &Commons, found: &mut Vec<Diag>) {
     let addresses = Addresses::from_commons(commons, true);
     let pointless = addresses.format(letter::letters::F).is_some_and(|format| !format.point);
     for (at, name) in [
         (loc::FEED_UPM_FORMAT, "feed.upm_format"),
         (loc::FEED_INVERSE_FORMAT, "feed.inverse_format"),
+        (loc::THREAD_LEAD_FORMAT, "thread.lead_format"),
     ] {
         if pointless && commons.int_opt(at).is_some() {
             found.push(contradiction(format!("{name} is given, and F is written without a point")));

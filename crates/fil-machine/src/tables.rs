@@ -4,6 +4,7 @@
 use fil_diag::Result;
 use nalgebra::Vector3;
 
+use crate::Letter;
 use crate::address::Addresses;
 use crate::axes::{AXES, Axis, AxisSet, Position, linear_letters};
 use crate::axis_chain::{AxisChain, ROTARY_LETTERS};
@@ -35,6 +36,8 @@ pub struct MachineTables {
     /// The rules of feeds while a rotary axis turns.
     pub rotary_feed: RotaryFeedRules,
     feed_formats: FeedFormats,
+    /// Digits of the words of a lead, and whether those in mm count.
+    lead_digits: Option<(i32, bool)>,
     /// The language of the control.
     pub family: ControlFamily,
     /// Motions are written under tool-tip control.
@@ -94,6 +97,7 @@ impl MachineTables {
         self.rotary_feed = RotaryFeedRules::from_commons(&self.addresses, commons, metric);
         self.feed_formats = FeedFormats::from_commons(&self.addresses, commons, metric);
         self.format_feed(FeedMode::PerMinute);
+        self.lead_digits = commons.int_opt(loc::THREAD_LEAD_FORMAT).map(|digits| (digits, metric));
         let chain = AxisChain::from_commons(commons)?;
         let has_rotary = chain.has_rotary();
         let rotary_letter = mill_turn::letter(&chain);
@@ -220,6 +224,15 @@ impl MachineTables {
         if let Some(format) = self.feed_formats.of(mode) {
             self.addresses.set_format(F, format);
         }
+    }
+
+    /// The format of a letter where it is a lead, or what a lead changes by.
+    pub fn lead_format(&self, letter: Letter) -> Option<NumberFormat> {
+        let of_address = self.addresses.format(letter).copied()?;
+        Some(match self.lead_digits {
+            Some((digits, metric)) => of_address.with_digits(digits, metric),
+            None => of_address,
+        })
     }
 
     /// I, J and K are written as parts of a unit vector from now on, else as lengths.

@@ -207,3 +207,25 @@ fn the_letter_of_a_lead_on_a_taper() {
     }
     assert!(check("29.5755", "X59.151 Z-8 I1.5 K1.5").contains("needs its lead"));
 }
+
+/// On an OSP the lead is F by the number of threads in it, which acts in its block.
+#[test]
+fn a_number_of_threads_divides_the_lead() {
+    let cl = "LOADTL / 1; SPINDL / RPM, 500, CLW; RAPID; GOTO / 25, 0, 2; \
+              THREAD / AUTO, 20, 0, 2, TO, 20, 0, -16, TPI, 36, DEEP, 0.4, LAST, 0, TYPE, 0, 0.5, 0, \
+              FEDTO, 2, OUT";
+    let nc = "G95 G18; T010101; G97 S500 M3; G0 X50. Z2.; X44.; G33 X39.2 Z-16. F6.35 J9; \
+              G33 X39. Z-16. F6.35 J9; M2";
+    let check = |nc: &str| found("okuma-lathe", &[], cl, nc);
+    assert_eq!(check(nc), "");
+    for (old, new, said) in [
+        ("J9", "J8", "lead"),
+        (" J9", "", "lead"),
+        ("F6.35 J9; M2", "F6.35; M2", "lead"),
+        ("F6.35 J9; M2", "J9; M2", "lead"),
+        ("J9", "J0", "divides no F"),
+    ] {
+        let wrong = check(&nc.replacen(old, new, 1));
+        assert!(wrong.contains(said), "{new}: {wrong}");
+    }
+}

@@ -192,6 +192,8 @@ pub struct Dialect {
     pub(crate) threads_need_turns: bool,
     /// That of the taper in the threading cycle of one pass.
     pub(crate) thread_taper: u8,
+    /// That of the number of threads in F of that cycle; 0 for none.
+    pub(crate) thread_count: u8,
     /// That of the highest speed beside a surface speed; 0 for none.
     pub(crate) speed_limit: u8,
     /// That of the angle of an oriented spindle; 0 for none.
@@ -374,6 +376,7 @@ impl Dialect {
             names_noses: settings.code("tool.format") == Some(3),
             threads_need_turns: settings.code("thread.cycle") == Some(3),
             thread_taper: settings.letter("thread.taper_address"),
+            thread_count: settings.letter("thread.count_address"),
             speed_limit: settings.letter("spindle.max_address"),
             orientation: settings.letter("spindle.orient_address"),
             dwell_factor: factor(&settings, "dwell.upm_factor"),

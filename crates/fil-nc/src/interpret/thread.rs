@@ -119,7 +119,7 @@ impl State<'_> {
     /// In, along, out and back to where it began.
     pub(super) fn thread_pass(&mut self, words: &mut Words) -> Result<(), Fault> {
         let before = self.pass;
-        let lead = self.lead(words, &[F], before.map(|pass| pass.lead))?;
+        let (lead, is_share) = self.lead_of_pass(words, before)?;
         let axes = words.take_axes(self.dialect)?;
         let taper = match words.take(self.dialect.thread_taper)? {
             Some(taper) => Some(taper),
@@ -129,9 +129,29 @@ impl State<'_> {
         let taper = taper.map(|taper| self.length(X, taper)).or(before.map(|pass| pass.taper));
         let leaves = self.way_out(None)? * lead;
         let pass = Pass { x, z, taper: taper.unwrap_or(0.0), lead, leaves };
-        self.pass = Some(pass);
+        // A number of threads acts in its block, and what F counts behind it no block says.
+        self.pass = Some(Pass { lead: if is_share { 0.0 } else { lead }, ..pass });
         self.cut(pass, 0.0);
         Ok(())
+    }
+
+    /// The lead of the cycle of one pass: F by the number of threads in it, where the machine has a
+    /// word for that, and whether the block has it.
+    fn lead_of_pass(
+        &mut self,
+        words: &mut Words,
+        before: Option<Pass>,
+    ) -> Result<(f64, bool), Fault> {
+        let says_lead = words.has(F);
+        let lead = self.lead(words, &[F], before.map(|pass| pass.lead))?;
+        let letter = self.dialect.thread_count;
+        if letter == 0 || !words.has(letter) {
+            return Ok((lead, false));
+        }
+        match words.take_whole(letter)? {
+            Some(count) if says_lead && count > 0 => Ok((lead / f64::from(count), true)),
+            _ => Err(Fault::new(NcCode::BadNumber, "a number of threads that divides no F")),
+        }
     }
 
     /// The way on which a cycle leaves a thread, in leads, where M codes switch it: that of the

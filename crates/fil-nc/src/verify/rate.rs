@@ -158,9 +158,12 @@ impl<C: Steps> Walk<'_, C> {
     /// How far a lead may be off: a cycle that says it in a word of its own has more digits
     /// than F.
     fn slack_of_lead(&self, found: &Move, lead: f64) -> f64 {
-        let of_cycle = found.in_cycle && found.course == Course::Thread;
         let by_letters = self.settings.dialect.family == Family::WordAddress;
-        if of_cycle && !by_letters { PITCH * lead } else { self.slack.turn }
+        match found.course {
+            Course::Thread if found.in_cycle && !by_letters => PITCH * lead,
+            Course::Thread => self.slack.lead,
+            _ => self.slack.turn,
+        }
     }
 
     /// The feed of the center of the cutter on a compensated arc, where the machine's

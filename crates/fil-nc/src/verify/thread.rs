@@ -224,7 +224,7 @@ impl<C: Steps> Walk<'_, C> {
     /// A pass has the lead of the thread.
     fn has_lead(&self, pass: &Move, gauge: &Gauge) -> bool {
         let Some(Rate::PerTurn(lead)) = pass.rate else { return false };
-        (lead - gauge.thread.lead).abs() <= LEAD * gauge.thread.lead + self.slack.turn
+        (lead - gauge.thread.lead).abs() <= LEAD * gauge.thread.lead + self.slack.lead
     }
 
     /// A pass comes after rapids only.
@@ -244,7 +244,7 @@ impl<C: Steps> Walk<'_, C> {
             Some(Rate::PerTurn(lead)) => lead,
             _ => return wrong("a pass of the thread without its lead".to_string()),
         };
-        if (lead - thread.lead).abs() > LEAD * thread.lead + self.slack.turn {
+        if (lead - thread.lead).abs() > LEAD * thread.lead + self.slack.lead {
             return wrong(format!(
                 "the lead is {}, it should be {}",
                 short(lead),

@@ -72,6 +72,8 @@ pub struct Slack {
     pub feed: f64,
     /// Feed, mm a turn.
     pub turn: f64,
+    /// Lead of a thread, mm.
+    pub lead: f64,
     /// Feed in inverse time, blocks a minute.
     pub inverse: f64,
     /// Spindle speed, turns/min.
@@ -233,6 +235,7 @@ impl<'c> Settings<'c> {
             cycle: of_axis(letters::XYZ[2], 2, unit),
             feed: half_of_feed(loc::FEED_UPM_FORMAT) * unit / self.feed_factor() + DUST,
             turn: half(letters::F) * unit + DUST,
+            lead: half_of_feed(loc::THREAD_LEAD_FORMAT) * unit + DUST,
             inverse: half_of_feed(loc::FEED_INVERSE_FORMAT) / self.inverse_factor() + DUST,
             speed: half(letters::S) + DUST,
             surface: half(letters::S) * if metric { 1.0 } else { FOOT } + DUST,

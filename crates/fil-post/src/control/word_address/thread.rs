@@ -6,6 +6,7 @@ use fil_diag::Result;
 use fil_machine::axes::AxisSet;
 use fil_machine::locations::{self as loc, ThreadCycle};
 use fil_machine::modes::FeedMode;
+use fil_machine::number::NumberFormat;
 use fil_machine::rounding::Rounding;
 use fil_machine::{FunctionCode, Letter};
 
@@ -172,7 +173,7 @@ fn two_blocks(
     }
     cut.raw('P', &steps(thread.depth, unit, true)?);
     cut.raw('Q', &steps(ends.first, unit, true)?);
-    cut.word('F', thread.lead.value, Rounding::Lead)?;
+    cut.lead('F', thread.lead.value)?;
     let (setup, cut) = (setup.text, cut.text);
     control.because(thread.lead.cause, |control| {
         control.write_text(&setup, true)?;
@@ -192,7 +193,7 @@ fn one_block(post: &mut Post, thread: &Thread, ends: &Ends, code: FunctionCode) 
     line.word('K', thread.depth, Rounding::Lead)?;
     line.word('D', ends.first, Rounding::Rate)?;
     line.word('A', thread.angle, Rounding::Nearest)?;
-    line.word('F', thread.lead.value, Rounding::Lead)?;
+    line.lead('F', thread.lead.value)?;
     let text = line.text;
     control.because(thread.lead.cause, |control| control.write_text(&text, true))
 }
@@ -213,7 +214,7 @@ fn linuxcnc(
     let root = x(ends.root[0])?;
     let factor = (root - crest) / (ends.root[0] - ends.crest[0][0]);
     let mut line = Line::new(control, code)?;
-    line.word('P', thread.lead.value, Rounding::Lead)?;
+    line.lead('P', thread.lead.value)?;
     line.axis(2, ends.root[1])?;
     line.word('I', crest - drive, Rounding::Nearest)?;
     line.word('J', (ends.first * factor).abs(), Rounding::Rate)?;
@@ -283,11 +284,33 @@ impl<'c> Line<'c> {
     fn word(&mut self, letter: char, value: f64, rounding: Rounding) -> Result<()> {
         let letter = Letter::of(letter as u8);
         self.control.require_letter(letter)?;
-        let Some(position) = self.control.tables.addresses.position(letter) else { return Ok(()) };
-        let slot = self.control.tables.addresses.slot(position);
-        let scaled = rounding.scale(value, &slot.format);
+        let format = self.control.tables.addresses.format(letter).copied();
+        self.formatted(letter, value, rounding, format)
+    }
+
+    /// A lead, in the format of leads.
+    fn lead(&mut self, letter: char, value: f64) -> Result<()> {
+        let letter = Letter::of(letter as u8);
+        self.control.require_letter(letter)?;
+        let format = self.control.tables.lead_format(letter);
+        self.formatted(letter, value, Rounding::Lead, format)
+    }
+
+    fn formatted(
+        &mut self,
+        letter: Letter,
+        value: f64,
+        rounding: Rounding,
+        format: Option<NumberFormat>,
+    ) -> Result<()> {
+        let addresses = &self.control.tables.addresses;
+        let (Some(position), Some(format)) = (addresses.position(letter), format) else {
+            return Ok(());
+        };
+        let character = addresses.slot(position).character;
+        let scaled = rounding.scale(value, &format);
         let scaled = scaled.map_err(|diag| crate::block::named(diag, letter))?;
-        self.put(slot.character, |out| slot.format.write(scaled, out));
+        self.put(character, |out| format.write(scaled, out));
         Ok(())
     }
 
