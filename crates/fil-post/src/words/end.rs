@@ -65,7 +65,9 @@ fn judge_arcs(post: &mut Post) -> Result<()> {
             return PostCode::ArcSense.err(why);
         }
         Verdict::Open(_) if post.path.sense_is_chosen => {}
-        Verdict::Doubtful(why) | Verdict::Unproved(why) | Verdict::Open(why) => post.warn(PostCode::ArcUnproved, why),
+        Verdict::Doubtful(why) | Verdict::Unproved(why) | Verdict::Open(why) => {
+            post.warn(PostCode::ArcUnproved, why)
+        }
     }
     Ok(())
 }

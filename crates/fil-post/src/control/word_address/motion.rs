@@ -207,9 +207,9 @@ pub fn pass_by(
     let letters: Vec<Letter> = words.iter().map(|(letter, _)| *letter).collect();
     let usual = format_leads(control, &letters);
     control.because(cause, |control| {
-        words.iter().try_for_each(|(letter, value)| {
-            control.word_rounded(*letter, *value, Rounding::Lead)
-        })
+        words
+            .iter()
+            .try_for_each(|(letter, value)| control.word_rounded(*letter, *value, Rounding::Lead))
     })?;
     write_motion(control)?;
     for (letter, format) in letters.into_iter().zip(usual) {
