@@ -157,7 +157,7 @@ impl<C: Steps> Walk<'_, C> {
 
     /// How far a lead may be off: a cycle that says it in a word of its own has more digits
     /// than F.
-    fn slack_of_lead(&self, found: &Move, lead: f64) -> f64 {
+    pub(super) fn slack_of_lead(&self, found: &Move, lead: f64) -> f64 {
         let by_letters = self.settings.dialect.family == Family::WordAddress;
         match found.course {
             Course::Thread if found.in_cycle && !by_letters => PITCH * lead,

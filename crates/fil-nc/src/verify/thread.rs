@@ -224,7 +224,15 @@ impl<C: Steps> Walk<'_, C> {
     /// A pass has the lead of the thread.
     fn has_lead(&self, pass: &Move, gauge: &Gauge) -> bool {
         let Some(Rate::PerTurn(lead)) = pass.rate else { return false };
-        (lead - gauge.thread.lead).abs() <= LEAD * gauge.thread.lead + self.slack.lead
+        (lead - gauge.thread.lead).abs() <= self.slack_of_pass(pass, gauge.thread.lead)
+    }
+
+    /// How far the lead of a pass may be off: a cycle that says it in a word of its own has other
+    /// digits than the address, and along the path the rounded ends of the pass change it, too.
+    fn slack_of_pass(&self, pass: &Move, lead: f64) -> f64 {
+        let along_path = self.settings.dialect.lead_along_path;
+        let share = if along_path { LEAD * lead } else { 0.0 };
+        share + self.slack_of_lead(pass, lead)
     }
 
     /// A pass comes after rapids only.
@@ -244,7 +252,7 @@ impl<C: Steps> Walk<'_, C> {
             Some(Rate::PerTurn(lead)) => lead,
             _ => return wrong("a pass of the thread without its lead".to_string()),
         };
-        if (lead - thread.lead).abs() > LEAD * thread.lead + self.slack.lead {
+        if (lead - thread.lead).abs() > self.slack_of_pass(found, thread.lead) {
             return wrong(format!(
                 "the lead is {}, it should be {}",
                 short(lead),

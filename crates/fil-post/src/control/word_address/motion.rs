@@ -1,13 +1,12 @@
 //! Straight motions: axis words, the motion function, the feed.
 
 mod feed_words;
+mod leads;
 
 use fil_diag::Result;
 use fil_machine::axes::{AXES, AxisSet, Position};
 use fil_machine::letters::{F, H};
 use fil_machine::locations::{self as loc, ControlFamily};
-use fil_machine::modes::FeedMode;
-use fil_machine::number::NumberFormat;
 use fil_machine::rounding::Rounding;
 use fil_machine::{FunctionCode, Letter};
 
@@ -18,16 +17,12 @@ use crate::control_state::{Compensation, Meaning};
 use crate::errors::PostCode;
 use crate::operation::{Feed, Lead};
 pub use feed_words::{feed_mode, feed_words, leave_inverse_time};
+use leads::format_leads;
+pub use leads::{end_lead, lead_mode, lead_word, of_lead};
 
 /// A smaller motion along an axis whose words are off the tape is none, mm, inch or
 /// degrees.
 const OFF_THE_TAPE: f64 = 1e-3;
-
-/// Most threads whose lead is said at once: as many an inch.
-const MOST_THREADS: u32 = 200;
-
-/// A lead of several threads that rounding changes less is held to the digit, mm or inch.
-const TO_THE_DIGIT: f64 = 1e-7;
 
 /// A motion of the machine's axes.
 #[derive(Clone, Copy, Debug)]
@@ -160,30 +155,6 @@ pub fn varying_thread(
     pass_by(control, motion, code, &words, lead.cause)
 }
 
-/// Brings the control to feeds a turn, in a block of its own, where F is the lead of a thread: some
-/// controls cut no thread in another mode (Haas, G32), the others read the lead in any.
-///
-/// # Errors
-/// As a block.
-pub fn lead_mode(control: &mut Control, cause: Cause) -> Result<()> {
-    let is_said = control.state.feed_mode == Some(FeedMode::PerRevolution);
-    let Some(code) = control.code_if_any(loc::FEED_UPR_CODE).filter(|_| !is_said) else {
-        return Ok(());
-    };
-    let motion = control.block.take();
-    control.block.g(code, cause.whole());
-    control.write_block()?;
-    control.block = motion;
-    Ok(())
-}
-
-/// Behind a lead F is a feed again, in the format of its mode.
-pub fn end_lead(control: &mut Control) {
-    control.state.doubt(F);
-    let mode = control.state.feed_mode.unwrap_or(FeedMode::PerMinute);
-    control.tables.format_feed(mode);
-}
-
 /// One pass by a function with the words of its lead.
 ///
 /// # Errors
@@ -206,11 +177,13 @@ pub fn pass_by(
     motion_code(control, code, false, cause.whole());
     let letters: Vec<Letter> = words.iter().map(|(letter, _)| *letter).collect();
     let usual = format_leads(control, &letters);
-    control.because(cause, |control| {
-        words
-            .iter()
-            .try_for_each(|(letter, value)| control.word_rounded(*letter, *value, Rounding::Lead))
-    })?;
+    control
+        .because(cause, |control| {
+            words.iter().try_for_each(|(letter, value)| {
+                control.word_rounded(*letter, *value, Rounding::Lead)
+            })
+        })
+        .map_err(of_lead)?;
     write_motion(control)?;
     for (letter, format) in letters.into_iter().zip(usual) {
         control.state.doubt(letter);
@@ -218,58 +191,6 @@ pub fn pass_by(
     }
     end_lead(control);
     Ok(())
-}
-
-/// Leads are written in their own format from now on; the formats that the letters had.
-fn format_leads(control: &mut Control, letters: &[Letter]) -> Vec<Option<NumberFormat>> {
-    // A lead is a way a turn.
-    control.tables.format_feed(FeedMode::PerRevolution);
-    let tables = &mut control.tables;
-    letters
-        .iter()
-        .map(|letter| {
-            let usual = tables.addresses.format(*letter).copied();
-            if let Some(format) = tables.lead_format(*letter) {
-                tables.addresses.set_format(*letter, format);
-            }
-            usual
-        })
-        .collect()
-}
-
-/// Adds the lead as F, in its own format until [`end_lead`]: where F alone can't hold it, as that
-/// of several threads with their number beside it, on a machine that has a word for that.
-///
-/// # Errors
-/// A lead that the address can't hold.
-pub fn lead_word(control: &mut Control, lead: &Lead) -> Result<()> {
-    format_leads(control, &[F]);
-    let counted = control.commons.read(loc::THREAD_COUNT_ADDRESS);
-    let threads = counted.and_then(|letter| Some((letter, threads_in_lead(control, lead.value)?)));
-    control.because(lead.cause, |control| {
-        let Some((letter, threads)) = threads else {
-            return control.word_rounded(F, lead.value, Rounding::Lead);
-        };
-        let threads = f64::from(threads);
-        control.word_rounded(F, lead.value * threads, Rounding::Lead)?;
-        control.word_rounded(letter, threads, Rounding::Exact)?;
-        control.state.doubt(letter);
-        Ok(())
-    })
-}
-
-/// The least number of threads whose lead F holds to the digit; `None` where F holds that of one, or
-/// that of no such number.
-fn threads_in_lead(control: &Control, lead: f64) -> Option<u32> {
-    let format = control.tables.addresses.format(F)?;
-    if Rounding::Lead.scale(lead, format).is_ok() {
-        return None;
-    }
-    (2..=MOST_THREADS).find(|threads| {
-        let way = lead * f64::from(*threads);
-        let scaled = Rounding::Lead.scale(way, format);
-        scaled.is_ok_and(|scaled| (format.unscale(scaled) - way).abs() < TO_THE_DIGIT)
-    })
 }
 
 /// Brings the control into the modes a motion counts on.

@@ -293,7 +293,7 @@ impl<'c> Line<'c> {
         let letter = Letter::of(letter as u8);
         self.control.require_letter(letter)?;
         let format = self.control.tables.lead_format(letter);
-        self.formatted(letter, value, Rounding::Lead, format)
+        self.formatted(letter, value, Rounding::Lead, format).map_err(motion::of_lead)
     }
 
     fn formatted(
