@@ -77,7 +77,12 @@ impl Header {
     pub fn post(&self) -> Result<Program, Error> {
         let mut builder = Program::builder().ready(self.post.as_deref().unwrap_or("fanuc-mill"));
         let bare = if self.whole { &[] } else { BARE };
-        for setting in bare.iter().copied().chain(self.settings.iter().map(String::as_str)) {
+        // The plane of a SINUMERIK lathe says along which axes the lengths of its tools count.
+        let turns = ["sinumerik-lathe", "sinumerik-mill-turn"];
+        let turns = self.post.as_deref().is_some_and(|post| turns.contains(&post));
+        let plane = (turns && !self.whole).then_some("circle.plane_in_force=18");
+        let bare = bare.iter().copied().chain(plane);
+        for setting in bare.chain(self.settings.iter().map(String::as_str)) {
             builder = builder.set(setting);
         }
         if !self.fil.is_empty() {

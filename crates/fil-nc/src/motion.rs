@@ -173,6 +173,30 @@ pub fn work_offset(name: &str) -> Option<u32> {
     }
 }
 
+/// A plane along whose normal the lengths of a tool act, where they should act along another one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OtherPlane {
+    /// Index of its normal.
+    pub normal: usize,
+    /// Index of the normal of the plane that should be in force.
+    pub must: usize,
+    /// The line that has said it; 0 where the machine was in it when the program began.
+    pub line: u32,
+    /// A record may ask for it: it is that of a live tool outside of TRANSMIT.
+    pub may_be_asked: bool,
+}
+
+impl std::fmt::Display for OtherPlane {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [name, must] = [self.normal, self.must].map(|normal| ["G19", "G18", "G17"][normal]);
+        match self.line {
+            0 => write!(f, "{name} is in force when the program begins")?,
+            line => write!(f, "{name} of line {line} is in force")?,
+        }
+        write!(f, ", it should be {must}: the lengths of the tool act along other axes")
+    }
+}
+
 /// What is in force besides the motion itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Modes {
@@ -218,12 +242,12 @@ pub struct Modes {
     /// A plane other than XY that the program of a mill has said, by the index of its normal,
     /// and the line of that; of motions alone.
     pub plane: Option<(usize, u32)>,
+    /// The plane that the program of a SINUMERIK lathe is in, where its motion needs another; of
+    /// motions alone.
+    pub other_plane: Option<OtherPlane>,
     /// The plane in force, by the index of its normal, while cutter compensation is on; of motions
     /// alone.
     pub compensation_plane: Option<usize>,
-    /// The plane in force, by the index of its normal, where a lathe's control counts the lengths
-    /// of a tool along the axes of it; of motions of turning tools alone.
-    pub turning_plane: Option<usize>,
     /// Lengths of the program are inches.
     pub inch: bool,
     /// A drilling cycle is on; said where a tool is changed and at the end.

@@ -58,7 +58,7 @@ const ROUNDED: [&str; 17] = [
 
 /// Words of an axis, by the program, the letter and the block, that bring no tool to the part
 /// elsewhere, whatever they say.
-const IDLE: [(&str, u8, &str); 34] = [
+const IDLE: [(&str, u8, &str); 36] = [
     // The rapid to where polar interpolation begins: what is left of the way is made in it.
     ("corpus/lathe/fanuc-mill-turn/", b'X', "G0 X26. C0.`"),
     ("corpus/lathe/fanuc-mill-turn/", b'X', "G0 X30. C0.`"),
@@ -76,11 +76,13 @@ const IDLE: [(&str, u8, &str); 34] = [
     ("corpus/klartext/helices", b'Y', "CC X-13.3333 Y-0.0002`"),
     ("heidenhain-tnc640/inches", b'X', "CC X+0.75004 Y+0.50002`"),
     ("heidenhain-tnc640/inches", b'Y', "CC X+0.75004 Y+0.50002`"),
-    // A rapid above the part, from which the cycle goes to its own place.
+    // A rapid beside the part, from which the cycle goes to its own place.
     ("heidenhain-tnc640/holes", b'X', "L X+0 Y+20 FMAX`"),
     ("heidenhain-tnc640/holes", b'Y', "L X+0 Y+20 FMAX`"),
     ("words/cycle-return-behind-another-zero-goes-across-first", b'X', "`X20. Y0.`"),
     ("words/cycle-return-behind-another-zero-goes-across-first", b'Y', "`X20. Y0.`"),
+    ("words/thread-by-cycle97", b'X', "`G0 X28 Z3`"),
+    ("words/thread-by-cycle97", b'Z', "`G0 X28 Z3`"),
     // The height to which the tool goes up, and from which it comes back at feed.
     ("words/cycle-bore-single-moves-as-its-cycle", b'Z', "`Z302.`"),
     ("words/rotary-limit-retracts-", b'Z', "Z4.508`"),

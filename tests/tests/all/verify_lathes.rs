@@ -1,6 +1,23 @@
 //! What the back-check finds in programs of lathes and mill-turn machines by hand.
 
+use filpost::Program;
 use filpost_tests::back_check::found;
+
+/// What a ready post with settings makes of a CL file in mm, without block numbers and with `; `
+/// between blocks, as it stands in the file.
+fn nc_of(ready: &str, settings: &[&str], cl: &str) -> String {
+    let start = Program::builder().ready(ready);
+    let post = settings.iter().fold(start, |builder, setting| builder.set(setting));
+    let cl = format!("UNITS / MM\n{}\nFINI\n", cl.replace("; ", "\n"));
+    let mut nc = Vec::new();
+    post.build().expect("a machine").run(cl.as_bytes(), &mut nc).expect("a program");
+    let nc = String::from_utf8(nc).expect("text");
+    let bare = |line: &str| match line.split_once(' ') {
+        Some((number, rest)) if number.starts_with('N') => rest.to_string(),
+        _ => line.to_string(),
+    };
+    nc.lines().map(bare).collect::<Vec<_>>().join("; ")
+}
 
 /// A live tool that the record compensates must be, in the plane of the record.
 #[test]
@@ -158,23 +175,13 @@ fn speed_modes_of_a_feed_a_minute_are_followed() {
     assert_ne!(found("sinumerik-lathe", &[], &a_turn(cl), &a_turn(nc)), "");
 }
 
-/// On a SINUMERIK the plane says along which axes the lengths of a tool count.
-#[test]
-fn a_turning_tool_in_another_plane_is_found_on_a_sinumerik() {
-    let cl = "LOADTL / 1; SPINDL / RPM, 500, CLW; FEDRAT / 0.2, MMPR; RAPID; GOTO / 20, 0, 2; \
-              GOTO / 20, 0, -10; GOTO / 22, 0, -10";
-    let nc = "%_N_PART_MPF; G710 G90 G95 G18; DIAMON; T1; D1; G97 S500 M3; G0 X40 Z2; \
-              G1 Z-10 F0.2; X44; M30";
-    let check = |nc: &str| found("sinumerik-lathe", &[], cl, nc);
+/// Exchanges pieces of a program, each of which must be found.
+fn each_is_found(check: &dyn Fn(&str) -> String, nc: &str, changes: &[(&str, &str, &str)]) {
     assert_eq!(check(nc), "");
-    for (old, new, said) in [
-        ("G18", "G17", "plane"),
-        ("DIAMON", "DIAMON; G19", "plane"),
-        ("X44", "G17 X44", "plane"),
-        (" G18", "", "the plane is left to the control"),
-    ] {
+    for (old, new, said) in changes {
+        assert!(nc.contains(old), "no {old} in {nc}");
         let wrong = check(&nc.replacen(old, new, 1));
-        assert!(wrong.contains(said), "{new}: {wrong}");
+        assert!(wrong.contains(said), "{old} to {new}: {wrong}");
     }
 }
 
@@ -228,4 +235,68 @@ fn a_number_of_threads_divides_the_lead() {
         let wrong = check(&nc.replacen(old, new, 1));
         assert!(wrong.contains(said), "{new}: {wrong}");
     }
+}
+
+/// The plane says along which axes a SINUMERIK lathe counts the lengths of a tool.
+#[test]
+fn a_lathe_that_turns_in_another_plane_is_found() {
+    let cl = "LOADTL / 3; SPINDL / RPM, 500, CLW; FEDRAT / 0.2, MMPR; RAPID; GOTO / 20, 0, 2; \
+              GOTO / 20, 0, -10; RAPID; GOTO / 22, 0, 2";
+    let nc = "%_N_MPF1_MPF; G710 G90 G95 G18; DIAMON; T3; D1; G97 S500 M3; G0 X40 Z2; G1 Z-10 F0.2; \
+              G0 X44 Z2; M30";
+    let check = |nc: &str| found("sinumerik-lathe", &[], cl, nc);
+    each_is_found(
+        &check,
+        nc,
+        &[
+            (" G18", "", "the plane is left to the control"),
+            ("G18", "G17", "G17 of line 2 is in force, it should be G18"),
+            ("G18", "G19", "G19 of line 2 is in force, it should be G18"),
+            ("G1 Z-10", "G17 G1 Z-10", "G17 of line 8 is in force, it should be G18"),
+            ("T3;", "T3; G19;", "G19 of line 5 is in force, it should be G18"),
+        ],
+    );
+    let states = |code| format!("circle.plane_in_force={code}");
+    let bare = nc.replace(" G18", "");
+    assert_eq!(found("sinumerik-lathe", &[&states(18)], cl, &bare), "");
+    let said = found("sinumerik-lathe", &[&states(17)], cl, &bare);
+    assert!(said.contains("G17 is in force when the program begins"), "{said}");
+}
+
+/// TRANSMIT counts in G17, and what stands behind it in G18 again.
+#[test]
+fn the_plane_of_transmit_left_out_or_left_on_is_found() {
+    let cl = "MODE / MILL; LOADTL / 1; SPINDL / RPM, 1000, CLW; FEDRAT / 300, MMPM; RAPID; \
+              GOTO / 40, 5, 5; GOTO / 40, 5, -2; GOTO / 40, -5, -2; RAPID; GOTO / 40, -5, 5; \
+              MODE / TURN; LOADTL / 3; SPINDL / RPM, 500, CLW; FEDRAT / 0.2, MMPR; RAPID; \
+              GOTO / 20, 0, 2; GOTO / 20, 0, -10";
+    let nc = nc_of("sinumerik-mill-turn", &[], cl);
+    let check = |nc: &str| found("sinumerik-mill-turn", &[], cl, nc);
+    each_is_found(
+        &check,
+        &nc,
+        &[
+            ("; G17;", "; ", "it should be G17"),
+            ("; G17;", "; G19; ", "it should be G17"),
+            ("TRAFOOF; DIAMON; G18", "TRAFOOF; DIAMON", "it should be G18"),
+        ],
+    );
+}
+
+/// TRACYL counts in G18, as turning does.
+#[test]
+fn another_plane_of_tracyl_is_found() {
+    let cl = "MODE / MILL; LOADTL / 8; SPINDL / RPM, 2500, CLW; MULTAX / ON; RAPID; \
+              GOTO / 30, 0, -20, 1, 0, 0; FEDRAT / 60, MMPM; GOTO / 25, 0, -20, 1, 0, 0; \
+              GOTO / 24.904867, 2.178894, -20.2778, 0.996194698, 0.087155743, 0";
+    let nc = nc_of("sinumerik-mill-turn", &[], cl);
+    let check = |nc: &str| found("sinumerik-mill-turn", &[], cl, nc);
+    each_is_found(
+        &check,
+        &nc,
+        &[
+            ("TRACYL(50);", "TRACYL(50); G17;", "it should be G18"),
+            ("M70;", "M70; G19;", "it should be G18"),
+        ],
+    );
 }

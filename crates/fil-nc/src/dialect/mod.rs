@@ -260,7 +260,7 @@ impl Dialect {
         self.scales[0].is_some_and(Scale::is_diameter)
     }
 
-    /// The plane says along which axes the lengths of a turning tool count, as on a SINUMERIK.
+    /// The plane in force says along which axes the lengths of a tool count, as on a SINUMERIK lathe.
     pub fn counts_lengths_in_plane(&self) -> bool {
         self.family == Family::Sinumerik && self.counts_diameters()
     }

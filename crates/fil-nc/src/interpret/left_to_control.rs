@@ -43,7 +43,9 @@ impl State<'_> {
             StartMode::Positions => uses.positions && any(&|found| found.course != Course::Machine),
             StartMode::Feed => any(&|found| found.course == Course::Feed),
             StartMode::Plane => any(&|found| {
-                self.dialect.counts_lengths_in_plane()
+                let counts_lengths =
+                    self.dialect.counts_lengths_in_plane() && found.course != Course::Machine;
+                counts_lengths
                     || found.arc.is_some()
                     || of_cycle(found)
                     || found.modes.compensation != Compensation::Off

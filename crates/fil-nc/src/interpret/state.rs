@@ -7,8 +7,12 @@ use super::words::{AxisWord, Words};
 use crate::dialect::{Certain, Dialect, FeedMode, Function};
 use crate::errors::NcCode;
 use crate::motion::{
-    Arc, Compensation, Course, DRILLED, Event, Modes, Move, Position, Rate, Tilt, unit,
+    Arc, Compensation, Course, DRILLED, Event, Modes, Move, OtherPlane, Position, Rate, StartMode,
+    Tilt, unit,
 };
+
+/// The normal of the plane in which a lathe turns.
+const TURNED: usize = 1;
 
 /// X, Y, Z in mm, primary and secondary rotary axis in degrees.
 pub(super) type Axes = [f64; 5];
@@ -86,7 +90,7 @@ impl<'d> State<'d> {
             zero: [0.0; 3],
             motion: None,
             plane: dialect.plane,
-            said_plane: DRILLED,
+            said_plane: if dialect.lathe { dialect.plane } else { DRILLED },
             plane_line: 0,
             metric: dialect.metric,
             absolute: dialect.absolute,
@@ -118,9 +122,28 @@ impl<'d> State<'d> {
 
     /// Remembers where the plane in force was said first.
     pub(super) fn say_plane(&mut self, normal: usize) {
-        if self.said_plane != normal {
+        if self.said_plane != normal || self.plane_line == 0 {
             (self.said_plane, self.plane_line) = (normal, self.line);
         }
+    }
+
+    /// The plane in force on a SINUMERIK lathe, where it is not that in which the lengths of the
+    /// tool count rightly: X and Y in TRANSMIT, Z and X for all else.
+    fn other_plane(&self) -> Option<OtherPlane> {
+        // Of a plane that neither the program nor the machine says that much is told elsewhere.
+        let is_unsaid = self.plane_line == 0 && !self.dialect.certain.has(StartMode::Plane);
+        let is_open = is_unsaid || self.live && !self.dialect.transforms;
+        if !self.dialect.counts_lengths_in_plane() || is_open {
+            return None;
+        }
+        let must = if self.polar { DRILLED } else { TURNED };
+        let may_be_asked = self.live && !self.polar;
+        (self.plane != must).then_some(OtherPlane {
+            normal: self.plane,
+            must,
+            line: self.plane_line,
+            may_be_asked,
+        })
     }
 
     /// Takes the unit of what follows.
@@ -212,11 +235,10 @@ impl<'d> State<'d> {
         let usual = [DRILLED, self.dialect.plane].contains(&self.said_plane);
         let is_other = !usual && !self.dialect.lathe;
         let plane = is_other.then_some((self.said_plane, self.plane_line));
+        let other_plane = self.other_plane().filter(|_| course != Course::Machine);
         let is_compensated = self.modes.compensation != Compensation::Off;
         let compensation_plane = is_compensated.then_some(self.plane);
         let transformed = self.dialect.transforms && (self.polar || self.cylinder.is_some());
-        let turning_plane = (self.dialect.counts_lengths_in_plane() && !transformed && !self.live)
-            .then_some(self.plane);
         self.events.push(Event::Move(Move {
             line: self.line,
             course,
@@ -232,7 +254,7 @@ impl<'d> State<'d> {
             in_cycle: course != Course::Machine && (self.cycle.is_some() || self.pass.is_some()),
             known,
             to_machine: [false; 5],
-            modes: Modes { plane, compensation_plane, turning_plane, ..self.modes },
+            modes: Modes { plane, other_plane, compensation_plane, ..self.modes },
         }));
     }
 

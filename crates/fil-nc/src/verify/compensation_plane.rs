@@ -1,5 +1,5 @@
 //! The plane in which the cutter is compensated, where only one is meant: that of its record for a
-//! live tool, X and Z on a lathe without Y; and the one in which the lengths of a turning tool act.
+//! live tool, X and Z on a lathe without Y.
 
 use super::modes::Expected;
 use super::say::PLANES;
@@ -36,14 +36,6 @@ impl Expected {
     /// The plane in which a live tool is compensated, by the index of its normal.
     pub(super) fn plane_of_live_tool(&self) -> Option<usize> {
         (self.meant_plane == MeantPlane::OfMillTurn && self.mills()).then_some(self.plane)
-    }
-
-    /// A turning tool moves in another plane than that of X and Z, so that its lengths act along
-    /// other axes.
-    pub(super) fn wrong_turning_plane(&self, modes: &Modes) -> Option<String> {
-        let found = modes.turning_plane.filter(|found| *found != ZX && !self.mills())?;
-        let found = PLANES[found];
-        Some(format!("the lengths of a turning tool act in the plane {found}, it should be ZX"))
     }
 
     /// The cutter is compensated in another plane than is meant.

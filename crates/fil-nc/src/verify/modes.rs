@@ -451,7 +451,6 @@ impl Expected {
             wrong.push((FindingKind::Compensation, said_of_compensation(found, must)));
         }
         wrong.extend(self.wrong_plane(modes).map(|said| (FindingKind::Compensation, said)));
-        wrong.extend(self.wrong_turning_plane(modes).map(|said| (FindingKind::Tool, said)));
         let spindle = |may: Option<Spindle>| may.is_none_or(|may| may == modes.spindle);
         if let Some(Some(must)) = self.spindle.refuses(spindle) {
             wrong.push((

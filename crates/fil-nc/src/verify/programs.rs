@@ -408,6 +408,11 @@ impl Pair<'_> {
                 "the length of the tool acts along another axis".to_string(),
             ),
             (
+                a.other_plane.map(|other| other.normal) != b.other_plane.map(|other| other.normal),
+                FindingKind::Tool,
+                "the lengths of the tool act along other axes".to_string(),
+            ),
+            (
                 a.moved_zero.is_some() != b.moved_zero.is_some(),
                 FindingKind::Fixture,
                 "the zero is moved, or not, by a statement".to_string(),

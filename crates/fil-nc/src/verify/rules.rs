@@ -3,7 +3,7 @@
 
 use super::report::{Finding, FindingKind, Report};
 use super::rotary_rules::RotaryRules;
-use crate::motion::{Compensation, Course, Event, Modes, Move};
+use crate::motion::{Compensation, Course, Event, Modes, Move, OtherPlane};
 
 /// Looks at the events of a program in their order.
 #[derive(Debug)]
@@ -16,6 +16,8 @@ pub(super) struct Rules {
     stray: Option<u32>,
     /// The hole drilled under compensation has been said.
     said_of_cycle: bool,
+    /// The plane of which was said that it is another.
+    other_plane: Option<OtherPlane>,
     rotary: RotaryRules,
 }
 
@@ -27,6 +29,7 @@ impl Rules {
             compensation: Compensation::default(),
             stray: None,
             said_of_cycle: false,
+            other_plane: None,
             rotary: RotaryRules::new(is_mill_turn),
         }
     }
@@ -70,6 +73,7 @@ impl Rules {
 
     fn motion(&mut self, found: &Move) {
         self.stray_offset(found.line, &found.modes);
+        self.plane(found);
         let now = found.modes.compensation;
         let before = std::mem::replace(&mut self.compensation, now);
         let is_on = now != Compensation::Off;
@@ -84,6 +88,15 @@ impl Rules {
             self.find(FindingKind::Compensation, found.line, message);
         }
         self.said_of_cycle = drills && is_on;
+    }
+
+    /// The lengths of a turning tool, and of a live one in TRANSMIT, act in one plane alone.
+    fn plane(&mut self, found: &Move) {
+        let other = found.modes.other_plane.filter(|other| !other.may_be_asked);
+        let before = std::mem::replace(&mut self.other_plane, other);
+        if let Some(other) = other.filter(|_| other != before) {
+            self.find(FindingKind::Tool, found.line, other.to_string());
+        }
     }
 
     /// What must be off where the axes stand.

@@ -84,8 +84,8 @@ pub(super) struct Walk<'a, C> {
     pub(super) repeated_feed: Option<f64>,
     /// Lines of statements that no record asks for, of which that was said.
     pub(super) unasked: [Option<u32>; 2],
-    /// The plane of the last arc or cycle, by the index of its normal.
-    pub(super) plane: usize,
+    /// The unusual plane of the last motion, by the index of its normal.
+    pub(super) plane: Option<usize>,
     /// Cutter compensation was on at the last motion.
     pub(super) was_compensated: bool,
     /// Level the control's cycle began from.
@@ -147,7 +147,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             user_lines: [u32::MAX, 0],
             repeated_feed: None,
             unasked: [None; 2],
-            plane: settings.dialect.plane,
+            plane: None,
             was_compensated: false,
             initial: None,
             from_hole: None,

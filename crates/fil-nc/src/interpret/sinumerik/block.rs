@@ -77,7 +77,6 @@ impl Sinumerik<'_> {
                 self.become_axis(*on, *code)?;
             }
         }
-        self.check_plane_of_turning(&said)?;
         self.check_live(&said)?;
         for auxiliary in &said.auxiliaries {
             if let Auxiliary::Other(code) = auxiliary {
@@ -298,7 +297,6 @@ impl Sinumerik<'_> {
                 }
                 Function::RigidTap { .. } => state.motion = None,
                 Function::Plane(normal) => {
-                    self.says_plane = true;
                     state.plane = normal;
                     state.say_plane(normal);
                     state.certain.say(StartMode::Plane);

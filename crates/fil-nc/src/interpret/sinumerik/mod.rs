@@ -59,8 +59,6 @@ struct Sinumerik<'d> {
     rigid_tap_lead: Option<f64>,
     /// DIAMOF: X is a radius.
     counts_radii: bool,
-    /// The program has said its plane.
-    says_plane: bool,
     /// M70: the main spindle is an axis.
     is_axis: bool,
     /// What the words of the line may depend on.
@@ -108,7 +106,6 @@ impl<'a> Program<'a> {
             lead_shrinks: false,
             rigid_tap_lead: None,
             counts_radii: false,
-            says_plane: false,
             is_axis: false,
             uses: Uses::default(),
         };

@@ -130,21 +130,6 @@ impl Sinumerik<'_> {
         }
     }
 
-    /// Refuses to turn in another plane than ZX: G17 and G19 count the lengths of a turning tool
-    /// along other axes.
-    pub(super) fn check_plane_of_turning(&self, said: &Said) -> Result<(), Fault> {
-        const ZX: usize = 1;
-        let cuts = matches!(
-            self.state.motion,
-            Some(Function::Linear | Function::Arc { .. } | Function::Thread)
-        );
-        let turns = self.state.dialect.counts_diameters() && !self.state.live && cuts;
-        if turns && self.says_plane && said.axes[0].is_some() && self.state.plane != ZX {
-            return refuse("a lathe turns in another plane than that of Z and X (G18)");
-        }
-        Ok(())
-    }
-
     /// Refuses what only one of the two kinds of spindle does, and axes that are not there.
     pub(super) fn check_live(&self, said: &Said) -> Result<(), Fault> {
         if self.state.dialect.live_at_start.is_none() {
