@@ -300,3 +300,25 @@ fn another_plane_of_tracyl_is_found() {
         ],
     );
 }
+
+/// In polar interpolation C turns where Y goes, and where X goes beside the axis of the spindle.
+#[test]
+fn a_clamp_in_polar_interpolation_is_found() {
+    let settings = &["rotary.clamp_code=68", "rotary.unclamp_code=69"];
+    let cl = "MODE / MILL; LOADTL / 1; SPINDL / RPM, 1000, CLW; FEDRAT / 300, MMPM; RAPID; \
+              GOTO / 40, 0, 5; GOTO / 40, 0, -2; GOTO / 40, 5, -2; GOTO / 20, 5, -2; \
+              GOTO / 20, 5, 5";
+    for (ready, [y, x]) in [
+        ("fanuc-mill-turn", ["; C5.; ", "; X40.; "]),
+        ("sinumerik-mill-turn", ["; Y5; ", "; X20; "]),
+    ] {
+        let nc = nc_of(ready, settings, cl);
+        let check = |nc: &str| found(ready, settings, cl, nc);
+        let said = "a rotary axis turns without M69";
+        let held = |at: &str| format!("; M68{at}M69; ");
+        each_is_found(&check, &nc, &[(y, &held(y), said), (x, &held(x), said)]);
+        let up = if ready == "fanuc-mill-turn" { "; Z5.; G13.1; " } else { "; Z5; TRAFOOF; " };
+        let still = check(&nc.replacen(up, &held(up), 1));
+        assert!(still.contains("M68") && !still.contains(said), "{still}");
+    }
+}

@@ -505,3 +505,27 @@ fn tip_control_that_begins_again_in_the_same_offset_agrees() {
     let case = Case { ready: "fanuc-5x-tables", settings: &settings, cl, nc: &nc };
     case.agrees_but_not_with(("G0 X-72.458 Z267.899\n", "G0\n"), "tool-tip control has ended");
 }
+
+/// A clamped axis turns in no block, whoever wrote the code of the clamp.
+#[test]
+fn a_turn_of_a_clamped_axis_is_found() {
+    let settings = &["rotary.clamp_code=10", "rotary.unclamp_code=11"];
+    let lean = "0, 0.5, 0.8660254038";
+    let start = "G0 X10. Y0.; A0.; G43 Z50. H1; G1 Z30. F300.; M10; Z20.";
+    let turn = "G0 Z43.301; X20. Y-25.; A-30.; G1 Y-2.5 Z4.33";
+    let nc = milled(&format!("{start}; M11; {turn}"));
+    for (on, off) in [
+        ("CLAMP / ON", "CLAMP / OFF"),
+        ("AUXFUN / 10", "AUXFUN / 11"),
+        ("INSERT / M10", "INSERT / M11"),
+    ] {
+        let cl = format!(
+            "{OVER}; {on}; GOTO / 10, 0, 20; {off}; RAPID; GOTO / 20, 0, 50, {lean}; GOTO / 20, 0, 5, {lean}"
+        );
+        let case = Case { ready: "fanuc-mill-a", settings, cl: &cl, nc: &nc };
+        case.agrees();
+        let held = cl.replace(&format!("{off}; "), "");
+        let nc = nc.replace("M11\n", "");
+        Case { cl: &held, nc: &nc, ..case }.asks_for("a rotary axis turns without M11");
+    }
+}
