@@ -322,3 +322,56 @@ fn a_clamp_in_polar_interpolation_is_found() {
         assert!(still.contains("M68") && !still.contains(said), "{still}");
     }
 }
+
+/// A rapid of a lathe that is one line in the CL file has no corner, which may lie in the wall of a
+/// bore.
+#[test]
+fn a_corner_on_the_way_out_of_a_bore_is_found() {
+    let cl = "LOADTL / 1; SPINDL / RPM, 500, CLW; FEDRAT / 0.1, MMPR; RAPID; GOTO / 10, 0, 2; \
+              GOTO / 10, 0, -35; RAPID; GOTO / 60, 0, 50";
+    let nc = nc_of("fanuc-lathe", &[], cl);
+    let check = |nc: &str| found("fanuc-lathe", &[], cl, nc);
+    let said = "rapid goes along X and Z in two blocks";
+    each_is_found(
+        &check,
+        &nc,
+        &[("X120. Z50.", "X120.; Z50.", said), ("X120. Z50.", "Z50.; X120.", said)],
+    );
+}
+
+/// A live tool along X goes down at its hole, one along Z goes across above the part.
+#[test]
+fn rapids_of_a_live_tool_in_a_dangerous_order_are_found() {
+    let cl = "LOADTL / 1; MODE / MILL; SPINDL / RPM, 2000, CLW; FEDRAT / 200, MMPM; MULTAX / ON; \
+              RAPID; GOTO / 60, 0, -20, 1, 0, 0; CYCLE / DRILL, DEPTH, 10, MMPM, 100, CLEAR, 2; \
+              GOTO / 40, 0, -20, 1, 0, 0; GOTO / 0, 40, -30, 0, 1, 0; GOTO / -25, 0, -40, -1, 0, 0; \
+              CYCLE / OFF; RAPID; GOTO / -60, 0, -60, -1, 0, 0; RAPID; GOTO / 0, 0, 20, 0, 0, 1; \
+              CYCLE / DRILL, DEPTH, 10, MMPM, 100, CLEAR, 2; GOTO / 0, 0, 0, 0, 0, 1; \
+              GOTO / 15, 0, 0, 0, 0, 1; CYCLE / OFF";
+    let nc = nc_of("fanuc-mill-turn", &[], cl);
+    let check = |nc: &str| found("fanuc-mill-turn", &[], cl, nc);
+    each_is_found(
+        &check,
+        &nc,
+        &[
+            ("Z20.; X0. C0.", "X0. C0.; Z20.", "rapid goes across before Z has gone up"),
+            ("Z-40. C180.; X54.", "X54.; Z-40. C180.", "rapid goes down before X and Y are over"),
+            ("G0 X84.; Z-30. C90.", "G0 Z-30. C90.; X84.", "rapid goes across below the R level"),
+        ],
+    );
+}
+
+/// Before polar interpolation Z goes up, and then X across.
+#[test]
+fn a_way_up_left_out_before_polar_interpolation_is_found() {
+    let cl = "LOADTL / 1; MODE / MILL; SPINDL / RPM, 1000, CLW; FEDRAT / 300, MMPM; MULTAX / ON; \
+              RAPID; GOTO / 0, 40, -25, 0, 1, 0; GOTO / 0, 30, -25, 0, 1, 0; \
+              GOTO / 0, 40, -25, 0, 1, 0; MULTAX / OFF; RAPID; GOTO / -5, 40, 0; \
+              GOTO / -5, 40, -7; GOTO / 5, 40, -7";
+    for ready in ["fanuc-mill-turn", "sinumerik-mill-turn"] {
+        let nc = nc_of(ready, &[], cl);
+        let check = |nc: &str| found(ready, &[], cl, nc);
+        let up = if ready == "fanuc-mill-turn" { "G0 Z0.; X" } else { "G0 Z0; X" };
+        each_is_found(&check, &nc, &[(up, "G0 X", "rapid goes across before Z has gone up")]);
+    }
+}

@@ -529,3 +529,35 @@ fn a_turn_of_a_clamped_axis_is_found() {
         Case { cl: &held, nc: &nc, ..case }.asks_for("a rotary axis turns without M11");
     }
 }
+
+/// Behind a tool change, too, Z comes down where the tables have turned.
+#[test]
+fn a_height_before_its_turn_is_found() {
+    let lean = "0, -0.5, 0.86602540378";
+    let cl = format!(
+        "MULTAX / ON; FEDRAT / 300, MMPM; RAPID; GOTO / 0, 90, 30, {lean}; GOTO / 0, 90, 10, {lean}; \
+         RAPID; GOTO / 0, 90, 30, {lean}; LOADTL / 2; SPINDL / RPM, 500, CLW; RAPID; \
+         GOTO / 0, -90, 30, 0, 0, 1; GOTO / 0, -90, 10, 0, 0, 1"
+    );
+    let nc = milled(
+        "G0 X0. Y117.942; A30. C0.; G43 Z-25.718 H1; G1 Y107.942 Z-43.038 F300.; G0 Z-25.718; \
+         Y117.942; T2 M6; S500 M3; G0 X0. Y-90.; A0. C0.; G43 Z30. H2; G1 Z10. F300.",
+    );
+    let case = Case { ready: "haas-trunnion", settings: &[], cl: &cl, nc: &nc };
+    let said = "rapid goes to its height before the rotary axes have arrived";
+    case.agrees_but_not_with(("A30. C0.\nG43 Z-25.718 H1", "G43 Z-25.718 H1\nA30. C0."), said);
+    case.agrees_but_not_with(("A0. C0.\nG43 Z30. H2", "G43 Z30. H2\nA0. C0."), said);
+    let first = ("G0 X0. Y-90.\nA0. C0.\nG43 Z30. H2", "G0 G43 Z30. H2\nX0. Y-90.\nA0. C0.");
+    case.agrees_but_not_with(first, said);
+    // A text has turned the table away, and the motion turns it back.
+    let cl = format!(
+        "MULTAX / ON; RAPID; GOTO / 0, 90, 30, {lean}; LOADTL / 2; SPINDL / RPM, 500, CLW; \
+         INSERT / G0 A0.; RAPID; GOTO / 0, -90, 30, {lean}"
+    );
+    let nc = milled(
+        "G0 X0. Y117.942; A30. C0.; G43 Z-25.718 H1; T2 M6; S500 M3; G0 A0.; X0. Y-37.942; \
+         A30. C0.; G43 Z64.282 H2",
+    );
+    let case = Case { cl: &cl, nc: &nc, ..case };
+    case.agrees_but_not_with(("A30. C0.\nG43 Z64.282 H2", "G43 Z64.282 H2\nA30. C0."), said);
+}

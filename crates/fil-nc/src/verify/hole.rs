@@ -259,7 +259,10 @@ impl<C: Steps> Walk<'_, C> {
             // Where X stands behind polar interpolation is not known.
             let way = |n: usize| (to[n] - self.at.linear[n]).abs();
             let moves = |n: usize| self.written[n] && found.known[n] && way(n) > STILL;
-            let across = (moves(0) || moves(1)) && self.known[0] && self.known[1];
+            // Y of a lathe without one stands at 0; said of a tool along X it is the turn of C.
+            let is_place_known = (0..2).all(|n| self.known[n] || !self.written[n]);
+            let turns = self.from_hole.is_some() && !self.written[1] && way(1) > STILL;
+            let across = (moves(0) || moves(1) || turns) && is_place_known;
             let z_moves = way(2) > STILL;
             let there = |n: usize| near(to[n], levels.at[n], n);
             let arrives = there(0) && there(1);
@@ -277,7 +280,7 @@ impl<C: Steps> Walk<'_, C> {
                 ));
             }
             let lower = self.known[2] && to[2] < self.at.linear[2] - slack[2];
-            if lower && !arrives && self.known[0] && self.known[1] {
+            if lower && !arrives && is_place_known {
                 let message = "rapid goes down before X and Y are over the hole".to_string();
                 return Err((found.line, message));
             }

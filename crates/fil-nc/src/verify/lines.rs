@@ -35,11 +35,16 @@ impl<C: Steps> Walk<'_, C> {
         let linear = self.settings.forward.frame_of(&end.to).linear(pose.tip);
         let exact = Position { linear, ..end.to };
         let leg = if self.tool_is_fresh { Leg::FromAfar } else { Leg::OfPath };
+        // A tool change has brought the tool to a place of its own.
+        let is_away = self.tool_is_fresh;
         for index in self.next..=last {
             if let Some(Event::Move(part)) = self.nc.get(index) {
                 match self.settings.is_mill_turn() && self.goes_around(&part, &exact) {
                     true => {}
                     false => self.check_part(cl_line, &part, &end.to, leg),
+                }
+                if index < last && !is_away {
+                    self.check_order_on_lathe(cl_line, &part, (&end, pose));
                 }
                 self.check_turn_is_away(cl_line, &part);
                 self.take(cl_line, &part);
@@ -173,6 +178,7 @@ impl<C: Steps> Walk<'_, C> {
         let others = [0, 1, 2].into_iter().filter(move |n| *n != tool);
         let splits = self.splits_rapids;
         let forward = &self.settings.forward;
+        let end_turns = end.rotary;
         // Each part as its own X, Y, Z are meant.
         let at = forward.restated(&self.at, &part.to).linear;
         let end = forward.restated(end, &part.to);
@@ -209,6 +215,14 @@ impl<C: Steps> Walk<'_, C> {
         let finds_height = found_out(tool) && !is_level && goes_down;
         if splits && finds_height && comes_later {
             wrong.push(format!("rapid goes to its height before {across_it} have arrived"));
+        }
+        if splits
+            && tool == 2
+            && moved(2)
+            && !is_level
+            && self.comes_down_before_it_turns(part, end_turns)
+        {
+            wrong.push("rapid goes to its height before the rotary axes have arrived".to_string());
         }
         if !splits || !known[tool] {
             return wrong;

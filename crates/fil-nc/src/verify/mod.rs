@@ -32,6 +32,7 @@ mod parts;
 mod passing;
 mod programs;
 mod rapid_lean;
+mod rapid_order;
 mod rate;
 mod report;
 mod reposition;

@@ -122,6 +122,8 @@ impl<C: Steps> Walk<'_, C> {
     /// Goes where a motion goes without a look at it.
     pub(super) fn stand(&mut self, found: &Move) {
         self.leaves_or_comes(found);
+        let stays = self.known[2] && found.to.linear[2] == self.at.linear[2];
+        self.height_is_fresh &= stays || !found.known[2];
         self.at = found.to;
         self.known = found.known;
         (self.moved_tool, self.moved_fixture) = (found.modes.tool, found.modes.fixture);

@@ -50,6 +50,8 @@ pub(super) struct Walk<'a, C> {
     cutter_is_fresh: bool,
     /// No motion came since the tool was changed: where it stands is not known.
     pub(super) tool_is_fresh: bool,
+    /// Z has not moved since the tool was changed.
+    pub(super) height_is_fresh: bool,
     /// Where the rapid has ended that is the last motion.
     pub(super) rapid_end: Option<Pose>,
     /// End of the last arc in the CL file, and as the machine corrects it.
@@ -127,6 +129,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             cutter: None,
             cutter_is_fresh: false,
             tool_is_fresh: false,
+            height_is_fresh: false,
             rapid_end: None,
             corrected_end: None,
             travel: settings.travel(true),
@@ -227,6 +230,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             Wanted::Straight(within) => self.watch.ask(*within),
             Wanted::LeftOut => self.watch.begin_elsewhere(self.settings.divides_within()),
             Wanted::Tool { number, offset } => {
+                self.height_is_fresh = self.settings.restates_after_change();
                 self.tool(step.line, *number, self.settings.tool_offset(*number, *offset));
                 self.cutter = self.cutter.filter(|_| self.cutter_is_fresh);
                 self.tool_is_fresh = true;
@@ -278,6 +282,8 @@ impl<'a, C: Steps> Walk<'a, C> {
         let corrected = self.corrected(step);
         let step = corrected.as_ref().unwrap_or(step);
         let made = self.is_made(step);
+        // Said again at the same number, Z has come down too.
+        self.height_is_fresh = false;
         self.watch.stand(step.what.end().filter(|_| made && !matches!(step.what, Wanted::Hole(_))));
     }
 
@@ -452,6 +458,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             (self.cutter_is_fresh, self.tool_is_fresh) = (false, false);
             self.is_above = false;
         }
+        self.height_is_fresh &= !moved.z;
         let cuts = matches!(found.course, Course::Feed | Course::Thread);
         let wrong = match moved.xy || moved.z || !self.is_still(found) {
             true => self.modes.check(&found.modes, moved, cuts, &self.slack),

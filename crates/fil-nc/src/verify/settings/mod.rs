@@ -422,6 +422,11 @@ impl<'c> Settings<'c> {
         self.commons.read(loc::ROTARY_TIP_OUTPUT) == loc::RotaryTipOutput::ToolTipControl
     }
 
+    /// A tool change may bring the axes elsewhere, so that each is said again behind it.
+    pub fn restates_after_change(&self) -> bool {
+        self.commons.read(loc::TOOL_RESTATE)
+    }
+
     /// Z that the length offset is called with, mm.
     pub fn offset_level(&self, metric: bool) -> Option<f64> {
         let z = self.commons.dbl_opt(loc::TOOL_LENGTH_Z).filter(|_| self.calls_offsets());

@@ -1,0 +1,101 @@
+//! The order of the parts of a rapid. A lathe makes a rapid of the CL file in one block: a corner
+//! lies where neither end does, in the wall of a bore or in the part. Of a live tool the tool is up
+//! while it goes across, along Z or along X as it lies. Z comes down behind a tool change where the
+//! rotary axes have turned.
+
+use nalgebra::Point3;
+
+use super::ahead::Steps;
+use super::report::FindingKind;
+use super::walk::{STILL, Walk};
+use crate::forward::Pose;
+use crate::motion::{Move, Position};
+
+/// Ways shorter than this hit nothing: more than positions differ by that are rounded as X and
+/// C, or as lengths in the plane of both, mm.
+const SMALL: f64 = 0.01;
+
+/// A turn of less than this is none, degrees: what the rounding of a tool axis makes.
+const SMALL_TURN: f64 = 0.01;
+
+/// A tool whose axis has more than this along Z is an axial one.
+const AXIAL: f64 = 0.5;
+
+impl<C: Steps> Walk<'_, C> {
+    /// Looks at a part of a rapid that ends elsewhere than the rapid does, on a lathe. Where it is not
+    /// known where the part begins, a point of the machine has brought the tool away.
+    pub(super) fn check_order_on_lathe(&mut self, cl_line: u32, part: &Move, end: (&Move, &Pose)) {
+        let is_lathe = self.settings.is_mill_turn() || self.settings.dialect.counts_diameters();
+        let known = self.is_known(&self.known) && self.is_known(&part.known);
+        if !is_lathe || !known {
+            return;
+        }
+        let wrong = match self.settings.is_mill_turn() && self.modes.mills() {
+            true => self.wrong_order_of_live_tool(&part.to, &end.0.to, end.1),
+            false => self.wrong_order_of_turning(&part.to, &end.0.to),
+        };
+        if let Some(message) = wrong {
+            self.find(FindingKind::Order, Some(cl_line), Some(part.line), message.to_string());
+        }
+    }
+
+    /// X and Z go one after the other.
+    fn wrong_order_of_turning(&self, part: &Position, end: &Position) -> Option<&'static str> {
+        let way = |n: usize, to: &Position| (to.linear[n] - self.at.linear[n]).abs();
+        let goes_alone = |n: usize, other: usize| {
+            way(n, part) > SMALL && way(other, part) <= STILL && way(other, end) > SMALL
+        };
+        let corner = "rapid goes along X and Z in two blocks, the CL file has one line: the corner \
+                      may lie in the part";
+        let is_corner = goes_alone(0, 2) || goes_alone(2, 0);
+        (is_corner && !self.splits_rapids).then_some(corner)
+    }
+
+    /// A live tool goes across at depth, or down beside its place.
+    fn wrong_order_of_live_tool(
+        &self,
+        part: &Position,
+        end: &Position,
+        pose: &Pose,
+    ) -> Option<&'static str> {
+        let is_axial = pose.axis.z.abs() > AXIAL;
+        let tip = |at: &Position| self.settings.forward.pose(at).tip;
+        let [at, part, end] = [tip(&self.at), tip(part), tip(end)];
+        let height = |tip: Point3<f64>| if is_axial { tip.z } else { libm::hypot(tip.x, tip.y) };
+        // How far two places lie apart across the tool, at the lower of both heights.
+        let across = |a: Point3<f64>, b: Point3<f64>| {
+            if is_axial {
+                return libm::hypot(a.x - b.x, a.y - b.y);
+            }
+            let turned = libm::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
+            libm::hypot(a.z - b.z, turned * height(a).min(height(b)))
+        };
+        let rises = height(end) > height(at) + SMALL;
+        let lifts = height(part) > height(at) + STILL;
+        match () {
+            () if across(at, part) > SMALL && rises && !lifts => Some(match is_axial {
+                true => "rapid goes across before Z has gone up",
+                false => "rapid goes across before X has gone up",
+            }),
+            () if height(part) < height(at) - SMALL && across(part, end) > SMALL => {
+                Some(match is_axial {
+                    true => "rapid plunges before X and C have arrived",
+                    false => "rapid plunges before Z and C have arrived",
+                })
+            }
+            () => None,
+        }
+    }
+
+    /// From the place of a tool change, or from where nobody knows, Z comes down while a rotary axis
+    /// has yet to turn to where the height is meant.
+    pub(super) fn comes_down_before_it_turns(&self, part: &Move, end: [f64; 2]) -> bool {
+        let comes_down = self.height_is_fresh || !(self.known[2] || self.has_had_height);
+        let rotaries = self.settings.forward.rotaries();
+        let is_to_turn = |n: usize| {
+            let is_there = (part.to.rotary[n] - end[n]).abs() <= SMALL_TURN;
+            rotaries[n].is_some() && !(part.known[n + 3] && is_there)
+        };
+        comes_down && !part.to.names_tip() && (0..2).any(is_to_turn)
+    }
+}
