@@ -398,3 +398,26 @@ fn a_tap_behind_spindl_on_turns_as_before() {
     let said = found("sinumerik-840d", &[], cl, &clockwise);
     assert!(said.contains("the spindle is clockwise, it should be counterclockwise"), "{said}");
 }
+
+/// In another plane than CUTCOM names the cutter goes aside along another axis.
+#[test]
+fn a_cutter_compensated_in_another_plane_than_its_record_is_found() {
+    let cl = format!(
+        "{TOOL}; {DOWN}; CUTCOM / LEFT, 5, YZPLAN; GOTO / 0, 0, 5; GOTO / 0, 10, 5; CUTCOM / OFF; \
+         GOTO / 0, 10, 8; CUTCOM / RIGHT, 5, ZXPLAN; GOTO / 0, 10, 5; GOTO / 5, 10, 5; \
+         CUTCOM / OFF; GOTO / 5, 10, 8"
+    );
+    let nc =
+        format!("{FANUC}; G19; G41 Z5. D5; Y10.; G40 Z8.; G18; G42 Z5. D5; X5.; G40 Z8.; M30; %");
+    let check = |nc: &str| found("fanuc-mill", &[], &cl, nc);
+    assert_eq!(check(&nc), "");
+    for (old, new, said) in [
+        ("; G19", "", "in the plane XY, it should be YZ"),
+        ("G19", "G17", "in the plane XY, it should be YZ"),
+        ("G18", "G17", "in the plane XY, it should be ZX"),
+        ("; G18", "", "in the plane YZ, it should be ZX"),
+    ] {
+        let wrong = check(&nc.replacen(old, new, 1));
+        assert!(wrong.contains(said), "{new}: {wrong}");
+    }
+}

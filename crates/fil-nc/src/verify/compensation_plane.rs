@@ -1,10 +1,10 @@
 //! The plane in which the cutter is compensated, where only one is meant: that of its record for a
-//! live tool, X and Z on a lathe without Y.
+//! live tool, and on a mill where the record names one; X and Z on a lathe without Y.
 
 use super::modes::Expected;
 use super::say::PLANES;
 use super::settings::Settings;
-use crate::motion::Modes;
+use crate::motion::{DRILLED, Modes};
 
 /// The plane of X and Z, by the index of its normal.
 const ZX: usize = 1;
@@ -12,8 +12,10 @@ const ZX: usize = 1;
 /// Which plane a machine means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum MeantPlane {
-    /// Any: a mill says its own, and a lathe with Y may.
+    /// Any: a lathe with Y may say its own, and an arc of some mills changes it.
     Open,
+    /// That which the record of a mill names, any where it names none.
+    OfRecord,
     /// That of X and Z.
     OfTurning,
     /// The same, and that of the record where live tools mill.
@@ -27,7 +29,8 @@ impl MeantPlane {
             () if settings.dialect.counts_diameters() && !settings.written()[1] => {
                 MeantPlane::OfTurning
             }
-            () => MeantPlane::Open,
+            () if settings.dialect.lathe || settings.arcs_change_plane() => MeantPlane::Open,
+            () => MeantPlane::OfRecord,
         }
     }
 }
@@ -40,8 +43,12 @@ impl Expected {
 
     /// The cutter is compensated in another plane than is meant.
     pub(super) fn wrong_plane(&self, modes: &Modes) -> Option<String> {
-        let of_turning = Some(ZX).filter(|_| self.meant_plane != MeantPlane::Open && !self.mills());
-        let must = self.plane_of_live_tool().or(of_turning)?;
+        let must = match self.meant_plane {
+            MeantPlane::Open => None,
+            MeantPlane::OfRecord => Some(self.plane).filter(|plane| *plane != DRILLED),
+            MeantPlane::OfTurning | MeantPlane::OfMillTurn if !self.mills() => Some(ZX),
+            MeantPlane::OfTurning | MeantPlane::OfMillTurn => self.plane_of_live_tool(),
+        }?;
         let found = modes.compensation_plane.filter(|found| *found != must)?;
         let [found, must] = [found, must].map(|normal| PLANES[normal]);
         Some(format!("cutter compensation acts in the plane {found}, it should be {must}"))

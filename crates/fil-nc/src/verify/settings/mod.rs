@@ -422,6 +422,11 @@ impl<'c> Settings<'c> {
         self.commons.read(loc::ROTARY_TIP_OUTPUT) == loc::RotaryTipOutput::ToolTipControl
     }
 
+    /// An arc outside of the plane of cutter compensation changes that plane.
+    pub fn arcs_change_plane(&self) -> bool {
+        self.commons.read(loc::CIRCLE_CUTCOM_PLANE) == loc::CircleCutcomPlane::ChangeThePlane
+    }
+
     /// A tool change may bring the axes elsewhere, so that each is said again behind it.
     pub fn restates_after_change(&self) -> bool {
         self.commons.read(loc::TOOL_RESTATE)
