@@ -35,6 +35,7 @@ pub mod setting;
 pub mod stored;
 pub mod tables;
 pub mod tape_style;
+pub mod travel_rules;
 pub mod user_blocks;
 mod value_unit;
 

@@ -161,6 +161,10 @@ pub const LINEAR_LIMITS: [(Dbl, Dbl); 3] =
 pub const ROTARY_LIMITS: [(Dbl, Dbl); 3] =
     [(LIMITS_A_MIN, LIMITS_A_MAX), (LIMITS_B_MIN, LIMITS_B_MAX), (LIMITS_C_MIN, LIMITS_C_MAX)];
 
+/// What happens where X, Y, Z leave their travel.
+pub const LINEAR_EXCEEDED: [Choice<Exceeded>; 3] =
+    [REPOS_X_EXCEEDED, REPOS_Y_EXCEEDED, REPOS_Z_EXCEEDED];
+
 /// Where X, Y, Z, A, B, C stand for a tool change, mm and degrees.
 pub const CHANGE_POSITION: [Dbl; 6] =
     [TOOL_CHANGE_X, TOOL_CHANGE_Y, TOOL_CHANGE_Z, TOOL_CHANGE_A, TOOL_CHANGE_B, TOOL_CHANGE_C];

@@ -21,6 +21,7 @@ use crate::number::NumberFormat;
 use crate::numbering::Numbering;
 use crate::rotary_feed_rules::RotaryFeedRules;
 use crate::tape_style::TapeStyle;
+use crate::travel_rules::{self, TravelRules};
 
 /// The tables.
 #[derive(Clone, Debug, Default)]
@@ -60,6 +61,10 @@ pub struct MachineTables {
     /// Words of rotary axes are looked at before they are written.
     pub watches_turns: bool,
     axes: Vec<Axis>,
+    /// Rapid motions that take other positions of the rotary axes than the nearest are looked at.
+    pub watches_rapids: bool,
+    /// What straight motions do that would leave the travel of X, Y or Z.
+    pub travel_rules: TravelRules,
     /// The travel of X, Y and Z where their words name the tip in the part.
     travel: Vec<Axis>,
     chain: AxisChain,
@@ -70,6 +75,14 @@ pub struct MachineTables {
     /// Where the control has its zero, X Y Z, mm or inch.
     zero: [f64; 3],
     made_for: Option<(u32, bool)>,
+}
+
+/// X, Y and Z with their travel, while they may leave it.
+#[derive(Debug)]
+#[must_use]
+pub struct Bounds {
+    axes: Vec<Axis>,
+    travel: Vec<Axis>,
 }
 
 impl MachineTables {
@@ -152,6 +165,10 @@ impl MachineTables {
             }
         }
         self.travel = self.axes[..3].to_vec();
+        let bends = has_rotary && !self.mills();
+        self.watches_rapids = bends && travel_rules::watches_rapids(commons);
+        self.travel_rules =
+            if bends { TravelRules::from_commons(commons) } else { TravelRules::default() };
         if let (Some(MillTurnMode::PolarInterpolation), Some(letter)) =
             (self.mill_turn, rotary_letter)
         {
@@ -212,6 +229,28 @@ impl MachineTables {
             self.travel[number].check(position[number])?;
         }
         Ok(())
+    }
+
+    /// Which of X, Y and Z would have to leave their travel for a position of the machine.
+    pub fn exceeded(&self, position: [f64; 3]) -> AxisSet {
+        let leaves = |number: &usize| self.travel[*number].check(position[*number]).is_err();
+        (0..3).filter(leaves).fold(AxisSet::NONE, |set, number| set.or(AxisSet::of(number)))
+    }
+
+    /// Lets axes leave their travel until [`MachineTables::bound_again`].
+    pub fn unbound(&mut self, axes: AxisSet) -> Bounds {
+        let bounds = Bounds { axes: self.axes[..3].to_vec(), travel: self.travel.clone() };
+        for number in axes.and(AxisSet::LINEAR).numbers() {
+            self.axes[number].limit(None, None);
+            self.travel[number].limit(None, None);
+        }
+        bounds
+    }
+
+    /// Keeps X, Y and Z within their travel again.
+    pub fn bound_again(&mut self, bounds: Bounds) {
+        self.axes[..3].copy_from_slice(&bounds.axes);
+        self.travel = bounds.travel;
     }
 
     /// True when the travel of X, Y or Z is bounded where their words name the tip.

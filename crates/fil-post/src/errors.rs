@@ -108,6 +108,14 @@ fil_diag::codes! {
         Repositioned = 529, Warning, "the tool retracts at the limit of a rotary axis",
             "The machine turns to other positions for the same tool axis, and the tool comes back to the same point.",
             "Look whether the retract is far enough for the part to turn; repos.feed_warning = 0 says nothing.";
+        /// A motion outside of the travel that the machine allows.
+        BeyondTravel = 586, Warning, "X, Y or Z leaves its travel",
+            "repos.check_linear lets the axis go there with a warning (repos.x_exceeded to repos.z_exceeded = 2); without it the motion would be refused.",
+            "Look whether the machine gets there, move the part, or let the machine take other positions of its rotary axes there (1).";
+        /// A rapid motion to other positions than the nearest.
+        RapidRepositioned = 587, Warning, "a rapid motion takes other positions of the rotary axes",
+            "The nearest positions for the tool axis lie past a limit, or the motions behind a RAPID would come to one from there.",
+            "Look whether the tool is clear of the part while the machine turns; repos.rapid_retract = 1 takes it out before, repos.rapid_warning = 0 says nothing.";
         /// Length of a tool axis.
         AxisLength = 525, Error, "not a tool axis",
             "A tool axis has length 1; six values of another length may be two points. After MULTAX / OFF there is none but 0,0,1.",

@@ -9,7 +9,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use fil_cl::{Record, Vocabulary};
 use fil_diag::{Diag, Result};
 use fil_machine::commons::EMPTY;
-use fil_machine::locations::{self as loc, ReposFeedMethod, RotaryKind, TapeBlockMacro};
+use fil_machine::locations::{
+    self as loc, ReposFeedMethod, ReposRapidMethod, ReposRapidRetract, RotaryKind, TapeBlockMacro,
+};
 use fil_machine::{Commons, Letter};
 use fil_post::editing::{Editor, Ways};
 use fil_vm::debug::Probe;
@@ -33,11 +35,13 @@ pub(crate) fn edits(commons: &Commons) -> Edits {
     }
 }
 
-/// At the limit of a rotary axis the machine calls _REPOS.
+/// At the limit of a rotary axis the machine calls _REPOS, in feed motions or in rapid ones.
 fn calls_repos(commons: &Commons) -> bool {
     let turns = [commons.read(loc::ROTARY_PRIMARY_KIND), commons.read(loc::ROTARY_SECONDARY_KIND)];
+    let at_rapid = commons.read(loc::REPOS_RAPID_RETRACT) == ReposRapidRetract::AsInFeedMoves
+        && commons.read(loc::REPOS_RAPID_METHOD) == ReposRapidMethod::CallTheMacroRepos;
     turns.iter().any(|kind| *kind != RotaryKind::None)
-        && commons.read(loc::REPOS_FEED_METHOD) == ReposFeedMethod::CallTheMacroRepos
+        && (commons.read(loc::REPOS_FEED_METHOD) == ReposFeedMethod::CallTheMacroRepos || at_rapid)
         && commons.dbl_opt(loc::REPOS_RETRACT_DISTANCE).is_some()
 }
 

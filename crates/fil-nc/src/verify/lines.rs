@@ -341,10 +341,12 @@ impl<C: Steps> Walk<'_, C> {
         // Where an axis stands before a word has said it nobody knows.
         let says = |n: usize| found.known[n] || found.to_machine[n];
         let all = found.to.names_tip() || self.from_hole.is_some();
+        let is_straight = found.arc.is_none() && !found.in_cycle && self.from_hole.is_none();
+        let may_leave = if is_straight { self.settings.leaves_travel() } else { [false; 3] };
         for (n, (min, max)) in self.travel.into_iter().enumerate() {
             let value = axes[n];
             let is_said = if all { (0..3).all(says) } else { says(n) };
-            if !is_said {
+            if !is_said || may_leave[n] {
                 continue;
             }
             if !(min..=max).contains(&value) {

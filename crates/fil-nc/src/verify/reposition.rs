@@ -5,7 +5,7 @@
 //! back straight to the same point with the same tool axis.
 
 use fil_machine::commons::Dbl;
-use fil_machine::locations::{self as loc, ReposFeedMethod};
+use fil_machine::locations::{self as loc, ReposFeedMethod, ReposRapidMethod, ReposRapidRetract};
 use nalgebra::Vector3;
 
 use super::ahead::Steps;
@@ -56,7 +56,23 @@ impl Settings<'_> {
         let method = commons.read(loc::REPOS_FEED_METHOD);
         let by_macro = method == ReposFeedMethod::CallTheMacroRepos;
         let does = by_macro || method == ReposFeedMethod::RetractAndApproach;
-        let distance = commons.dbl_opt(loc::REPOS_RETRACT_DISTANCE).filter(|_| does)?;
+        if does { self.way_of_reposition(by_macro, metric) } else { None }
+    }
+
+    /// The same in rapid motions.
+    pub(super) fn reposition_at_rapid(&self, metric: bool) -> Option<Reposition> {
+        let commons = self.commons;
+        let method = commons.read(loc::REPOS_RAPID_METHOD);
+        let asks = commons.read(loc::REPOS_RAPID_RETRACT) == ReposRapidRetract::AsInFeedMoves;
+        let does = asks && method != ReposRapidMethod::Nothing;
+        let by_macro = method == ReposRapidMethod::CallTheMacroRepos;
+        if does { self.way_of_reposition(by_macro, metric) } else { None }
+    }
+
+    /// The way out and back of the settings.
+    fn way_of_reposition(&self, by_macro: bool, metric: bool) -> Option<Reposition> {
+        let commons = self.commons;
+        let distance = commons.dbl_opt(loc::REPOS_RETRACT_DISTANCE)?;
         let rate = |at: Dbl| {
             let feed = commons.dbl_opt(at).filter(|feed| *feed > 0.0)?;
             Some(Rate::PerMinute(feed * unit(metric)))
@@ -98,10 +114,69 @@ impl<C: Steps> Walk<'_, C> {
             self.watch.stand(Some(middle));
         }
         let stands = self.begins();
-        self.take_way(cl_line, count, &how, rate);
+        self.take_way(cl_line, count, &how, (rate, &stands));
         self.exact = self.settings.forward.refine(self.at.rotary, stands.axis);
         self.watch.stand(Some(stands));
         true
+    }
+
+    /// Takes the blocks of a rapid motion that goes out before and comes back in behind it; false
+    /// when it is none.
+    pub(super) fn repositions_at_rapid(&mut self, cl_line: u32, pose: &Pose) -> bool {
+        let Some(how) = self.settings.reposition_at_rapid(self.metric) else { return false };
+        if !self.is_known(&self.known) {
+            return false;
+        }
+        let Some((over, count)) = self.blocks_out_and_over(pose, &how) else { return false };
+        let Some(Event::Move(end)) = self.nc.get(self.next + over) else { return false };
+        let stands = self.at;
+        for number in 0..=over {
+            let Some(Event::Move(part)) = self.nc.get(self.next + number) else { return false };
+            if number > 0 {
+                self.check_part(cl_line, &part, &end.to);
+            }
+            self.at = part.to;
+        }
+        self.at = stands;
+        self.take_way(cl_line, count, &how, (None, pose));
+        self.exact = self.settings.forward.refine(self.at.rotary, pose.axis);
+        true
+    }
+
+    /// Behind how many blocks the tool is over the end of a rapid motion, and how many blocks
+    /// lead out, over and in.
+    fn blocks_out_and_over(&self, pose: &Pose, how: &Reposition) -> Option<(usize, usize)> {
+        let (forward, stands) = (&self.settings.forward, self.begins());
+        let mut rotary = self.at.rotary;
+        let mut over = None;
+        for number in 0..MOST {
+            let Some(Event::Move(found)) = self.nc.get(self.next + number) else { return None };
+            let turns = (0..2).any(|n| (found.to.rotary[n] - rotary[n]).abs() > SMALL);
+            if found.arc.is_some() || found.in_cycle {
+                return None;
+            }
+            if number == 0 {
+                if turns || !self.leads_out(&found, &stands, pose.axis, how) {
+                    return None;
+                }
+                continue;
+            }
+            if over.is_some() && !turns && self.reaches(&found, pose) {
+                let straight = self.comes_straight(self.next + number, pose);
+                return over.filter(|_| straight).map(|over| (over, number + 1));
+            }
+            if found.course != Course::Rapid {
+                return None;
+            }
+            let there = forward.pose(&found.to);
+            let way = there.tip - pose.tip;
+            let along = there.axis.angle(&pose.axis) <= self.axis_slack();
+            if over.is_none() && along && self.is_away(way, &pose.axis, how, &found) {
+                over = Some(number);
+            }
+            rotary = found.to.rotary;
+        }
+        None
     }
 
     /// After how many blocks of a line a way out and back begins, and how many it has.
@@ -135,11 +210,6 @@ impl<C: Steps> Walk<'_, C> {
     ) -> Option<usize> {
         let forward = &self.settings.forward;
         let stands = forward.pose(at);
-        let directions = match how {
-            Reposition { by_macro: true, .. } => [stands.axis, next.axis],
-            Reposition { along_next: true, .. } => [next.axis; 2],
-            _ => [stands.axis; 2],
-        };
         let mut rotary = at.rotary;
         for count in 1..=MOST {
             let Some(Event::Move(found)) = self.nc.get(index + count - 1) else { return None };
@@ -151,12 +221,7 @@ impl<C: Steps> Walk<'_, C> {
                 return None;
             }
             if count == 1 {
-                let leads_out = |direction: &Vector3<f64>| {
-                    let aside = (way - direction * way.dot(direction)).norm();
-                    let off = way.dot(direction) - how.distance;
-                    aside <= slack && off >= -slack && (how.by_macro || off <= slack)
-                };
-                if turns || !directions.iter().any(leads_out) {
+                if turns || !self.leads_out(&found, &stands, next.axis, how) {
                     return None;
                 }
                 continue;
@@ -174,6 +239,31 @@ impl<C: Steps> Walk<'_, C> {
         None
     }
 
+    /// A block brings the tool out as far as the settings say.
+    fn leads_out(&self, out: &Move, stands: &Pose, next: Vector3<f64>, how: &Reposition) -> bool {
+        let way = self.settings.forward.pose(&out.to).tip - stands.tip;
+        let directions = match how {
+            Reposition { by_macro: true, .. } => [stands.axis, next],
+            Reposition { along_next: true, .. } => [next; 2],
+            _ => [stands.axis; 2],
+        };
+        directions.iter().any(|direction| self.is_away(way, direction, how, out))
+    }
+
+    /// A way leads along a direction, as far as the tool goes out.
+    fn is_away(
+        &self,
+        way: Vector3<f64>,
+        direction: &Vector3<f64>,
+        how: &Reposition,
+        at: &Move,
+    ) -> bool {
+        let slack = self.tip_slack(&at.to);
+        let aside = (way - direction * way.dot(direction)).norm();
+        let off = way.dot(direction) - how.distance;
+        aside <= slack && off >= -slack && (how.by_macro || off <= slack)
+    }
+
     /// A block comes to a point from one over it, along the tool.
     fn comes_straight(&self, index: usize, stands: &Pose) -> bool {
         let Some(Event::Move(before)) = self.nc.get(index - 1) else { return false };
@@ -184,10 +274,15 @@ impl<C: Steps> Walk<'_, C> {
         along > 0.0 && aside <= self.tip_slack(&before.to)
     }
 
-    /// Takes the blocks: out and back with all that must be in force, the turn where the
-    /// tool is away.
-    fn take_way(&mut self, cl_line: u32, count: usize, how: &Reposition, rate: Option<Rate>) {
-        let stands = self.begins();
+    /// Takes the blocks: out and back to a pose with all that must be in force, the turn where
+    /// the tool is away.
+    fn take_way(
+        &mut self,
+        cl_line: u32,
+        count: usize,
+        how: &Reposition,
+        (rate, end): (Option<Rate>, &Pose),
+    ) {
         let mut before = Modes::default();
         for number in 0..count {
             let Some(Event::Move(found)) = self.nc.get(self.next) else { return };
@@ -212,7 +307,7 @@ impl<C: Steps> Walk<'_, C> {
             } else {
                 self.check_limits(cl_line, &found);
                 self.check_turn_away(cl_line, &found);
-                self.check_comes_near(cl_line, &found, &stands, how);
+                self.check_comes_near(cl_line, &found, end, how);
                 self.check_stands_still(cl_line, &found.modes, (&before, found.line), how);
                 self.stand(&found);
             }
@@ -220,8 +315,8 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     /// The rapid back ends where the way at feed begins, or farther away.
-    fn check_comes_near(&mut self, cl_line: u32, found: &Move, stands: &Pose, how: &Reposition) {
-        let way = self.settings.forward.pose(&found.to).tip - stands.tip;
+    fn check_comes_near(&mut self, cl_line: u32, found: &Move, end: &Pose, how: &Reposition) {
+        let way = self.settings.forward.pose(&found.to).tip - end.tip;
         let near = way.norm() < how.approach - self.tip_slack(&found.to);
         if near && found.course == Course::Rapid {
             let (is, must) = (short(way.norm()), short(how.approach));

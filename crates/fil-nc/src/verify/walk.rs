@@ -310,6 +310,11 @@ impl<'a, C: Steps> Walk<'a, C> {
             {
                 continue;
             }
+            if let Wanted::Rapid(pose) = &step.what
+                && self.repositions_at_rapid(step.line, pose)
+            {
+                continue;
+            }
             if self.makes(step) {
                 self.report.matched += 1;
                 self.settle(step.line);

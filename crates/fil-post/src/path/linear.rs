@@ -4,8 +4,8 @@ use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
 
 use super::{
-    feed_rules, frame, mill_turn, rapid, rotary, scaled_lead, solution, thread, tip_control,
-    turning,
+    feed_rules, frame, mill_turn, rapid, reposition_rapid, rotary, scaled_lead, solution, thread,
+    tip_control, travel, turning,
 };
 use crate::control::word_address::motion::Motion;
 use crate::control::{family, full_turn};
@@ -46,23 +46,41 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
     if std::mem::take(&mut post.path.turned_by_words) && !matches!(kind, MotionKind::Rapid(_)) {
         rotary::follow(post);
     }
+    match post.control.tables.travel_rules.is_empty() {
+        true => go(post, *target, kind)?,
+        false => travel::carry_out(post, *target, kind)?,
+    }
+    post.control.tip.begins_unsaid = false;
+    post.path.arrive(*target);
+    Ok(())
+}
+
+/// Makes a motion for which all is ready.
+///
+/// # Errors
+/// As [`carry_out`].
+#[inline(always)]
+pub(super) fn go(post: &mut Post, target: Target, kind: MotionKind) -> Result<()> {
     let before = post.path.rotary;
-    let word = rotary::word_of(post, *target);
+    let word = rotary::word_of(post, target);
     let mut motion = Motion::new(Position::default(), AxisSet::ALL, word);
-    rotary::find_position(post, *target, &mut motion.position)?;
+    rotary::find_position(post, target, &mut motion.position)?;
     if post.control.is_compensated() {
         rotary::refuse_compensated(post, before)?;
     }
     match kind {
-        MotionKind::Rapid(cause) => match feed_rules::of_short_rapid(post, &motion, *target) {
+        MotionKind::Rapid(cause)
+            if post.control.tables.watches_rapids
+                && reposition_rapid::carry_out(post, before, target, cause)? => {}
+        MotionKind::Rapid(cause) => match feed_rules::of_short_rapid(post, &motion, target) {
             Some(feed) => family::feed(&mut post.control, &motion, Some(&feed))?,
             None => rapid::rapid(&mut post.control, &motion, cause)?,
         },
         MotionKind::Feed => match rotary::turned(before, post.path.rotary) {
             Some(before) if !rotary::begins_anywhere(post)? => {
-                turning::feed(post, before, &motion, *target)?;
+                turning::feed(post, before, &motion, target)?;
             }
-            _ if feed_rules::apply(post) => feed_rules::line(post, &motion, *target, None)?,
+            _ if feed_rules::apply(post) => feed_rules::line(post, &motion, target, None)?,
             _ => family::feed(&mut post.control, &motion, post.path.feed.as_ref())?,
         },
         MotionKind::Thread(lead) => {
@@ -71,14 +89,12 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
             }
             rotary::refuse_thread(before, post.path.rotary)?;
             scaled_lead::refuse(&post.control, &thread::AXES, PostCode::Thread)?;
-            let counted = thread::counted_lead(post, lead, *target)?;
-            let change = thread::counted_change(post, lead, &counted, *target)?;
+            let counted = thread::counted_lead(post, lead, target)?;
+            let change = thread::counted_change(post, lead, &counted, target)?;
             let motion = motion.of(AxisSet::LINEAR);
             family::thread(&mut post.control, &motion, &counted, change)?;
         }
     }
-    post.control.tip.begins_unsaid = false;
-    post.path.arrive(*target);
     Ok(())
 }
 

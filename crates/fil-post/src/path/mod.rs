@@ -26,6 +26,7 @@ pub mod rapid;
 mod rapid_lean;
 mod rapid_turn;
 mod reposition;
+mod reposition_rapid;
 pub mod rotary;
 mod scaled_lead;
 pub(crate) mod sense;
@@ -39,6 +40,7 @@ mod tip_hole;
 pub mod tool_change;
 mod transformation;
 mod turned_apart;
+mod travel;
 mod turning;
 mod turning_feed;
 

@@ -1,5 +1,5 @@
-//! A rotary axis at its limit in a feed motion: the tool retracts along its axis, the
-//! machine turns to other positions for the same tool axis, the tool returns, and the
+//! An axis at its limit in a feed motion, a rotary one or X, Y or Z: the tool retracts along its
+//! axis, the machine turns to other positions for the same tool axis, the tool returns, and the
 //! motion goes on.
 //!
 //! The change is made where the motion begins, if the machine can go on to its end from
@@ -12,9 +12,11 @@ use fil_machine::axis_chain::AxisChain;
 use fil_machine::commons::Commons;
 use fil_machine::locations::{self as loc, ReposFeedMethod};
 use fil_machine::modes::FeedMode;
+use fil_machine::tables::MachineTables;
 use nalgebra::{Point3, Vector3};
 
-use super::turning::{apart, go, spelled};
+use super::travel::Way;
+use super::turning::{apart, on_the_way, spelled};
 use super::{linearization, rapid, rotary};
 use crate::control::family;
 use crate::control::word_address::motion::{Motion, RapidCode};
@@ -34,29 +36,31 @@ const STILL: f64 = 1e-6;
 const HALF_TURN: f64 = 180.0 + 1e-6;
 
 /// Where in a motion the rotary axes change their positions.
-struct Change {
+pub(super) struct Change {
     /// Share of the motion made before.
-    share: f64,
-    /// Where they stand then, degrees.
-    from: [f64; 2],
+    pub share: f64,
+    /// Where they stand where it begins, degrees.
+    pub before: [f64; 2],
+    /// Where they stand at the change.
+    pub from: [f64; 2],
     /// Other positions for the same tool axis.
-    to: [f64; 2],
+    pub to: [f64; 2],
     /// Where the motion ends then.
-    end: [f64; 2],
+    pub end: [f64; 2],
 }
 
 /// The way out and back as it is made, lengths in the program's unit.
-struct Plan {
+pub(super) struct Plan {
     /// How far the tool goes out along its axis.
-    retract: f64,
+    pub retract: f64,
     /// From where it comes back at feed.
-    approach: f64,
+    pub approach: f64,
     /// Its feed; `None` at rapid.
-    feed_out: Option<Feed>,
+    pub feed_out: Option<Feed>,
     /// The same for the way back.
-    feed_back: Option<Feed>,
+    pub feed_back: Option<Feed>,
     /// What was asked for.
-    ways: Ways,
+    pub ways: Ways,
     /// The macro _REPOS asked for it: what is stopped starts again.
     by_macro: bool,
 }
@@ -73,25 +77,20 @@ pub(super) fn feed(
     free: [f64; 2],
     target: Target,
 ) -> Result<()> {
-    let by_macro = match post.control.commons.read(loc::REPOS_FEED_METHOD) {
-        ReposFeedMethod::RetractAndApproach => Some(false),
-        ReposFeedMethod::CallTheMacroRepos => has_macro(post).then_some(true),
-        ReposFeedMethod::Nothing => None,
-    };
-    let Some(by_macro) = by_macro else {
+    let Some(by_macro) = by_macro(post) else {
         return PostCode::Unwinding.err(format!(
             "the rotary axes would turn from {} to {} degrees in a feed motion, past a limit",
             spelled(before),
             spelled(free)
         ));
     };
-    let known = !post.path.in_chords && linearization::is_where_the_path_is(post, before);
-    let Some(start) = post.path.point.filter(|_| known) else {
-        return PostCode::NoAlternative
-            .err("a limit of a rotary axis lies on an arc, or where the tool stands is not known");
-    };
     let (_, end_axis) = rotary::transformed(post, target);
-    let Some(change) = find(post.control.tables.chain(), before, free, end_axis) else {
+    let start = start(post, before)?;
+    let (from, _) = rotary::transformed(post, Target { point: start, ..target });
+    let (to, _) = rotary::transformed(post, target);
+    let way = Way { line: [from, to], turn: [before, free] };
+    let limit = share_to_limit(post.control.tables.chain(), before, free);
+    let Some(change) = find(&post.control.tables, &way, limit, end_axis) else {
         return PostCode::NoAlternative.err(format!(
             "the rotary axes would turn from {} to {} degrees in a feed motion, past a limit, \
              and from no other positions for the same tool axis can they go on",
@@ -99,40 +98,90 @@ pub(super) fn feed(
             spelled(free)
         ));
     };
+    by_way_of(post, &change, start, target, by_macro)
+}
+
+/// Moves at feed to a target on a way that leaves the travel of X, Y or Z; false where the
+/// machine does not reposition, and nothing is moved.
+///
+/// # Errors
+/// No other positions keep within the travel; no retract is known; all that the motions refuse.
+pub(super) fn at_travel(post: &mut Post, way: &Way, target: Target) -> Result<bool> {
+    let Some(by_macro) = by_macro(post) else { return Ok(false) };
+    let (_, end_axis) = rotary::transformed(post, target);
+    let start = start(post, way.turn[0])?;
+    let tables = &post.control.tables;
+    let limit = way.share_inside(tables);
+    let Some(change) = find(tables, way, limit, end_axis) else {
+        return PostCode::NoAlternative.err(
+            "X, Y or Z would leave its travel in a feed motion, and no other positions of the \
+             rotary axes for the same tool axis keep within it",
+        );
+    };
+    by_way_of(post, &change, start, target, by_macro)?;
+    Ok(true)
+}
+
+/// Whether the macro _REPOS is asked for the way out and back; `None` where the machine makes
+/// none.
+fn by_macro(post: &Post) -> Option<bool> {
+    match post.control.commons.read(loc::REPOS_FEED_METHOD) {
+        ReposFeedMethod::RetractAndApproach => Some(false),
+        ReposFeedMethod::CallTheMacroRepos => has_macro(post).then_some(true),
+        ReposFeedMethod::Nothing => None,
+    }
+}
+
+/// Where the motion begins, as the CL file says it.
+fn start(post: &Post, before: [f64; 2]) -> Result<Point3<f64>> {
+    let known = !post.path.in_chords && linearization::is_where_the_path_is(post, before);
+    post.path.point.filter(|_| known).ok_or_else(|| {
+        PostCode::NoAlternative
+            .diag("a limit of an axis lies on an arc, or where the tool stands is not known")
+    })
+}
+
+/// Moves at feed from the start to a target, with the change of positions on the way.
+fn by_way_of(
+    post: &mut Post,
+    change: &Change,
+    start: Point3<f64>,
+    target: Target,
+    by_macro: bool,
+) -> Result<()> {
+    let (end, end_axis) = rotary::transformed(post, target);
     let middle = Target { point: start + (target.point - start) * change.share, ..target };
     let (place, _) = rotary::transformed(post, middle);
-    let plan = Plan::of(post, place, &change, by_macro)?;
+    let plan = Plan::of(post, place, change, by_macro)?;
     if change.share > NO_PART {
         let position = rotary::words_at(post, place, change.from)?;
         let motion = Motion::new(position, AxisSet::ALL, 0);
-        go(post, before, &motion, Target { word: 0, ..middle })?;
+        on_the_way(post, change.before, &motion, Target { word: 0, ..middle })?;
         post.path.point = Some(middle.point);
     }
-    out_and_back(post, place, &change, &plan, end_axis)?;
-    let (end, _) = rotary::transformed(post, target);
+    out_and_back(post, place, change, &plan, end_axis)?;
     let position = rotary::words_at(post, end, change.end)?;
     post.path.rotary = Some(change.end);
     let word = rotary::word_of(post, target);
-    go(post, change.to, &Motion::new(position, AxisSet::ALL, word), target)
+    on_the_way(post, change.to, &Motion::new(position, AxisSet::ALL, word), target)
 }
 
 /// Where the positions change: at the beginning of the motion or at a limit; to those that
 /// leave most travel beyond the end of the motion, and of such to the nearest.
-fn find(
-    chain: &AxisChain,
-    before: [f64; 2],
-    free: [f64; 2],
-    end_axis: Vector3<f64>,
-) -> Option<Change> {
-    let limit = share_to_limit(chain, before, free);
-    let shares = [0.0, limit];
-    shares.into_iter().find_map(|share| {
-        let from = [0, 1].map(|n| before[n] + (free[n] - before[n]) * share);
+fn find(tables: &MachineTables, way: &Way, limit: f64, end_axis: Vector3<f64>) -> Option<Change> {
+    let chain = tables.chain();
+    let [before, _] = way.turn;
+    let looks_at_travel = !tables.travel_rules.reposition.is_empty();
+    [0.0, limit].into_iter().find_map(|share| {
+        let from = way.angles(share);
+        let start = way.line[0] + (way.line[1] - way.line[0]) * share;
         let others = chain.positions(chain.axis_at(from), from).into_iter();
         let leads_on = others.filter(|to| apart(*to, from)).filter_map(|to| {
             let end = chain.nearest_anywhere(end_axis, to)?;
             let short = (0..2).all(|n| (end[n] - to[n]).abs() <= HALF_TURN);
-            (short && chain.reaches(end)).then_some(Change { share, from, to, end })
+            let rest = Way { line: [start, way.line[1]], turn: [to, end] };
+            let fits = !looks_at_travel || rest.is_inside(tables);
+            (short && chain.reaches(end) && fits).then_some(Change { share, before, from, to, end })
         });
         leads_on.max_by(|a, b| {
             let (room, other) = (room(chain, a), room(chain, b));
@@ -167,7 +216,7 @@ fn turn_of(change: &Change) -> f64 {
 }
 
 /// The script has the macro _REPOS.
-fn has_macro(post: &Post) -> bool {
+pub(super) fn has_macro(post: &Post) -> bool {
     post.control.tape.editor.0.as_ref().is_some_and(|editor| editor.repositions())
 }
 
@@ -175,7 +224,12 @@ impl Plan {
     /// # Errors
     /// No retract is known; no feed; what the macro refuses, and a way shorter than that of the
     /// settings.
-    fn of(post: &mut Post, place: Point3<f64>, change: &Change, by_macro: bool) -> Result<Plan> {
+    pub fn of(
+        post: &mut Post,
+        place: Point3<f64>,
+        change: &Change,
+        by_macro: bool,
+    ) -> Result<Plan> {
         let control = &mut post.control;
         let mut ways = ways_of(&control.commons);
         let least = ways;
@@ -285,7 +339,7 @@ fn out_and_back(
 
 /// A straight way out or back, in which no rotary axis turns. At rapid only along one axis of
 /// the machine, since controls need not go straight in others.
-fn straight(post: &mut Post, to: Position, feed: Option<Feed>) -> Result<()> {
+pub(super) fn straight(post: &mut Post, to: Position, feed: Option<Feed>) -> Result<()> {
     let motion = Motion::new(to, AxisSet::ALL, 0);
     let control = &mut post.control;
     let moves = |n: &usize| {
@@ -316,7 +370,7 @@ fn turn(post: &mut Post, place: Point3<f64>, change: &Change) -> Result<()> {
 }
 
 /// What is switched on before the way back.
-struct Restart {
+pub(super) struct Restart {
     /// Which way the spindle turns: clockwise or not.
     spindle: Option<bool>,
     coolant: Option<fil_machine::setting::CodeAt>,
@@ -327,7 +381,7 @@ struct Restart {
 ///
 /// # Errors
 /// What stops would not start again.
-fn stop_around(post: &mut Post, plan: &Plan) -> Result<Restart> {
+pub(super) fn stop_around(post: &mut Post, plan: &Plan) -> Result<Restart> {
     let control = &mut post.control;
     let starts = |at| plan.by_macro || control.commons.read(at);
     let stands = plan.ways.spindle_stands;
@@ -357,7 +411,7 @@ fn stop_around(post: &mut Post, plan: &Plan) -> Result<Restart> {
     Ok(Restart { spindle, coolant })
 }
 
-fn start_again(post: &mut Post, restart: Restart) -> Result<()> {
+pub(super) fn start_again(post: &mut Post, restart: Restart) -> Result<()> {
     let control = &mut post.control;
     if let Some(clockwise) = restart.spindle {
         spindle::turn_on(control, clockwise)?;

@@ -33,10 +33,7 @@ pub(super) fn feed(
     if post.control.tables.mills() {
         return linearization::feed(post, before, motion.position, target);
     }
-    refuse_indexing(post, before, motion)?;
-    if post.control.tables.within_a_turn {
-        full_turn::check_feed(&post.control, before, &motion.position)?;
-    }
+    may_turn(post, before, motion)?;
     let chain = post.control.tables.chain();
     let now = [motion.position[3], motion.position[4]];
     if chain.is_limited()
@@ -45,6 +42,39 @@ pub(super) fn feed(
         return reposition::feed(post, before, free, target);
     }
     go(post, before, motion, target)
+}
+
+/// Refuses a motion at feed in which an axis would turn that can only index, or whose words the
+/// control would read another way.
+///
+/// # Errors
+/// One would.
+fn may_turn(post: &Post, before: [f64; 2], motion: &Motion) -> Result<()> {
+    refuse_indexing(post, before, motion)?;
+    if post.control.tables.within_a_turn {
+        full_turn::check_feed(&post.control, before, &motion.position)?;
+    }
+    Ok(())
+}
+
+/// Moves at feed to where no rotary axis turns past a limit, whether one turns or not.
+///
+/// # Errors
+/// As [`feed`].
+pub(super) fn on_the_way(
+    post: &mut Post,
+    before: [f64; 2],
+    motion: &Motion,
+    target: Target,
+) -> Result<()> {
+    if apart(before, [motion.position[3], motion.position[4]]) {
+        may_turn(post, before, motion)?;
+        return go(post, before, motion, target);
+    }
+    match feed_rules::apply(post) {
+        true => feed_rules::line(post, motion, target, None),
+        false => family::feed(&mut post.control, motion, post.path.feed.as_ref()),
+    }
 }
 
 /// Refuses a motion at feed in which an axis would turn that can only index.

@@ -10,8 +10,8 @@ use fil_machine::commons::{Commons, Dbl, Int};
 use fil_machine::cycle_kind::CycleKind;
 use fil_machine::letter::{Letter, letters};
 use fil_machine::locations::{
-    self as loc, CircleCenter, ControlFamily, ControlToolOffsets, CycleBoreOut, InputKind,
-    MillTurnSidePeck, Placement, RapidSplit, ToolChangeBlock, ToolFormat,
+    self as loc, CircleCenter, ControlFamily, ControlToolOffsets, CycleBoreOut, Exceeded,
+    InputKind, MillTurnSidePeck, Placement, RapidSplit, ToolChangeBlock, ToolFormat,
 };
 use fil_machine::user_blocks::{self, AroundChange};
 
@@ -469,6 +469,15 @@ impl<'c> Settings<'c> {
             self.commons.dbl_opt(at).map_or(otherwise, |limit| limit * unit)
         };
         loc::LINEAR_LIMITS.map(|(min, max)| (of(min, f64::NEG_INFINITY), of(max, f64::INFINITY)))
+    }
+
+    /// Which of X, Y and Z a straight motion may bring out of their travel: the post has warned.
+    pub fn leaves_travel(&self) -> [bool; 3] {
+        let commons = self.commons;
+        let rules = self.forward.has_rotary()
+            && !self.is_mill_turn()
+            && commons.read(loc::REPOS_CHECK_LINEAR);
+        loc::LINEAR_EXCEEDED.map(|at| rules && commons.read(at) == Exceeded::Warn)
     }
 
     /// R level above a hole's start when the record gives none, mm.
