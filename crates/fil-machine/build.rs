@@ -10,6 +10,7 @@ const SHARED: &[(&str, &str)] = &[
     ("0=none|1=table|2=head", "RotaryKind"),
     ("1=A|2=B|3=C", "RotaryAxis"),
     ("0=not used|1=reposition|2=warn", "Exceeded"),
+    ("0=straight range|1=rotary ranges", "TravelKind"),
     ("1=block of its own|2=next XY block|3=next Z block", "Placement"),
 ];
 

@@ -14,11 +14,12 @@ use nalgebra::{Point3, Unit, Vector3};
 use crate::commons::{Commons, Dbl};
 use crate::errors::MachineCode;
 use crate::letter::Letter;
-use crate::locations::{self as loc, RotaryAxis, RotaryKind};
+use crate::locations::{self as loc, RotaryAxis, RotaryKind, TravelKind};
 use crate::modes::INCH;
 pub use crate::rotation::Turn;
 use crate::rotation::{self, SAME, turn};
 use crate::setting::{Choice, LetterAt, OptionalChoice};
+use crate::zones::Zones;
 use fil_diag::{Diag, Result};
 
 /// Whole turns to either side in which other positions of a limited axis are looked for.
@@ -53,6 +54,8 @@ pub struct Rotary {
     pub min: Option<f64>,
     /// Travel in degrees; `None` when not limited.
     pub max: Option<f64>,
+    /// Where it may stand within that.
+    pub zones: Zones,
 }
 
 /// Positions of all axes that bring the tip to a point and the tool along its axis.
@@ -174,7 +177,7 @@ impl AxisChain {
         let solutions = self.all(axis, last);
         let solutions = solutions.pairs();
         let Some(free) = nearest_free(solutions, last) else { return Err(unreachable(axis)) };
-        if self.reaches(free) {
+        if self.goes(last, free) {
             return Ok((free, free));
         }
         Ok((self.nearest(solutions, last).ok_or_else(|| outside(solutions))?, free))
@@ -213,7 +216,7 @@ impl AxisChain {
         let tool = self.tool.into_inner();
         let turn = rotation::turn_about_a_line(table.direction, tool, axis, last[0])?;
         let turn = turn.at(near(turn.degrees, last[0]));
-        if !table.reaches(turn.degrees) {
+        if !table.goes(last[0], turn.degrees) {
             return None;
         }
         let linear = table.center + table.turned_by(tip - table.center, turn.back());
@@ -230,7 +233,7 @@ impl AxisChain {
 
     /// True when the travel of a rotary axis is limited.
     pub fn is_limited(&self) -> bool {
-        self.rotaries.iter().flatten().any(|rotary| rotary.min.is_some() || rotary.max.is_some())
+        self.rotaries.iter().flatten().any(Rotary::is_limited)
     }
 
     /// True when the rotary axes can stand at these positions, degrees.
@@ -239,6 +242,11 @@ impl AxisChain {
             rotary.as_ref().is_none_or(|rotary| rotary.reaches(angle))
         };
         self.rotaries.iter().zip(angles).all(reaches)
+    }
+
+    /// True when the rotary axes can go from one position to another, degrees.
+    pub fn goes(&self, from: [f64; 2], to: [f64; 2]) -> bool {
+        (0..2).all(|n| self.rotaries[n].as_ref().is_none_or(|rotary| rotary.goes(from[n], to[n])))
     }
 
     /// The tool axis in the part where the rotary axes stand at these positions, degrees.
@@ -267,8 +275,8 @@ impl AxisChain {
     pub fn positions(&self, axis: Vector3<f64>, last: [f64; 2]) -> Vec<[f64; 2]> {
         let mut positions = Vec::new();
         for found in self.solutions(axis, last) {
-            let second = self.turns(1, near(found[1], last[1]));
-            for at in self.turns(0, near(found[0], last[0])) {
+            let second = self.turns(1, near(found[1], last[1]), last[1]);
+            for at in self.turns(0, near(found[0], last[0]), last[0]) {
                 positions.extend(second.iter().map(|other| [at, *other]));
             }
         }
@@ -283,12 +291,11 @@ impl AxisChain {
     }
 
     /// An angle with the whole turns that the travel of a rotary axis has room for, degrees.
-    fn turns(&self, number: usize, angle: f64) -> Vec<f64> {
+    fn turns(&self, number: usize, angle: f64, last: f64) -> Vec<f64> {
         let Some(rotary) = &self.rotaries[number] else { return vec![angle] };
-        let limited = rotary.min.is_some() || rotary.max.is_some();
-        let most = if limited { TURNS } else { 0 };
+        let most = if rotary.is_limited() { TURNS } else { 0 };
         let mut turns: Vec<_> = (-most..=most).map(|n| angle + 360.0 * f64::from(n)).collect();
-        turns.retain(|angle| rotary.reaches(*angle));
+        turns.retain(|angle| rotary.goes(last, *angle));
         turns
     }
 
@@ -368,11 +375,36 @@ impl AxisChain {
 const PAST_LIMIT: f64 = 1e-6;
 
 impl Rotary {
+    /// True when its travel is limited.
+    pub fn is_limited(&self) -> bool {
+        self.min.is_some() || self.max.is_some() || !self.zones.is_empty()
+    }
+
+    /// True when the axis can go from one position to another, degrees. One that stands outside
+    /// of its zones, as nothing has said where it stands, may come into any.
+    #[inline]
+    pub fn goes(&self, from: f64, to: f64) -> bool {
+        self.reaches(to)
+            && (self.zones.is_empty() || !self.zones.holds(from) || self.zones.leads(from, to))
+    }
+
+    /// Where an axis that stands at a position comes to its limit, up or down.
+    pub fn limit(&self, from: f64, up: bool) -> Option<f64> {
+        let travel = if up { self.max } else { self.min };
+        let of_zone = self.zones.end(from, up);
+        let nearer = |a: f64, b: f64| if (a - from).abs() < (b - from).abs() { a } else { b };
+        match (travel, of_zone) {
+            (Some(travel), Some(of_zone)) => Some(nearer(travel, of_zone)),
+            (travel, of_zone) => travel.or(of_zone),
+        }
+    }
+
     /// True when the axis can stand at this position, degrees. A direction at a limit, rounded
     /// in the CL file, may lie a little past it.
     pub fn reaches(&self, angle: f64) -> bool {
         self.min.is_none_or(|min| angle >= min - PAST_LIMIT)
             && self.max.is_none_or(|max| angle <= max + PAST_LIMIT)
+            && (self.zones.is_empty() || self.zones.holds(angle))
     }
 
     /// A direction turned about the axis by an angle, degrees, by the right-hand rule.
@@ -390,13 +422,13 @@ impl Rotary {
     /// The angle plus whole turns that lies nearest to `last` and within the limits.
     fn turn_near(&self, angle: f64, last: f64) -> Option<f64> {
         let near = near(angle, last);
-        if self.reaches(near) {
+        if self.goes(last, near) {
             return Some(near);
         }
         [360.0, -360.0, 720.0, -720.0]
             .into_iter()
             .map(|turn| near + turn)
-            .filter(|angle| self.reaches(*angle))
+            .filter(|angle| self.goes(last, *angle))
             .min_by(|a, b| (a - last).abs().total_cmp(&(b - last).abs()))
     }
 }
@@ -515,7 +547,8 @@ fn rotary(commons: &Commons, at: &RotaryLocations) -> Result<Option<Rotary>> {
     let coordinate = |location: Dbl| commons.dbl_opt(location).unwrap_or(0.0);
     let of_letter = loc::ROTARY_LIMITS[axis];
     let limit = |own: Dbl, of_letter: Dbl| {
-        let checked = commons.read(loc::LIMITS_CHECK);
+        let checked = commons.read(loc::LIMITS_CHECK)
+            && commons.read(loc::TRAVEL_KINDS[axis]) == TravelKind::StraightRange;
         commons.dbl_opt(own).or_else(|| commons.dbl_opt(of_letter).filter(|_| checked))
     };
     Ok(Some(Rotary {
@@ -526,6 +559,7 @@ fn rotary(commons: &Commons, at: &RotaryLocations) -> Result<Option<Rotary>> {
         axis,
         min: limit(at.range[0], of_letter.0),
         max: limit(at.range[1], of_letter.1),
+        zones: Zones::from_commons(commons, axis),
     }))
 }
 

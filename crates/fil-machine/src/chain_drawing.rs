@@ -9,6 +9,7 @@ use crate::axis_chain::{AxisChain, Carries, Rotary};
 use crate::commons::{Commons, EMPTY};
 use crate::errors::MachineCode;
 use crate::locations as loc;
+use crate::zones::Zones;
 use fil_diag::{Diag, Result};
 
 /// Height and width of a link of the chain in the picture, and the way between two.
@@ -109,10 +110,14 @@ fn turning(commons: &Commons, index: usize, rotary: &Rotary) -> Link {
     };
     let order = ["primary", "secondary"][index];
     let center = rotary.center;
-    let travel = match (rotary.min, rotary.max) {
+    let mut travel = match (rotary.min, rotary.max) {
         (None, None) => "any turn".to_string(),
         (min, max) => format!("{} to {} degrees", bound(min), bound(max)),
     };
+    let Zones { ranges, zone } = rotary.zones;
+    for [low, high] in ranges.into_iter().chain([zone]).flatten() {
+        travel += &format!(", within {} to {}", number(low), number(high));
+    }
     let mut details = vec![
         format!(
             "about {} through {}, {}, {}",

@@ -14,8 +14,7 @@ const SCALES: [Dbl; 3] = [loc::SCALE_A, loc::SCALE_B, loc::SCALE_C];
 /// True for an axis whose positions count within one turn: one with travel counts on, as its
 /// limits do.
 pub(crate) fn is_meant(commons: &Commons, rotary: &Rotary) -> bool {
-    let endless = rotary.min.is_none() && rotary.max.is_none();
-    endless && commons.read(loc::ROTARY_OUTPUT) != RotaryOutput::AnyNumberOfTurns
+    !rotary.is_limited() && commons.read(loc::ROTARY_OUTPUT) != RotaryOutput::AnyNumberOfTurns
 }
 
 /// Contradictions of a machine that counts within a turn.

@@ -38,6 +38,7 @@ pub mod tape_style;
 pub mod travel_rules;
 pub mod user_blocks;
 mod value_unit;
+pub mod zones;
 
 pub use commons::{Commons, Kind};
 pub use function_code::FunctionCode;

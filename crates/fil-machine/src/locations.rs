@@ -161,6 +161,12 @@ pub const LINEAR_LIMITS: [(Dbl, Dbl); 3] =
 pub const ROTARY_LIMITS: [(Dbl, Dbl); 3] =
     [(LIMITS_A_MIN, LIMITS_A_MAX), (LIMITS_B_MIN, LIMITS_B_MAX), (LIMITS_C_MIN, LIMITS_C_MAX)];
 
+/// How the travel of A, B, C is given.
+pub const TRAVEL_KINDS: [Choice<TravelKind>; 3] = [LIMITS_A_KIND, LIMITS_B_KIND, LIMITS_C_KIND];
+
+/// Whether A, B, C stay within a zone.
+pub const IN_ZONES: [Flag; 3] = [LIMITS_A_ZONES, LIMITS_B_ZONES, LIMITS_C_ZONES];
+
 /// What happens where X, Y, Z leave their travel.
 pub const LINEAR_EXCEEDED: [Choice<Exceeded>; 3] =
     [REPOS_X_EXCEEDED, REPOS_Y_EXCEEDED, REPOS_Z_EXCEEDED];

@@ -35,6 +35,7 @@ impl RotaryFeedRules {
         let positive = |at: Dbl| commons.dbl_opt(at).filter(|value| *value > 0.0);
         let factor = |at| positive(at).unwrap_or(1.0);
         let most = |at| positive(at).unwrap_or(f64::INFINITY);
+        let part = positive(loc::ROTARY_VELOCITY_PERCENT).map_or(1.0, |percent| percent / 100.0);
         let own = commons.dbl_opt(loc::ROTARY_SECONDARY_FEED_MAX).is_some();
         let second = if own { loc::ROTARY_SECONDARY_FEED_MAX } else { loc::ROTARY_FEED_MAX };
         let decimals = |format: i32| if metric { format % 10 } else { format / 100 % 10 };
@@ -46,7 +47,7 @@ impl RotaryFeedRules {
         let inverse_min = commons.dbl_opt(loc::FEED_INVERSE_MIN).unwrap_or(0.0);
         RotaryFeedRules {
             form: commons.read(loc::ROTARY_FEED),
-            most_turn: [most(loc::ROTARY_FEED_MAX), most(second)],
+            most_turn: [loc::ROTARY_FEED_MAX, second].map(|at| most(at) * part),
             least_time: positive(loc::FEED_INVERSE_MIN_TIME).unwrap_or(0.0) / 60.0,
             inverse: [inverse_min, most(loc::FEED_INVERSE_MAX)],
             inverse_factor,

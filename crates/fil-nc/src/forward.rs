@@ -291,6 +291,7 @@ pub(crate) mod tests {
             axis: 0,
             min: None,
             max: None,
+            zones: Default::default(),
         }
     }
 

@@ -116,6 +116,10 @@ fil_diag::codes! {
         RapidRepositioned = 587, Warning, "a rapid motion takes other positions of the rotary axes",
             "The nearest positions for the tool axis lie past a limit, or the motions behind a RAPID would come to one from there.",
             "Look whether the tool is clear of the part while the machine turns; repos.rapid_retract = 1 takes it out before, repos.rapid_warning = 0 says nothing.";
+        /// What a look-ahead has tried.
+        LookAhead = 595, Warning, "what the look-ahead of a RAPID has tried",
+            "repos.optimise_trace lists for each RAPID from which positions of the rotary axes the motions behind it meet how many limits and poles, and which are taken.",
+            "Nothing is wrong; repos.optimise_trace = 0 lists nothing.";
         /// Length of a tool axis.
         AxisLength = 525, Error, "not a tool axis",
             "A tool axis has length 1; six values of another length may be two points. After MULTAX / OFF there is none but 0,0,1.",

@@ -130,6 +130,7 @@ impl Dice {
             axis: 0,
             min: limits.map(|(min, _)| min),
             max: limits.map(|(_, max)| max),
+            zones: Default::default(),
         }
     }
 

@@ -11,6 +11,7 @@ fn axis(carries: Carries, direction: [f64; 3]) -> Option<Rotary> {
         axis: 0,
         min: None,
         max: None,
+        zones: Zones::default(),
     })
 }
 

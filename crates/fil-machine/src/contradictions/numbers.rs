@@ -19,6 +19,7 @@ const POSITIVE: &[(Dbl, &str)] = &[
     (loc::SEQNO_MAX, "the largest sequence number"),
     (loc::CIRCLE_MAX_RADIUS, "the largest radius"),
     (loc::MOTION_RESOLUTION, "the resolution of the linear axes"),
+    (loc::ROTARY_VELOCITY_PERCENT, "the part of the rotary speed"),
 ];
 
 /// Numbers that must not be below zero where they are given.

@@ -1,34 +1,50 @@
-//! Travel of rotary axes in forms that nothing checks.
+//! Travel of rotary axes in ranges and zones.
 
 use fil_diag::Diag;
 
 use super::contradiction;
 use crate::axis_chain::AxisChain;
 use crate::commons::Commons;
-use crate::locations::{self as loc, Location};
+use crate::locations::{self as loc, TravelKind};
+use crate::mill_turn;
+use crate::zones::Zones;
 
-/// Settings of a rotary axis by the end of their names, and what they ask for.
-const FORMS: [(&str, &str); 2] =
-    [("kind", "rotary ranges in place of one straight one"), ("zones", "travel zones")];
-
-/// Refuses a machine that checks travel and gives that of a rotary axis in ranges or zones:
-/// positions outside of them would pass.
+/// Refuses ranges or zones of a rotary axis whose ends are not given or the wrong way round, and
+/// those of a mill-turn machine, on which nothing checks them.
 pub(super) fn forms(commons: &Commons, found: &mut Vec<Diag>) {
     let Ok(chain) = AxisChain::from_commons(commons) else { return };
     if !commons.read(loc::LIMITS_CHECK) {
         return;
     }
     for rotary in chain.rotaries.iter().flatten() {
-        for (form, what) in FORMS {
-            let name = format!("limits.{}_{form}", ['a', 'b', 'c'][rotary.axis]);
-            let row = Location::named(&name);
-            let value = row.and_then(|row| commons.get(row.kind, u32::from(row.number)).ok());
-            if value == Some(1.0) {
+        let (axis, letter) = (rotary.axis, ['a', 'b', 'c'][rotary.axis]);
+        let in_ranges = commons.read(loc::TRAVEL_KINDS[axis]) == TravelKind::RotaryRanges;
+        let in_zones = commons.read(loc::IN_ZONES[axis]);
+        let Zones { ranges, zone } = rotary.zones;
+        let ends = [
+            (in_ranges, ranges.iter().any(Option::is_some), "kind", "range1"),
+            (in_zones, zone.is_some(), "zones", "zone"),
+        ];
+        for (asked, given, name, end) in ends {
+            if asked && !given {
                 found.push(contradiction(format!(
-                    "limits.check asks for the travel of {}, and {name} gives it as {what}, which \
-                     the post does not check: give limits.{1}_min and limits.{1}_max",
-                    rotary.letter,
-                    ['a', 'b', 'c'][rotary.axis]
+                    "limits.{letter}_{name} = 1 asks for limits.{letter}_{end}_min and \
+                     limits.{letter}_{end}_max, and they are not given"
+                )));
+            }
+            if asked && mill_turn::mode(commons).is_some() {
+                found.push(contradiction(format!(
+                    "limits.{letter}_{name} = 1 gives the travel in ranges or zones, which on a \
+                     mill-turn machine nothing checks: give limits.{letter}_min and \
+                     limits.{letter}_max"
+                )));
+            }
+        }
+        for [low, high] in ranges.into_iter().chain([zone]).flatten() {
+            if low >= high {
+                found.push(contradiction(format!(
+                    "a range or zone of {} ends at {high} and begins at {low}",
+                    rotary.letter
                 )));
             }
         }

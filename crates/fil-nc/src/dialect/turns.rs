@@ -30,7 +30,7 @@ pub(super) fn ways(settings: &Settings, chain: &AxisChain) -> [Option<WayRound>;
     };
     let mut ways = [None; 5];
     for (axis, rotary) in chain.rotaries.iter().enumerate() {
-        let endless = rotary.as_ref().is_some_and(|it| it.min.is_none() && it.max.is_none());
+        let endless = rotary.as_ref().is_some_and(|it| !it.is_limited());
         ways[axis + 3] = Some(way).filter(|_| endless);
     }
     ways

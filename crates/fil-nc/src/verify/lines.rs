@@ -8,6 +8,7 @@ use super::rapid_lean::{Leg, Lie, UPRIGHT};
 use super::report::FindingKind;
 use super::say::short;
 use super::walk::{STILL, Walk};
+use super::zones;
 use fil_machine::locations::LinearMethod;
 
 use crate::forward::Pose;
@@ -364,7 +365,10 @@ impl<C: Steps> Walk<'_, C> {
             let value = found.to.rotary[n];
             let low = axis.min.is_some_and(|min| value < min - self.slack.rotary[n]);
             let high = axis.max.is_some_and(|max| value > max + self.slack.rotary[n]);
-            if low || high {
+            let from = self.known[n + 3].then_some(self.at.rotary[n]);
+            let slack = self.slack.rotary[n];
+            let beyond = zones::outside(axis, from, value, slack).is_some();
+            if low || high || beyond {
                 let letter = axis.letter.character();
                 let message =
                     format!("{letter}{} lies outside the travel of the axis", short(value));

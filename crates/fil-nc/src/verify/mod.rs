@@ -52,6 +52,7 @@ mod unasked;
 mod walk;
 mod wanted;
 mod window;
+mod zones;
 
 use fil_cl::Reader;
 use fil_diag::Diag;

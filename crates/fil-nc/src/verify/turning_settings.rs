@@ -11,8 +11,9 @@ impl Settings<'_> {
     pub fn turning_time(&self, asked: f64, turned: [f64; 2]) -> f64 {
         let first = self.commons.dbl_opt(loc::ROTARY_FEED_MAX);
         let second = self.commons.dbl_opt(loc::ROTARY_SECONDARY_FEED_MAX).or(first);
+        let part = self.commons.dbl_opt(loc::ROTARY_VELOCITY_PERCENT).unwrap_or(100.0) / 100.0;
         let least = |(turned, most): (f64, Option<f64>)| {
-            most.filter(|most| *most > 0.0).map_or(0.0, |most| turned / most)
+            most.filter(|most| *most > 0.0).map_or(0.0, |most| turned / (most * part))
         };
         turned.into_iter().zip([first, second]).map(least).fold(asked, f64::max)
     }

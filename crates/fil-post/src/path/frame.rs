@@ -192,10 +192,7 @@ fn refuse_at_feed(control: &Control, rests: bool) -> Result<()> {
 
 /// The tool lies along an axis where the machine stands at zero, and it can stand there.
 fn zero(chain: &AxisChain, axis: Vector3<f64>) -> bool {
-    let reaches = chain.rotaries.iter().flatten().all(|rotary| {
-        rotary.min.is_none_or(|min| min <= 0.0) && rotary.max.is_none_or(|max| max >= 0.0)
-    });
-    reaches && (axis - chain.tool.into_inner()).norm() < SAME_AXIS
+    chain.reaches([0.0; 2]) && (axis - chain.tool.into_inner()).norm() < SAME_AXIS
 }
 
 /// How the machine's axes lie in the part where its rotary axes stand.

@@ -28,9 +28,10 @@ pub(super) fn turn(post: &mut Post, index: usize, to: f64) -> Result<()> {
         return PostCode::CompensationOn.err("where ROTABL turns a table");
     }
     let chain = post.control.tables.chain();
-    let mut angles = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post));
+    let stands = post.path.rotary.unwrap_or_else(|| rotary::on_tape(post));
+    let mut angles = stands;
     angles[index] = to;
-    if !chain.reaches(angles) {
+    if !chain.goes(stands, angles) {
         return PostCode::WordForm
             .err(format!("ROTABL: {to} degrees lie outside the travel of the table"));
     }

@@ -12,7 +12,6 @@ use fil_machine::axis_chain::AxisChain;
 use fil_machine::commons::Commons;
 use fil_machine::locations::{self as loc, ReposFeedMethod};
 use fil_machine::modes::FeedMode;
-use fil_machine::tables::MachineTables;
 use nalgebra::{Point3, Vector3};
 
 use super::travel::Way;
@@ -34,6 +33,12 @@ const STILL: f64 = 1e-6;
 
 /// Most that an axis may turn from its new position to the end of the motion, degrees.
 const HALF_TURN: f64 = 180.0 + 1e-6;
+
+/// A turn, degrees.
+const FULL_TURN: f64 = 360.0;
+
+/// The axis C among A, B and C.
+const C: usize = 2;
 
 /// Where in a motion the rotary axes change their positions.
 pub(super) struct Change {
@@ -90,7 +95,7 @@ pub(super) fn feed(
     let (to, _) = rotary::transformed(post, target);
     let way = Way { line: [from, to], turn: [before, free] };
     let limit = share_to_limit(post.control.tables.chain(), before, free);
-    let Some(change) = find(&post.control.tables, &way, limit, end_axis) else {
+    let Some(change) = find(post, &way, limit, end_axis) else {
         return PostCode::NoAlternative.err(format!(
             "the rotary axes would turn from {} to {} degrees in a feed motion, past a limit, \
              and from no other positions for the same tool axis can they go on",
@@ -110,9 +115,8 @@ pub(super) fn at_travel(post: &mut Post, way: &Way, target: Target) -> Result<bo
     let Some(by_macro) = by_macro(post) else { return Ok(false) };
     let (_, end_axis) = rotary::transformed(post, target);
     let start = start(post, way.turn[0])?;
-    let tables = &post.control.tables;
-    let limit = way.share_inside(tables);
-    let Some(change) = find(tables, way, limit, end_axis) else {
+    let limit = way.share_inside(&post.control.tables);
+    let Some(change) = find(post, way, limit, end_axis) else {
         return PostCode::NoAlternative.err(
             "X, Y or Z would leave its travel in a feed motion, and no other positions of the \
              rotary axes for the same tool axis keep within it",
@@ -168,34 +172,62 @@ fn by_way_of(
 
 /// Where the positions change: at the beginning of the motion or at a limit; to those that
 /// leave most travel beyond the end of the motion, and of such to the nearest.
-fn find(tables: &MachineTables, way: &Way, limit: f64, end_axis: Vector3<f64>) -> Option<Change> {
+fn find(post: &Post, way: &Way, limit: f64, end_axis: Vector3<f64>) -> Option<Change> {
+    let tables = &post.control.tables;
     let chain = tables.chain();
     let [before, _] = way.turn;
+    let to_zero = post.control.commons.read(loc::ROTARY_C_TO_ZERO);
     let looks_at_travel = !tables.travel_rules.reposition.is_empty();
     [0.0, limit].into_iter().find_map(|share| {
         let from = way.angles(share);
         let start = way.line[0] + (way.line[1] - way.line[0]) * share;
         let others = chain.positions(chain.axis_at(from), from).into_iter();
+        let others = others.map(|to| if to_zero { unwound(chain, to) } else { to });
         let leads_on = others.filter(|to| apart(*to, from)).filter_map(|to| {
             let end = chain.nearest_anywhere(end_axis, to)?;
             let short = (0..2).all(|n| (end[n] - to[n]).abs() <= HALF_TURN);
             let rest = Way { line: [start, way.line[1]], turn: [to, end] };
             let fits = !looks_at_travel || rest.is_inside(tables);
-            (short && chain.reaches(end) && fits).then_some(Change { share, before, from, to, end })
+            (short && chain.goes(to, end) && fits).then_some(Change {
+                share,
+                before,
+                from,
+                to,
+                end,
+            })
         });
         leads_on.max_by(|a, b| {
             let (room, other) = (room(chain, a), room(chain, b));
-            room.total_cmp(&other).then(turn_of(b).total_cmp(&turn_of(a)))
+            let nearer = off_zero(chain, b.to).total_cmp(&off_zero(chain, a.to));
+            let most = room.total_cmp(&other).then(turn_of(b).total_cmp(&turn_of(a)));
+            if to_zero { nearer.then(most) } else { most }
         })
     })
+}
+
+/// Positions without the whole turns of an axis C that has no travel.
+fn unwound(chain: &AxisChain, to: [f64; 2]) -> [f64; 2] {
+    [0, 1].map(|n| match &chain.rotaries[n] {
+        Some(rotary) if rotary.axis == C && !rotary.is_limited() => {
+            to[n] - FULL_TURN * (to[n] / FULL_TURN).round()
+        }
+        _ => to[n],
+    })
+}
+
+/// How far the axis C stands off zero, degrees.
+fn off_zero(chain: &AxisChain, at: [f64; 2]) -> f64 {
+    let is_c = |n: &usize| chain.rotaries[*n].as_ref().is_some_and(|rotary| rotary.axis == C);
+    (0..2).filter(is_c).map(|n| at[n].abs()).sum()
 }
 
 /// The largest share of an even turn at which no axis is past its limit.
 fn share_to_limit(chain: &AxisChain, from: [f64; 2], to: [f64; 2]) -> f64 {
     let shares = chain.rotaries.iter().enumerate().filter_map(|(n, rotary)| {
         let rotary = rotary.as_ref()?;
-        let limit = if to[n] > from[n] { rotary.max } else { rotary.min }?;
-        (!rotary.reaches(to[n])).then(|| ((limit - from[n]) / (to[n] - from[n])).clamp(0.0, 1.0))
+        let limit = rotary.limit(from[n], to[n] > from[n])?;
+        (!rotary.goes(from[n], to[n]))
+            .then(|| ((limit - from[n]) / (to[n] - from[n])).clamp(0.0, 1.0))
     });
     shares.fold(1.0, f64::min)
 }
@@ -205,7 +237,7 @@ fn room(chain: &AxisChain, change: &Change) -> f64 {
     let rooms = chain.rotaries.iter().enumerate().filter_map(|(n, rotary)| {
         let rotary = rotary.as_ref()?;
         let turn = change.end[n] - change.to[n];
-        let limit = if turn > 0.0 { rotary.max } else { rotary.min }?;
+        let limit = rotary.limit(change.end[n], turn > 0.0)?;
         (turn.abs() > STILL).then(|| (limit - change.end[n]).abs())
     });
     rooms.fold(f64::INFINITY, f64::min)

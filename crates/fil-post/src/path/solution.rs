@@ -11,7 +11,8 @@ use fil_machine::tables::MachineTables;
 use nalgebra::{Point3, Vector3};
 
 use super::rotary;
-use super::turning::off_its_plane;
+use super::turning::{off_its_plane, spelled};
+use crate::errors::PostCode;
 use crate::operation::{MotionKind, Target};
 use crate::post::Post;
 
@@ -26,6 +27,9 @@ pub struct Coming {
 
 /// The same in the part of the machine: after TRANS.
 type Ahead = (Option<Point3<f64>>, Vector3<f64>);
+
+/// Positions of the rotary axes, behind how many limits and poles are met from there.
+type Tried = (u32, [f64; 2]);
 
 /// Chooses the positions for a rapid motion: its own solution is the nearest to them.
 #[cold]
@@ -49,10 +53,14 @@ pub(super) fn choose(post: &mut Post, target: Target, kind: MotionKind) {
     let lean = post.control.commons.dbl_opt(loc::ROTARY_AXIS_TOLERANCE).unwrap_or(0.0);
     let way = |to: &[f64; 2]| (to[0] - last[0]).abs() + (to[1] - last[1]).abs();
     let all = candidates(tables.chain(), axis, &ahead, last).into_iter();
-    let all = all.map(|to| (met(tables, to, &ahead, lean), to));
-    let best = all.min_by(|(met, a), (other, b)| met.cmp(other).then(way(a).total_cmp(&way(b))));
-    if let Some((_, to)) = best {
+    let all: Vec<Tried> = all.map(|to| (met(tables, to, &ahead, lean), to)).collect();
+    let tried = all.iter();
+    let best = tried.min_by(|(met, a), (other, b)| met.cmp(other).then(way(a).total_cmp(&way(b))));
+    if let Some((_, to)) = best.copied() {
         post.path.chosen = Some(to);
+        if post.control.commons.read(loc::REPOS_OPTIMISE_TRACE) {
+            tell(post, &all, to, ahead.len());
+        }
     }
 }
 
@@ -74,6 +82,17 @@ fn candidates(
     all
 }
 
+/// Says what was tried for a RAPID, and what was taken.
+fn tell(post: &mut Post, all: &[Tried], taken: [f64; 2], motions: usize) {
+    let from = all.iter().map(|(met, to)| format!("{met} from {}", spelled(*to)));
+    let message = format!(
+        "in {motions} motions the rotary axes meet limits and poles: {}; {} is taken",
+        from.collect::<Vec<_>>().join(", "),
+        spelled(taken)
+    );
+    post.warn(PostCode::LookAhead, message);
+}
+
 /// How many limits and poles the motions meet from a position of the rotary axes.
 fn met(tables: &MachineTables, from: [f64; 2], ahead: &[Ahead], lean: f64) -> u32 {
     let chain = tables.chain();
@@ -81,7 +100,7 @@ fn met(tables: &MachineTables, from: [f64; 2], ahead: &[Ahead], lean: f64) -> u3
     let mut met = 0;
     for (point, axis) in ahead {
         let Some(next) = chain.nearest_anywhere(*axis, at) else { break };
-        if chain.reaches(next) {
+        if chain.goes(at, next) {
             let far = (next[0] - at[0]).abs().max((next[1] - at[1]).abs()) > lean;
             met += u32::from(lean > 0.0 && far && off_its_plane(chain, at, next) > lean);
             at = next;

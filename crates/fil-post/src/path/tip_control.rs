@@ -215,7 +215,7 @@ fn turn_tables_to_zero(post: &mut Post) -> Result<()> {
         let Some(rotary) = rotary.as_ref().filter(|rotary| rotary.carries == Carries::Table) else {
             continue;
         };
-        if rotary.min.is_some_and(|min| min > 0.0) || rotary.max.is_some_and(|max| max < 0.0) {
+        if !rotary.goes(stands[index], 0.0) {
             let letter = rotary.letter;
             return PostCode::TipControl.err_with(
                 format!("tool-tip control begins with {letter} at 0, and its travel ends before"),

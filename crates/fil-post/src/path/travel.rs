@@ -129,7 +129,8 @@ fn way_of(post: &Post, target: Target, kind: MotionKind) -> Option<Way> {
             Some(Way { line: [to; 2], turn: [angles; 2] })
         }
         MotionKind::Feed => {
-            let angles = chain.nearest_anywhere(axis, stands).filter(|at| chain.reaches(*at))?;
+            let angles =
+                chain.nearest_anywhere(axis, stands).filter(|at| chain.goes(stands, *at))?;
             let from = post.path.point.map(|point| Target { point, ..target });
             let from = from.map_or(to, |from| rotary::transformed(post, from).0);
             Some(Way { line: [from, to], turn: [stands, angles] })

@@ -208,6 +208,7 @@ fn off_the_way(from: Vector3<f64>, to: Vector3<f64>, at: Vector3<f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use fil_machine::axis_chain::{Carries, ROTARY_LETTERS, Rotary};
+    use fil_machine::zones::Zones;
     use nalgebra::{Point3, Unit};
 
     use super::*;
@@ -227,6 +228,7 @@ mod tests {
                 axis: 0,
                 min: None,
                 max: None,
+                zones: Zones::default(),
             };
             let rotaries = [first, second].map(|direction| Some(rotary(direction)));
             let chain = AxisChain { rotaries, ..AxisChain::default() };

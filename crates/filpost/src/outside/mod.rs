@@ -17,6 +17,7 @@ use fil_machine::{Kind, Unit};
 use fil_vm::{Host, Module, SectionId};
 
 use crate::cancel::CancelToken;
+use crate::coming::Stretch;
 use crate::debug::SharedDebugger;
 use crate::editing::SharedEditor;
 use crate::event::{Event, Observer};
@@ -74,6 +75,9 @@ pub(crate) struct Outside<'o, 'r> {
     idle: HashSet<(Kind, u32)>,
     /// The section that runs.
     pub section: Option<SectionId>,
+    /// The stretch is open in which RAPIDs look ahead; `None` before the first record that may
+    /// open or close it.
+    in_stretch: Option<bool>,
     /// Who edits what the post writes; `None` where FIL has no macro for it.
     pub editor: Option<SharedEditor>,
     /// Clock and files.
@@ -115,6 +119,7 @@ impl<'o, 'r> Outside<'o, 'r> {
             map,
             idle: HashSet::new(),
             section: None,
+            in_stretch: None,
             editor: None,
             granted: Granted::new(shared.clock, shared.folders.clone()),
             shown: 0,
@@ -191,6 +196,9 @@ impl<'o, 'r> Outside<'o, 'r> {
         record: &Record,
         vocabulary: &mut Vocabulary,
     ) -> Result<(), Box<Diag>> {
+        if record.kind != kind::MOTION && self.post.looks_ahead_for_axes() {
+            self.follow_stretch(record, vocabulary);
+        }
         if record.kind != kind::MOTION && changes_tool(record) {
             return self.look_for_tools(record, vocabulary);
         }
@@ -202,9 +210,21 @@ impl<'o, 'r> Outside<'o, 'r> {
 
     #[cold]
     fn look_for_axes(&mut self, vocabulary: &mut Vocabulary) {
-        if self.post.looks_ahead_for_axes() {
-            self.post.path.coming = self.source.motions_ahead(vocabulary);
+        if !self.post.looks_ahead_for_axes() {
+            return;
         }
+        let stretch = Stretch::of(&self.post.control.commons);
+        if stretch.is_none() || self.in_stretch == Some(true) {
+            self.post.path.coming = self.source.motions_ahead(stretch, vocabulary);
+        }
+    }
+
+    /// Notes whether the stretch is open in which RAPIDs look ahead.
+    #[cold]
+    fn follow_stretch(&mut self, record: &Record, vocabulary: &Vocabulary) {
+        let Some(stretch) = Stretch::of(&self.post.control.commons) else { return };
+        let before = self.in_stretch.unwrap_or_else(|| stretch.begins_open());
+        self.in_stretch = Some(stretch.is_open(before, record, vocabulary));
     }
 
     #[cold]
