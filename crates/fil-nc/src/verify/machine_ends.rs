@@ -112,7 +112,8 @@ impl<C: Steps> Walk<'_, C> {
         let stands = self.settings.forward.restated(&self.at, &Position::default());
         let raised = self.raised(&stands, to[2]);
         let leans = raised != stands;
-        let slack = self.slack_along(&stands, &raised);
+        // Positions of the axes are on the tape; those of a tip are not.
+        let of_tip = self.at.names_tip().then(|| self.slack_along(&stands, &raised));
         let reached = |found: &Position, known: &[bool; 5]| {
             let at = self.settings.forward.restated(found, &Position::default());
             let near = |a: f64, b: f64, n: usize| (a - b).abs() <= self.slack.linear[n];
@@ -120,7 +121,10 @@ impl<C: Steps> Walk<'_, C> {
                 // In polar interpolation it is the way of C.
                 None if n == 1 && self.modes.mills_without_y(self.settings) => true,
                 Some(value) => known[n] && near(at.linear[n], value, n),
-                None if leans => !known[n] || (at.linear[n] - raised.linear[n]).abs() <= slack,
+                None if leans => {
+                    let slack = of_tip.unwrap_or(self.slack.linear[n]);
+                    !known[n] || (at.linear[n] - raised.linear[n]).abs() <= slack
+                }
                 None => !(known[n] && self.known[n]) || near(at.linear[n], stands.linear[n], n),
             };
             let turns = at.rotary != stands.rotary && !self.settings.is_mill_turn();

@@ -133,7 +133,7 @@ impl<C: Steps> Walk<'_, C> {
         for number in 0..=over {
             let Some(Event::Move(part)) = self.nc.get(self.next + number) else { return false };
             if number > 0 {
-                self.check_part(cl_line, &part, &end.to);
+                self.check_part(cl_line, &part, &end.to, Leg::OfPath);
             }
             self.at = part.to;
         }

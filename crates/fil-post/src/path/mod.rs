@@ -39,8 +39,8 @@ pub mod tip_control;
 mod tip_hole;
 pub mod tool_change;
 mod transformation;
-mod turned_apart;
 mod travel;
+mod turned_apart;
 mod turning;
 mod turning_feed;
 
