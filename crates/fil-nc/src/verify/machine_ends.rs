@@ -113,7 +113,7 @@ impl<C: Steps> Walk<'_, C> {
         let raised = self.raised(&stands, to[2]);
         let leans = raised != stands;
         // Positions of the axes are on the tape; those of a tip are not.
-        let of_tip = self.at.names_tip().then(|| self.slack_along(&stands, &raised));
+        let of_tip = self.at.names_tip().then(|| self.slack_raised(&stands, &raised));
         let reached = |found: &Position, known: &[bool; 5]| {
             let at = self.settings.forward.restated(found, &Position::default());
             let near = |a: f64, b: f64, n: usize| (a - b).abs() <= self.slack.linear[n];

@@ -119,6 +119,11 @@ impl<C: Steps> Walk<'_, C> {
         DIGITS * self.slack.linear.into_iter().fold(STILL, f64::max) + turn * reach
     }
 
+    /// The same of a way up to a level of Z, which a small angle makes much longer.
+    pub(super) fn slack_raised(&self, from: &Position, to: &Position) -> f64 {
+        self.slack_along(from, to) / self.tool_on_axes(from.rotary).z.max(LEAST_RISE)
+    }
+
     /// Where a motion up to a level of Z brings the tool that leans: along itself.
     pub(super) fn raised(&self, stands: &Position, level: Option<f64>) -> Position {
         let tool = self.tool_on_axes(stands.rotary);

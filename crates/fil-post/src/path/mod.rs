@@ -306,6 +306,7 @@ fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
         full_turn::refuse_clamped(&post.control, moved.fold(AxisSet::NONE, AxisSet::or))?;
     }
     if stands != stood {
+        rotary::refuse_past_travel(&post.control, stood, stands)?;
         post.path.leave_point();
         post.path.turned_by_words = by_words;
         if !by_words {

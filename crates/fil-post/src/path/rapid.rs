@@ -99,9 +99,14 @@ pub(super) fn turn_away(control: &mut Control, motion: &Motion, cause: Cause) ->
     match Lie::of(control, motion) {
         Lie::Along { number, up } => {
             let tool_first = goes_first(control, motion, number, up)?;
+            let blocks = order(number, tool_first).map(|(axes, _)| axes);
+            rapid_turn::warn_of_dip_when_out(control, motion, &blocks);
             split(control, motion, number, tool_first, cause)
         }
-        Lie::Leaning => family::rapid(control, motion, RapidCode::Across, cause),
+        Lie::Leaning => {
+            rapid_turn::warn_of_dip_when_out(control, motion, &[AxisSet::ALL]);
+            family::rapid(control, motion, RapidCode::Across, cause)
+        }
     }
 }
 
@@ -123,6 +128,7 @@ pub fn to_machine_position(control: &mut Control, motion: &Motion, cause: Cause)
         return refuse_level(control, 2);
     }
     let place = control.place(2);
+    rapid_lean::refuse_unknown_lean(control)?;
     if Lie::of(control, motion) != UPRIGHT {
         let rises = rapid_lean::go_up_to(control, motion, cause)?;
         return split(control, motion, 2, rises, cause);

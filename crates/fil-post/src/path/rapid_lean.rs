@@ -190,6 +190,30 @@ fn above(chain: &AxisChain, at: &Position, by: f64) -> Position {
     position
 }
 
+/// Refuses a way to a position of the machine behind a text that may have turned a head anywhere:
+/// up may be along Z, or not.
+///
+/// # Errors
+/// It may.
+pub(super) fn refuse_unknown_lean(control: &Control) -> Result<()> {
+    let tables = &control.tables;
+    let in_frame = tables.frame_output && control.state.tilted != Some(false);
+    if tables.mills() || in_frame || of_tip(control) {
+        return Ok(());
+    }
+    let is_lost = |number: usize| matches!(control.place(number), Place::Unknown);
+    let is_head = |number: &usize| {
+        let rotary = tables.chain().rotaries[number - 3].as_ref();
+        rotary.is_some_and(|it| it.carries == Carries::Head)
+    };
+    let mut heads = AxisSet::ROTARY.and(tables.present()).numbers().filter(is_head);
+    let is_away = |number: usize| matches!(control.place(number), Place::Clear | Place::Unsaid);
+    match heads.find(|number| is_lost(*number)).filter(|_| !(0..3).any(is_away)) {
+        Some(number) => refuse_unknown(control, number),
+        None => Ok(()),
+    }
+}
+
 /// Goes up along a leaning tool to the level of Z to which a motion of the machine goes, before
 /// its other axes move; false for a level that is not above the tool. From a place that is not
 /// known Z goes up by itself.

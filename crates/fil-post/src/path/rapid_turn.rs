@@ -22,10 +22,26 @@ const OPPOSITE: f64 = 1e-6;
 /// Positions of a rotary axis nearer than this are one, degrees.
 const SAME: f64 = 1e-6;
 
+/// Along what a tip comes down.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Along {
+    TheTool,
+    EitherEnd,
+}
+
 /// Warns of a rapid motion in blocks of these axes that brings the tip below the line between its
 /// ends. From a place that is not known nothing is said: a tool change or a point of the machine
 /// has brought the tool away.
 pub(super) fn warn_of_dip(control: &mut Control, motion: &Motion, blocks: &[AxisSet]) {
+    warn_in_blocks(control, motion, blocks, Along::EitherEnd);
+}
+
+/// The same where the tool is out by a way that settings give: along the tool as it stands alone.
+pub(super) fn warn_of_dip_when_out(control: &mut Control, motion: &Motion, blocks: &[AxisSet]) {
+    warn_in_blocks(control, motion, blocks, Along::TheTool);
+}
+
+fn warn_in_blocks(control: &mut Control, motion: &Motion, blocks: &[AxisSet], along: Along) {
     let tables = &control.tables;
     let present = tables.present();
     let is_of_axes = !tables.mills() && !tables.frame_output && !tables.tip_output;
@@ -42,23 +58,30 @@ pub(super) fn warn_of_dip(control: &mut Control, motion: &Motion, blocks: &[Axis
             at
         })
         .collect();
-    warn_of_dip_between(control, &from, &ends);
+    look(control, &from, &ends, along);
 }
 
-/// The same for blocks that end at these positions.
+/// Warns as [`warn_of_dip`] of blocks that end at these positions.
 pub(super) fn warn_of_dip_between(control: &mut Control, from: &Position, ends: &[Position]) {
+    look(control, from, ends, Along::EitherEnd);
+}
+
+fn look(control: &mut Control, from: &Position, ends: &[Position], along: Along) {
     let Some(to) = ends.last() else { return };
     if (3..5).all(|n| (to[n] - from[n]).abs() < SAME) {
         return;
     }
     let chain = control.tables.chain();
     let line = [from, to].map(|at| tip(chain, at));
-    let axes = [from, to].map(|at| chain.axis_at([at[3], at[4]]));
+    let axes = match along {
+        Along::TheTool => Vec::new(),
+        Along::EitherEnd => either_end([from, to].map(|at| chain.axis_at([at[3], at[4]]))),
+    };
     let (mut at, mut deepest) = (from, 0.0_f64);
     for end in ends {
         deepest = (0..=SAMPLES)
             .map(|step| between(at, end, f64::from(step) / f64::from(SAMPLES)))
-            .map(|here| depth_below(chain, line, axes, &here))
+            .map(|here| depth_below(chain, line, &axes, &here))
             .fold(deepest, f64::max);
         at = end;
     }
@@ -84,22 +107,23 @@ fn stands(control: &Control, motion: &Motion) -> Option<Position> {
     Some(from)
 }
 
-/// How deep the tip lies below a line: along the tool as it stands there, at the start, at the
-/// end, or in the middle of both. No program says where the part is, and a tip that sweeps
-/// sideways under one direction cuts under another.
+/// The directions of the tool at both ends and the middle of both. No program says where the part
+/// is, and a tip that sweeps sideways under one direction cuts under another.
+fn either_end(axes: [Vector3<f64>; 2]) -> Vec<Vector3<f64>> {
+    let middle = (axes[0] + axes[1]).try_normalize(OPPOSITE);
+    axes.into_iter().chain(middle).collect()
+}
+
+/// How deep the tip lies below a line, along the tool as it stands there or one of these
+/// directions.
 fn depth_below(
     chain: &AxisChain,
     line: [Point3<f64>; 2],
-    axes: [Vector3<f64>; 2],
+    axes: &[Vector3<f64>],
     at: &Position,
 ) -> f64 {
     let tip = tip(chain, at);
     let below = nearest(line, tip) - tip;
-    let middle = (axes[0] + axes[1]).try_normalize(OPPOSITE);
     let here = chain.axis_at([at[3], at[4]]);
-    [here, axes[0], axes[1]]
-        .into_iter()
-        .chain(middle)
-        .map(|axis| below.dot(&axis))
-        .fold(0.0, f64::max)
+    axes.iter().chain([&here]).map(|axis| below.dot(axis)).fold(0.0, f64::max)
 }

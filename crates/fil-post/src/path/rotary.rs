@@ -3,6 +3,7 @@
 use fil_diag::Result;
 use fil_machine::axes::{AXES, AxisSet, Position};
 use fil_machine::axis_chain;
+use fil_machine::errors::MachineCode;
 use nalgebra::{Point3, Vector3};
 
 use super::{Since, frame, mill_turn, tip_control, turned_apart};
@@ -220,6 +221,30 @@ pub fn machine_height(post: &Post) -> Option<f64> {
 /// Where the axes stand, whoever has brought them there.
 pub(super) fn stands(control: &Control) -> [Option<f64>; AXES] {
     std::array::from_fn(|number| control.stands(number))
+}
+
+/// Refuses a text that has turned a rotary axis past its travel.
+///
+/// # Errors
+/// It has.
+pub(super) fn refuse_past_travel(
+    control: &Control,
+    stood: [Option<f64>; AXES],
+    stands: [Option<f64>; AXES],
+) -> Result<()> {
+    let tables = &control.tables;
+    for number in AxisSet::ROTARY.and(tables.present()).numbers() {
+        let Some(at) = stands[number].filter(|_| stands[number] != stood[number]) else { continue };
+        let Some(rotary) = &tables.chain().rotaries[number - 3] else { continue };
+        let axis = tables.axis(number);
+        // A position within one turn may be reached by another turn.
+        let reached = [at, axis.near(at, at - 360.0), axis.near(at, at + 360.0)];
+        if !reached.into_iter().any(|at| rotary.reaches(at)) {
+            let message = format!("a text turns {} to {at}, past its travel", axis.letter);
+            return MachineCode::AxisLimit.err(message);
+        }
+    }
+    Ok(())
 }
 
 /// Takes the rotary axes to stand where a text has brought them: the next motion turns from

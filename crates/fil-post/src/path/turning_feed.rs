@@ -6,11 +6,12 @@
 
 use fil_diag::Result;
 use fil_machine::axes::Position;
-use fil_machine::locations::RotaryFeed;
+use fil_machine::locations::{self as loc, RotaryFeed};
 use fil_machine::modes::FeedMode;
 use fil_machine::rotary_feed_rules::RotaryFeedRules;
 
 use crate::control::Control;
+use crate::control::word_address::dwell::known_speed;
 use crate::errors::PostCode;
 use crate::operation::{Feed, SpindleSpeed};
 use crate::post::Post;
@@ -140,13 +141,21 @@ impl PartFeed {
     }
 }
 
-/// Turns a minute of the spindle.
+/// Turns a minute of the spindle, as S says them: the machine may have brought the speed asked for
+/// within its ranges.
 fn turns(control: &Control) -> Result<f64> {
-    match control.speed {
-        Some(SpindleSpeed::Revolutions(speed)) if speed > 0.0 => Ok(speed),
-        _ => PostCode::RotaryFeedUnknown.err(
+    let asked = match control.speed {
+        Some(SpindleSpeed::Revolutions(speed)) => Some(speed),
+        _ => None,
+    };
+    let said = match control.commons.read(loc::SPINDLE_DIRECT_RPM) {
+        true => known_speed(control),
+        false => asked,
+    };
+    said.filter(|speed| *speed > 0.0).ok_or_else(|| {
+        PostCode::RotaryFeedUnknown.diag(
             "a feed a revolution in a motion that turns the machine, and the speed of the spindle \
              is not known",
-        ),
-    }
+        )
+    })
 }

@@ -137,7 +137,7 @@ fn in_revolutions(control: &mut Control, turns: f64) -> Result<f64> {
 
 /// The speed of the spindle, turns a minute; `None` where it is not known or changes with the
 /// radius.
-pub(in crate::control) fn known_speed(control: &Control) -> Option<f64> {
+pub(crate) fn known_speed(control: &Control) -> Option<f64> {
     let of_turns = matches!(control.speed, Some(SpindleSpeed::Revolutions(_)));
     control.last_value(S).filter(|speed| of_turns && *speed > 0.0)
 }
