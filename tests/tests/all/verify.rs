@@ -58,7 +58,11 @@ const ROUNDED: [&str; 17] = [
 
 /// Words of an axis, by the program, the letter and the block, that bring no tool to the part
 /// elsewhere, whatever they say.
-const IDLE: [(&str, u8, &str); 36] = [
+const IDLE: [(&str, u8, &str); 38] = [
+    // The rapid back after a repositioning ends farther away: more of the way is made at feed.
+    ("words/rotary-limit-at-rapid-retracts-and-returns", b'Z', "`Z-2.665`"),
+    // The machine turns higher, and the way back at feed is longer.
+    ("words/rotary-travel-of-z-takes-other-positions", b'Z', "`G0 Z140.`"),
     // The rapid to where polar interpolation begins: what is left of the way is made in it.
     ("corpus/lathe/fanuc-mill-turn/", b'X', "G0 X26. C0.`"),
     ("corpus/lathe/fanuc-mill-turn/", b'X', "G0 X30. C0.`"),

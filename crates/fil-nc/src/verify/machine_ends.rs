@@ -21,6 +21,7 @@ impl<C: Steps> Walk<'_, C> {
             }
             return;
         }
+        let raised = self.raised_from_here(to[2]);
         self.pass(cl_line);
         let count = self.parts_to_machine(to);
         let Some(count) = count else {
@@ -30,6 +31,9 @@ impl<C: Steps> Walk<'_, C> {
             return self.find(FindingKind::Missing, Some(cl_line), None, message);
         };
         let last = self.next + count;
+        if let Some(raised) = raised.filter(|_| !self.is_up) {
+            self.check_way_up_along_head(cl_line, count, &raised);
+        }
         let end = last.checked_sub(1).and_then(|at| self.nc.get(at));
         let ends_tip_control = self.at.tip_control;
         while self.next < last {
@@ -104,6 +108,32 @@ impl<C: Steps> Walk<'_, C> {
                 "D{edge} is in force on the way to a position of the machine, which its length shifts"
             );
             self.find(FindingKind::Tool, Some(cl_line), Some(found.line), message);
+        }
+    }
+
+    /// Where a way up to a level of Z must bring a head that leans; `None` for a tool along Z, and
+    /// where it stands nobody knows.
+    fn raised_from_here(&self, level: Option<f64>) -> Option<Position> {
+        let stands = self.settings.forward.restated(&self.at, &Position::default());
+        Some(self.raised(&stands, level)).filter(|raised| *raised != stands)
+    }
+
+    /// One of the rapids to a position of the machine ends above where the tool stands, along it.
+    fn check_way_up_along_head(&mut self, cl_line: u32, count: usize, raised: &Position) {
+        let stands = self.settings.forward.restated(&self.at, &Position::default());
+        let slack = self.slack_raised(&stands, raised);
+        let is_above = |at: &Position| {
+            let at = self.settings.forward.restated(at, &Position::default());
+            (0..3).all(|n| (at.linear[n] - raised.linear[n]).abs() <= slack)
+        };
+        let goes_up = self.nc.from(self.next).take(count).any(|event| match event {
+            Event::Move(part) => is_above(&part.to) && part.known[..3] == [true; 3],
+            _ => false,
+        });
+        if !goes_up {
+            let line = self.nc.get(self.next).map(|event| event.line());
+            let message = "the tool leans, and does not go up along itself".to_string();
+            self.find(FindingKind::Order, Some(cl_line), line, message);
         }
     }
 

@@ -115,7 +115,8 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn slack_along(&self, from: &Position, to: &Position) -> f64 {
         let way = Vector3::from(to.linear) - Vector3::from(from.linear);
         let reach = way.norm() + self.settings.forward.pivot().unwrap_or(0.0);
-        let turn = self.slack.rotary.into_iter().fold(0.0, f64::max).to_radians();
+        let of_angles = self.slack.rotary.into_iter().fold(0.0, f64::max).to_radians();
+        let turn = of_angles.max(self.settings.direction_rounding().unwrap_or(0.0));
         DIGITS * self.slack.linear.into_iter().fold(STILL, f64::max) + turn * reach
     }
 
