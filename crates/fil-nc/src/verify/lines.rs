@@ -36,15 +36,13 @@ impl<C: Steps> Walk<'_, C> {
         let linear = self.settings.forward.frame_of(&end.to).linear(pose.tip);
         let exact = Position { linear, ..end.to };
         let leg = if self.tool_is_fresh { Leg::FromAfar } else { Leg::OfPath };
-        // A tool change has brought the tool to a place of its own.
-        let is_away = self.tool_is_fresh;
         for index in self.next..=last {
             if let Some(Event::Move(part)) = self.nc.get(index) {
                 match self.settings.is_mill_turn() && self.goes_around(&part, &exact) {
                     true => {}
                     false => self.check_part(cl_line, &part, &end.to, leg),
                 }
-                if index < last && !is_away {
+                if index < last && leg != Leg::FromAfar {
                     self.check_order_on_lathe(cl_line, &part, (&end, pose));
                 }
                 self.check_turn_is_away(cl_line, &part);
@@ -148,24 +146,30 @@ impl<C: Steps> Walk<'_, C> {
         if part.to.tilt != end.tilt {
             return self.check_before_frame(cl_line, part);
         }
-        let lie = self.lie(part, end, leg);
-        let nearly = self.lies_nearly_along(end).filter(|_| lie == Lie::Leaning);
-        let leads = self.leads_along_tool(part, end, leg);
-        let wrong = match (lie, nearly) {
-            (Lie::Leaning, _) if leads && self.splits_rapids => Vec::new(),
-            (Lie::Leaning, None) if self.splits_rapids => {
-                vec!["rapid does not go along the tool, which leans".to_string()]
+        for message in self.wrong_part(part, end, leg) {
+            self.say_order(cl_line, part, message);
+        }
+    }
+
+    /// What is wrong with a part of a rapid, by how the tool lies in it.
+    fn wrong_part(&self, part: &Move, end: &Position, leg: Leg) -> Vec<String> {
+        let lie = match self.lie(part, end, leg) {
+            Lie::Leaning if self.splits_rapids && self.leads_along_tool(part, end, leg) => {
+                return Vec::new();
             }
-            (_, Some(nearly)) => self.wrong_order(part, end, nearly),
-            _ => self.wrong_order(part, end, lie),
+            Lie::Leaning => match self.lies_nearly_along(end) {
+                None if self.splits_rapids => {
+                    return vec!["rapid does not go along the tool, which leans".to_string()];
+                }
+                nearly => nearly.unwrap_or(Lie::Leaning),
+            },
+            lie => lie,
         };
+        let wrong = self.wrong_order(part, end, lie);
         // From a tool change Z may come last, too, however the tool lies: it is away.
-        let wrong = match leg {
+        match leg {
             Leg::FromAfar if !wrong.is_empty() => self.wrong_order(part, end, UPRIGHT),
             _ => wrong,
-        };
-        for message in wrong {
-            self.say_order(cl_line, part, message);
         }
     }
 

@@ -15,7 +15,7 @@ const PARALLEL: f64 = 1e-8;
 /// knows more digits than the tape.
 const NEARLY: f64 = 1e-6;
 
-/// Ways across the tool shorter than this many of the last digits of an axis are none.
+/// So many of the last digits of an axis are no way across the tool.
 const DIGITS: f64 = 4.0;
 
 /// The least share of Z in a way along the tool that leads up to a level of Z.
@@ -48,8 +48,10 @@ impl<C: Steps> Walk<'_, C> {
     /// How the tool lies where a rapid begins that has this part, and where it ends.
     pub(super) fn lie(&self, part: &Move, end: &Position, leg: Leg) -> Lie {
         let is_along_z = part.to.names_tip() || end.names_tip() || self.settings.is_mill_turn();
+        if is_along_z || self.head_is_anywhere() {
+            return UPRIGHT;
+        }
         match self.axis_of_tool(end, PARALLEL) {
-            _ if is_along_z || self.head_is_anywhere() => UPRIGHT,
             Some((axis, up)) => Lie::Along { axis, up },
             None if leg == Leg::FromAfar || self.known[..3] != [true; 3] => UPRIGHT,
             None => Lie::Leaning,

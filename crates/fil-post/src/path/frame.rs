@@ -8,11 +8,12 @@
 
 use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
-use fil_machine::axis_chain::{AxisChain, Carries};
+use fil_machine::axis_chain::AxisChain;
 use fil_machine::commons::EMPTY;
 use fil_machine::locations as loc;
 use nalgebra::{Point3, Rotation3, Vector3};
 
+use super::tip::tool_in_machine;
 use super::{machine_position, rotary, tip_control};
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::{Control, Function, family, full_turn};
@@ -267,15 +268,7 @@ fn still(from: [f64; 2], to: [f64; 2]) -> bool {
 
 /// A head holds the tool away from the machine's Z.
 pub(super) fn leans(chain: &AxisChain, angles: [f64; 2]) -> bool {
-    let heads = chain.rotaries.iter().zip(angles).map(|(rotary, degrees)| match rotary {
-        Some(rotary) if rotary.carries == Carries::Head => {
-            Rotation3::from_axis_angle(&rotary.direction, degrees.to_radians())
-        }
-        _ => Rotation3::identity(),
-    });
-    let turn = heads.fold(Rotation3::identity(), |turn, next| turn * next);
-    let tool = chain.tool.into_inner();
-    (turn * tool - tool).norm() > SAME_AXIS
+    (tool_in_machine(chain, angles) - chain.tool.into_inner()).norm() > SAME_AXIS
 }
 
 /// The control has the rotary axes at these angles, to their last digits.

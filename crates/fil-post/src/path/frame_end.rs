@@ -2,7 +2,6 @@
 //! along Z of the frame, and the frame ends above.
 
 use fil_diag::Result;
-use fil_machine::axes::AxisSet;
 use fil_machine::locations::{self as loc, ToolChangeBlock};
 
 use super::{frame, rapid_lean, rotary};
@@ -55,12 +54,8 @@ pub(super) fn refuse_change_position(control: &Control) -> Result<()> {
     if !goes || !is_in_frame(control) || machine_frame::is_meant(control) {
         return Ok(());
     }
-    let present = control.tables.present();
-    let mut angles = [0.0; 2];
-    for number in AxisSet::ROTARY.and(present).numbers() {
-        angles[number - 3] = control.stands(number).unwrap_or(0.0);
-    }
-    if frame::leans(control.tables.chain(), angles) { unknown() } else { Ok(()) }
+    let leans = |angles: [f64; 2]| frame::leans(control.tables.chain(), angles);
+    if rapid_lean::turned(control).is_none_or(leans) { unknown() } else { Ok(()) }
 }
 
 fn is_in_frame(control: &Control) -> bool {

@@ -82,7 +82,7 @@ fn goes_with_others(control: &Control, motion: &Motion, number: usize) -> Result
 fn in_parts(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()> {
     let (number, up) = match Lie::of(control, motion) {
         Lie::Along { number, up } => (number, up),
-        Lie::Leaning if comes_from_afar(control) => (2, true),
+        Lie::Leaning if rapid_lean::is_away(control) => (2, true),
         Lie::Leaning => return rapid_lean::rapid(control, motion, cause),
     };
     let tool_first = motion.axes.has(number) && goes_first(control, motion, number, up)?;
@@ -108,12 +108,6 @@ pub(super) fn turn_away(control: &mut Control, motion: &Motion, cause: Cause) ->
             family::rapid(control, motion, RapidCode::Across, cause)
         }
     }
-}
-
-/// True where a linear axis has no place before its next word, as the tool is away from the part.
-fn comes_from_afar(control: &Control) -> bool {
-    let mut linear = AxisSet::LINEAR.and(control.tables.present()).numbers();
-    linear.any(|number| matches!(control.place(number), Place::Clear | Place::Unsaid))
 }
 
 /// Makes a rapid motion to a position of the machine, as [`rapid`] does; from a level of

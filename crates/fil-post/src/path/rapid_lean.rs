@@ -3,11 +3,11 @@
 
 use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
-use fil_machine::axis_chain::{AxisChain, Carries};
+use fil_machine::axis_chain::AxisChain;
 use nalgebra::Vector3;
 
 use super::rapid_turn;
-use super::tip::{tip, tool_in_machine};
+use super::tip::{head, tip, tool_in_machine};
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family;
@@ -19,7 +19,7 @@ use crate::errors::PostCode;
 /// Directions are one where the cosine between them is less than this below 1.
 const PARALLEL: f64 = 1e-8;
 
-/// Ways along and across the tool shorter than this are none, mm or inch: the digits of the tape.
+/// So many of the last digits of an axis are no way, along the tool or across it.
 const DIGITS: f64 = 2.0;
 
 /// Positions of a rotary axis nearer than this are one, degrees.
@@ -45,11 +45,9 @@ pub(super) const UPRIGHT: Lie = Lie::Along { number: 2, up: true };
 impl Lie {
     /// How the tool lies in a motion.
     pub(super) fn of(control: &Control, motion: &Motion) -> Lie {
-        let tables = &control.tables;
-        let chain = tables.chain();
-        let in_frame = tables.frame_output && control.state.tilted != Some(false);
-        let in_axes = !tables.mills() && !in_frame && !of_tip(control);
-        if !in_axes || !chain.has_heads() && chain.tool == Vector3::z_axis() {
+        let chain = control.tables.chain();
+        let is_fixed = !chain.has_heads() && chain.tool == Vector3::z_axis();
+        if is_fixed || !holds_positions(control) {
             return UPRIGHT;
         }
         let Some([from, to]) = angles(control, motion) else { return UPRIGHT };
@@ -58,9 +56,18 @@ impl Lie {
     }
 }
 
-/// X, Y and Z are those of the tip.
-fn of_tip(control: &Control) -> bool {
-    control.tables.tip_output && control.state.tip_control != Some(false)
+/// X, Y and Z are positions of the axes: not of the tip, nor those of a tilted frame.
+fn holds_positions(control: &Control) -> bool {
+    let tables = &control.tables;
+    let in_frame = tables.frame_output && control.state.tilted != Some(false);
+    let of_tip = tables.tip_output && control.state.tip_control != Some(false);
+    !(tables.mills() || in_frame || of_tip)
+}
+
+/// True where a linear axis has no place before its next word, as the tool is away from the part.
+pub(super) fn is_away(control: &Control) -> bool {
+    let mut linear = AxisSet::LINEAR.and(control.tables.present()).numbers();
+    linear.any(|number| matches!(control.place(number), Place::Clear | Place::Unsaid))
 }
 
 /// The axis that a direction lies along.
@@ -74,16 +81,21 @@ fn along(tool: Vector3<f64>) -> Lie {
 /// Where the rotary axes stand before and behind a motion, degrees; `None` where a head may stand
 /// anywhere. A table does not turn the tool.
 fn angles(control: &Control, motion: &Motion) -> Option<[[f64; 2]; 2]> {
-    let present = control.tables.present();
-    let rotaries = &control.tables.chain().rotaries;
+    let tables = &control.tables;
     let mut angles = [[0.0; 2]; 2];
-    for number in AxisSet::ROTARY.and(present).numbers() {
-        let is_head = rotaries[number - 3].as_ref().is_some_and(|it| it.carries == Carries::Head);
-        let at = control.stands(number).or((!is_head).then_some(0.0))?;
+    for number in AxisSet::ROTARY.and(tables.present()).numbers() {
+        let is_table = head(tables.chain(), number - 3).is_none();
+        let at = control.stands(number).or(is_table.then_some(0.0))?;
         angles[0][number - 3] = at;
         angles[1][number - 3] = if motion.axes.has(number) { motion.position[number] } else { at };
     }
     Some(angles)
+}
+
+/// Where the rotary axes stand, degrees, as [`angles`].
+pub(super) fn turned(control: &Control) -> Option<[f64; 2]> {
+    let nothing = Motion::new(Position::default(), AxisSet::NONE, 0);
+    angles(control, &nothing).map(|[at, _]| at)
 }
 
 /// How far a leaning tool goes along itself to rise in Z.
@@ -104,11 +116,9 @@ pub(super) fn way_along(control: &Control, angles: [f64; 2], rise: f64) -> Resul
 /// Warns of a motion straight up in the frame of the machine, in which nobody knows how far it
 /// leads, while a head leans the tool.
 pub(super) fn warn_straight_up(control: &mut Control) {
-    let angles = angles(control, &Motion::new(Position::default(), AxisSet::NONE, 0));
     let chain = control.tables.chain();
-    let leans = chain.has_heads()
-        && angles.is_some_and(|[at, _]| tool_in_machine(chain, at).z < 1.0 - PARALLEL);
-    if leans {
+    let leans = |at: [f64; 2]| tool_in_machine(chain, at).z < 1.0 - PARALLEL;
+    if chain.has_heads() && turned(control).is_some_and(leans) {
         let message = "Z goes straight up in the frame of the machine, and a head leans the tool";
         control.warnings.add(PostCode::StraightUp, message.to_string());
     }
@@ -129,11 +139,11 @@ pub(super) fn rapid(control: &mut Control, motion: &Motion, cause: Cause) -> Res
     let from = stands(control, motion)?;
     let to: Position =
         std::array::from_fn(|n| if moves.has(n) { motion.position[n] } else { from[n] });
-    let between = stops(control, &from, &to);
-    let mut ends = between.clone();
+    let mut ends = stops(control, &from, &to);
+    let between = ends.len();
     ends.push(to);
     rapid_turn::warn_of_dip_between(control, &from, &ends);
-    for stop in &between {
+    for stop in &ends[..between] {
         control.tables.check_travel(stop, AxisSet::LINEAR)?;
         let turns = (3..5).any(|n| (stop[n] - from[n]).abs() > SAME);
         let axes = if turns { AxisSet::ALL } else { AxisSet::LINEAR };
@@ -196,19 +206,15 @@ fn above(chain: &AxisChain, at: &Position, by: f64) -> Position {
 /// # Errors
 /// It may.
 pub(super) fn refuse_unknown_lean(control: &Control) -> Result<()> {
-    let tables = &control.tables;
-    let in_frame = tables.frame_output && control.state.tilted != Some(false);
-    if tables.mills() || in_frame || of_tip(control) {
+    if !holds_positions(control) || is_away(control) {
         return Ok(());
     }
-    let is_lost = |number: usize| matches!(control.place(number), Place::Unknown);
-    let is_head = |number: &usize| {
-        let rotary = tables.chain().rotaries[number - 3].as_ref();
-        rotary.is_some_and(|it| it.carries == Carries::Head)
+    let tables = &control.tables;
+    let is_lost = |number: &usize| {
+        head(tables.chain(), number - 3).is_some()
+            && matches!(control.place(*number), Place::Unknown)
     };
-    let mut heads = AxisSet::ROTARY.and(tables.present()).numbers().filter(is_head);
-    let is_away = |number: usize| matches!(control.place(number), Place::Clear | Place::Unsaid);
-    match heads.find(|number| is_lost(*number)).filter(|_| !(0..3).any(is_away)) {
+    match AxisSet::ROTARY.and(tables.present()).numbers().find(is_lost) {
         Some(number) => refuse_unknown(control, number),
         None => Ok(()),
     }
@@ -221,9 +227,8 @@ pub(super) fn refuse_unknown_lean(control: &Control) -> Result<()> {
 /// # Errors
 /// The tool lies across Z; where it stands is not known; a position outside the travel.
 pub(super) fn go_up_to(control: &mut Control, motion: &Motion, cause: Cause) -> Result<bool> {
-    let Some([angles, _]) = angles(control, motion) else { return Ok(true) };
-    let is_away = |number: usize| matches!(control.place(number), Place::Clear | Place::Unsaid);
-    if !motion.axes.has(2) || (0..3).any(is_away) {
+    let Some(angles) = turned(control) else { return Ok(true) };
+    if !motion.axes.has(2) || is_away(control) {
         return Ok(true);
     }
     let from = stands(control, motion)?;

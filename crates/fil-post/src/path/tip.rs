@@ -146,8 +146,9 @@ fn bounds(chain: &AxisChain, from: &Position, to: &Position, digits: &Position) 
     Bounds { bend, turned: by_digits }
 }
 
+/// A rotary axis, 0 or 1, if it carries the tool.
 #[inline]
-fn head(chain: &AxisChain, number: usize) -> Option<&Rotary> {
+pub(super) fn head(chain: &AxisChain, number: usize) -> Option<&Rotary> {
     chain.rotaries[number].as_ref().filter(|axis| axis.carries == Carries::Head)
 }
 
