@@ -561,3 +561,16 @@ fn a_height_before_its_turn_is_found() {
     let case = Case { cl: &cl, nc: &nc, ..case };
     case.agrees_but_not_with(("A30. C0.\nG43 Z64.282 H2", "G43 Z64.282 H2\nA30. C0."), said);
 }
+
+#[test]
+fn a_way_up_behind_a_tool_change_need_not_go_along_a_head_that_leans() {
+    let cl = "MULTAX / ON; RAPID; GOTO / 40, 0, 90, 0.5, 0, 0.8660254038; RETRCT";
+    let changed = "MULTAX / ON; RAPID; GOTO / 40, 0, 90, 0.5, 0, 0.8660254038; LOADTL / 1; RETRCT";
+    let settings = &["chain=\"table-c-head-b\"", "home.retract_z=400"];
+    let ready = "haas-trunnion-tcpc";
+    let start = "G234 H1; G0 X40. Y0. Z90. B30. C0.; G49";
+    let straight = milled(&format!("{start}; G0 G43 Z400. H1"));
+    Case { ready, settings, cl, nc: &straight }.asks_for("the tool leans");
+    let nc = milled(&format!("{start}; T1 M6; G0 G43 Z400. H1"));
+    Case { ready, settings, cl: changed, nc: &nc }.agrees();
+}

@@ -111,9 +111,12 @@ impl<C: Steps> Walk<'_, C> {
         }
     }
 
-    /// Where a way up to a level of Z must bring a head that leans; `None` for a tool along Z, and
-    /// where it stands nobody knows.
+    /// Where a way up to a level of Z must bring a head that leans; `None` for a tool along Z, where
+    /// it stands nobody knows, and behind a tool change, which has brought it away.
     fn raised_from_here(&self, level: Option<f64>) -> Option<Position> {
+        if self.tool_is_fresh {
+            return None;
+        }
         let stands = self.settings.forward.restated(&self.at, &Position::default());
         Some(self.raised(&stands, level)).filter(|raised| *raised != stands)
     }
