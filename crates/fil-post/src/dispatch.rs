@@ -139,11 +139,11 @@ impl Dispatcher {
 #[inline]
 pub fn dispatch(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<()> {
     if record.kind == kind::PSEUDO {
+        word::csys::note(post, vocabulary.name(record.major), record)?;
         return word::pseudo::handle(post, &mut Items::new(record, vocabulary)?);
     }
     if record.inert {
-        tool_names::note(&mut post.control, record);
-        return Ok(());
+        return note(post, record, vocabulary);
     }
     match post.dispatcher.handler(record.major) {
         Some(Handler::Point(handle)) => {
@@ -158,8 +158,7 @@ pub fn dispatch(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Re
         Some(Handler::Refused | Handler::Chosen(_)) | None
             if is_without_effect(post, vocabulary.name(record.major)) =>
         {
-            tool_names::note(&mut post.control, record);
-            Ok(())
+            note(post, record, vocabulary)
         }
         Some(Handler::Chosen(handle)) => {
             let mut items = Items::new(record, vocabulary)?;
@@ -171,6 +170,12 @@ pub fn dispatch(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Re
         Some(Handler::Refused) => Err(refused(record, vocabulary)),
         None => Err(unknown(record.major, vocabulary)),
     }
+}
+
+/// What a word without effect says all the same: the name of a tool, the frame of the points.
+fn note(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<()> {
+    tool_names::note(&mut post.control, record);
+    word::csys::note(post, vocabulary.name(record.major), record)
 }
 
 /// True for a word that the table of the post, or the machine, lists as without effect.

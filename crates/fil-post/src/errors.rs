@@ -200,6 +200,10 @@ fil_diag::codes! {
         Frame = 589, Error, "not in a tilted frame",
             "A tilted frame stands still, and the machine turns to it only where the tool is away from the part.",
             "Put LOADTL, GOHOME or RETRCT before the new tool axis, give home.retract_z, or write positions of the axes with rotary.frame_output = 0.";
+        /// A second frame in one file.
+        OtherFrame = 549, Error, "the points may be of another frame",
+            "CSYS, MSYS and their like name the frame of the points. Where a file names a second one, its points may be those of the part all through or those of the new frame.",
+            "Post each clamping from a file of its own; list the word under words.without_effect where all points are of one frame; input.csys = 1 moves the points of each frame into the first.";
         /// Something in the wrong mode of a mill-turn machine.
         MillTurn = 561, Error, "not in this mode of a mill-turn machine",
             "MODE/MILL makes the main spindle an axis that live tools mill by; MODE/TURN makes it a spindle again. What belongs to one of the two can't be done in the other.",

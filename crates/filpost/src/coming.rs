@@ -93,6 +93,7 @@ impl Source<'_> {
                     coming.push(Coming { point, axis: record.axis() });
                 }
                 kind::FINI => break,
+                _ if moves_frame(record, vocabulary) => break,
                 _ if stop.is_some() => {}
                 _ if record.major == words::RAPID || changes_tool(record) => break,
                 _ => {}
@@ -100,4 +101,11 @@ impl Source<'_> {
         }
         coming
     }
+}
+
+/// True for words behind which points and tool axes may be of another frame.
+fn moves_frame(record: &Record, vocabulary: &Vocabulary) -> bool {
+    const WORDS: [&str; 9] =
+        ["TRANS", "TRACUT", "ORIGIN", "ROTABL", "ROTATE", "CSYS", "MSYS", "CATMAT", "CATIA0"];
+    WORDS.contains(&vocabulary.name(record.major))
 }

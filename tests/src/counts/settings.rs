@@ -42,7 +42,8 @@ pub fn trials(row: &Location) -> Vec<Trial> {
 }
 
 /// Settings that act on the listing alone.
-const OF_THE_LISTING: [&str; 10] = [
+const OF_THE_LISTING: [&str; 11] = [
+    "feed.list_units",
     "list.verification",
     "list.input",
     "list.suppress_warnings",

@@ -17,6 +17,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     axis: AxisRule::AsWritten,
     packed_points: true,
     break_column: None,
+    frame_in_comments: false,
     trailing_comma: false,
     comma_words: false,
     writes_units: true,

@@ -19,6 +19,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     axis: AxisRule::ModalInMultax,
     packed_points: false,
     break_column: None,
+    frame_in_comments: false,
     trailing_comma: false,
     comma_words: false,
     writes_units: false,

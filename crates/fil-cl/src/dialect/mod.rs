@@ -73,6 +73,8 @@ pub struct DialectRules {
     /// with `$` as the last character. Elsewhere `$` stands between items, and one in a
     /// text belongs to the text.
     pub break_column: Option<usize>,
+    /// Three comments of four numbers give the frame of the part.
+    pub frame_in_comments: bool,
     /// True where a list of items may end in a comma.
     pub trailing_comma: bool,
     /// True where words of a shop are followed by a comma in place of the slash.

@@ -27,6 +27,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     axis: AxisRule::Modal,
     packed_points: false,
     break_column: None,
+    frame_in_comments: false,
     trailing_comma: false,
     comma_words: false,
     writes_units: false,
@@ -36,7 +37,7 @@ pub(super) const RULES: DialectRules = DialectRules {
     without_effect: &[
         ("PAINT", "colors and speed of the display"),
         ("TLDATA", "measures of the tool, for information"),
-        ("MSYS", "frame of the part; the points are given in it"),
+        ("MSYS", "frame of the points; the post looks for a second one"),
         ("TOOL PATH", "name of the operation and of its tool"),
         ("END-OF-PATH", "end of the operation"),
     ],

@@ -9,6 +9,7 @@ mod arc;
 mod complete;
 mod finish;
 mod form;
+mod frame_rows;
 mod items;
 mod known;
 mod lines;
@@ -278,9 +279,11 @@ impl<'r> Reader<'r> {
                 self.major = Some(major);
                 self.take_text(record, major)?;
             }
-            Form::Pseudo => {
+            Form::Pseudo | Form::Frame => {
                 self.parse_items(vocab, record, true)?;
-                self.watch(|recognition, place| recognition.pseudo(place))?;
+                if form == Form::Pseudo {
+                    self.watch(|recognition, place| recognition.pseudo(place))?;
+                }
                 record.kind = kind::PSEUDO;
                 record.sub = 0;
             }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use fil_diag::{Diag, TextSpan};
 
 use super::Options;
+use super::frame_rows::FrameRows;
 use super::lines::{LineError, Lines};
 use crate::dialect::{DialectRules, Recognition};
 use crate::errors::ClCode;
@@ -18,6 +19,8 @@ pub(super) enum Form {
     Plain,
     /// `$$-> KEY / items`; the joined text starts at the key.
     Pseudo,
+    /// A frame that stands in comments; the joined text is the note made of it.
+    Frame,
     /// A text statement; the joined text is the free text.
     Text(WordId),
 }
@@ -70,6 +73,7 @@ pub(super) struct Statement {
     /// Line where the statement starts.
     pub(super) line: u32,
     pieces: Vec<Piece>,
+    frame_rows: FrameRows,
 }
 
 /// How a pseudo-comment of Creo begins.
@@ -92,7 +96,12 @@ const EXCERPT: usize = 400;
 
 impl Statement {
     pub(super) fn new() -> Self {
-        Statement { joined: Vec::new(), line: 0, pieces: Vec::new() }
+        Statement {
+            joined: Vec::new(),
+            line: 0,
+            pieces: Vec::new(),
+            frame_rows: FrameRows::default(),
+        }
     }
 
     /// Gathers the next statement; `None` at the end of the input. Comments are shown to
@@ -113,9 +122,23 @@ impl Statement {
             let Some(line) = next_line(lines, context)? else { return Ok(None) };
             let bytes = lines.bytes(line.clone());
             if is_comment(bytes) {
+                let range = line.clone();
                 self.comment(lines, line, recognition, context)?;
+                if recognition.rules().frame_in_comments
+                    && let Some(note) = self.frame_rows.take(trim_end(lines.bytes(range.clone())))
+                {
+                    self.pieces.push(Piece {
+                        joined: 0,
+                        line: range,
+                        column: 0,
+                        number: self.line,
+                    });
+                    self.joined.extend_from_slice(note.as_bytes());
+                    return Ok(Some(Form::Frame));
+                }
                 continue;
             }
+            self.frame_rows.clear();
             let (form, start) = opening(bytes);
             let Some(end) = content(bytes, start, form) else { continue };
             self.add(bytes, line, start, end, self.line);
@@ -168,7 +191,7 @@ impl Statement {
             Join::Within
         } else {
             let goes_on = match form {
-                Form::Plain => true,
+                Form::Plain | Form::Frame => true,
                 // Creo continues a list of values; a name may end in the sign.
                 Form::Pseudo => before.trim_ascii_end().ends_with(b","),
                 Form::Text(_) => false,

@@ -55,6 +55,7 @@ use crate::control::word_address::motion;
 use crate::control::{family, full_turn};
 use crate::operation::{Arc, Feed, Lead, NextTools, Operation, Target};
 use crate::post::Post;
+use crate::words::csys::NamedFrames;
 
 pub use cycle::Cycle;
 pub use linearization::Straightness;
@@ -128,6 +129,10 @@ pub struct Path {
     pub(crate) has_origin: bool,
     /// The transformation is that of TRACUT.
     pub(crate) has_tracut: bool,
+    /// The transformation is that of a frame that CSYS or its like has named.
+    pub(crate) has_csys: bool,
+    /// The frames that the file has named.
+    pub(crate) named_frames: NamedFrames,
     /// TRANS with three numbers is in force.
     pub(crate) is_shifted: bool,
     /// The transformation is that of a table that ROTABL has turned under the points.
@@ -192,6 +197,8 @@ impl Default for Path {
             transformation: None,
             has_origin: false,
             has_tracut: false,
+            has_csys: false,
+            named_frames: NamedFrames::default(),
             is_shifted: false,
             has_index: false,
             since: Since::Motion,
@@ -213,8 +220,11 @@ impl Default for Path {
 pub(crate) enum Since {
     /// Nothing that moves the tool or the points.
     Motion,
-    /// TRANS, ORIGIN, TRACUT, ROTABL, FROM or a text: the last point is not where the tool stands.
+    /// TRANS, ORIGIN, TRACUT, ROTABL, a named frame or a text: the last point is not where the
+    /// tool stands.
     Frame,
+    /// FROM: its point is where GODLTA counts from, and not where the tool stands.
+    From,
     /// A tool change: nobody knows where the new tool stands.
     ToolChange,
 }

@@ -4,6 +4,7 @@
 use fil_diag::Result;
 
 use crate::operation::Target;
+use crate::path::Since;
 use crate::post::Post;
 
 /// Takes the point as the start of an arc or of a GODLTA; nothing is written.
@@ -14,9 +15,12 @@ pub fn handle(post: &mut Post, target: Target) -> Result<()> {
     let path = &mut post.path;
     path.point = Some(target.point);
     path.axis = target.axis;
-    match path.rotary {
-        Some(_) => path.leave_point(),
-        None => path.stands = target.axis,
+    if path.rotary.is_none() {
+        path.stands = target.axis;
+    }
+    let has_moved = path.rotary.is_some();
+    if path.since == Since::Frame || has_moved && path.since == Since::Motion {
+        path.since = Since::From;
     }
     Ok(())
 }

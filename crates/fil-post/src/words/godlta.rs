@@ -4,22 +4,28 @@ use fil_cl::record::FIRST_DATA;
 use fil_diag::Result;
 use nalgebra::Vector3;
 
-use super::goto;
+use super::{csys, goto};
 use crate::dispatch::POINT;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{Operation, Target};
-use crate::path::{carry_out, thread};
+use crate::path::{Since, carry_out, thread};
 use crate::post::Post;
 
 /// Moves by the increments; one number moves along the tool axis.
 ///
 /// # Errors
-/// No point came before, or the numbers are neither one nor three.
+/// No point came before, or the tool does not stand there; the numbers are neither one nor three.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let Some(start) = post.path.point else {
         return PostCode::ArcStart.err("GODLTA before any FROM or GOTO");
     };
+    if post.path.since == Since::Frame {
+        return PostCode::ArcStart.err(
+            "GODLTA right behind TRANS, a new frame or a text that moves the tool: it does not \
+             stand at the last point",
+        );
+    }
     goto::refuse_waiting_arc(post)?;
     thread::refuse_awaited(post)?;
     // The numbers of a motion stand from its word 6 on.
@@ -30,6 +36,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         _ => return Err(items.error("one or three increments are needed")),
     };
     items.deny_rest()?;
+    csys::judge(post, post.path.axis)?;
     let target = Target { point: start + step, axis: post.path.axis, word };
     let kind = goto::kind_of_motion(post);
     carry_out(post, Operation::Linear(target, kind))

@@ -7,6 +7,7 @@ pub mod arcslp;
 pub mod circle;
 pub mod clamp;
 pub mod coolnt;
+pub mod csys;
 pub mod cutcom;
 pub mod cutter;
 pub mod cycle;

@@ -1,5 +1,6 @@
-//! `$$-> KEY / …`: what Creo says in comments. Only CUTTER matters to the
-//! post; the rest (FEATNO, CSYS, MFGNO, END, …) is information for people.
+//! `$$-> KEY / …`: what Creo says in comments. CUTTER matters to the post, and a CSYS that is
+//! another one than before ([`csys`](super::csys)); the rest (FEATNO, MFGNO, END, …) is
+//! information for people.
 
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;

@@ -28,8 +28,9 @@ const POINTS_ONLY: f64 = 10.0;
 /// a CIRCLE and its end.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     refuse_on_arc(post, "TRANS")?;
-    if post.path.has_origin || post.path.has_tracut || post.path.has_index {
-        return Err(items.error("ORIGIN, TRACUT or ROTABL moves the points already"));
+    let path = &post.path;
+    if path.has_origin || path.has_tracut || path.has_index || path.has_csys {
+        return Err(items.error("ORIGIN, TRACUT, ROTABL or a named frame moves the points already"));
     }
     if items.any_of(&[w::NOMORE, w::OFF]).is_some() {
         items.deny_rest()?;
@@ -129,7 +130,7 @@ pub fn tracut(post: &mut Post, items: &mut Items) -> Result<bool> {
     }
     refuse_on_arc(post, "TRACUT")?;
     if post.path.transformation.is_some() && !post.path.has_tracut {
-        return Err(items.error("TRANS moves the points already"));
+        return Err(items.error("TRANS or a named frame moves the points already"));
     }
     if items.any_of(&[w::NOMORE, w::OFF]).is_some() {
         turn(post, None, "TRACUT")?;
@@ -146,6 +147,27 @@ pub fn tracut(post: &mut Post, items: &mut Items) -> Result<bool> {
     turn(post, Some(Transformation { matrix, turns_axis: true }), "TRACUT")?;
     post.path.has_tracut = true;
     Ok(true)
+}
+
+/// CSYS and its like: the transformation of the frame at hand into the first, or none.
+///
+/// # Errors
+/// Another word that moves the points, a place between a CIRCLE and its end.
+pub(super) fn csys(post: &mut Post, word: &str, moved: Option<Transformation>) -> Result<()> {
+    if moved.is_none() && !post.path.has_csys {
+        return Ok(());
+    }
+    refuse_on_arc(post, word)?;
+    let path = &post.path;
+    let has_matrix = path.transformation.is_some() && !path.has_csys;
+    if has_matrix || path.is_shifted || path.has_origin || path.has_tracut || path.has_index {
+        return PostCode::OtherFrame
+            .err(format!("{word}: TRANS, ORIGIN, TRACUT or ROTABL moves the points already"));
+    }
+    let has_csys = moved.is_some();
+    turn(post, moved, word)?;
+    post.path.has_csys = has_csys;
+    Ok(())
 }
 
 fn refuse_on_arc(post: &Post, word: &str) -> Result<()> {

@@ -3,7 +3,7 @@
 
 use fil_cl::{Record, words as w};
 use fil_machine::axis_chain::{Carries, Rotary};
-use fil_machine::locations::{InputOrigin, InputTracut, RotaryTableWords};
+use fil_machine::locations::{InputCsys, InputOrigin, InputTracut, RotaryTableWords};
 use nalgebra::{Matrix3x4, Vector3};
 
 use super::{Matrix, State};
@@ -19,6 +19,10 @@ pub struct FrameWords {
     pub origin: InputOrigin,
     /// What TRACUT does.
     pub tracut: InputTracut,
+    /// What a second frame of CSYS and its like does.
+    pub csys: InputCsys,
+    /// Words that the machine lists as without effect.
+    pub without_effect: Vec<String>,
     /// What ROTABL does to the points.
     pub table: RotaryTableWords,
     /// The rotary axes; `None` for a machine without one.

@@ -5,6 +5,7 @@
 //! not known from the CL file alone becomes [`Wanted::Unknown`].
 
 mod frame_words;
+mod named_frame;
 mod own_words;
 mod path;
 mod skip;
@@ -26,6 +27,8 @@ use super::statements::{
 };
 use super::wanted::{Effect, End, Step, Wanted};
 pub use frame_words::FrameWords;
+
+use named_frame::NamedFrames;
 
 use crate::errors::NcCode;
 use crate::motion::{INCH, Rate};
@@ -109,6 +112,7 @@ struct State {
     /// LINTOL, mm.
     straight: Option<f64>,
     words: FrameWords,
+    frames: NamedFrames,
     names: ToolNames,
 }
 
@@ -154,6 +158,7 @@ impl<'r> ClPath<'r> {
                 leaves_axis: false,
                 straight: None,
                 words: FrameWords::default(),
+                frames: NamedFrames::default(),
                 names: ToolNames::default(),
             },
             ready: VecDeque::new(),
@@ -295,6 +300,7 @@ impl State {
             self.names.say(record);
             return Vec::new();
         }
+        self.name_frame(record, vocabulary.name(record.major));
         if record.inert {
             return Vec::new();
         }

@@ -32,6 +32,9 @@ impl State {
             self.axis = axis;
             return None;
         }
+        if let Some(what) = self.frames.doubt(axis) {
+            return Some(Wanted::Unknown { what, effect: Effect::Path });
+        }
         if record.sub == motion::GODLTA {
             return Some(self.line_to(point, axis));
         }

@@ -177,6 +177,8 @@ impl<'c> Settings<'c> {
         FrameWords {
             origin: self.commons.read(loc::INPUT_ORIGIN),
             tracut: self.commons.read(loc::INPUT_TRACUT),
+            csys: self.commons.read(loc::INPUT_CSYS),
+            without_effect: self.commons.words_without_effect().to_vec(),
             table: self.commons.read(loc::ROTARY_TABLE_WORDS),
             forward: self.forward.has_rotary().then(|| self.forward.clone()),
             turned: [None; 2],
