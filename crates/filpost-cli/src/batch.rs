@@ -268,7 +268,7 @@ fn tell(job: &Job, ended: &Ended) {
     }
     output::say(&format!("{}:", job.cl.display()));
     let Some(outcome) = ended else { return };
-    post::tell(outcome);
+    post::tell(job, outcome);
     if let Err(error) = &outcome.result {
         refused::tell(error);
     }

@@ -35,6 +35,14 @@ pub struct Job {
     pub map: Option<PathBuf>,
 }
 
+impl Job {
+    /// The NC file, where one lies there already; whoever reads it may take it for the one that
+    /// was asked for.
+    pub fn earlier_program(&self) -> Option<&Path> {
+        self.output.as_deref().filter(|nc| nc.is_file() && *nc != self.cl)
+    }
+}
+
 /// How a job ended.
 #[derive(Debug)]
 pub struct Outcome {

@@ -4,10 +4,11 @@ use std::ffi::OsString;
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 
-use filpost::Error;
+use filpost::{Code, Diag, Error};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::args::PostArgs;
+use crate::errors::CommandCode;
 use crate::job::{self, Job, Outcome};
 use crate::posts::Posts;
 use crate::{Status, batch, output, summary};
@@ -48,7 +49,7 @@ fn one(args: &PostArgs, cl: &Path) -> Result<Status, Error> {
     if let Some(bar) = bar {
         bar.finish_and_clear();
     }
-    tell(&outcome);
+    tell(&job, &outcome);
     let report = outcome.result?;
     let warnings = outcome.warnings.len();
     output::say(&summary::line(&outcome.title, &report, warnings, outcome.time));
@@ -70,13 +71,16 @@ pub fn beside(nc: &Path) -> PathBuf {
     name.into()
 }
 
-/// Warnings and notes of a run.
-pub fn tell(outcome: &Outcome) {
+/// Warnings and notes of a run; of a refused one the program that an earlier run has left.
+pub fn tell(job: &Job, outcome: &Outcome) {
     if let Some(note) = &outcome.note {
         output::say(&format!("note: {note}"));
     }
     summary::warnings(&outcome.warnings);
-    let Ok(report) = &outcome.result else { return };
+    let report = match &outcome.result {
+        Ok(report) => report,
+        Err(error) => return tell_earlier(job, error),
+    };
     for (section, count) in &report.swallowed {
         let records = summary::counted(*count, "record");
         output::say(&format!(
@@ -85,6 +89,14 @@ pub fn tell(outcome: &Outcome) {
     }
     for path in &report.script_files {
         output::say(&format!("note: FIL has changed {}", path.display()));
+    }
+}
+
+/// Names the program that lies where the refused one would, so that nobody takes it for that.
+fn tell_earlier(job: &Job, error: &Error) {
+    let over_input = |diag: &Diag| diag.code == <&Code>::from(CommandCode::OverInput);
+    if let Some(nc) = job.earlier_program().filter(|_| !error.diags().iter().any(over_input)) {
+        output::say(&format!("note: {} is of an earlier run", nc.display()));
     }
 }
 

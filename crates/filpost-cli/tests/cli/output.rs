@@ -205,3 +205,18 @@ fn the_summary_leaves_extents_out_beside_words_of_postn() {
     assert!(!ran.err.contains("CL points"), "{}", ran.err);
     assert!(ran.err.contains("1 record taken by the section COOLNT wrote nothing where they"));
 }
+
+#[test]
+fn a_program_of_an_earlier_run_is_named_where_the_new_one_is_refused() {
+    let place = Folder::new().with("part.ncl", SMALL.replace("FINI", "NOSUCH / 1\nFINI"));
+    let first = place.run(&["post", "part.ncl", "-o", "part.nc"]);
+    assert!(first.status == 1 && !first.err.contains("earlier run"), "{first:?}");
+    let place = place.with("part.nc", "M30\n");
+    for output in ["part.nc", "./part.nc"] {
+        let ran = place.run(&["post", "-o", output, "part.ncl"]);
+        assert!(ran.status == 1 && ran.err.contains("part.nc is of an earlier run"), "{ran:?}");
+        assert_eq!(place.text("part.nc").as_deref(), Some("M30\n"));
+    }
+    let over = place.run(&["post", "-o", "./part.ncl", "part.ncl"]);
+    assert!(over.status == 1 && !over.err.contains("earlier run"), "{over:?}");
+}
