@@ -163,6 +163,36 @@ fn a_changed_rigid_tap_of_a_live_tool_is_found() {
     }
 }
 
+/// A tap of a live tool along X: it and its lead are lengths of radius.
+#[test]
+fn a_changed_rigid_tap_along_x_is_found() {
+    let cl = "MODE / MILL; LOADTL / 3; SPINDL / RPM, 600, CLW; MULTAX / ON; RAPID; \
+              GOTO / 40, 0, -10, 1, 0, 0; CYCLE / TAP, DEPTH, 12, MMPR, 1.25, CLEAR, 3; \
+              GOTO / 30, 0, -10, 1, 0, 0; CYCLE / OFF";
+    let settings = ["mill_turn.rigid_tap=1", "mill_turn.live_spindle=2"];
+    let nc = "%_N_MPF1_MPF; G710 G90 G95 G18; DIAMON; M70; SETMS(2); T3; D1; G97 S600 M3; \
+              G0 X80 Z-10 C0; X66; G94; SPOS=0; DIAMOF; G331 X18 I1.25 S600; G332 X33 I1.25; DIAMON; \
+              M3; M5; SETMS; M5; M30";
+    let check = |nc: &str| found("sinumerik-mill-turn", &settings, cl, nc);
+    assert_eq!(check(nc), "");
+    for (old, new) in [
+        ("SPOS=0; ", ""),
+        ("DIAMOF; ", ""),
+        ("DIAMOF; G331 X18 I1.25 S600; G332 X33", "G331 X36 I1.25 S600; G332 X66"),
+        ("I1.25 S600", "I1.5 S600"),
+        ("I1.25 S600; G332 X33 I1.25", "I2.5 S600; G332 X33 I2.5"),
+        ("I1.25 S600; G332 X33 I1.25", "I-1.25 S600; G332 X33 I-1.25"),
+        ("X18 I", "X18 K"),
+        ("X18", "X36"),
+        ("X33", "X66"),
+        ("G332 X33 I1.25; ", ""),
+    ] {
+        let changed = nc.replacen(old, new, 1);
+        assert_ne!(changed, nc, "{old}");
+        assert_ne!(check(&changed), "", "{new}");
+    }
+}
+
 /// G961 and G971 of a SINUMERIK leave the feed a minute, G96 and G97 make it one a turn.
 #[test]
 fn speed_modes_of_a_feed_a_minute_are_followed() {

@@ -37,6 +37,11 @@ pub(super) struct Said {
 }
 
 impl Said {
+    /// The block is a way of G331 or G332.
+    pub(super) fn taps(&self) -> bool {
+        matches!(self.has(1), Some(Function::RigidTap { .. }))
+    }
+
     fn has(&self, group: u8) -> Option<Function> {
         self.functions.iter().copied().find(|function| function.group() == group)
     }
@@ -226,7 +231,7 @@ impl Sinumerik<'_> {
                 self.counts_radii = false;
                 self.state.certain.say(StartMode::Diameter);
             }
-            "DIAMOF" if self.writes_diameters() && self.state.dialect.transforms => {
+            "DIAMOF" if self.writes_diameters() && self.may_count_radii() => {
                 self.counts_radii = true;
             }
             "DIAMOF" if self.writes_diameters() => {
@@ -242,6 +247,16 @@ impl Sinumerik<'_> {
     /// X of the machine's programs is a diameter.
     fn writes_diameters(&self) -> bool {
         self.state.dialect.scales[0].is_some_and(|x| x.way(2.0) == 1.0)
+    }
+
+    /// X is a diameter now.
+    pub(super) fn is_by_diameter(&self) -> bool {
+        self.writes_diameters() && !self.counts_radii
+    }
+
+    /// Live tools mill in transformations, and tap along X, by lengths of radius.
+    fn may_count_radii(&self) -> bool {
+        self.state.dialect.transforms || self.state.dialect.live_spindle.is_some()
     }
 
     fn function(&mut self, word: &Word, value: &Value, said: &mut Said) -> Result<(), Fault> {

@@ -17,7 +17,7 @@ fn refuse<T>(why: &str) -> Result<T, Fault> {
 }
 
 impl Sinumerik<'_> {
-    /// The way into a hole along Z, or back out of it.
+    /// The way into a hole along Z or X, or back out of it.
     pub(super) fn rigid_tap(&mut self, said: &Said, back: bool) -> Result<(), Fault> {
         let state = &self.state;
         if state.modes.spindle != Spindle::Off || state.modes.orientation.is_none() {
@@ -32,12 +32,20 @@ impl Sinumerik<'_> {
         if self.called.is_some() || said.radius.is_some() || state.tilt.is_some() {
             return refuse("G331 and G332 in a cycle, with a radius or in a tilted plane");
         }
-        let along_z = (0..5).all(|axis| (axis == 2) == said.axes[axis].is_some());
-        let [None, None, Some((lead, _))] = said.center else {
-            return refuse("G331 and G332 need the lead K, and are followed along Z alone");
+        let (along, lead) = match said.center {
+            [None, None, Some((lead, _))] => (2, lead),
+            [Some((lead, _)), None, None] => (0, lead),
+            _ => return refuse("G331 and G332 need the lead K along Z or I along X, and no other"),
         };
-        if !along_z || lead == 0.0 || !state.known[2] {
-            return refuse("G331 and G332 need Z and its lead K, and are followed along Z alone");
+        let alone = (0..5).all(|axis| (axis == along) == said.axes[axis].is_some());
+        if !alone || lead == 0.0 || !state.known[along] {
+            return refuse("G331 and G332 need Z and its lead K, or X and its lead I, alone");
+        }
+        if along == 0 && self.is_by_diameter() {
+            return refuse(
+                "G331 and G332 along X while it is a diameter: whether its lead I is one, too, is \
+                 not plain (DIAMOF)",
+            );
         }
         let into = if lead > 0.0 { Spindle::Clockwise } else { Spindle::Counterclockwise };
         let rate = Rate::PerTurn(lead.abs() * state.unit());

@@ -149,8 +149,8 @@ impl Sinumerik<'_> {
         if self.state.live && threads.contains(&self.state.motion) && said.moves() {
             return refuse("a thread while the main spindle is the axis C");
         }
-        if self.counts_radii && said.moves() && !self.is_transformed() {
-            return refuse("X as a radius outside of a transformation");
+        if self.counts_radii && said.moves() && !self.is_transformed() && !said.taps() {
+            return refuse("X as a radius outside of a transformation and of a tap");
         }
         Ok(())
     }

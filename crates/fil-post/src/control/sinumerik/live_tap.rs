@@ -1,14 +1,16 @@
-//! A tap of a live tool along Z: `SPOS=0`, `G331 Z K S`, `G332 Z K`.
+//! A tap of a live tool: `SPOS=0`, `G331 Z K S`, `G332 Z K` along Z, with X and I along X.
 //!
 //! The manual of the language: SPOS brings the master spindle under position control, K of G331 and
 //! G332 is the lead, whose sign is the way it turns (positive as M3), and G332 turns it back. Along
-//! X the lead would be I, and whether it counts as a diameter is not plain.
+//! X the lead is I. Whether it counts as a diameter where X does is not plain, so that DIAMOF makes
+//! both lengths of radius for the tap.
 
 use fil_diag::Result;
 use fil_machine::letters::{F, XYZ};
 use fil_machine::locations as loc;
 use fil_machine::modes::FeedMode;
 
+use super::{program, transformation};
 use crate::control::word_address::{motion, spindle};
 use crate::control::{Control, line, tap};
 use crate::errors::PostCode;
@@ -22,7 +24,7 @@ const LEAD_DIGITS: usize = 5;
 pub fn taps(control: &Control, cycle: &Cycle, hole: &Hole) -> bool {
     control.tables.mills()
         && cycle.kind == CycleKind::Tap
-        && hole.along == 2
+        && hole.along != 1
         && control.commons.read(loc::MILL_TURN_RIGID_TAP)
 }
 
@@ -45,15 +47,25 @@ pub fn tap(control: &mut Control, cycle: &Cycle, hole: &Hole) -> Result<()> {
     let lead = tap::text(tap::pitch(control, cycle)?, LEAD_DIGITS)?;
     let sign = if clockwise { "" } else { "-" };
     let axis = *control.tables.axis(hole.along);
+    let by_diameter = hole.along == 0 && control.commons.read(loc::LATHE_DIAMETER);
+    let part = if by_diameter { 0.5 } else { 1.0 };
+    let (letter, address) = if hole.along == 0 { ("X", "I") } else { ("Z", "K") };
     let level = |control: &Control, level: f64| {
-        let value = axis.value(level)?;
-        line::length(control, XYZ[2], value).map(|(text, _)| text)
+        let value = axis.value(level)? * part;
+        line::length(control, XYZ[hole.along], value).map(|(text, _)| text)
     };
     let (bottom, clear) = (level(control, hole.bottom)?, level(control, hole.clear)?);
     feed_a_minute(control, cycle)?;
     super::put_text(control, "SPOS=0")?;
-    super::put_text(control, &format!("G331 Z{bottom} K{sign}{lead} S{speed}"))?;
-    super::put_text(control, &format!("G332 Z{clear} K{sign}{lead}"))?;
+    if by_diameter {
+        transformation::count_radii(control)?;
+    }
+    let lead = format!("{address}{sign}{lead}");
+    super::put_text(control, &format!("G331 {letter}{bottom} {lead} S{speed}"))?;
+    super::put_text(control, &format!("G332 {letter}{clear} {lead}"))?;
+    if by_diameter {
+        program::say_diameters(control)?;
+    }
     control.state.motion = None;
     control.state.doubt(F);
     spindle::turn_on(control, clockwise)

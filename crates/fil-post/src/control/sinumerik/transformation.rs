@@ -64,7 +64,11 @@ pub fn say_what_x_is(control: &mut Control) -> Result<()> {
     }
 }
 
-fn count_radii(control: &mut Control) -> Result<()> {
+/// Makes X a radius, where it is a diameter.
+///
+/// # Errors
+/// As a line on the tape.
+pub fn count_radii(control: &mut Control) -> Result<()> {
     match control.commons.read(loc::LATHE_DIAMETER) {
         true => put_text(control, "DIAMOF"),
         false => Ok(()),

@@ -86,8 +86,7 @@ pub fn no_tap(control: &Control) -> &'static str {
              turned counterclockwise; SPINDL before the tap says how it turns"
         }
         _ if control.tables.mills() && control.tables.family == ControlFamily::Sinumerik => {
-            "a live tool of a SINUMERIK taps along Z where mill_turn.rigid_tap says that SPOS \
-             positions it; whether the lead along X counts as a diameter is not plain"
+            "a live tool of a SINUMERIK taps where mill_turn.rigid_tap says that SPOS positions it"
         }
         _ => "the machine has no tapping cycle, and a tap can't be written as single moves",
     }

@@ -93,7 +93,7 @@ pub fn drill(
     })
 }
 
-/// Taps a hole along Z on a SINUMERIK.
+/// Taps a hole on a SINUMERIK.
 ///
 /// # Errors
 /// As [`live_tap::tap`].
