@@ -2,6 +2,7 @@
 //! with them would be read otherwise than it is meant.
 
 mod codes;
+mod counted_spindle;
 mod letters;
 mod numbers;
 mod travel;
@@ -50,6 +51,7 @@ pub fn check(commons: &Commons) -> Result<()> {
 pub fn all(commons: &Commons) -> Vec<Diag> {
     let mut found = Vec::new();
     codes::check(commons, &mut found);
+    counted_spindle::check(commons, &mut found);
     incremental_start(commons, &mut found);
     start_modes(commons, &mut found);
     arc_sizes(commons, &mut found);

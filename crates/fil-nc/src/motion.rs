@@ -219,6 +219,9 @@ pub struct Modes {
     pub compensation_offset: Option<u32>,
     /// Spindle.
     pub spindle: Spindle,
+    /// The control counts the second spindle of a lathe, or the main one; `None` before anything
+    /// has said it. Spindle, speed, range and limit are those of the one that is counted.
+    pub counts_side: Option<bool>,
     /// Angle of the oriented spindle, degrees; `None` when it turns or none was given.
     pub orientation: Option<f64>,
     /// Spindle range that the program has chosen last, from 1.

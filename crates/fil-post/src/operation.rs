@@ -143,6 +143,18 @@ pub enum Spindle {
     Turn(SpindleTurn),
     /// The second spindle of a lathe turns or stops.
     Side(SideSpindle),
+    /// The control counts the turns of the second spindle of a lathe from here on, or those of
+    /// the main one.
+    Counted(CountedSpindle),
+}
+
+/// Which spindle of a lathe the control counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CountedSpindle {
+    /// The second one.
+    pub is_side: bool,
+    /// The record says all that the spindle does: speed and direction, or that it stops.
+    pub is_whole: bool,
 }
 
 /// What the second spindle of a lathe does.

@@ -193,6 +193,76 @@ fn a_changed_rigid_tap_along_x_is_found() {
     }
 }
 
+/// Threads, feeds a turn and surface speeds of the second spindle: which one the control counts.
+#[test]
+fn another_spindle_than_the_one_that_turns_the_part_is_found() {
+    let thread = "RAPID; GOTO / 30, 0, 5; THREAD / MMPR, 2; GOTO / 30, 0, -20; RAPID; \
+                  GOTO / 35, 0, 5; THREAD / OFF";
+    let cl = format!(
+        "LOADTL / 1; SPINDL / RPM, 800, CLW; {thread}; SPINDL / RPM, 500, CCLW, SIDE; {thread}; \
+         FEDRAT / 0.2, MMPR; GOTO / 30, 0, 0"
+    );
+    let by_number = "%_N_MPF1_MPF; G710 G90 G95 G18; DIAMON; T1; D1; SETMS; G97 S800 M3; G0 X60 Z5; \
+                     G33 Z-20 K2; G0 X70 Z5; SETMS(2); G97 S500 M4; X60; G33 Z-20 K2; G0 X70 Z5; \
+                     G1 X60 Z0 F0.2; M5; SETMS; M30";
+    let by_code = "%; O0001; G21 G99 G18; T0101; M200; G97 S800 M3; G0 X60. Z5.; G32 Z-20. F2.; \
+                   G0 X70. Z5.; M201; G97 S500 M104; X60.; G32 Z-20. F2.; G0 X70. Z5.; \
+                   G1 X60. Z0. F0.2; M105; M200; M30; %";
+    let codes = [
+        "spindle.side_master_code=201",
+        "spindle.main_master_code=200",
+        "spindle.side_cw_code=103",
+        "spindle.side_ccw_code=104",
+        "spindle.side_stop_code=105",
+    ];
+    let number = ["spindle.side_number=2"];
+    let check = |nc: &str| match nc.starts_with("%_N") {
+        true => found("sinumerik-lathe", &number, &cl, nc),
+        false => found("fanuc-lathe", &codes, &cl, nc),
+    };
+    let faults: [(&str, &[(&str, &str)]); 2] = [
+        (
+            by_number,
+            &[
+                ("SETMS(2); ", ""),
+                ("SETMS(2)", "SETMS(3)"),
+                ("SETMS(2)", "SETMS"),
+                ("SETMS; G97 S800", "SETMS(2); G97 S800"),
+                ("S500", "S550"),
+                ("M4", "M3"),
+                ("X60; G33 Z-20 K2", "X60; G33 Z-20 K1.9"),
+                ("X60; G33 Z-20 K2", "SETMS; X60; G33 Z-20 K2"),
+                ("G1 X60", "SETMS; G1 X60"),
+                ("; SETMS; M30", "; M30"),
+                ("G97 S500", "G96 S500"),
+            ],
+        ),
+        (
+            by_code,
+            &[
+                ("M201; ", ""),
+                ("M201", "M200"),
+                ("M200; G97 S800", "M201; G97 S800"),
+                ("S500", "S550"),
+                ("M104", "M103"),
+                ("M104", "M4"),
+                ("X60.; G32 Z-20. F2.", "X60.; G32 Z-20. F1.9"),
+                ("X60.; G32 Z-20. F2.", "M200; X60.; G32 Z-20. F2."),
+                ("M201; G97", "M201 G97"),
+                ("M105; M200; ", "M105; "),
+            ],
+        ),
+    ];
+    for (nc, changes) in faults {
+        assert_eq!(check(nc), "");
+        for (old, new) in changes {
+            let changed = nc.replacen(old, new, 1);
+            assert_ne!(changed, nc, "{old}");
+            assert_ne!(check(&changed), "", "{new}");
+        }
+    }
+}
+
 /// G961 and G971 of a SINUMERIK leave the feed a minute, G96 and G97 make it one a turn.
 #[test]
 fn speed_modes_of_a_feed_a_minute_are_followed() {

@@ -136,6 +136,10 @@ const FUNCTIONS: &[(&str, &[CodeAt])] = &[
     ("a clamp", &[loc::ROTARY_CLAMP_CODE, loc::ROTARY_UNCLAMP_CODE]),
     ("a rigid tap", &[loc::CYCLE_RIGID_TAP_MODE]),
     ("the way out of threads", &[loc::THREAD_CHAMFER_ON_CODE, loc::THREAD_CHAMFER_OFF_CODE]),
+    (
+        "the spindle that is counted",
+        &[loc::SPINDLE_SIDE_MASTER_CODE, loc::SPINDLE_MAIN_MASTER_CODE],
+    ),
 ];
 
 /// Commands of M, which no coolant may share either.

@@ -215,6 +215,10 @@ pub enum Auxiliary {
     CAxis(bool, u32),
     /// The live tool turns or stands.
     Live(Spindle),
+    /// The control counts the second spindle of a lathe, or the main one.
+    Counts(bool),
+    /// The second spindle turns or stands, where the control is told which one it counts.
+    Side(Spindle),
     /// A range of spindle speeds, from 1.
     SpindleRange(u8),
     /// The coolant of this number flows; `None`: it stops.
@@ -245,6 +249,8 @@ impl Auxiliary {
                     | Auxiliary::Orient
                     | Auxiliary::CAxis(..)
                     | Auxiliary::Live(_)
+                    | Auxiliary::Counts(_)
+                    | Auxiliary::Side(_)
             )
         };
         match (self, other) {

@@ -62,6 +62,23 @@ impl Auxiliaries {
                 table.entry(i64::from(code)).or_insert(A::CAxis(on, code.unsigned_abs()));
             }
         }
+        let choices = [("spindle.side_master_code", true), ("spindle.main_master_code", false)];
+        for (code, side) in choices.map(|(key, side)| (settings.code(key), side)) {
+            if let Some(code) = code {
+                table.entry(i64::from(code)).or_insert(A::Counts(side));
+            }
+        }
+        let of_side = [
+            ("spindle.side_cw_code", Spindle::Clockwise),
+            ("spindle.side_ccw_code", Spindle::Counterclockwise),
+            ("spindle.side_stop_code", Spindle::Off),
+        ];
+        let is_counted = settings.code("spindle.side_master_code").is_some();
+        for (key, turn) in of_side.into_iter().filter(|_| is_counted) {
+            if let Some(code) = settings.code(key) {
+                table.entry(i64::from(code)).or_insert(A::Side(turn));
+            }
+        }
         for code in COOLANTS.iter().filter_map(|key| settings.code(key)) {
             let flows = A::Coolant(Some(code.unsigned_abs()));
             table.entry(i64::from(code)).or_insert(flows);

@@ -29,7 +29,7 @@ use m_codes::Auxiliaries;
 pub(crate) use marks::{Marks, SKIP};
 pub use numbers::{Address, Unreadable};
 pub(crate) use start::Certain;
-pub(crate) use turning::{LivePecks, WayOut};
+pub(crate) use turning::{Counted, LivePecks, WayOut};
 pub(crate) use turns::WayRound;
 
 /// Names of the six axes that settings know, as their keys end.
@@ -142,6 +142,8 @@ pub struct Dialect {
     pub(crate) transforms: bool,
     /// The spindle of the live tool by its number, which SETMS makes the master spindle.
     pub(crate) live_spindle: Option<i32>,
+    /// How the control is told which spindle of a lathe it counts.
+    pub(crate) counted: Counted,
     /// The codes that make the main spindle an axis and a spindle again.
     pub(crate) spindle_modes: [Option<i32>; 2],
     /// Tool-tip control may begin wherever the tables stand.
@@ -319,6 +321,7 @@ impl Dialect {
             }),
             transforms: settings.flag("mill_turn.transformations"),
             live_spindle: settings.code("mill_turn.live_spindle"),
+            counted: Counted::new(&settings),
             spindle_modes: ["milling", "turning"]
                 .map(|mode| settings.code(&format!("mill_turn.{mode}_code"))),
             polar_rapid: settings.number("mill_turn.polar_rapid"),

@@ -46,3 +46,33 @@ impl WayOut {
         Some(WayOut { codes, leads })
     }
 }
+
+/// How the control is told which spindle of a lathe it counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Counted {
+    /// The number of the second spindle, which SETMS names.
+    pub(crate) number: Option<i32>,
+    /// M codes choose it.
+    by_code: bool,
+    /// The second spindle has codes of its own, and those of the main one never turn it.
+    pub(crate) has_own_codes: bool,
+    /// A highest speed is that of the spindle that is counted.
+    pub(crate) has_own_limits: bool,
+}
+
+impl Counted {
+    pub(super) fn new(settings: &Settings) -> Self {
+        let number = settings.code("spindle.side_number");
+        Counted {
+            number,
+            by_code: settings.code("spindle.side_master_code").is_some(),
+            has_own_codes: settings.code("spindle.side_cw_code").is_some(),
+            has_own_limits: number.is_some(),
+        }
+    }
+
+    /// The machine says which spindle its control counts.
+    pub(crate) fn is_chosen(&self) -> bool {
+        self.number.is_some() || self.by_code
+    }
+}

@@ -6,6 +6,7 @@
 
 mod arc;
 mod block;
+mod counted;
 mod cycle;
 mod direction;
 mod klartext;

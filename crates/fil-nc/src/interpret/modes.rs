@@ -173,8 +173,11 @@ impl State<'_> {
             });
         }
         self.tool(words)?;
+        self.check_choice(words)?;
         for (auxiliary, _) in &words.auxiliaries {
             match auxiliary {
+                Auxiliary::Counts(side) => self.count(*side)?,
+                Auxiliary::Side(turn) => self.turn_one(true, *turn),
                 Auxiliary::CAxis(on, code) => self.change_spindle(*on, *code)?,
                 Auxiliary::Live(turn) => self.turn_live_tool(*turn)?,
                 Auxiliary::Clockwise if self.live => self.turn_main(Spindle::Clockwise)?,
@@ -182,9 +185,9 @@ impl State<'_> {
                     self.turn_main(Spindle::Counterclockwise)?;
                 }
                 Auxiliary::SpindleOff if self.live => self.turn_main(Spindle::Off)?,
-                Auxiliary::Clockwise => self.turn_spindle(Spindle::Clockwise),
-                Auxiliary::Counterclockwise => self.turn_spindle(Spindle::Counterclockwise),
-                Auxiliary::SpindleOff => self.turn_spindle(Spindle::Off),
+                Auxiliary::Clockwise => self.turn_one(false, Spindle::Clockwise),
+                Auxiliary::Counterclockwise => self.turn_one(false, Spindle::Counterclockwise),
+                Auxiliary::SpindleOff => self.turn_one(false, Spindle::Off),
                 Auxiliary::Orient => {
                     self.turn_spindle(Spindle::Off);
                     self.modes.orientation = orientation;

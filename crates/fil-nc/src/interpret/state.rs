@@ -1,6 +1,7 @@
 //! What the control remembers from block to block.
 
 use super::Fault;
+use super::counted::OtherSpindle;
 use super::cycle::Cycle;
 use super::thread::{Pass, Setup};
 use super::words::{AxisWord, Words};
@@ -71,6 +72,8 @@ pub(super) struct State<'d> {
     /// Tool that the next change takes.
     pub(super) next_tool: Option<u32>,
     pub(super) modes: Modes,
+    /// The spindle that is not counted.
+    pub(super) other_spindle: OtherSpindle,
     /// Events of the block; they count when the whole block has a meaning.
     pub(super) events: Vec<Event>,
     /// The words of the block before, whose memory is used again.
@@ -115,6 +118,7 @@ impl<'d> State<'d> {
             setup: None,
             next_tool: None,
             modes: Modes { inch: !dialect.metric, ..Modes::default() },
+            other_spindle: OtherSpindle::default(),
             events: Vec::new(),
             words: Words::default(),
         }

@@ -148,6 +148,7 @@ impl<C: Steps> Walk<'_, C> {
         if self.modes.ends_milling(self.settings) {
             self.ask_auxiliary(cl_line, self.settings.spindle_mode_code(false));
         }
+        self.modes.ends_counting_side(self.settings);
         match self.nc.get(self.next) {
             Some(Event::End { line, code, modes }) => {
                 self.next += 1;

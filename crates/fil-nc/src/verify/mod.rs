@@ -18,6 +18,7 @@ mod blocks;
 mod cl_path;
 mod clamps;
 mod compensation_plane;
+mod counted;
 mod gap;
 mod hole;
 mod hole_live;

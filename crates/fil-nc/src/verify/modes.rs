@@ -5,6 +5,7 @@
 
 use super::again::Again;
 use super::compensation_plane::MeantPlane;
+use super::counted::Counted;
 use super::lag::{Lag, Moved};
 use super::modes_said::{
     name_of_fixture, said_of_compensation, said_of_offset, said_of_speed, said_of_spindle,
@@ -41,8 +42,10 @@ pub(super) struct Expected {
     /// The side, and the number of the offset.
     pub(super) compensation: Lag<(Compensation, Option<u32>)>,
     pub(super) spindle: Lag<Option<Spindle>>,
+    /// The spindles of a lathe, where the control is told which one it counts.
+    pub(super) counted: Counted,
     /// How the last record that turned the spindle did.
-    last_turn: Option<Spindle>,
+    pub(super) last_turn: Option<Spindle>,
     /// Angle of the oriented spindle; `None` when none is asked for.
     pub(super) orientation: Option<f64>,
     /// The spindle range; `None` when none is asked for.
@@ -91,6 +94,7 @@ impl Expected {
             offset: Lag::new(None),
             compensation: Lag::new((Compensation::Off, None)),
             spindle: Lag::new(Some(Spindle::Off)),
+            counted: Counted::default(),
             last_turn: None,
             speed: Lag::new(None),
             orientation: None,
@@ -148,6 +152,10 @@ impl Expected {
             Wanted::Spindle(turn) => {
                 self.last_turn = turn.or_else(|| settings.spindle(None));
                 self.turn_spindle(*turn, settings);
+            }
+            Wanted::Counts(side) => self.count(*side, settings),
+            Wanted::OfSide(wanted) if settings.dialect.counted.is_chosen() => {
+                self.take(wanted, settings);
             }
             Wanted::SpindleAgain => self.turn_spindle(self.last_turn, settings),
             Wanted::SpindleRange(range) => {
@@ -297,7 +305,7 @@ impl Expected {
                 }
                 speed
             }
-            Speed::Turns(_) if self.mills => speed,
+            Speed::Turns(_) if self.mills || self.counted.is_side() => speed,
             Speed::Turns(asked) => {
                 if !self.range_is_named {
                     let within = settings.speed_within(asked, None);
@@ -482,6 +490,7 @@ impl Expected {
             let said = format!("the limit of the spindle speed is {found}, it should be {must}");
             wrong.push((FindingKind::Speed, said));
         }
+        wrong.extend(self.counted.wrong(modes).map(|said| (FindingKind::Spindle, said)));
         self.wrong_spindle(modes, &mut wrong);
         if let Some(must) = self.coolant.refuses(|may| may == modes.coolant) {
             let name =

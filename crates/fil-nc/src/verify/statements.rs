@@ -6,9 +6,17 @@ use super::wanted::{CoolantKind, SpindleRange, Wanted};
 use crate::motion::{Compensation, FOOT, Speed, Spindle};
 
 pub(super) fn spindle(record: &Record) -> Vec<Wanted> {
-    if record.has(w::SIDE) {
-        return side_spindle(record);
+    let is_side = record.has(w::SIDE);
+    let counts = [Wanted::Counts(is_side)].into_iter();
+    if !is_side {
+        return counts.chain(of_spindle(record)).collect();
     }
+    let of_side = of_spindle(record).into_iter().map(|one| Wanted::OfSide(Box::new(one)));
+    counts.chain(side_spindle(record)).chain(of_side).collect()
+}
+
+/// What the spindle does that a record speaks of.
+fn of_spindle(record: &Record) -> Vec<Wanted> {
     if record.has(w::OFF) {
         return vec![Wanted::Spindle(Some(Spindle::Off))];
     }

@@ -6,13 +6,13 @@ use super::report::FindingKind;
 use super::walk::Walk;
 use crate::motion::{Move, Speed, Spindle};
 
-/// Speed and direction of the spindle in a pass.
-pub(super) type Turns = (Option<Speed>, Spindle);
+/// Speed and direction of the spindle in a pass, and whether it is the second one.
+pub(super) type Turns = (Option<Speed>, Spindle, Option<bool>);
 
 impl<C: Steps> Walk<'_, C> {
     /// The next pass must turn the spindle as the first one of its thread did.
     pub(super) fn check_turns_of_pass(&mut self, cl_line: u32, pass: &Move) {
-        let now = (pass.modes.speed, pass.modes.spindle);
+        let now = (pass.modes.speed, pass.modes.spindle, pass.modes.counts_side);
         let first = *self.thread_turns.get_or_insert(now);
         if first != now {
             self.thread_turns = Some(now);

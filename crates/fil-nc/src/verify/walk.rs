@@ -250,6 +250,8 @@ impl<'a, C: Steps> Walk<'a, C> {
             }
             Wanted::Words(text) => self.ask_words(step.line, text),
             Wanted::WholeThread(thread) => self.whole_thread(step.line, thread),
+            // Which spindle is counted, and how it turns, the modes of the motions say.
+            Wanted::SideSpindle(_) if self.settings.dialect.counted.is_chosen() => {}
             Wanted::SideSpindle(turn) => {
                 self.ask_auxiliary(step.line, self.settings.side_spindle_code(*turn));
             }

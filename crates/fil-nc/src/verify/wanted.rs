@@ -33,6 +33,10 @@ pub enum Wanted {
     WholeThread(Box<WholeThread>),
     /// The second spindle: clockwise or not, `None` where it stops.
     SideSpindle(Option<bool>),
+    /// The control counts the second spindle or the main one, where it is told which.
+    Counts(bool),
+    /// What the second spindle does on such a machine.
+    OfSide(Box<Wanted>),
     /// An arc or helix at feed.
     Arc(Box<Arc>, Option<Rate>),
     /// A hole of a cycle.

@@ -122,6 +122,11 @@ pub struct Control {
     pub turned: Option<bool>,
     /// The second spindle has been turned last, and not stopped.
     pub side_turns: bool,
+    /// The CL file speaks of the second spindle of a lathe, on a machine whose control counts
+    /// the one that it is told to.
+    pub counts_side: bool,
+    /// Highest speed of the spindle that is not counted, turns a minute.
+    pub limit_of_other: Option<f64>,
     /// The spindle range in force that the program has said, from 0.
     pub range: Option<usize>,
     /// The location of the coolant that flows, as COOLNT asked for it.
@@ -176,6 +181,8 @@ impl Control {
             turning: None,
             turned: None,
             side_turns: false,
+            counts_side: false,
+            limit_of_other: None,
             range: None,
             coolant: None,
             changes: 0,

@@ -22,7 +22,12 @@ impl ControlState {
             FunctionCode::whole(198),
         ];
         self.ended |= END.contains(&code);
-        if let Some(rotation) = codes.rotation(code) {
+        if codes.chooses_spindle(code) {
+            // Which one is counted then, and how it turns, says who writes the code.
+            self.side_is_counted = None;
+            self.rotation = Rotation::InDoubt;
+        }
+        if let Some(rotation) = codes.rotation(code, self.side_is_counted == Some(true)) {
             self.rotation = rotation;
             self.turned_behind = self.tool_changes;
             self.halted = false;

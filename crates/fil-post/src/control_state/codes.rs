@@ -78,6 +78,11 @@ pub struct Codes {
     ranges: Vec<FunctionCode>,
     /// Auxiliary functions that turn the spindle or stop it.
     turns: [(FunctionCode, Rotation); 4],
+    /// The same of the second spindle of a lathe, where it has its own and the control counts
+    /// the one that a function chooses.
+    side_turns: Option<[(FunctionCode, Rotation); 3]>,
+    /// Auxiliary functions that choose the spindle which the control counts.
+    choices: [Option<FunctionCode>; 2],
     /// Auxiliary functions that stop the program.
     stops: [Option<FunctionCode>; 2],
     /// Auxiliary functions that clamp the rotary axes and release them.
@@ -121,6 +126,8 @@ impl Codes {
                 .filter_map(|at| commons.read(*at).and_then(FunctionCode::of_setting))
                 .collect(),
             turns: turns(commons),
+            side_turns: side_turns(commons),
+            choices: [loc::SPINDLE_SIDE_MASTER_CODE, loc::SPINDLE_MAIN_MASTER_CODE].map(code),
             speed_limit: code(loc::SPINDLE_MAX_CODE),
             tool_word_changes: commons.read(loc::TOOL_FORMAT) != ToolFormat::TWordAndChangeCode
                 || commons.read(loc::TOOL_CHANGE_CODE).is_none(),
@@ -236,10 +243,19 @@ impl Codes {
         self.ranges.contains(&code)
     }
 
-    /// How the spindle turns after an auxiliary function; `None` for one that leaves it.
-    pub fn rotation(&self, code: FunctionCode) -> Option<Rotation> {
+    /// True for the function that chooses the spindle which the control counts.
+    pub fn chooses_spindle(&self, code: FunctionCode) -> bool {
+        self.choices.contains(&Some(code))
+    }
+
+    /// How the spindle turns after an auxiliary function, the second one of a lathe where that is
+    /// counted; `None` for one that leaves it.
+    pub fn rotation(&self, code: FunctionCode, of_side: bool) -> Option<Rotation> {
         if self.sinumerik && code == AXIS_OF_SINUMERIK {
             return Some(Rotation::Standing);
+        }
+        if let Some(turns) = self.side_turns.filter(|_| of_side) {
+            return turns.iter().find(|(turning, _)| *turning == code).map(|(_, way)| *way);
         }
         self.turns.iter().find(|(turning, _)| *turning == code).map(|(_, rotation)| *rotation)
     }
@@ -357,6 +373,17 @@ fn turns(commons: &Commons) -> [(FunctionCode, Rotation); 4] {
         (code(stop, STOP), Rotation::Standing),
         (code(loc::SPINDLE_ORIENT_CODE, ORIENT), Rotation::Standing),
     ]
+}
+
+/// The functions of the second spindle of a lathe, where the control is told which one it counts.
+fn side_turns(commons: &Commons) -> Option<[(FunctionCode, Rotation); 3]> {
+    let code = |at: CodeAt| commons.read(at).and_then(FunctionCode::of_setting);
+    code(loc::SPINDLE_SIDE_MASTER_CODE)?;
+    Some([
+        (code(loc::SPINDLE_SIDE_CW_CODE)?, Rotation::Clockwise),
+        (code(loc::SPINDLE_SIDE_CCW_CODE)?, Rotation::Counterclockwise),
+        (code(loc::SPINDLE_SIDE_STOP_CODE)?, Rotation::Standing),
+    ])
 }
 
 /// What the codes with a decimal do that controls of today share: high-speed modes,

@@ -150,6 +150,9 @@ pub struct ControlState {
     pub range: Option<FunctionCode>,
     /// How the spindle was last told to turn.
     pub rotation: Rotation,
+    /// The control counts the second spindle of a lathe, or the main one; `None` where nothing
+    /// has said it.
+    pub side_is_counted: Option<bool>,
     /// What has lost the axes came back to where it began: a turning cycle of others.
     pub returned: bool,
     /// Tool changes by their function before the spindle was turned last.
@@ -197,6 +200,7 @@ impl ControlState {
             speed_limit: None,
             range: None,
             rotation: Rotation::Unsaid,
+            side_is_counted: None,
             returned: false,
             turned_behind: 0,
             halted: false,
@@ -362,6 +366,7 @@ impl ControlState {
             speed_limit: self.speed_limit,
             range: None,
             rotation: self.rotation.doubted(),
+            side_is_counted: None,
             returned: false,
             turned_behind: self.turned_behind,
             halted: self.halted,

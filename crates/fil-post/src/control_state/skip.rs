@@ -91,6 +91,7 @@ impl ControlState {
         agree(&mut self.range, &other.range);
         agree(&mut self.return_level, &other.return_level);
         agree(&mut self.surface_speed, &other.surface_speed);
+        agree(&mut self.side_is_counted, &other.side_is_counted);
         self.rotation = self.rotation.or(other.rotation);
         self.halted |= other.halted;
         self.may_be_clamped |= other.may_be_clamped;

@@ -80,6 +80,9 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     let has_cycle = family::drills(&post.control, &hole) && !as_single_moves(post, target);
     let code = family::cycle_code(&post.control, cycle).filter(|_| has_cycle);
     cycle.along = Some(hole.along);
+    if cycle.kind == CycleKind::Tap {
+        spindle::counted::check_tap(&post.control, code.is_some())?;
+    }
     if let Some(code) = mill_turn::hole::code(&post.control, cycle, &hole) {
         mill_turn::hole::drill(&mut post.control, cycle, &at, &hole, code)?;
     } else if live_tap::taps(&post.control, cycle, &hole) {

@@ -9,6 +9,7 @@
 pub mod arc;
 mod chords;
 pub mod compensation_side;
+mod counted_spindle;
 pub mod cycle;
 pub mod euler;
 mod expand;
@@ -301,6 +302,7 @@ fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
     if post.control.tables.mills() {
         mill_turn::before(post, &operation)?;
     }
+    counted_spindle::refuse_choices_of_others(&post.control, &operation)?;
     skip::note(post, &operation);
     if !matches!(operation, Operation::Text(_) | Operation::Words(_)) {
         return write_other(post, operation);

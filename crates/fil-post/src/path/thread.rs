@@ -12,7 +12,7 @@ use fil_machine::locations::{self as loc, ThreadCycle, ThreadLeadAlong};
 pub use super::thread_shape::{Shape, least_depth};
 use super::{carry_out as carry, rotary, scaled_lead};
 use crate::control::family;
-use crate::control::word_address::spindle;
+use crate::control::word_address::spindle::{self, counted};
 use crate::errors::PostCode;
 use crate::operation::{
     Lead, MotionKind, Operation, SpindleSpeed, Target, Thread, ThreadPasses, ThreadSide,
@@ -45,6 +45,8 @@ pub(crate) struct Turns {
     /// The highest speed, where the control holds this one to it.
     held: Option<f64>,
     clockwise: Option<bool>,
+    /// It is the second spindle of the lathe.
+    is_side: bool,
 }
 
 /// OP/THREAD with depth and passes: what it asks for, and the points that have come.
@@ -235,6 +237,7 @@ fn refuse_other_turns(post: &mut Post) -> Result<()> {
         speed: control.speed,
         held: control.state.speed_limit.filter(above),
         clockwise: spindle::clockwise_in_motion(control),
+        is_side: control.counts_side,
     };
     match post.path.thread_turns {
         Some(before) if before != now => {
@@ -279,6 +282,9 @@ pub fn counted_lead(post: &Post, lead: Lead, target: Target) -> Result<Lead> {
 /// # Errors
 /// The last SPINDL gave one, or stopped the spindle; nothing has turned it.
 pub fn check_speed(post: &Post) -> Result<()> {
+    if counted::is_unknown(&post.control) {
+        return PostCode::Thread.err(counted::WHICH);
+    }
     if !spindle::may_turn(&post.control) {
         let usual = "the spindle stands; SPINDL before the thread turns it";
         return PostCode::Thread.err(spindle::why_it_stands(&post.control, usual));

@@ -3,9 +3,10 @@
 
 use fil_diag::Result;
 
+use crate::control::word_address::spindle;
 use crate::errors::PostCode;
 use crate::items::Items;
-use crate::operation::{End, Operation};
+use crate::operation::{CountedSpindle, End, Operation, Spindle};
 use crate::path::carry_out;
 use crate::path::sense::Verdict;
 use crate::path::thread;
@@ -52,7 +53,20 @@ pub fn finish(post: &mut Post, end: End) -> Result<()> {
     judge_arcs(post)?;
     thread::end(post)?;
     post.path.cycle = None;
+    leave_side_spindle(post)?;
     carry_out(post, Operation::End(end))
+}
+
+/// The next program begins with the main spindle counted, as this one has.
+fn leave_side_spindle(post: &mut Post) -> Result<()> {
+    if !post.control.counts_side {
+        return Ok(());
+    }
+    if spindle::may_turn(&post.control) {
+        carry_out(post, Operation::Spindle(Spindle::Off))?;
+    }
+    let main = CountedSpindle { is_side: false, is_whole: true };
+    carry_out(post, Operation::Spindle(Spindle::Counted(main)))
 }
 
 /// Refuses a program whose arcs, taken together, turn the wrong way.

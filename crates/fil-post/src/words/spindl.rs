@@ -5,9 +5,12 @@
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 
+use crate::control::word_address::spindle::counted;
 use crate::errors::PostCode;
 use crate::items::Items;
-use crate::operation::{Operation, SideSpindle, Spindle, SpindleRange, SpindleSpeed, SpindleTurn};
+use crate::operation::{
+    CountedSpindle, Operation, SideSpindle, Spindle, SpindleRange, SpindleSpeed, SpindleTurn,
+};
 use crate::path::carry_out;
 use crate::post::Post;
 
@@ -16,18 +19,22 @@ use crate::post::Post;
 /// # Errors
 /// A form that is not known, or a speed that does not fit.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
-    if items.flag(w::SIDE) {
+    let is_side = items.flag(w::SIDE);
+    if is_side && !counted::is_chosen(&post.control) {
         return side(post, items);
     }
     items.flag(w::MAIN);
+    refuse_of_side(post, items, is_side)?;
     if items.flag(w::OFF) {
         items.deny_rest()?;
+        choose(post, is_side, true)?;
         return carry_out(post, Operation::Spindle(Spindle::Off));
     }
     if items.flag(w::ORIENT) {
         let angle = items.number();
         post.due_to(items);
         items.deny_rest()?;
+        choose(post, is_side, true)?;
         return carry_out(post, Operation::Spindle(Spindle::Orient(angle)));
     }
     let range = range(items)?.map(|range| (range, items.last_word()));
@@ -38,8 +45,11 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         let message = "SPINDL: a speed of 0; the spindle is stopped as by OFF".to_string();
         let hint = || Some("Write SPINDL / OFF, or the speed.".into());
         post.control.warnings.add_with(PostCode::IgnoredPart, message, hint);
+        choose(post, is_side, true)?;
         return carry_out(post, Operation::Spindle(Spindle::Off));
     }
+    let is_whole = turn.is_some_and(|turn| turn.speed.is_some() && turn.clockwise.is_some());
+    choose(post, is_side, is_whole)?;
     if let Some((range, word)) = range {
         post.control.block.cause.word = word;
         carry_out(post, Operation::Spindle(Spindle::Range(range)))?;
@@ -55,6 +65,32 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         }
         None => Ok(()),
     }
+}
+
+/// The control counts the spindle that a record speaks of, where the machine says how.
+fn choose(post: &mut Post, is_side: bool, is_whole: bool) -> Result<()> {
+    if !counted::is_chosen(&post.control) {
+        return Ok(());
+    }
+    let chosen = CountedSpindle { is_side, is_whole };
+    carry_out(post, Operation::Spindle(Spindle::Counted(chosen)))
+}
+
+/// Refuses what is not known of a second spindle: its ranges, its orientation, and on most
+/// controls whose X a surface speed counts.
+fn refuse_of_side(post: &Post, items: &mut Items, is_side: bool) -> Result<()> {
+    let has = |words: &[fil_cl::WordId]| words.iter().any(|word| items.has(*word));
+    if !is_side {
+        return Ok(());
+    }
+    if has(&[w::RANGE, w::ORIENT]) {
+        return Err(items.error("RANGE and ORIENT of the second spindle (SIDE) are not written"));
+    }
+    let of_surface = has(&[w::SFM, w::SMM, w::MAXRPM]);
+    if of_surface && !counted::may_hold_surface_speed(&post.control) {
+        return Err(items.error("a surface speed of the second spindle (SIDE) is not written"));
+    }
+    Ok(())
 }
 
 /// The second spindle: RPM,s with CLW or CCLW; OFF.

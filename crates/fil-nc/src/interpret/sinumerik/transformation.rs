@@ -23,13 +23,20 @@ fn refuse<T>(why: &str) -> Result<T, Fault> {
 impl Sinumerik<'_> {
     /// `SETMS(2)` and `SETMS`.
     pub(super) fn choose_master(&mut self, word: &Word) -> Result<(), Fault> {
-        let Some(live) = self.state.dialect.live_spindle else {
-            return Err(word.foreign("on a machine without another spindle"));
-        };
         let number = match word.arguments.as_deref() {
             None | Some([]) => 1,
             Some([Some(Value::Number(number))]) => *number as i32,
             Some(_) => return Err(word.no_meaning()),
+        };
+        if let Some(second) = self.state.dialect.counted.number {
+            return match number {
+                1 => self.state.count(false),
+                number if number == second => self.state.count(true),
+                _ => Err(word.no_meaning()),
+            };
+        }
+        let Some(live) = self.state.dialect.live_spindle else {
+            return Err(word.foreign("on a machine without another spindle"));
         };
         let [milling, turning] = self.state.dialect.spindle_modes;
         match number {

@@ -17,7 +17,7 @@ pub fn write(control: &mut Control, spindle: Spindle) -> Result<()> {
     match spindle {
         Spindle::Turn(turn) => start(control, turn),
         Spindle::Limit(_) => refuse("SPINDL/MAXRPM on a mill"),
-        Spindle::Side(_) => refuse("SPINDL/SIDE on a mill"),
+        Spindle::Side(_) | Spindle::Counted(_) => refuse("SPINDL/SIDE on a mill"),
         other => words::write(control, other),
     }
 }

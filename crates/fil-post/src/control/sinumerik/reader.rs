@@ -188,6 +188,10 @@ fn assigned(control: &mut Control, name: &str, value: &str, words: &mut TextWord
     if !(index.is_empty() || is_digits(index) || index.starts_with('[')) {
         return false;
     }
+    let of_some_spindle = matches!(letters_of_name.as_str(), "S" | "M") && !index.is_empty();
+    if of_some_spindle && control.commons.int_opt(loc::SPINDLE_SIDE_NUMBER).is_some() {
+        return false;
+    }
     match (letters_of_name.as_str(), number) {
         ("SPOS" | "SPOSA", Some(_)) => {
             let own = control.commons.int_opt(loc::CONTROL_SPINDLE_INDEX).unwrap_or(1);

@@ -3,7 +3,7 @@
 use fil_diag::Result;
 use fil_machine::FunctionCode;
 use fil_machine::letters::{F, S};
-use fil_machine::locations as loc;
+use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::modes::FeedMode;
 
 use crate::control::Control;
@@ -56,6 +56,25 @@ pub fn write(control: &mut Control, spindle: Spindle) -> Result<()> {
 /// As a line on the tape.
 pub fn limit(control: &mut Control, limit: f64) -> Result<()> {
     super::put_text(control, &format!("LIMS={}", plain(limit, DIGITS)))
+}
+
+/// Makes the second spindle of a lathe the master spindle, or the main one again: S and M without a
+/// number, threads, feeds a turn and surface speeds are those of the master spindle (Siemens,
+/// SINUMERIK ONE Programming Manual, 2.15.1.3).
+///
+/// # Errors
+/// As a line on the tape.
+pub fn choose_master(control: &mut Control, number: i32, is_side: bool) -> Result<()> {
+    let statement = if is_side { format!("SETMS({number})") } else { "SETMS".to_string() };
+    control.sinumerik.clockwise = None;
+    super::put_text(control, &statement)
+}
+
+/// G97 stands alone in a block, and is a feed a turn, too.
+pub fn counts_turns(control: &mut Control) {
+    if control.tables.family == ControlFamily::Sinumerik {
+        takes_feed_a_turn(control, Some(SpindleSpeed::Revolutions(0.0)));
+    }
 }
 
 /// G96 and G97 are feeds a turn: they stand in one group with G94 and G95.

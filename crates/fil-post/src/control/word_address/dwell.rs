@@ -7,6 +7,7 @@ use fil_machine::modes::FeedMode;
 use fil_machine::number::NumberFormat;
 use fil_machine::{Letter, locations as loc};
 
+use super::spindle::counted;
 use crate::control::Control;
 use crate::errors::PostCode;
 use crate::operation::{Dwell, SpindleSpeed};
@@ -138,7 +139,8 @@ fn in_revolutions(control: &mut Control, turns: f64) -> Result<f64> {
 /// The speed of the spindle, turns a minute; `None` where it is not known or changes with the
 /// radius.
 pub(crate) fn known_speed(control: &Control) -> Option<f64> {
-    let of_turns = matches!(control.speed, Some(SpindleSpeed::Revolutions(_)));
+    let of_turns = matches!(control.speed, Some(SpindleSpeed::Revolutions(_)))
+        && !counted::is_unknown(control);
     control.last_value(S).filter(|speed| of_turns && *speed > 0.0)
 }
 

@@ -1,5 +1,6 @@
 //! The spindle: speed, direction, range, limit, orientation.
 
+pub mod counted;
 mod turn;
 
 use fil_diag::Result;
@@ -50,6 +51,7 @@ pub fn write(control: &mut Control, spindle: Spindle) -> Result<()> {
         }
         Spindle::Turn(turn) => start(control, turn),
         Spindle::Side(side) => side_spindle(control, side),
+        Spindle::Counted(chosen) => counted::choose(control, chosen),
     }
 }
 
@@ -70,16 +72,25 @@ fn refuse_of_live_tool(control: &Control, spindle: &Spindle) -> Result<()> {
 }
 
 /// The codes that turn the spindle clockwise and counterclockwise and stop it: those of the
-/// live tool where the main spindle is an axis.
+/// live tool where the main spindle is an axis, those of the second spindle where it is counted.
 fn codes(control: &Control) -> [CodeAt; 3] {
-    match control.tables.mills() {
-        true => [
+    match (control.tables.mills(), counted::has_own_codes(control)) {
+        (true, _) => [
             loc::MILL_TURN_LIVE_CW_CODE,
             loc::MILL_TURN_LIVE_CCW_CODE,
             loc::MILL_TURN_LIVE_STOP_CODE,
         ],
-        false => [loc::SPINDLE_CW_CODE, loc::SPINDLE_CCW_CODE, loc::SPINDLE_STOP_CODE],
+        (_, true) => {
+            [loc::SPINDLE_SIDE_CW_CODE, loc::SPINDLE_SIDE_CCW_CODE, loc::SPINDLE_SIDE_STOP_CODE]
+        }
+        _ => [loc::SPINDLE_CW_CODE, loc::SPINDLE_CCW_CODE, loc::SPINDLE_STOP_CODE],
     }
+}
+
+/// The settings of ranges, and the code of a spindle that nothing gives a direction, are those of
+/// the main spindle.
+fn is_main(control: &Control) -> bool {
+    !control.tables.mills() && !control.counts_side
 }
 
 /// S is a surface speed when the next motion is made, whoever has said it.
@@ -218,9 +229,8 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
         diag.hint = Some("Write S in a FIL section for SPINDL.".into());
         return Err(diag);
     }
-    let by_speed = !turn.in_named_range
-        && control.commons.read(loc::SPINDLE_AUTO_RANGE)
-        && !control.tables.mills();
+    let by_speed =
+        !turn.in_named_range && control.commons.read(loc::SPINDLE_AUTO_RANGE) && is_main(control);
     if let (Some(SpindleSpeed::Revolutions(speed)), true) = (turn.speed, by_speed) {
         take_range_of(control, speed)?;
     }
@@ -243,8 +253,8 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
     let direction = match (said, control.turning) {
         (Some(true), _) => clockwise,
         (Some(false), _) => counterclockwise,
-        (None, Some(false)) if control.tables.mills() => counterclockwise,
-        (None, _) if control.tables.mills() => clockwise,
+        (None, Some(false)) if !is_main(control) => counterclockwise,
+        (None, _) if !is_main(control) => clockwise,
         (None, _) => loc::SPINDLE_DEFAULT_CODE,
     };
     place(control, direction, "the spindle")
@@ -284,7 +294,7 @@ fn refuse_speed_of_the_other(control: &Control, turn: &SpindleTurn) -> Result<()
             "SPINDL without a speed behind MODE, where the last S is that of the other spindle",
         );
     }
-    if control.code_if_any(loc::SPINDLE_SIDE_CW_CODE).is_some() {
+    if control.code_if_any(loc::SPINDLE_SIDE_CW_CODE).is_some() || counted::is_chosen(control) {
         return PostCode::WordForm.err(
             "SPINDL without a speed behind SIDE, where the last S is that of the side spindle",
         );
@@ -394,7 +404,7 @@ pub(crate) fn value_of(control: &mut Control, speed: SpindleSpeed) -> f64 {
 /// Brings a speed within the range that was chosen, else within the ranges of the
 /// machine, with a warning.
 fn within_range(control: &mut Control, speed: f64) -> f64 {
-    if control.tables.mills() {
+    if !is_main(control) {
         return speed;
     }
     let commons = &control.commons;

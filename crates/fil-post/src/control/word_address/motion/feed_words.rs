@@ -6,7 +6,7 @@ use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::modes::FeedMode;
 use fil_machine::setting::CodeAt;
 
-use super::super::spindle;
+use super::super::spindle::{self, counted};
 use crate::control::{Control, sinumerik};
 use crate::errors::PostCode;
 use crate::operation::Feed;
@@ -38,9 +38,14 @@ pub fn feed_mode(control: &mut Control, feed: &Feed) -> Result<()> {
 /// turns, or some text would turn it with the tool in the part.
 ///
 /// # Errors
-/// It stands, and the machine has no second spindle whose turns the feed may count.
+/// It stands, and the machine has no second spindle whose turns the feed may count; which one the
+/// control counts is not known.
 fn refuse_standing(control: &Control) -> Result<()> {
-    if !spindle::stands(control) || control.code_if_any(loc::SPINDLE_SIDE_CW_CODE).is_some() {
+    if counted::is_unknown(control) {
+        return PostCode::FeedStands.err(format!("a feed a turn: {}", counted::WHICH));
+    }
+    let has_other = control.code_if_any(loc::SPINDLE_SIDE_CW_CODE).is_some();
+    if !spindle::stands(control) || has_other && !counted::is_chosen(control) {
         return Ok(());
     }
     if control.tables.mill_turn.is_some() {

@@ -76,14 +76,14 @@ pub fn take_turn(control: &mut Control, turn: &SpindleTurn) -> Option<bool> {
 
 /// Whether the code of a SPINDL that names no direction turns the spindle clockwise.
 fn usual_turn(control: &Control) -> Option<bool> {
-    let code = control.code_if_any(loc::SPINDLE_DEFAULT_CODE);
+    let code = control.code_if_any(loc::SPINDLE_DEFAULT_CODE).filter(|_| !control.counts_side);
     let turns = [loc::SPINDLE_CW_CODE, loc::SPINDLE_CCW_CODE]
         .map(|at| code.is_some() && control.code_if_any(at) == code);
     match turns {
         [true, _] => Some(true),
         [_, true] => Some(false),
-        // A live tool has no code of its own for it.
-        _ => control.tables.mills().then_some(true),
+        // A live tool and a second spindle have no code of their own for it.
+        _ => (!super::is_main(control)).then_some(true),
     }
 }
 

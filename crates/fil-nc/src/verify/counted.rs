@@ -1,0 +1,94 @@
+//! Which spindle of a lathe must be the one that the control counts, and what the other one does.
+
+use super::lag::Lag;
+use super::modes::Expected;
+use super::settings::Settings;
+use crate::motion::{Modes, Speed, Spindle};
+
+/// The spindles of a lathe.
+#[derive(Clone, Debug)]
+pub(super) struct Counted {
+    /// The second one; `None` before any record has spoken of one, or for a machine with one.
+    side: Option<bool>,
+    other: Other,
+}
+
+/// What must hold of the spindle that is not counted.
+#[derive(Clone, Debug)]
+struct Other {
+    spindle: Option<Spindle>,
+    last_turn: Option<Spindle>,
+    speed: Option<Speed>,
+    range: Option<u8>,
+    orientation: Option<f64>,
+    limit: Option<Option<f64>>,
+}
+
+impl Default for Counted {
+    fn default() -> Self {
+        let other = Other {
+            spindle: Some(Spindle::Off),
+            last_turn: None,
+            speed: None,
+            range: None,
+            orientation: None,
+            limit: Some(None),
+        };
+        Counted { side: None, other }
+    }
+}
+
+impl Counted {
+    /// Records speak of the second spindle.
+    pub(super) fn is_side(&self) -> bool {
+        self.side == Some(true)
+    }
+
+    /// What is wrong with the spindle that the program has chosen.
+    pub(super) fn wrong(&self, modes: &Modes) -> Option<String> {
+        let must = self.side.filter(|must| modes.counts_side != Some(*must))?;
+        let name = |side: bool| if side { "the second spindle" } else { "the main spindle" };
+        let found = modes.counts_side.map_or("no spindle that was chosen", name);
+        Some(format!("the control counts {found}, it should count {}", name(must)))
+    }
+}
+
+impl Expected {
+    /// A record speaks of one of the spindles, which must be counted from there on.
+    pub(super) fn count(&mut self, side: bool, settings: &Settings) {
+        let counted = &settings.dialect.counted;
+        if !counted.is_chosen() {
+            return;
+        }
+        let before = self.counted.side.replace(side) == Some(true);
+        if before == side {
+            return;
+        }
+        self.spindle.flush();
+        self.speed.flush();
+        let now = Other {
+            spindle: self.spindle.now,
+            last_turn: self.last_turn,
+            // A surface speed ends before: S would be that of the other one.
+            speed: self.speed.now.filter(|speed| matches!(speed, Speed::Turns(_))),
+            range: self.range,
+            orientation: self.orientation,
+            limit: self.speed_limit,
+        };
+        let other = std::mem::replace(&mut self.counted.other, now);
+        self.spindle = Lag::new(other.spindle);
+        self.speed = Lag::new(other.speed);
+        (self.last_turn, self.range) = (other.last_turn, other.range);
+        self.orientation = other.orientation;
+        if counted.has_own_limits {
+            self.speed_limit = other.limit;
+        }
+    }
+
+    /// The program ends with the main spindle counted, as the next one begins.
+    pub(super) fn ends_counting_side(&mut self, settings: &Settings) {
+        if self.counted.is_side() {
+            self.count(false, settings);
+        }
+    }
+}

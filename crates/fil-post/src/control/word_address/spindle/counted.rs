@@ -1,0 +1,130 @@
+//! Which spindle of a lathe the control counts: a thread, a feed a turn, a surface speed and S are
+//! those of one spindle, and a statement or a code says of which.
+
+use fil_diag::Result;
+use fil_machine::locations::{self as loc, ControlFamily};
+
+use super::{code_of_turns, is_of_surface, may_turn};
+use crate::control::{Control, sinumerik};
+use crate::control_state::Rotation;
+use crate::errors::PostCode;
+use crate::operation::CountedSpindle;
+
+/// The machine says which spindle its control counts.
+pub fn is_chosen(control: &Control) -> bool {
+    control.commons.int_opt(loc::SPINDLE_SIDE_NUMBER).is_some()
+        || control.code_if_any(loc::SPINDLE_SIDE_MASTER_CODE).is_some()
+}
+
+/// The second spindle is the one that the CL file speaks of, and its codes are its own.
+pub fn has_own_codes(control: &Control) -> bool {
+    control.counts_side && control.code_if_any(loc::SPINDLE_SIDE_CW_CODE).is_some()
+}
+
+/// A surface speed of the second spindle, and its limit, are its own: SETMS makes it so.
+pub fn may_hold_surface_speed(control: &Control) -> bool {
+    control.tables.family == ControlFamily::Sinumerik
+}
+
+/// Which spindle the control counts is not known.
+pub fn is_unknown(control: &Control) -> bool {
+    is_chosen(control) && control.state.side_is_counted.is_none()
+}
+
+/// Makes the control count one of the spindles, in a block of its own; nothing where it does.
+///
+/// # Errors
+/// A record that leaves speed or direction to the spindle before; a surface speed of a spindle
+/// that may turn, which would become that of the other one; blocks that may be skipped.
+pub fn choose(control: &mut Control, chosen: CountedSpindle) -> Result<()> {
+    let changes = control.counts_side != chosen.is_side;
+    if changes && !chosen.is_whole {
+        return PostCode::WordForm.err(
+            "SPINDL of the other spindle without its speed and CLW or CCLW: those before are not \
+             its own",
+        );
+    }
+    if control.state.side_is_counted == Some(chosen.is_side) {
+        return Ok(());
+    }
+    if control.state.may_be_skipped() {
+        return PostCode::SkippedPart
+            .err("SPINDL would make the control count another spindle on one side of OPSKIP");
+    }
+    control.begin()?;
+    control.flush_waiting()?;
+    end_surface_speed(control)?;
+    write(control, chosen.is_side)?;
+    if changes {
+        control.counts_side = chosen.is_side;
+        forget_the_other(control);
+    }
+    control.state.side_is_counted = Some(chosen.is_side);
+    Ok(())
+}
+
+/// The surface speed of a spindle that stands ends before another one is counted: S of that one
+/// would be read as one.
+fn end_surface_speed(control: &mut Control) -> Result<()> {
+    if !is_of_surface(control) {
+        return Ok(());
+    }
+    if may_turn(control) {
+        return PostCode::WordForm.err_with(
+            "SPINDL of the other spindle while this one turns at surface speed, which would \
+             become that of the other",
+            "Stop it first (SPINDL / OFF), or give it turns a minute (SPINDL / RPM).",
+        );
+    }
+    if let Some(code) = code_of_turns(control) {
+        control.g_of_record(code);
+        control.write_block()?;
+        sinumerik::spindle::counts_turns(control);
+    }
+    control.speed = None;
+    Ok(())
+}
+
+fn write(control: &mut Control, is_side: bool) -> Result<()> {
+    if let Some(number) = control.commons.int_opt(loc::SPINDLE_SIDE_NUMBER) {
+        return sinumerik::spindle::choose_master(control, number, is_side);
+    }
+    let at = if is_side { loc::SPINDLE_SIDE_MASTER_CODE } else { loc::SPINDLE_MAIN_MASTER_CODE };
+    let code = control.code(at, "the spindle that is counted")?;
+    control.m(code);
+    control.write_block()
+}
+
+/// Nothing that was said of one spindle holds for the other.
+fn forget_the_other(control: &mut Control) {
+    (control.turning, control.turned) = (None, None);
+    (control.speed, control.range) = (None, None);
+    control.state.rotation = Rotation::InDoubt;
+    control.state.range = None;
+    control.state.doubt(fil_machine::letters::S);
+    if may_hold_surface_speed(control) {
+        std::mem::swap(&mut control.state.speed_limit, &mut control.limit_of_other);
+    }
+}
+
+/// Refuses a tap by a cycle of the control for the second spindle, whose code turns it back by
+/// those of the main one; and any tap where nothing says which spindle is counted.
+///
+/// # Errors
+/// It is such a tap.
+pub fn check_tap(control: &Control, by_cycle: bool) -> Result<()> {
+    if is_unknown(control) {
+        return PostCode::CycleForm.err(WHICH);
+    }
+    let knows = control.tables.family == ControlFamily::Sinumerik;
+    if control.counts_side && by_cycle && !knows {
+        return PostCode::CycleForm.err(
+            "a tap of the second spindle by a cycle of the control: which spindle it turns back \
+             no code says",
+        );
+    }
+    Ok(())
+}
+
+/// Why a spindle that nobody knows is none for a thread.
+pub const WHICH: &str = "which spindle the control counts is not known; SPINDL says it";
