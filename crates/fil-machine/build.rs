@@ -17,6 +17,9 @@ const SHARED: &[(&str, &str)] = &[
 /// An integer that is absent.
 const ABSENT: &str = "-32767";
 
+/// A real that is absent.
+const ABSENT_REAL: &str = "999999";
+
 fn main() {
     println!("cargo::rerun-if-changed=data/locations.tsv");
     let source = fs::read_to_string("data/locations.tsv").expect("data/locations.tsv");
@@ -107,6 +110,10 @@ impl<'a> Row<'a> {
                 let default = matches!(self.default, "1" | "71");
                 ("Flag".into(), format!("Flag {{ number: {number}, default: {default} }}"))
             }
+            "choice" if *kind == "D" && self.default == ABSENT_REAL => (
+                format!("OptionalRealChoice<{}>", self.enum_name()),
+                self.choice("OptionalRealChoice"),
+            ),
             "choice" if *kind == "D" => {
                 (format!("RealChoice<{}>", self.enum_name()), self.choice("RealChoice"))
             }

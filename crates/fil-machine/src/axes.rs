@@ -150,8 +150,8 @@ impl Axis {
         let format = addresses.format(letter).copied().unwrap_or_default();
         let translate = commons.dbl_opt(TRANSLATE[common]).unwrap_or(0.0);
         let by_hand = commons.read(loc::MOTION_RESOLUTION_MANUAL) == MotionResolutionManual::Yes;
-        let step = if common < 3 { commons.dbl_opt(loc::MOTION_RESOLUTION) } else { None };
-        let step = step.filter(|_| by_hand);
+        let of_kind = if common < 3 { loc::MOTION_RESOLUTION } else { loc::ROTARY_RESOLUTION };
+        let step = commons.dbl_opt(of_kind).filter(|_| by_hand);
         let same = commons.dbl_opt(loc::MOTION_SAME_TOLERANCE).unwrap_or(0.0);
         let same = if common < 3 { same * scale.abs() / format.unscale(1) } else { 0.0 };
         // What a tolerance of a whole number of digits leaves in binary counts.

@@ -105,7 +105,10 @@ impl AxisChain {
     pub fn from_commons(commons: &Commons) -> Result<Self> {
         let tool = [loc::TOOL_AXIS_I, loc::TOOL_AXIS_J, loc::TOOL_AXIS_K];
         Ok(AxisChain {
-            rotaries: [rotary(commons, &PRIMARY)?, rotary(commons, &SECONDARY)?],
+            rotaries: [
+                rotary(commons, &PRIMARY, commons.read(loc::ROTARY_LISTED_PRIMARY))?,
+                rotary(commons, &SECONDARY, None)?,
+            ],
             tool: direction(commons, tool, "tool.axis", [0.0, 0.0, 1.0])?,
             pivot: commons.dbl_opt(loc::ROTARY_PIVOT_DISTANCE),
         })
@@ -449,13 +452,18 @@ fn onto_the_pole(first: Unit<Vector3<f64>>, axis: Unit<Vector3<f64>>) -> Unit<Ve
     if along < 0.0 { -first } else { first }
 }
 
-fn rotary(commons: &Commons, at: &RotaryLocations) -> Result<Option<Rotary>> {
+/// The rotary axis of these settings; `listed` is the one it is where they do not say it.
+fn rotary(
+    commons: &Commons,
+    at: &RotaryLocations,
+    listed: Option<RotaryAxis>,
+) -> Result<Option<Rotary>> {
     let carries = match commons.read(at.kind) {
         RotaryKind::Table => Carries::Table,
         RotaryKind::Head => Carries::Head,
         RotaryKind::None => return Ok(None),
     };
-    let axis = match commons.read(at.axis) {
+    let axis = match commons.read(at.axis).or(listed) {
         Some(RotaryAxis::C) => 2,
         Some(RotaryAxis::B) => 1,
         Some(RotaryAxis::A) | None => 0,

@@ -3,6 +3,7 @@
 
 mod codes;
 mod counted_spindle;
+mod description;
 mod letters;
 mod numbers;
 mod travel;
@@ -22,6 +23,7 @@ use crate::locations::{
     ToolChangeBlock, ToolFormat,
 };
 use crate::mill_turn;
+use crate::rotary_feed_rules;
 use crate::setting::{CharacterAt, CodeAt};
 
 /// Characters that begin or end a line: letters and digits would be words, parentheses
@@ -71,6 +73,8 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     letters::check(commons, &mut found);
     absent_axes(commons, &mut found);
     travel::forms(commons, &mut found);
+    description::check(commons, &mut found);
+    rotary_feeds(commons, &mut found);
     numbers::numbers(commons, &mut found);
     tape(commons, &mut found);
     numbers::ranges(commons, &mut found);
@@ -269,6 +273,16 @@ fn shift_along(commons: &Commons, found: &mut Vec<Diag>) {
         found.push(contradiction(
             "input.along_tool_axis shifts the points, and the machine has a rotary axis".into(),
         ));
+    }
+}
+
+/// F of motions that turn the machine counts in one way.
+fn rotary_feeds(commons: &Commons, found: &mut Vec<Diag>) {
+    if let Some((own, listed)) = rotary_feed_rules::two_forms(commons) {
+        found.push(contradiction(format!(
+            "rotary.feed is {}, and rotary.feed_method asks for {}",
+            own as u16, listed as u16
+        )));
     }
 }
 

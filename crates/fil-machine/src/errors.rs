@@ -55,6 +55,10 @@ fil_diag::codes! {
         LatheOptionFile = 608, Error, "option file of a lathe",
             "An option file holds what differs from the vendor's own machine, and what the vendor's lathe is has never been published. Read over a mill it would be another machine.",
             "Name the lathe that it is laid over: `-p fanuc-lathe -m FILE` posts with it, `filpost machine import -p fanuc-lathe FILE` writes all of it as a machine.toml; then check diameters, feeds and threads.";
+        /// The machine described twice.
+        DescribedTwice = 609, Error, "the machine is described twice, and not alike",
+            "What an option file lists of the rotary axes says otherwise than the axes that are given: one of the two is another machine.",
+            "Correct the axis chain, or the setting that lists it; a listed setting that is removed says nothing.";
         /// A setting nobody reads.
         UnusedSetting = 651, Warning, "setting without effect",
             "A value in this location is kept, and nothing reads it: the program is the same without it.",

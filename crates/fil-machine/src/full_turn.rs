@@ -5,7 +5,7 @@ use fil_diag::Diag;
 use crate::axis_chain::{AxisChain, Rotary};
 use crate::commons::{Commons, Dbl};
 use crate::errors::MachineCode;
-use crate::locations::{self as loc, ControlFamily, RotaryOutput};
+use crate::locations::{self as loc, ControlFamily, MotionResolutionManual, RotaryOutput};
 use crate::mill_turn;
 
 /// Scales of A, B and C on the tape.
@@ -36,4 +36,16 @@ pub(crate) fn check(commons: &Commons, found: &mut Vec<Diag>) {
     if scaled(first) || meant.any(scaled) {
         add("rotary.output counts within a turn, and the axis is scaled on the tape");
     }
+    if commons.read(loc::MOTION_RESOLUTION_MANUAL) == MotionResolutionManual::Yes
+        && commons.dbl_opt(loc::ROTARY_RESOLUTION).is_some_and(|step| !divides_a_turn(step))
+    {
+        add("rotary.output counts within a turn, and rotary.resolution has no whole number of \
+             steps in one");
+    }
+}
+
+/// True for a step, degrees, that a turn is a whole number of.
+fn divides_a_turn(step: f64) -> bool {
+    let steps = 360.0 / step;
+    (steps - steps.round()).abs() < 1e-6 * steps.max(1.0)
 }

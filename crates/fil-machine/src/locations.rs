@@ -12,7 +12,8 @@ use crate::address::{CHARACTERS, FORMATS, SPECIFICATIONS};
 use crate::commons::{Commons, Dbl, EMPTY, Int, Kind, Rel};
 use crate::letter::Letter;
 use crate::setting::{
-    CharacterAt, Choice, CodeAt, Flag, FromNumber, LetterAt, OptionalChoice, RealChoice,
+    CharacterAt, Choice, CodeAt, Flag, FromNumber, LetterAt, OptionalChoice, OptionalRealChoice,
+    RealChoice,
 };
 
 pub use crate::value_unit::{Evidence, ValueUnit};

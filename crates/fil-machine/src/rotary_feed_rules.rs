@@ -3,15 +3,17 @@
 use crate::address::Addresses;
 use crate::commons::{Commons, Dbl};
 use crate::letter::letters;
-use crate::locations::{self as loc, RotaryFeed};
+use crate::locations::{self as loc, RotaryFeed, RotaryFeedMethod};
 
 /// The rules of such feeds.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct RotaryFeedRules {
     /// How the time of a motion is written where the program does not say it.
     pub form: RotaryFeed,
     /// Most that each rotary axis may turn, degrees a minute.
     pub most_turn: [f64; 2],
+    /// Least that a rotary axis turns where X, Y and Z stand, degrees a minute.
+    pub least_turn: f64,
     /// Least time of a motion, minutes.
     pub least_time: f64,
     /// Smallest and largest F of inverse time, 1/min.
@@ -24,6 +26,13 @@ pub struct RotaryFeedRules {
     pub per_minute_most: f64,
     /// A smaller F of inverse time, 1/min, would be changed too much by rounding.
     pub inverse_least: f64,
+}
+
+impl Default for RotaryFeedRules {
+    /// Those of a machine of which nothing is said.
+    fn default() -> Self {
+        RotaryFeedRules::from_commons(&Addresses::default(), &Commons::absent(), true)
+    }
 }
 
 /// Rounding of an inverse-time feed to its last digit changes it by no more than the share
@@ -46,8 +55,9 @@ impl RotaryFeedRules {
         let inverse_factor = factor(loc::FEED_INVERSE_FACTOR);
         let inverse_min = commons.dbl_opt(loc::FEED_INVERSE_MIN).unwrap_or(0.0);
         RotaryFeedRules {
-            form: commons.read(loc::ROTARY_FEED),
+            form: form(commons),
             most_turn: [loc::ROTARY_FEED_MAX, second].map(|at| most(at) * part),
+            least_turn: positive(loc::ROTARY_FEED_MIN).unwrap_or(0.0),
             least_time: positive(loc::FEED_INVERSE_MIN_TIME).unwrap_or(0.0) / 60.0,
             inverse: [inverse_min, most(loc::FEED_INVERSE_MAX)],
             inverse_factor,
@@ -56,4 +66,25 @@ impl RotaryFeedRules {
             inverse_least: inverse_min.max(LAST_DIGITS * digit / inverse_factor),
         }
     }
+}
+
+/// The form of F in such motions: that of `rotary.feed`, else as option files say it.
+fn form(commons: &Commons) -> RotaryFeed {
+    let listed = listed_form(commons).unwrap_or(RotaryFeed::InverseTime);
+    commons.read(loc::ROTARY_FEED).unwrap_or(listed)
+}
+
+/// The form that an option file asks for (`rotary.feed_method`).
+fn listed_form(commons: &Commons) -> Option<RotaryFeed> {
+    match commons.read(loc::ROTARY_FEED_METHOD) {
+        RotaryFeedMethod::NotUsed => None,
+        RotaryFeedMethod::LengthOfTheCombinedMove => Some(RotaryFeed::CombinedWay),
+        RotaryFeedMethod::RotaryPartOnly => Some(RotaryFeed::TurnAlone),
+    }
+}
+
+/// The forms that the two settings ask for, `rotary.feed` first, where they are not one.
+pub(crate) fn two_forms(commons: &Commons) -> Option<(RotaryFeed, RotaryFeed)> {
+    let (own, listed) = (commons.read(loc::ROTARY_FEED)?, listed_form(commons)?);
+    (own != listed).then_some((own, listed))
 }

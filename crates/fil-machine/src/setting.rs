@@ -182,3 +182,27 @@ impl<T: FromNumber> Setting for OptionalChoice<T> {
         T::from_number(commons.int(Int(self.number)))
     }
 }
+
+/// One of several choices in DBLCOM, or none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OptionalRealChoice<T> {
+    /// DBLCOM number.
+    pub number: u16,
+    choices: PhantomData<T>,
+}
+
+impl<T> OptionalRealChoice<T> {
+    /// The choice in a DBLCOM location.
+    pub const fn at(number: u16) -> Self {
+        OptionalRealChoice { number, choices: PhantomData }
+    }
+}
+
+impl<T: FromNumber> Setting for OptionalRealChoice<T> {
+    type Value = Option<T>;
+
+    fn read(self, commons: &Commons) -> Option<T> {
+        let number = commons.dbl_opt(Dbl(self.number)).filter(|number| number.fract() == 0.0)?;
+        T::from_number(number as i32)
+    }
+}

@@ -23,6 +23,9 @@ use crate::rotary_feed_rules::RotaryFeedRules;
 use crate::tape_style::TapeStyle;
 use crate::travel_rules::{self, TravelRules};
 
+/// What option files hold where a move may be of any length, mm or inch.
+const NO_DEPARTURE: f64 = 9999.9998;
+
 /// The tables.
 #[derive(Clone, Debug, Default)]
 pub struct MachineTables {
@@ -36,6 +39,8 @@ pub struct MachineTables {
     pub motion: MotionRules,
     /// The rules of feeds while a rotary axis turns.
     pub rotary_feed: RotaryFeedRules,
+    /// The longest move of one block, mm or inch; `None` for any.
+    pub most_departure: Option<f64>,
     feed_formats: FeedFormats,
     /// Digits of the words of a lead, and whether those in mm count.
     lead_digits: Option<(i32, bool)>,
@@ -130,6 +135,8 @@ impl MachineTables {
         self.input_shift =
             Vector3::from(loc::INPUT_TRANSLATE.map(|at| commons.dbl_opt(at).unwrap_or(0.0)));
         let along = commons.dbl_opt(loc::INPUT_ALONG_TOOL_AXIS).unwrap_or(0.0);
+        self.most_departure =
+            commons.dbl_opt(loc::LIMITS_MAX_DEPARTURE).filter(|most| *most != NO_DEPARTURE);
         self.prepares = self.frame_output || self.tip_output || self.mills();
         if !has_rotary {
             self.input_shift += self.chain.tool.into_inner() * along;

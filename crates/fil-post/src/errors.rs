@@ -224,6 +224,10 @@ fil_diag::codes! {
         Indexing = 565, Error, "the axis can only index",
             "The machine turns this axis at rapid, from one position to the next, and can't cut while it turns (rotary.index_only).",
             "Turn it in a RAPID, with the tool away from the part, or post for a machine whose axis can feed.";
+        /// A move longer than a block may be.
+        Departure = 566, Error, "a move is longer than a block may be",
+            "The machine says how far one block may go (limits.max_departure): motions at feed in a straight line are divided, others are not.",
+            "Bring the tool nearer by a motion before it, or correct limits.max_departure.";
         /// Too many functions in a block.
         Crowded = 542, Error, "functions that the control does not take in one block",
             "The control takes one preparatory function in a block, and each of these needs the words that stand there.",

@@ -1,13 +1,14 @@
 //! What a program does, counted along the CL path: lengths, times, extents, tools.
 //!
 //! Times are those of the programmed feeds and of the machine's rapid traverse
-//! (`rapid.rate`), without acceleration; a hole is its way to the R level, down in its pecks
+//! (`rapid.rate`, `rotary.rapid_rate`), without acceleration; a hole is its way to the R level, down in its pecks
 //! and out again as its cycle goes.
 
 mod hole;
 
 use fil_cl::{Record, Word, record::kind, words};
 use fil_machine::commons::EMPTY;
+use fil_machine::locations::{self, RapidSplit};
 use fil_machine::modes::{FeedMode, INCH, Unit};
 use fil_machine::{Commons, Kind};
 use fil_post::Post;
@@ -22,6 +23,9 @@ pub(crate) use hole::Hole;
 /// DBLCOM with the rapid traverse, mm/min, and with the seconds of a tool change.
 const RAPID_RATE: u32 = 107;
 const CHANGE_TIME: u32 = 481;
+
+/// DBLCOM with the rapid speed of the rotary axes, degrees a minute.
+const TURNING_RATE: u32 = 111;
 
 /// Lengths in the unit of the CL file, times in seconds.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -173,11 +177,18 @@ pub(crate) struct Before {
     point: Option<[f64; 3]>,
     arc: Option<Arc>,
     rapid: bool,
+    /// Where the rotary axes stood, degrees.
+    rotary: Option<[f64; 2]>,
 }
 
 impl Before {
     pub fn new(post: &Post) -> Self {
-        Before { point: post.point(), arc: post.path.arc, rapid: post.path.rapid.is_some() }
+        Before {
+            point: post.point(),
+            arc: post.path.arc,
+            rapid: post.path.rapid.is_some(),
+            rotary: post.path.rotary,
+        }
     }
 }
 
@@ -208,6 +219,11 @@ impl Tally {
                     self.current().totals.untimed += 1;
                 }
             },
+            words::ROTABL | words::ROTATE => {
+                let time = turning_seconds(before, post);
+                self.total.rapid_seconds += time;
+                self.current().totals.rapid_seconds += time;
+            }
             _ => {}
         }
         let goes_home = record.major == words::GOHOME && post.point().is_some();
@@ -252,7 +268,8 @@ fn motion(before: &Before, start: Option<[f64; 3]>, post: &Post) -> Option<Motio
     }
     let reach = reach(point, arc.as_ref());
     if before.rapid && before.arc.is_none() {
-        let seconds = rapid_rate(post).map(|rate| length / rate * 60.0);
+        let seconds =
+            rapid_rate(post).map(|rate| rapid_seconds(length / rate * 60.0, before, post));
         return Some(Motion { rapid: true, length, seconds, ..at_rate(point, None, reach, post) });
     }
     let seconds = feed.and_then(|feed| at_feed(length, &feed, post));
@@ -327,6 +344,24 @@ fn at_feed(length: f64, feed: &Feed, post: &Post) -> Option<f64> {
 fn rapid_rate(post: &Post) -> Option<f64> {
     let rate = setting(&post.control.commons, RAPID_RATE).filter(|rate| *rate > 0.0)?;
     Some(if post.unit() == Some(Unit::Inch) { rate / INCH } else { rate })
+}
+
+/// Seconds of a rapid motion whose way takes so long: as the turn of the machine before its Z, or
+/// in the same block.
+fn rapid_seconds(way: f64, before: &Before, post: &Post) -> f64 {
+    let turn = turning_seconds(before, post);
+    match post.control.commons.read(locations::RAPID_SPLIT) {
+        RapidSplit::OneBlock => way.max(turn),
+        _ => way + turn,
+    }
+}
+
+/// Seconds that the rotary axes take at rapid to where they stand.
+fn turning_seconds(before: &Before, post: &Post) -> f64 {
+    let rate = setting(&post.control.commons, TURNING_RATE).filter(|rate| *rate > 0.0);
+    let (Some(rate), Some(to)) = (rate, post.path.rotary) else { return 0.0 };
+    let from = before.rotary.unwrap_or(to);
+    (to[0] - from[0]).abs().max((to[1] - from[1]).abs()) / rate * 60.0
 }
 
 fn setting(commons: &Commons, location: u32) -> Option<f64> {

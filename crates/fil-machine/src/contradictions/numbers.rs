@@ -19,6 +19,8 @@ const POSITIVE: &[(Dbl, &str)] = &[
     (loc::SEQNO_MAX, "the largest sequence number"),
     (loc::CIRCLE_MAX_RADIUS, "the largest radius"),
     (loc::MOTION_RESOLUTION, "the resolution of the linear axes"),
+    (loc::ROTARY_RESOLUTION, "the resolution of the rotary axes"),
+    (loc::LIMITS_MAX_DEPARTURE, "the longest move of a block"),
     (loc::ROTARY_VELOCITY_PERCENT, "the part of the rotary speed"),
 ];
 
@@ -36,6 +38,8 @@ const NOT_NEGATIVE: &[(Dbl, &str)] = &[
     (loc::CYCLE_AUTO_CLEARANCE, "the clearance of cycles"),
     (loc::CIRCLE_MIN_RADIUS, "the least radius"),
     (loc::TAPE_LEADER, "the length of the leader"),
+    (loc::ROTARY_FEED_MIN, "the lowest feed of the rotary axes"),
+    (loc::ROTARY_RAPID_RATE, "the rapid speed of the rotary axes"),
     (loc::TAPE_TRAILER, "the length of the trailer"),
     (loc::MOTION_SAME_TOLERANCE, "the tolerance of unchanged coordinates"),
     (loc::DWELL_CYCLE_DRILL, "the dwell of DRILL"),
@@ -100,6 +104,11 @@ pub(super) fn ranges(commons: &Commons, found: &mut Vec<Diag>) {
         range(dbl(low), dbl(high), &format!("travel of {name}"));
     }
     range(dbl(loc::FEED_UPM_MIN), dbl(loc::FEED_UPM_MAX), "feed");
+    for at in [loc::ROTARY_FEED_MAX, loc::ROTARY_SECONDARY_FEED_MAX] {
+        // Zero is no limit.
+        let most = dbl(at).filter(|most| *most > 0.0);
+        range(dbl(loc::ROTARY_FEED_MIN), most, "feed of the rotary axes");
+    }
     range(dbl(loc::FEED_INVERSE_MIN), dbl(loc::FEED_INVERSE_MAX), "inverse time");
     range(dbl(loc::ROTARY_PRIMARY_MIN), dbl(loc::ROTARY_PRIMARY_MAX), "first rotary axis");
     range(dbl(loc::ROTARY_SECONDARY_MIN), dbl(loc::ROTARY_SECONDARY_MAX), "second rotary axis");

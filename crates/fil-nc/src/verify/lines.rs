@@ -331,6 +331,7 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     pub(super) fn check_limits(&mut self, cl_line: u32, found: &Move) {
+        self.check_departure(cl_line, found);
         let axes = self.settings.forward.restated(&found.to, &Position::default()).linear;
         let axes = match self.from_hole {
             Some(hole) => {

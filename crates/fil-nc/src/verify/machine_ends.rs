@@ -6,7 +6,7 @@ use super::rapid_lean::Leg;
 use super::report::FindingKind;
 use super::say::short;
 use super::walk::Walk;
-use super::wanted::{Step, Wanted};
+use super::wanted::{Step, TableWay, Wanted};
 use crate::motion::{Course, Event, Move, Position};
 
 impl<C: Steps> Walk<'_, C> {
@@ -185,13 +185,14 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     /// A rotary axis turns by itself to a position, at rapid.
-    pub(super) fn turn(&mut self, cl_line: u32, index: usize, angle: f64) {
+    pub(super) fn turn(&mut self, cl_line: u32, index: usize, angle: f64, way: TableWay) {
         self.report.compared += 1;
         self.initial = None;
         // A turn to where the axis stands is no motion that is passed over.
         self.pass_own();
         let slack = self.slack.rotary[index];
-        let within_a_turn = self.settings.dialect.ways_round[index + 3].is_some();
+        let within_a_turn =
+            self.settings.dialect.ways_round[index + 3].is_some() || way != TableWay::Number;
         // The control counts within one turn, and the way to a position may lead past 0.
         let near = |at: &Position| match within_a_turn {
             true => angle + 360.0 * ((at.rotary[index] - angle) / 360.0).round(),
@@ -213,11 +214,35 @@ impl<C: Steps> Walk<'_, C> {
             return self.find(FindingKind::Missing, Some(cl_line), None, message);
         };
         self.check_turn_is_away(cl_line, &found);
+        if self.known[index + 3] {
+            let by = found.to.rotary[index] - self.at.rotary[index];
+            self.check_way_of_table(cl_line, found.line, by, way, slack);
+        }
         self.take(cl_line, &found);
         self.next += 1;
         self.exact[index] = near(&found.to);
         self.report.matched += 1;
         self.watch.stand(None);
+    }
+
+    /// A table turns by so many degrees in the direction that is asked for.
+    fn check_way_of_table(&mut self, cl_line: u32, line: u32, by: f64, way: TableWay, slack: f64) {
+        let slack = 2.0 * slack;
+        let asked = match way {
+            TableWay::Number => return,
+            TableWay::Direction(way) => {
+                let turn = by * way;
+                if (-slack..360.0 - slack).contains(&turn) {
+                    return;
+                }
+                by + way * 360.0 * if turn < 0.0 { 1.0 } else { -1.0 }
+            }
+            TableWay::By(asked) if (by - asked).abs() <= slack => return,
+            TableWay::By(asked) => asked,
+        };
+        let message =
+            format!("the table turns by {} degrees, it should be by {}", short(by), short(asked));
+        self.find(FindingKind::Position, Some(cl_line), Some(line), message);
     }
 
     /// The machine turns right after a tool change or a position of the machine, where the tool is away from the part,

@@ -19,6 +19,7 @@ mod cl_path;
 mod clamps;
 mod compensation_plane;
 mod counted;
+mod departure;
 mod gap;
 mod hole;
 mod hole_live;

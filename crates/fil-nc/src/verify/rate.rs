@@ -198,6 +198,7 @@ impl<C: Steps> Walk<'_, C> {
         let [straight, way] = self.lengths(from, found);
         let slack = self.slack.inverse;
         let turned = turned(&from, found);
+        let alone = from.linear == found.to.linear;
         // F counts the way before its ends were rounded.
         let off = 2.0 * self.slack.linear.iter().map(|half| half * half).sum::<f64>().sqrt()
             + self.off_by_its_center(found);
@@ -207,7 +208,7 @@ impl<C: Steps> Walk<'_, C> {
             let ends = [(length + off, rate * (1.0 - share)), (length - off, rate * (1.0 + share))];
             let inverses = ends.map(|(length, rate)| {
                 let length = length.max(STANDS);
-                let time = self.settings.turning_time(length / rate, turned);
+                let time = self.settings.turning_time(length / rate, turned, alone);
                 [rate / length, 1.0 / time].map(|it| self.settings.inverse_within(it))
             });
             let [low, high] = inverses;
@@ -237,8 +238,8 @@ impl<C: Steps> Walk<'_, C> {
     fn turns_at(&self, rate: f64, [from, to]: [&Position; 2], inverse: f64) -> bool {
         let turned = [0, 1].map(|n| (to.rotary[n] - from.rotary[n]).abs());
         let most = turned[0].max(turned[1]);
-        let time = match self.settings.turning_time(0.0, turned) {
-            0.0 => most / rate,
+        let time = match self.settings.turning_time(0.0, turned, true) {
+            0.0 => self.settings.turning_time(most / rate, turned, true),
             time => time,
         };
         let must = self.settings.inverse_within(1.0 / time);
@@ -264,7 +265,7 @@ impl<C: Steps> Walk<'_, C> {
         turned: [f64; 2],
         inverse: f64,
     ) {
-        let time = self.settings.turning_time(0.0, turned);
+        let time = self.settings.turning_time(0.0, turned, true);
         if time == 0.0 {
             return;
         }
@@ -300,7 +301,8 @@ impl<C: Steps> Walk<'_, C> {
             return false;
         };
         self.lengths(from, found).into_iter().any(|way| {
-            let time = self.settings.turning_time(way / rate, turned);
+            let time =
+                self.settings.turning_time(way / rate, turned, from.linear == found.to.linear);
             let expected = self.settings.feed_within(counted / time, self.metric);
             (feed - expected).abs() <= self.slack.feed
         })

@@ -1,14 +1,20 @@
 //! What the settings of a machine make of the time of motions that turn it.
 
-use fil_machine::locations::{self as loc, RotaryFeed};
+use fil_machine::locations::{self as loc, RotaryFeed, RotaryFeedMethod};
 
 use super::settings::Settings;
 use crate::motion::{Position, unit};
 
 impl Settings<'_> {
-    /// Minutes of a motion that turns the machine: as long as asked for, or as the turn of
-    /// each axis (degrees) takes at least.
-    pub fn turning_time(&self, asked: f64, turned: [f64; 2]) -> f64 {
+    /// Minutes of a motion that turns the machine: as long as asked for, but where X, Y and Z
+    /// stand no longer than at the lowest feed, or as the turn of each axis (degrees) takes at
+    /// least.
+    pub fn turning_time(&self, asked: f64, turned: [f64; 2], turns_alone: bool) -> f64 {
+        let least_feed = self.commons.dbl_opt(loc::ROTARY_FEED_MIN).filter(|_| turns_alone);
+        let asked = match least_feed {
+            Some(feed) if feed > 0.0 => asked.min(turned[0].max(turned[1]) / feed),
+            _ => asked,
+        };
         let first = self.commons.dbl_opt(loc::ROTARY_FEED_MAX);
         let second = self.commons.dbl_opt(loc::ROTARY_SECONDARY_FEED_MAX).or(first);
         let part = self.commons.dbl_opt(loc::ROTARY_VELOCITY_PERCENT).unwrap_or(100.0) / 100.0;
@@ -26,12 +32,26 @@ impl Settings<'_> {
         let linear: f64 = squares(&from.linear, &to.linear);
         let turns: f64 = squares(&from.rotary, &to.rotary);
         let turns = turns * unit * unit;
-        match self.commons.read(loc::ROTARY_FEED) {
+        let listed = match self.commons.read(loc::ROTARY_FEED_METHOD) {
+            RotaryFeedMethod::LengthOfTheCombinedMove => RotaryFeed::CombinedWay,
+            RotaryFeedMethod::RotaryPartOnly => RotaryFeed::TurnAlone,
+            RotaryFeedMethod::NotUsed => RotaryFeed::InverseTime,
+        };
+        match self.commons.read(loc::ROTARY_FEED).unwrap_or(listed) {
             RotaryFeed::InverseTime | RotaryFeed::AsFedratSays => None,
+            RotaryFeed::TurnAlone => Some(if turns > 0.0 { turns } else { linear }.sqrt()),
             RotaryFeed::CombinedWay => Some((linear + turns).sqrt()),
             RotaryFeed::LinearWayElseTheTurn => {
                 Some(if linear > 0.0 { linear } else { turns }.sqrt())
             }
         }
+    }
+
+    /// The longest way of one block, mm, in a program in mm or inches; `None` for any.
+    pub fn most_departure(&self, metric: bool) -> Option<f64> {
+        // What option files hold where there is none.
+        const NONE: f64 = 9999.9998;
+        let most = self.commons.dbl_opt(loc::LIMITS_MAX_DEPARTURE).filter(|most| *most != NONE)?;
+        Some(most * unit(metric))
     }
 }

@@ -217,7 +217,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             }
             Wanted::Home => self.go_to_machine(step.line, self.settings.home(self.metric)),
             Wanted::Retract => self.retract(step.line),
-            Wanted::Turn { index, angle } => self.turn(step.line, *index, *angle),
+            Wanted::Turn { index, angle, way } => self.turn(step.line, *index, *angle, *way),
             Wanted::Cutter(diameter) => {
                 (self.cutter, self.cutter_is_fresh) = (Some(*diameter), true);
             }

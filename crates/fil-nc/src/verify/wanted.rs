@@ -15,6 +15,17 @@ pub struct Step {
     pub what: Wanted,
 }
 
+/// How a table comes to a position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TableWay {
+    /// To the number itself.
+    Number,
+    /// In this direction, 1 or -1 as positions count, by less than a turn.
+    Direction(f64),
+    /// By so many degrees from where it stood.
+    By(f64),
+}
+
 /// What a step of a CL file asks for. What is long and rare lies elsewhere, as most steps are lines
 /// and go through several hands.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,6 +62,8 @@ pub enum Wanted {
         index: usize,
         /// Its position, degrees.
         angle: f64,
+        /// The way there.
+        way: TableWay,
     },
     /// A cutter of this diameter, mm.
     Cutter(f64),

@@ -9,7 +9,7 @@ use nalgebra::Rotation3;
 
 use super::word_address::arc::PlaneArc;
 use super::word_address::motion::{self as words, Motion, RapidCode};
-use super::{Control, klartext, sinumerik, vectors, word_address};
+use super::{Control, departure, klartext, sinumerik, vectors, word_address};
 use crate::cause::Cause;
 use crate::errors::PostCode;
 use crate::operation::{Dwell, Feed, Lead, Operation, Thread, ToolChange};
@@ -60,18 +60,32 @@ pub fn write(control: &mut Control, operation: Operation) -> Result<()> {
 /// # Errors
 /// As [`words::rapid`].
 pub fn rapid(control: &mut Control, motion: &Motion, code: RapidCode, cause: Cause) -> Result<()> {
+    departure::refuse(control, motion, "a rapid motion")?;
     match control.tables.family {
         ControlFamily::Klartext => klartext::motion::rapid(control, motion),
         _ => words::rapid(control, motion, code, cause),
     }
 }
 
-/// Writes a feed motion in one block.
+/// Writes a feed motion in one block, or in several where it is longer than one may be.
 ///
 /// # Errors
 /// As [`words::feed`].
 #[inline]
 pub fn feed(control: &mut Control, motion: &Motion, feed: Option<&Feed>) -> Result<()> {
+    if control.tables.most_departure.is_some() {
+        let parts = departure::parts(control, motion)?;
+        let of_part = feed.map(|feed| departure::feed_of_part(*feed, parts.len() + 1));
+        for part in parts.iter().chain([motion]) {
+            feed_in_one(control, part, of_part.as_ref())?;
+        }
+        return Ok(());
+    }
+    feed_in_one(control, motion, feed)
+}
+
+#[inline]
+fn feed_in_one(control: &mut Control, motion: &Motion, feed: Option<&Feed>) -> Result<()> {
     if control.tables.family == ControlFamily::Klartext {
         return klartext::motion::feed(control, motion, feed);
     }
@@ -83,6 +97,7 @@ pub fn feed(control: &mut Control, motion: &Motion, feed: Option<&Feed>) -> Resu
 /// # Errors
 /// As [`words::thread`]; Klartext has none.
 pub fn thread(control: &mut Control, motion: &Motion, lead: &Lead, change: f64) -> Result<()> {
+    departure::refuse(control, motion, "a pass of a thread")?;
     match control.tables.family {
         ControlFamily::Klartext => refuse("Klartext has no pass of a thread"),
         ControlFamily::Sinumerik => sinumerik::thread::pass(control, motion, lead, change),
@@ -235,6 +250,7 @@ pub fn end_of_arc(control: &Control, arc: &PlaneArc, on_tape: [f64; 2]) -> Resul
 /// # Errors
 /// As [`word_address::arc::write`].
 pub fn arc(control: &mut Control, arc: &PlaneArc, feed: Option<&Feed>) -> Result<()> {
+    departure::refuse_arc(control, arc)?;
     match control.tables.family {
         ControlFamily::Klartext => klartext::motion::arc(control, arc, feed),
         ControlFamily::Sinumerik => {
@@ -271,6 +287,7 @@ pub fn hole(
     at: &Motion,
     hole: &Hole,
 ) -> Result<()> {
+    departure::refuse(control, at, "the way to a hole")?;
     match control.tables.family {
         ControlFamily::WordAddress => word_address::cycle::hole(control, cycle, code, at, hole),
         ControlFamily::Klartext => klartext::cycle::hole(control, cycle, code, at, hole),

@@ -8,6 +8,7 @@
 mod again;
 mod apart;
 mod characters;
+mod departure;
 mod edit;
 pub mod family;
 pub(crate) mod full_turn;

@@ -173,7 +173,7 @@ fn turn_on_the_spot(post: &mut Post, motion: &Motion, before: Option<[f64; 2]>) 
     }
     let rotary = TurningFeed::of(post)?;
     let part = rotary.between(&from, &to, 0.0);
-    part.warn_if_slowed(post);
+    part.warn_if_limited(post);
     family::feed(&mut post.control, motion, Some(&part.feed))
 }
 

@@ -128,7 +128,7 @@ pub(super) fn feed(post: &mut Post, before: [f64; 2], to: Position, target: Targ
     }
     let way = turning.way_of_tip(from.tip, arrival.tip);
     let part = feed.between(&from.position, &arrival.position, way);
-    part.warn_if_slowed(post);
+    part.warn_if_limited(post);
     let word = rotary::word_of(post, target);
     let motion = Motion { scaled: Some(scaled), ..Motion::new(to, AxisSet::ALL, word) };
     write(post, &motion, &part)?;
@@ -177,8 +177,10 @@ fn divided(
         let ends = parts.iter().map(|part| turning.end_off(&part.on_tape)).fold(0.0, f64::max);
         warn_of_deviation(post, allowed, ends);
     }
-    if let Some(slowed) = feeds.iter().find(|feed| feed.slowed) {
-        slowed.warn_if_slowed(post);
+    let slowed = feeds.iter().find(|feed| feed.slowed);
+    let hastened = feeds.iter().find(|feed| feed.hastened && !feed.slowed);
+    for limited in slowed.into_iter().chain(hastened) {
+        limited.warn_if_limited(post);
     }
     for (Part { position, .. }, feed) in parts.into_iter().zip(feeds) {
         write(post, &Motion::new(position, AxisSet::ALL, word), &feed)?;

@@ -37,6 +37,8 @@ pub(super) struct PartFeed {
     pub feed: Feed,
     /// A limit of the machine makes the motion slower than asked for.
     pub slowed: bool,
+    /// The lowest feed of a rotary axis makes it faster.
+    pub hastened: bool,
 }
 
 impl<'a> TurningFeed<'a> {
@@ -83,15 +85,21 @@ impl<'a> TurningFeed<'a> {
     #[cfg_attr(not(target_family = "wasm"), inline(always))]
     pub(super) fn between(&self, from: &Position, to: &Position, way: f64) -> PartFeed {
         if self.form == RotaryFeed::AsFedratSays {
-            return PartFeed { feed: self.given, slowed: false };
+            return PartFeed { feed: self.given, slowed: false, hastened: false };
         }
         let rules = self.rules;
         let turned = [3, 4].map(|n: usize| (to[n] - from[n]).abs());
         let of_turn = turned.iter().zip(rules.most_turn).map(|(turned, most)| turned / most);
-        let asked = if way > STANDS { way / self.rate } else { 0.0 };
+        let turn = turned[0].max(turned[1]);
+        let turns_alone = (0..3).all(|n| from[n] == to[n]);
+        let longest = if turns_alone { turn / rules.least_turn } else { f64::INFINITY };
+        let meant = if way > STANDS { way / self.rate } else { 0.0 };
+        let asked = meant.min(longest);
         let mut time = of_turn.fold(asked, f64::max).max(rules.least_time);
+        let mut hastened = asked < meant;
         if time == 0.0 {
-            time = turned[0].max(turned[1]) / self.rate;
+            hastened = turn / self.rate > longest;
+            time = (turn / self.rate).min(longest);
         }
         let (value, most, factor, mode) = match self.form {
             RotaryFeed::InverseTime => {
@@ -106,7 +114,7 @@ impl<'a> TurningFeed<'a> {
         let slowed = value.min(most);
         let feed = Feed { value: slowed * factor, mode, cause: self.given.cause };
         let limited = asked > 0.0 && time > asked * (1.0 + SAME_TIME);
-        PartFeed { feed, slowed: limited || slowed < value }
+        PartFeed { feed, slowed: limited || slowed < value, hastened }
     }
 }
 
@@ -118,17 +126,24 @@ fn counted_way(form: RotaryFeed, from: &Position, to: &Position) -> f64 {
     match form {
         RotaryFeed::LinearWayElseTheTurn if linear > 0.0 => linear.sqrt(),
         RotaryFeed::LinearWayElseTheTurn => turns.sqrt(),
+        RotaryFeed::TurnAlone if turns > 0.0 => turns.sqrt(),
         _ => (linear + turns).sqrt(),
     }
 }
 
 impl PartFeed {
-    /// Says where the machine goes slower than the CL file asks.
-    pub(super) fn warn_if_slowed(&self, post: &mut Post) {
+    /// Says where the machine goes slower, or faster, than the CL file asks.
+    pub(super) fn warn_if_limited(&self, post: &mut Post) {
+        let asked = post.path.feed.map_or(0.0, |feed| feed.value);
+        if self.hastened {
+            let message = format!(
+                "feed {asked} is less than the lowest feed of a rotary axis; such motions are faster"
+            );
+            post.warn(PostCode::Clamped, message);
+        }
         if !self.slowed {
             return;
         }
-        let asked = post.path.feed.map_or(0.0, |feed| feed.value);
         let message = format!(
             "feed {asked} is more than a rotary axis, or the feed word, can follow; such motions are slower"
         );

@@ -5,7 +5,9 @@ use fil_cl::WordId;
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 use fil_machine::axis_chain::Carries;
-use fil_machine::locations::{self as loc, RotaryTableWords};
+use fil_machine::locations::{
+    self as loc, RotaryClwAlongNormal, RotaryDefaultClw, RotaryFacesPositive, RotaryTableWords,
+};
 
 use super::goto;
 use crate::errors::PostCode;
@@ -18,13 +20,15 @@ use crate::post::Post;
 const AXES: [WordId; 3] = [w::AAXIS, w::BAXIS, w::CAXIS];
 
 /// Turns a table: `ROTABL/angle` or `ATANGL,angle` to a position, `INCR,angle` on from where
-/// it stands, degrees; AAXIS, BAXIS or CAXIS names it where the machine has two. CLW and CCLW
-/// with a position have no effect, as the axis has one way there. False where the machine does
-/// not say what the points are then.
+/// it stands, degrees; AAXIS, BAXIS or CAXIS names it where the machine has two. CLW and CCLW, or
+/// the direction that the machine has where none is named, act where it says how they are seen;
+/// else with a position they have no effect, as the axis has one way there. False where the machine
+/// does not say what the points are then.
 ///
 /// # Errors
-/// No angle or two; a table that the machine lacks; INCR with a direction, as the side it is
-/// seen from is not known, or under MULTAX/ON; all that the turn refuses.
+/// No angle or two; a table that the machine lacks; INCR with a direction where the side it is
+/// seen from is not known, with one and an angle below zero, or under MULTAX/ON; all that the turn
+/// refuses.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<bool> {
     if post.control.commons.read(loc::ROTARY_TABLE_WORDS) == RotaryTableWords::Refused {
         return Ok(false);
@@ -38,10 +42,11 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<bool> {
     let alone = items.numbers();
     items.deny_rest()?;
     goto::refuse_waiting_arc(post)?;
+    let way = way(post, index, direction);
     let angle = match (on, to, &alone[..]) {
-        (None, Some(angle), []) => angle,
-        (None, None, [angle]) => *angle,
-        (Some(_), None, []) if direction.is_some() => {
+        (None, Some(angle), []) => by_way(post, index, angle, way, items)?,
+        (None, None, [angle]) => by_way(post, index, *angle, way, items)?,
+        (Some(_), None, []) if direction.is_some() && way.is_none() => {
             return Err(items.error("INCR with a direction: the side it is seen from is not known"));
         }
         (Some(_), None, []) if post.path.multax == Some(true) => {
@@ -55,15 +60,64 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<bool> {
                  it would go the other way round",
             ));
         }
-        (Some(angle), None, []) => stands(post, index, items)? + angle,
+        (Some(angle), None, []) if angle < 0.0 && way.is_some() => {
+            return Err(items.error("INCR by less than zero, and clockwise or counterclockwise"));
+        }
+        (Some(angle), None, []) => stands(post, index, items)? + angle * way.unwrap_or(1.0),
         _ => return Err(items.error("one angle is needed")),
     };
-    if direction.is_some() {
+    if direction.is_some() && (way.is_none() || !turns_either_way(post, index)) {
         let message = "CLW or CCLW of ROTABL: the axis has one way to a position".to_string();
         post.warn(PostCode::IgnoredPart, message);
     }
     carry_out(post, Operation::Turn(index, angle))?;
     Ok(true)
+}
+
+/// The sense in which the positions of a table count in a direction, 1 or -1: that of the record,
+/// else that of the machine. `None` where the machine does not say how it is seen, and under
+/// MULTAX/ON, as the points turn the table too.
+fn way(post: &Post, index: usize, direction: Option<WordId>) -> Option<f64> {
+    let commons = &post.control.commons;
+    let by_default = commons.read(loc::ROTARY_DEFAULT_CLW) == RotaryDefaultClw::Yes;
+    let clockwise = direction.map_or(by_default, |direction| direction == w::CLW);
+    let [Some(table), None] = &post.control.tables.chain().rotaries else { return None };
+    if index != 0 || post.path.multax == Some(true) {
+        return None;
+    }
+    let faces_plus = commons.read(loc::ROTARY_FACES_POSITIVE)? == RotaryFacesPositive::Yes;
+    let from_behind = commons.read(loc::ROTARY_CLW_ALONG_NORMAL) == RotaryClwAlongNormal::Yes;
+    let along = table.direction[table.axis];
+    // Seen along a line, clockwise is the right-hand rule about it. Positions count the motion of
+    // the tool about the part: the table itself turns the other way.
+    let sees_plus = faces_plus == from_behind;
+    let plus = (sees_plus == (along > 0.0)) != clockwise;
+    (along != 0.0).then_some(if plus { 1.0 } else { -1.0 })
+}
+
+/// True for a table that comes to a position in both directions: one without travel.
+fn turns_either_way(post: &Post, index: usize) -> bool {
+    post.control.tables.chain().rotaries[index].as_ref().is_some_and(|table| !table.is_limited())
+}
+
+/// A position, degrees, with the whole turns that the table has behind it when it comes to it in a
+/// direction; one where it is not known to stand is the position itself.
+///
+/// # Errors
+/// More than half a turn, and positions count within one: the control goes the shorter way.
+fn by_way(post: &Post, index: usize, to: f64, way: Option<f64>, items: &Items) -> Result<f64> {
+    let Some(way) = way.filter(|_| turns_either_way(post, index)) else { return Ok(to) };
+    let Ok(here) = stands(post, index, items) else { return Ok(to) };
+    let axis = post.control.tables.axis(index + 3);
+    let turn = ((to - here) * way).rem_euclid(360.0);
+    let turn = if 360.0 - turn < axis.resolution() { 0.0 } else { turn };
+    if turn > 180.0 && axis.full_turn() != 0 {
+        return Err(items.error(
+            "more than half a turn in this direction, and positions of the table count within one \
+             turn: it would go the other way round",
+        ));
+    }
+    Ok(here + turn * way)
 }
 
 /// The table that the record means: 0 or 1.

@@ -10,7 +10,7 @@ use super::{Matrix, State};
 use crate::forward::Forward;
 use crate::motion::Position;
 use crate::verify::statements::{numbers, numbers_beside};
-use crate::verify::wanted::{Effect, Wanted};
+use crate::verify::wanted::{Effect, TableWay, Wanted};
 
 /// What a machine takes words that move the frame for.
 #[derive(Clone, Debug, Default)]
@@ -25,6 +25,11 @@ pub struct FrameWords {
     pub without_effect: Vec<String>,
     /// What ROTABL does to the points.
     pub table: RotaryTableWords,
+    /// Which way positions of the only table count where it turns clockwise, 1 or -1; `None` where
+    /// the machine does not say.
+    pub clockwise: Option<f64>,
+    /// A record that names no direction turns it clockwise.
+    pub by_default: bool,
     /// The rotary axes; `None` for a machine without one.
     pub forward: Option<Forward>,
     /// Where ROTABL has turned them, degrees; `None` for one that it has not.
@@ -97,8 +102,22 @@ impl State {
         let index =
             forward.rotaries().iter().position(|rotary| rotary.as_ref().is_some_and(is_meant))?;
         let [angle] = numbers(record)[..] else { return None };
-        let from = if record.has(w::INCR) { self.words.turned[index]? } else { 0.0 };
-        let angle = from + angle;
+        let rotary = forward.rotaries()[index].as_ref()?;
+        let is_limited = rotary.is_limited();
+        let way = self.way_of_table(record);
+        let stood = self.words.turned[index];
+        let by = angle * way.unwrap_or(1.0);
+        let (angle, way) = match (record.has(w::INCR), way) {
+            (true, None) => (stood? + by, TableWay::Number),
+            (true, Some(_)) => (stood? + by, TableWay::By(by)),
+            (false, Some(way)) if !is_limited => {
+                // Whole turns of the table are no matter to the points.
+                let ahead =
+                    stood.map(|stood| stood + way * ((angle - stood) * way).rem_euclid(360.0));
+                (ahead.unwrap_or(angle), TableWay::Direction(way))
+            }
+            (false, _) => (angle, TableWay::Number),
+        };
         self.words.turned[index] = Some(angle);
         let turned = self.words.turned.map(Option::unwrap_or_default);
         let unit = self.unit();
@@ -123,6 +142,16 @@ impl State {
                 self.point = None;
             }
         }
-        Some(vec![Wanted::Turn { index, angle }])
+        Some(vec![Wanted::Turn { index, angle, way }])
+    }
+
+    /// Which way positions count as a record turns the table, 1 or -1; `None` where either will do.
+    fn way_of_table(&self, record: &Record) -> Option<f64> {
+        let clockwise = match (record.has(w::CLW), record.has(w::CCLW)) {
+            (false, false) => self.words.by_default,
+            (clockwise, _) => clockwise,
+        };
+        let sense = self.words.clockwise.filter(|_| !self.multax)?;
+        Some(if clockwise { sense } else { -sense })
     }
 }

@@ -94,6 +94,8 @@ struct State {
     unit: Option<Unit>,
     point: Option<Point3<f64>>,
     axis: Vector3<f64>,
+    /// MULTAX is on.
+    multax: bool,
     rapid: bool,
     rate: Option<Rate>,
     thread: Option<Rate>,
@@ -145,6 +147,7 @@ impl<'r> ClPath<'r> {
                 unit: None,
                 point: None,
                 axis: Vector3::z(),
+                multax: false,
                 rapid: false,
                 rate: None,
                 thread: None,
@@ -324,6 +327,9 @@ impl State {
     }
 
     fn mode(&mut self, record: &Record) {
+        if record.sub == mode::MULTAX {
+            self.multax = !record.has(w::OFF);
+        }
         match (record.sub, &numbers(record)[..]) {
             (mode::TLAXIS, [i, j, k]) => self.axis = Vector3::new(*i, *j, *k),
             (mode::MULTAX, _) if record.has(w::OFF) => self.axis = Vector3::z(),

@@ -11,7 +11,8 @@ use fil_machine::cycle_kind::CycleKind;
 use fil_machine::letter::{Letter, letters};
 use fil_machine::locations::{
     self as loc, CircleCenter, ControlFamily, ControlToolOffsets, CycleBoreOut, Exceeded,
-    InputKind, MillTurnSidePeck, Placement, RapidSplit, ToolChangeBlock, ToolFormat,
+    InputKind, MillTurnSidePeck, Placement, RapidSplit, RotaryClwAlongNormal, RotaryDefaultClw,
+    RotaryFacesPositive, ToolChangeBlock, ToolFormat,
 };
 use fil_machine::user_blocks::{self, AroundChange};
 
@@ -180,9 +181,27 @@ impl<'c> Settings<'c> {
             csys: self.commons.read(loc::INPUT_CSYS),
             without_effect: self.commons.words_without_effect().to_vec(),
             table: self.commons.read(loc::ROTARY_TABLE_WORDS),
+            clockwise: self.clockwise(),
+            by_default: self.commons.read(loc::ROTARY_DEFAULT_CLW) == RotaryDefaultClw::Yes,
             forward: self.forward.has_rotary().then(|| self.forward.clone()),
             turned: [None; 2],
         }
+    }
+
+    /// Which way positions count where the only table turns clockwise, 1 or -1. The table turns
+    /// against its positions, which are those of the tool about the part.
+    fn clockwise(&self) -> Option<f64> {
+        let [Some(table), None] = self.forward.rotaries() else { return None };
+        let faces = match self.commons.read(loc::ROTARY_FACES_POSITIVE)? {
+            RotaryFacesPositive::Yes => 1.0,
+            RotaryFacesPositive::No => -1.0,
+        };
+        let looks = match self.commons.read(loc::ROTARY_CLW_ALONG_NORMAL) {
+            RotaryClwAlongNormal::Yes => faces,
+            RotaryClwAlongNormal::No => -faces,
+        };
+        let along = table.direction[table.axis];
+        (along != 0.0).then_some(-looks * along.signum())
     }
 
     /// True when a matrix of TRANS leaves the tool axis alone.
@@ -210,14 +229,16 @@ impl<'c> Settings<'c> {
         };
         let axes = [0, 1, 2].map(|common| (letters::XYZ[common], common));
         let kept = self.commons.dbl_opt(loc::MOTION_SAME_TOLERANCE).unwrap_or(0.0) * unit;
-        let by_hand = self.by_hand() * unit + kept;
+        let by_hand = self.by_hand(loc::MOTION_RESOLUTION) * unit + kept;
         // A diameter is rounded once, after it is doubled.
         let scaled = |common: usize| {
             let diameter = common == 0 && self.scale(common) == 2.0;
             (self.scale(common) != 1.0 && !diameter).then_some(2.0 * unit)
         };
         let rotary = [0, 1].map(|index| match &self.forward.rotaries()[index] {
-            Some(axis) => of_axis(axis.letter, axis.axis + 3, 1.0),
+            Some(axis) => {
+                of_axis(axis.letter, axis.axis + 3, 1.0) + self.by_hand(loc::ROTARY_RESOLUTION)
+            }
             None => 0.0,
         });
         let mut linear = axes.map(|(letter, common)| of_axis(letter, common, unit) + by_hand);
@@ -261,11 +282,12 @@ impl<'c> Settings<'c> {
         to_digit(step, digit)
     }
 
-    /// What a resolution set by hand may take from a position, in the unit of the program.
-    fn by_hand(&self) -> f64 {
+    /// What a resolution set by hand may take from a position, in the unit of the program or
+    /// degrees.
+    fn by_hand(&self, step: Dbl) -> f64 {
         let is_set =
             self.commons.read(loc::MOTION_RESOLUTION_MANUAL) == loc::MotionResolutionManual::Yes;
-        0.5 * self.commons.dbl_opt(loc::MOTION_RESOLUTION).filter(|_| is_set).unwrap_or(0.0)
+        0.5 * self.commons.dbl_opt(step).filter(|_| is_set).unwrap_or(0.0)
     }
 
     /// What the program multiplies an axis by.

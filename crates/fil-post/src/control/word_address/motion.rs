@@ -82,7 +82,7 @@ pub fn rapid(control: &mut Control, motion: &Motion, code: RapidCode, cause: Cau
     let code = control.code(at, "rapid motion")?;
     ready(control)?;
     if axis_words(control, motion)? {
-        let modal = control.commons.read(loc::RAPID_MODAL);
+        let modal = control.commons.read(loc::RAPID_MODAL) && !says_code_of_turn(control);
         motion_code(control, code, modal, cause);
         let word = control.commons.read(loc::RAPID_ADDRESS);
         if let (Some(letter), Some(value)) = (word, control.commons.dbl_opt(loc::RAPID_VALUE)) {
@@ -108,11 +108,20 @@ pub fn feed(control: &mut Control, motion: &Motion, feed: Option<&Feed>) -> Resu
         return Ok(());
     }
     let code = control.code(loc::LINEAR_CODE, "linear motion")?;
-    let modal = control.commons.read(loc::LINEAR_MODAL) != loc::LinearModal::InEveryBlock;
+    let modal = control.commons.read(loc::LINEAR_MODAL) != loc::LinearModal::InEveryBlock
+        && !says_code_of_turn(control);
     let cause = control.block.cause;
     motion_code(control, code, modal, cause);
     feed_words(control, feed)?;
     write_motion(control)
+}
+
+/// True for a block that turns a rotary axis, on a machine that has its motion code in each.
+#[inline]
+fn says_code_of_turn(control: &Control) -> bool {
+    let turns = |number| control.block_has(control.tables.axis(number).letter);
+    control.commons.read(loc::ROTARY_MOTION_CODES)
+        && AxisSet::ROTARY.and(control.tables.present()).numbers().any(turns)
 }
 
 /// Writes one pass of a thread.
