@@ -147,6 +147,9 @@ pub fn dispatch(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Re
     }
     match post.dispatcher.handler(record.major) {
         Some(Handler::Point(handle)) => {
+            if record.number < post.path.named_frames.since {
+                word::csys::refuse_read_again(post)?;
+            }
             let target = target(post, record, vocabulary)?;
             handle(post, target)
         }
@@ -190,12 +193,21 @@ fn is_without_effect(post: &Post, name: &str) -> bool {
 /// A record without a point or with more than a point and an axis; an axis whose
 /// length is not 1 unless MULTAX is on; any but 0,0,1 after MULTAX/OFF.
 #[inline]
-fn target(post: &Post, record: &Record, vocabulary: &Vocabulary) -> Result<Target> {
+fn target(post: &mut Post, record: &Record, vocabulary: &Vocabulary) -> Result<Target> {
     let point = record.point().filter(|_| MOTION.contains(&record.data.len()));
     let Some(point) = point else { return Err(no_point(record, vocabulary)) };
     let axis = match record.axis() {
-        Some(axis) => checked_axis(post, Vector3::from(axis))?,
-        None if record.data.len() == MOTION[0] => post.path.axis,
+        Some(axis) => {
+            let axis = checked_axis(post, Vector3::from(axis))?;
+            post.path.axis_in_doubt = false;
+            axis
+        }
+        None if record.data.len() == MOTION[0] => {
+            if post.path.named_frames.waits || post.path.axis_in_doubt {
+                word::csys::settle_axis(post, record)?;
+            }
+            post.path.axis
+        }
         None => return Err(no_point(record, vocabulary)),
     };
     Ok(Target { point: Point3::from(point), axis, word: POINT })

@@ -141,6 +141,11 @@ impl<'r> Lines<'r> {
         }
     }
 
+    /// Goes back to the line that the statement under way began with.
+    pub(super) fn go_back(&mut self, line: u32) {
+        (self.next, self.line, self.is_open) = (self.mark, line, false);
+    }
+
     fn give(&mut self, end: usize, next: usize) -> Range<usize> {
         let line = self.next - self.mark..end - self.mark;
         self.next = next;

@@ -300,6 +300,10 @@ impl<'r> Reader<'r> {
                 };
             }
         }
+        if form == Form::Frame || matches!(record.major, words::MSYS | words::CSYS) {
+            // What begins where the tool stands may not begin in another frame.
+            self.modal.point = None;
+        }
         self.check_end(vocab, record)?;
         if self.rules().trailing_comma && !self.options.raw {
             raw::drop_empty_end(record);

@@ -76,9 +76,6 @@ pub(super) struct Statement {
     frame_rows: FrameRows,
 }
 
-/// How a pseudo-comment of Creo begins.
-const PSEUDO: &[u8] = b"$$->";
-
 /// Words whose statement is free text.
 const TEXT_WORDS: [(&[u8], WordId); 8] = [
     (b"PARTNO", words::PARTNO),
@@ -124,21 +121,19 @@ impl Statement {
             if is_comment(bytes) {
                 let range = line.clone();
                 self.comment(lines, line, recognition, context)?;
-                if recognition.rules().frame_in_comments
-                    && let Some(note) = self.frame_rows.take(trim_end(lines.bytes(range.clone())))
-                {
-                    self.pieces.push(Piece {
-                        joined: 0,
-                        line: range,
-                        column: 0,
-                        number: self.line,
-                    });
-                    self.joined.extend_from_slice(note.as_bytes());
-                    return Ok(Some(Form::Frame));
+                let in_comments = recognition.rules().frame_in_comments;
+                let comment = trim_end(lines.bytes(range.clone()));
+                let note = in_comments.then(|| self.frame_rows.take(comment, self.line)).flatten();
+                match note {
+                    Some(note) => return Ok(Some(self.frame(&note, range))),
+                    None => continue,
                 }
-                continue;
             }
-            self.frame_rows.clear();
+            if let Some(note) = self.frame_rows.end(self.line) {
+                // The statement comes again, behind the note.
+                lines.go_back(self.line);
+                return Ok(Some(self.frame(&note, 0..0)));
+            }
             let (form, start) = opening(bytes);
             let Some(end) = content(bytes, start, form) else { continue };
             self.add(bytes, line, start, end, self.line);
@@ -147,6 +142,13 @@ impl Statement {
             }
             return Ok(Some(form));
         }
+    }
+
+    /// Makes the statement a note of a frame, which stands in a line.
+    fn frame(&mut self, note: &str, line: Range<usize>) -> Form {
+        self.pieces.push(Piece { joined: 0, line, column: 0, number: self.line });
+        self.joined.extend_from_slice(note.as_bytes());
+        Form::Frame
     }
 
     /// Looks at a comment and passes over the lines it goes on in.
@@ -324,7 +326,14 @@ fn refuse<T>(code: ClCode, message: String, place: TextSpan) -> Result<T, Gather
 }
 
 fn is_pseudo(line: &[u8]) -> bool {
-    line.trim_ascii_start().starts_with(PSEUDO)
+    note_start(line.trim_ascii_start()).is_some()
+}
+
+/// Where the key of a note begins: behind `$$->`, which some write with blanks before the arrow.
+fn note_start(line: &[u8]) -> Option<usize> {
+    let rest = line.strip_prefix(b"$$")?;
+    let arrow = rest.trim_ascii_start();
+    arrow.starts_with(b"->").then(|| line.len() - arrow.len() + 2)
 }
 
 fn is_comment(line: &[u8]) -> bool {
@@ -351,8 +360,8 @@ fn is_statement(line: &[u8]) -> bool {
 fn opening(line: &[u8]) -> (Form, usize) {
     let blanks = line.len() - line.trim_ascii_start().len();
     let rest = &line[blanks..];
-    if rest.starts_with(PSEUDO) {
-        return (Form::Pseudo, blanks + PSEUDO.len());
+    if let Some(key) = note_start(rest) {
+        return (Form::Pseudo, blanks + key);
     }
     let first = rest.first().map(u8::to_ascii_uppercase);
     for (name, id) in TEXT_WORDS {

@@ -23,6 +23,7 @@ pub mod linearization;
 pub(crate) mod long_arc;
 mod machine_position;
 pub mod mill_turn;
+pub(crate) mod named_frames;
 pub mod rapid;
 mod rapid_lean;
 mod rapid_turn;
@@ -56,10 +57,10 @@ use crate::control::word_address::motion;
 use crate::control::{family, full_turn};
 use crate::operation::{Arc, Feed, Lead, NextTools, Operation, Target};
 use crate::post::Post;
-use crate::words::csys::NamedFrames;
 
 pub use cycle::Cycle;
 pub use linearization::Straightness;
+pub(crate) use named_frames::NamedFrames;
 pub use solution::Coming;
 pub use transformation::Transformation;
 
@@ -74,9 +75,13 @@ pub struct Path {
     pub axis: Vector3<f64>,
     /// The tool axis in which the last motion has left the machine.
     pub(crate) stands: Vector3<f64>,
+    /// A frame has turned under a leaning axis, which motions can't take over without saying it.
+    pub(crate) axis_in_doubt: bool,
     /// MULTAX is on: a GOTO may have an axis of any length. Off: it may have none but
     /// 0,0,1. `None` before the file has said it.
     pub multax: Option<bool>,
+    /// A motion has come.
+    pub(crate) has_moved: bool,
     /// Last rotary positions in degrees; `None` before the first motion.
     pub rotary: Option<[f64; 2]>,
     /// Last rotary positions as they are the nearest if no axis has limits, degrees.
@@ -170,7 +175,9 @@ impl Default for Path {
             point: None,
             axis: Vector3::z(),
             stands: Vector3::z(),
+            axis_in_doubt: false,
             multax: None,
+            has_moved: false,
             rotary: None,
             free: None,
             turns: [Turn::default(); 2],
@@ -238,6 +245,12 @@ impl Path {
         self.axis = target.axis;
         self.stands = target.axis;
         self.since = Since::Motion;
+        self.has_moved = true;
+    }
+
+    /// The last point, where a motion has brought the tool to it and nothing away since.
+    pub(crate) fn stands_at(&self) -> Option<Point3<f64>> {
+        self.point.filter(|_| self.since == Since::Motion && self.has_moved)
     }
 
     /// The last point is no longer the one at which the tool stands.

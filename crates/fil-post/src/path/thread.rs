@@ -8,11 +8,13 @@
 use fil_diag::Result;
 use fil_machine::Letter;
 use fil_machine::locations::{self as loc, ThreadCycle, ThreadLeadAlong};
+use nalgebra::Point3;
 
 pub use super::thread_shape::{Shape, least_depth};
 use super::{carry_out as carry, rotary, scaled_lead};
 use crate::control::family;
 use crate::control::word_address::spindle::{self, counted};
+use crate::control_state::Place;
 use crate::errors::PostCode;
 use crate::operation::{
     Lead, MotionKind, Operation, SpindleSpeed, Target, Thread, ThreadPasses, ThreadSide,
@@ -108,6 +110,13 @@ pub fn refuse_awaited(post: &Post) -> Result<()> {
         }
         _ => Ok(()),
     }
+}
+
+/// The point of the CL file at which the tool stands: a thread begins from there, on the side
+/// where that lies. `None` where a tool change, a frame, FROM or a text came between.
+pub fn stands_at(post: &Post) -> Option<Point3<f64>> {
+    let is_known = |number: &usize| matches!(post.control.place(*number), Place::At(_));
+    post.path.stands_at().filter(|_| AXES.iter().all(is_known))
 }
 
 /// Ends a thread.
@@ -207,7 +216,7 @@ pub fn counted_change(post: &Post, lead: Lead, counted: &Lead, target: Target) -
     if change == 0.0 {
         return Ok(0.0);
     }
-    let Some(from) = post.path.point else {
+    let Some(from) = stands_at(post) else {
         return PostCode::Thread.err("where the pass begins is not known");
     };
     if post.control.state.goes_on_in_varying_lead(&post.control.commons) {
@@ -266,7 +275,7 @@ pub fn counted_lead(post: &Post, lead: Lead, target: Target) -> Result<Lead> {
     if post.control.commons.read(loc::THREAD_LEAD_ALONG) == ThreadLeadAlong::TheLongerAxis {
         return Ok(lead);
     }
-    let Some(from) = post.path.point else {
+    let Some(from) = stands_at(post) else {
         return PostCode::Thread.err("where the pass begins is not known");
     };
     let way = target.point - from;
@@ -303,7 +312,7 @@ pub fn check_speed(post: &Post) -> Result<()> {
 /// Brings the tool clear of the crest, along the axis first where it stands clear of it,
 /// else out first.
 fn approach(post: &mut Post, shape: &Shape, goal: Target) -> Result<()> {
-    let Some(from) = post.path.point else { return Ok(()) };
+    let Some(from) = stands_at(post) else { return Ok(()) };
     let out = shape.out();
     let clear = (from - goal.point).dot(&out) >= -NOTHING;
     let along = (goal.point - from) - out * (goal.point - from).dot(&out);

@@ -4,218 +4,191 @@
 //! second frame may mean two things. PTC's help says of CSYS that the points stay those of the
 //! machine's frame while the tool axis shows how the frame of the operation is turned, and so do
 //! the files of SolidWorks CAM; NX and CATIA give the points in the frame they name. So a turned
-//! frame that the tool axis behind it follows leaves the points alone, `input.csys = 1` moves
-//! points and tool axes into the frame that was named first, and anything else is refused.
+//! CSYS that the tool axis behind it follows leaves the points alone, `input.csys = 1` moves
+//! points and tool axes into the frame that was named first, and anything else is refused. What
+//! a frame means is settled at the first motion behind it.
 
 use fil_cl::Record;
-use fil_cl::record::Word;
-use fil_diag::Result;
+use fil_cl::record::motion;
+use fil_diag::{Diag, Result};
 use fil_machine::locations::{self as loc, InputCsys};
-use nalgebra::{Matrix3x4, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 use super::trans;
 use crate::errors::PostCode;
 use crate::path::Transformation;
+use crate::path::named_frames::{Layout, Named, NamedFrames};
 use crate::post::Post;
-
-/// Two frames this near in each of their numbers are the same: CAM systems write 4 to 10 digits.
-const SAME: f64 = 1e-6;
 
 /// A tool axis this near to the Z of a frame follows it.
 const ALONG: f64 = 1e-4;
 
-/// A frame as a file gives it may be this far from a right-angled one.
-const RIGID: f64 = 1e-4;
+/// Two turns this near are one.
+const SAME: f64 = 1e-6;
 
 /// Words that name a clamping of the part: the setup of SolidWorks CAM, the part operation of
 /// CATIA.
 const CLAMPINGS: [&str; 2] = ["SETUP", "PART_OPE"];
 
-/// The frames that the file has named so far.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct NamedFrames {
-    /// Those of each word, which may count from a zero of its own.
-    words: Vec<Named>,
-    /// The word whose frame no motion has followed yet, as a place in `words`.
-    waits: Option<(usize, Layout)>,
-    /// A tool axis has followed a turned frame: the points are those of the part throughout.
-    points_of_part: bool,
-    /// The clamping that was named first: the items of its record, their text, and its line.
-    clamping: Option<(Vec<Word>, String, u32)>,
-}
-
-/// The frames that one word has named.
-#[derive(Clone, Debug)]
-struct Named {
-    word: String,
-    /// Its numbers as they are written.
-    first: Vec<f64>,
-    now: Vec<f64>,
-    /// Line of the record that named `now`.
-    line: u32,
-}
-
-impl Named {
-    /// What brings points and tool axes from the frame at hand into the first; `None` where it is
-    /// the first.
-    fn moved(&self, layout: Layout) -> Result<Option<Transformation>> {
-        if is_same(&self.first, &self.now) {
-            return Ok(None);
-        }
-        let frames = layout.read(&self.first).zip(layout.read(&self.now));
-        let Some((first, now)) = frames else { return Err(no_frame(&self.word)) };
-        let back = first.fixed_columns::<3>(0).transpose();
-        let turn = back * now.fixed_columns::<3>(0);
-        let shift = back * (now.column(3) - first.column(3));
-        let columns = [turn.column(0).into(), turn.column(1).into(), turn.column(2).into(), shift];
-        Ok(Some(Transformation { matrix: Matrix3x4::from_columns(&columns), turns_axis: true }))
-    }
-}
-
-impl NamedFrames {
-    /// Takes a frame; `None` when the word has named it last.
-    fn take(&mut self, word: &str, line: u32, frame: Vec<f64>) -> Option<usize> {
-        let Some(at) = self.words.iter().position(|named| named.word == word) else {
-            let word = word.to_string();
-            self.words.push(Named { word, first: frame.clone(), now: frame, line });
-            return Some(self.words.len() - 1);
-        };
-        let named = &mut self.words[at];
-        if is_same(&named.now, &frame) {
-            return None;
-        }
-        (named.now, named.line) = (frame, line);
-        Some(at)
-    }
-}
+const HINT: &str = "Post each clamping from a file of its own. Where all points are those of one \
+                    frame, list the word under words.without_effect in machine.toml; where each \
+                    frame has its own points, input.csys = 1 moves them into the first.";
 
 /// Takes the frame or the clamping that a record names; any other record changes nothing.
 ///
 /// # Errors
-/// A second clamping; with `input.csys = 1` a second frame that its numbers don't make, that comes
-/// between a CIRCLE and its end, or beside another word that moves the points.
+/// A second clamping.
 pub fn note(post: &mut Post, name: &str, record: &Record) -> Result<()> {
-    let layout = Layout::of(name);
-    if layout.is_none() && !CLAMPINGS.contains(&name) {
+    let is_clamping = CLAMPINGS.contains(&name);
+    let layout = Layout::of(name, record);
+    if (layout.is_none() && !is_clamping)
+        || post.control.commons.words_without_effect().iter().any(|word| word == name)
+    {
         return Ok(());
     }
-    if post.control.commons.words_without_effect().iter().any(|word| word == name) {
-        return Ok(());
-    }
-    let Some(layout) = layout else { return refuse_second_clamping(post, name, record) };
-    let numbers = record.data.iter().filter_map(|word| match word {
-        Word::Number(number) => Some(*number),
-        _ => None,
-    });
+    let has_moved = post.path.has_moved;
     let frames = &mut post.path.named_frames;
-    let Some(at) = frames.take(name, record.line, numbers.collect()) else { return Ok(()) };
-    if post.control.commons.read(loc::INPUT_CSYS) == InputCsys::PointsOfEachFrame {
-        let named = &frames.words[at];
-        let moved = named.moved(layout)?;
-        return trans::csys(post, name, moved);
+    let Some(named) = frames.take(name, layout, record, has_moved) else { return Ok(()) };
+    if is_clamping && !named.is_first() {
+        let message = format!("{name} of line {} names another clamping of the part", named.line);
+        return PostCode::OtherFrame.err_with(message, HINT);
     }
-    frames.waits = Some((at, layout));
+    frames.waits = true;
     Ok(())
 }
 
-/// Refuses a clamping other than the first: it needs a stop, and its points count from a zero of
-/// their own.
-fn refuse_second_clamping(post: &mut Post, name: &str, record: &Record) -> Result<()> {
-    let first = &mut post.path.named_frames.clamping;
-    let (items, text, line) =
-        first.get_or_insert_with(|| (record.data.clone(), record.text.clone(), record.line));
-    if *items == record.data && *text == record.text {
-        return Ok(());
-    }
-    let mut diag = PostCode::OtherFrame
-        .diag(format!("{name}: another clamping of the part than that of line {line}"));
-    diag.hint = Some(format!(
-        "Post each clamping from a file of its own, or list {name} under words.without_effect in \
-         machine.toml where the part stays as it is."
-    ));
-    Err(diag)
-}
-
-/// Looks at the tool axis of the first motion behind a frame.
+/// Settles what the frames mean that came since the last motion, before one with this tool axis.
 ///
 /// # Errors
-/// A frame other than the first whose points may be those of the part or its own.
+/// A frame other than the first whose points may be those of the part or its own; frames of two
+/// words that differ; beside another word that moves the points, or within an arc.
 #[inline]
-pub(crate) fn judge(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
-    if post.path.named_frames.waits.is_some() { judge_first(post, axis) } else { Ok(()) }
+pub(crate) fn settle(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
+    if post.path.named_frames.waits { settle_new(post, axis) } else { Ok(()) }
+}
+
+/// Settles them before a tool axis that counts in the frame at hand, where points are moved.
+///
+/// # Errors
+/// As [`settle`].
+pub(crate) fn settle_moves(post: &mut Post) -> Result<()> {
+    let moves = post.control.commons.read(loc::INPUT_CSYS) == InputCsys::PointsOfEachFrame;
+    if moves && post.path.named_frames.waits { settle_new(post, post.path.axis) } else { Ok(()) }
+}
+
+/// Settles them before a point without an axis of its own, which takes over the last one.
+///
+/// # Errors
+/// As [`settle`]; a frame has turned under a leaning axis.
+#[cold]
+pub(crate) fn settle_axis(post: &mut Post, record: &Record) -> Result<()> {
+    if record.sub == motion::FROM {
+        return Ok(());
+    }
+    settle(post, post.path.axis)?;
+    if post.path.axis_in_doubt {
+        return PostCode::OtherFrame.err_with(
+            "a point without a tool axis, behind a frame that has turned under a leaning one",
+            "Give the tool axis with the first point in the frame (GOTO/x,y,z,i,j,k), or by TLAXIS.",
+        );
+    }
+    Ok(())
 }
 
 #[cold]
-fn judge_first(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
-    let NamedFrames { words, waits, points_of_part, .. } = &mut post.path.named_frames;
-    let Some((at, layout)) = waits.take() else { return Ok(()) };
-    let (named, name) = (&words[at], words[at].word.as_str());
-    let is_first = is_same(&named.first, &named.now);
-    let Some(frame) = layout.read(&named.now) else {
-        return if is_first { Ok(()) } else { Err(no_frame(name)) };
-    };
-    let normal = frame.column(2).into_owned();
-    let is_turned = (normal - Vector3::z()).norm() > ALONG;
-    let follows = (axis.normalize() - normal).norm() <= ALONG;
-    *points_of_part |= name == "CSYS" && is_turned && follows;
-    if is_first || (*points_of_part && (follows || !is_turned)) {
-        return Ok(());
+fn settle_new(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
+    post.path.named_frames.waits = false;
+    if post.control.commons.read(loc::INPUT_CSYS) == InputCsys::PointsOfEachFrame {
+        return move_points(post);
     }
-    let mut diag = PostCode::OtherFrame.diag(format!(
-        "{name} of line {} names another frame than the first one, and the points may be those of \
-         the part or of the frame",
-        named.line
-    ));
-    diag.hint = Some(format!(
-        "Post each clamping from a file of its own. Where all points are those of one frame, list \
-         {name} under words.without_effect in machine.toml; where each frame has its own points, \
-         input.csys = 1 moves them into the first."
-    ));
-    Err(diag)
-}
-
-/// How a word gives its frame.
-#[derive(Clone, Copy, Debug)]
-enum Layout {
-    /// Twelve numbers: the rows of a 3x4 matrix, the origin in the fourth column.
-    Rows,
-    /// Origin, X and Y axis, and perhaps Z: nine or twelve numbers.
-    Axes,
-}
-
-impl Layout {
-    fn of(name: &str) -> Option<Self> {
-        match name {
-            "CSYS" | "CATIA0" => Some(Layout::Rows),
-            "MSYS" | "CATMAT" => Some(Layout::Axes),
-            _ => None,
+    let NamedFrames { words, points_of_part, .. } = &mut post.path.named_frames;
+    for named in words.iter_mut() {
+        if !std::mem::take(&mut named.is_new) {
+            continue;
+        }
+        let normal = named.now.matrix().map(|frame| frame.column(2).into_owned());
+        let is_turned = normal.is_some_and(|normal| (normal - Vector3::z()).norm() > ALONG);
+        let follows = normal.is_some_and(|normal| (axis.normalize() - normal).norm() <= ALONG);
+        *points_of_part |= named.word == "CSYS" && is_turned && follows;
+        let is_of_part = *points_of_part && named.word == "CSYS" && (follows || !is_turned);
+        if !(named.is_first() || is_of_part && normal.is_some()) {
+            return Err(another(named));
         }
     }
+    Ok(())
+}
 
-    /// The frame, 3x4: its axes and its origin as columns. `None` where the numbers make none.
-    fn read(self, numbers: &[f64]) -> Option<Matrix3x4<f64>> {
-        let frame = match (self, numbers) {
-            (Layout::Rows, rows) if rows.len() == 12 => Matrix3x4::from_row_slice(rows),
-            (Layout::Axes, values) if matches!(values.len(), 9 | 12) => {
-                let column = |at: usize| Vector3::from_column_slice(&values[at..at + 3]);
-                let (x, y) = (column(3), column(6));
-                let z = if values.len() == 12 { column(9) } else { x.cross(&y) };
-                Matrix3x4::from_columns(&[x, y, z, column(0)])
+/// Refuses a record that is read again behind a frame that was named after it: its points would
+/// be taken for those of that frame.
+///
+/// # Errors
+/// It is.
+#[cold]
+pub(crate) fn refuse_read_again(post: &Post) -> Result<()> {
+    let message = "a motion is read again, behind a frame that was named after it".to_string();
+    let place = post.path.named_frames.since;
+    PostCode::OtherFrame.err_with(
+        format!("{message} (record {place})"),
+        "Go back only to records behind the last frame.",
+    )
+}
+
+/// Brings what follows from the frame at hand into the first.
+fn move_points(post: &mut Post) -> Result<()> {
+    let mut moved: Option<(&str, u32, Option<Transformation>)> = None;
+    for named in &post.path.named_frames.words {
+        if named.is_late() {
+            return Err(another(named));
+        }
+        let by = named.moved().map_err(|()| no_frame(&named.word))?;
+        match &moved {
+            Some((word, line, other)) if !is_same_move(other.as_ref(), by.as_ref()) => {
+                let message = format!(
+                    "{word} of line {line} and {} of line {} differ",
+                    named.word, named.line
+                );
+                return PostCode::OtherFrame.err_with(message, HINT);
             }
-            _ => return None,
-        };
-        let turn = frame.fixed_columns::<3>(0);
-        let off = (turn.transpose() * turn - nalgebra::Matrix3::identity()).amax();
-        (off <= RIGID && turn.determinant() > 0.0).then_some(frame)
+            _ => moved = Some((&named.word, named.line, by)),
+        }
+    }
+    let Some((word, _, moved)) = moved.map(|(word, line, by)| (word.to_string(), line, by)) else {
+        return Ok(());
+    };
+    let turn =
+        |trans: Option<&Transformation>| trans.map_or_else(Matrix3::identity, |it| it.linear());
+    let turns = (turn(post.path.transformation.as_ref()) - turn(moved.as_ref())).amax() > SAME;
+    trans::csys(post, &word, moved)?;
+    // Whether a leaning axis stays in space or in numbers is not in the file.
+    post.path.axis_in_doubt = turns && (post.path.axis.normalize() - Vector3::z()).norm() > ALONG;
+    Ok(())
+}
+
+fn is_same_move(one: Option<&Transformation>, other: Option<&Transformation>) -> bool {
+    match (one, other) {
+        (None, None) => true,
+        (Some(one), Some(other)) => (one.matrix - other.matrix).amax() <= SAME,
+        _ => false,
     }
 }
 
-fn is_same(one: &[f64], other: &[f64]) -> bool {
-    one.len() == other.len()
-        && one.iter().zip(other).all(|(one, other)| (one - other).abs() <= SAME)
+fn another(named: &Named) -> Box<Diag> {
+    let (word, line) = (&named.word, named.line);
+    let message = match named.is_late() {
+        true => format!(
+            "{word} of line {line} names a frame, and motions came before it, whose frame is not known"
+        ),
+        false => format!(
+            "{word} of line {line} names another frame than the first one, and the points may be \
+             those of the part or of the frame"
+        ),
+    };
+    let mut diag = PostCode::OtherFrame.diag(message);
+    diag.hint = Some(HINT.to_string());
+    diag
 }
 
-fn no_frame(name: &str) -> Box<fil_diag::Diag> {
+fn no_frame(name: &str) -> Box<Diag> {
     PostCode::WordForm
         .diag(format!("{name}: twelve numbers of a right-handed frame are needed (of MSYS nine)"))
 }

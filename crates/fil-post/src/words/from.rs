@@ -4,22 +4,22 @@
 use fil_diag::Result;
 
 use crate::operation::Target;
-use crate::path::Since;
+use crate::path::{Since, thread};
 use crate::post::Post;
 
 /// Takes the point as the start of an arc or of a GODLTA; nothing is written.
 ///
 /// # Errors
-/// None.
+/// Between the two points of a thread.
 pub fn handle(post: &mut Post, target: Target) -> Result<()> {
+    thread::refuse_awaited(post)?;
     let path = &mut post.path;
     path.point = Some(target.point);
     path.axis = target.axis;
     if path.rotary.is_none() {
         path.stands = target.axis;
     }
-    let has_moved = path.rotary.is_some();
-    if path.since == Since::Frame || has_moved && path.since == Since::Motion {
+    if path.since == Since::Frame || path.has_moved && path.since == Since::Motion {
         path.since = Since::From;
     }
     Ok(())

@@ -20,6 +20,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let Some(start) = post.path.point else {
         return PostCode::ArcStart.err("GODLTA before any FROM or GOTO");
     };
+    csys::settle(post, post.path.axis)?;
     if post.path.since == Since::Frame {
         return PostCode::ArcStart.err(
             "GODLTA right behind TRANS, a new frame or a text that moves the tool: it does not \
@@ -36,7 +37,6 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         _ => return Err(items.error("one or three increments are needed")),
     };
     items.deny_rest()?;
-    csys::judge(post, post.path.axis)?;
     let target = Target { point: start + step, axis: post.path.axis, word };
     let kind = goto::kind_of_motion(post);
     carry_out(post, Operation::Linear(target, kind))

@@ -21,7 +21,7 @@ use crate::post::Post;
 /// All that the motion refuses.
 #[inline]
 pub fn handle(post: &mut Post, target: Target) -> Result<()> {
-    csys::judge(post, target.axis)?;
+    csys::settle(post, target.axis)?;
     if let Some(arc) = post.path.arc.take() {
         if post.path.rapid.take().is_some() {
             let message = "RAPID before a CIRCLE: the arc is cut at feed".to_string();
@@ -103,7 +103,7 @@ pub fn gohome(post: &mut Post, items: &mut Items) -> Result<()> {
     items.deny_rest()?;
     refuse_waiting_arc(post)?;
     thread::refuse_awaited(post)?;
-    csys::judge(post, axis)?;
+    csys::settle(post, axis)?;
     let target = Target { point, axis, word: FIRST_DATA as u16 };
     let kind = kind_of_motion(post);
     carry_out(post, Operation::Linear(target, kind))

@@ -4,6 +4,7 @@ use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 use nalgebra::Vector3;
 
+use super::csys;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::post::Post;
@@ -21,6 +22,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     items.deny_rest()?;
     post.path.multax = Some(!off);
     if off {
+        post.path.axis_in_doubt = false;
         post.path.axis = Vector3::z();
     }
     Ok(())
@@ -39,6 +41,8 @@ pub fn tlaxis(post: &mut Post, items: &mut Items) -> Result<()> {
     if axis.norm() < SHORTEST {
         return PostCode::AxisLength.err("the tool axis has length zero");
     }
+    csys::settle_moves(post)?;
+    post.path.axis_in_doubt = false;
     post.path.axis = axis;
     Ok(())
 }

@@ -5,6 +5,7 @@
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 
+use super::csys;
 use super::thread::{lead, springs_of, starts, usual_clearance};
 use crate::errors::PostCode;
 use crate::items::Items;
@@ -54,7 +55,8 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     if cuts.fract() != 0.0 || !(1.0..=1000.0).contains(&cuts) {
         return PostCode::Thread.err(format!("{cuts} passes"));
     }
-    let from = post.path.point.map(|point| Target { point, axis: post.path.axis, word: 0 });
+    csys::settle(post, post.path.axis)?;
+    let from = thread::stands_at(post).map(|point| Target { point, axis: post.path.axis, word: 0 });
     let nowhere = Target { point: Default::default(), axis: post.path.axis, word: 0 };
     let thread = Thread {
         crest: [nowhere; 2],

@@ -8,6 +8,7 @@ use fil_machine::locations as loc;
 use fil_machine::modes::{INCH, Unit};
 use nalgebra::Point3;
 
+use super::csys;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{Lead, Operation, Target, Thread, ThreadPasses, ThreadSide};
@@ -104,6 +105,7 @@ pub fn pitch(post: &mut Post, items: &mut Items) -> Result<()> {
 /// Another order of the points; a value that is missing; AT and OFSETL, whose meaning is not
 /// known; and as the thread itself.
 fn automatic(post: &mut Post, items: &mut Items) -> Result<()> {
+    csys::settle(post, post.path.axis)?;
     let crest = points(post, items)?;
     if items.has(w::AT) {
         return Err(items.error("AT,percent: what it is a part of is not known"));
@@ -175,7 +177,7 @@ fn points(post: &Post, items: &mut Items) -> Result<[Target; 2]> {
 
 /// IN, OUT or FACE; without one the side that the tool stands on.
 fn side(post: &Post, items: &mut Items, crest: [Target; 2]) -> Result<ThreadSide> {
-    let from = post.path.point;
+    let from = thread::stands_at(post);
     let word = items.any_of(&[w::IN, w::OUT, w::FACE]);
     let start = crest[0].point;
     match (word, from) {

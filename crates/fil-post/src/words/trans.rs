@@ -15,7 +15,7 @@ use nalgebra::Matrix3x4;
 use crate::control::sinumerik::translation;
 use crate::errors::PostCode;
 use crate::items::Items;
-use crate::path::{Transformation, compensation_side};
+use crate::path::{Transformation, compensation_side, thread};
 use crate::post::Post;
 
 /// OPTION that leaves the tool axis alone.
@@ -171,6 +171,7 @@ pub(super) fn csys(post: &mut Post, word: &str, moved: Option<Transformation>) -
 }
 
 fn refuse_on_arc(post: &Post, word: &str) -> Result<()> {
+    thread::refuse_awaited(post)?;
     if post.path.arc.is_some() {
         return PostCode::ArcEnd.err(format!("{word} came between a CIRCLE and its GOTO"));
     }
