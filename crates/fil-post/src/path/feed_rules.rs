@@ -49,7 +49,7 @@ pub fn line(
         let part = motion.of(*axes);
         let length = length(post, way, *axes, target);
         if stands(post, way, length) {
-            turn_on_the_spot(post, motion, before)?;
+            turn_on_the_spot(post, motion, feed, before)?;
             continue;
         }
         let feed = within_axes(post, feed, way, length);
@@ -158,8 +158,14 @@ fn stands(post: &Post, way: [Option<f64>; 3], length: Option<f64>) -> bool {
         && length.is_some_and(|length| length <= NO_WAY || turns && (0..3).all(is_rounded))
 }
 
-/// Turns the rotary axes where the tip stays; without a turn there is no block.
-fn turn_on_the_spot(post: &mut Post, motion: &Motion, before: Option<[f64; 2]>) -> Result<()> {
+/// Turns the rotary axes where the tip stays; without a turn there is no block. A feed a minute is
+/// that of any turn under tool-tip control, no more than Y and Z may do, which follow it.
+fn turn_on_the_spot(
+    post: &mut Post,
+    motion: &Motion,
+    feed: Feed,
+    before: Option<[f64; 2]>,
+) -> Result<()> {
     let Some(before) = before else { return Ok(()) };
     let tables = &post.control.tables;
     let (mut from, mut to) = (motion.position, motion.position);
@@ -170,6 +176,10 @@ fn turn_on_the_spot(post: &mut Post, motion: &Motion, before: Option<[f64; 2]>) 
     }
     if from == to {
         return Ok(());
+    }
+    if !post.path.inverse_time {
+        let feed = within_shares(post, feed, [1.0; 2]);
+        return family::feed(&mut post.control, motion, Some(&feed));
     }
     let rotary = TurningFeed::of(post)?;
     let part = rotary.between(&from, &to, 0.0);
