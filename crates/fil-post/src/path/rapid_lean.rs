@@ -201,10 +201,11 @@ fn above(chain: &AxisChain, at: &Position, by: f64) -> Position {
 }
 
 /// Refuses a way to a position of the machine behind a text that may have turned a head anywhere:
-/// up may be along Z, or not.
+/// up may be along Z, or not. Behind another work offset a head still leans as before, and how
+/// far up along it the position lies is in the tables of the control.
 ///
 /// # Errors
-/// It may.
+/// It may; it does.
 pub(super) fn refuse_unknown_lean(control: &Control) -> Result<()> {
     if !holds_positions(control) || is_away(control) {
         return Ok(());
@@ -214,10 +215,32 @@ pub(super) fn refuse_unknown_lean(control: &Control) -> Result<()> {
         head(tables.chain(), number - 3).is_some()
             && matches!(control.place(*number), Place::Unknown)
     };
-    match AxisSet::ROTARY.and(tables.present()).numbers().find(is_lost) {
+    let mut rotary = AxisSet::ROTARY.and(tables.present()).numbers();
+    match rotary.find(is_lost).or_else(|| leaning_behind_a_zero(control)) {
         Some(number) => refuse_unknown(control, number),
         None => Ok(()),
     }
+}
+
+/// The number of a head that leans the tool and counts from another zero since it was turned.
+fn leaning_behind_a_zero(control: &Control) -> Option<usize> {
+    let chain = control.tables.chain();
+    let mut angles = [0.0; 2];
+    let mut shifted = None;
+    for number in AxisSet::ROTARY.and(control.tables.present()).numbers() {
+        if head(chain, number - 3).is_none() {
+            continue;
+        }
+        angles[number - 3] = match control.place(number) {
+            Place::At(at) => at,
+            Place::Shifted(at) => {
+                shifted = Some(number);
+                at
+            }
+            _ => return None,
+        };
+    }
+    shifted.filter(|_| tool_in_machine(chain, angles).z < 1.0 - PARALLEL)
 }
 
 /// Goes up along a leaning tool to the level of Z to which a motion of the machine goes, before
