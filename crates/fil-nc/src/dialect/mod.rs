@@ -125,6 +125,9 @@ pub struct Dialect {
     pub(crate) ways_round: [Option<WayRound>; 5],
     /// Which of the two rotary axes turn the part.
     pub(crate) tables: [bool; 2],
+    /// The steps of X, Y and Z that a setting names, in the unit of the program; 0 where the last
+    /// digits are theirs.
+    pub(crate) steps: f64,
     /// How the axes lead the tool.
     pub(crate) forward: Forward,
     /// The main spindle can become the axis C: whether it is one when the program begins.
@@ -312,6 +315,10 @@ impl Dialect {
             ways_round: turns::ways(&settings, &kinematics),
             tables,
             forward: Forward::new(kinematics),
+            steps: match settings.flag("motion.resolution_manual") {
+                true => settings.number("motion.resolution").unwrap_or(0.0),
+                false => 0.0,
+            },
             live_at_start: settings
                 .code("mill_turn.milling_code")
                 .map(|_| settings.code("mill_turn.mode").is_some_and(|mode| mode != 0)),

@@ -5,7 +5,7 @@ use super::state::{Axes, State};
 use super::words::{Words, letter};
 use crate::dialect::{CenterForm, HelixForm};
 use crate::errors::NcCode;
-use crate::motion::{Arc, Course};
+use crate::motion::{Arc, Course, unit};
 
 const FULL: f64 = 360.0;
 
@@ -15,6 +15,10 @@ const RADIUS_TOLERANCE: f64 = 0.004;
 
 /// The same of inches, which have four digits.
 const INCH_TOLERANCE: f64 = 0.013;
+
+/// The same in steps that a setting names: both ends and the center are off by half of one at
+/// most, along and across.
+const STEPS: f64 = 2.0;
 
 /// By this part the word of a helix may differ from its rise.
 const HELIX_TOLERANCE: f64 = 0.011;
@@ -139,6 +143,13 @@ impl State<'_> {
             .ok_or_else(|| Fault::new(NcCode::ArcRadii, "no signs of the center make an arc"))
     }
 
+    /// By how much the radii at start and end may differ, mm: by more where X, Y and Z have
+    /// larger steps than their last digits.
+    fn radius_tolerance(&self) -> f64 {
+        let of_digits = if self.metric { RADIUS_TOLERANCE } else { INCH_TOLERANCE };
+        of_digits.max(STEPS * self.dialect.steps * unit(self.metric))
+    }
+
     pub(super) fn check_radii(
         &self,
         plane: [usize; 2],
@@ -148,7 +159,7 @@ impl State<'_> {
         let radius =
             |point: &Axes| libm::hypot(point[plane[0]] - center[0], point[plane[1]] - center[1]);
         let (start, end) = (radius(&self.at), radius(to));
-        let tolerance = if self.metric { RADIUS_TOLERANCE } else { INCH_TOLERANCE };
+        let tolerance = self.radius_tolerance();
         if (start - end).abs() > tolerance || start < SAME_POINT {
             let message = format!("radius {start:.4} mm at the start, {end:.4} mm at the end");
             return Err(Fault::new(NcCode::ArcRadii, message));
@@ -170,7 +181,7 @@ impl State<'_> {
         if length < SAME_POINT {
             return Err(Fault::new(NcCode::NoCenter, "a radius can't make a full circle"));
         }
-        let tolerance = if self.metric { RADIUS_TOLERANCE } else { INCH_TOLERANCE };
+        let tolerance = self.radius_tolerance();
         if length / 2.0 > radius.abs() + tolerance {
             let message = format!("radius {radius:.4} mm, but the ends are {length:.4} mm apart");
             return Err(Fault::new(NcCode::ArcRadii, message));

@@ -109,17 +109,34 @@ impl<C: Steps> Walk<'_, C> {
     #[cold]
     pub(super) fn rests_before_tip_end(&mut self, step: &Step) -> bool {
         let (Wanted::Rapid(pose) | Wanted::Feed(pose, _)) = &step.what else { return false };
-        if !self.stands_at(pose) {
+        // A new tool is brought there anew.
+        if self.tool_is_fresh {
             return false;
         }
-        // A direction that is written as a vector is said where nothing moves, too.
-        while let Some(still) = self.next_move().filter(|found| self.is_still(found)) {
-            self.take(step.line, &still);
-            self.next += 1;
+        while self.stands_at(pose) {
+            // A direction that is written as a vector is said where nothing moves, too.
+            while let Some(still) = self.next_move().filter(|found| self.is_still(found)) {
+                self.take(step.line, &still);
+                self.next += 1;
+            }
+            let found = match self.nc.get(self.next) {
+                Some(Event::Move(found)) => found,
+                Some(Event::Dwell { line, .. }) if self.own.has(line) => {
+                    self.next += 1;
+                    continue;
+                }
+                _ => return false,
+            };
+            if self.goes_up_at_tip_end(&found) || !found.to.tip_control {
+                return true;
+            }
+            // A text may turn an axis that the tool lies along.
+            if !self.own.has(found.line) {
+                return false;
+            }
+            self.stand(&found);
         }
-        self.next_move().is_some_and(|found| {
-            self.goes_up_at_tip_end(&found) || !found.to.tip_control && !self.is_still(&found)
-        })
+        false
     }
 
     /// Tool-tip control ends before an event, though it may begin again, for another work offset
