@@ -346,3 +346,33 @@ fn paths_with_tool_tip_control_agree_and_a_changed_last_digit_is_found() {
     }
     faults.are_found();
 }
+
+/// Tip and tool go along a divided line in step: found are last digits of a point on it, and one
+/// that is moved along the line by little.
+#[test]
+fn a_point_of_a_divided_line_out_of_step_is_found() {
+    let cl = "LOADTL / 1; SPINDL / RPM, 3000, CLW; MULTAX / ON; RAPID; GOTO / 10, 5, 50, 0, 0, 1; \
+              FEDRAT / 100, MMPM; GOTO / 10, 5, 0, 0, 0, 1; LINTOL / 0.05; \
+              GOTO / 30, 15, 0, 0, -0.2588190451, 0.9659258263";
+    let nc = "%\nO0001 (T)\nG21 G90 G94 G17\nT1 M6\nS3000 M3\nG0 X10. Y5.\nA0. C0.\nG43 Z50. H1\n\
+              G1 Z0. F100.\nG93 X14. Y9.607 Z-0.435 A3. F22.361\nX18. Y14.177 Z-1.215 A6. F22.36\n\
+              X22. Y18.686 Z-2.336 A9. F22.361\nX26. Y23.112 Z-3.795 A12. F22.359\n\
+              X30. Y27.43 Z-5.586 A15. F22.361\nG94\nM30\n%\n";
+    let found = |nc: &str| back_check::found("haas-trunnion", &[], cl, nc);
+    assert_eq!(found(nc), "");
+    // The same line, in step: uneven parts.
+    let whole = "X18. Y14.177 Z-1.215 A6. F22.36\n";
+    assert!(!found(&nc.replace(whole, "")).contains("where it should be"));
+    for (old, new, said) in [
+        ("X22.", "X22.001", "on the way the tip is"),
+        ("A9.", "A9.002", "on the way the tip is"),
+        ("A9.", "A8.998", "on the way the tip is"),
+        ("Z-2.336", "Z-2.337", "on the way the tip is"),
+        // On the line in every digit, and turned by too little for it.
+        ("X22. Y18.686 Z-2.336 A9.", "X22.008 Y18.69 Z-2.337 A9.", "where it should be"),
+    ] {
+        assert!(nc.contains(old), "{old}");
+        let found = found(&nc.replacen(old, new, 1));
+        assert!(found.contains(said), "{new}: {found}");
+    }
+}

@@ -20,6 +20,7 @@ mod clamps;
 mod compensation_plane;
 mod counted;
 mod departure;
+mod division;
 mod gap;
 mod hole;
 mod hole_live;

@@ -107,17 +107,23 @@ impl<C: Steps> Walk<'_, C> {
         let Some((before, count)) = self.way_out_ahead(pose, &how) else { return false };
         if before > 0 {
             let Some(Event::Move(last)) = self.nc.get(self.next + before - 1) else { return false };
-            let middle = self.settings.forward.pose(&last.to);
-            if !self.parts(cl_line, &middle, rate) {
+            let (middle, rough) = self.place_on_line(&last, pose);
+            if !self.parts_of(cl_line, (&middle, rough), rate) {
                 return false;
             }
-            self.watch.stand(Some(middle));
+            self.watch.stand_within(Some(middle), rough);
         }
-        let stands = self.begins();
+        let (stands, rough) = (self.begins(), self.roughness());
         self.take_way(cl_line, count, &how, (rate, &stands));
         self.exact = self.settings.forward.refine(self.at.rotary, stands.axis);
-        self.watch.stand(Some(stands));
+        self.watch.stand_within(Some(stands), rough);
         true
+    }
+
+    /// How well the place is known where the tool stands, mm.
+    fn roughness(&self) -> f64 {
+        let known = self.watch.stands_at().filter(|(stands, _)| *stands == self.begins());
+        known.map_or_else(|| self.tip_slack(&self.at), |(_, rough)| rough)
     }
 
     /// Takes the blocks of a rapid motion that goes out before and comes back in behind it; false

@@ -422,16 +422,17 @@ impl<'a, C: Steps> Walk<'a, C> {
     /// The gap between where the axes stand and a pose.
     pub(super) fn gap(&self, at: &Position, pose: &Pose) -> Gap {
         if self.slack.kept > 0.0 {
-            return Gap::of(self.settings, &self.slack_of_moved(at), at, pose, self.exact);
+            let slack = self.slack_of_moved(&self.at, at);
+            return Gap::of(self.settings, &slack, at, pose, self.exact);
         }
         Gap::of(self.settings, &self.slack, at, pose, self.exact)
     }
 
     /// The slack of a position that the axes come to: those that move are written.
     #[cold]
-    fn slack_of_moved(&self, to: &Position) -> Slack {
+    pub(super) fn slack_of_moved(&self, from: &Position, to: &Position) -> Slack {
         let mut slack = self.slack;
-        for n in (0..3).filter(|n| to.linear[*n] != self.at.linear[*n]) {
+        for n in (0..3).filter(|n| to.linear[*n] != from.linear[*n]) {
             slack.linear[n] -= slack.kept;
         }
         slack

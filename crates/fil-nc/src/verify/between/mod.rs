@@ -65,6 +65,8 @@ pub(super) struct Watch {
     elsewhere: Option<f64>,
     /// Where the last motion of the CL file ended, when the program made it.
     stands: Option<Pose>,
+    /// How far from there the post may have seen it, mm.
+    rough: f64,
 }
 
 /// What a motion between two poses should go along.
@@ -75,7 +77,7 @@ pub(super) struct Asked {
 
 impl Watch {
     pub(super) fn new(limit: Option<f64>) -> Self {
-        Watch { limit, given: limit.is_some(), elsewhere: None, stands: None }
+        Watch { limit, given: limit.is_some(), elsewhere: None, stands: None, rough: 0.0 }
     }
 
     /// LINTOL of the CL file.
@@ -92,8 +94,18 @@ impl Watch {
 
     /// A motion of the CL file was made, and the tool stands at its end.
     pub(super) fn stand(&mut self, pose: Option<Pose>) {
-        self.stands = pose;
+        self.stand_within(pose, 0.0);
+    }
+
+    /// The same at a place that is known so well, mm.
+    pub(super) fn stand_within(&mut self, pose: Option<Pose>, rough: f64) {
+        (self.stands, self.rough) = (pose, rough);
         self.elsewhere = None;
+    }
+
+    /// Where the CL file has the tool, and how well that is known, mm.
+    pub(super) fn stands_at(&self) -> Option<(Pose, f64)> {
+        self.stands.map(|pose| (pose, self.rough))
     }
 
     /// Allowed distance of the motion at hand, mm.
