@@ -95,7 +95,9 @@ impl<'a> TurningFeed<'a> {
         let longest = if turns_alone { turn / rules.least_turn } else { f64::INFINITY };
         let meant = if way > STANDS { way / self.rate } else { 0.0 };
         let asked = meant.min(longest);
-        let mut time = of_turn.fold(asked, f64::max).max(rules.least_time);
+        // The shortest time is that of a motion in inverse time.
+        let least = if self.form == RotaryFeed::InverseTime { rules.least_time } else { 0.0 };
+        let mut time = of_turn.fold(asked, f64::max).max(least);
         let mut hastened = asked < meant;
         if time == 0.0 {
             hastened = turn / self.rate > longest;
