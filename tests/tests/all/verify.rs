@@ -58,7 +58,7 @@ const ROUNDED: [&str; 17] = [
 
 /// Words of an axis, by the program, the letter and the block, that bring no tool to the part
 /// elsewhere, whatever they say.
-const IDLE: [(&str, u8, &str); 39] = [
+const IDLE: [(&str, u8, &str); 38] = [
     // The rapid back after a repositioning ends farther away: more of the way is made at feed.
     ("words/rotary-limit-at-rapid-retracts-and-returns", b'Z', "`Z-2.665`"),
     // The machine turns higher, and the way back at feed is longer.
@@ -106,8 +106,6 @@ const IDLE: [(&str, u8, &str); 39] = [
     ("words/rotary-tilted-frame-and-multax", b'C', " C-180.`"),
     // The tool lies along C, and the next motion says the angle that it needs.
     ("words/rotary-tilted-frame", b'C', "A0. C0.`"),
-    // A point on the way of a straight line, along which the tip goes alike.
-    ("words/rotary-feed-of-the-second-axis", b'X', "X5. A15. F20.`"),
     // The steps of the machine are larger than a last digit.
     ("words/goto-in-steps-of-a-resolution", b'X', "X1.05 Y-2.05`"),
     ("words/goto-in-steps-of-a-resolution", b'Y', "X1.05 Y-2.05`"),
