@@ -123,7 +123,10 @@ fn changed_items_are_noticed() {
 }
 
 /// Settings whose value in a file changes no program, and what they are there for.
-const NOT_SEEN_IN_PROGRAMS: [&str; 3] = [
+const NOT_SEEN_IN_PROGRAMS: [&str; 5] = [
+    // They describe the axes a second time: a machine that contradicts them is refused.
+    "rotary.eia_sense",
+    "rotary.zero_at_z",
     // MODE sets it, and a machine file that does is refused.
     "mill_turn.mode",
     // Another one alone contradicts mode.position.

@@ -53,6 +53,8 @@ impl<C: Steps> Walk<'_, C> {
         }
         match self.axis_of_tool(end, PARALLEL) {
             Some((axis, up)) => Lie::Along { axis, up },
+            // Up along the tool before tool-tip control has ended it is away.
+            None if leg == Leg::ToMachine && self.is_up => UPRIGHT,
             None if leg == Leg::FromAfar || self.known[..3] != [true; 3] => UPRIGHT,
             None => Lie::Leaning,
         }

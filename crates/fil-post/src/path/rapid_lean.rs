@@ -85,11 +85,21 @@ fn angles(control: &Control, motion: &Motion) -> Option<[[f64; 2]; 2]> {
     let mut angles = [[0.0; 2]; 2];
     for number in AxisSet::ROTARY.and(tables.present()).numbers() {
         let is_table = head(tables.chain(), number - 3).is_none();
-        let at = control.stands(number).or(is_table.then_some(0.0))?;
+        let at = control.stands(number).or_else(|| behind_a_zero(control, number));
+        let at = at.or(is_table.then_some(0.0))?;
         angles[0][number - 3] = at;
         angles[1][number - 3] = if motion.axes.has(number) { motion.position[number] } else { at };
     }
     Some(angles)
+}
+
+/// Where an axis stands that counts from another zero since it was moved, by its number before:
+/// a head leans on as it did.
+fn behind_a_zero(control: &Control, number: usize) -> Option<f64> {
+    match control.place(number) {
+        Place::Shifted(at) => Some(at),
+        _ => None,
+    }
 }
 
 /// Where the rotary axes stand, degrees, as [`angles`].
