@@ -21,7 +21,7 @@ pub(crate) struct NamedFrames {
     pub waits: bool,
     /// A tool axis has followed a turned CSYS: the points are those of the part throughout.
     pub points_of_part: bool,
-    /// Number of the record that has named the last frame behind a motion.
+    /// Number of the record that has named the last frame behind another, or behind a motion.
     pub since: u32,
 }
 
@@ -52,7 +52,7 @@ impl NamedFrames {
             return None;
         }
         (named.now, named.line, named.is_new) = (now, record.line, true);
-        if has_moved {
+        if has_moved || known.is_some() {
             self.since = record.number;
         }
         Some(named)

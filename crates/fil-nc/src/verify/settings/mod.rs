@@ -1,18 +1,18 @@
 //! What the back-check has to know of a machine besides its kinematics: the last
 //! digit of each address, where a post may put a word, and what the settings add.
 
+mod cycles;
 mod functions;
 mod motions;
+mod tools;
 
 use fil_diag::Diag;
 use fil_machine::address::Addresses;
 use fil_machine::commons::{Commons, Dbl, Int};
-use fil_machine::cycle_kind::CycleKind;
 use fil_machine::letter::{Letter, letters};
 use fil_machine::locations::{
-    self as loc, CircleCenter, ControlFamily, ControlToolOffsets, CycleBoreOut, Exceeded,
-    InputKind, MillTurnSidePeck, Placement, RapidSplit, RotaryClwAlongNormal, RotaryDefaultClw,
-    RotaryFacesPositive, ToolChangeBlock, ToolFormat,
+    self as loc, CircleCenter, ControlFamily, Exceeded, InputKind, Placement, RapidSplit,
+    RotaryClwAlongNormal, RotaryDefaultClw, RotaryFacesPositive,
 };
 use fil_machine::user_blocks::{self, AroundChange};
 
@@ -373,116 +373,6 @@ impl<'c> Settings<'c> {
         lists.flatten().filter(|block| !block.is_empty()).collect()
     }
 
-    /// True when the tool's number is that of its diameter offset.
-    pub fn offsets_diameters_by_tool(&self) -> bool {
-        self.commons.read(loc::TOOL_DIAMETER_FROM_TOOL)
-    }
-
-    /// True for a lathe whose compensation takes the nose of the tool in the spindle, unless a word
-    /// names that of another offset.
-    pub fn takes_noses_of_tools(&self) -> bool {
-        let is_lathe = self.commons.read(loc::LATHE_DIAMETER);
-        let has_own = self.has_edges() || self.calls_tools_with_offset();
-        is_lathe && !has_own && !self.offsets_diameters_by_tool()
-    }
-
-    /// When cutter compensation must be in force.
-    pub fn compensation_due(&self, mills: bool) -> Due {
-        match self.commons.read(loc::CUTCOM_WITH_MOTION) {
-            false => Due::Now,
-            true if self.commons.read(loc::LATHE_DIAMETER) && !mills => Due::WithAny,
-            true => Due::InPlane,
-        }
-    }
-
-    /// True when the program calls tools.
-    pub fn calls_tools(&self) -> bool {
-        self.commons.read(loc::TOOL_CHANGE_CODE).is_some() || self.writes(letters::T)
-    }
-
-    /// True when a tool already in the spindle is not called again.
-    pub fn tool_is_modal(&self) -> bool {
-        self.commons.read(loc::TOOL_MODAL)
-    }
-
-    /// True when tool and offset stand in one word, `T0101`.
-    pub fn calls_tools_with_offset(&self) -> bool {
-        self.commons.read(loc::TOOL_FORMAT) != ToolFormat::TWordAndChangeCode
-    }
-
-    /// True when a tool change is followed by a length offset of its own.
-    pub fn calls_offsets(&self) -> bool {
-        !self.calls_tools_with_offset()
-            && self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::WordAddress
-            && self.commons.read(loc::TOOL_LENGTH_CODE).is_some()
-            && self.commons.read(loc::TOOL_LENGTH_FROM_TOOL)
-    }
-
-    /// The length offset stands right behind the tool change.
-    pub fn calls_offset_at_change(&self) -> bool {
-        self.commons.read(loc::TOOL_LENGTH_AT_CHANGE)
-    }
-
-    /// D chooses a cutting edge of the tool, with length and radius.
-    pub fn has_edges(&self) -> bool {
-        self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik
-    }
-
-    /// The offset that a tool comes with: that of its record, else its own number or,
-    /// where D chooses an edge, the first.
-    pub fn tool_offset(&self, number: u32, given: Option<u32>) -> u32 {
-        let given = given.filter(|_| !self.takes_offsets_of_tools());
-        given.unwrap_or(if self.has_edges() { 1 } else { number })
-    }
-
-    /// The numbers of offsets are left out: length and radius come with the tool.
-    pub fn takes_offsets_of_tools(&self) -> bool {
-        self.commons.read(loc::CONTROL_FAMILY) != ControlFamily::WordAddress
-            && self.commons.read(loc::CONTROL_TOOL_OFFSETS) == ControlToolOffsets::OfTheTool
-    }
-
-    /// Motions under MULTAX/ON are written in tool-tip control.
-    pub fn has_tip_control(&self) -> bool {
-        self.commons.read(loc::ROTARY_TIP_OUTPUT) == loc::RotaryTipOutput::ToolTipControl
-    }
-
-    /// An arc outside of the plane of cutter compensation changes that plane.
-    pub fn arcs_change_plane(&self) -> bool {
-        self.commons.read(loc::CIRCLE_CUTCOM_PLANE) == loc::CircleCutcomPlane::ChangeThePlane
-    }
-
-    /// A tool change may bring the axes elsewhere, so that each is said again behind it.
-    pub fn restates_after_change(&self) -> bool {
-        self.commons.read(loc::TOOL_RESTATE)
-    }
-
-    /// Z that the length offset is called with, mm.
-    pub fn offset_level(&self, metric: bool) -> Option<f64> {
-        let z = self.commons.dbl_opt(loc::TOOL_LENGTH_Z).filter(|_| self.calls_offsets());
-        z.map(|z| z * unit(metric))
-    }
-
-    /// Where the axes go before a tool change: X Y Z in mm, primary and secondary
-    /// rotary in degrees; `None` for an axis that stays.
-    pub fn change_position(&self, metric: bool) -> [Option<f64>; 5] {
-        let axes = match self.commons.read(loc::TOOL_CHANGE_BLOCK) {
-            ToolChangeBlock::None => 0,
-            ToolChangeBlock::Xyz => 3,
-            ToolChangeBlock::XyzAndRotary => 6,
-        };
-        let value = |common: usize| {
-            let at = loc::CHANGE_POSITION[..axes].get(common)?;
-            self.commons.dbl_opt(*at)
-        };
-        let unit = unit(metric);
-        let linear = |common: usize| value(common).map(|value| value * unit);
-        let rotary = |index: usize| {
-            let axis = self.forward.rotaries()[index].as_ref()?;
-            value(axis.axis + 3)
-        };
-        [linear(0), linear(1), linear(2), rotary(0), rotary(1)]
-    }
-
     /// Travel of the linear axes in mm where the machine checks it.
     pub fn travel(&self, metric: bool) -> [(f64, f64); 3] {
         if !self.commons.read(loc::LIMITS_CHECK) {
@@ -502,78 +392,6 @@ impl<'c> Settings<'c> {
             && !self.is_mill_turn()
             && commons.read(loc::REPOS_CHECK_LINEAR);
         loc::LINEAR_EXCEEDED.map(|at| rules && commons.read(at) == Exceeded::Warn)
-    }
-
-    /// R level above a hole's start when the record gives none, mm.
-    pub fn cycle_clearance(&self, metric: bool) -> f64 {
-        let unit = unit(metric);
-        self.commons.dbl_opt(loc::CYCLE_AUTO_CLEARANCE).unwrap_or(0.0) * unit
-    }
-
-    /// Dwell of a cycle when the record gives none, seconds.
-    pub fn cycle_dwell(&self, kind: CycleKind) -> f64 {
-        kind.dwell().and_then(|at| self.commons.dbl_opt(at)).unwrap_or(0.0)
-    }
-
-    /// A cycle is followed by a way back to the level before it.
-    pub fn retracts_after_cycles(&self) -> bool {
-        self.commons.read(loc::CYCLE_RETRACT_BLOCK)
-    }
-
-    /// Pecks of a cycle count from the surface of the hole and not from the R level.
-    pub fn pecks_from_surface(&self) -> bool {
-        self.commons.read(loc::CONTROL_FAMILY) != ControlFamily::WordAddress
-    }
-
-    /// A peck of a live tool's cycle square to Z counts as a diameter.
-    pub fn side_pecks_are_diameters(&self) -> bool {
-        self.commons.read(loc::MILL_TURN_SIDE_PECK) == MillTurnSidePeck::Diameter
-    }
-
-    /// The control's own cycle lifts at feed to break chips.
-    pub fn lifts_at_feed(&self) -> bool {
-        self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik
-    }
-
-    /// How far above the last peck a cycle of the control goes on, mm, where a word of the
-    /// cycle says it; `clear` is its set-up clearance.
-    pub fn cycle_peck_gap(&self, kind: CycleKind, clear: f64) -> Option<f64> {
-        let gap = Some(self.peck_gap());
-        match self.commons.read(loc::CONTROL_FAMILY) {
-            ControlFamily::WordAddress => None,
-            // Cycle 203 goes on at its set-up clearance above the last peck.
-            ControlFamily::Klartext
-                if kind == CycleKind::Deep && self.cycle_code(kind) == Some(203) =>
-            {
-                Some(clear).filter(|clear| *clear > 0.0)
-            }
-            ControlFamily::Klartext => gap,
-            ControlFamily::Sinumerik => gap.filter(|gap| *gap > 0.0),
-        }
-    }
-
-    /// G code of a cycle; `None` when holes are single moves.
-    pub fn cycle_code(&self, kind: CycleKind) -> Option<i32> {
-        self.commons.read(kind.code())
-    }
-
-    /// How the tool leaves a bored hole of single moves.
-    pub fn bore_out(&self) -> CycleBoreOut {
-        self.commons.read(loc::CYCLE_BORE_OUT)
-    }
-
-    /// A dwell within the machine's range, turns of the spindle.
-    pub fn turns_within(&self, turns: f64) -> f64 {
-        let low = self.commons.dbl_opt(loc::DWELL_UPR_MIN).unwrap_or(0.0);
-        let high = self.commons.dbl_opt(loc::DWELL_UPR_MAX).filter(|max| *max > 0.0);
-        turns.max(low).min(high.unwrap_or(f64::MAX))
-    }
-
-    /// A dwell within the machine's range, seconds.
-    pub fn dwell_within(&self, seconds: f64) -> f64 {
-        let low = self.commons.dbl_opt(loc::DWELL_UPM_MIN).unwrap_or(0.0);
-        let high = self.commons.dbl_opt(loc::DWELL_UPM_MAX).filter(|max| *max > 0.0);
-        seconds.max(low).min(high.unwrap_or(f64::MAX))
     }
 
     /// Deviation allowed when an arc is written as short lines, mm.

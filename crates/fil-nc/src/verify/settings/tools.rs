@@ -1,0 +1,121 @@
+//! How the machine calls and changes its tools, as `verify` expects it.
+
+use fil_machine::letter::letters;
+use fil_machine::locations::{
+    self as loc, ControlFamily, ControlToolOffsets, ToolChangeBlock, ToolFormat,
+};
+
+use super::{Due, Settings};
+use crate::motion::unit;
+
+impl Settings<'_> {
+    /// True when the tool's number is that of its diameter offset.
+    pub fn offsets_diameters_by_tool(&self) -> bool {
+        self.commons.read(loc::TOOL_DIAMETER_FROM_TOOL)
+    }
+
+    /// True for a lathe whose compensation takes the nose of the tool in the spindle, unless a word
+    /// names that of another offset.
+    pub fn takes_noses_of_tools(&self) -> bool {
+        let is_lathe = self.commons.read(loc::LATHE_DIAMETER);
+        let has_own = self.has_edges() || self.calls_tools_with_offset();
+        is_lathe && !has_own && !self.offsets_diameters_by_tool()
+    }
+
+    /// When cutter compensation must be in force.
+    pub fn compensation_due(&self, mills: bool) -> Due {
+        match self.commons.read(loc::CUTCOM_WITH_MOTION) {
+            false => Due::Now,
+            true if self.commons.read(loc::LATHE_DIAMETER) && !mills => Due::WithAny,
+            true => Due::InPlane,
+        }
+    }
+
+    /// True when the program calls tools.
+    pub fn calls_tools(&self) -> bool {
+        self.commons.read(loc::TOOL_CHANGE_CODE).is_some() || self.writes(letters::T)
+    }
+
+    /// True when a tool already in the spindle is not called again.
+    pub fn tool_is_modal(&self) -> bool {
+        self.commons.read(loc::TOOL_MODAL)
+    }
+
+    /// True when tool and offset stand in one word, `T0101`.
+    pub fn calls_tools_with_offset(&self) -> bool {
+        self.commons.read(loc::TOOL_FORMAT) != ToolFormat::TWordAndChangeCode
+    }
+
+    /// True when a tool change is followed by a length offset of its own.
+    pub fn calls_offsets(&self) -> bool {
+        !self.calls_tools_with_offset()
+            && self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::WordAddress
+            && self.commons.read(loc::TOOL_LENGTH_CODE).is_some()
+            && self.commons.read(loc::TOOL_LENGTH_FROM_TOOL)
+    }
+
+    /// The length offset stands right behind the tool change.
+    pub fn calls_offset_at_change(&self) -> bool {
+        self.commons.read(loc::TOOL_LENGTH_AT_CHANGE)
+    }
+
+    /// D chooses a cutting edge of the tool, with length and radius.
+    pub fn has_edges(&self) -> bool {
+        self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik
+    }
+
+    /// The offset that a tool comes with: that of its record, else its own number or,
+    /// where D chooses an edge, the first.
+    pub fn tool_offset(&self, number: u32, given: Option<u32>) -> u32 {
+        let given = given.filter(|_| !self.takes_offsets_of_tools());
+        given.unwrap_or(if self.has_edges() { 1 } else { number })
+    }
+
+    /// The numbers of offsets are left out: length and radius come with the tool.
+    pub fn takes_offsets_of_tools(&self) -> bool {
+        self.commons.read(loc::CONTROL_FAMILY) != ControlFamily::WordAddress
+            && self.commons.read(loc::CONTROL_TOOL_OFFSETS) == ControlToolOffsets::OfTheTool
+    }
+
+    /// Motions under MULTAX/ON are written in tool-tip control.
+    pub fn has_tip_control(&self) -> bool {
+        self.commons.read(loc::ROTARY_TIP_OUTPUT) == loc::RotaryTipOutput::ToolTipControl
+    }
+
+    /// An arc outside of the plane of cutter compensation changes that plane.
+    pub fn arcs_change_plane(&self) -> bool {
+        self.commons.read(loc::CIRCLE_CUTCOM_PLANE) == loc::CircleCutcomPlane::ChangeThePlane
+    }
+
+    /// A tool change may bring the axes elsewhere, so that each is said again behind it.
+    pub fn restates_after_change(&self) -> bool {
+        self.commons.read(loc::TOOL_RESTATE)
+    }
+
+    /// Z that the length offset is called with, mm.
+    pub fn offset_level(&self, metric: bool) -> Option<f64> {
+        let z = self.commons.dbl_opt(loc::TOOL_LENGTH_Z).filter(|_| self.calls_offsets());
+        z.map(|z| z * unit(metric))
+    }
+
+    /// Where the axes go before a tool change: X Y Z in mm, primary and secondary
+    /// rotary in degrees; `None` for an axis that stays.
+    pub fn change_position(&self, metric: bool) -> [Option<f64>; 5] {
+        let axes = match self.commons.read(loc::TOOL_CHANGE_BLOCK) {
+            ToolChangeBlock::None => 0,
+            ToolChangeBlock::Xyz => 3,
+            ToolChangeBlock::XyzAndRotary => 6,
+        };
+        let value = |common: usize| {
+            let at = loc::CHANGE_POSITION[..axes].get(common)?;
+            self.commons.dbl_opt(*at)
+        };
+        let unit = unit(metric);
+        let linear = |common: usize| value(common).map(|value| value * unit);
+        let rotary = |index: usize| {
+            let axis = self.forward.rotaries()[index].as_ref()?;
+            value(axis.axis + 3)
+        };
+        [linear(0), linear(1), linear(2), rotary(0), rotary(1)]
+    }
+}
