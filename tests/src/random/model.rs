@@ -32,6 +32,8 @@ pub(super) struct Model<'s> {
     pub(super) frame: Frame,
     /// The CL point, in the frame of the CL.
     pub(super) at: Option<Point>,
+    /// TRANS has moved the points since the last motion.
+    pub(super) is_left: bool,
     /// Where the machine stands, when the CL tells.
     pub(super) tape: Option<Point>,
     pub(super) height_unknown: bool,
@@ -83,6 +85,7 @@ impl<'s> Model<'s> {
             unit: setup.unit,
             frame: Frame::default(),
             at: None,
+            is_left: false,
             tape: None,
             height_unknown: true,
             skipping: false,
@@ -182,6 +185,7 @@ impl<'s> Model<'s> {
             Statement::TransOff => {
                 self.line("TRANS / NOMORE");
                 self.frame = Frame::default();
+                self.is_left = true;
             }
             Statement::Delay(seconds) => {
                 self.line(&format!("DELAY / {}", number(*seconds)));
@@ -245,12 +249,16 @@ impl<'s> Model<'s> {
             (None, Some(at)) => {
                 let [x, y, z] = by.map(number);
                 self.line(&format!("GODLTA / {x}, {y}, {z}"));
+                if self.is_left {
+                    self.must_refuse("GODLTA from a point at which the tool does not stand");
+                }
                 add(at, scaled)
             }
             (None, None) => return self.out.unpredictable = true,
         };
         let machine = self.frame.apply(target);
         self.at = Some(target);
+        self.is_left = false;
         if let Some(cycle) = &mut self.cycle {
             if !rapid {
                 // A GOTO inside a cycle is a hole, which the generator says so.
@@ -390,6 +398,7 @@ impl<'s> Model<'s> {
     fn trans(&mut self, trans: &Trans) {
         self.line(&trans_text(trans));
         self.frame = Frame::new(trans, self.mm());
+        self.is_left = true;
     }
 
     /// How far the machine stands from where the CL point lies in the frame in force.

@@ -125,6 +125,7 @@ impl Model<'_> {
             self.may_refuse("a hole from a height that is not known");
         }
         self.at = Some(target);
+        self.is_left = false;
         self.settle(true, true);
         let outer = std::mem::replace(&mut self.feed, feed);
         self.push(Act::Hole(hole));

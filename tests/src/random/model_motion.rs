@@ -41,6 +41,7 @@ impl Model<'_> {
             total: shape.total().to_radians(),
         };
         self.at = Some(end);
+        self.is_left = false;
         let (across, along) = self.moves(to);
         self.settle(across, along);
         if self.no_feed() {

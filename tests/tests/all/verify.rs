@@ -58,10 +58,9 @@ const ROUNDED: [&str; 17] = [
 
 /// Words of an axis, by the program, the letter and the block, that bring no tool to the part
 /// elsewhere, whatever they say.
-const IDLE: [(&str, u8, &str); 40] = [
-    // Where a long line is divided: the tool goes through both points, and no block is too long.
-    ("words/goto-longer-than-a-block-may-be", b'X', "`G1 X33.333 F100.`"),
-    ("words/goto-longer-than-a-block-may-be", b'X', "`X66.667`"),
+const IDLE: [(&str, u8, &str); 39] = [
+    // Where a long line is divided: the tool goes through the point, and no block is too long.
+    ("words/goto-longer-than-a-block-may-be", b'X', "`G1 X35. F100.`"),
     // The rapid back after a repositioning ends farther away: more of the way is made at feed.
     ("words/rotary-limit-at-rapid-retracts-and-returns", b'Z', "`Z-2.665`"),
     // The machine turns higher, and the way back at feed is longer.

@@ -82,6 +82,8 @@ pub struct Path {
     pub multax: Option<bool>,
     /// A motion has come.
     pub(crate) has_moved: bool,
+    /// The points were moved since the last one came, or the tool away from it.
+    pub(crate) is_left: bool,
     /// Last rotary positions in degrees; `None` before the first motion.
     pub rotary: Option<[f64; 2]>,
     /// Last rotary positions as they are the nearest if no axis has limits, degrees.
@@ -178,6 +180,7 @@ impl Default for Path {
             axis_in_doubt: false,
             multax: None,
             has_moved: false,
+            is_left: false,
             rotary: None,
             free: None,
             turns: [Turn::default(); 2],
@@ -246,6 +249,7 @@ impl Path {
         self.stands = target.axis;
         self.since = Since::Motion;
         self.has_moved = true;
+        self.is_left = false;
     }
 
     /// The last point, where a motion has brought the tool to it and nothing away since.
@@ -255,6 +259,7 @@ impl Path {
 
     /// The last point is no longer the one at which the tool stands.
     pub(crate) fn leave_point(&mut self) {
+        self.is_left = true;
         if self.since == Since::Motion {
             self.since = Since::Frame;
         }

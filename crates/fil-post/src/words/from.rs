@@ -16,6 +16,7 @@ pub fn handle(post: &mut Post, target: Target) -> Result<()> {
     let path = &mut post.path;
     path.point = Some(target.point);
     path.axis = target.axis;
+    path.is_left = false;
     if path.rotary.is_none() {
         path.stands = target.axis;
     }

@@ -9,7 +9,7 @@ use crate::dispatch::POINT;
 use crate::errors::PostCode;
 use crate::items::Items;
 use crate::operation::{Operation, Target};
-use crate::path::{Since, carry_out, thread};
+use crate::path::{carry_out, thread};
 use crate::post::Post;
 
 /// Moves by the increments; one number moves along the tool axis.
@@ -21,7 +21,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
         return PostCode::ArcStart.err("GODLTA before any FROM or GOTO");
     };
     csys::settle(post, post.path.axis)?;
-    if post.path.since == Since::Frame {
+    if post.path.is_left {
         return PostCode::ArcStart.err(
             "GODLTA right behind TRANS, a new frame or a text that moves the tool: it does not \
              stand at the last point",
