@@ -126,6 +126,8 @@ pub struct Control {
     /// The CL file speaks of the second spindle of a lathe, on a machine whose control counts
     /// the one that it is told to.
     pub counts_side: bool,
+    /// The spindle that is not counted may turn still.
+    pub other_turns: bool,
     /// Highest speed of the spindle that is not counted, turns a minute.
     pub limit_of_other: Option<f64>,
     /// The spindle range in force that the program has said, from 0.
@@ -183,6 +185,7 @@ impl Control {
             turned: None,
             side_turns: false,
             counts_side: false,
+            other_turns: false,
             limit_of_other: None,
             range: None,
             coolant: None,

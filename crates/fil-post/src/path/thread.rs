@@ -76,6 +76,9 @@ pub fn point(post: &mut Post, target: Target, lead: Lead) -> Result<()> {
     refuse_compensated(post)?;
     refuse_other_turns(post)?;
     let Some(mut awaited) = post.path.awaited_thread.take() else {
+        if stands_at(post).is_none() {
+            return PostCode::Thread.err("where the pass begins is not known");
+        }
         return carry(post, Operation::Linear(target, MotionKind::Thread(lead)));
     };
     if awaited.is_cut {

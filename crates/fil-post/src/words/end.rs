@@ -57,16 +57,26 @@ pub fn finish(post: &mut Post, end: End) -> Result<()> {
     carry_out(post, Operation::End(end))
 }
 
-/// The next program begins with the main spindle counted, as this one has.
+/// Stops both spindles where the control counts the one that it is told to: M30 stops the one
+/// that is counted. The next program begins with the main spindle counted, as this one has.
 fn leave_side_spindle(post: &mut Post) -> Result<()> {
-    if !post.control.counts_side {
+    if !(post.control.counts_side || post.control.other_turns) {
         return Ok(());
     }
+    let (began_with_side, other_turns) = (post.control.counts_side, post.control.other_turns);
     if spindle::may_turn(&post.control) {
         carry_out(post, Operation::Spindle(Spindle::Off))?;
     }
-    let main = CountedSpindle { is_side: false, is_whole: true };
-    carry_out(post, Operation::Spindle(Spindle::Counted(main)))
+    if other_turns {
+        count(post, !began_with_side)?;
+        carry_out(post, Operation::Spindle(Spindle::Off))?;
+    }
+    count(post, false)
+}
+
+fn count(post: &mut Post, is_side: bool) -> Result<()> {
+    let chosen = CountedSpindle { is_side, is_whole: true };
+    carry_out(post, Operation::Spindle(Spindle::Counted(chosen)))
 }
 
 /// Refuses a program whose arcs, taken together, turn the wrong way.

@@ -6,7 +6,8 @@ use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 use fil_machine::axis_chain::Carries;
 use fil_machine::locations::{
-    self as loc, RotaryClwAlongNormal, RotaryDefaultClw, RotaryFacesPositive, RotaryTableWords,
+    self as loc, RotaryClwAlongNormal, RotaryDefaultClw, RotaryFacesPositive, RotaryOutput,
+    RotaryTableWords,
 };
 
 use super::goto;
@@ -32,6 +33,9 @@ const AXES: [WordId; 3] = [w::AAXIS, w::BAXIS, w::CAXIS];
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<bool> {
     if post.control.commons.read(loc::ROTARY_TABLE_WORDS) == RotaryTableWords::Refused {
         return Ok(false);
+    }
+    if post.path.has_csys {
+        return Err(items.error("a frame of the file moves the points already"));
     }
     if !items.flag(w::TABLE) && items.major() == w::ROTATE {
         return Err(items.error("only ROTATE/TABLE is known"));
@@ -66,12 +70,28 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<bool> {
         (Some(angle), None, []) => stands(post, index, items)? + angle * way.unwrap_or(1.0),
         _ => return Err(items.error("one angle is needed")),
     };
+    refuse_minus(post, index, way.filter(|_| direction.is_some()), items)?;
     if direction.is_some() && (way.is_none() || !turns_either_way(post, index)) {
         let message = "CLW or CCLW of ROTABL: the axis has one way to a position".to_string();
         post.warn(PostCode::IgnoredPart, message);
     }
     carry_out(post, Operation::Turn(index, angle))?;
     Ok(true)
+}
+
+/// Refuses a direction that counts down where the control turns up in any case.
+///
+/// # Errors
+/// It is such a direction.
+fn refuse_minus(post: &Post, index: usize, way: Option<f64>, items: &Items) -> Result<()> {
+    let goes_up =
+        post.control.commons.read(loc::ROTARY_OUTPUT) == RotaryOutput::PositiveWithinATurn;
+    if goes_up && way == Some(-1.0) && post.control.tables.axis(index + 3).full_turn() != 0 {
+        return Err(items.error(
+            "a direction in which positions count down, and the control always turns them up",
+        ));
+    }
+    Ok(())
 }
 
 /// The sense in which the positions of a table count in a direction, 1 or -1: that of the record,

@@ -188,7 +188,8 @@ fn assigned(control: &mut Control, name: &str, value: &str, words: &mut TextWord
     if !(index.is_empty() || is_digits(index) || index.starts_with('[')) {
         return false;
     }
-    let of_some_spindle = matches!(letters_of_name.as_str(), "S" | "M") && !index.is_empty();
+    let of_some_spindle =
+        matches!(letters_of_name.as_str(), "S" | "M" | "SPOS" | "SPOSA") && !index.is_empty();
     if of_some_spindle && control.commons.int_opt(loc::SPINDLE_SIDE_NUMBER).is_some() {
         return false;
     }

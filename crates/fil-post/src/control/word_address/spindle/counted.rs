@@ -51,11 +51,13 @@ pub fn choose(control: &mut Control, chosen: CountedSpindle) -> Result<()> {
         return PostCode::SkippedPart
             .err("SPINDL would make the control count another spindle on one side of OPSKIP");
     }
+    let turns = may_turn(control);
     control.begin()?;
     control.flush_waiting()?;
     end_surface_speed(control)?;
     write(control, chosen.is_side)?;
     if changes {
+        control.other_turns = turns;
         control.counts_side = chosen.is_side;
         forget_the_other(control);
     }
