@@ -31,7 +31,8 @@ const WITHIN_A_TURN: &str = "let the positions of an axis without travel count w
 /// Scale of X when the tape holds diameters.
 const DIAMETER: f64 = 2.0;
 
-const SCALE: [Dbl; 6] =
+/// Scales of X, Y, Z, A, B and C on the tape.
+pub(crate) const SCALE: [Dbl; 6] =
     [loc::SCALE_X, loc::SCALE_Y, loc::SCALE_Z, loc::SCALE_A, loc::SCALE_B, loc::SCALE_C];
 
 const TRANSLATE: [Dbl; 6] = [

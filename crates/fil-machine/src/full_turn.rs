@@ -2,14 +2,12 @@
 
 use fil_diag::Diag;
 
+use crate::axes::SCALE;
 use crate::axis_chain::{AxisChain, Rotary};
-use crate::commons::{Commons, Dbl};
+use crate::commons::Commons;
 use crate::errors::MachineCode;
 use crate::locations::{self as loc, ControlFamily, MotionResolutionManual, RotaryOutput};
 use crate::mill_turn;
-
-/// Scales of A, B and C on the tape.
-const SCALES: [Dbl; 3] = [loc::SCALE_A, loc::SCALE_B, loc::SCALE_C];
 
 /// True for an axis whose positions count within one turn: one with travel counts on, as its
 /// limits do.
@@ -31,7 +29,7 @@ pub(crate) fn check(commons: &Commons, found: &mut Vec<Diag>) {
         add("rotary.output counts within a turn, and the axis C of a mill-turn machine counts on");
     }
     let scaled = |rotary: &Rotary| {
-        commons.dbl_opt(SCALES[rotary.axis]).is_some_and(|scale| scale.abs() != 1.0)
+        commons.dbl_opt(SCALE[rotary.axis + 3]).is_some_and(|scale| scale.abs() != 1.0)
     };
     if scaled(first) || meant.any(scaled) {
         add("rotary.output counts within a turn, and the axis is scaled on the tape");

@@ -6,13 +6,11 @@
 use fil_diag::Diag;
 use nalgebra::Vector3;
 
+use crate::axes::SCALE;
 use crate::axis_chain::{AxisChain, Rotary};
-use crate::commons::{Commons, Dbl, Int};
+use crate::commons::{Commons, Int};
 use crate::errors::MachineCode;
 use crate::locations::{self as loc, RotaryEiaSense};
-
-/// Scales of A, B and C on the tape.
-const SCALES: [Dbl; 3] = [loc::SCALE_A, loc::SCALE_B, loc::SCALE_C];
 
 /// A direction that lies nearer than this across an axis has no sense along it.
 const ACROSS: f64 = 1e-3;
@@ -60,7 +58,7 @@ fn sense(commons: &Commons, chain: &AxisChain, refuse: &mut impl FnMut(String)) 
 /// about plus X, Y or Z; `None` for one that lies across its own.
 fn is_standard(commons: &Commons, rotary: &Rotary) -> Option<bool> {
     let along = rotary.direction[rotary.axis];
-    let scale = commons.dbl_opt(SCALES[rotary.axis]).unwrap_or(1.0);
+    let scale = commons.dbl_opt(SCALE[rotary.axis + 3]).unwrap_or(1.0);
     (along.abs() > ACROSS).then_some(along * scale > 0.0)
 }
 

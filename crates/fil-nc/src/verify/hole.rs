@@ -1,6 +1,6 @@
 //! Holes of the path against canned cycles, or single moves, of the program.
 
-use fil_machine::locations::CycleBoreOut;
+use fil_machine::cycle_kind::CycleKind;
 
 use super::ahead::Steps;
 use super::hole_tip::FromHole;
@@ -10,7 +10,6 @@ use super::walk::{STILL, Walk};
 use super::wanted::Hole;
 use crate::forward::Pose;
 use crate::motion::{Course, Event, Move, Spindle};
-use fil_machine::cycle_kind::CycleKind;
 
 /// Most motions over a hole before it is drilled.
 const APPROACH: usize = 6;
@@ -27,16 +26,6 @@ pub(super) struct Levels {
     /// Single moves under tool-tip control come back to the level that RETURN names, though the
     /// tool was higher before the cycle, and keep the level before it for all holes.
     single: bool,
-}
-
-/// How the tool comes out of a hole.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Out {
-    Rapid,
-    Feed,
-    Thread,
-    /// The control's way is not laid down.
-    Any,
 }
 
 impl<C: Steps> Walk<'_, C> {
@@ -374,7 +363,7 @@ impl<C: Steps> Walk<'_, C> {
 
     /// The same; on the way out the spindle may stand or turn back, and `turning` is
     /// how it goes on.
-    fn level_turning(
+    pub(super) fn level_turning(
         &mut self,
         cl_line: u32,
         z: f64,
@@ -429,94 +418,6 @@ impl<C: Steps> Walk<'_, C> {
         }
     }
 
-    fn leave(
-        &mut self,
-        cl_line: u32,
-        hole: &Hole,
-        clear: f64,
-        (rest, turning): (f64, Spindle),
-    ) -> Result<(), (u32, String)> {
-        let kind = hole.kind;
-        let Some(first) = self.next_move() else {
-            return Err((self.next_line(), "the tool stays in the hole".to_string()));
-        };
-        let (out, stands) = self.way_out(kind, first.in_cycle);
-        let course = match out {
-            Out::Rapid => first.course == Course::Rapid,
-            Out::Feed => first.course == Course::Feed,
-            Out::Thread => first.course != Course::Rapid,
-            Out::Any => true,
-        };
-        if !course {
-            return Err((first.line, format!("{} out of the hole", self.spell_move(&first))));
-        }
-        if matches!(first.course, Course::Feed | Course::Thread) {
-            self.check_rate(cl_line, self.at, &first, self.rate_of_hole(hole));
-        }
-        let spindle = match out {
-            _ if stands => Spindle::Off,
-            Out::Thread => reversed(turning),
-            _ => turning,
-        };
-        // What a code of a machine's own does with the spindle is not known.
-        let is_open = out == Out::Any && kind == CycleKind::Bore;
-        if first.modes.spindle != spindle && !is_open {
-            let message = "the spindle is not as it should be on the way out".to_string();
-            return Err((first.line, message));
-        }
-        if (first.to.linear[2] - rest).abs() > self.slack.linear[2] {
-            self.level_turning(cl_line, clear, "the retract", Some(turning))?;
-            if let Some(up) = self.next_move().filter(|up| up.course != Course::Rapid) {
-                return Err((up.line, format!("{} out of the hole", self.spell_move(&up))));
-            }
-        }
-        self.level_turning(cl_line, rest, "the return level", Some(turning)).map(|_| ())
-    }
-
-    /// The cycle has ended: where the machine asks for it, the tool goes back to the level
-    /// before it.
-    pub(super) fn end_cycle(&mut self, cl_line: u32) {
-        let Some(level) = self.initial.take().filter(|_| self.settings.retracts_after_cycles())
-        else {
-            return;
-        };
-        let (here, slack) = (self.at.linear[2], self.slack.linear[2]);
-        let returns = match self.at.tip_control || self.leans_from_z() {
-            true => self.returns_along_tool(cl_line, level),
-            false => {
-                !self.known[2] || here >= level - slack || self.takes_to_level(cl_line, level, true)
-            }
-        };
-        if !returns {
-            let message =
-                format!("the tool does not go back to Z{} behind the cycle", short(level));
-            self.find(FindingKind::Missing, Some(cl_line), None, message);
-        }
-    }
-
-    /// How the tool leaves the hole, and whether the spindle stands: by the settings of a
-    /// bored hole of single moves, else by the code of the cycle.
-    fn way_out(&self, kind: CycleKind, in_cycle: bool) -> (Out, bool) {
-        if kind == CycleKind::Bore && !in_cycle {
-            match self.settings.bore_out() {
-                CycleBoreOut::AtFeedTheSpindleTurning => return (Out::Feed, false),
-                CycleBoreOut::AtRapidTheSpindleStanding => return (Out::Rapid, true),
-                CycleBoreOut::NotSaid => {}
-            }
-        }
-        let code = self.settings.cycle_code(kind);
-        let out = match (code, kind) {
-            (Some(84 | 74 | 206 | 207), _) => Out::Thread,
-            (Some(85 | 89 | 201), _) => Out::Feed,
-            (Some(73 | 81 | 82 | 83 | 86 | 200 | 203 | 205), _) => Out::Rapid,
-            (Some(_), _) => Out::Any,
-            (None, CycleKind::Bore | CycleKind::Ream) => Out::Feed,
-            (None, CycleKind::Tap) => Out::Thread,
-            (None, _) => Out::Rapid,
-        };
-        (out, code == Some(86))
-    }
-
     /// Passes over what is left of a hole that went wrong.
     fn leave_hole(&mut self, first: usize, plunge: &Move) {
         while let Some(found) = self.next_move() {
@@ -541,14 +442,6 @@ impl<C: Steps> Walk<'_, C> {
         let (way, by) = if is < should { ("deeper", should - is) } else { ("higher", is - should) };
         let by = short(by);
         format!("{what} is {way} by {by} (Z{} in place of Z{})", short(is), short(should))
-    }
-}
-
-fn reversed(spindle: Spindle) -> Spindle {
-    match spindle {
-        Spindle::Off => Spindle::Off,
-        Spindle::Clockwise => Spindle::Counterclockwise,
-        Spindle::Counterclockwise => Spindle::Clockwise,
     }
 }
 

@@ -24,6 +24,7 @@ mod division;
 mod gap;
 mod hole;
 mod hole_live;
+mod hole_out;
 mod hole_tip;
 mod inserted;
 mod lag;

@@ -17,7 +17,7 @@ use fil_machine::{FunctionCode, Letter, letters};
 use nalgebra::{Point3, Vector3};
 
 use super::cycle::{CycleFeed, CycleKind};
-use super::{rotary, thread};
+use super::{functions_of_others, rotary, thread};
 use crate::control::Control;
 use crate::control::sinumerik::{reader, transformation};
 use crate::control::word_address::motion::{Motion, RapidCode};
@@ -367,27 +367,18 @@ pub(super) fn refuse_modes_of_others(control: &Control, operation: &Operation) -
     let stop = control.code_if_any(loc::SPINDLE_STOP_CODE);
     let of_m = of_m.map(|at| control.code_if_any(at).filter(|code| Some(*code) != stop));
     let of_main = turns_main(control);
-    let changes = |letter: Letter, code: Option<FunctionCode>| match letter {
-        letters::G => code.is_some() && of_g.contains(&code),
-        letters::M => code.is_some() && (of_m.contains(&code) || of_main.contains(&code)),
+    let changes = |letter: Letter, code: FunctionCode| match letter {
+        letters::G => of_g.contains(&Some(code)),
+        letters::M => of_m.contains(&Some(code)) || of_main.contains(&Some(code)),
         _ => false,
     };
-    let by_value = |(letter, value): (Letter, f64)| changes(letter, FunctionCode::of_value(value));
     let found = match operation {
-        Operation::Function(letter, code) => changes(*letter, Some(*code)),
-        Operation::WithMotion(code) => changes(letters::M, Some(*code)),
-        Operation::Words(words) | Operation::Repeat(words) => {
-            words.iter().any(|(letter, value, _)| by_value((*letter, *value)))
-        }
         Operation::Text(text) if control.tables.family == ControlFamily::Sinumerik => {
             let milling = control.code_if_any(loc::MILL_TURN_MILLING_CODE);
             let is_milling = |code: FunctionCode| text.contains(&format!("M{}", code.value()));
             reader::transforms(text) || milling.is_some_and(is_milling)
         }
-        Operation::Text(text) => {
-            text::read(text).is_some_and(|read| read.words.into_iter().any(by_value))
-        }
-        _ => false,
+        _ => functions_of_others::has(operation, changes),
     };
     match found {
         true => PostCode::MillTurn.err(

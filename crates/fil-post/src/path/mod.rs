@@ -16,6 +16,7 @@ mod expand;
 mod feed_rules;
 pub mod frame;
 mod frame_end;
+mod functions_of_others;
 pub mod hole;
 mod index;
 pub(crate) mod linear;
@@ -231,11 +232,9 @@ impl Default for Path {
 pub(crate) enum Since {
     /// Nothing that moves the tool or the points.
     Motion,
-    /// TRANS, ORIGIN, TRACUT, ROTABL, a named frame or a text: the last point is not where the
-    /// tool stands.
+    /// TRANS, ORIGIN, TRACUT, ROTABL, a named frame, FROM or a text: the last point is not where
+    /// the tool stands.
     Frame,
-    /// FROM: its point is where GODLTA counts from, and not where the tool stands.
-    From,
     /// A tool change: nobody knows where the new tool stands.
     ToolChange,
 }

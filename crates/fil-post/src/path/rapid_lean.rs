@@ -235,22 +235,13 @@ pub(super) fn refuse_unknown_lean(control: &Control) -> Result<()> {
 /// The number of a head that leans the tool and counts from another zero since it was turned.
 fn leaning_behind_a_zero(control: &Control) -> Option<usize> {
     let chain = control.tables.chain();
-    let mut angles = [0.0; 2];
-    let mut shifted = None;
-    for number in AxisSet::ROTARY.and(control.tables.present()).numbers() {
-        if head(chain, number - 3).is_none() {
-            continue;
-        }
-        angles[number - 3] = match control.place(number) {
-            Place::At(at) => at,
-            Place::Shifted(at) => {
-                shifted = Some(number);
-                at
-            }
-            _ => return None,
-        };
-    }
-    shifted.filter(|_| tool_in_machine(chain, angles).z < 1.0 - PARALLEL)
+    let is_shifted = |number: &usize| {
+        head(chain, number - 3).is_some() && behind_a_zero(control, *number).is_some()
+    };
+    let rotary = AxisSet::ROTARY.and(control.tables.present());
+    let shifted = rotary.numbers().filter(is_shifted).last()?;
+    let tool = tool_in_machine(chain, turned(control)?);
+    (tool.z < 1.0 - PARALLEL).then_some(shifted)
 }
 
 /// Goes up along a leaning tool to the level of Z to which a motion of the machine goes, before

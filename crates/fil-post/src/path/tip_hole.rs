@@ -41,7 +41,7 @@ pub(super) fn hole(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result
     let above = cycle.above.or(here);
     let above = above.filter(|_| post.path.since != Since::ToolChange);
     refuse_turned_level(cycle, above, axis)?;
-    if above.is_some() && matches!(post.path.since, Since::Frame | Since::From) {
+    if above.is_some() && post.path.since == Since::Frame {
         return PostCode::TipControl.err_with(
             "a hole right behind TRANS, ORIGIN, TRACUT, ROTABL, FROM or a text that moves the tool: \
              a GOTO between them must say where it stands",

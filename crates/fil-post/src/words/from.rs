@@ -4,7 +4,7 @@
 use fil_diag::Result;
 
 use crate::operation::Target;
-use crate::path::{Since, thread};
+use crate::path::thread;
 use crate::post::Post;
 
 /// Takes the point as the start of an arc or of a GODLTA; nothing is written.
@@ -16,12 +16,13 @@ pub fn handle(post: &mut Post, target: Target) -> Result<()> {
     let path = &mut post.path;
     path.point = Some(target.point);
     path.axis = target.axis;
-    path.is_left = false;
     if path.rotary.is_none() {
         path.stands = target.axis;
     }
-    if path.since == Since::Frame || path.has_moved && path.since == Since::Motion {
-        path.since = Since::From;
+    if path.has_moved {
+        path.leave_point();
     }
+    // GODLTA counts from here.
+    path.is_left = false;
     Ok(())
 }

@@ -28,10 +28,9 @@ use super::statements::{
 use super::wanted::{Effect, End, Step, Wanted};
 pub use frame_words::FrameWords;
 
-use named_frame::NamedFrames;
-
 use crate::errors::NcCode;
 use crate::motion::{INCH, Rate};
+use named_frame::NamedFrames;
 use skip::Opskip;
 use tool_names::ToolNames;
 

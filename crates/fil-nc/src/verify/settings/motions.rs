@@ -96,6 +96,16 @@ impl Settings<'_> {
         self.commons.read(loc::CIRCLE_TRUE_RADIUS_FEED)
     }
 
+    /// Motions under MULTAX/ON are written in tool-tip control.
+    pub fn has_tip_control(&self) -> bool {
+        self.commons.read(loc::ROTARY_TIP_OUTPUT) == loc::RotaryTipOutput::ToolTipControl
+    }
+
+    /// An arc outside of the plane of cutter compensation changes that plane.
+    pub fn arcs_change_plane(&self) -> bool {
+        self.commons.read(loc::CIRCLE_CUTCOM_PLANE) == loc::CircleCutcomPlane::ChangeThePlane
+    }
+
     /// Length below which a rapid is made at feed, and that feed, mm and mm/min.
     pub fn short_rapid(&self, metric: bool) -> Option<(f64, f64)> {
         let of = |at: Dbl| self.commons.dbl_opt(at).filter(|value| *value > 0.0);

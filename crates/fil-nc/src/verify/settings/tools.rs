@@ -77,16 +77,6 @@ impl Settings<'_> {
             && self.commons.read(loc::CONTROL_TOOL_OFFSETS) == ControlToolOffsets::OfTheTool
     }
 
-    /// Motions under MULTAX/ON are written in tool-tip control.
-    pub fn has_tip_control(&self) -> bool {
-        self.commons.read(loc::ROTARY_TIP_OUTPUT) == loc::RotaryTipOutput::ToolTipControl
-    }
-
-    /// An arc outside of the plane of cutter compensation changes that plane.
-    pub fn arcs_change_plane(&self) -> bool {
-        self.commons.read(loc::CIRCLE_CUTCOM_PLANE) == loc::CircleCutcomPlane::ChangeThePlane
-    }
-
     /// A tool change may bring the axes elsewhere, so that each is said again behind it.
     pub fn restates_after_change(&self) -> bool {
         self.commons.read(loc::TOOL_RESTATE)

@@ -1,0 +1,24 @@
+//! The functions in what others write: texts, POSTN, REPEAT, PREFUN and AUXFUN.
+
+use fil_machine::{FunctionCode, Letter, letters};
+
+use crate::control_state::text;
+use crate::operation::Operation;
+
+/// True where an operation writes a function that is meant, a text as word address is read.
+pub(super) fn has(operation: &Operation, is_meant: impl Fn(Letter, FunctionCode) -> bool) -> bool {
+    let by_value = |(letter, value): (Letter, f64)| {
+        FunctionCode::of_value(value).is_some_and(|code| is_meant(letter, code))
+    };
+    match operation {
+        Operation::Function(letter, code) => is_meant(*letter, *code),
+        Operation::WithMotion(code) => is_meant(letters::M, *code),
+        Operation::Words(words) | Operation::Repeat(words) => {
+            words.iter().any(|(letter, value, _)| by_value((*letter, *value)))
+        }
+        Operation::Text(text) => {
+            text::read(text).is_some_and(|read| read.words.into_iter().any(by_value))
+        }
+        _ => false,
+    }
+}
