@@ -222,6 +222,8 @@ pub struct Modes {
     /// The control counts the second spindle of a lathe, or the main one; `None` before anything
     /// has said it. Spindle, speed, range and limit are those of the one that is counted.
     pub counts_side: Option<bool>,
+    /// The spindle of the lathe that is not counted.
+    pub other_spindle: Spindle,
     /// Angle of the oriented spindle, degrees; `None` when it turns or none was given.
     pub orientation: Option<f64>,
     /// Spindle range that the program has chosen last, from 1.

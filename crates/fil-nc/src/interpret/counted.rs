@@ -9,10 +9,9 @@ use crate::dialect::Auxiliary;
 use crate::errors::NcCode;
 use crate::motion::{Speed, Spindle};
 
-/// What a spindle does while the other one is counted.
+/// What holds of a spindle while the other one is counted, besides how it turns.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct OtherSpindle {
-    turn: Spindle,
     speed: Option<Speed>,
     limit: Option<f64>,
     range: Option<u8>,
@@ -34,7 +33,7 @@ impl State<'_> {
             return Ok(());
         }
         let (modes, other) = (&mut self.modes, &mut self.other_spindle);
-        std::mem::swap(&mut modes.spindle, &mut other.turn);
+        std::mem::swap(&mut modes.spindle, &mut modes.other_spindle);
         std::mem::swap(&mut modes.speed, &mut other.speed);
         std::mem::swap(&mut modes.spindle_range, &mut other.range);
         std::mem::swap(&mut modes.orientation, &mut other.orientation);
@@ -49,7 +48,7 @@ impl State<'_> {
         let is_counted = (self.modes.counts_side == Some(true)) == side;
         match is_counted || !self.dialect.counted.has_own_codes {
             true => self.turn_spindle(turn),
-            false => self.other_spindle.turn = turn,
+            false => self.modes.other_spindle = turn,
         }
     }
 

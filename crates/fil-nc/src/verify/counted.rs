@@ -2,6 +2,7 @@
 
 use super::lag::Lag;
 use super::modes::Expected;
+use super::modes_said::name_of_turn;
 use super::settings::Settings;
 use crate::motion::{Modes, Speed, Spindle};
 
@@ -44,12 +45,17 @@ impl Counted {
         self.side == Some(true)
     }
 
-    /// What is wrong with the spindle that the program has chosen.
+    /// What is wrong with the spindle that the program has chosen, and with the other one.
     pub(super) fn wrong(&self, modes: &Modes) -> Option<String> {
-        let must = self.side.filter(|must| modes.counts_side != Some(*must))?;
+        let must = self.side?;
         let name = |side: bool| if side { "the second spindle" } else { "the main spindle" };
-        let found = modes.counts_side.map_or("no spindle that was chosen", name);
-        Some(format!("the control counts {found}, it should count {}", name(must)))
+        if modes.counts_side != Some(must) {
+            let found = modes.counts_side.map_or("no spindle that was chosen", name);
+            return Some(format!("the control counts {found}, it should count {}", name(must)));
+        }
+        let turns = self.other.spindle.filter(|turns| *turns != modes.other_spindle)?;
+        let [found, turns] = [modes.other_spindle, turns].map(name_of_turn);
+        Some(format!("{} is {found}, it should be {turns}", name(!must)))
     }
 }
 
@@ -85,10 +91,15 @@ impl Expected {
         }
     }
 
-    /// The program ends with the main spindle counted, as the next one begins.
+    /// The program ends with the main spindle counted, as the next one begins, and the second one
+    /// standing: M30 stops the one that is counted, if it turns.
     pub(super) fn ends_counting_side(&mut self, settings: &Settings) {
-        if self.counted.is_side() {
-            self.count(false, settings);
+        let other_turns = self.counted.other.spindle != Some(Spindle::Off);
+        if !(self.counted.is_side() || other_turns) {
+            return;
         }
+        self.count(false, settings);
+        self.spindle = Lag::new(None);
+        self.counted.other.spindle = Some(Spindle::Off);
     }
 }

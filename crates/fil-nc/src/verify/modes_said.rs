@@ -37,15 +37,18 @@ pub(super) fn said_of_compensation((found, offset): Side, (must, must_offset): S
 }
 
 pub(super) fn said_of_spindle(found: Spindle, must: Spindle, cuts: bool) -> String {
-    let turn = |turn| match turn {
-        Spindle::Off => "off",
-        Spindle::Clockwise => "clockwise",
-        Spindle::Counterclockwise => "counterclockwise",
-    };
     if found == Spindle::Off && cuts {
         return "the spindle is off while the tool cuts".to_string();
     }
-    format!("the spindle is {}, it should be {}", turn(found), turn(must))
+    format!("the spindle is {}, it should be {}", name_of_turn(found), name_of_turn(must))
+}
+
+pub(super) fn name_of_turn(turn: Spindle) -> &'static str {
+    match turn {
+        Spindle::Off => "off",
+        Spindle::Clockwise => "clockwise",
+        Spindle::Counterclockwise => "counterclockwise",
+    }
 }
 
 pub(super) fn name_of_fixture(fixture: u32) -> String {

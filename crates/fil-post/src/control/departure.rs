@@ -23,8 +23,7 @@ const MOST_PARTS: f64 = 1000.0;
 pub(super) fn parts(control: &Control, motion: &Motion) -> Result<Vec<Motion>> {
     let Some((way, most)) = too_long(control, motion) else { return Ok(Vec::new()) };
     // The ends of the parts are rounded.
-    let most = most - 2.0 * control.tables.axis(0).resolution();
-    let count = (way / most).ceil();
+    let count = (way / (most - 2.0 * control.tables.axis(0).resolution())).ceil();
     if !(1.0..=MOST_PARTS).contains(&count) {
         let message = format!("a motion of {way:.3} takes more than {MOST_PARTS} blocks");
         return PostCode::TooManyParts.err(message);

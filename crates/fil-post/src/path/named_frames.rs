@@ -74,6 +74,11 @@ pub(crate) struct Named {
 }
 
 impl Named {
+    /// The word names a frame of points, and not a clamping.
+    pub fn is_of_points(&self) -> bool {
+        self.now.layout.is_some()
+    }
+
     /// The frame at hand is the one that all motions before were in.
     pub fn is_first(&self) -> bool {
         self.first.is_same(&self.now) && !self.is_late()

@@ -49,12 +49,15 @@ pub fn note(post: &mut Post, name: &str, record: &Record) -> Result<()> {
     let has_moved = post.path.has_moved;
     let frames = &mut post.path.named_frames;
     let Some(named) = frames.take(name, layout, record, has_moved) else { return Ok(()) };
-    if is_clamping && !named.is_first() {
-        let message = format!("{name} of line {} names another clamping of the part", named.line);
-        return PostCode::OtherFrame.err_with(message, HINT);
+    if !is_clamping {
+        frames.waits = true;
+        return Ok(());
     }
-    frames.waits = true;
-    Ok(())
+    if named.is_first() {
+        return Ok(());
+    }
+    let message = format!("{name} of line {} names another clamping of the part", named.line);
+    PostCode::OtherFrame.err_with(message, HINT)
 }
 
 /// Settles what the frames mean that came since the last motion, before one with this tool axis.
@@ -125,10 +128,9 @@ fn settle_new(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
 /// It is.
 #[cold]
 pub(crate) fn refuse_read_again(post: &Post) -> Result<()> {
-    let message = "a motion is read again, behind a frame that was named after it".to_string();
-    let place = post.path.named_frames.since;
+    let since = post.path.named_frames.since;
     PostCode::OtherFrame.err_with(
-        format!("{message} (record {place})"),
+        format!("a motion is read again, behind a frame that was named after it (record {since})"),
         "Go back only to records behind the last frame.",
     )
 }
@@ -136,7 +138,7 @@ pub(crate) fn refuse_read_again(post: &Post) -> Result<()> {
 /// Brings what follows from the frame at hand into the first.
 fn move_points(post: &mut Post) -> Result<()> {
     let mut moved: Option<(&str, u32, Option<Transformation>)> = None;
-    for named in &post.path.named_frames.words {
+    for named in post.path.named_frames.words.iter().filter(|named| named.is_of_points()) {
         if named.is_late() {
             return Err(another(named));
         }
