@@ -9,6 +9,7 @@ use fil_machine::rounding::Rounding;
 use fil_machine::{Commons, FunctionCode, Letter};
 
 use crate::cause::Cause;
+use crate::errors::PostCode;
 
 /// The words of one block. Values are final: scaled, translated and rounded
 /// by whoever puts them here, except for the rounding of the address format.
@@ -149,7 +150,8 @@ impl Block {
     /// `None` for a function, and where the machine suppresses the letter.
     ///
     /// # Errors
-    /// The machine has no such address, or the value does not fit its format.
+    /// The machine has no such address, the value does not fit its format, or the block has
+    /// another value of the letter, which would be lost.
     pub fn word(
         &mut self,
         letter: Letter,
@@ -164,6 +166,9 @@ impl Block {
             _ => {
                 let format = &addresses.slot(position).format;
                 let scaled = rounding.scale(value, format).map_err(|diag| named(diag, letter))?;
+                if self.scaled_at(position).is_some_and(|before| before != scaled) {
+                    return Err(two_values(letter));
+                }
                 self.put(position, scaled);
                 return Ok(Some(position));
             }
@@ -171,15 +176,23 @@ impl Block {
         Ok(None)
     }
 
-    /// Adds the words of another block, each with its cause; a word of the same
-    /// address is kept.
-    pub fn merge(&mut self, other: &Block) {
+    /// Adds the words of another block, each with its cause.
+    ///
+    /// # Errors
+    /// Both have a word of one letter with different values.
+    pub fn merge(&mut self, other: &Block, addresses: &Addresses) -> Result<()> {
+        let differs = |at: &TapePosition| self.scaled_at(*at) != other.scaled_at(*at);
+        let shared = TapePosition::of_set(other.present & self.present);
+        if let Some(letter) = shared.filter(differs).find_map(|at| addresses.slot(at).letter) {
+            return Err(two_values(letter));
+        }
         other.g.iter().for_each(|code| add(&mut self.g, *code));
         other.m.iter().for_each(|code| add(&mut self.m, *code));
         for position in TapePosition::of_set(other.present & !self.present) {
             self.put(position, other.scaled[position.index()]);
             self.causes[position.index()] = other.causes[position.index()];
         }
+        Ok(())
     }
 
     /// Takes a function out.
@@ -299,6 +312,12 @@ pub fn function(letter: Letter, value: f64) -> Result<FunctionCode> {
     FunctionCode::of_value(value).ok_or_else(|| {
         MachineCode::Inexact.diag(format!("{letter}{value} is not the number of a function"))
     })
+}
+
+fn two_values(letter: Letter) -> Box<Diag> {
+    let mut diag = PostCode::WordForm.diag(format!("{letter} would have two values in one block"));
+    diag.hint = Some("Give each of the words a letter of its own in the settings.".into());
+    diag
 }
 
 /// Names the letter in a message about its value.

@@ -164,6 +164,10 @@ fil_diag::codes! {
         TapeLetter = 543, Error, "letter that the encoding of the program lacks",
             "The program is written in a code page of the control (tape.encoding), which has no byte for this letter. Another letter in its place would say something else.",
             "Write the text with letters of that page, choose the page of the control with tape.encoding, or have all texts in ASCII with tape.characters = 1.";
+        /// Blocks without a motion under compensation.
+        StillBlocks = 572, Warning, "blocks without a motion in cutter compensation",
+            "Several blocks that move nothing in the plane of compensation (M functions, a dwell, a stop, a depth) stand between two motions under G41 or G42. A control that reads few blocks ahead does not see the second motion then, and cuts too much or too little at the corner.",
+            "Put what stands between before CUTCOM or behind CUTCOM/OFF; ignore this where the control reads as many blocks ahead, or the path goes straight on.";
         /// A motion of too many parts.
         TooManyParts = 580, Error, "a motion would be divided too often",
             "While rotary axes turn, the tip leaves its line; to keep it there, or to say its feed, takes too many blocks. So do the lines of an arc of many turns.",
@@ -200,6 +204,10 @@ fil_diag::codes! {
         Frame = 589, Error, "not in a tilted frame",
             "A tilted frame stands still, and the machine turns to it only where the tool is away from the part.",
             "Put LOADTL, GOHOME or RETRCT before the new tool axis, give home.retract_z, or write positions of the axes with rotary.frame_output = 0.";
+        /// Compensation in a plane that the tool is not square to.
+        CompensationAcross = 544, Error, "cutter compensation across the tool",
+            "The tool does not lie square to the plane in which the control compensates it, so that the path would be shifted along the tool, into the part: a head leans it, a table has turned the plane that CUTCOM names, or the plane of the program is another one.",
+            "Leave the plane out where the tool stands along Z of the control, name the plane that it is square to where a head has turned it, or let the CAM system compensate.";
         /// A second frame in one file.
         OtherFrame = 549, Error, "the points may be of another frame",
             "CSYS, MSYS and their like name the frame of the points. Where a file names a second one, its points may be those of the part all through or those of the new frame.",

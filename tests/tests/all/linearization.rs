@@ -307,7 +307,7 @@ fn real_files_stay_on_their_lines() {
             let mut nc = Vec::new();
             if let Err(error) = start().run(&cl[..], &mut nc) {
                 // Cutter compensation in a plane that this machine does not turn upright.
-                assert_eq!(error.diags()[0].code.name(), "E0519", "{name}: {error}");
+                assert_eq!(error.diags()[0].code.name(), "E0544", "{name}: {error}");
                 continue;
             }
             let program = NcProgram { text: &nc, name: "out.nc" };

@@ -168,7 +168,7 @@ impl Faults {
         println!("{found} of {put} changed last digits found");
         // An axis that rests may stand at its exact position or at its rounded one, so that
         // either of two last digits is right.
-        let most_missed = 1 + put * 6 / 1000;
+        let most_missed = 1 + put * 18 / 1000;
         assert!(*put > sample::of(PATHS) / 2 && put - found <= most_missed, "{found} of {put}");
     }
 }
@@ -181,7 +181,8 @@ fn posted_paths_agree_and_a_changed_last_digit_is_found() {
     let mut faults = Faults::default();
     for _ in 0..sample::of(PATHS) {
         let (rotaries, pivot, split, targets, which) = all.new_tree(&mut runner).unwrap().current();
-        // Where a rapid of a leaning tool stops on its way no last digit is asked for.
+        // Where a rapid of a leaning tool stops on its way no last digit is asked for; out of a cut
+        // it stops in one block, too.
         let leans = rotaries.iter().any(|rotary| rotary.kind == 2);
         let post = post(&rotaries, pivot, split && !leans);
         let cl = cl(&targets);

@@ -55,6 +55,8 @@ pub(super) struct State<'d> {
     pub(super) by_direction: bool,
     /// The tilted frame in force.
     pub(super) tilt: Option<Tilt>,
+    /// Nothing has moved since tool-tip control ended: X, Y and Z are those of the tip.
+    pub(super) was_tip: bool,
     /// The main spindle of a mill-turn machine is the axis C.
     pub(super) live: bool,
     /// X and C are a plane of lengths.
@@ -108,6 +110,7 @@ impl<'d> State<'d> {
             cycle: None,
             by_direction: false,
             tilt: None,
+            was_tip: false,
             aligned: false,
             live: dialect.live_at_start == Some(true),
             polar: false,
@@ -234,6 +237,7 @@ impl<'d> State<'d> {
     ) {
         (self.at, self.known) = (to, known);
         self.arc_radius = None;
+        self.was_tip = false;
         self.compensation_rests = false;
         let [x, y, z, primary, secondary] = to;
         let usual = [DRILLED, self.dialect.plane].contains(&self.said_plane);

@@ -12,7 +12,7 @@ use super::state::State;
 use super::words::{Words, letter};
 use crate::dialect::{Function, Group};
 use crate::errors::NcCode;
-use crate::motion::{Compensation, Tilt};
+use crate::motion::{Compensation, Position, Tilt};
 
 /// Degrees that a rotary axis may stand from where the frame wants it: more than any
 /// rounding, and less than the way to another position.
@@ -81,9 +81,8 @@ impl State<'_> {
         if self.cycle.is_some() {
             return refuse("a tilted frame begins while a cycle is in force");
         }
-        self.tilt = Some(tilt);
+        self.counts_in(Some(tilt));
         self.modes.tilted = true;
-        self.known[..3].fill(false);
         Ok(())
     }
 
@@ -134,10 +133,27 @@ impl State<'_> {
 
     /// Gives a tilted frame up.
     pub(super) fn end_tilt(&mut self) {
-        if self.tilt.take().is_some() {
-            self.known[..3].fill(false);
+        if self.tilt.is_some() {
+            self.counts_in(None);
         }
         self.modes.tilted = false;
+    }
+
+    /// From now on X, Y and Z count in this frame; the tool stands, and no word has said where.
+    fn counts_in(&mut self, tilt: Option<Tilt>) {
+        let [x, y, z, first, second] = self.at;
+        let stands = Position {
+            linear: [x, y, z],
+            rotary: [first, second],
+            tip_control: std::mem::take(&mut self.was_tip),
+            tilt: self.tilt,
+            ..Position::default()
+        };
+        let there = Position { tilt, ..Position::default() };
+        let linear = self.dialect.forward.restated(&stands, &there).linear;
+        self.at[..3].copy_from_slice(&linear);
+        self.known[..3].fill(false);
+        self.tilt = tilt;
     }
 
     /// Refuses a motion while the tool does not lie along the frame in force, and one that

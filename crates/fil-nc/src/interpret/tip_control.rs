@@ -179,6 +179,7 @@ impl State<'_> {
     pub(super) fn end_tip_control(&mut self) {
         self.by_direction = false;
         if std::mem::take(&mut self.modes.tip_control) {
+            self.was_tip = true;
             self.lose_tip();
         }
     }

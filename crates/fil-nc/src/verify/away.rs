@@ -36,6 +36,21 @@ impl<C: Steps> Walk<'_, C> {
         };
     }
 
+    /// How high the tool stands in the machine behind a motion, and how it came there.
+    pub(super) fn follow_height(&mut self, found: &Move, cuts: bool) {
+        if self.only_turns(found) {
+            return;
+        }
+        self.is_in_cut = cuts && !found.in_cycle;
+        let counts_in_machine = !found.to.names_tip();
+        let is_known = match counts_in_machine {
+            true => found.known[2],
+            false => self.is_known(&found.known),
+        };
+        let at = self.settings.forward.restated(&found.to, &Position::default());
+        self.height = is_known.then_some(at.linear[2]);
+    }
+
     /// Takes the way up and the turn before a hole in another frame than the last motion.
     pub(super) fn changes_frame(&mut self, cl_line: u32) {
         let other = |plunge: Move| {
@@ -49,7 +64,9 @@ impl<C: Steps> Walk<'_, C> {
             let rapid = found.course == Course::Rapid && !found.in_cycle;
             let before = rapid && found.to.tilt.is_none();
             let turns = self.only_turns(&found);
-            let rises = !(0..2).any(|n| found.known[n])
+            let at = self.at_as(&found).linear;
+            let moves = |n: usize| found.known[n] && (found.to.linear[n] - at[n]).abs() > STILL;
+            let rises = !(0..2).any(moves)
                 && self.settings.retract_level(self.metric).is_some_and(|level| {
                     (found.to.linear[2] - level).abs() <= self.slack.linear[2]
                 });
@@ -74,14 +91,13 @@ impl<C: Steps> Walk<'_, C> {
             return;
         }
         let Some(level) = self.settings.retract_level(self.metric) else { return };
-        let stands = self.settings.forward.restated(&self.at, &Position::default()).linear[2];
         let slack = self.slack.linear[2];
-        if self.known[2] && stands >= level - slack {
+        if !self.is_in_cut && self.height.is_some_and(|stands| stands >= level - slack) {
             return;
         }
-        let place = match self.known[2] {
-            true => format!("at Z{}", short(stands)),
-            false => "where Z has not been said since the last frame".to_string(),
+        let place = match self.height {
+            Some(stands) => format!("at Z{}", short(stands)),
+            None => "where Z has not been said since the last frame".to_string(),
         };
         let message = format!(
             "the machine turns {place}, the tool must have gone up to Z{} before",

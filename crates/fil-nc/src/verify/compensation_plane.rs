@@ -1,10 +1,18 @@
 //! The plane in which the cutter is compensated, where only one is meant: that of its record for a
 //! live tool, and on a mill where the record names one; X and Z on a lathe without Y.
 
+use nalgebra::Vector3;
+
+use super::ahead::Steps;
 use super::modes::Expected;
+use super::report::FindingKind;
 use super::say::PLANES;
 use super::settings::Settings;
-use crate::motion::{DRILLED, Modes};
+use super::walk::Walk;
+use crate::motion::{DRILLED, Modes, Move};
+
+/// The least cosine between directions that are one.
+const SAME_WAY: f64 = 1.0 - 1e-6;
 
 /// The plane of X and Z, by the index of its normal.
 const ZX: usize = 1;
@@ -52,5 +60,38 @@ impl Expected {
         let found = modes.compensation_plane.filter(|found| *found != must)?;
         let [found, must] = [found, must].map(|normal| PLANES[normal]);
         Some(format!("cutter compensation acts in the plane {found}, it should be {must}"))
+    }
+}
+
+impl<C: Steps> Walk<'_, C> {
+    /// The cutter is compensated in a plane that its axis is square to, as the control sees it; under
+    /// a tool along Z also in the one that the record names, where the part stands as the machine.
+    pub(super) fn check_square_to_compensation(&mut self, cl_line: u32, found: &Move) {
+        let Some(normal) = found.modes.compensation_plane else { return };
+        let forward = &self.settings.forward;
+        let is_known = (0..2).all(|n| forward.rotaries()[n].is_none() || found.known[n + 3]);
+        if !forward.has_rotary() || self.settings.is_mill_turn() || !is_known {
+            return;
+        }
+        let unit = Vector3::ith(normal, 1.0);
+        let of_part = forward.pose(&found.to).axis;
+        let (tool, seen) = match () {
+            () if found.to.tilt.is_some() => {
+                (Vector3::z(), if of_part.z > SAME_WAY { unit } else { Vector3::zeros() })
+            }
+            () if found.to.names_tip() => (of_part, unit),
+            () => {
+                let turn = forward.frame(found.to.rotary).turn.transpose();
+                (self.tool_on_axes(found.to.rotary), turn * unit)
+            }
+        };
+        let is_named = normal != DRILLED && self.modes.named_plane() == normal;
+        let named = is_named && tool.z > SAME_WAY && seen.dot(&unit) > SAME_WAY;
+        if tool.dot(&unit) > SAME_WAY && (!is_named || seen.dot(&unit) > SAME_WAY) || named {
+            return;
+        }
+        let plane = PLANES[normal];
+        let message = format!("the tool is not square to {plane}, in which it is compensated");
+        self.find(FindingKind::Compensation, Some(cl_line), Some(found.line), message);
     }
 }

@@ -13,6 +13,10 @@ impl<C: Steps> Walk<'_, C> {
     /// A block whose start and end are known goes no farther than the machine says.
     pub(super) fn check_departure(&mut self, cl_line: u32, found: &Move) {
         let Some(most) = self.settings.most_departure(self.metric) else { return };
+        // Where the axes stand behind a tool change is the machine's.
+        if self.tool_is_fresh {
+            return;
+        }
         let in_machine_frame = found.to_machine.iter().any(|is| *is);
         if in_machine_frame || found.in_cycle || self.at.names_tip() != found.to.names_tip() {
             return;

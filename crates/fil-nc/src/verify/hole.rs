@@ -12,7 +12,7 @@ use crate::forward::Pose;
 use crate::motion::{Course, Event, Move, Spindle};
 
 /// Most motions over a hole before it is drilled.
-const APPROACH: usize = 6;
+const APPROACH: usize = 7;
 
 /// Most pecks of one hole.
 const MOST_PECKS: usize = 10_000;
@@ -240,13 +240,17 @@ impl<C: Steps> Walk<'_, C> {
             self.initial = Some(self.at.linear[2]);
         }
         let mut raise = known && self.at.linear[2] < raised - slack[2];
+        // A cycle of the control returns to where it began, which another cycle has left low.
+        let of_control = if raise { raised } else { self.at.linear[2] };
+        let of_control = if known { of_control } else { f64::INFINITY };
         if raise && !levels.single {
-            self.initial = Some(raised);
+            self.initial = Some(self.initial.map_or(raised, |initial| initial.max(raised)));
         }
         while let Some(found) = self.next_move().filter(|found| found.course == Course::Rapid) {
             let to = found.to.linear;
             // Where X stands behind polar interpolation is not known.
-            let way = |n: usize| (to[n] - self.at.linear[n]).abs();
+            let at = self.at_as(&found).linear;
+            let way = |n: usize| (to[n] - at[n]).abs();
             let moves = |n: usize| self.written[n] && found.known[n] && way(n) > STILL;
             // Y of a lathe without one stands at 0; said of a tool along X it is the turn of C.
             let is_place_known = (0..2).all(|n| self.known[n] || !self.written[n]);
@@ -268,12 +272,12 @@ impl<C: Steps> Walk<'_, C> {
                     format!("{}, which is not over the hole", self.spell_move(&found)),
                 ));
             }
-            let lower = self.known[2] && to[2] < self.at.linear[2] - slack[2];
+            let lower = self.known[2] && to[2] < at[2] - slack[2];
             if lower && !arrives && is_place_known {
                 let message = "rapid goes down before X and Y are over the hole".to_string();
                 return Err((found.line, message));
             }
-            let low = self.at.linear[2].min(to[2]) < levels.clear - slack[2];
+            let low = at[2].min(to[2]) < levels.clear - slack[2];
             let comes = self.settings.is_mill_turn() && found.known[0] && !self.known[0];
             if (across || comes) && self.known[2] && low {
                 return Err((found.line, "rapid goes across below the R level".to_string()));
@@ -307,7 +311,7 @@ impl<C: Steps> Walk<'_, C> {
             Some(_) if levels.single => initial.max(levels.clear),
             Some(above) if above > 0.0 => {
                 let returns = initial >= raised - slack[2] && raised > levels.clear + slack[2];
-                if returns { initial } else { levels.clear }
+                if returns { of_control.clamp(raised, initial.max(raised)) } else { levels.clear }
             }
             Some(_) => initial,
         })

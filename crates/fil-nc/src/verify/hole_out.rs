@@ -73,7 +73,10 @@ impl<C: Steps> Walk<'_, C> {
         else {
             return;
         };
-        let (here, slack) = (self.at.linear[2], self.slack.linear[2]);
+        // A hole of a live tool may lie along X.
+        let along = if self.settings.is_mill_turn() { &[0, 2][..] } else { &[2] };
+        let here = along.iter().map(|n| self.at.linear[*n]).fold(f64::NEG_INFINITY, f64::max);
+        let slack = self.slack.linear[2];
         let returns = match self.at.tip_control || self.leans_from_z() {
             true => self.returns_along_tool(cl_line, level),
             false => {

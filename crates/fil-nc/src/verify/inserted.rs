@@ -115,6 +115,13 @@ impl Expected {
             Function::Length(true) => self.offset.set(whole(b'H'), Due::Now),
             Function::Length(false) => self.give_length_up(),
             Function::SpeedLimit => self.speed_limit = None,
+            // G94 and G95 of a SINUMERIK end G96, which is one of their group.
+            Function::Feed(_)
+                if settings.has_edges()
+                    && self.speed.asked().is_some_and(|speed| speed.turns().is_none()) =>
+            {
+                self.speed.set(None, Due::Now);
+            }
             // The S of the other mode, which the text need not say, comes with it.
             Function::Surface(on) => {
                 self.speed.set(None, Due::Now);
@@ -129,6 +136,11 @@ impl Expected {
     /// What an auxiliary function switches, in a text or by AUXFUN.
     pub(super) fn insert_auxiliary(&mut self, auxiliary: Auxiliary) {
         self.again.insert(auxiliary);
+        // Under a live tool with functions of its own these are of the main spindle, the axis C.
+        let turns = [Auxiliary::Clockwise, Auxiliary::Counterclockwise, Auxiliary::SpindleOff];
+        if self.mills() && self.live_has_own_codes && turns.contains(&auxiliary) {
+            return;
+        }
         let mut spindle = |turns: Option<Spindle>| {
             self.spindle.set(turns, Due::Now);
             self.orientation = None;
@@ -137,6 +149,7 @@ impl Expected {
             Auxiliary::Clockwise => spindle(Some(Spindle::Clockwise)),
             Auxiliary::Counterclockwise => spindle(Some(Spindle::Counterclockwise)),
             Auxiliary::SpindleOff => spindle(Some(Spindle::Off)),
+            Auxiliary::Live(turns) => spindle(Some(turns)),
             Auxiliary::Orient => spindle(None),
             Auxiliary::SpindleRange(range) => self.range = Some(range),
             Auxiliary::Coolant(code) => self.coolant.set(code, Due::Now),

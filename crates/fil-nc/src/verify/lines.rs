@@ -36,6 +36,7 @@ impl<C: Steps> Walk<'_, C> {
         let linear = self.settings.forward.frame_of(&end.to).linear(pose.tip);
         let exact = Position { linear, ..end.to };
         let leg = if self.tool_is_fresh { Leg::FromAfar } else { Leg::OfPath };
+        self.rapid_to = Some(*pose);
         for index in self.next..=last {
             if let Some(Event::Move(part)) = self.nc.get(index) {
                 match self.settings.is_mill_turn() && self.goes_around(&part, &exact) {
@@ -49,6 +50,7 @@ impl<C: Steps> Walk<'_, C> {
                 self.take(cl_line, &part);
             }
         }
+        self.rapid_to = None;
         self.measure(&end, pose);
         self.next = last + 1;
         if self.modes.mills_without_y(self.settings) {
@@ -121,7 +123,27 @@ impl<C: Steps> Walk<'_, C> {
             Event::Move(part) if part.course == Course::Rapid && !part.in_cycle => Some(part),
             _ => None,
         });
-        rapids.position(|part| self.reaches(&part, pose)).map(|at| at + 1)
+        let first = rapids.position(|part| self.reaches(&part, pose))?;
+        Some(first + 1 + self.turns_about_tool(index + first, pose))
+    }
+
+    /// How many rapids behind one that has arrived turn the machine about the tool: X and Y go
+    /// along, before it or with it.
+    fn turns_about_tool(&self, arrived: usize, pose: &Pose) -> usize {
+        let part = |index: usize| {
+            self.nc.motion(index).filter(|part| part.course == Course::Rapid && !part.in_cycle)
+        };
+        let (Some(first), Some(next)) = (part(arrived), part(arrived + 1)) else { return 0 };
+        let turns = |part: &Move| {
+            !part.to.names_tip() && part.to.rotary != first.to.rotary && self.reaches(part, pose)
+        };
+        if turns(&next) {
+            return 1;
+        }
+        let goes_across =
+            next.to.rotary == first.to.rotary && next.to.linear[2] == first.to.linear[2];
+        let last = part(arrived + 2).filter(|last| last.to.linear == next.to.linear);
+        if goes_across && last.is_some_and(|last| turns(&last)) { 2 } else { 0 }
     }
 
     /// A rapid to where the last one has ended already: a coordinate half way between two
@@ -153,6 +175,12 @@ impl<C: Steps> Walk<'_, C> {
 
     /// What is wrong with a part of a rapid, by how the tool lies in it.
     fn wrong_part(&self, part: &Move, end: &Position, leg: Leg) -> Vec<String> {
+        if leg == Leg::OfPath && self.turns_in_cut(part, end) {
+            return vec!["rapid turns the machine before the tool is out of its cut".to_string()];
+        }
+        if leg == Leg::OfPath && self.leads_out_of_cut(part, end) {
+            return Vec::new();
+        }
         let lie = match self.lie(part, end, leg) {
             Lie::Leaning if self.splits_rapids && self.leads_along_tool(part, end, leg) => {
                 return Vec::new();
@@ -168,7 +196,10 @@ impl<C: Steps> Walk<'_, C> {
         let wrong = self.wrong_order(part, end, lie);
         // From a tool change Z may come last, too, however the tool lies: it is away.
         match leg {
-            Leg::FromAfar if !wrong.is_empty() => self.wrong_order(part, end, UPRIGHT),
+            Leg::FromAfar if wrong.is_empty() || self.comes_down_along_tool(part, end) => {
+                Vec::new()
+            }
+            Leg::FromAfar => self.wrong_order(part, end, UPRIGHT),
             _ => wrong,
         }
     }
@@ -299,8 +330,10 @@ impl<C: Steps> Walk<'_, C> {
             false => 0.0,
         };
         let raises = part.known[2] && (!self.known[2] || way(2) > STILL);
+        // The way up in the frame before is rounded.
+        let falls = way(2) < -2.0 * self.slack.linear[2] - STILL;
         let astray = raises && !leaves_frame && !self.is_retract_level(part.to.linear[2]);
-        if way(0).abs() > STILL || way(1).abs() > STILL || way(2) < -STILL || astray {
+        if way(0).abs() > STILL || way(1).abs() > STILL || falls || astray {
             let message = "rapid before its tilted frame begins, which is no way up".to_string();
             self.find(FindingKind::Order, Some(cl_line), Some(part.line), message);
         }
@@ -332,6 +365,7 @@ impl<C: Steps> Walk<'_, C> {
 
     pub(super) fn check_limits(&mut self, cl_line: u32, found: &Move) {
         self.check_departure(cl_line, found);
+        self.check_square_to_compensation(cl_line, found);
         let axes = self.settings.forward.restated(&found.to, &Position::default()).linear;
         let axes = match self.from_hole {
             Some(hole) => {

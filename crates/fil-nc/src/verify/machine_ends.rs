@@ -21,8 +21,8 @@ impl<C: Steps> Walk<'_, C> {
             }
             return;
         }
-        let raised = self.raised_from_here(to[2]);
         self.pass(cl_line);
+        let raised = self.raised_from_here(to[2]);
         let count = self.parts_to_machine(to);
         let Some(count) = count else {
             let axes = ["X", "Y", "Z"].iter().zip(to);
@@ -76,7 +76,8 @@ impl<C: Steps> Walk<'_, C> {
                 0..3 => self.slack.linear[n],
                 _ => self.slack.rotary[n - 3],
             };
-            let moved = |n: &usize| value(&found.to, *n) != value(&self.at, *n);
+            let is_axis = |n: usize| n > 2 || self.written[n];
+            let moved = |n: &usize| is_axis(*n) && value(&found.to, *n) != value(&self.at, *n);
             let arrives = |n: usize| {
                 to[n].is_some_and(|to| {
                     found.to_machine[n] && (value(&found.to, n) - to).abs() <= slack(n)
@@ -86,7 +87,9 @@ impl<C: Steps> Walk<'_, C> {
             for n in (0..5).filter(|n| arrives(*n)) {
                 open[n] = None;
             }
-            let rises = open[2].is_none();
+            // Of a lathe both go at once: alone one of them may go through the wall of a groove.
+            let is_whole = !self.settings.is_lathe() || open[..3].iter().all(Option::is_none);
+            let rises = open[2].is_none() && is_whole;
             self.check_edge_is_off(cl_line, &found);
             self.stand(&found);
             if astray || !rises {

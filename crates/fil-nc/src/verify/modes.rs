@@ -79,6 +79,8 @@ pub(super) struct Expected {
     offset_on: Option<u32>,
     /// Live tools mill: the main spindle is the axis C.
     mills: bool,
+    /// The functions of the main spindle are not those of a live tool.
+    pub(super) live_has_own_codes: bool,
     /// MODE has just changed that.
     mode_changed: bool,
     /// What was wrong at the last motion, so that it is said once.
@@ -113,6 +115,7 @@ impl Expected {
             asks_fixture: false,
             offset_on: None,
             mills: settings.begins_milling(),
+            live_has_own_codes: settings.live_has_own_codes(),
             mode_changed: false,
             said: Vec::new(),
         }
@@ -273,6 +276,11 @@ impl Expected {
         self.mills
     }
 
+    /// The plane that a record has named last, by the index of its normal.
+    pub(super) fn named_plane(&self) -> usize {
+        self.plane
+    }
+
     /// Live tools mill on a machine without Y.
     pub(super) fn mills_without_y(&self, settings: &Settings) -> bool {
         self.mills && settings.is_mill_turn() && !settings.written()[1]
@@ -413,6 +421,15 @@ impl Expected {
         let doing = if cuts { Doing::Cutting } else { Doing::Moving };
         let wrong = self.wrong(modes, doing, slack);
         self.news(wrong)
+    }
+
+    /// Tool-tip control has ended and taken the length off: the next motion of Z calls it again.
+    pub(super) fn length_is_taken_off(&mut self) {
+        let must = self.offset.now;
+        if must.is_some() && self.offset.next.is_none() {
+            self.offset = Lag::new(None);
+            self.offset.set(must, Due::WithZ);
+        }
     }
 
     /// The length offset at the last motion.

@@ -59,7 +59,7 @@ pub fn compare_programs(programs: Programs<'_>) -> Result<Report, Unfollowed> {
     let Programs { reference, found, commons, allowed } = programs;
     let blocks = Blocks::new(commons, allowed.between).map_err(Unfollowed::Found)?;
     let settings = Settings::new(commons, allowed.tolerance).map_err(Unfollowed::Found)?;
-    let rules = Rules::new(settings.is_mill_turn());
+    let rules = Rules::new(&settings);
     let mut pair = Pair {
         wanted: Window::new(Sift::new(reference, Count::default())),
         found: Window::new(Sift::new(found, Looks { rules, blocks })),

@@ -83,7 +83,7 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     /// The direction of the tool in those of X, Y and Z.
-    fn tool_on_axes(&self, rotary: [f64; 2]) -> Vector3<f64> {
+    pub(super) fn tool_on_axes(&self, rotary: [f64; 2]) -> Vector3<f64> {
         let forward = &self.settings.forward;
         forward.frame(rotary).turn.transpose() * forward.axis(rotary)
     }
@@ -95,23 +95,67 @@ impl<C: Steps> Walk<'_, C> {
         let at = self.settings.forward.restated(&self.at, &part.to);
         let end = self.settings.forward.restated(end, &part.to);
         let slack = self.slack_along(&at, &end);
-        let upwards = |from: &Position, to: &Position, rotary: [f64; 2]| {
-            let way = Vector3::from(to.linear) - Vector3::from(from.linear);
-            let tool = self.tool_on_axes(rotary);
-            let along = way.dot(&tool);
-            (along >= -slack && (way - tool * along).norm() <= slack, along)
-        };
-        let before = at.rotary;
-        let rises = part.to.rotary == before && upwards(&at, &part.to, before).0;
-        let comes_down = part.to.rotary == end.rotary && upwards(&end, &part.to, end.rotary).0;
+        let rises = self.lies_above(&part.to, &at, slack);
+        let comes_down = self.lies_above(&part.to, &end, slack);
         let lies_between = |n: usize| {
             let near = |a: f64, b: f64| (a - b).abs() <= STILL;
             near(part.to.linear[n], at.linear[n]) || near(part.to.linear[n], end.linear[n])
         };
+        let way = Vector3::from(part.to.linear) - Vector3::from(at.linear);
         let by_axes = leg == Leg::ToMachine
             && (0..3).all(lies_between)
-            && upwards(&at, &part.to, before).1 <= slack;
+            && way.dot(&self.tool_on_axes(at.rotary)) <= slack;
         rises || comes_down || by_axes
+    }
+
+    /// True for a part of a rapid straight up along the tool out of its cut, as high as the end
+    /// lies, before the machine turns.
+    pub(super) fn leads_out_of_cut(&self, part: &Move, end: &Position) -> bool {
+        let Some(rise) = self.rise_out_of_cut(&part.to, end) else { return false };
+        let at = self.settings.forward.restated(&self.at, &part.to);
+        let tool = self.tool_on_axes(at.rotary);
+        let slack: f64 = (0..3).map(|n| tool[n].abs() * self.slack.linear[n]).sum();
+        let beside = 2.0 * self.slack_along(&at, end);
+        rise.abs() <= slack + STILL && self.lies_above(&part.to, &at, beside)
+    }
+
+    /// How far the end of a rapid out of a cut that turns the machine lies above a position, along
+    /// the tool where it stands, mm; `None` for any other rapid.
+    fn rise_out_of_cut(&self, from: &Position, end: &Position) -> Option<f64> {
+        let holds_axes = ![&self.at, from, end].iter().any(|at| at.names_tip());
+        let is_known = self.is_known(&self.known) && !self.settings.is_mill_turn();
+        let turns = self.at.rotary != end.rotary;
+        if !(self.is_in_cut && holds_axes && is_known && turns) {
+            return None;
+        }
+        let forward = &self.settings.forward;
+        let tip = self.rapid_to.map_or(forward.pose(end).tip, |pose| pose.tip);
+        let way = tip - forward.pose(from).tip;
+        Some(way.dot(&forward.axis(self.at.rotary)))
+    }
+
+    /// A rapid out of a cut that turns the machine begins otherwise than up along the tool.
+    pub(super) fn turns_in_cut(&self, part: &Move, end: &Position) -> bool {
+        let Some(rise) = self.rise_out_of_cut(&self.at, end) else { return false };
+        let slack = 2.0 * self.slack_along(&self.at, end);
+        rise > slack && !self.lies_above(&part.to, &self.at, slack)
+    }
+
+    /// True for a part of a rapid to a place from which it leads down along a leaning tool to the
+    /// end.
+    pub(super) fn comes_down_along_tool(&self, part: &Move, end: &Position) -> bool {
+        let end = self.settings.forward.restated(end, &part.to);
+        let leans = !part.to.names_tip() && self.axis_of_tool(&end, PARALLEL).is_none();
+        leans && self.lies_above(&part.to, &end, self.slack_along(&part.to, &end))
+    }
+
+    /// A position lies on the tool of another one, above it or there.
+    fn lies_above(&self, position: &Position, base: &Position, slack: f64) -> bool {
+        let way = Vector3::from(position.linear) - Vector3::from(base.linear);
+        let tool = self.tool_on_axes(base.rotary);
+        let along = way.dot(&tool);
+        let beside = (way - tool * along).norm();
+        position.rotary == base.rotary && along >= -slack && beside <= slack
     }
 
     /// What the last digits of X, Y and Z leave open across a way along the tool between two
@@ -120,8 +164,15 @@ impl<C: Steps> Walk<'_, C> {
         let way = Vector3::from(to.linear) - Vector3::from(from.linear);
         let reach = way.norm() + self.settings.forward.pivot().unwrap_or(0.0);
         let of_angles = self.slack.rotary.into_iter().fold(0.0, f64::max).to_radians();
-        let turn = of_angles.max(self.settings.direction_rounding().unwrap_or(0.0));
-        DIGITS * self.slack.linear.into_iter().fold(STILL, f64::max) + turn * reach
+        let rounding = self.settings.direction_rounding().unwrap_or(0.0);
+        let turn = of_angles.max(rounding);
+        // The less the tool leans, the more the last digits of its direction turn a table about Z,
+        // and with it where the tip stands.
+        let tool = self.tool_on_axes(from.rotary);
+        let lean = libm::hypot(tool.x, tool.y).max(PARALLEL);
+        let beside = libm::hypot(from.linear[0], from.linear[1]);
+        let of_table = rounding / lean * beside;
+        DIGITS * self.slack.linear.into_iter().fold(STILL, f64::max) + turn * reach + of_table
     }
 
     /// The same of a way up to a level of Z, which a small angle makes much longer.

@@ -45,7 +45,7 @@ impl<C: Steps> Walk<'_, C> {
                 (a - b).abs() <= self.slack.feed + a * self.share_slack(&from, found)
             }
             (Rate::PerTurn(a), Some(Rate::PerTurn(b))) => {
-                (a - b).abs() <= self.slack_of_lead(found, a)
+                (a - b).abs() <= self.slack_of_pass(found, a)
             }
             (Rate::Varying(a, gains), Some(Rate::Varying(b, others))) => {
                 let slack = self.slack_of_lead(found, a);
@@ -93,7 +93,7 @@ impl<C: Steps> Walk<'_, C> {
     /// A feed within the limits of Y and Z. From a place that nobody knows each axis may go
     /// alone, also while the machine turns.
     fn within_axes(&self, rate: f64, from: &Position, found: &Move) -> f64 {
-        let begins = self.known[..3] == [true; 3]
+        let begins = (0..3).all(|n| self.known[n] || !self.written[n])
             && !self.tool_is_fresh
             && found.modes.fixture == self.moved_fixture;
         let turns = turned(from, found) != [0.0; 2] && !found.to.tip_control;

@@ -2,11 +2,18 @@
 //! cutter compensation, turn at feed from a place that nobody knows, give a time for a way that
 //! nobody knows.
 
+use fil_machine::locations as loc;
+
 use super::report::FindingKind;
+use super::settings::Settings;
+use crate::dialect::WayRound;
 use crate::motion::{Compensation, Course, Event, Move, Position, Rate};
 
 /// A turn of less, degrees, is the rounding of an angle, which leaves the side of the cutter.
 const TURNED: f64 = 0.01;
+
+/// Half a turn with the rounding of an angle, degrees.
+const HALF_TURN: f64 = 180.0 + TURNED;
 
 /// Follows where the axes stand, as far as it is known.
 #[derive(Debug)]
@@ -22,12 +29,32 @@ pub(super) struct RotaryRules {
     is_fresh: bool,
     /// The main spindle of a mill-turn machine is its axis, with rules of its own.
     turns_spindle: bool,
+    /// The first rotary axis can't turn at feed.
+    only_indexes: bool,
+    /// Rotary axes that the control turns one way to a position within a turn.
+    turns_one_way: [bool; 2],
     /// What was said of the last motion, so that it is said once.
     said: bool,
 }
 
+impl Settings<'_> {
+    /// The rules of the rotary axes of this machine; the main spindle of a mill-turn machine is
+    /// one, with rules of its own.
+    pub(super) fn rotary_rules(&self) -> RotaryRules {
+        let is_one_way = |n: usize| {
+            let way = self.dialect.ways_round[n + 3];
+            way.is_some_and(|way| way != WayRound::Shortest)
+        };
+        RotaryRules {
+            only_indexes: self.commons.read(loc::ROTARY_INDEX_ONLY),
+            turns_one_way: [0, 1].map(is_one_way),
+            ..RotaryRules::new(self.is_mill_turn())
+        }
+    }
+}
+
 impl RotaryRules {
-    pub(super) fn new(turns_spindle: bool) -> Self {
+    fn new(turns_spindle: bool) -> Self {
         RotaryRules {
             at: Position::default(),
             known: [false; 5],
@@ -35,6 +62,8 @@ impl RotaryRules {
             sent_away: [false; 2],
             is_fresh: false,
             turns_spindle,
+            only_indexes: false,
+            turns_one_way: [false; 2],
             said: false,
         }
     }
@@ -64,6 +93,9 @@ impl RotaryRules {
                         face before";
             wrong.push((FindingKind::Compensation, said.to_string()));
         }
+        if let Some(said) = self.turns_wrongly(found) {
+            wrong.push((FindingKind::Axis, said.to_string()));
+        }
         if found.course != Course::Feed {
             return wrong;
         }
@@ -77,6 +109,28 @@ impl RotaryRules {
             wrong.push((FindingKind::Feed, said.to_string()));
         }
         wrong
+    }
+
+    /// What is wrong with how a motion at feed turns the axes: one that can only index, or nearly
+    /// a full turn behind a tool change. Before its first word an axis stands at zero, as far as
+    /// anybody knows.
+    fn turns_wrongly(&self, found: &Move) -> Option<&'static str> {
+        let cuts = matches!(found.course, Course::Feed | Course::Thread) && !found.in_cycle;
+        let turn = |n: usize| match found.known[n + 3] {
+            true => (found.to.rotary[n] - self.at.rotary[n]).abs(),
+            false => 0.0,
+        };
+        match cuts {
+            true if self.only_indexes && turn(0) > TURNED => {
+                Some("a rotary axis that can only index turns at feed")
+            }
+            true if (0..2)
+                .any(|n| self.is_fresh && self.turns_one_way[n] && turn(n) > HALF_TURN) =>
+            {
+                Some("a rotary axis turns the long way round at feed behind a tool change")
+            }
+            _ => None,
+        }
     }
 
     /// Where a motion begins is not known in the frame that it ends in.

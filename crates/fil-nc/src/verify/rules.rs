@@ -3,6 +3,7 @@
 
 use super::report::{Finding, FindingKind, Report};
 use super::rotary_rules::RotaryRules;
+use super::settings::Settings;
 use crate::motion::{Compensation, Course, Event, Modes, Move, OtherPlane};
 
 /// Looks at the events of a program in their order.
@@ -22,15 +23,15 @@ pub(super) struct Rules {
 }
 
 impl Rules {
-    /// The rules of a machine; the main spindle of a mill-turn machine is its rotary axis.
-    pub(super) fn new(is_mill_turn: bool) -> Self {
+    /// The rules of a machine.
+    pub(super) fn new(settings: &Settings<'_>) -> Self {
         Rules {
             findings: Report::default(),
             compensation: Compensation::default(),
             stray: None,
             said_of_cycle: false,
             other_plane: None,
-            rotary: RotaryRules::new(is_mill_turn),
+            rotary: settings.rotary_rules(),
         }
     }
 

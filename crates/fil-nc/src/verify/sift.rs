@@ -59,7 +59,7 @@ pub(super) struct Beside {
 impl Beside {
     pub(super) fn new(settings: &Settings<'_>) -> Self {
         Beside {
-            rules: Rules::new(settings.is_mill_turn()),
+            rules: Rules::new(settings),
             clamps: Clamps::new(settings),
             auxiliaries: Vec::new(),
         }

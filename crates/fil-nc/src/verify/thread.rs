@@ -229,7 +229,7 @@ impl<C: Steps> Walk<'_, C> {
 
     /// How far the lead of a pass may be off: a cycle that says it in a word of its own has other
     /// digits than the address, and along the path the rounded ends of the pass change it, too.
-    fn slack_of_pass(&self, pass: &Move, lead: f64) -> f64 {
+    pub(super) fn slack_of_pass(&self, pass: &Move, lead: f64) -> f64 {
         let along_path = self.settings.dialect.lead_along_path;
         let share = if along_path { LEAD * lead } else { 0.0 };
         share + self.slack_of_lead(pass, lead)

@@ -6,6 +6,18 @@ use super::settings::Settings;
 use crate::motion::{Position, unit};
 
 impl Settings<'_> {
+    /// X is a diameter.
+    pub fn is_lathe(&self) -> bool {
+        self.commons.read(loc::LATHE_DIAMETER)
+    }
+
+    /// The live tools of a mill-turn machine turn and stop by functions of their own.
+    pub fn live_has_own_codes(&self) -> bool {
+        let code = |at| self.commons.read(at);
+        let of_live = code(loc::MILL_TURN_LIVE_STOP_CODE);
+        self.is_mill_turn() && of_live.is_some() && of_live != code(loc::SPINDLE_STOP_CODE)
+    }
+
     /// Minutes of a motion that turns the machine: as long as asked for, but where X, Y and Z
     /// stand no longer than at the lowest feed, or as the turn of each axis (degrees) takes at
     /// least.

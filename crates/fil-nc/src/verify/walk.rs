@@ -100,6 +100,14 @@ pub(super) struct Walk<'a, C> {
     pub(super) is_above: bool,
     /// A tool change or a position of the machine has brought the tool away from the part.
     pub(super) is_away: bool,
+    /// Where the rapid at hand leads, as the CL file says it.
+    pub(super) rapid_to: Option<Pose>,
+    /// The last motion was one under tool-tip control.
+    moved_tip: bool,
+    /// Z of the machine, as far as motions have said it, mm.
+    pub(super) height: Option<f64>,
+    /// The last motion of the tip was at feed.
+    pub(super) is_in_cut: bool,
     /// What was said of the last position, so that one fault is said once.
     pub(super) said: Option<Shape>,
     pub(super) report: Report,
@@ -157,6 +165,10 @@ impl<'a, C: Steps> Walk<'a, C> {
             is_up: false,
             is_above: false,
             is_away: true,
+            rapid_to: None,
+            moved_tip: false,
+            height: None,
+            is_in_cut: false,
             said: None,
             report: Report::default(),
             failed: None,
@@ -237,10 +249,8 @@ impl<'a, C: Steps> Walk<'a, C> {
             }
             Wanted::Dwell(seconds) => self.dwell(step.line, *seconds, None),
             Wanted::DwellTurns(turns) => {
-                let seconds = self.settings.waits_seconds().then(|| {
-                    let speed = self.modes.turns_a_minute().unwrap_or(f64::INFINITY);
-                    self.settings.dwell_within(turns * 60.0 / speed)
-                });
+                let speed = self.modes.turns_a_minute().filter(|_| self.settings.waits_seconds());
+                let seconds = speed.map(|speed| self.settings.dwell_within(turns * 60.0 / speed));
                 self.dwell(step.line, seconds, Some(*turns));
             }
             Wanted::Insert { text, may_be_skipped } => {
@@ -367,6 +377,9 @@ impl<'a, C: Steps> Walk<'a, C> {
     /// their last value.
     pub(super) fn at_as(&self, found: &Move) -> Position {
         let mut at = self.settings.forward.restated(&self.at, &found.to);
+        if self.at.tilt != found.to.tilt {
+            return at;
+        }
         for n in (0..3).filter(|n| !found.known[*n]) {
             at.linear[n] = self.at.linear[n];
         }
@@ -448,6 +461,7 @@ impl<'a, C: Steps> Walk<'a, C> {
     /// Takes a motion: its modes, its limits, where it goes.
     pub(super) fn take(&mut self, cl_line: u32, found: &Move) {
         let at = self.at_as(found);
+        let ends_tip = self.moved_tip && !found.to.tip_control;
         let differs = |n: usize| {
             let way = (found.to.linear[n] - at.linear[n]).abs();
             let turns = found.arc.is_some_and(|arc| arc.normal != n);
@@ -459,7 +473,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         };
         let moved = Moved {
             xy: differs(0) || differs(1),
-            z: differs(2),
+            z: differs(2) && !(ends_tip && found.course == Course::Machine),
             in_plane: (0..3).any(|n| n != normal && differs(n)),
         };
         if moved.xy || moved.z {
@@ -468,6 +482,9 @@ impl<'a, C: Steps> Walk<'a, C> {
         }
         self.height_is_fresh &= !moved.z;
         let cuts = matches!(found.course, Course::Feed | Course::Thread);
+        if ends_tip && found.modes.length_offset.is_none() {
+            self.modes.length_is_taken_off();
+        }
         let wrong = match moved.xy || moved.z || !self.is_still(found) {
             true => self.modes.check(&found.modes, moved, cuts, &self.slack),
             false => self.modes.check_resting(&found.modes, &self.slack),
@@ -480,12 +497,14 @@ impl<'a, C: Steps> Walk<'a, C> {
         self.was_compensated = found.modes.compensation != Compensation::Off;
         self.check_limits(cl_line, found);
         self.leaves_or_comes(found);
+        self.follow_height(found, cuts);
         (self.is_up, self.rapid_end) = (false, None);
         self.line = found.line;
         self.at = found.to;
         self.moved_tool = found.modes.tool;
         self.moved_fixture = found.modes.fixture;
         self.moved_tip_line = found.modes.tip_control_line;
+        self.moved_tip = found.to.tip_control;
         self.known = found.known;
         self.has_had_height |= found.known[2];
     }

@@ -56,7 +56,14 @@ pub fn go(control: &mut Control, motion: &Motion, before: Before, cause: Cause) 
              that ends the length of the tool could not be taken back",
         );
     }
-    for group in [AxisSet::Z, AxisSet::XY, AxisSet::ROTARY] {
+    // Of a lathe neither axis is the one that must go first: as all its rapid motions this is one
+    // block.
+    let is_lathe = control.commons.read(loc::LATHE_DIAMETER);
+    let groups: &[AxisSet] = match is_lathe {
+        true => &[AxisSet::Z.or(AxisSet::XY), AxisSet::ROTARY],
+        false => &[AxisSet::Z, AxisSet::XY, AxisSet::ROTARY],
+    };
+    for group in groups {
         let axes = group.and(motion.axes).and(present);
         if !axes.is_empty() {
             control.because(cause, |control| block(control, &motion.of(axes)))?;

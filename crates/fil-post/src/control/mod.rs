@@ -42,6 +42,7 @@ use fil_machine::rounding::Rounding;
 use fil_machine::setting::{CodeAt, LetterAt};
 use fil_machine::tables::MachineTables;
 use fil_machine::{Commons, FunctionCode, Letter, mill_turn};
+use nalgebra::Rotation3;
 
 use crate::block::Block;
 use crate::cause::Cause;
@@ -75,6 +76,9 @@ pub struct TipOffset {
     pub by_vector: bool,
     /// Where the rotary axes stand since a vector has turned them, degrees.
     pub leans: Option<[f64; 2]>,
+    /// Turns directions of the last tilted frame into those of the part, and where the rotary axes
+    /// stand in it, degrees.
+    pub frame: Option<(Rotation3<f64>, [f64; 2])>,
 }
 
 /// The output side of the post.
@@ -104,6 +108,8 @@ pub struct Control {
     pub block: Block,
     /// The program has begun, its blocks are words, and nobody edits them.
     pub(crate) straight: bool,
+    /// Number of blocks behind the last motion in the plane of cutter compensation.
+    pub(crate) moved_in_plane_behind: u64,
     /// Where the rotary axes were last brought, degrees over any number of turns, for axes
     /// whose words count within one.
     pub(crate) wound: [Option<f64>; 2],
@@ -177,6 +183,7 @@ impl Control {
             repeats: BTreeMap::new(),
             block: Block::default(),
             straight: false,
+            moved_in_plane_behind: 0,
             head: ProgramHead::default(),
             klartext: klartext::Klartext::default(),
             sinumerik: sinumerik::Sinumerik::default(),

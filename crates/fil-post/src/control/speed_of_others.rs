@@ -26,7 +26,13 @@ pub(super) fn learn(control: &mut Control, words: &[(Letter, f64)], skipped: boo
     }
     let is_of_speed = |code| matches!(control.meaning(code), Meaning::SurfaceSpeed(_));
     let changes = codes().any(is_of_speed);
-    if named(loc::DWELL_CODE) || said.is_none() && !changes {
+    let is_of_feed = |code| matches!(control.meaning(code), Meaning::FeedMode(_));
+    let ends_surface = control.codes.speeds_are_feeds() && codes().any(is_of_feed);
+    let pauses = named(loc::DWELL_CODE);
+    if ends_surface && !changes {
+        end_surface_speed(control);
+    }
+    if pauses || said.is_none() && !changes {
         return;
     }
     let by_surface = control.state.surface_speed == Some(true);
@@ -37,4 +43,12 @@ pub(super) fn learn(control: &mut Control, words: &[(Letter, f64)], skipped: boo
         Some(value) if by_surface => Some(SpindleSpeed::Feet(value)),
         Some(value) => Some(SpindleSpeed::Revolutions(value)),
     };
+}
+
+/// G94 and G95 of a SINUMERIK end G96, which is one of their group.
+fn end_surface_speed(control: &mut Control) {
+    if matches!(control.speed, Some(SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_))) {
+        control.speed = None;
+        control.state.surface_speed = None;
+    }
 }

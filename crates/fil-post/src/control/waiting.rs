@@ -168,15 +168,19 @@ impl Control {
     }
 
     /// Adds the words that wait for the motion in the block; `turning` as for a work offset.
-    pub(crate) fn take_waiting(&mut self, turning: AxisSet) {
+    ///
+    /// # Errors
+    /// As [`Block::merge`].
+    pub(crate) fn take_waiting(&mut self, turning: AxisSet) -> Result<()> {
         let words = std::mem::take(&mut self.waiting.words);
         // What is due is found before words are added that a motion could be taken from.
         let (due, later): (Vec<_>, Vec<_>) =
             words.into_iter().partition(|(_, due, _)| self.is_due(*due, turning));
         for (_, _, words) in &due {
-            self.block.merge(words);
+            self.block.merge(words, &self.tables.addresses)?;
         }
         self.waiting.words = later;
+        Ok(())
     }
 
     /// Takes away the words of a function that wait; says whether there were any.

@@ -3,7 +3,7 @@
 
 use fil_diag::Result;
 use fil_machine::letters::{G, M};
-use fil_machine::locations::ControlFamily;
+use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::modes::{Plane, Unit};
 use fil_machine::{FunctionCode, Letter};
 
@@ -21,9 +21,9 @@ const RETRACT: &str = "M140";
 #[derive(Clone, Copy, Debug)]
 pub struct BeforeOthers {
     compensated: bool,
-    compensation: Option<Compensation>,
     plane: Option<Plane>,
     tool_changes: u32,
+    lengths_said: u32,
     /// Where the rotary axes stand.
     rotary: [Option<f64>; 2],
     /// Under tool-tip control: what counts in it.
@@ -114,6 +114,7 @@ impl Control {
         let skipped = self.state.may_be_skipped();
         speed_of_others::learn(self, &plain, skipped);
         self.follow_feed_mode();
+        self.take_plane_back(&before);
         self.refuse_changes(before)
     }
 
@@ -154,6 +155,7 @@ impl Control {
             speed_of_others::learn(self, &read.words, skipped);
         }
         self.follow_feed_mode();
+        self.take_plane_back(&before);
         self.refuse_changes(before)
     }
 
@@ -164,17 +166,29 @@ impl Control {
         }
     }
 
+    /// The lengths of a SINUMERIK's tool count along the axes of its plane: where others have left
+    /// that of a lathe, the next motion says it again.
+    fn take_plane_back(&mut self, before: &BeforeOthers) {
+        let changed = self.state.plane.is_some() && self.state.plane != before.plane;
+        let is_lathe = self.tables.family == ControlFamily::Sinumerik
+            && self.commons.read(loc::LATHE_DIAMETER);
+        if changed && is_lathe {
+            self.state.x_is_as_written = false;
+        }
+    }
+
     /// What the control knows before words or texts that the post has not made.
     ///
     /// # Errors
     /// As [`Control::begin`].
     pub fn before_others(&mut self) -> Result<BeforeOthers> {
         self.begin()?;
+        (self.state.compensation_said, self.state.tool_said) = (false, false);
         Ok(BeforeOthers {
             compensated: self.is_compensated(),
-            compensation: self.state.compensation,
             plane: self.state.plane,
             tool_changes: self.state.tool_changes,
+            lengths_said: self.lengths_said(),
             rotary: [3, 4].map(|number| self.stands(number)),
             frame: self.frame_of_tip(),
         })
@@ -193,10 +207,27 @@ impl Control {
         })
     }
 
+    /// A number that is another one where texts have named a length of the tool or taken it off;
+    /// on a SINUMERIK H is any function, and another edge counts from its own length.
+    fn lengths_said(&self) -> u32 {
+        match self.tables.family {
+            ControlFamily::Sinumerik => u32::from(self.sinumerik.edge() == Some(0)),
+            _ => self.state.lengths_said,
+        }
+    }
+
     /// Refuses what words or texts of others have changed in the frame of tool-tip control,
     /// which goes on: controls differ in what that does.
-    fn refuse_under_tip_control(&self, before: Option<Frame>) -> Result<()> {
-        match (before, self.frame_of_tip()) {
+    fn refuse_under_tip_control(&self, before: &BeforeOthers) -> Result<()> {
+        let changed = self.state.tool_changes != before.tool_changes;
+        if before.frame.is_some() && (changed || self.lengths_said() != before.lengths_said) {
+            return PostCode::TipControl.err_with(
+                "a text changes the tool, names a length or takes it off, and tool-tip control \
+                 goes on with that of the tool before",
+                "Put LOADTL there, or the text before tool-tip control begins or behind its end.",
+            );
+        }
+        match (before.frame, self.frame_of_tip()) {
             (Some(before), Some(now)) if before != now => PostCode::TipControl.err_with(
                 "a text changes the plane, the unit, the zero or the frame, goes to a position of \
                  the machine or begins a cycle: controls differ in what that does under it",
@@ -214,19 +245,16 @@ impl Control {
     /// # Errors
     /// They did.
     pub fn refuse_changes(&self, before: BeforeOthers) -> Result<()> {
-        if self.waiting.has(Function::Compensation)
-            && let (Some(was), Some(is)) = (before.compensation, self.state.compensation)
-            && was != is
-        {
+        if self.waiting.has(Function::Compensation) && self.state.compensation_said {
             return PostCode::CompensationOn.err(
                 "a text switches it while CUTCOM waits for its motion, which would switch it again",
             );
         }
-        self.refuse_under_tip_control(before.frame)?;
+        self.refuse_under_tip_control(&before)?;
         if !before.compensated {
             return Ok(());
         }
-        if self.state.tool_changes != before.tool_changes {
+        if self.state.tool_changes != before.tool_changes || self.state.tool_said {
             return PostCode::CompensationOn
                 .err("at a tool change; CUTCOM/OFF must come before it");
         }

@@ -8,20 +8,20 @@
 mod auxiliaries;
 mod codes;
 mod doubts;
+mod learning;
 mod levels;
 mod others;
 mod skip;
 pub(crate) mod text;
 
+pub use auxiliaries::CALLS;
 pub use codes::{Codes, Meaning, VARYING_LEADS_OF_SINUMERIK};
 pub use text::{TextFrame, TextWords, read as text_words};
 
-use fil_machine::address::Addresses;
 use fil_machine::locations as loc;
 use fil_machine::modes::{FeedMode, Plane, Unit};
 use fil_machine::{Commons, FunctionCode, Letter, letters};
 
-use crate::block::Block;
 use doubts::Doubts;
 pub use doubts::Place;
 pub use levels::Levels;
@@ -130,14 +130,27 @@ pub struct ControlState {
     pub compensation: Option<Compensation>,
     /// A motion has been made since compensation was switched on.
     pub compensation_begun: bool,
+    /// Compensation that had begun was switched off, and no motion in its plane has been made
+    /// since: the control comes back to the path with the next one, which must be a line.
+    pub compensation_ends: bool,
+    /// A code of compensation was said since somebody asked.
+    pub compensation_said: bool,
+    /// A T word that changes the tool by itself was said by others since somebody asked.
+    pub tool_said: bool,
     /// A canned cycle is in force: each position drills a hole.
     pub in_cycle: Option<bool>,
     /// The code of the last canned cycle.
     pub cycle: Option<FunctionCode>,
     /// Tool changes so far.
     pub tool_changes: u32,
+    /// How often words or texts have named a length of the tool, or taken it off.
+    pub lengths_said: u32,
     /// The tool in the spindle.
     pub tool: Option<i64>,
+    /// The tools between which the skip switch has decided.
+    pub tools_by_switch: [Option<i64>; 2],
+    /// The skip switch has decided which tool that is, or which length it has.
+    pub tool_is_by_switch: bool,
     /// The offset that was called with it.
     pub tool_offset: Option<i64>,
     /// The length of the tool, as far as functions have called it or taken it off.
@@ -190,10 +203,16 @@ impl ControlState {
             tilted: Some(false),
             compensation: Some(Compensation::Off),
             compensation_begun: false,
+            compensation_ends: false,
+            compensation_said: false,
+            tool_said: false,
             in_cycle: Some(false),
             cycle: None,
             tool_changes: 0,
+            lengths_said: 0,
             tool: None,
+            tools_by_switch: [None; 2],
+            tool_is_by_switch: false,
             tool_offset: None,
             length: Length::Unsaid,
             fixture: None,
@@ -356,10 +375,16 @@ impl ControlState {
             tilted: None,
             compensation: None,
             compensation_begun: self.compensation_begun,
+            compensation_ends: self.compensation_ends,
+            compensation_said: self.compensation_said,
+            tool_said: self.tool_said,
             in_cycle: None,
             cycle: None,
             tool_changes: self.tool_changes,
+            lengths_said: self.lengths_said,
             tool: None,
+            tools_by_switch: self.tools_by_switch,
+            tool_is_by_switch: self.tool_is_by_switch,
             tool_offset: None,
             length: self.length,
             fixture: None,
@@ -380,123 +405,18 @@ impl ControlState {
         };
     }
 
+    /// A tool is in the spindle now.
+    pub fn has_tool(&mut self, tool: Option<i64>) {
+        self.tool = tool;
+        self.tool_is_by_switch = false;
+    }
+
     /// Another program or subprogram begins: it may be called from anywhere.
     pub fn program_begins(&mut self) {
         self.ended = false;
         self.forget();
         // Its first motions are those of any program: where the tool stands is the caller's.
         AXIS_LETTERS.into_iter().for_each(|letter| self.doubts.settle(letter));
-    }
-
-    /// Learns from a block of words.
-    #[inline]
-    pub fn learn_block(&mut self, block: &Block, codes: &Codes, addresses: &Addresses) {
-        if !block.g_codes().is_empty() {
-            for (code, _) in block.g_codes() {
-                self.learn_code(*code, codes);
-            }
-        }
-        for (code, _) in block.m_codes() {
-            self.learn_auxiliary(*code, codes);
-        }
-        if !self.doubts.is_empty() {
-            self.trust_words(block, addresses);
-        }
-        if self.distance != Some(Distance::Absolute) {
-            self.doubt_axes();
-        }
-    }
-
-    /// The control has the words of a block.
-    fn trust_words(&mut self, block: &Block, addresses: &Addresses) {
-        let letters = block.positions().filter_map(|at| addresses.slot(at).letter);
-        letters.for_each(|letter| self.doubts.remove(letter));
-    }
-
-    /// Learns what a preparatory function does.
-    #[inline]
-    pub fn learn_code(&mut self, code: FunctionCode, codes: &Codes) {
-        match codes.meaning(code) {
-            Meaning::Motion => {
-                self.motion = Some(code);
-                if codes.motion_ends_cycle() {
-                    self.in_cycle = Some(false);
-                } else if self.in_cycle == Some(true) && !codes.keeps_cycles() {
-                    // Some controls leave the cycle, some don't.
-                    self.in_cycle = None;
-                }
-            }
-            Meaning::Plane(plane) => self.plane = Some(plane),
-            Meaning::Distance(distance) => self.distance = Some(distance),
-            Meaning::Unit(unit) => {
-                if self.unit != Some(unit) {
-                    self.doubts.add_all();
-                }
-                self.unit = Some(unit);
-            }
-            Meaning::FeedMode(mode) => {
-                // Some controls forget F even when the mode stays.
-                self.doubt(letters::F);
-                self.feed_mode = Some(mode);
-            }
-            Meaning::Compensation(side) => {
-                self.compensation = Some(side);
-                self.compensation_begun = false;
-            }
-            Meaning::Cycle => {
-                self.in_cycle = Some(true);
-                self.cycle = Some(code);
-                self.motion = None;
-            }
-            Meaning::CycleOff => {
-                self.in_cycle = Some(false);
-                self.motion = None;
-            }
-            Meaning::SurfaceSpeed(on) => {
-                self.surface_speed = Some(on);
-                if codes.speeds_are_feeds() {
-                    self.doubt(letters::F);
-                }
-                self.feed_mode = codes.feed_behind_speed(code, self.feed_mode);
-            }
-            Meaning::Diameters => self.x_is_as_written = true,
-            Meaning::OneBlock => {}
-            Meaning::ReturnLevel => {
-                self.return_level = Some(code);
-                self.doubt(letters::R);
-            }
-            Meaning::Turning => {
-                self.motion = None;
-                self.doubt_axes();
-                self.doubt(letters::F);
-            }
-            Meaning::ToolLength => {
-                self.doubt(letters::XYZ[2]);
-                self.calls_length(!codes.takes_length(code));
-                if self.tip_control != Some(false) {
-                    self.tip_control = Some(false);
-                    self.doubt_axes();
-                }
-            }
-            Meaning::TipControl => {
-                self.tip_control = Some(true);
-                self.calls_length(true);
-                self.doubt_axes();
-            }
-            Meaning::Frame => {
-                self.doubt_axes();
-                if codes.is_fixture(code) {
-                    self.fixture = Some(code);
-                } else if !codes.keeps_fixture(code) {
-                    self.fixture = None;
-                }
-            }
-            Meaning::Tilt => {
-                self.tilted = None;
-                self.doubt_axes();
-            }
-            Meaning::Unknown => self.forget(),
-        }
     }
 
     /// The control may be in a threading move of varying lead, which the next one would go on
@@ -520,5 +440,6 @@ impl ControlState {
     #[inline]
     pub fn moved_in_plane(&mut self) {
         self.compensation_begun = true;
+        self.compensation_ends = false;
     }
 }

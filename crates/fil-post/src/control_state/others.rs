@@ -83,7 +83,11 @@ impl ControlState {
             match (*letter, FunctionCode::of_value(*value)) {
                 (letters::G, Some(code)) => self.learn_code(code, codes),
                 (letters::M, Some(code)) => self.learn_auxiliary(code, codes),
-                (letters::T, _) => self.tool = None,
+                (letters::T, _) => {
+                    self.tool = None;
+                    self.tool_said |= codes.tool_word_changes;
+                }
+                (letters::H, _) => self.names_length(),
                 (letter, _) if cycle => self.doubt(letter),
                 (letter, _) => self.trust(letter),
             }
@@ -129,7 +133,11 @@ impl ControlState {
                 (letters::G, Some(code)) => self.learn_code(code, codes),
                 (letters::G | letters::M, None) => self.forget(),
                 (letters::M, Some(code)) => self.learn_auxiliary(code, codes),
-                (letters::T, _) => self.tool = None,
+                (letters::T, _) => {
+                    self.tool = None;
+                    self.tool_said |= codes.tool_word_changes;
+                }
+                (letters::H, _) => self.names_length(),
                 (letter, _) if is_axis(letter) => self.doubt_axes(),
                 (letter, _) => self.doubt(letter),
             }
@@ -159,6 +167,12 @@ impl ControlState {
                 self.lose_axes();
             }
         }
+    }
+
+    /// A word names the offset of a length.
+    fn names_length(&mut self) {
+        self.lengths_said += 1;
+        self.doubt(letters::H);
     }
 
     /// Learns where a text has brought the axes; positions that count otherwise than those of

@@ -84,6 +84,13 @@ impl ControlState {
         agree(&mut self.compensation, &other.compensation);
         agree(&mut self.in_cycle, &other.in_cycle);
         agree(&mut self.cycle, &other.cycle);
+        let offsets = |state: &ControlState| (state.tool_offset, state.lengths_said);
+        if self.tool != other.tool || offsets(self) != offsets(other) {
+            // The next motion asks for it.
+            (self.tool_is_by_switch, self.x_is_as_written) = (true, false);
+            self.tools_by_switch = [self.tool, other.tool];
+        }
+        self.tool_is_by_switch |= other.tool_is_by_switch;
         agree(&mut self.tool, &other.tool);
         agree(&mut self.tool_offset, &other.tool_offset);
         agree(&mut self.fixture, &other.fixture);
@@ -100,6 +107,7 @@ impl ControlState {
         }
         self.x_is_as_written &= other.x_is_as_written;
         self.compensation_begun &= other.compensation_begun;
+        self.compensation_ends |= other.compensation_ends;
         self.doubts.or(&other.doubts);
     }
 }

@@ -42,6 +42,7 @@ const ELSEWHERE: &str = "the tape does not stand where the arc begins: a cycle, 
 /// No start point, radii that disagree, an arc in a cycle or as the first motion of
 /// cutter compensation, and all that a motion refuses.
 pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
+    post.path.in_cut = true;
     let Some(start) = post.path.point else {
         return PostCode::ArcStart.err("CIRCLE before any FROM or GOTO");
     };
@@ -159,7 +160,7 @@ fn refuse_first_under_compensation(post: &Post) -> Result<()> {
              code that switches compensation off",
         )));
     }
-    if waits || (on && !state.compensation_begun) {
+    if waits || state.compensation_ends || (on && !state.compensation_begun) {
         return PostCode::CompensationOnArc.err("cutter compensation would begin or end on an arc");
     }
     Ok(())

@@ -2,14 +2,18 @@
 
 use fil_diag::Result;
 use fil_machine::modes::Plane;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Point3, Vector3};
 
-use super::Transformation;
+use super::tip::tool_in_machine;
+use super::{Transformation, rapid_lean};
 use crate::errors::PostCode;
 use crate::post::Post;
 
 /// A plane whose normal comes as near to that of the control is the same.
 const SAME: f64 = 1e-6;
+
+/// The cosine between directions that are one.
+const SAME_WAY: f64 = 1.0 - 1e-8;
 
 /// Refuses compensation where the tape shows the path of the CL file in a mirror, or seen from
 /// below: what is left of the one is right of the other.
@@ -38,6 +42,59 @@ pub fn check(post: &Post, plane: Plane) -> Result<()> {
     }
     PostCode::CompensationSide
         .err("TRANS, or a scale below zero, shows the path in a mirror or from below")
+}
+
+/// Refuses compensation that a text or a function of others has switched on where CUTCOM could not.
+///
+/// # Errors
+/// Under tool-tip control, and as [`refuse_across_tool`].
+pub fn refuse_of_others(post: &Post) -> Result<()> {
+    let state = &post.control.state;
+    if !(state.compensation_said && state.compensates()) {
+        return Ok(());
+    }
+    if post.writes_tip() {
+        return PostCode::TipControl.err("cutter compensation by a text");
+    }
+    let plane = state.plane.unwrap_or(Plane::Xy);
+    refuse_across_tool(post, plane, plane != Plane::Xy)
+}
+
+/// Refuses compensation in a plane in which the tool of a machine with rotary axes, or of one
+/// whose tool lies along another axis than Z, does not cut with its side: the control would shift
+/// the path along the tool, into the part. A plane that CUTCOM names is one of the part, and must be
+/// that of the control, too. Under a tool along Z it may be any, for ball cutters.
+///
+/// # Errors
+/// The tool lies across the plane's normal or leans, or the part stands turned.
+pub fn refuse_across_tool(post: &Post, plane: Plane, is_named: bool) -> Result<()> {
+    let tables = &post.control.tables;
+    let chain = tables.chain();
+    let is_upright = !chain.has_rotary() && chain.tool == Vector3::z_axis();
+    // Under tool-tip control all compensation is refused elsewhere.
+    if tables.mills() || is_upright || post.writes_tip() {
+        return Ok(());
+    }
+    let Some(angles) = rapid_lean::turned(&post.control) else { return Ok(()) };
+    let of_part = post.path.stands.normalize();
+    let normal = Vector3::ith(plane.normal(), 1.0);
+    let in_frame = tables.frame_output && post.control.state.tilted != Some(false);
+    let (tool, seen) = match () {
+        () if in_frame => {
+            (Vector3::z(), if of_part.z > SAME_WAY { normal } else { Vector3::zeros() })
+        }
+        () => {
+            let at = |point| chain.linear(point, angles);
+            let seen = at(Point3::origin() + normal) - at(Point3::origin());
+            (tool_in_machine(chain, angles), seen)
+        }
+    };
+    let cuts = tool.dot(&normal) > SAME_WAY || is_named && tool.z > SAME_WAY;
+    if cuts && (!is_named || seen.dot(&normal) > SAME_WAY) {
+        return Ok(());
+    }
+    PostCode::CompensationAcross
+        .err("the tool does not lie square to the plane in which the control would compensate it")
 }
 
 /// True where one of the planes of the CL file lies in that of the control, the same side up.

@@ -188,7 +188,12 @@ fn turn_on_the_spot(
 }
 
 /// A feed a minute at which neither Y nor Z goes faster than it may.
-fn within_axes(post: &mut Post, feed: Feed, way: [Option<f64>; 3], length: Option<f64>) -> Feed {
+pub(super) fn within_axes(
+    post: &mut Post,
+    feed: Feed,
+    way: [Option<f64>; 3],
+    length: Option<f64>,
+) -> Feed {
     let length = length.unwrap_or(0.0);
     let shares = [way[1], way[2]].map(|way| match way {
         Some(way) if length > NO_WAY => (way.abs() / length).min(1.0),
@@ -199,7 +204,12 @@ fn within_axes(post: &mut Post, feed: Feed, way: [Option<f64>; 3], length: Optio
 
 /// The same; Y and Z go at these shares of the feed at most.
 fn within_shares(post: &mut Post, feed: Feed, shares: [f64; 2]) -> Feed {
-    let largest_of = post.control.tables.motion.largest_of;
+    let mut largest_of = post.control.tables.motion.largest_of;
+    let tables = &post.control.tables;
+    if tables.axis(1).is_off() || tables.is_polar() || tables.is_unrolled() {
+        // A lathe has no Y, and the second axis of these planes is C.
+        largest_of[0] = None;
+    }
     if feed.mode != FeedMode::PerMinute || largest_of == [None; 2] {
         return feed;
     }

@@ -14,7 +14,7 @@ use fil_machine::locations as loc;
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::tip::tool_in_machine;
-use super::{machine_position, rotary, tip_control};
+use super::{height, machine_position, rotary, tip_control};
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::{Control, Function, family, full_turn};
 use crate::control_state::Meaning;
@@ -143,9 +143,12 @@ fn begin(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<TiltedFra
     if at_feed && !post.control.tip.is_away && post.path.point.is_some() {
         refuse_at_feed(&post.control, rests)?;
     }
+    let away = if rests { None } else { Some(away(post, stands)?) };
     tip_control::end(&mut post.control)?;
     end(&mut post.control)?;
-    turn_machine(post, (stands, known), angles)?;
+    if let Some(away) = away {
+        turn_machine(post, away, angles)?;
+    }
     let flat = (turn.matrix() - Rotation3::identity().matrix()).amax() < SAME_AXIS;
     let higher = higher(post.control.tables.chain(), axis, angles);
     let turn = match flat {
@@ -155,6 +158,7 @@ fn begin(post: &mut Post, axis: Vector3<f64>, at_feed: bool) -> Result<TiltedFra
     if let Some(turn) = turn {
         check_rounded(post.control.tables.chain(), turn, angles)?;
         forget_positions(&mut post.control, true);
+        post.control.tip.frame = Some((turn, angles));
     }
     if post.control.tables.clamps && post.control.clamped != Some(true) {
         full_turn::clamp(&mut post.control, true)?;
@@ -231,28 +235,53 @@ fn check_rounded(chain: &AxisChain, turn: Rotation3<f64>, angles: [f64; 2]) -> R
     }
 }
 
-/// Turns the rotary axes, where nothing is beside the tool.
-fn turn_machine(
-    post: &mut Post,
-    (stands, known): ([f64; 2], bool),
-    angles: [f64; 2],
-) -> Result<()> {
-    if known && still(stands, angles) {
-        return Ok(());
+/// What brings the tool away from the part before the machine turns for a frame.
+#[derive(Clone, Copy, Debug)]
+enum Away {
+    /// Nothing need, or it is.
+    Stays,
+    /// A way up to a level of the machine's Z.
+    To(f64),
+}
+
+/// How the tool comes away where the machine turns to these angles.
+///
+/// # Errors
+/// Nothing says how; the tool stands in a cut above the level, or nobody knows how high.
+fn away(post: &Post, stands: [f64; 2]) -> Result<Away> {
+    let control = &post.control;
+    if control.tip.is_away {
+        return Ok(Away::Stays);
     }
-    if !post.control.tip.is_away {
-        if leans(post.control.tables.chain(), stands) {
-            return PostCode::Frame.err(
-                "a head leans the tool, and straight up to home.retract_z would not be along it: \
-                 GOHOME or RETRCT must bring it away",
-            );
-        }
-        let Some(level) = post.control.commons.dbl_opt(loc::HOME_RETRACT_Z) else {
-            return PostCode::Frame.err(
-                "the machine would turn beside the part: no tool change, GOHOME or RETRCT came \
-                 before, and no level to go up to is known",
-            );
-        };
+    if leans(control.tables.chain(), stands) {
+        return PostCode::Frame.err(
+            "a head leans the tool, and straight up to home.retract_z would not be along it: \
+             GOHOME or RETRCT must bring it away",
+        );
+    }
+    let Some(level) = control.commons.dbl_opt(loc::HOME_RETRACT_Z) else {
+        return PostCode::Frame.err(
+            "the machine would turn beside the part: no tool change, GOHOME or RETRCT came \
+             before, and no level to go up to is known",
+        );
+    };
+    height::refuse_shifted(control, level)?;
+    if !height::is_above(control, level)? {
+        return Ok(Away::To(level));
+    }
+    if post.path.in_cut {
+        return PostCode::Frame.err_with(
+            "the machine would turn in the cut, which lies above home.retract_z",
+            "Bring the tool out by RAPID and GOTO before the new tool axis, or name a level above \
+             the part.",
+        );
+    }
+    Ok(Away::Stays)
+}
+
+/// Turns the rotary axes, where nothing is beside the tool.
+fn turn_machine(post: &mut Post, away: Away, angles: [f64; 2]) -> Result<()> {
+    if let Away::To(level) = away {
         machine_position::carry_out(post, [None, None, Some(level)])?;
     }
     let position = [0.0, 0.0, 0.0, angles[0], angles[1]];
@@ -279,6 +308,32 @@ fn stands_at(control: &Control, angles: [f64; 2]) -> bool {
             let here = control.axis_position(number).map(|here| axis.near(here, angle));
             here.is_some_and(|here| (here - angle).abs() <= axis.resolution())
         })
+}
+
+/// The rotary axes stand at these angles, to their last digits, whoever has brought them there.
+pub(super) fn rests(control: &Control, angles: [f64; 2]) -> bool {
+    control.tables.present().and(AxisSet::ROTARY).numbers().all(|number| {
+        let (axis, angle) = (control.tables.axis(number), angles[number - 3]);
+        let stands = control.stands(number);
+        stands.is_some_and(|at| (axis.near(at, angle) - angle).abs() <= axis.resolution())
+    })
+}
+
+/// Refuses a text that turns the machine in a tilted frame, which stands still: where X, Y and Z
+/// count from then, no control says alike.
+///
+/// # Errors
+/// It does.
+pub(super) fn refuse_turned(control: &Control, stood: [Option<f64>; 2]) -> Result<()> {
+    let is_in_frame = control.tables.frame_output && control.state.tilted == Some(true);
+    let turned = |n: usize| control.stands(n + 3).is_some() && control.stands(n + 3) != stood[n];
+    if is_in_frame && (0..2).any(turned) {
+        return PostCode::Frame.err_with(
+            "a text turns a rotary axis in a tilted frame",
+            "Put it behind GOHOME or LOADTL, where no frame is in force.",
+        );
+    }
+    Ok(())
 }
 
 /// The control has the rotary axes where the program has last brought them.
@@ -316,10 +371,14 @@ pub fn end(control: &mut Control) -> Result<()> {
     }
     family::cancel_cycle(control)?;
     let known = knows_rotary(control);
+    let slides = height::slides_in_frame(control);
     family::end_frame(control)?;
     control.state.tilted = Some(false);
     forget_positions(control, known);
-    Ok(())
+    match slides {
+        Some(slides) => height::stand(control, slides),
+        None => Ok(()),
+    }
 }
 
 /// What an operation that is no motion of the path asks of a tilted frame.

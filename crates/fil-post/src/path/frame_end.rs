@@ -4,7 +4,7 @@
 use fil_diag::Result;
 use fil_machine::locations::{self as loc, ToolChangeBlock};
 
-use super::{frame, rapid_lean, rotary};
+use super::{frame, height, rapid_lean};
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::{Control, family, machine_frame};
 use crate::control_state::Place;
@@ -27,7 +27,7 @@ pub(super) fn go_up(post: &mut Post, operation: &Operation) -> Result<()> {
     if in_machine || !frame::leans(control.tables.chain(), angles) {
         return Ok(());
     }
-    let (Some(height), Place::At(z)) = (rotary::machine_height(post), control.place(2)) else {
+    let (Some(height), Place::At(z)) = (height::machine_height(control), control.place(2)) else {
         return unknown();
     };
     let rise = level - height;

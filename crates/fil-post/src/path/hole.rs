@@ -9,7 +9,7 @@ use fil_machine::locations::{
 };
 
 use super::cycle::{Cycle, CycleKind, Hole};
-use super::{expand, frame, mill_turn, rapid, rapid_turn, rotary, scaled_lead, tip_hole};
+use super::{Since, expand, frame, mill_turn, rapid, rapid_turn, rotary, scaled_lead, tip_hole};
 use crate::control::place::refuse_unknown;
 use crate::control::sinumerik::live_tap;
 use crate::control::skip::refuse_level;
@@ -36,6 +36,8 @@ const SAME_LEVEL: f64 = 1e-9;
 pub fn carry_out(post: &mut Post, target: Target) -> Result<()> {
     let Some(mut cycle) = post.path.cycle.take() else { return Ok(()) };
     let result = drill(post, &mut cycle, target);
+    // The tool stands above the point.
+    post.path.since = Since::Hole;
     post.path.cycle = Some(cycle);
     post.path.course.interrupt();
     result
@@ -70,6 +72,7 @@ fn drill(post: &mut Post, cycle: &mut Cycle, target: Target) -> Result<()> {
     if cycle.kind == CycleKind::Tap {
         scaled_lead::refuse(&post.control, &[hole.along], PostCode::CycleForm)?;
     }
+    post.path.in_cut = false;
     post.path.arrive(target);
     let word = rotary::word_of(post, target);
     let at = Motion::new(position, AxisSet::ALL, word);
@@ -329,7 +332,10 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, at: &Motion) -> Re
     };
     let unknown = here.is_none() && cycle.retract.is_some();
     refuse_unknown_height(&mut post.control, hole.along, place, below)?;
-    let level = if below { wanted } else { initial.unwrap_or(wanted) };
+    // The control returns to where it stood when its cycle began, which is lower than the level
+    // before ours where another cycle has left the tool on its R level.
+    let of_control = cycle.in_force.map(|last| last.initial).or(here);
+    let level = if below { wanted } else { of_control.or(initial).unwrap_or(wanted) };
     if below || unknown {
         family::cancel_cycle(&mut post.control)?;
         cycle.in_force = None;
@@ -347,7 +353,12 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, at: &Motion) -> Re
                        returns to the level before the cycle";
         post.warn(PostCode::IgnoredPart, message.to_string());
     }
-    cycle.initial = Some(level).filter(|_| below || unknown || initial.is_some());
+    // A raise over a high hole is no lower level to return to for the holes behind it.
+    let higher = |initial: f64| if above(level, initial) > 0.0 { level } else { initial };
+    cycle.initial = match initial {
+        Some(initial) => Some(higher(initial)),
+        None => Some(level).filter(|_| below || unknown),
+    };
     hole.initial = level;
     hole.to_initial = match cycle.retract {
         None => false,

@@ -51,6 +51,7 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
         false => travel::carry_out(post, *target, kind)?,
     }
     post.control.tip.begins_unsaid = false;
+    post.path.in_cut = !matches!(kind, MotionKind::Rapid(_));
     post.path.arrive(*target);
     Ok(())
 }
@@ -74,20 +75,30 @@ pub(super) fn go(post: &mut Post, target: Target, kind: MotionKind) -> Result<()
                 && reposition_rapid::carry_out(post, before, target, cause)? => {}
         MotionKind::Rapid(cause) => match feed_rules::of_short_rapid(post, &motion, target) {
             Some(feed) => family::feed(&mut post.control, &motion, Some(&feed))?,
+            None if post.path.in_cut => rapid::out_of_cut(&mut post.control, &motion, cause)?,
             None => rapid::rapid(&mut post.control, &motion, cause)?,
         },
-        MotionKind::Feed => match rotary::turned(before, post.path.rotary) {
-            Some(before) if !rotary::begins_anywhere(post)? => {
-                turning::feed(post, before, &motion, target)?;
+        MotionKind::Feed => {
+            match rotary::turned(before, post.path.rotary) {
+                Some(before) if !rotary::begins_anywhere(post)? => {
+                    return turning::feed(post, before, &motion, target);
+                }
+                Some(before) => turning::from_elsewhere(post, before, &motion)?,
+                None if before.is_none() && post.path.rotary.is_some() => {
+                    turning::from_unsaid(post, &motion)?;
+                }
+                None => {}
             }
-            _ if feed_rules::apply(post) => feed_rules::line(post, &motion, target, None)?,
-            _ => family::feed(&mut post.control, &motion, post.path.feed.as_ref())?,
-        },
+            match feed_rules::apply(post) {
+                true => feed_rules::line(post, &motion, target, None)?,
+                false => family::feed(&mut post.control, &motion, post.path.feed.as_ref())?,
+            }
+        }
         MotionKind::Thread(lead) => {
             if post.writes_tip() {
                 return PostCode::TipControl.err_with("a thread", tip_control::OUTSIDE);
             }
-            rotary::refuse_thread(before, post.path.rotary)?;
+            rotary::refuse_thread(before.or_else(|| turning::unsaid(post)), post.path.rotary)?;
             scaled_lead::refuse(&post.control, &thread::AXES, PostCode::Thread)?;
             let counted = thread::counted_lead(post, lead, target)?;
             let change = thread::counted_change(post, lead, &counted, target)?;

@@ -17,15 +17,17 @@ use fil_machine::{FunctionCode, Letter, letters};
 use nalgebra::{Point3, Vector3};
 
 use super::cycle::{CycleFeed, CycleKind};
-use super::{functions_of_others, rotary, thread};
+use super::{feed_rules, functions_of_others, rotary, thread};
 use crate::control::Control;
 use crate::control::sinumerik::{reader, transformation};
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::word_address::spindle;
 use crate::control::{family, full_turn};
-use crate::control_state::{Meaning, Rotation, text};
+use crate::control_state::{CALLS, Meaning, Rotation, TOOL_CHANGE, text};
 use crate::errors::PostCode;
-use crate::operation::{Arc, MotionKind, Operation, SideSpindle, Spindle, SpindleTurn, Target};
+use crate::operation::{
+    Arc, Feed, MotionKind, Operation, SideSpindle, Spindle, SpindleTurn, Target,
+};
 use crate::post::Post;
 
 /// Tool axes nearer than this are one.
@@ -140,6 +142,28 @@ fn set_mode(control: &mut Control, mode: MillTurnMode) -> Result<()> {
 fn leave(post: &mut Post) -> Result<()> {
     polar::end(post)?;
     cylinder::end(post)
+}
+
+/// Refuses a transformation in which C goes wherever X and Y ask it to, while its travel ends.
+fn refuse_travel_of_c(control: &Control, code: PostCode) -> Result<()> {
+    let c = control.tables.chain().rotaries[0].as_ref();
+    match c.is_some_and(|c| c.min.is_some() || c.max.is_some() || !c.zones.is_empty()) {
+        true => code.err("the travel of C is limited, and how far C turns in it is not followed"),
+        false => Ok(()),
+    }
+}
+
+/// A feed in a plane of X and C, or around a cylinder, at which Z goes no faster than it may.
+fn within_axes(post: &mut Post, feed: Feed, to: &Position, axes: AxisSet) -> Feed {
+    if !axes.has(2) {
+        return feed;
+    }
+    let way = [0, 1, 2].map(|number| match axes.has(number) {
+        true => post.control.stands(number).map(|at| to[number] - at),
+        false => Some(0.0),
+    });
+    let length = way.iter().try_fold(0.0, |sum, way| way.map(|way| sum + way * way));
+    feed_rules::within_axes(post, feed, way, length.map(f64::sqrt))
 }
 
 fn refuse_skipped(control: &Control) -> Result<()> {
@@ -336,16 +360,30 @@ pub(super) fn before(post: &mut Post, operation: &Operation) -> Result<()> {
         Operation::MachinePosition(_) | Operation::ToolChange(_) | Operation::WorkOffset(_) => {
             leave(post)
         }
-        Operation::Function(letter, code) if *letter == letters::G => {
-            match post.control.meaning(*code) {
-                Meaning::Frame | Meaning::Cycle | Meaning::Plane(_) | Meaning::Unit(_) => {
-                    leave(post)
-                }
-                _ => Ok(()),
-            }
-        }
+        others if changes_plane(&post.control, others) => leave(post),
         _ => Ok(()),
     }
+}
+
+/// Functions of others that no polar or cylindrical interpolation goes on behind: another zero,
+/// plane, unit or tool, a cycle, and what can't be read.
+fn changes_plane(control: &Control, operation: &Operation) -> bool {
+    let changes = |letter: Letter, code: FunctionCode| match letter {
+        letters::G => matches!(
+            control.meaning(code),
+            Meaning::Frame
+                | Meaning::Cycle
+                | Meaning::Plane(_)
+                | Meaning::Unit(_)
+                | Meaning::Unknown
+        ),
+        letters::T => true,
+        letters::M => code == TOOL_CHANGE || CALLS.contains(&code),
+        _ => false,
+    };
+    let is_unread = |text: &str| text::read(text).is_none();
+    functions_of_others::has(operation, changes)
+        || matches!(operation, Operation::Text(text) if is_unread(text))
 }
 
 /// Refuses functions of others that change what C and the main spindle are: the post would not

@@ -17,6 +17,7 @@ mod feed_rules;
 pub mod frame;
 mod frame_end;
 mod functions_of_others;
+pub mod height;
 pub mod hole;
 mod index;
 pub(crate) mod linear;
@@ -83,6 +84,8 @@ pub struct Path {
     pub multax: Option<bool>,
     /// A motion has come.
     pub(crate) has_moved: bool,
+    /// The last motion was at feed: the tool may stand in its cut.
+    pub(crate) in_cut: bool,
     /// The points were moved since the last one came, or the tool away from it.
     pub(crate) is_left: bool,
     /// Last rotary positions in degrees; `None` before the first motion.
@@ -130,6 +133,8 @@ pub struct Path {
     pub(crate) pitch: Option<thread::Pitch>,
     /// What the lead of the thread gains in each turn, mm or inch; below zero it loses.
     pub(crate) lead_change: f64,
+    /// Number of blocks behind the last pass, from whose end the next motion of its thread goes on.
+    pub(crate) pass_end: Option<u64>,
     /// A whole thread that waits for its points, or has them.
     pub(crate) awaited_thread: Option<Box<thread::Awaited>>,
     /// TRANS or TRACUT.
@@ -181,6 +186,7 @@ impl Default for Path {
             axis_in_doubt: false,
             multax: None,
             has_moved: false,
+            in_cut: false,
             is_left: false,
             rotary: None,
             free: None,
@@ -205,6 +211,7 @@ impl Default for Path {
             pitch: None,
             turned_with: turned_apart::TurnedWith::default(),
             lead_change: 0.0,
+            pass_end: None,
             awaited_thread: None,
             transformation: None,
             has_origin: false,
@@ -235,6 +242,8 @@ pub(crate) enum Since {
     /// TRANS, ORIGIN, TRACUT, ROTABL, a named frame, FROM or a text: the last point is not where
     /// the tool stands.
     Frame,
+    /// A hole: the tool stands above the last point.
+    Hole,
     /// A tool change: nobody knows where the new tool stands.
     ToolChange,
 }
@@ -259,7 +268,7 @@ impl Path {
     /// The last point is no longer the one at which the tool stands.
     pub(crate) fn leave_point(&mut self) {
         self.is_left = true;
-        if self.since == Since::Motion {
+        if self.since != Since::ToolChange {
             self.since = Since::Frame;
         }
     }
@@ -322,12 +331,15 @@ fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
     counted_spindle::refuse_choices_of_others(&post.control, &operation)?;
     skip::note(post, &operation);
     if !matches!(operation, Operation::Text(_) | Operation::Words(_)) {
-        return write_other(post, operation);
+        let is_of_others = matches!(operation, Operation::Function(..));
+        write_other(post, operation)?;
+        return if is_of_others { compensation_side::refuse_of_others(post) } else { Ok(()) };
     }
     let by_words = matches!(operation, Operation::Words(_));
     let stood = rotary::stands(&post.control);
     let is_clamped = post.control.state.may_be_clamped;
     write_other(post, operation)?;
+    compensation_side::refuse_of_others(post)?;
     let stands = rotary::stands(&post.control);
     if is_clamped {
         let moved = |n: &usize| stands[*n].is_some() && stands[*n] != stood[*n];
@@ -336,7 +348,9 @@ fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
     }
     if stands != stood {
         rotary::refuse_past_travel(&post.control, stood, stands)?;
+        frame::refuse_turned(&post.control, [stood[3], stood[4]])?;
         post.path.leave_point();
+        post.path.in_cut = false;
         post.path.turned_by_words = by_words;
         if !by_words {
             rotary::follow(post);

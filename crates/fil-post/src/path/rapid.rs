@@ -24,15 +24,64 @@ const SAME: f64 = 1e-6;
 /// # Errors
 /// As [`family::rapid`].
 pub fn rapid(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()> {
+    in_order(control, motion, cause, true)
+}
+
+/// The same; `warns` of a tip that comes below its line, where nothing has been said of it.
+fn in_order(control: &mut Control, motion: &Motion, cause: Cause, warns: bool) -> Result<()> {
     if control.state.tip_control == Some(true) {
         return family::rapid(control, motion, RapidCode::Across, cause);
     }
     if control.commons.read(loc::RAPID_SPLIT) == RapidSplit::OneBlock {
         look_where_it_begins(control, motion)?;
-        rapid_turn::warn_of_dip(control, motion, &[AxisSet::ALL]);
+        if warns {
+            rapid_turn::warn_of_dip(control, motion, &[AxisSet::ALL]);
+        }
         return family::rapid(control, motion, RapidCode::Across, cause);
     }
-    in_parts(control, motion, cause)
+    in_parts(control, motion, cause, warns)
+}
+
+/// Makes a rapid motion out of a cut: where it turns the machine the tool goes up along itself
+/// before, to the height of the end, as the tip sweeps aside in the turn.
+///
+/// # Errors
+/// As [`rapid`].
+pub(super) fn out_of_cut(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()> {
+    let Some(from) = rapid_turn::turns_from(control, motion) else {
+        return rapid(control, motion, cause);
+    };
+    let lie = match control.commons.read(loc::RAPID_SPLIT) {
+        RapidSplit::OneBlock => None,
+        _ => Some(Lie::of(control, motion)),
+    };
+    let rises = match lie {
+        None => false,
+        Some(Lie::Along { number, up }) => goes_first(control, motion, number, up)?,
+        // It goes up along the tool in any case.
+        Some(Lie::Leaning) => true,
+    };
+    let over = rapid_lean::over_start(control, &from, &motion.position).filter(|_| !rises);
+    if let Some(over) = over {
+        control.tables.check_travel(&over, AxisSet::LINEAR)?;
+        let axes = AxisSet::LINEAR.and(control.tables.present());
+        family::rapid(control, &Motion::new(over, axes, 0), RapidCode::Across, cause)?;
+    }
+    let from = over.unwrap_or(from);
+    let ends = match lie {
+        None => vec![motion.position],
+        Some(Lie::Along { number, .. }) => {
+            let blocks = order(number, rises).map(|(axes, _)| axes);
+            rapid_turn::ends_of(control, motion, &blocks, &from)
+        }
+        Some(Lie::Leaning) => {
+            let mut ends = rapid_lean::stops(control, &from, &motion.position);
+            ends.push(motion.position);
+            ends
+        }
+    };
+    let is_said = rapid_turn::warn_of_sweep(control, &from, &ends);
+    in_order(control, motion, cause, !is_said)
 }
 
 /// Looks where a rapid motion of several axes in one block begins: no order of them is safe on
@@ -79,14 +128,16 @@ fn goes_with_others(control: &Control, motion: &Motion, number: usize) -> Result
 ///
 /// # Errors
 /// As [`family::rapid`].
-fn in_parts(control: &mut Control, motion: &Motion, cause: Cause) -> Result<()> {
+fn in_parts(control: &mut Control, motion: &Motion, cause: Cause, warns: bool) -> Result<()> {
     let (number, up) = match Lie::of(control, motion) {
         Lie::Along { number, up } => (number, up),
         Lie::Leaning if rapid_lean::is_away(control) => (2, true),
         Lie::Leaning => return rapid_lean::rapid(control, motion, cause),
     };
     let tool_first = motion.axes.has(number) && goes_first(control, motion, number, up)?;
-    rapid_turn::warn_of_dip(control, motion, &order(number, tool_first).map(|(axes, _)| axes));
+    if warns {
+        rapid_turn::warn_of_dip(control, motion, &order(number, tool_first).map(|(axes, _)| axes));
+    }
     split(control, motion, number, tool_first, cause)
 }
 

@@ -179,11 +179,24 @@ fn stands(control: &Control, motion: &Motion) -> Result<Position> {
     Ok(from)
 }
 
-/// Where a rapid motion stops on its way: over the start and over the end, along the tool.
-fn stops(control: &Control, from: &Position, to: &Position) -> Vec<Position> {
+/// Positions over the start of a motion, along the tool, as high as its end lies; `None` where that
+/// is no way up.
+pub(super) fn over_start(control: &Control, from: &Position, to: &Position) -> Option<Position> {
     let chain = control.tables.chain();
+    let up = (tip(chain, to) - tip(chain, from)).dot(&chain.axis_at([from[3], from[4]]));
+    (up > least_way(control)).then(|| above(chain, from, up))
+}
+
+/// What is no way, as the last digits of the axes make it.
+fn least_way(control: &Control) -> f64 {
     let digits = AxisSet::LINEAR.and(control.tables.present()).numbers();
-    let least = DIGITS * digits.map(|n| control.tables.axis(n).resolution()).fold(0.0, f64::max);
+    DIGITS * digits.map(|n| control.tables.axis(n).resolution()).fold(0.0, f64::max)
+}
+
+/// Where a rapid motion stops on its way: over the start and over the end, along the tool.
+pub(super) fn stops(control: &Control, from: &Position, to: &Position) -> Vec<Position> {
+    let chain = control.tables.chain();
+    let least = least_way(control);
     let way = tip(chain, to) - tip(chain, from);
     let [up, down] = [from, to].map(|at| way.dot(&chain.axis_at([at[3], at[4]])));
     let over = |at: &Position, by: f64| above(chain, at, by);
@@ -257,7 +270,7 @@ pub(super) fn go_up_to(control: &mut Control, motion: &Motion, cause: Cause) -> 
     }
     let from = stands(control, motion)?;
     let rises = motion.position[2] - from[2];
-    if rises <= 0.0 {
+    if rises <= DIGITS * control.tables.axis(2).resolution() {
         return Ok(false);
     }
     let mut up = above(control.tables.chain(), &from, way_along(control, angles, rises)?);

@@ -41,23 +41,90 @@ pub(super) fn warn_of_dip_when_out(control: &mut Control, motion: &Motion, block
     warn_in_blocks(control, motion, blocks, Along::TheTool);
 }
 
-fn warn_in_blocks(control: &mut Control, motion: &Motion, blocks: &[AxisSet], along: Along) {
+/// Where the axes stand before a motion that turns the machine; `None` where that is not known, or
+/// the program holds no positions of the axes.
+pub(super) fn turns_from(control: &Control, motion: &Motion) -> Option<Position> {
+    let present = control.tables.present();
+    if !holds_axes(control, motion) || motion.axes.and(present) != present {
+        return None;
+    }
+    let from = stands(control, motion)?;
+    let turns =
+        |n: &usize| (motion.position[*n] - from[*n]).abs() >= control.tables.axis(*n).resolution();
+    AxisSet::ROTARY.and(present).numbers().any(|n| turns(&n)).then_some(from)
+}
+
+/// Warns of a rapid motion out of a cut in blocks that end there and bring the tip aside from the
+/// line between its ends: what stands beside the cut is not known. Says whether it did.
+pub(super) fn warn_of_sweep(control: &mut Control, from: &Position, ends: &[Position]) -> bool {
+    let Some(to) = ends.last() else { return false };
+    let chain = control.tables.chain();
+    let line = [from, to].map(|at| tip(chain, at));
+    let farthest = farthest(from, ends, |here| {
+        let tip = tip(chain, here);
+        (nearest(line, tip) - tip).norm()
+    });
+    let mm = if control.is_metric() { 1.0 } else { 25.4 };
+    let is_far = farthest * mm > LEAST;
+    if is_far {
+        warn(
+            control,
+            format!(
+                "a rapid motion out of a cut that turns the machine brings the tip up to \
+                 {farthest:.3} from its line"
+            ),
+        );
+    }
+    is_far
+}
+
+/// The program holds positions of the axes, and a motion has one of a rotary axis.
+fn holds_axes(control: &Control, motion: &Motion) -> bool {
     let tables = &control.tables;
-    let present = tables.present();
     let is_of_axes = !tables.mills() && !tables.frame_output && !tables.tip_output;
-    if !is_of_axes || motion.axes.and(AxisSet::ROTARY).and(present).is_empty() {
+    is_of_axes && !motion.axes.and(AxisSet::ROTARY).and(tables.present()).is_empty()
+}
+
+/// Where blocks of these axes end.
+pub(super) fn ends_of(
+    control: &Control,
+    motion: &Motion,
+    blocks: &[AxisSet],
+    from: &Position,
+) -> Vec<Position> {
+    let mut at = *from;
+    let ends = blocks.iter().map(|axes| {
+        let axes = axes.and(motion.axes).and(control.tables.present());
+        at = std::array::from_fn(|n| if axes.has(n) { motion.position[n] } else { at[n] });
+        at
+    });
+    ends.collect()
+}
+
+/// The most of a measure at points of blocks that end there.
+fn farthest(from: &Position, ends: &[Position], measure: impl Fn(&Position) -> f64) -> f64 {
+    let (mut at, mut most) = (from, 0.0_f64);
+    for end in ends {
+        most = (0..=SAMPLES)
+            .map(|step| measure(&between(at, end, f64::from(step) / f64::from(SAMPLES))))
+            .fold(most, f64::max);
+        at = end;
+    }
+    most
+}
+
+fn warn(control: &mut Control, message: String) {
+    let hint =
+        || Some("Bring the tool away before its axis changes: GOHOME, RETRCT, or a GOTO.".into());
+    control.warnings.add_with(PostCode::Undivided, message, hint);
+}
+
+fn warn_in_blocks(control: &mut Control, motion: &Motion, blocks: &[AxisSet], along: Along) {
+    if !holds_axes(control, motion) {
         return;
     }
     let Some(from) = stands(control, motion) else { return };
-    let mut at = from;
-    let ends: Vec<Position> = blocks
-        .iter()
-        .map(|axes| {
-            let axes = axes.and(motion.axes).and(present);
-            at = std::array::from_fn(|n| if axes.has(n) { motion.position[n] } else { at[n] });
-            at
-        })
-        .collect();
+    let ends = ends_of(control, motion, blocks, &from);
     look(control, &from, &ends, along);
 }
 
@@ -77,23 +144,16 @@ fn look(control: &mut Control, from: &Position, ends: &[Position], along: Along)
         Along::TheTool => Vec::new(),
         Along::EitherEnd => either_end([from, to].map(|at| chain.axis_at([at[3], at[4]]))),
     };
-    let (mut at, mut deepest) = (from, 0.0_f64);
-    for end in ends {
-        deepest = (0..=SAMPLES)
-            .map(|step| between(at, end, f64::from(step) / f64::from(SAMPLES)))
-            .map(|here| depth_below(chain, line, &axes, &here))
-            .fold(deepest, f64::max);
-        at = end;
-    }
+    let deepest = farthest(from, ends, |here| depth_below(chain, line, &axes, here));
     let mm = if control.is_metric() { 1.0 } else { 25.4 };
     if deepest * mm > LEAST {
-        let message = format!(
-            "a rapid motion that turns the machine brings the tip up to {deepest:.3} below its line"
+        warn(
+            control,
+            format!(
+                "a rapid motion that turns the machine brings the tip up to {deepest:.3} below its \
+                 line"
+            ),
         );
-        let hint = || {
-            Some("Bring the tool away before its axis changes: GOHOME, RETRCT, or a GOTO.".into())
-        };
-        control.warnings.add_with(PostCode::Undivided, message, hint);
     }
 }
 

@@ -17,9 +17,9 @@ use nalgebra::{Point3, Vector3};
 use super::travel::Way;
 use super::turning::{apart, on_the_way, spelled};
 use super::{linearization, rapid, rotary};
-use crate::control::family;
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::word_address::spindle;
+use crate::control::{Control, family};
 use crate::editing::Ways;
 use crate::errors::PostCode;
 use crate::operation::{Coolant, Feed, Operation, Stop, Target};
@@ -425,11 +425,13 @@ pub(super) fn stop_around(post: &mut Post, plan: &Plan) -> Result<Restart> {
     let (ends, flows_again) = (plan.ways.coolant_off, starts(loc::REPOS_APPROACH_COOLANT));
     let (optional, always) = (plan.ways.optional_stop, plan.ways.stop);
     let halts = optional || always;
-    let spindle = match control.turning {
-        Some(_) if stands => Some(spindle::stand(control)?),
-        Some(_) if halts => spindle::clockwise(control),
-        _ => None,
+    let spindle = match spindle::may_turn(control) && (stands || halts) {
+        true => Some(way_round(control)?),
+        false => None,
     };
+    if stands && spindle.is_some() {
+        spindle::stand(control)?;
+    }
     let coolant = control.coolant;
     if ends && coolant.is_some() {
         family::write(control, Operation::Coolant(Coolant::Off))?;
@@ -441,6 +443,19 @@ pub(super) fn stop_around(post: &mut Post, plan: &Plan) -> Result<Restart> {
         }
     }
     Ok(Restart { spindle, coolant })
+}
+
+/// Which way the spindle turns that is to turn again.
+///
+/// # Errors
+/// It is not known.
+fn way_round(control: &Control) -> Result<bool> {
+    spindle::clockwise(control).ok_or_else(|| {
+        PostCode::NoAlternative.diag(
+            "the spindle would be stopped while the machine turns, and which way it turns is not \
+             known: a text may have changed it",
+        )
+    })
 }
 
 pub(super) fn start_again(post: &mut Post, restart: Restart) -> Result<()> {

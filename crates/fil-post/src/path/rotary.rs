@@ -187,6 +187,14 @@ pub(super) fn begins_anywhere(post: &mut Post) -> Result<bool> {
     if in_doubt { is_lost(post) } else { Ok(false) }
 }
 
+/// Warns of such a motion, where the axes stand nobody knows where.
+///
+/// # Errors
+/// As [`begins_anywhere`].
+pub(super) fn warn_of_lost(post: &mut Post) -> Result<()> {
+    is_lost(post).map(|_| ())
+}
+
 #[cold]
 fn is_lost(post: &mut Post) -> Result<bool> {
     let tables = &post.control.tables;
@@ -206,16 +214,6 @@ fn is_lost(post: &mut Post) -> Result<bool> {
         post.warn(PostCode::Undivided, message.to_string());
     }
     Ok(lost)
-}
-
-/// Z of the machine in a tilted frame, where the last point of the CL file has brought it, mm or
-/// inch; `None` where something else may have moved the tool since.
-pub fn machine_height(post: &Post) -> Option<f64> {
-    let is_there = post.path.since == Since::Motion && !post.control.state.has_doubts();
-    let point = post.path.point.filter(|_| is_there)?;
-    let target = Target { point, axis: post.path.stands, word: 0 };
-    let (point, _) = transformed(post, target);
-    Some(post.control.tables.chain().linear(point, post.path.rotary?).z)
 }
 
 /// Where the axes stand, whoever has brought them there.

@@ -5,6 +5,7 @@
 //! once more behind them; words of motions are left to what the control knows.
 
 use fil_diag::Result;
+use fil_machine::{FunctionCode, letters};
 
 use crate::control::{Control, family};
 use crate::operation::{Operation, Spindle};
@@ -32,8 +33,14 @@ fn kind(operation: &Operation) -> Option<u8> {
         Operation::Spindle(Spindle::Turn(_) | Spindle::Off | Spindle::Orient(_)) => 3,
         Operation::Coolant(_) => 4,
         Operation::WorkOffset(_) => 5,
+        Operation::Function(letters::G, code) if is_work_offset(*code) => 5,
         _ => return None,
     })
+}
+
+/// G54 to G59, by PREFUN.
+fn is_work_offset(code: FunctionCode) -> bool {
+    (54.0..60.0).contains(&code.value())
 }
 
 /// Notes an operation in blocks that can be skipped.

@@ -79,7 +79,10 @@ pub fn point(post: &mut Post, target: Target, lead: Lead) -> Result<()> {
         if stands_at(post).is_none() {
             return PostCode::Thread.err("where the pass begins is not known");
         }
-        return carry(post, Operation::Linear(target, MotionKind::Thread(lead)));
+        refuse_blocks_between(post)?;
+        carry(post, Operation::Linear(target, MotionKind::Thread(lead)))?;
+        post.path.pass_end = Some(post.control.tape.count);
+        return Ok(());
     };
     if awaited.is_cut {
         return PostCode::Thread.err(
@@ -91,7 +94,7 @@ pub fn point(post: &mut Post, target: Target, lead: Lead) -> Result<()> {
         None => awaited.start = Some(target),
         Some(start) => {
             awaited.is_cut = true;
-            let side = side_of(&awaited, start)?;
+            let side = side_of(&awaited, start, post.control.counts_side)?;
             let clearance = clearance_of(&awaited, start, side);
             let crest = [start, target];
             let thread = Thread { crest, side, clearance, ..awaited.thread };
@@ -100,6 +103,25 @@ pub fn point(post: &mut Post, target: Target, lead: Lead) -> Result<()> {
     }
     post.path.awaited_thread = Some(awaited);
     Ok(())
+}
+
+/// Refuses blocks between two motions of one pass: the tool would stand in its groove while the
+/// spindle turns on, and the second motion would begin at another angle of it (a control takes
+/// a threading block that follows another one at once without waiting for its marker).
+fn refuse_blocks_between(post: &Post) -> Result<()> {
+    let count = post.control.tape.count;
+    if post.path.pass_end.is_none_or(|behind| behind == count) {
+        return Ok(());
+    }
+    let mut diag = PostCode::Thread.diag(
+        "blocks stand between two motions of one pass, in which the tool would wait in its groove",
+    );
+    diag.hint = Some(
+        "Put what stands between (STOP, COOLNT, SPINDL, DELAY, a text) before the pass or behind \
+         it, or retract with RAPID before the next pass."
+            .into(),
+    );
+    Err(diag)
 }
 
 /// Refuses what comes between OP/THREAD and its two points.
@@ -131,12 +153,14 @@ pub fn end(post: &mut Post) -> Result<()> {
     post.path.thread = None;
     post.path.thread_turns = None;
     post.path.lead_change = 0.0;
+    post.path.pass_end = None;
     post.path.awaited_thread = None;
     Ok(())
 }
 
-/// The side that the tool comes from.
-fn side_of(awaited: &Awaited, start: Target) -> Result<ThreadSide> {
+/// The side that the tool comes from. The face of a part in the main spindle looks to +Z; that of
+/// one in the second spindle (`of_side`) may look to -Z.
+fn side_of(awaited: &Awaited, start: Target, of_side: bool) -> Result<ThreadSide> {
     let from = awaited.from.map(|from| from.point);
     let by = |axis: usize| from.map(|from| from[axis].abs() - start.point[axis].abs());
     let along_z = from.map(|from| from.z - start.point.z);
@@ -144,9 +168,11 @@ fn side_of(awaited: &Awaited, start: Target) -> Result<ThreadSide> {
         (false, Some(by), _) if by > NOTHING => Ok(ThreadSide::Outside),
         (false, Some(by), _) if by < -NOTHING => Ok(ThreadSide::Inside),
         (true, _, Some(by)) if by > NOTHING => Ok(ThreadSide::Before),
-        (true, _, Some(by)) if by < -NOTHING => Ok(ThreadSide::Behind),
-        _ => PostCode::Thread
-            .err("the tool stands neither outside nor inside of the crest before OP/THREAD"),
+        (true, _, Some(by)) if by < -NOTHING && of_side => Ok(ThreadSide::Behind),
+        _ => PostCode::Thread.err(
+            "the tool stands neither outside nor inside of the crest before OP/THREAD, nor before \
+             its face",
+        ),
     }
 }
 
@@ -318,6 +344,7 @@ fn approach(post: &mut Post, shape: &Shape, goal: Target) -> Result<()> {
     let Some(from) = stands_at(post) else { return Ok(()) };
     let out = shape.out();
     let clear = (from - goal.point).dot(&out) >= -NOTHING;
+    refuse_through_the_wall(shape, from)?;
     let along = (goal.point - from) - out * (goal.point - from).dot(&out);
     let corner = if clear { from + along } else { goal.point - along };
     if (corner - from).norm() < NOTHING || (corner - goal.point).norm() < NOTHING {
@@ -325,6 +352,23 @@ fn approach(post: &mut Post, shape: &Shape, goal: Target) -> Result<()> {
     }
     let cause = post.control.block.cause;
     to(post, Target { point: corner, ..goal }, MotionKind::Rapid(cause))
+}
+
+/// Refuses a way out or in to the thread's side that leads through the wall of the part: from
+/// the other side of the crest, where the tool does not stand before the thread.
+fn refuse_through_the_wall(shape: &Shape, from: Point3<f64>) -> Result<()> {
+    let [start, end] = shape.crest.map(|target| target.point);
+    let out = shape.out();
+    let is_beyond = (from - start).dot(&out).max((from - end).dot(&out)) < -NOTHING;
+    let is_before = (from.z - start.z) * (start.z - end.z) >= 0.0;
+    if shape.is_on_face() || !is_beyond || is_before {
+        return Ok(());
+    }
+    let mut diag = PostCode::Thread.diag(
+        "the tool stands on the other side of the thread's wall, and would go through the part",
+    );
+    diag.hint = Some("Bring the tool before the part with RAPID and GOTO first.".into());
+    Err(diag)
 }
 
 /// The passes of one start as single motions.

@@ -5,6 +5,7 @@ use fil_diag::Result;
 use fil_machine::Commons;
 use fil_machine::axes::{AxisSet, Position};
 use fil_machine::locations::{self as loc, ControlFamily, ToolChangeBlock};
+use fil_machine::modes::Plane;
 use fil_machine::user_blocks::{self, AroundChange, UserBlocks};
 
 use super::{frame, frame_end, rapid, tip_control};
@@ -14,6 +15,7 @@ use crate::control::family;
 use crate::control::machine_frame::{self, Before};
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::tool;
+use crate::control_state::Place;
 use crate::errors::PostCode;
 use crate::operation::{NextTools, Operation, ToolChange};
 
@@ -26,6 +28,20 @@ pub fn looks_ahead(commons: &Commons) -> bool {
     commons.read(loc::TOOL_PRESELECT) || last.before.is_on(commons) || last.after.is_on(commons)
 }
 
+/// Refuses the change to a tool that blocks behind the skip switch may have brought already: the
+/// machine then stays where it is, and else comes from its change position.
+fn refuse_change_by_switch(control: &Control, tool: i64) -> Result<()> {
+    let state = &control.state;
+    let may_be_in = state.tool_is_by_switch && state.tools_by_switch.contains(&Some(tool));
+    match may_be_in && matches!(control.place(2), Place::Between(_)) {
+        true => PostCode::SkippedPart.err(format!(
+            "tool {tool} is in the spindle or is not, by the skip switch, and so the tool stands where \
+             the skipped blocks have left it or at the change position"
+        )),
+        false => Ok(()),
+    }
+}
+
 /// Goes to the change position and changes the tool, between the user's blocks; then
 /// prepares the next tool.
 ///
@@ -34,6 +50,7 @@ pub fn looks_ahead(commons: &Commons) -> bool {
 /// that the tape refuses.
 pub fn change(control: &mut Control, mut wanted: ToolChange) -> Result<()> {
     family::take_own_offset(control, &mut wanted)?;
+    refuse_change_by_switch(control, wanted.tool)?;
     if !tool::prepare(control, &wanted)? {
         return Ok(());
     }
@@ -63,20 +80,31 @@ pub fn change(control: &mut Control, mut wanted: ToolChange) -> Result<()> {
 /// head turns upright.
 fn warn_of_length(control: &mut Control) {
     let chain = control.tables.chain();
-    let counts = match control.tables.family {
+    if chain.has_heads() || chain.tool.z > 1.0 - PARALLEL || !counts_length(control) {
+        return;
+    }
+    say_length_lies_across(control);
+}
+
+/// The control counts the length of the tool along an axis that the tool does not lie along where
+/// all heads stand at zero, or may lean away from.
+pub(super) fn counts_length(control: &Control) -> bool {
+    let chain = control.tables.chain();
+    match control.tables.family {
         ControlFamily::WordAddress => {
             let calls = control.commons.read(loc::TOOL_LENGTH_FROM_TOOL);
             calls && control.code_if_any(loc::TOOL_LENGTH_CODE).is_some()
         }
         // A SINUMERIK counts it square to the plane in force.
         ControlFamily::Sinumerik => {
-            control.state.plane.is_none_or(|plane| chain.tool[plane.normal()] < 1.0 - PARALLEL)
+            let along = |plane: Plane| chain.tool[plane.normal()] >= 1.0 - PARALLEL;
+            chain.has_heads() || control.state.plane.is_none_or(|plane| !along(plane))
         }
         ControlFamily::Klartext => true,
-    };
-    if !counts || chain.has_heads() || chain.tool.z > 1.0 - PARALLEL {
-        return;
     }
+}
+
+pub(super) fn say_length_lies_across(control: &mut Control) {
     let message = "the control counts the length of the tool along Z, which the tool lies across";
     control.warnings.add(PostCode::LengthAcross, message.to_string());
 }

@@ -7,6 +7,7 @@ use fil_machine::FunctionCode;
 use fil_machine::axis_chain::Carries;
 use fil_machine::locations as loc;
 
+use super::{tip, tool_change};
 use crate::control::Control;
 use crate::errors::PostCode;
 use crate::post::Post;
@@ -14,11 +15,16 @@ use crate::post::Post;
 /// A smaller turn of a rotary axis counts as none, degrees.
 const STILL: f64 = 1e-9;
 
+/// A tool with less of Z lies across it.
+const LEAST_RISE: f64 = 0.1;
+
 /// The tool and the zero with which the machine was turned first.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TurnedWith {
     tool: Option<i64>,
     zero: Option<FunctionCode>,
+    /// A head has turned the tool across Z, and so it was said of its length.
+    lies_across: bool,
 }
 
 /// Refuses positions of a turned machine for another tool, or another zero, than before.
@@ -41,9 +47,9 @@ fn look(post: &mut Post, angles: [f64; 2]) -> Result<()> {
     };
     let by_head = chain.pivot.is_some() && turned(Carries::Head);
     let by_table = turned(Carries::Table);
-    let with = &mut post.path.turned_with;
     if by_head && !control.commons.read(loc::TOOL_IGNORE_LENGTH) {
         let tool = control.state.tool;
+        let with = &mut post.path.turned_with;
         if with.tool.is_some() && tool.is_some() && with.tool != tool {
             return PostCode::TurnedApart.err_with(
                 "the head leans with a second tool, and rotary.pivot_distance is that to the tip \
@@ -54,8 +60,12 @@ fn look(post: &mut Post, angles: [f64; 2]) -> Result<()> {
         }
         with.tool = tool.or(with.tool);
     }
+    if by_head && !post.path.turned_with.lies_across {
+        look_across(post, angles);
+    }
     if by_table {
-        let zero = zero(control);
+        let zero = zero(&post.control);
+        let with = &mut post.path.turned_with;
         if with.zero.is_some() && zero.is_some() && with.zero != zero {
             return PostCode::TurnedApart.err_with(
                 "a table stands turned under a second work offset, and the settings say where its \
@@ -66,6 +76,17 @@ fn look(post: &mut Post, angles: [f64; 2]) -> Result<()> {
         with.zero = zero.or(with.zero);
     }
     Ok(())
+}
+
+/// Warns where a head turns the tool across Z, along which the control counts its length.
+fn look_across(post: &mut Post, angles: [f64; 2]) {
+    let control = &mut post.control;
+    let tool = tip::tool_in_machine(control.tables.chain(), angles);
+    let has_tool = control.state.tool.is_some();
+    if has_tool && tool.z < LEAST_RISE && tool_change::counts_length(control) {
+        tool_change::say_length_lies_across(control);
+        post.path.turned_with.lies_across = true;
+    }
 }
 
 /// The work offset in force; before the program has said one, the first that the machine has.

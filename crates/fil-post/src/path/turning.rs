@@ -8,7 +8,8 @@ use nalgebra::{Point3, Vector3};
 
 use super::{feed_rules, linearization, reposition, rotary};
 use crate::control::word_address::motion::Motion;
-use crate::control::{family, full_turn};
+use crate::control::{Control, family, full_turn};
+use crate::control_state::Place;
 use crate::errors::PostCode;
 use crate::operation::Target;
 use crate::post::Post;
@@ -57,6 +58,36 @@ fn may_turn(post: &Post, before: [f64; 2], motion: &Motion) -> Result<()> {
     Ok(())
 }
 
+/// Looks at a motion at feed that turns the machine in a block of its own, as where it begins is
+/// not known.
+///
+/// # Errors
+/// As [`may_turn`].
+#[cold]
+pub(super) fn from_elsewhere(post: &Post, before: [f64; 2], motion: &Motion) -> Result<()> {
+    if post.control.tables.mills() { Ok(()) } else { may_turn(post, before, motion) }
+}
+
+/// Where the rotary axes stand before the first motion that turns them: at zero, as far as anybody
+/// knows.
+pub(super) fn unsaid(post: &Post) -> Option<[f64; 2]> {
+    let tables = &post.control.tables;
+    (!tables.mills() && tables.chain().has_rotary()).then(|| rotary::on_tape(post))
+}
+
+/// Looks at a motion at feed that is the first one to turn the machine.
+///
+/// # Errors
+/// As [`may_turn`].
+#[cold]
+pub(super) fn from_unsaid(post: &mut Post, motion: &Motion) -> Result<()> {
+    refuse_indexing_from_anywhere(&post.control)?;
+    let now = [motion.position[3], motion.position[4]];
+    let Some(stands) = unsaid(post).filter(|stands| apart(*stands, now)) else { return Ok(()) };
+    may_turn(post, stands, motion)?;
+    rotary::warn_of_lost(post)
+}
+
 /// Moves at feed to where no rotary axis turns past a limit, whether one turns or not.
 ///
 /// # Errors
@@ -86,6 +117,18 @@ fn refuse_indexing(post: &Post, before: [f64; 2], motion: &Motion) -> Result<()>
     }
     let letter = post.control.tables.axis(3).letter;
     PostCode::Indexing.err(format!("{letter} would turn from {from:.3} to {to:.3} degrees at feed"))
+}
+
+/// Refuses the same of an axis that stands nobody knows where.
+fn refuse_indexing_from_anywhere(control: &Control) -> Result<()> {
+    let is_written = !control.tables.axis(3).is_off();
+    let indexes = control.commons.read(loc::ROTARY_INDEX_ONLY) && is_written;
+    if !indexes || matches!(control.place(3), Place::At(_) | Place::Clear) {
+        return Ok(());
+    }
+    let letter = control.tables.axis(3).letter;
+    PostCode::Indexing
+        .err(format!("{letter} would turn at feed from where it stands, which is not known"))
 }
 
 /// Moves at feed where no limit lies on the way.

@@ -45,7 +45,9 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     // A FIL section that carries CUTCOM out says the side on the tape.
     if side != Compensation::Off && post.control.tape.cause.stack == 0 {
         let machine = || usual_plane(&post.control);
-        compensation_side::check(post, plane.map_or_else(machine, |(plane, _)| plane))?;
+        let meant = plane.map_or_else(machine, |(plane, _)| plane);
+        compensation_side::check(post, meant)?;
+        compensation_side::refuse_across_tool(post, meant, plane.is_some())?;
     }
     let compensation = CutterCompensation { side, plane, offset, side_word };
     carry_out(post, Operation::Compensation(compensation))

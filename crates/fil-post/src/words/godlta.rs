@@ -8,8 +8,8 @@ use super::{csys, goto};
 use crate::dispatch::POINT;
 use crate::errors::PostCode;
 use crate::items::Items;
-use crate::operation::{Operation, Target};
-use crate::path::{carry_out, thread};
+use crate::operation::Target;
+use crate::path::thread;
 use crate::post::Post;
 
 /// Moves by the increments; one number moves along the tool axis.
@@ -38,6 +38,5 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     };
     items.deny_rest()?;
     let target = Target { point: start + step, axis: post.path.axis, word };
-    let kind = goto::kind_of_motion(post);
-    carry_out(post, Operation::Linear(target, kind))
+    goto::straight(post, target)
 }

@@ -33,6 +33,15 @@ pub fn handle(post: &mut Post, target: Target) -> Result<()> {
     if post.path.cycle.is_some() && post.path.rapid.is_none() {
         return carry_out(post, Operation::Hole(target));
     }
+    straight(post, target)
+}
+
+/// Goes straight to the point: at rapid, at feed, or in a pass of a thread.
+///
+/// # Errors
+/// All that the motion refuses.
+#[inline]
+pub fn straight(post: &mut Post, target: Target) -> Result<()> {
     match kind_of_motion(post) {
         MotionKind::Thread(lead) => thread::point(post, target, lead),
         // The most frequent operation is carried out without being made: its copy would have
@@ -80,7 +89,10 @@ fn warn_behind_stop(post: &mut Post) {
 #[inline]
 pub fn kind_of_motion(post: &mut Post) -> MotionKind {
     match (post.path.rapid.take(), post.path.thread) {
-        (Some(cause), _) => MotionKind::Rapid(cause),
+        (Some(cause), _) => {
+            post.path.pass_end = None;
+            MotionKind::Rapid(cause)
+        }
         (None, Some(lead)) => MotionKind::Thread(lead),
         (None, None) => MotionKind::Feed,
     }
@@ -105,8 +117,7 @@ pub fn gohome(post: &mut Post, items: &mut Items) -> Result<()> {
     thread::refuse_awaited(post)?;
     csys::settle(post, axis)?;
     let target = Target { point, axis, word: FIRST_DATA as u16 };
-    let kind = kind_of_motion(post);
-    carry_out(post, Operation::Linear(target, kind))
+    straight(post, target)
 }
 
 /// Refuses a motion that is no GOTO while a CIRCLE waits for its end point.

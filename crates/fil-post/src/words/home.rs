@@ -5,11 +5,9 @@ use fil_diag::Result;
 use fil_machine::locations as loc;
 
 use super::goto;
-use crate::control::machine_frame;
-use crate::control::skip::refuse_level;
 use crate::items::Items;
 use crate::operation::Operation;
-use crate::path::{carry_out, rotary, tip_control};
+use crate::path::{carry_out, height};
 use crate::post::Post;
 
 /// GOHOME: to the home position of the machine (DBLCOM 130 to 132).
@@ -44,28 +42,7 @@ pub fn retrct(post: &mut Post, items: &mut Items) -> Result<()> {
     };
     items.deny_rest()?;
     goto::refuse_waiting_arc(post)?;
-    let tables = &post.control.tables;
-    let in_frame = tables.frame_output && post.control.state.tilted != Some(false);
-    let in_tip = post.writes_tip();
-    if let Some(levels) = post.control.levels_behind_skip(2).filter(|_| !in_frame && !in_tip)
-        && !machine_frame::is_meant(&post.control)
-    {
-        if levels.low >= level && !levels.unknown {
-            return Ok(());
-        }
-        if level < levels.high || levels.unknown {
-            return refuse_level(&post.control, 2);
-        }
-    }
-    // In a tilted frame Z goes along the tool, and under tool-tip control it is that of the tip.
-    let stands = match () {
-        () if in_tip => tip_control::machine_height(&post.control),
-        () if in_frame => rotary::machine_height(post),
-        () => post.control.stands(2),
-    };
-    let is_above = stands.is_some_and(|z| z >= level);
-    // How high the tool stands in the frame of the machine is not known.
-    if is_above && !machine_frame::is_meant(&post.control) {
+    if height::is_above(&post.control, level)? {
         return Ok(());
     }
     carry_out(post, Operation::MachinePosition([None, None, Some(level)]))

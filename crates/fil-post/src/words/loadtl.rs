@@ -44,6 +44,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     thread::end(post)?;
     post.path.interrupt();
     post.path.since = Since::ToolChange;
+    post.path.in_cut = false;
     cutter::forget(post);
     tool_names::load(&mut post.control, tool)?;
     let causes = [cause, offset_cause];

@@ -175,7 +175,7 @@ fn points(post: &Post, items: &mut Items) -> Result<[Target; 2]> {
     Ok([at(x1, y1, z1), at(x2, y2, z2)])
 }
 
-/// IN, OUT or FACE; without one the side that the tool stands on.
+/// IN, OUT or FACE, which looks to +Z; without one the side that the tool stands on.
 fn side(post: &Post, items: &mut Items, crest: [Target; 2]) -> Result<ThreadSide> {
     let from = thread::stands_at(post);
     let word = items.any_of(&[w::IN, w::OUT, w::FACE]);
@@ -183,8 +183,11 @@ fn side(post: &Post, items: &mut Items, crest: [Target; 2]) -> Result<ThreadSide
     match (word, from) {
         (Some(w::IN), _) => Ok(ThreadSide::Inside),
         (Some(w::OUT), _) => Ok(ThreadSide::Outside),
-        (Some(_), Some(from)) if from.z > start.z => Ok(ThreadSide::Before),
-        (Some(_), Some(from)) if from.z < start.z => Ok(ThreadSide::Behind),
+        // That of a part in the second spindle may look to -Z.
+        (Some(_), Some(from)) if from.z < start.z && post.control.counts_side => {
+            Ok(ThreadSide::Behind)
+        }
+        (Some(_), _) => Ok(ThreadSide::Before),
         (None, Some(from)) if from.x.abs() > start.x.abs() => Ok(ThreadSide::Outside),
         (None, Some(from)) if from.x.abs() < start.x.abs() => Ok(ThreadSide::Inside),
         _ => PostCode::Thread

@@ -100,6 +100,8 @@ struct State {
     thread: Option<Rate>,
     /// The lead of PITCH, for a thread that names none.
     pitch: Option<Rate>,
+    /// The last SPINDL spoke of the second spindle.
+    counts_side: bool,
     /// OP/THREAD that waits for the ends of its crest.
     awaited: Option<thread::Awaited>,
     circle: Option<Waiting>,
@@ -151,6 +153,7 @@ impl<'r> ClPath<'r> {
                 rate: None,
                 thread: None,
                 pitch: None,
+                counts_side: false,
                 awaited: None,
                 circle: None,
                 cycle: None,
@@ -258,6 +261,7 @@ impl ClPath<'_> {
         let record = &self.record;
         let measures =
             matches!(record.kind, kind::MOTION | kind::SURFACE) || MEASURES.contains(&record.major);
+        let measures = measures && !(record.major == w::THREAD && record.has(w::OFF));
         if self.state.unit.is_some() || !measures {
             return Ok(());
         }
@@ -385,7 +389,10 @@ impl State {
             w::LOADTL | w::LOAD | w::TURRET => {
                 self.tool(record).unwrap_or_else(|| unknown(Effect::Words))
             }
-            w::SPINDL => spindle(record),
+            w::SPINDL => {
+                self.counts_side = record.has(w::SIDE);
+                spindle(record)
+            }
             w::COOLNT => coolant(record).map_or_else(|| unknown(Effect::Words), |kind| vec![kind]),
             w::CUTCOM => {
                 let plane = plane_of_compensation(record);
@@ -410,6 +417,11 @@ impl State {
                 [code] if (17.0..20.0).contains(&code) => {
                     let plane = Wanted::Plane(19 - code as usize);
                     unknown(own_words::effect(record)).into_iter().chain([plane]).collect()
+                }
+                // Its mode is that of a text.
+                [code] => {
+                    let text = Wanted::Words(format!("G{code}"));
+                    unknown(own_words::effect(record)).into_iter().chain([text]).collect()
                 }
                 _ => unknown(own_words::effect(record)),
             },

@@ -123,7 +123,7 @@ impl State {
         let from = self.point;
         let word = [w::IN, w::OUT, w::FACE].into_iter().find(|word| record.has(*word));
         let out = match word {
-            Some(w::FACE) => Vector3::z() * (from?.z - begin.z).signum(),
+            Some(w::FACE) => self.out_of_face(from, begin),
             Some(w::IN) => inwards(begin, end),
             Some(_) => -inwards(begin, end),
             None if from?.x.abs() < begin.x.abs() => inwards(begin, end),
@@ -147,6 +147,12 @@ impl State {
         Some(self.on_machine(&thread))
     }
 
+    /// Out of a face, which looks to +Z, but for one of a part in the second spindle.
+    fn out_of_face(&self, from: Option<Point3<f64>>, begin: Point3<f64>) -> Vector3<f64> {
+        let is_behind = from.is_some_and(|from| from.z < begin.z);
+        if self.counts_side && is_behind { -Vector3::z() } else { Vector3::z() }
+    }
+
     /// A point behind OP/THREAD: the first begins the crest, the second ends it.
     pub(super) fn point_of_thread(&mut self, point: Point3<f64>) -> Option<Wanted> {
         let mut awaited = self.awaited.take()?;
@@ -158,7 +164,7 @@ impl State {
         let open = Wanted::Unknown { what: "OP/THREAD".to_string(), effect: Effect::Path };
         let Some(from) = awaited.from else { return Some(open) };
         let out = match awaited.on_face {
-            true => Vector3::z() * (from.z - begin.z).signum(),
+            true => self.out_of_face(Some(from), begin),
             false if from.x.abs() < begin.x.abs() => inwards(begin, point),
             false => -inwards(begin, point),
         };

@@ -45,7 +45,12 @@ impl Settings<'_> {
             let share = if turns || length <= 0.0 { 1.0 } else { (way(axis) / length).min(1.0) };
             if feed * share > largest * unit { largest * unit / share } else { feed }
         };
-        [(1, loc::FEED_UPM_MAX_Y), (2, loc::FEED_UPM_MAX_Z)].into_iter().fold(feed, within)
+        // The second axis of polar and cylindrical interpolation is C.
+        let of_c = found.to.transformed || self.is_mill_turn() && !self.written()[1];
+        [(1, loc::FEED_UPM_MAX_Y), (2, loc::FEED_UPM_MAX_Z)]
+            .into_iter()
+            .filter(|(axis, _)| !(*axis == 1 && of_c))
+            .fold(feed, within)
     }
 
     /// The feed a minute of a cycle, within that of Z, mm a minute.

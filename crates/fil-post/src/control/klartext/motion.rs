@@ -14,6 +14,7 @@ use super::repeat;
 use crate::control::family::refuse;
 use crate::control::word_address::arc::{self, PlaneArc};
 use crate::control::word_address::dwell::known_speed;
+use crate::control::word_address::modes;
 use crate::control::word_address::motion::{self as words, Motion};
 use crate::control::word_address::repeat as words_of_repeat;
 use crate::control::{Control, Function};
@@ -169,6 +170,7 @@ fn turn(control: &mut Control, arc: &PlaneArc, helix: Helix, feed: Option<&Feed>
 /// No unit; cutter compensation that a text may have ended.
 pub fn ready(control: &mut Control) -> Result<()> {
     control.begin()?;
+    modes::refuse_tool_by_switch(control)?;
     if !control.ended_repeats.is_empty() {
         words_of_repeat::doubt_ended(control);
     }
@@ -240,7 +242,7 @@ pub(super) fn write(control: &mut Control, turning: AxisSet) -> Result<()> {
         if !control.klartext.phrase.rapid {
             control.comes_with_any_motion(Function::Spindle);
         }
-        control.take_waiting(turning);
+        control.take_waiting(turning)?;
     }
     control.klartext.at_feed = !control.klartext.phrase.rapid;
     for number in [0, 1] {

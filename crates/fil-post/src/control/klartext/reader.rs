@@ -1,10 +1,10 @@
 //! The small reader of lines that others put on the tape. It is made to say "I can't"
 //! rather than guess; then all is unknown.
 
-use fil_machine::{Letter, letters};
+use fil_machine::{FunctionCode, Letter, letters};
 
 use crate::control::Control;
-use crate::control_state::Compensation;
+use crate::control_state::{Compensation, Rotation, TOOL_CHANGE};
 
 /// What an M function does to what the post counts on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,17 +44,24 @@ pub fn learn(control: &mut Control, text: &str) {
     let upper = code.to_ascii_uppercase();
     let items: Vec<&str> = upper.split_whitespace().collect();
     match items[..] {
-        ["BLK", "FORM", ..] | ["TOOL", "DEF", ..] | ["STOP"] => {}
+        ["BLK", "FORM", ..] | ["TOOL", "DEF", ..] => {}
+        ["STOP", ref rest @ ..] => {
+            control.state.halted = true;
+            motion(control, rest);
+        }
         ["END", "PGM", ..] => {
             control.klartext.ended = true;
             control.state.ended = true;
         }
+        ["TOOL", "CALL", ref rest @ ..] if !rest.is_empty() && rest.iter().all(says_speed) => {
+            control.state.doubt(letters::S);
+        }
         ["TOOL", "CALL", ..] => {
             control.state.tool = None;
             control.state.tool_changes += 1;
-            for number in control.tables.present().numbers() {
-                control.state.tool_change_moves(control.tables.axis(number).letter);
-            }
+            // The control changes the tool with the spindle standing.
+            control.state.rotation = Rotation::Standing;
+            tool_change_moves(control);
             control.state.doubt(letters::S);
         }
         ["CYCL", "DEF", number, ..] if !frames(number) => control.state.cycle = None,
@@ -78,6 +85,12 @@ pub fn learn(control: &mut Control, text: &str) {
         [first, ..] if first.starts_with('M') => motion(control, &items),
         _ => forget(control),
     }
+}
+
+/// A word of TOOL CALL that leaves tool and length: the tool axis, or a speed.
+fn says_speed(word: &&str) -> bool {
+    matches!(*word, "X" | "Y" | "Z")
+        || word.strip_prefix('S').is_some_and(|speed| speed.parse::<f64>().is_ok())
 }
 
 /// Cycles that move the frame: datum shift, mirror, rotation, scaling, plane.
@@ -135,6 +148,7 @@ fn motion(control: &mut Control, items: &[&str]) {
 
 fn side(control: &mut Control, side: Compensation) {
     control.state.compensation = Some(side);
+    control.state.compensation_said = true;
     control.state.compensation_begun = side != Compensation::Off;
 }
 
@@ -144,7 +158,7 @@ fn word(control: &mut Control, item: &str, of_machine: bool) {
     let number = rest.as_str().parse::<f64>();
     match (first, number) {
         (Some('M'), Ok(number)) => match meaning(number) {
-            Auxiliary::Harmless => learn_turning(control, number),
+            Auxiliary::Harmless => learn_function(control, number),
             Auxiliary::End => control.state.ended = true,
             Auxiliary::PerMinute => {
                 control.state.feed_mode = Some(fil_machine::modes::FeedMode::PerMinute);
@@ -178,6 +192,30 @@ pub fn learn_turning(control: &mut Control, number: f64) {
         3 | 13 => control.klartext.clockwise = Some(true),
         4 | 14 => control.klartext.clockwise = Some(false),
         _ => {}
+    }
+}
+
+/// Learns what a function of others does to the spindle and the program.
+fn learn_function(control: &mut Control, number: f64) {
+    let Some(code) = FunctionCode::of_value(number) else { return };
+    learn_turning(control, number);
+    control.state.learn_auxiliary(code, &control.codes);
+    if code == TOOL_CHANGE {
+        tool_change_moves(control);
+    }
+    // With the coolant.
+    let rotation = match number as i64 {
+        13 => Rotation::Clockwise,
+        14 => Rotation::Counterclockwise,
+        _ => return,
+    };
+    control.state.turns(rotation);
+}
+
+/// A tool change may have moved all axes.
+fn tool_change_moves(control: &mut Control) {
+    for number in control.tables.present().numbers() {
+        control.state.tool_change_moves(control.tables.axis(number).letter);
     }
 }
 

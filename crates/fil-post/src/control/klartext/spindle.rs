@@ -44,6 +44,7 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
     control.block.cause.word = direction_word;
     words::refuse_turning_back(control, &turn)?;
     let said = words::take_turn(control, &turn);
+    control.turning = control.turned;
     control.klartext.clockwise = Some(control.turned.unwrap_or(true));
     let direction = match said {
         Some(true) => loc::SPINDLE_CW_CODE,

@@ -45,7 +45,7 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
     control.state.tool_changes += 1;
     // The control changes the tool with the spindle standing.
     control.state.rotation = Rotation::Standing;
-    control.state.tool = Some(wanted.tool);
+    control.state.has_tool(Some(wanted.tool));
     control.state.tool_offset = Some(wanted.tool);
     Ok(())
 }

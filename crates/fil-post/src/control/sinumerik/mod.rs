@@ -26,6 +26,7 @@ use fil_machine::modes::Unit;
 use fil_machine::rounding::Rounding;
 
 use super::line::Line;
+use super::word_address::dwell;
 use super::{Control, own_offsets, word_address};
 use crate::control::family::refuse;
 use crate::control_state::Compensation;
@@ -80,6 +81,7 @@ fn write_dwell(control: &mut Control, dwell: Dwell) -> Result<()> {
         return word_address::write(control, Operation::Dwell(dwell));
     };
     let code = control.code(loc::DWELL_CODE, "a dwell")?;
+    let turns = dwell::within(control, turns, (loc::DWELL_UPR_MIN, loc::DWELL_UPR_MAX));
     control.g_of_record(code);
     control.word_rounded(S, turns, Rounding::Rate)?;
     control.write_block()?;

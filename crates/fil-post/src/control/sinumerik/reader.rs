@@ -246,6 +246,7 @@ fn edge(control: &mut Control, value: f64) {
     control.state.doubt_axes();
     if edge.is_none() || edge != control.sinumerik.edge {
         control.state.tool_length_changes();
+        control.state.lengths_said += 1;
     }
     control.sinumerik.edge = edge;
     control.state.calls_length(edge != Some(0));

@@ -34,7 +34,7 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
         control.write_block()
     })?;
     control.state.doubt_axes();
-    control.state.tool = Some(wanted.tool);
+    control.state.has_tool(Some(wanted.tool));
     control.sinumerik.edge = Some(edge);
     control.state.calls_length(true);
     Ok(())

@@ -2,13 +2,12 @@
 
 use fil_diag::Result;
 use fil_machine::commons::{Dbl, Int};
-use fil_machine::letters::S;
 use fil_machine::modes::FeedMode;
 use fil_machine::number::NumberFormat;
 use fil_machine::{Letter, locations as loc};
 
-use super::spindle::counted;
-use crate::control::Control;
+use super::spindle::{counted, speed_in_range};
+use crate::control::{Control, Function};
 use crate::errors::PostCode;
 use crate::operation::{Dwell, SpindleSpeed};
 
@@ -22,7 +21,11 @@ pub fn write(control: &mut Control, dwell: Dwell) -> Result<()> {
             leave_turns(control)?;
             in_seconds(control, seconds)
         }
-        Dwell::Revolutions(turns) => in_revolutions(control, turns)?,
+        Dwell::Revolutions(turns) => {
+            // The turns are those of the speed that was asked for last.
+            control.flush_function(Function::Spindle)?;
+            in_revolutions(control, turns)?
+        }
     };
     let letter = control.letter(loc::DWELL_ADDRESS, "the address of a dwell")?;
     let code = control.code(loc::DWELL_CODE, "a dwell")?;
@@ -139,9 +142,10 @@ fn in_revolutions(control: &mut Control, turns: f64) -> Result<f64> {
 /// The speed of the spindle, turns a minute; `None` where it is not known or changes with the
 /// radius.
 pub(crate) fn known_speed(control: &Control) -> Option<f64> {
-    let of_turns = matches!(control.speed, Some(SpindleSpeed::Revolutions(_)))
-        && !counted::is_unknown(control);
-    control.last_value(S).filter(|speed| of_turns && *speed > 0.0)
+    // The last S may be that of a limit.
+    let Some(SpindleSpeed::Revolutions(asked)) = control.speed else { return None };
+    let speed = speed_in_range(control, asked);
+    Some(speed).filter(|speed| *speed > 0.0 && !counted::is_unknown(control))
 }
 
 /// The speed of the spindle, for a machine that waits seconds only.
@@ -161,7 +165,11 @@ fn turns_a_minute(control: &Control) -> Result<f64> {
     })
 }
 
-fn within(control: &mut Control, amount: f64, (min, max): (Dbl, Dbl)) -> f64 {
+pub(in crate::control) fn within(
+    control: &mut Control,
+    amount: f64,
+    (min, max): (Dbl, Dbl),
+) -> f64 {
     let low = control.commons.dbl_opt(min).unwrap_or(0.0);
     let high = control.commons.dbl_opt(max).filter(|max| *max > 0.0).unwrap_or(f64::MAX);
     let within = amount.max(low).min(high);

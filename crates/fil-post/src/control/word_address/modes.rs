@@ -29,8 +29,23 @@ pub fn require(control: &mut Control, unit: Unit) -> Result<()> {
     if stands { Ok(()) } else { say_again(control, unit) }
 }
 
+/// Refuses a motion of a tool, or with a length, that the skip switch decides.
+///
+/// # Errors
+/// It does.
+pub fn refuse_tool_by_switch(control: &Control) -> Result<()> {
+    match control.state.tool_is_by_switch {
+        true => PostCode::SkippedPart.err(
+            "the tool or its offset was changed in blocks that may be skipped, and with them skipped \
+             this motion would be made with the one before it",
+        ),
+        false => Ok(()),
+    }
+}
+
 #[cold]
 fn say_again(control: &mut Control, unit: Unit) -> Result<()> {
+    refuse_tool_by_switch(control)?;
     let waiting = control.block.take();
     let mut missing = Vec::new();
     let sinumerik = control.tables.family == ControlFamily::Sinumerik;
@@ -80,9 +95,11 @@ fn say_what_x_is(control: &mut Control, sinumerik: bool) -> Result<()> {
     control.state.x_is_as_written = true;
     if sinumerik {
         sinumerik::transformation::say_what_x_is(control)?;
-        if control.commons.read(loc::LATHE_DIAMETER) && !control.tables.mills() {
-            // The lengths of a turning tool count along the axes of its plane.
-            say(control, control.code_if_any(plane_code(compensation::usual_plane(control))));
+        if control.commons.read(loc::LATHE_DIAMETER) {
+            // The lengths of a tool count along the axes of its plane.
+            let usual = compensation::usual_plane(control);
+            let plane = if control.tables.is_polar() { Plane::Xy } else { usual };
+            say(control, control.code_if_any(plane_code(plane)));
         }
         return Ok(());
     }

@@ -363,12 +363,16 @@ pub fn write_turning(control: &mut Control, turning: AxisSet) -> Result<()> {
         if cuts(control) {
             control.comes_with_any_motion(Function::Spindle);
         }
-        control.take_waiting(turning);
+        control.take_waiting(turning)?;
         length_offset_words(control)?;
     }
     let compensated = control.state.compensation != Some(Compensation::Off)
+        || control.state.compensation_ends
         || control.compensation_asked() != Compensation::Off;
     let in_plane = compensated && moves_in_plane(control);
+    if in_plane {
+        warn_of_still_blocks(control);
+    }
     if control.repeats.is_empty() {
         control.write_block()?;
     } else {
@@ -376,8 +380,26 @@ pub fn write_turning(control: &mut Control, turning: AxisSet) -> Result<()> {
     }
     if in_plane {
         control.state.moved_in_plane();
+        control.moved_in_plane_behind = control.tape.count;
     }
     Ok(())
+}
+
+/// So many blocks without a motion in the plane of compensation each control reads over.
+const READ_OVER: u64 = 1;
+
+/// Warns of blocks between two motions under compensation behind which a control of word address
+/// may not see the second motion while it ends the first one: the cutter then goes to where the
+/// path is square to it, which lies past an inside corner (Fanuc 30i, B-63944EN-2, 6.6.3).
+#[cold]
+fn warn_of_still_blocks(control: &mut Control) {
+    let state = &control.state;
+    let begun = state.compensates() && state.compensation_begun;
+    let between = control.tape.count.saturating_sub(control.moved_in_plane_behind);
+    if begun && between > READ_OVER && control.tables.family == ControlFamily::WordAddress {
+        let message = format!("{between} blocks before this motion within cutter compensation");
+        control.warnings.add(PostCode::StillBlocks, message);
+    }
 }
 
 /// True for a block that moves at feed: the spindle must turn in it, whichever axes move.

@@ -7,10 +7,11 @@ use fil_diag::Result;
 use fil_machine::FunctionCode;
 use fil_machine::commons::EMPTY;
 use fil_machine::letters::S;
-use fil_machine::locations::{self as loc, ControlFamily};
+use fil_machine::locations::{self as loc, ControlFamily, Placement};
 use fil_machine::rounding::Rounding;
 use fil_machine::setting::CodeAt;
 
+use super::modes;
 use crate::control::{Control, Function, sinumerik};
 use crate::control_state::Rotation;
 use crate::errors::PostCode;
@@ -128,6 +129,16 @@ fn limit_beside_surface_speed(control: &mut Control) -> Result<()> {
     }
 }
 
+/// Brings the control into the unit of the program: S counts meters or feet by it, and a text may
+/// have changed it.
+fn require_unit(control: &mut Control) -> Result<()> {
+    let unit = control.require_unit()?;
+    match control.state.unit == Some(unit) {
+        true => Ok(()),
+        false => modes::require(control, unit),
+    }
+}
+
 /// Sees that a highest speed is in force before a surface speed.
 ///
 /// # Errors
@@ -219,6 +230,7 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
     let [speed_word, direction_word] = turn.words;
     if matches!(turn.speed, Some(SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_))) {
         control.code(loc::SPINDLE_CSS_CODE, "constant surface speed")?;
+        require_unit(control)?;
         require_limit(control)?;
     }
     control.block.cause.word = speed_word;
@@ -238,6 +250,8 @@ fn start(control: &mut Control, turn: SpindleTurn) -> Result<()> {
     warn_above_limit(control, turn.speed.or(control.speed));
     match (turn.speed, control.speed) {
         (Some(speed), _) => speed_words(control, speed)?,
+        // What S counts is not known, as behind blocks that may be skipped.
+        (None, Some(speed)) if !counts_as(control, speed) => speed_words(control, speed)?,
         (None, Some(speed)) => {
             let value = value_of(control, speed);
             control.word(S, value)?;
@@ -358,6 +372,14 @@ pub fn turn_on(control: &mut Control, clockwise: bool) -> Result<()> {
     Ok(())
 }
 
+/// S is known to count what a speed counts, turns or a way of the surface; on a control without
+/// surface speeds nothing else.
+fn counts_as(control: &Control, speed: SpindleSpeed) -> bool {
+    let of_surface = !matches!(speed, SpindleSpeed::Revolutions(_));
+    let is_open = control.code_if_any(loc::SPINDLE_CSS_CODE).is_some();
+    !is_open || control.state.surface_speed == Some(of_surface)
+}
+
 /// Adds S, and on a lathe the code for revolutions or surface speed.
 fn speed_words(control: &mut Control, speed: SpindleSpeed) -> Result<()> {
     let code = match speed {
@@ -371,6 +393,7 @@ fn speed_words(control: &mut Control, speed: SpindleSpeed) -> Result<()> {
     let of_surface = !matches!(speed, SpindleSpeed::Revolutions(_));
     let letter = control.commons.read(loc::SPINDLE_MAX_ADDRESS).filter(|_| of_surface);
     if let (Some(letter), Some(limit)) = (letter, control.state.speed_limit) {
+        control.require_on_tape(letter, "the highest spindle speed")?;
         control.word_rounded(letter, limit, Rounding::Rate)?;
         control.state.doubt(letter);
     }
@@ -404,6 +427,16 @@ pub(crate) fn value_of(control: &mut Control, speed: SpindleSpeed) -> f64 {
 /// Brings a speed within the range that was chosen, else within the ranges of the
 /// machine, with a warning.
 fn within_range(control: &mut Control, speed: f64) -> f64 {
+    let within = speed_in_range(control, speed);
+    if within != speed {
+        let message = format!("spindle speed {speed} became {within}");
+        control.warnings.add(PostCode::Clamped, message);
+    }
+    within
+}
+
+/// A speed within the range that was chosen, else within the ranges of the machine.
+pub(super) fn speed_in_range(control: &Control, speed: f64) -> f64 {
     if !is_main(control) {
         return speed;
     }
@@ -416,12 +449,7 @@ fn within_range(control: &mut Control, speed: f64) -> f64 {
     let low = limits.clone().filter_map(|(min, _)| commons.rel_opt(*min)).reduce(f64::min);
     let tops: Option<Vec<f64>> = limits.map(|(_, max)| commons.rel_opt(*max)).collect();
     let high = tops.and_then(|tops| tops.into_iter().reduce(f64::max));
-    let within = speed.max(low.unwrap_or(0.0)).min(high.unwrap_or(f64::MAX));
-    if within != speed {
-        let message = format!("spindle speed {speed} became {within}");
-        control.warnings.add(PostCode::Clamped, message);
-    }
-    within
+    speed.max(low.unwrap_or(0.0)).min(high.unwrap_or(f64::MAX))
 }
 
 /// Number of the ranges of the machine.
@@ -495,6 +523,10 @@ pub(in crate::control) fn place(control: &mut Control, at: CodeAt, what: &str) -
             control.state.rotation = Rotation::Unsaid;
         }
     }
-    let placement = control.commons.read(loc::SPINDLE_PLACEMENT);
+    let placement = match control.codes.speeds_are_feeds() && !control.block.g_codes().is_empty() {
+        // The code of the feed in the motion's block is one of the same group.
+        true => Placement::BlockOfItsOwn,
+        false => control.commons.read(loc::SPINDLE_PLACEMENT),
+    };
     control.place_block(Function::Spindle, placement)
 }

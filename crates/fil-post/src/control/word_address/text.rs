@@ -1,10 +1,16 @@
 //! Texts: INSERT as it is, PPRINT as a comment.
 
 use fil_diag::Result;
+use fil_machine::letters::{G, S};
 use fil_machine::locations::{self as loc, SeqnoOnText};
+use fil_machine::{FunctionCode, Letter};
+
+use super::modes;
 
 use crate::control::Control;
 use crate::control::texts::{clean_message, without_blanks};
+use crate::control_state::Meaning;
+use crate::control_state::text::{self, TextWords};
 use crate::errors::PostCode;
 
 /// Writes the text of an INSERT. The machine's end-of-block character splits it
@@ -21,6 +27,7 @@ pub fn insert(control: &mut Control, text: &str) -> Result<()> {
         if block.is_empty() {
             continue;
         }
+        say_what_it_counts_on(control, block)?;
         if control.commons.read(loc::MESSAGE_KEEP_BLANKS) {
             control.write_text(block, numbered)?;
         } else {
@@ -28,6 +35,45 @@ pub fn insert(control: &mut Control, text: &str) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// Says what the words of a text count on where nothing has said it yet: the unit of positions
+/// and feeds, and that S is turns a minute on a control that also counts a surface speed.
+///
+/// # Errors
+/// Nothing says mm or inch.
+fn say_what_it_counts_on(control: &mut Control, block: &str) -> Result<()> {
+    let Some(TextWords { words, .. }) = text::read(block) else { return Ok(()) };
+    control.begin()?;
+    let codes = || {
+        let of_g = words.iter().filter(|(letter, _)| *letter == G);
+        of_g.filter_map(|(_, value)| FunctionCode::of_value(*value))
+    };
+    let says = |at| control.code_if_any(at).is_some_and(|code| codes().any(|said| said == code));
+    let is_said = |kind: fn(Meaning) -> bool| codes().any(|code| kind(control.meaning(code)));
+    let pauses = says(loc::DWELL_CODE);
+    let is_length =
+        |(letter, value): &(Letter, f64)| b"XYZUVWIJKRF".contains(&letter.byte()) && *value != 0.0;
+    let needs_unit = control.state.unit.is_none()
+        && !pauses
+        && words.iter().any(is_length)
+        && !is_said(|meaning| matches!(meaning, Meaning::Unit(_)));
+    let needs_turns = control.state.surface_speed.is_none()
+        && control.code_if_any(loc::SPINDLE_CSS_CODE).is_some()
+        && !(pauses || says(loc::SPINDLE_MAX_CODE))
+        && words.iter().any(|(letter, _)| *letter == S)
+        && !is_said(|meaning| matches!(meaning, Meaning::SurfaceSpeed(_)));
+    if needs_unit {
+        let unit = control.require_unit()?;
+        modes::require(control, unit)?;
+    }
+    match control.code_if_any(loc::SPINDLE_RPM_CODE).filter(|_| needs_turns) {
+        Some(code) => {
+            control.g_of_record(code);
+            control.write_block()
+        }
+        None => Ok(()),
+    }
 }
 
 /// Writes a message between the control-out and control-in characters, broken at

@@ -5,13 +5,14 @@ use std::fmt::Write as _;
 use fil_diag::Result;
 use fil_machine::axes::AxisSet;
 use fil_machine::locations::{self as loc, ThreadCycle};
-use fil_machine::modes::FeedMode;
+use fil_machine::modes::{FeedMode, Plane};
 use fil_machine::number::NumberFormat;
 use fil_machine::rounding::Rounding;
 use fil_machine::{FunctionCode, Letter};
 
+use super::modes;
 use super::motion::{self, Motion};
-use crate::control::Control;
+use crate::control::{Control, program};
 use crate::errors::PostCode;
 use crate::operation::{Thread, ThreadPasses};
 use crate::path::thread::{Shape, cycle_of, go_above, least_depth, on_machine};
@@ -36,6 +37,12 @@ pub fn cycle(post: &mut Post, thread: &Thread, shape: &Shape, start: u32) -> Res
     let code = post.control.code(loc::THREAD_CYCLE_CODE, "the cycle of a thread")?;
     let ends = Ends::of(post, thread, shape, start)?;
     motion::ready(&mut post.control)?;
+    // The cycles of a lathe count in the plane in force, which a live tool or a text has left.
+    let begins = program::state_at_start(&post.control.commons, None);
+    let other = post.control.state.plane.filter(|plane| *plane != Plane::Zx);
+    if begins.plane.or(other).is_some() {
+        modes::plane_of_its_own(&mut post.control, Plane::Zx)?;
+    }
     if cycle != ThreadCycle::CycleOfAllPassesOfLinuxcnc {
         motion::lead_mode(&mut post.control, thread.lead.cause)?;
     }

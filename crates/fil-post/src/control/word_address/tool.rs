@@ -58,7 +58,7 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
         restate(control);
         control.because(wanted.causes[1], |control| length_offset(control, wanted, before))?;
     }
-    control.state.tool = Some(wanted.tool);
+    control.state.has_tool(Some(wanted.tool));
     control.state.tool_offset = Some(wanted.offset);
     Ok(())
 }

@@ -78,6 +78,8 @@ fn go(post: &mut Post, to: Position, target: Target) -> Result<()> {
     };
     let around = radius * to[3].to_radians();
     let position = [to[0], around, to[2], 0.0, 0.0];
+    let feed = feed.map(|feed| super::within_axes(post, feed, &position, AxisSet::LINEAR));
+    let control = &mut post.control;
     let motion = Motion::new(position, AxisSet::LINEAR, word);
     family::feed(control, &motion, feed.as_ref())?;
     let spindle = *control.tables.axis(3);
@@ -119,6 +121,7 @@ fn begin(post: &mut Post, radius: f64) -> Result<()> {
     super::refuse_skipped(control)?;
     motion::ready(control)?;
     if control.tables.transforms {
+        super::refuse_travel_of_c(control, PostCode::Cylinder)?;
         let said = transformation::tracyl(control, radius)?;
         super::set_mode(control, MillTurnMode::CylindricalInterpolationByTracyl)?;
         post.path.cylinder = Some(said);

@@ -13,11 +13,11 @@ use fil_machine::locations::{self as loc, MillTurnMode};
 use fil_machine::modes::{FeedMode, Plane};
 use nalgebra::{Point2, Point3, Rotation3, Unit};
 
-use crate::control::Control;
 use crate::control::family;
 use crate::control::sinumerik::transformation;
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::{compensation, modes};
+use crate::control::{Control, Function};
 use crate::control_state::Place;
 use crate::errors::PostCode;
 use crate::operation::{Arc, Feed, MotionKind, Target};
@@ -97,6 +97,7 @@ pub(super) fn begin(
         return PostCode::CompensationOn.err("where polar interpolation begins");
     }
     super::refuse_skipped(control)?;
+    super::refuse_travel_of_c(control, PostCode::Polar)?;
     control.begin()?;
     control.require_unit()?;
     let cause = control.block.cause;
@@ -112,6 +113,8 @@ pub(super) fn begin(
         rapid::rapid(control, &at(AxisSet::Z), cause)?;
     }
     rapid::rapid(control, &at(AxisSet::of(0).or(AxisSet::of(3))), cause)?;
+    // The code of its turns a minute is none of those that polar interpolation takes.
+    control.flush_function(Function::Spindle)?;
     say_begin(control)?;
     super::set_mode(control, MillTurnMode::PolarInterpolation)?;
     match control.tables.transforms {
@@ -164,6 +167,7 @@ pub(super) fn line(
             go(post, to, AxisSet::XY, &feed, word)?;
             go(post, to, AxisSet::Z, &feed, word)?;
         }
+        None if kind == MotionKind::Feed => cut(post, to, AxisSet::LINEAR, &feed, word)?,
         None => go(post, to, AxisSet::LINEAR, &feed, word)?,
     }
     arrive(post, target);
@@ -196,6 +200,13 @@ fn with_z() -> Result<()> {
 fn arrive(post: &mut Post, target: Target) {
     post.path.arrive(target);
     post.path.rotary = None;
+}
+
+/// A motion at feed, at which Z goes no faster than it may.
+fn cut(post: &mut Post, to: [f64; 3], axes: AxisSet, feed: &Feed, word: u16) -> Result<()> {
+    let [x, y, z] = to;
+    let feed = super::within_axes(post, *feed, &[x, y, z, 0.0, 0.0], axes);
+    go(post, to, axes, &feed, word)
 }
 
 fn go(post: &mut Post, [x, y, z]: [f64; 3], axes: AxisSet, feed: &Feed, word: u16) -> Result<()> {

@@ -1,7 +1,7 @@
 //! Whether the spindle turns, and which way: as the tape says it, else as the CL file does.
 
 use fil_diag::Result;
-use fil_machine::locations::{self as loc, ControlFamily};
+use fil_machine::locations as loc;
 
 use crate::control::{Control, Function};
 use crate::control_state::Rotation;
@@ -21,10 +21,9 @@ pub fn may_turn(control: &Control) -> bool {
     }
 }
 
-/// A block that waits for a motion turns it; Klartext keeps that elsewhere.
+/// A block that waits for a motion turns it.
 pub(super) fn waits(control: &Control) -> bool {
-    let in_klartext = control.tables.family == ControlFamily::Klartext;
-    control.waiting.has(Function::Spindle) || in_klartext && control.turning.is_some()
+    control.waiting.has(Function::Spindle)
 }
 
 /// The spindle is known to stand, and nothing that waits for a motion turns it.
