@@ -29,6 +29,7 @@ pub mod same_events;
 pub mod sample;
 pub mod sinumerik;
 pub mod tip_program;
+pub mod turning;
 pub mod word_pages;
 pub mod words;
 

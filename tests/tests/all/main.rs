@@ -25,6 +25,7 @@ mod plot_hands;
 mod random;
 mod random_five_axes;
 mod random_five_mixed;
+mod random_turn_mixed;
 mod real_cl;
 mod reference;
 mod robust;

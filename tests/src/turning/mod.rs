@@ -1,0 +1,4 @@
+//! Random programs of lathes and mill-turn machines.
+
+pub mod mixed;
+pub mod part;
