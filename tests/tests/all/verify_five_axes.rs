@@ -120,6 +120,22 @@ fn one_up(nc: &str, letters: &[char], which: usize) -> Option<String> {
     Some(changed)
 }
 
+/// The changed block is a rapid that another one goes on from, as out of a cut: where it stops no
+/// last digit is asked for.
+fn is_a_stop(nc: &str, changed: &str) -> bool {
+    let mut rapid = false;
+    let rapids: Vec<bool> = nc
+        .lines()
+        .map(|line| {
+            let has = |code: &str| line.split(' ').any(|word| word == code);
+            rapid = has("G0") || rapid && !has("G1");
+            rapid && line.contains(['X', 'Y', 'Z', 'B', 'C'])
+        })
+        .collect();
+    let at = nc.lines().zip(changed.lines()).position(|(one, other)| one != other);
+    at.is_some_and(|at| rapids[at] && rapids.get(at + 1) == Some(&true))
+}
+
 /// The program with tool-tip control: the angles of the plain one, which has a block for
 /// each target, and the tips of the CL file. The tables begin at 0.
 fn with_tip_control(rotaries: &[Rotary; 2], targets: &[Target], plain: &str) -> Option<String> {
@@ -149,6 +165,8 @@ const PATHS: usize = 2_000;
 struct Faults {
     put: usize,
     found: usize,
+    /// Rapids of the programs may stop on their way.
+    has_stops: bool,
 }
 
 impl Faults {
@@ -158,17 +176,20 @@ impl Faults {
         let letters = ['X', 'Y', 'Z', 'B', 'C'];
         let letters = if upright { &letters[..3] } else { &letters };
         let Some(changed) = one_up(nc, letters, which) else { return };
+        if self.has_stops && is_a_stop(nc, &changed) {
+            return;
+        }
         let report = check(commons, &cl(targets), &changed);
         self.put += 1;
         self.found += usize::from(report.is_none_or(|it| it.verdict() == Verdict::Differs));
     }
 
     fn are_found(&self) {
-        let Faults { put, found } = self;
+        let Faults { put, found, .. } = self;
         println!("{found} of {put} changed last digits found");
         // An axis that rests may stand at its exact position or at its rounded one, so that
         // either of two last digits is right.
-        let most_missed = 1 + put * 18 / 1000;
+        let most_missed = 1 + put * 6 / 1000;
         assert!(*put > sample::of(PATHS) / 2 && put - found <= most_missed, "{found} of {put}");
     }
 }
@@ -178,11 +199,10 @@ fn posted_paths_agree_and_a_changed_last_digit_is_found() {
     let mut runner = TestRunner::deterministic();
     let pivots = proptest::option::of(80.0..300.0f64);
     let all = (rotaries(), pivots, any::<bool>(), targets(), any::<usize>());
-    let mut faults = Faults::default();
+    let mut faults = Faults { has_stops: true, ..Faults::default() };
     for _ in 0..sample::of(PATHS) {
         let (rotaries, pivot, split, targets, which) = all.new_tree(&mut runner).unwrap().current();
-        // Where a rapid of a leaning tool stops on its way no last digit is asked for; out of a cut
-        // it stops in one block, too.
+        // Where a rapid of a leaning tool stops on its way no last digit is asked for.
         let leans = rotaries.iter().any(|rotary| rotary.kind == 2);
         let post = post(&rotaries, pivot, split && !leans);
         let cl = cl(&targets);

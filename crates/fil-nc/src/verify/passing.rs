@@ -108,7 +108,13 @@ impl<C: Steps> Walk<'_, C> {
         while self.nc.line(self.next).is_some_and(|line| self.own.has(line)) {
             let Some(event) = self.nc.get(self.next) else { return };
             match event {
-                Event::Move(found) => self.stand(&found),
+                Event::Move(found) => {
+                    if found.to.linear[2] != self.at.linear[2] {
+                        // Holes behind it return to where it has brought the tool.
+                        self.initial = None;
+                    }
+                    self.stand(&found);
+                }
                 Event::ToolChange { tool, .. } => {
                     self.modes.insert_tool(tool);
                     self.next += 1;

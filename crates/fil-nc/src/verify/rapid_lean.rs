@@ -137,8 +137,13 @@ impl<C: Steps> Walk<'_, C> {
     /// A rapid out of a cut that turns the machine begins otherwise than up along the tool.
     pub(super) fn turns_in_cut(&self, part: &Move, end: &Position) -> bool {
         let Some(rise) = self.rise_out_of_cut(&self.at, end) else { return false };
+        // A last digit of the tape may be none of the machine's exact positions.
+        let turns = |n: usize| {
+            let turn = (end.rotary[n] - self.at.rotary[n]).abs();
+            turn > 2.0 * self.slack.rotary[n] + STILL
+        };
         let slack = 2.0 * self.slack_along(&self.at, end);
-        rise > slack && !self.lies_above(&part.to, &self.at, slack)
+        rise > slack && (0..2).any(turns) && !self.lies_above(&part.to, &self.at, slack)
     }
 
     /// True for a part of a rapid to a place from which it leads down along a leaning tool to the

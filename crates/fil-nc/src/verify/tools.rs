@@ -126,7 +126,9 @@ impl<C: Steps> Walk<'_, C> {
 
     /// The Z motion that calls the length offset, where the settings have one.
     pub(super) fn go_to_offset_level(&mut self, cl_line: u32) {
-        let Some(level) = self.settings.offset_level(self.metric) else { return };
+        // A lathe calls the offset with its T word, or where it stands.
+        let level = self.settings.offset_level(self.metric).filter(|_| !self.settings.is_lathe());
+        let Some(level) = level else { return };
         // Tool-tip control takes the length up where it begins.
         if !self.takes_to_level(cl_line, level, false) && !self.settings.has_tip_control() {
             let message = format!("the length offset is not called at Z{}", short(level));
