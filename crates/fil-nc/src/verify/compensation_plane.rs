@@ -86,8 +86,8 @@ impl<C: Steps> Walk<'_, C> {
             }
         };
         let is_named = normal != DRILLED && self.modes.named_plane() == normal;
-        let named = is_named && tool.z > SAME_WAY && seen.dot(&unit) > SAME_WAY;
-        if tool.dot(&unit) > SAME_WAY && (!is_named || seen.dot(&unit) > SAME_WAY) || named {
+        let cuts = tool.dot(&unit) > SAME_WAY || is_named && tool.z > SAME_WAY;
+        if cuts && (!is_named || seen.dot(&unit) > SAME_WAY) {
             return;
         }
         let plane = PLANES[normal];

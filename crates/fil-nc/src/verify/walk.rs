@@ -250,7 +250,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             Wanted::Dwell(seconds) => self.dwell(step.line, *seconds, None),
             Wanted::DwellTurns(turns) => {
                 let speed = self.modes.turns_a_minute().filter(|_| self.settings.waits_seconds());
-                let seconds = speed.map(|speed| self.settings.dwell_within(turns * 60.0 / speed));
+                let seconds = speed.map(|speed| turns * 60.0 / speed);
                 self.dwell(step.line, seconds, Some(*turns));
             }
             Wanted::Insert { text, may_be_skipped } => {

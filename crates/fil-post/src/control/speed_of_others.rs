@@ -1,20 +1,17 @@
 //! The speed of the spindle by words of others: INSERT, POSTN and texts of the machine. What
 //! counts on the speed of the last SPINDL behind them would count on a wrong one.
 
-use fil_machine::letters::{G, S};
+use fil_machine::Letter;
+use fil_machine::letters::S;
 use fil_machine::locations as loc;
-use fil_machine::{FunctionCode, Letter};
 
 use super::Control;
-use crate::control_state::Meaning;
+use crate::control_state::{Meaning, text};
 use crate::operation::SpindleSpeed;
 
 /// Learns from the words of a block, behind what its functions do. `skipped`: it may be left out.
 pub(super) fn learn(control: &mut Control, words: &[(Letter, f64)], skipped: bool) {
-    let codes = || {
-        let of_g = words.iter().filter(|(letter, _)| *letter == G);
-        of_g.filter_map(|(_, value)| FunctionCode::of_value(*value))
-    };
+    let codes = || text::functions(words);
     let named = |at| {
         let code = control.code_if_any(at);
         code.is_some_and(|code| codes().any(|said| said == code))
@@ -27,9 +24,9 @@ pub(super) fn learn(control: &mut Control, words: &[(Letter, f64)], skipped: boo
     let is_of_speed = |code| matches!(control.meaning(code), Meaning::SurfaceSpeed(_));
     let changes = codes().any(is_of_speed);
     let is_of_feed = |code| matches!(control.meaning(code), Meaning::FeedMode(_));
-    let ends_surface = control.codes.speeds_are_feeds() && codes().any(is_of_feed);
+    let ends_surface = !changes && control.codes.speeds_are_feeds() && codes().any(is_of_feed);
     let pauses = named(loc::DWELL_CODE);
-    if ends_surface && !changes {
+    if ends_surface {
         end_surface_speed(control);
     }
     if pauses || said.is_none() && !changes {

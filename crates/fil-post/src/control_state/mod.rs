@@ -147,10 +147,8 @@ pub struct ControlState {
     pub lengths_said: u32,
     /// The tool in the spindle.
     pub tool: Option<i64>,
-    /// The tools between which the skip switch has decided.
-    pub tools_by_switch: [Option<i64>; 2],
-    /// The skip switch has decided which tool that is, or which length it has.
-    pub tool_is_by_switch: bool,
+    /// The tools between which the skip switch has decided, or between lengths of one.
+    pub tools_by_switch: Option<[Option<i64>; 2]>,
     /// The offset that was called with it.
     pub tool_offset: Option<i64>,
     /// The length of the tool, as far as functions have called it or taken it off.
@@ -211,8 +209,7 @@ impl ControlState {
             tool_changes: 0,
             lengths_said: 0,
             tool: None,
-            tools_by_switch: [None; 2],
-            tool_is_by_switch: false,
+            tools_by_switch: None,
             tool_offset: None,
             length: Length::Unsaid,
             fixture: None,
@@ -384,7 +381,6 @@ impl ControlState {
             lengths_said: self.lengths_said,
             tool: None,
             tools_by_switch: self.tools_by_switch,
-            tool_is_by_switch: self.tool_is_by_switch,
             tool_offset: None,
             length: self.length,
             fixture: None,
@@ -408,7 +404,7 @@ impl ControlState {
     /// A tool is in the spindle now.
     pub fn has_tool(&mut self, tool: Option<i64>) {
         self.tool = tool;
-        self.tool_is_by_switch = false;
+        self.tools_by_switch = None;
     }
 
     /// Another program or subprogram begins: it may be called from anywhere.

@@ -83,10 +83,7 @@ impl ControlState {
             match (*letter, FunctionCode::of_value(*value)) {
                 (letters::G, Some(code)) => self.learn_code(code, codes),
                 (letters::M, Some(code)) => self.learn_auxiliary(code, codes),
-                (letters::T, _) => {
-                    self.tool = None;
-                    self.tool_said |= codes.tool_word_changes;
-                }
+                (letters::T, _) => self.names_tool(codes),
                 (letters::H, _) => self.names_length(),
                 (letter, _) if cycle => self.doubt(letter),
                 (letter, _) => self.trust(letter),
@@ -133,10 +130,7 @@ impl ControlState {
                 (letters::G, Some(code)) => self.learn_code(code, codes),
                 (letters::G | letters::M, None) => self.forget(),
                 (letters::M, Some(code)) => self.learn_auxiliary(code, codes),
-                (letters::T, _) => {
-                    self.tool = None;
-                    self.tool_said |= codes.tool_word_changes;
-                }
+                (letters::T, _) => self.names_tool(codes),
                 (letters::H, _) => self.names_length(),
                 (letter, _) if is_axis(letter) => self.doubt_axes(),
                 (letter, _) => self.doubt(letter),
@@ -167,6 +161,12 @@ impl ControlState {
                 self.lose_axes();
             }
         }
+    }
+
+    /// A word names a tool.
+    fn names_tool(&mut self, codes: &Codes) {
+        self.tool = None;
+        self.tool_said |= codes.tool_word_changes;
     }
 
     /// A word names the offset of a length.

@@ -87,10 +87,10 @@ impl ControlState {
         let offsets = |state: &ControlState| (state.tool_offset, state.lengths_said);
         if self.tool != other.tool || offsets(self) != offsets(other) {
             // The next motion asks for it.
-            (self.tool_is_by_switch, self.x_is_as_written) = (true, false);
-            self.tools_by_switch = [self.tool, other.tool];
+            self.x_is_as_written = false;
+            self.tools_by_switch = Some([self.tool, other.tool]);
         }
-        self.tool_is_by_switch |= other.tool_is_by_switch;
+        self.tools_by_switch = self.tools_by_switch.or(other.tools_by_switch);
         agree(&mut self.tool, &other.tool);
         agree(&mut self.tool_offset, &other.tool_offset);
         agree(&mut self.fixture, &other.fixture);

@@ -1,7 +1,7 @@
 //! The small reader of texts that others put on the tape: words of a letter and a
 //! number, comments, a skip mark. It is made to say "I can't" rather than guess.
 
-use fil_machine::Letter;
+use fil_machine::{FunctionCode, Letter, letters};
 
 /// In which frame the axis words of a text count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -37,6 +37,12 @@ impl TextWords {
         let has = |letter: u8| self.words.iter().any(|(word, _)| word.byte() == letter);
         has(b'L') && !has(b'G') && !has(b'M')
     }
+}
+
+/// The preparatory functions among words.
+pub fn functions(words: &[(Letter, f64)]) -> impl Iterator<Item = FunctionCode> {
+    let of_g = words.iter().filter(|(letter, _)| *letter == letters::G);
+    of_g.filter_map(|(_, value)| FunctionCode::of_value(*value))
 }
 
 /// Reads a text; `None` for anything but words, comments and blanks (a variable,

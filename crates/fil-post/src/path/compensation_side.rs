@@ -79,15 +79,12 @@ pub fn refuse_across_tool(post: &Post, plane: Plane, is_named: bool) -> Result<(
     let of_part = post.path.stands.normalize();
     let normal = Vector3::ith(plane.normal(), 1.0);
     let in_frame = tables.frame_output && post.control.state.tilted != Some(false);
-    let (tool, seen) = match () {
-        () if in_frame => {
-            (Vector3::z(), if of_part.z > SAME_WAY { normal } else { Vector3::zeros() })
-        }
-        () => {
-            let at = |point| chain.linear(point, angles);
-            let seen = at(Point3::origin() + normal) - at(Point3::origin());
-            (tool_in_machine(chain, angles), seen)
-        }
+    let (tool, seen) = if in_frame {
+        (Vector3::z(), if of_part.z > SAME_WAY { normal } else { Vector3::zeros() })
+    } else {
+        let at = |point| chain.linear(point, angles);
+        let seen = at(Point3::origin() + normal) - at(Point3::origin());
+        (tool_in_machine(chain, angles), seen)
     };
     let cuts = tool.dot(&normal) > SAME_WAY || is_named && tool.z > SAME_WAY;
     if cuts && (!is_named || seen.dot(&normal) > SAME_WAY) {

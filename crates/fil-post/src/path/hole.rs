@@ -354,10 +354,10 @@ fn raise(post: &mut Post, cycle: &mut Cycle, hole: &mut Hole, at: &Motion) -> Re
         post.warn(PostCode::IgnoredPart, message.to_string());
     }
     // A raise over a high hole is no lower level to return to for the holes behind it.
-    let higher = |initial: f64| if above(level, initial) > 0.0 { level } else { initial };
     cycle.initial = match initial {
-        Some(initial) => Some(higher(initial)),
-        None => Some(level).filter(|_| below || unknown),
+        Some(initial) if above(level, initial) <= 0.0 => Some(initial),
+        None if !(below || unknown) => None,
+        _ => Some(level),
     };
     hole.initial = level;
     hole.to_initial = match cycle.retract {

@@ -154,14 +154,8 @@ fn refuse_travel_of_c(control: &Control, code: PostCode) -> Result<()> {
 }
 
 /// A feed in a plane of X and C, or around a cylinder, at which Z goes no faster than it may.
-fn within_axes(post: &mut Post, feed: Feed, to: &Position, axes: AxisSet) -> Feed {
-    if !axes.has(2) {
-        return feed;
-    }
-    let way = [0, 1, 2].map(|number| match axes.has(number) {
-        true => post.control.stands(number).map(|at| to[number] - at),
-        false => Some(0.0),
-    });
+fn within_axes(post: &mut Post, feed: Feed, to: &Position) -> Feed {
+    let way = [0, 1, 2].map(|number| post.control.stands(number).map(|at| to[number] - at));
     let length = way.iter().try_fold(0.0, |sum, way| way.map(|way| sum + way * way));
     feed_rules::within_axes(post, feed, way, length.map(f64::sqrt))
 }

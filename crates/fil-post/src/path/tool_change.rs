@@ -31,8 +31,7 @@ pub fn looks_ahead(commons: &Commons) -> bool {
 /// Refuses the change to a tool that blocks behind the skip switch may have brought already: the
 /// machine then stays where it is, and else comes from its change position.
 fn refuse_change_by_switch(control: &Control, tool: i64) -> Result<()> {
-    let state = &control.state;
-    let may_be_in = state.tool_is_by_switch && state.tools_by_switch.contains(&Some(tool));
+    let may_be_in = control.state.tools_by_switch.is_some_and(|tools| tools.contains(&Some(tool)));
     match may_be_in && matches!(control.place(2), Place::Between(_)) {
         true => PostCode::SkippedPart.err(format!(
             "tool {tool} is in the spindle or is not, by the skip switch, and so the tool stands where \
@@ -104,6 +103,7 @@ pub(super) fn counts_length(control: &Control) -> bool {
     }
 }
 
+/// Warns of a length that the control counts across the tool.
 pub(super) fn say_length_lies_across(control: &mut Control) {
     let message = "the control counts the length of the tool along Z, which the tool lies across";
     control.warnings.add(PostCode::LengthAcross, message.to_string());

@@ -292,7 +292,7 @@ impl<'c> Settings<'c> {
 
     /// What the program multiplies an axis by.
     fn scale(&self, common: usize) -> f64 {
-        let diameter = common == 0 && self.commons.read(loc::LATHE_DIAMETER);
+        let diameter = common == 0 && self.is_lathe();
         let scale = self.commons.dbl_opt(SCALES[common]).unwrap_or(1.0).abs();
         if diameter { 2.0 } else { scale }
     }

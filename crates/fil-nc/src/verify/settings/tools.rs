@@ -17,16 +17,15 @@ impl Settings<'_> {
     /// True for a lathe whose compensation takes the nose of the tool in the spindle, unless a word
     /// names that of another offset.
     pub fn takes_noses_of_tools(&self) -> bool {
-        let is_lathe = self.commons.read(loc::LATHE_DIAMETER);
         let has_own = self.has_edges() || self.calls_tools_with_offset();
-        is_lathe && !has_own && !self.offsets_diameters_by_tool()
+        self.is_lathe() && !has_own && !self.offsets_diameters_by_tool()
     }
 
     /// When cutter compensation must be in force.
     pub fn compensation_due(&self, mills: bool) -> Due {
         match self.commons.read(loc::CUTCOM_WITH_MOTION) {
             false => Due::Now,
-            true if self.commons.read(loc::LATHE_DIAMETER) && !mills => Due::WithAny,
+            true if self.is_lathe() && !mills => Due::WithAny,
             true => Due::InPlane,
         }
     }

@@ -34,12 +34,12 @@ pub fn require(control: &mut Control, unit: Unit) -> Result<()> {
 /// # Errors
 /// It does.
 pub fn refuse_tool_by_switch(control: &Control) -> Result<()> {
-    match control.state.tool_is_by_switch {
-        true => PostCode::SkippedPart.err(
+    match control.state.tools_by_switch {
+        Some(_) => PostCode::SkippedPart.err(
             "the tool or its offset was changed in blocks that may be skipped, and with them skipped \
              this motion would be made with the one before it",
         ),
-        false => Ok(()),
+        None => Ok(()),
     }
 }
 

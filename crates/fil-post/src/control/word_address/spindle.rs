@@ -1,6 +1,7 @@
 //! The spindle: speed, direction, range, limit, orientation.
 
 pub mod counted;
+mod range;
 mod turn;
 
 use fil_diag::Result;
@@ -15,7 +16,10 @@ use super::modes;
 use crate::control::{Control, Function, sinumerik};
 use crate::control_state::Rotation;
 use crate::errors::PostCode;
-use crate::operation::{SideSpindle, Spindle, SpindleRange, SpindleSpeed, SpindleTurn};
+use crate::operation::{SideSpindle, Spindle, SpindleSpeed, SpindleTurn};
+pub(super) use range::speed_in_range;
+pub(in crate::control) use range::take_range_of;
+use range::{range_of, select_range, within_range};
 use turn::waits;
 pub use turn::{
     BEHIND_STOP, clockwise, clockwise_in_motion, may_stand_behind_change, may_stand_behind_stop,
@@ -422,95 +426,6 @@ pub(crate) fn value_of(control: &mut Control, speed: SpindleSpeed) -> f64 {
         (SpindleSpeed::Feet(value), true) => value * FOOT,
         (SpindleSpeed::Meters(value), false) => value / FOOT,
     }
-}
-
-/// Brings a speed within the range that was chosen, else within the ranges of the
-/// machine, with a warning.
-fn within_range(control: &mut Control, speed: f64) -> f64 {
-    let within = speed_in_range(control, speed);
-    if within != speed {
-        let message = format!("spindle speed {speed} became {within}");
-        control.warnings.add(PostCode::Clamped, message);
-    }
-    within
-}
-
-/// A speed within the range that was chosen, else within the ranges of the machine.
-pub(super) fn speed_in_range(control: &Control, speed: f64) -> f64 {
-    if !is_main(control) {
-        return speed;
-    }
-    let commons = &control.commons;
-    let open = match control.range {
-        Some(chosen) => chosen..chosen + 1,
-        None => 0..ranges(control),
-    };
-    let limits = loc::RANGE_SPEEDS[open].iter();
-    let low = limits.clone().filter_map(|(min, _)| commons.rel_opt(*min)).reduce(f64::min);
-    let tops: Option<Vec<f64>> = limits.map(|(_, max)| commons.rel_opt(*max)).collect();
-    let high = tops.and_then(|tops| tops.into_iter().reduce(f64::max));
-    speed.max(low.unwrap_or(0.0)).min(high.unwrap_or(f64::MAX))
-}
-
-/// Number of the ranges of the machine.
-fn ranges(control: &Control) -> usize {
-    control.commons.int(loc::SPINDLE_RANGES).clamp(1, 6) as usize
-}
-
-/// Index of the range that a record names.
-///
-/// # Errors
-/// The machine has none of this number, or none that lies between two others.
-fn range_of(control: &Control, range: SpindleRange) -> Result<usize> {
-    let count = ranges(control);
-    match range {
-        SpindleRange::Low => Ok(0),
-        SpindleRange::High => Ok(count - 1),
-        SpindleRange::Medium if count == 3 => Ok(1),
-        SpindleRange::Medium => PostCode::WordForm
-            .err(format!("SPINDL: none of {count} spindle ranges is the medium one")),
-        SpindleRange::Number(number) => {
-            (1..=6).position(|one| f64::from(one) == number).ok_or_else(|| {
-                PostCode::WordForm.diag(format!("SPINDL: there is no spindle range {number}"))
-            })
-        }
-    }
-}
-
-/// Takes the range that holds a speed: that in force, else the machine's first choice,
-/// else the lowest one.
-///
-/// # Errors
-/// No range holds the speed, nor one at the ends of all ranges; the range has no code.
-pub(in crate::control) fn take_range_of(control: &mut Control, speed: f64) -> Result<()> {
-    let holds = |control: &Control, index: usize, speed: f64| {
-        let (min, max) = loc::RANGE_SPEEDS[index];
-        let above = control.commons.rel_opt(min).is_none_or(|min| speed >= min);
-        above && control.commons.rel_opt(max).is_none_or(|max| speed <= max)
-    };
-    let before = control.range.take().filter(|index| {
-        let code = control.code_if_any(loc::RANGE_CODES[*index]);
-        code.is_some() && control.state.range == code
-    });
-    let speed = within_range(control, speed);
-    control.range = before;
-    let count = ranges(control);
-    let first = control.commons.int(loc::SPINDLE_DEFAULT_RANGE) - 1;
-    let first = before.or(usize::try_from(first).ok()).filter(|first| *first < count);
-    let found = first.into_iter().chain(0..count).find(|index| holds(control, *index, speed));
-    match found {
-        Some(index) if before == Some(index) => Ok(()),
-        Some(index) => control.because(control.block.cause, |control| select_range(control, index)),
-        None => PostCode::WordForm.err(format!("SPINDL: no spindle range holds {speed} turns/min")),
-    }
-}
-
-fn select_range(control: &mut Control, index: usize) -> Result<()> {
-    let code = control.code(loc::RANGE_CODES[index], "this spindle range")?;
-    control.flush_function(Function::Spindle)?;
-    control.range = Some(index);
-    control.m(code);
-    control.write_block()
 }
 
 /// Adds the M code and writes or keeps the block; a machine without the code

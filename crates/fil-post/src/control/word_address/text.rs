@@ -1,12 +1,11 @@
 //! Texts: INSERT as it is, PPRINT as a comment.
 
 use fil_diag::Result;
-use fil_machine::letters::{G, S};
+use fil_machine::Letter;
+use fil_machine::letters::S;
 use fil_machine::locations::{self as loc, SeqnoOnText};
-use fil_machine::{FunctionCode, Letter};
 
 use super::modes;
-
 use crate::control::Control;
 use crate::control::texts::{clean_message, without_blanks};
 use crate::control_state::Meaning;
@@ -45,10 +44,7 @@ pub fn insert(control: &mut Control, text: &str) -> Result<()> {
 fn say_what_it_counts_on(control: &mut Control, block: &str) -> Result<()> {
     let Some(TextWords { words, .. }) = text::read(block) else { return Ok(()) };
     control.begin()?;
-    let codes = || {
-        let of_g = words.iter().filter(|(letter, _)| *letter == G);
-        of_g.filter_map(|(_, value)| FunctionCode::of_value(*value))
-    };
+    let codes = || text::functions(&words);
     let says = |at| control.code_if_any(at).is_some_and(|code| codes().any(|said| said == code));
     let is_said = |kind: fn(Meaning) -> bool| codes().any(|code| kind(control.meaning(code)));
     let pauses = says(loc::DWELL_CODE);

@@ -167,7 +167,7 @@ pub(super) fn line(
             go(post, to, AxisSet::XY, &feed, word)?;
             go(post, to, AxisSet::Z, &feed, word)?;
         }
-        None if kind == MotionKind::Feed => cut(post, to, AxisSet::LINEAR, &feed, word)?,
+        None if kind == MotionKind::Feed => cut(post, to, &feed, word)?,
         None => go(post, to, AxisSet::LINEAR, &feed, word)?,
     }
     arrive(post, target);
@@ -203,10 +203,10 @@ fn arrive(post: &mut Post, target: Target) {
 }
 
 /// A motion at feed, at which Z goes no faster than it may.
-fn cut(post: &mut Post, to: [f64; 3], axes: AxisSet, feed: &Feed, word: u16) -> Result<()> {
+fn cut(post: &mut Post, to: [f64; 3], feed: &Feed, word: u16) -> Result<()> {
     let [x, y, z] = to;
-    let feed = super::within_axes(post, *feed, &[x, y, z, 0.0, 0.0], axes);
-    go(post, to, axes, &feed, word)
+    let feed = super::within_axes(post, *feed, &[x, y, z, 0.0, 0.0]);
+    go(post, to, AxisSet::LINEAR, &feed, word)
 }
 
 fn go(post: &mut Post, [x, y, z]: [f64; 3], axes: AxisSet, feed: &Feed, word: u16) -> Result<()> {
