@@ -1,5 +1,7 @@
 //! Walks along the steps of a CL file and the events of a program at once.
 
+mod reach;
+
 use fil_diag::Diag;
 use nalgebra::Point3;
 
@@ -8,7 +10,6 @@ use super::align::Detour;
 use super::auxiliaries::Auxiliaries;
 use super::between::Watch;
 use super::blocks::OwnBlocks;
-use super::gap::Gap;
 use super::hole_tip::FromHole;
 use super::lag::Moved;
 use super::modes::Expected;
@@ -409,55 +410,6 @@ impl<'a, C: Steps> Walk<'a, C> {
         self.nc.look(self.next, |event| matches!(event, Event::End { .. })).unwrap_or(true)
     }
 
-    /// True when the tool already is where a pose asks it to be.
-    pub(super) fn stands_at(&mut self, pose: &Pose) -> bool {
-        if self.awaits_offset() {
-            return false;
-        }
-        let gap = self.gap(&self.at, pose);
-        let stands = self.is_known(&self.known) && gap.closed();
-        if stands {
-            self.exact = gap.rotary;
-        }
-        stands
-    }
-
-    pub(super) fn reaches(&self, found: &Move, pose: &Pose) -> bool {
-        self.gap_reached(found, pose).is_some()
-    }
-
-    /// The gap at the end of a motion that reaches a pose.
-    pub(super) fn gap_reached(&self, found: &Move, pose: &Pose) -> Option<Gap> {
-        let known = self.is_known(&found.known);
-        known.then(|| self.gap(&found.to, pose)).filter(Gap::closed)
-    }
-
-    /// The gap between where the axes stand and a pose.
-    pub(super) fn gap(&self, at: &Position, pose: &Pose) -> Gap {
-        if self.slack.kept > 0.0 {
-            let slack = self.slack_of_moved(&self.at, at);
-            return Gap::of(self.settings, &slack, at, pose, self.exact);
-        }
-        Gap::of(self.settings, &self.slack, at, pose, self.exact)
-    }
-
-    /// The slack of a position that the axes come to: those that move are written.
-    #[cold]
-    pub(super) fn slack_of_moved(&self, from: &Position, to: &Position) -> Slack {
-        let mut slack = self.slack;
-        for n in (0..3).filter(|n| to.linear[*n] != from.linear[*n]) {
-            slack.linear[n] -= slack.kept;
-        }
-        slack
-    }
-
-    /// All axes that the program writes are known.
-    pub(super) fn is_known(&self, known: &[bool; 5]) -> bool {
-        let linear = (0..3).all(|n| known[n] || !self.written[n]);
-        let rotary = |n: usize| known[n + 3] || self.settings.forward.rotaries()[n].is_none();
-        linear && rotary(0) && rotary(1)
-    }
-
     /// Takes a motion: its modes, its limits, where it goes.
     pub(super) fn take(&mut self, cl_line: u32, found: &Move) {
         let at = self.at_as(found);
@@ -532,22 +484,6 @@ impl<'a, C: Steps> Walk<'a, C> {
         if let Some((kind, message)) = self.modes.settle() {
             self.find(kind, Some(cl_line), Some(self.line), message);
         }
-    }
-
-    /// Adds a motion to the deviations.
-    pub(super) fn measure(&mut self, found: &Move, pose: &Pose) {
-        let gap = self.gap(&found.to, pose);
-        self.measure_gap(found, &gap);
-    }
-
-    /// The same for a gap that is known.
-    pub(super) fn measure_gap(&mut self, found: &Move, gap: &Gap) {
-        self.report.position.add(gap.tip, found.line);
-        self.report.axis.add(gap.axis, found.line);
-        if gap.closed() {
-            self.said = None;
-        }
-        self.exact = gap.rotary;
     }
 
     pub(super) fn find(

@@ -4,6 +4,7 @@
 //! frame after TRANS and the input translation, in mm. A statement whose effect is
 //! not known from the CL file alone becomes [`Wanted::Unknown`].
 
+mod drill;
 mod frame_words;
 mod named_frame;
 mod own_words;
@@ -11,12 +12,13 @@ mod path;
 mod skip;
 mod thread;
 mod tool_names;
+mod unit;
 
 use std::collections::VecDeque;
 
 use fil_cl::record::{kind, mode};
-use fil_cl::{Circle, Reader, Record, Vocabulary, Word, WordId, words as w};
-use fil_diag::{Diag, TextSpan};
+use fil_cl::{Circle, Reader, Record, Vocabulary, WordId, words as w};
+use fil_diag::Diag;
 use fil_machine::Unit;
 use fil_machine::cycle_kind::CycleKind;
 use nalgebra::{Matrix3x4, Point3, Vector3};
@@ -28,36 +30,18 @@ use super::statements::{
 use super::wanted::{Effect, End, Step, Wanted};
 pub use frame_words::FrameWords;
 
-use crate::errors::NcCode;
 use crate::motion::{INCH, Rate};
 use named_frame::NamedFrames;
 use skip::Opskip;
 use tool_names::ToolNames;
+use unit::said;
 
 /// Statements that move the tool or the frame by rules that are not public.
 const ENDS_THE_PATH: [WordId; 9] =
     [w::COPY, w::INDEX, w::ROTABL, w::ROTATE, w::ROTHED, w::HEAD, w::CALSUB, w::DEFSUB, w::ENDSUB];
 
-/// Statements besides motion that hold lengths or feeds.
-const MEASURES: [WordId; 7] =
-    [w::FEDRAT, w::CYCLE, w::THREAD, w::PITCH, w::OP, w::LINTOL, w::GOHOME];
-
 /// Statements that write words of the user's own.
 const OWN_WORDS: [WordId; 2] = [w::POSTN, w::REPEAT];
-
-const CYCLES: [(WordId, CycleKind); 11] = [
-    (w::BRKCHP, CycleKind::Brkchp),
-    (w::DEEP, CycleKind::Deep),
-    (w::DEEP2, CycleKind::Deep),
-    (w::DRILL, CycleKind::Drill),
-    (w::CSINK, CycleKind::Csink),
-    (w::TAP, CycleKind::Tap),
-    (w::BORE, CycleKind::Bore),
-    (w::REAM, CycleKind::Ream),
-    (w::FACE, CycleKind::Face),
-    (w::THRU, CycleKind::Thru),
-    (w::MILL, CycleKind::Mill),
-];
 
 /// A cycle that is on; lengths in CL units.
 #[derive(Clone, Copy)]
@@ -245,48 +229,10 @@ impl<'r> ClPath<'r> {
     }
 }
 
-/// The unit of a UNITS statement.
-fn said(record: &Record) -> Unit {
-    if record.has(w::INCHES) { Unit::Inch } else { Unit::Mm }
-}
-
 impl ClPath<'_> {
     /// A motion that nothing leaves out: most records are.
     fn is_plain_motion(&self) -> bool {
         self.record.kind == kind::MOTION && !self.record.inert && !self.skip.leaves_out_now()
-    }
-
-    /// Refuses lengths and feeds before anything has said the unit.
-    fn require_unit(&self) -> Result<(), Box<Diag>> {
-        let record = &self.record;
-        let measures =
-            matches!(record.kind, kind::MOTION | kind::SURFACE) || MEASURES.contains(&record.major);
-        let measures = measures && !(record.major == w::THREAD && record.has(w::OFF));
-        if self.state.unit.is_some() || !measures {
-            return Ok(());
-        }
-        Err(self.no_unit("a length or feed comes before anything says mm or inch"))
-    }
-
-    /// Refuses a UNITS statement that says another unit than the one that was given, or
-    /// that an earlier one said.
-    fn refuse_other_unit(&self) -> Result<(), Box<Diag>> {
-        let record = &self.record;
-        let is_units = record.kind == kind::POST && matches!(record.major, w::UNITS | w::UNIT);
-        match self.state.unit.filter(|known| is_units && *known != said(record)) {
-            Some(known) => {
-                let how = if self.given { "is given" } else { "came before" };
-                Err(self.no_unit(&format!("{known} {how}, and UNITS says {}", said(record))))
-            }
-            None => Ok(()),
-        }
-    }
-
-    #[cold]
-    fn no_unit(&self, message: &str) -> Box<Diag> {
-        let record = &self.record;
-        let place = TextSpan::line(&self.name, record.line, statement(record, &self.vocabulary));
-        Box::new(NcCode::NoUnit.diag(message).at(place))
     }
 }
 
@@ -494,50 +440,6 @@ impl State {
         let within = numbers(record).first().copied().filter(|within| *within > 0.0);
         self.straight = within.map(|within| within * self.unit()).or(self.straight);
         vec![Wanted::Straight(self.straight)]
-    }
-
-    fn cycle(&mut self, record: &Record, vocabulary: &Vocabulary) -> Vec<Wanted> {
-        let pulls_back = record.has(w::PULBAC);
-        let by_itself = record.after(w::RTRCTO) == Some(Word::Minor(w::AUTO));
-        let off = record.has(w::OFF);
-        if !pulls_back && (off || record.has(w::NOMORE)) {
-            self.cycle = None;
-            return vec![Wanted::CycleEnd];
-        }
-        if record.data == [Word::Minor(w::INIT)] {
-            return Vec::new();
-        }
-        let number = |words: &[WordId]| words.iter().find_map(|word| record.number_after(*word));
-        let kind = CYCLES.iter().find(|(word, _)| record.has(*word)).map(|(_, kind)| *kind);
-        let (Some(kind), Some(depth)) = (kind, number(&[w::DEPTH, w::FEDTO])) else {
-            let what = statement(record, vocabulary);
-            return vec![Wanted::Unknown { what, effect: Effect::Path }];
-        };
-        let rate = [w::MMPM, w::IPM, w::FPM, w::MMPR, w::IPR, w::FPR]
-            .iter()
-            .find_map(|unit| record.number_after(*unit))
-            .map(|value| self.rate_of(record, value));
-        let tapped = self.lead(record).filter(|_| kind == CycleKind::Tap && record.has(w::TPI));
-        let rate = tapped.map(Rate::PerTurn).or(rate);
-        let begins = self.cycle.is_none();
-        let rigid = kind == CycleKind::Tap && record.has(w::HIGH);
-        self.cycle = Some(Cycle {
-            kind,
-            depth: depth.abs(),
-            clear: number(&[w::RAPTO, w::CLEAR]),
-            retract: if by_itself || pulls_back && !off {
-                Some(0.0)
-            } else {
-                number(&[w::RETURN, w::RTRCTO])
-            },
-            step: number(&[w::STEP, w::SUBPECK, w::INCR]).filter(|_| kind.pecks()),
-            dwell: record.number_after(w::DWELL),
-            rate: rate.or(self.rate),
-            has_own_rate: rate.is_some(),
-            rigid,
-        });
-        let begins = begins.then_some(Wanted::CycleEnd);
-        begins.into_iter().chain(rigid.then_some(Wanted::RigidTap)).collect()
     }
 
     fn tool(&mut self, record: &Record) -> Option<Vec<Wanted>> {

@@ -1,0 +1,69 @@
+//! CYCLE: the holes at the points to come.
+
+use fil_cl::{Record, Vocabulary, Word, WordId, words as w};
+use fil_machine::cycle_kind::CycleKind;
+
+use super::super::statements::statement;
+use super::super::wanted::{Effect, Wanted};
+use super::{Cycle, State};
+use crate::motion::Rate;
+
+const CYCLES: [(WordId, CycleKind); 11] = [
+    (w::BRKCHP, CycleKind::Brkchp),
+    (w::DEEP, CycleKind::Deep),
+    (w::DEEP2, CycleKind::Deep),
+    (w::DRILL, CycleKind::Drill),
+    (w::CSINK, CycleKind::Csink),
+    (w::TAP, CycleKind::Tap),
+    (w::BORE, CycleKind::Bore),
+    (w::REAM, CycleKind::Ream),
+    (w::FACE, CycleKind::Face),
+    (w::THRU, CycleKind::Thru),
+    (w::MILL, CycleKind::Mill),
+];
+
+impl State {
+    pub(super) fn cycle(&mut self, record: &Record, vocabulary: &Vocabulary) -> Vec<Wanted> {
+        let pulls_back = record.has(w::PULBAC);
+        let by_itself = record.after(w::RTRCTO) == Some(Word::Minor(w::AUTO));
+        let off = record.has(w::OFF);
+        if !pulls_back && (off || record.has(w::NOMORE)) {
+            self.cycle = None;
+            return vec![Wanted::CycleEnd];
+        }
+        if record.data == [Word::Minor(w::INIT)] {
+            return Vec::new();
+        }
+        let number = |words: &[WordId]| words.iter().find_map(|word| record.number_after(*word));
+        let kind = CYCLES.iter().find(|(word, _)| record.has(*word)).map(|(_, kind)| *kind);
+        let (Some(kind), Some(depth)) = (kind, number(&[w::DEPTH, w::FEDTO])) else {
+            let what = statement(record, vocabulary);
+            return vec![Wanted::Unknown { what, effect: Effect::Path }];
+        };
+        let rate = [w::MMPM, w::IPM, w::FPM, w::MMPR, w::IPR, w::FPR]
+            .iter()
+            .find_map(|unit| record.number_after(*unit))
+            .map(|value| self.rate_of(record, value));
+        let tapped = self.lead(record).filter(|_| kind == CycleKind::Tap && record.has(w::TPI));
+        let rate = tapped.map(Rate::PerTurn).or(rate);
+        let begins = self.cycle.is_none();
+        let rigid = kind == CycleKind::Tap && record.has(w::HIGH);
+        self.cycle = Some(Cycle {
+            kind,
+            depth: depth.abs(),
+            clear: number(&[w::RAPTO, w::CLEAR]),
+            retract: if by_itself || pulls_back && !off {
+                Some(0.0)
+            } else {
+                number(&[w::RETURN, w::RTRCTO])
+            },
+            step: number(&[w::STEP, w::SUBPECK, w::INCR]).filter(|_| kind.pecks()),
+            dwell: record.number_after(w::DWELL),
+            rate: rate.or(self.rate),
+            has_own_rate: rate.is_some(),
+            rigid,
+        });
+        let begins = begins.then_some(Wanted::CycleEnd);
+        begins.into_iter().chain(rigid.then_some(Wanted::RigidTap)).collect()
+    }
+}
