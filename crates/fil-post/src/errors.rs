@@ -168,6 +168,10 @@ fil_diag::codes! {
         StillBlocks = 572, Warning, "blocks without a motion in cutter compensation",
             "Several blocks that move nothing in the plane of compensation (M functions, a dwell, a stop, a depth) stand between two motions under G41 or G42. A control that reads few blocks ahead does not see the second motion then, and cuts too much or too little at the corner.",
             "Put what stands between before CUTCOM or behind CUTCOM/OFF; ignore this where the control reads as many blocks ahead, or the path goes straight on.";
+        /// A feed a turn, of one of two spindles.
+        FeedOfSpindle = 573, Warning, "a feed a turn beside the second spindle",
+            "The second spindle turns by spindle.side_cw_code, and no setting says which spindle the control counts: a feed a turn may be that of the main one, which stands or turns at another speed.",
+            "Set spindle.side_master_code and spindle.main_master_code (a SINUMERIK: spindle.side_number), or give feeds a minute; ignore this where the codes of the second spindle make the control count it.";
         /// A motion of too many parts.
         TooManyParts = 580, Error, "a motion would be divided too often",
             "While rotary axes turn, the tip leaves its line; to keep it there, or to say its feed, takes too many blocks. So do the lines of an arc of many turns.",

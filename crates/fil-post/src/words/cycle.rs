@@ -229,6 +229,7 @@ fn own_feed(post: &mut Post, items: &mut Items, kind: CycleKind) -> Result<Optio
         post.due_to(items);
         let feed = fedrat::in_output_units(post, value, Some(*unit))?;
         post.control.block.cause = cause;
+        fedrat::warn_beside_second_spindle(post, feed);
         let feed = fedrat::within_limits(post, feed);
         return within_that_of_z(post, feed, kind).map(Some);
     }

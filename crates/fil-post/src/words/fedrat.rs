@@ -47,8 +47,17 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     items.deny_rest()?;
     let feed = in_output_units(post, value, unit)?;
     post.path.feed = Some(within_limits(post, feed));
+    warn_beside_second_spindle(post, feed);
     thread::end(post)?;
     cycle::take_feed(post)
+}
+
+/// Warns of a feed a turn while the second spindle turns on a machine that does not say which one
+/// its control counts.
+pub fn warn_beside_second_spindle(post: &mut Post, feed: Feed) {
+    if feed.mode == FeedMode::PerRevolution && post.control.side_turns {
+        post.warn(PostCode::FeedOfSpindle, "the turns may be those of the main one".to_string());
+    }
 }
 
 /// LOCK,ON takes the feed override from the operator, LOCK,OFF gives it back.

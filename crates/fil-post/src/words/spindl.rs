@@ -5,6 +5,7 @@
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
 
+use super::fedrat;
 use crate::control::word_address::spindle::counted;
 use crate::errors::PostCode;
 use crate::items::Items;
@@ -113,7 +114,11 @@ fn side(post: &mut Post, items: &mut Items) -> Result<()> {
     if speed.is_some_and(|speed| speed < 0.0) {
         return Err(items.error("the speed is negative; CCLW turns the other way"));
     }
-    carry_out(post, Operation::Spindle(Spindle::Side(SideSpindle { turn, speed, words })))
+    carry_out(post, Operation::Spindle(Spindle::Side(SideSpindle { turn, speed, words })))?;
+    if let Some(feed) = post.path.feed {
+        fedrat::warn_beside_second_spindle(post, feed);
+    }
+    Ok(())
 }
 
 /// RANGE with a number or a word.
