@@ -91,7 +91,7 @@ fil_diag::codes! {
         /// A second tool, or zero, with which the machine turns.
         TurnedApart = 539, Error, "the machine turns for another tool or zero",
             "Positions of the axes hold the distance from the pivot of a head to the tip, and from the zero to the axis of a table. Both are stated once for the machine.",
-            "Post with tool-tip control or in tilted frames, where the control knows both; or one program each.";
+            "Post with tool-tip control or in tilted frames, where the control knows both; or one program each. Levels of the machine's Z: turn the tool upright before them, or set home.frame = 1.";
         /// A rotary axis the long way round.
         Unwinding = 524, Error, "a rotary axis would unwind while cutting",
             "Its limits leave only another way to the tool axis, and the tool would cut on the way.",

@@ -475,3 +475,27 @@ fn a_way_up_left_out_before_polar_interpolation_is_found() {
         each_is_found(&check, &nc, &[(up, "G0 X", "rapid goes across before Z has gone up")]);
     }
 }
+
+/// A live tool on a machine with Y that goes in one block from the other side of the axis to where
+/// C turns comes through the bar.
+#[test]
+fn a_rapid_past_the_axis_of_the_spindle_is_found() {
+    let cl = "MODE / MILL; LOADTL / 9; SPINDL / RPM, 1500, CLW; FEDRAT / 200, MMPM; RAPID; \
+              GOTO / -30, 20, 5; GOTO / -20, 20, -2; RAPID; GOTO / -20, 20, 20; RAPID; \
+              GOTO / -60, 0, -20, -1, 0, 0; GOTO / -42, 0, -20, -1, 0, 0; RAPID; \
+              GOTO / -60, 0, -20, -1, 0, 0";
+    let settings = [
+        "address.Y.slot=18",
+        "address.Y.format=4443",
+        "address.Y.spec=101",
+        "limits.y_min=-40",
+        "limits.y_max=40",
+    ];
+    let nc = nc_of("fanuc-mill-turn", &settings, cl);
+    let check = |nc: &str| found("fanuc-mill-turn", &settings, cl, nc);
+    assert_eq!(check(&nc), "");
+    let parts = "X120. C-180. Y0.; Z-20.";
+    assert!(nc.contains(parts), "{nc}");
+    let wrong = check(&nc.replacen(parts, "X120. Z-20. C-180. Y0.", 1));
+    assert!(wrong.contains("nearer than both its ends"), "{wrong}");
+}

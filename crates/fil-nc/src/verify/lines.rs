@@ -37,15 +37,17 @@ impl<C: Steps> Walk<'_, C> {
         let exact = Position { linear, ..end.to };
         let leg = if self.tool_is_fresh { Leg::FromAfar } else { Leg::OfPath };
         self.rapid_to = Some(*pose);
+        let begin = self.at;
         for index in self.next..=last {
             if let Some(Event::Move(part)) = self.nc.get(index) {
-                match self.settings.is_mill_turn() && self.goes_around(&part, &exact) {
-                    true => {}
-                    false => self.check_part(cl_line, &part, &end.to, leg),
+                let goes_around = self.settings.is_mill_turn() && self.goes_around(&part, &exact);
+                if !goes_around && !self.goes_out_along_x(&part, &end.to) {
+                    self.check_part(cl_line, &part, &end.to, leg);
                 }
                 if index < last && leg != Leg::FromAfar {
                     self.check_order_on_lathe(cl_line, &part, (&end, pose));
                 }
+                self.check_way_past_axis(cl_line, &part, [&begin, &end.to]);
                 self.check_turn_is_away(cl_line, &part);
                 self.take(cl_line, &part);
             }

@@ -116,7 +116,7 @@ impl<C: Steps> Walk<'_, C> {
 
     /// Where a way up to a level of Z must bring a head that leans; `None` for a tool along Z, where
     /// it stands nobody knows, and behind a tool change, which has brought it away.
-    fn raised_from_here(&self, level: Option<f64>) -> Option<Position> {
+    pub(super) fn raised_from_here(&self, level: Option<f64>) -> Option<Position> {
         if self.tool_is_fresh {
             return None;
         }
@@ -125,7 +125,12 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     /// One of the rapids to a position of the machine ends above where the tool stands, along it.
-    fn check_way_up_along_head(&mut self, cl_line: u32, count: usize, raised: &Position) {
+    pub(super) fn check_way_up_along_head(
+        &mut self,
+        cl_line: u32,
+        count: usize,
+        raised: &Position,
+    ) {
         let stands = self.settings.forward.restated(&self.at, &Position::default());
         let slack = self.slack_raised(&stands, raised);
         let is_above = |at: &Position| {

@@ -3,10 +3,11 @@
 //! while it goes across, along Z or along X as it lies. Z comes down behind a tool change where the
 //! rotary axes have turned.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector2};
 
 use super::ahead::Steps;
 use super::report::FindingKind;
+use super::say::short;
 use super::walk::{STILL, Walk};
 use crate::forward::Pose;
 use crate::motion::{Move, Position};
@@ -37,6 +38,55 @@ impl<C: Steps> Walk<'_, C> {
         if let Some(message) = wrong {
             self.find(FindingKind::Order, Some(cl_line), Some(part.line), message.to_string());
         }
+    }
+
+    /// On a mill-turn machine with Y: while C turns, X and Y may not come nearer to the axis of the
+    /// spindle than where the rapid begins and ends, as the line of the CL file turns with the part.
+    pub(super) fn check_way_past_axis(&mut self, cl_line: u32, part: &Move, ends: [&Position; 2]) {
+        let turns = (part.to.rotary[0] - self.at.rotary[0]).abs() > SMALL_TURN;
+        let known = self.is_known(&self.known) && self.is_known(&part.known);
+        if !(self.has_axis_y() && turns && known) {
+            return;
+        }
+        let [from, to] = [self.off_spindle(&self.at), self.off_spindle(&part.to)];
+        let way = to - from;
+        let share = -from.dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE);
+        let nearest = (from + way * share.clamp(0.0, 1.0)).norm();
+        let least = ends.map(|at| self.off_spindle(at).norm()).into_iter().fold(f64::MAX, f64::min);
+        // From beyond the axis, where a tool along Z has worked, the level is its way up.
+        let stays_up = from.x <= 0.0 && part.to.linear[2] == self.at.linear[2];
+        if nearest < least - SMALL && !stays_up {
+            let message = format!(
+                "rapid turns C and passes {} from the axis of the spindle, nearer than both its ends",
+                short(nearest)
+            );
+            self.find(FindingKind::Order, Some(cl_line), Some(part.line), message);
+        }
+    }
+
+    /// A part of a rapid along X alone, out to where C may turn past both ends.
+    pub(super) fn goes_out_along_x(&self, part: &Move, end: &Position) -> bool {
+        let stays = (1..3).all(|n| part.to.linear[n] == self.at.linear[n])
+            && part.to.rotary == self.at.rotary;
+        let [from, to] = [&self.at, end].map(|at| self.off_spindle(at).norm());
+        let out = self.off_spindle(&part.to).x;
+        self.has_axis_y()
+            && self.is_known(&self.known)
+            && stays
+            && out > self.off_spindle(&self.at).x
+            && (out - from.max(to)).abs() <= SMALL
+    }
+
+    /// A mill-turn machine whose Y is an axis of its own.
+    fn has_axis_y(&self) -> bool {
+        self.settings.is_mill_turn() && self.written[1] && !self.at.transformed
+    }
+
+    /// How X and Y stand from the axis of the spindle, mm.
+    fn off_spindle(&self, at: &Position) -> Vector2<f64> {
+        let spindle = self.settings.forward.rotaries()[0].as_ref();
+        let center = spindle.map_or_else(Vector2::zeros, |spindle| spindle.center.coords.xy());
+        Vector2::new(at.linear[0], at.linear[1]) - center
     }
 
     /// X and Z go one after the other.

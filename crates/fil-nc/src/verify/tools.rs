@@ -102,15 +102,27 @@ impl<C: Steps> Walk<'_, C> {
         if (0..5).all(|n| near(&self.at, &self.known, n)) {
             return;
         }
-        let reached = self.nc.from(self.next).take(RAPID_PARTS).position(|event| match event {
-            Event::Move(found) => {
-                found.course == Course::Rapid && (0..5).all(|n| near(&found.to, &found.known, n))
-            }
-            _ => false,
-        });
-        match reached {
-            Some(reached) => {
-                for _ in 0..=reached {
+        let is_there: Vec<bool> = self
+            .nc
+            .from(self.next)
+            .take(RAPID_PARTS)
+            .map(|event| match event {
+                Event::Move(found) => {
+                    found.course == Course::Rapid
+                        && (0..5).all(|n| near(&found.to, &found.known, n))
+                }
+                _ => false,
+            })
+            .collect();
+        let reached = is_there.iter().position(|there| *there);
+        // Behind a tilted frame the level is said again.
+        let again = |first: usize| is_there[first..].iter().take_while(|there| **there).count();
+        match reached.map(|first| first + again(first)) {
+            Some(count) => {
+                if let Some(raised) = self.raised_from_here(wanted[2]).filter(|_| !self.is_up) {
+                    self.check_way_up_along_head(cl_line, count, &raised);
+                }
+                for _ in 0..count {
                     if let Some(found) = self.next_move() {
                         self.take(cl_line, &found);
                         self.next += 1;

@@ -76,6 +76,8 @@ pub struct TipOffset {
     pub by_vector: bool,
     /// Where the rotary axes stand since a vector has turned them, degrees.
     pub leans: Option<[f64; 2]>,
+    /// The tool for which levels of the machine's Z were counted while a head leaned it.
+    pub tool_of_levels: Option<i64>,
     /// Turns directions of the last tilted frame into those of the part, and where the rotary axes
     /// stand in it, degrees.
     pub frame: Option<(Rotation3<f64>, [f64; 2])>,
@@ -279,6 +281,11 @@ impl Control {
     /// What a preparatory function does on this machine.
     pub fn meaning(&self, code: FunctionCode) -> Meaning {
         self.codes.meaning(code)
+    }
+
+    /// True for a G function that chooses a work offset, by itself or by a word beside it.
+    pub fn chooses_offset(&self, code: FunctionCode) -> bool {
+        self.codes.chooses_offset(code)
     }
 
     /// The letter a setting names.

@@ -2,11 +2,10 @@
 //! along Z of the frame, and the frame ends above.
 
 use fil_diag::Result;
-use fil_machine::locations::{self as loc, ToolChangeBlock};
 
-use super::{frame, height, rapid_lean};
+use super::{frame, height, rapid_lean, turned_apart};
 use crate::control::word_address::motion::{Motion, RapidCode};
-use crate::control::{Control, family, machine_frame};
+use crate::control::{family, machine_frame};
 use crate::control_state::Place;
 use crate::errors::PostCode;
 use crate::operation::Operation;
@@ -18,13 +17,23 @@ const OUT_FIRST: &str = "Bring the tool out by RAPID and GOTO before it, or turn
 /// frame of a leaning head is in force.
 ///
 /// # Errors
-/// Where the tool stands is not known; it lies across Z; a position outside the travel.
+/// As [`go_up_to`].
 pub(super) fn go_up(post: &mut Post, operation: &Operation) -> Result<()> {
-    let Operation::MachinePosition([_, _, Some(level)]) = operation else { return Ok(()) };
-    let control = &post.control;
-    let Some(angles) = post.path.rotary.filter(|_| is_in_frame(control)) else { return Ok(()) };
-    let in_machine = machine_frame::is_meant(control) || control.is_compensated();
-    if in_machine || !frame::leans(control.tables.chain(), angles) {
+    match operation {
+        Operation::MachinePosition([_, _, Some(level)]) => go_up_to(post, *level),
+        _ => Ok(()),
+    }
+}
+
+/// The same to a level that comes before a tool change.
+///
+/// # Errors
+/// Where the tool stands is not known; it lies across Z; a second tool, of another length; a
+/// position outside the travel.
+pub(super) fn go_up_to(post: &mut Post, level: f64) -> Result<()> {
+    let Some(angles) = leaning(post) else { return Ok(()) };
+    let control = &mut post.control;
+    if machine_frame::is_meant(control) || control.is_compensated() {
         return Ok(());
     }
     let (Some(height), Place::At(z)) = (height::machine_height(control), control.place(2)) else {
@@ -34,7 +43,37 @@ pub(super) fn go_up(post: &mut Post, operation: &Operation) -> Result<()> {
     if rise <= 0.0 {
         return Ok(());
     }
+    turned_apart::refuse_level(control)?;
     let z = z + rapid_lean::way_along(control, angles, rise)?;
+    rise_to(post, z)
+}
+
+/// Goes up along the tool by a distance, before the frame of a leaning head ends and the control
+/// moves along Z of the machine; says whether such a frame is in force.
+///
+/// # Errors
+/// Where the tool stands is not known; a position outside the travel.
+pub(super) fn go_up_by(post: &mut Post, distance: f64) -> Result<bool> {
+    if leaning(post).is_none() {
+        return Ok(false);
+    }
+    let Place::At(z) = post.control.place(2) else { return unknown() };
+    rise_to(post, z + distance)?;
+    Ok(true)
+}
+
+/// Where the rotary axes stand in the frame of a head that leans the tool, degrees.
+fn leaning(post: &Post) -> Option<[f64; 2]> {
+    let control = &post.control;
+    let is_in_frame =
+        control.tables.frame_output && control.state.tilted != Some(false) && !control.tip.is_away;
+    let angles = post.path.rotary.filter(|_| is_in_frame)?;
+    frame::leans(control.tables.chain(), angles).then_some(angles)
+}
+
+/// Goes up to a level of the frame.
+fn rise_to(post: &mut Post, z: f64) -> Result<()> {
+    let control = &post.control;
     if let (Some(x), Some(y)) = (control.stands(0), control.stands(1)) {
         frame::check_on_the_way(post, [x, y, z])?;
     }
@@ -42,24 +81,6 @@ pub(super) fn go_up(post: &mut Post, operation: &Operation) -> Result<()> {
     family::cancel_cycle(control)?;
     let cause = control.block.cause.whole();
     family::rapid(control, &Motion::along(2, z), RapidCode::Along, cause)
-}
-
-/// Refuses a change position of Z out of the frame of a leaning head.
-///
-/// # Errors
-/// The tool would go straight up in the machine.
-pub(super) fn refuse_change_position(control: &Control) -> Result<()> {
-    let goes = control.commons.read(loc::TOOL_CHANGE_BLOCK) != ToolChangeBlock::None
-        && control.commons.dbl_opt(loc::CHANGE_POSITION[2]).is_some();
-    if !goes || !is_in_frame(control) || machine_frame::is_meant(control) {
-        return Ok(());
-    }
-    let leans = |angles: [f64; 2]| frame::leans(control.tables.chain(), angles);
-    if rapid_lean::turned(control).is_none_or(leans) { unknown() } else { Ok(()) }
-}
-
-fn is_in_frame(control: &Control) -> bool {
-    control.tables.frame_output && control.state.tilted != Some(false) && !control.tip.is_away
 }
 
 fn unknown<T>() -> Result<T> {

@@ -255,7 +255,11 @@ fn locate(post: &mut Post, cycle: &Cycle, target: Target) -> Result<(Position, H
     let differs = |axis: &usize| (clear[*axis] - bottom[*axis]).abs() > SAME;
     let moving: Vec<usize> = (0..AXES).filter(differs).collect();
     let [along @ 0..=2] = moving[..] else {
-        return PostCode::CycleForm.err("the hole does not run along a linear axis of the machine");
+        return PostCode::CycleForm.err_with(
+            "the hole does not run along a linear axis of the machine",
+            "A control drills it in a tilted frame (rotary.frame_output = 1), and single moves drill \
+             it under tool-tip control (rotary.tip_output = 1).",
+        );
     };
     let (bottom, clear) = (bottom[along], clear[along]);
     Ok((at, Hole { along, bottom, clear, initial: clear, to_initial: false }))

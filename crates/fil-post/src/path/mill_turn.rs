@@ -4,6 +4,7 @@
 //! in polar interpolation. A tool square to Z turns C to where it looks, and goes along a
 //! cylinder while C turns.
 
+mod crossing;
 mod cylinder;
 pub(super) mod hole;
 mod polar;
@@ -20,7 +21,7 @@ use super::cycle::{CycleFeed, CycleKind};
 use super::{feed_rules, functions_of_others, rotary, thread};
 use crate::control::Control;
 use crate::control::sinumerik::{reader, transformation};
-use crate::control::word_address::motion::{Motion, RapidCode};
+use crate::control::word_address::motion::Motion;
 use crate::control::word_address::spindle;
 use crate::control::{family, full_turn};
 use crate::control_state::{CALLS, Meaning, Rotation, TOOL_CHANGE, text};
@@ -267,11 +268,10 @@ pub(super) fn prepare(post: &mut Post, target: Target, kind: MotionKind) -> Resu
             Ok(true)
         }
         MotionKind::Rapid(cause) if !axial => {
-            // Which way is away from the part Z does not say: all axes go at once.
             let position = position_of(post, point, axis)?;
             let word = rotary::word_of(post, target);
             let motion = Motion::new(position, AxisSet::ALL, word);
-            family::rapid(&mut post.control, &motion, RapidCode::Across, cause)?;
+            crossing::rapid(&mut post.control, &motion, cause)?;
             post.path.arrive(target);
             Ok(true)
         }

@@ -366,7 +366,7 @@ fn write_other(post: &mut Post, operation: Operation) -> Result<()> {
         Operation::Turn(index, to) => index::turn(post, index, to),
         Operation::Hole(target) => hole::carry_out(post, target),
         Operation::Thread(thread) => thread::carry_out(post, &thread),
-        Operation::ToolChange(change) => tool_change::change(&mut post.control, change),
+        Operation::ToolChange(change) => tool_change::change(post, change),
         other => family::write(&mut post.control, other),
     }
 }

@@ -5,7 +5,7 @@
 //! once more behind them; words of motions are left to what the control knows.
 
 use fil_diag::Result;
-use fil_machine::{FunctionCode, letters};
+use fil_machine::letters;
 
 use crate::control::{Control, family};
 use crate::operation::{Operation, Spindle};
@@ -17,15 +17,15 @@ pub(crate) struct Said(Vec<Operation>);
 
 impl Said {
     /// Keeps an operation that stays in force.
-    fn keep(&mut self, operation: &Operation) {
-        let Some(kind) = kind(operation) else { return };
-        self.0.retain(|other| self::kind(other) != Some(kind));
+    fn keep(&mut self, control: &Control, operation: &Operation) {
+        let Some(kind) = kind(control, operation) else { return };
+        self.0.retain(|other| self::kind(control, other) != Some(kind));
         self.0.push(operation.clone());
     }
 }
 
 /// Which operations come in place of each other; `None` for one that leaves nothing in force.
-fn kind(operation: &Operation) -> Option<u8> {
+fn kind(control: &Control, operation: &Operation) -> Option<u8> {
     Some(match operation {
         Operation::Spindle(Spindle::Range(_)) => 0,
         Operation::Spindle(Spindle::Limit(_)) => 1,
@@ -33,20 +33,15 @@ fn kind(operation: &Operation) -> Option<u8> {
         Operation::Spindle(Spindle::Turn(_) | Spindle::Off | Spindle::Orient(_)) => 3,
         Operation::Coolant(_) => 4,
         Operation::WorkOffset(_) => 5,
-        Operation::Function(letters::G, code) if is_work_offset(*code) => 5,
+        Operation::Function(letters::G, code) if control.chooses_offset(*code) => 5,
         _ => return None,
     })
-}
-
-/// G54 to G59, by PREFUN.
-fn is_work_offset(code: FunctionCode) -> bool {
-    (54.0..60.0).contains(&code.value())
 }
 
 /// Notes an operation in blocks that can be skipped.
 pub(super) fn note(post: &mut Post, operation: &Operation) {
     if post.control.tape.skip.is_some() {
-        post.path.skipped.keep(operation);
+        post.path.skipped.keep(&post.control, operation);
     }
 }
 

@@ -15,10 +15,10 @@ use fil_machine::locations::{self as loc, ControlFamily, RotaryTipControl};
 use nalgebra::{Point3, Vector3};
 
 use super::turning::spelled;
-use super::{frame, rapid, rotary, tip};
+use super::{frame, frame_end, rapid, rotary, tip, turned_apart};
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::{Control, Function};
-use crate::control::{family, vectors};
+use crate::control::{family, machine_frame, vectors};
 use crate::control_state::{Compensation, Meaning};
 use crate::errors::PostCode;
 use crate::operation::{Operation, Target};
@@ -115,6 +115,11 @@ fn begin(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
         return PostCode::CompensationOn.err("where tool-tip control begins");
     }
     family::cancel_cycle(control)?;
+    let in_doubt = control.state.tip_control.is_none();
+    let length_is_called = std::mem::take(&mut control.tip.length_is_called);
+    let comes_down = length_is_called && !in_doubt;
+    let is_up = comes_down && go_up_in_frame(post)?;
+    let control = &mut post.control;
     frame::end(control)?;
     post.path.frame = None;
     let control = &mut post.control;
@@ -124,9 +129,7 @@ fn begin(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
             .err("tool-tip control takes up the length of a tool, and no LOADTL came before");
     }
     control.flush_function(Function::WorkOffset)?;
-    let in_doubt = control.state.tip_control.is_none();
-    let length_is_called = std::mem::take(&mut control.tip.length_is_called);
-    if length_is_called && !in_doubt {
+    if comes_down && !is_up {
         go_up_with_length(control)?;
     }
     if post.control.tip.by_vector {
@@ -340,13 +343,29 @@ fn go_up(control: &mut Control) -> Result<bool> {
     Ok(true)
 }
 
+/// Goes up along Z of the frame of a leaning head, before it ends and a G49 takes off the length
+/// of the tool; says whether such a frame is in force.
+///
+/// # Errors
+/// As [`frame_end::go_up_by`].
+fn go_up_in_frame(post: &mut Post) -> Result<bool> {
+    match way_up(&mut post.control)? {
+        Some(distance) => frame_end::go_up_by(post, distance),
+        None => Ok(false),
+    }
+}
+
 /// Goes up in Z before a G49 that takes off the length with which the tool was brought to a
-/// position of the machine: the control may come down by it there, too.
+/// position of the machine: the control may come down by it there, too. A tool change since then
+/// has brought the tool away.
 ///
 /// # Errors
 /// As [`go_up`].
 fn go_up_with_length(control: &mut Control) -> Result<()> {
     let Some(distance) = way_up(control)? else { return Ok(()) };
+    if control.state.may_be_clear(control.tables.axis(2).letter) {
+        return Ok(());
+    }
     let Some(z) = control.stands(2) else {
         return PostCode::TipControl.err_with(
             "the length of the tool is taken off before tool-tip control begins, and where Z \
@@ -378,11 +397,28 @@ fn rapid_to(control: &mut Control, position: Position, axes: AxisSet) -> Result<
     family::rapid(control, &motion, RapidCode::Along, cause)
 }
 
+/// Refuses a level of the machine's Z behind the end of tool-tip control, where a head leans another
+/// tool than before: how far up along it the level lies is not known.
+///
+/// # Errors
+/// It does, and the control does not go up along the tool before.
+pub(super) fn refuse_level(control: &mut Control) -> Result<()> {
+    let is_on = control.tables.tip_output && control.state.tip_control != Some(false);
+    if !is_on || machine_frame::is_meant(control) {
+        return Ok(());
+    }
+    let goes_up = ends_elsewhere(control) && way_up(control)?.is_some();
+    if goes_up { Ok(()) } else { turned_apart::refuse_level(control) }
+}
+
 /// What an operation that is no motion of the path asks of tool-tip control.
 ///
 /// # Errors
 /// Cutter compensation, and functions that controls take in different ways under it.
 pub(super) fn before(control: &mut Control, operation: &Operation) -> Result<()> {
+    if let Operation::MachinePosition([_, _, Some(_)]) = operation {
+        refuse_level(control)?;
+    }
     let what = match operation {
         Operation::MachinePosition(_) | Operation::WorkOffset(_) | Operation::End(_) => {
             return end(control);

@@ -8,7 +8,7 @@ use fil_machine::locations::{self as loc, ControlFamily, ToolChangeBlock};
 use fil_machine::modes::Plane;
 use fil_machine::user_blocks::{self, AroundChange, UserBlocks};
 
-use super::{frame, frame_end, rapid, tip_control};
+use super::{frame, frame_end, rapid, rapid_lean, tip_control};
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family;
@@ -18,6 +18,7 @@ use crate::control::word_address::tool;
 use crate::control_state::Place;
 use crate::errors::PostCode;
 use crate::operation::{NextTools, Operation, ToolChange};
+use crate::post::Post;
 
 /// Directions are one where the cosine between them is less than this below 1.
 const PARALLEL: f64 = 1e-9;
@@ -47,14 +48,16 @@ fn refuse_change_by_switch(control: &Control, tool: i64) -> Result<()> {
 /// # Errors
 /// As [`tool::prepare`], [`family::change_tool`] and a rapid motion; a block of the user
 /// that the tape refuses.
-pub fn change(control: &mut Control, mut wanted: ToolChange) -> Result<()> {
+pub fn change(post: &mut Post, mut wanted: ToolChange) -> Result<()> {
+    let control = &mut post.control;
     family::take_own_offset(control, &mut wanted)?;
     refuse_change_by_switch(control, wanted.tool)?;
     if !tool::prepare(control, &wanted)? {
         return Ok(());
     }
     warn_of_length(control);
-    frame_end::refuse_change_position(control)?;
+    leave_part(post)?;
+    let control = &mut post.control;
     tip_control::end(control)?;
     frame::end(control)?;
     control.tape.align();
@@ -73,6 +76,26 @@ pub fn change(control: &mut Control, mut wanted: ToolChange) -> Result<()> {
         }
         _ => Ok(()),
     }
+}
+
+/// Leaves the part along a tool that a head leans, where the machine has a change position of Z.
+///
+/// # Errors
+/// How far up along it that lies is not known.
+fn leave_part(post: &mut Post) -> Result<()> {
+    let commons = &post.control.commons;
+    let Some(level) = commons.dbl_opt(loc::CHANGE_POSITION[2]) else { return Ok(()) };
+    if commons.read(loc::TOOL_CHANGE_BLOCK) == ToolChangeBlock::None {
+        return Ok(());
+    }
+    if machine_frame::is_meant(&post.control) {
+        if post.path.point.is_some() {
+            rapid_lean::warn_straight_up(&mut post.control);
+        }
+        return Ok(());
+    }
+    tip_control::refuse_level(&mut post.control)?;
+    frame_end::go_up_to(post, level)
 }
 
 /// Warns of a tool that lies across Z on a control that counts its length along Z, and that no

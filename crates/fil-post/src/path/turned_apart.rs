@@ -7,7 +7,7 @@ use fil_machine::FunctionCode;
 use fil_machine::axis_chain::Carries;
 use fil_machine::locations as loc;
 
-use super::{tip, tool_change};
+use super::{frame, rapid_lean, tip, tool_change};
 use crate::control::Control;
 use crate::errors::PostCode;
 use crate::post::Post;
@@ -75,6 +75,32 @@ fn look(post: &mut Post, angles: [f64; 2]) -> Result<()> {
         }
         with.zero = zero.or(with.zero);
     }
+    Ok(())
+}
+
+/// Refuses a level of the machine's Z for a head that leans another tool than before: how high the
+/// tool stands, and with it how far up along it the level lies, is counted with
+/// `rotary.pivot_distance`.
+///
+/// # Errors
+/// Such a tool.
+pub(super) fn refuse_level(control: &mut Control) -> Result<()> {
+    let chain = control.tables.chain();
+    let leans = |angles: [f64; 2]| frame::leans(chain, angles);
+    let has_pivot = chain.pivot.is_some() && !control.commons.read(loc::TOOL_IGNORE_LENGTH);
+    if !has_pivot || !rapid_lean::turned(control).is_some_and(leans) {
+        return Ok(());
+    }
+    let (tool, first) = (control.state.tool, control.tip.tool_of_levels);
+    if first.is_some() && tool.is_some() && first != tool {
+        return PostCode::TurnedApart.err_with(
+            "a level of the machine's Z while the head leans a second tool: how far up along the \
+             tool it lies is counted with rotary.pivot_distance, that to the tip of the first",
+            "Turn the tool upright before it by RAPID and GOTO, or set home.frame = 1; \
+             tool.ignore_length = 1 says that all tools are equally long.",
+        );
+    }
+    control.tip.tool_of_levels = tool.or(first);
     Ok(())
 }
 

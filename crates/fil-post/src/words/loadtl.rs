@@ -65,13 +65,20 @@ fn refuse_none(items: &Items, message: &str) -> Result<()> {
 }
 
 /// LENGTH is the tool's length in the CAM system. The control measures its tools
-/// itself; only a head that turns about a pivot would need it, unless the machine says
-/// that it is passed over.
+/// itself; only positions of the axes of a head that turns about a pivot would need it, unless
+/// the machine says that it is passed over.
 fn gauge_length(post: &Post, items: &mut Items) -> Result<()> {
     let length = items.couplet(w::LENGTH)?;
-    let pivot = post.control.tables.chain().pivot.is_some();
-    if length.is_some() && pivot && !post.control.commons.read(loc::TOOL_IGNORE_LENGTH) {
-        return Err(items.error("LENGTH would change the pivot distance of the head"));
+    let tables = &post.control.tables;
+    let holds_positions = tables.chain().pivot.is_some() && !tables.tip_output;
+    if length.is_some() && holds_positions && !post.control.commons.read(loc::TOOL_IGNORE_LENGTH) {
+        let mut diag = items.error("LENGTH would change the pivot distance of the head");
+        diag.hint = Some(
+            "Post with tool-tip control (rotary.tip_output = 1), where the control knows the length; \
+             tool.ignore_length = 1 says that all tools are equally long."
+                .into(),
+        );
+        return Err(diag);
     }
     Ok(())
 }

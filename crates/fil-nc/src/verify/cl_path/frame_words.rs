@@ -6,7 +6,7 @@ use fil_machine::axis_chain::{Carries, Rotary};
 use fil_machine::locations::{InputCsys, InputOrigin, InputTracut, RotaryTableWords};
 use nalgebra::{Matrix3x4, Vector3};
 
-use super::{Matrix, State};
+use super::{Matrix, State, own_words};
 use crate::forward::Forward;
 use crate::motion::Position;
 use crate::verify::statements::{numbers, numbers_beside};
@@ -21,6 +21,8 @@ pub struct FrameWords {
     pub tracut: InputTracut,
     /// What a second frame of CSYS and its like does.
     pub csys: InputCsys,
+    /// The first and the last function of the machine's own work offsets.
+    pub offsets: Option<(u32, u32)>,
     /// Words that the machine lists as without effect.
     pub without_effect: Vec<String>,
     /// What ROTABL does to the points.
@@ -37,6 +39,13 @@ pub struct FrameWords {
 }
 
 impl State {
+    /// True for a preparatory function that chooses a work offset.
+    pub(super) fn chooses_offset(&self, code: f64) -> bool {
+        let is_own = |(first, last)| (f64::from(first)..=f64::from(last)).contains(&code);
+        let is_named = code.fract() == 0.0 && self.words.offsets.is_some_and(is_own);
+        is_named || own_words::WORK_OFFSETS.contains(&code)
+    }
+
     pub(super) fn trans(&mut self, record: &Record) -> Vec<Wanted> {
         if record.has(w::NOMORE) || record.has(w::OFF) {
             self.matrix = None;

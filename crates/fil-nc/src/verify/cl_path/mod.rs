@@ -357,7 +357,7 @@ impl State {
             w::MODE if record.has(w::TURN) => vec![Wanted::Mills(false)],
             w::MODE if record.has(w::MILL) => vec![Wanted::Mills(true)],
             w::PREFUN => match numbers(record)[..] {
-                [code] if own_words::WORK_OFFSETS.contains(&code) => {
+                [code] if self.chooses_offset(code) => {
                     vec![Wanted::Fixture(code as u32)]
                 }
                 [code] if (17.0..20.0).contains(&code) => {

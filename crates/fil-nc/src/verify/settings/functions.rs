@@ -182,6 +182,15 @@ impl Settings<'_> {
         self.commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext
     }
 
+    /// The first and the last function of work offsets; `None` where other words choose them.
+    pub fn offset_functions(&self) -> Option<(u32, u32)> {
+        let code = |at: CodeAt| u32::try_from(self.commons.read(at)?).ok();
+        if self.chooses_offsets_by_word() || self.is_klartext() || self.has_edges() {
+            return None;
+        }
+        code(loc::FIXTURE_MIN_CODE).zip(code(loc::FIXTURE_MAX_CODE))
+    }
+
     /// A word chooses the work offset, and not a function.
     pub fn chooses_offsets_by_word(&self) -> bool {
         self.commons.read(loc::FIXTURE_FORM) == FixtureForm::Word

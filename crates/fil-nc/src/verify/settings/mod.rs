@@ -179,6 +179,7 @@ impl<'c> Settings<'c> {
             origin: self.commons.read(loc::INPUT_ORIGIN),
             tracut: self.commons.read(loc::INPUT_TRACUT),
             csys: self.commons.read(loc::INPUT_CSYS),
+            offsets: self.offset_functions(),
             without_effect: self.commons.words_without_effect().to_vec(),
             table: self.commons.read(loc::ROTARY_TABLE_WORDS),
             clockwise: self.clockwise(),
