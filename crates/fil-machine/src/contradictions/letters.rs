@@ -5,7 +5,7 @@ use fil_diag::Diag;
 use super::contradiction;
 use crate::address::Addresses;
 use crate::axis_chain::AxisChain;
-use crate::commons::Commons;
+use crate::commons::{Commons, Int};
 use crate::letter::{Letter, letters};
 use crate::locations::{self as loc, ControlFamily, FixtureForm};
 use crate::setting::LetterAt;
@@ -50,13 +50,32 @@ const NO_ROTARY_AXIS: &[u8] = b"DFGHIJKLMNOPQRSTXYZ";
 /// Finds letters that mean two things.
 pub(super) fn check(commons: &Commons, found: &mut Vec<Diag>) {
     let rotary = rotary_letters(commons);
-    axis_letters(rotary, &Addresses::from_commons(commons, true), found);
+    let addresses = Addresses::from_commons(commons, true);
+    axis_letters(rotary, &addresses, found);
+    functions(commons, &addresses, found);
     word_letters(commons, rotary, found);
     match commons.read(loc::CONTROL_FAMILY) {
         ControlFamily::WordAddress => of_words(commons, found),
         ControlFamily::Sinumerik => of_sinumerik(commons, found),
         // Klartext says each of them by a word of its own.
         ControlFamily::Klartext => {}
+    }
+}
+
+/// G and M have a place on the tape: without it each function would be lost. Klartext has no G. A
+/// machine can have M off the tape, which each of its words is warned of, but no other letter in
+/// its place.
+fn functions(commons: &Commons, addresses: &Addresses, found: &mut Vec<Diag>) {
+    if commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext {
+        return;
+    }
+    let gave_way = commons.int_opt(Int(u16::from(letters::M.number()))).is_none();
+    let missing = [(letters::G, addresses.position(letters::G).is_none()), (letters::M, gave_way)];
+    for (letter, _) in missing.into_iter().filter(|(_, is_missing)| *is_missing) {
+        found.push(contradiction(format!(
+            "{letter} has no tape position, so that its functions would be lost; give it one \
+             (address.{letter}.slot) that no other letter has"
+        )));
     }
 }
 

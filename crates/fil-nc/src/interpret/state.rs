@@ -243,7 +243,9 @@ impl<'d> State<'d> {
         let usual = [DRILLED, self.dialect.plane].contains(&self.said_plane);
         let is_other = !usual && !self.dialect.lathe;
         let plane = is_other.then_some((self.said_plane, self.plane_line));
-        let other_plane = self.other_plane().filter(|_| course != Course::Machine);
+        // A cycle drills along the normal of its plane.
+        let is_own = course == Course::Machine || self.cycle.is_some();
+        let other_plane = self.other_plane().filter(|_| !is_own);
         let is_compensated = self.modes.compensation != Compensation::Off;
         let compensation_plane = is_compensated.then_some(self.plane);
         let transformed = self.dialect.transforms && (self.polar || self.cylinder.is_some());

@@ -14,6 +14,7 @@ use fil_machine::rounding::Rounding;
 
 use crate::block::named;
 use crate::control::family::refuse;
+use crate::control::word_address::compensation::usual_plane;
 use crate::control::word_address::motion::Motion;
 use crate::control::word_address::{modes, motion, spindle};
 use crate::control::{Control, line, tap};
@@ -65,11 +66,11 @@ pub fn hole(
     // MCALL calls the cycle where a block moves the axes; a hole where the tool stands
     // is called by itself.
     if each || !moves {
-        cancel(control)?;
+        end_call(control)?;
         position(control, moves)?;
         control.because(cycle.cause, |control| super::put_text(control, &call))?;
         spent(control, cycle);
-        return Ok(());
+        return leave_plane(control);
     }
     let feed = control.commons.last_output(F);
     let called = format!("{call} F{feed} {:?}", control.state.feed_mode);
@@ -77,7 +78,7 @@ pub fn hole(
         && control.state.cycle == Some(code)
         && control.sinumerik.called == called;
     if !in_force {
-        cancel(control)?;
+        end_call(control)?;
         control
             .because(cycle.cause, |control| super::put_text(control, &format!("MCALL {call}")))?;
         control.state.in_cycle = Some(true);
@@ -89,11 +90,17 @@ pub fn hole(
     Ok(())
 }
 
-/// Ends the cycle of MCALL, if the control may be in one.
+/// Ends the cycle of MCALL, if the control may be in one, and its plane.
 ///
 /// # Errors
-/// As a text on the tape.
+/// As a text on the tape; no code of the plane.
 pub fn cancel(control: &mut Control) -> Result<()> {
+    let was_in_cycle = control.state.in_cycle == Some(true);
+    end_call(control)?;
+    if was_in_cycle { leave_plane(control) } else { Ok(()) }
+}
+
+fn end_call(control: &mut Control) -> Result<()> {
     if control.state.in_cycle == Some(false) {
         return Ok(());
     }
@@ -103,6 +110,13 @@ pub fn cancel(control: &mut Control) -> Result<()> {
     control.block = waiting;
     control.state.in_cycle = Some(false);
     Ok(())
+}
+
+/// Takes a lathe back to the plane in which it turns: it says along which axes the lengths of a
+/// tool count.
+fn leave_plane(control: &mut Control) -> Result<()> {
+    let stays = !control.commons.read(loc::LATHE_DIAMETER) || control.tables.is_polar();
+    if stays { Ok(()) } else { modes::plane_of_its_own(control, usual_plane(control)) }
 }
 
 /// What the cycle may have changed.
