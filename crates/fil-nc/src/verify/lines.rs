@@ -168,6 +168,9 @@ impl<C: Steps> Walk<'_, C> {
     /// Each axis stays or ends in a part of a rapid, and the height is the safe one.
     pub(super) fn check_part(&mut self, cl_line: u32, part: &Move, end: &Position, leg: Leg) {
         if part.to.tilt != end.tilt {
+            if end.tip_control {
+                self.check_way_up_in_frame(cl_line, part);
+            }
             return self.check_before_frame(cl_line, part);
         }
         for message in self.wrong_part(part, end, leg) {

@@ -74,7 +74,7 @@ impl<C: Steps> Walk<'_, C> {
             && self.is_known(&self.known)
             && stays
             && out > self.off_spindle(&self.at).x
-            && (out - from.max(to)).abs() <= SMALL
+            && (out - from.max(to)).abs() <= 2.0 * self.slack.linear[0] + STILL
     }
 
     /// A mill-turn machine whose Y is an axis of its own.

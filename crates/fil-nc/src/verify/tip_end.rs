@@ -5,10 +5,14 @@ use fil_machine::locations::{self as loc, ControlFamily};
 
 use super::ahead::Steps;
 use super::report::FindingKind;
+use super::say::short;
 use super::settings::Settings;
-use super::walk::Walk;
+use super::walk::{STILL, Walk};
 use super::wanted::{Step, Wanted};
 use crate::motion::{Course, Event, Modes, Move, Position};
+
+/// Directions are one where the cosine between them is less than this below 1.
+const PARALLEL: f64 = 1e-8;
 
 impl Settings<'_> {
     /// How far the tool must go up before tool-tip control ends, mm; `None` for a control
@@ -56,6 +60,28 @@ impl<C: Steps> Walk<'_, C> {
             && to.linear[..2] == from.linear[..2]
             && to.linear[2] - from.linear[2] >= way_up - 2.0 * self.tip_slack(to);
         straight_up && self.begins_tip_control(self.next + 1, to)
+    }
+
+    /// Says it where a head that leans goes up in its frame less far than the settings ask for, and
+    /// the length of the tool is taken off behind the frame, before tool-tip control begins.
+    pub(super) fn check_way_up_in_frame(&mut self, cl_line: u32, part: &Move) {
+        let Some(way_up) = self.settings.way_up_at_tip_end() else { return };
+        let leaves_frame = part.to.tilt.is_some() && part.to.tilt == self.at.tilt;
+        if !leaves_frame || !(part.known[2] && self.known[2]) {
+            return;
+        }
+        let rise = part.to.linear[2] - self.at.linear[2];
+        let is_upright = self.tool_on_axes(part.to.rotary).z >= 1.0 - PARALLEL;
+        let is_enough = rise >= way_up - 2.0 * self.slack.linear[2] - STILL;
+        if is_upright || is_enough || part.modes.length_offset.is_none() {
+            return;
+        }
+        let message = format!(
+            "goes up by {} before the length of the tool is taken off, it should be by {}",
+            short(rise),
+            short(way_up)
+        );
+        self.find(FindingKind::Order, Some(cl_line), Some(part.line), message);
     }
 
     /// Says it where tool-tip control begins with the length of the tool on, which is taken off

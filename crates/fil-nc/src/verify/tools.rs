@@ -106,12 +106,11 @@ impl<C: Steps> Walk<'_, C> {
             .nc
             .from(self.next)
             .take(RAPID_PARTS)
-            .map(|event| match event {
-                Event::Move(found) => {
-                    found.course == Course::Rapid
-                        && (0..5).all(|n| near(&found.to, &found.known, n))
+            .map_while(|event| match event {
+                Event::Move(found) if found.course == Course::Rapid => {
+                    Some((0..5).all(|n| near(&found.to, &found.known, n)))
                 }
-                _ => false,
+                _ => None,
             })
             .collect();
         let reached = is_there.iter().position(|there| *there);
