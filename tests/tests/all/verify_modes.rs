@@ -421,3 +421,100 @@ fn a_cutter_compensated_in_another_plane_than_its_record_is_found() {
         assert!(wrong.contains(said), "{new}: {wrong}");
     }
 }
+
+/// What the machine's own blocks switch is asked for, and what the CL file asks for behind them
+/// must be there: a record on again, or one that was on before and that no record switches off.
+#[test]
+fn what_blocks_of_the_settings_switch_is_asked_for() {
+    let again = "SPINDL / RPM, 1000, CLW; COOLNT / ON";
+    let (part, next) = (format!("{TOOL}; COOLNT / ON; {DOWN}"), "FEDRAT / 200, MMPM");
+    let cl = format!("{part}; LOADTL / 2; {again}; {next}; GOTO / 0, 0, 5");
+    let first = FANUC.replace("; G0 X0.", "; M8; G0 X0.");
+    let cut = "G43 X0. Y0. Z5. H2";
+    let nc = |before: &str, after: &str, end: &str| {
+        format!("{first}; {before}T2 M6; {after}S1000 M3; M8; {cut}; {end}M30; %")
+    };
+    let coolant = "coolant is off, it should be on by M8";
+    let spindle = "the spindle is off, it should be clockwise";
+    let none = "first_change_before=[\"\"]";
+    let lists = |lists: &[&str]| -> Vec<String> {
+        [none].iter().chain(lists).map(|list| format!("blocks.{list}")).collect()
+    };
+    let said = |settings: &[&str], cl: &str, nc: &str| {
+        let settings = lists(settings);
+        let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+        found("fanuc-mill", &settings, cl, nc)
+    };
+    let before = "change_before=[\"M9\", \"M5\"]";
+    for (list, nc, wrong) in [
+        (before, nc("M9; M5; ", "", ""), vec![coolant, spindle]),
+        (
+            "last_change_before=[\"G91 G28 Z0 M9\", \"G90\"]",
+            nc("G91 G28 Z0 M9; G90; ", "", ""),
+            vec![coolant],
+        ),
+        ("end=[\"M5\", \"M9\"]", nc("", "", "M5; M9; "), vec![coolant, spindle]),
+        (
+            "start=[\"G21 G90 G94 G17\", \"M7\"]",
+            nc("", "", "").replace("G17; T1", "G17; M7; T1"),
+            vec![],
+        ),
+        ("last_change_after=[\"M9\"]", nc("", "M9; ", ""), vec![]),
+    ] {
+        assert_eq!(said(&[list], &cl, &nc), "", "{list}");
+        // Where no setting asks for it.
+        let said = said(&[], &cl, &nc);
+        assert!(wrong.iter().all(|wrong| said.contains(wrong)), "{list}: {said}");
+    }
+    // Before the blocks, it must be on.
+    let early = nc("M9; M5; ", "", "").replace("; G1 Z10.", "; M9; G1 Z10.");
+    assert!(said(&[before], &cl, &early).contains(coolant), "{early}");
+    // A block that is not there leaves the coolant on.
+    let gone = nc("M5; ", "", "M9; ");
+    let asks_twice = [before, "end=[\"M9\"]"];
+    assert_ne!(said(&asks_twice, &cl, &gone), "");
+    // No record switches it on again, and the tool cuts.
+    let once = cl.replace(&format!("{again}; "), "");
+    let dry = nc("M9; M5; ", "", "").replace("; S1000 M3; M8; G43", "; G43");
+    let found = said(&[before], &once, &dry);
+    assert!(found.contains(coolant) && found.contains("off while the tool cuts"), "{found}");
+    let only_rapid = once.replace(next, "RAPID");
+    let moved = dry.replace("G43 X0. Y0. Z5.", "G0 G43 X0. Y0. Z5.");
+    assert_eq!(said(&[before], &only_rapid, &moved), "");
+}
+
+/// The same in texts of the other families, and of another mode of speed.
+#[test]
+fn blocks_of_the_settings_of_other_controls_are_read() {
+    let cl =
+        format!("{TOOL}; COOLNT / ON; {DOWN}; LOADTL / 2; COOLNT / ON; RAPID; GOTO / 0, 0, 50");
+    let klartext = "0 BEGIN PGM 1 MM; 1 TOOL CALL 1 Z; 2 TOOL CALL 1 Z S1000; 3 M3; 4 M8; \
+                    5 L X+0 Y+0 R0 FMAX; 6 L Z+50 FMAX; 7 L Z+10 F200; 8 L Z+0 R0 FMAX M91 M9; \
+                    9 TOOL CALL 2 Z; 10 M8; 11 L X+0 Y+0 FMAX; 12 L Z+50 FMAX; 13 M30; \
+                    14 END PGM 1 MM";
+    let sinumerik = format!(
+        "{}; SUPA G0 Z0 D0 M9; T2 M6; D1; M8; G0 X0 Y0; Z50; M30",
+        SINUMERIK.replace("; G0 X0", "; M8; G0 X0")
+    );
+    for (ready, nc, text) in [
+        ("heidenhain-tnc640", klartext, "L Z+0 R0 FMAX M91 M9"),
+        ("sinumerik-840d", &sinumerik, "SUPA G0 Z0 D0 M9"),
+    ] {
+        let list = format!("blocks.change_before=[\"{text}\"]");
+        let settings = [list.as_str(), "blocks.first_change_before=[\"\"]"];
+        assert_eq!(found(ready, &settings, &cl, nc), "", "{ready}");
+        let said = found(ready, &[], &cl, nc);
+        assert!(said.contains("coolant is off, it should be on by M8"), "{ready}: {said}");
+    }
+    let speed = "SPINDL / SFM, 200, CLW, MAXRPM, 3000";
+    let cl = format!(
+        "LOADTL / 1; {speed}; FEDRAT / 0.2, MMPR; {DOWN}; LOADTL / 2; {speed}; RAPID; \
+         GOTO / 0, 0, 50"
+    );
+    let nc = "%; O0001 (1); G21 G99 G18; T0101; G50 S3000; G96 S61 M3; G0 X0. Z50.; G1 Z10. F0.2; \
+              G97 S300 M3; T0202; G50 S3000; G96 S61 M3; G0 X0. Z50.; M30; %";
+    let settings = ["blocks.change_before=[\"G97 S300 M3\"]", "blocks.first_change_before=[\"\"]"];
+    assert_eq!(found("fanuc-lathe", &settings, &cl, nc), "");
+    let said = found("fanuc-lathe", &[], &cl, nc);
+    assert!(said.contains("m/min"), "{said}");
+}

@@ -204,3 +204,99 @@ fn a_fault_on_a_way_that_no_record_names_is_found() {
         assert!(found.contains(message), "{name}, `{old}` is `{new}`:\n{found}");
     }
 }
+
+/// Behind a tilted frame the axes stand where the tool stood in it: the way to a position of the
+/// machine moves the axes that the settings name, and no other.
+#[test]
+fn a_position_of_the_machine_behind_a_tilted_frame_agrees() {
+    let tool = "LOADTL / 1; SPINDL / RPM, 3000, CLW; RAPID; GOTO / 0, 0, 100, 0.6, 0, 0.8; \
+                FEDRAT / 500, MMPM; GOTO / 40, 0, 0, 0.6, 0, 0.8";
+    let sinumerik = "%_N_N_1_MPF; G710 G90 G94 G17; T1 M6; D1; S3000 M3; G0 A-36.87 C-90; \
+                     CYCLE800(0,\"TC1\",0,57,0,0,0,0,36.8699,-90,0,0,0,-1,0); X0 Y-60; Z80; \
+                     G1 Y32 Z24 F500; CYCLE800(); G53 G0 Z0 D0; D1; M30";
+    let klartext = "0 BEGIN PGM 1 MM; 1 TOOL CALL 1 Z; 2 TOOL CALL 1 Z S3000; 3 M3; \
+                    4 L A-36.87 C-90 R0 FMAX; \
+                    5 PLANE SPATIAL SPA-36.8699 SPB+0 SPC-90 STAY; 6 L X+0 Y-60 FMAX; \
+                    7 L Z+80 FMAX; 8 L Y+32 Z+24 F500; 9 PLANE RESET STAY; 10 L Z+0 FMAX M91; \
+                    11 M30; 12 END PGM 1 MM";
+    let fanuc = "%; O0001 (1); G21 G90 G94 G17; T1 M6; S3000 M3; G0 B36.87 C0.; \
+                 G68.2 X0. Y0. Z0. I90. J36.87 K-90.; G53.1; X-60. Y0.; G43 Z80. H1; \
+                 G1 X32. Z24. F500.; G69; G53 G0 Z0.; M30; %";
+    let framed = "rotary.frame_output=1";
+    for (ready, nc, wrong) in [
+        ("sinumerik-5x", sinumerik, [("G0 Z0 D0", "G0 Z1 D0"), ("G0 Z0 D0", "G0 X0 Z0 D0")]),
+        ("heidenhain-5x", klartext, [("L Z+0", "L Z+1"), ("L Z+0", "L X+5 Z+0")]),
+        ("fanuc-5x-head", fanuc, [("G0 Z0.", "G0 Z-1."), ("G0 Z0.", "G0 Y7. Z0.")]),
+    ] {
+        for (record, at) in [("GOHOME", "home.z=0"), ("RETRCT", "home.retract_z=0")] {
+            let cl = format!("{tool}; {record}");
+            let found = |nc: &str| back_check::found(ready, &["home.frame=1", at, framed], &cl, nc);
+            assert_eq!(found(nc), "", "{ready} {record}");
+            for (old, new) in wrong {
+                assert!(nc.contains(old), "{old}");
+                let said = found(&nc.replacen(old, new, 1));
+                let message = "goes to another position of the machine";
+                assert!(said.contains(message), "{ready} {record} {new}: {said}");
+            }
+        }
+    }
+    let cl = format!("{tool}; LOADTL / 2");
+    let change = ["home.frame=1", framed, "tool.change_block=1", "tool.change_z=400"];
+    let nc = fanuc.replace("T1 M6", "G53 G0 Z400.; T1 M6");
+    let nc = nc.replace("G53 G0 Z0.; M30", "G53 G0 Z400.; T2 M6; M30");
+    assert_eq!(back_check::found("fanuc-5x-head", &change, &cl, &nc), "");
+    let wrong = nc.replace("Z400.; T2", "Z399.; T2");
+    let said = back_check::found("fanuc-5x-head", &change, &cl, &wrong);
+    assert!(said.contains("goes to another position of the machine"), "{said}");
+}
+
+/// Before tool-tip control begins out of a tilted frame the tool goes up along itself: in Z of the
+/// machine where tables have turned the part, and in Z of the frame under a head that leans.
+#[test]
+fn a_way_up_out_of_a_tilted_frame_goes_along_the_tool() {
+    let settings = &["rotary.frame_output=1", "rotary.tip_control=1"];
+    let cl = "LOADTL / 1; SPINDL / RPM, 3000, CLW; RAPID; GOTO / 60, 0, 80, 0.6, 0, 0.8; \
+              FEDRAT / 300, MMPM; GOTO / 0, 0, 0, 0.6, 0, 0.8; MULTAX / ON; RAPID; \
+              GOTO / 60, 0, 80, 0.6, 0, 0.8";
+    let program = |turn: &str, frame: &str, way: &str, up: &str| {
+        format!(
+            "%; O0001 (1); G21 G90 G94 G17; T1 M6; S3000 M3; G0 {turn}; \
+             G68.2 X0. Y0. Z0. {frame}; G53.1; X0. Y0.; G43 Z100. H1; G1 Z0. F300.; {way}; G49; \
+             G43.4 H1; X60. Y0. Z80. {turn}; {up}; G49; M30; %"
+        )
+    };
+    let way_out = "X240. Z320.";
+    let tables = |way: &str| program("A-36.87 C-90.", "I90. J36.87 K180.", way, way_out);
+    let head = |way: &str| program("B36.87 C0.", "I90. J36.87 K-90.", way, way_out);
+    let found = |ready: &str, nc: &str| back_check::found(ready, settings, cl, nc);
+    assert_eq!(found("fanuc-5x-tables", &tables("G69; G0 Z290.")), "");
+    assert_eq!(found("fanuc-5x-tables", &tables("G0 Z300.; G69")), "");
+    assert_eq!(found("fanuc-5x-head", &head("G0 Z300.; G69")), "");
+    for (ready, nc) in [
+        // Not as far as the settings ask for, and aside.
+        ("fanuc-5x-tables", tables("G69; G0 Z289.")),
+        ("fanuc-5x-tables", tables("G69; G0 X1. Z290.")),
+        ("fanuc-5x-head", head("G69; G0 Z300.")),
+    ] {
+        let said = found(ready, &nc);
+        assert!(said.contains("which is on no way to its end"), "{ready}: {said}\n{nc}");
+    }
+    // At the level of RETRCT a head that leans may go straight up: it is away from the part.
+    let lean = "-0.0293388535, 0.0259948066, 0.9992314555";
+    let cl = format!(
+        "LOADTL / 1; SPINDL / RPM, 3000, CLW; FEDRAT / 957.8, MMPM; \
+         GOTO / -47.891582953, 28.587568188, 49.321709073, {lean}; RETRCT; RAPID; \
+         GOTO / 31.062913469, 45.321682452, 28.829604968, 0.4038967137, -0.1179795521, 0.9071649629"
+    );
+    let nc = "%; O0001 (1); G21 G90 G94 G17; T1 M6; S3000 M3; G0 A-2.246 C48.458; G43.5 H1; \
+              G1 X-47.892 Y28.588 Z49.322 I-0.029339 J0.025995 K0.999231 F957.8; \
+              G0 X-56.694 Y36.386 Z349.091; G49; G43 Z400. H1; Z700.; A24.884 C73.717; G49; \
+              G43.5 H1; X31.063 Y45.322 Z28.83 I0.403897 J-0.11798 K0.907165; \
+              X152.232 Y9.928 Z300.979; G49; M30; %";
+    let settings =
+        &["chain=\"heads-ca\"", "rotary.tip_form=1", "rotary.tip_control=1", "home.retract_z=400"];
+    let found = |nc: &str| back_check::found("fanuc-5x-tables", settings, &cl, nc);
+    assert_eq!(found(nc), "");
+    let said = found(&nc.replacen("Z700.", "Z690.", 1));
+    assert!(said.contains("which is on no way to its end"), "{said}");
+}

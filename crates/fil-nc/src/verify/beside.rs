@@ -138,7 +138,7 @@ impl<C: Steps> Walk<'_, C> {
     }
 
     /// Line of the last event that was passed.
-    fn last_line(&self) -> u32 {
+    pub(super) fn last_line(&self) -> u32 {
         let last = self.next.checked_sub(1).and_then(|at| self.nc.get(at));
         last.map_or(1, |event| event.line())
     }
@@ -153,6 +153,7 @@ impl<C: Steps> Walk<'_, C> {
             self.ask_auxiliary(cl_line, self.settings.spindle_mode_code(false));
         }
         self.modes.ends_counting_side(self.settings);
+        self.take_blocks(&self.settings.end_blocks());
         match self.nc.get(self.next) {
             Some(Event::End { line, code, modes }) => {
                 self.next += 1;

@@ -21,8 +21,8 @@ pub(super) struct OwnBlocks<'a> {
     marks: &'a Marks,
     /// Blocks of the settings, bare, and whether the program has them.
     asked: HashMap<Vec<u8>, bool>,
-    /// Blocks around tool changes, bare, and how often the program has them.
-    around: HashMap<Vec<u8>, usize>,
+    /// Blocks around tool changes, bare, and the lines of the program that are such.
+    around: HashMap<Vec<u8>, Vec<u32>>,
     /// Lines of the program that are such blocks.
     lines: BTreeSet<u32>,
     /// Where the next INSERT is looked for, and the lines before it.
@@ -50,7 +50,7 @@ impl<'a> OwnBlocks<'a> {
             name,
             marks,
             asked: blocks.iter().map(|block| (bare_block(block), false)).collect(),
-            around: around.iter().map(|block| (bare_block(block), 0)).collect(),
+            around: around.iter().map(|block| (bare_block(block), Vec::new())).collect(),
             lines: BTreeSet::new(),
             from: 0,
             passed: 0,
@@ -77,7 +77,7 @@ impl<'a> OwnBlocks<'a> {
                 self.lines.insert(number);
             }
             if let Some(found) = self.around.get_mut(&text) {
-                *found += 1;
+                found.push(number);
                 self.lines.insert(number);
             }
         }
@@ -91,9 +91,18 @@ impl<'a> OwnBlocks<'a> {
         for block in asked {
             *often.entry(bare(&self.marks.read(block.as_bytes()))).or_default() += 1;
         }
-        let has = |block: &Vec<u8>| self.around.get(block).copied().unwrap_or(0);
+        let has = |block: &Vec<u8>| self.around.get(block).map_or(0, Vec::len);
         let missing = often.iter().filter(|(block, times)| has(block) < **times);
         sorted(missing.map(|(block, _)| block))
+    }
+
+    /// A block around tool changes stands between two lines of the program.
+    pub(super) fn stands_between(&self, block: &str, [first, last]: [u32; 2]) -> bool {
+        let Some(lines) = self.around.get(&bare(&self.marks.read(block.as_bytes()))) else {
+            return false;
+        };
+        let behind = lines.partition_point(|line| *line <= first);
+        lines.get(behind).is_some_and(|line| *line < last)
     }
 
     /// True when a line is one of those blocks.

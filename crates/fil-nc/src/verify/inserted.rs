@@ -52,16 +52,18 @@ impl Expected {
                     let offset = u32::try_from(number.digits % TOOLS_STEP).ok();
                     self.offset.set(offset.filter(|offset| *offset > 0), Due::Now);
                 }
-                b'S' => {
-                    // Turns or surface speed: the text need not say it.
-                    let turns = settings.dialect.has_surface_speed();
-                    let speed = Speed::Turns(number.value());
-                    self.speed.set(Some(speed).filter(|_| !turns), Due::Now);
-                    self.has_speed = true;
-                }
+                b'S' => self.insert_speed(number.value(), settings),
                 _ => {}
             }
         }
+    }
+
+    /// S of a text.
+    pub(super) fn insert_speed(&mut self, speed: f64, settings: &Settings) {
+        // Turns or surface speed: the text need not say it.
+        let is_either = settings.dialect.has_surface_speed();
+        self.speed.set(Some(Speed::Turns(speed)).filter(|_| !is_either), Due::Now);
+        self.has_speed = true;
     }
 
     /// Takes up what a SINUMERIK says by names, and functions that no setting names.
@@ -136,6 +138,7 @@ impl Expected {
     /// What an auxiliary function switches, in a text or by AUXFUN.
     pub(super) fn insert_auxiliary(&mut self, auxiliary: Auxiliary) {
         self.again.insert(auxiliary);
+        self.resumes.insert(auxiliary);
         // Under a live tool with functions of its own these are of the main spindle, the axis C.
         let turns = [Auxiliary::Clockwise, Auxiliary::Counterclockwise, Auxiliary::SpindleOff];
         if self.mills() && self.live_has_own_codes && turns.contains(&auxiliary) {

@@ -5,7 +5,7 @@ use super::lines::RAPID_PARTS;
 use super::rapid_lean::Leg;
 use super::report::FindingKind;
 use super::say::short;
-use super::walk::Walk;
+use super::walk::{STILL, Walk};
 use super::wanted::{Step, TableWay, Wanted};
 use crate::motion::{Course, Event, Move, Position};
 
@@ -77,7 +77,13 @@ impl<C: Steps> Walk<'_, C> {
                 _ => self.slack.rotary[n - 3],
             };
             let is_axis = |n: usize| n > 2 || self.written[n];
-            let moved = |n: &usize| is_axis(*n) && value(&found.to, *n) != value(&self.at, *n);
+            // Behind the end of a frame the axes stand where the tool stood in it. An axis that is
+            // named goes to a place of the machine, which says nothing of where it stood.
+            let stands = self.at_as(&found);
+            let moved = |n: &usize| {
+                let differs = (value(&found.to, *n) - value(&stands, *n)).abs() > STILL;
+                is_axis(*n) && (found.to_machine[*n] || differs)
+            };
             let arrives = |n: usize| {
                 to[n].is_some_and(|to| {
                     found.to_machine[n] && (value(&found.to, n) - to).abs() <= slack(n)

@@ -32,6 +32,7 @@ mod lines;
 mod machine_ends;
 mod modes;
 mod modes_said;
+mod own_switches;
 mod parts;
 mod passing;
 mod programs;
@@ -129,6 +130,7 @@ pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
     let own = OwnBlocks::new(nc, marks, &settings.own_blocks(), &around)?;
     let watch = Watch::new(check.allowed.between);
     let mut walk = walk::Walk::new(path, check.events, own, &settings, watch);
+    walk.begin_with_blocks(check.skips_blocks);
     let of_machine = check.commons.allowed_offsets().iter().filter_map(|name| work_offset(name));
     walk.modes.allow_offsets(check.allowed.offsets.into_iter().chain(of_machine).collect());
     let report = walk.all()?;

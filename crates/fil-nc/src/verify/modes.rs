@@ -9,6 +9,7 @@ use super::again::Again;
 use super::compensation_plane::MeantPlane;
 use super::counted::Counted;
 use super::lag::Lag;
+use super::own_switches::Resumes;
 use super::report::FindingKind;
 use super::settings::{Due, Settings};
 use super::wanted::{CoolantKind, Effect, Wanted};
@@ -51,6 +52,8 @@ pub(super) struct Expected {
     /// A record has asked for the spindle, and for the coolant, since the last tool change or
     /// stop.
     pub(super) again: Again,
+    /// What blocks of the settings have switched off.
+    pub(super) resumes: Resumes,
     /// Nothing is done any more that modes of records left out would hold for.
     pub(super) unfollowed: bool,
     /// `None` when words of the user's own may have chosen it.
@@ -95,6 +98,7 @@ impl Expected {
             next_limit: None,
             coolant: Lag::new(None),
             again: Again::default(),
+            resumes: Resumes::default(),
             unfollowed: false,
             fixture: Some(fixture_of(&settings.own_blocks())),
             plane: DRILLED,
@@ -133,6 +137,7 @@ impl Expected {
     /// Takes up what a step switches.
     pub(super) fn take(&mut self, wanted: &Wanted, settings: &Settings) {
         self.again.take(wanted);
+        self.resumes.take(wanted);
         match wanted {
             Wanted::Plane(normal) => self.plane = *normal,
             Wanted::Spindle(Some(Spindle::Off)) => {
@@ -248,6 +253,7 @@ impl Expected {
             self.flush();
             self.mills = mills;
             self.spindle.set(Some(Spindle::Off), Due::Now);
+            self.resumes.spindle = None;
             self.speed.set(None, Due::Now);
             // The other spindle has no speed before one is asked for.
             self.has_speed = false;

@@ -74,6 +74,11 @@ impl<C: Steps> Walk<'_, C> {
         ends.filter(|_| begins == ends)
     }
 
+    /// Z of a position, in its frame or of the machine, goes along the tool.
+    pub(super) fn lies_along_z(&self, position: &Position) -> bool {
+        position.tilt.is_some() || self.tool_on_axes(position.rotary).z > 1.0 - PARALLEL
+    }
+
     /// A head stands nobody knows where.
     fn head_is_anywhere(&self) -> bool {
         let mut rotaries = self.settings.forward.rotaries().iter().zip(&self.known[3..]);

@@ -46,19 +46,29 @@ impl<C: Steps> Walk<'_, C> {
         (way - stands.axis * along).norm() <= slack && along >= way_up - slack
     }
 
-    /// A rapid straight up in Z with the length of the tool on, as far as the settings ask for,
-    /// behind which the length is taken off and tool-tip control begins.
+    /// A rapid straight up in Z, along which the tool lies, with its length on, as far as the
+    /// settings ask for, behind which the length is taken off and tool-tip control begins. A frame
+    /// may have ended before it.
     pub(super) fn goes_up_at_tip_begin(&self, found: &Move) -> bool {
         let Some(way_up) = self.settings.way_up_at_tip_end() else { return false };
-        let (from, to) = (&self.at, &found.to);
+        let (from, to) = (self.at_as(found), &found.to);
+        let ends_frame = self.at.tilt != to.tilt;
+        let is_known = match ends_frame {
+            true => self.known[..3] == [true; 3] && found.known[2],
+            false => self.known[2] && found.known == self.known,
+        };
+        // Away from the part a head that leans may go straight up in Z, too.
+        let level = from.linear[2];
+        let is_away =
+            self.is_away || (!ends_frame && !self.is_in_cut && self.is_retract_level(level));
         let straight_up = found.course == Course::Rapid
-            && !(to.tip_control || from.tip_control || found.in_cycle)
+            && !(to.tip_control || self.at.tip_control || found.in_cycle)
             && found.modes.length_offset.is_some()
-            && self.known[2]
-            && found.known == self.known
+            && is_known
+            && (is_away || self.lies_along_z(to))
             && to.rotary == from.rotary
-            && to.linear[..2] == from.linear[..2]
-            && to.linear[2] - from.linear[2] >= way_up - 2.0 * self.tip_slack(to);
+            && (0..2).all(|n| (to.linear[n] - from.linear[n]).abs() <= STILL)
+            && to.linear[2] - level >= way_up - 2.0 * self.tip_slack(to);
         straight_up && self.begins_tip_control(self.next + 1, to)
     }
 

@@ -24,8 +24,10 @@ impl<C: Steps> Walk<'_, C> {
         if !changes {
             return self.modes.change_tool(number, offset, self.settings);
         }
+        self.await_blocks_before_change();
         self.changes += 1;
         self.go_to_change_position(cl_line);
+        self.take_awaited_blocks();
         match self.units_to_tool_change() {
             Some(left_out) => self.extra(left_out, cl_line),
             None => {
@@ -60,6 +62,7 @@ impl<C: Steps> Walk<'_, C> {
         }
         self.modes.change_tool(number, offset, self.settings);
         self.go_to_offset_level(cl_line);
+        self.take_blocks_after_change();
     }
 
     /// Motions and holes before the next tool change, if it comes soon.
@@ -123,6 +126,7 @@ impl<C: Steps> Walk<'_, C> {
                 }
                 for _ in 0..count {
                     if let Some(found) = self.next_move() {
+                        self.take_awaited_blocks_before(found.line);
                         self.take(cl_line, &found);
                         self.next += 1;
                     }

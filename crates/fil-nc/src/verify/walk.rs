@@ -13,6 +13,7 @@ use super::blocks::OwnBlocks;
 use super::hole_tip::FromHole;
 use super::lag::Moved;
 use super::modes::Expected;
+use super::own_switches::OwnSwitches;
 use super::report::{Finding, FindingKind, Report};
 use super::say::Shape;
 use super::settings::{Settings, Slack};
@@ -41,6 +42,8 @@ pub(super) struct Walk<'a, C> {
     pub(super) own: OwnBlocks<'a>,
     /// Tool changes so far.
     pub(super) changes: usize,
+    /// What the machine's own blocks are to switch.
+    pub(super) switches: OwnSwitches,
     pub(super) auxiliaries: Auxiliaries,
     pub(super) settings: &'a Settings<'a>,
     pub(super) slack: Slack,
@@ -76,7 +79,7 @@ pub(super) struct Walk<'a, C> {
     /// Exact rotary positions that the tape shows rounded.
     pub(super) exact: [f64; 2],
     /// Line of the last motion taken.
-    line: u32,
+    pub(super) line: u32,
     pub(super) modes: Expected,
     /// How the spindle turned in the passes of the thread so far.
     pub(super) thread_turns: Option<Turns>,
@@ -131,6 +134,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             next: 0,
             own,
             changes: 0,
+            switches: OwnSwitches::default(),
             auxiliaries: Auxiliaries::new(settings.way_out_codes()),
             settings,
             slack: settings.slack(true),

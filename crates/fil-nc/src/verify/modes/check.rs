@@ -92,6 +92,7 @@ impl Expected {
         self.speed.moved(moved);
         self.coolant.moved(moved);
         if cuts {
+            self.resume();
             // What turns the spindle waits for no other axis.
             self.spindle.flush();
             self.speed.flush();

@@ -335,9 +335,17 @@ impl<'c> Settings<'c> {
 
     /// The lines of the tape that stand in the settings: start and end of a program.
     pub fn own_blocks(&self) -> Vec<String> {
-        let mut blocks = user_blocks::START.read(self.commons);
-        blocks.extend(user_blocks::END.read(self.commons));
-        blocks
+        [self.start_blocks(), self.end_blocks()].concat()
+    }
+
+    /// The lines at the start of a program that stand in the settings.
+    pub(super) fn start_blocks(&self) -> Vec<String> {
+        user_blocks::START.read(self.commons)
+    }
+
+    /// The lines at the end of a program that stand in the settings.
+    pub(super) fn end_blocks(&self) -> Vec<String> {
+        user_blocks::END.read(self.commons)
     }
 
     /// The blocks of a text of INSERT, which the machine's end-of-block character divides.
@@ -363,15 +371,20 @@ impl<'c> Settings<'c> {
         (0..changes).flat_map(|at| self.blocks_of(kind(at))).collect()
     }
 
-    /// The blocks of one kind of tool change; where it has none, those of the others.
+    /// The blocks of one kind of tool change.
     fn blocks_of(&self, kind: AroundChange) -> Vec<String> {
+        self.blocks_around(kind).concat()
+    }
+
+    /// The blocks before and after one kind of tool change; where it has none, those of the others.
+    pub(super) fn blocks_around(&self, kind: AroundChange) -> [Vec<String>; 2] {
         let AroundChange { before, after } = user_blocks::OTHER_CHANGE;
-        let lists = [(kind.before, before), (kind.after, after)];
-        let lists = lists.into_iter().map(|(own, other)| {
+        [(kind.before, before), (kind.after, after)].map(|(own, other)| {
             let own = own.read(self.commons);
-            if own.is_empty() { other.read(self.commons) } else { own }
-        });
-        lists.flatten().filter(|block| !block.is_empty()).collect()
+            let mut blocks = if own.is_empty() { other.read(self.commons) } else { own };
+            blocks.retain(|block| !block.is_empty());
+            blocks
+        })
     }
 
     /// Travel of the linear axes in mm where the machine checks it.

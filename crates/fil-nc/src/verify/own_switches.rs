@@ -1,0 +1,216 @@
+//! What blocks of the settings switch of spindle and coolant: the machine asks for it, as INSERT
+//! does. What a record has switched on and such a block around a tool change switches off may stay
+//! off until the tool cuts: then a record behind the change has asked for it again, or it is
+//! missing.
+
+use fil_machine::locations::{self as loc, ControlFamily};
+use fil_machine::user_blocks;
+
+use super::ahead::Steps;
+use super::lines::RAPID_PARTS;
+use super::modes::Expected;
+use super::settings::{Due, Settings};
+use super::walk::{LOOK_AHEAD, Walk};
+use super::wanted::Wanted;
+use crate::dialect::{Auxiliary, Function, SKIP};
+use crate::interpret::sinumerik_words::{self, Value};
+use crate::motion::{Event, Spindle};
+use crate::text::read_block;
+
+/// How far to look for a tool change that comes.
+const EVENTS_BEFORE_CHANGE: usize = LOOK_AHEAD * RAPID_PARTS;
+
+/// What the machine's own blocks are to switch.
+#[derive(Debug, Default)]
+pub(super) struct OwnSwitches {
+    /// Blocks that may be skipped are left out.
+    leaves_out: bool,
+    /// The blocks before the tool change at hand that are not taken up yet.
+    awaited: Vec<String>,
+}
+
+/// What records have switched on and blocks of the settings off.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Resumes {
+    pub(super) spindle: Option<Spindle>,
+    coolant: Option<u32>,
+}
+
+impl Resumes {
+    /// Takes up a step: what a record asks for anew is not that of before.
+    pub(super) fn take(&mut self, wanted: &Wanted) {
+        match wanted {
+            Wanted::Spindle(_) | Wanted::SpindleAgain | Wanted::Orient(_) => self.spindle = None,
+            Wanted::Coolant(_) => self.coolant = None,
+            _ => {}
+        }
+    }
+
+    /// Takes up an auxiliary function of the user's own.
+    pub(super) fn insert(&mut self, auxiliary: Auxiliary) {
+        match auxiliary {
+            Auxiliary::Clockwise
+            | Auxiliary::Counterclockwise
+            | Auxiliary::SpindleOff
+            | Auxiliary::Live(_)
+            | Auxiliary::Orient => self.spindle = None,
+            Auxiliary::Coolant(_) => self.coolant = None,
+            _ => {}
+        }
+    }
+}
+
+impl Expected {
+    /// Takes up what the words of a block of the settings switch of spindle and coolant.
+    fn take_block(&mut self, line: &[u8], settings: &Settings) {
+        let (spindle, coolant) = (self.turning(), self.coolant.asked());
+        let before = self.resumes;
+        for (letter, value) in switches(line, settings) {
+            match letter {
+                b'M' => self.insert_auxiliary(settings.dialect.auxiliary(value as i64)),
+                b'S' => self.insert_speed(value, settings),
+                // Another mode of speed, whose number need not be in the text.
+                _ => self.speed.set(None, Due::Now),
+            }
+        }
+        self.resumes = Resumes {
+            spindle: spindle.or(before.spindle).filter(|_| self.turning().is_none()),
+            coolant: coolant.or(before.coolant).filter(|_| self.coolant.asked().is_none()),
+        };
+    }
+
+    /// How the spindle must turn; `None` where it need not.
+    fn turning(&self) -> Option<Spindle> {
+        self.spindle.asked().filter(|turn| *turn != Spindle::Off)
+    }
+
+    /// The tool cuts: what blocks of the settings have switched off and no record on again is
+    /// missing.
+    pub(super) fn resume(&mut self) {
+        let Resumes { spindle, coolant } = std::mem::take(&mut self.resumes);
+        if spindle.is_some() {
+            self.spindle.set(spindle, Due::Now);
+        }
+        if coolant.is_some() {
+            self.coolant.set(coolant, Due::Now);
+        }
+    }
+}
+
+impl<C: Steps> Walk<'_, C> {
+    /// Takes up the blocks at the start of the program; those that may be skipped are left out
+    /// from here on, or not.
+    pub(super) fn begin_with_blocks(&mut self, leaves_out: bool) {
+        self.switches.leaves_out = leaves_out;
+        self.take_blocks(&self.settings.start_blocks());
+    }
+
+    /// Takes up blocks of the settings.
+    pub(super) fn take_blocks(&mut self, blocks: &[String]) {
+        for block in blocks {
+            let line = self.settings.dialect.marks.read(block.as_bytes());
+            let is_skipped = line.trim_ascii_start().first() == Some(&SKIP);
+            if !(is_skipped && self.switches.leaves_out) {
+                self.modes.take_block(&line, self.settings);
+            }
+        }
+    }
+
+    /// The blocks before the next tool change are to come.
+    pub(super) fn await_blocks_before_change(&mut self) {
+        let is_change = |event: &Event| matches!(event, Event::ToolChange { .. });
+        let change = self.nc.from(self.next).take(EVENTS_BEFORE_CHANGE).find(is_change);
+        let last = change.map_or(u32::MAX, |event| event.line());
+        self.switches.awaited = self.blocks_of_change(self.changes, 0, [self.line, last]);
+    }
+
+    /// Takes up the blocks that are awaited where one of them stands before this line, that of
+    /// the next motion.
+    pub(super) fn take_awaited_blocks_before(&mut self, line: u32) {
+        let mut awaited = self.switches.awaited.iter();
+        if awaited.any(|block| self.own.stands_between(block, [self.line, line])) {
+            self.take_awaited_blocks();
+        }
+    }
+
+    pub(super) fn take_awaited_blocks(&mut self) {
+        let blocks = std::mem::take(&mut self.switches.awaited);
+        self.take_blocks(&blocks);
+    }
+
+    /// Takes up the blocks after the tool change that was counted last.
+    pub(super) fn take_blocks_after_change(&mut self) {
+        let next = self.nc.from(self.next).find(|event| !self.own.has(event.line()));
+        let lines = [self.last_line(), next.map_or(u32::MAX, |event| event.line())];
+        let blocks = self.blocks_of_change(self.changes - 1, 1, lines);
+        self.take_blocks(&blocks);
+    }
+
+    /// The blocks before (0) or after (1) a tool change, counted from 0, which lie between two lines.
+    /// Whether it is the last one is seen in the program, which has its blocks.
+    fn blocks_of_change(&self, change: usize, side: usize, lines: [u32; 2]) -> Vec<String> {
+        let of = |kind| std::mem::take(&mut self.settings.blocks_around(kind)[side]);
+        if change == 0 {
+            return of(user_blocks::FIRST_CHANGE);
+        }
+        let lists = [user_blocks::OTHER_CHANGE, user_blocks::LAST_CHANGE].map(of);
+        let [other, last] = &lists;
+        let stands =
+            |list: &[String]| list.iter().all(|block| self.own.stands_between(block, lines));
+        let is_last = stands(last) && (!stands(other) || last.len() > other.len());
+        let [other, last] = lists;
+        if is_last { last } else { other }
+    }
+}
+
+/// The words of a block that switch spindle and coolant: M and S with their numbers, and the
+/// function of another mode of speed.
+fn switches(line: &[u8], settings: &Settings) -> Vec<(u8, f64)> {
+    match settings.commons.read(loc::CONTROL_FAMILY) {
+        ControlFamily::Sinumerik => of_sinumerik(line, settings),
+        ControlFamily::Klartext => of_klartext(line),
+        ControlFamily::WordAddress => of_word_address(line, settings),
+    }
+}
+
+fn of_word_address(line: &[u8], settings: &Settings) -> Vec<(u8, f64)> {
+    let Ok(block) = read_block(line, "settings", 1) else { return Vec::new() };
+    let function = |tenths: f64| settings.dialect.function(tenths.round() as i64);
+    let functions = block.words.iter().filter(|word| word.letter == b'G');
+    let functions: Vec<Function> =
+        functions.filter_map(|word| function(word.number.value() * 10.0)).collect();
+    let is_speed =
+        !functions.iter().any(|one| matches!(one, Function::SpeedLimit | Function::Dwell));
+    let mode = functions.iter().any(|one| matches!(one, Function::Surface(_)));
+    let words = block.words.iter().filter_map(|word| match word.letter {
+        b'M' if word.number.decimals == 0 => Some((b'M', word.number.value())),
+        b'S' if is_speed => Some((b'S', word.number.value())),
+        _ => None,
+    });
+    mode.then_some((b'G', 0.0)).into_iter().chain(words).collect()
+}
+
+fn of_sinumerik(line: &[u8], settings: &Settings) -> Vec<(u8, f64)> {
+    let index = settings.dialect.spindle_index.map(|index| index.to_string());
+    let words = sinumerik_words::read(line).unwrap_or_default();
+    let switch = |word: &sinumerik_words::Word| {
+        let Some(Value::Number(value)) = word.value else { return None };
+        let letter = *word.name.as_bytes().first()?;
+        let rest = &word.name[1..];
+        let is_own = rest.is_empty() || index.as_deref() == Some(rest);
+        let is_mode = letter == b'G' && (value == 96.0 || value == 97.0);
+        (is_own && (is_mode || matches!(letter, b'M' | b'S'))).then_some((letter, value))
+    };
+    words.iter().filter_map(switch).collect()
+}
+
+/// The words of Klartext stand between blanks.
+fn of_klartext(line: &[u8]) -> Vec<(u8, f64)> {
+    let text = String::from_utf8_lossy(line).to_ascii_uppercase();
+    let text = text.split(';').next().unwrap_or_default();
+    let switch = |word: &str| {
+        let letter = *word.as_bytes().first().filter(|letter| matches!(letter, b'M' | b'S'))?;
+        Some((letter, word[1..].parse().ok()?))
+    };
+    text.split_ascii_whitespace().filter_map(switch).collect()
+}
