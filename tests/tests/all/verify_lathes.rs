@@ -499,3 +499,17 @@ fn a_rapid_past_the_axis_of_the_spindle_is_found() {
     let wrong = check(&nc.replacen(parts, "X120. Z-20. C-180. Y0.", 1));
     assert!(wrong.contains("nearer than both its ends"), "{wrong}");
 }
+
+/// Behind polar interpolation X stands at the distance from the axis, and C at the angle.
+#[test]
+fn a_point_of_the_machine_behind_polar_interpolation_is_followed() {
+    let cl = "MODE / MILL; LOADTL / 9; SPINDL / RPM, 1500, CLW; FEDRAT / 200, MMPM; RAPID; \
+              GOTO / 20, 0, 5; RAPID; GOTO / 20, 0, 2; GOTO / 20, 15, 2; GOHOME";
+    let settings = ["home.x=100", "home.z=100", "home.frame=1"];
+    let nc = nc_of("fanuc-mill-turn", &settings, cl);
+    let check = |nc: &str| found("fanuc-mill-turn", &settings, cl, nc);
+    assert_eq!(check(&nc), "");
+    assert!(nc.contains("G53 G0 X200. Z100."), "{nc}");
+    let wrong = check(&nc.replacen("G53 G0 X200. Z100.", "G53 G0 X200. Z100. C0.", 1));
+    assert!(wrong.contains("another position of the machine"), "{wrong}");
+}

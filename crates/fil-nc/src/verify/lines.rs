@@ -16,7 +16,7 @@ use crate::motion::{Course, Event, Move, Position, Rate};
 
 /// Distances from the axis of the spindle nearer than this are one where each coordinate is
 /// rounded, mm.
-const AROUND: f64 = 3e-3;
+pub(super) const AROUND: f64 = 3e-3;
 
 /// Most blocks of one rapid.
 pub(super) const RAPID_PARTS: usize = 4;

@@ -1,7 +1,7 @@
 //! Motions whose end the settings of the machine give or correct.
 
 use super::ahead::Steps;
-use super::lines::RAPID_PARTS;
+use super::lines::{AROUND, RAPID_PARTS};
 use super::rapid_lean::Leg;
 use super::report::FindingKind;
 use super::say::short;
@@ -79,7 +79,7 @@ impl<C: Steps> Walk<'_, C> {
             let is_axis = |n: usize| n > 2 || self.written[n];
             // Behind the end of a frame the axes stand where the tool stood in it. An axis that is
             // named goes to a place of the machine, which says nothing of where it stood.
-            let stands = self.at_as(&found);
+            let stands = self.out_of_polar(&found).unwrap_or_else(|| self.at_as(&found));
             let moved = |n: &usize| {
                 let differs = (value(&found.to, *n) - value(&stands, *n)).abs() > STILL;
                 is_axis(*n) && (found.to_machine[*n] || differs)
@@ -107,6 +107,20 @@ impl<C: Steps> Walk<'_, C> {
         self.is_away = true;
         self.watch.stand(None);
         true
+    }
+
+    /// Where X and C of a mill-turn machine without Y stand behind polar interpolation, as a motion
+    /// has C: at the point that was reached in the plane.
+    fn out_of_polar(&self, found: &Move) -> Option<Position> {
+        let [x, y, z] = self.at.linear;
+        if !self.modes.mills_without_y(self.settings) || y == 0.0 {
+            return None;
+        }
+        let rotary = [found.to.rotary[0], self.at.rotary[1]];
+        let stands = Position { linear: [libm::hypot(x, y), 0.0, z], rotary, ..found.to };
+        let forward = &self.settings.forward;
+        let off = forward.pose(&stands).tip - forward.pose(&self.at).tip;
+        (off.norm() <= AROUND).then_some(stands)
     }
 
     /// The length of an edge in force shifts where the spindle goes in the frame of the machine.
