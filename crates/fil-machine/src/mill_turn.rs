@@ -152,6 +152,13 @@ pub(crate) fn check(commons: &Commons) -> Result<()> {
             "X is a radius or a diameter, Y and Z are written as they are (scale.z = 1)",
         );
     }
+    let shifted = |at| commons.dbl_opt(at).is_some_and(|shift| shift != 0.0);
+    if shifted(loc::OUTPUT_TRANSLATE_X) || shifted(loc::OUTPUT_TRANSLATE_Y) {
+        return refuse(
+            "C turns about X0 Y0, so that output.translate_x and output.translate_y are 0: the \
+             zero of the tape lies on the axis of the spindle",
+        );
+    }
     let frames = commons.read(loc::ROTARY_FRAME_OUTPUT) == RotaryFrameOutput::TiltedFrame;
     let tips = commons.read(loc::ROTARY_TIP_OUTPUT) == RotaryTipOutput::ToolTipControl;
     if frames || tips || commons.read(loc::CONTROL_FAMILY) == ControlFamily::Klartext {

@@ -108,19 +108,35 @@ impl Model<'_> {
         self.line(&format!("DELAY / REV, {}", number(turns)));
         match &self.spindle.now {
             Want::OneOf(known) => match known[..] {
-                [Turning::At { speed, .. }] => {
-                    let seconds = turns * 60.0 / speed;
-                    let amount = seconds * self.setup.dwell_factor;
-                    if self.setup.rounds_dwell(seconds) && amount < 50.0 {
-                        self.may_refuse("a dwell that rounding changes by a hundredth");
-                    }
-                    self.push(Act::Dwell(seconds));
-                }
+                [Turning::At { speed, .. }] => self.wait_turns(turns, speed),
+                [Turning::Surface { speed, .. }] => match self.slowest_at_surface(speed) {
+                    Some(speed) => self.wait_turns(turns, speed),
+                    None => self.out.unpredictable = true,
+                },
                 [_] => self.must_refuse("turns of a spindle whose speed nobody knows"),
                 _ => self.out.unpredictable = true,
             },
             Want::Any => self.out.unpredictable = true,
         }
+    }
+
+    fn wait_turns(&mut self, turns: f64, speed: f64) {
+        let seconds = turns * 60.0 / speed;
+        let amount = seconds * self.setup.dwell_factor;
+        if self.setup.rounds_dwell(seconds) && amount < 50.0 {
+            self.may_refuse("a dwell that rounding changes by a hundredth");
+        }
+        self.push(Act::Dwell(seconds));
+    }
+
+    /// Turns a minute at a surface speed where the tool stands, no more than its limit; `None`
+    /// where one of the two is not known.
+    fn slowest_at_surface(&self, speed: f64) -> Option<f64> {
+        let diameter = 2.0 * self.tape?[0].abs();
+        let mm_a_minute = if self.unit == Unit::Mm { speed * 1000.0 } else { speed * 304.8 };
+        let Want::OneOf(limits) = &self.limit else { return None };
+        let [limit] = limits[..] else { return None };
+        Some((mm_a_minute / (std::f64::consts::PI * diameter)).min(limit))
     }
 
     pub(super) fn coolant(&mut self, command: CoolantCommand) {

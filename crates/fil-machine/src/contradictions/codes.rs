@@ -294,9 +294,15 @@ fn return_levels(commons: &Commons, found: &mut Vec<Diag>) {
     let levels = [loc::CYCLE_RETURN_INITIAL_CODE, loc::CYCLE_RETURN_CLEAR_CODE];
     for code in levels.iter().filter_map(|at| commons.read(*at)) {
         if let Some(what) = group_of(commons, code, MODES) {
-            found.push(contradiction(format!(
+            let mut diag = contradiction(format!(
                 "G{code} is both {what} and the level that cycles return to"
-            )));
+            ));
+            diag.hint = Some(
+                "cycle.return_codes = 1 leaves the level out, as on lathes, where G98 and G99 are \
+                 feeds."
+                    .into(),
+            );
+            found.push(diag);
         }
     }
 }

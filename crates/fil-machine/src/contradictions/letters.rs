@@ -3,7 +3,7 @@
 use fil_diag::Diag;
 
 use super::contradiction;
-use crate::address::Addresses;
+use crate::address::{Addresses, Output};
 use crate::axis_chain::AxisChain;
 use crate::commons::{Commons, Int};
 use crate::letter::{Letter, letters};
@@ -53,6 +53,7 @@ pub(super) fn check(commons: &Commons, found: &mut Vec<Diag>) {
     let addresses = Addresses::from_commons(commons, true);
     axis_letters(rotary, &addresses, found);
     functions(commons, &addresses, found);
+    sequence_numbers(commons, &addresses, found);
     word_letters(commons, rotary, found);
     match commons.read(loc::CONTROL_FAMILY) {
         ControlFamily::WordAddress => of_words(commons, found),
@@ -76,6 +77,19 @@ fn functions(commons: &Commons, addresses: &Addresses, found: &mut Vec<Diag>) {
             "{letter} has no tape position, so that its functions would be lost; give it one \
              (address.{letter}.slot) that no other letter has"
         )));
+    }
+}
+
+/// Blocks that are numbered have an N, which another letter has not taken the place of.
+fn sequence_numbers(commons: &Commons, addresses: &Addresses, found: &mut Vec<Diag>) {
+    let by_words = commons.read(loc::CONTROL_FAMILY) != ControlFamily::Klartext;
+    let is_numbered = by_words && commons.read(loc::SEQNO_OFF_AT_START);
+    if is_numbered && addresses.output(letters::N) == Output::Unknown {
+        found.push(contradiction(
+            "N has no tape position, and blocks are numbered; give it one (address.N.slot) that no \
+             other letter has, or 53 to leave it out"
+                .into(),
+        ));
     }
 }
 

@@ -51,6 +51,8 @@ pub(super) struct State<'d> {
     /// The modes that a block has said, or the machine.
     pub(super) certain: Certain,
     pub(super) cycle: Option<Cycle>,
+    /// A cycle of a SINUMERIK is called at each position (MCALL).
+    pub(super) is_called_at_each: bool,
     /// Words of I, J and K are the direction of the tool, and no words of rotary axes are taken.
     pub(super) by_direction: bool,
     /// The tilted frame in force.
@@ -108,6 +110,7 @@ impl<'d> State<'d> {
             return_initial: dialect.return_initial,
             certain: dialect.certain,
             cycle: None,
+            is_called_at_each: false,
             by_direction: false,
             tilt: None,
             was_tip: false,
@@ -243,9 +246,9 @@ impl<'d> State<'d> {
         let usual = [DRILLED, self.dialect.plane].contains(&self.said_plane);
         let is_other = !usual && !self.dialect.lathe;
         let plane = is_other.then_some((self.said_plane, self.plane_line));
-        // A cycle drills along the normal of its plane.
-        let is_own = course == Course::Machine || self.cycle.is_some();
-        let other_plane = self.other_plane().filter(|_| !is_own);
+        // A cycle of a SINUMERIK drills square to the plane in force, whichever that is.
+        let drills = self.cycle.is_some() || self.is_called_at_each;
+        let other_plane = self.other_plane().filter(|_| course != Course::Machine && !drills);
         let is_compensated = self.modes.compensation != Compensation::Off;
         let compensation_plane = is_compensated.then_some(self.plane);
         let transformed = self.dialect.transforms && (self.polar || self.cylinder.is_some());

@@ -273,7 +273,11 @@ pub fn cycle_code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
 
 /// True when a cycle of the control drills a hole that lies like this one.
 pub fn drills(control: &Control, hole: &Hole) -> bool {
-    control.tables.family != ControlFamily::Klartext || klartext::cycle::drills(hole)
+    match control.tables.family {
+        ControlFamily::WordAddress => true,
+        ControlFamily::Klartext => klartext::cycle::drills(hole),
+        ControlFamily::Sinumerik => sinumerik::cycle::drills(control, hole),
+    }
 }
 
 /// Writes the block of a hole.

@@ -3,7 +3,7 @@
 use fil_diag::Result;
 use fil_machine::Letter;
 use fil_machine::commons::{EMPTY, Kind, LAST_OUTPUT};
-use fil_machine::locations as loc;
+use fil_machine::locations::{self as loc, RapidSplit};
 
 use super::Control;
 use crate::control_state::{Length, Levels, Meaning, Place};
@@ -100,7 +100,10 @@ impl Control {
     /// The tool would have to go up from where it cuts, and how far is not known.
     pub fn cross_shifted(&mut self, number: usize, rises: bool) -> Result<()> {
         if rises && self.was_at_feed() {
-            return refuse_unknown(self, number);
+            return match self.commons.read(loc::RAPID_SPLIT) {
+                RapidSplit::OneBlock => refuse_shifted_way(self, number),
+                _ => refuse_unknown(self, number),
+            };
         }
         let letter = self.tables.axis(number).letter;
         let message = format!(
@@ -122,6 +125,20 @@ pub fn refuse_unknown<T>(control: &Control, number: usize) -> Result<T> {
         "where {letter} stands is not known here: up first could be down, and across first could \
          go through the part"
     ))
+}
+
+/// Refuses a rapid motion of several axes in one block from a cut whose end counts from another
+/// zero.
+fn refuse_shifted_way<T>(control: &Control, number: usize) -> Result<T> {
+    let letter = control.tables.axis(number).letter;
+    PostCode::UnknownLevel.err_with(
+        format!(
+            "the tool stands in its cut, {letter} counts from another zero since, and all axes go \
+             in one block: their way may lead through the part"
+        ),
+        "Go away from the part with RAPID before the change of the work offset, or put GOHOME or \
+         LOADTL behind it.",
+    )
 }
 
 /// Refuses a rapid motion of several axes in one block from a place that is not known.

@@ -54,11 +54,23 @@ pub fn state_at_start(commons: &Commons, unit: Option<Unit>) -> ControlState {
         Some(_) if starts_with == per_revolution => FeedMode::PerRevolution,
         _ => FeedMode::PerMinute,
     };
-    let code = commons.read(loc::CIRCLE_PLANE);
+    let code = plane_at_start(commons);
     let plane = code.and_then(|code| {
         Plane::ALL.into_iter().find(|plane| commons.read(plane_code(*plane)) == Some(code))
     });
     ControlState::at_start(feed_mode, plane, unit)
+}
+
+/// The code of the plane that a program says at its start. A lathe turns in that of Z and X,
+/// whatever its file has kept from a mill: cutter compensation in another one takes the nose of
+/// the tool along axes that the path does not have.
+fn plane_at_start(commons: &Commons) -> Option<i32> {
+    let said = commons.read(loc::CIRCLE_PLANE);
+    let of_turning = commons.read(loc::CIRCLE_PLANE_ZX);
+    said.map(|code| match of_turning {
+        Some(of_turning) if commons.read(loc::LATHE_DIAMETER) => of_turning,
+        _ => code,
+    })
 }
 
 /// Location of the code of a plane.
@@ -229,7 +241,11 @@ fn mode_codes(control: &mut Control) {
 /// Adds the code of a mode, but where the control is in it anyway.
 fn say_mode(control: &mut Control, (at, in_force): (CodeAt, CodeAt)) {
     let in_force = control.code_if_any(in_force);
-    if let Some(code) = control.code_if_any(at).filter(|code| in_force != Some(*code)) {
+    let code = match at {
+        loc::CIRCLE_PLANE => plane_at_start(&control.commons).and_then(FunctionCode::of_setting),
+        at => control.code_if_any(at),
+    };
+    if let Some(code) = code.filter(|code| in_force != Some(*code)) {
         control.g(code);
     }
 }

@@ -33,7 +33,9 @@ pub(super) fn learn(control: &mut Control, words: &[(Letter, f64)], skipped: boo
         return;
     }
     let by_surface = control.state.surface_speed == Some(true);
-    let is_speed = !skipped && control.commons.read(loc::SPINDLE_DIRECT_RPM);
+    // Behind what nobody has read S may be a surface speed still, or turns by now.
+    let is_open = control.state.surface_speed.is_none() && control.state.counted_surface;
+    let is_speed = !skipped && !is_open && control.commons.read(loc::SPINDLE_DIRECT_RPM);
     control.speed = match said.filter(|_| is_speed) {
         None => None,
         Some(value) if by_surface && control.is_metric() => Some(SpindleSpeed::Meters(value)),
@@ -47,5 +49,6 @@ fn end_surface_speed(control: &mut Control) {
     if matches!(control.speed, Some(SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_))) {
         control.speed = None;
         control.state.surface_speed = None;
+        control.state.counted_surface = false;
     }
 }

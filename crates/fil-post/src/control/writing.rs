@@ -7,6 +7,7 @@ use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::modes::{Plane, Unit};
 use fil_machine::{FunctionCode, Letter};
 
+use super::word_address::modes;
 use super::{
     Compensation, Control, Function, family, klartext, program, sinumerik, speed_of_others, texts,
 };
@@ -82,6 +83,7 @@ impl Control {
             self.require_unit()?;
         }
         self.refuse_after_end()?;
+        modes::leave_plane_of_hole(self)?;
         if self.tables.style.edits_words
             && let Some(edited) = self.edited_words(words)?
         {
@@ -129,6 +131,7 @@ impl Control {
             self.state.program_begins();
         }
         self.refuse_after_end()?;
+        modes::leave_plane_of_hole(self)?;
         texts::check(text)?;
         if self.tables.family == ControlFamily::Sinumerik {
             sinumerik::reader::refuse_other_diameters(self, text)?;

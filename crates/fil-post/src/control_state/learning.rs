@@ -76,6 +76,7 @@ impl ControlState {
             }
             Meaning::SurfaceSpeed(on) => {
                 self.surface_speed = Some(on);
+                self.counted_surface = on;
                 if codes.speeds_are_feeds() {
                     self.doubt(letters::F);
                 }

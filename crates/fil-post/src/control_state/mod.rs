@@ -175,8 +175,13 @@ pub struct ControlState {
     pub may_be_clamped: bool,
     /// S is a surface speed; `None` where nothing has said it, or only blocks that may be skipped.
     pub surface_speed: Option<bool>,
+    /// S was a surface speed when that was known last.
+    pub counted_surface: bool,
     /// X counts as the post writes it: on a lathe as a diameter, in a transformation as a radius.
     pub x_is_as_written: bool,
+    /// A hole cycle has left the plane that it drills square to, in which the lengths of a
+    /// lathe's tools count along other axes.
+    pub in_plane_of_hole: bool,
     /// The code of the level that cycles return to; `None` when it is not known.
     pub return_level: Option<FunctionCode>,
     /// The program has ended: M2, M30.
@@ -222,7 +227,9 @@ impl ControlState {
             halted: false,
             may_be_clamped: false,
             surface_speed: None,
+            counted_surface: false,
             x_is_as_written: true,
+            in_plane_of_hole: false,
             return_level: None,
             ended: false,
             doubts: Doubts::default(),
@@ -393,7 +400,9 @@ impl ControlState {
             halted: self.halted,
             may_be_clamped: self.may_be_clamped,
             surface_speed: None,
+            counted_surface: self.counted_surface,
             x_is_as_written: false,
+            in_plane_of_hole: self.in_plane_of_hole,
             return_level: None,
             ended: self.ended,
             doubts,

@@ -105,7 +105,9 @@ impl ControlState {
         if other.length == Length::Taken {
             self.length = Length::Taken;
         }
+        self.counted_surface |= other.counted_surface;
         self.x_is_as_written &= other.x_is_as_written;
+        self.in_plane_of_hole |= other.in_plane_of_hole;
         self.compensation_begun &= other.compensation_begun;
         self.compensation_ends |= other.compensation_ends;
         self.doubts.or(&other.doubts);

@@ -74,8 +74,9 @@ fn way(post: &Post, motion: &Motion) -> [Option<f64>; 3] {
 /// A part of an arc would go in steps.
 fn parts(post: &mut Post, way: [Option<f64>; 3]) -> Result<&'static [AxisSet]> {
     let goes = |number: usize| {
-        let resolution = post.control.tables.axis(number).resolution();
-        way[number].is_none_or(|way| way.abs() > 0.5 * resolution)
+        let axis = post.control.tables.axis(number);
+        let resolution = axis.resolution();
+        !axis.is_off() && way[number].is_none_or(|way| way.abs() > 0.5 * resolution)
     };
     let slanted = goes(2) && (goes(0) || goes(1));
     let parts: &[AxisSet] = match post.control.tables.motion.order {

@@ -2,6 +2,7 @@
 
 use fil_cl::vocabulary::words as w;
 use fil_diag::Result;
+use fil_machine::letters::N;
 use fil_machine::locations::ControlFamily;
 
 use crate::errors::PostCode;
@@ -11,14 +12,19 @@ use crate::post::Post;
 /// Sets the next number and the increment, or switches numbers on or off.
 ///
 /// # Errors
-/// A number or an increment that is not a whole number, or out of range.
+/// A number or an increment that is not a whole number, or out of range; a machine without N.
 pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     let increment = items.couplet(w::INCR)?;
     if increment.is_some_and(|increment| increment <= 0.0 || increment.fract() != 0.0) {
         return Err(items.error("the increment must be a positive whole number"));
     }
+    let is_written = post.control.tables.addresses.required(N);
     match items.any_of(&[w::ON, w::OFF]) {
-        Some(word) => post.control.tape.switch_numbers(word == w::ON),
+        Some(w::ON) => {
+            is_written?;
+            post.control.tape.switch_numbers(true);
+        }
+        Some(_) => post.control.tape.switch_numbers(false),
         None if post.control.tables.family == ControlFamily::Klartext => {
             let next = items.required("the number")?;
             let by = increment.map_or(String::new(), |increment| format!(" by {increment}"));
@@ -31,6 +37,7 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
             if next < 0.0 || next.fract() != 0.0 {
                 return Err(items.error("the number must be a whole number, not negative"));
             }
+            is_written?;
             post.control.tape.switch_numbers(true);
             post.control.tape.renumber(next, increment);
         }

@@ -218,6 +218,7 @@ impl Sinumerik<'_> {
             [call] => Some(self.call_of(call)?),
             [_, other, ..] => return Err(other.no_meaning()),
         };
+        self.state.is_called_at_each = self.called.is_some();
         Ok(())
     }
 

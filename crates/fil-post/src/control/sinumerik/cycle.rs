@@ -14,9 +14,8 @@ use fil_machine::rounding::Rounding;
 
 use crate::block::named;
 use crate::control::family::refuse;
-use crate::control::word_address::compensation::usual_plane;
 use crate::control::word_address::motion::Motion;
-use crate::control::word_address::{modes, motion, spindle};
+use crate::control::word_address::{compensation, modes, motion, spindle};
 use crate::control::{Control, line, tap};
 use crate::errors::PostCode;
 use crate::operation::{Feed, SpindleSpeed};
@@ -45,6 +44,12 @@ pub fn code(control: &Control, cycle: &Cycle) -> Option<FunctionCode> {
     Some(if dwells { FunctionCode::whole(WITH_DWELL) } else { code })
 }
 
+/// False for a hole along X of a lathe: RTP, RFP and DP are positions and would be diameters, and
+/// whether SDIS, a length without a sign, is one too is not certain.
+pub fn drills(control: &Control, hole: &Hole) -> bool {
+    hole.along != 0 || !control.commons.read(loc::LATHE_DIAMETER)
+}
+
 /// Calls the cycle for a hole: by MCALL once and the position, or the position and the
 /// cycle.
 ///
@@ -57,7 +62,7 @@ pub fn hole(
     at: &Motion,
     hole: &Hole,
 ) -> Result<()> {
-    modes::plane_of_its_own(control, Plane::across(hole.along))?;
+    plane(control, hole)?;
     let call = control.because(cycle.cause, |control| call(control, cycle, code, hole))?;
     let others = AxisSet::ALL.numbers().filter(|number| *number != hole.along);
     let across = at.of(others.fold(AxisSet::NONE, |set, number| set.or(AxisSet::of(number))));
@@ -66,11 +71,11 @@ pub fn hole(
     // MCALL calls the cycle where a block moves the axes; a hole where the tool stands
     // is called by itself.
     if each || !moves {
-        end_call(control)?;
+        cancel(control)?;
         position(control, moves)?;
         control.because(cycle.cause, |control| super::put_text(control, &call))?;
         spent(control, cycle);
-        return leave_plane(control);
+        return Ok(());
     }
     let feed = control.commons.last_output(F);
     let called = format!("{call} F{feed} {:?}", control.state.feed_mode);
@@ -78,7 +83,7 @@ pub fn hole(
         && control.state.cycle == Some(code)
         && control.sinumerik.called == called;
     if !in_force {
-        end_call(control)?;
+        cancel(control)?;
         control
             .because(cycle.cause, |control| super::put_text(control, &format!("MCALL {call}")))?;
         control.state.in_cycle = Some(true);
@@ -90,17 +95,21 @@ pub fn hole(
     Ok(())
 }
 
-/// Ends the cycle of MCALL, if the control may be in one, and its plane.
-///
-/// # Errors
-/// As a text on the tape; no code of the plane.
-pub fn cancel(control: &mut Control) -> Result<()> {
-    let was_in_cycle = control.state.in_cycle == Some(true);
-    end_call(control)?;
-    if was_in_cycle { leave_plane(control) } else { Ok(()) }
+/// Chooses the plane that the cycle drills square to. On a lathe the lengths of its tools count by
+/// the plane, so that what comes behind the cycle takes that of turning back.
+fn plane(control: &mut Control, hole: &Hole) -> Result<()> {
+    let drilled = Plane::across(hole.along);
+    modes::plane_of_its_own(control, drilled)?;
+    control.state.in_plane_of_hole =
+        control.commons.read(loc::LATHE_DIAMETER) && drilled != compensation::usual_plane(control);
+    Ok(())
 }
 
-fn end_call(control: &mut Control) -> Result<()> {
+/// Ends the cycle of MCALL, if the control may be in one.
+///
+/// # Errors
+/// As a text on the tape.
+pub fn cancel(control: &mut Control) -> Result<()> {
     if control.state.in_cycle == Some(false) {
         return Ok(());
     }
@@ -110,13 +119,6 @@ fn end_call(control: &mut Control) -> Result<()> {
     control.block = waiting;
     control.state.in_cycle = Some(false);
     Ok(())
-}
-
-/// Takes a lathe back to the plane in which it turns: it says along which axes the lengths of a
-/// tool count.
-fn leave_plane(control: &mut Control) -> Result<()> {
-    let stays = !control.commons.read(loc::LATHE_DIAMETER) || control.tables.is_polar();
-    if stays { Ok(()) } else { modes::plane_of_its_own(control, usual_plane(control)) }
 }
 
 /// What the cycle may have changed.

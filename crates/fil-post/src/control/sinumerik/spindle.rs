@@ -10,6 +10,7 @@ use crate::control::Control;
 use crate::control::family::refuse;
 use crate::control::word_address::spindle as words;
 use crate::control_state::Rotation;
+use crate::errors::PostCode;
 use crate::operation::{Feed, Spindle, SpindleSpeed};
 
 /// Digits after the point of an angle, degrees.
@@ -99,7 +100,7 @@ fn takes_feed_a_turn(control: &mut Control, speed: Option<SpindleSpeed>) {
 /// than by G96; inverse time.
 pub fn says_feed_mode(control: &mut Control, feed: &Feed) -> Result<bool> {
     if !words::is_of_surface(control) {
-        return Ok(false);
+        return refuse_in_doubt(control).map(|()| false);
     }
     let of_surface =
         |speed: &SpindleSpeed| matches!(speed, SpindleSpeed::Meters(_) | SpindleSpeed::Feet(_));
@@ -124,6 +125,21 @@ pub fn says_feed_mode(control: &mut Control, feed: &Feed) -> Result<bool> {
     control.block = motion;
     control.tables.format_feed(feed.mode);
     Ok(true)
+}
+
+/// Refuses G94 and G95 where a surface speed may be in force still, with an S that nobody has read:
+/// they would end it, and the spindle would go on at any speed.
+fn refuse_in_doubt(control: &Control) -> Result<()> {
+    let state = &control.state;
+    let is_open = state.surface_speed.is_none() && state.counted_surface;
+    if !is_open || control.speed.is_some() {
+        return Ok(());
+    }
+    PostCode::Family.err_with(
+        "G94 or G95 behind a text that can't be read and gives S, while a surface speed was in \
+         force: they stand in one group with G96 and would end it",
+        "Give SPINDL behind the text, with SMM or RPM.",
+    )
 }
 
 /// A number without zeros at its end.

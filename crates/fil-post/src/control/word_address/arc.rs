@@ -199,7 +199,8 @@ fn center_on_tape(
     let mut center = [0.0; 2];
     let mut digit: f64 = 0.0;
     for (index, number) in arc.plane.axes().into_iter().enumerate() {
-        let Some(format) = addresses.format(IJK[number]) else { return Ok(None) };
+        let Some(position) = addresses.required(IJK[number])? else { return Ok(None) };
+        let format = &addresses.slot(position).format;
         let rounded = |value: f64| format.scale(value).map(|scaled| format.unscale(scaled));
         let offset = arc.center[index] - start[index];
         center[index] = match form {

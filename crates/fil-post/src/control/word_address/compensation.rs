@@ -98,12 +98,13 @@ fn plane_of_live_tool(control: &mut Control, wanted: CutterCompensation) -> Resu
     }
 }
 
-/// The plane a machine works in: the one its program starts in, else ZX on a lathe and XY
-/// on a mill.
+/// The plane a machine works in: ZX on a lathe, else the one its program starts in, else XY.
 pub fn usual_plane(control: &Control) -> Plane {
+    if control.commons.read(loc::LATHE_DIAMETER) {
+        return Plane::Zx;
+    }
     let start = crate::control::program::state_at_start(&control.commons, None);
-    let turns = control.commons.read(loc::LATHE_DIAMETER);
-    start.plane.unwrap_or(if turns { Plane::Zx } else { Plane::Xy })
+    start.plane.unwrap_or(Plane::Xy)
 }
 
 /// The nose of a turning tool is in the offset that its T word has called: a number in

@@ -308,7 +308,10 @@ pub fn leave(control: &mut Control) -> Result<()> {
         ControlFamily::Klartext => return Ok(()),
     }
     let waiting = control.block.take();
-    let code = control.code(loc::CYCLE_OFF_CODE, "CYCLE/OFF")?;
+    let code = control.code(loc::CYCLE_OFF_CODE, "CYCLE/OFF").map_err(|mut diag| {
+        diag.hint = Some("Most controls end their cycles by G80: cycle.off_code = 80.".into());
+        diag
+    })?;
     control.g_of_record(code);
     control.write_block()?;
     control.block = waiting;

@@ -1,12 +1,15 @@
 //! Dwells: in seconds or in turns of the spindle.
 
 use fil_diag::Result;
+use fil_machine::Letter;
 use fil_machine::commons::{Dbl, Int};
-use fil_machine::modes::FeedMode;
+use fil_machine::letters::S;
+use fil_machine::locations::{self as loc, ControlFamily};
+use fil_machine::modes::{FeedMode, INCH};
 use fil_machine::number::NumberFormat;
-use fil_machine::{Letter, locations as loc};
+use fil_machine::rounding::Rounding;
 
-use super::spindle::{counted, speed_in_range};
+use super::spindle::{counted, speed_in_range, surface_in_unit};
 use crate::control::{Control, Function};
 use crate::errors::PostCode;
 use crate::operation::{Dwell, SpindleSpeed};
@@ -92,7 +95,9 @@ pub fn cycle_word(control: &mut Control, seconds: f64, mode: FeedMode) -> Result
 /// On a control that dwells in turns of the spindle while its feed is one a revolution,
 /// a dwell in seconds needs a feed a minute; the next feed motion says its own mode again.
 fn leave_turns(control: &mut Control) -> Result<()> {
-    if !waits_turns(control) {
+    // F of a SINUMERIK's G4 is seconds in any mode, and G94 would end a surface speed.
+    let is_sinumerik = control.tables.family == ControlFamily::Sinumerik;
+    if is_sinumerik || !waits_turns(control) {
         return Ok(());
     }
     let code = control.code(loc::FEED_UPM_CODE, "a feed a minute")?;
@@ -148,12 +153,34 @@ pub(crate) fn known_speed(control: &Control) -> Option<f64> {
     Some(speed).filter(|speed| *speed > 0.0 && !counted::is_unknown(control))
 }
 
+/// The slowest that the spindle may turn at the surface speed in force, turns a minute: that of
+/// the diameter at which the tool stands, no more than the highest speed in force. `None` where
+/// X, that speed or its top are not known.
+fn lowest_of_surface(control: &Control) -> Option<f64> {
+    let is_said = control.state.surface_speed == Some(true) && !control.tables.mills();
+    if !is_said || counted::is_unknown(control) {
+        return None;
+    }
+    let metric = control.is_metric();
+    let (speed, mm) = (surface_in_unit(control.speed?, metric)?, control.unit?.in_mm());
+    let format = control.tables.addresses.format(S)?;
+    // What S says, where rounding makes it less.
+    let said = format.unscale(Rounding::of(S).scale(speed, format).ok()?);
+    let way = speed.min(said) * if metric { 1000.0 } else { 12.0 * INCH };
+    let diameter = 2.0 * control.stands(0)?.abs() * mm;
+    // No speed is above all ranges but one that nothing holds.
+    let of_ranges = Some(speed_in_range(control, f64::MAX)).filter(|top| *top < f64::MAX);
+    let top = [control.state.speed_limit, of_ranges].into_iter().flatten().reduce(f64::min)?;
+    let turns = (way / (std::f64::consts::PI * diameter)).min(top);
+    Some(turns).filter(|turns| *turns > 0.0)
+}
+
 /// The speed of the spindle, for a machine that waits seconds only.
 ///
 /// # Errors
-/// None is known, or it changes with the radius.
+/// None is known.
 fn turns_a_minute(control: &Control) -> Result<f64> {
-    known_speed(control).ok_or_else(|| {
+    known_speed(control).or_else(|| lowest_of_surface(control)).ok_or_else(|| {
         let mut diag = PostCode::NoCode.diag(
             "the machine can't dwell in revolutions, and how fast the spindle turns is not known",
         );

@@ -24,6 +24,7 @@ pub fn require(control: &mut Control, unit: Unit) -> Result<()> {
     let stands = state.unit == Some(unit)
         && state.distance == Some(Distance::Absolute)
         && state.x_is_as_written
+        && !state.in_plane_of_hole
         && state.in_cycle == Some(false)
         && state.compensation.is_some();
     if stands { Ok(()) } else { say_again(control, unit) }
@@ -85,8 +86,21 @@ fn say_again(control: &mut Control, unit: Unit) -> Result<()> {
     }
     control.write_block()?;
     control.state.in_cycle = Some(false);
+    leave_plane_of_hole(control)?;
     control.block = waiting;
     Ok(())
+}
+
+/// Says the plane of turning again behind a hole cycle that needed another one: whoever comes
+/// next, a tool or a text too, counts on the lengths of tools along its axes.
+///
+/// # Errors
+/// As [`plane_of_its_own`].
+pub fn leave_plane_of_hole(control: &mut Control) -> Result<()> {
+    if !control.state.in_plane_of_hole || control.state.in_cycle != Some(false) {
+        return Ok(());
+    }
+    plane_of_its_own(control, compensation::usual_plane(control))
 }
 
 /// Says again that X is a diameter, on a control that counts radii too, and on a SINUMERIK the
@@ -157,6 +171,7 @@ pub fn plane_of_arc(control: &mut Control, wanted: Plane, may_change: bool) -> R
 /// The control is in another plane and has no code for this one.
 pub fn plane_of_its_own(control: &mut Control, wanted: Plane) -> Result<()> {
     control.begin()?;
+    control.state.in_plane_of_hole = false;
     if control.state.plane == Some(wanted) {
         return Ok(());
     }

@@ -223,13 +223,18 @@ pub fn ready(control: &mut Control) -> Result<()> {
 /// # Errors
 /// As [`ready`].
 pub fn ready_for_hole(control: &mut Control, in_cycle: bool) -> Result<()> {
-    if in_cycle && control.state.in_cycle == Some(true) {
+    // The cycle says its plane itself, and so do the motions of one that is none of the control.
+    let of_hole = std::mem::take(&mut control.state.in_plane_of_hole);
+    let stays = in_cycle && control.state.in_cycle == Some(true);
+    if stays {
         control.state.in_cycle = Some(false);
-        let result = ready(control);
-        control.state.in_cycle = Some(true);
-        return result;
     }
-    ready(control)
+    let result = ready(control);
+    if stays {
+        control.state.in_cycle = Some(true);
+    }
+    control.state.in_plane_of_hole = of_hole;
+    result
 }
 
 /// Adds the words of the axes that move; says whether any does.

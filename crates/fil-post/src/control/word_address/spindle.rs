@@ -19,7 +19,7 @@ use crate::errors::PostCode;
 use crate::operation::{SideSpindle, Spindle, SpindleSpeed, SpindleTurn};
 pub(super) use range::speed_in_range;
 pub(in crate::control) use range::take_range_of;
-use range::{range_of, select_range, within_range};
+use range::{range_of, select_range, warn_of_limit, within_range};
 use turn::waits;
 pub use turn::{
     BEHIND_STOP, clockwise, clockwise_in_motion, may_stand_behind_change, may_stand_behind_stop,
@@ -51,6 +51,7 @@ pub fn write(control: &mut Control, spindle: Spindle) -> Result<()> {
                 return PostCode::WordForm.err(format!("SPINDL: a highest speed of {limit}"));
             }
             limit_block(control, limit)?;
+            warn_of_limit(control, limit);
             warn_above_limit(control, control.speed);
             Ok(())
         }
@@ -420,11 +421,21 @@ pub fn counts_turns(control: &Control) -> bool {
 /// What S says: turns a minute within the range, or a surface speed, which counts meters
 /// a minute in a metric program and feet in one in inches.
 pub(crate) fn value_of(control: &mut Control, speed: SpindleSpeed) -> f64 {
-    match (speed, control.is_metric()) {
-        (SpindleSpeed::Revolutions(asked), _) => within_range(control, asked),
-        (SpindleSpeed::Meters(value), true) | (SpindleSpeed::Feet(value), false) => value,
-        (SpindleSpeed::Feet(value), true) => value * FOOT,
-        (SpindleSpeed::Meters(value), false) => value / FOOT,
+    match speed {
+        SpindleSpeed::Revolutions(asked) => within_range(control, asked),
+        SpindleSpeed::Meters(asked) | SpindleSpeed::Feet(asked) => {
+            surface_in_unit(speed, control.is_metric()).unwrap_or(asked)
+        }
+    }
+}
+
+/// A surface speed in meters a minute of a metric program, or in feet; `None` for turns.
+pub(super) fn surface_in_unit(speed: SpindleSpeed, metric: bool) -> Option<f64> {
+    match (speed, metric) {
+        (SpindleSpeed::Revolutions(_), _) => None,
+        (SpindleSpeed::Meters(value), true) | (SpindleSpeed::Feet(value), false) => Some(value),
+        (SpindleSpeed::Feet(value), true) => Some(value * FOOT),
+        (SpindleSpeed::Meters(value), false) => Some(value / FOOT),
     }
 }
 

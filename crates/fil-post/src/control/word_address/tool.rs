@@ -23,6 +23,7 @@ pub fn prepare(control: &mut Control, wanted: &ToolChange) -> Result<bool> {
     check_station(control, wanted.tool)?;
     control.begin()?;
     super::cycle::cancel(control)?;
+    super::modes::leave_plane_of_hole(control)?;
     control.flush_waiting()?;
     if control.state.compensates() {
         return PostCode::CompensationOn.err("at a tool change; CUTCOM/OFF must come before it");

@@ -19,6 +19,17 @@ pub(super) fn within_range(control: &mut Control, speed: f64) -> f64 {
     within
 }
 
+/// Warns of a highest speed above the top of the range in force, or of all ranges where none was
+/// chosen: a surface speed goes no higher than that.
+pub(super) fn warn_of_limit(control: &mut Control, limit: f64) {
+    let top = speed_in_range(control, f64::MAX);
+    if limit > top {
+        let message =
+            format!("SPINDL: a highest speed of {limit}, and the spindle turns {top} at the most");
+        control.warnings.add(PostCode::Clamped, message);
+    }
+}
+
 /// A speed within the range that was chosen, else within the ranges of the machine.
 pub(in crate::control) fn speed_in_range(control: &Control, speed: f64) -> f64 {
     if !is_main(control) {
