@@ -32,6 +32,13 @@ impl<C: Steps> Walk<'_, C> {
         }
     }
 
+    /// The turns a minute at surface speed where the tool of a lathe stands.
+    pub(super) fn turns_at_surface_speed(&self) -> Option<f64> {
+        let is_known = self.known[0] && !self.modes.mills();
+        let diameter = 2.0 * self.at.linear[0].abs();
+        is_known.then(|| self.modes.turns_of_surface(diameter, self.settings)).flatten()
+    }
+
     pub(super) fn check_dwell(
         &mut self,
         cl_line: u32,

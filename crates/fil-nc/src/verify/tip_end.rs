@@ -77,7 +77,7 @@ impl<C: Steps> Walk<'_, C> {
     pub(super) fn check_way_up_in_frame(&mut self, cl_line: u32, part: &Move) {
         let Some(way_up) = self.settings.way_up_at_tip_end() else { return };
         let leaves_frame = part.to.tilt.is_some() && part.to.tilt == self.at.tilt;
-        if !leaves_frame || !(part.known[2] && self.known[2]) {
+        if !(leaves_frame && part.known[2] && self.known[2]) {
             return;
         }
         let rise = part.to.linear[2] - self.at.linear[2];

@@ -254,7 +254,8 @@ impl<'a, C: Steps> Walk<'a, C> {
             }
             Wanted::Dwell(seconds) => self.dwell(step.line, *seconds, None),
             Wanted::DwellTurns(turns) => {
-                let speed = self.modes.turns_a_minute().filter(|_| self.settings.waits_seconds());
+                let speed = self.modes.turns_a_minute().or_else(|| self.turns_at_surface_speed());
+                let speed = speed.filter(|_| self.settings.waits_seconds());
                 let seconds = speed.map(|speed| turns * 60.0 / speed);
                 self.dwell(step.line, seconds, Some(*turns));
             }
