@@ -56,8 +56,11 @@ pub struct MachineTables {
     pub mill_turn: Option<MillTurnMode>,
     /// A mill-turn machine mills by TRANSMIT and TRACYL.
     pub transforms: bool,
-    /// A motion asks something of the machine before it is made: a tilted frame, or the
-    /// mode of a mill-turn machine that mills.
+    /// A macro may change words of rotary axes before they are written: they stand where the tape
+    /// says.
+    pub follows_edits: bool,
+    /// A motion asks something of the machine before it is made: a tilted frame, the mode of a
+    /// mill-turn machine that mills, or where a macro has turned it.
     pub prepares: bool,
     /// Positions of a rotary axis count within one turn.
     pub within_a_turn: bool,
@@ -137,7 +140,8 @@ impl MachineTables {
         let along = commons.dbl_opt(loc::INPUT_ALONG_TOOL_AXIS).unwrap_or(0.0);
         self.most_departure =
             commons.dbl_opt(loc::LIMITS_MAX_DEPARTURE).filter(|most| *most != NO_DEPARTURE);
-        self.prepares = self.frame_output || self.tip_output || self.mills();
+        self.follows_edits = self.chain.has_rotary() && commons.read(loc::TAPE_EDIT_MACRO);
+        self.prepares = self.frame_output || self.tip_output || self.mills() || self.follows_edits;
         if !has_rotary {
             self.input_shift += self.chain.tool.into_inner() * along;
         }

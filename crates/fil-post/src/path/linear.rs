@@ -115,6 +115,9 @@ fn prepare(post: &mut Post, target: Target, kind: MotionKind) -> Result<bool> {
     if post.control.tables.mills() {
         return mill_turn::prepare(post, target, kind);
     }
+    if post.control.tables.follows_edits {
+        rotary::follow(post);
+    }
     let at_feed = !matches!(kind, MotionKind::Rapid(_));
     if post.writes_tip() {
         tip_control::say_by_vector(post, at_feed);

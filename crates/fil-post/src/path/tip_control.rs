@@ -293,7 +293,9 @@ fn pose(control: &Control) -> Option<(Point3<f64>, [f64; 2])> {
         let letter = control.tables.axis(number).letter;
         let said = control.axis_position(number).filter(|_| control.state.has_last(letter));
         let leans = control.tip.leans.filter(|_| number > 2).map(|leans| leans[number - 3]);
-        position[number] = said.or(leans)?;
+        // A word that could be a full turn is not said again where the axis stands.
+        let stands = || control.stands(number).filter(|_| number > 2);
+        position[number] = said.or(leans).or_else(stands)?;
     }
     let [x, y, z, first, second] = position;
     Some((Point3::new(x, y, z), [first, second]))

@@ -35,7 +35,7 @@ impl State {
         if let Some(what) = self.frames.doubt(axis) {
             return Some(Wanted::Unknown { what, effect: Effect::Path });
         }
-        if record.sub == motion::GODLTA {
+        if record.sub == motion::GODLTA && (self.cycle.is_none() || self.rapid) {
             return Some(self.line_to(point, axis));
         }
         if self.awaited.is_some() && !self.rapid {

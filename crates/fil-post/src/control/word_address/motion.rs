@@ -277,6 +277,7 @@ pub fn axis_words(control: &mut Control, motion: &Motion) -> Result<bool> {
         }
         let still = full_turn::turn(control, motion, present, changed, &mut scaled)?;
         present = present.without(still);
+        changed = changed.without(still);
     }
     if changed.is_empty() {
         return Ok(false);
