@@ -300,3 +300,23 @@ fn a_way_up_out_of_a_tilted_frame_goes_along_the_tool() {
     let said = found(&nc.replacen("Z700.", "Z690.", 1));
     assert!(said.contains("which is on no way to its end"), "{said}");
 }
+
+/// Before the machine turns for a tilted frame it goes up to the level of the settings, in the
+/// frame of the machine where that says it.
+#[test]
+fn a_way_up_in_the_frame_of_the_machine_before_a_tilted_frame_agrees() {
+    let settings = &["home.frame=1", "home.retract_z=0"];
+    let cl = "LOADTL / 1; SPINDL / RPM, 3000, CLW; FEDRAT / 200, MMPM; RAPID; GOTO / 0, 0, 100; \
+              GOTO / 0, 0, 60; RAPID; GOTO / 0, 0, 200; RAPID; \
+              GOTO / 0, 20, 80, 0, 0.5, 0.8660254; GOTO / 0, 20, 60, 0, 0.5, 0.8660254";
+    let nc = "%_N_1_MPF; G710 G90 G94 G17; T1 M6; D1; S3000 M3; G0 A0 C0; X0 Y0; Z100; \
+              G1 Z60 F200; G0 Z200; G53 G0 Z0 D0; D1; A-30 C0; \
+              CYCLE800(0,\"TC1\",0,57,0,0,0,-30,0,0,0,0,0,-1,0); X0 Y-22.679; Z79.282; \
+              G1 Y-12.679 Z61.962 F200; CYCLE800(); M30";
+    let found = |nc: &str| back_check::found("sinumerik-5x", settings, cl, nc);
+    assert_eq!(found(nc), "");
+    for (old, new) in [("G53 G0 Z0 D0", "G53 G0 Z-50 D0"), ("G53 G0 Z0 D0", "G53 G0 X0 Z0 D0")] {
+        let said = found(&nc.replacen(old, new, 1));
+        assert!(said.contains("goes to a point of the machine"), "{new}: {said}");
+    }
+}

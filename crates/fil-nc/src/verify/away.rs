@@ -5,11 +5,12 @@
 use fil_machine::locations::{self as loc, RotaryFrameOutput};
 
 use super::ahead::Steps;
+use super::lines::RAPID_PARTS;
 use super::report::FindingKind;
 use super::say::short;
 use super::settings::Settings;
 use super::walk::{STILL, Walk};
-use crate::motion::{Course, Move, Position};
+use crate::motion::{Course, Event, Move, Position};
 
 impl Settings<'_> {
     /// Motions under a tool axis that stands still are written in tilted frames.
@@ -49,6 +50,20 @@ impl<C: Steps> Walk<'_, C> {
         };
         let at = self.settings.forward.restated(&found.to, &Position::default());
         self.height = is_known.then_some(at.linear[2]);
+    }
+
+    /// A way up to the level of the settings in the frame of the machine, behind which the machine
+    /// turns for another tilted frame.
+    pub(super) fn goes_up_for_frame(&self, found: &Move) -> bool {
+        let level = self.settings.retract_level(self.metric);
+        let is_at = |level: f64| (found.to.linear[2] - level).abs() <= self.slack.linear[2];
+        let is_up = found.to_machine == [false, false, true, false, false]
+            && self.settings.names_machine_positions()
+            && level.is_some_and(is_at);
+        let tilt = self.at.tilt;
+        let mut behind = self.nc.from(self.next + 1).take(RAPID_PARTS);
+        let is_other = |event| matches!(event, Event::Move(next) if next.to.tilt != tilt);
+        is_up && self.settings.turns_for_frames() && behind.any(is_other)
     }
 
     /// Takes the way up and the turn before a hole in another frame than the last motion.

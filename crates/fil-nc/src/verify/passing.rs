@@ -15,7 +15,11 @@ impl<C: Steps> Walk<'_, C> {
             self.pass_still(cl_line);
             match self.nc.get(self.next)? {
                 Event::Move(found) if found.course == Course::Machine => {
+                    let is_for_frame = self.goes_up_for_frame(&found);
                     self.stand(&found);
+                    if is_for_frame {
+                        continue;
+                    }
                     let message = "goes to a point of the machine that neither the CL file nor the settings ask for";
                     self.find(
                         FindingKind::Extra,
