@@ -147,14 +147,7 @@ impl Tape {
         tables: &MachineTables,
         commons: &mut Commons,
     ) -> Result<()> {
-        let Some(rest) = behind_skip_mark(text, tables) else {
-            return self.items(text, &[(TEXT, 0, cause)], numbered, tables, commons);
-        };
-        let outer = self.skip;
-        self.skip = outer.or(Some(cause));
-        let written = self.items(rest, &[(TEXT, 0, cause)], numbered, tables, commons);
-        self.skip = outer;
-        written
+        self.items(text, &[(TEXT, 0, cause)], numbered, tables, commons)
     }
 
     /// Writes a text as a block: its items, each with its letter, its first byte in the
@@ -408,12 +401,4 @@ fn check(block: &[u8], style: &TapeStyle) -> Result<()> {
             .err(format!("`{block}` has {length} characters, {longest} are allowed")),
         _ => Ok(()),
     }
-}
-/// The words of a text that begins with the mark of OPSKIP, which stands before the number of a
-/// block: behind it many controls refuse it. `None` for another text, for one of the levels of a
-/// mark (`/2`), and for one with a number of its own.
-fn behind_skip_mark<'t>(text: &'t str, tables: &MachineTables) -> Option<&'t str> {
-    let rest = text.trim_start().strip_prefix(tables.style.skip?)?.trim_start();
-    let begins_words = rest.starts_with(|first: char| first.is_ascii_alphabetic());
-    (begins_words && !rest.starts_with(['N', 'n'])).then_some(rest)
 }

@@ -3,8 +3,9 @@
 
 use filpost::Commons;
 use filpost::commons::EMPTY;
-use filpost::locations::{Location, ValueUnit};
+use filpost::locations::{Location, TABLE, ValueUnit};
 
+use crate::five_axes::numbers::Random;
 use crate::posting::{Posted, Prepared};
 
 use super::corpus::Part;
@@ -39,6 +40,30 @@ pub fn trials(row: &Location) -> Vec<Trial> {
         _ => &["0.25", "12.5"],
     };
     values.iter().copied().map(trial).collect()
+}
+
+/// Fewer settings than `most`, drawn from the groups but for those left out; every other one of
+/// them, about, begins with one of `focus`.
+pub fn drawn(
+    random: &mut Random,
+    most: usize,
+    (groups, left_out): (&[&str], &[&str]),
+    focus: &[&str],
+) -> Vec<String> {
+    let rows: Vec<&Location> = TABLE
+        .iter()
+        .filter(|row| row.used && !left_out.contains(&row.name))
+        .filter(|row| groups.iter().any(|group| row.name.starts_with(&format!("{group}."))))
+        .collect();
+    let of_focus = |row: &&&Location| focus.iter().any(|start| row.name.starts_with(start));
+    let focused: Vec<&Location> = rows.iter().filter(of_focus).copied().collect();
+    (0..random.below(most))
+        .map(|_| {
+            let rows = if random.happens(0.5) { &focused } else { &rows };
+            let tried = trials(rows[random.below(rows.len())]);
+            tried[random.below(tried.len())].text.clone()
+        })
+        .collect()
 }
 
 /// Settings that act on the listing alone.

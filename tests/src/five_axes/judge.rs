@@ -1,16 +1,18 @@
 //! What comes of a program: the post makes it, `fil-nc` follows it, and the tool comes to each
 //! point that the generator meant.
 
+use std::collections::BTreeMap;
+use std::env;
+
 use fil_machine::address::Addresses;
 use fil_machine::letter::letters;
 use fil_machine::locations as loc;
-use std::collections::BTreeMap;
-
 use fil_nc::forward::Forward;
 use fil_nc::motion::Event;
 use fil_nc::verify::{Allowed, Verdict};
 use filpost::Program;
 use nalgebra::{Point3, Vector3};
+use rayon::prelude::*;
 
 use super::maker::Line;
 use crate::back_check;
@@ -30,7 +32,7 @@ pub enum Outcome {
 }
 
 /// The CL file.
-pub fn text(lines: &[Line]) -> String {
+fn text(lines: &[Line]) -> String {
     lines.iter().map(|line| format!("{}\n", line.text)).collect()
 }
 
@@ -112,7 +114,7 @@ fn missed(post: &Program, lines: &[Line], nc: &str) -> Option<String> {
 }
 
 /// Leaves out lines as long as the same differs.
-pub fn shrunk(post: &Program, lines: &[Line], kind: &str, may_refuse: &[&str]) -> Vec<Line> {
+fn shrunk(post: &Program, lines: &[Line], kind: &str, may_refuse: &[&str]) -> Vec<Line> {
     let mut lines = lines.to_vec();
     let mut at = lines.len();
     while at > 0 {
@@ -127,9 +129,34 @@ pub fn shrunk(post: &Program, lines: &[Line], kind: &str, may_refuse: &[&str]) -
     lines
 }
 
+/// Judges a program; the story of one that differs, told as that of `what`, has the fewest lines
+/// that still differ so.
+pub fn tried(post: &Program, lines: &[Line], may_refuse: &[&str], what: &str) -> (Outcome, String) {
+    let (outcome, _) = judge(post, lines, may_refuse);
+    let Outcome::Differs(kind, _) = &outcome else { return (outcome, String::new()) };
+    let small = shrunk(post, lines, kind, may_refuse);
+    let (again, nc) = judge(post, &small, may_refuse);
+    (outcome, format!("{what}: {again:?}\n{}---\n{nc}", text(&small)))
+}
+
+/// Tries the programs of many seeds: as many as the variable `name` says, from the seed that
+/// `name` with `_FROM` says. Tells what came of them: how many there are, how many agree, and how
+/// many kinds of differences there are.
+pub fn try_seeds(
+    name: &str,
+    usual: u64,
+    try_seed: fn(u64) -> (Outcome, String),
+) -> (u64, u64, usize) {
+    let number = |name: &str| env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
+    let count = number(name).unwrap_or(usual);
+    let from = number(&format!("{name}_FROM")).unwrap_or(0);
+    let (agree, kinds) = tell((from..from + count).into_par_iter().map(try_seed).collect());
+    (count, agree, kinds)
+}
+
 /// Tells what came of programs, with the first story of each kind of difference: how many agree,
 /// and how many kinds there are.
-pub fn tell(tried: Vec<(Outcome, String)>) -> (u64, usize) {
+fn tell(tried: Vec<(Outcome, String)>) -> (u64, usize) {
     let (count, mut agree, mut refused) = (tried.len(), 0, BTreeMap::<String, u64>::new());
     let mut stories = BTreeMap::<String, (u64, String)>::new();
     for (outcome, story) in tried {

@@ -3,15 +3,12 @@
 //!
 //! `FILPOST_FIVE=20000` tries as many programs, `FILPOST_FIVE_FROM` begins at a seed.
 
-use std::env;
-
 use fil_machine::axis_chain::AxisChain;
 use fil_machine::chains::CHAINS;
 use filpost::Program;
-use filpost_tests::five_axes::judge::{Outcome, judge, shrunk, tell, text};
+use filpost_tests::five_axes::judge::{Outcome, tried, try_seeds};
 use filpost_tests::five_axes::maker::program;
 use filpost_tests::five_axes::numbers::Random;
-use rayon::prelude::*;
 
 /// Programs in the normal run.
 const USUAL: u64 = 200;
@@ -66,21 +63,12 @@ fn try_seed(seed: u64) -> (Outcome, String) {
     let post = post(chain, form, &mut random);
     let machine = AxisChain::from_commons(post.commons()).expect("a chain");
     let lines = program(&machine, random, None);
-    let (outcome, _) = judge(&post, &lines, &MAY_REFUSE);
-    let Outcome::Differs(kind, _) = &outcome else { return (outcome, String::new()) };
-    let small = shrunk(&post, &lines, kind, &MAY_REFUSE);
-    let (again, nc) = judge(&post, &small, &MAY_REFUSE);
-    let story = format!("seed {seed}, {chain}, {form:?}: {again:?}\n{}---\n{nc}", text(&small));
-    (outcome, story)
+    tried(&post, &lines, &MAY_REFUSE, &format!("seed {seed}, {chain}, {form:?}"))
 }
 
 #[test]
 fn random_programs_of_five_axes_do_what_they_ask_for() {
-    let number = |name| env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
-    let (count, from) = (number("FILPOST_FIVE").unwrap_or(USUAL), number("FILPOST_FIVE_FROM"));
-    let from = from.unwrap_or(0);
-    let tried: Vec<_> = (from..from + count).into_par_iter().map(try_seed).collect();
-    let (agree, kinds) = tell(tried);
+    let (count, agree, kinds) = try_seeds("FILPOST_FIVE", USUAL, try_seed);
     assert_eq!(kinds, 0, "kinds of differences");
     assert!(agree * 2 > count, "too few programs are posted to prove anything");
 }

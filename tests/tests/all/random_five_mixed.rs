@@ -4,18 +4,14 @@
 //!
 //! `FILPOST_MIXED=20000` tries as many programs, `FILPOST_MIXED_FROM` begins at a seed.
 
-use std::env;
-
 use fil_machine::axis_chain::AxisChain;
 use fil_machine::chains::CHAINS;
 use filpost::Program;
-use filpost::locations::{Location, TABLE};
-use filpost_tests::counts::settings::trials;
-use filpost_tests::five_axes::judge::{Outcome, judge, shrunk, tell, text};
+use filpost_tests::counts::settings::drawn;
+use filpost_tests::five_axes::judge::{Outcome, tried, try_seeds};
 use filpost_tests::five_axes::maker::program;
 use filpost_tests::five_axes::mixed::Family;
 use filpost_tests::five_axes::numbers::Random;
-use rayon::prelude::*;
 
 /// Programs in the normal run.
 const USUAL: u64 = 200;
@@ -48,23 +44,6 @@ const LEFT_OUT: [&str; 6] = [
     "rotary.table_words",
 ];
 
-fn settings(random: &mut Random) -> Vec<String> {
-    let rows: Vec<&Location> = TABLE
-        .iter()
-        .filter(|row| row.used && !LEFT_OUT.contains(&row.name))
-        .filter(|row| GROUPS.iter().any(|group| row.name.starts_with(&format!("{group}."))))
-        .collect();
-    let rotary: Vec<&Location> =
-        rows.iter().copied().filter(|row| row.name.starts_with("r")).collect();
-    (0..random.below(4))
-        .map(|_| {
-            let rows = if random.happens(0.5) { &rotary } else { &rows };
-            let tried = trials(rows[random.below(rows.len())]);
-            tried[random.below(tried.len())].text.clone()
-        })
-        .collect()
-}
-
 /// A machine, with what makes it; `None` where the settings contradict each other.
 fn machine(random: &mut Random) -> Option<(Program, Family, String)> {
     let (ready, family) = POSTS[random.below(POSTS.len())];
@@ -81,7 +60,7 @@ fn machine(random: &mut Random) -> Option<(Program, Family, String)> {
             set.push(format!("rotary.{axis}_{part}={:.3}", random.between(-80.0, 80.0)));
         }
     }
-    set.extend(settings(random));
+    set.extend(drawn(random, 4, (&GROUPS, &LEFT_OUT), &["r"]));
     let start = Program::builder().ready(ready);
     let post = set.iter().fold(start, |builder, setting| builder.set(setting)).build().ok()?;
     Some((post, family, format!("{ready} {}", set.join(" "))))
@@ -94,20 +73,12 @@ fn try_seed(seed: u64) -> (Outcome, String) {
     let Ok(chain) = AxisChain::from_commons(post.commons()) else { return none() };
     let lines = program(&chain, random, Some(family));
     let may_refuse = ["E05", "E0902", "E0904", "E0905"];
-    let (outcome, _) = judge(&post, &lines, &may_refuse);
-    let Outcome::Differs(kind, _) = &outcome else { return (outcome, String::new()) };
-    let small = shrunk(&post, &lines, kind, &may_refuse);
-    let (again, nc) = judge(&post, &small, &may_refuse);
-    (outcome, format!("seed {seed}, {told}: {again:?}\n{}---\n{nc}", text(&small)))
+    tried(&post, &lines, &may_refuse, &format!("seed {seed}, {told}"))
 }
 
 #[test]
 fn random_programs_that_mix_everything_do_what_they_ask_for_or_are_refused() {
-    let number = |name| env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
-    let (count, from) = (number("FILPOST_MIXED").unwrap_or(USUAL), number("FILPOST_MIXED_FROM"));
-    let from = from.unwrap_or(0);
-    let tried: Vec<_> = (from..from + count).into_par_iter().map(try_seed).collect();
-    let (agree, kinds) = tell(tried);
+    let (count, agree, kinds) = try_seeds("FILPOST_MIXED", USUAL, try_seed);
     assert_eq!(kinds, 0, "kinds of differences");
     assert!(agree * 4 > count, "too few programs are posted to prove anything");
 }

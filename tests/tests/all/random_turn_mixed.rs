@@ -4,15 +4,11 @@
 //!
 //! `FILPOST_TURN_MIXED=20000` tries as many programs, `FILPOST_TURN_MIXED_FROM` begins at a seed.
 
-use std::env;
-
 use filpost::Program;
-use filpost::locations::{Location, TABLE};
-use filpost_tests::counts::settings::trials;
-use filpost_tests::five_axes::judge::{Outcome, judge, shrunk, tell, text};
+use filpost_tests::counts::settings::drawn;
+use filpost_tests::five_axes::judge::{Outcome, tried, try_seeds};
 use filpost_tests::five_axes::numbers::Random;
 use filpost_tests::turning::mixed::program;
-use rayon::prelude::*;
 
 /// Programs in the normal run.
 const USUAL: u64 = 200;
@@ -67,51 +63,25 @@ const LEFT_OUT: [&str; 10] = [
 const MAY_REFUSE: [&str; 9] =
     ["E05", "E0902", "E0904", "E0905", "E0907", "E0911", "E0607", "E0609", "E0715"];
 
-fn settings(random: &mut Random) -> Vec<String> {
-    let rows: Vec<&Location> = TABLE
-        .iter()
-        .filter(|row| row.used && !LEFT_OUT.contains(&row.name))
-        .filter(|row| GROUPS.iter().any(|group| row.name.starts_with(&format!("{group}."))))
-        .collect();
-    let of_turning = |row: &&&Location| {
-        ["lathe.", "thread.", "mill_turn.", "turret.", "spindle."]
-            .iter()
-            .any(|group| row.name.starts_with(group))
-    };
-    let turning: Vec<&Location> = rows.iter().filter(of_turning).copied().collect();
-    (0..random.below(3))
-        .map(|_| {
-            let rows = if random.happens(0.5) { &turning } else { &rows };
-            let tried = trials(rows[random.below(rows.len())]);
-            tried[random.below(tried.len())].text.clone()
-        })
-        .collect()
-}
+/// Half of the settings begin so.
+const FOCUS: [&str; 5] = ["lathe.", "thread.", "mill_turn.", "turret.", "spindle."];
 
 fn try_seed(seed: u64) -> (Outcome, String) {
     let mut random = Random::of_seed(seed);
     let ready = POSTS[random.below(POSTS.len())];
-    let set = settings(&mut random);
+    let set = drawn(&mut random, 3, (&GROUPS, &LEFT_OUT), &FOCUS);
     let start = Program::builder().ready(ready);
     let Ok(post) = set.iter().fold(start, |builder, setting| builder.set(setting)).build() else {
         return (Outcome::Refused("machine".to_string()), String::new());
     };
     let lines = program(ready, seed, &mut random);
-    let (outcome, _) = judge(&post, &lines, &MAY_REFUSE);
-    let Outcome::Differs(kind, _) = &outcome else { return (outcome, String::new()) };
-    let small = shrunk(&post, &lines, kind, &MAY_REFUSE);
-    let (again, nc) = judge(&post, &small, &MAY_REFUSE);
-    let told = format!("{ready} {}", set.join(" "));
-    (outcome, format!("seed {seed}, {told}: {again:?}\n{}---\n{nc}", text(&small)))
+    let told = format!("seed {seed}, {ready} {}", set.join(" "));
+    tried(&post, &lines, &MAY_REFUSE, &told)
 }
 
 #[test]
 fn random_turning_programs_that_mix_everything_are_right_or_refused() {
-    let number = |name| env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
-    let count = number("FILPOST_TURN_MIXED").unwrap_or(USUAL);
-    let from = number("FILPOST_TURN_MIXED_FROM").unwrap_or(0);
-    let tried: Vec<_> = (from..from + count).into_par_iter().map(try_seed).collect();
-    let (agree, kinds) = tell(tried);
+    let (count, agree, kinds) = try_seeds("FILPOST_TURN_MIXED", USUAL, try_seed);
     assert_eq!(kinds, 0, "kinds of differences");
     assert!(agree * 8 > count, "too few programs are posted to prove anything");
 }

@@ -293,15 +293,13 @@ impl Expected {
     /// The speed that must be in force, turns/min; `None` for a surface speed, and where
     /// none is known.
     pub(super) fn turns_a_minute(&self) -> Option<f64> {
-        let next = self.speed.next.map(|(speed, _)| speed);
-        next.unwrap_or(self.speed.now).and_then(Speed::turns)
+        self.speed.asked().and_then(Speed::turns)
     }
 
     /// The turns a minute of a surface speed at a diameter, mm: no more than the highest speed in
     /// force, and the top of the range. `None` where neither is known.
     pub(super) fn turns_of_surface(&self, diameter: f64, settings: &Settings) -> Option<f64> {
-        let next = self.speed.next.map(|(speed, _)| speed);
-        let Some(Speed::Surface(speed)) = next.unwrap_or(self.speed.now) else { return None };
+        let Some(Speed::Surface(speed)) = self.speed.asked() else { return None };
         let of_ranges = settings.speed_within(f64::MAX, self.range);
         let top = self.speed_limit.flatten().unwrap_or(f64::MAX).min(of_ranges);
         let turns = speed * 1000.0 / (std::f64::consts::PI * diameter);

@@ -76,7 +76,12 @@ impl<C: Steps> Walk<'_, C> {
 
     /// Z of a position, in its frame or of the machine, goes along the tool.
     pub(super) fn lies_along_z(&self, position: &Position) -> bool {
-        position.tilt.is_some() || self.tool_on_axes(position.rotary).z > 1.0 - PARALLEL
+        position.tilt.is_some() || self.is_upright(position.rotary)
+    }
+
+    /// The tool lies along Z of the machine.
+    pub(super) fn is_upright(&self, rotary: [f64; 2]) -> bool {
+        self.tool_on_axes(rotary).z > 1.0 - PARALLEL
     }
 
     /// A head stands nobody knows where.

@@ -6,6 +6,7 @@
 use nalgebra::{Point3, Vector2};
 
 use super::ahead::Steps;
+use super::between::way::Way;
 use super::report::FindingKind;
 use super::say::short;
 use super::walk::{STILL, Walk};
@@ -48,10 +49,9 @@ impl<C: Steps> Walk<'_, C> {
         if !(self.has_axis_y() && turns && known) {
             return;
         }
-        let [from, to] = [self.off_spindle(&self.at), self.off_spindle(&part.to)];
-        let way = to - from;
-        let share = -from.dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE);
-        let nearest = (from + way * share.clamp(0.0, 1.0)).norm();
+        let [from, to] = [&self.at, &part.to].map(|at| self.off_spindle(at));
+        let way = Way::line(from.push(0.0).into(), to.push(0.0).into());
+        let nearest = way.foot(Point3::origin(), 0.0).distance;
         let least = ends.map(|at| self.off_spindle(at).norm()).into_iter().fold(f64::MAX, f64::min);
         // From beyond the axis, where a tool along Z has worked, the level is its way up.
         let stays_up = from.x <= 0.0 && part.to.linear[2] == self.at.linear[2];

@@ -10,7 +10,7 @@ use super::wanted::Hole;
 use crate::dialect::Family;
 use crate::motion::{Compensation, Course, Move, Position, Rate, Speed, unit};
 
-/// Share of a feed that the rounding of a pitch may change.
+/// Share of a lead, or of a feed by its pitch, that rounding may change.
 const PITCH: f64 = 0.0005;
 
 /// Steps in which the way of a tip is measured that axes turn on it.
@@ -164,6 +164,14 @@ impl<C: Steps> Walk<'_, C> {
             Course::Thread => self.slack.lead,
             _ => self.slack.turn,
         }
+    }
+
+    /// How far the lead of a pass may be off: a cycle that says it in a word of its own has other
+    /// digits than the address, and along the path the rounded ends of the pass change it, too.
+    pub(super) fn slack_of_pass(&self, pass: &Move, lead: f64) -> f64 {
+        let along_path = self.settings.dialect.lead_along_path;
+        let share = if along_path { PITCH * lead } else { 0.0 };
+        share + self.slack_of_lead(pass, lead)
     }
 
     /// The feed of the center of the cutter on a compensated arc, where the machine's

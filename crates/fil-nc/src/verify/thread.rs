@@ -20,9 +20,6 @@ const MOST_PASSES: usize = 10_000;
 /// Most rapids from one pass to the next.
 const BETWEEN_PASSES: usize = 8;
 
-/// Share of a lead that rounding may change.
-const LEAD: f64 = 0.0005;
-
 /// What rounding may change of a first depth or a taper, last digits: a half, and a little.
 const ROUNDED: f64 = 0.6;
 
@@ -225,14 +222,6 @@ impl<C: Steps> Walk<'_, C> {
     fn has_lead(&self, pass: &Move, gauge: &Gauge) -> bool {
         let Some(Rate::PerTurn(lead)) = pass.rate else { return false };
         (lead - gauge.thread.lead).abs() <= self.slack_of_pass(pass, gauge.thread.lead)
-    }
-
-    /// How far the lead of a pass may be off: a cycle that says it in a word of its own has other
-    /// digits than the address, and along the path the rounded ends of the pass change it, too.
-    pub(super) fn slack_of_pass(&self, pass: &Move, lead: f64) -> f64 {
-        let along_path = self.settings.dialect.lead_along_path;
-        let share = if along_path { LEAD * lead } else { 0.0 };
-        share + self.slack_of_lead(pass, lead)
     }
 
     /// A pass comes after rapids only.

@@ -11,9 +11,6 @@ use super::walk::{STILL, Walk};
 use super::wanted::{Step, Wanted};
 use crate::motion::{Course, Event, Modes, Move, Position};
 
-/// Directions are one where the cosine between them is less than this below 1.
-const PARALLEL: f64 = 1e-8;
-
 impl Settings<'_> {
     /// How far the tool must go up before tool-tip control ends, mm; `None` for a control
     /// that does not move then.
@@ -81,9 +78,8 @@ impl<C: Steps> Walk<'_, C> {
             return;
         }
         let rise = part.to.linear[2] - self.at.linear[2];
-        let is_upright = self.tool_on_axes(part.to.rotary).z >= 1.0 - PARALLEL;
         let is_enough = rise >= way_up - 2.0 * self.slack.linear[2] - STILL;
-        if is_upright || is_enough || part.modes.length_offset.is_none() {
+        if self.is_upright(part.to.rotary) || is_enough || part.modes.length_offset.is_none() {
             return;
         }
         let message = format!(

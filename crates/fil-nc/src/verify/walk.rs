@@ -379,19 +379,6 @@ impl<'a, C: Steps> Walk<'a, C> {
         }
     }
 
-    /// Where the axes stand, X, Y, Z as a motion means them; those it leaves unknown keep
-    /// their last value.
-    pub(super) fn at_as(&self, found: &Move) -> Position {
-        let mut at = self.settings.forward.restated(&self.at, &found.to);
-        if self.at.tilt != found.to.tilt {
-            return at;
-        }
-        for n in (0..3).filter(|n| !found.known[*n]) {
-            at.linear[n] = self.at.linear[n];
-        }
-        at
-    }
-
     pub(super) fn next_move(&self) -> Option<Move> {
         self.nc.motion(self.next)
     }

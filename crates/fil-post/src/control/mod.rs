@@ -76,8 +76,6 @@ pub struct TipOffset {
     pub by_vector: bool,
     /// Where the rotary axes stand since a vector has turned them, degrees.
     pub leans: Option<[f64; 2]>,
-    /// The tool for which levels of the machine's Z were counted while a head leaned it.
-    pub tool_of_levels: Option<i64>,
     /// Turns directions of the last tilted frame into those of the part, and where the rotary axes
     /// stand in it, degrees.
     pub frame: Option<(Rotation3<f64>, [f64; 2])>,

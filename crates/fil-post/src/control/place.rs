@@ -25,6 +25,16 @@ impl Control {
         }
     }
 
+    /// X, Y and Z may be those of the tip in the part: tool-tip control is on, or nobody knows.
+    pub fn may_name_tip(&self) -> bool {
+        self.tables.tip_output && self.state.tip_control != Some(false)
+    }
+
+    /// X, Y and Z may count in a tilted frame: one is in force, or nobody knows.
+    pub fn may_be_tilted(&self) -> bool {
+        self.tables.frame_output && self.state.tilted != Some(false)
+    }
+
     /// Where an axis stands, values of the tape.
     pub fn place_on_tape(&self, number: usize) -> Place {
         let letter = self.tables.axis(number).letter;

@@ -33,8 +33,7 @@ pub(super) fn learn(control: &mut Control, words: &[(Letter, f64)], skipped: boo
         return;
     }
     let by_surface = control.state.surface_speed == Some(true);
-    // Behind what nobody has read S may be a surface speed still, or turns by now.
-    let is_open = control.state.surface_speed.is_none() && control.state.counted_surface;
+    let is_open = control.state.surface_speed_is_open();
     let is_speed = !skipped && !is_open && control.commons.read(loc::SPINDLE_DIRECT_RPM);
     control.speed = match said.filter(|_| is_speed) {
         None => None,

@@ -291,6 +291,24 @@ impl Control {
     /// Writes a line as it is; says whether it was edited, so that the control has learned
     /// from it.
     pub(super) fn put_line(&mut self, text: &str, numbered: bool) -> Result<bool> {
+        let Some(words) = self.behind_skip_mark(text) else { return self.put(text, numbered) };
+        let outer = self.tape.skip;
+        self.tape.skip = outer.or(Some(self.block.cause));
+        let edited = self.put(words, numbered);
+        self.tape.skip = outer;
+        edited
+    }
+
+    /// The words of a text that begins with the mark of OPSKIP, which stands before the number of
+    /// its block: behind it many controls refuse it. `None` for another text, for one of the levels
+    /// of a mark (`/2`), and for one with a number of its own.
+    fn behind_skip_mark<'t>(&self, text: &'t str) -> Option<&'t str> {
+        let words = text.trim_start().strip_prefix(self.tables.style.skip?)?.trim_start();
+        let begins = words.starts_with(|first: char| first.is_ascii_alphabetic());
+        (begins && !words.starts_with(['N', 'n'])).then_some(words)
+    }
+
+    fn put(&mut self, text: &str, numbered: bool) -> Result<bool> {
         self.warn_of_letters(text);
         let (cause, start) = (self.block.cause, self.tape.text.len());
         if self.tables.family == ControlFamily::Klartext {

@@ -410,6 +410,11 @@ impl ControlState {
         };
     }
 
+    /// S may be a surface speed still, or turns by now: nobody has read what came behind it.
+    pub fn surface_speed_is_open(&self) -> bool {
+        self.surface_speed.is_none() && self.counted_surface
+    }
+
     /// A tool is in the spindle now.
     pub fn has_tool(&mut self, tool: Option<i64>) {
         self.tool = tool;

@@ -78,8 +78,7 @@ pub fn refuse_across_tool(post: &Post, plane: Plane, is_named: bool) -> Result<(
     let Some(angles) = rapid_lean::turned(&post.control) else { return Ok(()) };
     let of_part = post.path.stands.normalize();
     let normal = Vector3::ith(plane.normal(), 1.0);
-    let in_frame = tables.frame_output && post.control.state.tilted != Some(false);
-    let (tool, seen) = if in_frame {
+    let (tool, seen) = if post.control.may_be_tilted() {
         (Vector3::z(), if of_part.z > SAME_WAY { normal } else { Vector3::zeros() })
     } else {
         let at = |point| chain.linear(point, angles);

@@ -363,7 +363,7 @@ fn forget_positions(control: &mut Control, knows_rotary: bool) {
 /// # Errors
 /// The machine has no code for it; blocks that may be skipped.
 pub fn end(control: &mut Control) -> Result<()> {
-    if !control.tables.frame_output || control.state.tilted == Some(false) {
+    if !control.may_be_tilted() {
         return Ok(());
     }
     if control.state.may_be_skipped() {

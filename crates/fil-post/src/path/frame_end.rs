@@ -43,8 +43,8 @@ pub(super) fn go_up_to(post: &mut Post, level: f64) -> Result<()> {
     if rise <= 0.0 {
         return Ok(());
     }
-    turned_apart::refuse_level(control)?;
-    let z = z + rapid_lean::way_along(control, angles, rise)?;
+    turned_apart::refuse_level(post)?;
+    let z = z + rapid_lean::way_along(&post.control, angles, rise)?;
     rise_to(post, z)
 }
 
@@ -65,8 +65,7 @@ pub(super) fn go_up_by(post: &mut Post, distance: f64) -> Result<bool> {
 /// Where the rotary axes stand in the frame of a head that leans the tool, degrees.
 fn leaning(post: &Post) -> Option<[f64; 2]> {
     let control = &post.control;
-    let is_in_frame =
-        control.tables.frame_output && control.state.tilted != Some(false) && !control.tip.is_away;
+    let is_in_frame = control.may_be_tilted() && !control.tip.is_away;
     let angles = post.path.rotary.filter(|_| is_in_frame)?;
     frame::leans(control.tables.chain(), angles).then_some(angles)
 }

@@ -26,11 +26,10 @@ pub(super) fn slides_in_frame(control: &Control) -> Option<Point3<f64>> {
 
 /// Z of the machine, mm or inch; `None` where it is not known.
 pub(super) fn machine_height(control: &Control) -> Option<f64> {
-    let tables = &control.tables;
-    if tables.tip_output && control.state.tip_control != Some(false) {
+    if control.may_name_tip() {
         return tip_control::machine_height(control);
     }
-    if tables.frame_output && control.state.tilted != Some(false) {
+    if control.may_be_tilted() {
         return slides_in_frame(control).map(|slides| slides.z);
     }
     control.stands(2)
@@ -60,8 +59,7 @@ pub fn is_above(control: &Control, level: f64) -> Result<bool> {
     if let Some(height) = machine_height(control) {
         return Ok(height >= level);
     }
-    let counts_elsewhere = control.tables.tip_output && control.state.tip_control != Some(false)
-        || control.tables.frame_output && control.state.tilted != Some(false);
+    let counts_elsewhere = control.may_name_tip() || control.may_be_tilted();
     if counts_elsewhere && !control.tip.is_away {
         return unknown();
     }

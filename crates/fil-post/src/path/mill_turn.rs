@@ -11,6 +11,7 @@ mod polar;
 
 use fil_diag::Result;
 use fil_machine::axes::{AxisSet, Position};
+use fil_machine::axis_chain::Rotary;
 use fil_machine::commons::{EMPTY, Kind};
 use fil_machine::locations::{self as loc, ControlFamily, MillTurnMode};
 use fil_machine::modes::FeedMode;
@@ -22,7 +23,7 @@ use super::{feed_rules, functions_of_others, rotary, thread};
 use crate::control::Control;
 use crate::control::sinumerik::{reader, transformation};
 use crate::control::word_address::motion::Motion;
-use crate::control::word_address::spindle;
+use crate::control::word_address::{modes, spindle};
 use crate::control::{family, full_turn};
 use crate::control_state::{CALLS, Meaning, Rotation, TOOL_CHANGE, text};
 use crate::errors::PostCode;
@@ -105,7 +106,7 @@ pub fn switch(post: &mut Post, mills: bool) -> Result<()> {
     }
     set_mode(control, mode)?;
     if control.tables.transforms && !mills {
-        polar::plane_of_turning(control)?;
+        modes::plane_of_turning(control)?;
     }
     control.state.rotation = Rotation::Standing;
     // Said again, as its feed depends on what turns now.
@@ -148,7 +149,7 @@ fn leave(post: &mut Post) -> Result<()> {
 /// Refuses a transformation in which C goes wherever X and Y ask it to, while its travel ends.
 fn refuse_travel_of_c(control: &Control, code: PostCode) -> Result<()> {
     let c = control.tables.chain().rotaries[0].as_ref();
-    match c.is_some_and(|c| c.min.is_some() || c.max.is_some() || !c.zones.is_empty()) {
+    match c.is_some_and(Rotary::is_limited) {
         true => code.err("the travel of C is limited, and how far C turns in it is not followed"),
         false => Ok(()),
     }

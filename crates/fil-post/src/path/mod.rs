@@ -316,7 +316,7 @@ fn carry_out_other(post: &mut Post, operation: Operation) -> Result<()> {
             // Tool-tip control ends for who leaves the blocks of OPSKIP out, too.
             post.control.skip_blocks(false)?;
         }
-        tip_control::before(&mut post.control, &operation)?;
+        tip_control::before(post, &operation)?;
     }
     if post.control.tables.frame_output {
         frame_end::go_up(post, &operation)?;

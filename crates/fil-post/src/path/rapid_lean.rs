@@ -25,8 +25,9 @@ const DIGITS: f64 = 2.0;
 /// Positions of a rotary axis nearer than this are one, degrees.
 const SAME: f64 = 1e-6;
 
-/// The least share of Z in a way along the tool that leads up to a level of Z.
-const LEAST_RISE: f64 = 0.1;
+/// The least share of Z in a way along the tool that leads up to a level of Z; a tool with less
+/// lies across Z.
+pub(super) const LEAST_RISE: f64 = 0.1;
 
 const ONLY_Z: &str = "Bring the tool out by RAPID and GOTO before it, and turn it upright there.";
 
@@ -58,10 +59,7 @@ impl Lie {
 
 /// X, Y and Z are positions of the axes: not of the tip, nor those of a tilted frame.
 fn holds_positions(control: &Control) -> bool {
-    let tables = &control.tables;
-    let in_frame = tables.frame_output && control.state.tilted != Some(false);
-    let of_tip = tables.tip_output && control.state.tip_control != Some(false);
-    !(tables.mills() || in_frame || of_tip)
+    !(control.tables.mills() || control.may_be_tilted() || control.may_name_tip())
 }
 
 /// True where a linear axis has no place before its next word, as the tool is away from the part.

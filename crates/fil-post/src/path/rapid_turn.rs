@@ -3,6 +3,7 @@
 
 use fil_machine::axes::{AxisSet, Position};
 use fil_machine::axis_chain::AxisChain;
+use fil_machine::modes::INCH;
 use nalgebra::{Point3, Vector3};
 
 use super::tip::{between, nearest, tip};
@@ -64,8 +65,7 @@ pub(super) fn warn_of_sweep(control: &mut Control, from: &Position, ends: &[Posi
         let tip = tip(chain, here);
         (nearest(line, tip) - tip).norm()
     });
-    let mm = if control.is_metric() { 1.0 } else { 25.4 };
-    let is_far = farthest * mm > LEAST;
+    let is_far = is_far(control, farthest);
     if is_far {
         warn(
             control,
@@ -113,6 +113,11 @@ fn farthest(from: &Position, ends: &[Position], measure: impl Fn(&Position) -> f
     most
 }
 
+/// A way of the tip, mm or inch, that must be told.
+fn is_far(control: &Control, way: f64) -> bool {
+    way * if control.is_metric() { 1.0 } else { INCH } > LEAST
+}
+
 fn warn(control: &mut Control, message: String) {
     let hint =
         || Some("Bring the tool away before its axis changes: GOHOME, RETRCT, or a GOTO.".into());
@@ -145,8 +150,7 @@ fn look(control: &mut Control, from: &Position, ends: &[Position], along: Along)
         Along::EitherEnd => either_end([from, to].map(|at| chain.axis_at([at[3], at[4]]))),
     };
     let deepest = farthest(from, ends, |here| depth_below(chain, line, &axes, here));
-    let mm = if control.is_metric() { 1.0 } else { 25.4 };
-    if deepest * mm > LEAST {
+    if is_far(control, deepest) {
         warn(
             control,
             format!(

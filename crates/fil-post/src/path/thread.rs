@@ -113,15 +113,11 @@ fn refuse_blocks_between(post: &Post) -> Result<()> {
     if post.path.pass_end.is_none_or(|behind| behind == count) {
         return Ok(());
     }
-    let mut diag = PostCode::Thread.diag(
+    PostCode::Thread.err_with(
         "blocks stand between two motions of one pass, in which the tool would wait in its groove",
-    );
-    diag.hint = Some(
         "Put what stands between (STOP, COOLNT, SPINDL, DELAY, a text) before the pass or behind \
-         it, or retract with RAPID before the next pass."
-            .into(),
-    );
-    Err(diag)
+         it, or retract with RAPID before the next pass.",
+    )
 }
 
 /// Refuses what comes between OP/THREAD and its two points.
@@ -364,11 +360,10 @@ fn refuse_through_the_wall(shape: &Shape, from: Point3<f64>) -> Result<()> {
     if shape.is_on_face() || !is_beyond || is_before {
         return Ok(());
     }
-    let mut diag = PostCode::Thread.diag(
+    PostCode::Thread.err_with(
         "the tool stands on the other side of the thread's wall, and would go through the part",
-    );
-    diag.hint = Some("Bring the tool before the part with RAPID and GOTO first.".into());
-    Err(diag)
+        "Bring the tool before the part with RAPID and GOTO first.",
+    )
 }
 
 /// The passes of one start as single motions.

@@ -119,8 +119,7 @@ fn begin(post: &mut Post, axis: Vector3<f64>) -> Result<()> {
     let length_is_called = std::mem::take(&mut control.tip.length_is_called);
     let comes_down = length_is_called && !in_doubt;
     let is_up = comes_down && go_up_in_frame(post)?;
-    let control = &mut post.control;
-    frame::end(control)?;
+    frame::end(&mut post.control)?;
     post.path.frame = None;
     let control = &mut post.control;
     let of_tool = control.tip.offset;
@@ -252,8 +251,7 @@ fn turn_tables_to_zero(post: &mut Post) -> Result<()> {
 /// True where tool-tip control may be on, and the program can't say where the tool stands behind
 /// its end.
 pub(super) fn ends_elsewhere(control: &Control) -> bool {
-    let may_be_on = control.tables.tip_output && control.state.tip_control != Some(false);
-    may_be_on && control.tables.family == ControlFamily::WordAddress
+    control.may_name_tip() && control.tables.family == ControlFamily::WordAddress
 }
 
 /// Ends tool-tip control where it may be on; what goes to a position of the machine next
@@ -262,7 +260,7 @@ pub(super) fn ends_elsewhere(control: &Control) -> bool {
 /// # Errors
 /// The machine has no code for it; as the way up that comes before it.
 pub fn end(control: &mut Control) -> Result<()> {
-    if !control.tables.tip_output || control.state.tip_control == Some(false) {
+    if !control.may_name_tip() {
         return Ok(());
     }
     let goes_up = control.tables.family == ControlFamily::WordAddress && go_up(control)?;
@@ -404,23 +402,24 @@ fn rapid_to(control: &mut Control, position: Position, axes: AxisSet) -> Result<
 ///
 /// # Errors
 /// It does, and the control does not go up along the tool before.
-pub(super) fn refuse_level(control: &mut Control) -> Result<()> {
-    let is_on = control.tables.tip_output && control.state.tip_control != Some(false);
-    if !is_on || machine_frame::is_meant(control) {
+pub(super) fn refuse_level(post: &mut Post) -> Result<()> {
+    let control = &mut post.control;
+    if !control.may_name_tip() || machine_frame::is_meant(control) {
         return Ok(());
     }
     let goes_up = ends_elsewhere(control) && way_up(control)?.is_some();
-    if goes_up { Ok(()) } else { turned_apart::refuse_level(control) }
+    if goes_up { Ok(()) } else { turned_apart::refuse_level(post) }
 }
 
 /// What an operation that is no motion of the path asks of tool-tip control.
 ///
 /// # Errors
 /// Cutter compensation, and functions that controls take in different ways under it.
-pub(super) fn before(control: &mut Control, operation: &Operation) -> Result<()> {
+pub(super) fn before(post: &mut Post, operation: &Operation) -> Result<()> {
     if let Operation::MachinePosition([_, _, Some(_)]) = operation {
-        refuse_level(control)?;
+        refuse_level(post)?;
     }
+    let control = &mut post.control;
     let what = match operation {
         Operation::MachinePosition(_) | Operation::WorkOffset(_) | Operation::End(_) => {
             return end(control);

@@ -94,7 +94,7 @@ fn leave_part(post: &mut Post) -> Result<()> {
         }
         return Ok(());
     }
-    tip_control::refuse_level(&mut post.control)?;
+    tip_control::refuse_level(post)?;
     frame_end::go_up_to(post, level)
 }
 

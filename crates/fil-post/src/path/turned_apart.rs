@@ -15,13 +15,12 @@ use crate::post::Post;
 /// A smaller turn of a rotary axis counts as none, degrees.
 const STILL: f64 = 1e-9;
 
-/// A tool with less of Z lies across it.
-const LEAST_RISE: f64 = 0.1;
-
 /// The tool and the zero with which the machine was turned first.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TurnedWith {
     tool: Option<i64>,
+    /// The tool for which levels of the machine's Z were counted while a head leaned it.
+    tool_of_levels: Option<i64>,
     zero: Option<FunctionCode>,
     /// A head has turned the tool across Z, and so it was said of its length.
     lies_across: bool,
@@ -47,18 +46,16 @@ fn look(post: &mut Post, angles: [f64; 2]) -> Result<()> {
     };
     let by_head = chain.pivot.is_some() && turned(Carries::Head);
     let by_table = turned(Carries::Table);
-    if by_head && !control.commons.read(loc::TOOL_IGNORE_LENGTH) {
-        let tool = control.state.tool;
-        let with = &mut post.path.turned_with;
-        if with.tool.is_some() && tool.is_some() && with.tool != tool {
-            return PostCode::TurnedApart.err_with(
-                "the head leans with a second tool, and rotary.pivot_distance is that to the tip \
-                 of the first",
-                "Post with tool-tip control or in tilted frames, or one program for each tool; \
-                 tool.ignore_length = 1 says that all tools are equally long.",
-            );
-        }
-        with.tool = tool.or(with.tool);
+    if by_head
+        && !control.commons.read(loc::TOOL_IGNORE_LENGTH)
+        && is_another(&mut post.path.turned_with.tool, control.state.tool)
+    {
+        return PostCode::TurnedApart.err_with(
+            "the head leans with a second tool, and rotary.pivot_distance is that to the tip of \
+             the first",
+            "Post with tool-tip control or in tilted frames, or one program for each tool; \
+             tool.ignore_length = 1 says that all tools are equally long.",
+        );
     }
     if by_head && !post.path.turned_with.lies_across {
         look_across(post, angles);
@@ -84,15 +81,15 @@ fn look(post: &mut Post, angles: [f64; 2]) -> Result<()> {
 ///
 /// # Errors
 /// Such a tool.
-pub(super) fn refuse_level(control: &mut Control) -> Result<()> {
+pub(super) fn refuse_level(post: &mut Post) -> Result<()> {
+    let control = &post.control;
     let chain = control.tables.chain();
     let leans = |angles: [f64; 2]| frame::leans(chain, angles);
     let has_pivot = chain.pivot.is_some() && !control.commons.read(loc::TOOL_IGNORE_LENGTH);
     if !has_pivot || !rapid_lean::turned(control).is_some_and(leans) {
         return Ok(());
     }
-    let (tool, first) = (control.state.tool, control.tip.tool_of_levels);
-    if first.is_some() && tool.is_some() && first != tool {
+    if is_another(&mut post.path.turned_with.tool_of_levels, control.state.tool) {
         return PostCode::TurnedApart.err_with(
             "a level of the machine's Z while the head leans a second tool: how far up along the \
              tool it lies is counted with rotary.pivot_distance, that to the tip of the first",
@@ -100,8 +97,14 @@ pub(super) fn refuse_level(control: &mut Control) -> Result<()> {
              tool.ignore_length = 1 says that all tools are equally long.",
         );
     }
-    control.tip.tool_of_levels = tool.or(first);
     Ok(())
+}
+
+/// True for another tool than the first one; one that is not known may be any.
+fn is_another(first: &mut Option<i64>, tool: Option<i64>) -> bool {
+    let is_other = first.is_some() && tool.is_some() && *first != tool;
+    *first = first.or(tool);
+    is_other
 }
 
 /// Warns where a head turns the tool across Z, along which the control counts its length.
@@ -109,7 +112,7 @@ fn look_across(post: &mut Post, angles: [f64; 2]) {
     let control = &mut post.control;
     let tool = tip::tool_in_machine(control.tables.chain(), angles);
     let has_tool = control.state.tool.is_some();
-    if has_tool && tool.z < LEAST_RISE && tool_change::counts_length(control) {
+    if has_tool && tool.z < rapid_lean::LEAST_RISE && tool_change::counts_length(control) {
         tool_change::say_length_lies_across(control);
         post.path.turned_with.lies_across = true;
     }

@@ -8,14 +8,15 @@ use super::{csys, goto};
 use crate::dispatch::POINT;
 use crate::errors::PostCode;
 use crate::items::Items;
-use crate::operation::{Operation, Target};
-use crate::path::{carry_out, thread};
+use crate::operation::Target;
+use crate::path::thread;
 use crate::post::Post;
 
 /// A way with less beside the tool axis than this share of it goes along that.
 const ALONG: f64 = 1e-6;
 
-/// Moves by the increments, or drills a hole there in an active cycle; one number moves along the tool axis.
+/// Moves by the increments, or drills a hole there in an active cycle; one number moves along the
+/// tool axis.
 ///
 /// # Errors
 /// No point came before, or the tool does not stand there; the numbers are neither one nor three.
@@ -41,12 +42,9 @@ pub fn handle(post: &mut Post, items: &mut Items) -> Result<()> {
     };
     items.deny_rest()?;
     let target = Target { point: start + step, axis: post.path.axis, word };
-    if post.path.cycle.is_none() || post.path.rapid.is_some() {
-        return goto::straight(post, target);
-    }
-    if step.cross(&post.path.axis).norm() <= ALONG * step.norm() {
+    if goto::drills(post) && step.cross(&post.path.axis).norm() <= ALONG * step.norm() {
         return PostCode::InCycle
             .err("GODLTA along the tool axis: whether it drills a hole or lifts the tool is open");
     }
-    carry_out(post, Operation::Hole(target))
+    goto::point(post, target)
 }

@@ -30,10 +30,25 @@ pub fn handle(post: &mut Post, target: Target) -> Result<()> {
         warn_of_standing_spindle(post);
         return carry_out(post, Operation::Arc(arc, target));
     }
-    if post.path.cycle.is_some() && post.path.rapid.is_none() {
-        return carry_out(post, Operation::Hole(target));
+    point(post, target)
+}
+
+/// Drills a hole at a point, where a cycle is in force, or goes straight to it.
+///
+/// # Errors
+/// All that the hole or the motion refuses.
+#[inline]
+pub fn point(post: &mut Post, target: Target) -> Result<()> {
+    match drills(post) {
+        true => carry_out(post, Operation::Hole(target)),
+        false => straight(post, target),
     }
-    straight(post, target)
+}
+
+/// The next point is a hole of the cycle in force.
+#[inline]
+pub fn drills(post: &Post) -> bool {
+    post.path.cycle.is_some() && post.path.rapid.is_none()
 }
 
 /// Goes straight to the point: at rapid, at feed, or in a pass of a thread.

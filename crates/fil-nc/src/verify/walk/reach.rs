@@ -8,6 +8,19 @@ use crate::forward::Pose;
 use crate::motion::{Move, Position};
 
 impl<C: Steps> Walk<'_, C> {
+    /// Where the axes stand, X, Y, Z as a motion means them; those it leaves unknown keep
+    /// their last value.
+    pub(in super::super) fn at_as(&self, found: &Move) -> Position {
+        let mut at = self.settings.forward.restated(&self.at, &found.to);
+        if self.at.tilt != found.to.tilt {
+            return at;
+        }
+        for n in (0..3).filter(|n| !found.known[*n]) {
+            at.linear[n] = self.at.linear[n];
+        }
+        at
+    }
+
     /// True when the tool already is where a pose asks it to be.
     pub(in super::super) fn stands_at(&mut self, pose: &Pose) -> bool {
         if self.awaits_offset() {

@@ -130,9 +130,7 @@ pub fn says_feed_mode(control: &mut Control, feed: &Feed) -> Result<bool> {
 /// Refuses G94 and G95 where a surface speed may be in force still, with an S that nobody has read:
 /// they would end it, and the spindle would go on at any speed.
 fn refuse_in_doubt(control: &Control) -> Result<()> {
-    let state = &control.state;
-    let is_open = state.surface_speed.is_none() && state.counted_surface;
-    if !is_open || control.speed.is_some() {
+    if !control.state.surface_speed_is_open() || control.speed.is_some() {
         return Ok(());
     }
     PostCode::Family.err_with(

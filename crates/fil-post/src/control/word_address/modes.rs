@@ -100,6 +100,16 @@ pub fn leave_plane_of_hole(control: &mut Control) -> Result<()> {
     if !control.state.in_plane_of_hole || control.state.in_cycle != Some(false) {
         return Ok(());
     }
+    plane_of_turning(control)
+}
+
+/// Takes a SINUMERIK back to the plane that its program begins in: the plane says along which axes
+/// the lengths of a tool count (Siemens, Programming Manual Fundamentals), so that no tool may be
+/// left in that of a transformation or a cycle.
+///
+/// # Errors
+/// As [`plane_of_its_own`].
+pub fn plane_of_turning(control: &mut Control) -> Result<()> {
     plane_of_its_own(control, compensation::usual_plane(control))
 }
 

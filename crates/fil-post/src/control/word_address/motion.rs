@@ -223,7 +223,7 @@ pub fn ready(control: &mut Control) -> Result<()> {
 /// # Errors
 /// As [`ready`].
 pub fn ready_for_hole(control: &mut Control, in_cycle: bool) -> Result<()> {
-    // The cycle says its plane itself, and so do the motions of one that is none of the control.
+    // A cycle says its plane itself; a hole of single moves needs none.
     let of_hole = std::mem::take(&mut control.state.in_plane_of_hole);
     let stays = in_cycle && control.state.in_cycle == Some(true);
     if stays {

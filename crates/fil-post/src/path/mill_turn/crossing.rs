@@ -6,13 +6,14 @@ use fil_machine::axes::AxisSet;
 use fil_machine::axis_chain::AxisChain;
 use nalgebra::Vector2;
 
+use super::polar;
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family;
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control_state::Place;
 
-/// Ways this much nearer to the axis of the spindle are none, mm or inch.
+/// A way that comes nearer to the axis of the spindle by less than this does not pass it, mm or inch.
 const NEARER: f64 = 1e-3;
 
 /// Makes the motion: in one block, as Z does not say which way is away from the part, or in three
@@ -57,9 +58,7 @@ fn crosses(control: &Control, motion: &Motion) -> Option<[Vector2<f64>; 2]> {
     let center = center(control.tables.chain());
     let from = Vector2::new(x, y) - center;
     let to = Vector2::new(motion.position[0], motion.position[1]) - center;
-    let way = to - from;
-    let share = (-from.dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    let nearest = (from + way * share).norm();
+    let nearest = polar::nearest(from.into(), to.into());
     (nearest < from.norm().min(to.norm()) - NEARER).then_some([from, to])
 }
 

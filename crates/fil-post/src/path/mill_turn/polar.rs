@@ -15,8 +15,8 @@ use nalgebra::{Point2, Point3, Rotation3, Unit};
 
 use crate::control::family;
 use crate::control::sinumerik::transformation;
+use crate::control::word_address::modes;
 use crate::control::word_address::motion::Motion;
-use crate::control::word_address::{compensation, modes};
 use crate::control::{Control, Function};
 use crate::control_state::Place;
 use crate::errors::PostCode;
@@ -66,14 +66,6 @@ fn say_end(control: &mut Control) -> Result<()> {
     };
     control.g_of_record(code);
     control.write_block()
-}
-
-/// Takes a SINUMERIK back to the plane that its program begins in: the plane says along which axes
-/// the lengths of a tool count (Siemens, Programming Manual Fundamentals), so that no tool may be
-/// left in that of a transformation.
-pub(super) fn plane_of_turning(control: &mut Control) -> Result<()> {
-    let plane = compensation::usual_plane(control);
-    modes::plane_of_its_own(control, plane)
 }
 
 /// A function by a setting in tenths.
@@ -287,7 +279,7 @@ fn passes(nearest: f64) -> Result<()> {
 }
 
 /// Nearest that a line comes to the axis.
-fn nearest(from: Point2<f64>, to: Point2<f64>) -> f64 {
+pub(super) fn nearest(from: Point2<f64>, to: Point2<f64>) -> f64 {
     let way = to - from;
     let along = if way.norm_squared() > 0.0 {
         (-from.coords.dot(&way) / way.norm_squared()).clamp(0.0, 1.0)
@@ -320,7 +312,7 @@ pub(super) fn end(post: &mut Post) -> Result<()> {
         control.state.trust(control.tables.axis(2).letter);
     }
     match control.tables.transforms {
-        true => plane_of_turning(control)?,
+        true => modes::plane_of_turning(control)?,
         false => control.state.plane = None,
     }
     let here = post.path.point.map(|point| Target { point, axis: post.path.axis, word: 0 });
