@@ -40,6 +40,7 @@ mod verify_idle;
 mod verify_lathes;
 mod verify_modes;
 mod verify_rotary;
+mod verify_threads;
 mod verify_ways;
 mod wasm;
 mod windows;

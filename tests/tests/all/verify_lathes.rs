@@ -58,78 +58,6 @@ fn a_nose_compensated_in_another_plane_is_found() {
     }
 }
 
-/// What the first block of G76 leaves out a parameter of the control says.
-#[test]
-fn a_word_left_out_of_the_first_block_of_g76_is_found() {
-    let cl = "LOADTL / 1; SPINDL / RPM, 500, CLW; RAPID; GOTO / 25, 0, 4; \
-              THREAD / AUTO, 20, 0, 4, TO, 20, 0, -16, MMPR, 2, DEEP, 0.4, LAST, 1, TYPE, 0, 1, 60, \
-              FEDTO, 2, OUT";
-    let nc = "%; O0001; G21 G99 G18; T0101; G97 S500 M3; G0 X50. Z4.; X44.; G76 P010060 Q50 R0; \
-              G76 X38. Z-16. P1000 Q400 F2.; M30; %";
-    assert_eq!(found("fanuc-lathe", &[], cl, nc), "");
-    for word in [" P010060", " Q50", " R0"] {
-        let said = found("fanuc-lathe", &[], cl, &nc.replacen(word, "", 1));
-        let left = format!("{} of the first block is left to a parameter", &word[1..2]);
-        assert!(said.contains(&left), "{word}: {said}");
-    }
-}
-
-/// The passes of a thread meet at one speed and direction alone, whatever the CL file says.
-#[test]
-fn passes_at_two_speeds_are_found() {
-    let pass =
-        "GOTO / 20, 0, 4; GOTO / 20, 0, -16; RAPID; GOTO / 25, 0, -16; RAPID; GOTO / 25, 0, 4";
-    let second = pass.replace("20,", "19,");
-    let cl = |between: &str| {
-        format!(
-            "LOADTL / 1; SPINDL / RPM, 500, CLW; RAPID; GOTO / 25, 0, 4; THREAD / MMPR, 2; RAPID; \
-             {pass}; {between}RAPID; {second}"
-        )
-    };
-    let nc = |between: &str| {
-        format!(
-            "%; O0001; G21 G99 G18; T0101; G97 S500 M3; G0 X50. Z4.; X40.; G32 Z-16. F2.; G0 X50.; \
-             Z4.; {between}X38.; G32 Z-16. F2.; G0 X50.; Z4.; M30; %"
-        )
-    };
-    let said = "turns otherwise than in the passes of the thread before";
-    assert_eq!(found("fanuc-lathe", &[], &cl(""), &nc("")), "");
-    let other = found("fanuc-lathe", &[], &cl("SPINDL / RPM, 300, CLW; "), &nc("S300; "));
-    assert!(other.contains(said), "{other}");
-    let other = found("fanuc-lathe", &[], &cl("SPINDL / RPM, 500, CCLW; "), &nc("M4; "));
-    assert!(other.contains(said), "{other}");
-    // Another THREAD is another thread.
-    let fresh = cl("SPINDL / RPM, 300, CLW; THREAD / MMPR, 2; ");
-    assert_eq!(found("fanuc-lathe", &[], &fresh, &nc("S300; ")), "");
-}
-
-/// Where an M code switches the way out of threads, a cycle depends on the last one.
-#[test]
-fn a_way_out_that_no_code_says_is_found() {
-    let cl = "LOADTL / 1; SPINDL / RPM, 500, CLW; RAPID; GOTO / 25, 0, 4; \
-              THREAD / AUTO, 20, 0, 4, TO, 20, 0, -16, MMPR, 2, DEEP, 0.4, LAST, 1, TYPE, 0, 1, 60, \
-              FEDTO, 2, OUT";
-    let nc = "%; O0001; G21 G99 G18; T101; G97 S500 M3; G0 X50. Z4.; X44.; M23; \
-              G76 X38. Z-16. K1. D0.4 A60. F2.; M30; %";
-    let codes = ["thread.chamfer_on_code=23", "thread.chamfer_off_code=24"];
-    let with = |more: &[&'static str]| [&codes[..], more].concat();
-    let leaving = with(&["thread.chamfer_tenths=10", "thread.chamfer=1"]);
-    assert_eq!(found("haas-lathe", &leaving, cl, nc), "");
-    assert_eq!(found("haas-lathe", &codes, cl, &nc.replace("M23", "M24")), "");
-    for (settings, nc) in [
-        (&leaving, nc.replace("M23; ", "")),
-        (&leaving, nc.replace("M23", "M24")),
-        (&with(&[]), nc.to_string()),
-        (&with(&["thread.chamfer_tenths=10"]), nc.to_string()),
-        (&with(&["thread.chamfer_tenths=5", "thread.chamfer=1"]), nc.to_string()),
-    ] {
-        assert_ne!(found("haas-lathe", settings, cl, &nc), "", "{settings:?}: {nc}");
-    }
-    // Nobody but a thread asks for such a code, and it may stand anywhere.
-    let twice = nc.replace("M23", "M24; M23");
-    assert_eq!(found("haas-lathe", &leaving, cl, &twice), "");
-}
-
 /// A tap of a live tool in step with its spindle.
 #[test]
 fn a_changed_rigid_tap_of_a_live_tool_is_found() {
@@ -286,57 +214,6 @@ fn each_is_found(check: &dyn Fn(&str) -> String, nc: &str, changes: &[(&str, &st
 }
 
 /// On a SINUMERIK the lead is the word of the axis that goes the longer way, on a taper of 45 degrees
-/// that of either.
-#[test]
-fn the_letter_of_a_lead_on_a_taper() {
-    let cl = |x: &str| {
-        format!(
-            "LOADTL / 1; SPINDL / RPM, 500, CLW; RAPID; GOTO / 45, 0, 5; THREAD / MMPR, 1.5; RAPID; \
-             GOTO / 19.5755, 0, 2; GOTO / {x}, 0, -8; RAPID; GOTO / 45, 0, -8"
-        )
-    };
-    let nc = |end: &str| {
-        format!(
-            "%_N_MPF1_MPF; G710 G90 G95 G18; DIAMON; T1; D1; G97 S500 M3; G0 X90 Z5; X39.151 Z2; \
-             G33 {end}; G0 X90; M30"
-        )
-    };
-    let check = |x: &str, end: &str| found("sinumerik-lathe", &[], &cl(x), &nc(end));
-    for letter in ["I", "K"] {
-        assert_eq!(check("29.5755", &format!("X59.151 Z-8 {letter}1.5")), "", "{letter}");
-    }
-    for (x, end, wrong) in [
-        ("29.576", "X59.152 Z-8 I1.5", "X59.152 Z-8 K1.5"),
-        ("29.575", "X59.15 Z-8 K1.5", "X59.15 Z-8 I1.5"),
-    ] {
-        assert_eq!(check(x, end), "", "{end}");
-        assert!(check(x, wrong).contains("needs its lead"), "{wrong}");
-    }
-    assert!(check("29.5755", "X59.151 Z-8 I1.5 K1.5").contains("needs its lead"));
-}
-
-/// On an OSP the lead is F by the number of threads in it, which acts in its block.
-#[test]
-fn a_number_of_threads_divides_the_lead() {
-    let cl = "LOADTL / 1; SPINDL / RPM, 500, CLW; RAPID; GOTO / 25, 0, 2; \
-              THREAD / AUTO, 20, 0, 2, TO, 20, 0, -16, TPI, 36, DEEP, 0.4, LAST, 0, TYPE, 0, 0.5, 0, \
-              FEDTO, 2, OUT";
-    let nc = "G95 G18; T010101; G97 S500 M3; G0 X50. Z2.; X44.; G33 X39.2 Z-16. F6.35 J9; \
-              G33 X39. Z-16. F6.35 J9; M2";
-    let check = |nc: &str| found("okuma-lathe", &[], cl, nc);
-    assert_eq!(check(nc), "");
-    for (old, new, said) in [
-        ("J9", "J8", "lead"),
-        (" J9", "", "lead"),
-        ("F6.35 J9; M2", "F6.35; M2", "lead"),
-        ("F6.35 J9; M2", "J9; M2", "lead"),
-        ("J9", "J0", "divides no F"),
-    ] {
-        let wrong = check(&nc.replacen(old, new, 1));
-        assert!(wrong.contains(said), "{new}: {wrong}");
-    }
-}
-
 /// The plane says along which axes a SINUMERIK lathe counts the lengths of a tool.
 #[test]
 fn a_lathe_that_turns_in_another_plane_is_found() {

@@ -48,6 +48,7 @@ mod settings;
 mod sift;
 mod statements;
 mod thread;
+mod thread_gauge;
 mod thread_turns;
 mod tip_end;
 mod tools;
@@ -123,6 +124,7 @@ pub fn verify(check: Check<'_>) -> Result<Report, Box<Diag>> {
     let path = ClPath::new(check.cl, check.cl_name, settings.input_shift());
     let path = path.on_machine(settings.shift_along(), settings.matrix_leaves_axis());
     let path = path.with_frame_words(settings.frame_words());
+    let path = path.clear_of_threads_by(settings.thread_clearance());
     let path = path.naming_tools(settings.dialect.names_tools);
     let path = path.in_unit(check.unit).leaving_out(check.skips_blocks);
     let nc = (check.nc, check.nc_name);

@@ -333,6 +333,11 @@ impl Expected {
     pub(super) fn change_tool(&mut self, tool: u32, offset: u32, settings: &Settings) {
         self.flush();
         self.again = Again::default();
+        self.tool_moves(tool, offset, settings);
+    }
+
+    /// The tool that moves from here on, whether it has been changed or that was left out.
+    pub(super) fn tool_moves(&mut self, tool: u32, offset: u32, settings: &Settings) {
         self.tool = settings.calls_tools().then_some(tool);
         self.loaded = Some(tool);
         self.loaded_offset = Some(offset);

@@ -4,138 +4,17 @@
 //! as the first pass and the number of passes lay down; each start reaches the root; rapid traverse
 //! goes along clear of the crest only, and back to where the thread begins.
 
-use fil_machine::modes::INCH;
-use nalgebra::Point3;
-
 use super::ahead::Steps;
 use super::report::FindingKind;
 use super::say::short;
+use super::thread_gauge::{Found, Gauge, Pass, ROUNDED};
 use super::walk::Walk;
 use super::wanted::WholeThread;
-use crate::motion::{Course, Event, Move, Position, Rate};
-
-/// Most passes of one thread.
-const MOST_PASSES: usize = 10_000;
+use crate::motion::{Course, Event, Move, Rate};
+use fil_machine::modes::INCH;
 
 /// Most rapids from one pass to the next.
 const BETWEEN_PASSES: usize = 8;
-
-/// What rounding may change of a first depth or a taper, last digits: a half, and a little.
-const ROUNDED: f64 = 0.6;
-
-type Found<T> = Result<T, (u32, String)>;
-
-/// A pass: the start it belongs to and its depth.
-struct Pass {
-    start: u32,
-    /// X and Z where it begins and ends.
-    from: [f64; 2],
-    to: [f64; 2],
-    depth: f64,
-    line: u32,
-    in_cycle: bool,
-}
-
-/// A thread with what is measured along and across it.
-struct Gauge<'t> {
-    thread: &'t WholeThread,
-    /// 0 or 2: the axis it runs along.
-    axis: usize,
-    /// Its direction along that axis.
-    towards: f64,
-    length: f64,
-    slope: f64,
-    /// Way before the end on which a pass leaves the thread at 45 degrees, mm.
-    leaves: f64,
-    /// Height above the begin of the crest at which the tool goes back, mm.
-    clear: f64,
-    /// What the last digits of both axes may do, generously, mm.
-    slack: f64,
-    /// What the last digit may do across and along the thread, mm.
-    digits: [f64; 2],
-    /// The smallest step of the control, mm.
-    step: f64,
-}
-
-impl Gauge<'_> {
-    /// Way along the thread from the begin of the crest, mm.
-    fn along(&self, at: &Position) -> f64 {
-        (at.linear[self.axis] - self.thread.crest[0][self.axis]) * self.towards
-    }
-
-    /// Depth below the crest, or its prolongation, mm.
-    fn depth(&self, at: &Position) -> f64 {
-        let [begin, end] = self.thread.crest;
-        let share = self.along(at) / self.length;
-        let crest = begin + (end - begin) * share;
-        -(Point3::from(at.linear) - crest).dot(&self.thread.out)
-    }
-
-    /// The tool stands at the level at which it goes back.
-    fn is_clear(&self, at: &Position) -> bool {
-        let height = (Point3::from(at.linear) - self.thread.crest[0]).dot(&self.thread.out);
-        (height - self.clear).abs() <= self.digits[0]
-    }
-
-    /// The tool stands where a start begins, clear of it.
-    fn is_at_a_start(&self, at: &Position) -> bool {
-        let pitch = self.thread.lead / f64::from(self.thread.starts);
-        let early = -self.along(at) / pitch;
-        let is_start = (0.0..f64::from(self.thread.starts)).contains(&(early.round() + 0.0));
-        self.is_clear(at) && is_start && (early - early.round()).abs() * pitch <= self.digits[1]
-    }
-
-    /// Refuses a pass that does not lie where its depth wants it.
-    fn lies_at(&self, pass: &Pass, depth: f64, divided: bool) -> Found<()> {
-        let WholeThread { crest: [begin, end], out, lead, starts, first, .. } = *self.thread;
-        let along = depth * self.slope - lead / f64::from(starts) * f64::from(pass.start);
-        let from = begin + (end - begin) * (along / self.length) - out * depth;
-        let to = end - out * depth - (end - begin) * (self.leaves / self.length);
-        let at_root = depth >= self.thread.depth - 1e-9;
-        // A cycle says its taper, and one of all passes their depths, by words of their own,
-        // and each is rounded.
-        let rounded = ROUNDED * self.step;
-        let of_words = if divided { rounded * (1.0 + depth / first) } else { 0.0 };
-        let of_taper = if pass.in_cycle { rounded } else { 0.0 };
-        let [across, lengthwise] = self.digits;
-        let near = |found: [f64; 2], wanted: Point3<f64>, more: [f64; 2]| {
-            let off = [found[0] - wanted.x, found[1] - wanted.z];
-            let [of_axis, of_depth] = if self.axis == 2 { [off[1], off[0]] } else { off };
-            of_depth.abs() <= across + more[0] && of_axis.abs() <= lengthwise + more[1]
-        };
-        let lag = if divided && !at_root { self.thread.depth * self.slope } else { 0.0 };
-        let begins = near(pass.from, from, [of_words + of_taper, of_words * self.slope]);
-        // Where it begins to leave the thread it lies on the taper.
-        let of_corner = if self.leaves > 0.0 { of_taper } else { 0.0 };
-        let ends = near(pass.to, to, [if at_root { 0.0 } else { of_words } + of_corner, lag]);
-        if begins && ends {
-            return Ok(());
-        }
-        let ([x, z], wanted) = if begins { (pass.to, to) } else { (pass.from, from) };
-        let what = if begins { "ends" } else { "begins" };
-        let [x, z, wx, wz] = [x, z, wanted.x, wanted.z].map(short);
-        Err((pass.line, format!("a pass {what} at X{x} Z{z}, it should be at X{wx} Z{wz}")))
-    }
-
-    /// Depth of each pass to the root, by the law that is laid down.
-    fn rough(&self, least: f64) -> Vec<f64> {
-        let WholeThread { depth, first, passes, .. } = *self.thread;
-        if let Some(passes) = passes {
-            let share = |pass: u32| (f64::from(pass) / f64::from(passes)).sqrt();
-            return (1..=passes).map(|pass| depth * share(pass)).collect();
-        }
-        let mut depths: Vec<f64> = Vec::new();
-        let mut reached = 0.0;
-        // A pass so near the root, in the unit of the program, is the one at the root.
-        let nothing = if self.step > 1e-3 { 1e-6 * INCH } else { 1e-6 };
-        while reached < depth - nothing && depths.len() < MOST_PASSES {
-            let next = first * ((depths.len() + 1) as f64).sqrt();
-            reached = next.max(reached + least).min(depth);
-            depths.push(reached);
-        }
-        depths
-    }
-}
 
 impl<C: Steps> Walk<'_, C> {
     /// Takes the events that cut a thread.
@@ -158,7 +37,7 @@ impl<C: Steps> Walk<'_, C> {
 
     fn cut(&mut self, cl_line: u32, thread: &WholeThread) -> Found<()> {
         let way = thread.crest[1] - thread.crest[0];
-        let axis = if thread.out.z.abs() > 0.5 { 0 } else { 2 };
+        let axis = thread.axis();
         let clearance = thread.clearance.unwrap_or_else(|| self.settings.thread_clearance());
         // The crest goes on to where the last start begins, and may be highest there.
         let before = thread.lead * (1.0 - 1.0 / f64::from(thread.starts)) / way[axis].abs();
@@ -275,6 +154,7 @@ impl<C: Steps> Walk<'_, C> {
         }
         self.report.position.add(lacks.min(0.0).abs(), found.line);
         self.check_turns_of_pass(cl_line, found);
+        self.check_joins(cl_line, found);
         self.take(cl_line, found);
         self.next += 1;
         Ok(Pass {
@@ -305,6 +185,7 @@ impl<C: Steps> Walk<'_, C> {
         let Some(found) = leaves else {
             return Err((line, "the pass does not leave the thread at 45 degrees".to_string()));
         };
+        self.check_joins(cl_line, &found);
         self.take(cl_line, &found);
         self.next += 1;
         Ok(())
@@ -326,6 +207,9 @@ impl<C: Steps> Walk<'_, C> {
         let wrong = |said: &str, walk: &Self| {
             Err((found.line, format!("{} {said}", walk.spell_move(found))))
         };
+        if is_approach && known && gauge.goes_through_the_wall(&self.at, &found.to) {
+            return wrong("goes through the wall of the part to the side of the thread", self);
+        }
         if along.abs() > gauge.slack && known && (below(from) || below(to)) {
             return wrong("goes along the thread below its crest", self);
         }

@@ -1,10 +1,11 @@
 //! How the spindle turns in the passes of one thread: the tool lags behind it by the speed, so
-//! that passes at two speeds, or two directions, do not meet.
+//! that passes at two speeds, or two directions, do not meet. And what comes between two motions of
+//! one pass: while the tool waits in its groove the part turns on.
 
 use super::ahead::Steps;
 use super::report::FindingKind;
 use super::walk::Walk;
-use crate::motion::{Move, Speed, Spindle};
+use crate::motion::{Course, Move, Speed, Spindle};
 
 /// Speed and direction of the spindle in a pass, and whether it is the second one.
 pub(super) type Turns = (Option<Speed>, Spindle, Option<bool>);
@@ -21,5 +22,21 @@ impl<C: Steps> Walk<'_, C> {
                 .to_string();
             self.find(FindingKind::Speed, Some(cl_line), Some(pass.line), message);
         }
+    }
+
+    /// A motion of a pass that goes on from another one must be of the next block. A pass of a
+    /// cycle begins behind a rapid of its own.
+    pub(super) fn check_joins(&mut self, cl_line: u32, pass: &Move) {
+        if self.is_in_groove && !pass.in_cycle && pass.line > self.line + 1 {
+            let message = "blocks stand between two motions of one pass, in which the tool waits \
+                           in its groove while the part turns on"
+                .to_string();
+            self.find(FindingKind::Thread, Some(cl_line), Some(pass.line), message);
+        }
+    }
+
+    /// Follows whether the tool stands in a groove that it has cut.
+    pub(super) fn follow_groove(&mut self, found: &Move) {
+        self.is_in_groove = found.course == Course::Thread && !found.in_cycle;
     }
 }

@@ -83,6 +83,8 @@ pub(super) struct Walk<'a, C> {
     pub(super) modes: Expected,
     /// How the spindle turned in the passes of the thread so far.
     pub(super) thread_turns: Option<Turns>,
+    /// The last motion was one of a pass.
+    pub(super) is_in_groove: bool,
     pub(super) watch: Watch,
     /// The first and the last line of the program that may hold words of the user's own.
     pub(super) user_lines: [u32; 2],
@@ -159,6 +161,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             line: 0,
             modes: Expected::new(settings),
             thread_turns: None,
+            is_in_groove: false,
             watch,
             user_lines: [u32::MAX, 0],
             repeated_feed: None,
@@ -251,6 +254,10 @@ impl<'a, C: Steps> Walk<'a, C> {
                 self.tool(step.line, *number, self.settings.tool_offset(*number, *offset));
                 self.cutter = self.cutter.filter(|_| self.cutter_is_fresh);
                 self.tool_is_fresh = true;
+            }
+            Wanted::ToolLeftOut { number, offset } => {
+                let offset = self.settings.tool_offset(*number, *offset);
+                self.modes.tool_moves(*number, offset, self.settings);
             }
             Wanted::Dwell(seconds) => self.dwell(step.line, *seconds, None),
             Wanted::DwellTurns(turns) => {
@@ -370,6 +377,7 @@ impl<'a, C: Steps> Walk<'a, C> {
             Wanted::Thread(pose, lead) => {
                 if let Some(pass) = self.next_move().filter(|pass| pass.course == Course::Thread) {
                     self.check_turns_of_pass(step.line, &pass);
+                    self.check_joins(step.line, &pass);
                 }
                 self.line(step.line, pose, Course::Thread, Some(*lead))
             }
@@ -441,6 +449,7 @@ impl<'a, C: Steps> Walk<'a, C> {
         self.was_compensated = found.modes.compensation != Compensation::Off;
         self.check_limits(cl_line, found);
         self.leaves_or_comes(found);
+        self.follow_groove(found);
         self.follow_height(found, cuts);
         (self.is_up, self.rapid_end) = (false, None);
         self.line = found.line;

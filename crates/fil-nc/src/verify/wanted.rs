@@ -79,6 +79,14 @@ pub enum Wanted {
         /// Number of its length offset, where the record gives one.
         offset: Option<u32>,
     },
+    /// A change to a tool that was left out with the blocks that may be skipped: what moves behind
+    /// them needs that tool all the same.
+    ToolLeftOut {
+        /// Its number.
+        number: u32,
+        /// Number of its length offset, where the record gives one.
+        offset: Option<u32>,
+    },
     /// The spindle stands or turns; `None` for the direction the machine turns by itself.
     Spindle(Option<Spindle>),
     /// The spindle turns as a record before has said it.
@@ -265,6 +273,13 @@ pub struct WholeThread {
     pub angle: f64,
 }
 
+impl WholeThread {
+    /// Index of the axis that it runs along: X on a face, else Z.
+    pub(super) fn axis(&self) -> usize {
+        if self.out.z.abs() > 0.5 { 0 } else { 2 }
+    }
+}
+
 /// A hole along the tool axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hole {
@@ -293,6 +308,15 @@ impl Wanted {
     pub(super) fn mark_as_skipped(&mut self) {
         if let Wanted::Insert { may_be_skipped, .. } = self {
             *may_be_skipped = true;
+        }
+    }
+
+    /// What is left of a step that is left out: what holds on behind it.
+    pub(super) fn left_out(self) -> Option<Wanted> {
+        match self {
+            Wanted::Tool { number, offset } => Some(Wanted::ToolLeftOut { number, offset }),
+            done if done.is_done_once() => None,
+            holds_on => Some(holds_on),
         }
     }
 

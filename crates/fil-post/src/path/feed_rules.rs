@@ -310,14 +310,17 @@ fn at_the_edge(post: &mut Post, feed: Feed, arc: &PlaneArc) -> Feed {
 }
 
 /// The feed of a rapid motion that is too short for one (DBLCOM 425, 426); `None` for a
-/// rapid motion.
+/// rapid motion, as are those between the passes of a whole thread: at feed the tool would widen
+/// the groove that it leaves.
 #[inline]
 pub fn of_short_rapid(post: &Post, motion: &Motion, target: Target) -> Option<Feed> {
     let commons = &post.control.commons;
     let short = commons.dbl_opt(loc::RAPID_SHORT_DISTANCE).filter(|short| *short > 0.0)?;
     let value = commons.dbl_opt(loc::RAPID_SHORT_FEED)? * post.control.upm_factor();
-    let turns = post.control.tables.chain().has_rotary();
-    let length = length(post, way(post, motion), AxisSet::ALL, target).filter(|_| !turns)?;
+    if post.path.in_whole_thread || post.control.tables.chain().has_rotary() {
+        return None;
+    }
+    let length = length(post, way(post, motion), AxisSet::ALL, target)?;
     let cause = post.control.block.cause;
     (length < short).then_some(Feed { value, mode: FeedMode::PerMinute, cause })
 }

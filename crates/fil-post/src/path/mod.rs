@@ -133,8 +133,10 @@ pub struct Path {
     pub(crate) pitch: Option<thread::Pitch>,
     /// What the lead of the thread gains in each turn, mm or inch; below zero it loses.
     pub(crate) lead_change: f64,
-    /// Number of blocks behind the last pass, from whose end the next motion of its thread goes on.
-    pub(crate) pass_end: Option<u64>,
+    /// Where the last pass has ended, from where the next motion may go on, and the number of blocks then.
+    pub(crate) pass_end: Option<(Point3<f64>, u64)>,
+    /// A whole thread is being cut: its rapid motions are those of the post.
+    pub(crate) in_whole_thread: bool,
     /// A whole thread that waits for its points, or has them.
     pub(crate) awaited_thread: Option<Box<thread::Awaited>>,
     /// TRANS or TRACUT.
@@ -212,6 +214,7 @@ impl Default for Path {
             turned_with: turned_apart::TurnedWith::default(),
             lead_change: 0.0,
             pass_end: None,
+            in_whole_thread: false,
             awaited_thread: None,
             transformation: None,
             has_origin: false,

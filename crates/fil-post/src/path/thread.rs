@@ -81,7 +81,7 @@ pub fn point(post: &mut Post, target: Target, lead: Lead) -> Result<()> {
         }
         refuse_blocks_between(post)?;
         carry(post, Operation::Linear(target, MotionKind::Thread(lead)))?;
-        post.path.pass_end = Some(post.control.tape.count);
+        post.path.pass_end = Some((target.point, post.control.tape.count));
         return Ok(());
     };
     if awaited.is_cut {
@@ -107,10 +107,11 @@ pub fn point(post: &mut Post, target: Target, lead: Lead) -> Result<()> {
 
 /// Refuses blocks between two motions of one pass: the tool would stand in its groove while the
 /// spindle turns on, and the second motion would begin at another angle of it (a control takes
-/// a threading block that follows another one at once without waiting for its marker).
+/// a threading block that follows another one at once without waiting for its marker). A THREAD
+/// between them that changes the lead is no way out of the groove.
 fn refuse_blocks_between(post: &Post) -> Result<()> {
-    let count = post.control.tape.count;
-    if post.path.pass_end.is_none_or(|behind| behind == count) {
+    let Some((end, count)) = post.path.pass_end else { return Ok(()) };
+    if count == post.control.tape.count || stands_at(post) != Some(end) {
         return Ok(());
     }
     PostCode::Thread.err_with(
@@ -149,7 +150,6 @@ pub fn end(post: &mut Post) -> Result<()> {
     post.path.thread = None;
     post.path.thread_turns = None;
     post.path.lead_change = 0.0;
-    post.path.pass_end = None;
     post.path.awaited_thread = None;
     Ok(())
 }
@@ -190,8 +190,16 @@ fn clearance_of(awaited: &Awaited, start: Target, side: ThreadSide) -> f64 {
 pub fn carry_out(post: &mut Post, thread: &Thread) -> Result<()> {
     check_machine(post)?;
     let shape = Shape::of(post, thread)?;
+    post.path.in_whole_thread = true;
+    cut(post, thread, &shape)?;
+    post.path.in_whole_thread = false;
+    Ok(())
+}
+
+/// Brings the tool to each start of the thread, cuts it, and brings the tool back.
+fn cut(post: &mut Post, thread: &Thread, shape: &Shape) -> Result<()> {
     let divides = !matches!(
-        cycle_of(post, thread, &shape),
+        cycle_of(post, thread, shape),
         ThreadCycle::SinglePasses | ThreadCycle::CycleOfOnePass
     );
     // A cycle that divides the thread begins clear of its start, a pass where it begins itself.
@@ -199,11 +207,11 @@ pub fn carry_out(post: &mut Post, thread: &Thread) -> Result<()> {
         Some(first) if !divides => shape.above(start, *first),
         _ => shape.shifted(start),
     };
-    approach(post, &shape, begin(0))?;
+    approach(post, shape, begin(0))?;
     for start in 0..thread.starts {
         to(post, begin(start), MotionKind::Rapid(thread.lead.cause))?;
-        if !family::thread_cycle(post, thread, &shape, start)? {
-            passes(post, thread, &shape, start)?;
+        if !family::thread_cycle(post, thread, shape, start)? {
+            passes(post, thread, shape, start)?;
         }
     }
     to(post, shape.shifted(thread.starts - 1), MotionKind::Rapid(thread.lead.cause))

@@ -104,10 +104,7 @@ fn warn_behind_stop(post: &mut Post) {
 #[inline]
 pub fn kind_of_motion(post: &mut Post) -> MotionKind {
     match (post.path.rapid.take(), post.path.thread) {
-        (Some(cause), _) => {
-            post.path.pass_end = None;
-            MotionKind::Rapid(cause)
-        }
+        (Some(cause), _) => MotionKind::Rapid(cause),
         (None, Some(lead)) => MotionKind::Thread(lead),
         (None, None) => MotionKind::Feed,
     }

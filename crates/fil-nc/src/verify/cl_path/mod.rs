@@ -86,6 +86,8 @@ struct State {
     pitch: Option<Rate>,
     /// The last SPINDL spoke of the second spindle.
     counts_side: bool,
+    /// How far from the crest the tool goes back from a thread that does not say it, mm.
+    thread_clearance: f64,
     /// OP/THREAD that waits for the ends of its crest.
     awaited: Option<thread::Awaited>,
     circle: Option<Waiting>,
@@ -138,6 +140,7 @@ impl<'r> ClPath<'r> {
                 thread: None,
                 pitch: None,
                 counts_side: false,
+                thread_clearance: 0.0,
                 awaited: None,
                 circle: None,
                 cycle: None,
@@ -174,6 +177,12 @@ impl<'r> ClPath<'r> {
     pub fn on_machine(mut self, along: [f64; 3], leaves_axis: bool) -> Self {
         self.state.along = Vector3::from(along);
         self.state.leaves_axis = leaves_axis;
+        self
+    }
+
+    /// How far from the crest the tool goes back from a thread that does not say it, mm.
+    pub fn clear_of_threads_by(mut self, clearance: f64) -> Self {
+        self.state.thread_clearance = clearance;
         self
     }
 

@@ -39,9 +39,9 @@ impl Opskip {
             steps.iter_mut().for_each(Wanted::mark_as_skipped);
         }
         if self.leaves_out_now() {
-            let count = steps.len();
-            steps.retain(|what| !what.is_done_once());
-            if steps.len() < count && !std::mem::replace(&mut self.is_told, true) {
+            let leaves_out = steps.iter().any(Wanted::is_done_once);
+            steps = steps.into_iter().filter_map(Wanted::left_out).collect();
+            if leaves_out && !std::mem::replace(&mut self.is_told, true) {
                 steps.push(Wanted::LeftOut);
             }
             self.unfollowed = true;

@@ -142,8 +142,7 @@ impl State {
             clearance: record.number_after(w::FEDTO),
             angle,
         };
-        // Where the tool stands afterwards is the machine's business.
-        self.point = None;
+        self.point = self.stands_behind(&thread);
         Some(self.on_machine(&thread))
     }
 
@@ -181,8 +180,26 @@ impl State {
             clearance: Some((from - begin).dot(&out).abs()),
             angle: 0.0,
         };
-        self.point = None;
+        self.point = self.stands_behind(&thread);
         Some(Wanted::WholeThread(Box::new(self.on_machine(&thread))))
+    }
+
+    /// Where the tool stands behind a whole thread, its lengths in CL units: clear of the crest,
+    /// where its last start begins. `None` for a crest without length.
+    fn stands_behind(&self, thread: &WholeThread) -> Option<Point3<f64>> {
+        let [begin, end] = thread.crest;
+        let way = end - begin;
+        let axis = thread.axis();
+        if way[axis] == 0.0 {
+            return None;
+        }
+        let away = thread.lead / self.unit() * (1.0 - 1.0 / f64::from(thread.starts));
+        let rise = way.dot(&thread.out);
+        let rises = rise.max(-rise * away / way[axis].abs()).max(0.0);
+        let clearance = thread.clearance.unwrap_or(self.thread_clearance / self.unit());
+        let mut at = begin + thread.out * (clearance + rises);
+        at[axis] -= way[axis].signum() * away;
+        Some(at)
     }
 
     /// The thread as TRANS places it, in mm; its lead is in mm already.
