@@ -232,16 +232,6 @@ impl AxisChain {
         (0..2).all(|n| self.rotaries[n].as_ref().is_none_or(|rotary| rotary.goes(from[n], to[n])))
     }
 
-    /// The tool axis in the part where the rotary axes stand at these positions, degrees.
-    pub fn axis_at(&self, angles: [f64; 2]) -> Vector3<f64> {
-        self.rotaries.iter().zip(angles).rev().fold(self.tool.into_inner(), |tool, (rotary, at)| {
-            match rotary {
-                Some(rotary) => rotary.turned(tool, at),
-                None => tool,
-            }
-        })
-    }
-
     /// As [`AxisChain::solve`] on a machine whose rotary axes have no limits; `None` where
     /// no position brings the tool along `axis`.
     #[inline(never)]
@@ -525,6 +515,7 @@ fn outside(solutions: &[[f64; 2]]) -> Box<Diag> {
         .diag(format!("rotary positions {} lie outside the limits", angles.join(" and ")))
 }
 
+mod directions;
 mod rotary_axis;
 #[cfg(test)]
 mod tests;

@@ -4,7 +4,6 @@ use fil_diag::Result;
 use fil_machine::modes::Plane;
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use super::tip::tool_in_machine;
 use super::{Transformation, rapid_lean};
 use crate::errors::PostCode;
 use crate::post::Post;
@@ -83,7 +82,7 @@ pub fn refuse_across_tool(post: &Post, plane: Plane, is_named: bool) -> Result<(
     } else {
         let at = |point| chain.linear(point, angles);
         let seen = at(Point3::origin() + normal) - at(Point3::origin());
-        (tool_in_machine(chain, angles), seen)
+        (chain.tool_at(angles), seen)
     };
     let cuts = tool.dot(&normal) > SAME_WAY || is_named && tool.z > SAME_WAY;
     if cuts && (!is_named || seen.dot(&normal) > SAME_WAY) {

@@ -13,7 +13,6 @@ use fil_machine::commons::EMPTY;
 use fil_machine::locations as loc;
 use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::tip::tool_in_machine;
 use super::{height, machine_position, rotary, tip_control};
 use crate::control::word_address::motion::{Motion, RapidCode};
 use crate::control::{Control, Function, family, full_turn};
@@ -297,7 +296,7 @@ fn still(from: [f64; 2], to: [f64; 2]) -> bool {
 
 /// A head holds the tool away from the machine's Z.
 pub(super) fn leans(chain: &AxisChain, angles: [f64; 2]) -> bool {
-    (tool_in_machine(chain, angles) - chain.tool.into_inner()).norm() > SAME_AXIS
+    (chain.tool_at(angles) - chain.tool.into_inner()).norm() > SAME_AXIS
 }
 
 /// The control has the rotary axes at these angles, to their last digits.

@@ -7,7 +7,7 @@ use fil_machine::axis_chain::AxisChain;
 use nalgebra::Vector3;
 
 use super::rapid_turn;
-use super::tip::{head, tip, tool_in_machine};
+use super::tip::{head, tip};
 use crate::cause::Cause;
 use crate::control::Control;
 use crate::control::family;
@@ -52,7 +52,7 @@ impl Lie {
             return UPRIGHT;
         }
         let Some([from, to]) = angles(control, motion) else { return UPRIGHT };
-        let [from, to] = [from, to].map(|at| along(tool_in_machine(chain, at)));
+        let [from, to] = [from, to].map(|at| along(chain.tool_at(at)));
         if from == to { from } else { Lie::Leaning }
     }
 }
@@ -111,7 +111,7 @@ pub(super) fn turned(control: &Control) -> Option<[f64; 2]> {
 /// # Errors
 /// The tool lies across Z.
 pub(super) fn way_along(control: &Control, angles: [f64; 2], rise: f64) -> Result<f64> {
-    let share = tool_in_machine(control.tables.chain(), angles).z;
+    let share = control.tables.chain().tool_at(angles).z;
     if share < LEAST_RISE {
         return PostCode::Leaning.err_with(
             "a motion up along Z to a position of the machine, and the tool lies across it",
@@ -125,7 +125,7 @@ pub(super) fn way_along(control: &Control, angles: [f64; 2], rise: f64) -> Resul
 /// leads, while a head leans the tool.
 pub(super) fn warn_straight_up(control: &mut Control) {
     let chain = control.tables.chain();
-    let leans = |at: [f64; 2]| tool_in_machine(chain, at).z < 1.0 - PARALLEL;
+    let leans = |at: [f64; 2]| chain.tool_at(at).z < 1.0 - PARALLEL;
     if chain.has_heads() && turned(control).is_some_and(leans) {
         let message = "Z goes straight up in the frame of the machine, and a head leans the tool";
         control.warnings.add(PostCode::StraightUp, message.to_string());
@@ -213,7 +213,7 @@ pub(super) fn stops(control: &Control, from: &Position, to: &Position) -> Vec<Po
 
 /// Positions of the axes so far above others, along the tool.
 fn above(chain: &AxisChain, at: &Position, by: f64) -> Position {
-    let tool = tool_in_machine(chain, [at[3], at[4]]);
+    let tool = chain.tool_at([at[3], at[4]]);
     let mut position = *at;
     for number in 0..3 {
         position[number] += tool[number] * by;
@@ -251,7 +251,7 @@ fn leaning_behind_a_zero(control: &Control) -> Option<usize> {
     };
     let rotary = AxisSet::ROTARY.and(control.tables.present());
     let shifted = rotary.numbers().filter(is_shifted).last()?;
-    let tool = tool_in_machine(chain, turned(control)?);
+    let tool = chain.tool_at(turned(control)?);
     (tool.z < 1.0 - PARALLEL).then_some(shifted)
 }
 

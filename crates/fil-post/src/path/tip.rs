@@ -38,14 +38,6 @@ pub(super) fn tip_beside(chain: &AxisChain, at: &Position, turns: [Turn; 2]) -> 
     point
 }
 
-/// The direction of the tool in the machine, away from its tip: heads turn it, tables don't.
-pub(super) fn tool_in_machine(chain: &AxisChain, angles: [f64; 2]) -> Vector3<f64> {
-    [1, 0].into_iter().fold(chain.tool.into_inner(), |tool, n| match head(chain, n) {
-        Some(axis) => axis.turned(tool, angles[n]),
-        None => tool,
-    })
-}
-
 /// The largest distance of the tip from a line while the axes go evenly from one
 /// position to another, at most this much; exact enough to compare with `enough`. `ends`:
 /// the larger distance at those two positions.

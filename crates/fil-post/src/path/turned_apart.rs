@@ -7,7 +7,7 @@ use fil_machine::FunctionCode;
 use fil_machine::axis_chain::Carries;
 use fil_machine::locations as loc;
 
-use super::{frame, rapid_lean, tip, tool_change};
+use super::{frame, rapid_lean, tool_change};
 use crate::control::Control;
 use crate::errors::PostCode;
 use crate::post::Post;
@@ -110,7 +110,7 @@ fn is_another(first: &mut Option<i64>, tool: Option<i64>) -> bool {
 /// Warns where a head turns the tool across Z, along which the control counts its length.
 fn look_across(post: &mut Post, angles: [f64; 2]) {
     let control = &mut post.control;
-    let tool = tip::tool_in_machine(control.tables.chain(), angles);
+    let tool = control.tables.chain().tool_at(angles);
     let has_tool = control.state.tool.is_some();
     if has_tool && tool.z < rapid_lean::LEAST_RISE && tool_change::counts_length(control) {
         tool_change::say_length_lies_across(control);
