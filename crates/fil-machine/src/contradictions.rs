@@ -19,10 +19,11 @@ use crate::frame_rules;
 use crate::full_turn;
 use crate::letter::{self, Letter};
 use crate::locations::{
-    self as loc, ControlFamily, ControlTranslation, SeqnoAlign, TapeEndOfBlock, TapePartnoText,
-    ToolChangeBlock, ToolFormat,
+    self as loc, ControlFamily, ControlTranslation, HomeFrame, SeqnoAlign, TapeEndOfBlock,
+    TapePartnoText, ToolChangeBlock, ToolFormat,
 };
 use crate::mill_turn;
+use crate::osp_lengths;
 use crate::rotary_feed_rules;
 use crate::setting::{CharacterAt, CodeAt};
 
@@ -79,6 +80,7 @@ pub fn all(commons: &Commons) -> Vec<Diag> {
     tape(commons, &mut found);
     numbers::ranges(commons, &mut found);
     prepared_tools(commons, &mut found);
+    frame_of_machine(commons, &mut found);
     tools_in_one_word(commons, &mut found);
     found
 }
@@ -392,6 +394,21 @@ fn prepared_tools(commons: &Commons, found: &mut Vec<Diag>) {
     if in_one_word || commons.read(loc::TOOL_CHANGE_CODE).is_none() {
         found.push(contradiction(
             "T prepares the next tool (tool.preselect), and T changes the tool by itself".into(),
+        ));
+    }
+}
+
+/// G53 of a control that calls lengths by G54 to G59 takes the length off, and names no frame.
+fn frame_of_machine(commons: &Commons, found: &mut Vec<Diag>) {
+    let by_words = commons.read(loc::CONTROL_FAMILY) == ControlFamily::WordAddress;
+    if by_words
+        && osp_lengths::are_meant(commons)
+        && commons.read(loc::HOME_FRAME) == HomeFrame::OfTheMachine
+    {
+        found.push(contradiction(
+            "home.frame asks for positions in the frame of the machine by G53, which takes the \
+             length of the tool off on a control that calls it by G54 to G59"
+                .into(),
         ));
     }
 }

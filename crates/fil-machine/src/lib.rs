@@ -28,6 +28,7 @@ pub mod modes;
 pub mod motion_rules;
 pub mod number;
 pub mod numbering;
+pub mod osp_lengths;
 pub mod rotary_feed_rules;
 mod rotation;
 pub mod rounding;

@@ -207,6 +207,9 @@ pub struct Modes {
     /// An `H` that stands after a tool change without the function of the length offset:
     /// whether it acts is not certain. `None` after that function.
     pub stray_offset: Option<u32>,
+    /// No function has called the length of the tool, or given it up, since the tool was changed by
+    /// its function, on a machine that has one for it.
+    pub length_unsaid: bool,
     /// Tool-tip control is on.
     pub tip_control: bool,
     /// The line where it began last.

@@ -150,7 +150,7 @@ fil_diag::codes! {
             "Put RAPID and a GOTO before it, which turns the axis to where it belongs, or a text that says where it stands (G0 A0.).";
         /// A motion without the length of the tool.
         LengthTaken = 536, Error, "a motion without the length of the tool",
-            "A text has taken the length of the tool off. Z of the CL file counts from the tip, and the control would bring the spindle nose there.",
+            "A text has taken the length of the tool off, or changed the tool without calling its length. Z of the CL file counts from the tip, and the control would bring the spindle nose there, or the tip by the length of another tool.",
             "Let the text, or another one behind it, call the length again (G43 H1, on a SINUMERIK D1), or put LOADTL before the motion.";
         /// A rotary axis that is clamped.
         TurnsClamped = 537, Error, "a clamped rotary axis would turn",

@@ -307,7 +307,7 @@ const SINUMERIK: &str = "%_N_N_1_MPF; G710 G90 G94 G17; T1 M6; D1; S1000 M3; G0 
 #[test]
 fn a_line_in_two_blocks_from_a_point_of_the_machine_agrees() {
     for (method, text, blocks) in
-        [(1, "G28 Z0", ["X5. Y5.", "Z5."]), (2, "G53 G0 X0 Y0", ["G1 Z5.", "X5. Y5."])]
+        [(1, "G28 Z0", ["X5. Y5.", "G43 Z5. H1"]), (2, "G53 G0 X0 Y0", ["G1 Z5.", "X5. Y5."])]
     {
         let settings = [format!("linear.method={method}")];
         let settings = [settings[0].as_str()];
@@ -330,7 +330,7 @@ fn a_line_in_two_blocks_from_a_point_of_the_machine_agrees() {
 #[test]
 fn the_number_of_a_reference_point_is_read() {
     let cl = |text: &str| format!("{TOOL}; {DOWN}; INSERT / {text}; RAPID; GOTO / 5, 5, 50");
-    let nc = |text: &str| format!("{FANUC}; {text}; G0 X5. Y5.; Z50.; M30; %");
+    let nc = |text: &str| format!("{FANUC}; {text}; G0 X5. Y5.; G43 Z50. H1; M30; %");
     for text in ["G30 Z0", "G30 P2 Z0", "G30 P4 Z0"] {
         assert_eq!(found("fanuc-mill", &[], &cl(text), &nc(text)), "");
     }

@@ -220,7 +220,7 @@ fn another_work_offset_is_gone_to_again() {
 #[test]
 fn a_point_that_comes_twice_before_a_point_of_the_machine_is_no_fault() {
     let cl = "RAPID; GOTO / 0, 0, 60; RAPID; GOTO / 0, 0, 60; RETRCT; RAPID; GOTO / 5, 0, 60";
-    let nc = milled("G0 X0. Y0.; G43 Z60. H1; G53 G0 Z0.; X5. Y0.; Z60.");
+    let nc = milled("G0 X0. Y0.; G43 Z60. H1; G53 G0 Z0.; X5. Y0.; G43 Z60. H1");
     let settings = &["home.frame=1", "home.retract_z=0"];
     let case = Case { ready: "fanuc-mill", settings, cl, nc: &nc };
     case.agrees_but_not_with(("G53 G0 Z0.\n", ""), "no motion to the position of the machine");

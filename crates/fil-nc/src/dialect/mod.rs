@@ -191,6 +191,10 @@ pub struct Dialect {
     pub(crate) lead_change: u8,
     /// The lead is measured along the path, else along the longer axis.
     pub(crate) lead_along_path: bool,
+    /// A tool change leaves it to a function to call the length of the tool.
+    pub(crate) calls_lengths: bool,
+    /// A position of the machine along Z ends that length.
+    pub(crate) positions_end_lengths: bool,
     /// T names the nose by two digits before those of the tool.
     pub(crate) names_noses: bool,
     /// Threads need feeds a turn: lathes with a cycle of all passes in one block.
@@ -383,6 +387,9 @@ impl Dialect {
             lead: settings.letter("thread.lead_address"),
             lead_change: settings.letter("thread.change_address"),
             lead_along_path: settings.code("thread.lead_along") == Some(1),
+            calls_lengths: calls_lengths(&settings),
+            positions_end_lengths: calls_lengths(&settings)
+                && settings.is_not_off("home.ends_length"),
             names_noses: settings.code("tool.format") == Some(3),
             threads_need_turns: settings.code("thread.cycle") == Some(3),
             thread_taper: settings.letter("thread.taper_address"),
@@ -474,4 +481,13 @@ fn start(commons: &Commons, letters: [u8; 5], scales: [Option<Scale>; 5]) -> [Op
 pub(crate) fn int(commons: &Commons, location: u32) -> Option<i32> {
     let value = commons.get(Kind::Int, location).ok()?;
     (value != EMPTY).then_some(value as i32)
+}
+
+/// LOADTL calls the length of its tool by a function with a number, in word address.
+fn calls_lengths(settings: &Settings) -> bool {
+    let is = |key: &str, value: i32| settings.code(key).unwrap_or(value) == value;
+    is("control.family", 0)
+        && is("tool.format", 1)
+        && settings.is_not_off("tool.length_from_tool")
+        && settings.code("tool.length_code").is_some()
 }

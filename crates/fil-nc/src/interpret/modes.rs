@@ -112,7 +112,9 @@ impl State<'_> {
             };
             self.compensate(side, offset)?;
         }
-        match words.function(Group::Length) {
+        let says_length = words.function(Group::Length);
+        self.modes.length_unsaid &= says_length.is_none();
+        match says_length {
             Some(Function::Length(true)) => {
                 let offset = words.take_whole(H)?;
                 let missing = || Fault::new(NcCode::MissingWord, "the length offset needs its H");
@@ -309,6 +311,7 @@ impl State<'_> {
         let modes = Modes { cycle: self.cycle.is_some(), ..self.modes };
         self.events.push(Event::ToolChange { line: self.line, tool, modes });
         self.length_is_on = false;
+        self.modes.length_unsaid = self.dialect.calls_lengths;
         if self.modes.tool != tool && self.dialect.family != Family::WordAddress {
             // The change is a program of the builder, which may leave the axes elsewhere, and
             // brings the length of the tool: its tip is not where the last one was.

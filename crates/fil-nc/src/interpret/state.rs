@@ -279,6 +279,9 @@ impl<'d> State<'d> {
         if let Some(Event::Move(found)) = self.events.last_mut() {
             found.to_machine = named;
         }
+        if named[2] && self.dialect.positions_end_lengths {
+            self.modes.length_offset = None;
+        }
     }
 
     /// A motion of some axes within a cycle; none when they stand there.

@@ -31,6 +31,9 @@ impl<C: Steps> Walk<'_, C> {
 
     /// The tool has come away from the part, or goes to it, by this motion.
     pub(super) fn leaves_or_comes(&mut self, found: &Move) {
+        if found.to_machine[2] && self.settings.dialect.positions_end_lengths {
+            self.modes.length_is_taken_off();
+        }
         self.is_away = match found.course {
             Course::Machine => true,
             _ => self.is_away && self.only_turns(found),

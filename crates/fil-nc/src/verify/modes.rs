@@ -350,7 +350,8 @@ impl Expected {
         }
     }
 
-    /// Tool-tip control has ended and taken the length off: the next motion of Z calls it again.
+    /// The end of tool-tip control, or a position of the machine, has taken the length off: the next
+    /// motion of Z calls it again.
     pub(super) fn length_is_taken_off(&mut self) {
         let must = self.offset.now;
         if must.is_some() && self.offset.next.is_none() {

@@ -15,6 +15,8 @@ pub(super) struct Rules {
     compensation: Compensation,
     /// The stray offset that has been said.
     stray: Option<u32>,
+    /// A tool whose length nobody has called was said to cut.
+    said_of_length: bool,
     /// The hole drilled under compensation has been said.
     said_of_cycle: bool,
     /// The plane of which was said that it is another.
@@ -29,6 +31,7 @@ impl Rules {
             findings: Report::default(),
             compensation: Compensation::default(),
             stray: None,
+            said_of_length: false,
             said_of_cycle: false,
             other_plane: None,
             rotary: settings.rotary_rules(),
@@ -75,6 +78,7 @@ impl Rules {
     fn motion(&mut self, found: &Move) {
         self.stray_offset(found.line, &found.modes);
         self.plane(found);
+        self.length(found);
         let now = found.modes.compensation;
         let before = std::mem::replace(&mut self.compensation, now);
         let is_on = now != Compensation::Off;
@@ -89,6 +93,23 @@ impl Rules {
             self.find(FindingKind::Compensation, found.line, message);
         }
         self.said_of_cycle = drills && is_on;
+    }
+
+    /// A tool cuts with its own length, and not with that of the tool before.
+    fn length(&mut self, found: &Move) {
+        let cuts = found.course == Course::Feed && found.modes.length_unsaid;
+        if cuts && !std::mem::replace(&mut self.said_of_length, cuts) {
+            let tool = found.modes.tool;
+            let message = match found.modes.length_offset {
+                Some(offset) => format!(
+                    "tool {tool} cuts with length offset {offset}, which was called before the tool \
+                     was changed"
+                ),
+                None => format!("tool {tool} cuts, and nothing has called its length"),
+            };
+            self.find(FindingKind::Tool, found.line, message);
+        }
+        self.said_of_length = cuts;
     }
 
     /// The lengths of a turning tool, and of a live one in TRANSMIT, act in one plane alone.

@@ -112,5 +112,7 @@ fn block(control: &mut Control, motion: &Motion) -> Result<()> {
         control.commons.set_last_output(letter, EMPTY);
         control.state.clears(letter);
     }
+    let moved = |axis| motion.axes.numbers().any(|n| control.tables.axis(n).letter == axis);
+    control.state.length_ends_at_machine(&control.codes, moved);
     Ok(())
 }

@@ -72,17 +72,33 @@ impl Control {
         }
     }
 
-    /// Refuses a motion in the part behind a text that has taken the length of the tool off.
+    /// What must hold for a motion in the part: the length of the tool is in force, or is called
+    /// with the motion. What a position of the machine has ended is called again.
     ///
     /// # Errors
-    /// It has, and nothing calls the length again.
+    /// A text has taken it off, or changed the tool, and nothing calls the length again.
     #[cold]
-    pub fn refuse_without_length(&self) -> Result<()> {
-        let is_called = self.waiting.length_offset.is_some() || self.tables.tip_output;
-        if self.state.length != Length::Taken || is_called {
-            return Ok(());
-        }
-        PostCode::LengthTaken.err("a text has taken the length of the tool off")
+    pub fn ready_length(&mut self) -> Result<()> {
+        let tip = self.tables.tip_output;
+        let is_called = self.waiting.length_offset.is_some() || tip;
+        let message = match self.state.length {
+            Length::OfAnotherTool => "a text has changed the tool, and nothing calls its length",
+            _ if is_called => return Ok(()),
+            Length::Unsaid | Length::Called => return Ok(()),
+            Length::Taken => "a text has taken the length of the tool off",
+            Length::Ended => match self.state.called_offset {
+                Some(offset) => {
+                    self.waiting.length_offset = Some((offset, self.block.cause));
+                    self.state.doubt(self.tables.axis(2).letter);
+                    return Ok(());
+                }
+                None => {
+                    "a position of the machine has ended the length of the tool, and which offset \
+                     it had is not known"
+                }
+            },
+        };
+        PostCode::LengthTaken.err(message)
     }
 
     /// The last motion was at feed: the tool may stand in the part.

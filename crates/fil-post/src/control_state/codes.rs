@@ -1,9 +1,12 @@
 //! What the preparatory functions of a machine mean: the codes its settings name,
 //! and for texts of others the usual ones (ISO 6983, RS-274).
 
-use fil_machine::locations::{self as loc, ControlFamily, MillTurnMode, ToolFormat};
+use fil_machine::locations::{
+    self as loc, ControlFamily, MillTurnMode, RotaryTipOutput, ToolFormat,
+};
 use fil_machine::mill_turn;
 use fil_machine::modes::{FeedMode, Plane, Unit};
+use fil_machine::osp_lengths;
 use fil_machine::setting::CodeAt;
 use fil_machine::{Commons, FunctionCode, Letter, letters};
 
@@ -91,6 +94,12 @@ pub struct Codes {
     fixtures: Option<(FunctionCode, FunctionCode)>,
     /// The function that takes the length of the tool off.
     length_cancel: Option<FunctionCode>,
+    /// The lengths of tools are called by a function.
+    pub(super) calls_lengths: bool,
+    /// A position of the machine ends the length of the axis that goes there.
+    pub(super) positions_end_lengths: bool,
+    /// Tool-tip control takes the length of the last LOADTL.
+    pub(super) tip_control: bool,
     /// The functions are those of a SINUMERIK.
     sinumerik: bool,
     /// The function that limits the speed of the spindle.
@@ -118,7 +127,13 @@ impl Codes {
             turning,
             stops: [loc::PROGRAM_STOP_CODE, loc::PROGRAM_OPSTOP_CODE].map(code),
             clamps: [loc::ROTARY_CLAMP_CODE, loc::ROTARY_UNCLAMP_CODE].map(code),
-            length_cancel: code(loc::TOOL_LENGTH_CANCEL_CODE),
+            length_cancel: match osp_lengths::are_meant(commons) {
+                true => Some(osp_lengths::CANCEL),
+                false => code(loc::TOOL_LENGTH_CANCEL_CODE),
+            },
+            calls_lengths: calls_lengths(commons),
+            positions_end_lengths: calls_lengths(commons) && commons.read(loc::HOME_ENDS_LENGTH),
+            tip_control: commons.read(loc::ROTARY_TIP_OUTPUT) == RotaryTipOutput::ToolTipControl,
             sinumerik: commons.read(loc::CONTROL_FAMILY) == ControlFamily::Sinumerik,
             has_cycle_off: commons.read(loc::CYCLE_OFF_CODE).is_some(),
             ranges: loc::RANGE_CODES
@@ -178,6 +193,9 @@ impl Codes {
             name(loc::MODE_ABSOLUTE_CODE, Meaning::Distance(Distance::Absolute));
             name(loc::MODE_INCREMENTAL_CODE, Meaning::Distance(Distance::Incremental));
         }
+        if osp_lengths::are_meant(commons) {
+            codes.named.extend(osp_lengths::codes().map(|code| (code, Meaning::ToolLength)));
+        }
         codes.named.extend(planes.filter(|_| mills).map(|code| (code, Meaning::Frame)));
         codes.named.extend(extended.map(|code| (code, Meaning::Frame)));
         codes.named.extend(tips.into_iter().flatten().map(|code| (code, Meaning::TipControl)));
@@ -218,7 +236,7 @@ impl Codes {
     /// True for a function that chooses a work offset, by itself or by a word beside it.
     pub fn chooses_offset(&self, code: FunctionCode) -> bool {
         let by_a_word = (54.0..60.0).contains(&code.value()) || code.value() == 500.0;
-        self.is_fixture(code) || by_a_word
+        (self.is_fixture(code) || by_a_word) && self.meaning(code) != Meaning::ToolLength
     }
 
     /// True for a function of the frame that leaves the work offset in force.
@@ -405,6 +423,14 @@ fn of_tenths(code: FunctionCode) -> Meaning {
         _ if offset => Meaning::Frame,
         _ => Meaning::Unknown,
     }
+}
+
+/// LOADTL calls the length of its tool by a function with a number, in word address.
+fn calls_lengths(commons: &Commons) -> bool {
+    commons.read(loc::CONTROL_FAMILY) == ControlFamily::WordAddress
+        && commons.read(loc::TOOL_FORMAT) == ToolFormat::TWordAndChangeCode
+        && commons.read(loc::TOOL_LENGTH_FROM_TOOL)
+        && commons.read(loc::TOOL_LENGTH_CODE).is_some()
 }
 
 /// What the functions of a SINUMERIK do.

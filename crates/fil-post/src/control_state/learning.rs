@@ -95,8 +95,7 @@ impl ControlState {
             }
             Meaning::ToolLength => {
                 self.doubt(letters::XYZ[2]);
-                self.calls_length(!codes.takes_length(code));
-                self.lengths_said += 1;
+                self.learn_length(code, codes);
                 if self.tip_control != Some(false) {
                     self.tip_control = Some(false);
                     self.doubt_axes();

@@ -9,6 +9,7 @@ mod auxiliaries;
 mod codes;
 mod doubts;
 mod learning;
+mod length;
 mod levels;
 mod others;
 mod skip;
@@ -24,18 +25,8 @@ use fil_machine::{Commons, FunctionCode, Letter, letters};
 
 use doubts::Doubts;
 pub use doubts::Place;
+pub use length::Length;
 pub use levels::Levels;
-
-/// Whether Z counts from the tip of the tool.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Length {
-    /// Nothing has said it.
-    Unsaid,
-    /// The length of the tool is in force.
-    Called,
-    /// It was, and has been taken off.
-    Taken,
-}
 
 /// How coordinates count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -153,6 +144,8 @@ pub struct ControlState {
     pub tool_offset: Option<i64>,
     /// The length of the tool, as far as functions have called it or taken it off.
     pub length: Length,
+    /// The offset that it was called with last; `None` when it is not known.
+    pub called_offset: Option<i64>,
     /// The code of the work offset in force; `None` when it is not known.
     pub fixture: Option<FunctionCode>,
     /// The highest speed of the spindle, turns a minute, as far as the program has said it.
@@ -217,6 +210,7 @@ impl ControlState {
             tools_by_switch: None,
             tool_offset: None,
             length: Length::Unsaid,
+            called_offset: None,
             fixture: None,
             speed_limit: None,
             range: None,
@@ -294,15 +288,6 @@ impl ControlState {
     /// The axes have not moved, and count from another zero.
     pub fn shift_axes(&mut self) {
         AXIS_LETTERS.into_iter().for_each(|letter| self.doubts.shift(letter));
-    }
-
-    /// The length of the tool is called, or taken off.
-    pub fn calls_length(&mut self, on: bool) {
-        self.length = match (on, self.length) {
-            (true, _) => Length::Called,
-            (false, Length::Called) => Length::Taken,
-            (false, other) => other,
-        };
     }
 
     /// The tool has another length: Z counts from elsewhere, but for the values behind a tool
@@ -390,6 +375,7 @@ impl ControlState {
             tools_by_switch: self.tools_by_switch,
             tool_offset: None,
             length: self.length,
+            called_offset: self.called_offset,
             fixture: None,
             speed_limit: self.speed_limit,
             range: None,

@@ -84,7 +84,7 @@ impl ControlState {
                 (letters::G, Some(code)) => self.learn_code(code, codes),
                 (letters::M, Some(code)) => self.learn_auxiliary(code, codes),
                 (letters::T, _) => self.names_tool(codes),
-                (letters::H, _) => self.names_length(),
+                (letters::H, _) => self.names_length(*value, ways.length),
                 (letter, _) if cycle => self.doubt(letter),
                 (letter, _) => self.trust(letter),
             }
@@ -131,7 +131,7 @@ impl ControlState {
                 (letters::G | letters::M, None) => self.forget(),
                 (letters::M, Some(code)) => self.learn_auxiliary(code, codes),
                 (letters::T, _) => self.names_tool(codes),
-                (letters::H, _) => self.names_length(),
+                (letters::H, _) => self.names_length(*value, ways.length),
                 (letter, _) if is_axis(letter) => self.doubt_axes(),
                 (letter, _) => self.doubt(letter),
             }
@@ -169,12 +169,6 @@ impl ControlState {
         self.tool_said |= codes.tool_word_changes;
     }
 
-    /// A word names the offset of a length.
-    fn names_length(&mut self) {
-        self.lengths_said += 1;
-        self.doubt(letters::H);
-    }
-
     /// Learns where a text has brought the axes; positions that count otherwise than those of
     /// the post are not read.
     fn learn_motion(&mut self, words: &[(Letter, f64)], is_read: bool) {
@@ -210,6 +204,13 @@ impl ControlState {
         }
         if ways.changes {
             AXIS_LETTERS.into_iter().for_each(|letter| self.tool_change_moves(letter));
+            if !ways.length {
+                self.length_is_of_another_tool(codes);
+            }
+        } else if ways.of_machine {
+            let all = ways.home && named().next().is_none();
+            let moves = |axis| all || named().any(|letter| codes.moved_by(letter) == axis);
+            self.length_ends_at_machine(codes, moves);
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use fil_machine::{Commons, Letter};
 
+use super::ControlState;
 use super::doubts::Place;
 use super::levels::Levels;
-use super::{ControlState, Length};
 
 impl ControlState {
     /// The blocks from here on may be skipped.
@@ -102,9 +102,8 @@ impl ControlState {
         self.rotation = self.rotation.or(other.rotation);
         self.halted |= other.halted;
         self.may_be_clamped |= other.may_be_clamped;
-        if other.length == Length::Taken {
-            self.length = Length::Taken;
-        }
+        self.agree_on_length(other.length);
+        agree(&mut self.called_offset, &other.called_offset);
         self.counted_surface |= other.counted_surface;
         self.x_is_as_written &= other.x_is_as_written;
         self.in_plane_of_hole |= other.in_plane_of_hole;

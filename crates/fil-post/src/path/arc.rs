@@ -51,7 +51,7 @@ pub fn carry_out(post: &mut Post, arc: &Arc, target: Target) -> Result<()> {
     let radius = check_radii(arc, ends)?;
     refuse_first_under_compensation(post)?;
     if post.control.state.has_doubts() {
-        post.control.refuse_without_length()?;
+        post.control.ready_length()?;
         rotary::refuse_unknown_start(post)?;
     }
     let sweep = sweep(arc, ends);

@@ -242,7 +242,7 @@ pub fn retract(post: &mut Post, ended: &Cycle) -> Result<()> {
 /// Where the hole lies: the position above it, and its levels along the axis that it
 /// runs along.
 fn locate(post: &mut Post, cycle: &Cycle, target: Target) -> Result<(Position, Hole)> {
-    post.control.refuse_without_length()?;
+    post.control.ready_length()?;
     let axis = target.axis.normalize();
     let offset = |by: f64| Target { point: target.point + axis * by, ..target };
     let at = rotary::position_of(post, target)?;

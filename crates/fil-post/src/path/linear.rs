@@ -37,7 +37,7 @@ pub fn carry_out(post: &mut Post, target: &Target, kind: MotionKind) -> Result<(
         return Ok(());
     }
     if post.control.state.has_doubts() {
-        post.control.refuse_without_length()?;
+        post.control.ready_length()?;
         if !matches!(kind, MotionKind::Rapid(_)) {
             rotary::refuse_unknown_start(post)?;
             full_turn::check_zero(&post.control)?;

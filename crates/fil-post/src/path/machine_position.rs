@@ -40,7 +40,7 @@ pub fn carry_out(post: &mut Post, to: [Option<f64>; 3]) -> Result<()> {
         frame::end(&mut post.control)?;
         machine_frame::go(&mut post.control, &motion, Before::Others, cause)?;
     } else {
-        post.control.refuse_without_length()?;
+        post.control.ready_length()?;
         post.control.tables.check_travel(&position, axes)?;
         rapid::to_machine_position(&mut post.control, &motion, cause)?;
     }

@@ -5,12 +5,12 @@ mod leads;
 
 use fil_diag::Result;
 use fil_machine::axes::{AXES, AxisSet, Position};
-use fil_machine::letters::{F, H};
+use fil_machine::letters::F;
 use fil_machine::locations::{self as loc, ControlFamily};
 use fil_machine::rounding::Rounding;
 use fil_machine::{FunctionCode, Letter};
 
-use super::modes;
+use super::{modes, tool};
 use crate::cause::Cause;
 use crate::control::{Control, Function, full_turn, vectors};
 use crate::control_state::{Compensation, Meaning};
@@ -434,7 +434,7 @@ fn length_offset_words(control: &mut Control) -> Result<()> {
         control.tip.length_is_called = true;
         control.because(cause, |control| {
             control.g_of_record(code);
-            control.word(H, offset as f64)
+            tool::length_number(control, offset)
         })?;
     }
     Ok(())

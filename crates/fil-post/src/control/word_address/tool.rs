@@ -60,6 +60,7 @@ pub fn change(control: &mut Control, wanted: ToolChange) -> Result<()> {
         control.because(wanted.causes[1], |control| length_offset(control, wanted, before))?;
     }
     control.state.has_tool(Some(wanted.tool));
+    control.state.length_of_new_tool();
     control.state.tool_offset = Some(wanted.offset);
     Ok(())
 }
@@ -169,7 +170,7 @@ fn length_offset(
     }
     if control.commons.read(loc::TOOL_LENGTH_AT_CHANGE) {
         control.g_of_record(code);
-        control.word(H, wanted.offset as f64)?;
+        length_number(control, wanted.offset)?;
         control.write_block()?;
         control.state.doubt_axes();
         return Ok(());
@@ -192,8 +193,14 @@ fn length_offset(
     }
     control.g_of_record(code);
     motion::axis_word(control, 2, &Motion::new(position, AxisSet::Z, 0))?;
-    control.word(H, wanted.offset as f64)?;
+    length_number(control, wanted.offset)?;
     control.write_block()?;
     control.state.motion = None;
     Ok(())
+}
+
+/// Puts the number of the offset that a length is called with.
+pub(super) fn length_number(control: &mut Control, offset: i64) -> Result<()> {
+    control.state.called_offset = Some(offset);
+    control.word(H, offset as f64)
 }

@@ -1,0 +1,78 @@
+//! Whether Z counts from the tip of the tool.
+
+use fil_machine::{FunctionCode, Letter, letters};
+
+use super::{Codes, ControlState};
+
+/// What the length of the tool is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Length {
+    /// Nothing has said it.
+    Unsaid,
+    /// The length of the tool is in force.
+    Called,
+    /// It was, and has been taken off.
+    Taken,
+    /// It was, and a position of the machine has ended it, while its function stays in force: on a
+    /// Fanuc G53, G28 and G30 cancel the offset of the axis that they move (0i-MB, B-63844EN,
+    /// 14.1.2), on a Haas G28 does.
+    Ended,
+    /// Words that the post has not made have changed the tool.
+    OfAnotherTool,
+}
+
+impl ControlState {
+    /// The length of the tool is called, or taken off.
+    pub fn calls_length(&mut self, on: bool) {
+        self.length = match (on, self.length) {
+            (true, _) => Length::Called,
+            (false, Length::Called | Length::Ended) => Length::Taken,
+            (false, other) => other,
+        };
+    }
+
+    /// A function of the length stands in a block. Tool-tip control takes that of the last LOADTL,
+    /// whatever another function has called.
+    pub(super) fn learn_length(&mut self, code: FunctionCode, codes: &Codes) {
+        self.lengths_said += 1;
+        if self.length != Length::OfAnotherTool || !codes.tip_control {
+            self.calls_length(!codes.takes_length(code));
+        }
+    }
+
+    /// A word of others names the offset of a length; `calls` where it stands beside the function
+    /// of the length.
+    pub(super) fn names_length(&mut self, value: f64, calls: bool) {
+        self.lengths_said += 1;
+        self.called_offset = (calls && value.fract() == 0.0).then_some(value as i64);
+        self.doubt(letters::H);
+    }
+
+    /// LOADTL has changed the tool, whose length waits to be called.
+    pub fn length_of_new_tool(&mut self) {
+        if self.length == Length::OfAnotherTool {
+            self.length = Length::Unsaid;
+        }
+    }
+
+    /// A position of the machine has been reached by axes of which `moves` is true.
+    pub fn length_ends_at_machine(&mut self, codes: &Codes, moves: impl Fn(Letter) -> bool) {
+        if codes.positions_end_lengths && self.length == Length::Called && moves(letters::XYZ[2]) {
+            self.length = Length::Ended;
+        }
+    }
+
+    /// Words of others have changed the tool, and called no length.
+    pub(super) fn length_is_of_another_tool(&mut self, codes: &Codes) {
+        if codes.calls_lengths {
+            self.length = Length::OfAnotherTool;
+        }
+    }
+
+    /// Behind blocks that may be skipped the length is as it must not be, if it is so either way.
+    pub(super) fn agree_on_length(&mut self, other: Length) {
+        if !matches!(other, Length::Unsaid | Length::Called) {
+            self.length = other;
+        }
+    }
+}
